@@ -83,8 +83,9 @@ def _argument_parser() -> argparse.ArgumentParser:
     parser = _Parser(prog="lsys-kit", description="A teaching kit on Lindenmayer systems.", allow_abbrev=False)
     all_commands = parser.add_subparsers(required=True, metavar="COMMAND", dest="command")
 
-    def command(name: str, action: Callable[[argparse.Namespace], None], text: str,
-                example: str | None = None) -> argparse.ArgumentParser:
+    def command(
+        name: str, action: Callable[[argparse.Namespace], None], text: str, example: str | None = None
+    ) -> argparse.ArgumentParser:
         added = all_commands.add_parser(name, help=text, description=text, epilog=example, allow_abbrev=False)
         added.set_defaults(action=action)
         return added
@@ -94,15 +95,28 @@ def _argument_parser() -> argparse.ArgumentParser:
     _add_system(derive, steps_needed=True)
     derive.add_argument("--counts", action="store_true", help="print the number of modules of each step instead")
     derive.add_argument("--json", action="store_true", help="print one JSON document")
-    draw = command("draw", models.draw_word, "Draw the word of step N, or a filament with the steps before it.",
-                   "Example: lsys-kit draw K5 -n 4 -o plant.gif")
+    draw = command(
+        "draw",
+        models.draw_word,
+        "Draw the word of step N, or a filament with the steps before it.",
+        "Example: lsys-kit draw K5 -n 4 -o plant.gif",
+    )
     _add_system(draw, steps_needed=False, several_steps=True)
     draw.add_argument("--angle", metavar="DEGREES", help="the angle by which + and - turn")
-    draw.add_argument("-o", "--output", required=True, metavar="FILE",
-                      help="a picture (.svg, .png, .pdf), a mesh (.glb, .obj) or a film of the steps (.gif, .apng, .mp4)")
+    draw.add_argument(
+        "-o",
+        "--output",
+        required=True,
+        metavar="FILE",
+        help="a picture (.svg, .png, .pdf), a mesh (.glb, .obj) or a film of the steps (.gif, .apng, .mp4)",
+    )
     draw.add_argument("--seeds", type=_numbers, default=(), metavar="S,S,...", help="draw plants of several seeds side by side")
-    draw.add_argument("--view", type=_numbers, metavar="AROUND,ABOVE",
-                      help="the side from which a plant in space is seen, in degrees (default: 30,15)")
+    draw.add_argument(
+        "--view",
+        type=_numbers,
+        metavar="AROUND,ABOVE",
+        help="the side from which a plant in space is seen, in degrees (default: 30,15)",
+    )
     _add_looks(draw)
     draw.add_argument("--size", type=_numbers, metavar="WIDTH[,HEIGHT]", help="the size of a picture or film in pixels")
     draw.add_argument("--turntable", action="store_true", help="let the film show a plant in space from all sides")
@@ -111,36 +125,65 @@ def _argument_parser() -> argparse.ArgumentParser:
     _add_system(stages, steps_needed=False)
     _add_unfold(stages)
     _add_looks(stages)
-    stages.add_argument("-o", "--output", required=True, metavar="FILE",
-                        help="a picture (.svg, .png, .pdf), a film of the tokens (.gif, .apng, .mp4), or a net for Petri-net "
-                             "tools (.pnml)")
+    stages.add_argument(
+        "-o",
+        "--output",
+        required=True,
+        metavar="FILE",
+        help="a picture (.svg, .png, .pdf), a film of the tokens (.gif, .apng, .mp4), or a net for Petri-net tools (.pnml)",
+    )
     _add_film(stages)
-    stages.add_argument("--durations", action="store_true",
-                        help="let a transition take a module's life span instead of one step")
-    convert = command("convert", models.convert, "Print a model in another notation.",
-                      "Example: lsys-kit convert K5 --to plant-string -o plant.txt")
+    stages.add_argument(
+        "--durations", action="store_true", help="let a transition take a module's life span instead of one step"
+    )
+    convert = command(
+        "convert",
+        models.convert,
+        "Print a model in another notation.",
+        "Example: lsys-kit convert K5 --to plant-string -o plant.txt",
+    )
     _add_conversion(convert)
-    link = command("link", models.print_link, "Print a model with its settings as an address, which the other commands read.",
-                   "Example: lsys-kit link J4 -n 9 --base https://example.org/j4.html --qr j4.svg")
+    link = command(
+        "link",
+        models.print_link,
+        "Print a model with its settings as an address, which the other commands read.",
+        "Example: lsys-kit link J4 -n 9 --base https://example.org/j4.html --qr j4.svg",
+    )
     _add_link(link)
-    page = command("page", models.write_page, "Write a page with sliders, which needs neither Python nor a network.",
-                   "Example: lsys-kit page J4 -n 9 -o j4.html")
+    page = command(
+        "page",
+        models.write_page,
+        "Write a page with sliders, which needs neither Python nor a network.",
+        "Example: lsys-kit page J4 -n 9 -o j4.html",
+    )
     _add_model(page)
     page.add_argument("-n", "--steps", type=_step_count, metavar="N", help="the step that is seen first")
     page.add_argument("--angle", metavar="DEGREES", help="the angle by which + and - turn at first")
     _add_unfold(page)
     page.add_argument("-o", "--output", required=True, metavar="FILE", help="an .html file")
-    site = command("site", course.write_site,
-                   "Write the course as pages whose panels move, which need neither Python nor a network.",
-                   "Example: lsys-kit site -o course")
+    site = command(
+        "site",
+        course.write_site,
+        "Write the course as pages whose panels move, which need neither Python nor a network.",
+        "Example: lsys-kit site -o course",
+    )
     site.add_argument("-o", "--output", required=True, metavar="FOLDER", help="the folder for the pages")
     lab = command("lab", course.open_lab, "Copy the course into a folder of your own and open it in JupyterLab.")
     lab.add_argument("folder", nargs="?", metavar="FOLDER", help="default: lsys_kit_course in the current folder")
-    _add_class(command("collect", classes.collect_marks,
-                       "Write the marks of a class: check the answers in its notebooks, which are read and never run.",
-                       "Example: lsys-kit collect handed_in -o marks.csv"),
-               command("wall", classes.write_wall, "Write a page with everybody's plants, from files with links or models.",
-                       "Example: lsys-kit wall plants -o wall.html"))
+    _add_class(
+        command(
+            "collect",
+            classes.collect_marks,
+            "Write the marks of a class: check the answers in its notebooks, which are read and never run.",
+            "Example: lsys-kit collect handed_in -o marks.csv",
+        ),
+        command(
+            "wall",
+            classes.write_wall,
+            "Write a page with everybody's plants, from files with links or models.",
+            "Example: lsys-kit wall plants -o wall.html",
+        ),
+    )
     _add_exercises(command("exercises", lambda _: None, "Check a folder of exercises, or write their notebooks or pages."))
     return parser
 
@@ -183,8 +226,15 @@ def _add_film(parser: argparse.ArgumentParser) -> None:
 
 def _add_unfold(parser: argparse.ArgumentParser) -> None:
     """The option that says which stages of a diagram are shown one by one."""
-    parser.add_argument("--unfold", nargs="?", type=_symbols, const=True, default=False, metavar="A,B",
-                        help="show each of many stages, and do not group them by symbol; or each of those of some symbols only")
+    parser.add_argument(
+        "--unfold",
+        nargs="?",
+        type=_symbols,
+        const=True,
+        default=False,
+        metavar="A,B",
+        help="show each of many stages, and do not group them by symbol; or each of those of some symbols only",
+    )
 
 
 def _add_system(parser: argparse.ArgumentParser, steps_needed: bool, several_steps: bool = False) -> None:
@@ -192,15 +242,17 @@ def _add_system(parser: argparse.ArgumentParser, steps_needed: bool, several_ste
     _add_model(parser)
     kind, more = (_step_counts, "; several, as in 4,6,8, are drawn side by side") if several_steps else (_step_count, "")
     parser.add_argument("-n", "--steps", type=kind, required=steps_needed, metavar="N", help=f"the number of steps{more}")
-    parser.add_argument("--arithmetic", choices=["exact", "float"], default="exact",
-                        help="float uses doubles, as other programs do")
+    parser.add_argument(
+        "--arithmetic", choices=["exact", "float"], default="exact", help="float uses doubles, as other programs do"
+    )
 
 
 def _add_looks(parser: argparse.ArgumentParser) -> None:
     """The options that say how a picture looks."""
     parser.add_argument("--labels", action=argparse.BooleanOptionalAction, help="whether names and steps are written")
-    parser.add_argument("--colours", type=_colours, metavar="KIND",
-                        help="natural, symbols, or colours of symbols, as in A=seagreen,B=#cc79a7")
+    parser.add_argument(
+        "--colours", type=_colours, metavar="KIND", help="natural, symbols, or colours of symbols, as in A=seagreen,B=#cc79a7"
+    )
     parser.add_argument("--widths", metavar="KIND", help="order, constant, or a factor of the widths of strokes")
     parser.add_argument("--turtle", action=argparse.BooleanOptionalAction, help="whether an arrow marks the turtle's start")
     parser.add_argument("--legend", action=argparse.BooleanOptionalAction, help="whether a legend stands below")
@@ -209,15 +261,32 @@ def _add_looks(parser: argparse.ArgumentParser) -> None:
 
 def _add_model(parser: argparse.ArgumentParser) -> None:
     """The options that say which system, with which constants."""
-    parser.add_argument("system", metavar="SYSTEM",
-                        help="an id or name in the catalogue, such as P4; a file; a link of a model; or - for standard input")
-    parser.add_argument("--set", type=_constant_setting, action="append", default=[], metavar="NAME=VALUE", dest="settings",
-                        help="set a constant, as in dt=14/10")
-    parser.add_argument("--notation", metavar="NAME",
-                        help="the notation of the file; for a system of the catalogue, the notation of the printed words")
+    parser.add_argument(
+        "system",
+        metavar="SYSTEM",
+        help="an id or name in the catalogue, such as P4; a file; a link of a model; or - for standard input",
+    )
+    parser.add_argument(
+        "--set",
+        type=_constant_setting,
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        dest="settings",
+        help="set a constant, as in dt=14/10",
+    )
+    parser.add_argument(
+        "--notation",
+        metavar="NAME",
+        help="the notation of the file; for a system of the catalogue, the notation of the printed words",
+    )
     parser.add_argument("--name", metavar="NAME", help="which system, if the file holds several with names")
-    parser.add_argument("--seed", type=_seed, metavar="S",
-                        help="the seed of the random numbers, a whole number (default: the model's own, else 0)")
+    parser.add_argument(
+        "--seed",
+        type=_seed,
+        metavar="S",
+        help="the seed of the random numbers, a whole number (default: the model's own, else 0)",
+    )
 
 
 def _add_conversion(parser: argparse.ArgumentParser) -> None:
@@ -235,8 +304,9 @@ def _add_link(parser: argparse.ArgumentParser) -> None:
     _add_model(parser)
     parser.add_argument("-n", "--steps", type=_step_count, metavar="N", help="the step that is to be seen")
     parser.add_argument("--angle", metavar="DEGREES", help="the angle by which + and - turn")
-    parser.add_argument("--base", default="", metavar="ADDRESS",
-                        help="where a browser finds the page of this model that lsys-kit page makes")
+    parser.add_argument(
+        "--base", default="", metavar="ADDRESS", help="where a browser finds the page of this model that lsys-kit page makes"
+    )
     parser.add_argument("--qr", metavar="FILE", help="write the address as a QR code too (.svg, .png)")
 
 

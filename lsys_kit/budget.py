@@ -240,8 +240,11 @@ class Budget:
         """Refuse to go on where the time or the memory is used up; say then what has failed."""
         most = current()
         if self._spent() > most.seconds:
-            raise ModelLimitError(f"{failed()} in {most.seconds:g} seconds", limit=most.seconds,
-                                  hint="Take fewer steps, or set limits(seconds=...).")
+            raise ModelLimitError(
+                f"{failed()} in {most.seconds:g} seconds",
+                limit=most.seconds,
+                hint="Take fewer steps, or set limits(seconds=...).",
+            )
         if self._first_objects < 0:
             self._first_objects = _objects()
         check_bytes((_objects() - self._first_objects) * BLOCK_BYTES, failed)
@@ -319,8 +322,12 @@ Take fewer steps, or set limits(bytes=...).
     """
     most = current().bytes
     if needed > most:
-        raise ModelLimitError(f"{failed()}: it would take {_written(needed)} bytes; the limit is {most:,}", limit=most,
-                              needed=needed, hint="Take fewer steps, or set limits(bytes=...).")
+        raise ModelLimitError(
+            f"{failed()}: it would take {_written(needed)} bytes; the limit is {most:,}",
+            limit=most,
+            needed=needed,
+            hint="Take fewer steps, or set limits(bytes=...).",
+        )
 
 
 def check_step(step: int, size: int, parts: str, bytes_each: int) -> None:
@@ -333,11 +340,19 @@ Take fewer steps, or set limits(modules=...).
     """
     most = current()
     if size > most.modules:
-        raise ModelLimitError(f"Step {step} would have {size:,} {parts} or more; the limit is {most.modules:,}",
-                              limit=most.modules, needed=size, hint="Take fewer steps, or set limits(modules=...).")
+        raise ModelLimitError(
+            f"Step {step} would have {size:,} {parts} or more; the limit is {most.modules:,}",
+            limit=most.modules,
+            needed=size,
+            hint="Take fewer steps, or set limits(modules=...).",
+        )
     if (needed := size * bytes_each) > most.bytes:
-        raise ModelLimitError(f"Step {step} would take about {needed:,} bytes; the limit is {most.bytes:,}",
-                              limit=most.bytes, needed=needed, hint="Take fewer steps, or set limits(bytes=...).")
+        raise ModelLimitError(
+            f"Step {step} would take about {needed:,} bytes; the limit is {most.bytes:,}",
+            limit=most.bytes,
+            needed=needed,
+            hint="Take fewer steps, or set limits(bytes=...).",
+        )
 
 
 def _written(size: int) -> str:

@@ -13,13 +13,25 @@ from collections.abc import Mapping
 from lsys_kit.errors import ModelFileError
 
 _MARKS: Mapping[bytes, str] = {
-    codecs.BOM_UTF8: "utf-8", codecs.BOM_UTF32_LE: "utf-32-le", codecs.BOM_UTF32_BE: "utf-32-be",
-    codecs.BOM_UTF16_LE: "utf-16-le", codecs.BOM_UTF16_BE: "utf-16-be"}
+    codecs.BOM_UTF8: "utf-8",
+    codecs.BOM_UTF32_LE: "utf-32-le",
+    codecs.BOM_UTF32_BE: "utf-32-be",
+    codecs.BOM_UTF16_LE: "utf-16-le",
+    codecs.BOM_UTF16_BE: "utf-16-be",
+}
 """The byte order marks; that of UTF-32 begins with that of UTF-16, and comes before it."""
 _BINARY: Mapping[bytes, str] = {
-    b"\x89PNG": "a PNG picture", b"GIF8": "a GIF picture", b"\xff\xd8\xff": "a JPEG picture", b"%PDF-": "a PDF document",
-    b"PK\x03\x04": "a ZIP archive, as documents of Word are", b"\x1f\x8b": "a gzip archive", b"glTF": "a glTF model",
-    b"\xd0\xcf\x11\xe0": "a document of an older Word", b"\x7fELF": "a program", b"MZ\x90": "a program"}
+    b"\x89PNG": "a PNG picture",
+    b"GIF8": "a GIF picture",
+    b"\xff\xd8\xff": "a JPEG picture",
+    b"%PDF-": "a PDF document",
+    b"PK\x03\x04": "a ZIP archive, as documents of Word are",
+    b"\x1f\x8b": "a gzip archive",
+    b"glTF": "a glTF model",
+    b"\xd0\xcf\x11\xe0": "a document of an older Word",
+    b"\x7fELF": "a program",
+    b"MZ\x90": "a program",
+}
 """How files begin that are no text."""
 _SAVE = "Save it as plain text, in UTF-8."
 
@@ -43,7 +55,7 @@ def decoded(content: bytes, name: str, most: int) -> str:
     encoding = _MARKS.get(mark, "utf-8")
     decoder = codecs.getincrementaldecoder(encoding)()
     try:
-        text = decoder.decode(content[len(mark):], final=len(content) < most)
+        text = decoder.decode(content[len(mark) :], final=len(content) < most)
     except UnicodeDecodeError as fault:
         raise _invalid(content, name, encoding, len(mark) + fault.start) from None
     return text.replace("\r\n", "\n")
@@ -66,7 +78,7 @@ def _invalid(content: bytes, name: str, encoding: str, start: int) -> ModelFileE
     if encoding != "utf-8":
         return ModelFileError(message, hint=_SAVE)
     line_start = content.rfind(b"\n", 0, start) + 1
-    shown = content[max(line_start, start - 30):start + 30].split(b"\n")[0].decode("cp1252", errors="replace").strip()
+    shown = content[max(line_start, start - 30) : start + 30].split(b"\n")[0].decode("cp1252", errors="replace").strip()
     line = content.count(b"\n", 0, start) + 1
     return ModelFileError(message, hint=f'In Windows-1252 line {line} has "{shown}": if that is right, save the file in UTF-8.')
 

@@ -52,8 +52,9 @@ class LSystemError(Exception):
         ^
     """
 
-    def __init__(self, message: str, source: str | None = None, start: int | None = None, end: int | None = None,
-                 hint: str | None = None) -> None:
+    def __init__(
+        self, message: str, source: str | None = None, start: int | None = None, end: int | None = None, hint: str | None = None
+    ) -> None:
         self.message = _printable_text(message)
         self.hint = None if hint is None else _printable_text(hint)
         self._locate(source, start, end)
@@ -99,7 +100,7 @@ class LSystemError(Exception):
             return ""
         line = self.source.split("\n")[self.line - 1]
         first = max(0, self.column - 60)
-        shown = "".join(map(printable, line[first:first + 100])).rstrip()
+        shown = "".join(map(printable, line[first : first + 100])).rstrip()
         carets = "^" * max(1, min(self.end - self.column, len(shown) - (self.column - 1 - first)))
         return f"\n  {shown}\n  {' ' * (self.column - 1 - first)}{carets}"
 
@@ -139,9 +140,18 @@ class ModelLimitError(LSystemError):
         What was finished before: the derivation of the steps that fit, or None.
     """
 
-    def __init__(self, message: str, *, limit: float, needed: float | None = None, partial: object = None,
-                 hint: str | None = None, source: str | None = None, start: int | None = None,
-                 end: int | None = None) -> None:
+    def __init__(
+        self,
+        message: str,
+        *,
+        limit: float,
+        needed: float | None = None,
+        partial: object = None,
+        hint: str | None = None,
+        source: str | None = None,
+        start: int | None = None,
+        end: int | None = None,
+    ) -> None:
         self.limit, self.needed, self.partial = limit, needed, partial
         super().__init__(message, source, start, end, hint)
 
@@ -222,7 +232,7 @@ class _Beginning(Repr):
         self.maxlist = self.maxtuple = self.maxset = self.maxfrozenset = self.maxdeque = self.maxarray = _LINE // 2
 
     def repr_str(self, value: str | bytes, _: int) -> str:
-        return repr(value[:_LINE + 1])
+        return repr(value[: _LINE + 1])
 
     repr_bytes = repr_str
 

@@ -93,7 +93,7 @@ def file_stem(title: str, kind: str, content: str) -> str:
     """
     visible = "".join(character if character.isprintable() else " " for character in title)
     said = " ".join(re.sub(r'[<>:"/\\|?*]', " ", visible).split()).strip(". ")[:LONGEST_STEM]
-    return said or f"{kind}-{zlib.crc32(content.encode(errors='replace')) & 0xffff:04x}"
+    return said or f"{kind}-{zlib.crc32(content.encode(errors='replace')) & 0xFFFF:04x}"
 
 
 def save_file(path: Path, content: bytes) -> None:
@@ -107,8 +107,10 @@ def save_file(path: Path, content: bytes) -> None:
     name = quotable(str(path))
     try:
         if os.path.lexists(path) and not made_by_the_kit(path):
-            raise ModelFileError(f'"{name}" is there already, and was not made by the kit',
-                                 hint="It would be lost: choose another name, or delete it first.")
+            raise ModelFileError(
+                f'"{name}" is there already, and was not made by the kit',
+                hint="It would be lost: choose another name, or delete it first.",
+            )
         replace_file(path, content)
     except (OSError, ValueError) as fault:
         raise ModelFileError(f'"{name}" cannot be written: {getattr(fault, "strerror", None) or fault}') from None
@@ -181,7 +183,7 @@ def marked_gif(image: bytes) -> bytes:
     """A GIF picture as a file of the kit: with a comment behind its colours (GIF 89a, section 24)."""
     colours = 3 * 2 ** ((image[10] & 7) + 1) if image[10] & 128 else 0
     comment = b"!\xfe" + bytes([len(KIT_MARK)]) + KIT_MARK + b"\0"
-    return image[:13 + colours] + comment + image[13 + colours:]
+    return image[: 13 + colours] + comment + image[13 + colours :]
 
 
 def marked_mp4(film: bytes) -> bytes:

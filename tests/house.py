@@ -21,8 +21,12 @@ BEGIN, END = "<!-- made by: python -m tests.house -->\n", "<!-- end of what is m
 def layers() -> dict[str, list[str]]:
     """The layers of each room, from the last to the first; the package is the room ""."""
     contracts = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["importlinter"]["contracts"]
-    return {container.removeprefix("lsys_kit").removeprefix("."): contract["layers"]
-            for contract in contracts if contract["type"] == "layers" for container in contract["containers"]}
+    return {
+        container.removeprefix("lsys_kit").removeprefix("."): contract["layers"]
+        for contract in contracts
+        if contract["type"] == "layers"
+        for container in contract["containers"]
+    }
 
 
 def house() -> str:

@@ -42,7 +42,8 @@ TEMPLATE = LOCALE / "lsys_kit.pot"
 _UNDATED = datetime(2000, 1, 1, tzinfo=UTC)
 """Catalogues have no date, so that they change with their texts alone."""
 _CHANGING = re.compile(
-    rb'"(Generated-By|(POT-Creation|PO-Revision)-Date|Report-Msgid-Bugs-To|Last-Translator|Language-Team):.*\n')
+    rb'"(Generated-By|(POT-Creation|PO-Revision)-Date|Report-Msgid-Bugs-To|Last-Translator|Language-Team):.*\n'
+)
 """Lines of a catalogue's head that say nothing of its texts."""
 
 
@@ -60,8 +61,13 @@ def messages() -> Iterator[tuple[str | tuple[str, str], str]]:
 
 
 def _in_calls(module: ast.Module) -> Iterator[str | tuple[str, str]]:
-    constants = {target.id: node.value for node in module.body if isinstance(node, ast.Assign)
-                 for target in node.targets if isinstance(target, ast.Name)}
+    constants = {
+        target.id: node.value
+        for node in module.body
+        if isinstance(node, ast.Assign)
+        for target in node.targets
+        if isinstance(target, ast.Name)
+    }
     for node in ast.walk(module):
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in ("gettext", "ngettext"):
             count = 1 if node.func.id == "gettext" else 2
@@ -87,8 +93,13 @@ def _in_tables() -> Iterator[tuple[str, str]]:
 
 def template() -> Catalog:
     """All texts, each once, with the files that it stands in."""
-    catalogue = Catalog(project="lsys_kit", header_comment="# The texts of lsys_kit. Made by: python -m tests.messages",
-                        creation_date=_UNDATED, revision_date=_UNDATED, charset="utf-8")
+    catalogue = Catalog(
+        project="lsys_kit",
+        header_comment="# The texts of lsys_kit. Made by: python -m tests.messages",
+        creation_date=_UNDATED,
+        revision_date=_UNDATED,
+        charset="utf-8",
+    )
     for message, place in messages():
         catalogue.add(message, auto_comments=[place])
     return catalogue
@@ -101,8 +112,15 @@ def renewed(code: str) -> Catalog:
     if path.exists():
         with path.open("rb") as file:
             found = read_po(file, locale=code)
-    catalogue = Catalog(locale=code, project="lsys_kit", header_comment="# The texts of lsys_kit, translated.",
-                        creation_date=_UNDATED, revision_date=_UNDATED, charset="utf-8", fuzzy=False)
+    catalogue = Catalog(
+        locale=code,
+        project="lsys_kit",
+        header_comment="# The texts of lsys_kit, translated.",
+        creation_date=_UNDATED,
+        revision_date=_UNDATED,
+        charset="utf-8",
+        fuzzy=False,
+    )
     for message in template():
         if message.id:
             known = found.get(message.id if isinstance(message.id, str) else message.id[0])

@@ -67,7 +67,14 @@ def _of_one(operator: Any, operand: Any) -> list[str]:
 
 def _of_set(operator: Any, operand: Any) -> list[str]:
     """Some characters of a set."""
-    named = [chr(value if kind is _constants.LITERAL else value[0]) for kind, value in operand
-             if kind in (_constants.LITERAL, _constants.RANGE)] if operator is _constants.IN else []
+    named = (
+        [
+            chr(value if kind is _constants.LITERAL else value[0])
+            for kind, value in operand
+            if kind in (_constants.LITERAL, _constants.RANGE)
+        ]
+        if operator is _constants.IN
+        else []
+    )
     fits = _compiler.compile(_parser.SubPattern(_parser.State(), [(operator, operand)])).fullmatch
     return [each for each in dict.fromkeys((*CHARACTERS, *named)) if fits(each)][:MOST]

@@ -29,8 +29,12 @@ os.environ.pop("MPLBACKEND", None)  # with Agg in the environment, a notebook's 
 def pytest_addoption(parser: pytest.Parser) -> None:
     """`--screenshots FOLDER` keeps what the browser tests see; `--renew-pictures` writes the golden pictures anew."""
     parser.addoption("--screenshots", metavar="FOLDER", help="put pictures of what the browser tests see into this folder")
-    parser.addoption("--thorough", action="store_true", default=bool(os.environ.get("CI")),
-                     help="try all variants of each test, and many examples of each law, as where CI is set")
+    parser.addoption(
+        "--thorough",
+        action="store_true",
+        default=bool(os.environ.get("CI")),
+        help="try all variants of each test, and many examples of each law, as where CI is set",
+    )
     parser.addoption("--renew-pictures", action="store_true", help="renew the golden pictures of the printed figures")
 
 

@@ -126,6 +126,7 @@ def test_what_has_less_time_within_what_is_supervised_can_be_given_up_alone() ->
 
 def test_a_profiler_goes_on_behind_what_is_supervised() -> None:
     """As `%prun` in a notebook."""
+
     def behind() -> None:
         pass
 

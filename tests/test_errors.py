@@ -14,10 +14,19 @@ def test_there_is_one_tree_of_errors() -> None:
     assert all(issubclass(kind, LSystemError) for kind in kinds)
 
 
-@pytest.mark.parametrize(("start", "end", "place"), [
-    (0, None, (1, 1, 2)), (3, 5, (1, 4, 6)), (6, 8, (1, 7, 8)), (7, 9, (2, 1, 3)), (7, 99, (2, 1, 7)), (13, None, (2, 7, 8)),
-    (99, None, (2, 7, 8)), (3, 3, (1, 4, 5)),
-])
+@pytest.mark.parametrize(
+    ("start", "end", "place"),
+    [
+        (0, None, (1, 1, 2)),
+        (3, 5, (1, 4, 6)),
+        (6, 8, (1, 7, 8)),
+        (7, 9, (2, 1, 3)),
+        (7, 99, (2, 1, 7)),
+        (13, None, (2, 7, 8)),
+        (99, None, (2, 7, 8)),
+        (3, 3, (1, 4, 5)),
+    ],
+)
 def test_the_place_is_counted_from_one(start: int, end: int | None, place: tuple[int, int, int]) -> None:
     error = LSystemError("wrong", "A -> B\nB -> A", start, end)
     assert (error.line, error.column, error.end) == place
@@ -25,7 +34,8 @@ def test_the_place_is_counted_from_one(start: int, end: int | None, place: tuple
 
 def test_the_line_is_quoted_with_a_caret() -> None:
     assert str(LSystemError("This is wrong", "A -> B\n\tB -> A", 8, 9, "Do better.")) == (
-        "This is wrong (line 2, column 2). Do better.\n   B -> A\n   ^")
+        "This is wrong (line 2, column 2). Do better.\n   B -> A\n   ^"
+    )
     assert str(LSystemError("This is wrong", "A -> B", 2, 4)) == "This is wrong (line 1, column 3).\n  A -> B\n    ^^"
 
 
@@ -48,10 +58,17 @@ def test_the_caret_does_not_leave_the_line() -> None:
     assert said[2] == "       ^"
 
 
-@pytest.mark.parametrize(("character", "shown", "name"), [
-    ("a", "a", '"a"'), ("\t", " ", "U+0009"), ("\u202e", "?", "RIGHT-TO-LEFT OVERRIDE"), ("\ud800", "?", "U+D800"),
-    ("х", "х", '"х" (CYRILLIC SMALL LETTER HA)'), ('"', '"', '"""'),
-])
+@pytest.mark.parametrize(
+    ("character", "shown", "name"),
+    [
+        ("a", "a", '"a"'),
+        ("\t", " ", "U+0009"),
+        ("\u202e", "?", "RIGHT-TO-LEFT OVERRIDE"),
+        ("\ud800", "?", "U+D800"),
+        ("х", "х", '"х" (CYRILLIC SMALL LETTER HA)'),
+        ('"', '"', '"""'),
+    ],
+)
 def test_what_cannot_be_seen_is_named(character: str, shown: str, name: str) -> None:
     assert printable(character) == shown
     assert named(character) == name

@@ -58,8 +58,15 @@ def test_what_somebody_else_made_is_not_replaced(name: str, strange: str, tmp_pa
 def in_a_small_space(code: str, folder: Path) -> str:
     """What a program prints that may write no file of more than 500 bytes, as on a disk that is full."""
     limited = f"import resource\nresource.setrlimit(resource.RLIMIT_FSIZE, (500, 500))\n{code}"
-    done = subprocess.run([sys.executable, "-c", limited], cwd=folder, capture_output=True, text=True, timeout=120,
-                          env={**os.environ, "PYTHONPATH": str(Path(__file__).parent.parent)}, check=False)
+    done = subprocess.run(
+        [sys.executable, "-c", limited],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        timeout=120,
+        env={**os.environ, "PYTHONPATH": str(Path(__file__).parent.parent)},
+        check=False,
+    )
     return done.stdout + done.stderr
 
 
@@ -106,8 +113,19 @@ def test_what_kind_of_file_it_may_be_stays(tmp_path: Path) -> None:
     assert (tmp_path / "a.svg").stat().st_mode & 0o777 == 0o640
 
 
-@pytest.mark.parametrize(("title", "stem"), [
-    ("J4: Anabaena", "J4 Anabaena"), ("../../etc/passwd", "etc passwd"), ("a\x00b\u202ec", "a b c"), ("x" * 99, "x" * 60),
-    ("", "plant-0000"), ("...", "plant-0000"), ("CON|*?", "CON"), ("Šárka", "Šárka"), ("\ud800", "plant-0000")])
+@pytest.mark.parametrize(
+    ("title", "stem"),
+    [
+        ("J4: Anabaena", "J4 Anabaena"),
+        ("../../etc/passwd", "etc passwd"),
+        ("a\x00b\u202ec", "a b c"),
+        ("x" * 99, "x" * 60),
+        ("", "plant-0000"),
+        ("...", "plant-0000"),
+        ("CON|*?", "CON"),
+        ("Šárka", "Šárka"),
+        ("\ud800", "plant-0000"),
+    ],
+)
 def test_a_title_is_the_name_of_a_file_as_far_as_that_can_have_its_characters(title: str, stem: str) -> None:
     assert file_stem(title, "plant", "") == stem

@@ -19,21 +19,7 @@ from types import SimpleNamespace
 import pytest
 from matplotlib.figure import Figure
 
-from lsys_kit import (
-    LSystemError,
-    animate,
-    check,
-    derive,
-    draw,
-    explain,
-    explore,
-    figure,
-    growth,
-    read,
-    stages,
-    system,
-    write,
-)
+from lsys_kit import LSystemError, animate, check, derive, draw, explain, explore, figure, growth, read, stages, system, write
 from lsys_kit.__main__ import main
 from lsys_kit.classroom import magic, typeset
 from lsys_kit.classroom.exercises.declared.registry import kit_questions
@@ -55,25 +41,98 @@ HOSTILE = [
     "<svg/onload=alert(1)>",
     "</title><script>alert(1)</script>",
     "</style></svg><iframe src=//evil>",
-    "<!--", "-->", "]]>", "<![CDATA[x]]>", "<?xml version='1.0'?>",
-    "&lt;b&gt;", "&#60;b&#62;", "&amp;amp;",
-    r"$\frac{1}{0}$", "cost $5 and $6", r"\(x^2\)", r"\[x\]", r"\end{document}", r"\input{/etc/passwd}", "$$",
-    "{{7*7}}", "${7*7}", "%s%n{0}{x}",
-    "javascript:alert(1)", "__import__('os').system('x')",
-    "a\u202egnp.exe", "a\u200bb\u2060c\ufeff", "e\u0301\u0302\u0303\u0304\u0305" * 3,
-    "\x1b[31mred\x1b[0m", "a\nnewmtl b", "a\0b", "\ud800", "x" * 500, "'\"`", "(*/* //# comment",
+    "<!--",
+    "-->",
+    "]]>",
+    "<![CDATA[x]]>",
+    "<?xml version='1.0'?>",
+    "&lt;b&gt;",
+    "&#60;b&#62;",
+    "&amp;amp;",
+    r"$\frac{1}{0}$",
+    "cost $5 and $6",
+    r"\(x^2\)",
+    r"\[x\]",
+    r"\end{document}",
+    r"\input{/etc/passwd}",
+    "$$",
+    "{{7*7}}",
+    "${7*7}",
+    "%s%n{0}{x}",
+    "javascript:alert(1)",
+    "__import__('os').system('x')",
+    "a\u202egnp.exe",
+    "a\u200bb\u2060c\ufeff",
+    "e\u0301\u0302\u0303\u0304\u0305" * 3,
+    "\x1b[31mred\x1b[0m",
+    "a\nnewmtl b",
+    "a\0b",
+    "\ud800",
+    "x" * 500,
+    "'\"`",
+    "(*/* //# comment",
 ]
 """Markup, formulas, templates, marks that turn text around, controls, lone surrogates, quotes, sheer length."""
 
 TAGS = {"b", "br", "div", "i", "pre", "span", "sub", "sup", "table", "tbody", "td", "tr", "u"}
 ATTRIBUTES = {"aria-hidden", "aria-label", "class", "colspan", "role", "style", "tabindex"}
-SVG_TAGS = {"circle", "ellipse", "g", "image", "line", "path", "polygon", "polyline", "rect", "svg", "text", "title", "tspan",
-            "defs", "marker"}
+SVG_TAGS = {
+    "circle",
+    "ellipse",
+    "g",
+    "image",
+    "line",
+    "path",
+    "polygon",
+    "polyline",
+    "rect",
+    "svg",
+    "text",
+    "title",
+    "tspan",
+    "defs",
+    "marker",
+}
 SVG_ATTRIBUTES = {
-    "aria-label", "class", "cx", "cy", "d", "dx", "dy", "fill", "fill-opacity", "font-family", "font-size",
-    "font-style", "font-weight", "height", "id", "marker-end", "points", "r", "role", "rx", "ry", "stroke", "stroke-dasharray",
-    "stroke-linecap", "stroke-linejoin", "stroke-opacity", "stroke-width", "style", "text-anchor", "transform", "viewBox",
-    "width", "x", "x1", "x2", "y", "y1", "y2"}
+    "aria-label",
+    "class",
+    "cx",
+    "cy",
+    "d",
+    "dx",
+    "dy",
+    "fill",
+    "fill-opacity",
+    "font-family",
+    "font-size",
+    "font-style",
+    "font-weight",
+    "height",
+    "id",
+    "marker-end",
+    "points",
+    "r",
+    "role",
+    "rx",
+    "ry",
+    "stroke",
+    "stroke-dasharray",
+    "stroke-linecap",
+    "stroke-linejoin",
+    "stroke-opacity",
+    "stroke-width",
+    "style",
+    "text-anchor",
+    "transform",
+    "viewBox",
+    "width",
+    "x",
+    "x1",
+    "x2",
+    "y",
+    "y1",
+    "y2",
+}
 
 
 class Page(HTMLParser):
@@ -171,10 +230,15 @@ def made(text: str) -> LSystem:
     """A system made by hand, all of whose names are a text."""
     name, t = Name(text), Pattern(text, (Name(text),))
     grown = Pattern(text, (Apply("+", (name, Number(1))),))
-    return LSystem((Pattern(text, (Number(1),)), Pattern("F")), (
-        Production((t,), (grown, Pattern("F"), Pattern("[["), Pattern(text + "_r"))),
-        Production((t,), (grown,), Apply("<", (name, Number(5))), left=(Pattern(text + "_l"),), probability=Number(1))),
-        (Constant(f"{text}2", Number(1), (Number(0), Number(2), Number(1))),), notes=(f"A note on {text}.",))
+    return LSystem(
+        (Pattern(text, (Number(1),)), Pattern("F")),
+        (
+            Production((t,), (grown, Pattern("F"), Pattern("[["), Pattern(text + "_r"))),
+            Production((t,), (grown,), Apply("<", (name, Number(5))), left=(Pattern(text + "_l"),), probability=Number(1)),
+        ),
+        (Constant(f"{text}2", Number(1), (Number(0), Number(2), Number(1))),),
+        notes=(f"A note on {text}.",),
+    )
 
 
 def shows(found: LSystem) -> None:
@@ -208,8 +272,12 @@ def test_what_is_typed_is_refused_or_shown_as_text(text):
 
 
 def test_every_sign_that_may_be_a_symbol_is_shown_as_text():
-    found = [system for sign in string.punctuation
-             for system in [refused(lambda sign=sign: read(f"axiom: A {sign} B {sign}\nA -> {sign} A {sign}"))] if system]
+    found = [
+        system
+        for sign in string.punctuation
+        for system in [refused(lambda sign=sign: read(f"axiom: A {sign} B {sign}\nA -> {sign} A {sign}"))]
+        if system
+    ]
     for each in found:
         shows(each)
     assert {"$", "&", "'", ";", "\\", "%"} <= {module.symbol for each in found for module in each.axiom}
@@ -255,8 +323,13 @@ def test_an_answer_is_shown_as_text(text):
 @pytest.mark.parametrize("text", HOSTILE, ids=ascii)
 def test_a_cell_of_a_notebook_shows_its_text_as_text(text):
     shell = SimpleNamespace(user_ns={}, user_ns_hidden={}, push=lambda names: None)
-    for line, cell in ((text, "axiom: A"), ("plant", text), (f"plant {text}", "axiom: A"), ("", f"axiom: {text}\nA -> {text}"),
-                       ("", f"axiom: A\n{text}\nA -> B")):
+    for line, cell in (
+        (text, "axiom: A"),
+        ("plant", text),
+        (f"plant {text}", "axiom: A"),
+        ("", f"axiom: {text}\nA -> {text}"),
+        ("", f"axiom: A\n{text}\nA -> B"),
+    ):
         check_html(magic._cell_output(shell, line, cell)["text/html"])
 
 
@@ -264,10 +337,19 @@ def test_a_cell_of_a_notebook_shows_its_text_as_text(text):
 def test_a_name_that_is_asked_for_is_named_or_refused(text):
     koch = system("T2")
     for attempt in (
-        lambda: system(text), lambda: explore(text), lambda: check(text, "a"), lambda: check("1.1", text),
-        lambda: read("axiom: A", text), lambda: write(koch, text), lambda: read_word(text), lambda: draw(koch, 1, angle=text),
-        lambda: animate(koch, 1, seconds=text), lambda: derive(koch, 1, **{text: 1}), lambda: derive(koch, 1, seed=text),
-        lambda: derive(koch, 1, arithmetic=text), lambda: derive(read("c = 1\naxiom: A(c)"), 1, c=text),
+        lambda: system(text),
+        lambda: explore(text),
+        lambda: check(text, "a"),
+        lambda: check("1.1", text),
+        lambda: read("axiom: A", text),
+        lambda: write(koch, text),
+        lambda: read_word(text),
+        lambda: draw(koch, 1, angle=text),
+        lambda: animate(koch, 1, seconds=text),
+        lambda: derive(koch, 1, **{text: 1}),
+        lambda: derive(koch, 1, seed=text),
+        lambda: derive(koch, 1, arithmetic=text),
+        lambda: derive(read("c = 1\naxiom: A(c)"), 1, c=text),
     ):
         refused(attempt)
 
@@ -282,7 +364,7 @@ def test_files_for_other_programs_hold_no_names(text, tmp_path):
         content = (tmp_path / f"a.{ending}").read_bytes()
         assert len(text) < 4 or text.encode("utf-8", "replace") not in content
     content = (tmp_path / "a.glb").read_bytes()
-    tree = json.loads(content[20:20 + struct.unpack("<I", content[12:16])[0]])
+    tree = json.loads(content[20 : 20 + struct.unpack("<I", content[12:16])[0]])
     assert {material["name"][0] for material in tree["materials"]} == {"#"}
 
 
@@ -305,22 +387,38 @@ def test_matplotlib_reads_no_formula(text):
     sheet = Figure()
     ax = figure(draw(made(text), 2), sheet.add_subplot())
     sheet.savefig(io.BytesIO(), format="svg")
-    assert not [label for label in ax.findobj(lambda artist: hasattr(artist, "get_parse_math"))
-                if label.get_text() and label.get_parse_math() and set("$\\") & set(label.get_text())]
+    assert not [
+        label
+        for label in ax.findobj(lambda artist: hasattr(artist, "get_parse_math"))
+        if label.get_text() and label.get_parse_math() and set("$\\") & set(label.get_text())
+    ]
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("text", [text for text in HOSTILE if "\0" not in text and text != "\ud800"], ids=ascii)
 def test_the_shell_prints_nothing_that_a_terminal_obeys(text, tmp_path, capsys):
     (tmp_path / "model.txt").write_text(f"axiom: A\nA -> {text}\n")
-    for arguments in (["derive", text, "-n", "1"], ["derive", "J1", "-n", text], ["draw", "J1", "-n", "1", "-o", text],
-                      ["derive", "J1", "-n", "1", "--set", text], ["derive", "J1", "-n", "1", "--set", f"{text}=1"],
-                      ["derive", "J1", "-n", "1", "--notation", text], ["convert", "J1", "--to", text], [text], ["list", text],
-                      ["derive", str(tmp_path / "model.txt"), "-n", "2"],
-                      ["convert", str(tmp_path / "model.txt"), "--to", "abop"], ["link", text], ["link", "J1", "--base", text],
-                      ["link", "J1", "--qr", text], ["link", "J1", "--set", f"{text}=1"], ["page", "J1", "-o", text],
-                      ["derive", "J1", "-n", "1", "--seed", text], ["derive", "J1", "-n", "1", "--arithmetic", text],
-                      ["draw", "J1", "-n", "1", "-o", "a.gif", "--seconds", text]):
+    for arguments in (
+        ["derive", text, "-n", "1"],
+        ["derive", "J1", "-n", text],
+        ["draw", "J1", "-n", "1", "-o", text],
+        ["derive", "J1", "-n", "1", "--set", text],
+        ["derive", "J1", "-n", "1", "--set", f"{text}=1"],
+        ["derive", "J1", "-n", "1", "--notation", text],
+        ["convert", "J1", "--to", text],
+        [text],
+        ["list", text],
+        ["derive", str(tmp_path / "model.txt"), "-n", "2"],
+        ["convert", str(tmp_path / "model.txt"), "--to", "abop"],
+        ["link", text],
+        ["link", "J1", "--base", text],
+        ["link", "J1", "--qr", text],
+        ["link", "J1", "--set", f"{text}=1"],
+        ["page", "J1", "-o", text],
+        ["derive", "J1", "-n", "1", "--seed", text],
+        ["derive", "J1", "-n", "1", "--arithmetic", text],
+        ["draw", "J1", "-n", "1", "-o", "a.gif", "--seconds", text],
+    ):
         with contextlib.suppress(SystemExit):
             main(arguments)
         said = capsys.readouterr()
@@ -330,8 +428,14 @@ def test_the_shell_prints_nothing_that_a_terminal_obeys(text, tmp_path, capsys):
 
 
 def test_the_checks_see_what_they_should():
-    for html in ("<script>1</script>", '<b onclick="x">', "<img src=x>", "cost $5", '<b style="background:url(x)">a</b>',
-                 "\u202e"):
+    for html in (
+        "<script>1</script>",
+        '<b onclick="x">',
+        "<img src=x>",
+        "cost $5",
+        '<b style="background:url(x)">a</b>',
+        "\u202e",
+    ):
         with pytest.raises(AssertionError):
             check_html(html)
     check_html('<div class="lsys mathjax_ignore"><b>$5</b></div>')

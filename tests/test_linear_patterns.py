@@ -27,14 +27,24 @@ from tests.pattern_texts import repetitions
 
 Used = tuple[str, str, int, str]
 """Where a pattern is, its text and its flags, and how it is used: "match", "fullmatch", "search" or "finditer"."""
-WAYS = {"match": "match", "fullmatch": "fullmatch", "search": "search", "finditer": "finditer", "findall": "finditer",
-        "sub": "finditer", "subn": "finditer", "split": "finditer"}
+WAYS = {
+    "match": "match",
+    "fullmatch": "fullmatch",
+    "search": "search",
+    "finditer": "finditer",
+    "findall": "finditer",
+    "sub": "finditer",
+    "subn": "finditer",
+    "split": "finditer",
+}
 SIZES = (*range(8, 60, 4), 240, 1_200, 12_000)
 """The short ones show what doubles with each character, before it takes a day."""
 SECONDS = 0.012
 """What the longest may take: one microsecond a character, which is dozens of comparisons, and no thousands."""
-SOURCES = {module.name: Path(import_module(module.name).__file__ or "").read_text(encoding="utf-8")
-           for module in walk_packages(lsys_kit.__path__, "lsys_kit.")}
+SOURCES = {
+    module.name: Path(import_module(module.name).__file__ or "").read_text(encoding="utf-8")
+    for module in walk_packages(lsys_kit.__path__, "lsys_kit.")
+}
 
 
 def named_patterns() -> Iterator[Used]:
@@ -76,8 +86,9 @@ def _written(node: ast.expr, module: str) -> str:
         return str(node.value)
     parts = node.values if isinstance(node, ast.JoinedStr) else []
     names = vars(import_module(module))
-    return "".join(str(part.value) if isinstance(part, ast.Constant) else
-                   str(names.get(ast.unparse(part)[3:-2], "ab")) for part in parts)
+    return "".join(
+        str(part.value) if isinstance(part, ast.Constant) else str(names.get(ast.unparse(part)[3:-2], "ab")) for part in parts
+    )
 
 
 def tokens() -> Iterator[Used]:

@@ -42,57 +42,117 @@ class Incomparable:
 
 
 ODD: Mapping[str, object] = {
-    "array": np.array([1, 2]), "array of texts": np.array(["exact", "float"]), "empty array": np.array([]),
-    "table": np.array([[1.0, 2.0], [3.0, 4.0]]), "symbol": sympy.Symbol("x"), "relation": sympy.Symbol("x") < 1,
-    "matrix": sympy.Matrix([sympy.Symbol("x")]), "matrix symbol": sympy.MatrixSymbol("x", 2, 2), "undefined": sympy.nan,
-    "complex infinity": sympy.zoo, "nan": float("nan"), "infinity": float("inf"), "object": object(),
-    "incomparable": Incomparable(), "set": {1}, "function": len, "class": int, "bytes": b"1", "surrogate": "\ud800",
-    "text": "dark", "below zero": -1, "beyond": 10**5000, "nothing": None, "numbers by numbers": {1: 2},
+    "array": np.array([1, 2]),
+    "array of texts": np.array(["exact", "float"]),
+    "empty array": np.array([]),
+    "table": np.array([[1.0, 2.0], [3.0, 4.0]]),
+    "symbol": sympy.Symbol("x"),
+    "relation": sympy.Symbol("x") < 1,
+    "matrix": sympy.Matrix([sympy.Symbol("x")]),
+    "matrix symbol": sympy.MatrixSymbol("x", 2, 2),
+    "undefined": sympy.nan,
+    "complex infinity": sympy.zoo,
+    "nan": float("nan"),
+    "infinity": float("inf"),
+    "object": object(),
+    "incomparable": Incomparable(),
+    "set": {1},
+    "function": len,
+    "class": int,
+    "bytes": b"1",
+    "surrogate": "\ud800",
+    "text": "dark",
+    "below zero": -1,
+    "beyond": 10**5000,
+    "nothing": None,
+    "numbers by numbers": {1: 2},
 }
 """Values that hardly anything can be done with."""
 GROWING = read("c = 1\naxiom: a\na -> a b(c)\nb(x) -> b(x)")
-SURFACE = "\n".join(("CONTACT POINT  X: 0 Y: 0 Z: 0", "HEADING  X: 0 Y: 1 Z: 0", "UP  X: 0 Y: 0 Z: 1", "SIZE: 1",
-                     *["0 0 0 0 0 1 0 1 0 0 1 1"] * 4))
+SURFACE = "\n".join(
+    (
+        "CONTACT POINT  X: 0 Y: 0 Z: 0",
+        "HEADING  X: 0 Y: 1 Z: 0",
+        "UP  X: 0 Y: 0 Z: 1",
+        "SIZE: 1",
+        *["0 0 0 0 0 1 0 1 0 0 1 1"] * 4,
+    )
+)
 AGEING = read("c = 1\naxiom: a(0)\na(1) -> a(0) b(0)\nb(1) -> a(0)")
 FITTING: Mapping[str, Callable[[], tuple[object, ...]]] = {
-    "animate": lambda: (GROWING, 1), "book_systems": tuple, "check": lambda: ("1.1", "al"),
+    "animate": lambda: (GROWING, 1),
+    "book_systems": tuple,
+    "check": lambda: ("1.1", "al"),
     "continuity": lambda: (AGEING, {"a": "1", "b": "1"}),
-    "derive": lambda: (GROWING, 1), "exercises": tuple,
-    "practice": lambda: ("derive", 1, 1), "score": lambda: ("1.1",), "draw": lambda: (GROWING, 1),
+    "derive": lambda: (GROWING, 1),
+    "exercises": tuple,
+    "practice": lambda: ("derive", 1, 1),
+    "score": lambda: ("1.1",),
+    "draw": lambda: (GROWING, 1),
     "draw_hierarchy": lambda: ("dark",),
-    "cellwork_system": lambda: ("K33",), "compare": lambda: (GROWING, GROWING), "link": lambda: (GROWING, {"step": 1}),
-    "linked": lambda: (link(GROWING),), "qr_code": lambda: ("text",), "variants": lambda: (GROWING, 2),
-    "cellwork_systems": tuple, "read_cellwork": lambda: (str(cellwork_system("K33")),),
+    "cellwork_system": lambda: ("K33",),
+    "compare": lambda: (GROWING, GROWING),
+    "link": lambda: (GROWING, {"step": 1}),
+    "linked": lambda: (link(GROWING),),
+    "qr_code": lambda: ("text",),
+    "variants": lambda: (GROWING, 2),
+    "cellwork_systems": tuple,
+    "read_cellwork": lambda: (str(cellwork_system("K33")),),
     "link a cellwork": lambda: (cellwork_system("K33"), {"step": 1}),
-    "draw a cellwork": lambda: (cellwork_system("K33"), 1), "derive a cellwork": lambda: (cellwork_system("K33"), 1),
+    "draw a cellwork": lambda: (cellwork_system("K33"), 1),
+    "derive a cellwork": lambda: (cellwork_system("K33"), 1),
     "explain": lambda: (derive(GROWING, 1), 1),
     "infer": lambda: (["a", "ab", "aba"], ("+",), False, (0, 0)),
     "rule_finder": lambda: (["a", "ab", "aba"], ("+",), False, (0, 0)),
     "language": lambda: ("en",),
     "infer from drawings": lambda: ([[(0, 0, 0, 1)], [(0, 0, 0, 1), (0, 1, 1, 1)]],),
-    "explore": lambda: (GROWING, 1), "figure": lambda: (GROWING, Figure().subplots()), "growth": lambda: (GROWING,),
-    "limits": tuple, "lineage": lambda: (GROWING, 1), "map_system": lambda: ("K30",), "map_systems": tuple,
-    "progress": lambda: (1,), "pnml": lambda: (stages(GROWING), None), "predict": lambda: ("How many?", "21"),
-    "read": lambda: ("axiom: a", "abop", "x"), "read_map": lambda: ("map: A>A>",),
-    "vote": lambda: ("01", False), "worksheet": lambda: ("01", "counts"),
+    "explore": lambda: (GROWING, 1),
+    "figure": lambda: (GROWING, Figure().subplots()),
+    "growth": lambda: (GROWING,),
+    "limits": tuple,
+    "lineage": lambda: (GROWING, 1),
+    "map_system": lambda: ("K30",),
+    "map_systems": tuple,
+    "progress": lambda: (1,),
+    "pnml": lambda: (stages(GROWING), None),
+    "predict": lambda: ("How many?", "21"),
+    "read": lambda: ("axiom: a", "abop", "x"),
+    "read_map": lambda: ("map: A>A>",),
+    "vote": lambda: ("01", False),
+    "worksheet": lambda: ("01", "counts"),
     "worksheet beside a panel": lambda: ("01", "counts", lsys_kit.explore(GROWING, 1)),
-    "stages": lambda: (GROWING,), "system": lambda: ("J1",), "systems": tuple, "timed": lambda: (AGEING,),
-    "ensemble": lambda: (GROWING, 2, "b"), "sweep": lambda: (GROWING, {"c": [1, 2]}, "b"), "plot": lambda: (GROWING, 2, "b"),
-    "plot over time": lambda: (timed(AGEING), 2, "modules"), "plot a table": lambda: (ensemble(GROWING, 2),),
-    "plot stages": lambda: (stages(GROWING), 2), "plot maps": lambda: (map_system("K30"), 1),
+    "stages": lambda: (GROWING,),
+    "system": lambda: ("J1",),
+    "systems": tuple,
+    "timed": lambda: (AGEING,),
+    "ensemble": lambda: (GROWING, 2, "b"),
+    "sweep": lambda: (GROWING, {"c": [1, 2]}, "b"),
+    "plot": lambda: (GROWING, 2, "b"),
+    "plot over time": lambda: (timed(AGEING), 2, "modules"),
+    "plot a table": lambda: (ensemble(GROWING, 2),),
+    "plot stages": lambda: (stages(GROWING), 2),
+    "plot maps": lambda: (map_system("K30"), 1),
     "with_surface": lambda: (GROWING, "L", SURFACE),
-    "write": lambda: (GROWING, "abop"), "draw a stage diagram": lambda: (stages(GROWING),),
-    "draw a lineage": lambda: (lineage(GROWING, 1),), "draw a map": lambda: (map_system("K30"), 1),
-    "draw in space": lambda: (read("axiom: F&F"), 1), "lineage in time": lambda: (timed(AGEING), 1),
-    "stages in time": lambda: (timed(AGEING),), "derive a map": lambda: (map_system("K30"), 1),
+    "write": lambda: (GROWING, "abop"),
+    "draw a stage diagram": lambda: (stages(GROWING),),
+    "draw a lineage": lambda: (lineage(GROWING, 1),),
+    "draw a map": lambda: (map_system("K30"), 1),
+    "draw in space": lambda: (read("axiom: F&F"), 1),
+    "lineage in time": lambda: (timed(AGEING), 1),
+    "stages in time": lambda: (timed(AGEING),),
+    "derive a map": lambda: (map_system("K30"), 1),
 }
 """For each public function arguments that it takes."""
 CHOICES: Mapping[str, tuple[str, ...]] = {
     "derive": ("seed", "arithmetic", "c"),
     "draw": ("angle", "seed", "arithmetic", "marked", "cells", "c", "steps", "seeds", "size"),
-    "ensemble": ("arithmetic", "c"), "sweep": ("arithmetic", "seed"), "plot": ("seed", "arithmetic", "c"),
-    "figure": ("n", "angle", "seed", "arithmetic", "marked", "cells", "c"), "limits": ("modules", "bytes", "seconds"),
-    "draw a stage diagram": ("tokens", "positions"), "draw a lineage": ("intervals",),
+    "ensemble": ("arithmetic", "c"),
+    "sweep": ("arithmetic", "seed"),
+    "plot": ("seed", "arithmetic", "c"),
+    "figure": ("n", "angle", "seed", "arithmetic", "marked", "cells", "c"),
+    "limits": ("modules", "bytes", "seconds"),
+    "draw a stage diagram": ("tokens", "positions"),
+    "draw a lineage": ("intervals",),
     "draw in space": ("angle", "marked", "view"),
     "draw a cellwork": ("view", "cell", "generation", "pressure"),
     "draw a map": ("iterations", "stiffness", "rest", "pressure", "damping"),
@@ -101,9 +161,12 @@ CHOICES: Mapping[str, tuple[str, ...]] = {
 NO_QUESTIONS = {"close", "save", "__getitem__"}
 """Methods that are no law of this kind: files have one of their own, and an index is refused as Python's lists refuse it."""
 MADE_IN_OTHER_WAYS: tuple[Callable[[], object], ...] = (
-    lambda: lsys_kit.draw(GROWING, steps=[0, 1]), lambda: lsys_kit.draw(map_system("K30"), 1, phases=True),
-    lambda: lsys_kit.animate(read("axiom: F"), 1), lambda: derive(map_system("K30"), 1)[1],
-    lambda: derive(cellwork_system("K33"), 1)[1])
+    lambda: lsys_kit.draw(GROWING, steps=[0, 1]),
+    lambda: lsys_kit.draw(map_system("K30"), 1, phases=True),
+    lambda: lsys_kit.animate(read("axiom: F"), 1),
+    lambda: derive(map_system("K30"), 1)[1],
+    lambda: derive(cellwork_system("K33"), 1)[1],
+)
 
 
 def called(name: str, argument: str, odd: object) -> object:
@@ -159,7 +222,9 @@ def test_a_system_without_lives_is_continuous_or_refused() -> None:
         lsys_kit.continuity(read("axiom: A B A"), {})
 
 
-@pytest.mark.parametrize("step", [-1, 4, 10**30, 10**5000, -10**5000], ids=["before", "beyond", "far", "very far", "far back"])
+@pytest.mark.parametrize(
+    "step", [-1, 4, 10**30, 10**5000, -(10**5000)], ids=["before", "beyond", "far", "very far", "far back"]
+)
 @pytest.mark.parametrize("ask", [Derivation.counts, Derivation.origins, Derivation.ancestors, Derivation.sight])
 def test_a_step_that_a_derivation_lacks_is_refused(ask: Callable[..., object], step: int) -> None:
     with pytest.raises(ModelValueError, match=r"step"):
@@ -188,8 +253,11 @@ def asked(result: Any, name: str, *given: object) -> Any:
     """A property of a result, or what a method of it answers if its arguments are these, or 1."""
     if name in NO_QUESTIONS or not inspect.isfunction(inspect.getattr_static(type(result), name)):
         return None if name in NO_QUESTIONS else getattr(result, name)
-    needed = [each for each in inspect.signature(getattr(result, name)).parameters.values()
-              if each.default is each.empty and each.kind is not each.VAR_KEYWORD]
+    needed = [
+        each
+        for each in inspect.signature(getattr(result, name)).parameters.values()
+        if each.default is each.empty and each.kind is not each.VAR_KEYWORD
+    ]
     return getattr(result, name)(*[*given, 1, 1][: len(needed)])
 
 
@@ -212,11 +280,17 @@ def test_every_result_is_asked() -> None:
 def test_an_odd_question_is_answered_or_refused(odd: object) -> None:
     for kind, name, argument in questions():
         parameters = inspect.signature(getattr(found_results()[kind], name)).parameters.values()
-        given = [odd if each.name == argument else 1 for each in parameters
-                 if each.kind in (each.POSITIONAL_OR_KEYWORD, each.VAR_POSITIONAL)
-                 and (each.default is each.empty or each.name == argument)]
-        named = {{each.VAR_KEYWORD: "c"}.get(each.kind, each.name): odd for each in parameters
-                 if each.name == argument and each.kind in (each.KEYWORD_ONLY, each.VAR_KEYWORD)}
+        given = [
+            odd if each.name == argument else 1
+            for each in parameters
+            if each.kind in (each.POSITIONAL_OR_KEYWORD, each.VAR_POSITIONAL)
+            and (each.default is each.empty or each.name == argument)
+        ]
+        named = {
+            {each.VAR_KEYWORD: "c"}.get(each.kind, each.name): odd
+            for each in parameters
+            if each.name == argument and each.kind in (each.KEYWORD_ONLY, each.VAR_KEYWORD)
+        }
         with suppress(LSystemError, TraitError):
             try:
                 answer = getattr(found_results()[kind], name)(*given, **named)

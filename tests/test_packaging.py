@@ -19,8 +19,12 @@ ROOT = Path(__file__).parent.parent
 @pytest.fixture(scope="module")
 def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("wheel")
-    subprocess.run([sys.executable, "-m", "pip", "wheel", "-q", "--no-deps", "--no-build-isolation", "-w", str(folder), "."],
-                   cwd=ROOT, check=True, timeout=300)
+    subprocess.run(
+        [sys.executable, "-m", "pip", "wheel", "-q", "--no-deps", "--no-build-isolation", "-w", str(folder), "."],
+        cwd=ROOT,
+        check=True,
+        timeout=300,
+    )
     return next(folder.glob("*.whl"))
 
 
@@ -31,8 +35,11 @@ def test_the_wheel_is_pure_python(wheel):
 
 @pytest.mark.slow
 def test_the_wheel_holds_every_file_of_the_package(wheel):
-    package = {str(path.relative_to(ROOT)) for ending in ("py", "lark", "toml", "js", "mo")
-               for path in (ROOT / "lsys_kit").rglob(f"*.{ending}")}
+    package = {
+        str(path.relative_to(ROOT))
+        for ending in ("py", "lark", "toml", "js", "mo")
+        for path in (ROOT / "lsys_kit").rglob(f"*.{ending}")
+    }
     assert {Path(name).suffix for name in package} == {".py", ".lark", ".toml", ".js", ".mo"}
     assert package - set(zipfile.ZipFile(wheel).namelist()) == set()
 
@@ -46,10 +53,19 @@ def test_the_wheel_brings_the_course_along(wheel):
 @pytest.mark.slow
 def test_an_installed_wheel_copies_its_own_course(wheel, tmp_path):
     zipfile.ZipFile(wheel).extractall(tmp_path / "site")
-    code = ("import lsys_kit.classroom.course as c; found = c.course_files(); c.copy_course('mine')\n"
-            "print(c.__file__, *found.values(), sep='\\n')")
-    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(tmp_path / "site")},
-                          capture_output=True, text=True, check=True, timeout=300)
+    code = (
+        "import lsys_kit.classroom.course as c; found = c.course_files(); c.copy_course('mine')\n"
+        "print(c.__file__, *found.values(), sep='\\n')"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": str(tmp_path / "site")},
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=300,
+    )
     assert all(line.startswith(str(tmp_path / "site")) for line in done.stdout.splitlines())
     copied = {str(path.relative_to(tmp_path / "mine")) for path in (tmp_path / "mine").rglob("*.*") if path.name[0] != "."}
     assert copied == set(course_files())
@@ -72,8 +88,15 @@ def test_the_lines_of_the_readme_do_something(tmp_path):
     (code,) = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text("utf-8"), re.DOTALL)
     *lines, last = code.strip().splitlines()
     lines.append(f"print({last.partition('#')[0]})")
-    done = subprocess.run([sys.executable, "-c", "\n".join(lines)], cwd=tmp_path, capture_output=True, text=True, check=True,
-                          timeout=300, env={**os.environ, "PYTHONPATH": str(ROOT)})
+    done = subprocess.run(
+        [sys.executable, "-c", "\n".join(lines)],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=300,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+    )
     assert done.stdout.startswith("0 M(")
     assert [path.name for path in tmp_path.iterdir()] == ["j4.html"]
 
@@ -86,4 +109,10 @@ def test_the_readme_has_two_commands_of_one_line():
 def test_only_what_a_stranger_looks_for_is_visible():
     files = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True).stdout.split()
     assert {name.split("/")[0] for name in files if name[0] != "."} == {
-        "README.md", "exercises", "lsys_kit", "notebooks", "pyproject.toml", "tests"}
+        "README.md",
+        "exercises",
+        "lsys_kit",
+        "notebooks",
+        "pyproject.toml",
+        "tests",
+    }

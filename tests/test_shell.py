@@ -62,6 +62,7 @@ def refused(said: Said, *words: str) -> None:
 
 # --- deriving ---------------------------------------------------------------------------------------------------------
 
+
 def test_derive_prints_a_word_a_line_from_the_axiom_on(shell):
     assert shell("derive", "J1", "-n", "3") == Said(0, "ar\nal br\nbl ar ar\nal al br al br\n", "")
 
@@ -91,8 +92,11 @@ def test_a_catalogue_id_goes_before_a_file_of_that_name(shell, model, monkeypatc
     assert shell("derive", "./P4", "-n", "0").out == "a\n"
 
 
-@pytest.mark.parametrize("text", [FIBONACCI, FIBONACCI.replace("\n", "\r\n"), "\ufeff" + FIBONACCI],
-                         ids=["plain", "Windows lines", "byte order mark"])
+@pytest.mark.parametrize(
+    "text",
+    [FIBONACCI, FIBONACCI.replace("\n", "\r\n"), "\ufeff" + FIBONACCI],
+    ids=["plain", "Windows lines", "byte order mark"],
+)
 def test_a_file_is_read_as_any_editor_writes_it(shell, model, text):
     assert shell("derive", model(text), "-n", "2").out == "a\na b\na b a\n"
 
@@ -109,11 +113,15 @@ def test_constants_are_set_exactly(shell):
     assert exact.splitlines()[2] == "M(1,-1)M(1.2,1)M(1,-1)M(0.8,1)"
 
 
-@pytest.mark.parametrize("order", [
-    ["J4", "-n", "9", "--set", "lifeTimeA=2", "--set", "lifeTimeB=5"],
-    ["J4", "-n", "9", "--set", "lifeTimeA=2", "lifeTimeB=5"],
-    ["--set", "lifeTimeA=2", "lifeTimeB=5", "J4", "-n", "9"],
-], ids=["twice", "after one another", "before the system"])
+@pytest.mark.parametrize(
+    "order",
+    [
+        ["J4", "-n", "9", "--set", "lifeTimeA=2", "--set", "lifeTimeB=5"],
+        ["J4", "-n", "9", "--set", "lifeTimeA=2", "lifeTimeB=5"],
+        ["--set", "lifeTimeA=2", "lifeTimeB=5", "J4", "-n", "9"],
+    ],
+    ids=["twice", "after one another", "before the system"],
+)
 def test_several_constants_are_set_in_any_order(shell, order):
     assert " ".join(shell("derive", *order, "--counts").out.split()) == "1 1 2 2 3 3 4 5 6 8"
 
@@ -196,8 +204,10 @@ def test_one_of_several_systems_in_a_file_is_taken_by_its_name(shell, model):
     assert shell("derive", file, "-n", "1", "--name", "one").out == "F\nF+F\n"
     assert "Axiom G" in shell("convert", file, "--to", "fractint", "--name", "Two").out
     assert shell("derive", file, "-n", "1").err.startswith("lsys-kit: There are 2 systems in this text (line 6, column 1).")
-    assert shell("derive", "K5", "-n", "1", "--name", "One").err == \
-        "lsys-kit: K5 is one system of the catalogue. Leave out --name.\n"
+    assert (
+        shell("derive", "K5", "-n", "1", "--name", "One").err
+        == "lsys-kit: K5 is one system of the catalogue. Leave out --name.\n"
+    )
 
 
 def test_words_of_the_catalogue_are_printed_in_another_notation_if_it_can_hold_them(shell):
@@ -207,15 +217,17 @@ def test_words_of_the_catalogue_are_printed_in_another_notation_if_it_can_hold_t
 
 # --- links ------------------------------------------------------------------------------------------------------------
 
+
 def test_link_prints_an_address_that_leads_to_the_model_and_its_settings(shell):
     from lsys_kit import linked, system
 
-    said = shell("link", "J4", "-n", "9", "--set", "lifeTimeA=4", "lifeTimeB=5", "--seed", "3", "--base", "https://example.org/")
+    said = shell(
+        "link", "J4", "-n", "9", "--set", "lifeTimeA=4", "lifeTimeB=5", "--seed", "3", "--base", "https://example.org/"
+    )
     assert said.status == 0
     assert said.out.startswith("https://example.org/#lsys=")
     there = linked(said.out)
-    assert (there.system, dict(there.settings)) == (
-        system("J4"), {"step": 9, "seed": 3, "lifeTimeA": 4, "lifeTimeB": 5})
+    assert (there.system, dict(there.settings)) == (system("J4"), {"step": 9, "seed": 3, "lifeTimeA": 4, "lifeTimeB": 5})
     assert linked(shell("link", "K5", "--angle", "25.7").out).settings["angle"] * 10 == 257
 
 
@@ -261,6 +273,7 @@ def test_link_refuses_what_the_model_has_not(shell):
 
 # --- pages ------------------------------------------------------------------------------------------------------------
 
+
 def test_page_writes_one_file_and_says_what_it_shows(shell, tmp_path):
     said = shell("page", "J4", "-n", "9", "--set", "lifeTimeA=4", "-o", str(tmp_path / "j4.html"))
     assert (said.status, said.err) == (0, "")
@@ -302,6 +315,7 @@ def test_page_refuses_what_it_cannot_show(shell, tmp_path):
 
 # --- other notations --------------------------------------------------------------------------------------------------
 
+
 def test_convert_prints_the_same_system_in_another_notation(shell):
     from lsys_kit import read, system
 
@@ -331,8 +345,10 @@ def test_convert_reads_the_standard_input():
 def test_what_the_reader_has_to_tell_goes_to_the_other_stream(shell, model):
     said = shell("convert", model("axiom: F\nF -> FF\nG -> F\n"), "--to", "abop")
     assert said.out == "axiom: F\nF -> F F\nG -> F\n"
-    assert said.err.splitlines() == ['lsys-kit: note: "FF" is read as F F.',
-                                     "lsys-kit: note: The production G can never match: no module G occurs."]
+    assert said.err.splitlines() == [
+        'lsys-kit: note: "FF" is read as F F.',
+        "lsys-kit: note: The production G can never match: no module G occurs.",
+    ]
 
 
 def test_a_converted_model_goes_into_a_new_file(shell, tmp_path):
@@ -358,15 +374,18 @@ def test_a_model_that_cannot_be_converted_leaves_no_file(shell, tmp_path):
     assert not path.exists()
 
 
-@pytest.mark.parametrize(("arguments", "words"), [
-    (["P4"], ["--to"]),
-    (["P4", "--to", "abob"], ['no notation called "abob"', "Notations are: abop"]),
-    (["P4", "--to", "abop", "--from", "abob"], ['no notation called "abob"']),
-    (["P4", "--to", "plant-string"], ["The notation plant-string has no parameters, which this system needs"]),
-    (["P44", "--to", "abop"], ['no file "P44"', 'Did you mean "P4"?']),
-    (["P4", "--to", "abop", "-o", "/no/such/folder/out.txt"], ["cannot be written", "No such file"]),
-    (["P4", "--to", "abop", "-o", "a\0b"], ["cannot be written"]),
-])
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["P4"], ["--to"]),
+        (["P4", "--to", "abob"], ['no notation called "abob"', "Notations are: abop"]),
+        (["P4", "--to", "abop", "--from", "abob"], ['no notation called "abob"']),
+        (["P4", "--to", "plant-string"], ["The notation plant-string has no parameters, which this system needs"]),
+        (["P44", "--to", "abop"], ['no file "P44"', 'Did you mean "P4"?']),
+        (["P4", "--to", "abop", "-o", "/no/such/folder/out.txt"], ["cannot be written", "No such file"]),
+        (["P4", "--to", "abop", "-o", "a\0b"], ["cannot be written"]),
+    ],
+)
 def test_a_conversion_that_cannot_be_is_one_message(shell, arguments, words):
     refused(shell("convert", *arguments), *words)
 
@@ -386,6 +405,7 @@ def test_the_help_of_convert_shows_an_example_that_works(shell, monkeypatch, tmp
 
 
 # --- pictures ---------------------------------------------------------------------------------------------------------
+
 
 @pytest.mark.parametrize(("ending", "start"), [("svg", b"<svg"), ("png", b"\x89PNG"), ("pdf", b"%PDF")])
 def test_draw_writes_the_format_that_the_name_ends_in(shell, tmp_path, ending, start):
@@ -435,7 +455,8 @@ def test_a_net_that_other_programs_play_otherwise_says_so_in_a_line(shell, tmp_p
     assert shell("stages", "J4", "-o", path).err == ""
     assert shell("stages", "K16", "-o", path).err == (
         "lsys-kit: note: Programs for Petri nets play this net otherwise than the system grows: "
-        'they know no condition such as "s < a".\n')
+        'they know no condition such as "s < a".\n'
+    )
     assert shell("stages", "K16", "-o", str(tmp_path / "net.svg")).err == ""
 
 
@@ -458,49 +479,56 @@ def test_a_picture_goes_nowhere_else(shell, tmp_path):
 
 # --- bad input --------------------------------------------------------------------------------------------------------
 
-@pytest.mark.parametrize(("arguments", "words"), [
-    ([], ["COMMAND"]),
-    (["grow"], ["grow", "derive"]),
-    (["derive"], ["SYSTEM", "-n"]),
-    (["derive", "P4"], ["-n"]),
-    (["derive", "P4", "-n", "two"], ["whole number", '"two"']),
-    (["derive", "P4", "-n", "-1"], ["whole number", '"-1"']),
-    (["derive", "P4", "-n", "1.5"], ["whole number"]),
-    (["derive", "P4", "-n", "9" * 5000], ["whole number"]),
-    (["derive", "P4", "-n", "1", "--set", "dt"], ["NAME=VALUE"]),
-    (["derive", "P4", "-n", "1", "--set", "dt=1"], ['no constant "dt"', "LEFT, RIGHT"]),
-    (["derive", "P5", "-n", "1", "--set", "dt=fast"], ["fast"]),
-    (["derive", "P5", "-n", "1", "--set", "dt=1/0"], ["zero"]),
-    (["derive", "J4", "-n", "1", "--set", "lifetimeA=2"], ['Did you mean "lifeTimeA"?']),
-    (["derive", "K7", "-n", "1", "--seed", "seven"], ["--seed", "whole number", '"seven"']),
-    (["derive", "K7", "-n", "1", "--seed", "1.5"], ["whole number", '"1.5"']),
-    (["derive", "K7", "-n", "1", "--seed", "9" * 5000], ["whole number"]),
-    (["derive", "K7", "-n", "1", "--seed"], ["--seed"]),
-    (["derive", "P4", "-n", "1", "--arithmetic", "decimal"], ["exact", "float"]),
-    (["derive", "P4", "-n", "1", "--notation", "abob"], ['no notation called "abob"', "abop"]),
-    (["derive", "P44", "-n", "1"], ['no file "P44"', 'Did you mean "P4"?']),
-    (["derive", "pseudo-plants", "-n", "1"], ['no file "pseudo-plants"', 'Did you mean "pseudo-plant"?']),
-    (["derive", "zebra", "-n", "1"], ['no file "zebra"', "Catalogue ids are", "P4"]),
-    (["derive", ".", "-n", "1"], ["cannot be read"]),
-    (["derive", "a\0b", "-n", "1"], ["cannot be read"]),
-    (["derive", "x" * 5000, "-n", "1"], ["cannot be read"]),
-    (["derive", "\udc80\x1b[2J", "-n", "1"], ["no file"]),
-    (["draw", "K5", "-n", "2", "-o", "out.svg", "--angle", "wide"], ["wide"]),
-])
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ([], ["COMMAND"]),
+        (["grow"], ["grow", "derive"]),
+        (["derive"], ["SYSTEM", "-n"]),
+        (["derive", "P4"], ["-n"]),
+        (["derive", "P4", "-n", "two"], ["whole number", '"two"']),
+        (["derive", "P4", "-n", "-1"], ["whole number", '"-1"']),
+        (["derive", "P4", "-n", "1.5"], ["whole number"]),
+        (["derive", "P4", "-n", "9" * 5000], ["whole number"]),
+        (["derive", "P4", "-n", "1", "--set", "dt"], ["NAME=VALUE"]),
+        (["derive", "P4", "-n", "1", "--set", "dt=1"], ['no constant "dt"', "LEFT, RIGHT"]),
+        (["derive", "P5", "-n", "1", "--set", "dt=fast"], ["fast"]),
+        (["derive", "P5", "-n", "1", "--set", "dt=1/0"], ["zero"]),
+        (["derive", "J4", "-n", "1", "--set", "lifetimeA=2"], ['Did you mean "lifeTimeA"?']),
+        (["derive", "K7", "-n", "1", "--seed", "seven"], ["--seed", "whole number", '"seven"']),
+        (["derive", "K7", "-n", "1", "--seed", "1.5"], ["whole number", '"1.5"']),
+        (["derive", "K7", "-n", "1", "--seed", "9" * 5000], ["whole number"]),
+        (["derive", "K7", "-n", "1", "--seed"], ["--seed"]),
+        (["derive", "P4", "-n", "1", "--arithmetic", "decimal"], ["exact", "float"]),
+        (["derive", "P4", "-n", "1", "--notation", "abob"], ['no notation called "abob"', "abop"]),
+        (["derive", "P44", "-n", "1"], ['no file "P44"', 'Did you mean "P4"?']),
+        (["derive", "pseudo-plants", "-n", "1"], ['no file "pseudo-plants"', 'Did you mean "pseudo-plant"?']),
+        (["derive", "zebra", "-n", "1"], ['no file "zebra"', "Catalogue ids are", "P4"]),
+        (["derive", ".", "-n", "1"], ["cannot be read"]),
+        (["derive", "a\0b", "-n", "1"], ["cannot be read"]),
+        (["derive", "x" * 5000, "-n", "1"], ["cannot be read"]),
+        (["derive", "\udc80\x1b[2J", "-n", "1"], ["no file"]),
+        (["draw", "K5", "-n", "2", "-o", "out.svg", "--angle", "wide"], ["wide"]),
+    ],
+)
 def test_a_mistake_on_the_command_line_is_one_message(shell, arguments, words):
     said = shell(*arguments)
     refused(said, *words)
     assert "\x1b" not in said.err
 
 
-@pytest.mark.parametrize(("text", "words"), [
-    ("axiom: A\nA -> B(t)\n", ["(line 2, column 8)", "^"]),
-    ("axiom: A\nA -> [B\n", ["(line 2", "^"]),
-    ("axiom: A\nA B\n", ["(line 2", "arrow", "^"]),
-    ("axiom: A\nA ->\n", ["(line 2", 'write "ε"', "^"]),
-    ("axiom: A(1)\nA(t) : t + 1 -> A(t)\n", ["(line 2, column 8)", "true or false", "^"]),
-    ("", ["axiom"]),
-])
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("axiom: A\nA -> B(t)\n", ["(line 2, column 8)", "^"]),
+        ("axiom: A\nA -> [B\n", ["(line 2", "^"]),
+        ("axiom: A\nA B\n", ["(line 2", "arrow", "^"]),
+        ("axiom: A\nA ->\n", ["(line 2", 'write "ε"', "^"]),
+        ("axiom: A(1)\nA(t) : t + 1 -> A(t)\n", ["(line 2, column 8)", "true or false", "^"]),
+        ("", ["axiom"]),
+    ],
+)
 def test_a_mistake_in_a_model_is_shown_with_its_place(shell, model, text, words):
     refused(shell("derive", model(text), "-n", "1"), *words)
 
@@ -519,10 +547,16 @@ def test_a_file_that_is_not_text_is_refused(shell, model):
 
 
 def test_what_another_program_wrote_is_called_so_and_the_name_of_a_file_is_a_hint(shell, model):
-    refused(shell("derive", model("#lang lindenmayer racket\n## axiom ##\nF\n", "plant.txt"), "-n", "1"),
-            "This is a model in Racket's language lindenmayer, which the kit does not read (line 1, column 1).", '"axiom:"')
-    refused(shell("derive", model("A = B\n", "tree.lpy"), "-n", "1"), "line 1",
-            'The name ends in ".lpy": perhaps the file is a model of L-Py, which the kit does not read.')
+    refused(
+        shell("derive", model("#lang lindenmayer racket\n## axiom ##\nF\n", "plant.txt"), "-n", "1"),
+        "This is a model in Racket's language lindenmayer, which the kit does not read (line 1, column 1).",
+        '"axiom:"',
+    )
+    refused(
+        shell("derive", model("A = B\n", "tree.lpy"), "-n", "1"),
+        "line 1",
+        'The name ends in ".lpy": perhaps the file is a model of L-Py, which the kit does not read.',
+    )
     assert shell("derive", model("axiom: A\nA -> A B\n", "fine.lpy"), "-n", "1").out == "A\nA B\n"
     said = shell("derive", model("import turtle\n", "tree.py"), "-n", "1").err
     assert said.count("which the kit does not read") == 1
@@ -550,10 +584,12 @@ def test_a_message_of_a_model_is_no_traceback_in_a_real_process(model):
 
 # --- the process ------------------------------------------------------------------------------------------------------
 
+
 @pytest.mark.slow
 def test_a_reader_that_goes_away_is_no_fault():
-    derive = subprocess.Popen([sys.executable, "-m", "lsys_kit", "derive", "K5", "-n", "8"],
-                              stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    derive = subprocess.Popen(
+        [sys.executable, "-m", "lsys_kit", "derive", "K5", "-n", "8"], stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    )
     assert derive.stdout is not None
     assert derive.stderr is not None
     assert derive.stdout.readline() == b"F\n"
@@ -583,8 +619,13 @@ def test_the_shell_starts_without_what_it_does_not_need():
 
 def loaded_by(code: str) -> set[str]:
     """The modules that some code loads in a new process."""
-    done = subprocess.run([sys.executable, "-c", f"{code}\nimport sys; print(*sys.modules)"], capture_output=True, text=True,
-                          timeout=300, check=True)
+    done = subprocess.run(
+        [sys.executable, "-c", f"{code}\nimport sys; print(*sys.modules)"],
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=True,
+    )
     return set(done.stdout.splitlines()[-1].split())
 
 
@@ -616,6 +657,7 @@ def test_the_lab_without_jupyterlab_says_how_to_get_it(shell, monkeypatch, tmp_p
 
 # --- the site ---------------------------------------------------------------------------------------------------------
 
+
 def test_a_site_is_not_written_over_what_is_not_the_kits(shell, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)  # a message names no long path in full
     (tmp_path / "index.html").write_text("mine")
@@ -628,34 +670,48 @@ def test_a_site_is_not_written_over_what_is_not_the_kits(shell, tmp_path, monkey
 
 # --- hard limits ------------------------------------------------------------------------------------------------------
 
+
 def left_alone(doing: str, **limits: float) -> subprocess.CompletedProcess[str]:
     """The command `list` as a process of its own, where it does something that looks at no budget."""
-    code = (f"import sys\nfrom lsys_kit import __main__ as shell, limits\ndef endless(_):\n    {doing}\n"
-            f"shell.models.list_systems = endless\nsys.argv = ['lsys-kit', 'list']\n"
-            f"with limits(**{limits}):\n    sys.exit(shell.run())")
+    code = (
+        f"import sys\nfrom lsys_kit import __main__ as shell, limits\ndef endless(_):\n    {doing}\n"
+        f"shell.models.list_systems = endless\nsys.argv = ['lsys-kit', 'list']\n"
+        f"with limits(**{limits}):\n    sys.exit(shell.run())"
+    )
     return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=300, check=False)
 
 
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="a process is limited as on Linux")
-@pytest.mark.parametrize(("doing", "limits", "said"), [
-    ("while True: pass", {"seconds": 0.1}, "The command was not finished in 1 seconds. Take fewer steps."),
-    ("bytearray(2**30)", {"bytes": 2**26}, "The command needs more memory than there is for it. Take fewer steps."),
-])
+@pytest.mark.parametrize(
+    ("doing", "limits", "said"),
+    [
+        ("while True: pass", {"seconds": 0.1}, "The command was not finished in 1 seconds. Take fewer steps."),
+        ("bytearray(2**30)", {"bytes": 2**26}, "The command needs more memory than there is for it. Take fewer steps."),
+    ],
+)
 def test_a_command_that_no_budget_stops_ends_with_a_sentence(doing, limits, said):
     done = left_alone(doing, **limits)
     assert (done.returncode, done.stdout, done.stderr) == (BAD_INPUT, "", f"lsys-kit: {said}\n")
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="a process is limited as on Linux")
-@pytest.mark.parametrize(("command", "limited"), [
-    ("draw", (True, True)), ("derive", (True, True)), ("site", (True, False)), ("collect", (True, False)),
-    ("lab", (False, False)),
-])
+@pytest.mark.parametrize(
+    ("command", "limited"),
+    [
+        ("draw", (True, True)),
+        ("derive", (True, True)),
+        ("site", (True, False)),
+        ("collect", (True, False)),
+        ("lab", (False, False)),
+    ],
+)
 def test_each_command_has_the_limits_of_its_kind(command, limited):
-    code = ("import resource as r\nfrom lsys_kit.commands.hard_limits import set_hard_limits\n"
-            f"set_hard_limits({command!r})\n"
-            "print(*(r.getrlimit(kind)[0] != r.RLIM_INFINITY for kind in (r.RLIMIT_DATA, r.RLIMIT_CPU)))")
+    code = (
+        "import resource as r\nfrom lsys_kit.commands.hard_limits import set_hard_limits\n"
+        f"set_hard_limits({command!r})\n"
+        "print(*(r.getrlimit(kind)[0] != r.RLIM_INFINITY for kind in (r.RLIMIT_DATA, r.RLIMIT_CPU)))"
+    )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=300, check=True)
     assert done.stdout.split() == [str(each) for each in limited]
 

@@ -20,7 +20,7 @@ RECORD = re.compile(r"\b[A-Z]\w*\([a-z_]+=|\bobject at 0x")
 def given_by(name: str) -> Iterator[Any]:
     """What a public function gives, and what that consists of."""
     function = getattr(lsys_kit, name.split()[0])
-    given = function(*FITTING[name]()[:1 if name in ("read", "limits") else None]) if name != "read_map" else read_map()
+    given = function(*FITTING[name]()[: 1 if name in ("read", "limits") else None]) if name != "read_map" else read_map()
     yield given
     if isinstance(given, tuple | lsys_kit.derivation.derive.Derivation):
         yield from given

@@ -30,14 +30,26 @@ def clocks_read(tree: ast.AST) -> list[int]:
     """The lines at which a program reads a clock on the wall, or waits."""
     imports = [node for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.module == "time"]
     imported = {alias.asname or alias.name for node in imports for alias in node.names if alias.name in WALL_CLOCKS}
-    return [node.lineno for node in ast.walk(tree) if isinstance(node, ast.Call)
-            and ((isinstance(node.func, ast.Name) and node.func.id in imported)
-                 or (isinstance(node.func, ast.Attribute) and node.func.attr in WALL_CLOCKS
-                     and ast.unparse(node.func.value) in ("time", "datetime", "datetime.datetime", "asyncio")))]
+    return [
+        node.lineno
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Call)
+        and (
+            (isinstance(node.func, ast.Name) and node.func.id in imported)
+            or (
+                isinstance(node.func, ast.Attribute)
+                and node.func.attr in WALL_CLOCKS
+                and ast.unparse(node.func.value) in ("time", "datetime", "datetime.datetime", "asyncio")
+            )
+        )
+    ]
 
 
-@pytest.mark.parametrize("path", [path for path in sorted((ROOT / "tests").rglob("test_*.py"))
-                                  if path.parent.name not in WAITING], ids=lambda path: str(path.relative_to(ROOT / "tests")))
+@pytest.mark.parametrize(
+    "path",
+    [path for path in sorted((ROOT / "tests").rglob("test_*.py")) if path.parent.name not in WAITING],
+    ids=lambda path: str(path.relative_to(ROOT / "tests")),
+)
 def test_no_test_looks_at_the_clock_on_the_wall(path: Path) -> None:
     assert clocks_read(ast.parse(path.read_text(encoding="utf-8"))) == []
 
@@ -54,10 +66,18 @@ FILLED_IN = {"Chance", "Definitions", "Draft", "Effort", "_Shares"}
 @pytest.mark.slow
 def test_records_are_frozen() -> None:
     files = [path for room in ("notation", "derivation") for path in sorted((ROOT / "lsys_kit" / room).rglob("*.py"))]
-    classes = [node for path in files for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
-               if isinstance(node, ast.ClassDef)]
-    records = {node.name: ast.unparse(made) for node in classes for made in node.decorator_list
-               if ast.unparse(made).startswith("dataclass")}
+    classes = [
+        node
+        for path in files
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.ClassDef)
+    ]
+    records = {
+        node.name: ast.unparse(made)
+        for node in classes
+        for made in node.decorator_list
+        if ast.unparse(made).startswith("dataclass")
+    }
     assert {name for name, made in records.items() if "frozen=True" not in made} == FILLED_IN
     assert len(records) > 70
 

@@ -14,11 +14,39 @@ from lsys_kit.errors import LSystemError
 from lsys_kit.notation.read import read, read_expression, read_number, read_word
 
 PACKAGE = Path(lsys_kit.__file__).parent
-RUN_CODE = frozenset((
-    "eval", "exec", "compile", "__import__", "literal_eval", "sympify", "S", "parse_expr", "parse_latex", "parse_mathematica",
-    "lambdify", "lambdastr", "autowrap", "ufuncify", "pickle", "allow_pickle", "read_pickle", "marshal", "shelve", "dill",
-    "cloudpickle", "joblib", "runpy", "code", "codeop", "os.system", "os.popen", "subprocess", "yaml",
-))
+RUN_CODE = frozenset(
+    (
+        "eval",
+        "exec",
+        "compile",
+        "__import__",
+        "literal_eval",
+        "sympify",
+        "S",
+        "parse_expr",
+        "parse_latex",
+        "parse_mathematica",
+        "lambdify",
+        "lambdastr",
+        "autowrap",
+        "ufuncify",
+        "pickle",
+        "allow_pickle",
+        "read_pickle",
+        "marshal",
+        "shelve",
+        "dill",
+        "cloudpickle",
+        "joblib",
+        "runpy",
+        "code",
+        "codeop",
+        "os.system",
+        "os.popen",
+        "subprocess",
+        "yaml",
+    )
+)
 """Functions that run a text, and modules made for that; `re.compile` is another thing."""
 HARMLESS = frozenset(("re.compile",))
 
@@ -45,11 +73,22 @@ def test_no_file_of_the_package_runs_text(path: Path) -> None:
     assert found == []
 
 
-@pytest.mark.parametrize("line", [
-    "eval('1')", "sympy.sympify(text)", "from sympy import lambdify", "import pickle", "x = compile(a, b, c)",
-    "sp.parse_expr(s)",
-    "np.load(f, allow_pickle=True)", "from pickle import loads", "__import__('os')", "os.popen('ls')", "f(x).exec(y)",
-])
+@pytest.mark.parametrize(
+    "line",
+    [
+        "eval('1')",
+        "sympy.sympify(text)",
+        "from sympy import lambdify",
+        "import pickle",
+        "x = compile(a, b, c)",
+        "sp.parse_expr(s)",
+        "np.load(f, allow_pickle=True)",
+        "from pickle import loads",
+        "__import__('os')",
+        "os.popen('ls')",
+        "f(x).exec(y)",
+    ],
+)
 def test_the_scan_sees(line: str) -> None:
     assert {name for name, _ in names_used(ast.parse(line))} & RUN_CODE
 
@@ -59,14 +98,38 @@ def test_the_scan_knows_what_is_harmless() -> None:
 
 
 HOSTILE = [
-    "__import__('os').system('touch {0}')", "().__class__.__base__.__subclasses__()", "open('{0}','w')",
+    "__import__('os').system('touch {0}')",
+    "().__class__.__base__.__subclasses__()",
+    "open('{0}','w')",
     "exec(\"open('{0}','w')\")",
-    "eval('1')", "lambda: 0", "[x for x in (1,)]", "f'{{1}}'", "`touch {0}`", "$(touch {0})", "os.system('x')",
+    "eval('1')",
+    "lambda: 0",
+    "[x for x in (1,)]",
+    "f'{{1}}'",
+    "`touch {0}`",
+    "$(touch {0})",
+    "os.system('x')",
     "getattr(1,'real')",
-    "__class__", "t.__class__", "t.real", "Symbol('x')", "S('__import__')", "Function('f')(1)", "sqrt.__globals__",
-    "{{'a': 1}}", "@x",
-    "1; import os", "1 if True else 2", "not None", "True", "None", "print(1)", "globals()", "breakpoint()", "exit()",
-    "\\x41", "a := 1",
+    "__class__",
+    "t.__class__",
+    "t.real",
+    "Symbol('x')",
+    "S('__import__')",
+    "Function('f')(1)",
+    "sqrt.__globals__",
+    "{{'a': 1}}",
+    "@x",
+    "1; import os",
+    "1 if True else 2",
+    "not None",
+    "True",
+    "None",
+    "print(1)",
+    "globals()",
+    "breakpoint()",
+    "exit()",
+    "\\x41",
+    "a := 1",
 ]
 
 
@@ -76,7 +139,9 @@ def test_hostile_text_is_text(text: str, tmp_path: Path) -> None:
     target = tmp_path / "made"
     text = text.format(target)
     for attempt in (
-        lambda: read_expression(text), lambda: read_number(text), lambda: read_word(text),
+        lambda: read_expression(text),
+        lambda: read_number(text),
+        lambda: read_word(text),
         lambda: str(derive(read(f"axiom: A(1)\nA(t) -> A({text})"), 2)[-1]),
         lambda: str(derive(read(f"axiom: A(1)\nA(t) : {text} -> B"), 2)[-1]),
         lambda: str(derive(read(f"c = {text}\naxiom: A(c)"), 2)[-1]),

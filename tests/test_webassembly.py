@@ -14,9 +14,31 @@ import pytest
 from tests.webassembly import answers
 
 KIT = Path(__file__).resolve().parents[1]
-PACKAGES = ("anywidget", "asttokens", "comm", "executing", "fonttools", "ipython", "ipywidgets", "jedi", "lark",
-            "matplotlib-inline", "mpmath", "networkx", "parso", "prompt-toolkit", "psygnal", "pure-eval", "pygments",
-            "stack-data", "sympy", "tqdm", "traitlets", "typing-extensions", "wcwidth")
+PACKAGES = (
+    "anywidget",
+    "asttokens",
+    "comm",
+    "executing",
+    "fonttools",
+    "ipython",
+    "ipywidgets",
+    "jedi",
+    "lark",
+    "matplotlib-inline",
+    "mpmath",
+    "networkx",
+    "parso",
+    "prompt-toolkit",
+    "psygnal",
+    "pure-eval",
+    "pygments",
+    "stack-data",
+    "sympy",
+    "tqdm",
+    "traitlets",
+    "typing-extensions",
+    "wcwidth",
+)
 """What the kit needs that is Python alone; the others are in the interpreter."""
 
 
@@ -31,8 +53,13 @@ def test_a_python_of_web_assembly_answers_as_this_one(tmp_path: Path) -> None:
                 (tmp_path / file).parent.mkdir(parents=True, exist_ok=True)
                 shutil.copy(file.locate(), tmp_path / file)
     granted = ["--grant", f"/site={tmp_path}", "--import-path", "/site", "--grant", f"/kit={KIT}", "--import-path", "/kit"]
-    run = subprocess.run([program, "run", "--private-root", "--deadline-s", "240", *granted, "--", "/kit/tests/webassembly.py"],
-                         capture_output=True, text=True, timeout=300, check=False)
+    run = subprocess.run(
+        [program, "run", "--private-root", "--deadline-s", "240", *granted, "--", "/kit/tests/webassembly.py"],
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=False,
+    )
     told = json.loads(run.stdout)
     assert told["exit_code"] == 0, told["stderr"]
     assert json.loads(told["stdout"]) == answers()

@@ -31,8 +31,12 @@ from lsys_kit.notation.read import read
 
 SYSTEMS, BOOK, MAPS, CELLWORKS = "systems", "book", "maps", "cellworks"
 """The folders."""
-_KINDS = {SYSTEMS: ("an L-system", "system"), BOOK: ("an L-system", "system"), MAPS: ("a map system", "map_system"),
-          CELLWORKS: ("a cellwork system", "cellwork_system")}
+_KINDS = {
+    SYSTEMS: ("an L-system", "system"),
+    BOOK: ("an L-system", "system"),
+    MAPS: ("a map system", "map_system"),
+    CELLWORKS: ("a cellwork system", "cellwork_system"),
+}
 """What each folder holds, and the function that returns it."""
 MOST_LISTED = 40
 """A message names so many systems at most."""
@@ -46,10 +50,14 @@ class Catalogue(tuple[str, ...]):
 
     def __repr__(self) -> str:
         entries = [entry(id) for id in self]
-        width, wide = (max((len(text) for text in texts), default=0) for texts in
-                       ((e.id for e in entries), (e.name for e in entries)))
-        return "\n".join(line for work, group in groupby(entries, lambda e: e.work) for line in
-                         (WORKS[work], *(f"  {e.id:<{width}}  {e.name:<{wide}}  {e.title}" for e in group)))
+        width, wide = (
+            max((len(text) for text in texts), default=0) for texts in ((e.id for e in entries), (e.name for e in entries))
+        )
+        return "\n".join(
+            line
+            for work, group in groupby(entries, lambda e: e.work)
+            for line in (WORKS[work], *(f"  {e.id:<{width}}  {e.name:<{wide}}  {e.title}" for e in group))
+        )
 
 
 def system(id: str) -> LSystem:
@@ -194,8 +202,9 @@ def _known(id: str, *folders: str) -> str:
     for other, (kind, function) in _KINDS.items():
         elsewhere = _id_of(id, other)
         if elsewhere is not None:
-            raise ModelValueError(f"{elsewhere} is {kind}, not {_KINDS[folders[0]][0]}",
-                                  hint=f'It is returned by {function}("{elsewhere}").')
+            raise ModelValueError(
+                f"{elsewhere} is {kind}, not {_KINDS[folders[0]][0]}", hint=f'It is returned by {function}("{elsewhere}").'
+            )
     shown = id if len(id) <= 30 else f"{id[:30]}..."
     hint = _suggestion(id, folders) or _listed(sorted(_ids(folders[0]).values(), key=_natural))
     raise ModelNameError(f'The catalogue has no system "{shown}"', hint=hint)

@@ -6,14 +6,16 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
 
-WORKS = MappingProxyType({
-    "Jacob": "C. Jacob, Modeling Growth with L-Systems & Mathematica",
-    "textbook": "Lindenmayer Systems (textbook)",
-    "Prusinkiewicz": "P. Prusinkiewicz, Introduction to Modeling with L-systems",
-    "Kurth": "W. Kurth, L-Systeme (lecture slides)",
-    "applet lesson": "Lesson 2 - String Rewriting (lesson of a plant applet)",
-    "ABOP": "P. Prusinkiewicz and A. Lindenmayer, The Algorithmic Beauty of Plants",
-})
+WORKS = MappingProxyType(
+    {
+        "Jacob": "C. Jacob, Modeling Growth with L-Systems & Mathematica",
+        "textbook": "Lindenmayer Systems (textbook)",
+        "Prusinkiewicz": "P. Prusinkiewicz, Introduction to Modeling with L-systems",
+        "Kurth": "W. Kurth, L-Systeme (lecture slides)",
+        "applet lesson": "Lesson 2 - String Rewriting (lesson of a plant applet)",
+        "ABOP": "P. Prusinkiewicz and A. Lindenmayer, The Algorithmic Beauty of Plants",
+    }
+)
 """The works from which the systems come, in the order in which the catalogue lists them."""
 
 

@@ -33,8 +33,7 @@ PATIENCE = 6
 """So many times the seconds of processor time a child may take by the clock on the wall, on a machine that is busy."""
 TOO_LONG, TOO_MUCH, CRASHED = "It takes too long", "It takes too much memory", "It ends the process that reads it"
 _FORKED = sys.platform not in ("win32", "darwin")  # on macOS forked processes may crash in libraries of the system
-_CONTEXT: ForkContext | SpawnContext = \
-    multiprocessing.get_context("fork") if _FORKED else multiprocessing.get_context("spawn")
+_CONTEXT: ForkContext | SpawnContext = multiprocessing.get_context("fork") if _FORKED else multiprocessing.get_context("spawn")
 _RUN = 1 if _FORKED else 25
 """So many pieces a child has at least, where there are more: one that begins with nothing must load everything first."""
 
@@ -57,8 +56,9 @@ class _Child:
     deadline: float = field(default=0.0)
 
 
-def in_child_processes(work: Callable[[_P], Any], pieces: Sequence[_P], seconds: int, label: str = "",
-                       together: int = 1) -> list[Any]:
+def in_child_processes(
+    work: Callable[[_P], Any], pieces: Sequence[_P], seconds: int, label: str = "", together: int = 1
+) -> list[Any]:
     """What comes of each piece: what `work` returns, as JSON keeps it, or why it `Failed`.
 
     Parameters
@@ -115,8 +115,9 @@ def _taken(waiting: deque[int], many: int) -> deque[int]:
     return deque(waiting.popleft() for _ in range(min(many, len(waiting))))
 
 
-def _start(work: Callable[[_P], Any], pieces: Sequence[_P], numbers: deque[int], seconds: int,
-           at_work: dict[Connection, _Child]) -> None:
+def _start(
+    work: Callable[[_P], Any], pieces: Sequence[_P], numbers: deque[int], seconds: int, at_work: dict[Connection, _Child]
+) -> None:
     ours, theirs = _CONTEXT.Pipe(duplex=False)
     own = [pieces[number] for number in numbers]
     process = _CONTEXT.Process(target=_work_on, args=(work, own, seconds, theirs), daemon=True)

@@ -59,11 +59,16 @@ def course_files(source: Path | None = None) -> dict[str, Path]:
     True
     """
     source = source or _home()
-    found = {f"{part}/{path.name}": path for part in COURSE_PARTS for path in sorted((source / part).glob("*"))
-             if _FILE_NAME.fullmatch(path.name) and path.is_file() and not path.is_symlink()}
+    found = {
+        f"{part}/{path.name}": path
+        for part in COURSE_PARTS
+        for path in sorted((source / part).glob("*"))
+        if _FILE_NAME.fullmatch(path.name) and path.is_file() and not path.is_symlink()
+    }
     if not found:
-        raise ModelFileError(f"The course is missing from the installation of the kit, {source}",
-                             hint="Install lsys-kit again.")
+        raise ModelFileError(
+            f"The course is missing from the installation of the kit, {source}", hint="Install lsys-kit again."
+        )
     return found
 
 
@@ -110,8 +115,10 @@ def copy_course(folder: str | Path = FOLDER, source: Path | None = None) -> tupl
         copied = tuple(_copied(folder, name, _content(name, path), manifest) for name, path in files.items())
         replace_file(folder / MANIFEST, json.dumps({"files": manifest}, indent=1, sort_keys=True).encode())
     except OSError as fault:
-        raise ModelFileError(f"The course cannot be copied to {folder}: {fault.strerror or fault}",
-                             hint="Choose another folder: lsys-kit lab FOLDER.") from None
+        raise ModelFileError(
+            f"The course cannot be copied to {folder}: {fault.strerror or fault}",
+            hint="Choose another folder: lsys-kit lab FOLDER.",
+        ) from None
     return copied
 
 

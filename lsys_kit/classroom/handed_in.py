@@ -122,8 +122,11 @@ def _files(folder: Path, depth: int = DEPTH) -> Iterator[os.DirEntry[str]]:
 def _entries(folder: Path) -> list[os.DirEntry[str]]:
     """What stands in a folder, numbers in names in their order."""
     with os.scandir(folder) as entries:
-        seen = [entry for entry in islice(entries, MOST_FILES + 1)
-                if not entry.name.startswith(".") and entry.name not in _PASSED_OVER]
+        seen = [
+            entry
+            for entry in islice(entries, MOST_FILES + 1)
+            if not entry.name.startswith(".") and entry.name not in _PASSED_OVER
+        ]
     return sorted(seen, key=lambda entry: _in_order(entry.name))
 
 
@@ -133,8 +136,10 @@ def _in_order(name: str) -> list[tuple[int, str]]:
     >>> sorted(["b", "a10", "a9"], key=_in_order)
     ['a9', 'a10', 'b']
     """
-    return [(int(part) if part.isascii() and part.isdigit() and len(part) < 20 else -1, part.casefold())
-            for part in re.split(r"([0-9]+)", name)]
+    return [
+        (int(part) if part.isascii() and part.isdigit() and len(part) < 20 else -1, part.casefold())
+        for part in re.split(r"([0-9]+)", name)
+    ]
 
 
 def _ends(name: str, ending: str) -> bool:

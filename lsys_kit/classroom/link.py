@@ -51,8 +51,13 @@ class Linked:
         return explore(self.system, **self.settings)._repr_mimebundle_(**options)
 
 
-def link(system: LSystem | MapSystem | CellworkSystem, settings: Mapping[str, object] | None = None, base: str = "", *,
-         step: int | None = None) -> str:
+def link(
+    system: LSystem | MapSystem | CellworkSystem,
+    settings: Mapping[str, object] | None = None,
+    base: str = "",
+    *,
+    step: int | None = None,
+) -> str:
     """An address with a model in it, which `read` reads; nothing of it is kept anywhere else.
 
     Parameters
@@ -92,8 +97,9 @@ def link(system: LSystem | MapSystem | CellworkSystem, settings: Mapping[str, ob
     notation, text = (system.notation, write(system)) if isinstance(system, LSystem) else _cells_text(system)
     address = base.partition("#")[0] + packed(LinkContent(notation, given, text))
     if not base.isprintable() or not is_link(address):
-        raise ModelValueError("The address of a page has no blanks in it, and all of it is visible",
-                              hint='A blank is written "%20" there.')
+        raise ModelValueError(
+            "The address of a page has no blanks in it, and all of it is visible", hint='A blank is written "%20" there.'
+        )
     return address
 
 
@@ -118,11 +124,14 @@ Links are made by link(system).
     """
     require(link, str, "The text of a link")
     if not is_link(link):
-        raise ModelSyntaxError('This text is no link: it has no model behind "#lsys="', link, 0, len(link),
-                               "Links are made by link(system).")
+        raise ModelSyntaxError(
+            'This text is no link: it has no model behind "#lsys="', link, 0, len(link), "Links are made by link(system)."
+        )
     content = unpacked(link)
     readers: dict[str, Callable[[str], LSystem | MapSystem | CellworkSystem]] = {
-        MAP.name: read_map, CELLWORK.name: read_cellwork}
+        MAP.name: read_map,
+        CELLWORK.name: read_cellwork,
+    }
     system = readers.get(content.notation, read)(link)
     return Linked(system, MappingProxyType(_values(system, content.settings)))
 

@@ -72,8 +72,13 @@ def _name_and_notation(head: str, shell: Any) -> tuple[str, str]:
     """The name and the notation in the first line of a cell; empty where they are not given."""
     words = [(match.group(), match.span()) for match in re.finditer(r"\S+", head)][1:]
     if len(words) > 2:
-        raise ModelSyntaxError("Only a name and a notation may follow %%lsystem", head, words[2][1][0], words[-1][1][1],
-                               'Write "%%lsystem NAME" or "%%lsystem NAME NOTATION".')
+        raise ModelSyntaxError(
+            "Only a name and a notation may follow %%lsystem",
+            head,
+            words[2][1][0],
+            words[-1][1][1],
+            'Write "%%lsystem NAME" or "%%lsystem NAME NOTATION".',
+        )
     for word, at in words[:1]:
         wrong = _unfit(word, shell)
         if wrong:
@@ -107,10 +112,16 @@ def _unfit(name: str, shell: Any) -> tuple[str, str] | None:
 def _shadowed(name: str, shell: Any) -> list[str]:
     """A note where the name meant something else before."""
     if name in shell.user_ns:
-        return [] if isinstance(shell.user_ns[name], LSystem) else [
-            f'"{name}" meant something else in this notebook. From now on it means this system.']
-    return [f'"{name}" is also a name of Python\'s. From now on it means this system in this notebook.'] \
-        if hasattr(builtins, name) else []
+        return (
+            []
+            if isinstance(shell.user_ns[name], LSystem)
+            else [f'"{name}" meant something else in this notebook. From now on it means this system.']
+        )
+    return (
+        [f'"{name}" is also a name of Python\'s. From now on it means this system in this notebook.']
+        if hasattr(builtins, name)
+        else []
+    )
 
 
 def _standing(name: str, shell: Any) -> str:
@@ -148,10 +159,14 @@ def underlined(mistake: LSystemError, text: str, after: str = "") -> dict[str, s
         ^
     """
     said = str(mistake).partition("\n")[0]
-    html = (f'<span aria-hidden="true">&#9888;</span> <b>Not readable yet.</b> {escaped(said)}'
-            f"{_quoted_lines(mistake, text)}{escaped(after)}")
-    return {"text/html": boxed("lsys-mistake", "alert", VERMILION, html),
-            "text/plain": f"Not readable yet. {mistake}" + (f"\n{after}" if after else "")}
+    html = (
+        f'<span aria-hidden="true">&#9888;</span> <b>Not readable yet.</b> {escaped(said)}'
+        f"{_quoted_lines(mistake, text)}{escaped(after)}"
+    )
+    return {
+        "text/html": boxed("lsys-mistake", "alert", VERMILION, html),
+        "text/plain": f"Not readable yet. {mistake}" + (f"\n{after}" if after else ""),
+    }
 
 
 def _quoted_lines(mistake: LSystemError, text: str) -> str:
@@ -161,9 +176,11 @@ def _quoted_lines(mistake: LSystemError, text: str) -> str:
     lines = text.split("\n")
     first, last = max(0, mistake.line - 1 - AROUND), min(len(lines), mistake.line + AROUND)
     digits = len(str(last))
-    quoted = (f'<span style="color:{QUIET};user-select:none">{number + 1:>{digits}}  </span>'
-              + (_underlined_line(lines[number], mistake) if number + 1 == mistake.line else escaped(lines[number][:WIDTH]))
-              for number in range(first, last))
+    quoted = (
+        f'<span style="color:{QUIET};user-select:none">{number + 1:>{digits}}  </span>'
+        + (_underlined_line(lines[number], mistake) if number + 1 == mistake.line else escaped(lines[number][:WIDTH]))
+        for number in range(first, last)
+    )
     return f'<pre style="margin:6px 0;color:{INK};background:{PAPER};overflow-x:auto">' + "\n".join(quoted) + "</pre>"
 
 
@@ -174,5 +191,8 @@ def _underlined_line(line: str, mistake: LSystemError) -> str:
     start, end = mistake.column - 1, min(mistake.end - 1, mistake.column - 1 + WIDTH)
     first = max(0, start - WIDTH // 2)
     look = f"background:{MARK};font-weight:bold;text-decoration:underline wavy {VERMILION} 2px;text-underline-offset:3px"
-    return (escaped(line[first:start]) + f'<u style="{look}">{escaped(line[start:end]) or "&nbsp;"}</u>'
-            + escaped(line[end:first + 2 * WIDTH]))
+    return (
+        escaped(line[first:start])
+        + f'<u style="{look}">{escaped(line[start:end]) or "&nbsp;"}</u>'
+        + escaped(line[end : first + 2 * WIDTH])
+    )

@@ -32,11 +32,24 @@ MOST_DERIVED = 10_000
 MOST_RULES, MOST_MODULES = 60, 200
 """How many rules of a section, and how many modules of a word, are typeset."""
 _MATHEMATICAL_SIGNS: Mapping[str, str] = {
-    "<=": "≤", ">=": "≥", "!=": "≠", "==": "=", "&&": "∧", "||": "∨", "!": "¬", "*": "·", "-": "−", "-x": "−"}
+    "<=": "≤",
+    ">=": "≥",
+    "!=": "≠",
+    "==": "=",
+    "&&": "∧",
+    "||": "∨",
+    "!": "¬",
+    "*": "·",
+    "-": "−",
+    "-x": "−",
+}
 """Operators as mathematics writes them."""
-_RULE_SECTIONS = (("productions", "p", "productions"), ("meta", "m", "what shortens a word (meta-rules)"),
-             ("decomposition", "d", "what a module consists of (decomposition)"),
-             ("interpretation", "i", "what a module is drawn as (interpretation)"))
+_RULE_SECTIONS = (
+    ("productions", "p", "productions"),
+    ("meta", "m", "what shortens a word (meta-rules)"),
+    ("decomposition", "d", "what a module consists of (decomposition)"),
+    ("interpretation", "i", "what a module is drawn as (interpretation)"),
+)
 """For each section of rules its field, its letter and its heading."""
 _QUIET = f'style="color:{QUIET}"'
 _ASIDE = f"color:{QUIET};font:14px sans-serif"
@@ -114,12 +127,16 @@ def _box(system: LSystem, name: str, notes: Iterable[str], words: Iterable[Word]
     called = f"<b>{escaped(name)}</b>" if name else "This"
     set_so = " &nbsp;·&nbsp; ".join(map(escaped, settings(system, dialect_named(system.notation).turtle)))
     steps = "".join(_table_row((f"<span {_QUIET}>{step}</span>", word_html(word))) for step, word in enumerate(words))
-    return boxed("lsys-system", "group", BLUE,
-                 f"<div>{called} is an L-system in the notation {escaped(system.notation)}.</div>"
-                 + "".join(f"<div>{escaped(note)}</div>" for note in notes)
-                 + _table(_rule_rows(system), "font-family:Georgia,serif;font-size:16px;line-height:1.5")
-                 + (f"<div {_QUIET}>{set_so}</div>" if set_so else "")
-                 + f"<div {_QUIET}>first words</div>{_table([steps])}")
+    return boxed(
+        "lsys-system",
+        "group",
+        BLUE,
+        f"<div>{called} is an L-system in the notation {escaped(system.notation)}.</div>"
+        + "".join(f"<div>{escaped(note)}</div>" for note in notes)
+        + _table(_rule_rows(system), "font-family:Georgia,serif;font-size:16px;line-height:1.5")
+        + (f"<div {_QUIET}>{set_so}</div>" if set_so else "")
+        + f"<div {_QUIET}>first words</div>{_table([steps])}",
+    )
 
 
 def boxed(name: str, role: str, colour: str, content: str) -> str:
@@ -128,8 +145,10 @@ def boxed(name: str, role: str, colour: str, content: str) -> str:
     >>> "mathjax_ignore" in boxed("lsys-system", "group", BLUE, "$A$")
     True
     """
-    return (f'<div class="{name} {PLAIN_TEXT}" role="{role}" style="border-left:6px solid {colour};background:{PAPER};'
-            f'color:{INK};padding:6px 12px;font:14px/1.5 sans-serif;overflow-x:auto">{content}</div>')
+    return (
+        f'<div class="{name} {PLAIN_TEXT}" role="{role}" style="border-left:6px solid {colour};background:{PAPER};'
+        f'color:{INK};padding:6px 12px;font:14px/1.5 sans-serif;overflow-x:auto">{content}</div>'
+    )
 
 
 def _table(rows: Iterable[str], look: str = "") -> str:
@@ -185,8 +204,10 @@ def _arrow_html(rule: Production | MetaRule, system: LSystem) -> str:
     """The arrow, with the probability over it."""
     if isinstance(rule, MetaRule) or rule.probability is None:
         return "⟶"
-    return ('<span style="display:inline-block;text-align:center;line-height:1"><span style="font-size:75%">'
-            f"{formula(rule.probability, system)}</span><br>⟶</span>")
+    return (
+        '<span style="display:inline-block;text-align:center;line-height:1"><span style="font-size:75%">'
+        f"{formula(rule.probability, system)}</span><br>⟶</span>"
+    )
 
 
 def _word(items: tuple[Item, ...], system: LSystem) -> str:
@@ -219,6 +240,7 @@ def formula(expression: Expression, system: LSystem) -> str:
     >>> formula(read_expression("2*(x+1)^n >= -y"), read("axiom: A"))
     '2 · (<i>x</i> + 1)<sup><i>n</i></sup> ≥ −<i>y</i>'
     """
+
     def part(operand: Expression, tightly: int) -> str:
         return f"({formula(operand, system)})" if _binding(operand) < tightly else formula(operand, system)
 

@@ -161,7 +161,7 @@ def _other_way(items: Successor, chance: Chance) -> Successor | None:
     place = _one_of(chance, turns)
     turn = items[place]
     assert isinstance(turn, Pattern)
-    return (*items[:place], replace(turn, symbol=_OTHER_WAY[turn.symbol]), *items[place + 1:])
+    return (*items[:place], replace(turn, symbol=_OTHER_WAY[turn.symbol]), *items[place + 1 :])
 
 
 def _branched(items: Successor, chance: Chance) -> Successor | None:
@@ -170,7 +170,7 @@ def _branched(items: Successor, chance: Chance) -> Successor | None:
     if not places:
         return None
     place, turn = _one_of(chance, places), Pattern(_one_of(chance, "+-"))
-    return (*items[:place], Pattern("["), turn, items[place], Pattern("]"), *items[place + 1:])
+    return (*items[:place], Pattern("["), turn, items[place], Pattern("]"), *items[place + 1 :])
 
 
 def _other_number(items: Successor, chance: Chance) -> Successor | None:
@@ -208,16 +208,24 @@ def _numbers_in(part: Item | Expression) -> Iterator[Number]:
 
 def _with_number(item: Item, old: Number, new: Number) -> Item:
     """The same with another number in place of one, which is known by its identity."""
+
     def put(expression: Expression) -> Expression:
         if expression is old:
             return new
         if isinstance(expression, Apply):
             return replace(expression, operands=tuple(map(put, expression.operands)))
         return expression
+
     if isinstance(item, Repeat):
         return replace(item, body=tuple(_with_number(each, old, new) for each in item.body))
     return replace(item, arguments=tuple(map(put, item.arguments)))
 
 
 _CHANGES: tuple[Callable[[Successor, Chance], Successor | None], ...] = (
-    _copied, _left_out, _other_way, _branched, _other_number, _other_number)
+    _copied,
+    _left_out,
+    _other_way,
+    _branched,
+    _other_number,
+    _other_number,
+)

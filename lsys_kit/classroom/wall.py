@@ -95,8 +95,10 @@ def wall(folder: str | Path) -> list[Tile]:
     """
     given = [each for file in handed_in(folder) for each in models_in(file)]
     if len(given) > MOST_TILES or sum(len(each.text) for each in given) > MOST_CHARACTERS:
-        raise ModelFileError(f'There is more in "{quotable(str(folder))}" than {MOST_TILES:,} plants, or than '
-                             f"{MOST_CHARACTERS:,} characters", hint="Make several pages.")
+        raise ModelFileError(
+            f'There is more in "{quotable(str(folder))}" than {MOST_TILES:,} plants, or than {MOST_CHARACTERS:,} characters',
+            hint="Make several pages.",
+        )
     _prepare()
     texts = list(dict.fromkeys(each.text for each in given if not each.problem))  # what several hand in is drawn once
     drawn = _drawn(texts)
@@ -161,10 +163,13 @@ def _links_in(lines: Sequence[str], name: str) -> Iterator[Given]:
     """The links in the lines of a list, with the names beside them, or else that of the file and their number."""
     for number, line in enumerate(lines, 1):
         found = _LINK.search(line)
-        beside = [line[:found.start()].rstrip(_BEHIND_NAMES), line[found.end():]] if found else []
+        beside = [line[: found.start()].rstrip(_BEHIND_NAMES), line[found.end() :]] if found else []
         around = " ".join(_BEFORE_NAMES.sub("", each, count=1).rstrip(_BEHIND_NAMES) for each in beside).strip()
-        yield Given(quotable(around) or (f"{name} {number}" if len(lines) > 1 else name), found.group() if found else line,
-                    "" if found else f"There is no link in this line: {quotable(line)}")
+        yield Given(
+            quotable(around) or (f"{name} {number}" if len(lines) > 1 else name),
+            found.group() if found else line,
+            "" if found else f"There is no link in this line: {quotable(line)}",
+        )
 
 
 # In a child process
@@ -190,9 +195,13 @@ def _with_constants(model: Linked) -> Any:
     """The system, with the constants of a link in place of its own."""
     if not isinstance(model.system, LSystem):
         return model.system
-    return replace(model.system, constants=tuple(
-        replace(each, value=Number(model.settings[each.name])) if each.name in model.settings else each
-        for each in model.system.constants))
+    return replace(
+        model.system,
+        constants=tuple(
+            replace(each, value=Number(model.settings[each.name])) if each.name in model.settings else each
+            for each in model.system.constants
+        ),
+    )
 
 
 def _choices(model: Linked) -> dict[str, Any]:
@@ -230,8 +239,7 @@ def wall_page(title: str, tiles: Sequence[Tile]) -> str:
     """
     missing = sum(bool(tile.mistake) for tile in tiles)
     count = f"{len(tiles) - missing} drawn" + (f", {missing} that cannot be drawn" if missing else "")
-    body = (f'<header><h1>{escaped(title)}</h1><p>{count}</p></header>\n<main>\n'
-            f'{"".join(map(_figure, tiles))}</main>\n')
+    body = f"<header><h1>{escaped(title)}</h1><p>{count}</p></header>\n<main>\n{''.join(map(_figure, tiles))}</main>\n"
     return document(title, body, STYLE, f"Plants of a class: {count}")
 
 
@@ -239,10 +247,13 @@ def _figure(tile: Tile) -> str:
     name = f"<b>{escaped(tile.name)}</b>"
     if tile.mistake:
         said = "\n".join(map(escaped, tile.mistake.split("\n")))
-        return (f'<figure class="mistake"><figcaption>{name}<span>cannot be drawn</span></figcaption>'
-                f"<pre>{said}</pre></figure>\n")
+        return (
+            f'<figure class="mistake"><figcaption>{name}<span>cannot be drawn</span></figcaption><pre>{said}</pre></figure>\n'
+        )
     source = base64.b64encode(tile.picture.encode()).decode()
     rules = "\n".join(map(escaped, tile.rules.split("\n")))
-    return (f'<figure><img loading="lazy" alt="{escaped(tile.description)}" src="data:image/svg+xml;base64,{source}">'
-            f"<figcaption>{name}<span>{escaped(tile.description.partition(', width')[0])}</span></figcaption>"
-            f"<details><summary>Rules</summary><pre>{rules}</pre></details></figure>\n")
+    return (
+        f'<figure><img loading="lazy" alt="{escaped(tile.description)}" src="data:image/svg+xml;base64,{source}">'
+        f"<figcaption>{name}<span>{escaped(tile.description.partition(', width')[0])}</span></figcaption>"
+        f"<details><summary>Rules</summary><pre>{rules}</pre></details></figure>\n"
+    )

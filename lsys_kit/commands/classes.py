@@ -22,11 +22,14 @@ def collect_marks(options: argparse.Namespace) -> None:
     except FileExistsError:
         raise _exists(options.output) from None
     except (OSError, ValueError) as fault:
-        raise ModelFileError(f'"{quotable(options.output)}" cannot be written: '
-                             f"{getattr(fault, 'strerror', None) or fault}") from None
+        raise ModelFileError(
+            f'"{quotable(options.output)}" cannot be written: {getattr(fault, "strerror", None) or fault}'
+        ) from None
     unread = sum(not each.scores for each in marks)
-    print(f"{len(marks)} students in {quotable(options.output)}, {unread} without an answer. A check is no examination: the "
-          "answers come with the kit.")
+    print(
+        f"{len(marks)} students in {quotable(options.output)}, {unread} without an answer. A check is no examination: the "
+        "answers come with the kit."
+    )
 
 
 def write_wall(options: argparse.Namespace) -> None:

@@ -18,8 +18,10 @@ def check_exercises(options: argparse.Namespace) -> None:
     for problem in problems:
         print(problem)
     if problems:
-        raise ModelFileError(f"{len(problems)} mistake{'s' * (len(problems) > 1)} in the exercises",
-                             hint="Each line above says where one is and what to try.")
+        raise ModelFileError(
+            f"{len(problems)} mistake{'s' * (len(problems) > 1)} in the exercises",
+            hint="Each line above says where one is and what to try.",
+        )
     print("No mistakes.")
 
 
@@ -59,5 +61,10 @@ def open_lab(options: argparse.Namespace) -> None:
     from jupyterlab.labapp import LabApp
 
     # In a container everybody is root; the server answers this machine alone, and asks for its token.
-    LabApp.launch_instance(["--ServerApp.allow_root=True", f"--ServerApp.root_dir={folder.resolve()}",
-                            f"--LabApp.default_url=/lab/tree/{copied[0].name}"])
+    LabApp.launch_instance(
+        [
+            "--ServerApp.allow_root=True",
+            f"--ServerApp.root_dir={folder.resolve()}",
+            f"--LabApp.default_url=/lab/tree/{copied[0].name}",
+        ]
+    )

@@ -57,8 +57,10 @@ def _lower(kind: int, most: int, more: int = 0) -> None:
     """Set a limit, unless a lower one is set already; from `more` beyond it on, there is no mercy."""
     import resource
 
-    soft, hard = (new if old == resource.RLIM_INFINITY else min(new, old)
-                  for new, old in zip((most, most + more), resource.getrlimit(kind), strict=True))
+    soft, hard = (
+        new if old == resource.RLIM_INFINITY else min(new, old)
+        for new, old in zip((most, most + more), resource.getrlimit(kind), strict=True)
+    )
     with suppress(OSError, ValueError):  # a platform may have no such limit
         resource.setrlimit(kind, (soft, hard))
 

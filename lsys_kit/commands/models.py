@@ -60,8 +60,11 @@ def _counted(options: argparse.Namespace) -> Iterator[dict[str, object]]:
     from lsys_kit.derivation.derive import lengths
 
     system = system_with_constants(options)
-    counts = lengths(system, options.steps, arithmetic=options.arithmetic) if States(system).traits.d0l else \
-        _derivation(system, options).lengths
+    counts = (
+        lengths(system, options.steps, arithmetic=options.arithmetic)
+        if States(system).traits.d0l
+        else _derivation(system, options).lengths
+    )
     digits, written = sys.get_int_max_str_digits(), 0
     sys.set_int_max_str_digits(0)  # while they are written
     try:
@@ -105,15 +108,26 @@ def draw_word(options: argparse.Namespace) -> None:
     film = _film(options)
     if is_map_system(options.system) or is_cellwork_system(options.system):
         cells = map_system(options.system) if is_map_system(options.system) else cellwork_system(options.system)
-        shown: AnyPicture | Film = animate(cells, options.steps, **film, **_seen(options)) if film else \
-            draw(cells, options.steps, **_seen(options))
+        shown: AnyPicture | Film = (
+            animate(cells, options.steps, **film, **_seen(options)) if film else draw(cells, options.steps, **_seen(options))
+        )
     elif options.seeds or isinstance(options.steps, list):
-        shown = draw(system_with_constants(options), seed=options.seed, arithmetic=options.arithmetic, angle=options.angle,
-                     seeds=options.seeds, **_steps(options), **_seen(options))
+        shown = draw(
+            system_with_constants(options),
+            seed=options.seed,
+            arithmetic=options.arithmetic,
+            angle=options.angle,
+            seeds=options.seeds,
+            **_steps(options),
+            **_seen(options),
+        )
     else:
         words = _derivation(system_with_constants(options), options)
-        shown = animate(words, angle=options.angle, **film, **_seen(options)) if film else \
-            draw(words, angle=options.angle, **_seen(options))
+        shown = (
+            animate(words, angle=options.angle, **film, **_seen(options))
+            if film
+            else draw(words, angle=options.angle, **_seen(options))
+        )
     _save(shown, options)
 
 
@@ -248,7 +262,8 @@ def _keep(text: str, name: str) -> None:
     try:
         create_file(Path(name), text.encode())
     except FileExistsError:
-        raise ModelFileError(f'"{quotable(str(Path(name)))}" already exists',
-                             hint="Files are never overwritten: choose another name.") from None
+        raise ModelFileError(
+            f'"{quotable(str(Path(name)))}" already exists', hint="Files are never overwritten: choose another name."
+        ) from None
     except (OSError, ValueError) as fault:
         raise ModelFileError(f'"{quotable(name)}" cannot be written: {getattr(fault, "strerror", None) or fault}') from None

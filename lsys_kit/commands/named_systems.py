@@ -29,9 +29,13 @@ def system_with_constants(options: argparse.Namespace) -> LSystem:
 
     system, values = named_system(options.system, options.notation, options.name), dict(options.settings)
     constants_of(system, values)
-    return replace(system, constants=tuple(
-        replace(constant, value=Number(number_from(values[constant.name]))) if constant.name in values else constant
-        for constant in system.constants))
+    return replace(
+        system,
+        constants=tuple(
+            replace(constant, value=Number(number_from(values[constant.name]))) if constant.name in values else constant
+            for constant in system.constants
+        ),
+    )
 
 
 def system_or_cells(options: argparse.Namespace) -> LSystem | MapSystem | CellworkSystem:
@@ -40,8 +44,11 @@ def system_or_cells(options: argparse.Namespace) -> LSystem | MapSystem | Cellwo
 
     if is_cellwork_system(options.system):
         return cellwork_system(options.system)
-    return map_system(options.system) if is_map_system(options.system) else \
-        named_system(options.system, options.notation, options.name)
+    return (
+        map_system(options.system)
+        if is_map_system(options.system)
+        else named_system(options.system, options.notation, options.name)
+    )
 
 
 def named_system(name: str, notation: str | None, entry: str | None) -> LSystem:
@@ -88,8 +95,9 @@ def _file(name: str) -> str:
         with Path(name).open("rb") as file:
             return _decoded(file, f'"{quotable(name)}"')
     except FileNotFoundError:
-        raise ModelFileError(f'There is no file "{quotable(name)}", and no system of that name in the catalogue',
-                             hint=_likely_name(name)) from None
+        raise ModelFileError(
+            f'There is no file "{quotable(name)}", and no system of that name in the catalogue', hint=_likely_name(name)
+        ) from None
     except (OSError, ValueError) as fault:
         raise ModelFileError(f'"{quotable(name)}" cannot be read: {getattr(fault, "strerror", None) or fault}') from None
 

@@ -29,8 +29,9 @@ _Refusal: TypeAlias = ModelLimitError | ModelValueError
 
 
 @overload
-def derive(system: LSystem, steps: int, *, seed: int | None = None, arithmetic: str = "exact",
-           **constants: object) -> Derivation: ...
+def derive(
+    system: LSystem, steps: int, *, seed: int | None = None, arithmetic: str = "exact", **constants: object
+) -> Derivation: ...
 @overload
 def derive(system: MapSystem, steps: int) -> Development: ...
 @overload
@@ -78,13 +79,22 @@ def derive(system: Any, steps: int, **choices: Any) -> Derivation | Development 
         return derive_observed(system, steps, None, **choices)
     if choices:
         kind = "map" if isinstance(system, MapSystem) else "cellwork"
-        raise ModelValueError(f'A {kind} system has no "{next(iter(choices))}"',
-                              hint="It has neither chance nor declared constants.")
+        raise ModelValueError(
+            f'A {kind} system has no "{next(iter(choices))}"', hint="It has neither chance nor declared constants."
+        )
     return develop(system, steps) if isinstance(system, MapSystem) else develop_cellwork(system, steps)
 
 
-def derive_observed(system: LSystem, steps: int, world: Observer | None, /, *, seed: int | None = None,
-                    arithmetic: str = "exact", **constants: object) -> Derivation:
+def derive_observed(
+    system: LSystem,
+    steps: int,
+    world: Observer | None,
+    /,
+    *,
+    seed: int | None = None,
+    arithmetic: str = "exact",
+    **constants: object,
+) -> Derivation:
     """Derive an L-system; if its modules ask what the turtle sees, an observer looks at each word before the next step."""
     require(system, LSystem, "An L-system or a map system")
     seed = (system.seed or 0) if seed is None else seed

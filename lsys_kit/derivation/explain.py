@@ -55,8 +55,11 @@ class ModuleOutcome:
         own = dialect_named(self.notation)
         made = own.word(self.successor) or "ε"
         last = f"-{self.position + len(self.others)}" if self.others else ""
-        lines = [f"{self.position}{last}. {own.word((self.module, *self.others))} "
-                 f"become{'s' * (not self.others)} {made}: {self.production}", *self.refused]
+        lines = [
+            f"{self.position}{last}. {own.word((self.module, *self.others))} "
+            f"become{'s' * (not self.others)} {made}: {self.production}",
+            *self.refused,
+        ]
         return "\n     ".join(lines)
 
     __repr__ = __str__
@@ -112,8 +115,9 @@ def _explanation(derivation: Derivation, step: int) -> Explanation:
     return Explanation(_outcomes(stepper, old, successors, applied, origins.sizes or [1] * len(old.modules)))
 
 
-def _outcomes(stepper: Stepper, old: ParentWord, successors: dict[int, list[Module]],
-              applied: dict[int, int | None], sizes: Sequence[int]) -> Iterator[ModuleOutcome]:
+def _outcomes(
+    stepper: Stepper, old: ParentWord, successors: dict[int, list[Module]], applied: dict[int, int | None], sizes: Sequence[int]
+) -> Iterator[ModuleOutcome]:
     system = stepper.states.system
     outcomes = zip(surviving(old.symbols), sizes, strict=True)
     for position, (kept, size) in enumerate(counted(outcomes, MODULES_BETWEEN_CHECKS)):
@@ -125,11 +129,21 @@ def _outcomes(stepper: Stepper, old: ParentWord, successors: dict[int, list[Modu
         refusals = [(rule, _refusal(stepper, old, position, rule)) for rule in rules] if kept else []
         matching = [rule for rule, why in refusals if why is None and (made or len(rule.predecessors) == size)]
         chosen = _applied_rule(matching, applied.get(position), bool(made))
-        said = _production_text(system, chosen) if chosen else "it is cut off" if not kept else \
-            "no production matches" if rules else f"no production is for {module.symbol}"
-        why_not = tuple(f"{_production_text(system, rule)}: {why or _passed_over(rule, chosen)}" for rule, why in refusals
-                        if rule is not chosen)
-        others = tuple(old.modules[position + 1:position + size])
+        said = (
+            _production_text(system, chosen)
+            if chosen
+            else "it is cut off"
+            if not kept
+            else "no production matches"
+            if rules
+            else f"no production is for {module.symbol}"
+        )
+        why_not = tuple(
+            f"{_production_text(system, rule)}: {why or _passed_over(rule, chosen)}"
+            for rule, why in refusals
+            if rule is not chosen
+        )
+        others = tuple(old.modules[position + 1 : position + size])
         yield ModuleOutcome(position + 1, module, made, said, why_not, system.notation, others)
 
 
@@ -169,18 +183,24 @@ def _refusal(stepper: Stepper, old: ParentWord, position: int, rule: Rule) -> st
         names = names_in(rule.production.condition) if rule.production.condition else frozenset()
         known = {a.name: value for a, value in zip(arguments, values, strict=True) if isinstance(a, Name)}
         known |= dict(zip((c.name for c in system.constants), stepper.states.constants, strict=True))
-        values_text = ", ".join([*(f"{name} = {number_text(known[name])}" for name in sorted(names)),
-                          *(f"{as_written(system, question)} is {number_text(answer((*given, chance)))}"
-                            for question, answer in rule.questions)])
+        values_text = ", ".join(
+            [
+                *(f"{name} = {number_text(known[name])}" for name in sorted(names)),
+                *(
+                    f"{as_written(system, question)} is {number_text(answer((*given, chance)))}"
+                    for question, answer in rule.questions
+                ),
+            ]
+        )
         return f"{as_written(system, rule.production.condition)} is false{f' where {values_text}' if values_text else ''}"
     return None
 
 
 def _others_missing(system: LSystem, old: ParentWord, position: int, rule: Rule) -> str | None:
     """Which modules of those that a rule replaces together are not there."""
-    own = old.modules[position:position + len(rule.predecessors)]
+    own = old.modules[position : position + len(rule.predecessors)]
     if tuple(map(kind_of, own)) == rule.predecessors:
-        return "what is cut off is not replaced" if CUT in old.symbols[position:position + len(own)] else None
+        return "what is cut off is not replaced" if CUT in old.symbols[position : position + len(own)] else None
     word = dialect_named(system.notation).word
     return f"replaces {word(rule.production.predecessors)} together, and there is {word(own)}"
 

@@ -90,8 +90,9 @@ def batch(experiment: Experiment, runs: Sequence[Run]) -> list[Outcome]:
     return [outcome_of(experiment, measures, run) for run in runs]
 
 
-def outcomes(experiment: Experiment, runs: Sequence[Run],
-             executor: Executor | None) -> Generator[tuple[int, Outcome], None, None]:
+def outcomes(
+    experiment: Experiment, runs: Sequence[Run], executor: Executor | None
+) -> Generator[tuple[int, Outcome], None, None]:
     """The runs' outcomes, each with its place, in the order in which they are finished.
 
     When it is closed, whatever has not begun is called off.
@@ -105,14 +106,15 @@ def outcomes(experiment: Experiment, runs: Sequence[Run],
             return
 
 
-def _handed_out(experiment: Experiment, runs: Sequence[Run], first: int, seconds: float,
-                submit: Callable[..., Future[list[Outcome]]]) -> Iterator[tuple[int, Outcome]]:
+def _handed_out(
+    experiment: Experiment, runs: Sequence[Run], first: int, seconds: float, submit: Callable[..., Future[list[Outcome]]]
+) -> Iterator[tuple[int, Outcome]]:
     """The outcomes of all runs from one on, by an executor."""
     size = batch_size(len(runs) - first, seconds)
     futures: dict[Future[list[Outcome]], int] = {}
     try:
         for place in range(first, len(runs), size):
-            futures[submit(batch, experiment, runs[place:place + size])] = place
+            futures[submit(batch, experiment, runs[place : place + size])] = place
         for future in as_completed(futures):
             yield from enumerate(future.result(), futures[future])
     finally:

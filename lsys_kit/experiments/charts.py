@@ -22,8 +22,17 @@ from lsys_kit.pictures.style.palette import BLUE, SERIES
 MOST_CURVES, MOST_RUNS = 8, 200
 """The most curves that can be told apart; the most single runs that are drawn behind a mean."""
 SEED, STEP = "seed", "step"
-LABELS = {"modules": "modules", "length": "length of the word", "cells": "cells", "strokes": "strokes", "height": "height",
-          "width": "width", "rate": "growth per step", STEP: "step $n$", SEED: SEED}
+LABELS = {
+    "modules": "modules",
+    "length": "length of the word",
+    "cells": "cells",
+    "strokes": "strokes",
+    "height": "height",
+    "width": "width",
+    "rate": "growth per step",
+    STEP: "step $n$",
+    SEED: SEED,
+}
 """What stands along an axis for columns with a name of the kit's."""
 
 
@@ -68,13 +77,16 @@ def chart_of(keys: Sequence[str], rows: Sequence[tuple[Any, ...]], column: str, 
     ModelValueError
         Too much varied at once, or nothing.
     """
-    found = [(dict(zip(keys, row, strict=True)), value)
-             for row, value in zip(rows, finite(values, f'The column "{column}"'), strict=True)]
+    found = [
+        (dict(zip(keys, row, strict=True)), value)
+        for row, value in zip(rows, finite(values, f'The column "{column}"'), strict=True)
+    ]
     up = Axis(measured_label(column), all(isinstance(value, int) for value in values), log)
     over = [key for key in keys if key != SEED]
     if not keys:
-        raise ModelValueError("Only one setting was run, and a plot compares several",
-                              hint="Take more seeds, steps or values of a constant.")
+        raise ModelValueError(
+            "Only one setting was run, and a plot compares several", hint="Take more seeds, steps or values of a constant."
+        )
     if not over:
         return HistogramChart(tuple(value for _, value in found), up._replace(log=False))
     if len(over) == 1:
@@ -84,8 +96,10 @@ def chart_of(keys: Sequence[str], rows: Sequence[tuple[Any, ...]], column: str, 
     if len(over) == 2:
         return _grid(found, over, up)
     chosen = ", ".join(f"{key} = {found[0][0][key]}" for key in over[2:])
-    raise ModelValueError(f"{' and '.join((', '.join(over[:-1]), over[-1]))} vary together, and a plot shows two of them",
-                          hint=f"Choose the others, as in table.where({chosen}).plot().")
+    raise ModelValueError(
+        f"{' and '.join((', '.join(over[:-1]), over[-1]))} vary together, and a plot shows two of them",
+        hint=f"Choose the others, as in table.where({chosen}).plot().",
+    )
 
 
 def _one_variable(rows: Rows, name: str, up: Axis) -> Chart:
@@ -102,10 +116,18 @@ def _families(rows: Rows, name: str, up: Axis) -> Chart:
     """A curve over the steps for each value of a variable."""
     kinds = sorted({setting[name] for setting, _ in rows})
     if len(kinds) > MOST_CURVES:
-        raise ModelValueError(f"{name} has {len(kinds)} values, and more than {MOST_CURVES} curves cannot be told apart",
-                              hint="Choose some values, or one step: table.where(step=...).plot().")
-    curves = tuple(Curve(_means([row for row in rows if row[0][name] == kind], STEP), SERIES[place % len(SERIES)],
-                         f"{column_label(name)} = {number_text(kind)}") for place, kind in enumerate(kinds))
+        raise ModelValueError(
+            f"{name} has {len(kinds)} values, and more than {MOST_CURVES} curves cannot be told apart",
+            hint="Choose some values, or one step: table.where(step=...).plot().",
+        )
+    curves = tuple(
+        Curve(
+            _means([row for row in rows if row[0][name] == kind], STEP),
+            SERIES[place % len(SERIES)],
+            f"{column_label(name)} = {number_text(kind)}",
+        )
+        for place, kind in enumerate(kinds)
+    )
     return CurveChart(curves, Axis(column_label(STEP), True), up)
 
 

@@ -52,8 +52,9 @@ def measures_of(asked: Asked, system: LSystem) -> tuple[Measure, ...]:
     names = [each.name for each in found]
     for name in names:
         if names.count(name) > 1:
-            raise ModelNameError(f'Two measures are called "{name}"',
-                                 hint='Give them names of their own: measure={"first": ..., "second": ...}.')
+            raise ModelNameError(
+                f'Two measures are called "{name}"', hint='Give them names of their own: measure={"first": ..., "second": ...}.'
+            )
     if not found:
         raise ModelValueError("Nothing is measured", hint=f"Measures are: {', '.join(MEASURES)}, or a symbol to count.")
     return found
@@ -78,7 +79,7 @@ def _with_names(asked: Any) -> Iterator[tuple[str, object]]:
         name = getattr(asked, "__name__", "")
         yield (name if name.isidentifier() else "measure"), asked
     else:
-        raise ModelValueError(f"A measure is a name such as \"modules\", or a function of a derivation, not {shown(asked)}")
+        raise ModelValueError(f'A measure is a name such as "modules", or a function of a derivation, not {shown(asked)}')
 
 
 def _function(name: str, asked: object, system: LSystem) -> Callable[[Any], object]:
@@ -91,8 +92,10 @@ def _function(name: str, asked: object, system: LSystem) -> Callable[[Any], obje
     counted = symbols_named(asked, system)
     if not counted:
         known = [*MEASURES, *symbols(system)]
-        raise ModelNameError(f'"{asked}" is neither a measure nor a symbol of the system',
-                             hint=suggestion(asked, known) or f"Measures are: {', '.join(MEASURES)}, or a symbol to count.")
+        raise ModelNameError(
+            f'"{asked}" is neither a measure nor a symbol of the system',
+            hint=suggestion(asked, known) or f"Measures are: {', '.join(MEASURES)}, or a symbol to count.",
+        )
     return partial(count, counted)
 
 
@@ -144,7 +147,12 @@ def _rate(what: Measurable) -> float:
 
 
 MEASURES: Mapping[str, Callable[[Measurable], float]] = {
-    "modules": _modules, "length": _modules, "cells": _cells, "strokes": _strokes, "height": _height, "width": _width,
+    "modules": _modules,
+    "length": _modules,
+    "cells": _cells,
+    "strokes": _strokes,
+    "height": _height,
+    "width": _width,
     "rate": _rate,
 }
 """The quantities that have names: the number of modules, which is the length of the word; the cells of a filament and the

@@ -139,8 +139,9 @@ def _run(what: Any, n: Any, choices: dict[str, Any]) -> Derivation | _Course:
         _refuse(choices, n, "The steps and constants of a derivation are chosen already")
         return what
     if not isinstance(what, LSystem):
-        raise ModelValueError("Systems, derivations, timed systems, stages, growth and tables can be plotted, "
-                              f"not {type(what).__name__}")
+        raise ModelValueError(
+            f"Systems, derivations, timed systems, stages, growth and tables can be plotted, not {type(what).__name__}"
+        )
     steps = whole_number(n, "The number of steps") if n is not None else DEFAULT_STEPS if what.steps is None else what.steps
     if steps > MOST_STEPS:
         raise ModelLimitError(f"A plot shows at most {MOST_STEPS:,} steps", limit=MOST_STEPS, needed=steps)
@@ -200,21 +201,31 @@ def _kinds(run: Derivation) -> list[str]:
     system, modules = run.states.system, run.states.modules
     met = {modules[state].symbol for step in counted(range(len(run)), 1) for state in run.counts(step)}
     pairs = polar_symbols(system)
-    kinds = [*dict.fromkeys(pairs[symbol][0] if symbol in pairs else symbol for symbol in symbols(system)
-                            if symbol in met and symbol[0].isalnum())]
+    kinds = [
+        *dict.fromkeys(
+            pairs[symbol][0] if symbol in pairs else symbol
+            for symbol in symbols(system)
+            if symbol in met and symbol[0].isalnum()
+        )
+    ]
     return kinds if 1 <= len(kinds) <= MOST_CURVES else ["modules"]
 
 
 def _measure_label(name: str, system: LSystem) -> str:
     """The label of a curve among several of one system."""
-    return mathematics(*label_parts(name, system)) if name in symbols(system) or name[:1].isupper() else \
-        measured_label(name).removeprefix("number of ")
+    return (
+        mathematics(*label_parts(name, system))
+        if name in symbols(system) or name[:1].isupper()
+        else measured_label(name).removeprefix("number of ")
+    )
 
 
 def _colour(name: str, system: LSystem, place: int, runs: int) -> str:
     """The colour of a symbol for its counts; else the next one."""
-    if runs == 1 and (members := [symbol for symbol, (letter, _) in polar_symbols(system).items() if letter == name] or
-                      [symbol for symbol in symbols(system) if symbol == name]):
+    if runs == 1 and (
+        members := [symbol for symbol, (letter, _) in polar_symbols(system).items() if letter == name]
+        or [symbol for symbol in symbols(system) if symbol == name]
+    ):
         return colour_of(members[0], system)
     return BLUE if runs == 1 and place == 0 else SERIES[place % len(SERIES)]
 
@@ -237,20 +248,28 @@ def _stage_shares(net: Stages, n: Any) -> ShareChart:
     steps = whole_number(n, "The step") if n is not None else DEFAULT_STEPS if system.steps is None else system.steps
     amounts = finite(net.expected(steps), "A stage")
     labels = [mathematics(*place_parts(place, system)) for place in net.places]
-    return _shares(list(zip(labels, amounts, (colour_of(place.symbol, system) for place in net.places), strict=True)),
-                   f"at step {steps:,}", "stages")
+    return _shares(
+        list(zip(labels, amounts, (colour_of(place.symbol, system) for place in net.places), strict=True)),
+        f"at step {steps:,}",
+        "stages",
+    )
 
 
 def _long_run(found: Growth) -> ShareChart:
     """The share of each state in the long run."""
     shares = found.frequencies
     if shares is None:
-        raise ModelValueError("The frequencies do not settle in the long run: they go on swinging, or the word vanishes",
-                              hint="Look at a step: plot(stages(system), 20).")
+        raise ModelValueError(
+            "The frequencies do not settle in the long run: they go on swinging, or the word vanishes",
+            hint="Look at a step: plot(stages(system), 20).",
+        )
     system = found.table.system
     labels = [_module_label(module, system) for module in found.states]
-    return _shares(list(zip(labels, shares, (colour_of(module.symbol, system) for module in found.states), strict=True)),
-                   "in the long run", "states")
+    return _shares(
+        list(zip(labels, shares, (colour_of(module.symbol, system) for module in found.states), strict=True)),
+        "in the long run",
+        "states",
+    )
 
 
 def _module_label(module: Module, system: LSystem) -> str:

@@ -28,9 +28,16 @@ PROGRESS_DELAY = 1.0
 """What is finished sooner, in seconds, shows no progress bar."""
 
 
-def ensemble(system: LSystem, seeds: int | Iterable[int], measure: Asked = "modules", *,
-             steps: int | Iterable[int] | None = None, executor: Executor | None = None, progress: bool = True,
-             **choices: object) -> Table:
+def ensemble(
+    system: LSystem,
+    seeds: int | Iterable[int],
+    measure: Asked = "modules",
+    *,
+    steps: int | Iterable[int] | None = None,
+    executor: Executor | None = None,
+    progress: bool = True,
+    **choices: object,
+) -> Table:
     """Derive a system once for each of many seeds, and measure what comes out.
 
     Parameters
@@ -83,9 +90,16 @@ def ensemble(system: LSystem, seeds: int | Iterable[int], measure: Asked = "modu
     return _table(system, ["seed"], named, measure, steps, executor, progress, choices)
 
 
-def sweep(system: LSystem, over: str | Sequence[str] | Mapping[str, Iterable[object]], measure: Asked = "modules", *,
-          steps: int | Iterable[int] | None = None, executor: Executor | None = None, progress: bool = True,
-          **choices: object) -> Table:
+def sweep(
+    system: LSystem,
+    over: str | Sequence[str] | Mapping[str, Iterable[object]],
+    measure: Asked = "modules",
+    *,
+    steps: int | Iterable[int] | None = None,
+    executor: Executor | None = None,
+    progress: bool = True,
+    **choices: object,
+) -> Table:
     """Derive a system with each combination of some values of its constants, and measure what comes out.
 
     Parameters
@@ -131,8 +145,16 @@ def sweep(system: LSystem, over: str | Sequence[str] | Mapping[str, Iterable[obj
     return _table(system, [*values], named, measure, steps, executor, progress, choices)
 
 
-def _table(system: LSystem, keys: Sequence[str], runs: Sequence[Run], measure: Asked, steps: object,
-           executor: Executor | None, progress: bool, choices: Mapping[str, object]) -> Table:
+def _table(
+    system: LSystem,
+    keys: Sequence[str],
+    runs: Sequence[Run],
+    measure: Asked,
+    steps: object,
+    executor: Executor | None,
+    progress: bool,
+    choices: Mapping[str, object],
+) -> Table:
     """The table of some runs, as far as they can be finished."""
     require(progress, bool, 'True or False for "progress"')
     if executor is not None and not callable(getattr(executor, "submit", None)):
@@ -149,8 +171,9 @@ def _table(system: LSystem, keys: Sequence[str], runs: Sequence[Run], measure: A
     return _collected(experiment, columns, [{**choices, **run} for run in runs], executor, progress)
 
 
-def _collected(experiment: Experiment, columns: tuple[str, ...], runs: Sequence[Run], executor: Executor | None,
-               progress: bool) -> Table:
+def _collected(
+    experiment: Experiment, columns: tuple[str, ...], runs: Sequence[Run], executor: Executor | None, progress: bool
+) -> Table:
     found: dict[int, Outcome] = {}
     stopped = ""
     with closing(outcomes(experiment, runs, executor)) as finished, _bar(len(runs), progress) as bar:
@@ -175,7 +198,7 @@ def _bar(runs: int, shown: bool) -> Any:
 
 def _tidy(columns: tuple[str, ...], runs: Sequence[Run], found: Mapping[int, Outcome], stopped: str) -> Table:
     """The finished runs as a table."""
-    keys = columns[:columns.index("step")]
+    keys = columns[: columns.index("step")]
     rows, failures = [], []
     for place, outcome in sorted(found.items()):
         if isinstance(outcome, Failure):
@@ -256,7 +279,7 @@ def _swept(system: LSystem, over: Any) -> dict[str, list[Any]]:
         return {_name(name): _values(_name(name), values) for name, values in over.items()}
     if isinstance(over, Iterable):
         return {_name(name): declared_values(system, _name(name)) for name in ([over] if isinstance(over, str) else over)}
-    raise ModelValueError(f"Constants to vary are needed, as in {{\"p\": [1, 2]}}, not {shown(over)}")
+    raise ModelValueError(f'Constants to vary are needed, as in {{"p": [1, 2]}}, not {shown(over)}')
 
 
 def _name(given: object) -> str:
@@ -281,8 +304,10 @@ def declared_values(system: LSystem, name: str) -> list[Value]:
     order = {constant.name: place for place, constant in enumerate(system.constants)}
     span = next((constant.range for constant in system.constants if constant.name == name), None)
     if span is None:
-        raise ModelValueError(f'The model declares no range for "{name}"',
-                              hint=f'Give its values, over={{"{name}": [1, 2, 3]}}, or write "in 1 .. 3" behind it.')
+        raise ModelValueError(
+            f'The model declares no range for "{name}"',
+            hint=f'Give its values, over={{"{name}": [1, 2, 3]}}, or write "in 1 .. 3" behind it.',
+        )
     values = tuple(constants_of(system, {}))
     low, high, step = (function_of(part, order)(values) for part in span)
     many = int((high - low) // step) + 1 if step > 0 and high >= low else 1

@@ -63,12 +63,12 @@ class Table:
     @property
     def measures(self) -> tuple[str, ...]:
         """The columns that were measured."""
-        return self.columns[self.keys:]
+        return self.columns[self.keys :]
 
     @property
     def varied(self) -> tuple[str, ...]:
         """What varied and has more than one value here."""
-        return tuple(name for name in self.columns[:self.keys] if len(set(self[name])) > 1)
+        return tuple(name for name in self.columns[: self.keys] if len(set(self[name])) > 1)
 
     def __len__(self) -> int:
         return len(self.rows)
@@ -87,8 +87,10 @@ class Table:
     def _place(self, column: object) -> int:
         if isinstance(column, str) and column in self.columns:
             return self.columns.index(column)
-        raise ModelNameError(f"There is no column {shown(column)}",
-                             hint=suggestion(column, self.columns) or f"Columns are: {', '.join(self.columns)}.")
+        raise ModelNameError(
+            f"There is no column {shown(column)}",
+            hint=suggestion(column, self.columns) or f"Columns are: {', '.join(self.columns)}.",
+        )
 
     def where(self, **values: object) -> Table:
         """The rows in which some columns have given values.
@@ -172,7 +174,7 @@ class Table:
         doubles."""
         _library("xarray")
         frame = self.to_pandas()
-        found: xarray.Dataset = frame.set_index(list(self.columns[:self.keys])).to_xarray()
+        found: xarray.Dataset = frame.set_index(list(self.columns[: self.keys])).to_xarray()
         return found
 
     def __repr__(self) -> str:

@@ -55,9 +55,10 @@ def filament(word: Word) -> Scene:
     is_wall = table[:, 0] == 1
     cells, walls = table[~is_wall], table[is_wall]
     centres = np.column_stack([(ends - table[:, 1] / 2)[~is_wall], np.zeros(len(cells))])
-    return Scene(cells=Cells(centres, cells[:, 1:3], cells[:, 3].astype(np.int64), cells[:, 4], cells[:, 5].astype(np.int64)),
-                 walls=Walls(ends[is_wall], _wall_heights(is_wall, cells[:, 2]), walls[:, 3], walls[:, 4],
-                             walls[:, 5].astype(np.int64)))
+    return Scene(
+        cells=Cells(centres, cells[:, 1:3], cells[:, 3].astype(np.int64), cells[:, 4], cells[:, 5].astype(np.int64)),
+        walls=Walls(ends[is_wall], _wall_heights(is_wall, cells[:, 2]), walls[:, 3], walls[:, 4], walls[:, 5].astype(np.int64)),
+    )
 
 
 def shapes_of(states: States, numbers: Sequence[int]) -> dict[int, list[tuple[float, float, float, float, float]]]:
@@ -76,8 +77,10 @@ def shapes_of(states: States, numbers: Sequence[int]) -> dict[int, list[tuple[fl
     >>> shapes_of(states, states.axiom)
     {0: [(0, 2.0, 1.0, -1, 0.0), (1, 0, 0, 3.0, 0.0)]}
     """
-    return {state: [_cell_or_wall(made, states.modules[state]) for made in image if made.symbol == WALL or is_cell(made)]
-            for state, image in counted(interpretations(states, numbers).items(), 1)}
+    return {
+        state: [_cell_or_wall(made, states.modules[state]) for made in image if made.symbol == WALL or is_cell(made)]
+        for state, image in counted(interpretations(states, numbers).items(), 1)
+    }
 
 
 def _wall_heights(is_wall: NDArray[np.bool_], widths: Floats) -> Floats:

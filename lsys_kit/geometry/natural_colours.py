@@ -53,9 +53,12 @@ def _stretched(scene: Scene) -> Scene:
     segments, polygons, discs = scene.segments, scene.polygons, scene.discs
     most = max(int(colours.max(initial=RAMP_START)) for colours in (segments.colours, polygons.colours, discs.colours))
     stretch = (RAMP_END - RAMP_START) / max(min(RAMP_END, most) - RAMP_START, 1)
-    return replace(scene, segments=replace(segments, colours=_along_ramp(segments.colours, stretch)),
-                   polygons=replace(polygons, colours=_along_ramp(polygons.colours, stretch)),
-                   discs=replace(discs, colours=_along_ramp(discs.colours, stretch)))
+    return replace(
+        scene,
+        segments=replace(segments, colours=_along_ramp(segments.colours, stretch)),
+        polygons=replace(polygons, colours=_along_ramp(polygons.colours, stretch)),
+        discs=replace(discs, colours=_along_ramp(discs.colours, stretch)),
+    )
 
 
 def _along_ramp(colours: Integers, stretch: float) -> Integers:

@@ -246,8 +246,14 @@ class Scene:
     @property
     def size(self) -> int:
         """How many shapes there are to draw, with each corner of a polygon."""
-        return (len(self.segments) + len(self.cells) + len(self.walls) + len(self.polygons.points) + len(self.discs)
-                + len(self.labels))
+        return (
+            len(self.segments)
+            + len(self.cells)
+            + len(self.walls)
+            + len(self.polygons.points)
+            + len(self.discs)
+            + len(self.labels)
+        )
 
     @property
     def corners(self) -> tuple[Floats, Floats]:
@@ -255,8 +261,10 @@ class Scene:
         shapes = (self.segments, self.cells, self.walls, self.polygons, self.discs, self.labels)
         found = [each.points for each in shapes if len(each)] or [np.zeros((1, self.dimension))]
         axes = range(self.dimension)  # column by column, which is ten times as fast
-        return (np.array([min(points[:, axis].min() for points in found) for axis in axes]),
-                np.array([max(points[:, axis].max() for points in found) for axis in axes]))
+        return (
+            np.array([min(points[:, axis].min() for points in found) for axis in axes]),
+            np.array([max(points[:, axis].max() for points in found) for axis in axes]),
+        )
 
     @property
     def box(self) -> tuple[float, float, float, float]:
@@ -279,13 +287,21 @@ class Scene:
 
     def __str__(self) -> str:
         """The scene in words: the line that replaces a picture where none can be shown."""
-        kinds = ((self.segments, "segment"), (self.cells, "cell"), (self.walls, "wall"), (self.polygons, "polygon"),
-                 (self.discs, "disc"), (self.labels, "label"))
+        kinds = (
+            (self.segments, "segment"),
+            (self.cells, "cell"),
+            (self.walls, "wall"),
+            (self.polygons, "polygon"),
+            (self.discs, "disc"),
+            (self.labels, "label"),
+        )
         counted = [f"{len(shapes):,} {name}{'s' * (len(shapes) != 1)}" for shapes, name in kinds if len(shapes)]
         least, greatest = self.corners
         depth = f", depth {_two_decimals(float(greatest[1] - least[1]))}" if self.dimension == 3 else ""
-        return (f"{', '.join(counted) or 'nothing to draw'}, width {_two_decimals(self.width)}, "
-                f"height {_two_decimals(self.height)}{depth}")
+        return (
+            f"{', '.join(counted) or 'nothing to draw'}, width {_two_decimals(self.width)}, "
+            f"height {_two_decimals(self.height)}{depth}"
+        )
 
 
 def _two_decimals(length: float) -> str:

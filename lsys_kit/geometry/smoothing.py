@@ -47,8 +47,13 @@ def _divided(polygons: Polygons, parts: int) -> Polygons:
     sizes = [*np.diff(polygons.starts)[others], *np.full(found.shape[0] * found.shape[1], _SIDES)]
     upright = np.repeat(polygons.normals[corners].mean(axis=1), len(numbers) * _SIDES, axis=0)
     which = np.concatenate([others, np.repeat(chosen, len(numbers))])
-    return Polygons(np.concatenate([polygons.points[kept], found.reshape(-1, 3)]), np.cumsum([0, *sizes]),
-                    polygons.states[which], polygons.colours[which], np.concatenate([polygons.normals[kept], upright]))
+    return Polygons(
+        np.concatenate([polygons.points[kept], found.reshape(-1, 3)]),
+        np.cumsum([0, *sizes]),
+        polygons.states[which],
+        polygons.colours[which],
+        np.concatenate([polygons.normals[kept], upright]),
+    )
 
 
 def _four_corners(starts: Integers, chosen: Integers) -> Integers:

@@ -67,8 +67,12 @@ def packed(content: LinkContent) -> str:
     data = deflater.compress(f"{content.notation}{asked}\n{content.text}".encode()) + deflater.flush()
     fragment = MARK + VERSION + base64.urlsafe_b64encode(data + _check(data)).decode().rstrip("=")
     if len(fragment) > current().text:
-        raise ModelLimitError(f"The link would have {len(fragment):,} characters; the limit is {current().text:,}",
-                              limit=current().text, needed=len(fragment), hint="Give away the model's file instead.")
+        raise ModelLimitError(
+            f"The link would have {len(fragment):,} characters; the limit is {current().text:,}",
+            limit=current().text,
+            needed=len(fragment),
+            hint="Give away the model's file instead.",
+        )
     return fragment
 
 
@@ -102,12 +106,18 @@ def _check_digits(link: str, start: int) -> None:
     """Refuse what is no digit of base64url, and other versions."""
     digits = link[start:].strip()
     if digits and digits[0] != VERSION:
-        raise ModelSyntaxError(f"This link is of the version {named(digits[0])}; the kit reads the version {VERSION}", link,
-                               start, None, "It may be broken, or made by a newer version of the kit.")
+        raise ModelSyntaxError(
+            f"This link is of the version {named(digits[0])}; the kit reads the version {VERSION}",
+            link,
+            start,
+            None,
+            "It may be broken, or made by a newer version of the kit.",
+        )
     for wrong in _NO_DIGIT.finditer(link, start):
         if not wrong.group().isspace():
-            raise ModelSyntaxError(f"This link is broken: {named(wrong.group())} cannot stand in it", link, wrong.start(),
-                                   None, _WHOLE)
+            raise ModelSyntaxError(
+                f"This link is broken: {named(wrong.group())} cannot stand in it", link, wrong.start(), None, _WHOLE
+            )
 
 
 def _data(digits: str) -> bytes:

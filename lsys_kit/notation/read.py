@@ -80,11 +80,21 @@ def read(text: str, notation: str | None = None, name: str | None = None) -> LSy
         return _read_link(text, notation, name)
     text = text.removeprefix("\ufeff")  # the byte order mark, with which some editors begin a file
     if _MAP.match(text):
-        raise ModelValueError("This is a map system, not an L-system", text, len(text) - len(text.lstrip()), None,
-                              "Maps are read by read_map(text).")
+        raise ModelValueError(
+            "This is a map system, not an L-system",
+            text,
+            len(text) - len(text.lstrip()),
+            None,
+            "Maps are read by read_map(text).",
+        )
     if _CELLWORK.match(text):
-        raise ModelValueError("This is a cellwork system, not an L-system", text, len(text) - len(text.lstrip()), None,
-                              "Cellworks are read by read_cellwork(text).")
+        raise ModelValueError(
+            "This is a cellwork system, not an L-system",
+            text,
+            len(text) - len(text.lstrip()),
+            None,
+            "Cellworks are read by read_cellwork(text).",
+        )
     require(notation, (str, type(None)), "The name of a notation")
     if notation:
         return _read_as_named(dialect_named(notation), text, name)
@@ -101,11 +111,14 @@ def _read_link(link: str, notation: str | None, name: str | None) -> LSystem:
     if content.notation == MAP.name:
         raise ModelValueError("This is the link of a map system, not of an L-system", hint="Maps are read by read_map(link).")
     if content.notation == CELLWORK.name:
-        raise ModelValueError("This is the link of a cellwork system, not of an L-system",
-                              hint="Cellworks are read by read_cellwork(link).")
+        raise ModelValueError(
+            "This is the link of a cellwork system, not of an L-system", hint="Cellworks are read by read_cellwork(link)."
+        )
     if name is not None or notation not in (None, content.notation):
-        raise ModelValueError(f"This link has one system, in the notation {content.notation}",
-                              hint="Leave out the notation and the name: read(link).")
+        raise ModelValueError(
+            f"This link has one system, in the notation {content.notation}",
+            hint="Leave out the notation and the name: read(link).",
+        )
     return system_in(dialect_named(content.notation), content.text)
 
 

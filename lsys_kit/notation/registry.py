@@ -17,7 +17,8 @@ from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.systems import text_in
 
 DIALECTS: Mapping[str, Dialect] = {
-    notation.name: notation for notation in (ABOP, PLANT_STRING, GROGRA, CPFG, MATHEMATICA, FRACTINT)}
+    notation.name: notation for notation in (ABOP, PLANT_STRING, GROGRA, CPFG, MATHEMATICA, FRACTINT)
+}
 """The notations that can be read and written."""
 WRITERS.update({notation.name: partial(text_in, notation) for notation in DIALECTS.values()})
 

@@ -42,8 +42,9 @@ def numbers_from(value: object, name: str) -> tuple[int, ...]:
     return tuple(whole_number(each, f'A number of "{name}"') for each in value)
 
 
-def chosen_words(what: LSystem | Derivation | Word, n: int | None, steps: Sequence[int], seeds: Sequence[int],
-                 choices: Mapping[str, Any]) -> list[ChosenWord]:
+def chosen_words(
+    what: LSystem | Derivation | Word, n: int | None, steps: Sequence[int], seeds: Sequence[int], choices: Mapping[str, Any]
+) -> list[ChosenWord]:
     """The words that are drawn.
 
     Parameters

@@ -55,29 +55,89 @@ MOST_ROWS = 24
 
 
 @overload
-def draw(what: Stages, n: None = None, *, tokens: Word | None = None, positions: bool = False,
-         size: object = None, labels: bool | None = None, colours: object = None, background: object = None) -> NetPicture: ...
+def draw(
+    what: Stages,
+    n: None = None,
+    *,
+    tokens: Word | None = None,
+    positions: bool = False,
+    size: object = None,
+    labels: bool | None = None,
+    colours: object = None,
+    background: object = None,
+) -> NetPicture: ...
 @overload
-def draw(what: Lineage, n: None = None, *, intervals: Iterable[tuple[object, object]] = (),
-         size: object = None, labels: bool | None = None, colours: object = None, legend: bool | None = None,
-         background: object = None) -> LineagePicture: ...
+def draw(
+    what: Lineage,
+    n: None = None,
+    *,
+    intervals: Iterable[tuple[object, object]] = (),
+    size: object = None,
+    labels: bool | None = None,
+    colours: object = None,
+    legend: bool | None = None,
+    background: object = None,
+) -> LineagePicture: ...
 @overload
-def draw(what: LSystem | Derivation | Word, n: int | None = None, *, angle: object = None, seed: int | None = None,
-         arithmetic: str = "exact", marked: Collection[int] = (), cells: str | None = None, field: Field | None = None,
-         view: object = None, steps: Sequence[int] = (), seeds: Sequence[int] = (), size: object = None,
-         labels: bool | None = None, colours: object = None, widths: object = None, turtle: bool | None = None,
-         legend: bool | None = None, background: object = None, **constants: object) -> Picture: ...
+def draw(
+    what: LSystem | Derivation | Word,
+    n: int | None = None,
+    *,
+    angle: object = None,
+    seed: int | None = None,
+    arithmetic: str = "exact",
+    marked: Collection[int] = (),
+    cells: str | None = None,
+    field: Field | None = None,
+    view: object = None,
+    steps: Sequence[int] = (),
+    seeds: Sequence[int] = (),
+    size: object = None,
+    labels: bool | None = None,
+    colours: object = None,
+    widths: object = None,
+    turtle: bool | None = None,
+    legend: bool | None = None,
+    background: object = None,
+    **constants: object,
+) -> Picture: ...
 @overload
-def draw(what: MapSystem | Development, n: int | None = None, *, iterations: Sequence[int] = (),
-         phases: Literal[False] = False, labels: bool | None = None,
-         size: object = None, background: object = None, **forces: object) -> MapPicture: ...
+def draw(
+    what: MapSystem | Development,
+    n: int | None = None,
+    *,
+    iterations: Sequence[int] = (),
+    phases: Literal[False] = False,
+    labels: bool | None = None,
+    size: object = None,
+    background: object = None,
+    **forces: object,
+) -> MapPicture: ...
 @overload
-def draw(what: MapSystem | Development, n: int | None = None, *, phases: Literal[True], labels: bool | None = None,
-         size: object = None, background: object = None, **forces: object) -> PhasesPicture: ...
+def draw(
+    what: MapSystem | Development,
+    n: int | None = None,
+    *,
+    phases: Literal[True],
+    labels: bool | None = None,
+    size: object = None,
+    background: object = None,
+    **forces: object,
+) -> PhasesPicture: ...
 @overload
-def draw(what: CellworkSystem | CellworkDevelopment, n: int | None = None, *, view: object = ..., cell: int | None = None,
-         generation: int | None = None, size: object = None, colours: object = None, legend: bool | None = None,
-         background: object = None, **forces: object) -> CellworkPicture: ...
+def draw(
+    what: CellworkSystem | CellworkDevelopment,
+    n: int | None = None,
+    *,
+    view: object = ...,
+    cell: int | None = None,
+    generation: int | None = None,
+    size: object = None,
+    colours: object = None,
+    legend: bool | None = None,
+    background: object = None,
+    **forces: object,
+) -> CellworkPicture: ...
 def draw(what: Any, n: int | None = None, **choices: Any) -> AnyPicture:
     """Draw a system, a derivation, a word, a stage diagram or a lineage.
 
@@ -194,9 +254,19 @@ def _net_picture(net: Stages, labels: bool, tokens: Word | None = None, position
     return NetPicture(net, None if tokens is None else net.tokens(tokens), positions, labels)
 
 
-def _drawing(what: LSystem | Derivation | Word, n: int | None, options: Options, *, angle: object = None,
-             marked: Collection[int] = (), cells: str | None = None, view: object = None, steps: object = (),
-             seeds: object = (), **choices: Any) -> AnyPicture:
+def _drawing(
+    what: LSystem | Derivation | Word,
+    n: int | None,
+    options: Options,
+    *,
+    angle: object = None,
+    marked: Collection[int] = (),
+    cells: str | None = None,
+    view: object = None,
+    steps: object = (),
+    seeds: object = (),
+    **choices: Any,
+) -> AnyPicture:
     require(marked, Collection, "A collection of states")
     states = frozenset(whole_number(each, "A state") for each in counted(marked))
     side = None if view is None else view_from(view)
@@ -206,9 +276,12 @@ def _drawing(what: LSystem | Derivation | Word, n: int | None, options: Options,
         return _sequence(drawn, states, cells, options)
     turn = turning_angle(angle, system)
     scenes = in_units([seen_as(each.word, turn, options) for each in drawn], system)
-    pictures = [Picture((FilamentRow(each.step, seen),), state_colours(each.word), None, states,
-                        scene if scene.dimension == 3 else None)
-                for each, scene, seen in zip(drawn, scenes, project_smoothly(scenes, side), strict=True)]
+    pictures = [
+        Picture(
+            (FilamentRow(each.step, seen),), state_colours(each.word), None, states, scene if scene.dimension == 3 else None
+        )
+        for each, scene, seen in zip(drawn, scenes, project_smoothly(scenes, side), strict=True)
+    ]
     legend = legend_of([each.word.states for each in drawn], scenes) if options.legend else None
     if not drawn[0].caption:
         return replace(pictures[0], legend=legend)
@@ -238,8 +311,13 @@ def _with_options(picture: Picture, states: States, options: Options) -> Picture
     return replace(picture, labels=options.labels, letters=letters, legend=legend)
 
 
-def filament_picture(what: Derivation | Word, rows: tuple[FilamentRow, ...], current: int | None, marked: Collection[int] = (),
-                     cells: str | None = None) -> Picture:
+def filament_picture(
+    what: Derivation | Word,
+    rows: tuple[FilamentRow, ...],
+    current: int | None,
+    marked: Collection[int] = (),
+    cells: str | None = None,
+) -> Picture:
     """The picture of the rows of a filament, with the settings of its system."""
     look = what.states.system.cells if cells is None else cells
     if look not in LOOKS:
@@ -289,16 +367,20 @@ def figure(what: Any, ax: Axes | None = None, **choices: Any) -> Axes:
 
     require(ax, (Axes, type(None)), "The axes of a figure")
     if ax is not None and ax.name == "3d":
-        raise ModelValueError("A drawing needs axes in the plane, and these are in space",
-                              hint="A plant in space can be kept as .glb, which other programs turn.")
+        raise ModelValueError(
+            "A drawing needs axes in the plane, and these are in space",
+            hint="A plant in space can be kept as .glb, which other programs turn.",
+        )
     if isinstance(what, Plot):
         if choices:
-            raise ModelNameError(f'There is no option "{next(iter(choices))}" here',
-                                 hint="What a plot shows is chosen when it is made.")
+            raise ModelNameError(
+                f'There is no option "{next(iter(choices))}" here', hint="What a plot shows is chosen when it is made."
+            )
         return painted(what, new_axes() if ax is None else ax)
     if isinstance(what, SVGPicture) and choices:
-        raise ModelValueError("What a picture shows is chosen when it is drawn",
-                              hint=f"Give {next(iter(choices))}= to draw(...).")
+        raise ModelValueError(
+            "What a picture shows is chosen when it is drawn", hint=f"Give {next(iter(choices))}= to draw(...)."
+        )
     picture = what if isinstance(what, SVGPicture) else draw(what, **choices)
     axes = new_axes(picture.theme.ground) if ax is None else ax
     with Task("The figure was not drawn"), drawn_on(picture.theme):

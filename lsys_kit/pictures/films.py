@@ -54,8 +54,16 @@ TURNS, TURN_SECONDS = 60, 0.1
 """The pictures of a whole turn, and the duration of each in seconds."""
 
 
-def animate(what: Any, n: int | None = None, *, seconds: object = None, turntable: bool = False, view: object = None,
-            size: object = None, **choices: Any) -> Film:
+def animate(
+    what: Any,
+    n: int | None = None,
+    *,
+    seconds: object = None,
+    turntable: bool = False,
+    view: object = None,
+    size: object = None,
+    **choices: Any,
+) -> Film:
     """Draw the steps of a development one after another, in a common frame; or turn what is in space around.
 
     Parameters
@@ -125,8 +133,15 @@ def _check_drawn(n: int | None, side: View | None, choices: Mapping[str, Any]) -
         raise ModelValueError("What a picture shows is chosen when it is drawn", hint=f"Give {chosen[0]}= to draw(...).")
 
 
-def _shown(what: Any, n: int | None, side: View | None, size: object, choices: Mapping[str, Any], given: Mapping[str, Any],
-           options: Options) -> tuple[str, Sequence[Image]]:
+def _shown(
+    what: Any,
+    n: int | None,
+    side: View | None,
+    size: object,
+    choices: Mapping[str, Any],
+    given: Mapping[str, Any],
+    options: Options,
+) -> tuple[str, Sequence[Image]]:
     """What a film shows, in words, and its pictures."""
     if isinstance(what, LSystem | Derivation):
         if isinstance(what, LSystem):
@@ -164,8 +179,9 @@ def _derived(what: LSystem | Derivation, n: int | None, choices: Mapping[str, An
 
 
 def _too_long(pictures: int) -> ModelLimitError:
-    return ModelLimitError(f"A film of {pictures:,} pictures is too long; it can have {MOST_FRAMES:,}", limit=MOST_FRAMES,
-                           needed=pictures)
+    return ModelLimitError(
+        f"A film of {pictures:,} pictures is too long; it can have {MOST_FRAMES:,}", limit=MOST_FRAMES, needed=pictures
+    )
 
 
 def _filmed(picture: SVGPicture) -> tuple[str, Sequence[Image]]:
@@ -173,8 +189,9 @@ def _filmed(picture: SVGPicture) -> tuple[str, Sequence[Image]]:
         return repr(picture), picture.film_images()
 
 
-def _net_film(net: Stages, n: int | None, size: object, choices: Mapping[str, Any],
-              given: Mapping[str, Any]) -> tuple[str, Sequence[Image]]:
+def _net_film(
+    net: Stages, n: int | None, size: object, choices: Mapping[str, Any], given: Mapping[str, Any]
+) -> tuple[str, Sequence[Image]]:
     """A stage diagram with the tokens of each step."""
     _check_choices(choices, ("positions",), STAGES, net.system)
     own = {name: value for name, value in choices.items() if name != "positions"}
@@ -189,9 +206,10 @@ def _pictures_film(what: Any, size: object) -> tuple[str, Sequence[Image]]:
     if isinstance(what, SVGPicture):
         return _filmed(what)
     if not isinstance(what, Sequence) or not what or not all(isinstance(each, SVGPicture) for each in what):
-        raise ModelValueError("Only systems and derivations, stage diagrams, lineages and pictures can be animated, "
-                              f"not {type(what).__name__}",
-                              hint=instead(what, "animate", f"animate([draw({WORD}), ...])"))
+        raise ModelValueError(
+            f"Only systems and derivations, stage diagrams, lineages and pictures can be animated, not {type(what).__name__}",
+            hint=instead(what, "animate", f"animate([draw({WORD}), ...])"),
+        )
     if len(what) > MOST_FRAMES:
         raise _too_long(len(what))
     images = [picture.image() for picture in counted(what, 1)]
@@ -200,11 +218,13 @@ def _pictures_film(what: Any, size: object) -> tuple[str, Sequence[Image]]:
     paper = final_size(wide, high, found)
     return f"{len(what)} pictures; the last: {what[-1]!r}", [
         centred(picture.image(enlargement(wide, high, found)) if found else image, paper)
-        for picture, image in zip(what, images, strict=True)]
+        for picture, image in zip(what, images, strict=True)
+    ]
 
 
-def _turtle_film(derivation: Derivation, angle: object, view: View | None, size: object,
-                 options: Options) -> tuple[str, Sequence[Image]]:
+def _turtle_film(
+    derivation: Derivation, angle: object, view: View | None, size: object, options: Options
+) -> tuple[str, Sequence[Image]]:
     """What the turtle draws, step after step."""
     turn = turning_angle(angle, derivation.states.system)
     steps: list[Scene] = []
@@ -237,8 +257,9 @@ def _turned(what: Any, n: int | None, pace: float, view: View | None, size: obje
     """What is in space, from all sides."""
     picture = what if isinstance(what, SVGPicture) else draw(what, n, **choices)
     if not isinstance(picture, Picture) or picture.solid is None:
-        raise ModelValueError("A turntable shows what is in space, and this lies in the plane",
-                              hint="Animate its steps: without turntable=True.")
+        raise ModelValueError(
+            "A turntable shows what is in space, and this lies in the plane", hint="Animate its steps: without turntable=True."
+        )
     scenes = list(_around(picture.solid, view or FROM_THE_RIGHT))
     return Film(f"{picture!r}; from all sides", tuple(_framed(scenes, picture.colour_of, size, picture.legend)), pace, 1)
 

@@ -33,7 +33,7 @@ class LanguageClass(NamedTuple):
 
     def holds(self, x: float, y: float) -> bool:
         """Whether a point lies inside."""
-        return ((x - self.centre[0]) / self.reach[0])**2 + ((y - self.centre[1]) / self.reach[1])**2 < 1
+        return ((x - self.centre[0]) / self.reach[0]) ** 2 + ((y - self.centre[1]) / self.reach[1]) ** 2 < 1
 
 
 class Language(NamedTuple):
@@ -73,7 +73,8 @@ DESCRIPTION = (
     "Power of 0L-systems and (k,l)-systems in comparison to Chomsky languages: five nested ellipses, finite inside regular "
     "inside context-free inside context-sensitive inside recursively enumerable languages. The ellipse of 0L-systems lies "
     "inside the context-sensitive one and cuts across the finite, regular and context-free ones. That of (k,l)-systems "
-    "contains it, lies inside the recursively enumerable one and cuts across all others. Languages as examples: ")
+    "contains it, lies inside the recursively enumerable one and cuts across all others. Languages as examples: "
+)
 
 
 @dataclass(frozen=True)
@@ -89,8 +90,12 @@ class HierarchyPicture(SVGPicture):
     def svg(self) -> str:
         """The picture as SVG text."""
         with drawn_on(self.theme):
-            shapes = [*map(_ellipse, CHOMSKY), *map(_ellipse, PARALLEL), *map(_class_name, (*CHOMSKY, *PARALLEL)),
-                      *map(_point, LANGUAGES)]
+            shapes = [
+                *map(_ellipse, CHOMSKY),
+                *map(_ellipse, PARALLEL),
+                *map(_class_name, (*CHOMSKY, *PARALLEL)),
+                *map(_point, LANGUAGES),
+            ]
             return document(paper(WIDTH, HEIGHT) + "".join(shapes), WIDTH, HEIGHT, self.text)
 
     def __repr__(self) -> str:
@@ -127,8 +132,10 @@ def _ellipse(each: LanguageClass) -> str:
     (x, y), (across, up) = each.centre, each.reach
     broken = ' stroke-dasharray="90 50"' if each in PARALLEL else ""
     fill = f'fill="{tinted(each.colour, 0.3)}" fill-opacity="{0.3 if broken else 0.24}"'
-    return (f'<ellipse cx="{10 * x:g}" cy="{10 * y:g}" rx="{10 * across:g}" ry="{10 * up:g}" {fill} '
-            f'stroke="{line(each.colour)}" stroke-width="{20 if broken else 14}"{broken}/>')
+    return (
+        f'<ellipse cx="{10 * x:g}" cy="{10 * y:g}" rx="{10 * across:g}" ry="{10 * up:g}" {fill} '
+        f'stroke="{line(each.colour)}" stroke-width="{20 if broken else 14}"{broken}/>'
+    )
 
 
 def _class_name(each: LanguageClass) -> str:
@@ -137,11 +144,15 @@ def _class_name(each: LanguageClass) -> str:
 
 def _point(each: Language) -> str:
     """The point of a language, with the language below it."""
-    return (f'<circle cx="{10 * each.x:g}" cy="{10 * each.y:g}" r="30" fill="{theme().ink}"/>'
-            f"{_text(each.text, each.x, each.y + 19, 13, theme().ink)}")
+    return (
+        f'<circle cx="{10 * each.x:g}" cy="{10 * each.y:g}" r="30" fill="{theme().ink}"/>'
+        f"{_text(each.text, each.x, each.y + 19, 13, theme().ink)}"
+    )
 
 
 def _text(text: str, x: float, y: float, size: int, colour: str) -> str:
-    return (f'<text x="{10 * x:g}" y="{10 * y:g}" font-family="sans-serif" font-size="{10 * size}" text-anchor="middle" '
-            f'fill="{colour}" stroke="{theme().paper}" stroke-width="40" stroke-linejoin="round" paint-order="stroke">'
-            f"{text}</text>")
+    return (
+        f'<text x="{10 * x:g}" y="{10 * y:g}" font-family="sans-serif" font-size="{10 * size}" text-anchor="middle" '
+        f'fill="{colour}" stroke="{theme().paper}" stroke-width="40" stroke-linejoin="round" paint-order="stroke">'
+        f"{text}</text>"
+    )

@@ -46,8 +46,11 @@ def check_drawable(what: object, n: int | None = None) -> None:
     """It can be drawn, and its number of steps can be chosen if one is."""
     if not isinstance(what, DRAWABLE):
         hint = instead(what, "draw", f"draw({WORD})")
-        raise ModelValueError("Only systems, derivations, words, developments, stage diagrams and lineages can be drawn, "
-                              f"not {type(what).__name__}", hint=hint)
+        raise ModelValueError(
+            "Only systems, derivations, words, developments, stage diagrams and lineages can be drawn, "
+            f"not {type(what).__name__}",
+            hint=hint,
+        )
     if n is not None and isinstance(what, Stages | Lineage):
         hint = "Give the word of a step as tokens=..., or animate(...)." if isinstance(what, Stages) else ""
         raise ModelValueError(f"The steps of {kind_of(what, {})} are chosen when it is made, not when it is drawn", hint=hint)

@@ -127,6 +127,7 @@ def _label(symbol: str, system: LSystem) -> Label:
 
 # --- in each format ----------------------------------------------------------------------------------------------------------
 
+
 def with_legend(svg: str, legend: Legend | None) -> str:
     """A whole SVG picture with a legend below it."""
     found = _HEAD.search(svg)
@@ -136,23 +137,32 @@ def with_legend(svg: str, legend: Legend | None) -> str:
     wide, more = legend.size(width)
     parts, aside = across // width, (wide - width) // 2
     head = f'viewBox="0 0 {wide * parts} {(height + more) * parts}" width="{wide}" height="{height + more}"'
-    title, body = svg[found.end():].removesuffix("</svg>").split("</title>", 1)
-    paper = "" if theme().transparent else f'<rect width="{wide * parts}" height="{(height + more) * parts}" ' \
-        f'fill="{theme().ground}"/>'
+    title, body = svg[found.end() :].removesuffix("</svg>").split("</title>", 1)
+    paper = (
+        ""
+        if theme().transparent
+        else f'<rect width="{wide * parts}" height="{(height + more) * parts}" fill="{theme().ground}"/>'
+    )
     moved = f'<g transform="translate({aside * parts} 0)">{body}</g>' if aside else body
-    return (f"{svg[:found.start()]}{head}{title}</title>{paper}{moved}"
-            f'<g class="legend" transform="translate({MARGIN * parts} {height * parts}) scale({parts})" '
-            f'font-family="sans-serif" font-size="{TEXT}" fill="{theme().ink}">{_entries_svg(legend, wide)}</g></svg>')
+    return (
+        f"{svg[: found.start()]}{head}{title}</title>{paper}{moved}"
+        f'<g class="legend" transform="translate({MARGIN * parts} {height * parts}) scale({parts})" '
+        f'font-family="sans-serif" font-size="{TEXT}" fill="{theme().ink}">{_entries_svg(legend, wide)}</g></svg>'
+    )
 
 
 def _entries_svg(legend: Legend, width: float) -> str:
     texts = []
     for x, y, entry in _placed(legend, width):
         step = SWATCH / max(len(entry.colours), 1)
-        texts += [f'<rect x="{x + number * step:.1f}" y="{y - HIGH + 1:.1f}" width="{step:.1f}" height="{HIGH}" '
-                  f'fill="{line(colour)}"/>' for number, colour in enumerate(entry.colours)]
-        texts.append(f'<text x="{_text_place(x, entry):.1f}" y="{y:.1f}">{letter_svg(*entry.label[:2])}'
-                     f"{escaped(entry.label[2])}</text>")
+        texts += [
+            f'<rect x="{x + number * step:.1f}" y="{y - HIGH + 1:.1f}" width="{step:.1f}" height="{HIGH}" '
+            f'fill="{line(colour)}"/>'
+            for number, colour in enumerate(entry.colours)
+        ]
+        texts.append(
+            f'<text x="{_text_place(x, entry):.1f}" y="{y:.1f}">{letter_svg(*entry.label[:2])}{escaped(entry.label[2])}</text>'
+        )
     return "".join(texts)
 
 
@@ -184,12 +194,13 @@ def plot_legend(ax: Axes, legend: Legend) -> None:
     """A legend below axes."""
     from matplotlib.patches import Patch
 
-    handles = [Patch(color=line(entry.colours[len(entry.colours) // 2]) if entry.colours else "none",
-                     label=_plain(entry.label)) for entry in legend.entries]
+    handles = [
+        Patch(color=line(entry.colours[len(entry.colours) // 2]) if entry.colours else "none", label=_plain(entry.label))
+        for entry in legend.entries
+    ]
     ax.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0.0), frameon=False, labelcolor=theme().ink, ncols=4)
 
 
 def _plain(label: Label) -> str:
     letter, subscript, values = label
     return f"{letter}_{subscript}{values}" if subscript else f"{letter}{values}"
-

@@ -98,10 +98,12 @@ class SmallMultiples(SVGPicture):
         frame = panels[0].frame
         factor = enlarged * enlargement(frame.width, frame.height, self.pixels)
         pixels = sum(each.size for each in self.pictures) > most
-        body = "".join(_panel_svg(*each, factor if pixels else 0.0)
-                       for each in zip(self.pictures, panels, captions, strict=True))
-        whole = document(background(frame.width, frame.height, frame.parts) + body, frame.width, frame.height, self.text,
-                         frame.parts)
+        body = "".join(
+            _panel_svg(*each, factor if pixels else 0.0) for each in zip(self.pictures, panels, captions, strict=True)
+        )
+        whole = document(
+            background(frame.width, frame.height, frame.parts) + body, frame.width, frame.height, self.text, frame.parts
+        )
         return resized(with_legend(whole, self.legend), self.pixels)
 
     def __repr__(self) -> str:
@@ -156,11 +158,16 @@ def _scale(wide: float, high: float, many: int, columns: int) -> float:
 def _panel_svg(picture: Picture, panel: Panel, caption: str, pixels: float) -> str:
     """A drawing with its caption; perhaps as so many pixels in each direction of one of the picture."""
     parts = panel.frame.parts
-    drawn = turtle_svg(picture.scene, panel.frame, picture.colour_of, picture.marked) if not pixels else \
-        _panel_image(picture, panel, pixels) + labels_svg(picture.scene, panel.frame)
-    return (f'{drawn}<text x="{panel.middle * parts:.0f}" y="{(panel.ground + LOWER) * parts:.0f}" '
-            f'font-size="{TEXT * parts}" text-anchor="middle" font-family="sans-serif" '
-            f'fill="{theme().quiet}">{escape(caption)}</text>')
+    drawn = (
+        turtle_svg(picture.scene, panel.frame, picture.colour_of, picture.marked)
+        if not pixels
+        else _panel_image(picture, panel, pixels) + labels_svg(picture.scene, panel.frame)
+    )
+    return (
+        f'{drawn}<text x="{panel.middle * parts:.0f}" y="{(panel.ground + LOWER) * parts:.0f}" '
+        f'font-size="{TEXT * parts}" text-anchor="middle" font-family="sans-serif" '
+        f'fill="{theme().quiet}">{escape(caption)}</text>'
+    )
 
 
 def _panel_image(picture: Picture, panel: Panel, enlarged: float) -> str:

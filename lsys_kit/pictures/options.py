@@ -25,10 +25,15 @@ DRAWING, STEPS, FILAMENT = "the drawing of a turtle", "drawings side by side", "
 STAGES, LINEAGE = "a stage diagram", "a lineage"
 MAP, SPHERE, CELLWORK = "a map", "a map on a sphere", "a cellwork"
 KINDS: Mapping[str, tuple[str, ...]] = {
-    DRAWING: ("colours", "widths", "turtle", "legend", "background"), STEPS: OPTIONS,
+    DRAWING: ("colours", "widths", "turtle", "legend", "background"),
+    STEPS: OPTIONS,
     FILAMENT: ("labels", "colours", "legend", "background"),
-    STAGES: ("labels", "colours", "background"), LINEAGE: ("labels", "colours", "legend", "background"),
-    MAP: ("labels", "background"), SPHERE: ("background",), CELLWORK: ("colours", "legend", "background")}
+    STAGES: ("labels", "colours", "background"),
+    LINEAGE: ("labels", "colours", "legend", "background"),
+    MAP: ("labels", "background"),
+    SPHERE: ("background",),
+    CELLWORK: ("colours", "legend", "background"),
+}
 """The kinds of pictures, each with the options that it has."""
 COLOURS, WIDTHS = ("natural", "symbols"), ("order", "constant")
 """What colours and widths can be, besides colours of single symbols and a factor."""
@@ -112,12 +117,16 @@ def _with_background(found: Options, value: object, kind: str, symbols: Symbols)
 def _with_colours(found: Options, value: object, kind: str, symbols: Symbols) -> Options:
     if isinstance(value, str) and value in COLOURS:
         if value == "natural" and kind not in (DRAWING, STEPS):
-            raise ModelValueError('Only strokes of a turtle have natural colours, and there are none here',
-                                  hint='Give colours="symbols", or colours of single symbols.')
+            raise ModelValueError(
+                "Only strokes of a turtle have natural colours, and there are none here",
+                hint='Give colours="symbols", or colours of single symbols.',
+            )
         return replace(found, colours=value)
     if not isinstance(value, Mapping):
-        raise ModelValueError(f'"colours" are "natural", "symbols" or colours of symbols, not {shown(value)}',
-                              hint='For example colours={"A": "seagreen"}.')
+        raise ModelValueError(
+            f'"colours" are "natural", "symbols" or colours of symbols, not {shown(value)}',
+            hint='For example colours={"A": "seagreen"}.',
+        )
     chosen = tuple((each, colour_from(colour)) for name, colour in value.items() for each in _called(name, symbols))
     return replace(found, theme=replace(found.theme, symbols=chosen))
 
@@ -145,8 +154,13 @@ def _with_widths(found: Options, value: object, kind: str, symbols: Symbols) -> 
 
 
 _SETTERS: Mapping[str, Callable[[Options, object, str, Symbols], Options]] = {
-    "labels": _with_labels, "colours": _with_colours, "widths": _with_widths, "turtle": _with_turtle, "legend": _with_legend,
-    "background": _with_background}
+    "labels": _with_labels,
+    "colours": _with_colours,
+    "widths": _with_widths,
+    "turtle": _with_turtle,
+    "legend": _with_legend,
+    "background": _with_background,
+}
 
 
 def seen_as(what: Derivation | Word, angle: float, options: Options) -> Scene:

@@ -121,9 +121,12 @@ class Picture(SVGPicture):
 
     def _plot_into(self, ax: Axes) -> None:
         if self.size > current().figure:
-            raise ModelLimitError(f"The figure would have {self.size:,} shapes; the limit is {current().figure:,}",
-                                  limit=current().figure, needed=self.size,
-                                  hint="Take fewer steps, keep the picture as .png, or set limits(figure=...).")
+            raise ModelLimitError(
+                f"The figure would have {self.size:,} shapes; the limit is {current().figure:,}",
+                limit=current().figure,
+                needed=self.size,
+                hint="Take fewer steps, keep the picture as .png, or set limits(figure=...).",
+            )
         if len(self.scene.cells):
             super()._plot_into(ax)
         else:
@@ -149,15 +152,16 @@ class Picture(SVGPicture):
         """The rows of a filament, which appear one after another."""
         many = len(self.rows) if len(self.scene.cells) and self.current is not None else 0
         pixels = self.size > MOST_PAINTED
-        return [painted(drawing_of(self._sequence_written(pixels, 1.0, shown))) for shown in range(1, many + 1)] \
-            or [self.image()]
+        return [painted(drawing_of(self._sequence_written(pixels, 1.0, shown))) for shown in range(1, many + 1)] or [
+            self.image()
+        ]
 
     def _sequence_written(self, pixels: bool, enlarged: float, shown: int = 0) -> str:
         """The rows of a filament, whose cells may be pixels; perhaps as if so many of them were all."""
         labelled = self.labels is not False
         layout, image = filament_layout(self.rows, labelled and self.current is not None, self.time, labelled), ""
         height, now = layout.height, self.rows[shown - 1].step if shown else self.current
-        begun = {row.step for row in self.rows[:shown or None]}
+        begun = {row.step for row in self.rows[: shown or None]}
         sheet = replace(layout, rows=[line for line in layout.rows if line.step in begun])
         if pixels:
             factor = enlarged * enlargement(WIDTH, height, self.pixels)
@@ -202,10 +206,17 @@ class Picture(SVGPicture):
         flat = self._encoders(path, dpi)
         if path.suffix.lower() == ".obj":
             save_file(library, mtl(self.mesh, self.colour_of))
-        save_as(path, {".svg": flat[".svg"], ".png": flat[".png"], ".pdf": flat[".pdf"],
-                       ".glb": lambda: glb(self.mesh, self.colour_of),
-                       ".obj": lambda: obj(self.mesh, self.colour_of, library.name)},
-                f"Films end in {listed(FILMS)}, and are made by animate(...).")
+        save_as(
+            path,
+            {
+                ".svg": flat[".svg"],
+                ".png": flat[".png"],
+                ".pdf": flat[".pdf"],
+                ".glb": lambda: glb(self.mesh, self.colour_of),
+                ".obj": lambda: obj(self.mesh, self.colour_of, library.name),
+            },
+            f"Films end in {listed(FILMS)}, and are made by animate(...).",
+        )
 
     def __repr__(self) -> str:
         return "; ".join(filter(None, (self.text, passed_over(self.scene.unknown))))

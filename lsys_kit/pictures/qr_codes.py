@@ -97,12 +97,14 @@ def qr_code(text: str) -> QRCode:
     if not text or not text.isprintable():
         raise ModelValueError("The text of a QR code has characters, and all of them are visible")
     if length > MOST_BYTES:
-        raise ModelLimitError(f"A QR code holds at most {MOST_BYTES:,} bytes; this text has {length:,}", limit=MOST_BYTES,
-                              needed=length)
+        raise ModelLimitError(
+            f"A QR code holds at most {MOST_BYTES:,} bytes; this text has {length:,}", limit=MOST_BYTES, needed=length
+        )
     try:
         import segno
     except ImportError:
-        raise LSystemError("QR codes need the library segno, which is not installed",
-                           hint="Install it with: pip install 'lsys-kit[qr]'") from None
+        raise LSystemError(
+            "QR codes need the library segno, which is not installed", hint="Install it with: pip install 'lsys-kit[qr]'"
+        ) from None
     code = segno.make_qr(text, encoding="utf-8")
     return QRCode(text, tuple(tuple(map(bool, row)) for row in code.matrix))

@@ -33,9 +33,11 @@ if TYPE_CHECKING:
 def document(body: str, width: int, height: int, description: str, parts: int = 10) -> str:
     """A whole SVG picture with its text alternative; its units are parts of a pixel."""
     words = escape(description, quote=True)
-    return (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width * parts} {height * parts}" width="{width}" '
-            f'height="{height}" role="img" aria-label="{words}" style="max-width:100%;height:auto">'
-            f"<title>{words}</title>{body}</svg>")
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width * parts} {height * parts}" width="{width}" '
+        f'height="{height}" role="img" aria-label="{words}" style="max-width:100%;height:auto">'
+        f"<title>{words}</title>{body}</svg>"
+    )
 
 
 _HEAD = re.compile(r'viewBox="0 0 (\d+) (\d+)" width="(\d+)" height="(\d+)"')
@@ -55,7 +57,7 @@ def resized(svg: str, size: Size | None) -> str:
     sides = () if size[1] is None else ((across, wide, width), (down, high, height))
     more = [round(side * (room / factor / own - 1) / 2) for side, room, own in sides] or [0, 0]
     box = f"{-more[0]} {-more[1]} {across + 2 * more[0]} {down + 2 * more[1]}"
-    svg = f'{svg[:found.start()]}viewBox="{box}" width="{wide}" height="{high}"{svg[found.end():]}'
+    svg = f'{svg[: found.start()]}viewBox="{box}" width="{wide}" height="{high}"{svg[found.end() :]}'
     corner_and_size = 'x="{}" y="{}" width="{}" height="{}"'.format(*box.split())
     paper = f'<rect {corner_and_size} fill="{theme().ground}"/>' if any(more) and not theme().transparent else ""
     return svg.replace("</title>", f"</title>{paper}", 1)
@@ -92,9 +94,15 @@ def labels_svg(scene: Scene, frame: ViewFrame) -> str:
     for (x, y), text in zip(frame.points(scene.labels.points).tolist(), scene.labels.texts, strict=True):
         start = min(x + LABEL_GAP * frame.parts, (frame.width + LABEL_GAP - label_width(text)) * frame.parts)
         texts.append(f'<text x="{start:.0f}" y="{y + 0.36 * LABEL * frame.parts:.0f}">{escape(text)}</text>')
-    return (f'<g class="label" font-size="{LABEL * frame.parts}" font-family="sans-serif" fill="{theme().ink}" '
+    return (
+        (
+            f'<g class="label" font-size="{LABEL * frame.parts}" font-family="sans-serif" fill="{theme().ink}" '
             f'stroke="{theme().paper}" stroke-width="{3 * frame.parts}" stroke-linejoin="round" paint-order="stroke">'
-            f'{"".join(texts)}</g>') if texts else ""
+            f"{''.join(texts)}</g>"
+        )
+        if texts
+        else ""
+    )
 
 
 _AREAS, _ROUNDS = 0.6, 1.0
@@ -120,9 +128,14 @@ def _edge(shapes: DisplayList, colour: int) -> str:
 def _rounds(shapes: DisplayList, frame: ViewFrame) -> list[str]:
     """Discs, and spheres with a gradient."""
     rounds, texts = shapes.rounds, []
-    for (x, y), radius, fill, edge, sphere in zip(frame.points(rounds.centres).tolist(), rounds.radii.tolist(),
-                                                  rounds.fills.tolist(), rounds.edges.tolist(), rounds.spheres.tolist(),
-                                                  strict=True):
+    for (x, y), radius, fill, edge, sphere in zip(
+        frame.points(rounds.centres).tolist(),
+        rounds.radii.tolist(),
+        rounds.fills.tolist(),
+        rounds.edges.tolist(),
+        rounds.spheres.tolist(),
+        strict=True,
+    ):
         reach = max(SMALLEST, radius * frame.scale) * frame.parts
         colour = "none" if fill == NO_COLOUR else shapes.palette[fill]
         inside = f"url(#{_gradient_name(colour)})" if sphere else colour
@@ -137,8 +150,10 @@ def _gradients(shapes: DisplayList) -> str:
     found = []
     for colour in colours:
         stops = "".join(f'<stop offset="{share}" stop-color="{tone}"/>' for share, tone in sphere_tones(colour))
-        found.append(f'<radialGradient id="{_gradient_name(colour)}" cx="{x:.2f}" cy="{y:.2f}" r="{REACH / 2:.2f}">{stops}'
-                     "</radialGradient>")
+        found.append(
+            f'<radialGradient id="{_gradient_name(colour)}" cx="{x:.2f}" cy="{y:.2f}" r="{REACH / 2:.2f}">{stops}'
+            "</radialGradient>"
+        )
     return f"<defs>{''.join(found)}</defs>" if found else ""
 
 
@@ -147,8 +162,9 @@ def _gradient_name(colour: str) -> str:
     return f"lsys-sphere-{colour[1:]}"
 
 
-def _lines_svg(lines: Lines, points: Integers, runs: Sequence[LineRun], look: tuple[int, float],
-               marked: Collection[int]) -> str:
+def _lines_svg(
+    lines: Lines, points: Integers, runs: Sequence[LineRun], look: tuple[int, float], marked: Collection[int]
+) -> str:
     """Lines that nothing lies between: a path for each colour and width; marked ones lie on a broad band.
 
     The look says how many parts a pixel has, and how many pixels broad the band is.
@@ -157,8 +173,10 @@ def _lines_svg(lines: Lines, points: Integers, runs: Sequence[LineRun], look: tu
     if marked:
         numbers = np.concatenate([run.numbers for run in runs])
         chosen = points[numbers[np.isin(lines.states[numbers], list(marked))]]
-        body += [f'<path class="marked" d="{_path(chosen)}" stroke="{theme().mark_edge}" stroke-width="{broad * parts:.0f}" '
-                 'stroke-opacity="0.45"/>'] * bool(len(chosen))
+        body += [
+            f'<path class="marked" d="{_path(chosen)}" stroke="{theme().mark_edge}" stroke-width="{broad * parts:.0f}" '
+            'stroke-opacity="0.45"/>'
+        ] * bool(len(chosen))
     for run in runs:
         body.append(f'<path d="{_path(points[run.numbers])}" stroke="{run.colour}" stroke-width="{run.width * parts // 10}"/>')
     return f'<g fill="none" stroke-linecap="round">{"".join(body)}</g>'

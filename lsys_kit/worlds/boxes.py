@@ -61,8 +61,13 @@ class Boxes:
         found = [self._things]
         while len(found[-1].lows) > GROUP:
             starts = np.arange(0, len(found[-1].lows), GROUP)
-            found.append(Level(np.minimum.reduceat(found[-1].lows, starts), np.maximum.reduceat(found[-1].highs, starts),
-                               np.add.reduceat(found[-1].sizes, starts)))
+            found.append(
+                Level(
+                    np.minimum.reduceat(found[-1].lows, starts),
+                    np.maximum.reduceat(found[-1].highs, starts),
+                    np.add.reduceat(found[-1].sizes, starts),
+                )
+            )
         return tuple(reversed(found))
 
 
@@ -90,7 +95,7 @@ class Cones:
     def beside(self, asking: Integers, away: Floats, distances: Floats) -> Floats:
         """How far points are from the surface of the cones, negative inside."""
         along = products(away, self.axes[asking])
-        across = np.sqrt(np.maximum(distances ** 2 - along ** 2, 0.0))
+        across = np.sqrt(np.maximum(distances**2 - along**2, 0.0))
         radians = np.radians(self.angle)
         found: Floats = across * np.cos(radians) - along * np.sin(radians)
         return found

@@ -22,8 +22,15 @@ from lsys_kit.worlds.sight import observe
 
 
 @overload
-def derive(system: LSystem, steps: int, *, seed: int | None = None, arithmetic: str = "exact", field: Field | None = None,
-           **constants: object) -> Derivation: ...
+def derive(
+    system: LSystem,
+    steps: int,
+    *,
+    seed: int | None = None,
+    arithmetic: str = "exact",
+    field: Field | None = None,
+    **constants: object,
+) -> Derivation: ...
 @overload
 def derive(system: MapSystem, steps: int) -> Development: ...
 @overload

@@ -68,8 +68,9 @@ class Field(Protocol):
         """A value for each question, or as many values as the query module has."""
 
 
-def answered(field: Field, questions: Sequence[Question], scene: Surroundings,
-             arithmetic: str = "exact") -> list[tuple[Value, ...]]:
+def answered(
+    field: Field, questions: Sequence[Question], scene: Surroundings, arithmetic: str = "exact"
+) -> list[tuple[Value, ...]]:
     """The values that the query modules have after a field has answered; a single number takes the place of the first.
 
     Raises
@@ -89,11 +90,14 @@ def answered(field: Field, questions: Sequence[Question], scene: Surroundings,
     """
     name = f"The field {type(field).__name__}"
     if isinstance(field, type):
-        raise ModelValueError(f"{field.__name__} is a class, not a field",
-                              hint=f"Give an object of it: field={field.__name__}().")
+        raise ModelValueError(
+            f"{field.__name__} is a class, not a field", hint=f"Give an object of it: field={field.__name__}()."
+        )
     if not callable(getattr(field, "answer", None)):
-        raise ModelValueError(f"A field has a method answer(questions, scene), and {shown(field)} has none",
-                              hint='A field that a text names stands in the text, as in "field: light".')
+        raise ModelValueError(
+            f"A field has a method answer(questions, scene), and {shown(field)} has none",
+            hint='A field that a text names stands in the text, as in "field: light".',
+        )
     try:
         given = field.answer(questions, scene)
         answers = None if given is None else list(counted(islice(given, len(questions) + 1)))
@@ -105,8 +109,10 @@ def answered(field: Field, questions: Sequence[Question], scene: Surroundings,
         raise ModelValueError(f"{name} returned nothing", hint="It must return a value for each question.")
     if len(answers) != len(questions):
         returned = f"more than {len(questions)}" if len(answers) > len(questions) else f"{len(answers)}"
-        raise ModelValueError(f"{name} returned {returned} values for {len(questions)} questions",
-                              hint="It must return a value for each question.")
+        raise ModelValueError(
+            f"{name} returned {returned} values for {len(questions)} questions",
+            hint="It must return a value for each question.",
+        )
     return [_taken(name, question, answer, arithmetic) for question, answer in zip(questions, answers, strict=True)]
 
 
@@ -118,8 +124,9 @@ def _taken(name: str, question: Question, answer: Any, arithmetic: str) -> tuple
         raise ModelValueError(f"{name} answered {shown(answer)} at {_at(question)}, which is no number")
     values = list(answer)
     if len(values) != len(question.values):
-        raise ModelValueError(f"{name} answered {len(values)} values at {_at(question)}, and the module there has "
-                              f"{len(question.values)}")
+        raise ModelValueError(
+            f"{name} answered {len(values)} values at {_at(question)}, and the module there has {len(question.values)}"
+        )
     return tuple(_number(name, question, value, arithmetic) for value in values)
 
 

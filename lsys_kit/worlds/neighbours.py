@@ -14,7 +14,7 @@ from lsys_kit.worlds.fields import Surroundings
 
 NEARNESS = 1e-9
 """A point as close to a boundary as this lies on it."""
-_MOST_VOXELS = 2.0 ** 52
+_MOST_VOXELS = 2.0**52
 """Up to so many voxels each has a number that a double holds exactly."""
 
 
@@ -24,12 +24,11 @@ def crossings(places: Floats, direction: Floats, scene: Surroundings) -> Integer
     Seen along the ray, a sphere is a circle: only those whose circle holds the place are looked at.
     """
     found = np.zeros(len(places), np.int64)
-    asking, spheres = _close(_flattened(places, direction), _flattened(scene.centres, direction),
-                             scene.radii.max(initial=0.0))
+    asking, spheres = _close(_flattened(places, direction), _flattened(scene.centres, direction), scene.radii.max(initial=0.0))
     away = scene.centres[spheres] - places[asking]
     along, squares, radii = products(away, direction), products(away, away), scene.radii[spheres]
-    half = radii ** 2 - (squares - along ** 2)  # the square of half the ray's way through the sphere
-    crossed = (half > NEARNESS) & (squares > NEARNESS ** 2) & (along + np.sqrt(np.maximum(half, 0.0)) > NEARNESS)
+    half = radii**2 - (squares - along**2)  # the square of half the ray's way through the sphere
+    crossed = (half > NEARNESS) & (squares > NEARNESS**2) & (along + np.sqrt(np.maximum(half, 0.0)) > NEARNESS)
     np.add.at(found, asking[crossed], 1)
     return found
 
@@ -67,8 +66,10 @@ def counts_in_pyramids(places: Floats, points: Floats, size: float, depth: int) 
     for layer in range(depth + 1):
         check_budget()
         found = np.zeros(len(asking), np.int64)
-        first, last = (np.clip(asking[:, 2] + side, least[2] - outside, most[2] + 1 - outside) - least[2]
-                       for side, outside in ((-layer, 0), (layer, 1)))
+        first, last = (
+            np.clip(asking[:, 2] + side, least[2] - outside, most[2] + 1 - outside) - least[2]
+            for side, outside in ((-layer, 0), (layer, 1))
+        )
         for aside in range(-layer, layer + 1):
             row = asking[:, :2] + (aside, layer) - least[:2]
             there = ((row >= 0) & (row < extent[:2])).all(axis=1)

@@ -25,8 +25,13 @@ from lsys_kit.worlds.neighbours import around_spheres, counts_in_pyramids, cross
 from lsys_kit.worlds.rounding import rounded
 
 _SLANT = pi / 4
-SKY = ((0.2, (0.0, 1.0, 0.0)), *((0.1, (sin(_SLANT) * cos(turn), cos(_SLANT), sin(_SLANT) * sin(turn)))
-                                 for turn in (eighth * pi / 4 for eighth in range(8))))
+SKY = (
+    (0.2, (0.0, 1.0, 0.0)),
+    *(
+        (0.1, (sin(_SLANT) * cos(turn), cos(_SLANT), sin(_SLANT) * sin(turn)))
+        for turn in (eighth * pi / 4 for eighth in range(8))
+    ),
+)
 """The directions from which light comes, each with its part: straight from above, and at 45 degrees from eight sides."""
 
 MOST_LAYERS = 64
@@ -78,8 +83,10 @@ class Shadows:
 
     def __init__(self, size: float = 1.0, a: float = 0.2, b: float = 2.0, depth: float = 4) -> None:
         if not (size > 0 and a > 0 and b > 1):
-            raise ModelValueError(f"The field shadows(size, a, b, depth) needs a size above 0, a above 0 and b above 1, "
-                                  f"not {size:g}, {a:g} and {b:g}")
+            raise ModelValueError(
+                f"The field shadows(size, a, b, depth) needs a size above 0, a above 0 and b above 1, "
+                f"not {size:g}, {a:g} and {b:g}"
+            )
         if depth != floor(depth) or not 0 <= depth <= MOST_LAYERS:
             raise ModelValueError(f"A shadow reaches down a whole number of layers from 0 to {MOST_LAYERS}, not {depth:g}")
         self.size, self.a, self.b, self.depth = size, a, b, int(depth)
@@ -89,7 +96,7 @@ class Shadows:
         places = _places(questions)
         found = 1 + self.a * around_spheres(places, scene)
         for layer, count in enumerate(counts_in_pyramids(places, scene.centres, self.size, self.depth)):
-            found -= self.a / self.b ** layer * count
+            found -= self.a / self.b**layer * count
         light: Floats = np.maximum(found, 0.0)
         return light
 
@@ -172,7 +179,12 @@ class Place:
 
 
 _NAMED: Mapping[str, Callable[..., Field]] = {
-    "light": Light, "polygon": Polygon, "shadows": Shadows, "space": Space, "water": Water}
+    "light": Light,
+    "polygon": Polygon,
+    "shadows": Shadows,
+    "space": Space,
+    "water": Water,
+}
 """The fields that are shaped by numbers, by name."""
 
 

@@ -10,7 +10,7 @@ from lsys_kit.notation.model.arithmetic import Value
 
 DECIMALS = 9
 """The number of decimals to which measured values are rounded."""
-_PARTS = 10 ** DECIMALS
+_PARTS = 10**DECIMALS
 _READ_OFF = 1e6
 """Below, a double times the parts is so exact that the nearest whole number is the one meant."""
 

@@ -130,8 +130,9 @@ class Standpoints:
 
     def others(self, things: Things) -> Callable[[Any, Integers], Any]:
         """Whether things are those of neighbours, given who asks and the numbers of the things."""
-        return lambda asking, numbers: ((things.owners[numbers] != self.own[asking])
-                                        & (things.owners[numbers] != self.mothers[asking]))
+        return lambda asking, numbers: (
+            (things.owners[numbers] != self.own[asking]) & (things.owners[numbers] != self.mothers[asking])
+        )
 
 
 def nearest(asking: Standpoints, least: float, colour: float | None = None) -> Floats:
@@ -153,8 +154,9 @@ def nearest_ahead(asking: Standpoints, angle: float, least: float, colour: float
     if len(points) > FIRST_LOOK:
         far = np.flatnonzero(np.isinf(found))
         remaining = asking[far]
-        found[far] = nearest_in_cones(points.boxes, Cones(remaining.tips, remaining.heads, cones.angle),
-                                      remaining.others(points), _NEAR)
+        found[far] = nearest_in_cones(
+            points.boxes, Cones(remaining.tips, remaining.heads, cones.angle), remaining.others(points), _NEAR
+        )
     return found
 
 

@@ -88,7 +88,7 @@ class Answers:
         if asking not in self._found:
             check_budget()
             block = range(asking, min(asking + self._block, len(self._standpoints)))
-            answers = self._function.answer(self._standpoints[block.start:block.stop], *self._values)
+            answers = self._function.answer(self._standpoints[block.start : block.stop], *self._values)
             self._found.update(zip(block, answers.tolist(), strict=True))
             self._block = min(2 * self._block, MOST_AT_ONCE)
         return self._found[asking]
@@ -133,8 +133,10 @@ class TurtleObservation:
     def _numbers(self) -> dict[int, int]:
         """For each position that asks the number of its standpoint; modules behind the same shoot have the same."""
         found: dict[tuple[int, int], int] = {}
-        return {position: found.setdefault((NO_SHOOT, position) if place.shoot == NO_SHOOT else (place.shoot, 0), len(found))
-                for position, place in self.places.items()}
+        return {
+            position: found.setdefault((NO_SHOOT, position) if place.shoot == NO_SHOOT else (place.shoot, 0), len(found))
+            for position, place in self.places.items()
+        }
 
     @cached_property
     def _standpoints(self) -> Standpoints:
@@ -210,12 +212,18 @@ def observe(word: Word, field: Field | None = None) -> TurtleObservation:
 def _observing_states(states: States, present: Iterable[int]) -> frozenset[int]:
     """The states whose modules ask; all of them, if a decomposition rule calls a sensitive function."""
     every = any(rule.looks for rules in states.decomposition.values() for rule in rules)
-    return frozenset(state for state in present if every or states.modules[state].symbol in QUERIES
-                     or any(rule.looks for rule in states.rules.get(kind_of(states.modules[state]), ())))
+    return frozenset(
+        state
+        for state in present
+        if every
+        or states.modules[state].symbol in QUERIES
+        or any(rule.looks for rule in states.rules.get(kind_of(states.modules[state]), ()))
+    )
 
 
-def _query_values(states: States, numbers: Sequence[int],
-                  places: Mapping[int, Standpoint]) -> Iterator[tuple[int, tuple[Value, ...]]]:
+def _query_values(
+    states: States, numbers: Sequence[int], places: Mapping[int, Standpoint]
+) -> Iterator[tuple[int, tuple[Value, ...]]]:
     """The positions of the query modules that ask the turtle, with the values that they receive."""
     for position, place in places.items():
         module = states.modules[numbers[position]]
@@ -224,11 +232,16 @@ def _query_values(states: States, numbers: Sequence[int],
                 raise ModelValueError(f"{module} asks for more than the three values x, y and z")
             vector = {"?P": place.position, "?H": place.frame[0], "?U": place.frame[2], "?L": place.frame[1]}[module.symbol]
             values = tuple(rounded(value, states.arithmetic) for value in seen_from_the_front(vector))
-            yield position, values[:len(module.arguments)]
+            yield position, values[: len(module.arguments)]
 
 
-def _field_values(states: States, numbers: Sequence[int], places: Mapping[int, Standpoint], field: Field | None,
-                  scene: Callable[[], Surroundings]) -> Iterator[tuple[int, tuple[Value, ...]]]:
+def _field_values(
+    states: States,
+    numbers: Sequence[int],
+    places: Mapping[int, Standpoint],
+    field: Field | None,
+    scene: Callable[[], Surroundings],
+) -> Iterator[tuple[int, tuple[Value, ...]]]:
     """The positions of the query modules that ask a field, with the values that they receive."""
     modules = [states.modules[number] for number in numbers]
     asking = [at for at in places if modules[at].symbol == "?E" and modules[at].arguments]
@@ -236,11 +249,20 @@ def _field_values(states: States, numbers: Sequence[int], places: Mapping[int, S
         return
     field = named_field(states) if field is None else field
     if field is None:
-        raise ModelValueError(f"Nothing answers {modules[asking[0]]}: the model has no field",
-                              hint='Name one in the model, as in "field: light", or derive with field=...')
-    questions = [Question(seen_from_the_front(places[at].position), seen_from_the_front(places[at].frame[0]),
-                          modules[at].arguments, modules[at - 1] if at else None,
-                          modules[at + 1] if at + 1 < len(modules) else None) for at in asking]
+        raise ModelValueError(
+            f"Nothing answers {modules[asking[0]]}: the model has no field",
+            hint='Name one in the model, as in "field: light", or derive with field=...',
+        )
+    questions = [
+        Question(
+            seen_from_the_front(places[at].position),
+            seen_from_the_front(places[at].frame[0]),
+            modules[at].arguments,
+            modules[at - 1] if at else None,
+            modules[at + 1] if at + 1 < len(modules) else None,
+        )
+        for at in asking
+    ]
     yield from zip(asking, answered(field, questions, scene(), states.arithmetic), strict=True)
 
 

@@ -43,7 +43,7 @@ def told(benchmark, strokes, goal):
 def test_a_plant_put_together_from_pieces(benchmark, model, steps, goal):
     derivation = derive(model, steps)
     scene = benchmark(lambda: scene_of(derivation))
-    assert len(scene.segments) == 5 ** steps
+    assert len(scene.segments) == 5**steps
     told(benchmark, len(scene.segments), goal)
 
 
@@ -57,7 +57,7 @@ def test_module_by_module_in_space(benchmark):
 def test_every_module_is_different(benchmark):
     word = derive(ALL_DIFFERENT, 15, arithmetic="float")[-1]
     scene = benchmark(lambda: scene_of(word))
-    assert len(scene.segments) == 2 ** 15
+    assert len(scene.segments) == 2**15
     told(benchmark, len(scene.segments), 1e5)
 
 

@@ -14,8 +14,10 @@ from lsys_kit import derive, growth, read, stages, system
 
 FIBONACCI = read("axiom: a\na -> ab\nb -> a")
 PLANT = read("angle: 25.7\naxiom: F\nF -> F[+F]F[-F]F")
-CELLS = read("dt = 0.7\naxiom: A(0)\nA(t) : t+dt < 1 -> A(t+dt)\nA(t) -> B(t+dt-1) A(t+dt-0.8)\n"
-             "B(t) : t+dt < 1 -> B(t+dt)\nB(t) -> A(t+dt-1)")
+CELLS = read(
+    "dt = 0.7\naxiom: A(0)\nA(t) : t+dt < 1 -> A(t+dt)\nA(t) -> B(t+dt-1) A(t+dt-0.8)\n"
+    "B(t) : t+dt < 1 -> B(t+dt)\nB(t) -> A(t+dt-1)"
+)
 EVERY_MODULE_NEW = read("axiom: A(1)\nA(x) -> A(2*x) A(2*x+1)")
 TEN_RULES = """
 lifeTimeA = 3 in 1 .. 6

@@ -153,7 +153,7 @@ def test_a_signal_along_a_filament(benchmark, score):
     found, steps = (SHORT_SIGNAL, 5) if benchmark.disabled else (SIGNAL, 50)
     fresh = iter([derive(found, 1) for _ in range(14)])
     word = next(fresh).to(steps + 1)[-1]
-    assert [module.symbol for module in word[:steps + 2]] == ["b"] * (steps + 1) + ["a"]
+    assert [module.symbol for module in word[: steps + 2]] == ["b"] * (steps + 1) + ["a"]
     goal = Goal(f"b < a -> b, {steps} steps (visits)", 8e7, cpfg=4e7, lpy=3.9e6)
     compare(benchmark, score, goal, lambda: next(fresh).to(steps + 1)[-1], visits=steps * len(word))
 
@@ -237,6 +237,7 @@ def test_counting_fibonacci(benchmark, score):
 
 def test_refusing_what_is_too_large(benchmark, score):
     """F -> FFFFFFFFFF at step 20: 10^20 modules."""
+
     def work():
         with suppress(ModelLimitError):
             derive(TENFOLD, 20)

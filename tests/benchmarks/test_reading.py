@@ -31,15 +31,22 @@ MOST = 49_000
 """How many characters are read in every notation, even where they are one statement."""
 WITH_EXPRESSIONS = [name for name in DIALECTS if name not in ("plant-string", "fractint")]
 RULE = {
-    "abop": "A(t) : t < {} && t > 2 -> B(t+1)[+C(2*t)]F(t^2) A(t)\n", "plant-string": "A -> I[A]A(I)AFFI[L](L)IFA[A]B(B)\n",
+    "abop": "A(t) : t < {} && t > 2 -> B(t+1)[+C(2*t)]F(t^2) A(t)\n",
+    "plant-string": "A -> I[A]A(I)AFFI[L](L)IFA[A]B(B)\n",
     "cpfg": "A(t) : t < {} && t > 2 --> B(t+1)[+C(2*t)]F(t^2)A(t)\n",
     "grogra": "(t<{} && t>2) A(t) # B(t+1) [+ C(2*t)] F(t^2) A(t),\n",
     "mathematica": "LRule[LEFT[], PRED[A[t_ /; t < {} && t > 2]], RIGHT[], SUCC[B[t+1], C[2*t], F[t^2], A[t]]],\n",
     "fractint": "A=F[+A]\\30D@.5!F<1F|[-A]C{}F\n",
 }
 """A production of each notation, with a place for a number."""
-BEGUN = {"abop": "axiom: A\n", "plant-string": "Axiom: A\n", "cpfg": "Axiom: A\n", "grogra": "\\axiom A,\n",
-         "fractint": "Plant {\nAngle 8\nAxiom A\n", "mathematica": "axiom = AXIOM[A];\nlrules = LRULES[\n"}
+BEGUN = {
+    "abop": "axiom: A\n",
+    "plant-string": "Axiom: A\n",
+    "cpfg": "Axiom: A\n",
+    "grogra": "\\axiom A,\n",
+    "fractint": "Plant {\nAngle 8\nAxiom A\n",
+    "mathematica": "axiom = AXIOM[A];\nlrules = LRULES[\n",
+}
 ENDED = {"mathematica": "LRule[LEFT[], PRED[A], RIGHT[], SUCC[B]]];\nlsystem = LSystem[axiom, lrules];", "fractint": "}"}
 ARROW = {"cpfg": " --> ", "grogra": " # ", "mathematica": " -> ", "fractint": "="}
 
@@ -117,8 +124,13 @@ def test_the_expressions_of_the_catalogue(benchmark, table: Table, notation: str
     GROGRA declares random numbers on lines of their own.
     """
     chosen = DIALECTS[notation]
-    spelt = {chosen.module(Pattern("a", (expression,)))[2:-1] for id in systems() if not lacking(chosen, system(id))
-             for expression in expressions(system(id)) if notation != "grogra" or not is_random(expression)}
+    spelt = {
+        chosen.module(Pattern("a", (expression,)))[2:-1]
+        for id in systems()
+        if not lacking(chosen, system(id))
+        for expression in expressions(system(id))
+        if notation != "grogra" or not is_random(expression)
+    }
     taken = dict.fromkeys(spelt, float("inf"))
     parse(chosen, "expression", "1", 0, 1)  # the first makes the parser
 
@@ -131,8 +143,15 @@ def test_the_expressions_of_the_catalogue(benchmark, table: Table, notation: str
     benchmark.pedantic(read_all, rounds=5, warmup_rounds=1)
     milliseconds = sorted(1_000 * seconds for seconds in taken.values())
     assert len(milliseconds) > 10
-    table.lines.append((notation, f"{len(spelt)} expressions", f"{statistics.median(milliseconds):.3f} ms",
-                        f"{milliseconds[-1]:.3f} ms", f"{MOST_MS} ms"))
+    table.lines.append(
+        (
+            notation,
+            f"{len(spelt)} expressions",
+            f"{statistics.median(milliseconds):.3f} ms",
+            f"{milliseconds[-1]:.3f} ms",
+            f"{MOST_MS} ms",
+        )
+    )
 
 
 @pytest.mark.parametrize("notation", DIALECTS)
@@ -151,8 +170,15 @@ def test_a_million_characters(benchmark, table: Table, notation: str) -> None:
 
     benchmark.pedantic(read_all, rounds=1)
     slowest = max(taken, key=lambda name: taken[name])
-    table.lines.append((notation, f"a million characters: {slowest}", f"{statistics.median(taken.values()):.2f} s",
-                        f"{taken[slowest]:.2f} s", f"{MOST_SECONDS:g} s"))
+    table.lines.append(
+        (
+            notation,
+            f"a million characters: {slowest}",
+            f"{statistics.median(taken.values()):.2f} s",
+            f"{taken[slowest]:.2f} s",
+            f"{MOST_SECONDS:g} s",
+        )
+    )
 
 
 @pytest.mark.parametrize("notation", DIALECTS)

@@ -72,11 +72,18 @@ def test_a_plant_is_turned_in_the_kernel(benchmark, step):
     assert benchmark(lambda: study.sight(step, {}, around=next(sides), above=10).picture.svg)
 
 
-@pytest.mark.parametrize(("source", "name", "changing"), [
-    ("explore('J4', 1)", "step", "canvas.lsys-canvas"), ("explore('K5', 1)", "step", "canvas.lsys-canvas"),
-    ("explore('K5', 6)", "angle", "canvas.lsys-canvas"), ("explore('K19', 12)", "around", "canvas.lsys-canvas"),
-    (f"explore(read({GROWN!r}), 5)", "c", "canvas.lsys-canvas"), (BARE, None, ".bare")],
-    ids=["step of J4", "step of K5", "angle of 15,625 strokes", "side of K19", "a new constant", "bare"])
+@pytest.mark.parametrize(
+    ("source", "name", "changing"),
+    [
+        ("explore('J4', 1)", "step", "canvas.lsys-canvas"),
+        ("explore('K5', 1)", "step", "canvas.lsys-canvas"),
+        ("explore('K5', 6)", "angle", "canvas.lsys-canvas"),
+        ("explore('K19', 12)", "around", "canvas.lsys-canvas"),
+        (f"explore(read({GROWN!r}), 5)", "c", "canvas.lsys-canvas"),
+        (BARE, None, ".bare"),
+    ],
+    ids=["step of J4", "step of K5", "angle of 15,625 strokes", "side of K19", "a new constant", "bare"],
+)
 def test_from_key_press_to_after_paint(benchmark, open_notebook, write_notebook, source, name, changing):
     """In a real JupyterLab, at a pace of ten keys a second where numbers are asked for."""
     notebook = open_notebook(write_notebook("latency.ipynb", f"from lsys_kit import explore, read\n{source}"))

@@ -52,8 +52,9 @@ def lab_tab(browser: Browser, lab: Lab, pytestconfig: pytest.Config) -> Tab:
 
 
 @pytest.fixture
-def open_notebook(browser: Browser, lab: Lab, lab_tab: Tab,
-                  pytestconfig: pytest.Config) -> Iterator[Callable[..., OpenNotebook]]:
+def open_notebook(
+    browser: Browser, lab: Lab, lab_tab: Tab, pytestconfig: pytest.Config
+) -> Iterator[Callable[..., OpenNotebook]]:
     """Opens a notebook of the course: `open_notebook("notebooks/01_all_at_once.ipynb")`; in a tab of its own if it asks for a
     context of its own, as for `device_scale_factor=2`."""
     used, own = [], []
@@ -90,13 +91,15 @@ def write_notebook(lab: Lab) -> Callable[..., str]:
 
 
 @pytest.fixture(scope="module")
-def open_at_home(browser: Browser, lab: Lab, write_notebook: Callable[..., str],
-                 pytestconfig: pytest.Config) -> Iterator[Callable[..., Page]]:
+def open_at_home(
+    browser: Browser, lab: Lab, write_notebook: Callable[..., str], pytestconfig: pytest.Config
+) -> Iterator[Callable[..., Page]]:
     """Opens a notebook in JupyterLab, Notebook 7 or Voila; of each a picture is kept at the end."""
     pages: list[tuple[Page, str]] = []
 
-    def open_one(home: Callable[[Page, Lab, str], None], *sources: str, name: str = "panel",
-                 viewport: Mapping[str, int] = VIEWPORT) -> Page:
+    def open_one(
+        home: Callable[[Page, Lab, str], None], *sources: str, name: str = "panel", viewport: Mapping[str, int] = VIEWPORT
+    ) -> Page:
         page = browser.new_context(viewport={"width": viewport["width"], "height": viewport["height"]}).new_page()
         pages.append((page, f"{name}-{home.__name__}"))
         home(page, lab, write_notebook(f"{name}_{home.__name__}.ipynb", *map(show, sources)))

@@ -20,8 +20,15 @@ from typing import Any
 from playwright.sync_api import Browser, ConsoleMessage, Error, Locator, Page, Playwright
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
-FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
-         "--disable-component-update", "--disable-sync"]
+FLAGS = [
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
 SECONDS = 120
 """How long anything may take on a slow machine."""
 VIEWPORT = {"width": 1400, "height": 1000}
@@ -34,8 +41,10 @@ CONFIGURATION = {
     "LabApp": {"expose_app_in_browser": True, "extension_manager": "readonly"},
     "JupyterNotebookApp": {"expose_app_in_browser": True},
 }
-SETTINGS = {"apputils-extension/notification": {"fetchNews": "false", "checkForUpdates": False, "doNotDisturbMode": True},
-            "docmanager-extension/plugin": {"autosave": False}}
+SETTINGS = {
+    "apputils-extension/notification": {"fetchNews": "false", "checkForUpdates": False, "doNotDisturbMode": True},
+    "docmanager-extension/plugin": {"autosave": False},
+}
 
 
 @dataclass(frozen=True)
@@ -52,8 +61,14 @@ def started(home: Path) -> Iterator[Lab]:
     url, log = f"http://127.0.0.1:{_free_port()}", home / "log.txt"
     folder = home / "course"
     with log.open("wb") as out:
-        process = subprocess.Popen([sys.executable, "-m", "lsys_kit", "lab", str(folder)], env=_environment(home, url),
-                                   stdin=subprocess.DEVNULL, stdout=out, stderr=out, cwd=home)
+        process = subprocess.Popen(
+            [sys.executable, "-m", "lsys_kit", "lab", str(folder)],
+            env=_environment(home, url),
+            stdin=subprocess.DEVNULL,
+            stdout=out,
+            stderr=out,
+            cwd=home,
+        )
         try:
             _await(url, process, log)
             yield Lab(url, folder)
@@ -78,8 +93,10 @@ def launched(playwright: Playwright) -> Browser:
     try:
         return playwright.chromium.launch(args=FLAGS)
     except Error as fault:
-        raise RuntimeError("There is no browser for these tests. Install Chromium or Chrome (on Debian: apt-get install "
-                           f"chromium), or see why playwright's own does not start: {fault}") from None
+        raise RuntimeError(
+            "There is no browser for these tests. Install Chromium or Chrome (on Debian: apt-get install "
+            f"chromium), or see why playwright's own does not start: {fault}"
+        ) from None
 
 
 @dataclass
@@ -110,7 +127,9 @@ class OpenNotebook:
 
     def cell_errors(self) -> list[str]:
         """What went wrong in cells that are not tagged raises-exception, and what never ran."""
-        return [str(text) for text in self._ask("""
+        return [
+            str(text)
+            for text in self._ask("""
             const wrong = [];
             panel.content.model.sharedModel.cells.forEach((cell, number) => {
                 if (cell.cell_type !== 'code' || !cell.getSource().trim()) return;
@@ -119,7 +138,8 @@ class OpenNotebook:
                 for (const error of expected ? [] : errors) wrong.push(`cell ${number}: ${error.ename}: ${error.evalue}`);
                 if (cell.execution_count === null) wrong.push(`cell ${number} did not run`);
             });
-            return wrong;""")]
+            return wrong;""")
+        ]
 
     def cell(self, number: int) -> Locator:
         """A cell, counted from 0, scrolled into view."""
@@ -132,10 +152,15 @@ class OpenNotebook:
 
     def cells_showing(self, text: str) -> list[int]:
         """The numbers of the cells of code whose source holds a text."""
-        return [int(n) for n in self._ask(
-            "return panel.content.model.sharedModel.cells.map((cell, n) => "
-            "cell.cell_type === 'code' && cell.getSource().includes(given) ? n : -1)"
-            ".filter(n => n >= 0);", text)]
+        return [
+            int(n)
+            for n in self._ask(
+                "return panel.content.model.sharedModel.cells.map((cell, n) => "
+                "cell.cell_type === 'code' && cell.getSource().includes(given) ? n : -1)"
+                ".filter(n => n >= 0);",
+                text,
+            )
+        ]
 
     def hide_file_browser(self) -> None:
         """Give the notebook the whole width, as on a narrow screen."""
@@ -155,7 +180,8 @@ class OpenNotebook:
 
     def _ask(self, code: str, given: Any = None) -> Any:
         """Run JavaScript with JupyterLab as `app` and the notebook as `panel`."""
-        return self.page.evaluate("""async ([code, given]) => {
+        return self.page.evaluate(
+            """async ([code, given]) => {
             const app = window.jupyterapp, panel = app.shell.currentWidget;
             const wait = ms => new Promise(done => setTimeout(done, ms));
             const idle = async () => {
@@ -164,7 +190,9 @@ class OpenNotebook:
             };
             const AsyncFunction = (async () => {}).constructor;
             return await new AsyncFunction('app', 'panel', 'idle', 'given', code)(app, panel, idle, given);
-        }""", [code, given])
+        }""",
+            [code, given],
+        )
 
 
 @dataclass
@@ -187,14 +215,20 @@ class Tab:
             self.page.goto(f"{self.lab.url}/lab/tree/{name}?reset")
         else:
             self.page.mouse.move(0, 0)
-            self.page.evaluate("""async name => {
+            self.page.evaluate(
+                """async name => {
                 window.jupyterapp.shell.expandLeft();
                 await window.jupyterapp.commands.execute('docmanager:open', { path: name });
-            }""", name)
-        self.page.wait_for_function("""name => {
+            }""",
+                name,
+            )
+        self.page.wait_for_function(
+            """name => {
             const panel = window.jupyterapp?.shell?.currentWidget;
             return panel?.context?.path === name && panel.sessionContext?.session?.kernel != null;
-        }""", arg=name)
+        }""",
+            arg=name,
+        )
         self.notebook.idle()
         return self.notebook
 
@@ -230,7 +264,9 @@ def _environment(home: Path, url: str) -> dict[str, str]:
     settings = {home / "settings" / "@jupyterlab" / f"{name}.jupyterlab-settings": value for name, value in SETTINGS.items()}
     port = {"port": int(url.rsplit(":", 1)[1])}
     settings[home / "config" / "jupyter_server_config.json"] = {
-        **CONFIGURATION, "ServerApp": {**CONFIGURATION["ServerApp"], **port}}
+        **CONFIGURATION,
+        "ServerApp": {**CONFIGURATION["ServerApp"], **port},
+    }
     for path, value in settings.items():
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(json.dumps(value))

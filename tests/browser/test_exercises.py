@@ -11,8 +11,13 @@ from tests.browser.lab import OpenNotebook
 MIRROR = '"""\naxiom: al\nar -> {}\nal -> {}\nbr -> ar\nbl -> al\n"""'
 SOLVED = {
     "1.1": ("01_all_at_once", '"al al br"', "Almost", "stop one step too early", '"bl ar bl ar ar"'),
-    "1.3": ("01_all_at_once", MIRROR.format("bl ar", "al br"), "Not yet", "exchange what two kinds of modules become",
-            MIRROR.format("al br", "bl ar")),
+    "1.3": (
+        "01_all_at_once",
+        MIRROR.format("bl ar", "al br"),
+        "Not yet",
+        "exchange what two kinds of modules become",
+        MIRROR.format("al br", "bl ar"),
+    ),
     "1.5": ("01_all_at_once", '"A"', "Not yet", "A name has no meaning by itself", '"c"'),
     "4.2": ("04_the_turtle", "90", "Not yet", "With 90° the fourth stroke leads home", '"72 degrees"'),
     "4.5": ("04_the_turtle", '"FFF+FFF+FFF+FFF"', "Not yet", "This square has no gaps", '"FfF+FfF+FfF+FfF"'),
@@ -44,7 +49,7 @@ def expect_reply(reply: Locator, word: str, says: str, colour: str) -> None:
     expect(reply).to_be_visible()
     expect(reply.locator("b")).to_have_text(f"{word}.")
     expect(reply).to_contain_text(says)
-    channels = ", ".join(str(int(colour[at:at + 2], 16)) for at in (1, 3, 5))
+    channels = ", ".join(str(int(colour[at : at + 2], 16)) for at in (1, 3, 5))
     expect(reply).to_have_css("border-left-color", f"rgb({channels})")
 
 

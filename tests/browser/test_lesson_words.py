@@ -9,8 +9,13 @@ from playwright.sync_api import Page, expect
 
 from tests.browser.homes import HOMES
 
-WORDS = ("vote('01')", "predict('How many cells has step 6 of `J1`?', explore('J1', 6))",
-         "predict('What is its word?', derive(system('J1'), 3))", "worksheet('01', 'counts')", "vote('01', again=True)")
+WORDS = (
+    "vote('01')",
+    "predict('How many cells has step 6 of `J1`?', explore('J1', 6))",
+    "predict('What is its word?', derive(system('J1'), 3))",
+    "worksheet('01', 'counts')",
+    "vote('01', again=True)",
+)
 
 
 @pytest.fixture(scope="module")
@@ -33,7 +38,8 @@ def test_a_vote_is_kept_and_judged_only_the_second_time(home):
     options(page).nth(0).press("Enter")
     expect(options(page).nth(0)).to_have_attribute("aria-pressed", "true")
     expect(first.get_by_role("status")).to_have_text(
-        "Your vote, A, is kept. The question comes again at the end of the lesson.")
+        "Your vote, A, is kept. The question comes again at the end of the lesson."
+    )
     expect(second.locator(".lsys-before")).to_have_text("Your first vote was A.")
     options(page, again=True).nth(0).click()
     expect(second.get_by_role("status")).to_contain_text("✗ Not right.")
@@ -68,7 +74,8 @@ def test_a_table_says_which_cells_are_right_and_gives_none_away(home):
     page.get_by_role("textbox", name="step 2: all at once").press("Enter")
     sheet = page.get_by_role("region", name="table to fill")
     expect(sheet.get_by_role("status")).to_have_text(
-        "2 of 8 cells are right, 5 are not filled in yet. Look again at row 2, all at once.")
+        "2 of 8 cells are right, 5 are not filled in yet. Look again at row 2, all at once."
+    )
     expect(sheet.locator('[data-mark="right"]')).to_have_text(["✓ right"] * 2)
     expect(sheet.locator('[data-mark="not yet"]')).to_have_text("✗ not yet")
     box = page.get_by_role("textbox", name="step 2: all at once")

@@ -74,8 +74,13 @@ def check_worksheets(notebook: OpenNotebook) -> None:
         sheet.get_by_role("button", name="Check").click()
         expect(sheet.get_by_role("status")).to_contain_text("Look again at row")
         if notebook.output(number).locator(".lsys-panel").count():  # what is moved, what is seen and what is filled in
-            sides = notebook.output(number).locator(".lsys-panel, .lsys-lesson:has(.lsys-sheet)").evaluate_all(
-                "(sides) => sides.map((each) => each.getBoundingClientRect()).map(({ top, bottom }) => [top, bottom])")
+            sides = (
+                notebook.output(number)
+                .locator(".lsys-panel, .lsys-lesson:has(.lsys-sheet)")
+                .evaluate_all(
+                    "(sides) => sides.map((each) => each.getBoundingClientRect()).map(({ top, bottom }) => [top, bottom])"
+                )
+            )
             assert max(bottom for _, bottom in sides) - min(top for top, _ in sides) <= ONE_SCREEN
 
 
@@ -84,8 +89,9 @@ def move_every_slider(panel: Locator) -> None:
     sliders = panel.locator(".lsys-control:not([hidden]) .lsys-range")
     for index in range(sliders.count()):
         slider, before = sliders.nth(index), panel.evaluate(SEEN)
-        there, back = ("ArrowLeft", "ArrowRight") if slider.input_value() == slider.get_attribute("max") else (
-            "ArrowRight", "ArrowLeft")
+        there, back = (
+            ("ArrowLeft", "ArrowRight") if slider.input_value() == slider.get_attribute("max") else ("ArrowRight", "ArrowLeft")
+        )
         slider.press(there)
         await_change(panel, before)
         slider.press(back)

@@ -37,8 +37,10 @@ def notebook(open_notebook, write_notebook):
 
 def underline(box: Locator) -> dict[str, str]:
     """How the wrong stretch of a mistake looks in the browser."""
-    return box.locator("u").evaluate("element => ({line: getComputedStyle(element).textDecorationLine,"
-                                     " style: getComputedStyle(element).textDecorationStyle, text: element.textContent})")
+    return box.locator("u").evaluate(
+        "element => ({line: getComputedStyle(element).textDecorationLine,"
+        " style: getComputedStyle(element).textDecorationStyle, text: element.textContent})"
+    )
 
 
 def test_a_pasted_system_is_shown_as_in_a_book(notebook):

@@ -15,8 +15,13 @@ from tests.browser.homes import HOMES, show
 from tests.browser.lab import OpenNotebook
 from tests.classroom.test_panel import SETTLED
 
-LOOKED_AT = ("explore('J4', 9)", "explore('K19', 12)", "draw(system('K5'))", "draw(stages(system('J4')))",
-             "animate(system('J4'), 4)")
+LOOKED_AT = (
+    "explore('J4', 9)",
+    "explore('K19', 12)",
+    "draw(system('K5'))",
+    "draw(stages(system('J4')))",
+    "animate(system('J4'), 4)",
+)
 AXE = Path(axe_playwright_python.__file__).parent / "axe.min.js"
 SENT = """
     window.sent = [];
@@ -181,6 +186,7 @@ def test_compare_has_one_slider_and_marks_differences(shown):
 
 # --- JupyterLab, Notebook 7 and Voila ---------------------------------------------------------------------------------
 
+
 @pytest.fixture(scope="module")
 def home(request: pytest.FixtureRequest, open_at_home: Callable[..., Page]) -> Callable[[str], Locator]:
     """Finds what is explored or compared in a page of one of the three, each for the tests that act on it."""
@@ -199,8 +205,13 @@ def home(request: pytest.FixtureRequest, open_at_home: Callable[..., Page]) -> C
 def test_every_control_by_the_keyboard(home):
     panel = home(0)
     status = panel.locator(".lsys-status")
-    for name, key, told in (("step", "ArrowRight", "step 10"), ("step", "Home", "step 0"), ("step", "End", "step 20"),
-                            ("lifeTimeB", "ArrowRight", "of 6 stages"), ("lifeTimeA", "ArrowLeft", "of 5 stages")):
+    for name, key, told in (
+        ("step", "ArrowRight", "step 10"),
+        ("step", "Home", "step 0"),
+        ("step", "End", "step 20"),
+        ("lifeTimeB", "ArrowRight", "of 6 stages"),
+        ("lifeTimeA", "ArrowLeft", "of 5 stages"),
+    ):
         slider(panel, name).press(key)
         expect(status).to_contain_text(told)
     box = panel.get_by_label("step", exact=True)
@@ -295,6 +306,7 @@ def test_nine_seeds_and_two_systems(home):
 
 # --- accessibility ----------------------------------------------------------------------------------------------------
 
+
 def test_axe_finds_nothing(open_notebook, write_notebook):
     notebook = open_notebook(write_notebook("axe.ipynb", *map(show, LOOKED_AT)))
     notebook.run_all()
@@ -315,10 +327,12 @@ def test_axe_finds_nothing(open_notebook, write_notebook):
 
 # --- what is left behind ----------------------------------------------------------------------------------------------
 
+
 def test_closed_panels_leave_no_comm_behind(open_notebook, write_notebook):
-    source = show("from comm import get_comm_manager\ndef many():\n    for _ in range(20):\n        explore('J1', 3).close()\n"
-                  "    return len(get_comm_manager().comms)\nprint('left', many() - many())")
+    source = show(
+        "from comm import get_comm_manager\ndef many():\n    for _ in range(20):\n        explore('J1', 3).close()\n"
+        "    return len(get_comm_manager().comms)\nprint('left', many() - many())"
+    )
     notebook = open_notebook(write_notebook("comms.ipynb", source))
     notebook.run_all()
     expect(notebook.output(1)).to_contain_text("left 0")
-

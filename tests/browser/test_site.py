@@ -42,8 +42,14 @@ ALWAYS = "notebooks/gallery.html", *LESSONS[:2]
 @pytest.fixture(scope="module")
 def site(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory, kernels: None) -> Path:
     """The pages that the tests of this run open: in a thorough run the whole course."""
-    opened = {*ALWAYS, *(str(item.callspec.params.get("name")) for item in request.session.items
-                         if item.path == request.path and hasattr(item, "callspec"))}
+    opened = {
+        *ALWAYS,
+        *(
+            str(item.callspec.params.get("name"))
+            for item in request.session.items
+            if item.path == request.path and hasattr(item, "callspec")
+        ),
+    }
     folder, course = tmp_path_factory.mktemp("site"), tmp_path_factory.mktemp("course")
     for name, path in course_files().items():
         if name.replace(".ipynb", ".html") in opened:
@@ -150,7 +156,8 @@ def held_by(model: dict[str, Any], fixed: dict[str, str], asked: dict[str, str])
     first = fixed | {each["name"]: each["texts"][each["index"]] for each in model["constants"]} | {"seed": str(model["seed"])}
     away = [name for name, value in asked.items() if value != first[name]]
     return all(value in texts[name] for name, value in asked.items()) and (
-        len(away) < 2 or {*away} <= {name or "seed" for name in model["together"]})
+        len(away) < 2 or {*away} <= {name or "seed" for name in model["together"]}
+    )
 
 
 @pytest.mark.parametrize("name", LESSONS)

@@ -15,8 +15,14 @@ from lsys_kit.__main__ import main
 pytestmark = pytest.mark.slow
 AXE = Path(axe_playwright_python.__file__).parent / "axe.min.js"
 MANY_STROKES = link(read("angle: 25\naxiom: F\nF -> F[+F]F[-F]F"), {"step": 5})
-LINKS = {"Ann": link(system("K5")), "<img src=x onerror=alert(1)>": link(system("J4")), "Bea": link(map_system("K28")),
-         "Cleo": MANY_STROKES, "</title><script>alert(2)</script>": "#lsys=a<script>alert(3)</script>", "x" * 70: "#lsys=aaaa"}
+LINKS = {
+    "Ann": link(system("K5")),
+    "<img src=x onerror=alert(1)>": link(system("J4")),
+    "Bea": link(map_system("K28")),
+    "Cleo": MANY_STROKES,
+    "</title><script>alert(2)</script>": "#lsys=a<script>alert(3)</script>",
+    "x" * 70: "#lsys=aaaa",
+}
 
 
 @pytest.fixture(scope="module")

@@ -60,14 +60,24 @@ def _word(exercise: Exercise, text: str) -> list[object]:
 
 def _words(exercise: Exercise, text: str) -> list[object]:
     words = [joined(map(str, word)) for word in solution_of(exercise)]
-    return ["\n".join(words), "; ".join(words), words, tuple(words),
-            "\n".join(f"{number}  {word}" for number, word in enumerate(words))]
+    return [
+        "\n".join(words),
+        "; ".join(words),
+        words,
+        tuple(words),
+        "\n".join(f"{number}  {word}" for number, word in enumerate(words)),
+    ]
 
 
 def _number(exercise: Exercise, text: str) -> list[object]:
     number = solution_of(exercise)
-    return [text, f" N = {text} ", Decimal(text) if "/" not in text else Fraction(text), Fraction(number),
-            f"{number_text(number)} {exercise.unit}".strip()]
+    return [
+        text,
+        f" N = {text} ",
+        Decimal(text) if "/" not in text else Fraction(text),
+        Fraction(number),
+        f"{number_text(number)} {exercise.unit}".strip(),
+    ]
 
 
 def _table(exercise: Exercise, text: str) -> list[object]:
@@ -119,8 +129,19 @@ def _net(exercise: Exercise, text: str) -> list[object]:
 
 
 _FORMS: dict[str, Any] = {
-    "word": _word, "words": _words, "number": _number, "table": _table, "choice": _choice, "symbol": _symbol, "line": _line,
-    "system": _system, "map": _map, "expression": _expression, "drawing": _drawing, "net": _net}
+    "word": _word,
+    "words": _words,
+    "number": _number,
+    "table": _table,
+    "choice": _choice,
+    "symbol": _symbol,
+    "line": _line,
+    "system": _system,
+    "map": _map,
+    "expression": _expression,
+    "drawing": _drawing,
+    "net": _net,
+}
 
 
 def as_typed(exercise: Exercise, answer: Any) -> object:

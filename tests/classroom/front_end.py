@@ -48,7 +48,8 @@ def called(page: Page, scripts: str, function: str, given: Any) -> Any:
     known = _FUNCTIONS.setdefault(page, {})
     if (scripts, function) not in known:
         known[scripts, function] = page.evaluate_handle(
-            f"() => {{ {scripts}\nreturn text => JSON.stringify(({function})(JSON.parse(text))); }}")
+            f"() => {{ {scripts}\nreturn text => JSON.stringify(({function})(JSON.parse(text))); }}"
+        )
     return json.loads(page.evaluate("([made, text]) => made(text)", [known[scripts, function], json.dumps(given)]))
 
 
@@ -64,15 +65,24 @@ def book_of(words: Sequence[Word]) -> dict[str, Any]:
     dialect, colour_of = TURTLE_DIALECTS[system.turtle], state_colours(words[-1])
     compiled = instructions(interpretations(states, numbers), system.turtle, system.angle)
     return {
-        "mode": drawing_mode(system).name.lower(), "words": [word.numbers() for word in words],
-        "symbols": [[str(state), "", colour_of[state], 0] for state in numbers], "states": [[state] for state in numbers],
+        "mode": drawing_mode(system).name.lower(),
+        "words": [word.numbers() for word in words],
+        "symbols": [[str(state), "", colour_of[state], 0] for state in numbers],
+        "states": [[state] for state in numbers],
         "turtle": {
-            "side": dialect.left, "length": initial_step(system), "width": dialect.width,
-            "colour": initial_colour(system), "natural": has_natural_colours(system), "heading": float(system.heading),
-            "angle": float(system.angle), "pixels": system.widths or ("auto" if dialect.pixels else "units"),
+            "side": dialect.left,
+            "length": initial_step(system),
+            "width": dialect.width,
+            "colour": initial_colour(system),
+            "natural": has_natural_colours(system),
+            "heading": float(system.heading),
+            "angle": float(system.angle),
+            "pixels": system.widths or ("auto" if dialect.pixels else "units"),
             "calls": [[call_of(each) for each in compiled[state]] for state in numbers],
             "surfaces": {name: faces_in(surface, drawing_mode(system)) for name, surface in surfaces_by_symbol(system).items()},
-            "colours": CHOSEN}}
+            "colours": CHOSEN,
+        },
+    }
 
 
 def call_of(instruction: Instruction) -> list[Any]:

@@ -34,8 +34,11 @@ def reply_class(exercise: Exercise, verdict) -> str:
         return "accepted"
     if verdict.said == "Not readable yet":
         return "form"
-    said = [*(slip.says for slip in exercise.slips), *(option.says for option in exercise.options),
-            *(misconception.do for misconception in MISCONCEPTIONS.values())]
+    said = [
+        *(slip.says for slip in exercise.slips),
+        *(option.says for option in exercise.options),
+        *(misconception.do for misconception in MISCONCEPTIONS.values()),
+    ]
     if any(sentence.strip() in verdict.message for sentence in said if sentence):
         return "names"
     if exercise.kind == "line":
@@ -78,16 +81,37 @@ def test_a_right_answer_is_accepted_in_other_forms(name):
 U, N, V, M, X, Y, L = sympy.symbols("u n v m x y L")
 
 
-@pytest.mark.parametrize(("name", "answer"), [
-    ("0.2", np.int64(64)), ("1.1", derive(read("axiom: bl\nar -> al br\nal -> bl ar\nbr -> ar\nbl -> al"), 4)[4]),
-    ("1.2", Decimal(21)), ("1.2", 21.0), ("1.2", sympy.Integer(21)), ("2.1", np.array([2, 3, 5, 8, 13, 21])),
-    ("2.1", (2, 3, 5, 8, 13, 21)), ("2.1", {0: 2, 1: 3, 2: 5, 3: 8, 4: 13, 5: 21}), ("2.2", sympy.Matrix([[1, 2], [1, 0]])),
-    ("2.2", np.array([[1, 2], [1, 0]])), ("4.1", ((2, 2), 0)), ("4.2", 72.0), ("4.2", Fraction(360, 5)), ("7.2", 1.272),
-    ("7.2", Decimal("1.272")), ("8.1", Fraction(27, 256)), ("8.1", sympy.Rational(27, 256)), ("8.1", 0.105),
-    ("8.6", Decimal("0.8")), ("10.5", U * N < V * M), ("10.5", V * M - U * N > 0),
-    ("12.2", 2.618034), ("15.5", (Y < 0) | (X**2 + Y**2 > L**2)),
-    ("17.1", ("b", "cba", "ccbaa", "cccbaaa")), ("17.1", derive(read("axiom: b\nb -> c b a\na -> a\nc -> c"), 3)),
-    ("18.3", Fraction(4, 5))])
+@pytest.mark.parametrize(
+    ("name", "answer"),
+    [
+        ("0.2", np.int64(64)),
+        ("1.1", derive(read("axiom: bl\nar -> al br\nal -> bl ar\nbr -> ar\nbl -> al"), 4)[4]),
+        ("1.2", Decimal(21)),
+        ("1.2", 21.0),
+        ("1.2", sympy.Integer(21)),
+        ("2.1", np.array([2, 3, 5, 8, 13, 21])),
+        ("2.1", (2, 3, 5, 8, 13, 21)),
+        ("2.1", {0: 2, 1: 3, 2: 5, 3: 8, 4: 13, 5: 21}),
+        ("2.2", sympy.Matrix([[1, 2], [1, 0]])),
+        ("2.2", np.array([[1, 2], [1, 0]])),
+        ("4.1", ((2, 2), 0)),
+        ("4.2", 72.0),
+        ("4.2", Fraction(360, 5)),
+        ("7.2", 1.272),
+        ("7.2", Decimal("1.272")),
+        ("8.1", Fraction(27, 256)),
+        ("8.1", sympy.Rational(27, 256)),
+        ("8.1", 0.105),
+        ("8.6", Decimal("0.8")),
+        ("10.5", U * N < V * M),
+        ("10.5", V * M - U * N > 0),
+        ("12.2", 2.618034),
+        ("15.5", (Y < 0) | (X**2 + Y**2 > L**2)),
+        ("17.1", ("b", "cba", "ccbaa", "cccbaaa")),
+        ("17.1", derive(read("axiom: b\nb -> c b a\na -> a\nc -> c"), 3)),
+        ("18.3", Fraction(4, 5)),
+    ],
+)
 def test_an_object_is_a_right_answer_too(name, answer):
     assert check(name, answer) == 1, str(check(name, answer))
 
@@ -118,7 +142,9 @@ def test_a_comma_that_may_be_either_is_asked_about(tmp_path, monkeypatch):
     (tmp_path / "t.toml").write_text(
         'title = "T"\nobjectives = ["o"]\nintroduction = "i"\nsummary = "s"\n[[exercise]]\nid = "comma.1"\ntitle = "t"\n'
         'kind = "number"\nquestion = "q"\nexplanation = "e"\nhints = ["1", "2", "3"]\nobjective = 1\nsolution = "1234.5"\n'
-        'tolerance = 1\notherwise = "o"\nexpects = ["sign reversed"]\n', encoding="utf-8")
+        'tolerance = 1\notherwise = "o"\nexpects = ["sign reversed"]\n',
+        encoding="utf-8",
+    )
     exercises(tmp_path)
     assert "may stand before decimals or between thousands" in check("comma.1", "1,234").message
     assert check("comma.1", "1234,5") == check("comma.1", "1 234") == check("comma.1", "1234.5") == 1

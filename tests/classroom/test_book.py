@@ -130,13 +130,17 @@ def test_the_diagram_of_a_book_is_that_of_the_picture(name):
     diagram, picture = made_book(name)["net"], drawn_stages(stages(system(name)))
     root = ET.fromstring(picture)
     paths = [path.attrib["d"] for path in root.iter(f"{SVG}path")]
-    assert paths == [*(arc[part] for arc in diagram["arcs"] for part in ("band", "path", "head")),
-                     *(bar["line"] for bar in diagram["bars"])]
+    assert paths == [
+        *(arc[part] for arc in diagram["arcs"] for part in ("band", "path", "head")),
+        *(bar["line"] for bar in diagram["bars"]),
+    ]
     circles = [tuple(float(circle.attrib[key]) for key in ("cx", "cy", "r")) for circle in root.iter(f"{SVG}circle")]
     assert circles == [(place["x"], place["y"], diagram["radius"]) for place in diagram["places"]]
     texts = [text for text in root.iter(f"{SVG}text") if text.get("class") in ("note", "footnote")]
-    assert [text.text for text in texts] == [*(text for *_, text in diagram["notes"]),
-                                             *(line["text"] for line in diagram["footnotes"])]
+    assert [text.text for text in texts] == [
+        *(text for *_, text in diagram["notes"]),
+        *(line["text"] for line in diagram["footnotes"]),
+    ]
     assert root.attrib["aria-label"] == diagram["description"]
     assert [int(root.attrib[key]) for key in ("width", "height")] == [diagram["width"], diagram["height"]]
 
@@ -149,8 +153,9 @@ def test_where_there_is_no_diagram_the_book_says_why():
     assert {place for _, _, place, _ in made["states"]} == {-1}
 
 
-@pytest.mark.parametrize("text", ["axiom: F ~X RH ~L A", "axiom: A\nA -> F ~ q F",
-                                  "axiom: A\nA -> F\ninterpretation:\nF -> ~s F RL"])
+@pytest.mark.parametrize(
+    "text", ["axiom: F ~X RH ~L A", "axiom: A\nA -> F ~ q F", "axiom: A\nA -> F\ninterpretation:\nF -> ~s F RL"]
+)
 def test_what_the_turtle_passes_over_is_told(text):
     model = read(text)
     made, scene = book(model), scene_of(derive(model, 1), 90)
@@ -173,11 +178,15 @@ def test_hostile_names_are_plain_text(name):
 def texts_in(entry):
     if isinstance(entry, str):
         return [entry]
-    return [text for part in (entry.values() if isinstance(entry, dict) else entry if isinstance(entry, list) else ())
-            for text in texts_in(part)]
+    return [
+        text
+        for part in (entry.values() if isinstance(entry, dict) else entry if isinstance(entry, list) else ())
+        for text in texts_in(part)
+    ]
 
 
 # -- the growth rate ------------------------------------------------------------------------------------------------------
+
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", SETTLED)
@@ -189,9 +198,22 @@ def test_the_growth_rate_is_the_greatest_root(name):
         assert float(told["rate"].split("≈")[-1]) == pytest.approx(greatest_root(rule), rel=1e-4)
 
 
-@pytest.mark.parametrize(("rule", "text"), [
-    ((1, 1), "(1 + √5)/2 ≈ 1.618"), ((2,), "2"), ((2, -1), "1"), ((0, 2), "√2 ≈ 1.4142"), ((0, 0, 2), "≈ 1.2599"),
-    ((), "0"), ((0, 0), "0"), ((3, 1), "(3 + √13)/2 ≈ 3.3028"), ((4, -2), "2 + √2 ≈ 3.4142"), ((0, 12), "2√3 ≈ 3.4641"),
-    ((1, 1, 0, 0), "(1 + √5)/2 ≈ 1.618"), ((2, 0, -1), "(1 + √5)/2 ≈ 1.618")])
+@pytest.mark.parametrize(
+    ("rule", "text"),
+    [
+        ((1, 1), "(1 + √5)/2 ≈ 1.618"),
+        ((2,), "2"),
+        ((2, -1), "1"),
+        ((0, 2), "√2 ≈ 1.4142"),
+        ((0, 0, 2), "≈ 1.2599"),
+        ((), "0"),
+        ((0, 0), "0"),
+        ((3, 1), "(3 + √13)/2 ≈ 3.3028"),
+        ((4, -2), "2 + √2 ≈ 3.4142"),
+        ((0, 12), "2√3 ≈ 3.4641"),
+        ((1, 1, 0, 0), "(1 + √5)/2 ≈ 1.618"),
+        ((2, 0, -1), "(1 + √5)/2 ≈ 1.618"),
+    ],
+)
 def test_roots_of_quadratic_equations_are_exact(rule, text):
     assert rate_text(rule) == text

@@ -163,6 +163,7 @@ def test_the_last_step_of_a_book_has_no_daughters(page):
 
 # -- filaments ------------------------------------------------------------------------------------------------------------
 
+
 def layout_of(model, step):
     """The layout of the picture of a developmental sequence."""
     derivation = derive(model, step)
@@ -178,8 +179,14 @@ def test_rows_are_laid_out_as_in_the_picture(page, name, step):
 
 @pytest.mark.parametrize("step", [0, 1, 2, 5])
 def test_walls_are_as_high_as_the_wider_of_their_neighbours(page, step):
-    check_rows(page, read("axiom: w a w w b w c w\na -> a w b\nb -> c w(1) a\ninterpretation:\na -> R(2,1,0.3)\n"
-                          "b -> L(1,3)\nc -> O(1,2)W(7,0.5)\nw -> W\nw(t) -> W(t)"), step)
+    check_rows(
+        page,
+        read(
+            "axiom: w a w w b w c w\na -> a w b\nb -> c w(1) a\ninterpretation:\na -> R(2,1,0.3)\n"
+            "b -> L(1,3)\nc -> O(1,2)W(7,0.5)\nw -> W\nw(t) -> W(t)"
+        ),
+        step,
+    )
 
 
 def check_rows(page, model, step):
@@ -192,9 +199,13 @@ def check_rows(page, model, step):
     cells = [(cell, sheet.middle(at)) for at, row in enumerate(sheet.rows) for cell in sheet.cells(row)]
     walls = [(wall, sheet.middle(at)) for at, row in enumerate(sheet.rows) for wall in sheet.walls(row)]
     for names, expected, drawn in (
-            (("x", "y", "length", "width", "sign", "shade"),
-             [(cell.x, y, 2 * cell.length, 2 * cell.width, cell.way, cell.shade) for cell, y in cells], found["cells"]),
-            (("x", "y", "width", "shade"), [(wall.x, y, 2 * wall.height, wall.shade) for wall, y in walls], found["walls"])):
+        (
+            ("x", "y", "length", "width", "sign", "shade"),
+            [(cell.x, y, 2 * cell.length, 2 * cell.width, cell.way, cell.shade) for cell, y in cells],
+            found["cells"],
+        ),
+        (("x", "y", "width", "shade"), [(wall.x, y, 2 * wall.height, wall.shade) for wall, y in walls], found["walls"]),
+    ):
         rows = [*zip(*(drawn[each] for each in names), strict=True)]
         assert len(rows) == len(expected)
         assert not rows or np.abs(np.array(rows, float) - np.array(expected, float)).max() < 1e-6

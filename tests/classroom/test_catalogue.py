@@ -65,9 +65,11 @@ def test_an_entry_says_where_it_comes_from(id):
 
 
 def test_the_rows_of_the_lessons_are_all_there():
-    assert " ".join(systems()) == ("J1 J2 J3 J4 J5 J6 T1 T2 T3 P1 P2 P3 P4 P5 P6 P7 P8 P9 P9w "
-                                   "K1 K2 K3 K4 K5 K5b K6 K7 K8 K9 K10 K11 K12 K13 K14 K15 K16 K17a K17b K18 K19 K20 "
-                                   "K21 K22 K23 K24 K24b K25 K26 K27 L0 L1 L2 L3 L4")
+    assert " ".join(systems()) == (
+        "J1 J2 J3 J4 J5 J6 T1 T2 T3 P1 P2 P3 P4 P5 P6 P7 P8 P9 P9w "
+        "K1 K2 K3 K4 K5 K5b K6 K7 K8 K9 K10 K11 K12 K13 K14 K15 K16 K17a K17b K18 K19 K20 "
+        "K21 K22 K23 K24 K24b K25 K26 K27 L0 L1 L2 L3 L4"
+    )
 
 
 @pytest.mark.slow
@@ -82,7 +84,9 @@ def test_each_system_can_be_explored(id):
 
 
 def test_the_words_of_j1_to_step_6():
-    assert "\n".join(map(str, derive(system("J1"), 6))) == """\
+    assert (
+        "\n".join(map(str, derive(system("J1"), 6)))
+        == """\
 ar
 al br
 bl ar ar
@@ -90,6 +94,7 @@ al al br al br
 bl ar bl ar ar bl ar ar
 al al br al al br al br al al br al br
 bl ar bl ar ar bl ar bl ar ar bl ar ar bl ar bl ar ar bl ar ar"""
+    )
 
 
 @pytest.mark.parametrize(("id", "names"), [("T1", {}), ("P1", {"L_": "a", "S_": "b"}), ("K1", {"A": "a", "B": "b"})])
@@ -174,10 +179,10 @@ def test_l_system_5_steps_through_continuous_time():
     words = derive(system("P5"), 5)
     assert [ages(word) for word in words[:5]] == [
         [(0, "R")],
-        [(.7, "R")],
-        [(.6, "L"), (.4, "R")],
-        [(.3, "L"), (.5, "R"), (.3, "L"), (.1, "R")],
-        [(0, "L"), (.2, "R"), (.4, "L"), (.2, "R"), (0, "L"), (.2, "R"), (.8, "R")],
+        [(0.7, "R")],
+        [(0.6, "L"), (0.4, "R")],
+        [(0.3, "L"), (0.5, "R"), (0.3, "L"), (0.1, "R")],
+        [(0, "L"), (0.2, "R"), (0.4, "L"), (0.2, "R"), (0, "L"), (0.2, "R"), (0.8, "R")],
     ]
     assert words.lengths == [1, 1, 2, 4, 7, 9]
 
@@ -185,7 +190,7 @@ def test_l_system_5_steps_through_continuous_time():
 def test_too_long_a_step_leaves_cells_past_their_division():
     words = derive(system("P5"), 4, dt="14/10")
     assert words.lengths == [1, 2, 4, 8, 16]
-    assert ages(words[2]) == [(1.0, "L"), (1.2, "R"), (1.0, "L"), (.8, "R")]
+    assert ages(words[2]) == [(1.0, "L"), (1.2, "R"), (1.0, "L"), (0.8, "R")]
 
 
 def test_doubles_fall_into_the_trap():
@@ -218,7 +223,7 @@ def test_walls_divide_cells_one_step_later():
     with_walls, without = derive(system("P9"), 9), derive(system("P6"), 8)
     for step in range(9):
         cells = [float(module.arguments[0]) for module in with_walls[step + 1] if module.symbol == "M"]
-        assert cells == pytest.approx([age + .7 for age, _ in ages(without[step])])
+        assert cells == pytest.approx([age + 0.7 for age, _ in ages(without[step])])
 
 
 def test_the_short_cell_lies_on_the_side_of_the_older_wall():
@@ -243,7 +248,7 @@ def test_a_hormone_front_moves_by_one_cell_a_step():
 def test_a_layer_has_the_period_of_twice_its_width():
     for width in (2, 5, 11):
         words = [str(word) for word in derive(system("J3"), 4 * width + 3, w=width)]
-        assert words[2 * width:] == words[:len(words) - 2 * width]
+        assert words[2 * width :] == words[: len(words) - 2 * width]
         assert len(set(words)) == 2 * width
 
 
@@ -378,7 +383,7 @@ def test_the_timed_anabaena_grows_by_the_golden_ratio_in_a_time_of_one():
     for dt in ("1/2", "1/3", "0.7"):
         widths = [filament(word).width for word in derive(system("K27"), 12, dt=dt)]
         golden = (1 + 5**0.5) / 2
-        assert widths == pytest.approx([golden**(1 + step * float(Fraction(dt))) for step in range(13)])
+        assert widths == pytest.approx([golden ** (1 + step * float(Fraction(dt))) for step in range(13)])
 
 
 def test_k5_multiplies_its_strokes_by_five():

@@ -53,8 +53,10 @@ def test_a_panel_may_be_asked_for_by_name():
 
 
 def test_an_id_is_found_without_reading_the_whole_catalogue():
-    code = ("from lsys_kit.classroom import catalogue as c; c.system('j4'); before = c._entry.cache_info().currsize; "
-            "c.system('koch-curve'); print(before, c._entry.cache_info().currsize)")
+    code = (
+        "from lsys_kit.classroom import catalogue as c; c.system('j4'); before = c._entry.cache_info().currsize; "
+        "c.system('koch-curve'); print(before, c._entry.cache_info().currsize)"
+    )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=300)
     assert done.stdout.split() == ["1", str(len(systems()))]
 
@@ -63,11 +65,18 @@ def test_an_id_is_found_whatever_its_case():
     assert system("p4") is system(" P4 ")
 
 
-@pytest.mark.parametrize(("id", "hint"), [("P44", 'Did you mean "P4"?'), ("?", "Systems are: J1, J2, J3,"),
-                                          ("K17", 'Did you mean "K17'), ("../systems/J1", "Systems are"),
-                                          ("x" * 9999, "Systems are"),
-                                          ("anabena-life-span", 'Did you mean "anabaena-life-spans"?'),
-                                          ("PSEUDOPLANT", 'Did you mean "pseudo-plant"?')])
+@pytest.mark.parametrize(
+    ("id", "hint"),
+    [
+        ("P44", 'Did you mean "P4"?'),
+        ("?", "Systems are: J1, J2, J3,"),
+        ("K17", 'Did you mean "K17'),
+        ("../systems/J1", "Systems are"),
+        ("x" * 9999, "Systems are"),
+        ("anabena-life-span", 'Did you mean "anabaena-life-spans"?'),
+        ("PSEUDOPLANT", 'Did you mean "pseudo-plant"?'),
+    ],
+)
 def test_an_unknown_id_is_answered_with_a_suggestion(id, hint):
     with pytest.raises(ModelNameError) as caught:
         system(id)

@@ -48,9 +48,17 @@ def found(*pieces: object, together: int = 1, seconds: int = 60) -> list[object]
 
 @pytest.mark.slow
 @pytest.mark.parametrize("together", [1, 3])
-@pytest.mark.parametrize(("piece", "comes"), [
-    ("crash", Failed(CRASHED)), ("leave", Failed(CRASHED)), ("memory", Failed(TOO_MUCH)),
-    ("raise", Failed("It cannot be worked on (KeyError)")), ("print", True), ("result", Failed(CRASHED))])
+@pytest.mark.parametrize(
+    ("piece", "comes"),
+    [
+        ("crash", Failed(CRASHED)),
+        ("leave", Failed(CRASHED)),
+        ("memory", Failed(TOO_MUCH)),
+        ("raise", Failed("It cannot be worked on (KeyError)")),
+        ("print", True),
+        ("result", Failed(CRASHED)),
+    ],
+)
 def test_a_piece_that_goes_wrong_costs_no_other(piece, comes, together, capfd):
     assert found(1, piece, 2, 3, together=together) == [[1], comes, [2], [3]]
     assert capfd.readouterr() == ("", "")

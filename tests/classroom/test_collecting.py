@@ -30,8 +30,10 @@ RIGHT = exercise_of("1.1").solution
 
 
 def notebook(*sources: object) -> str:
-    cells = [{"cell_type": "code", "id": f"c{at}", "metadata": {}, "outputs": [], "execution_count": None, "source": source}
-             for at, source in enumerate(sources)]
+    cells = [
+        {"cell_type": "code", "id": f"c{at}", "metadata": {}, "outputs": [], "execution_count": None, "source": source}
+        for at, source in enumerate(sources)
+    ]
     return json.dumps({"cells": cells, "metadata": {}, "nbformat": 4, "nbformat_minor": 5})
 
 
@@ -42,52 +44,77 @@ def answered(answer: object, exercise: str = "1.1") -> str:
 # What is an answer
 
 
-@pytest.mark.parametrize(("sources", "found"), [
-    (['answer = "a"\ncheck("1.1", answer)'], {"1.1": "a"}),
-    (['check("1.1", 21)'], {"1.1": 21}),
-    (["check('1.1', -2.5);"], {"1.1": -2.5}),
-    (['answer = ["a", "b"]\ncheck("1.1", answer, hint=1)'], {"1.1": ["a", "b"]}),
-    (['answer = (1, (2, -3))\ncheck("1.1", answer)'], {"1.1": [1, [2, -3]]}),
-    (['answer = """\na\nb"""\ncheck("1.1", answer)'], {"1.1": "\na\nb"}),
-    (['answer = "a"', 'check("1.1", answer)'], {"1.1": "a"}),
-    (['mine: str = "a"', 'reply = check(exercise="1.1", answer=mine)\nreply'], {"1.1": "a"}),
-    (['answer = "a"\ncheck("1.1", answer)', 'answer = "b"\ncheck("1.1", answer)'], {"1.1": "b"}),
-    (['%%time\n!ls\nanswer = "a"\nprint(lsys_kit.check("1.1", answer))'], {"1.1": "a"}),
-    ([["answer = 1\n", 'check("1.1", answer)']], {"1.1": 1}),
-    (['answer = 42/2\ncheck("1.1", answer)'], {"1.1": "42 / 2"}),
-    (['check("1.1", Fraction(1, 3))'], {"1.1": "(1) / (3)"}),
-    (['check("1.1", read("axiom: a"))'], {"1.1": "axiom: a"}),
-    (['answer = ...\ncheck("1.1", answer)'], {"1.1": ...}),
-    (['check("1.1")'], {"1.1": ...}),
-    (['check("1.1", unknown)'], {"1.1": COMPUTED}),
-    (['answer = __import__("os").getcwd()\ncheck("1.1", answer)'], {"1.1": COMPUTED}),
-    (['check("1.1", f"{open(0)}")'], {"1.1": COMPUTED}),
-    (['check("1.1", [1, print()])'], {"1.1": COMPUTED}),
-    (['check("1.1", b"a")'], {"1.1": COMPUTED}),
-    (['a = [1]\nb = [a, a]\ncheck("1.1", b)'], {"1.1": COMPUTED}),
-    (['# check("1.1", "a")'], {}), (["check(1.1, 'a')"], {}), (["check()"], {}), (["while True: check"], {}),
-    ([None, 5, [1]], {}),
-])
+@pytest.mark.parametrize(
+    ("sources", "found"),
+    [
+        (['answer = "a"\ncheck("1.1", answer)'], {"1.1": "a"}),
+        (['check("1.1", 21)'], {"1.1": 21}),
+        (["check('1.1', -2.5);"], {"1.1": -2.5}),
+        (['answer = ["a", "b"]\ncheck("1.1", answer, hint=1)'], {"1.1": ["a", "b"]}),
+        (['answer = (1, (2, -3))\ncheck("1.1", answer)'], {"1.1": [1, [2, -3]]}),
+        (['answer = """\na\nb"""\ncheck("1.1", answer)'], {"1.1": "\na\nb"}),
+        (['answer = "a"', 'check("1.1", answer)'], {"1.1": "a"}),
+        (['mine: str = "a"', 'reply = check(exercise="1.1", answer=mine)\nreply'], {"1.1": "a"}),
+        (['answer = "a"\ncheck("1.1", answer)', 'answer = "b"\ncheck("1.1", answer)'], {"1.1": "b"}),
+        (['%%time\n!ls\nanswer = "a"\nprint(lsys_kit.check("1.1", answer))'], {"1.1": "a"}),
+        ([["answer = 1\n", 'check("1.1", answer)']], {"1.1": 1}),
+        (['answer = 42/2\ncheck("1.1", answer)'], {"1.1": "42 / 2"}),
+        (['check("1.1", Fraction(1, 3))'], {"1.1": "(1) / (3)"}),
+        (['check("1.1", read("axiom: a"))'], {"1.1": "axiom: a"}),
+        (['answer = ...\ncheck("1.1", answer)'], {"1.1": ...}),
+        (['check("1.1")'], {"1.1": ...}),
+        (['check("1.1", unknown)'], {"1.1": COMPUTED}),
+        (['answer = __import__("os").getcwd()\ncheck("1.1", answer)'], {"1.1": COMPUTED}),
+        (['check("1.1", f"{open(0)}")'], {"1.1": COMPUTED}),
+        (['check("1.1", [1, print()])'], {"1.1": COMPUTED}),
+        (['check("1.1", b"a")'], {"1.1": COMPUTED}),
+        (['a = [1]\nb = [a, a]\ncheck("1.1", b)'], {"1.1": COMPUTED}),
+        (['# check("1.1", "a")'], {}),
+        (["check(1.1, 'a')"], {}),
+        (["check()"], {}),
+        (["while True: check"], {}),
+        ([None, 5, [1]], {}),
+    ],
+)
 def test_an_answer_is_what_is_written(sources, found):
     assert answers_in(notebook(*sources)).found == found
 
 
 def test_an_answer_without_its_check_is_found_and_said():
-    cells = [{"cell_type": "code", "id": f"exercise-1-{number}-answer", "source": source} for number, source in enumerate(
-        [f"answer = {RIGHT!r}", "answer = ...", 'answer = 1\ncheck("1.3", 2)', "answer = 3", "answer = (("], 1)]
-    answers = answers_in(json.dumps({"cells": [*cells, {"cell_type": "code", "source": 'check("1.4", answer)'},
-                                               {"cell_type": "code", "source": "answer = 5"}]}))
+    cells = [
+        {"cell_type": "code", "id": f"exercise-1-{number}-answer", "source": source}
+        for number, source in enumerate(
+            [f"answer = {RIGHT!r}", "answer = ...", 'answer = 1\ncheck("1.3", 2)', "answer = 3", "answer = (("], 1
+        )
+    ]
+    answers = answers_in(
+        json.dumps(
+            {
+                "cells": [
+                    *cells,
+                    {"cell_type": "code", "source": 'check("1.4", answer)'},
+                    {"cell_type": "code", "source": "answer = 5"},
+                ]
+            }
+        )
+    )
     assert answers.found == {"1.1": RIGHT, "1.3": 2, "1.4": 3}
     assert answers.problems == [
         "1.5: code cell 5 is no Python, line 1",
         '1.1: the line check("1.1", answer) is missing; it was checked all the same',
-        "code cell 7 has an answer and no line check(...), so that nobody knows to which exercise"]
+        "code cell 7 has an answer and no line check(...), so that nobody knows to which exercise",
+    ]
 
 
-@pytest.mark.parametrize(("content", "said"), [
-    (notebook().encode("utf-16"), "It is written in UTF-16, not in UTF-8"),
-    (json.dumps({"worksheets": [{"cells": []}], "nbformat": 3}).encode(), "It is a notebook of version 3 of the format"),
-    (b"\x89PNG", "It is no notebook"), (b"", "It is no notebook")])
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [
+        (notebook().encode("utf-16"), "It is written in UTF-16, not in UTF-8"),
+        (json.dumps({"worksheets": [{"cells": []}], "nbformat": 3}).encode(), "It is a notebook of version 3 of the format"),
+        (b"\x89PNG", "It is no notebook"),
+        (b"", "It is no notebook"),
+    ],
+)
 def test_what_is_no_notebook_of_today_is_named(content, said, tmp_path):
     path = tmp_path / "ann.ipynb"
     path.write_bytes(content)
@@ -100,18 +127,32 @@ def test_every_file_that_was_handed_in_has_a_row_or_is_named(tmp_path):
     for name in ("ann.ipynb", "bea.zip", "cem.py", "dora/1.ipynb", "dora/photo.docx", "emil/all.zip"):
         (tmp_path / name).parent.mkdir(exist_ok=True)
         (tmp_path / name).write_text(answered(RIGHT))
+
     def unread(name: str) -> str:
         return f'It was not read: "{name}" does not end in .ipynb'
 
     assert {marks.student: marks.remarks for marks in collect(tmp_path)} == {
-        "ann": (), "bea.zip": (unread("bea.zip"),), "cem.py": (unread("cem.py"),), "dora": (unread("photo.docx"),),
-        "emil": (unread("all.zip"), "There are no files whose names end in .ipynb in this folder")}
+        "ann": (),
+        "bea.zip": (unread("bea.zip"),),
+        "cem.py": (unread("cem.py"),),
+        "dora": (unread("photo.docx"),),
+        "emil": (unread("all.zip"), "There are no files whose names end in .ipynb in this folder"),
+    }
 
 
-@pytest.mark.parametrize("source", [
-    "answer = (((", "answer = " + "(" * 9_000, "answer = " + "-" * 15_000 + "1", "answer = 'a\0b'", "answer = 9" + "9" * 9_000,
-    "check(" * 3_000, "x=" * 20_001, "answer = 08",
-])
+@pytest.mark.parametrize(
+    "source",
+    [
+        "answer = (((",
+        "answer = " + "(" * 9_000,
+        "answer = " + "-" * 15_000 + "1",
+        "answer = 'a\0b'",
+        "answer = 9" + "9" * 9_000,
+        "check(" * 3_000,
+        "x=" * 20_001,
+        "answer = 08",
+    ],
+)
 def test_a_cell_that_cannot_be_read_costs_no_other_cell(source):
     answers = answers_in(notebook(source, 'check("1.1", "a")'))
     assert answers.found == {"1.1": "a"}
@@ -119,9 +160,11 @@ def test_a_cell_that_cannot_be_read_costs_no_other_cell(source):
     assert "code cell 1" in answers.problems[0]
 
 
-@pytest.mark.parametrize("text", [
-    "", "{", "[1]", "3", "null", '{"cells": 5}', "[" * 100_000, '{"cells":' * 50_000, json.dumps({"cells": [{}] * 2_001}),
-], ids=range(9))
+@pytest.mark.parametrize(
+    "text",
+    ["", "{", "[1]", "3", "null", '{"cells": 5}', "[" * 100_000, '{"cells":' * 50_000, json.dumps({"cells": [{}] * 2_001})],
+    ids=range(9),
+)
 def test_what_is_no_notebook_is_said(text):
     with pytest.raises(ModelFileError):
         answers_in(text)
@@ -131,12 +174,21 @@ def test_what_is_no_notebook_is_said(text):
 
 
 BOMBS = {
-    "right": answered(RIGHT), "almost": answered("al al br"), "cut off": answered(RIGHT)[:-9], "list": "[1]",
+    "right": answered(RIGHT),
+    "almost": answered("al al br"),
+    "cut off": answered(RIGHT)[:-9],
+    "list": "[1]",
     "deep": "[" * 100_000,
-    "endless": notebook("while True: pass", f'check("1.1", {RIGHT!r})'), "large": " " * 20_000_001, "empty": "",
-    "malicious": notebook('import os\nos.system("touch {0}")\nanswer = open("{0}", "w")\ncheck("1.1", answer)',
-                          'check("1.2", exec("open({0!r}, \'w\')"))'),
-    "words that grow": answered("F" * 4_999), "nested": answered("(" * 4_999), "powers": answered("9^9^9^9^9", "1.2"),
+    "endless": notebook("while True: pass", f'check("1.1", {RIGHT!r})'),
+    "large": " " * 20_000_001,
+    "empty": "",
+    "malicious": notebook(
+        'import os\nos.system("touch {0}")\nanswer = open("{0}", "w")\ncheck("1.1", answer)',
+        'check("1.2", exec("open({0!r}, \'w\')"))',
+    ),
+    "words that grow": answered("F" * 4_999),
+    "nested": answered("(" * 4_999),
+    "powers": answered("9^9^9^9^9", "1.2"),
     "unknown": answered("a", "no.1"),
 }
 
@@ -165,10 +217,15 @@ def test_a_class_is_marked_and_nothing_of_it_is_run(tmp_path, capsys):
 
 @pytest.mark.slow
 def test_a_student_may_hand_in_a_folder(tmp_path):
-    for name, text in {"ann/1.ipynb": answered("al"), "ann/later/2.ipynb": answered(RIGHT),
-                       "ann/3.ipynb": answered("34", "1.2"), "bob.ipynb": answered(RIGHT),
-                       "ann/.ipynb_checkpoints/1.ipynb": answered("b", "1.3"),
-                       "cleo/text.txt": "hello", "notes.txt": "not handed in"}.items():
+    for name, text in {
+        "ann/1.ipynb": answered("al"),
+        "ann/later/2.ipynb": answered(RIGHT),
+        "ann/3.ipynb": answered("34", "1.2"),
+        "bob.ipynb": answered(RIGHT),
+        "ann/.ipynb_checkpoints/1.ipynb": answered("b", "1.3"),
+        "cleo/text.txt": "hello",
+        "notes.txt": "not handed in",
+    }.items():
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text(text, encoding="utf-8")
     marks = {each.student: each for each in collect(tmp_path)}
@@ -234,8 +291,25 @@ def test_marks_are_no_checks_of_the_teachers_own(tmp_path):
 # Spreadsheets
 
 
-@pytest.mark.parametrize("name", ["=1+1", "+1", "-1", "@SUM(A1)", "\t=1", "\r=1", "=cmd|' /C calc'!A0", " =1", "＝1", "a;=1",
-                                  '"=1', '",=1', "a\n=1", "\u200b=1"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "=1+1",
+        "+1",
+        "-1",
+        "@SUM(A1)",
+        "\t=1",
+        "\r=1",
+        "=cmd|' /C calc'!A0",
+        " =1",
+        "＝1",
+        "a;=1",
+        '"=1',
+        '",=1',
+        "a\n=1",
+        "\u200b=1",
+    ],
+)
 def test_no_cell_is_a_formula(name):
     table = marks_table([collecting.Marks(name, {}, (name, name))])
     for separator in ",;":
@@ -246,10 +320,43 @@ def test_no_cell_is_a_formula(name):
 # Forty names
 
 CURIOUS = [
-    "..\\up", "..%2fup", "%2e%2e", "...", "-rf", "--help", "C:\\x", "C:x", "CON", "aux", "~root", "$(touch victim)",
+    "..\\up",
+    "..%2fup",
+    "%2e%2e",
+    "...",
+    "-rf",
+    "--help",
+    "C:\\x",
+    "C:x",
+    "CON",
+    "aux",
+    "~root",
+    "$(touch victim)",
     "`touch victim`",
-    "| touch victim", "; touch victim", "& touch victim", "a\nb", "a\r\nb", "a\tb", "a\x1b[2Jb", "a\u202eb", "\ud800", "\udcff",
-    "x" * 240, "=cmd|' ", "+1", "@x", "'", '"', "a,b", "<script>alert(1)", "%s%n{0}", "∕etc∕passwd", " ", "*", "?", "a;=1",
+    "| touch victim",
+    "; touch victim",
+    "& touch victim",
+    "a\nb",
+    "a\r\nb",
+    "a\tb",
+    "a\x1b[2Jb",
+    "a\u202eb",
+    "\ud800",
+    "\udcff",
+    "x" * 240,
+    "=cmd|' ",
+    "+1",
+    "@x",
+    "'",
+    '"',
+    "a,b",
+    "<script>alert(1)",
+    "%s%n{0}",
+    "∕etc∕passwd",
+    " ",
+    "*",
+    "?",
+    "a;=1",
 ]
 """Names of notebooks, without their endings."""
 
@@ -339,16 +446,23 @@ def test_forty_hostile_names_leave_everything_outside_untouched_and_unread(hosti
     os.mkfifo(log)  # to which children may write, who may write no files
     reading = os.open(log, os.O_RDONLY | os.O_NONBLOCK)
     before = {path: (path.lstat().st_mtime_ns, path.lstat().st_size) for path in tmp_path.rglob("*") if path != log}
-    done = subprocess.run([sys.executable, "-c", WATCHED, str(folder), str(outside), str(table), str(log)],
-                          env={**os.environ, "PYTHONPATH": str(Path(lsys_kit.__file__).parent.parent)},
-                          cwd=tmp_path, capture_output=True, text=True, timeout=600, stdin=subprocess.DEVNULL)
+    done = subprocess.run(
+        [sys.executable, "-c", WATCHED, str(folder), str(outside), str(table), str(log)],
+        env={**os.environ, "PYTHONPATH": str(Path(lsys_kit.__file__).parent.parent)},
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        timeout=600,
+        stdin=subprocess.DEVNULL,
+    )
     assert done.returncode == 0, done.stderr
     (outside / "noticed").unlink()
     assert os.read(reading, 100_000).decode().splitlines() == [f"open '{outside}/noticed'"]  # the watch is known to work
     os.close(reading)
     after = {path: (path.lstat().st_mtime_ns, path.lstat().st_size) for path in tmp_path.rglob("*") if path not in (log, table)}
-    assert {path: facts for path, facts in after.items() if path != outside} == \
-        {path: facts for path, facts in before.items() if path != outside}
+    assert {path: facts for path, facts in after.items() if path != outside} == {
+        path: facts for path, facts in before.items() if path != outside
+    }
     rows = [*csv.DictReader(table.read_text("utf-8").splitlines())]
     made -= sum(path.name.startswith(".") for path in folder.iterdir())  # files that systems make for themselves
     assert len(rows) == made

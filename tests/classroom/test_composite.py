@@ -44,7 +44,7 @@ def test_every_system_of_the_catalogue_fits_on_a_page(id: str) -> None:
     found = system(id)
     image = pixels(composite_png(sight(id, found.steps or 3)))
     assert image.shape[1] <= WIDEST
-    edges = np.concatenate([image[:, :MARGIN - 6].reshape(-1, 3), image[:, -MARGIN + 6:].reshape(-1, 3)])
+    edges = np.concatenate([image[:, : MARGIN - 6].reshape(-1, 3), image[:, -MARGIN + 6 :].reshape(-1, 3)])
     assert (edges == 255).all()
 
 
@@ -52,7 +52,7 @@ def test_it_holds_the_drawing_as_it_is() -> None:
     view = sight("J4", 9)
     drawing, image = pixels(view.picture.png), pixels(composite_png(view))
     height, width = drawing.shape[:2]
-    corner = image[-MARGIN - height:-MARGIN, -MARGIN - width:-MARGIN]
+    corner = image[-MARGIN - height : -MARGIN, -MARGIN - width : -MARGIN]
     assert (corner == drawing).all()
 
 
@@ -98,10 +98,21 @@ def test_every_token_is_painted() -> None:
 
 @pytest.mark.slow
 def test_the_pixels_do_not_depend_on_the_process() -> None:
-    code = ("import hashlib; from tests.classroom.test_composite import *\n"
-            "print(hashlib.sha256(composite_png(sight('K19', 12))).hexdigest())")
-    said = {subprocess.run([sys.executable, "-c", code], env={**os.environ, "PYTHONHASHSEED": seed}, capture_output=True,
-                           text=True, check=True, timeout=300).stdout.strip() for seed in ("1", "2")}
+    code = (
+        "import hashlib; from tests.classroom.test_composite import *\n"
+        "print(hashlib.sha256(composite_png(sight('K19', 12))).hexdigest())"
+    )
+    said = {
+        subprocess.run(
+            [sys.executable, "-c", code],
+            env={**os.environ, "PYTHONHASHSEED": seed},
+            capture_output=True,
+            text=True,
+            check=True,
+            timeout=300,
+        ).stdout.strip()
+        for seed in ("1", "2")
+    }
     assert said == {hashlib.sha256(composite_png(sight("K19", 12))).hexdigest()}
 
 

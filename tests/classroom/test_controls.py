@@ -22,8 +22,9 @@ def test_a_range_may_depend_on_other_constants():
     assert of("top = 5\nc = 3 in 1 .. 2*top")["c"].high == 10
 
 
-@pytest.mark.parametrize(("value", "low", "high"),
-                         [("3", 1, 6), ("8", 1, 16), ("0.7", 0, Fraction(7, 5)), ("-2", -4, 0), ("0", 0, 1)])
+@pytest.mark.parametrize(
+    ("value", "low", "high"), [("3", 1, 6), ("8", 1, 16), ("0.7", 0, Fraction(7, 5)), ("-2", -4, 0), ("0", 0, 1)]
+)
 def test_a_constant_without_a_range_gets_one_around_its_value(value, low, high):
     span = of(f"c = {value}")["c"]
     assert (span.low, span.high) == (low, high)

@@ -55,8 +55,10 @@ def test_a_new_folder_gets_every_file(kit, tmp_path):
 
 
 def test_a_lesson_is_copied_without_what_it_shows_and_says_how_a_cell_is_run(kit, tmp_path):
-    cells = [new_markdown_cell("# All at once", id="title"),
-             new_code_cell("derive(x)", id="word", execution_count=3, outputs=[new_output("stream", text="0 ar")])]
+    cells = [
+        new_markdown_cell("# All at once", id="title"),
+        new_code_cell("derive(x)", id="word", execution_count=3, outputs=[new_output("stream", text="0 ar")]),
+    ]
     for name in (LESSON, EXERCISE):
         (kit / name).write_text(nbformat.writes(new_notebook(cells=cells)))
     copy_course(tmp_path / "mine", kit)
@@ -120,8 +122,12 @@ def test_work_in_the_new_version_is_kept_too(kit, mine):
         copy_course(mine, kit)
         if version == "version 3":
             (mine / LESSON.replace(".ipynb", ".new.ipynb")).write_text("my work in version 3")
-    assert contents(mine) == {LESSON: "my work", LESSON.replace(".ipynb", ".new.ipynb"): "my work in version 3",
-                              LESSON.replace(".ipynb", ".new2.ipynb"): "version 4", EXERCISE: "version 1"}
+    assert contents(mine) == {
+        LESSON: "my work",
+        LESSON.replace(".ipynb", ".new.ipynb"): "my work in version 3",
+        LESSON.replace(".ipynb", ".new2.ipynb"): "version 4",
+        EXERCISE: "version 1",
+    }
 
 
 def test_a_deleted_lesson_comes_back(kit, mine):
@@ -129,8 +135,19 @@ def test_a_deleted_lesson_comes_back(kit, mine):
     assert what(copy_course(mine, kit))[LESSON] == "new"
 
 
-@pytest.mark.parametrize("manifest", ["", "[]", "{", '{"files": 3}', "[" * 100_000, "\0", json.dumps({"files": {LESSON: 1}}),
-                                      json.dumps({"files": {"../../outside.ipynb": "0" * 64}})])
+@pytest.mark.parametrize(
+    "manifest",
+    [
+        "",
+        "[]",
+        "{",
+        '{"files": 3}',
+        "[" * 100_000,
+        "\0",
+        json.dumps({"files": {LESSON: 1}}),
+        json.dumps({"files": {"../../outside.ipynb": "0" * 64}}),
+    ],
+)
 def test_without_a_manifest_that_can_be_read_every_difference_is_the_students(kit, mine, manifest):
     (mine / LESSON).write_text("my work")
     (kit / LESSON).write_text("version 2")

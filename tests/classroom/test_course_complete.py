@@ -8,10 +8,25 @@ from lsys_kit.classroom.lessons.declared import declared, names
 from tests.notebooks.test_lesson_form import LESSONS, POINTS, TEACHER
 
 COURSE = (
-    "00_five_characters_one_plant", "01_all_at_once", "02_how_many", "03_type_a_plant", "04_the_turtle", "05_cells_that_wait",
-    "06_parameters", "07_life_spans", "08_chance", "09_neighbours", "10_flowering", "11_time_in_slices",
-    "12_growing_without_a_jump", "13_into_space", "14_plants_that_look", "15_hedges_and_movement", "16_tissues",
-    "17_languages", "18_your_own_plant",
+    "00_five_characters_one_plant",
+    "01_all_at_once",
+    "02_how_many",
+    "03_type_a_plant",
+    "04_the_turtle",
+    "05_cells_that_wait",
+    "06_parameters",
+    "07_life_spans",
+    "08_chance",
+    "09_neighbours",
+    "10_flowering",
+    "11_time_in_slices",
+    "12_growing_without_a_jump",
+    "13_into_space",
+    "14_plants_that_look",
+    "15_hedges_and_movement",
+    "16_tissues",
+    "17_languages",
+    "18_your_own_plant",
 )
 
 

@@ -13,7 +13,7 @@ from lsys_kit.classroom.exercises.lint import problems_in
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
 from tests.exercise_guide import GUIDE, with_table
 
-GOOD = '''\
+GOOD = """\
 title = "My lesson"
 objectives = ["count"]
 introduction = "I."
@@ -36,7 +36,7 @@ expects = ["sequential"]
 [[exercise.slips]]
 answer = "99"
 says = "Not that many."
-'''
+"""
 
 
 @pytest.fixture(autouse=True)
@@ -56,41 +56,57 @@ def test_a_good_file_has_no_problems(folder):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("was", "becomes", "line", "says"), [
-    ('kind = "number"', 'kind = "nummer"', 9, 'There is no kind "nummer". Did you mean "number"?'),
-    ('steps = 6', 'steps = "6"', 14, '"steps" must be a whole number'),
-    ('steps = 6', 'step = 6', 14, 'There is no key "step". Did you mean "steps"?'),
-    ('asks = "length"', 'asks = "matrix"', 13, 'This kind cannot ask "matrix". It can ask: length'),
-    ('asks = "length"', 'asks = "first step without s"', 13,
-     'This kind cannot ask "first step without s". It can ask: length, "count a", strokes, "first step past 1000".'),
-    ('asks = "length"', 'asks = "first"', 13, 'This kind cannot ask "first"'),
-    ('asks = "length"', 'asks = "count"', 13, 'This kind cannot ask "count"'),
-    ('asks = "length"', 'asks = "length 3"', 13, 'This kind cannot ask "length 3"'),
-    ('steps = 6', 'at = [6]', 14, 'The kind "number" has no "at". Write steps = ...'),
-    ('steps = 6', 'steps = 10001', 14, '"steps" must be a whole number up to 10,000'),
-    ('steps = 6', 'steps = 0', 15, "The system gives another answer: 1."),
-    ('a -> ab\\nb -> a"', 'a -> aaaaaa"\nconstants = { a = "1/0" }', 13, '"constants" must be a table'),
-    ('a -> ab\\nb -> a"\nasks = "length"\nsteps = 6', 'a -> aaaaaa"\nasks = "length"\nsteps = 9999', 15,
-     "The system gives another answer: a number too long to write down"),
-    ('solution = "21"', 'solution = "21"\ntolerance = "s"', 16, '"tolerance" must be a number'),
-    ('solution = "21"', 'solution = "22"', 15, "The system gives another answer: 21"),
-    ('solution = "21"', 'solution = "many"', 15, '"solution" cannot be read'),
-    ('solution = "21"\n', '', 6, '"solution" is missing'),
-    ('"h1", "h2", "h3"', '"h1", "h2"', 17, "There are 2 hints"),
-    ('"h1", "h2", "h3"', '"h1", "it is 21", "h3"', 17, "A hint contains the solution"),
-    ('expects = ["sequential"]', 'expects = ["seqential"]', 18,
-     'There is no misconception "seqential". Did you mean "sequential"?'),
-    ('expects = ["sequential"]', 'expects = ["rows and columns"]', 18, '"rows and columns" yields no wrong answer here'),
-    ('answer = "99"', 'answer = "21"', 21, "The slip is right"),
-    ('answer = "99"', 'answer = "((("', 21, "The slip cannot be read"),
-    ('answer = "99"', 'answer = "64"', 21, 'Write misconception = "'),
-    ('answer = "99"', 'anser = "99"', 21, 'There is no key "anser" here. Did you mean "answer"?'),
-    ('says = "Not that many."', '', 21, "A slip needs a reply"),
-    ('objective = 1', 'objective = 3', 10, "There is no objective 3"),
-    ('title = "My lesson"\n', '', 1, 'The file needs "title"'),
-    ('id = "mine.1"', 'id = "1.1"', 7, "The kit has an exercise with this id"),
-    ('system = "axiom: a\\na -> ab\\nb -> a"', 'system = "XX99"', 12, 'The catalogue has no system "XX99"'),
-    ('title = "Count"', 'title = "Count', 8, "Is a quotation mark or a bracket missing?")])
+@pytest.mark.parametrize(
+    ("was", "becomes", "line", "says"),
+    [
+        ('kind = "number"', 'kind = "nummer"', 9, 'There is no kind "nummer". Did you mean "number"?'),
+        ("steps = 6", 'steps = "6"', 14, '"steps" must be a whole number'),
+        ("steps = 6", "step = 6", 14, 'There is no key "step". Did you mean "steps"?'),
+        ('asks = "length"', 'asks = "matrix"', 13, 'This kind cannot ask "matrix". It can ask: length'),
+        (
+            'asks = "length"',
+            'asks = "first step without s"',
+            13,
+            'This kind cannot ask "first step without s". It can ask: length, "count a", strokes, "first step past 1000".',
+        ),
+        ('asks = "length"', 'asks = "first"', 13, 'This kind cannot ask "first"'),
+        ('asks = "length"', 'asks = "count"', 13, 'This kind cannot ask "count"'),
+        ('asks = "length"', 'asks = "length 3"', 13, 'This kind cannot ask "length 3"'),
+        ("steps = 6", "at = [6]", 14, 'The kind "number" has no "at". Write steps = ...'),
+        ("steps = 6", "steps = 10001", 14, '"steps" must be a whole number up to 10,000'),
+        ("steps = 6", "steps = 0", 15, "The system gives another answer: 1."),
+        ('a -> ab\\nb -> a"', 'a -> aaaaaa"\nconstants = { a = "1/0" }', 13, '"constants" must be a table'),
+        (
+            'a -> ab\\nb -> a"\nasks = "length"\nsteps = 6',
+            'a -> aaaaaa"\nasks = "length"\nsteps = 9999',
+            15,
+            "The system gives another answer: a number too long to write down",
+        ),
+        ('solution = "21"', 'solution = "21"\ntolerance = "s"', 16, '"tolerance" must be a number'),
+        ('solution = "21"', 'solution = "22"', 15, "The system gives another answer: 21"),
+        ('solution = "21"', 'solution = "many"', 15, '"solution" cannot be read'),
+        ('solution = "21"\n', "", 6, '"solution" is missing'),
+        ('"h1", "h2", "h3"', '"h1", "h2"', 17, "There are 2 hints"),
+        ('"h1", "h2", "h3"', '"h1", "it is 21", "h3"', 17, "A hint contains the solution"),
+        (
+            'expects = ["sequential"]',
+            'expects = ["seqential"]',
+            18,
+            'There is no misconception "seqential". Did you mean "sequential"?',
+        ),
+        ('expects = ["sequential"]', 'expects = ["rows and columns"]', 18, '"rows and columns" yields no wrong answer here'),
+        ('answer = "99"', 'answer = "21"', 21, "The slip is right"),
+        ('answer = "99"', 'answer = "((("', 21, "The slip cannot be read"),
+        ('answer = "99"', 'answer = "64"', 21, 'Write misconception = "'),
+        ('answer = "99"', 'anser = "99"', 21, 'There is no key "anser" here. Did you mean "answer"?'),
+        ('says = "Not that many."', "", 21, "A slip needs a reply"),
+        ("objective = 1", "objective = 3", 10, "There is no objective 3"),
+        ('title = "My lesson"\n', "", 1, 'The file needs "title"'),
+        ('id = "mine.1"', 'id = "1.1"', 7, "The kit has an exercise with this id"),
+        ('system = "axiom: a\\na -> ab\\nb -> a"', 'system = "XX99"', 12, 'The catalogue has no system "XX99"'),
+        ('title = "Count"', 'title = "Count', 8, "Is a quotation mark or a bracket missing?"),
+    ],
+)
 def test_a_mistake_is_told_with_file_line_and_what_to_try(folder, was, becomes, line, says):
     assert was in GOOD
     (folder / "good.toml").write_text(GOOD.replace(was, becomes), encoding="utf-8")
@@ -98,12 +114,19 @@ def test_a_mistake_is_told_with_file_line_and_what_to_try(folder, was, becomes, 
     assert any(says in problem and f"good.toml, line {line}" in problem for problem in found), found
 
 
-@pytest.mark.parametrize(("successor", "solution", "said"), [
-    ("ab", "abaab", []), ("a[b]", "a[b][a][a[b]]", ['"word reversed" yields no wrong answer here'])])
+@pytest.mark.parametrize(
+    ("successor", "solution", "said"),
+    [("ab", "abaab", []), ("a[b]", "a[b][a][a[b]]", ['"word reversed" yields no wrong answer here'])],
+)
 def test_a_word_with_brackets_is_not_read_backwards(folder, successor, solution, said):
-    text = GOOD[:GOOD.index("[[exercise.slips]]")]
-    for was, becomes in (('"number"', '"word"'), ('asks = "length"\nsteps = 6', "steps = 3"),
-                         ('["sequential"]', '["word reversed"]'), ("a -> ab", f"a -> {successor}"), ('"21"', f'"{solution}"')):
+    text = GOOD[: GOOD.index("[[exercise.slips]]")]
+    for was, becomes in (
+        ('"number"', '"word"'),
+        ('asks = "length"\nsteps = 6', "steps = 3"),
+        ('["sequential"]', '["word reversed"]'),
+        ("a -> ab", f"a -> {successor}"),
+        ('"21"', f'"{solution}"'),
+    ):
         assert was in text
         text = text.replace(was, becomes)
     (folder / "good.toml").write_text(text, encoding="utf-8")
@@ -113,7 +136,8 @@ def test_a_word_with_brackets_is_not_read_backwards(folder, successor, solution,
 def test_a_duplicate_id_is_an_error_that_names_both_places(folder):
     (folder / "other.toml").write_text(GOOD.replace("mine.1", "mine.1"), encoding="utf-8")
     assert [str(problem) for problem in problems_in(folder)] == [
-        'other.toml, line 7, exercise mine.1: The id "mine.1" stands in good.toml, line 7 too. Give one of them another.']
+        'other.toml, line 7, exercise mine.1: The id "mine.1" stands in good.toml, line 7 too. Give one of them another.'
+    ]
 
 
 def test_a_bad_file_stops_no_other_exercise(folder):
@@ -126,7 +150,7 @@ def test_a_bad_file_stops_no_other_exercise(folder):
 
 
 def test_an_exercise_with_a_mistake_stops_no_other_in_its_file(folder):
-    second = GOOD[GOOD.index("[[exercise]]"):].replace("mine.1", "mine.2").replace("steps = 6", 'steps = "six"')
+    second = GOOD[GOOD.index("[[exercise]]") :].replace("mine.1", "mine.2").replace("steps = 6", 'steps = "six"')
     (folder / "good.toml").write_text(f"{GOOD}\n{second}", encoding="utf-8")
     with pytest.raises(ModelFileError, match=r"mine\.2"):
         exercises(folder)
@@ -186,9 +210,38 @@ def test_the_guide_lists_every_misconception():
 EXAMPLES = re.findall(r"```toml\n(kind = .*?)```", GUIDE.read_text(encoding="utf-8"), re.DOTALL)
 TOP = 'title = "t"\nobjectives = ["o"]\nintroduction = "i"\nsummary = "s"\n[[exercise]]\n'
 COMMON = 'id = "g.1"\ntitle = "t"\nquestion = "?"\nexplanation = "e"\nhints = ["x", "y", "z"]\nobjective = 1\n'
-ODD = ('""', '"s"', '"first"', '"count "', '"lengths 3"', '"\\u0000"', '"((("', '"1/0"', '-1', '0', '1.5', 'inf', 'nan',
-       '10000', '99999999999999999999999', '[]', '[1]', '[-1]', '["s"]', '[[]]', '{}', '{ a = 1 }', '{ a = "1/0" }',
-       '{ a = ["x"] }', '[{}]', '[{ a = "x" }]', 'true', '1979-05-27', '"J1"', '"axiom: a"')
+ODD = (
+    '""',
+    '"s"',
+    '"first"',
+    '"count "',
+    '"lengths 3"',
+    '"\\u0000"',
+    '"((("',
+    '"1/0"',
+    "-1",
+    "0",
+    "1.5",
+    "inf",
+    "nan",
+    "10000",
+    "99999999999999999999999",
+    "[]",
+    "[1]",
+    "[-1]",
+    '["s"]',
+    "[[]]",
+    "{}",
+    "{ a = 1 }",
+    '{ a = "1/0" }',
+    '{ a = ["x"] }',
+    "[{}]",
+    '[{ a = "x" }]',
+    "true",
+    "1979-05-27",
+    '"J1"',
+    '"axiom: a"',
+)
 
 
 @pytest.mark.parametrize("example", EXAMPLES)

@@ -67,8 +67,9 @@ def test_a_misconception_has_its_own_reply_and_earns_the_parts_that_are_right(ex
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("exercise", [each for each in EXERCISES if each.kind not in ("choice", "symbol", "line")],
-                         ids=lambda each: each.id)
+@pytest.mark.parametrize(
+    "exercise", [each for each in EXERCISES if each.kind not in ("choice", "symbol", "line")], ids=lambda each: each.id
+)
 def test_no_reply_gives_the_solution_away(exercise):
     answer = " ".join(exercise.solution.split())
     for wrong in wrong_answers_to(exercise):
@@ -150,10 +151,27 @@ def test_there_are_no_other_hints(hint):
 # What goes wrong
 
 
-HOSTILE = ["__import__('os').system('echo run')", "().__class__.__bases__", "lambda: 0", "9^9^9^9", "1e999999999", "((((((",
-           "[" * 4_000, "x" * 100_000, "axiom: " + "a " * 2_000, "axiom: ar\nar -> " + "ar " * 1_000, "\u202e\ud800",
-           "<script>", "axiom: A(2)\nA(x) -> A(x^1000)A(x)A(x)A(x)A(x)A(x)A(x)A(x)", "axiom: A(1)\nA(x) -> A(1/(x-1))",
-           "\\frac{" * 500, "A -> " + "B + " * 1_000 + "B", "F" * 4_000, "1," * 2_000, "a;" * 2_000]
+HOSTILE = [
+    "__import__('os').system('echo run')",
+    "().__class__.__bases__",
+    "lambda: 0",
+    "9^9^9^9",
+    "1e999999999",
+    "((((((",
+    "[" * 4_000,
+    "x" * 100_000,
+    "axiom: " + "a " * 2_000,
+    "axiom: ar\nar -> " + "ar " * 1_000,
+    "\u202e\ud800",
+    "<script>",
+    "axiom: A(2)\nA(x) -> A(x^1000)A(x)A(x)A(x)A(x)A(x)A(x)A(x)",
+    "axiom: A(1)\nA(x) -> A(1/(x-1))",
+    "\\frac{" * 500,
+    "A -> " + "B + " * 1_000 + "B",
+    "F" * 4_000,
+    "1," * 2_000,
+    "a;" * 2_000,
+]
 
 
 @pytest.mark.slow

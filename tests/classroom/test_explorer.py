@@ -46,8 +46,11 @@ def test_symbols_are_unfolded_in_the_diagram_as_long_as_they_can_be(monkeypatch)
     assert panel.model["book"]["net"]["names"] == names
     assert panel.sight.tokens == (0, 0, 1, 0, 2, 2, 2)
     assert [each["net"]["names"] for each in books_of(panel)] == [names]
-    for rules, found in ((AGEING.replace("[B(t)]", ""), ["A(0)", "A(1)", "A(2)", "A(3)"]), ("axiom: F\nF -> F F", ["F"]),
-                         (AGEING, names)):
+    for rules, found in (
+        (AGEING.replace("[B(t)]", ""), ["A(0)", "A(1)", "A(2)", "A(3)"]),
+        ("axiom: F\nF -> F F", ["F"]),
+        (AGEING, names),
+    ):
         assert answer(panel, monkeypatch, kind="rules", text=rules) == {"number": 7, "opened": True}
         assert panel.model["book"]["net"]["names"] == found
         assert len(panel.sight.tokens) == len(found)
@@ -56,8 +59,10 @@ def test_symbols_are_unfolded_in_the_diagram_as_long_as_they_can_be(monkeypatch)
 def books_of(panel):
     """The books of the page of a panel."""
     kept = json.loads(zlib.decompress(base64.b64decode(panel.page_data()["books"])))
-    return [{name: kept["parts"][column][number] for column, (name, number) in enumerate(zip(kept["names"], row, strict=True))}
-            for row in kept["rows"]]
+    return [
+        {name: kept["parts"][column][number] for column, (name, number) in enumerate(zip(kept["names"], row, strict=True))}
+        for row in kept["rows"]
+    ]
 
 
 def test_what_cannot_be_unfolded_is_said_before_the_panel_opens():
@@ -187,8 +192,10 @@ def test_there_are_no_other_sliders(sliders):
         explore("J4", 3, sliders=sliders)
 
 
-@pytest.mark.parametrize(("sliders", "said"), [
-    (3, "A name or a list of names of sliders is needed, not int"), ([3], "The name of a slider is needed, not int")])
+@pytest.mark.parametrize(
+    ("sliders", "said"),
+    [(3, "A name or a list of names of sliders is needed, not int"), ([3], "The name of a slider is needed, not int")],
+)
 def test_names_of_sliders_are_texts(sliders, said):
     with pytest.raises(ModelValueError, match=said):
         explore("J4", 3, sliders=sliders)
@@ -260,10 +267,14 @@ def test_another_seed_is_another_book(monkeypatch):
     assert one == again != two
 
 
-@pytest.mark.parametrize(("text", "told", "place"), [
-    ("axiom: A\nA -> A(t", "is never closed", (15, 16)),
-    ("axiom: A\nA = B C", 'I did not expect "C" here', (15, 16)),
-    ("axiom: A\nA(t) -> B(u)", 'I do not know the name "u"', (19, 20))])
+@pytest.mark.parametrize(
+    ("text", "told", "place"),
+    [
+        ("axiom: A\nA -> A(t", "is never closed", (15, 16)),
+        ("axiom: A\nA = B C", 'I did not expect "C" here', (15, 16)),
+        ("axiom: A\nA(t) -> B(u)", 'I do not know the name "u"', (19, 20)),
+    ],
+)
 def test_a_mistake_in_the_rules_is_answered_with_its_place(monkeypatch, text, told, place):
     panel = explore("J1", 4)
     reply = answer(panel, monkeypatch, kind="rules", text=text)["mistake"]
@@ -290,12 +301,16 @@ def test_rules_may_be_typed_in_another_notation(monkeypatch):
     assert answer(panel, monkeypatch, kind="rules", text=text)["opened"]
 
 
-@pytest.mark.parametrize(("choices", "message"), [
-    ({"lifeTimeA": 100}, "lifeTimeA = 100 lies outside its slider's range. It goes from 1 to 6"),
-    ({"angle": 200}, "angle = 200 lies outside"),
-    ({"step": -1}, "whole number from 0 on"),
-    ({"seed": "pdf"}, "The seed must be a whole number, not 'pdf'"),
-    ({"lifetimeA": 3}, 'Did you mean "lifeTimeA"')])
+@pytest.mark.parametrize(
+    ("choices", "message"),
+    [
+        ({"lifeTimeA": 100}, "lifeTimeA = 100 lies outside its slider's range. It goes from 1 to 6"),
+        ({"angle": 200}, "angle = 200 lies outside"),
+        ({"step": -1}, "whole number from 0 on"),
+        ({"seed": "pdf"}, "The seed must be a whole number, not 'pdf'"),
+        ({"lifetimeA": 3}, 'Did you mean "lifeTimeA"'),
+    ],
+)
 def test_first_settings_that_make_no_sense_are_errors(choices, message):
     with pytest.raises(LSystemError) as error:
         explore("J4", **choices)

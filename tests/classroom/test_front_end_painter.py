@@ -140,8 +140,9 @@ def test_whoever_points_at_a_stroke_finds_its_module(page, text):
 
 
 def test_where_nothing_is_near_nothing_is_found(page):
-    assert painted(page, POINTED + "return [at(5, 200), at(middle(0)[0] + 5, 200), at(middle(0)[0] + 9, 200)];",
-                   word_of("FF")) == [-1, 1, -1]
+    assert painted(
+        page, POINTED + "return [at(5, 200), at(middle(0)[0] + 5, 200), at(middle(0)[0] + 9, 200)];", word_of("FF")
+    ) == [-1, 1, -1]
 
 
 def test_of_two_shapes_the_one_in_front_is_found(page):
@@ -152,8 +153,11 @@ def test_of_two_shapes_the_one_in_front_is_found(page):
 
 
 def test_inside_a_face_it_is_found_and_outside_it_is_not(page):
-    found = painted(page, POINTED + "return [[200, 210], [200, 180], [60, 150]].map((point) => at(...point));",
-                    word_of("{-(45)f(5)+(90)f(5)+(90)f(5)}"))
+    found = painted(
+        page,
+        POINTED + "return [[200, 210], [200, 180], [60, 150]].map((point) => at(...point));",
+        word_of("{-(45)f(5)+(90)f(5)+(90)f(5)}"),
+    )
     assert found == [0, 0, -1]
 
 
@@ -165,9 +169,15 @@ KINDS = ("self", "mother", "daughter")
 def test_mother_and_daughters_are_told_apart_without_colour(page, text, theme):
     """In one colour, what surrounds what is traced has three shapes."""
     word = word_of(text)
-    pictures = painted(page, """
+    pictures = painted(
+        page,
+        """
         const one = { ...given.theme, lit: given.theme.ink };
-        return given.kinds.map((kind) => inked({ theme: one, lit: new Map([[0, kind]]) }).join());""", word, theme, kinds=KINDS)
+        return given.kinds.map((kind) => inked({ theme: one, lit: new Map([[0, kind]]) }).join());""",
+        word,
+        theme,
+        kinds=KINDS,
+    )
     plain = painted(page, "return inked({}).join();", word, theme)
     assert len({plain, *pictures}) == 4
 
@@ -175,9 +185,16 @@ def test_mother_and_daughters_are_told_apart_without_colour(page, text, theme):
 def test_what_is_marked_lies_on_a_band(page):
     """Of a line of 372 pixels two fifths are marked, with a band that is more than five pixels broader than the line."""
     word = word_of("F(2)F(3)")
-    plain, marked = (painted(page, f"""
+    plain, marked = (
+        painted(
+            page,
+            f"""
         const data = inked({{ marked: new Set({states}) }});
-        return data.filter((part, at) => at % 4 === 0 && part < 255).length;""", word) for states in ([], [0]))
+        return data.filter((part, at) => at % 4 === 0 && part < 255).length;""",
+            word,
+        )
+        for states in ([], [0])
+    )
     assert marked > plain + 5 * 372 * 2 / 5
 
 
@@ -186,17 +203,25 @@ def test_what_is_marked_lies_on_a_band(page):
 def test_lines_can_be_seen_on_their_paper(page, id, theme):
     """The nearest strokes have a contrast of 3 to 1 at least to the paper (WCAG 2.2, criterion 1.4.11)."""
     word = derive(system(id), 3, seed=1)[-1]
-    ratios = painted(page, """const shade = shades(shapes.palette, given.theme);
-        return shapes.palette.map((_, colour) => contrast(shade(colour), given.theme.paper));""", word, theme)
+    ratios = painted(
+        page,
+        """const shade = shades(shapes.palette, given.theme);
+        return shapes.palette.map((_, colour) => contrast(shade(colour), given.theme.paper));""",
+        word,
+        theme,
+    )
     assert min(ratios) >= 3
 
 
 def test_in_a_frame_that_stays_a_plant_grows(page):
     plant = derive(read("axiom: F\nF -> FF"), 3)
     book = book_of(list(plant))
-    code = PAINTED.replace("SIZE", str(SIZE)) + """
+    code = (
+        PAINTED.replace("SIZE", str(SIZE))
+        + """
         const { x, y } = seenIn(frame, shapes);
         return [Math.min(...y), Math.max(...y)];"""
+    )
     ends = [answers(page, code, {"book": book, "theme": THEME, "step": step, "boxed": 3}, *PAINTER) for step in range(4)]
     assert [bottom for _, bottom in ends] == pytest.approx([ends[0][1]] * 4)
     assert [bottom - top for top, bottom in ends] == pytest.approx([(SIZE - 28) / 8 * 2**step for step in range(4)])

@@ -58,14 +58,26 @@ def scene_by_kit(word, angle):
     return in_units([coloured(scene, made_by)], made_by)[0]
 
 
-PATCH = "@PS(1)" + "".join(f"[+({20 * row})f&({15 * column})f(2)@PC(1,{row},{column})]" for row in range(4)
-                           for column in range(4)) + "@PD(1,2,3)F"
+PATCH = (
+    "@PS(1)"
+    + "".join(f"[+({20 * row})f&({15 * column})f(2)@PC(1,{row},{column})]" for row in range(4) for column in range(4))
+    + "@PD(1,2,3)F"
+)
 
 
 def test_natural_colours(page):
-    trees = ("&F[&F[&(30)F]]F", "F!(4)F!(1)F[+!(0)F]", "!(0)F[+F]", "F[+F;(3)F]", "F[' ~L]' F ' @O(2)", "F ; F ;(30) F",
-             "!(2)@GsF+F!(1)@Gc(3)&F[+F@GsF^F@Ge]^F@Ge", "@R(1,2,0)F@R(0,0,-1,1,0,0)[+F]&F", PATCH,
-             "&" + "~P[f+~L(0.1)]" * 76)
+    trees = (
+        "&F[&F[&(30)F]]F",
+        "F!(4)F!(1)F[+!(0)F]",
+        "!(0)F[+F]",
+        "F[+F;(3)F]",
+        "F[' ~L]' F ' @O(2)",
+        "F ; F ;(30) F",
+        "!(2)@GsF+F!(1)@Gc(3)&F[+F@GsF^F@Ge]^F@Ge",
+        "@R(1,2,0)F@R(0,0,-1,1,0,0)[+F]&F",
+        PATCH,
+        "&" + "~P[f+~L(0.1)]" * 76,
+    )
     expect_drawn(page, [[derive(read(f"colours: natural\naxiom: {tree}"), 0)[0]] for tree in trees], [25.0])
 
 
@@ -92,7 +104,10 @@ def expect_same(shapes, scene, word, last):
     assert strokes["widths"] == pytest.approx(np.broadcast_to(segments.widths, len(segments)), rel=1e-9)
     assert rounds["radii"] == pytest.approx(discs.radii, rel=1e-9)
     assert (strokes["orders"], faces["starts"], rounds["kinds"]) == (
-        segments.orders.tolist(), polygons.starts.tolist(), discs.kinds.tolist())
+        segments.orders.tolist(),
+        polygons.starts.tolist(),
+        discs.kinds.tolist(),
+    )
     for found, kept in ((strokes, segments), (faces, polygons), (rounds, discs)):
         assert found["states"] == kept.states.tolist() == [word.codes[place] for place in found["positions"]]
         names, numbers = numbered_colours(kept.states, kept.colours, state_colours(last))
@@ -125,11 +140,17 @@ GENTLE = st.sampled_from([-0.5, 0, 0.25, 0.5])
 
 def modules(dialect, *, flat):
     """Modules of any command of a dialect, in the plane or not, with any number of values; and symbols that are none."""
-    known = [symbol for symbol, commands in COMMANDS[dialect].items()
-             if not (flat and any(Effect.LEAVES_PLANE in command.effects for command in commands))]
+    known = [
+        symbol
+        for symbol, commands in COMMANDS[dialect].items()
+        if not (flat and any(Effect.LEAVES_PLANE in command.effects for command in commands))
+    ]
     symbols = st.sampled_from([*known, *["[", "]", "F"] * 6, *(["~"] * 4 if "~" in known else ()), "K", "rosette", "X"])
-    return symbols.flatmap(lambda symbol: st.builds(
-        lambda numbers: Pattern(symbol, tuple(map(Number, numbers))), values_from(GENTLE if symbol == "@Ts" else VALUES)))
+    return symbols.flatmap(
+        lambda symbol: st.builds(
+            lambda numbers: Pattern(symbol, tuple(map(Number, numbers))), values_from(GENTLE if symbol == "@Ts" else VALUES)
+        )
+    )
 
 
 def values_from(numbers):
@@ -139,29 +160,67 @@ def values_from(numbers):
 
 def words(dialect, *, flat=False):
     """Words of a dialect's commands."""
-    made = st.builds(lambda axiom, angle, heading, widths, colours: LSystem(
-        tuple(axiom), (), angle=angle, heading=heading, widths=widths, turtle=dialect, colours=colours),
-        st.lists(modules(dialect, flat=flat), min_size=3, max_size=40), st.sampled_from([22.5, 60, 90, 97]),
-        st.sampled_from([90, 0, -30]), st.sampled_from(["", "pixels", "units"]), st.sampled_from(["symbols", "natural"]))
+    made = st.builds(
+        lambda axiom, angle, heading, widths, colours: LSystem(
+            tuple(axiom), (), angle=angle, heading=heading, widths=widths, turtle=dialect, colours=colours
+        ),
+        st.lists(modules(dialect, flat=flat), min_size=3, max_size=40),
+        st.sampled_from([22.5, 60, 90, 97]),
+        st.sampled_from([90, 0, -30]),
+        st.sampled_from(["", "pixels", "units"]),
+        st.sampled_from(["symbols", "natural"]),
+    )
     return made.map(lambda made: derive(made, 0)[0])
 
 
 SELDOM = {
-    "abop": ["; F , F", "{ f f } F", "{ f f f } F", "{ f { f + f + f } f + f } F", "{ f ] f [ + f } F", "] F ] ] + F",
-             "F ;(2.5) F ;(3.5) F ,(-7) F ;(0.5) F ; F , F", "F(-2) + F", "~ L F ~ X F ~ K(2)",
-             "!(0) F !(-3) F #(30) F #(1.5) F # F", "#(1) F + F", "#(0.9) F + F", "#(370) F + F F",
-             "@Ts(0.2) F & F + F @Ts(2,0.25,1,0,0) F F F [ @Ts(0.5) F ] F @Ts(1,2,3) F F @Ts F & F",
-             "@Ts(1,0.5,1,1,1,9) F & F F", "@M(1,2) F @M(3) F @M F", "F /(180) + F /(-180) + F /(540) + F",
-             "F /(180) + F /(-180) + F /(540) + F /(90) F", "&(90) F $ F @v F", "F" + " &(7) F +" * 1100,
-             "@D(2) F !(3) F [ @Di(2) + F @O @c(2) ~ L ] F @o @Dd(4) F(2) @D F @D(-1) F + F",
-             "@D(3) &(20) ! @Gs F @Di(2) + F @Ge(4) ~ L",
-             "F @B !(3) @B(2) + @D(2) @B(-2,1) @B(0) @B(1,0) F", "&(30) F @B(2,1) + !(2) @B ^ @B(-3,1)" + " ~ L" * 151,
-             "@L(0) F + F @L(2.5,-1) [ F @L ] @L(1000000)", "&(30) F @L(7) F"],
-    "grogra": ["Dl(3) F F", "Dl(3) [ F ] F F", "Dl(3) Dl(5) Ll(2) F F", "F @(0.5) RH F", "@(0.5) F",
-               "RV F RL(90) RV(2) F RG F RL RG F RG F", "V(2) RV F V+(1) RV F Vl*(3) RV F RV F", "P(1) F P F P(-3) F P(17) F",
-               "D*(3) F D F D+(20) F", "RL(180) RV(3) F RV(0.5) F"],
-    "fractint": ["C(255) F <(1) F >(2) F <(-1) F >(-1) F <(0) F C(0) F C(-1) F C(2.5) F", "@Q(2) F @IQ(3) F @I(0) F @(0) F",
-                 "\\(30) D ! \\(12) D F [ + D ] /(5) M + D", "F | F + | F ! | F", "F ! + F ! - F [ ! + F ] + F"],
+    "abop": [
+        "; F , F",
+        "{ f f } F",
+        "{ f f f } F",
+        "{ f { f + f + f } f + f } F",
+        "{ f ] f [ + f } F",
+        "] F ] ] + F",
+        "F ;(2.5) F ;(3.5) F ,(-7) F ;(0.5) F ; F , F",
+        "F(-2) + F",
+        "~ L F ~ X F ~ K(2)",
+        "!(0) F !(-3) F #(30) F #(1.5) F # F",
+        "#(1) F + F",
+        "#(0.9) F + F",
+        "#(370) F + F F",
+        "@Ts(0.2) F & F + F @Ts(2,0.25,1,0,0) F F F [ @Ts(0.5) F ] F @Ts(1,2,3) F F @Ts F & F",
+        "@Ts(1,0.5,1,1,1,9) F & F F",
+        "@M(1,2) F @M(3) F @M F",
+        "F /(180) + F /(-180) + F /(540) + F",
+        "F /(180) + F /(-180) + F /(540) + F /(90) F",
+        "&(90) F $ F @v F",
+        "F" + " &(7) F +" * 1100,
+        "@D(2) F !(3) F [ @Di(2) + F @O @c(2) ~ L ] F @o @Dd(4) F(2) @D F @D(-1) F + F",
+        "@D(3) &(20) ! @Gs F @Di(2) + F @Ge(4) ~ L",
+        "F @B !(3) @B(2) + @D(2) @B(-2,1) @B(0) @B(1,0) F",
+        "&(30) F @B(2,1) + !(2) @B ^ @B(-3,1)" + " ~ L" * 151,
+        "@L(0) F + F @L(2.5,-1) [ F @L ] @L(1000000)",
+        "&(30) F @L(7) F",
+    ],
+    "grogra": [
+        "Dl(3) F F",
+        "Dl(3) [ F ] F F",
+        "Dl(3) Dl(5) Ll(2) F F",
+        "F @(0.5) RH F",
+        "@(0.5) F",
+        "RV F RL(90) RV(2) F RG F RL RG F RG F",
+        "V(2) RV F V+(1) RV F Vl*(3) RV F RV F",
+        "P(1) F P F P(-3) F P(17) F",
+        "D*(3) F D F D+(20) F",
+        "RL(180) RV(3) F RV(0.5) F",
+    ],
+    "fractint": [
+        "C(255) F <(1) F >(2) F <(-1) F >(-1) F <(0) F C(0) F C(-1) F C(2.5) F",
+        "@Q(2) F @IQ(3) F @I(0) F @(0) F",
+        "\\(30) D ! \\(12) D F [ + D ] /(5) M + D",
+        "F | F + | F ! | F",
+        "F ! + F ! - F [ ! + F ] + F",
+    ],
     "plant-string": ["I ( I [ I L ) F ] A B L", "( ( ( I", "L F L"],
 }
 """Rows of modules by which something happens that is seldom met by chance."""
@@ -189,46 +248,67 @@ def test_words_of_all_commands(page, dialect, flat, data):
     expect_drawn(page, [[word] for word in found], [60.0, *ANGLES])
 
 
-@pytest.mark.parametrize(("setting", "times", "what"), [("L", "L*", "step"), ("D", "D*", "width"), ("V", "V*", "strength"),
-                                                        ("@D", "@Di", "scale")])
+@pytest.mark.parametrize(
+    ("setting", "times", "what"), [("L", "L*", "step"), ("D", "D*", "width"), ("V", "V*", "strength"), ("@D", "@Di", "scale")]
+)
 def test_what_grows_too_large_is_refused_in_the_same_words(page, setting, times, what):
     row = (Pattern(setting, (Number(10),)), *[Pattern(times, (Number(1000),))] * 17, Pattern("RV"), Pattern("F"))
-    expect_refused(page, derive(LSystem(row, (), turtle="abop" if what == "scale" else "grogra"), 0)[0],
-                   rf"The turtle's {what} grows too large to draw: 1e\+52")
+    expect_refused(
+        page,
+        derive(LSystem(row, (), turtle="abop" if what == "scale" else "grogra"), 0)[0],
+        rf"The turtle's {what} grows too large to draw: 1e\+52",
+    )
 
 
 def test_fifteen_thousand_strokes_are_placed_at_once(page):
     """A typical time and not the greatest, since other programs may need the processor; a hundred times what it takes."""
     for branch in ("-", "&"):
         plant = derive(read(f"angle: 25.7\naxiom: F\nF -> F[+F]F[{branch}F]F"), 6)[-1]
-        strokes, milliseconds = answers(page, """
+        strokes, milliseconds = answers(
+            page,
+            """
             const path = traced(bookOf(given), 0), times = [];
             for (let angle = 0; angle < 31; angle++) {
               const start = performance.now();
               placed(path, angle);
               times.push(performance.now() - start);
             }
-            return [path.strokes.n, times.sort((a, b) => a - b)[15]];""", book_of([plant]), *TURTLE)
+            return [path.strokes.n, times.sort((a, b) => a - b)[15]];""",
+            book_of([plant]),
+            *TURTLE,
+        )
         assert strokes == 5**6
         assert milliseconds < 100
 
 
 def test_a_stroke_knows_its_module(page):
     word = derive(read("axiom: F[+F]{-f+f+f}@o(1)\nF -> F[+F]F"), 1)[-1]
-    found = answers(page, """
+    found = answers(
+        page,
+        """
         const { strokes, faces, rounds } = placed(traced(bookOf(given), 0), 90);
-        return [strokes, faces, rounds].map(({ positions }) => Array.from(positions));""", book_of([word]), *TURTLE)
+        return [strokes, faces, rounds].map(({ positions }) => Array.from(positions));""",
+        book_of([word]),
+        *TURTLE,
+    )
     assert [[str(word[place]) for place in places] for places in found] == [["F"] * 6, ["{"], ["@o(1)"]]
     assert found[0] == [place for place, module in enumerate(word) if module.symbol == "F"]
 
 
 def test_the_paths_of_few_large_words_are_kept(page):
     """Of six words of 131,072 strokes each those four that were asked for last, but of small words all."""
+
     def kept(steps):
         words = list(derive(read("axiom: F\nF -> FF"), steps))
-        return answers(page, """
+        return answers(
+            page,
+            """
             const book = bookOf({ ...given, words: Array(6).fill(given.words.at(-1)) });
             for (const step of [0, 1, 2, 3, 4, 5, 3]) traced(book, step);
-            return [...openedTurtle(book).paths.keys()];""", book_of(words[-1:]), *TURTLE)
+            return [...openedTurtle(book).paths.keys()];""",
+            book_of(words[-1:]),
+            *TURTLE,
+        )
+
     assert kept(3) == [0, 1, 2, 4, 5, 3]
     assert kept(17) == [2, 4, 5, 3]

@@ -16,17 +16,7 @@ from hypothesis import strategies as st
 from playwright.sync_api import Browser, Page
 
 from lsys_kit.classroom.panel.controls import slider
-from lsys_kit.classroom.panel.held import (
-    SEED,
-    Choice,
-    Held,
-    constant_choice,
-    fewest,
-    held_text,
-    planned,
-    seed_choice,
-    settings,
-)
+from lsys_kit.classroom.panel.held import SEED, Choice, Held, constant_choice, fewest, held_text, planned, seed_choice, settings
 from lsys_kit.notation.model.arithmetic import number_text
 from tests.classroom.front_end import joined
 
@@ -50,6 +40,7 @@ def away(held: Held, setting: dict[str, Any]) -> set[str]:
 
 
 # --- what is chosen -----------------------------------------------------------------------------------------------------------
+
 
 @given(constant_choices())
 def test_each_choice_has_fewer_values_and_always_both_ends_and_the_first_one(choice: Choice) -> None:
@@ -138,23 +129,38 @@ def test_sliders_for_which_there_is_no_room_are_left_out(choices: dict[str, Choi
 FREE = Held({"a": 1, "b": 2}, {"a": (1, 2), "b": (2, 3)}, ("a", "b"))
 
 
-@pytest.mark.parametrize(("fixed", "held", "said"), [
-    ({}, Held(), ""), ({}, FREE, ""), ({}, Held({"a": 1}, {"a": (1, 2)}), ""),
-    ({"k": Fraction(5, 2), SEED: 7}, Held(), "Fixed on this page: k = 2.5, seed = 7."),
-    ({}, Held({SEED: 0}, {SEED: (*range(9), 30)}), "This page holds 10 seeds."),
-    ({}, Held({**FREE.first, "c": 1}, {**FREE.values, "c": (1, 4)}, ("a", "b")),
-     "This page holds 2 of the 4 values of c. c moves alone: the other sliders then go back to their first values.")])
+@pytest.mark.parametrize(
+    ("fixed", "held", "said"),
+    [
+        ({}, Held(), ""),
+        ({}, FREE, ""),
+        ({}, Held({"a": 1}, {"a": (1, 2)}), ""),
+        ({"k": Fraction(5, 2), SEED: 7}, Held(), "Fixed on this page: k = 2.5, seed = 7."),
+        ({}, Held({SEED: 0}, {SEED: (*range(9), 30)}), "This page holds 10 seeds."),
+        (
+            {},
+            Held({**FREE.first, "c": 1}, {**FREE.values, "c": (1, 4)}, ("a", "b")),
+            "This page holds 2 of the 4 values of c. c moves alone: the other sliders then go back to their first values.",
+        ),
+    ],
+)
 def test_a_page_says_what_does_not_move_and_how_the_rest_does(fixed: dict[str, Any], held: Held, said: str) -> None:
     assert held_text(fixed, held, {"a": (1, 2), "b": (2, 3), "c": range(1, 5)}) == said
 
 
 # --- in a browser -------------------------------------------------------------------------------------------------------------
 
+
 def model(held: Held) -> dict[str, Any]:
     """What a page knows of the settings that it holds."""
     constants = [slider(name, held.values[name], held.first[name]) for name in held.values if name != SEED]
-    return {"constants": constants, "chance": SEED in held.values, "seed": held.first.get(SEED, 0), "together": held.together,
-            "seeds": [*map(number_text, held.values.get(SEED, ()))]}
+    return {
+        "constants": constants,
+        "chance": SEED in held.values,
+        "seed": held.first.get(SEED, 0),
+        "together": held.together,
+        "seeds": [*map(number_text, held.values.get(SEED, ()))],
+    }
 
 
 ROWS = """([model, settings]) => {{ {scripts}
@@ -183,11 +189,14 @@ def blank(browser: Browser) -> Iterator[Page]:
 @hypothesis_settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(ALL, st.integers(1, 60), st.booleans())
 def test_the_page_finds_the_book_of_each_setting_and_stays_at_what_it_holds(
-        blank: Page, choices: dict[str, Choice], most: int, joint: bool) -> None:
+    blank: Page, choices: dict[str, Choice], most: int, joint: bool
+) -> None:
     held = planned(choices, [*choices][:2] if joint and len(choices) > 1 else (), most)
     texts = [{name: number_text(value) for name, value in each.items()} for each in settings(held)]
-    asked = [{"constants": {name: text for name, text in each.items() if name != SEED}, "seed": int(each.get(SEED, 0))}
-             for each in texts]
+    asked = [
+        {"constants": {name: text for name, text in each.items() if name != SEED}, "seed": int(each.get(SEED, 0))}
+        for each in texts
+    ]
     rows, stays = blank.evaluate(ROWS.format(scripts=joined("held")), [model(held), asked])
     assert rows == [*range(len(asked))]
     assert stays

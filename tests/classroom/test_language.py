@@ -129,10 +129,12 @@ def test_english_is_the_language_at_the_beginning():
 def test_replies_are_in_the_language():
     assert repr(check("1.1", "al al br")) == (
         "Fast richtig. Das kommt heraus, wenn du einen Schritt zu früh aufhörst oder das Axiom Schritt 1 nennst. Das Axiom ist "
-        "Schritt 0, und Schritt 1 ist, was aus seinen Modulen wird.")
+        "Schritt 0, und Schritt 1 ist, was aus seinen Modulen wird."
+    )
     assert repr(check("1.1", "bl ar bl ar bl")) == (
         "Fast richtig. Bis Position 4 stimmt dein Wort; an Position 5 hast du bl. Sieh nach, was aus dem br an Position 3 von "
-        "Schritt 3 wird.")
+        "Schritt 3 wird."
+    )
     assert "<b>Richtig.</b>" in check("1.1", "bl ar bl ar ar")._repr_html_()
 
 
@@ -229,15 +231,15 @@ def test_a_country_is_taken_for_its_language():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("variable", "said"), [
-    ({"LSYS_KIT_LANGUAGE": "de"}, "Richtig."), ({"LANG": "de_DE.UTF-8"}, "Correct.")])
+@pytest.mark.parametrize(
+    ("variable", "said"), [({"LSYS_KIT_LANGUAGE": "de"}, "Richtig."), ({"LANG": "de_DE.UTF-8"}, "Correct.")]
+)
 def test_the_environment_chooses_by_its_own_variable_alone(variable, said):
     code = "from lsys_kit import check; print(check('1.1', 'bl ar bl ar ar'))"
-    done = subprocess.run([sys.executable, "-c", code], env={**os.environ, **variable}, capture_output=True, text=True,
-                          check=True, timeout=120)
+    done = subprocess.run(
+        [sys.executable, "-c", code], env={**os.environ, **variable}, capture_output=True, text=True, check=True, timeout=120
+    )
     assert done.stdout.strip() == said
-
-
 
 
 # Practice
@@ -265,7 +267,8 @@ def test_the_labels_of_a_lesson_are_in_the_language():
     assert vote("01").words["Check"] == worksheet("01", "counts").words["Check"] == "Prüfen"
     sheet = table("01", "counts")
     assert summary(sheet, marked(sheet, ["2", "2", "3", "5"])) == (
-        "3 von 8 Feldern sind richtig, 4 sind noch nicht ausgefüllt. Sieh dir noch einmal an: Zeile 2, rule after rule.")
+        "3 von 8 Feldern sind richtig, 4 sind noch nicht ausgefüllt. Sieh dir noch einmal an: Zeile 2, rule after rule."
+    )
 
 
 def test_english_labels_need_nowords_of_page():

@@ -55,46 +55,50 @@ def changed(*path: Any, to: object) -> dict[str, Any]:
 
 # --- declarations -----------------------------------------------------------------------------------------------------
 
+
 @pytest.mark.parametrize("name", names())
 def test_every_lesson_can_be_read(name):
     assert lesson(name[:2]).name == name
     assert sum(option.right for option in lesson(name[:2]).vote.options) == 1
 
 
-@pytest.mark.parametrize(("path", "to", "says"), [
-    (("title",), ..., 'The lesson 01_all_at_once has no "title"'),
-    (("titel",), "x", 'The lesson 01_all_at_once has an unknown entry "titel"'),
-    (("number",), 2, '"number" must be 1, as in its name, not 2'),
-    (("minutes",), "50", '"minutes" must be a whole number'),
-    (("minutes",), True, '"minutes" must be a whole number'),
-    (("track",), ["F", "X"], '"track" has letters of F, C, O, not X'),
-    (("objectives",), "all", '"objectives" must be a list of texts'),
-    (("objectives",), ["a", " "], '"objectives", entry 2 must be a text'),
-    (("vote",), [], '"vote" must be a table of entries'),
-    (("vote", "question"), 0.5, None),
-    (("vote", "options"), {}, '"options" must be a list'),
-    (("vote", "options"), DECLARED["vote"]["options"][:3], "there must be 4 options"),
-    (("vote", "options", 0, "right"), True, "one of them must have right = true"),
-    (("vote", "options", 2, "right"), "yes", 'vote, option 3, "right" must be true or false'),
-    (("vote", "options", 1, "reply"), ..., 'vote, option 2 has no "reply"'),
-    (("vote", "picture"), {"step": 3}, 'a picture needs the id of its "system"'),
-    (("vote", "picture"), {"system": "K5", "rules": "axiom: F"}, 'or its "rules"'),
-    (("vote", "picture"), {"system": "K5", "colour": "red"}, 'a picture has no "colour"'),
-    (("vote", "picture"), {"system": "K17b", "constants": 4}, 'picture, "constants" must be a table of entries'),
-    (("tables",), {}, '"tables" must be a list'),
-    (("tables",), DECLARED["tables"] * 2, "two tables have the same id"),
-    (("tables", 0, "id"), "Steps!", '"id" must have small letters, digits and hyphens only'),
-    (("tables", 0, "rows"), [["0", "1", "1"]], "table 1 has no cell to fill"),
-    (("tables", 0, "rows", 1), [1, 2], "row 2 must have 3 cells"),
-    (("tables", 0, "rows", 1, 0), {"right": "1"}, "row 2: the first cell names the row"),
-    (("tables", 0, "rows", 1, 1), {"rihgt": "1"}, 'column 2 has an unknown entry "rihgt"'),
-    (("tables", 0, "rows", 1, 1), {"right": []}, '"right" is empty'),
-    (("tables", 0, "rows", 1, 1), {"right": "1", "within": "near"}, '"within" must be a number'),
-    (("tables", 0, "rows", 1, 1), {"right": "1", "within": -1}, '"within" must be a number from 0 on'),
-    (("settings",), [["dt"]], "settings 1 must be a table of entries"),
-    (("settings",), [{"dt": "near"}], 'settings 1, "dt" must be a number'),
-    (("tables", 0, "rows", 1, 1), True, "column 2 must be a text"),
-])
+@pytest.mark.parametrize(
+    ("path", "to", "says"),
+    [
+        (("title",), ..., 'The lesson 01_all_at_once has no "title"'),
+        (("titel",), "x", 'The lesson 01_all_at_once has an unknown entry "titel"'),
+        (("number",), 2, '"number" must be 1, as in its name, not 2'),
+        (("minutes",), "50", '"minutes" must be a whole number'),
+        (("minutes",), True, '"minutes" must be a whole number'),
+        (("track",), ["F", "X"], '"track" has letters of F, C, O, not X'),
+        (("objectives",), "all", '"objectives" must be a list of texts'),
+        (("objectives",), ["a", " "], '"objectives", entry 2 must be a text'),
+        (("vote",), [], '"vote" must be a table of entries'),
+        (("vote", "question"), 0.5, None),
+        (("vote", "options"), {}, '"options" must be a list'),
+        (("vote", "options"), DECLARED["vote"]["options"][:3], "there must be 4 options"),
+        (("vote", "options", 0, "right"), True, "one of them must have right = true"),
+        (("vote", "options", 2, "right"), "yes", 'vote, option 3, "right" must be true or false'),
+        (("vote", "options", 1, "reply"), ..., 'vote, option 2 has no "reply"'),
+        (("vote", "picture"), {"step": 3}, 'a picture needs the id of its "system"'),
+        (("vote", "picture"), {"system": "K5", "rules": "axiom: F"}, 'or its "rules"'),
+        (("vote", "picture"), {"system": "K5", "colour": "red"}, 'a picture has no "colour"'),
+        (("vote", "picture"), {"system": "K17b", "constants": 4}, 'picture, "constants" must be a table of entries'),
+        (("tables",), {}, '"tables" must be a list'),
+        (("tables",), DECLARED["tables"] * 2, "two tables have the same id"),
+        (("tables", 0, "id"), "Steps!", '"id" must have small letters, digits and hyphens only'),
+        (("tables", 0, "rows"), [["0", "1", "1"]], "table 1 has no cell to fill"),
+        (("tables", 0, "rows", 1), [1, 2], "row 2 must have 3 cells"),
+        (("tables", 0, "rows", 1, 0), {"right": "1"}, "row 2: the first cell names the row"),
+        (("tables", 0, "rows", 1, 1), {"rihgt": "1"}, 'column 2 has an unknown entry "rihgt"'),
+        (("tables", 0, "rows", 1, 1), {"right": []}, '"right" is empty'),
+        (("tables", 0, "rows", 1, 1), {"right": "1", "within": "near"}, '"within" must be a number'),
+        (("tables", 0, "rows", 1, 1), {"right": "1", "within": -1}, '"within" must be a number from 0 on'),
+        (("settings",), [["dt"]], "settings 1 must be a table of entries"),
+        (("settings",), [{"dt": "near"}], 'settings 1, "dt" must be a number'),
+        (("tables", 0, "rows", 1, 1), True, "column 2 must be a text"),
+    ],
+)
 def test_a_mistake_in_a_declaration_is_named_with_its_place(path, to, says):
     if says is None:
         assert lesson_from(ONE, changed(*path, to=to)).vote.question == "0.5"
@@ -115,10 +119,17 @@ def test_a_lesson_is_known_by_its_number(number):
     assert lesson(number).name == ONE
 
 
-@pytest.mark.parametrize(("number", "error", "says"), [
-    ("77", ModelNameError, "There is no lesson"), (-1, ModelNameError, "There is no lesson"),
-    pytest.param(10**5000, ModelNameError, "There is no lesson", id="large"), (True, ModelValueError, "must be a text"),
-    (1.0, ModelValueError, "must be a text"), (None, ModelValueError, "must be a text")])
+@pytest.mark.parametrize(
+    ("number", "error", "says"),
+    [
+        ("77", ModelNameError, "There is no lesson"),
+        (-1, ModelNameError, "There is no lesson"),
+        pytest.param(10**5000, ModelNameError, "There is no lesson", id="large"),
+        (True, ModelValueError, "must be a text"),
+        (1.0, ModelValueError, "must be a text"),
+        (None, ModelValueError, "must be a text"),
+    ],
+)
 def test_there_are_no_other_lessons(number, error, says):
     for word in (vote, lambda number: worksheet(number, "counts")):
         with pytest.raises(error, match=says):
@@ -135,14 +146,17 @@ def test_there_are_no_other_tables():
 
 # --- what is right ----------------------------------------------------------------------------------------------------
 
-@given(st.fractions(-10**9, 10**9, max_denominator=10**9),
-       st.sampled_from([str, lambda number: f" {number.numerator} / {number.denominator} "]))
+
+@given(
+    st.fractions(-(10**9), 10**9, max_denominator=10**9),
+    st.sampled_from([str, lambda number: f" {number.numerator} / {number.denominator} "]),
+)
 def test_a_fraction_is_right_however_it_is_spaced(number, spelt):
     assert is_right(spelt(number), [str(number)])
     assert not is_right(spelt(number + 1), [str(number)])
 
 
-@given(st.integers(-10**9, 10**9), st.integers(0, 4))
+@given(st.integers(-(10**9), 10**9), st.integers(0, 4))
 def test_a_decimal_is_a_number_with_any_zeros_behind(number, zeros):
     assert number_of(f"{number}.{'0' * (zeros + 1)}") == number
     assert is_right(f"{number:,}", [str(number)])
@@ -155,11 +169,23 @@ def test_whatever_is_typed_is_right_or_not(entry):
     assert is_right(entry, [entry]) or not entry
 
 
-@pytest.mark.parametrize(("entry", "right", "within", "expected"), [
-    ("AB a", ["ab A"], "0", True), ("abb", ["ab"], "0", False), ("1,618", ["1.618"], "0", True),
-    ("1,618", ["1618"], "0", True), ("16,18", ["1618"], "0", False), ("1/0", ["1"], "0", False), ("50 %", ["1/2"], "0", True),
-    ("yes", ["no", "yes"], "0", True), ("1.6", ["1.618"], "0.02", True), ("1.59", ["1.618"], "0.02", False),
-    ("9" * 300, ["9" * 300], "0", False), ("", ["0"], "0", False)])
+@pytest.mark.parametrize(
+    ("entry", "right", "within", "expected"),
+    [
+        ("AB a", ["ab A"], "0", True),
+        ("abb", ["ab"], "0", False),
+        ("1,618", ["1.618"], "0", True),
+        ("1,618", ["1618"], "0", True),
+        ("16,18", ["1618"], "0", False),
+        ("1/0", ["1"], "0", False),
+        ("50 %", ["1/2"], "0", True),
+        ("yes", ["no", "yes"], "0", True),
+        ("1.6", ["1.618"], "0.02", True),
+        ("1.59", ["1.618"], "0.02", False),
+        ("9" * 300, ["9" * 300], "0", False),
+        ("", ["0"], "0", False),
+    ],
+)
 def test_answers_are_compared_as_a_teacher_would(entry, right, within, expected):
     assert is_right(entry, right, within) is expected
 
@@ -170,8 +196,12 @@ def test_a_percentage_is_a_hundredth():
 
 # --- votes ------------------------------------------------------------------------------------------------------------
 
-OPTIONS = (Option("one", "No, not one.", right=False), Option("`two`", "Yes.", right=True), Option("three", "No."),
-           Option("four", "No, less."))
+OPTIONS = (
+    Option("one", "No, not one.", right=False),
+    Option("`two`", "Yes.", right=True),
+    Option("three", "No."),
+    Option("four", "No, less."),
+)
 
 
 @pytest.fixture
@@ -198,11 +228,16 @@ def test_the_second_vote_shows_the_first_and_says_nothing_before_it_is_cast(both
     assert again.said == {"before": "Your first vote was D."}
 
 
-@pytest.mark.parametrize(("before", "after", "verdict", "changed"), [
-    (0, 1, "Right", "You have changed your vote from A to B."),
-    (1, 1, "Right", "You voted the same way the first time."),
-    (1, 0, "Not right", "You have changed your vote from B to A. You were right the first time."),
-    (-1, 2, "Not right", ""), (2, 3, "Not right", "You have changed your vote from C to D.")])
+@pytest.mark.parametrize(
+    ("before", "after", "verdict", "changed"),
+    [
+        (0, 1, "Right", "You have changed your vote from A to B."),
+        (1, 1, "Right", "You voted the same way the first time."),
+        (1, 0, "Not right", "You have changed your vote from B to A. You were right the first time."),
+        (-1, 2, "Not right", ""),
+        (2, 3, "Not right", "You have changed your vote from C to D."),
+    ],
+)
 def test_the_second_vote_is_answered(both, before, after, verdict, changed):
     first, again = both
     first.chosen = before
@@ -237,9 +272,16 @@ def test_only_true_and_false_say_whether_a_vote_is_the_second():
         vote("01", again=1)
 
 
-@pytest.mark.parametrize("picture", [{"system": "K5", "step": 3}, {"system": "K28"}, {"system": "K33", "step": 1},
-                                     {"rules": "axiom: F\nF -> F+F", "step": 2, "angle": 60},
-                                     {"system": "P5", "step": 2, "constants": {"dt": "1.4"}}])
+@pytest.mark.parametrize(
+    "picture",
+    [
+        {"system": "K5", "step": 3},
+        {"system": "K28"},
+        {"system": "K33", "step": 1},
+        {"rules": "axiom: F\nF -> F+F", "step": 2, "angle": 60},
+        {"system": "P5", "step": 2, "constants": {"dt": "1.4"}},
+    ],
+)
 def test_a_vote_may_have_a_picture_with_its_text(picture):
     box = VoteBox(Vote("Which?", OPTIONS, picture), Ballot(), False)
     assert box.asked["picture"].startswith("data:image/svg+xml;base64,")
@@ -256,6 +298,7 @@ def test_a_stored_vote_shows_the_question_and_all_options(both):
 
 
 # --- predictions ------------------------------------------------------------------------------------------------------
+
 
 class Own:
     """What somebody else's class may show."""
@@ -308,6 +351,7 @@ def test_markup_is_taken_from_the_kit_alone():
 @pytest.mark.parametrize("module", ["elsewhere", "lsys_kit.elsewhere"])
 def test_what_the_kit_shows_has_budgets_of_its_own(module):
     """A page holds many books, each a task; what others show is one task, and supervised."""
+
     class Shown:
         def __repr__(self):
             return f"in a task: {in_task()}"
@@ -361,8 +405,12 @@ def test_closing_a_prediction_closes_what_it_shows():
 
 # --- tables to fill ---------------------------------------------------------------------------------------------------
 
-SHEET = Table("t", "A `title`", ("step", "cells", "word"), (
-    ("0", "1", "a"), ("1", Blank(("2",)), Blank(("ab", "a b"))), ("2", Blank(("1.5",), "0.1"), "aba")))
+SHEET = Table(
+    "t",
+    "A `title`",
+    ("step", "cells", "word"),
+    (("0", "1", "a"), ("1", Blank(("2",)), Blank(("ab", "a b"))), ("2", Blank(("1.5",), "0.1"), "aba")),
+)
 
 
 def check(sheet: Worksheet, *entries: str) -> dict[str, Any]:
@@ -401,12 +449,15 @@ def test_whatever_a_browser_sends_is_checked(asked):
 
 def test_a_stored_table_shows_what_is_given_and_what_is_asked():
     bundle = Worksheet(SHEET)._repr_mimebundle_()
-    assert bundle["text/plain"] == """\
+    assert (
+        bundle["text/plain"]
+        == """\
 A title
   step  cells  word
   0     1      a
   1     ____   ____
   2     ____   aba"""
+    )
     assert bundle["text/html"].count("<td>") == 9
     assert "<caption>A <code>title</code></caption>" in bundle["text/html"]
 
@@ -424,7 +475,6 @@ def test_a_table_may_stand_beside_what_it_is_filled_in_from() -> None:
     assert panel.comm is both.sheet.comm is None
     with pytest.raises(ModelValueError, match=r"A panel of explore or compare is needed, not Worksheet\."):
         worksheet("10", "speeds", worksheet("10", "speeds"))
-
 
 
 @given(st.text(alphabet="ab`*<&", max_size=12))

@@ -106,12 +106,21 @@ def test_a_model_is_no_link() -> None:
         assert read(text)
 
 
-@pytest.mark.parametrize(("settings", "kind", "words"), [
-    ({"lifetimeA": 3}, ModelNameError, "lifeTimeA"), ({"step": -1}, ModelValueError, "whole number from 0 on"),
-    ({"step": Fraction(1, 2)}, ModelValueError, "whole number"), ({"seed": "1/2"}, ModelValueError, "whole number"),
-    ({"angle": "x"}, LSystemError, "x"), ({"lifeTimeA": "lifeTimeA"}, ModelValueError, "known"),
-    ({"lifeTimeA": None}, ModelValueError, "number"), ({"angle": float("nan")}, ModelValueError, "number"),
-    ({"step": 10**5000}, ModelValueError, "thousands of digits"), ([("step", 1)], ModelValueError, "mapping of settings")])
+@pytest.mark.parametrize(
+    ("settings", "kind", "words"),
+    [
+        ({"lifetimeA": 3}, ModelNameError, "lifeTimeA"),
+        ({"step": -1}, ModelValueError, "whole number from 0 on"),
+        ({"step": Fraction(1, 2)}, ModelValueError, "whole number"),
+        ({"seed": "1/2"}, ModelValueError, "whole number"),
+        ({"angle": "x"}, LSystemError, "x"),
+        ({"lifeTimeA": "lifeTimeA"}, ModelValueError, "known"),
+        ({"lifeTimeA": None}, ModelValueError, "number"),
+        ({"angle": float("nan")}, ModelValueError, "number"),
+        ({"step": 10**5000}, ModelValueError, "thousands of digits"),
+        ([("step", 1)], ModelValueError, "mapping of settings"),
+    ],
+)
 def test_settings_that_a_model_has_not_are_refused(settings, kind, words) -> None:
     with pytest.raises(kind, match=words):
         link(system("J4"), settings)
@@ -142,6 +151,7 @@ def test_a_link_names_its_notation_itself() -> None:
 
 # --- broken links ---------------------------------------------------------------------------------------------------------
 
+
 def test_a_link_that_was_cut_off_is_refused_wherever_it_was_cut() -> None:
     address = link(system("J4"), {"step": 9}, BASE)
     for end in range(len(BASE) + len(MARK), len(address)):
@@ -154,7 +164,7 @@ def test_a_link_in_which_a_character_was_changed_is_refused() -> None:
     for at in range(len(MARK), len(address)):
         other = random.choice(ALPHABET.replace(address[at], ""))
         with pytest.raises(ModelSyntaxError, match="This link is"):
-            read(address[:at] + other + address[at + 1:])
+            read(address[:at] + other + address[at + 1 :])
 
 
 def test_two_links_are_never_read_as_one() -> None:
@@ -190,9 +200,25 @@ def test_any_heading_is_read_or_refused(notation: str, settings: dict[str, str],
         refused(lambda content=content: linked(packed(content)))
 
 
-@pytest.mark.parametrize("heading", [
-    "abop?", "abop?step", "abop?step=1&step=2", "abop?step=1e999", "abop?step=9^9^9^9", "abop?angle=" + "9" * 5_000, "nothing",
-    "abop?" + "&".join(f"a{n}=1" for n in range(200)), "abop?__class__=1", "abop?step=__import__('os')", "?", "", "map", "\0"])
+@pytest.mark.parametrize(
+    "heading",
+    [
+        "abop?",
+        "abop?step",
+        "abop?step=1&step=2",
+        "abop?step=1e999",
+        "abop?step=9^9^9^9",
+        "abop?angle=" + "9" * 5_000,
+        "nothing",
+        "abop?" + "&".join(f"a{n}=1" for n in range(200)),
+        "abop?__class__=1",
+        "abop?step=__import__('os')",
+        "?",
+        "",
+        "map",
+        "\0",
+    ],
+)
 def test_a_heading_that_no_link_has_is_refused(heading: str) -> None:
     if heading == "abop?":
         assert linked(forged(b"abop?\naxiom: A")).settings == {}
@@ -224,10 +250,15 @@ def test_a_model_in_a_link_has_the_limits_of_a_model() -> None:
 
 @pytest.mark.parametrize("text", HOSTILE, ids=ascii)
 def test_a_link_with_hostile_names_is_refused(text: str) -> None:
-    for attempt in (lambda: read(link(made(text))), lambda: linked(link(system("J4"), {text: 1})), lambda: linked(text),
-                    lambda: linked(link(system("J4"), {"step": text})), lambda: read(MARK + VERSION + text),
-                    lambda: linked(forged(f"abop?{text}\naxiom: A".encode(errors="replace"))),
-                    lambda: linked(forged(f"{text}\n{text}".encode(errors="replace")))):
+    for attempt in (
+        lambda: read(link(made(text))),
+        lambda: linked(link(system("J4"), {text: 1})),
+        lambda: linked(text),
+        lambda: linked(link(system("J4"), {"step": text})),
+        lambda: read(MARK + VERSION + text),
+        lambda: linked(forged(f"abop?{text}\naxiom: A".encode(errors="replace"))),
+        lambda: linked(forged(f"{text}\n{text}".encode(errors="replace"))),
+    ):
         assert refused(attempt) is None
 
 

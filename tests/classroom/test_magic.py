@@ -20,9 +20,24 @@ from tests.plants import plant
 from tests.test_trust import HOSTILE
 
 ALGA = "axiom: a\na -> b a\nb -> a"
-MARKUP = ["<script>alert(1)</script>", "<img/src=x/onerror=alert(1)>", "\"onload=\"alert(1)", "'--><svg/onload=alert(1)>",
-          "]]>", "&lt;script&gt;", "</pre><b>", "</style><script>", "javascript:alert(1)", "<a/href=javascript:alert(1)>x</a>",
-          "\u202e<b>", "\ud800", "\x00", "\x1b[2J", "<!--", "x" * 100_000]
+MARKUP = [
+    "<script>alert(1)</script>",
+    "<img/src=x/onerror=alert(1)>",
+    '"onload="alert(1)',
+    "'--><svg/onload=alert(1)>",
+    "]]>",
+    "&lt;script&gt;",
+    "</pre><b>",
+    "</style><script>",
+    "javascript:alert(1)",
+    "<a/href=javascript:alert(1)>x</a>",
+    "\u202e<b>",
+    "\ud800",
+    "\x00",
+    "\x1b[2J",
+    "<!--",
+    "x" * 100_000,
+]
 
 
 @dataclass(frozen=True)
@@ -83,12 +98,14 @@ def notebook(monkeypatch, tmp_path):
 
 # --- a system ---------------------------------------------------------------------------------------------------------
 
+
 def test_a_pasted_text_is_a_system_with_a_name(notebook):
     seen = notebook.run(f"%%lsystem alga\n{ALGA}")
     assert notebook.names["alga"] == read(ALGA)
     assert seen.said.startswith("alga is an L-system in the notation abop.")
-    assert seen.text.startswith("alga is an L-system in the notation abop.\n  axiom: a\n  a -> b a\n  b -> a\n"
-                                "step 0: a\nstep 1: b a\nstep 2: a b a\n")
+    assert seen.text.startswith(
+        "alga is an L-system in the notation abop.\n  axiom: a\n  a -> b a\n  b -> a\nstep 0: a\nstep 1: b a\nstep 2: a b a\n"
+    )
 
 
 def test_without_a_name_it_is_shown_only(notebook):
@@ -143,20 +160,24 @@ def test_a_cell_is_answered_soon(notebook):
 
 # --- a mistake --------------------------------------------------------------------------------------------------------
 
-@pytest.mark.parametrize(("text", "line", "wrong"), [
-    ("axiom: a\na = b a", 3, "a"),
-    ("axiom: A(1)\nA(t) : t = 1 -> B", 3, "="),
-    ("axiom: A\nA -> [B", 3, "["),
-    ("axiom: A\n\n\nA -> B(time)", 5, "time"),
-    ("axiom: A(1)\nA(t) -> A(sqr(t))", 3, "sqr"),
-    ("axiom: A\naxiom: B", 3, "axiom: B"),
-    ("axiom: A\nA -> хB", 3, "х"),
-    ("A -> B", 2, "\xa0"),
-    ("axiom: A\nA ->", 3, "->"),
-    ("axiom: A\nA -> B & < > \" '", 3, "<"),
-    ("axiom: A" + " B" * 200 + " )" + " C" * 200, 2, ")"),
-    ("axiom: A\n" * 300, 3, "axiom: A"),
-])
+
+@pytest.mark.parametrize(
+    ("text", "line", "wrong"),
+    [
+        ("axiom: a\na = b a", 3, "a"),
+        ("axiom: A(1)\nA(t) : t = 1 -> B", 3, "="),
+        ("axiom: A\nA -> [B", 3, "["),
+        ("axiom: A\n\n\nA -> B(time)", 5, "time"),
+        ("axiom: A(1)\nA(t) -> A(sqr(t))", 3, "sqr"),
+        ("axiom: A\naxiom: B", 3, "axiom: B"),
+        ("axiom: A\nA -> хB", 3, "х"),
+        ("A -> B", 2, "\xa0"),
+        ("axiom: A\nA ->", 3, "->"),
+        ("axiom: A\nA -> B & < > \" '", 3, "<"),
+        ("axiom: A" + " B" * 200 + " )" + " C" * 200, 2, ")"),
+        ("axiom: A\n" * 300, 3, "axiom: A"),
+    ],
+)
 def test_a_mistake_is_underlined_where_it_stands(notebook, text, line, wrong):
     seen = notebook.run(f"%%lsystem plant\n{text}\n")
     assert seen.wrong == wrong
@@ -170,9 +191,10 @@ def test_a_mistake_is_underlined_where_it_stands(notebook, text, line, wrong):
 @pytest.mark.parametrize("text", ["axiom: a\na = b a", "axiom: A\nA -> B(time)", "axiom: A(1)\nA(t) : t => 1 -> B\n\nB -> C"])
 def test_the_carets_stand_below_what_is_underlined(notebook, text):
     seen = notebook.run(f"%%lsystem\n{text}")
-    line, carets = next((one, two) for one, two in zip(seen.text.split("\n"), seen.text.split("\n")[1:], strict=False)
-                        if set(two) == {" ", "^"})
-    assert line[carets.index("^"):len(carets)] == seen.wrong
+    line, carets = next(
+        (one, two) for one, two in zip(seen.text.split("\n"), seen.text.split("\n")[1:], strict=False) if set(two) == {" ", "^"}
+    )
+    assert line[carets.index("^") : len(carets)] == seen.wrong
     shown = next(row for row in seen.said.split("\n") if line.strip() in row)
     assert int(shown.split()[0]) == [f"  {row}" for row in f"%%lsystem\n{text}".split("\n")].index(line) + 1
 
@@ -193,34 +215,45 @@ def test_after_a_mistake_the_system_is_the_one_before(notebook):
 
 # --- names ------------------------------------------------------------------------------------------------------------
 
-@pytest.mark.parametrize(("head", "wrong", "said"), [
-    ("2koch", "2koch", '"2koch" cannot be a name (line 1, column 11). A name is made of letters'),
-    ("koch-curve", "koch-curve", "cannot be a name"),
-    ("lambda", "lambda", "is a keyword of Python"),
-    ("None", "None", "is a keyword of Python"),
-    ("derive", "derive", "is a name that the kit uses"),
-    ("system abop", "system", "is a name that the kit uses"),
-    ("ﬁgure", "ﬁgure", "is a name that the kit uses"),
-    ("In", "In", "is a name that the notebook uses"),
-    ("get_ipython", "get_ipython", "is a name that the notebook uses"),
-    ("_", "_", "is a name that the notebook uses"),
-    ("__builtins__", "__builtins__", "is a name that the notebook uses"),
-    ("plant-string", "plant-string",
-     'is a notation, not a name (line 1, column 11). Put a name before it, as in "%%lsystem plant plant-string".'),
-    ("plant  plant-strng", "plant-strng",
-     'There is no notation called "plant-strng" (line 1, column 18). Did you mean "plant-string"?'),
-    ("plant X", "X", "Notations are: abop"),
-    ("plant abop, please", "please", 'Only a name and a notation may follow %%lsystem (line 1, column 23). Write "%%'),
-    ("plant = abop now", "abop now", "Only a name and a notation may follow %%lsystem"),
-])
+
+@pytest.mark.parametrize(
+    ("head", "wrong", "said"),
+    [
+        ("2koch", "2koch", '"2koch" cannot be a name (line 1, column 11). A name is made of letters'),
+        ("koch-curve", "koch-curve", "cannot be a name"),
+        ("lambda", "lambda", "is a keyword of Python"),
+        ("None", "None", "is a keyword of Python"),
+        ("derive", "derive", "is a name that the kit uses"),
+        ("system abop", "system", "is a name that the kit uses"),
+        ("ﬁgure", "ﬁgure", "is a name that the kit uses"),
+        ("In", "In", "is a name that the notebook uses"),
+        ("get_ipython", "get_ipython", "is a name that the notebook uses"),
+        ("_", "_", "is a name that the notebook uses"),
+        ("__builtins__", "__builtins__", "is a name that the notebook uses"),
+        (
+            "plant-string",
+            "plant-string",
+            'is a notation, not a name (line 1, column 11). Put a name before it, as in "%%lsystem plant plant-string".',
+        ),
+        (
+            "plant  plant-strng",
+            "plant-strng",
+            'There is no notation called "plant-strng" (line 1, column 18). Did you mean "plant-string"?',
+        ),
+        ("plant X", "X", "Notations are: abop"),
+        ("plant abop, please", "please", 'Only a name and a notation may follow %%lsystem (line 1, column 23). Write "%%'),
+        ("plant = abop now", "abop now", "Only a name and a notation may follow %%lsystem"),
+    ],
+)
 def test_a_first_line_that_makes_no_sense_is_underlined(notebook, head, wrong, said):
     before = dict(notebook.names)
     seen = notebook.run(f"%%lsystem {head}\n{ALGA}")
     assert seen.wrong == wrong
     assert said in seen.said
     assert said in seen.text
-    assert {name: value for name, value in notebook.names.items() if name[:2] != "_i"} == \
-        {name: value for name, value in before.items() if name[:2] != "_i"}
+    assert {name: value for name, value in notebook.names.items() if name[:2] != "_i"} == {
+        name: value for name, value in before.items() if name[:2] != "_i"
+    }
 
 
 def test_a_name_is_what_python_makes_of_it(notebook):
@@ -237,13 +270,19 @@ def test_a_name_that_meant_something_else_is_told(notebook):
 
 # --- nothing is run ---------------------------------------------------------------------------------------------------
 
+
 @pytest.mark.parametrize("number", range(len(HOSTILE + MARKUP)))
 def test_whatever_is_typed_is_text(notebook, number, tmp_path):
     text, target = (HOSTILE + MARKUP)[number], tmp_path / "made"
     text = text.format(target) if number < len(HOSTILE) else text
-    for cell in (f"%%lsystem {text}\n{ALGA}", f"%%lsystem plant {text}\n{ALGA}", f"%%lsystem plant\n{text}",
-                 f"%%lsystem plant\naxiom: A\nA -> {text}", f"%%lsystem plant\nalphabet: {text}\naxiom: {text}",
-                 f"%%lsystem plant\nc = {text}\naxiom: A(c)"):
+    for cell in (
+        f"%%lsystem {text}\n{ALGA}",
+        f"%%lsystem plant {text}\n{ALGA}",
+        f"%%lsystem plant\n{text}",
+        f"%%lsystem plant\naxiom: A\nA -> {text}",
+        f"%%lsystem plant\nalphabet: {text}\naxiom: {text}",
+        f"%%lsystem plant\nc = {text}\naxiom: A(c)",
+    ):
         seen = notebook.run(cell)
         assert len(seen.text) < 2_000
         assert not re.search("[\x00\x1b\u202e\ud800]", seen.html + seen.text)

@@ -22,8 +22,9 @@ def shuffled(found: Map, chance: random.Random) -> Map:
     moved = {old: new for new, old in enumerate(walls)}
     cells = [tuple(Side(moved[side.wall], side.forward) for side in cell) for cell in found.cells]
     turned = [cell[1:] + cell[:1] for cell in chance.sample(cells, len(cells))]
-    renamed = [found.walls[old]._replace(start=vertices[found.walls[old].start], end=vertices[found.walls[old].end])
-               for old in walls]
+    renamed = [
+        found.walls[old]._replace(start=vertices[found.walls[old].start], end=vertices[found.walls[old].end]) for old in walls
+    ]
     return replace(found, walls=tuple(renamed), cells=tuple(turned), boundary=())
 
 
@@ -38,10 +39,15 @@ def test_a_map_is_the_same_in_whatever_order_its_parts_are_listed(id):
 def test_maps_with_the_same_cells_and_other_neighbours_are_others():
     """Two walls C that are exchanged leave all cells as they are, and change which cells lie beside each other."""
     found = develop(map_system("K28"), 3)[3]
-    inner = [number for number in range(len(found.walls))
-             if sum(side.wall == number for cell in found.cells for side in cell) == 2]
-    one, other = next((a, b) for a in inner for b in inner
-                      if a < b and found.walls[a].label == found.walls[b].label and not _touching(found, a, b))
+    inner = [
+        number for number in range(len(found.walls)) if sum(side.wall == number for cell in found.cells for side in cell) == 2
+    ]
+    one, other = next(
+        (a, b)
+        for a in inner
+        for b in inner
+        if a < b and found.walls[a].label == found.walls[b].label and not _touching(found, a, b)
+    )
     swapped = [list(cell) for cell in found.cells]
     place = next((cell, at) for cell, sides in enumerate(swapped) for at, side in enumerate(sides) if side.wall == one)
     there = next((cell, at) for cell, sides in enumerate(swapped) for at, side in enumerate(sides) if side.wall == other)

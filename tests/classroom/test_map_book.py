@@ -96,7 +96,7 @@ def test_tokens_move_as_the_stage_diagram_says_but_for_walls_that_divide_cells(i
                 moved[arc.place] += arc.copies * counts[net.transitions[arc.transition].place]
         new = Counter(numbers[wall.label] for wall in after.walls)
         assert not moved - new
-        assert new - moved == Counter(numbers[wall.label] for wall in after.walls[sum(moved.values()):])
+        assert new - moved == Counter(numbers[wall.label] for wall in after.walls[sum(moved.values()) :])
         assert {net.places[place].symbol for place in new - moved} <= {marker.edge.label for marker in made.markers}
         divided += (new - moved).total()
     assert divided == maps[-1].counts[2] - 1
@@ -105,7 +105,11 @@ def test_tokens_move_as_the_stage_diagram_says_but_for_walls_that_divide_cells(i
 def test_a_production_is_lit_from_its_first_letter_to_its_last():
     book, text = book_of("K30"), map_system("K30").source
     assert [text[slice(*each["at"])] for each in book["productions"]] == [
-        "A> -> D>[-A>]B>", "B> -> B>", "C> -> B>[-A<]B>", "D> -> C>"]
+        "A> -> D>[-A>]B>",
+        "B> -> B>",
+        "C> -> B>[-A<]B>",
+        "D> -> C>",
+    ]
 
 
 def test_walls_with_and_without_a_direction_are_different_states():
@@ -200,18 +204,30 @@ def test_a_map_is_explored_by_its_text_and_its_own_steps_are_shown_first():
     assert (panel.system, panel.step) == (read_map(DIVIDED), 2)
 
 
-@pytest.mark.parametrize(("choices", "error", "message"), [
-    ({"angle": 30}, ModelValueError, "A map has no angle"), ({"turgor": 3}, ModelNameError, 'A map has no "turgor"'),
-    ({"pressure": 11}, ModelValueError, "must lie between 0.001 and 10"), ({"step": -1}, ModelValueError, "whole number")])
+@pytest.mark.parametrize(
+    ("choices", "error", "message"),
+    [
+        ({"angle": 30}, ModelValueError, "A map has no angle"),
+        ({"turgor": 3}, ModelNameError, 'A map has no "turgor"'),
+        ({"pressure": 11}, ModelValueError, "must lie between 0.001 and 10"),
+        ({"step": -1}, ModelValueError, "whole number"),
+    ],
+)
 def test_settings_that_a_map_has_not_are_errors(choices, error, message):
     with pytest.raises(error, match=message):
         explore("K28", **choices)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("broken", "told"), [
-    (DIVIDED.replace("]B", "B"), "is never closed"), (DIVIDED.replace("map:", "mp:"), "map"),
-    (DIVIDED.replace("map: ABAB\n", ""), "There is no first cell"), (DIVIDED.replace("[-A][+A]", "[-A]"), "not|backwards")])
+@pytest.mark.parametrize(
+    ("broken", "told"),
+    [
+        (DIVIDED.replace("]B", "B"), "is never closed"),
+        (DIVIDED.replace("map:", "mp:"), "map"),
+        (DIVIDED.replace("map: ABAB\n", ""), "There is no first cell"),
+        (DIVIDED.replace("[-A][+A]", "[-A]"), "not|backwards"),
+    ],
+)
 def test_broken_rules_of_a_map_stay_a_map_and_say_what_is_wrong(broken, told):
     panel = explore(DIVIDED, 1)
     with pytest.raises(LSystemError) as error:

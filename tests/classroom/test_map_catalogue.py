@@ -15,8 +15,10 @@ from lsys_kit.geometry.tissues.map_layout import FIRST_WALL, polygon, tissue
 from lsys_kit.geometry.tissues.relaxation import DEFAULT_FORCES, areas, force
 
 COUNTS = {
-    "K28": [(4, 4, 1), (6, 7, 2), (9, 12, 4)], "K29": [(4, 4, 1), (8, 9, 2), (14, 17, 4)],
-    "K30": [(4, 4, 1), (6, 7, 2), (8, 10, 3)], "K31": [(4, 4, 1)],
+    "K28": [(4, 4, 1), (6, 7, 2), (9, 12, 4)],
+    "K29": [(4, 4, 1), (8, 9, 2), (14, 17, 4)],
+    "K30": [(4, 4, 1), (6, 7, 2), (8, 10, 3)],
+    "K31": [(4, 4, 1)],
     "K32": [(3, 3, 1), (5, 6, 2), (7, 9, 3)],
     "K34": [(2, 4, 4), (10, 16, 8), (26, 40, 16)],
 }
@@ -106,8 +108,12 @@ def test_each_kind_of_system_is_asked_for_by_its_own_name() -> None:
 
 def test_where_a_map_cannot_be_shown_it_is_said(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     (tmp_path / "cells.txt").write_text(str(map_system("K28")))
-    for name, said in (("K28", 'K28 is a map system, not an L-system. It is returned by map_system("K28").'),
-                       (str(tmp_path / "cells.txt"), "This is a map system, not an L-system (line 1, column 1). "
-                                                     "Maps are read by read_map(text).")):
+    for name, said in (
+        ("K28", 'K28 is a map system, not an L-system. It is returned by map_system("K28").'),
+        (
+            str(tmp_path / "cells.txt"),
+            "This is a map system, not an L-system (line 1, column 1). Maps are read by read_map(text).",
+        ),
+    ):
         assert main(["derive", name, "-n", "2"]) == 2
         assert said in capsys.readouterr().err

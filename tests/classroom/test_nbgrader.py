@@ -52,8 +52,14 @@ def _submission(release: str, answers: dict[str, str]) -> str:
 
 def _nbgrader(course: Path, *command: str) -> str:
     home = {"HOME": str(course), "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
-    run = subprocess.run([sys.executable, "-m", "nbgrader", *command], cwd=course, capture_output=True, text=True, check=False,
-                         env={**os.environ, **home})
+    run = subprocess.run(
+        [sys.executable, "-m", "nbgrader", *command],
+        cwd=course,
+        capture_output=True,
+        text=True,
+        check=False,
+        env={**os.environ, **home},
+    )
     return run.stdout + run.stderr
 
 

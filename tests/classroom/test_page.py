@@ -75,8 +75,10 @@ class Parts(HTMLParser):
 def books_of(data: dict[str, Any]) -> list[dict[str, Any]]:
     """The books of a page, as its script reads them."""
     found = json.loads(zlib.decompress(base64.b64decode(data["books"])))
-    return [{name: part[number] for name, part, number in zip(found["names"], found["parts"], row, strict=True) if number >= 0}
-            for row in found["rows"]]
+    return [
+        {name: part[number] for name, part, number in zip(found["names"], found["parts"], row, strict=True) if number >= 0}
+        for row in found["rows"]
+    ]
 
 
 @pytest.fixture(scope="module")
@@ -85,6 +87,7 @@ def j4() -> str:
 
 
 # --- what stands in it ------------------------------------------------------------------------------------------------------
+
 
 def inflated(text: str) -> str:
     return zlib.decompress(base64.b64decode(text)).decode()
@@ -159,8 +162,10 @@ def test_a_slider_stays_where_it_is_if_its_fewest_values_have_no_room(monkeypatc
 def test_what_is_asked_for_is_on_the_page_before_all_else(monkeypatch) -> None:
     monkeypatch.setattr(panel_page, "MOST_BOOKS", 8)
     found = read("n = 3 in 1 .. 9\nm = 1 in 1 .. 9\naxiom: A(n)\nA(t) -> A(t+m)")
-    for asked, texts in (([{"n": 7}, {"n": 99}, {"x": 2, "m": 4}], [["1", "3", "7", "9"], ["1", "4", "9"]]),
-                         ([{"n": 7, "m": 4}], [["1", "3", "7", "9"], ["1", "4", "9"]])):
+    for asked, texts in (
+        ([{"n": 7}, {"n": 99}, {"x": 2, "m": 4}], [["1", "3", "7", "9"], ["1", "4", "9"]]),
+        ([{"n": 7, "m": 4}], [["1", "3", "7", "9"], ["1", "4", "9"]]),
+    ):
         data = page_data(found, asked=asked)
         assert [each["texts"] for each in data["model"]["constants"]] == texts
         assert data["model"]["together"] == (("n", "m") if len(asked) == 1 else ())
@@ -377,16 +382,32 @@ def test_the_address_keeps_what_is_seen_and_gives_it_back(opened, j4: str) -> No
     expect(shown.get_by_role("slider", name="lifeTimeA, slider")).to_have_attribute("aria-valuetext", "4")
 
 
-@pytest.mark.parametrize(("settings", "seen"), [
-    ({"step": 7, "lifeTimeA": 5, "lifeTimeB": 1}, "step 7: 4 modules"), ({"step": 10**8}, "step 20: 200 modules"),
-    ({"step": 3, "lifeTimeA": 77}, "step 3: 2 modules"), ({"angle": "77/3", "seed": 5}, "step 9: 9 modules")])
+@pytest.mark.parametrize(
+    ("settings", "seen"),
+    [
+        ({"step": 7, "lifeTimeA": 5, "lifeTimeB": 1}, "step 7: 4 modules"),
+        ({"step": 10**8}, "step 20: 200 modules"),
+        ({"step": 3, "lifeTimeA": 77}, "step 3: 2 modules"),
+        ({"angle": "77/3", "seed": 5}, "step 9: 9 modules"),
+    ],
+)
 def test_a_link_of_the_model_opens_its_settings(opened, j4: str, settings: dict[str, Any], seen: str) -> None:
     status(opened(j4, link(system("J4"), settings))).to_contain_text(seen)
 
 
-@pytest.mark.parametrize("fragment", [
-    link(system("J5"), {"step": 2}), link(system("J4"), {"step": 2})[:-3], "#lsys=", "#lsys=a", "#lsys=b12", "#top",
-    "#" + forged(b"abop?step=2\naxiom: " + b"A" * 50_000_000).partition("#")[2], "#lsys=a<script>"])
+@pytest.mark.parametrize(
+    "fragment",
+    [
+        link(system("J5"), {"step": 2}),
+        link(system("J4"), {"step": 2})[:-3],
+        "#lsys=",
+        "#lsys=a",
+        "#lsys=b12",
+        "#top",
+        "#" + forged(b"abop?step=2\naxiom: " + b"A" * 50_000_000).partition("#")[2],
+        "#lsys=a<script>",
+    ],
+)
 def test_another_link_changes_nothing(opened, j4: str, fragment: str) -> None:
     status(opened(j4, fragment)).to_contain_text("step 9: 9 modules")
 
@@ -402,7 +423,7 @@ def test_a_plant_keeps_its_angle_in_its_link(opened) -> None:
 def test_python_and_the_page_write_links_that_the_other_reads(browser: Browser) -> None:
     shown = browser.new_page()
     chosen = {id: link(system(id), {"step": 4, "angle": "77/3"}) for id in systems()}
-    code = f"""given => {{ {joined('link')}
+    code = f"""given => {{ {joined("link")}
         return Promise.all(given.map(unpackedLink).map(async (each) => [await each, await packedLink(await each)])); }}"""
     for address, (content, again) in zip(chosen.values(), shown.evaluate(code, [*chosen.values()]), strict=True):
         assert content == {**unpacked(address)._asdict(), "settings": dict(unpacked(address).settings)}
@@ -412,9 +433,17 @@ def test_python_and_the_page_write_links_that_the_other_reads(browser: Browser) 
 
 def test_the_page_reads_no_broken_link_and_no_bomb(browser: Browser) -> None:
     whole, shown = link(system("J4"), {"step": 4}), browser.new_page()
-    changed = [whole[:at] + ("A" if whole[at] != "A" else "B") + whole[at + 1:] for at in (10, 60, len(whole) - 1)]
-    broken = [*changed, whole[:-1], whole + "A", whole + "=", whole.replace("=a", "=b"), "#lsys=a",
-              forged(b"abop\naxiom: " + b"A" * 5_000_000), forged(b"abop\n\xff")]
+    changed = [whole[:at] + ("A" if whole[at] != "A" else "B") + whole[at + 1 :] for at in (10, 60, len(whole) - 1)]
+    broken = [
+        *changed,
+        whole[:-1],
+        whole + "A",
+        whole + "=",
+        whole.replace("=a", "=b"),
+        "#lsys=a",
+        forged(b"abop\naxiom: " + b"A" * 5_000_000),
+        forged(b"abop\n\xff"),
+    ]
     code = f"given => {{ {joined('link')}\nreturn Promise.all(given.map(unpackedLink)); }}"
     assert shown.evaluate(code, broken) == [None] * len(broken)
     assert shown.evaluate(code, [whole]) == [unpacked(whole)._asdict() | {"settings": {"step": "4"}}]

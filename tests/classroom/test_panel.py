@@ -171,7 +171,8 @@ def test_a_module_is_traced_through_all_views(explored):
     panel.at('.lsys-module[data-position="2"]').click()
     expect(panel.at(".lsys-sentence")).to_have_text(
         "Module 3 of step 10, Al(1) comes from Bl(2), module 3 of step 9, by production 3, Bl(lifeTimeB) -> Al(1) Br(1); "
-        "it becomes Al(2) at step 11.")
+        "it becomes Al(2) at step 11."
+    )
     expect(panel.at('[data-traced="self"]')).to_have_attribute("data-position", "2")
     expect(panel.at(".lsys-stage.lsys-lit")).to_have_attribute("aria-label", re.compile(r"^stage A\(1\)"))
     expect(panel.at("mark.lsys-applied")).to_have_text("Bl(lifeTimeB) -> Al(1) Br(1)")
@@ -198,7 +199,8 @@ def test_a_cell_of_the_drawing_is_traced_by_the_pointer(explored):
     box = canvas.bounding_box()
     canvas.click(position={"x": box["width"] / 2 + 17, "y": 38})
     expect(panel.at(".lsys-sentence")).to_have_text(
-        "Module 1 of step 0, Al(1) stands in the axiom; it becomes Al(2) at step 1.")
+        "Module 1 of step 0, Al(1) stands in the axiom; it becomes Al(2) at step 1."
+    )
 
 
 def test_what_the_mouse_is_on_is_lit_until_it_leaves(explored):
@@ -324,9 +326,16 @@ def test_what_is_taken_along(explored):
     assert kept.value.suggested_filename == "J4.png"
 
 
-@pytest.mark.parametrize(("what", "name"), [
-    ("K5", "K5"), ("axiom: F\nF -> F[+F]F", "L-system-51d4"), ("axiom: F\nF -> F[-F]F", "L-system-0e08"), ("K28", "K28"),
-    ("map: A>B>C>D>\nA> -> A>", "map-5bb3")])
+@pytest.mark.parametrize(
+    ("what", "name"),
+    [
+        ("K5", "K5"),
+        ("axiom: F\nF -> F[+F]F", "L-system-51d4"),
+        ("axiom: F\nF -> F[-F]F", "L-system-0e08"),
+        ("K28", "K28"),
+        ("map: A>B>C>D>\nA> -> A>", "map-5bb3"),
+    ],
+)
 def test_a_file_that_is_taken_along_is_called_after_its_system(explored, what: str, name: str) -> None:
     panel = explored(what, 1)
     for kind, suffix in (("SVG", "svg"), ("page", "html"), ("PNG", "png")):

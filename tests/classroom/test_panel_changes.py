@@ -20,8 +20,12 @@ from lsys_kit.notation.model.system import LSystem
 from tests.classroom.panel_page import PanelPage, Tab, open_panel, open_tab
 
 SYSTEMS: Mapping[str, tuple[tuple[str, str], ...]] = {
-    "J4": (("lifeTimeB = 2", "lifeTimeB = 3"), ("-> Al(1) Br(1)", "-> Br(1) Al(1)"), ("axiom: Al(1)", "axiom: Br(1)"),
-           ("-> Bl(1) Ar(1)", "-> Bl(1 Ar(1)")),
+    "J4": (
+        ("lifeTimeB = 2", "lifeTimeB = 3"),
+        ("-> Al(1) Br(1)", "-> Br(1) Al(1)"),
+        ("axiom: Al(1)", "axiom: Br(1)"),
+        ("-> Bl(1) Ar(1)", "-> Bl(1 Ar(1)"),
+    ),
     "K7": (("[+F]F : 0.33", "[+F] : 0.33"), ("axiom: F", "axiom: FF"), ("F[-F]F : 0.33", "FX : 1")),
     "K8": (("RU35 *", "RU60 *"), ("?0.65", "?0.8"), ("1-9", "1-")),
     "K28": (("B -> A", "B -> B"), ("ABAB", "ABABAB"), ("B -> A", "B -> Ax"), ("steps: 4", "steps: 4\nfree = 1")),
@@ -119,11 +123,14 @@ def tabs(browser):
 def test_a_panel_shows_what_stands_in_it(id: str, seed: int, tabs: tuple[Tab, Tab]) -> None:
     chance = random.Random(f"{id} {seed}")
     panel = open_panel(tabs[0], explore(id, 2))
-    panel.page.evaluate("""(seed) => { // answers take a while, and what changes at once is told in any order
+    panel.page.evaluate(
+        """(seed) => { // answers take a while, and what changes at once is told in any order
       const next = () => (seed = (seed * 16807) % 2147483647) / 2147483647;
       window.delay = () => 80 * next();
       window.inOrder = (changed) => [...changed].sort(() => next() - 0.5);
-    }""", chance.randrange(1, 2**31 - 1))
+    }""",
+        chance.randrange(1, 2**31 - 1),
+    )
     panel.view("rules")
     person = Person(panel, chance, SYSTEMS[id], id not in STILL)
     understood = str(panel.at(".lsys-rules").input_value())

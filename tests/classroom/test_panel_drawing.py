@@ -143,7 +143,8 @@ def test_with_one_scale_growth_is_seen(opened):
     for step in (4, 3, 2):
         expect(canvas).to_have_attribute("data-step", str(step))
         panel.page.wait_for_timeout(100)
-        heights.append(canvas.evaluate("""canvas => {
+        heights.append(
+            canvas.evaluate("""canvas => {
             const { width, height } = canvas, { data } = canvas.getContext("2d").getImageData(0, 0, width, height);
             let first = height, last = 0;
             for (let i = 0; i < width * height; i++) {
@@ -151,7 +152,8 @@ def test_with_one_scale_growth_is_seen(opened):
                 [first, last] = [Math.min(first, Math.floor(i / width)), Math.floor(i / width)];
             }
             return last - first;
-        }"""))
+        }""")
+        )
         panel.control("step").press("ArrowLeft")
     assert heights[0] / heights[1] == pytest.approx(3, rel=0.1)
     assert heights[1] / heights[2] == pytest.approx(3, rel=0.2)

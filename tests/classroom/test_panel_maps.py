@@ -110,10 +110,15 @@ def test_a_panel_shows_a_map_with_its_word_its_stages_and_its_size(explored):
     expect(panel.at(".lsys-status")).to_have_text("step 2: 8 vertices, 10 walls, 3 cells; 4 of 4 stages occupied")
     assert panel.at(".lsys-module").all_inner_texts() == [f"{wall.label}>" for wall in derive(map_system("K30"), 2)[-1].walls]
     assert [panel.at(f"[data-place='{place}']").get_attribute("aria-label") for place in range(4)] == [
-        "stage A, 1 token", "stage B, 7 tokens", "stage C, 1 token", "stage D, 1 token"]
+        "stage A, 1 token",
+        "stage B, 7 tokens",
+        "stage C, 1 token",
+        "stage D, 1 token",
+    ]
     panel.view("how many")
-    expect(panel.at(".lsys-counts")).to_have_attribute("aria-label", "Walls a step: " + "; ".join(
-        f"step {step}, {4 + 3 * step}" for step in range(12)))
+    expect(panel.at(".lsys-counts")).to_have_attribute(
+        "aria-label", "Walls a step: " + "; ".join(f"step {step}, {4 + 3 * step}" for step in range(12))
+    )
     panel.page.get_by_role("button", name="one step on").click()
     expect(panel.at(".lsys-status")).to_contain_text("10 vertices, 13 walls, 4 cells")
     assert "book" not in panel.asked
@@ -149,11 +154,13 @@ def test_a_wall_is_traced_to_its_mother_and_its_daughters(explored):
     panel.view("rules")
     panel.at("[data-position='0']").click()
     expect(panel.at(".lsys-sentence")).to_have_text(
-        "Wall 1 of step 1, D> comes from A>, wall 1 of step 0, by production 1, A> -> D>[-A>]B>; it becomes C> at step 2.")
+        "Wall 1 of step 1, D> comes from A>, wall 1 of step 0, by production 1, A> -> D>[-A>]B>; it becomes C> at step 2."
+    )
     expect(panel.at(".lsys-applied")).to_have_text("A> -> D>[-A>]B>")
     panel.at("[data-position='6']").click()
     expect(panel.at(".lsys-sentence")).to_contain_text(
-        "Wall 7 of step 1, A> is new and divides a cell: markers of A>, wall 1, and C>, wall 3 of step 0 match")
+        "Wall 7 of step 1, A> is new and divides a cell: markers of A>, wall 1, and C>, wall 3 of step 0 match"
+    )
     expect(panel.at(".lsys-applied")).to_have_text(["A> -> D>[-A>]B>", "C> -> B>[-A<]B>"])
     panel.page.get_by_role("button", name="one step back").click()
     expect(panel.at("[data-traced='mother']")).to_have_text(["A>", "C>"])

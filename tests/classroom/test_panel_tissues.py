@@ -125,7 +125,7 @@ def test_a_sphere_is_seen_from_all_sides_as_the_kit_draws_it(page):
                 assert len(drawn) == len(outlines)
                 assert all(np.allclose(one, other, rtol=0, atol=CLOSE) for one, other in zip(drawn, outlines, strict=True))
             for arc, pairs in zip(arcs, seen["walls"], strict=True):
-                front = [arc[at:at + 2, :2] for at in range(len(arc) - 1) if (arc[at:at + 2, 2] >= 0).all()]
+                front = [arc[at : at + 2, :2] for at in range(len(arc) - 1) if (arc[at : at + 2, 2] >= 0).all()]
                 assert np.allclose(np.array(pairs).reshape(-1, 2, 2), np.array(front).reshape(-1, 2, 2), rtol=0, atol=CLOSE)
 
 
@@ -140,11 +140,15 @@ def test_whoever_points_at_a_wall_finds_its_cell(page):
 def test_a_panel_shows_cells_with_their_word_their_stages_and_eulers_number(explored):
     panel = explored("K33", 2)
     expect(panel.at(".lsys-status")).to_have_text(
-        "step 2: 18 vertices, 33 edges, 20 walls, 4 cells; 18 \u2212 33 + 20 \u2212 4 = 1; 3 of 3 stages occupied")
+        "step 2: 18 vertices, 33 edges, 20 walls, 4 cells; 18 \u2212 33 + 20 \u2212 4 = 1; 3 of 3 stages occupied"
+    )
     expect(panel.at(".lsys-module")).to_have_count(4)
     expect(panel.at(".lsys-module").first).to_have_text("QRQRQRQRQRQRPQPQPQPRPRPRPRPRPRPQPQPQ")
     assert [panel.at(f"[data-place='{place}']").get_attribute("aria-label") for place in range(3)] == [
-        "stage P, 9 tokens", "stage Q, 12 tokens", "stage R, 12 tokens"]
+        "stage P, 9 tokens",
+        "stage Q, 12 tokens",
+        "stage R, 12 tokens",
+    ]
     panel.page.get_by_role("button", name="one step on").click()
     expect(panel.at(".lsys-status")).to_contain_text("27 vertices, 54 edges, 36 walls, 8 cells; 27 \u2212 54 + 36 \u2212 8 = 1")
     assert "book" not in panel.asked
@@ -191,7 +195,8 @@ def test_a_cell_is_traced_by_a_click_by_keys_and_in_the_word(explored):
     panel.at("[data-position='1']").click()
     expect(panel.at(".lsys-sentence")).to_have_text(
         "Cell 2 of step 2, QR: QRQR, QR: QRQR, PQ: PQPQ, PR: PRPR, PR: PRPR, PQ: PQPQ comes, with cell 1, "
-        "from cell 1 of step 1, which was divided; at step 3 it is divided into cells 3 and 4.")
+        "from cell 1 of step 1, which was divided; at step 3 it is divided into cells 3 and 4."
+    )
     panel.page.wait_for_function(f"{PIXELS} !== {before!r}")
     canvas.focus()
     panel.page.keyboard.press("n")
@@ -229,14 +234,16 @@ def test_one_generation_is_lit(explored):
     expect(lit).to_have_value("")
     panel.at("[data-position='0']").click()
     expect(panel.at(".lsys-sentence")).to_contain_text(
-        "is there from the beginning; at step 1 it is divided into cells 1 and 2.")
+        "is there from the beginning; at step 1 it is divided into cells 1 and 2."
+    )
 
 
 def test_a_cell_that_is_not_divided_is_said_to_stay(explored):
     panel = explored(APICAL, 2)
     panel.at("[data-position='2']").click()
     expect(panel.at(".lsys-sentence")).to_contain_text(
-        "was cell 2 of step 1, which was not divided; at step 3 it is cell 4, not divided.")
+        "was cell 2 of step 1, which was not divided; at step 3 it is cell 4, not divided."
+    )
 
 
 def test_what_the_mouse_is_on_is_lit_and_the_other_cells_keep_their_walls(explored):
@@ -268,8 +275,9 @@ def test_a_force_that_is_moved_asks_for_another_book_and_changes_the_cells(explo
     panel.page.wait_for_function(f"{PIXELS} === {before!r}")
 
 
-@pytest.mark.parametrize(("id", "said"), [
-    ("K33", "18 vertices, 33 edges, 20 walls, 4 cells"), ("K34", "26 vertices, 40 walls, 16 cells")])
+@pytest.mark.parametrize(
+    ("id", "said"), [("K33", "18 vertices, 33 edges, 20 walls, 4 cells"), ("K34", "26 vertices, 40 walls, 16 cells")]
+)
 def test_a_page_without_a_kernel_shows_cells_that_can_be_turned(browser, tmp_path, id, said):
     file, panel, errors = tmp_path / "cells.html", explore(id, 2), []
     panel.save(file)

@@ -183,8 +183,10 @@ def test_a_word_of_the_language_is_derived_and_the_others_are_not(seed):
 
 
 def test_types_of_growth():
-    assert [growth_type([f(n) for n in range(48)]) for f in (lambda n: 3 + n % 2, lambda n: n + n % 3, lambda n: n * n // 2,
-                                                            lambda n: round(1.2**n))] == list(TYPES)
+    assert [
+        growth_type([f(n) for n in range(48)])
+        for f in (lambda n: 3 + n % 2, lambda n: n + n % 3, lambda n: n * n // 2, lambda n: round(1.2**n))
+    ] == list(TYPES)
     assert growth_type([n**3 for n in range(48)]) in ("", "exponential")
 
 

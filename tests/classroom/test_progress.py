@@ -228,14 +228,26 @@ def test_what_is_solved_and_tried_is_counted(new_session):
     tries = [("1.1", False), ("1.1", False), ("1.1", True), ("1.1", False), ("1.2", False)]
     page = progress_of(Record(tuple(Try(*each) for each in tries)), 1)
     assert repr(page).splitlines()[:4] == [
-        "Parallel rewriting: 1 of 5 solved, 1 more tried.", "✓ 1.1  A word by hand (3 tries)",
-        "◐ 1.2  Find the bug", "○ 1.3  The filament in a mirror"]
+        "Parallel rewriting: 1 of 5 solved, 1 more tried.",
+        "✓ 1.1  A word by hand (3 tries)",
+        "◐ 1.2  Find the bug",
+        "○ 1.3  The filament in a mirror",
+    ]
 
 
-@pytest.mark.parametrize(("tries", "lesson", "following"), [
-    ((), None, "0.1"), ((), 1, "1.1"), ((Try("1.1", True),), None, "1.2"), ((Try("1.3", False),), None, "1.1"),
-    ((Try("1.1", True), Try("3.1", True)), None, "3.2"), (tuple(Try(f"1.{n}", True) for n in range(1, 6)), None, "2.1"),
-    (tuple(Try(f"18.{n}", True) for n in range(1, 7)), None, "0.1"), ((Try("unknown", True),), None, "0.1")])
+@pytest.mark.parametrize(
+    ("tries", "lesson", "following"),
+    [
+        ((), None, "0.1"),
+        ((), 1, "1.1"),
+        ((Try("1.1", True),), None, "1.2"),
+        ((Try("1.3", False),), None, "1.1"),
+        ((Try("1.1", True), Try("3.1", True)), None, "3.2"),
+        (tuple(Try(f"1.{n}", True) for n in range(1, 6)), None, "2.1"),
+        (tuple(Try(f"18.{n}", True) for n in range(1, 7)), None, "0.1"),
+        ((Try("unknown", True),), None, "0.1"),
+    ],
+)
 def test_next_is_the_first_exercise_not_solved_of_the_lesson_worked_on_last(tries, lesson, following, monkeypatch):
     monkeypatch.setattr(registry, "_added", {})  # no folders of a teacher's own
     assert progress_of(Record(tries), lesson).next[1].id == following
@@ -254,9 +266,17 @@ def test_a_lesson_has_a_number_and_a_name(lesson):
     assert progress(lesson).lessons[0].name == "01_all_at_once"
 
 
-@pytest.mark.parametrize(("lesson", "error"), [
-    (99, ModelNameError), (-1, ModelNameError), pytest.param(10**5000, ModelNameError, id="huge"),
-    ("01_all_at_onse", ModelNameError), (True, ModelValueError), ([], ModelValueError)])
+@pytest.mark.parametrize(
+    ("lesson", "error"),
+    [
+        (99, ModelNameError),
+        (-1, ModelNameError),
+        pytest.param(10**5000, ModelNameError, id="huge"),
+        ("01_all_at_onse", ModelNameError),
+        (True, ModelValueError),
+        ([], ModelValueError),
+    ],
+)
 def test_an_unknown_lesson_is_an_error_in_words(lesson, error):
     with pytest.raises(error):
         progress(lesson)

@@ -30,6 +30,7 @@ def of_each_kind():
 @pytest.fixture
 def asked(tmp_path):
     """Makes an exercise of a declaration."""
+
     def make(kind, **keys):
         def toml(value):
             if isinstance(value, bool):
@@ -44,12 +45,16 @@ def asked(tmp_path):
         for part in ("slips", "options"):
             for each in keys.get(part, ()):
                 lines += [f"[[exercise.{part}]]", *(f"{key} = {toml(value)}" for key, value in each.items())]
-        text = f'{_TOP}[[exercise]]\nid = "t"\ntitle = "t"\nkind = "{kind}"\nquestion = "q"\nexplanation = "e"\n' \
-               + 'hints = ["1", "2", "3"]\nobjective = 1\n' + "\n".join(lines)
+        text = (
+            f'{_TOP}[[exercise]]\nid = "t"\ntitle = "t"\nkind = "{kind}"\nquestion = "q"\nexplanation = "e"\n'
+            + 'hints = ["1", "2", "3"]\nobjective = 1\n'
+            + "\n".join(lines)
+        )
         (tmp_path / "t.toml").write_text(text, encoding="utf-8")
         found = questions_in(tmp_path)
         assert not found.problems, str(found.problems[0])
         return next(found.exercises)[2]
+
     return make
 
 
@@ -90,17 +95,23 @@ def test_a_miscounted_step_is_almost_right(word, answer):
 def test_the_first_difference_of_a_word_names_the_module_before_and_not_what_should_be_there(word):
     assert repr(said(word, "ababbaba")) == (
         "Almost. Up to position 3 your word is right; at position 4 you have b. "
-        "Look at what becomes of the a at position 3 of step 3.")
-    assert repr(said(word, "abaaba")) == \
-        "Not yet. Up to position 6 your word is right; at position 7 your word ends. " \
+        "Look at what becomes of the a at position 3 of step 3."
+    )
+    assert (
+        repr(said(word, "abaaba")) == "Not yet. Up to position 6 your word is right; at position 7 your word ends. "
         "Look at what becomes of the a at position 4 of step 3."
+    )
     assert "position 4" in said(word, "abab").message
 
 
-@pytest.mark.parametrize(("answer", "said", "likeness"), [
-    ("a ab", "You have 2 words, and 4 are asked for. As far as both go they agree.", 1 / 2),
-    ("a b aba", "You have 3 words, and 4 are asked for. Word 2, that of step 1, is the first that differs.", 1 / 4),
-    ("a ab aba abaa", "Word 4, that of step 3, is the first that differs. There look at position 5.", 3 / 4)])
+@pytest.mark.parametrize(
+    ("answer", "said", "likeness"),
+    [
+        ("a ab", "You have 2 words, and 4 are asked for. As far as both go they agree.", 1 / 2),
+        ("a b aba", "You have 3 words, and 4 are asked for. Word 2, that of step 1, is the first that differs.", 1 / 4),
+        ("a ab aba abaa", "Word 4, that of step 3, is the first that differs. There look at position 5.", 3 / 4),
+    ],
+)
 def test_of_several_words_the_first_wrong_one_is_named_with_its_step(answer, said, likeness):
     exercise = Exercise("t", "", "words", "", "a\nab\naba\nabaab", "", (), system=FIBONACCI, steps=3)
     words, solution = (ANSWER_KINDS["words"].read(exercise, "\n".join(each.split())) for each in (answer, exercise.solution))
@@ -124,7 +135,8 @@ def test_a_wrong_word_is_answered_with_all_that_becomes_a_module(asked):
     pairs = asked("word", system="axiom: A A B\nA B -> C", steps=1, solution="A C")
     assert said(pairs, "A B").message == (
         "Up to position 1 your word is right; at position 2 you have B. "
-        "Look at what becomes of the A B at positions 2 to 3 of step 0.")
+        "Look at what becomes of the A B at positions 2 to 3 of step 0."
+    )
 
 
 def test_brackets_that_were_not_rewritten_are_named(asked):
@@ -153,8 +165,24 @@ def test_overlapping_conditions_are_named(asked):
 # Numbers
 
 
-@pytest.mark.parametrize("answer", [21, 21.0, "21", "42/2", " 21 ", "21 cells", "21 letters", "N(12) = 21", Decimal(21),
-                                    Fraction(21), "21.", "≈ 21", sympy.Integer(21)])
+@pytest.mark.parametrize(
+    "answer",
+    [
+        21,
+        21.0,
+        "21",
+        "42/2",
+        " 21 ",
+        "21 cells",
+        "21 letters",
+        "N(12) = 21",
+        Decimal(21),
+        Fraction(21),
+        "21.",
+        "≈ 21",
+        sympy.Integer(21),
+    ],
+)
 def test_a_number_is_right_in_any_form(answer):
     assert check("anabaena.12", answer) == check("anabaena.21", answer) == 1
 
@@ -210,11 +238,18 @@ def test_a_production_that_works_only_behind_the_given_ones_is_not_right(divisio
     assert "first" not in verdict.message
 
 
-@pytest.mark.parametrize("answer", [
-    "M(5) -> N(2) M(1)", "M(t) : 5 == t -> N(4 - 2)M(1)", "M(s) : s >= 5 -> N(2) M(1)", "M(s) : s > 4 -> N(s - 3) M(1)",
-    "axiom: M(2)\nM(s) : s == 5 -> N(2)M(1)\nN(s) : s == 5 -> M(2)N(1)\nM(s) -> M(s+1)\nN(s) -> N(s+1)",
-    "axiom: X(2)\nX(s) : s == 5 -> Y(2)X(1)\nY(s) : s == 5 -> X(2)Y(1)\nX(s) -> X(s+1)\nY(s) -> Y(s+1)",
-    read(f"{FILAMENT}\nM(s) : s == 5 -> N(2) M(1)")])
+@pytest.mark.parametrize(
+    "answer",
+    [
+        "M(5) -> N(2) M(1)",
+        "M(t) : 5 == t -> N(4 - 2)M(1)",
+        "M(s) : s >= 5 -> N(2) M(1)",
+        "M(s) : s > 4 -> N(s - 3) M(1)",
+        "axiom: M(2)\nM(s) : s == 5 -> N(2)M(1)\nN(s) : s == 5 -> M(2)N(1)\nM(s) -> M(s+1)\nN(s) -> N(s+1)",
+        "axiom: X(2)\nX(s) : s == 5 -> Y(2)X(1)\nY(s) : s == 5 -> X(2)Y(1)\nX(s) -> X(s+1)\nY(s) -> Y(s+1)",
+        read(f"{FILAMENT}\nM(s) : s == 5 -> N(2) M(1)"),
+    ],
+)
 def test_a_system_is_right_if_its_language_is(division, answer):
     assert said(division, answer) == 1
 
@@ -266,8 +301,9 @@ def test_a_system_must_be_right_for_probes_and_settings(asked):
     assert said(lived, "n = 3\naxiom: A(0)\nA(t) : t < 3 -> A(t+1)\nA(t) -> A(0)A(0)") < 1
 
 
-@pytest.mark.parametrize(("rules", "honest"), [
-    ("a -> b", True), ("x -> y\ny -> x", False), ("a -> b\nx -> y", True), ("", False)])
+@pytest.mark.parametrize(
+    ("rules", "honest"), [("a -> b", True), ("x -> y\ny -> x", False), ("a -> b\nx -> y", True), ("", False)]
+)
 def test_a_try_has_half_as_many_productions_as_are_asked_for_of_the_symbols_of_the_question(rules, honest):
     exercise = Exercise("t", "", "system", "", FIBONACCI, "", (), steps=3)
     kind = ANSWER_KINDS["system"]
@@ -287,12 +323,20 @@ def test_a_misprint_that_the_kit_corrects_is_right():
 # Marks
 
 
-@pytest.mark.parametrize(("exercise", "answer", "mark", "said"), [
-    ("2.1", "2, 3, 5, 8, 13, 26", 5 / 6, "Right: 5 of 6 numbers. The first 5"),
-    ("2.1", "1, 2, 3, 5, 8, 13", 0, "Look at number 1"), ("2.1", "2, 3, 5", 3 / 6, "Right: 3 of 6 numbers. You have 3"),
-    ("17.1", "b, cba, cba", 2 / 4, "Right: the first 2 of 4 words. You"), ("1.1", "bl ar bl ar al", 0, "Did you"),
-    ("5.5", "S -> L\nL -> A\nA -> B\nB -> L", 3 / 4, "Right: 3 of 4 transitions. That is"),
-    ("1.2", 64, 0, "That is"), ("7.3", 4, 0, "By itself"), ("8.2", "B", 0, "The system says")])
+@pytest.mark.parametrize(
+    ("exercise", "answer", "mark", "said"),
+    [
+        ("2.1", "2, 3, 5, 8, 13, 26", 5 / 6, "Right: 5 of 6 numbers. The first 5"),
+        ("2.1", "1, 2, 3, 5, 8, 13", 0, "Look at number 1"),
+        ("2.1", "2, 3, 5", 3 / 6, "Right: 3 of 6 numbers. You have 3"),
+        ("17.1", "b, cba, cba", 2 / 4, "Right: the first 2 of 4 words. You"),
+        ("1.1", "bl ar bl ar al", 0, "Did you"),
+        ("5.5", "S -> L\nL -> A\nA -> B\nB -> L", 3 / 4, "Right: 3 of 4 transitions. That is"),
+        ("1.2", 64, 0, "That is"),
+        ("7.3", 4, 0, "By itself"),
+        ("8.2", "B", 0, "The system says"),
+    ],
+)
 def test_a_part_is_given_where_a_part_is_right_and_nothing_for_a_known_mistake(exercise, answer, mark, said):
     verdict = check(exercise, answer)
     assert (float(verdict), verdict.message[: len(said)]) == (mark, said)
@@ -316,9 +360,20 @@ def test_steps_that_are_right_without_an_answer_earn_nothing(asked):
 # Expressions
 
 
-@pytest.mark.parametrize("answer", [
-    "d - s + 1", "1 + d - s", "t = d - s + 1", "-(s - d) + 1", "(2*d - 2*s + 2)/2", "d**1 - s + 1", r"$\frac{2d - 2s + 2}{2}$",
-    sympy.Symbol("d") - sympy.Symbol("s") + 1, "max(d - s, -1) + 1"])
+@pytest.mark.parametrize(
+    "answer",
+    [
+        "d - s + 1",
+        "1 + d - s",
+        "t = d - s + 1",
+        "-(s - d) + 1",
+        "(2*d - 2*s + 2)/2",
+        "d**1 - s + 1",
+        r"$\frac{2d - 2s + 2}{2}$",
+        sympy.Symbol("d") - sympy.Symbol("s") + 1,
+        "max(d - s, -1) + 1",
+    ],
+)
 def test_a_formula_is_right_in_any_form(answer):
     assert check("anabaena.23", answer) == 1
 
@@ -340,8 +395,9 @@ def test_a_wrong_condition_is_shown_a_case():
     assert differing_values(wrong, right, [{"t": 4}, {"t": 5}]) == said
 
 
-@pytest.mark.parametrize("answer", ["d - t + 1", "d > s", "d = s", "(", sympy.Symbol("x"),
-                                    sympy.Function("f")(sympy.Symbol("d"))])
+@pytest.mark.parametrize(
+    "answer", ["d - t + 1", "d > s", "d = s", "(", sympy.Symbol("x"), sympy.Function("f")(sympy.Symbol("d"))]
+)
 def test_what_is_no_formula_in_the_names_of_the_question_is_refused(answer):
     assert check("anabaena.23", answer).said == "Not readable yet"
 
@@ -352,11 +408,21 @@ def test_the_caret_stands_under_the_single_sign():
     assert message[1][message[2].index("^") + 1] == " "
 
 
-@pytest.mark.parametrize(("one", "other", "equal"), [
-    ("(x + y)^3", "x^3 + 3*x^2*y + 3*x*y^2 + y^3", True), ("x < 5", "5 > x", True), ("x < 5", "x <= 4", False),
-    ("(x^2 - 1)/(x - 1)", "x + 1", True), ("a^t", "t^a", False), ("0.5*x", "x/2", True),
-    ("x^(9^9^9)", "x^(9^9^9)", False), ("(x+y)^1000", "(y+x)^1000", False), ("2^(x + 10^9)", "2^x", False),
-    ("x < 1 || 0 > 1 && floor(exp(exp(exp(99)))) > 0", "x < 1", False)])
+@pytest.mark.parametrize(
+    ("one", "other", "equal"),
+    [
+        ("(x + y)^3", "x^3 + 3*x^2*y + 3*x*y^2 + y^3", True),
+        ("x < 5", "5 > x", True),
+        ("x < 5", "x <= 4", False),
+        ("(x^2 - 1)/(x - 1)", "x + 1", True),
+        ("a^t", "t^a", False),
+        ("0.5*x", "x/2", True),
+        ("x^(9^9^9)", "x^(9^9^9)", False),
+        ("(x+y)^1000", "(y+x)^1000", False),
+        ("2^(x + 10^9)", "2^x", False),
+        ("x < 1 || 0 > 1 && floor(exp(exp(exp(99)))) > 0", "x < 1", False),
+    ],
+)
 def test_equality_is_shown_or_not_claimed(one, other, equal):
     assert proved_equal(read_expression(one), read_expression(other)) is equal
 
@@ -369,14 +435,25 @@ def plant(asked):
     return asked("drawing", system="angle: 30\naxiom: F\nF -> F[+F]F", steps=1, solution="F[+F]F")
 
 
-@pytest.mark.parametrize("answer", ["F[+F]F", "+F[+F]F", "F[+F][F]", "F(2)[+F(2)]F(2)", "angle: 30\naxiom: X\nX -> F[+F]F",
-                                    "angle: 15\naxiom: X\nX -> F[++F]F"])
+@pytest.mark.parametrize(
+    "answer",
+    [
+        "F[+F]F",
+        "+F[+F]F",
+        "F[+F][F]",
+        "F(2)[+F(2)]F(2)",
+        "angle: 30\naxiom: X\nX -> F[+F]F",
+        "angle: 15\naxiom: X\nX -> F[++F]F",
+    ],
+)
 def test_a_drawing_is_right_up_to_position_turn_and_size(plant, answer):
     assert said(plant, answer) == 1
 
 
-@pytest.mark.parametrize(("answer", "reply"), [
-    ("F[-F]F", "take + for -"), ("F+FF", "go on where a branch ended"), ("F", ""), ("+", "Nothing is drawn"), ("F[+F]FF", "")])
+@pytest.mark.parametrize(
+    ("answer", "reply"),
+    [("F[-F]F", "take + for -"), ("F+FF", "go on where a branch ended"), ("F", ""), ("+", "Nothing is drawn"), ("F[+F]FF", "")],
+)
 def test_a_mirror_image_is_not_the_same(plant, answer, reply):
     verdict = said(plant, answer)
     assert verdict < 1

@@ -41,8 +41,9 @@ def test_where_systems_part_the_words_of_each_are_shown_from_the_first_differenc
 
 def test_it_is_stored_with_all_its_steps() -> None:
     stored = rule_finder(ALGA)._repr_mimebundle_()
-    assert stored["text/plain"].endswith("\nstep 4: c A c A A c A A\n  One system fits these 5 words:\n"
-                                         "    A -> B d\n    B -> c A\n    d -> A\n    c -> B")
+    assert stored["text/plain"].endswith(
+        "\nstep 4: c A c A A c A A\n  One system fits these 5 words:\n    A -> B d\n    B -> c A\n    d -> A\n    c -> B"
+    )
     assert stored["text/html"].count("<tr>") == len(ALGA) + 1
     assert "<b>2</b><br><code>A -&gt; B d</code><ol><li><code>B -&gt; c</code>" in stored["text/html"]
 

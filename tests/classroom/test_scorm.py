@@ -32,12 +32,22 @@ from tests.classroom.front_end import joined
 
 AXE = Path(axe_playwright_python.__file__).parent / "axe.min.js"
 IMS, ADLCP = f"{{{CONTENT}}}", f"{{{ADL}}}"
-CHILDREN = {"manifest": ["metadata", "organizations", "resources"], "metadata": ["schema", "schemaversion"],
-            "organization": ["title", "item"], "item": ["title"], "resource": ["file"]}
+CHILDREN = {
+    "manifest": ["metadata", "organizations", "resources"],
+    "metadata": ["schema", "schemaversion"],
+    "organization": ["title", "item"],
+    "item": ["title"],
+    "resource": ["file"],
+}
 """What the schema imscp_rootv1p1p2.xsd wants in an element, in this order."""
-ATTRIBUTES = {"manifest": {"identifier", "version"}, "organizations": {"default"}, "organization": {"identifier"},
-              "item": {"identifier", "identifierref", "isvisible"}, "file": {"href"},
-              "resource": {"identifier", "type", "href", f"{ADLCP}scormtype"}}
+ATTRIBUTES = {
+    "manifest": {"identifier", "version"},
+    "organizations": {"default"},
+    "organization": {"identifier"},
+    "item": {"identifier", "identifierref", "isvisible"},
+    "file": {"href"},
+    "resource": {"identifier", "type", "href", f"{ADLCP}scormtype"},
+}
 
 
 @cache
@@ -68,7 +78,8 @@ def test_the_manifest_has_what_its_schema_wants(what):
         name = element.tag.removeprefix(IMS)
         assert element.tag == IMS + name
         assert list(dict.fromkeys(child.tag.removeprefix(IMS) for child in element)) == CHILDREN.get(
-            name, {"organizations": ["organization"], "resources": ["resource"]}.get(name, []))
+            name, {"organizations": ["organization"], "resources": ["resource"]}.get(name, [])
+        )
         assert set(element.attrib) == ATTRIBUTES.get(name, set())
     identifiers = [element.get("identifier") for element in root.iter() if element.get("identifier")]
     assert len({*identifiers}) == len(identifiers)
@@ -116,11 +127,16 @@ def test_whatever_a_lesson_is_called_is_text(text):
     assert zipfile.ZipFile(io.BytesIO(package([lesson], [page]))).testzip() is None
 
 
-@pytest.mark.parametrize(("what", "path", "error", "message"), [
-    ("99", "a.zip", ModelNameError, "is no folder and no lesson"), ("01_all_at_onse", "a.zip", ModelNameError, "Did you mean"),
-    ("1", "a.html", ModelValueError, r"A package is a \.zip file"),
-    ("1", "no/folder/a.zip", ModelFileError, "cannot be written"),
-    ("1", "mine.zip", ModelFileError, "not made by the kit")])
+@pytest.mark.parametrize(
+    ("what", "path", "error", "message"),
+    [
+        ("99", "a.zip", ModelNameError, "is no folder and no lesson"),
+        ("01_all_at_onse", "a.zip", ModelNameError, "Did you mean"),
+        ("1", "a.html", ModelValueError, r"A package is a \.zip file"),
+        ("1", "no/folder/a.zip", ModelFileError, "cannot be written"),
+        ("1", "mine.zip", ModelFileError, "not made by the kit"),
+    ],
+)
 def test_what_cannot_be_packed_is_refused_in_words(what, path, error, message, tmp_path):
     (tmp_path / "mine.zip").write_text("mine")
     with pytest.raises(error, match=message):
@@ -172,7 +188,7 @@ def test_a_page_asks_nothing_of_other_addresses_and_says_that_it_is_practice(fir
 
 def test_exercises_that_only_the_kit_can_check_are_named(first):
     _, page = first
-    listed = page[page.index("In the notebook"):]
+    listed = page[page.index("In the notebook") :]
     assert "<li>1.3 The filament in a mirror</li>" in listed
     assert 'data-exercise="1.3"' not in page
 
@@ -180,7 +196,7 @@ def test_exercises_that_only_the_kit_can_check_are_named(first):
 # What a page says
 
 
-SAYING = f"""cases => {{ {joined('language', 'typed', 'sealed')}
+SAYING = f"""cases => {{ {joined("language", "typed", "sealed")}
 return cases.map(([data, text]) => {{
   const {{ key, unreadable }} = read(data, text);
   return unreadable ? {{ said: "Not readable yet", message: unreadable }} : replyTo(data, key);
@@ -203,11 +219,19 @@ def test_a_hash_is_that_of_everybody(browser: Browser):
 
 
 def test_right_answers_are_right_in_a_page_in_every_form_that_can_be_typed(said):
-    typed = [(exercise, form) for exercise in EXERCISES if exercise.id in checked_in_pages()
-             for form in right_answers(exercise) if isinstance(form, str) and not _of_buttons(exercise, form)]
+    typed = [
+        (exercise, form)
+        for exercise in EXERCISES
+        if exercise.id in checked_in_pages()
+        for form in right_answers(exercise)
+        if isinstance(form, str) and not _of_buttons(exercise, form)
+    ]
     replies = said([[checked_in_pages()[exercise.id], form] for exercise, form in typed])
-    wrong = [(exercise.id, form, reply) for (exercise, form), reply in zip(typed, replies, strict=True)
-             if reply != {"said": "Correct", "message": exercise.explanation}]
+    wrong = [
+        (exercise.id, form, reply)
+        for (exercise, form), reply in zip(typed, replies, strict=True)
+        if reply != {"said": "Correct", "message": exercise.explanation}
+    ]
     assert wrong == []
 
 
@@ -216,8 +240,9 @@ def _of_buttons(exercise: Exercise, form: str) -> bool:
 
 
 def test_to_a_wrong_answer_that_is_understood_a_page_says_what_the_kit_says(said):
-    understood = [(exercise, wrong) for exercise in EXERCISES if exercise.id in checked_in_pages()
-                  for wrong in wrong_answers_to(exercise)]
+    understood = [
+        (exercise, wrong) for exercise in EXERCISES if exercise.id in checked_in_pages() for wrong in wrong_answers_to(exercise)
+    ]
     typed = [(exercise, _text(as_typed(exercise, wrong.answer))) for exercise, wrong in understood]
     replies = said([[checked_in_pages()[exercise.id], text] for exercise, text in typed])
     for (exercise, text), reply in zip(typed, replies, strict=True):
@@ -258,8 +283,11 @@ def test_numbers_are_rounded_in_a_page_as_in_the_kit(browser: Browser):
     tab, part = browser.new_page(), Fraction(3, 50)
     numbers = [Fraction(above, below) for above in range(-30, 31, 3) for below in (7, 25, 50, 100)]
     given = [[str(number.numerator * sign), str(number.denominator * sign)] for number in numbers for sign in (1, -1)]
-    found = tab.evaluate(f"""given => {{ {joined('language', 'typed')}
-return given.map(([above, below]) => rounded({{ above: BigInt(above), below: BigInt(below) }}, [3n, 50n])); }}""", given)
+    found = tab.evaluate(
+        f"""given => {{ {joined("language", "typed")}
+return given.map(([above, below]) => rounded({{ above: BigInt(above), below: BigInt(below) }}, [3n, 50n])); }}""",
+        given,
+    )
     assert found == [rounded_key(number, part) for number in numbers for _ in (1, -1)]
     tab.close()
 
@@ -365,16 +393,22 @@ def test_what_a_platform_kept_wrongly_does_no_harm(platform, kept):
     assert told(page) == ("100", "completed")
 
 
-@pytest.mark.parametrize("fault", [
-    'window.API.LMSGetValue = () => ""; window.API.LMSGetLastError = () => "101";',
-    'window.API.LMSGetValue = () => { throw new Error("gone"); };', 'delete window.API.LMSGetValue;'])
+@pytest.mark.parametrize(
+    "fault",
+    [
+        'window.API.LMSGetValue = () => ""; window.API.LMSGetLastError = () => "101";',
+        'window.API.LMSGetValue = () => { throw new Error("gone"); };',
+        "delete window.API.LMSGetValue;",
+    ],
+)
 def test_a_platform_that_cannot_be_read_loses_nothing(platform, fault):
     stored = {"cmi.suspend_data": '["1.1"]', "cmi.core.score.raw": "33", "cmi.core.lesson_status": "incomplete"}
     page = platform(stored, shell=PLATFORM.replace("</script>", f"{fault}</script>"))
     frame = page.frame_locator("iframe")
     expect(typed(frame, "1.2", "21")).to_contain_text("Correct.")
     expect(frame.locator("#told")).to_have_text(
-        "1 of 3 solved. The learning platform cannot be read, so that nothing is written there.")
+        "1 of 3 solved. The learning platform cannot be read, so that nothing is written there."
+    )
     assert {name: page.evaluate("name => values[name]", name) for name in stored} == stored
 
 
@@ -405,8 +439,10 @@ def test_what_is_kept_has_room(platform):
 
 
 def test_each_package_has_an_identifier_of_its_own():
-    names = {re.search('identifier="(lsys-kit-[^"]*)"', manifest(told, page_names(told)))[1]
-             for told in (lessons()[:1], lessons()[1:2], lessons())}
+    names = {
+        re.search('identifier="(lsys-kit-[^"]*)"', manifest(told, page_names(told)))[1]
+        for told in (lessons()[:1], lessons()[1:2], lessons())
+    }
     assert len(names) == 3
 
 

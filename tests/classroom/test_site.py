@@ -30,8 +30,37 @@ from tests.test_hostile_names import HOSTILE
 
 LESSON, EXERCISES, OTHER = "notebooks/01_all_at_once.ipynb", "exercises/01_all_at_once.ipynb", "notebooks/02_more.ipynb"
 ENTRIES = [Entry(LESSON, "All at once", declared("01_all_at_once")), Entry(OTHER, "More & more"), Entry(EXERCISES, "Exercises")]
-PASSING = {"main", "p", "h1", "h2", "em", "strong", "code", "pre", "ul", "ol", "li", "table", "thead", "tbody", "tr", "th",
-           "td", "div", "a", "br", "blockquote", "hr", *PLAIN_TAGS, "math", "mi", "mn", "mo", "mrow", "mfrac"}
+PASSING = {
+    "main",
+    "p",
+    "h1",
+    "h2",
+    "em",
+    "strong",
+    "code",
+    "pre",
+    "ul",
+    "ol",
+    "li",
+    "table",
+    "thead",
+    "tbody",
+    "tr",
+    "th",
+    "td",
+    "div",
+    "a",
+    "br",
+    "blockquote",
+    "hr",
+    *PLAIN_TAGS,
+    "math",
+    "mi",
+    "mn",
+    "mo",
+    "mrow",
+    "mfrac",
+}
 """The elements that a text may become."""
 
 
@@ -53,22 +82,37 @@ def ran_prediction(question: str, widget: object):
 
 
 def lesson_page() -> str:
-    cells = [new_markdown_cell("# All at once\n\n[try](../exercises/01_all_at_once.ipynb), [gone](99.ipynb)"),
-             ran('vote("01")', vote("01")), ran("explore('J4')", explore("J4")), ran_prediction("Why?", explore("K5", 2)),
-             ran("compare('P2', 'P3')", compare("P2", "P3")), ran("w", worksheet("01", "counts")),
-             ran("b", worksheet("01", "counts", explore("J4", 5))), ran('vote("01", again=True)', vote("01", again=True))]
+    cells = [
+        new_markdown_cell("# All at once\n\n[try](../exercises/01_all_at_once.ipynb), [gone](99.ipynb)"),
+        ran('vote("01")', vote("01")),
+        ran("explore('J4')", explore("J4")),
+        ran_prediction("Why?", explore("K5", 2)),
+        ran("compare('P2', 'P3')", compare("P2", "P3")),
+        ran("w", worksheet("01", "counts")),
+        ran("b", worksheet("01", "counts", explore("J4", 5))),
+        ran('vote("01", again=True)', vote("01", again=True)),
+    ]
     return notebook_page(ENTRIES[0], cells, ENTRIES)
 
 
 # --- Markdown ---------------------------------------------------------------------------------------------------------------
+
 
 @pytest.mark.parametrize("text", HOSTILE, ids=ascii)
 def test_no_text_of_a_notebook_becomes_markup(text: str) -> None:
     assert set(Parts(f"<main>{plain(f'A {text} B')}</main>").tags) <= PASSING
 
 
-@pytest.mark.parametrize("text", ["<script>x</script>", "<img src=x onerror=y>", "<sup onclick=x>a</sup>", "<details open>",
-                                  "![a picture](https://example.org/a.png)"])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "<script>x</script>",
+        "<img src=x onerror=y>",
+        "<sup onclick=x>a</sup>",
+        "<details open>",
+        "![a picture](https://example.org/a.png)",
+    ],
+)
 def test_of_html_only_plain_tags_pass(text: str) -> None:
     for written in (text, f"Look: {text}"):
         assert not re.search(r"<(script|img|sup|details)", plain(written))
@@ -96,16 +140,26 @@ def test_a_bar_in_a_table_is_a_bar() -> None:
     assert "<code>|</code>" in plain("| a | b |\n|---|---|\n| `\\|` | c |")
 
 
-@pytest.mark.parametrize(("address", "leads"), [
-    ("#Summary", "#Summary"), ("02_more.ipynb", "02_more.html"),
-    ("../exercises/01_all_at_once.ipynb", "../exercises/01_all_at_once.html"),
-    ("02_more.ipynb#A-place", "02_more.html#A-place"), ("03_not_there.ipynb", None), ("https://example.org", None),
-    ("javascript:alert(1)", None), ("teacher/01_all_at_once.md", None), ("../../../etc/passwd", None)])
+@pytest.mark.parametrize(
+    ("address", "leads"),
+    [
+        ("#Summary", "#Summary"),
+        ("02_more.ipynb", "02_more.html"),
+        ("../exercises/01_all_at_once.ipynb", "../exercises/01_all_at_once.html"),
+        ("02_more.ipynb#A-place", "02_more.html#A-place"),
+        ("03_not_there.ipynb", None),
+        ("https://example.org", None),
+        ("javascript:alert(1)", None),
+        ("teacher/01_all_at_once.md", None),
+        ("../../../etc/passwd", None),
+    ],
+)
 def test_links_lead_to_pages_of_the_site_or_nowhere(address: str, leads: str | None) -> None:
     assert address_on_site(LESSON, {each.name for each in ENTRIES}, address) == leads
 
 
 # --- pages ------------------------------------------------------------------------------------------------------------------
+
 
 @pytest.mark.parametrize("text", [lesson_page(), index_page(ENTRIES)], ids=["lesson", "index"])
 def test_a_page_has_no_address_outside_and_runs_nothing_but_the_kits_script(text: str) -> None:
@@ -146,9 +200,15 @@ def test_a_picture_is_kept_deflated_and_its_place_has_its_size() -> None:
 
 
 def test_exercises_are_shown_without_the_cells_that_check_them() -> None:
-    cells = [new_markdown_cell("# Exercises"), ran("from lsys_kit import check"), new_markdown_cell("## 1.1 By hand"),
-             ran('answer = ...\ncheck("1.1", answer)'), ran("draw(system('K5'))"),
-             new_markdown_cell("## For a class", id="marks"), ran('from lsys_kit import score\n\nscore("1.1")')]
+    cells = [
+        new_markdown_cell("# Exercises"),
+        ran("from lsys_kit import check"),
+        new_markdown_cell("## 1.1 By hand"),
+        ran('answer = ...\ncheck("1.1", answer)'),
+        ran("draw(system('K5'))"),
+        new_markdown_cell("## For a class", id="marks"),
+        ran('from lsys_kit import score\n\nscore("1.1")'),
+    ]
     text = notebook_page(ENTRIES[2], cells, ENTRIES)
     assert [each for each in ("check(", "score(", "For a class") if each in text] == []
     assert "lsys-kit lab" in text
@@ -158,9 +218,13 @@ def test_exercises_are_shown_without_the_cells_that_check_them() -> None:
 
 def test_pages_lead_on_and_back() -> None:
     text = lesson_page()
-    for link in ('href="../index.html"', 'class="after" href="02_more.html"',
-                 'class="also" href="../exercises/01_all_at_once.html"',
-                 '<a href="../exercises/01_all_at_once.html">try</a>', ", gone"):
+    for link in (
+        'href="../index.html"',
+        'class="after" href="02_more.html"',
+        'class="also" href="../exercises/01_all_at_once.html"',
+        '<a href="../exercises/01_all_at_once.html">try</a>',
+        ", gone",
+    ):
         assert link in text
     assert 'class="before"' not in text
 
@@ -188,10 +252,48 @@ def test_the_title_is_the_first_heading() -> None:
 
 # --- tables without a kernel --------------------------------------------------------------------------------------------------
 
-TYPED = ["", " ", "2", " 2 ", "4/2", "2.0", "02", "+2", "-2", "−2", "2,0", "200%", "200 %", "1,000", "2/0", "al br", "AL  Br",
-         "1.5", "1.618", "1.62", "x" * 201, "1e3", "٢", "5*5", "5 * 5", "no", "½", "1,5", "12,345.5"]
-CELLS = [(["2"], "0"), (["-2", "two"], "0"), (["25", "5*5"], "0"), (["1.618"], "0.001"), (["al br"], "0"), (["1000"], "0"),
-         (["12345.5"], "1/2"), (["1/2"], "1%"), (["no", "none"], "0")]
+TYPED = [
+    "",
+    " ",
+    "2",
+    " 2 ",
+    "4/2",
+    "2.0",
+    "02",
+    "+2",
+    "-2",
+    "−2",
+    "2,0",
+    "200%",
+    "200 %",
+    "1,000",
+    "2/0",
+    "al br",
+    "AL  Br",
+    "1.5",
+    "1.618",
+    "1.62",
+    "x" * 201,
+    "1e3",
+    "٢",
+    "5*5",
+    "5 * 5",
+    "no",
+    "½",
+    "1,5",
+    "12,345.5",
+]
+CELLS = [
+    (["2"], "0"),
+    (["-2", "two"], "0"),
+    (["25", "5*5"], "0"),
+    (["1.618"], "0.001"),
+    (["al br"], "0"),
+    (["1000"], "0"),
+    (["12345.5"], "1/2"),
+    (["1/2"], "1%"),
+    (["no", "none"], "0"),
+]
 
 
 def test_a_page_finds_right_what_the_kernel_finds_right(browser: Browser) -> None:
@@ -221,12 +323,16 @@ def test_a_page_says_of_a_table_what_the_kernel_says(browser: Browser, name: str
 
 # --- files --------------------------------------------------------------------------------------------------------------------
 
+
 @pytest.fixture
 def course(tmp_path: Path) -> Path:
     """A course of one lesson, one exercise and one reference."""
     home = tmp_path / "kit"
-    for name, source in ((LESSON, "from lsys_kit import *\n\nexplore('J1', 3)"), (EXERCISES, "check(1)"),
-                         ("notebooks/reference/notation.ipynb", "print('read')")):
+    for name, source in (
+        (LESSON, "from lsys_kit import *\n\nexplore('J1', 3)"),
+        (EXERCISES, "check(1)"),
+        ("notebooks/reference/notation.ipynb", "print('read')"),
+    ):
         (home / name).parent.mkdir(parents=True, exist_ok=True)
         (home / name).write_text(writes(new_notebook(cells=[new_markdown_cell("# Title"), new_code_cell(source)])))
     return home
@@ -238,7 +344,11 @@ def test_a_site_is_built_twice_and_each_page_is_the_same(course: Path, tmp_path:
     (tmp_path / "site" / "mine.txt").write_text("mine")
     pages = build_site(tmp_path / "site", course)
     assert [str(page.relative_to(tmp_path / "site")) for page in pages] == [
-        "index.html", "notebooks/01_all_at_once.html", "exercises/01_all_at_once.html", "notebooks/reference/notation.html"]
+        "index.html",
+        "notebooks/01_all_at_once.html",
+        "exercises/01_all_at_once.html",
+        "notebooks/reference/notation.html",
+    ]
     texts = [page.read_text("utf-8") for page in pages]
     assert '"kind":"panel"' in texts[1]
     assert "<pre>read</pre>" in texts[3]
@@ -273,10 +383,19 @@ def test_a_cell_that_fails_is_said_with_its_lesson(course: Path, tmp_path: Path)
 def test_a_kernel_whose_port_is_taken_is_started_again(course: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     spec = tmp_path / "jupyter" / "kernels" / "python3" / "kernel.json"
     spec.parent.mkdir(parents=True)
-    once = ("import pathlib, runpy, sys; tried = pathlib.Path(sys.argv.pop(1)); "
-            "tried.exists() or (tried.touch(), sys.exit(1)); runpy.run_module('ipykernel_launcher', run_name='__main__')")
-    spec.write_text(json.dumps({"display_name": "Python 3", "language": "python",
-                                "argv": [sys.executable, "-c", once, str(tmp_path / "tried"), "-f", "{connection_file}"]}))
+    once = (
+        "import pathlib, runpy, sys; tried = pathlib.Path(sys.argv.pop(1)); "
+        "tried.exists() or (tried.touch(), sys.exit(1)); runpy.run_module('ipykernel_launcher', run_name='__main__')"
+    )
+    spec.write_text(
+        json.dumps(
+            {
+                "display_name": "Python 3",
+                "language": "python",
+                "argv": [sys.executable, "-c", once, str(tmp_path / "tried"), "-f", "{connection_file}"],
+            }
+        )
+    )
     monkeypatch.setenv("JUPYTER_PATH", str(tmp_path / "jupyter"))
     notebook = run(LESSON, course / LESSON)
     assert (tmp_path / "tried").exists()

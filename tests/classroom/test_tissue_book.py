@@ -61,18 +61,20 @@ def test_eulers_number_is_the_same_at_every_step(id, euler):
     assert len(sizes) > 4
     assert all(text.endswith(f"= {euler}") for text in sizes)
     assert explore("K33", 2).text.startswith(
-        "Step 2: 18 vertices, 33 edges, 20 walls, 4 cells; 18 \u2212 33 + 20 \u2212 4 = 1. QR QR")
+        "Step 2: 18 vertices, 33 edges, 20 walls, 4 cells; 18 \u2212 33 + 20 \u2212 4 = 1. QR QR"
+    )
     assert explore("K34", 1).text.startswith("Step 1: 10 vertices, 16 walls, 8 cells; 10 \u2212 16 + 8 = 2. L>ex<L< | ")
 
 
 def test_cells_are_written_as_the_cycles_of_edges_around_their_walls():
     book = explore("K33", 0).model["book"]
-    assert book["states"][whole(book["words"][0])[0]][3] == (
-        "PQ: PQPQ, PQ: PQPQ, PR: PRPR, PR: PRPR, QR: QRQR, QR: QRQR")
+    assert book["states"][whole(book["words"][0])[0]][3] == ("PQ: PQPQ, PQ: PQPQ, PR: PRPR, PR: PRPR, QR: QRQR, QR: QRQR")
     sphere = explore("K34", 1).model["book"]
     assert [sphere["states"][state][3] for state in whole(sphere["words"][1])] == str(derive(K34, 1)[1]).split(" | ")
-    arrows = read_cellwork("cellwork: 1(0,0,0) 2(1,0,0) 3(0,1,0) 4(0,0,1)\nwall W: 1 A> 2 B 3 B\nwall V: 1 A> 2 B 4 B\n"
-                           "wall W: 1 B 3 B 4 B\nwall W: 2 B 3 B 4 B")
+    arrows = read_cellwork(
+        "cellwork: 1(0,0,0) 2(1,0,0) 3(0,1,0) 4(0,0,1)\nwall W: 1 A> 2 B 3 B\nwall V: 1 A> 2 B 4 B\n"
+        "wall W: 1 B 3 B 4 B\nwall W: 2 B 3 B 4 B"
+    )
     book = explore(arrows, 0).model["book"]
     assert book["states"][whole(book["words"][0])[0]][3] == "W: A<BB, V: A>BB, W: BBB, W: BBB"
 
@@ -99,10 +101,15 @@ def test_the_panel_holds_no_more_steps_than_come_to_rest_soon():
         assert explore("K33").model["book"]["steps"] == 4
 
 
-@pytest.mark.parametrize(("choices", "kind", "message"), [
-    ({"angle": 30}, ModelValueError, "A cellwork has no angle"),
-    ({"tension": 1}, ModelNameError, 'A cellwork has no "tension"'),
-    ({"pressure": 100}, ModelValueError, '"pressure" must lie'), ({"step": -1}, ModelValueError, "The step")])
+@pytest.mark.parametrize(
+    ("choices", "kind", "message"),
+    [
+        ({"angle": 30}, ModelValueError, "A cellwork has no angle"),
+        ({"tension": 1}, ModelNameError, 'A cellwork has no "tension"'),
+        ({"pressure": 100}, ModelValueError, '"pressure" must lie'),
+        ({"step": -1}, ModelValueError, "The step"),
+    ],
+)
 def test_settings_that_make_no_sense_are_refused(choices, kind, message):
     with pytest.raises(kind, match=message):
         explore("K33", **choices)
@@ -151,9 +158,13 @@ def test_a_stored_notebook_shows_one_picture(id):
     assert turned.sight.svg != panel.sight.svg
 
 
-@pytest.mark.parametrize(("choices", "said"), [
-    ({"field": 1}, "The explorer takes no field of Python"),
-    ({"pressure": 2}, '"pressure" stands beside what is compared, and belongs to one side of it')])
+@pytest.mark.parametrize(
+    ("choices", "said"),
+    [
+        ({"field": 1}, "The explorer takes no field of Python"),
+        ({"pressure": 2}, '"pressure" stands beside what is compared, and belongs to one side of it'),
+    ],
+)
 def test_what_belongs_to_one_side_is_refused_beside_both(choices, said):
     with pytest.raises(ModelValueError, match=f"^{said}"):
         compare("K33", {}, {"pressure": 2}, **choices)

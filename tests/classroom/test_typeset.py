@@ -62,14 +62,16 @@ def page(text: str) -> str:
 
 # --- every system -----------------------------------------------------------------------------------------------------
 
+
 @pytest.mark.parametrize("id", systems())
 def test_every_system_of_the_catalogue_is_shown_with_all_its_rules(id):
     every = system(id)
     bundle = shown(every, id)
     numbers = [row[0] for row in rows(harmless(bundle["text/html"]))]
     for letter, rules in (("p", every.productions), ("d", every.decomposition), ("i", every.interpretation), ("m", every.meta)):
-        assert [number for number in numbers if re.fullmatch(rf"{letter}\d+", number)] == \
-            [f"{letter}{number}" for number in range(1, len(rules) + 1)]
+        assert [number for number in numbers if re.fullmatch(rf"{letter}\d+", number)] == [
+            f"{letter}{number}" for number in range(1, len(rules) + 1)
+        ]
     assert all(note in bundle["text/plain"] for note in every.notes)
     assert all(f"  {line}\n" in f"{bundle['text/plain']}\n" for line in str(every).splitlines())
 
@@ -99,17 +101,21 @@ def test_the_turtle_is_told_where_it_is_not_the_notations_own():
 
 # --- rules as mathematics ---------------------------------------------------------------------------------------------
 
-@pytest.mark.parametrize(("text", "row"), [
-    ("A -> B", ["p1", "A", "⟶", "B"]),
-    ("A -> ε", ["p1", "A", "⟶", "ε"]),
-    ("A(t) : t <= 2*3 -> A(t+1)[B]", ["p1", "A(t) : t ≤ 2 · 3", "⟶", "A(t + 1)[B]"]),
-    ("A(t) < B > [C]D : t != 1 && !(t == 2) -> E", ["p1", "A(t) < B > [C]D : t ≠ 1 ∧ ¬(t = 2)", "⟶", "E"]),
-    ("A -> B : 1/3", ["p1", "A", "1/3⟶", "B"]),
-    ("A(n) -> repeat(n, i) <B(i)> C", ["p1", "A(n)", "⟶", "(B(i))i = 0 … n − 1C"]),
-    ("A(n) -> repeat(3, i) <B(i)>", ["p1", "A(n)", "⟶", "(B(i))i = 0 … 2"]),
-    ("A(n) -> repeat(n) <F> C", ["p1", "A(n)", "⟶", "(F)nC"]),
-    ("meta: f(x) f(y) : x > y -> f(x-y)", ["m1", "f(x)f(y) : x > y", "⟶", "f(x − y)"]),
-])
+
+@pytest.mark.parametrize(
+    ("text", "row"),
+    [
+        ("A -> B", ["p1", "A", "⟶", "B"]),
+        ("A -> ε", ["p1", "A", "⟶", "ε"]),
+        ("A(t) : t <= 2*3 -> A(t+1)[B]", ["p1", "A(t) : t ≤ 2 · 3", "⟶", "A(t + 1)[B]"]),
+        ("A(t) < B > [C]D : t != 1 && !(t == 2) -> E", ["p1", "A(t) < B > [C]D : t ≠ 1 ∧ ¬(t = 2)", "⟶", "E"]),
+        ("A -> B : 1/3", ["p1", "A", "1/3⟶", "B"]),
+        ("A(n) -> repeat(n, i) <B(i)> C", ["p1", "A(n)", "⟶", "(B(i))i = 0 … n − 1C"]),
+        ("A(n) -> repeat(3, i) <B(i)>", ["p1", "A(n)", "⟶", "(B(i))i = 0 … 2"]),
+        ("A(n) -> repeat(n) <F> C", ["p1", "A(n)", "⟶", "(F)nC"]),
+        ("meta: f(x) f(y) : x > y -> f(x-y)", ["m1", "f(x)f(y) : x > y", "⟶", "f(x − y)"]),
+    ],
+)
 def test_a_rule_is_set_as_in_the_books(text, row):
     assert row in list(rows(harmless(page(f"axiom: A(1) A B f(1)\n{text}"))))
 
@@ -121,18 +127,33 @@ def test_an_axiom_a_constant_and_settings_are_told():
     assert "angle: 25.7 &nbsp;·&nbsp; steps: 3" in text
 
 
-@pytest.mark.parametrize(("text", "mathematics"), [
-    ("a + b * c", "a + b · c"), ("(a + b) * c", "(a + b) · c"), ("a - (b - c)", "a − (b − c)"), ("a - b - c", "a − b − c"),
-    ("a/(b*c)", "a/(b · c)"), ("-a^2", "−a<sup>2</sup>"), ("(-a)^2", "(−a)<sup>2</sup>"), ("(-2)^2", "(−2)<sup>2</sup>"),
-    ("a^(b+1)", "a<sup>b + 1</sup>"), ("a^b^c", "a<sup>b<sup>c</sup></sup>"), ("(a^b)^c", "(a<sup>b</sup>)<sup>c</sup>"),
-    ("1/3*a", "1/3 · a"), ("max(a, -b, 1)", "max(a, −b, 1)"), ("!(a < b || c >= 1)", "¬(a &lt; b ∨ c ≥ 1)"),
-    ("if(a < b, 1, c)", "if(a &lt; b, 1, c)"), ("x12", "x<sub style=\"line-height:0\">12</sub>"),
-])
+@pytest.mark.parametrize(
+    ("text", "mathematics"),
+    [
+        ("a + b * c", "a + b · c"),
+        ("(a + b) * c", "(a + b) · c"),
+        ("a - (b - c)", "a − (b − c)"),
+        ("a - b - c", "a − b − c"),
+        ("a/(b*c)", "a/(b · c)"),
+        ("-a^2", "−a<sup>2</sup>"),
+        ("(-a)^2", "(−a)<sup>2</sup>"),
+        ("(-2)^2", "(−2)<sup>2</sup>"),
+        ("a^(b+1)", "a<sup>b + 1</sup>"),
+        ("a^b^c", "a<sup>b<sup>c</sup></sup>"),
+        ("(a^b)^c", "(a<sup>b</sup>)<sup>c</sup>"),
+        ("1/3*a", "1/3 · a"),
+        ("max(a, -b, 1)", "max(a, −b, 1)"),
+        ("!(a < b || c >= 1)", "¬(a &lt; b ∨ c ≥ 1)"),
+        ("if(a < b, 1, c)", "if(a &lt; b, 1, c)"),
+        ("x12", 'x<sub style="line-height:0">12</sub>'),
+    ],
+)
 def test_parentheses_stand_where_mathematics_needs_them(text, mathematics):
     assert re.sub("</?i>", "", formula(read_expression(text), read("axiom: A"))) == mathematics
 
 
 # --- words and limits -------------------------------------------------------------------------------------------------
+
 
 def test_a_step_that_has_no_value_is_told_and_those_before_it_are_shown():
     said = shown(read("axiom: A(2)\nA(t) -> A(t-1)B(1/(t-1))"))
@@ -159,8 +180,9 @@ def test_what_is_large_is_shown_in_part_and_soon():
     assert "… 19,800 more" in harmless(bundle["text/html"])
 
 
-@pytest.mark.parametrize("rules", ["A(x) -> repeat(99999) <F(uniform(0, 1))>",
-                                   "A(x) -> repeat(50000) <F(uniform(0, 1))>\nF(x) < F(y) -> A(x)"])
+@pytest.mark.parametrize(
+    "rules", ["A(x) -> repeat(99999) <F(uniform(0, 1))>", "A(x) -> repeat(50000) <F(uniform(0, 1))>\nF(x) < F(y) -> A(x)"]
+)
 def test_a_large_step_is_not_waited_for(rules):
     started = time.process_time()
     words, stop = first_words(read("axiom: " + "A(0) " * 40 + f"\n{rules}"))

@@ -33,9 +33,14 @@ def test_a_small_system_has_fewer_variants():
     assert variants(read("angle: 0\naxiom: A"), 9) == ()
 
 
-@pytest.mark.parametrize(("choices", "told"), [
-    ({"number": 0}, "from 1 to 100, not 0"), ({"number": 101}, "from 1 to 100, not 101"),
-    ({"seed": "x"}, "must be a whole number")])
+@pytest.mark.parametrize(
+    ("choices", "told"),
+    [
+        ({"number": 0}, "from 1 to 100, not 0"),
+        ({"number": 101}, "from 1 to 100, not 101"),
+        ({"seed": "x"}, "must be a whole number"),
+    ],
+)
 def test_what_is_no_number_of_variants(choices, told):
     with pytest.raises(ModelValueError, match=told):
         variants(read(PLANT), **choices)

@@ -43,16 +43,32 @@ def given(folder, **files):
 
 def test_a_file_is_a_model_or_a_list_of_links(tmp_path):
     assert given(tmp_path, ann=PLANT, bob=LINK, cleo=f"{LINK}\n{LINK}\n", dora=f"{LINK[:40]}\n{LINK[40:]}\n") == [
-        ("ann", PLANT, False), ("bob", LINK, False), ("cleo 1", LINK, False), ("cleo 2", LINK, False),
-        ("dora", f"{LINK[:40]}\n{LINK[40:]}\n", False)]
+        ("ann", PLANT, False),
+        ("bob", LINK, False),
+        ("cleo 1", LINK, False),
+        ("cleo 2", LINK, False),
+        ("dora", f"{LINK[:40]}\n{LINK[40:]}\n", False),
+    ]
 
 
-@pytest.mark.parametrize("line", [
-    f"Ann Lee: {LINK}", f"= Ann Lee = {LINK}", f"Ann Lee\t{LINK}", f"{LINK},Ann Lee", f'"Ann Lee";"{LINK}"',
-    f"- Ann Lee - {LINK}", f"Ann Lee <{LINK}>"])
+@pytest.mark.parametrize(
+    "line",
+    [
+        f"Ann Lee: {LINK}",
+        f"= Ann Lee = {LINK}",
+        f"Ann Lee\t{LINK}",
+        f"{LINK},Ann Lee",
+        f'"Ann Lee";"{LINK}"',
+        f"- Ann Lee - {LINK}",
+        f"Ann Lee <{LINK}>",
+    ],
+)
 def test_a_name_may_stand_beside_a_link(line, tmp_path):
     assert given(tmp_path, all=f"{line}\n\n{LINK}\nwhat is this") == [
-        ("Ann Lee", LINK, False), ("all 2", LINK, False), ("all 3", "what is this", True)]
+        ("Ann Lee", LINK, False),
+        ("all 2", LINK, False),
+        ("all 3", "what is this", True),
+    ]
 
 
 @pytest.mark.parametrize("name", ["-1", "=cmd", "+Ann", "@bob", "–5°"])
@@ -62,7 +78,10 @@ def test_a_name_keeps_the_sign_with_which_it_begins(name, tmp_path):
 
 def test_a_byte_that_is_no_text_costs_no_other_link(tmp_path):
     assert given(tmp_path, all=f"Ann: {LINK}\nBob\0: {LINK}\nCem: {LINK}\0\n\0") == [
-        ("Ann", LINK, False), ("Bob", LINK, False), ("Cem", LINK, False)]
+        ("Ann", LINK, False),
+        ("Bob", LINK, False),
+        ("Cem", LINK, False),
+    ]
 
 
 def test_a_comment_that_names_a_link_makes_no_list(tmp_path):
@@ -82,12 +101,22 @@ def test_a_tile_shows_the_rules_that_were_handed_in():
     assert read(drawn_as(LINK)["rules"]) == read(PLANT)
 
 
-@pytest.mark.parametrize(("text", "said"), [
-    ("axiom: F\nF -> F F F F F F F F F F\nsteps: 40", "the limit is"),
-    (link(read("axiom: A\nA -> A A"), {"step": 10**9}), "the limit is"),
-    ("axiom: F\nF -> F +", ""), ("axiom: A\nA -> B\nA -> (", "line 3"), ("", "axiom"), ("#lsys=aAAAA", "broken"),
-    ("axiom: " + "[" * 50_000, ""), ("while True: pass", ""), ("axiom: A(9^9^9^9)", ""), ("F" * 1_100_000, "characters"),
-], ids=range(10))
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("axiom: F\nF -> F F F F F F F F F F\nsteps: 40", "the limit is"),
+        (link(read("axiom: A\nA -> A A"), {"step": 10**9}), "the limit is"),
+        ("axiom: F\nF -> F +", ""),
+        ("axiom: A\nA -> B\nA -> (", "line 3"),
+        ("", "axiom"),
+        ("#lsys=aAAAA", "broken"),
+        ("axiom: " + "[" * 50_000, ""),
+        ("while True: pass", ""),
+        ("axiom: A(9^9^9^9)", ""),
+        ("F" * 1_100_000, "characters"),
+    ],
+    ids=range(10),
+)
 def test_what_cannot_be_drawn_says_why(text, said):
     found = drawn_as(text)
     assert found.keys() == {"mistake"} or not said
@@ -108,11 +137,17 @@ def test_no_text_becomes_markup(name):
 @pytest.mark.slow
 def test_a_class_of_two_hundred_is_on_one_page_with_its_hostile_links_as_errors(tmp_path, capsys):
     good = [link(system(name), {"step": step}) for name in ("K5", "J4", "K18", "P9", "T2") for step in range(1, 5)]
-    bad = [LINK[:-5], "#lsys=", "#lsys=zzzz", f"{'x' * 3_000}#lsys=a<script>", link(read("axiom: F\nF -> F F F F F F F F F F"),
-                                                                                {"step": 50})]
+    bad = [
+        LINK[:-5],
+        "#lsys=",
+        "#lsys=zzzz",
+        f"{'x' * 3_000}#lsys=a<script>",
+        link(read("axiom: F\nF -> F F F F F F F F F F"), {"step": 50}),
+    ]
     (tmp_path / "in").mkdir()
     (tmp_path / "in" / "links.txt").write_text(
-        "\n".join(f"<b>Student {number}</b>: {(good + bad)[number % 25]}" for number in range(200)), encoding="utf-8")
+        "\n".join(f"<b>Student {number}</b>: {(good + bad)[number % 25]}" for number in range(200)), encoding="utf-8"
+    )
     (tmp_path / "in" / "plant.lsys").write_text(PLANT, encoding="utf-8")
     (tmp_path / "in" / "picture.png").write_bytes(b"\x89PNG\0\0\0")
     (tmp_path / "in" / "away").symlink_to("/dev/zero")
@@ -133,8 +168,9 @@ def test_a_class_of_two_hundred_is_on_one_page_with_its_hostile_links_as_errors(
 
 def test_what_several_hand_in_is_drawn_once(tmp_path, monkeypatch):
     asked = []
-    monkeypatch.setattr(wall_module, "in_child_processes",
-                        lambda work, texts, *_: asked.extend(texts) or [{"picture": text} for text in texts])
+    monkeypatch.setattr(
+        wall_module, "in_child_processes", lambda work, texts, *_: asked.extend(texts) or [{"picture": text} for text in texts]
+    )
     other = link(read(PLANT), {"step": 3})
     given(tmp_path, Ann=LINK, Ben=other, Cem=LINK)
     tiles = wall(tmp_path)
@@ -161,8 +197,10 @@ def test_models_that_take_long_share_their_time(tmp_path, monkeypatch):
     assert len(by_name) == 51
     assert given_seconds[2:] == [(51, wall_module.QUICK)]
     assert by_name["Ann"].picture == LINK
-    assert by_name["Endless7"].mistake == \
-        "It takes more than 0.25 seconds to draw; the 45 models here that take long have 8 seconds together."
+    assert (
+        by_name["Endless7"].mistake
+        == "It takes more than 0.25 seconds to draw; the 45 models here that take long have 8 seconds together."
+    )
 
 
 def test_a_model_that_takes_too_long_is_told_from_one_that_is_too_large():
@@ -175,8 +213,10 @@ def test_a_page_is_renewed_and_nothing_else_is_lost(tmp_path):
     (tmp_path / "in").mkdir()
     (tmp_path / "in" / "ann.txt").write_text(PLANT, encoding="utf-8")
     (tmp_path / "other.html").write_text("somebody's own", encoding="utf-8")
-    results = [main(["wall", str(tmp_path / "in"), "-o", str(tmp_path / name)])
-               for name in ("wall.html", "wall.html", "other.html", "wall.txt")]
+    results = [
+        main(["wall", str(tmp_path / "in"), "-o", str(tmp_path / name)])
+        for name in ("wall.html", "wall.html", "other.html", "wall.txt")
+    ]
     assert results == [0, 0, 2, 2]
     assert (tmp_path / "other.html").read_text("utf-8") == "somebody's own"
 

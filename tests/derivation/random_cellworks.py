@@ -9,11 +9,18 @@ from lsys_kit.notation.model.cellworks import CellworkProduction, CellworkSystem
 from lsys_kit.notation.model.maps import Edge
 
 CORNERS = "cellwork: 1(0,0,0) 2(1,0,0) 3(1,1,0) 4(0,1,0) 5(0,0,1) 6(1,0,1) 7(1,1,1) 8(0,1,1)"
-WALLS = ("1 {a} 2 {b} 3 {a} 4 {b}", "5 {a} 6 {b} 7 {a} 8 {b}", "1 {a} 2 {c} 6 {a} 5 {c}", "4 {a} 3 {c} 7 {a} 8 {c}",
-         "1 {b} 4 {c} 8 {b} 5 {c}", "2 {b} 3 {c} 7 {b} 6 {c}")
+WALLS = (
+    "1 {a} 2 {b} 3 {a} 4 {b}",
+    "5 {a} 6 {b} 7 {a} 8 {b}",
+    "1 {a} 2 {c} 6 {a} 5 {c}",
+    "4 {a} 3 {c} 7 {a} 8 {c}",
+    "1 {b} 4 {c} 8 {b} 5 {c}",
+    "2 {b} 3 {c} 7 {b} 6 {c}",
+)
 EDGES, KINDS = ("A", "B", "C"), ("S", "T", "U")
-BOX = "\n".join((CORNERS, *(f"wall {label}: {wall.format(a='A', b='A', c='A')}"
-                            for label, wall in zip("SSTTUU", WALLS, strict=True))))
+BOX = "\n".join(
+    (CORNERS, *(f"wall {label}: {wall.format(a='A', b='A', c='A')}" for label, wall in zip("SSTTUU", WALLS, strict=True)))
+)
 """A box with edges A and walls S below and above, T in front and behind, U on the left and on the right."""
 
 neutral = st.builds(Edge, st.sampled_from(EDGES))

@@ -36,7 +36,7 @@ def palindromes(draw: st.DrawFn) -> tuple[SuccessorPart, ...]:
     mirrored = tuple(_other_end(part) for part in reversed(half))
     between = draw(st.lists(markers, max_size=2))
     if draw(st.booleans()):
-        middle: tuple[SuccessorPart, ...] = draw(neutral),
+        middle: tuple[SuccessorPart, ...] = (draw(neutral),)
         between_too = [_other_end(part) for part in reversed(between)]
         return (*half, *between, *middle, *between_too, *mirrored)
     return (*half, *between, *(_other_end(part) for part in reversed(between)), *mirrored)

@@ -25,7 +25,8 @@ CONSTANTS = ("k", "lifeTime")
 RELATIONS = ("==", "!=", "<", "<=", ">", ">=")
 
 numbers: st.SearchStrategy[Value] = st.one_of(
-    st.integers(0, 3), st.sampled_from((Fraction(1, 2), Fraction(7, 10), Fraction(-1), Fraction(1, 4)))).map(normalised)
+    st.integers(0, 3), st.sampled_from((Fraction(1, 2), Fraction(7, 10), Fraction(-1), Fraction(1, 4)))
+).map(normalised)
 
 
 @st.composite
@@ -87,7 +88,7 @@ def successors(draw: st.DrawFn, names: tuple[str, ...], least: int = 0) -> tuple
 def productions(draw: st.DrawFn, constants: tuple[str, ...]) -> Production:
     symbol = draw(st.sampled_from((*SYMBOLS, "A", "al")))
     formal: list[Expression] = []
-    for name in ("t", "x")[:ARITY[symbol]]:
+    for name in ("t", "x")[: ARITY[symbol]]:
         asked = st.one_of(st.integers(0, 2).map(Number), *([st.sampled_from(constants).map(Name)] if constants else []))
         formal.append(draw(asked) if draw(st.integers(0, 3)) == 0 else Name(name))
     parameters = tuple(e.name for e in formal if isinstance(e, Name) and e.name not in constants)
@@ -99,15 +100,19 @@ def productions(draw: st.DrawFn, constants: tuple[str, ...]) -> Production:
 @st.composite
 def instances(draw: st.DrawFn, formal: Pattern, constants: tuple[str, ...] = ()) -> Pattern:
     """A module as a pattern says: its parameters have some values, what it asks for is there."""
-    return Pattern(formal.symbol, tuple(
-        Number(draw(numbers)) if isinstance(argument, Name) and argument.name not in constants else argument
-        for argument in formal.arguments))
+    return Pattern(
+        formal.symbol,
+        tuple(
+            Number(draw(numbers)) if isinstance(argument, Name) and argument.name not in constants else argument
+            for argument in formal.arguments
+        ),
+    )
 
 
 @st.composite
 def systems(draw: st.DrawFn) -> LSystem:
     """A context-free parametric system."""
-    names = CONSTANTS[:draw(st.integers(0, 2))]
+    names = CONSTANTS[: draw(st.integers(0, 2))]
     constants = []
     for index, name in enumerate(names):
         constants.append(Constant(name, draw(st.one_of(numbers.map(Number), expressions(names[:index], 1)))))
@@ -115,12 +120,23 @@ def systems(draw: st.DrawFn) -> LSystem:
     if draw(st.integers(0, 3)):
         rules.sort(key=lambda rule: rule.condition is None)  # as in good models, where what always applies stands last
     axiom = [draw(instances(rule.predecessor, names)) for rule in rules[:2]]
-    return LSystem((*axiom, *draw(successors(names))), tuple(rules), tuple(constants),
-                   alphabet=tuple(symbol for symbol in SYMBOLS if len(symbol) > 1))
+    return LSystem(
+        (*axiom, *draw(successors(names))),
+        tuple(rules),
+        tuple(constants),
+        alphabet=tuple(symbol for symbol in SYMBOLS if len(symbol) > 1),
+    )
 
 
 CONTEXT, CHANCE, DECOMPOSITION, CUT, REPETITION, META, SEVERAL = KINDS = (
-    "context", "chance", "decomposition", "cut", "repetition", "meta", "several")
+    "context",
+    "chance",
+    "decomposition",
+    "cut",
+    "repetition",
+    "meta",
+    "several",
+)
 ARITIES = {"A": 0, "B": 0, "S": 1, "F": 0, "+": 0, "f": 1, "%": 0, "D": 1, "E": 0}
 LIVELY = ("A", "B", "S")
 WEIGHTS: tuple[Expression, ...] = (*map(Number, (1, 2, Fraction(1, 2), Fraction(33, 100))), Apply("/", (Number(1), Number(3))))
@@ -131,11 +147,18 @@ OPEN, CLOSE = Pattern("["), Pattern("]")
 def arguments(draw: st.DrawFn, names: tuple[str, ...], kinds: Collection[str]) -> Expression:
     """What stands in a module: an age that grows, a small number, perhaps one drawn by chance."""
     if CHANCE in kinds and draw(st.integers(0, 2)) == 0:
-        return draw(st.sampled_from((
-            Apply("uniform", (Number(0), Number(3))), Apply("normal", (Number(1), Number(Fraction(1, 2)))),
-            Apply("binomial", (Number(3), Number(Fraction(1, 2)))), Apply("poisson", (Number(1),)),
-            Apply("table", (Number(1), Number(2), Number(1))),
-            Apply("+", (Apply("uniform", (Number(0), Number(1))), Apply("uniform", (Number(-1), Number(1))))))))
+        return draw(
+            st.sampled_from(
+                (
+                    Apply("uniform", (Number(0), Number(3))),
+                    Apply("normal", (Number(1), Number(Fraction(1, 2)))),
+                    Apply("binomial", (Number(3), Number(Fraction(1, 2)))),
+                    Apply("poisson", (Number(1),)),
+                    Apply("table", (Number(1), Number(2), Number(1))),
+                    Apply("+", (Apply("uniform", (Number(0), Number(1))), Apply("uniform", (Number(-1), Number(1))))),
+                )
+            )
+        )
     if names and draw(st.integers(0, 2)):
         name = Name(draw(st.sampled_from(names)))
         return draw(st.sampled_from((name, Apply("+", (name, Number(1))), Apply("-", (name, Number(1))))))
@@ -144,8 +167,11 @@ def arguments(draw: st.DrawFn, names: tuple[str, ...], kinds: Collection[str]) -
 
 @st.composite
 def lively(draw: st.DrawFn, names: tuple[str, ...], kinds: Collection[str], more: tuple[str, ...] = ()) -> Pattern:
-    rare = tuple(symbol for kind, symbol in ((CUT, "%"), (DECOMPOSITION, "D"), (DECOMPOSITION, "E"), (META, "f"), (META, "f"))
-                 if kind in kinds)
+    rare = tuple(
+        symbol
+        for kind, symbol in ((CUT, "%"), (DECOMPOSITION, "D"), (DECOMPOSITION, "E"), (META, "f"), (META, "f"))
+        if kind in kinds
+    )
     symbol = draw(st.sampled_from((*LIVELY, *LIVELY, "F", "+", *rare, *more)))
     return Pattern(symbol, tuple(draw(arguments(names, kinds)) for _ in range(ARITIES[symbol])))
 
@@ -183,15 +209,18 @@ def patterns(draw: st.DrawFn, names: str, branches: bool) -> tuple[Pattern, ...]
     """Up to two neighbours, of which values may be asked for; to the right some of them may stand on branches."""
     word = []
     named = branches and draw(st.integers(0, 2)) == 0
-    for name in names[:draw(st.sampled_from((1, 1, 2)))]:
+    for name in names[: draw(st.sampled_from((1, 1, 2)))]:
         symbol = draw(st.sampled_from((*LIVELY, *LIVELY, "F", "+")))
         asked = Number(draw(st.integers(0, 2))) if not named and draw(st.integers(0, 7)) == 0 else Name(name)
         word.append(Pattern(symbol, (asked,) * ARITIES[symbol]))
     if named:
         ways = [[OPEN, word[0], CLOSE, *word[1:]], [OPEN, *word, CLOSE]]
         if len(word) == 2:
-            ways += [[word[0], OPEN, word[1], CLOSE], [OPEN, word[0], CLOSE, OPEN, word[1], CLOSE],
-                     [OPEN, word[0], OPEN, word[1], CLOSE, CLOSE]]
+            ways += [
+                [word[0], OPEN, word[1], CLOSE],
+                [OPEN, word[0], CLOSE, OPEN, word[1], CLOSE],
+                [OPEN, word[0], OPEN, word[1], CLOSE, CLOSE],
+            ]
         word = draw(st.sampled_from(ways))
     return tuple(word)
 
@@ -210,15 +239,17 @@ def rules(draw: st.DrawFn, kinds: Collection[str]) -> list[Production]:
     condition = draw(conditions(names, 0)) if names and draw(st.integers(0, 7)) else None
     chancy = CHANCE in kinds and draw(st.integers(0, 3))
     successors = items(names, kinds, least=draw(st.sampled_from((0, 1, 1, 1))))
-    return [Production(own, draw(successors), condition, left, right, probability)
-            for probability in (draw(st.lists(st.sampled_from(WEIGHTS), min_size=1, max_size=2)) if chancy else (None,))]
+    return [
+        Production(own, draw(successors), condition, left, right, probability)
+        for probability in (draw(st.lists(st.sampled_from(WEIGHTS), min_size=1, max_size=2)) if chancy else (None,))
+    ]
 
 
 @st.composite
 def others(draw: st.DrawFn, kinds: Collection[str]) -> tuple[Pattern, ...]:
     """One or two modules that are replaced together with one before them; values may be asked for."""
     found = []
-    for name in "yz"[:draw(st.sampled_from((1, 1, 2)))]:
+    for name in "yz"[: draw(st.sampled_from((1, 1, 2)))]:
         symbol = draw(st.sampled_from((*LIVELY, *LIVELY, "F", "%" if CUT in kinds else "+")))
         asked = Number(draw(st.integers(0, 2))) if draw(st.integers(0, 7)) == 0 else Name(name)
         found.append(Pattern(symbol, (asked,) * ARITIES[symbol]))
@@ -243,8 +274,12 @@ def decompositions(draw: st.DrawFn, kinds: Collection[str]) -> Production:
     rest = draw(items(("n",), plain, most=1))
     successor = (Pattern("D", (less,)), *rest, *draw(st.sampled_from(((), (Pattern("E"),)))))
     bound = Number(draw(st.sampled_from((1, 1, 2))))
-    return Production((Pattern("D", (Name("n"),)),), successor[::draw(st.sampled_from((1, 1, -1))) if not rest else 1],
-                      Apply(">=", (Name("n"), bound)), probability=probability)
+    return Production(
+        (Pattern("D", (Name("n"),)),),
+        successor[:: draw(st.sampled_from((1, 1, -1))) if not rest else 1],
+        Apply(">=", (Name("n"), bound)),
+        probability=probability,
+    )
 
 
 @st.composite
@@ -278,8 +313,11 @@ def systems_with(draw: st.DrawFn, *kinds: str) -> LSystem:
     axiom = [*draw(items((), plain, most=4)), *decomposed, *(draw(instances(module)) for module in found)]
     ignored = draw(st.sampled_from(((), ("+",), ("+", "F")))) if CONTEXT in kinds else ()
     return LSystem(
-        tuple(axiom), tuple(rewriting),  # type: ignore[arg-type]
+        tuple(axiom),
+        tuple(rewriting),  # type: ignore[arg-type]
         decomposition=tuple(draw(st.lists(decompositions(kinds), min_size=1, max_size=3))) if DECOMPOSITION in kinds else (),
-        meta=meta, ignored=ignored,
+        meta=meta,
+        ignored=ignored,
         considered=draw(st.sampled_from(((), (), LIVELY))) if CONTEXT in kinds and not ignored else (),
-        branches=draw(st.sampled_from(BRANCHES)) if CONTEXT in kinds else ANY_BRANCH)
+        branches=draw(st.sampled_from(BRANCHES)) if CONTEXT in kinds else ANY_BRANCH,
+    )

@@ -17,9 +17,31 @@ from lsys_kit.notation.model.modules import CLOSING, END, OPENING, Item, Module,
 from lsys_kit.notation.model.system import LSystem, Production
 
 PlainModule = tuple[str, tuple[float | Fraction, ...]]
-OPERATIONS = {"+": op.add, "-": op.sub, "*": op.mul, "/": op.truediv, "^": op.pow, "-x": op.neg, "abs": abs, "min": min,
-              "max": max, "floor": math.floor, "ceil": math.ceil, "sqrt": math.sqrt, "exp": math.exp, "log": math.log,
-              "==": op.eq, "!=": op.ne, "<": op.lt, "<=": op.le, ">": op.gt, ">=": op.ge, "!": op.not_, "&&": all, "||": any}
+OPERATIONS = {
+    "+": op.add,
+    "-": op.sub,
+    "*": op.mul,
+    "/": op.truediv,
+    "^": op.pow,
+    "-x": op.neg,
+    "abs": abs,
+    "min": min,
+    "max": max,
+    "floor": math.floor,
+    "ceil": math.ceil,
+    "sqrt": math.sqrt,
+    "exp": math.exp,
+    "log": math.log,
+    "==": op.eq,
+    "!=": op.ne,
+    "<": op.lt,
+    "<=": op.le,
+    ">": op.gt,
+    ">=": op.ge,
+    "!": op.not_,
+    "&&": all,
+    "||": any,
+}
 
 
 def value(expression: Expression, names: dict, chance: Chance | None = None) -> bool | float | Fraction:
@@ -44,9 +66,15 @@ def row(modules: Iterator[Module], opening: frozenset = OPENING, closing: frozen
 def seen(system: LSystem, modules: Iterable[Module], flat: bool = False) -> Iterator[Module]:
     """The modules that contexts do not pass over; flat, without brackets."""
     brackets = set() if flat else {*OPENING, *CLOSING}
-    return (module for module in modules if module.symbol in brackets or (
-        module.symbol not in {*OPENING, *CLOSING, *system.ignored}
-        and (not system.considered or module.symbol in system.considered)))
+    return (
+        module
+        for module in modules
+        if module.symbol in brackets
+        or (
+            module.symbol not in {*OPENING, *CLOSING, *system.ignored}
+            and (not system.considered or module.symbol in system.considered)
+        )
+    )
 
 
 def follow(pattern: Sequence, neighbours: Iterator, names: dict, following: bool = False) -> Iterator[dict]:
@@ -82,20 +110,25 @@ def made(items: Iterable[Item], names: dict, chance: Chance | None = None) -> It
 
 def replaced(system: LSystem, word: list[Module], at: int, known: dict, chance: Chance, depth: int = 0) -> tuple:
     """The production (deeper, the decomposition rule) for the module at a position, and what the module becomes in the end."""
-    matching = [(rule, names) for rule in (system.decomposition if depth else system.productions)
-                if "%" not in [module.symbol for module in word[at:at + len(rule.predecessors)]]
-                for own in follow(rule.predecessors, iter(word[at:]), known)
-                for left in follow(rule.left[::-1], row(seen(system, reversed(word[:at])), CLOSING, OPENING, ends=False), own)
-                for names in follow(
-                    list(row(iter(rule.right))),
-                    row(seen(system, word[at + len(rule.predecessors):], system.branches == "flat")), left,
-                    system.branches == "next")
-                if rule.condition is None or value(rule.condition, names)]
+    matching = [
+        (rule, names)
+        for rule in (system.decomposition if depth else system.productions)
+        if "%" not in [module.symbol for module in word[at : at + len(rule.predecessors)]]
+        for own in follow(rule.predecessors, iter(word[at:]), known)
+        for left in follow(rule.left[::-1], row(seen(system, reversed(word[:at])), CLOSING, OPENING, ends=False), own)
+        for names in follow(
+            list(row(iter(rule.right))),
+            row(seen(system, word[at + len(rule.predecessors) :], system.branches == "flat")),
+            left,
+            system.branches == "next",
+        )
+        if rule.condition is None or value(rule.condition, names)
+    ]
     if depth and (not matching or depth - 1 == system.decomposition_depth):
         return None, [word[at]]
     if matching and matching[0][0].probability is not None:
         weights = [value(rule.probability, names) if rule.probability else 0 for rule, names in matching]
-        matching = matching[chance.table(*weights):]  # the first is the one that is drawn
+        matching = matching[chance.table(*weights) :]  # the first is the one that is drawn
     rule, names = matching[0] if matching else (None, known)
     parts = list(made(rule.successor, names, chance)) if rule else [word[at]]
     return rule, [smaller for part in parts for smaller in replaced(system, [part], 0, known, chance, depth + 1)[1]]
@@ -106,7 +139,9 @@ def shortened(system: LSystem, word: list[Module], known: dict) -> list[Module]:
     for at, rule in ((at, rule) for at in range(len(word)) for rule in system.meta):
         for names in follow(rule.predecessors, iter(word[at:]), known):
             if rule.condition is None or value(rule.condition, names):
-                return shortened(system, [*word[:at], *made(rule.successor, names), *word[at + len(rule.predecessors):]], known)
+                return shortened(
+                    system, [*word[:at], *made(rule.successor, names), *word[at + len(rule.predecessors) :]], known
+                )
     return word
 
 

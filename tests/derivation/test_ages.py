@@ -49,9 +49,13 @@ def test_the_production_that_leaves_a_life_open_is_named(productions: str, why: 
 
 def test_a_value_that_is_calculated_from_the_age_leaves_a_life_open() -> None:
     """No text says that, but records may: A(t,2t) is for modules whose second value is twice their age."""
-    doubled = replace(read("axiom: A(0,4)\nA(t,x) -> A(t+1,x)"), productions=(
-        Production((Pattern("A", (Name("t"), Apply("*", (Number(2), Name("t"))))),), (Pattern("B"),)),
-        *read("axiom: A(0,4)\nA(t,x) -> A(t+1,x)").productions))
+    doubled = replace(
+        read("axiom: A(0,4)\nA(t,x) -> A(t+1,x)"),
+        productions=(
+            Production((Pattern("A", (Name("t"), Apply("*", (Number(2), Name("t"))))),), (Pattern("B"),)),
+            *read("axiom: A(0,4)\nA(t,x) -> A(t+1,x)").productions,
+        ),
+    )
     assert str(derive(doubled, 3)[3]) == "B"
     with pytest.raises(ModelValueError, match=NO_AGE):
         timed(doubled)
@@ -64,9 +68,14 @@ def test_a_negative_constant_lets_no_time_pass() -> None:
         timed(read(text.format(-1)))
 
 
-@pytest.mark.parametrize("text", [
-    "c = 1\naxiom: A(0)\nA(t) : t > c -> B\nA(t) -> A(t+1)", "c = 1\naxiom: A(0)\nA(c) -> B(0)\nA(2) -> B(0)",
-    "c = 1\naxiom: A(0)\nA(c*c) -> B(0)"])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "c = 1\naxiom: A(0)\nA(t) : t > c -> B\nA(t) -> A(t+1)",
+        "c = 1\naxiom: A(0)\nA(c) -> B(0)\nA(2) -> B(0)",
+        "c = 1\naxiom: A(0)\nA(c*c) -> B(0)",
+    ],
+)
 def test_an_age_that_depends_on_an_unknown_constant_is_not_decided(text: str) -> None:
     with pytest.raises(ModelValueError, match=r"The age at which .* cannot be decided") as caught:
         timed(read(text), c="c").word(3)

@@ -33,7 +33,6 @@ def _time_enough() -> Iterator[None]:
         yield
 
 
-
 def printed(word: Iterable[tuple[str, tuple[Any, ...]]]) -> str:
     """A word as cpfg prints it: numbers with six digits."""
     return "".join(symbol + (f"({','.join(f'{float(v):g}' for v in values)})" if values else "") for symbol, values in word)

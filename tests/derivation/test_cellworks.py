@@ -16,8 +16,10 @@ from lsys_kit.notation.model.cellworks import CellworkSystem
 from tests.derivation.random_cellworks import BOX, CORNERS, cellwork_systems
 
 K33 = cellwork_system("K33")
-_DIRECTED = ("wall S: 1 A> 2 B 3 A{0} 4 B\nwall S: 5 A> 6 B 7 A{0} 8 B\nwall U: 1 A> 2 B 6 A< 5 B\n"
-             "wall U: 4 A{1} 3 B 7 A{0} 8 B\nwall V: 1 B 4 B 8 B 5 B\nwall V: 2 B 3 B 7 B 6 B")
+_DIRECTED = (
+    "wall S: 1 A> 2 B 3 A{0} 4 B\nwall S: 5 A> 6 B 7 A{0} 8 B\nwall U: 1 A> 2 B 6 A< 5 B\n"
+    "wall U: 4 A{1} 3 B 7 A{0} 8 B\nwall V: 1 B 4 B 8 B 5 B\nwall V: 2 B 3 B 7 B 6 B"
+)
 ALONG, AGAINST = (f"{CORNERS}\n{_DIRECTED.format(*ways)}" for ways in ("<>", "><"))
 """Boxes with four edges A that point in one direction; with two of them that point in the other."""
 
@@ -79,8 +81,12 @@ def test_a_cell_has_one_mother_and_she_has_at_most_two_daughters(system: Cellwor
 def boxes(halvings: int) -> tuple[int, int, int, int]:
     """Vertices, edges, walls and cells of a box whose three sides are halved in turn, counted as those of a grid."""
     a, b, c = (2 ** ((halvings + 2 - side) // 3) for side in range(3))
-    return ((a + 1) * (b + 1) * (c + 1), a * (b + 1) * (c + 1) + (a + 1) * b * (c + 1) + (a + 1) * (b + 1) * c,
-            a * b * (c + 1) + a * (b + 1) * c + (a + 1) * b * c, a * b * c)
+    return (
+        (a + 1) * (b + 1) * (c + 1),
+        a * (b + 1) * (c + 1) + (a + 1) * b * (c + 1) + (a + 1) * (b + 1) * c,
+        a * b * (c + 1) + a * (b + 1) * c + (a + 1) * b * c,
+        a * b * c,
+    )
 
 
 def test_a_cuboid_is_divided_into_a_grid_of_boxes() -> None:
@@ -121,7 +127,9 @@ def test_daughters_must_agree_on_both_sides_of_a_new_edge() -> None:
     along, against = read_cellwork(f"{ALONG}\n{rule}"), read_cellwork(f"{AGAINST}\n{rule}")
     assert derive(along, 1).counts[-1] == (12, 20, 11, 2)
     assert sorted(map(sorted, map(derive(along, 1)[-1].labels, derive(along, 1)[-1].cells))) == [
-        ["S", "S", "S", "S", "V", "W"], ["T", "T", "T", "T", "V", "W"]]
+        ["S", "S", "S", "S", "V", "W"],
+        ["T", "T", "T", "T", "V", "W"],
+    ]
     assert derive(against, 1).counts[-1][3] == 1
 
 

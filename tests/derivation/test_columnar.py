@@ -57,8 +57,9 @@ def check_equal(system: LSystem, steps: int, arithmetic: str) -> None:
 
 
 @ARITHMETICS
-@pytest.mark.parametrize("system", [SPREADING, MIXED, ROUNDED, LONG, DENOMINATORS],
-                         ids=["spreading", "mixed", "rounded", "long", "denominators"])
+@pytest.mark.parametrize(
+    "system", [SPREADING, MIXED, ROUNDED, LONG, DENOMINATORS], ids=["spreading", "mixed", "rounded", "long", "denominators"]
+)
 def test_columns_give_the_words_of_the_table(system: LSystem, arithmetic: str) -> None:
     check_equal(system, 9, arithmetic)
 
@@ -105,8 +106,17 @@ def test_what_outgrows_exact_numbers_goes_back_to_the_table() -> None:
 
 
 @ARITHMETICS
-@pytest.mark.parametrize("rule", ["A(x) -> A(x-1) A(1/(x-1))", "A(x) -> A(x-1) B(1/(1/x))", "A(x) : 1/x > 2 -> B A(x)",
-                                  "A(x) : x == 0 || 1/x < 9 -> A(x-1)", "A(x) : 2 > 1/0 -> B", "A(x) -> B(2/0) A(x-1)"])
+@pytest.mark.parametrize(
+    "rule",
+    [
+        "A(x) -> A(x-1) A(1/(x-1))",
+        "A(x) -> A(x-1) B(1/(1/x))",
+        "A(x) : 1/x > 2 -> B A(x)",
+        "A(x) : x == 0 || 1/x < 9 -> A(x-1)",
+        "A(x) : 2 > 1/0 -> B",
+        "A(x) -> B(2/0) A(x-1)",
+    ],
+)
 def test_a_division_by_zero_names_its_module(rule: str, arithmetic: str) -> None:
     """Where it stands deep in an expression, too, or in a condition."""
     check_equal(read(f"axiom: A(9)\n{rule}\nA(x) -> A(x-1)"), 12, arithmetic)
@@ -160,12 +170,19 @@ def test_exact_columns_compute_as_fractions_do(values: list[Fraction], other: Fr
     assert (found.bits <= SHORT_BITS) == (found.numerators.dtype != object)
     (column,) = found.columns(slice(None), 1)
     constant = column_function(Number(other), "exact")({})
-    for text, expected in (("+", [v + other for v in values]), ("-", [v - other for v in values]),
-                           ("*", [v * other for v in values]), ("<", [v < other for v in values]),
-                           ("==", [v == other for v in values]), ("abs", list(map(abs, values))),
-                           ("floor", [v // 1 for v in values]), ("ceil", [-(-v // 1) for v in values])):
+    for text, expected in (
+        ("+", [v + other for v in values]),
+        ("-", [v - other for v in values]),
+        ("*", [v * other for v in values]),
+        ("<", [v < other for v in values]),
+        ("==", [v == other for v in values]),
+        ("abs", list(map(abs, values))),
+        ("floor", [v // 1 for v in values]),
+        ("ceil", [-(-v // 1) for v in values]),
+    ):
         operation = OPERATIONS["exact"][text]
         result = operation(column) if text in ("abs", "floor", "ceil") else operation(column, constant)
-        as_numbers = result.tolist() if text in ("<", "==") else [Fraction(n, result.denominator)
-                                                                for n in result.numerators.tolist()]
+        as_numbers = (
+            result.tolist() if text in ("<", "==") else [Fraction(n, result.denominator) for n in result.numerators.tolist()]
+        )
         assert as_numbers == expected

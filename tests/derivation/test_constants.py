@@ -19,17 +19,35 @@ from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read
 
 TIMED = read("dt = 0.7 in 0.1 .. 2 by 0.1\nhalf = dt/2\naxiom: A(0)\nA(t) -> A(t+dt)")
-LIVES = read("lifeTimeA = 3\nlifeTimeB = lifeTimeA\naxiom: A(1)\n"
-             "A(lifeTimeA) -> A(1) B(1)\nA(t) -> A(t+1)\nB(t) -> B(min(t+1, lifeTimeB))")
+LIVES = read(
+    "lifeTimeA = 3\nlifeTimeB = lifeTimeA\naxiom: A(1)\n"
+    "A(lifeTimeA) -> A(1) B(1)\nA(t) -> A(t+1)\nB(t) -> B(min(t+1, lifeTimeB))"
+)
 
 
-@pytest.mark.parametrize(("given", "exact"), [
-    (1.4, Fraction(7, 5)), ("1.4", Fraction(7, 5)), ("14/10", Fraction(7, 5)), ("2*0.7", Fraction(7, 5)),
-    ("2^-1", Fraction(1, 2)),
-    (Fraction(7, 5), Fraction(7, 5)), (Fraction(4, 2), 2), (sympy.Rational(7, 5), Fraction(7, 5)), (sympy.Integer(3), 3),
-    (sympy.Float("1.5"), Fraction(3, 2)), (np.float64(1.4), Fraction(7, 5)), (np.float32(0.5), Fraction(1, 2)), (np.int8(3), 3),
-    (np.uint64(2**63), 2**63), (1e-3, Fraction(1, 1000)), (3, 3), (-2.0, -2), ("-1/3", Fraction(-1, 3)),
-])
+@pytest.mark.parametrize(
+    ("given", "exact"),
+    [
+        (1.4, Fraction(7, 5)),
+        ("1.4", Fraction(7, 5)),
+        ("14/10", Fraction(7, 5)),
+        ("2*0.7", Fraction(7, 5)),
+        ("2^-1", Fraction(1, 2)),
+        (Fraction(7, 5), Fraction(7, 5)),
+        (Fraction(4, 2), 2),
+        (sympy.Rational(7, 5), Fraction(7, 5)),
+        (sympy.Integer(3), 3),
+        (sympy.Float("1.5"), Fraction(3, 2)),
+        (np.float64(1.4), Fraction(7, 5)),
+        (np.float32(0.5), Fraction(1, 2)),
+        (np.int8(3), 3),
+        (np.uint64(2**63), 2**63),
+        (1e-3, Fraction(1, 1000)),
+        (3, 3),
+        (-2.0, -2),
+        ("-1/3", Fraction(-1, 3)),
+    ],
+)
 def test_a_number_is_what_was_typed(given: object, exact: Value) -> None:
     number = number_from(given)
     assert number == exact
@@ -37,21 +55,42 @@ def test_a_number_is_what_was_typed(given: object, exact: Value) -> None:
     assert derive(TIMED, 10, dt=given)[-1][0].arguments == (10 * exact,)
 
 
-@pytest.mark.parametrize("given", [None, True, np.bool_(True), 1j, float("nan"), float("inf"), np.inf, [1], 10**400,
-    sympy.pi, b"1",
-                                   Decimal("1.4"), Fraction(10**400)])
+@pytest.mark.parametrize(
+    "given",
+    [
+        None,
+        True,
+        np.bool_(True),
+        1j,
+        float("nan"),
+        float("inf"),
+        np.inf,
+        [1],
+        10**400,
+        sympy.pi,
+        b"1",
+        Decimal("1.4"),
+        Fraction(10**400),
+    ],
+)
 def test_what_is_no_number_is_refused(given: object) -> None:
     with pytest.raises(ModelValueError, match='"dt" must be a number, not '):
         derive(TIMED, 1, dt=given)
 
 
-@pytest.mark.parametrize(("given", "message"), [
-    ("", "A value is missing here"), ("1,4", "A number is typed with a point"), ("x", 'I do not know the name "x"'),
-    ("1/0", '"1/0" has no value: division by zero'), ("1 < 2", '"1 < 2" is true or false, but a number is needed here'),
-    ("__import__(1)", 'I do not know the function "__import__"'),
-    ("9^9^9^9", '"9^9^9^9" has no value: the result is too large'),
-    ("1" * 3_000, "This number is too long"),
-])
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ("", "A value is missing here"),
+        ("1,4", "A number is typed with a point"),
+        ("x", 'I do not know the name "x"'),
+        ("1/0", '"1/0" has no value: division by zero'),
+        ("1 < 2", '"1 < 2" is true or false, but a number is needed here'),
+        ("__import__(1)", 'I do not know the function "__import__"'),
+        ("9^9^9^9", '"9^9^9^9" has no value: the result is too large'),
+        ("1" * 3_000, "This number is too long"),
+    ],
+)
 def test_a_text_that_is_no_number_is_explained(given: str, message: str) -> None:
     with pytest.raises(LSystemError) as caught:
         derive(TIMED, 1, dt=given)

@@ -17,8 +17,11 @@ from lsys_kit.notation.model.system import BRANCHES
 from lsys_kit.notation.read import read
 
 ROLES = {"A": bulk.ORDINARY, "B": bulk.ORDINARY, "+": bulk.PASSED, "-": bulk.PASSED, "[": bulk.OPENS, "]": bulk.CLOSES}
-words = st.recursive(st.text("AB+-", max_size=4), lambda inner: st.lists(
-    st.one_of(inner, inner.map("[{}]".format)), max_size=6).map("".join), max_leaves=30)
+words = st.recursive(
+    st.text("AB+-", max_size=4),
+    lambda inner: st.lists(st.one_of(inner, inner.map("[{}]".format)), max_size=6).map("".join),
+    max_leaves=30,
+)
 SIGNALS = """
 ignore: + - F
 axiom: F i F i F i
@@ -40,16 +43,18 @@ CHANCE = "axiom: F F F F F\nF -> F [+ F] F [- F] F : 0.33\nF -> F [+ F] F : 0.33
 def test_neighbours_are_found_at_once(word: str, branches: str) -> None:
     """Of modules that are passed over as well: they may have contexts of their own."""
     places = np.arange(len(word))
-    left, right = bulk.context_neighbours(places, np.array([ROLES[symbol] for symbol in word], dtype=np.uint8), NO_NEIGHBOUR,
-                                            branches == "flat")
+    left, right = bulk.context_neighbours(
+        places, np.array([ROLES[symbol] for symbol in word], dtype=np.uint8), NO_NEIGHBOUR, branches == "flat"
+    )
     found, modules = neighbours(word, Passing("+-", branches)), np.array([symbol not in "[]" for symbol in word], dtype=bool)
     assert left[modules].tolist() == np.array(found.before, dtype=int)[modules].tolist()
     assert right[modules].tolist() == np.array(found.after, dtype=int)[modules].tolist()
 
 
 @pytest.mark.parametrize("table", [bulk.LARGEST_TABLE, 0], ids=["looked up", "sorted"])
-@pytest.mark.parametrize(("text", "steps"), [(SIGNALS, 24), (GROWING, 9), (CHANCE, 6), (FLAT, 10)],
-                         ids=["signals", "growing", "chance", "flat"])
+@pytest.mark.parametrize(
+    ("text", "steps"), [(SIGNALS, 24), (GROWING, 9), (CHANCE, 6), (FLAT, 10)], ids=["signals", "growing", "chance", "flat"]
+)
 def test_a_step_at_once_is_the_step_one_by_one(monkeypatch, text, steps, table):
     system = read(text)
     one_by_one = list(map(str, Derivation(SteppingEngine(Stepper(States(system), 5), None)).to(steps)))

@@ -95,7 +95,7 @@ def test_daughters_that_begin_younger_have_one_base(t_div: Fraction, t_s: Fracti
     base = float(found.solve("a"))
     assert base > 1
     assert base == pytest.approx(growth_base(float(t_div), float(t_s), float(t_l)), rel=1e-9)
-    assert abs(1 - base**float(t_s - t_div) - base**float(t_l - t_div)) < 1e-9
+    assert abs(1 - base ** float(t_s - t_div) - base ** float(t_l - t_div)) < 1e-9
     assert cells("a^t", t_div=t_div, t_s=t_s, t_l=t_l, a=base).continuous
 
 
@@ -114,7 +114,7 @@ def test_a_filament_of_continuous_cells_grows_as_one_cell(at: Fraction) -> None:
     """Its length is that of a single cell that never divides, at every time."""
     base = growth_base(1, 0, 0.2)
     word = timed(CELLS).word(at)
-    assert sum(base**float(module.arguments[0]) for module in word) == pytest.approx(base**float(at))  # type: ignore[arg-type]
+    assert sum(base ** float(module.arguments[0]) for module in word) == pytest.approx(base ** float(at))  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("division", [1, 2, 3, "9/5", "13/5"])
@@ -123,7 +123,7 @@ def test_the_length_is_the_same_just_before_and_just_after_a_division(division: 
     moments = [found.word(moment + Fraction(shift, 10**9)) for shift in (-1, 0, 1)]
     assert len(moments[0]) == len(moments[1]) < len(moments[2])
     for base, jump in ((growth_base(1, 0, 0.2), 0), (2, 0.1)):
-        lengths = [sum(base**float(module.arguments[0]) for module in word) for word in moments]  # type: ignore[arg-type]
+        lengths = [sum(base ** float(module.arguments[0]) for module in word) for word in moments]  # type: ignore[arg-type]
         assert lengths[1] - lengths[0] == pytest.approx(0, abs=1e-6)
         assert (lengths[2] - lengths[1] > jump) if jump else lengths[2] - lengths[1] == pytest.approx(0, abs=1e-6)
 
@@ -198,16 +198,46 @@ def test_only_the_first_parameter_is_an_age() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("lengths", ["1/(t-1)", "A/(t-1)", "1/t", "log(t)", "sqrt(t - 1/2)", "(t - 1/2)^(1/3)", "tan(90*t)",
-                                     "1 + 1/(2*t-1)^2", "(-2)^t", "asin(2*t)", "1/0 + t", "exp(1/(t-1/3))"])
+@pytest.mark.parametrize(
+    "lengths",
+    [
+        "1/(t-1)",
+        "A/(t-1)",
+        "1/t",
+        "log(t)",
+        "sqrt(t - 1/2)",
+        "(t - 1/2)^(1/3)",
+        "tan(90*t)",
+        "1 + 1/(2*t-1)^2",
+        "(-2)^t",
+        "asin(2*t)",
+        "1/0 + t",
+        "exp(1/(t-1/3))",
+    ],
+)
 def test_a_growth_function_is_continuous_while_its_cell_lives(lengths: str) -> None:
     with pytest.raises(ModelValueError, match=r"is not continuous on the life span of R, from 0 to 1"):
         cells(lengths)
 
 
-@pytest.mark.parametrize("lengths", ["1/(t-2)", "sqrt(t)", "1 + log(t+1)", "min(1, 2*t)", "max(t, 1/2)", "1 + abs(t-1/2)",
-                                     "3/(1+exp(-2*(t-1/2)))", "t^3 - 2*t^2 + 5", "t^0.37", "sin(90*t)", "A*t^c",
-                                     "a^t", "t/(t+c)"])
+@pytest.mark.parametrize(
+    "lengths",
+    [
+        "1/(t-2)",
+        "sqrt(t)",
+        "1 + log(t+1)",
+        "min(1, 2*t)",
+        "max(t, 1/2)",
+        "1 + abs(t-1/2)",
+        "3/(1+exp(-2*(t-1/2)))",
+        "t^3 - 2*t^2 + 5",
+        "t^0.37",
+        "sin(90*t)",
+        "A*t^c",
+        "a^t",
+        "t/(t+c)",
+    ],
+)
 def test_what_is_continuous_passes(lengths: str) -> None:
     assert cells(lengths).undecided == ()
 
@@ -255,10 +285,18 @@ def test_a_solution_is_none_where_a_growth_function_breaks() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("lengths", "limits", "value"), [
-    ("(t+x)^2", (0, None), (2 + 10**0.5) / 5 * 2), ("(t+x)^2", (None, 0), -0.464911), ("exp(c*t) - c", (0.1, 5), 0.481954),
-    ("1/(1+exp(-k*(t-1/2)))", (None, None), 1.608094), ("2^(c*t)", (None, None), math.log2(2.167303978)),
-    ("1 + c*t", (None, None), 1.25), ("1 + c^3*t", (None, None), 1.25**(1 / 3))])
+@pytest.mark.parametrize(
+    ("lengths", "limits", "value"),
+    [
+        ("(t+x)^2", (0, None), (2 + 10**0.5) / 5 * 2),
+        ("(t+x)^2", (None, 0), -0.464911),
+        ("exp(c*t) - c", (0.1, 5), 0.481954),
+        ("1/(1+exp(-k*(t-1/2)))", (None, None), 1.608094),
+        ("2^(c*t)", (None, None), math.log2(2.167303978)),
+        ("1 + c*t", (None, None), 1.25),
+        ("1 + c^3*t", (None, None), 1.25 ** (1 / 3)),
+    ],
+)
 def test_one_unknown_name_is_found(lengths: str, limits: tuple[object, object], value: float) -> None:
     found = cells(lengths)
     (name,) = found.unknowns
@@ -274,20 +312,24 @@ def test_with_fixed_growth_the_age_of_a_daughter_is_found() -> None:
     assert cells("a^t", a=3, t_l=age).continuous
 
 
-@pytest.mark.parametrize(("lengths", "name", "limits", "error", "message"), [
-    ("a^t", "b", (), ModelNameError, 'has the name "b"'),
-    ("1 + t", "t", (), ModelNameError, 'has the name "t"'),
-    ("p + c*t", "c", (), ModelValueError, 'The value of "c" depends on p. Give p a value: continuity(..., p=1).'),
-    ("p * (1+t)", "p", (), ModelValueError, 'No value of "p" makes the length continuous'),
-    ("c*t + c", "c", (), ModelValueError, 'No value of "c" makes the length continuous'),
-    ("1/c", "c", (), ModelValueError, 'No value of "c" makes the length continuous'),
-    ("a^t", "a", (3, 9), ModelValueError, 'No value of "a" in that range makes the length continuous'),
-    ("(t+x)^2", "x", (), ModelValueError, "More than one value of \"x\" makes the length continuous: -0.464911, 2.06491"),
-    ("exp(c*t) - c", "c", (), ModelValueError, 'No rule finds where "c - exp(c/5) + exp(c) - 1" is 0'),
-    ("exp(c*t) - c", "c", (4, 5), ModelValueError, "No rule finds where"),
-])
-def test_what_cannot_be_solved_is_told(lengths: str, name: str, limits: tuple[object, ...], error: type[LSystemError],
-                                       message: str) -> None:
+@pytest.mark.parametrize(
+    ("lengths", "name", "limits", "error", "message"),
+    [
+        ("a^t", "b", (), ModelNameError, 'has the name "b"'),
+        ("1 + t", "t", (), ModelNameError, 'has the name "t"'),
+        ("p + c*t", "c", (), ModelValueError, 'The value of "c" depends on p. Give p a value: continuity(..., p=1).'),
+        ("p * (1+t)", "p", (), ModelValueError, 'No value of "p" makes the length continuous'),
+        ("c*t + c", "c", (), ModelValueError, 'No value of "c" makes the length continuous'),
+        ("1/c", "c", (), ModelValueError, 'No value of "c" makes the length continuous'),
+        ("a^t", "a", (3, 9), ModelValueError, 'No value of "a" in that range makes the length continuous'),
+        ("(t+x)^2", "x", (), ModelValueError, 'More than one value of "x" makes the length continuous: -0.464911, 2.06491'),
+        ("exp(c*t) - c", "c", (), ModelValueError, 'No rule finds where "c - exp(c/5) + exp(c) - 1" is 0'),
+        ("exp(c*t) - c", "c", (4, 5), ModelValueError, "No rule finds where"),
+    ],
+)
+def test_what_cannot_be_solved_is_told(
+    lengths: str, name: str, limits: tuple[object, ...], error: type[LSystemError], message: str
+) -> None:
     with pytest.raises(error) as caught:
         cells(lengths).solve(name, *limits)
     assert message in str(caught.value)
@@ -304,24 +346,31 @@ def test_a_jump_that_no_value_mends_is_named() -> None:
 # Mistakes
 
 
-@pytest.mark.parametrize(("lengths", "error", "message"), [
-    ({"L": "t"}, ModelNameError, 'The letter "R" has no growth function. Where it has no length, write "0".'),
-    ({"L R X": "t"}, ModelNameError, 'The system has no letter "X" with an age. Its letters are: R, L.'),
-    ({"L R": "1 +"}, ModelSyntaxError, "A value is missing here (line 1, column 4)"),
-    ({"L R": "1 +\n  )"}, ModelSyntaxError, "(line 2, column 3)"),
-    ({"L R": "t < 1"}, ModelValueError, '"t < 1" is true or false, but a number is needed here (line 1, column 1)'),
-    ({"L R": "uniform(0, 1)"}, ModelValueError, "draws a new number at every use"),
-    ({"L R": "1 + if(t < 1, t, 2)"}, ModelValueError, '"if(t < 1, t, 2)" may jump, which no length does (line 1, column 5)'),
-    ({"L R": "floor(t)"}, ModelValueError, "may jump"),
-    ({"L R": 5}, ModelValueError, "A growth function is a text"),
-    ({"L R": "max(asin(3), t)"}, ModelValueError, "has no value"),
-    ({"L R": "t" + "+t" * 200}, ModelLimitError, "at most 300 characters"),
-    ({"L R": "2^(10^9 * 10^9 * t)"}, ModelLimitError, "The powers here are too large"),
-    ({"L R": "t + 9^9^9^9"}, ModelLimitError, "The powers here are too large"),
-    ({"L R": "((t^1000)^1000)^1000"}, ModelLimitError, "The powers here are too large"),
-    ({"L R": "exp(exp(exp(exp(t))))"}, ModelLimitError, "The powers here are too large"),
-    ({"L R": "__import__('os')"}, ModelSyntaxError, "line 1"),
-])
+@pytest.mark.parametrize(
+    ("lengths", "error", "message"),
+    [
+        ({"L": "t"}, ModelNameError, 'The letter "R" has no growth function. Where it has no length, write "0".'),
+        ({"L R X": "t"}, ModelNameError, 'The system has no letter "X" with an age. Its letters are: R, L.'),
+        ({"L R": "1 +"}, ModelSyntaxError, "A value is missing here (line 1, column 4)"),
+        ({"L R": "1 +\n  )"}, ModelSyntaxError, "(line 2, column 3)"),
+        ({"L R": "t < 1"}, ModelValueError, '"t < 1" is true or false, but a number is needed here (line 1, column 1)'),
+        ({"L R": "uniform(0, 1)"}, ModelValueError, "draws a new number at every use"),
+        (
+            {"L R": "1 + if(t < 1, t, 2)"},
+            ModelValueError,
+            '"if(t < 1, t, 2)" may jump, which no length does (line 1, column 5)',
+        ),
+        ({"L R": "floor(t)"}, ModelValueError, "may jump"),
+        ({"L R": 5}, ModelValueError, "A growth function is a text"),
+        ({"L R": "max(asin(3), t)"}, ModelValueError, "has no value"),
+        ({"L R": "t" + "+t" * 200}, ModelLimitError, "at most 300 characters"),
+        ({"L R": "2^(10^9 * 10^9 * t)"}, ModelLimitError, "The powers here are too large"),
+        ({"L R": "t + 9^9^9^9"}, ModelLimitError, "The powers here are too large"),
+        ({"L R": "((t^1000)^1000)^1000"}, ModelLimitError, "The powers here are too large"),
+        ({"L R": "exp(exp(exp(exp(t))))"}, ModelLimitError, "The powers here are too large"),
+        ({"L R": "__import__('os')"}, ModelSyntaxError, "line 1"),
+    ],
+)
 def test_a_mistake_is_explained(lengths: dict[str, str], error: type[LSystemError], message: str) -> None:
     with pytest.raises(error) as caught:
         continuity(CELLS, lengths)
@@ -357,8 +406,11 @@ def test_a_system_of_steps_is_asked_like_a_timed_one() -> None:
 
 
 def test_ages_may_stand_behind_other_values() -> None:
-    cells = read("dt = 1/4\naxiom: M(LEFT,0)\nM(p,t) -> M(p,t+dt)\ndecomposition:\nM(p,t) : t >= 1 -> M(p,t-1) M(1-p,t-1)"
-                 .replace("LEFT", "0"))
+    cells = read(
+        "dt = 1/4\naxiom: M(LEFT,0)\nM(p,t) -> M(p,t+dt)\ndecomposition:\nM(p,t) : t >= 1 -> M(p,t-1) M(1-p,t-1)".replace(
+            "LEFT", "0"
+        )
+    )
     assert continuity(cells, {"M": "2^t"}).continuous
     assert not continuity(cells, {"M": "1 + t^2"}, order=1).continuous
 
@@ -367,14 +419,14 @@ ONE_OR_TWO = read("axiom: a(0)\na(1) -> a(0) b(0)\nb(1) -> a(0)")
 
 
 def test_a_letter_that_lives_for_ever_never_jumps() -> None:
-    found = continuity(read("axiom: M(0)\nM(t) -> M(t+1)\nN(t) -> N(t+1)\ndecomposition:\nM(t) : t >= 3 -> N(t-3) N(t-2)"),
-                       {"M N": "t + 1"})
+    found = continuity(
+        read("axiom: M(0)\nM(t) -> M(t+1)\nN(t) -> N(t+1)\ndecomposition:\nM(t) : t >= 3 -> N(t-3) N(t-2)"), {"M N": "t + 1"}
+    )
     assert str(found) == "M(t) : t >= 3 -> N(t - 3)N(t - 2): 4 before, 3 after, a jump of -1"
 
 
 def test_each_division_says_whether_it_is_continuous() -> None:
-    assert str(continuity(ONE_OR_TWO, {"a": "1", "b": "t"})) == \
-        "a(1) -> a(0)b(0): continuous\nb(1) -> a(0): continuous"
+    assert str(continuity(ONE_OR_TWO, {"a": "1", "b": "t"})) == "a(1) -> a(0)b(0): continuous\nb(1) -> a(0): continuous"
 
 
 def test_a_sine_is_solved_between_two_numbers() -> None:

@@ -16,7 +16,10 @@ MODELS["columns"] = read("axiom: A(1/3)\nA(x) -> A(0.37*x+0.1) A(0.59*x+0.2)")
 MODELS["long context"] = read("axiom: A\nA -> repeat(200,i) <B(i)>\nB(x) < B(y) : x > y -> C")
 MODELS["several modules"] = read("axiom: A B A\nA B -> B A A\nB A > A -> A\nA -> A B")
 COPIES: dict[str, Callable[[Derivation], Derivation]] = {
-    "pickled": lambda words: pickle.loads(pickle.dumps(words)), "copied": copy.copy, "deeply copied": copy.deepcopy}
+    "pickled": lambda words: pickle.loads(pickle.dumps(words)),
+    "copied": copy.copy,
+    "deeply copied": copy.deepcopy,
+}
 
 
 @pytest.mark.slow

@@ -18,9 +18,10 @@ from tests.derivation.random_systems import CHANCE, DECOMPOSITION, systems_with
 HALVED = "axiom: A\nA -> D(8)\ndecomposition:\nD(n) : n > 1 -> D(n/2) D(n/2)"
 
 
-@pytest.mark.parametrize(("depth", "word"), [
-    (0, "D(8)"), (1, "D(4)D(4)"), (2, "D(2)D(2)D(2)D(2)"), (3, "D(1)" * 8), (4, "D(1)" * 8), (None, "D(1)" * 8),
-])
+@pytest.mark.parametrize(
+    ("depth", "word"),
+    [(0, "D(8)"), (1, "D(4)D(4)"), (2, "D(2)D(2)D(2)D(2)"), (3, "D(1)" * 8), (4, "D(1)" * 8), (None, "D(1)" * 8)],
+)
 def test_what_lies_deeper_stays_as_it_is(depth: int | None, word: str) -> None:
     system = replace(read(HALVED), decomposition_depth=depth)
     assert str(derive(system, 1)[-1]) == word

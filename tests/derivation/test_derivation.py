@@ -137,8 +137,13 @@ def test_an_immense_step_is_named_by_its_number_of_digits() -> None:
 @pytest.mark.parametrize("ages", [3, 100, 160, 170, 180, 200, 256, 300])
 def test_a_short_word_is_the_same_however_many_states_there_are(ages: int) -> None:
     """Up to 256 states a step is made of letters: here a third of the states divide, and one in seven dies."""
-    found = derive(read(f"ages = {ages}\naxiom: [X]\nX -> repeat(ages, i) <A(i)>\nA(t) : mod(t,7) == 6 -> ε\n"
-                        "A(t) : mod(t,3) == 0 -> A(mod(t+1,ages)) A(mod(5*t+2,ages))\nA(t) -> A(mod(t+3,ages))"), 9)
+    found = derive(
+        read(
+            f"ages = {ages}\naxiom: [X]\nX -> repeat(ages, i) <A(i)>\nA(t) : mod(t,7) == 6 -> ε\n"
+            "A(t) : mod(t,3) == 0 -> A(mod(t+1,ages)) A(mod(5*t+2,ages))\nA(t) -> A(mod(t+3,ages))"
+        ),
+        9,
+    )
     expected = list(found.states.axiom)
     for word in found:
         assert word.numbers() == expected
@@ -233,9 +238,11 @@ def test_what_the_reader_found_is_told_with_the_derivation() -> None:
 
 def test_doubles_fall_into_the_trap_that_exact_ages_avoid() -> None:
     """Seed 002, L-system 5: with dt = 0.7 there are 7 cells at step 4, with doubles 5."""
-    system = read("dt = 0.7\naxiom: R(0)\n"
-                  "R(t) : t+dt < 1 -> R(t+dt)\nR(t) -> L(t+dt-0.8) R(t+dt-1)\n"
-                  "L(t) : t+dt < 1 -> L(t+dt)\nL(t) -> L(t+dt-1) R(t+dt-0.8)")
+    system = read(
+        "dt = 0.7\naxiom: R(0)\n"
+        "R(t) : t+dt < 1 -> R(t+dt)\nR(t) -> L(t+dt-0.8) R(t+dt-1)\n"
+        "L(t) : t+dt < 1 -> L(t+dt)\nL(t) -> L(t+dt-1) R(t+dt-0.8)"
+    )
     assert derive(system, 5).lengths == [1, 1, 2, 4, 7, 9]
     assert derive(system, 5, arithmetic="float").lengths != [1, 1, 2, 4, 7, 9]
     assert derive(system, 4, dt="14/10").lengths == [1, 2, 4, 8, 16]
@@ -282,8 +289,16 @@ except Exception as error:
 
 @pytest.mark.slow
 def test_the_order_of_hashes_changes_nothing() -> None:
-    said = {subprocess.run([sys.executable, "-c", PRINT], env={**os.environ, "PYTHONHASHSEED": seed}, capture_output=True,
-                           text=True, check=True).stdout for seed in ("0", "1", "2")}
+    said = {
+        subprocess.run(
+            [sys.executable, "-c", PRINT],
+            env={**os.environ, "PYTHONHASHSEED": seed},
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout
+        for seed in ("0", "1", "2")
+    }
     assert len(said) == 1
     assert 'Did you mean "k"?' in said.pop()
 

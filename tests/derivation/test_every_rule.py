@@ -40,22 +40,38 @@ def test_the_example_of_the_book() -> None:
     assert letters(read(BOOK.format(right="G [ H ] M")), 1)[1] == "ABC[DE][TG[HI[JK]L]MNO]"
 
 
-@pytest.mark.parametrize("right", [
-    "G", "G M", "G M N O", "G [ H I ]", "G [ H I L ] M", "G [ H I [ J ] L ]", "G [ H I [ J K ] L ] M N O"])
+@pytest.mark.parametrize(
+    "right", ["G", "G M", "G M N O", "G [ H I ]", "G [ H I L ] M", "G [ H I [ J ] L ]", "G [ H I [ J K ] L ] M N O"]
+)
 def test_right_contexts_that_match_in_the_example_of_the_book(right: str) -> None:
     system = read(BOOK.format(right=right))
     assert letters(system, 1)[1] == "ABC[DE][TG[HI[JK]L]MNO]"
 
 
-@pytest.mark.parametrize("right", [
-    "M", "H", "G H", "G [ I ] M", "G [ H ] N", "G M N O P", "G [ H ] [ H ] M", "G [ H J ]", "[ G ]"])
+@pytest.mark.parametrize(
+    "right", ["M", "H", "G H", "G [ I ] M", "G [ H ] N", "G M N O P", "G [ H ] [ H ] M", "G [ H J ]", "[ G ]"]
+)
 def test_right_contexts_that_do_not_match_there(right: str) -> None:
     assert letters(read(BOOK.format(right=right)), 1)[1] == "ABC[DE][SG[HI[JK]L]MNO]"
 
 
-@pytest.mark.parametrize(("rule", "matches"), [
-    ("A B C < S", True), ("C < S", True), ("E < S", False), ("A C < S", False), ("X A B C < S", False), ("D < E", True),
-    ("B C < D", True), ("K < L", False), ("H I < L", True), ("S G < M", True), ("L < M", False), ("O < S", False)])
+@pytest.mark.parametrize(
+    ("rule", "matches"),
+    [
+        ("A B C < S", True),
+        ("C < S", True),
+        ("E < S", False),
+        ("A C < S", False),
+        ("X A B C < S", False),
+        ("D < E", True),
+        ("B C < D", True),
+        ("K < L", False),
+        ("H I < L", True),
+        ("S G < M", True),
+        ("L < M", False),
+        ("O < S", False),
+    ],
+)
 def test_left_contexts_in_the_example_of_the_book(rule: str, matches: bool) -> None:
     before = "ABC[DE][SG[HI[JK]L]MNO]"
     system = read(f"axiom: {' '.join(before)}\n{rule} -> T")
@@ -90,8 +106,24 @@ def test_hormone_spreads_through_a_filament() -> None:
     """J2: seed 000, ILSystem1, with the axiom as corrected."""
     system = read("axiom: b a a a a a a a d\nb < a -> b\n < b > b -> c\n < b > d -> c\nc < c > d -> d")
     assert letters(system, 16) == [
-        "baaaaaaad", "bbaaaaaad", "cbbaaaaad", "ccbbaaaad", "cccbbaaad", "ccccbbaad", "cccccbbad", "ccccccbbd", "ccccccccd",
-        "cccccccdd", "ccccccddd", "cccccdddd", "ccccddddd", "cccdddddd", "ccddddddd", "cdddddddd", "cdddddddd"]
+        "baaaaaaad",
+        "bbaaaaaad",
+        "cbbaaaaad",
+        "ccbbaaaad",
+        "cccbbaaad",
+        "ccccbbaad",
+        "cccccbbad",
+        "ccccccbbd",
+        "ccccccccd",
+        "cccccccdd",
+        "ccccccddd",
+        "cccccdddd",
+        "ccccddddd",
+        "cccdddddd",
+        "ccddddddd",
+        "cdddddddd",
+        "cdddddddd",
+    ]
 
 
 LAYER = """w = 11
@@ -106,11 +138,13 @@ a(1) < c -> b"""
 
 def test_a_layer_grows_to_a_width_and_shrinks() -> None:
     """J3: seed 000, ILSystem2; 31 lines, period 2w."""
+
     def layer(width: int, end: str) -> str:
         return "".join(f"a({i})" for i in range(1, width + 1)) + end
 
-    expected = ([layer(k + 1, "b") for k in range(11)] + [layer(11 - j, "c") for j in range(11)]
-                + [layer(k + 1, "b") for k in range(9)])
+    expected = (
+        [layer(k + 1, "b") for k in range(11)] + [layer(11 - j, "c") for j in range(11)] + [layer(k + 1, "b") for k in range(9)]
+    )
     assert [str(word) for word in derive(read(LAYER), 30)] == expected
     assert [str(word) for word in derive(read(LAYER), 12, w=3)][6] == "a(1)b"
 
@@ -123,7 +157,14 @@ def test_with_the_width_as_printed_the_layer_sticks() -> None:
 def test_a_signal_walks_through_a_filament() -> None:
     """K16, and its mirror image."""
     assert letters(read("axiom: s a a a a\ns < a -> a s\ns -> ε"), 6) == [
-        "saaaa", "asaaa", "aasaa", "aaasa", "aaaas", "aaaa", "aaaa"]
+        "saaaa",
+        "asaaa",
+        "aasaa",
+        "aaasa",
+        "aaaas",
+        "aaaa",
+        "aaaa",
+    ]
     assert letters(read("axiom: A A A B\nA > B -> B\nB -> A"), 4) == ["AAAB", "AABA", "ABAA", "BAAA", "AAAA"]
     assert letters(read("axiom: B A A A\nB < A -> B\nB -> A"), 4) == ["BAAA", "ABAA", "AABA", "AAAB", "AAAA"]
 
@@ -182,8 +223,10 @@ def test_flowering_goes_up_or_down_with_the_speed_of_the_signal() -> None:
 
 def derive_with(text: str, **constants: int) -> LSystem:
     """A system with constants set to other values."""
-    lines = [f"{line.split(' = ')[0]} = {constants[line.split(' = ')[0]]}" if line.split(" = ")[0] in constants else line
-             for line in text.splitlines()]
+    lines = [
+        f"{line.split(' = ')[0]} = {constants[line.split(' = ')[0]]}" if line.split(" = ")[0] in constants else line
+        for line in text.splitlines()
+    ]
     return read("\n".join(lines))
 
 
@@ -288,7 +331,11 @@ def test_size_divides_cells_as_age_does() -> None:
     sizes, ages = derive(system, 12), derive(read(CELLS), 12)
     assert [(round(float(x), 4), p) for x, p in arguments(sizes[2])] == [(1.5906, -1), (1.3626, 1)]  # type: ignore[arg-type]
     assert [(round(float(x), 4), p) for x, p in arguments(sizes[3])] == [  # type: ignore[arg-type]
-        (1.2612, -1), (1.4722, 1), (1.2612, -1), (1.0804, 1)]
+        (1.2612, -1),
+        (1.4722, 1),
+        (1.2612, -1),
+        (1.0804, 1),
+    ]
     for by_size, by_age in zip(sizes, ages, strict=True):
         assert [p for _, p in arguments(by_size)] == [p for _, p in arguments(by_age)]
 
@@ -302,7 +349,10 @@ def test_the_short_cell_is_on_the_side_of_the_older_wall() -> None:
         Lr -> Ll W(0) Sr
         Ll -> Sl W(0) Lr""")
     assert [str(word).replace(" ", "") for word in derive(system, 3)][1:] == [
-        "W(1)LlW(0)SrW(2)", "W(2)SlW(0)LrW(1)LrW(3)", "W(3)LlW(1)LlW(0)SrW(2)LlW(0)SrW(4)"]
+        "W(1)LlW(0)SrW(2)",
+        "W(2)SlW(0)LrW(1)LrW(3)",
+        "W(3)LlW(1)LlW(0)SrW(2)LlW(0)SrW(4)",
+    ]
     for word in derive(system, 8):
         row = list(word)
         for left, cell, right in zip(row[::2], row[1::2], row[2::2], strict=False):
@@ -325,8 +375,12 @@ def test_walls_say_where_a_cell_divides() -> None:
     """P9, corrected: a step behind L-system 6."""
     walls = derive(read(WALLS.format(M="M(t)", first=">", second=">")), 9)
     assert [str(word) for word in walls][:5] == [
-        "W(0)M(0)W(0.7)", "W(0.7)M(0.7)W(1.4)", "W(1.4)M(1.4)W(2.1)", "W(2.1)M(1.3)W(0.4)M(1.1)W(2.8)",
-        "W(2.8)M(1)W(0.3)M(1.2)W(1.1)M(1)W(0.1)M(0.8)W(3.5)"]
+        "W(0)M(0)W(0.7)",
+        "W(0.7)M(0.7)W(1.4)",
+        "W(1.4)M(1.4)W(2.1)",
+        "W(2.1)M(1.3)W(0.4)M(1.1)W(2.8)",
+        "W(2.8)M(1)W(0.3)M(1.2)W(1.1)M(1)W(0.1)M(0.8)W(3.5)",
+    ]
     for step, word in enumerate(derive(read(CELLS), 8)):
         ages = [module.arguments[0] for module in walls[step + 1] if module.symbol == "M"]
         assert ages == [age + Fraction(7, 10) for age, _ in arguments(word)]  # type: ignore[operator]
@@ -335,12 +389,13 @@ def test_walls_say_where_a_cell_divides() -> None:
 def test_a_rule_that_asks_for_two_parameters_is_warned_of() -> None:
     """P9 as printed: M(t,p) in the predecessor, M(t) in every word, so that no cell ever divides."""
     printed = read(WALLS.format(M="M(t,p)", first="<", second=">"))
-    assert any('M(t' in note or '"M"' in note for note in printed.notes), printed.notes
+    assert any("M(t" in note or '"M"' in note for note in printed.notes), printed.notes
     assert {len(word) for word in derive(printed, 6)} == {3}
     assert not read(WALLS.format(M="M(t)", first=">", second=">")).notes
 
 
 # Chance
+
 
 def near(values: list[int], expected: float, errors: float = 4) -> bool:
     """Whether a mean lies within some standard errors of what is expected."""
@@ -352,7 +407,7 @@ def test_three_rules_of_the_same_weight_are_thirds() -> None:
     plant = read("axiom: F\nF -> F [+F] F [-F] F : .33\nF -> F [+F] F : .33\nF -> F [-F] F : .33")
     after = [count(plant, 5, "F", seed) for seed in range(400)]
     for step in (1, 2, 5):
-        assert near([counts[step] for counts in after], (11 / 3)**step)
+        assert near([counts[step] for counts in after], (11 / 3) ** step)
     assert {counts[1] for counts in after} == {3, 5}
 
 
@@ -376,6 +431,7 @@ def test_a_random_flight_has_a_segment_a_step() -> None:
 
 # Repetition, cut
 
+
 def test_powers_and_products_of_parameters() -> None:
     """K10."""
     assert str(derive(read("axiom: a(2,3)\na(x,y) -> F(x^3+10) b(2*y)"), 1)[-1]) == "F(18)b(6)"
@@ -390,7 +446,8 @@ lat(j) -> Lplus(j*100) F"""
 def test_branches_grow_longer_towards_the_tip() -> None:
     """K11."""
     assert list(derive(read(ACROTONY.format(n=2)), 2)[-1]) == list(
-        read_word("F [RU(50) lat(0)] RH(180) F [RU(50) lat(1)] RH(180) F a(2)"))
+        read_word("F [RU(50) lat(0)] RH(180) F [RU(50) lat(1)] RH(180) F a(2)")
+    )
     five = read(ACROTONY.format(n=5))
     assert count(five, 3, "F") == [0, 0, 6, 17]
     assert [m.arguments[0] for m in derive(five, 3)[-1] if m.symbol == "Lplus"] == [0, 100, 200, 300, 400]
@@ -416,7 +473,6 @@ a1 -> a2
 a2 -> a3
 a3 -> [RG RU(180) S] : 0.2
 a3 -> z : 0.8"""
-
 
 
 @pytest.mark.slow
@@ -452,8 +508,7 @@ def test_of_two_rules_without_probability_the_second_is_never_applied() -> None:
 def test_a_clock_cuts_its_branch() -> None:
     """The clock of K12: `%` stands one word long, and takes what stands behind it in its branch."""
     system = read("axiom: a [ b k(5) c [ d ] e ] f\nk(t) : t < 6 -> k(t+1)\nk(t) : t == 6 -> %")
-    assert [str(word) for word in derive(system, 4)] == [
-        "a[b k(5)c[d]e]f", "a[b k(6)c[d]e]f", "a[b%c[d]e]f", "a[b]f", "a[b]f"]
+    assert [str(word) for word in derive(system, 4)] == ["a[b k(5)c[d]e]f", "a[b k(6)c[d]e]f", "a[b%c[d]e]f", "a[b]f", "a[b]f"]
     assert letters(read("axiom: a % b [ c ]"), 1)[1] == "a"
     assert letters(read("axiom: a [ % ] [ b % [ % ] c ] d"), 1)[1] == "a[][b]d"
 

@@ -28,9 +28,10 @@ def matches(right: str, word: str, ignored: str = "", branches: str = "any") -> 
     return derive(system, 1)[-1][0].symbol == "X"
 
 
-@pytest.mark.parametrize(("right", "word", "expected"), [
-    ("[B]C", "A[B D]C", True), ("[B.]C", "A[B D]C", False), ("[B.]C", "A[B]C", True), ("[B D.]C", "A[B D]C", True),
-])
+@pytest.mark.parametrize(
+    ("right", "word", "expected"),
+    [("[B]C", "A[B D]C", True), ("[B.]C", "A[B D]C", False), ("[B.]C", "A[B]C", True), ("[B D.]C", "A[B D]C", True)],
+)
 def test_a_branch_may_go_on_unless_its_end_is_named(right: str, word: str, expected: bool) -> None:
     assert matches(right.replace(" ", ""), word) is expected
 
@@ -53,16 +54,30 @@ def test_side_branches_and_ignored_symbols_do_not_go_on_with_a_branch() -> None:
     assert not matches("[B.]", "A[B[D]E]")
 
 
-@pytest.mark.parametrize(("right", "word", "expected"), [
-    ("[B]", "A[B]", "any next"), ("[D]", "A[B][D]", "any"), ("[B][D]", "A[B][D]", "any next"), ("[D]C", "A[D]C", "any next"),
-    ("[B]", "A[B][D]C", "any next"), ("[B]C", "A[B][D]C", "any next"), ("[B][D]", "A[B][C][D]", "any"),
-    ("[B.]", "A[B C][B]", "any"),
-    ("C[D]", "A[B]C[D]", "any next"), ("C[D]", "A C[B][D]", "any"), ("[B[D]]", "A[B[C][D]]", "any"),
-    ("[B]", "A+[B]", "any next"),
-    ("C", "A[B]C", "any next"), ("B", "A[B]C", "flat"), ("B C", "A[B]C", "flat"), ("D", "A[[D]]", "flat"),
-    ("", "A", "any next flat"),
-    ("C", "A[]+C", "any next flat"), ("B D", "A[B[D]]", "flat"),
-])
+@pytest.mark.parametrize(
+    ("right", "word", "expected"),
+    [
+        ("[B]", "A[B]", "any next"),
+        ("[D]", "A[B][D]", "any"),
+        ("[B][D]", "A[B][D]", "any next"),
+        ("[D]C", "A[D]C", "any next"),
+        ("[B]", "A[B][D]C", "any next"),
+        ("[B]C", "A[B][D]C", "any next"),
+        ("[B][D]", "A[B][C][D]", "any"),
+        ("[B.]", "A[B C][B]", "any"),
+        ("C[D]", "A[B]C[D]", "any next"),
+        ("C[D]", "A C[B][D]", "any"),
+        ("[B[D]]", "A[B[C][D]]", "any"),
+        ("[B]", "A+[B]", "any next"),
+        ("C", "A[B]C", "any next"),
+        ("B", "A[B]C", "flat"),
+        ("B C", "A[B]C", "flat"),
+        ("D", "A[[D]]", "flat"),
+        ("", "A", "any next flat"),
+        ("C", "A[]+C", "any next flat"),
+        ("B D", "A[B[D]]", "flat"),
+    ],
+)
 def test_a_named_branch_is_any_of_those_there_or_the_next(right: str, word: str, expected: str) -> None:
     """And where the word is read flat, no branch is named."""
     found = [branches for branches in BRANCHES if matches(right.replace(" ", ""), word, "+", branches)]
@@ -81,8 +96,9 @@ def test_which_branch_is_named_is_said_only_where_it_matters(system: LSystem) ->
     for branches in BRANCHES:
         changed = replace(system, branches=branches)
         named = any(module.symbol == "[" for rule in system.productions for module in rule.right)
-        assert (changed.branches == branches) == (branches == "any" or named or (
-            branches == "flat" and any(rule.right for rule in system.productions)))
+        assert (changed.branches == branches) == (
+            branches == "any" or named or (branches == "flat" and any(rule.right for rule in system.productions))
+        )
         assert read(write(changed)) == changed
 
 

@@ -32,13 +32,22 @@ def test_each_module_is_told_what_it_became_and_why_not_something_else() -> None
     assert "production 5, A(t) > Z -> Y: needs Z on its right, and there is nothing" in told
 
 
-@pytest.mark.parametrize(("notation", "text", "told"), [
-    ("grogra", "* # L*0.5 k(5),\n(t<6)  k(t) # RU45 k(t+1)",
-     "2. k(5) becomes RU45 k(6): production 2, (t<6) k(t) # RU45 k(t+1)"),
-    ("mathematica", "LSystem[AXIOM[a[1], b], LRULES[LRule[LEFT[], PRED[a[i_ /; i < 3]], RIGHT[b], SUCC[a[i+1]]]]]",
-     "1. a[1] becomes a[2]: production 1, LRule[LEFT[], PRED[a[i_ /; i < 3]], RIGHT[b], SUCC[a[i+1]]]"),
-    ("cpfg", "Axiom: A(1)\nA(t) : t<3 --> A(t+1)", "1. A(1) becomes A(2): production 1, A(t) : t<3 --> A(t+1)"),
-])
+@pytest.mark.parametrize(
+    ("notation", "text", "told"),
+    [
+        (
+            "grogra",
+            "* # L*0.5 k(5),\n(t<6)  k(t) # RU45 k(t+1)",
+            "2. k(5) becomes RU45 k(6): production 2, (t<6) k(t) # RU45 k(t+1)",
+        ),
+        (
+            "mathematica",
+            "LSystem[AXIOM[a[1], b], LRULES[LRule[LEFT[], PRED[a[i_ /; i < 3]], RIGHT[b], SUCC[a[i+1]]]]]",
+            "1. a[1] becomes a[2]: production 1, LRule[LEFT[], PRED[a[i_ /; i < 3]], RIGHT[b], SUCC[a[i+1]]]",
+        ),
+        ("cpfg", "Axiom: A(1)\nA(t) : t<3 --> A(t+1)", "1. A(1) becomes A(2): production 1, A(t) : t<3 --> A(t+1)"),
+    ],
+)
 def test_a_step_is_told_in_the_words_of_the_model(notation: str, text: str, told: str) -> None:
     step = 2 if notation == "grogra" else 1
     assert told in repr(explain(derive(read(text, notation), step), step))

@@ -22,8 +22,10 @@ from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.read import read
 
 ANABAENA = read("axiom: ar\nar -> al br\nal -> bl ar\nbr -> ar\nbl -> al")
-LIFE_SPANS = ("lifeTimeA = {}\nlifeTimeB = {}\naxiom: A(1)\nA(lifeTimeA) -> A(1) B(1)\nB(lifeTimeB) -> A(1) B(1)\n"
-              "A(t) -> A(t+1)\nB(t) -> B(t+1)")
+LIFE_SPANS = (
+    "lifeTimeA = {}\nlifeTimeB = {}\naxiom: A(1)\nA(lifeTimeA) -> A(1) B(1)\nB(lifeTimeB) -> A(1) B(1)\n"
+    "A(t) -> A(t+1)\nB(t) -> B(t+1)"
+)
 
 
 def obeys(found: Growth) -> None:
@@ -57,12 +59,17 @@ def test_what_erases_itself_has_no_growth() -> None:
     assert repr(found) == "1 states; lengths 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, ...; N(t) = 0; growth per step 0.0000"
 
 
-@pytest.mark.parametrize(("text", "rule"), [
-    ("axiom: A", "N(t) = N(t-1)"), ("axiom: A\nA -> A B", "N(t) = 2 N(t-1) - N(t-2)"),
-    ("axiom: F\nF -> FFF", "N(t) = 3 N(t-1)"),
-    ("axiom: A B\nA -> B\nB -> A A", "N(t) = 2 N(t-2)"), ("axiom: A\nA -> B\nB -> A C", "N(t) = N(t-1) + N(t-2) - N(t-3)"),
-    ("axiom: A\nA -> A B\nB -> B C", "N(t) = 3 N(t-1) - 3 N(t-2) + N(t-3)"),
-])
+@pytest.mark.parametrize(
+    ("text", "rule"),
+    [
+        ("axiom: A", "N(t) = N(t-1)"),
+        ("axiom: A\nA -> A B", "N(t) = 2 N(t-1) - N(t-2)"),
+        ("axiom: F\nF -> FFF", "N(t) = 3 N(t-1)"),
+        ("axiom: A B\nA -> B\nB -> A A", "N(t) = 2 N(t-2)"),
+        ("axiom: A\nA -> B\nB -> A C", "N(t) = N(t-1) + N(t-2) - N(t-3)"),
+        ("axiom: A\nA -> A B\nB -> B C", "N(t) = 3 N(t-1) - 3 N(t-2) + N(t-3)"),
+    ],
+)
 def test_the_rule_is_told(text: str, rule: str) -> None:
     found = growth(read(text))
     assert rule in repr(found)
@@ -72,17 +79,17 @@ def test_the_rule_is_told(text: str, rule: str) -> None:
 def test_states_that_do_not_end_have_no_matrix() -> None:
     with pytest.raises(ModelLimitError) as caught:
         growth(read("axiom: A(0)\nA(t) : t >= 0 -> A(t+1)"))
-    assert caught.value.message == ("The system reaches too many distinct modules for a finite growth matrix: "
-                                    "more than 1,000")
-    assert caught.value.hint == ("The last one was A(1000); where a condition depends on a parameter that grows for ever, "
-                                 "there is no growth matrix.")
+    assert caught.value.message == ("The system reaches too many distinct modules for a finite growth matrix: more than 1,000")
+    assert caught.value.hint == (
+        "The last one was A(1000); where a condition depends on a parameter that grows for ever, there is no growth matrix."
+    )
     with limits(states=3), pytest.raises(ModelLimitError, match="more than 3"):
         growth(ANABAENA)
 
 
 @given(st.lists(st.integers(-3, 3), min_size=1, max_size=4), st.lists(st.integers(-5, 5), min_size=4, max_size=4))
 def test_the_shortest_recurrence_is_one(rule: list[int], start: list[int]) -> None:
-    terms = start[:len(rule)]
+    terms = start[: len(rule)]
     while len(terms) < 4 * len(rule) + 2:
         terms.append(sum(c * terms[-k] for k, c in enumerate(rule, 1)))
     found = shortest_recurrence(terms)
@@ -98,9 +105,15 @@ def test_nothing_obeys_no_rule() -> None:
 # The systems of the seeds
 
 
-@pytest.mark.parametrize(("id", "rule", "rate"), [
-    ("J4", (0, 1, 1), 1.3247), ("J5", (0, 1, 0, 0, 1), 1.2365), ("P2", (0, 0, 0, 1, 1), 1.1673),
-    ("K19", (1, 0, 0, 1, -1, 0, 0, 1, -1), 1.1278)])
+@pytest.mark.parametrize(
+    ("id", "rule", "rate"),
+    [
+        ("J4", (0, 1, 1), 1.3247),
+        ("J5", (0, 1, 0, 0, 1), 1.2365),
+        ("P2", (0, 0, 0, 1, 1), 1.1673),
+        ("K19", (1, 0, 0, 1, -1, 0, 0, 1, -1), 1.1278),
+    ],
+)
 def test_the_growth_of_a_seed_s_system(id: str, rule: tuple[int, ...], rate: float) -> None:
     found = growth(system(id))
     assert found.recurrence == rule
@@ -179,7 +192,8 @@ def test_a_closed_form_gives_every_length(id: str) -> None:
     assert found.closed_form is not None
     written_out = found.closed_form.replace(
         lambda part: isinstance(part, sympy.RootSum),
-        lambda part: sympy.Add(*(part.fun(root) for root in part.poly.nroots(n=60, maxsteps=500))))
+        lambda part: sympy.Add(*(part.fun(root) for root in part.poly.nroots(n=60, maxsteps=500))),
+    )
     for step in (*range(9), 15, 30, 100):
         length = found.length(step)
         assert abs(written_out.evalf(40, subs={"t": step}) - length) < sympy.Float("1e-30") * length

@@ -25,8 +25,10 @@ from lsys_kit.derivation.inference.words import read_words
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.read import read
 
-PUBLISHED = {case["name"]: case for case in
-             json.loads((Path(__file__).parent / "cases" / "inference.json").read_text(encoding="utf-8"))["systems"]}
+PUBLISHED = {
+    case["name"]: case
+    for case in json.loads((Path(__file__).parent / "cases" / "inference.json").read_text(encoding="utf-8"))["systems"]
+}
 Rules = Mapping[str, str]
 
 
@@ -84,8 +86,23 @@ def test_the_rules_of_anabaena_are_found_from_five_words() -> None:
     assert set(infer(derive(system("J1"), 4))[0].productions) == set(system("J1").productions)
 
 
-TINY = [["a", "b"], ["ab", "ba"], ["ab", "abb", "abbbb"], ["a", "", ""], ["aa", "abab"], ["ab", "aab", "aabaab"], ["ab", "c"],
-        ["abc", "abca"], ["aba", "bab"], ["a", "aa", "aaa"], ["a", ""], ["", "a"], ["", ""], ["abab", "cc"], ["ab", "ab", "ba"]]
+TINY = [
+    ["a", "b"],
+    ["ab", "ba"],
+    ["ab", "abb", "abbbb"],
+    ["a", "", ""],
+    ["aa", "abab"],
+    ["ab", "aab", "aabaab"],
+    ["ab", "c"],
+    ["abc", "abca"],
+    ["aba", "bab"],
+    ["a", "aa", "aaa"],
+    ["a", ""],
+    ["", "a"],
+    ["", ""],
+    ["abab", "cc"],
+    ["ab", "ab", "ba"],
+]
 
 
 @pytest.mark.parametrize("erasing", [False, True])
@@ -110,8 +127,11 @@ def test_the_fits_to_any_words_are_those_that_trying_all_finds(words: list[str],
     same_as_by_trying(words, erasing)
 
 
-@given(st.dictionaries(st.sampled_from("abcd"), st.text(st.sampled_from("abcd+["), max_size=3), min_size=1),
-       st.text(st.sampled_from("abcd"), min_size=1, max_size=3), st.integers(1, 4))
+@given(
+    st.dictionaries(st.sampled_from("abcd"), st.text(st.sampled_from("abcd+["), max_size=3), min_size=1),
+    st.text(st.sampled_from("abcd"), min_size=1, max_size=3),
+    st.integers(1, 4),
+)
 def test_the_true_system_is_among_the_fits_and_each_derives_the_words(rules: Rules, axiom: str, steps: int) -> None:
     words = words_of(axiom, rules, steps)
     try:
@@ -128,21 +148,39 @@ def test_hormone_diffusion_needs_both_neighbours() -> None:
     words = derive(system("J2"), 15)
     fits = infer(words)
     assert not fits
-    assert str(fits) == ("No system fits these 16 words. Step 1 cannot come from step 0: letter 3 of step 0, a, would have to "
-                         "become b, and there is a. With context=(1, 1) one system fits.")
+    assert str(fits) == (
+        "No system fits these 16 words. Step 1 cannot come from step 0: letter 3 of step 0, a, would have to "
+        "become b, and there is a. With context=(1, 1) one system fits."
+    )
     assert not infer(words, context=(1, 0))
     found = infer(words, context=(1, 1))
     assert [list(derive(fit, 15)) for fit in found] == [list(words)]
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("name", "steps", "said"), [
-    ("P9", 7, "With context=(1, 0) 4,978,590,703,566,480 systems fit: of 53 letters, told apart by their neighbours, 43 can "
-              "become different words."),
-    ("K17a", 24, "With context=(1, 0), erasing=True 14,348,907 systems fit: of 58 letters, told apart by their neighbours, 30 "
-                 "can become different words."),
-    ("K17b", 31, "With context=(1, 0), erasing=True 129,140,163 systems fit: of 73 letters, told apart by their neighbours, 34 "
-                 "can become different words.")])
+@pytest.mark.parametrize(
+    ("name", "steps", "said"),
+    [
+        (
+            "P9",
+            7,
+            "With context=(1, 0) 4,978,590,703,566,480 systems fit: of 53 letters, told apart by their neighbours, 43 can "
+            "become different words.",
+        ),
+        (
+            "K17a",
+            24,
+            "With context=(1, 0), erasing=True 14,348,907 systems fit: of 58 letters, told apart by their neighbours, 30 "
+            "can become different words.",
+        ),
+        (
+            "K17b",
+            31,
+            "With context=(1, 0), erasing=True 129,140,163 systems fit: of 73 letters, told apart by their neighbours, 34 "
+            "can become different words.",
+        ),
+    ],
+)
 def test_no_system_without_contexts_fits_where_neighbours_have_a_say(name: str, steps: int, said: str) -> None:
     fits = infer(derive(system(name), steps), constants="+-/")
     assert not fits
@@ -161,8 +199,9 @@ def test_as_many_are_counted_as_are_found(words: list[str], conditions: Conditio
     found, count = [*tables(problem)], counted_tables(problem)
     assert count.solutions == len(found)
     if found:
-        assert {problem.letters[letter]: len(ways) for letter, ways in count.successors.items()} == \
-            {letter: len({table[letter] for table in found}) for letter in found[0]}
+        assert {problem.letters[letter]: len(ways) for letter, ways in count.successors.items()} == {
+            letter: len({table[letter] for table in found}) for letter in found[0]
+        }
         assert table_of(problem, count.certain).items() <= found[0].items()
 
 
@@ -187,11 +226,11 @@ def test_a_signal_passes_a_constant() -> None:
 
 
 def wrong(word: str, place: int, other: str) -> str:
-    return word[:place] + other + word[place + 1:]
+    return word[:place] + other + word[place + 1 :]
 
 
 def missing(word: str, place: int, other: str) -> str:
-    return word[:place] + word[place + 1:]
+    return word[:place] + word[place + 1 :]
 
 
 def too_many(word: str, place: int, other: str) -> str:
@@ -199,19 +238,19 @@ def too_many(word: str, place: int, other: str) -> str:
 
 
 def swapped(word: str, place: int, other: str) -> str:
-    return word[:place] + word[place:place + 2][::-1] + word[place + 2:]
+    return word[:place] + word[place : place + 2][::-1] + word[place + 2 :]
 
 
 def refused(slip: Any, number: int) -> Iterator[tuple[bool, list[str]]]:
     """Whether the slip is named, and the words, for random systems whose words no system fits with it."""
     chance = random.Random(17)
     while number:
-        letters = "abcde"[:chance.randint(2, 5)]
+        letters = "abcde"[: chance.randint(2, 5)]
         rules = {letter: "".join(chance.choices(letters, k=chance.randint(1, 3))) for letter in letters}
         words = words_of(chance.choice(letters), rules, chance.randint(3, 5))
         step = chance.randrange(1, len(words))
         bad = slip(words[step], chance.randrange(len(words[step])), chance.choice(letters))
-        if bad and bad != words[step] and not (fits := infer([*words[:step], bad, *words[step + 1:]])):
+        if bad and bad != words[step] and not (fits := infer([*words[:step], bad, *words[step + 1 :]])):
             number -= 1
             assert fits.refusal is not None
             yield any(each.step == step and mended(bad, each) == words[step] for each in fits.refusal.slips), words
@@ -220,7 +259,7 @@ def refused(slip: Any, number: int) -> Iterator[tuple[bool, list[str]]]:
 def mended(word: str, slip: Slip) -> str:
     """The word without the slip that a refusal names."""
     begin, instead = slip.place - 1, "".join(module.symbol for module in slip.instead)
-    return word[:begin] + instead + word[begin + len(slip.found):]
+    return word[:begin] + instead + word[begin + len(slip.found) :]
 
 
 @pytest.mark.slow
@@ -233,24 +272,27 @@ def test_a_refusal_names_a_slip_in_few_words() -> None:
     assert sum(named for named, _ in refused(wrong, 5)) >= 4
 
 
-@pytest.mark.parametrize(("words", "said"), [
-    (["a", "ab", "abc", "abaab"], "if letter 3 of step 2, c, were a."),
-    (["a", "ab", "aba", "abaab", "abaababa", "abaacabaabaab"], "if letter 5 of step 5, c, were b."),
-    (["a", "ab", "aba", "abaa", "abaababa"], "if b stood behind letter 4 of step 3"),
-    (["a", "ab", "aba", "baab", "abaababa"], "if a stood at the beginning of step 3"),
-    (["a", "ab", "aba", "abaaab", "abaababa"], "if letter 5 of step 3, a, were left out."),
-    (["a", "ab", "aba", "ababa", "abaababa"], "letters 4 and 5 of step 3, b a, changed places"),
-    (["a", "ab", "aba", "baaab", "abaababa"], "letters 1 and 2 of step 3, b a, changed places"),
-    (["a", "ab", "aba", "abaab", "ab", "abaababaabaab"], "would fit if the word of step 4 were another."),
-    (["a", "ab", "aba", "ab", "abaababa"], "if the word of step 2 or 3 were another."),
-    (["abcdef", "uvxyz"], " other changes were made."),
-    (["ab", "c"], "or if one other change were made. With erasing=True 2 systems fit: of 2 letters 2 can become different"),
-    (["ab", "b", ""], "With erasing=True one system fits."),
-    (["+a", "a+"], "letter 1 of step 0, +, would have to become +, and there is a."),
-    (["a+b", "ab"], "letter 1 of step 0, a, has no successor"),
-    (["a", "aa", "aa"], "letter 1 of step 1, a, has no successor"),
-    (["abc", "ab"], "letter 1 of step 0, a, has no successor with which all others can have theirs."),
-])
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["a", "ab", "abc", "abaab"], "if letter 3 of step 2, c, were a."),
+        (["a", "ab", "aba", "abaab", "abaababa", "abaacabaabaab"], "if letter 5 of step 5, c, were b."),
+        (["a", "ab", "aba", "abaa", "abaababa"], "if b stood behind letter 4 of step 3"),
+        (["a", "ab", "aba", "baab", "abaababa"], "if a stood at the beginning of step 3"),
+        (["a", "ab", "aba", "abaaab", "abaababa"], "if letter 5 of step 3, a, were left out."),
+        (["a", "ab", "aba", "ababa", "abaababa"], "letters 4 and 5 of step 3, b a, changed places"),
+        (["a", "ab", "aba", "baaab", "abaababa"], "letters 1 and 2 of step 3, b a, changed places"),
+        (["a", "ab", "aba", "abaab", "ab", "abaababaabaab"], "would fit if the word of step 4 were another."),
+        (["a", "ab", "aba", "ab", "abaababa"], "if the word of step 2 or 3 were another."),
+        (["abcdef", "uvxyz"], " other changes were made."),
+        (["ab", "c"], "or if one other change were made. With erasing=True 2 systems fit: of 2 letters 2 can become different"),
+        (["ab", "b", ""], "With erasing=True one system fits."),
+        (["+a", "a+"], "letter 1 of step 0, +, would have to become +, and there is a."),
+        (["a+b", "ab"], "letter 1 of step 0, a, has no successor"),
+        (["a", "aa", "aa"], "letter 1 of step 1, a, has no successor"),
+        (["abc", "ab"], "letter 1 of step 0, a, has no successor with which all others can have theirs."),
+    ],
+)
 def test_a_refusal_says_where_and_why(words: list[str], said: str) -> None:
     assert said in str(infer(words))
 
@@ -278,8 +320,9 @@ def test_words_too_large_to_be_looked_at_are_not_compared() -> None:
 
 
 def test_of_letters_that_only_the_last_word_has_nothing_is_known() -> None:
-    assert str(infer(["a", "b[+c]c"])).splitlines()[-1] == \
-        "Nothing is known of what becomes of b, c: only the last word has it."
+    assert (
+        str(infer(["a", "b[+c]c"])).splitlines()[-1] == "Nothing is known of what becomes of b, c: only the last word has it."
+    )
 
 
 @pytest.mark.parametrize(("name", "steps"), [("P3", 9), ("P3", 12), ("J4", 10), ("J5", 15), ("P4", 9), ("P4", 12), ("P5", 6)])
@@ -291,19 +334,30 @@ def test_laws_and_thresholds_of_parameters_are_found(name: str, steps: int) -> N
 
 
 def test_conditions_stand_in_conjunction() -> None:
-    assert str(infer(derive(system("P4"), 9))) == "\n".join([
-        "One system fits these 10 words:", "  M(x,y) : x < 5 -> M(x + 1,y)", "  M(x,y) : x >= 5 && y == -1 -> M(1,-1)M(2,1)",
-        "  M(x,y) : x >= 5 && y == 1 -> M(2,-1)M(1,1)",
-        "The number that a condition compares with could lie anywhere between the values that occur on its two sides."])
+    assert str(infer(derive(system("P4"), 9))) == "\n".join(
+        [
+            "One system fits these 10 words:",
+            "  M(x,y) : x < 5 -> M(x + 1,y)",
+            "  M(x,y) : x >= 5 && y == -1 -> M(1,-1)M(2,1)",
+            "  M(x,y) : x >= 5 && y == 1 -> M(2,-1)M(1,1)",
+            "The number that a condition compares with could lie anywhere between the values that occur on its two sides.",
+        ]
+    )
 
 
-@pytest.mark.parametrize(("rules", "steps"), [
-    ("axiom: F(1)\nF(x) -> F(2*x) B(x)\nB(x) -> B(x + 1/2)", 4), ("axiom: F(1)\nF(x) -> F(3*x - 1)", 4),
-    ("axiom: A(0,1)\nA(x,y) -> A(y, x+y)", 5), ("axiom: A(9,1)\nA(x,y) -> A(x - y, y)", 4),
-    ("axiom: A(1,2,3,4)\nA(a,b,c,d) -> A(b,c,d,a)", 4), ("axiom: F(0.5)\nF(x) -> F(x*0.1)", 4),
-    ("axiom: C(0)\nC(t) : t <= 2 -> C(t+1)\n", 5),
-    ("axiom: A(0) [ /(180) B(7) ]\nA(t) : t == 2 -> A(5)\nA(t) : t < 2 -> A(t+1)\nA(t) : t > 2 -> A(t - 1)", 9),
-])
+@pytest.mark.parametrize(
+    ("rules", "steps"),
+    [
+        ("axiom: F(1)\nF(x) -> F(2*x) B(x)\nB(x) -> B(x + 1/2)", 4),
+        ("axiom: F(1)\nF(x) -> F(3*x - 1)", 4),
+        ("axiom: A(0,1)\nA(x,y) -> A(y, x+y)", 5),
+        ("axiom: A(9,1)\nA(x,y) -> A(x - y, y)", 4),
+        ("axiom: A(1,2,3,4)\nA(a,b,c,d) -> A(b,c,d,a)", 4),
+        ("axiom: F(0.5)\nF(x) -> F(x*0.1)", 4),
+        ("axiom: C(0)\nC(t) : t <= 2 -> C(t+1)\n", 5),
+        ("axiom: A(0) [ /(180) B(7) ]\nA(t) : t == 2 -> A(5)\nA(t) : t < 2 -> A(t+1)\nA(t) : t > 2 -> A(t - 1)", 9),
+    ],
+)
 def test_other_laws_are_found(rules: str, steps: int) -> None:
     words = derive(read(rules), steps)
     found = infer(words)

@@ -24,8 +24,11 @@ def test_more_than_a_thousand_fits_are_refused() -> None:
 
 def test_too_many_fits_are_refused_with_those_that_were_found(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(infer_module, "MOST_FITS", 20)
-    with pytest.raises(ModelLimitError, match=r"^1,716 systems fit these 2 words. Give more steps. They differ in what "
-                                              r"becomes of a \(8 ways\), b \(35 ways\), .*, g \(8 ways\).$") as refused:
+    with pytest.raises(
+        ModelLimitError,
+        match=r"^1,716 systems fit these 2 words. Give more steps. They differ in what "
+        r"becomes of a \(8 ways\), b \(35 ways\), .*, g \(8 ways\).$",
+    ) as refused:
         infer(["abcdefg", "abcdefgabcdefg"])
     assert (len(refused.value.partial), refused.value.needed) == (20, comb(13, 6))  # type: ignore[arg-type]
     with pytest.raises(ModelLimitError, match=r"^55 systems fit these 3 words. Give more steps. All have x -> a b c. They"):
@@ -35,8 +38,11 @@ def test_too_many_fits_are_refused_with_those_that_were_found(monkeypatch: pytes
 def test_more_fits_than_can_soon_be_counted_are_refused_with_what_is_known(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(infer_module, "MOST_FITS", 20)
     monkeypatch.setattr(too_many, "MOST_TRIED_TO_COUNT", 3)
-    with pytest.raises(ModelLimitError, match=r"^More than 20 systems fit these 2 words. .* They differ in what "
-                                              r"becomes of e, f, g.$") as refused:
+    with pytest.raises(
+        ModelLimitError,
+        match=r"^More than 20 systems fit these 2 words. .* They differ in what "
+        r"becomes of e, f, g.$",
+    ) as refused:
         infer(["abcdefg", "abcdefgabcdefg"])
     assert refused.value.needed is None
     with pytest.raises(ModelLimitError, match=r"All that were found have x -> a b c d e f g. They differ"):
@@ -46,25 +52,32 @@ def test_more_fits_than_can_soon_be_counted_are_refused_with_what_is_known(monke
 @pytest.mark.slow
 def test_of_modules_with_values_it_is_said_that_laws_are_looked_for_without_contexts() -> None:
     ages = derive(read("axiom: a(0) b(7)\na(t) -> a(t+1) a(t+1)\nb(t) -> b(t+1)"), 4)
-    with pytest.raises(ModelLimitError, match=r"systems fit these 5 words. With contexts, a module with other values, or other "
-                                              r"neighbours, is another letter: laws of values are looked for without contexts"):
+    with pytest.raises(
+        ModelLimitError,
+        match=r"systems fit these 5 words. With contexts, a module with other values, or other "
+        r"neighbours, is another letter: laws of values are looked for without contexts",
+    ):
         infer(ages, context=(1, 1))
 
 
-@pytest.mark.parametrize(("given", "message"), [
-    ("aab", "A sequence of words is needed, not str"), (7, "A sequence of words is needed, not int"),
-    ([], "Rules are found from two words at least; there are none"),
-    (["a"], "Rules are found from two words at least; there is one"),
-    (["a", 7], "The word of step 1 must be a text or a row of modules, not int"),
-    (["a", b"a"], "The word of step 1 must be a text or a row of modules, not bytes"),
-    (["a", ["a", 7]], "The word of step 1 must be a text or a row of modules, and has 7"),
-    (["a", "a%"], 'The word of step 1 has the module "%", which is no letter that rules alone replace'),
-    (["a", ["?P"]], 'The word of step 1 has the module "?P", which is no letter that rules alone replace'),
-    (["A(1)", "A(nan)"], 'The word of step 1 has "(nan)", which are no values'),
-    (["A(1/0) B", "A(1)"], 'The word of step 0 has "(1/0)", which are no values'),
-    (["A(1)", "A(2"], 'The word of step 1 has "(2", which are no values'),
-    (["a" * 60_000] * 2, "The words up to step 1 have more than 100,000 modules"),
-])
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ("aab", "A sequence of words is needed, not str"),
+        (7, "A sequence of words is needed, not int"),
+        ([], "Rules are found from two words at least; there are none"),
+        (["a"], "Rules are found from two words at least; there is one"),
+        (["a", 7], "The word of step 1 must be a text or a row of modules, not int"),
+        (["a", b"a"], "The word of step 1 must be a text or a row of modules, not bytes"),
+        (["a", ["a", 7]], "The word of step 1 must be a text or a row of modules, and has 7"),
+        (["a", "a%"], 'The word of step 1 has the module "%", which is no letter that rules alone replace'),
+        (["a", ["?P"]], 'The word of step 1 has the module "?P", which is no letter that rules alone replace'),
+        (["A(1)", "A(nan)"], 'The word of step 1 has "(nan)", which are no values'),
+        (["A(1/0) B", "A(1)"], 'The word of step 0 has "(1/0)", which are no values'),
+        (["A(1)", "A(2"], 'The word of step 1 has "(2", which are no values'),
+        (["a" * 60_000] * 2, "The words up to step 1 have more than 100,000 modules"),
+    ],
+)
 def test_what_is_no_sequence_of_words_is_refused(given: Any, message: str) -> None:
     with pytest.raises(LSystemError) as refused:
         infer(given)
@@ -77,14 +90,18 @@ def test_a_value_that_is_not_known_is_refused() -> None:
         infer(derive(growing, 2, c="c"))
 
 
-@pytest.mark.parametrize(("choices", "message"), [
-    ({"constants": 7}, "The constants must be symbols in a row, not int"),
-    ({"constants": [7]}, "A symbol as a constant is needed"),
-    ({"context": 1}, "The context must be two whole numbers"),
-    ({"erasing": 1}, 'True or False for "erasing" is needed, not int'),
-    ({"context": "11"}, "The context must be two whole numbers"), ({"context": (1,)}, "The context must be two whole numbers"),
-    ({"context": (-1, 0)}, "Each size of the context must be a whole number from 0 on, not -1"),
-])
+@pytest.mark.parametrize(
+    ("choices", "message"),
+    [
+        ({"constants": 7}, "The constants must be symbols in a row, not int"),
+        ({"constants": [7]}, "A symbol as a constant is needed"),
+        ({"context": 1}, "The context must be two whole numbers"),
+        ({"erasing": 1}, 'True or False for "erasing" is needed, not int'),
+        ({"context": "11"}, "The context must be two whole numbers"),
+        ({"context": (1,)}, "The context must be two whole numbers"),
+        ({"context": (-1, 0)}, "Each size of the context must be a whole number from 0 on, not -1"),
+    ],
+)
 def test_what_cannot_be_looked_for_is_refused(choices: Any, message: str) -> None:
     with pytest.raises(ModelValueError, match=message):
         infer(["a", "ab"], **choices)
@@ -137,8 +154,11 @@ def test_no_more_is_said_of_a_refusal_than_is_soon_found(monkeypatch: pytest.Mon
     monkeypatch.setattr(infer_module, "MOST_SUCCESSORS_TRIED", 10)
     assert "Step 2 cannot come from step 1" in str(infer(words))
     assert str(infer(words)).endswith("With context=(2, 1) many systems fit.")
-    for module, most in ((too_many, "MOST_TRIED_FOR_ONE"), (slips, "MOST_SUCCESSORS_TRIED"),
-                         (refusals, "MOST_SUCCESSORS_TRIED")):
+    for module, most in (
+        (too_many, "MOST_TRIED_FOR_ONE"),
+        (slips, "MOST_SUCCESSORS_TRIED"),
+        (refusals, "MOST_SUCCESSORS_TRIED"),
+    ):
         assert str(infer(words)).startswith("No system fits these 3 words. ")
         monkeypatch.setattr(module, most, 0)
     assert str(infer(words)) == "No system fits these 3 words."

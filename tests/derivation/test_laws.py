@@ -81,16 +81,18 @@ def test_the_random_systems_are_not_idle() -> None:
     @given(systems())
     def look(system: LSystem) -> None:
         words, applied = reference.words(system, STEPS)
-        seen.update({
-            "all": 1,
-            "condition": any(rule.condition is not None for rule in applied),
-            "failed condition": len(applied) < len(set(system.productions)),
-            "erasing": any(not rule.successor for rule in applied),
-            "value asked for": any(not hasattr(a, "name") for rule in applied for a in rule.predecessor.arguments),
-            "branch": any(symbol == "[" for symbol, _ in words[-1]),
-            "growth": len(words[-1]) > len(words[0]),
-            "ages": any(values for _, values in words[-1]),
-        })
+        seen.update(
+            {
+                "all": 1,
+                "condition": any(rule.condition is not None for rule in applied),
+                "failed condition": len(applied) < len(set(system.productions)),
+                "erasing": any(not rule.successor for rule in applied),
+                "value asked for": any(not hasattr(a, "name") for rule in applied for a in rule.predecessor.arguments),
+                "branch": any(symbol == "[" for symbol, _ in words[-1]),
+                "growth": len(words[-1]) > len(words[0]),
+                "ages": any(values for _, values in words[-1]),
+            }
+        )
 
     look()
     for what in seen:
@@ -182,11 +184,13 @@ def test_all_tokens_move_at_once(system: LSystem) -> None:
         assert net.tokens(after) == net.fired(net.tokens(before))
 
 
-def rewritten(system: LSystem, change: Callable[[tuple[Pattern, ...]], tuple[Pattern, ...]],
-              predecessor: Callable[[Pattern], Pattern]) -> LSystem:
+def rewritten(
+    system: LSystem, change: Callable[[tuple[Pattern, ...]], tuple[Pattern, ...]], predecessor: Callable[[Pattern], Pattern]
+) -> LSystem:
     """The system with every word in it changed."""
-    rules = tuple(Production((predecessor(rule.predecessor),), change(rule.successor), rule.condition)
-                  for rule in system.productions)
+    rules = tuple(
+        Production((predecessor(rule.predecessor),), change(rule.successor), rule.condition) for rule in system.productions
+    )
     return replace(system, axiom=change(system.axiom), productions=rules, alphabet=())
 
 
@@ -236,8 +240,15 @@ def test_a_part_of_a_word_is_a_word(system: LSystem, start: int, end: int) -> No
 
 # Systems with contexts, chance, decomposition, cuts, repetitions and meta-rules
 
-MIXED = [*((kind,) for kind in KINDS), (CONTEXT, CHANCE), (CONTEXT, CUT), (SEVERAL, CONTEXT), (SEVERAL, CHANCE),
-         (SEVERAL, CUT), ()]
+MIXED = [
+    *((kind,) for kind in KINDS),
+    (CONTEXT, CHANCE),
+    (CONTEXT, CUT),
+    (SEVERAL, CONTEXT),
+    (SEVERAL, CHANCE),
+    (SEVERAL, CUT),
+    (),
+]
 """Kinds of rules that are tested alone and together; `()` is any mixture."""
 seeds = st.integers(-3, 2**40)
 
@@ -275,7 +286,8 @@ def test_words_by_arrays_are_those_of_one_by_one(kinds: tuple[str, ...], data: s
         chosen = derive(system, STEPS, seed=seed)
         assert list(chosen) == list(one_by_one)
         assert [chosen.origins(step) for step in range(1, STEPS + 1)] == [
-            one_by_one.origins(step) for step in range(1, STEPS + 1)]
+            one_by_one.origins(step) for step in range(1, STEPS + 1)
+        ]
 
 
 @pytest.mark.slow
@@ -292,28 +304,34 @@ def test_the_random_systems_of_every_kind_are_not_idle(kinds: tuple[str, ...]) -
         def differs(other: LSystem, seed: int = 0) -> bool:
             return words != reference.words(other, STEPS, seed)[0]
 
-        seen.update({
-            "all": 1,
-            "condition": any(rule.condition is not None for rule in applied),
-            CONTEXT: any(rule.left or rule.right for rule in applied),
-            "named branch": any(module.symbol == "[" for rule in applied for module in rule.right),
-            CHANCE: any(rule.probability is not None for rule in applied) and differs(system, 1),
-            "random value": any(map(is_random, made)),
-            CUT: any(before[0] == "%" and after[0] != "]" for word in words[:-1] for before, after in pairwise(word)),
-            REPETITION: any(isinstance(item, Repeat) for rule in applied for item in rule.successor),
-            DECOMPOSITION: bool(system.decomposition) and differs(replace(system, decomposition=())),
-            META: bool(system.meta) and differs(replace(system, meta=())),
-            SEVERAL: any(len(rule.predecessors) > 1 for rule in applied),
-            "three together": any(len(rule.predecessors) > 2 for rule in applied),
-            "several between neighbours": any(len(rule.predecessors) > 1 and (rule.left or rule.right) for rule in applied),
-            "several with a condition": any(len(rule.predecessors) > 1 and rule.condition is not None for rule in applied),
-        })
+        seen.update(
+            {
+                "all": 1,
+                "condition": any(rule.condition is not None for rule in applied),
+                CONTEXT: any(rule.left or rule.right for rule in applied),
+                "named branch": any(module.symbol == "[" for rule in applied for module in rule.right),
+                CHANCE: any(rule.probability is not None for rule in applied) and differs(system, 1),
+                "random value": any(map(is_random, made)),
+                CUT: any(before[0] == "%" and after[0] != "]" for word in words[:-1] for before, after in pairwise(word)),
+                REPETITION: any(isinstance(item, Repeat) for rule in applied for item in rule.successor),
+                DECOMPOSITION: bool(system.decomposition) and differs(replace(system, decomposition=())),
+                META: bool(system.meta) and differs(replace(system, meta=())),
+                SEVERAL: any(len(rule.predecessors) > 1 for rule in applied),
+                "three together": any(len(rule.predecessors) > 2 for rule in applied),
+                "several between neighbours": any(len(rule.predecessors) > 1 and (rule.left or rule.right) for rule in applied),
+                "several with a condition": any(len(rule.predecessors) > 1 and rule.condition is not None for rule in applied),
+            }
+        )
 
     look()
     for what in ("condition", *(kinds or KINDS)):
         assert seen[what] >= 0.3 * seen["all"], (what, seen)
-    rates = {(CONTEXT, "named branch"): 0.1, (CHANCE, "random value"): 0.15, (SEVERAL, "three together"): 0.05,
-             (SEVERAL, "several with a condition"): 0.2}
+    rates = {
+        (CONTEXT, "named branch"): 0.1,
+        (CHANCE, "random value"): 0.15,
+        (SEVERAL, "three together"): 0.05,
+        (SEVERAL, "several with a condition"): 0.2,
+    }
     for (kind, what), rate in rates.items():
         assert kind not in (kinds or KINDS) or seen[what] >= rate * seen["all"], (what, seen)
     assert not {CONTEXT, SEVERAL} <= {*(kinds or KINDS)} or seen["several between neighbours"] >= 0.15 * seen["all"], seen
@@ -333,6 +351,7 @@ def test_an_empty_context_is_none(system: LSystem) -> None:
 @given(st.integers(-322, 308), st.sampled_from(("", "A < ")), st.integers(0, 9))
 def test_only_the_ratios_of_weights_decide(power: int, context: str, seed: int) -> None:
     """At both ends of what doubles can hold, too."""
+
     def system(weight: str, other: str) -> LSystem:
         return read(f"axiom: A A A A\n{context}A -> A A : {weight}\n{context}A -> A B : {other}\n{context}A -> B : 0")
 
@@ -348,14 +367,19 @@ def test_what_has_no_rival_happens_whatever_its_probability(system: LSystem, pro
     chancy = tuple(replace(rule, probability=Number(probability)) for rule in first.values())
     defined(certain)
     assert list(map(modules, derive(replace(certain, productions=chancy), STEPS, seed=seed))) == list(
-        map(modules, derive(certain, STEPS)))
+        map(modules, derive(certain, STEPS))
+    )
 
 
 @given(systems_with(), systems())
 def test_interpretation_never_changes_a_word(system: LSystem, other: LSystem) -> None:
     defined(system)
-    drawn = replace(system, interpretation=tuple(
-        Production((Pattern(symbol),), (Pattern("F"), Pattern("%"), Pattern("B"))) for symbol in ("A", "B", "F", "+", "E")))
+    drawn = replace(
+        system,
+        interpretation=tuple(
+            Production((Pattern(symbol),), (Pattern("F"), Pattern("%"), Pattern("B"))) for symbol in ("A", "B", "F", "+", "E")
+        ),
+    )
     assert list(map(modules, derive(drawn, STEPS))) == list(map(modules, derive(system, STEPS)))
 
 
@@ -387,7 +411,8 @@ def test_what_stands_behind_a_cut_makes_no_difference(system: LSystem, other: LS
 @settings(max_examples=40, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
 @given(data=st.data(), seed=seeds, steps=st.permutations(range(STEPS + 1)))
 def test_the_same_seed_gives_the_same_word_in_whatever_order(
-        kinds: tuple[str, ...], data: st.DataObject, seed: int, steps: list[int]) -> None:
+    kinds: tuple[str, ...], data: st.DataObject, seed: int, steps: list[int]
+) -> None:
     system = data.draw(systems_with(*kinds))
     defined(system, seed)
     one_by_one = list(map(modules, derive(system, STEPS, seed=seed)))
@@ -412,8 +437,16 @@ def test_seeds_make_a_difference() -> None:
 @pytest.mark.slow
 def test_words_do_not_depend_on_the_hashes_of_a_process() -> None:
     program = f"from lsys_kit import derive, read; print([str(w) for w in derive(read({CHANCY!r}), 8, seed=3)])"
-    printed = {subprocess.run([sys.executable, "-c", program], env={**os.environ, "PYTHONHASHSEED": number}, check=True,
-                              capture_output=True, text=True).stdout for number in ("0", "1", "2")}
+    printed = {
+        subprocess.run(
+            [sys.executable, "-c", program],
+            env={**os.environ, "PYTHONHASHSEED": number},
+            check=True,
+            capture_output=True,
+            text=True,
+        ).stdout
+        for number in ("0", "1", "2")
+    }
     assert len(printed) == 1
 
 

@@ -33,9 +33,11 @@ def check_against_derivation(model: LSystem, steps: int, **constants: object) ->
 @pytest.mark.parametrize(("first", "second"), list(product(SPANS, SPANS)))
 def test_a_token_rests_as_long_as_a_cell_of_j4_lives(first: int, second: int) -> None:
     check_against_derivation(system("J4"), 11, lifeTimeA=first, lifeTimeB=second)
-    spans = {place.symbol[0]: transition.span for transition in stages(system("J4"), durations=True, lifeTimeA=first,
-                                                                     lifeTimeB=second).transitions
-             for place in [stages(system("J4"), durations=True, lifeTimeA=first, lifeTimeB=second).places[transition.place]]}
+    spans = {
+        place.symbol[0]: transition.span
+        for transition in stages(system("J4"), durations=True, lifeTimeA=first, lifeTimeB=second).transitions
+        for place in [stages(system("J4"), durations=True, lifeTimeA=first, lifeTimeB=second).places[transition.place]]
+    }
     assert first == second or spans == {"A": first, "B": second}
 
 
@@ -47,22 +49,29 @@ def test_a_token_rests_as_long_as_a_cell_of_p4_lives(last: int) -> None:
 
 
 def test_the_net_of_p4_has_two_stages_and_the_cell_that_is_about_to_divide() -> None:
-    assert repr(stages(system("P4"), durations=True)) == \
-        "M(1,1) -> M(2,1) after 1\nM(2,1) -> M(5,1) after 3\nM(5,1) -> M(2,1) + M(1,1) after 1"
+    assert (
+        repr(stages(system("P4"), durations=True))
+        == "M(1,1) -> M(2,1) after 1\nM(2,1) -> M(5,1) after 3\nM(5,1) -> M(2,1) + M(1,1) after 1"
+    )
     assert repr(stages(system("J4"), durations=True)) == "Al(1) -> Al(1) + Br(1) after 3\nBr(1) -> Br(1) + Al(1) after 2"
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["P5", "P6"])
-@given(st.sampled_from(SPANS), st.fractions(0, "2/5", max_denominator=5), st.fractions(0, "2/5", max_denominator=5),
-       st.fractions("1/7", "3/5", max_denominator=10))
+@given(
+    st.sampled_from(SPANS),
+    st.fractions(0, "2/5", max_denominator=5),
+    st.fractions(0, "2/5", max_denominator=5),
+    st.fractions("1/7", "3/5", max_denominator=10),
+)
 def test_a_token_rests_as_long_as_a_cell_of_p5_lives(name: str, t_div: int, t_s: Fraction, t_l: Fraction, dt: Fraction) -> None:
     check_against_derivation(system(name), 6, t_div=t_div, t_s=t_s, t_l=t_l, dt=dt)
 
 
 def test_lives_that_are_shorter_than_a_step_are_said_to_end_late() -> None:
-    assert stages(system("P5"), durations=True, dt="1.4").besides == \
-        ("derived in steps of 1.4, lives shorter than that end late",)
+    assert stages(system("P5"), durations=True, dt="1.4").besides == (
+        "derived in steps of 1.4, lives shorter than that end late",
+    )
     assert stages(system("P5"), durations=True).besides == stages(system("P6"), durations=True, dt="1.4").besides == ()
 
 
@@ -85,8 +94,15 @@ def _even_systems(draw: st.DrawFn) -> str:
     productions, decomposition = [], []
     for letter in LETTERS:
         age = draw(st.fractions(2, 4, max_denominator=5))
-        made = " ".join(f"{other}(t-({age})+{first}{'+dt' if late else ''})" for other, first in draw(st.lists(
-            st.tuples(st.sampled_from(LETTERS), st.sampled_from(["0", "1/5", "1"])), max_size=2))) or "X"
+        made = (
+            " ".join(
+                f"{other}(t-({age})+{first}{'+dt' if late else ''})"
+                for other, first in draw(
+                    st.lists(st.tuples(st.sampled_from(LETTERS), st.sampled_from(["0", "1/5", "1"])), max_size=2)
+                )
+            )
+            or "X"
+        )
         if late:
             productions.append(f"{letter}(t) : t+dt >= {age} -> {made}")
         else:
@@ -96,9 +112,14 @@ def _even_systems(draw: st.DrawFn) -> str:
     return text + ("\ndecomposition:\n" + "\n".join(decomposition) if decomposition else "")
 
 
-FORMS = ("{0}(t) : t < {1} -> {0}(t+{2})|{0}(t) -> {3}", "{0}(t) : t >= {1} -> {3}|{0}(t) -> {0}(t+{2})",
-         "{0}({1}) -> {3}|{0}(t) -> {0}(t+{2})", "{0}(t) -> {0}(t+{2})|>{0}(t) : t > {1} -> {3}",
-         "{0}(t) : t < {1} -> {0}(t+{2})", "{0}(t) : !(t < {1}) && t < 9 -> {3}|{0}(t) -> {0}(t+{2})")
+FORMS = (
+    "{0}(t) : t < {1} -> {0}(t+{2})|{0}(t) -> {3}",
+    "{0}(t) : t >= {1} -> {3}|{0}(t) -> {0}(t+{2})",
+    "{0}({1}) -> {3}|{0}(t) -> {0}(t+{2})",
+    "{0}(t) -> {0}(t+{2})|>{0}(t) : t > {1} -> {3}",
+    "{0}(t) : t < {1} -> {0}(t+{2})",
+    "{0}(t) : !(t < {1}) && t < 9 -> {3}|{0}(t) -> {0}(t+{2})",
+)
 """What is said of a letter, given an age, a step and a successor; lines with > are decomposition rules."""
 MADE = ("a(0)", "b(0)", "c(1)", "a(t)", "b(1)", "c(t-1)", "X", "repeat(2)<X>", "repeat(max(t, 0)) <X>")
 

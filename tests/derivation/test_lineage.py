@@ -111,9 +111,15 @@ def test_a_cell_that_is_just_old_enough_is_not_late() -> None:
     assert [cell.due for cell in lineage(system("P5"), 2, dt="1.4").cells if cell.due] == [Fraction(13, 5)]
 
 
-@pytest.mark.parametrize(("id", "times"), [
-    ("P5", ["1", "9/5", "2", "13/5", "14/5", "14/5", "3"]), ("P6", ["1", "9/5", "2", "13/5", "14/5", "14/5", "3"]),
-    ("K27", ["1", "2", "3", "3", "4", "4", "4"]), ("J4", ["3", "5", "6", "7", "8", "8", "9"])])
+@pytest.mark.parametrize(
+    ("id", "times"),
+    [
+        ("P5", ["1", "9/5", "2", "13/5", "14/5", "14/5", "3"]),
+        ("P6", ["1", "9/5", "2", "13/5", "14/5", "14/5", "3"]),
+        ("K27", ["1", "2", "3", "3", "4", "4", "4"]),
+        ("J4", ["3", "5", "6", "7", "8", "8", "9"]),
+    ],
+)
 def test_the_first_divisions(id: str, times: list[str]) -> None:
     assert [str(time) for time in lineage(system(id), 12).divisions[:7]] == times
 
@@ -129,8 +135,9 @@ def test_the_steps_of_k27_are_its_time() -> None:
     stepwise, whole = lineage(system("K27"), 9), lineage(ANABAENA, "9/2")
     assert stepwise.times[-1] == Fraction(9, 2)
     assert stepwise.divisions == whole.divisions
-    assert [cell.born for cell in sorted(stepwise.cells, key=lambda cell: cell.born)] == \
-        [cell.born for cell in sorted(whole.cells, key=lambda cell: cell.born)]
+    assert [cell.born for cell in sorted(stepwise.cells, key=lambda cell: cell.born)] == [
+        cell.born for cell in sorted(whole.cells, key=lambda cell: cell.born)
+    ]
 
 
 def test_cells_are_known_as_they_were_at_birth() -> None:
@@ -178,11 +185,17 @@ def test_a_lineage_is_told_in_a_line() -> None:
     assert repr(lineage(read("axiom: A"), 0)) == "1 cell at time 0, after 0 divisions"
 
 
-@pytest.mark.parametrize(("what", "n", "choices", "said"), [
-    ("P6", 2, {}, "not str"), (LOOKING, 2, {}, "Derive it first"),
-    (timed(TIMED), None, {}, "needs the time at which it ends"),
-    (derive(system("P6"), 2), 3, {}, "chosen when a system is derived"),
-    (derive(system("P6"), 2), None, {"dt": 1}, "chosen when a system is derived"), (timed(TIMED), -1, {}, "before the axiom")])
+@pytest.mark.parametrize(
+    ("what", "n", "choices", "said"),
+    [
+        ("P6", 2, {}, "not str"),
+        (LOOKING, 2, {}, "Derive it first"),
+        (timed(TIMED), None, {}, "needs the time at which it ends"),
+        (derive(system("P6"), 2), 3, {}, "chosen when a system is derived"),
+        (derive(system("P6"), 2), None, {"dt": 1}, "chosen when a system is derived"),
+        (timed(TIMED), -1, {}, "before the axiom"),
+    ],
+)
 def test_what_has_no_lineage_is_explained(what: object, n: object, choices: dict[str, object], said: str) -> None:
     with pytest.raises(ModelValueError, match=said):
         lineage(what, n, **choices)  # type: ignore[arg-type]

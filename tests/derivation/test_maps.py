@@ -96,9 +96,12 @@ def test_a_cell_has_one_mother_who_has_at_most_two_daughters(system: MapSystem) 
 def test_a_neutral_wall_has_no_beginning(system: MapSystem) -> None:
     """Its ends may be taken in either order: the walls and cells that are made have the same letters."""
     found = maps_of(system)[-1]
-    flipped = Map(found.vertices, tuple(wall if wall.directed else wall._replace(start=wall.end, end=wall.start)
-                                        for wall in found.walls),
-                  tuple(_flipped(cell, found) for cell in found.cells), _flipped(found.boundary, found))
+    flipped = Map(
+        found.vertices,
+        tuple(wall if wall.directed else wall._replace(start=wall.end, end=wall.start) for wall in found.walls),
+        tuple(_flipped(cell, found) for cell in found.cells),
+        _flipped(found.boundary, found),
+    )
     assert str(flipped) == str(found)
     assert next_words(found, system) == next_words(flipped, system)
 
@@ -121,9 +124,14 @@ def test_a_map_without_markers_only_parts_its_walls(system: MapSystem) -> None:
         assert found.cells[0] == found.boundary
 
 
-@pytest.mark.parametrize(("text", "counts"), [
-    (K28, [(4, 4, 1), (6, 7, 2), (9, 12, 4)]), (K29, [(4, 4, 1), (8, 9, 2), (14, 17, 4)]),
-    (K30.format("A>B>C>D>"), [(4, 4, 1), (6, 7, 2), (8, 10, 3)])])
+@pytest.mark.parametrize(
+    ("text", "counts"),
+    [
+        (K28, [(4, 4, 1), (6, 7, 2), (9, 12, 4)]),
+        (K29, [(4, 4, 1), (8, 9, 2), (14, 17, 4)]),
+        (K30.format("A>B>C>D>"), [(4, 4, 1), (6, 7, 2), (8, 10, 3)]),
+    ],
+)
 def test_the_maps_of_seed_003(text: str, counts: list[tuple[int, int, int]]) -> None:
     assert derive(read_map(text), 2).counts == counts
 
@@ -168,9 +176,18 @@ def test_a_new_wall_runs_from_the_marker_that_points_away() -> None:
     assert [found.vertices[vertex].between for vertex in (4, 5)] == [(0, 1), (2, 3)]
 
 
-@pytest.mark.parametrize(("rules", "cells"), [
-    ("A -> A[-B][+B]A", 2), ("A> -> A>[-B>]A>", 1), ("A> -> A>[-B<]A>", 1), ("A> -> A>[-B>][-B<]A>", 2), ("A> -> A>[+B]A>", 1),
-    ("A> -> A>[-B]A>", 2), ("A> -> A>[-B][-C]A>", 2)])
+@pytest.mark.parametrize(
+    ("rules", "cells"),
+    [
+        ("A -> A[-B][+B]A", 2),
+        ("A> -> A>[-B>]A>", 1),
+        ("A> -> A>[-B<]A>", 1),
+        ("A> -> A>[-B>][-B<]A>", 2),
+        ("A> -> A>[+B]A>", 1),
+        ("A> -> A>[-B]A>", 2),
+        ("A> -> A>[-B][-C]A>", 2),
+    ],
+)
 def test_markers_match_that_point_opposite_ways_or_both_nowhere(rules: str, cells: int) -> None:
     axiom = "A>A>A>" if "A>" in rules else "AAA"
     assert derive(read_map(f"map: {axiom}\n{rules}"), 1).counts[1][2] == cells
@@ -192,8 +209,10 @@ def test_the_maps_before_are_kept_at_a_limit() -> None:
         derive(read_map(K28), 99)
     assert isinstance(caught.value.partial, Development)
     assert caught.value.partial.counts[-1] == derive(read_map(K28), 5).counts[-1]
-    assert str(caught.value) == ("Step 6 would have 112 walls or more; the limit is 100. Steps 0-5 are kept. "
-                                 "Take fewer steps, or set limits(modules=...).")
+    assert str(caught.value) == (
+        "Step 6 would have 112 walls or more; the limit is 100. Steps 0-5 are kept. "
+        "Take fewer steps, or set limits(modules=...)."
+    )
     with limits(modules=6), pytest.raises(ModelLimitError, match="Step 1 would have 7 walls or more; the limit is 6"):
         derive(read_map(K28), 1)
     with limits(bytes=10_000), pytest.raises(ModelLimitError, match=r"Step 4 would take about 13,440 bytes"):
@@ -285,7 +304,7 @@ def test_the_walls_that_divide_cells_join_the_markers_that_match(system: MapSyst
         joined = {frozenset((stub.vertex, stub.partner)) for stub in stubs if stub.partner is not None}  # some are typed twice
         assert joined == {frozenset(wall[1:3]) for wall in dividing_walls(before, after, productions)}
         assert replaced.vertices == after.vertices
-        assert replaced.walls == after.walls[:len(replaced.walls)]
+        assert replaced.walls == after.walls[: len(replaced.walls)]
         assert [before.counts[2], replaced.boundary] == [replaced.counts[2], after.boundary]
 
 

@@ -23,9 +23,27 @@ from tests.derivation.test_laws import ends
 NAMESPACE = {"p": "http://www.pnml.org/version-2009/grammar/pnml"}
 STEPS = {"K5": 8, "T2": 5, "L1": 6}
 """How many steps of those that grow fast are fired; the others ten. The tool takes some five microseconds for each token."""
-HOSTILE = ("<script>alert(1)</script>", "a&b", "&amp;", '"\'', "]]>", "<![CDATA[x]]>", "<!-- x -->",
-           "\x01", "\x1b[0m", "a\nb", "a\rb",
-           "\t", "\ud800", "\uffff", "é", "\u202e", "$5 and $6", "?>", " ")
+HOSTILE = (
+    "<script>alert(1)</script>",
+    "a&b",
+    "&amp;",
+    "\"'",
+    "]]>",
+    "<![CDATA[x]]>",
+    "<!-- x -->",
+    "\x01",
+    "\x1b[0m",
+    "a\nb",
+    "a\rb",
+    "\t",
+    "\ud800",
+    "\uffff",
+    "é",
+    "\u202e",
+    "$5 and $6",
+    "?>",
+    " ",
+)
 
 
 def imported(text: str) -> tuple[Any, Counter[Any]]:
@@ -117,8 +135,9 @@ def test_what_other_programs_do_not_know_of_a_net_is_said_and_nothing_else(name:
     alike = not net.grouped and tokens == [net.tokens(word) for word in words]
     said = played_otherwise(net)
     assert alike or said.startswith("Programs for Petri nets play this net otherwise than the system grows: they know no ")
-    assert bool(said) == any((*net.besides, *(t.condition or t.chance is not None for t in net.transitions),
-                              *(arc.factor for arc in net.arcs)))
+    assert bool(said) == any(
+        (*net.besides, *(t.condition or t.chance is not None for t in net.transitions), *(arc.factor for arc in net.arcs))
+    )
 
 
 @pytest.mark.parametrize("name", ["K7", "K8"])

@@ -80,6 +80,7 @@ def test_what_is_unknown_makes_no_whole_number() -> None:
 
 def test_a_fault_of_the_kit_is_not_put_down_to_the_model(monkeypatch: pytest.MonkeyPatch) -> None:
     """A `TypeError` speaks of unknown constants only where there are some."""
+
     def broken(*_: object) -> object:
         raise TypeError("a fault of the kit")
 
@@ -130,9 +131,13 @@ def test_rare_events_are_counted() -> None:
 
 
 def test_brackets_without_partners_open_and_close_nothing() -> None:
-    system = LSystem(tuple(map(Pattern, "A]B[C")), tuple(
-        Production((Pattern(letter),), (Pattern("X"),), left=tuple(map(Pattern, left)), right=tuple(map(Pattern, right)))
-        for letter, left, right in (("B", "A", ""), ("C", "B", ""), ("A", "", "[D]"))))
+    system = LSystem(
+        tuple(map(Pattern, "A]B[C")),
+        tuple(
+            Production((Pattern(letter),), (Pattern("X"),), left=tuple(map(Pattern, left)), right=tuple(map(Pattern, right)))
+            for letter, left, right in (("B", "A", ""), ("C", "B", ""), ("A", "", "[D]"))
+        ),
+    )
     assert str(derive(system, 1)[1]) == "A]X[X"
     assert str(derive(dataclasses.replace(system, axiom=tuple(map(Pattern, "A[D"))), 1)[1]) == "X[D"
     assert str(derive(dataclasses.replace(system, axiom=tuple(map(Pattern, "A[E"))), 1)[1]) == "A[E"

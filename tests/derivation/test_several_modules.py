@@ -49,8 +49,10 @@ def test_cars_move_on_a_road() -> None:
     """Wolfram's rule 184: each car moves on if the place in front of it is free, all at once."""
     road = "AAOAOOAAOO"
     for _ in range(6):
-        expected = "".join("A" if (here == "A" and front == "A") or (here == "O" and behind == "A") else "O"
-                           for behind, here, front in zip("O" + road, road, road[1:] + "A", strict=False))
+        expected = "".join(
+            "A" if (here == "A" and front == "A") or (here == "O" and behind == "A") else "O"
+            for behind, here, front in zip("O" + road, road, road[1:] + "A", strict=False)
+        )
         road = after(road, "A O -> O A")
         assert road == expected
 
@@ -88,8 +90,9 @@ def test_what_is_cut_off_is_not_replaced() -> None:
 
 
 def test_values_of_all_modules_count() -> None:
-    system = read("axiom: A(1) B(2) A(3) B(1) A(0) B(0)\n"
-                  "A(x) B(y) : x < y -> C(x+y)\nA(3) B(y) -> C(y)\nA(x) B(x0) -> A(x) A(x0)")
+    system = read(
+        "axiom: A(1) B(2) A(3) B(1) A(0) B(0)\nA(x) B(y) : x < y -> C(x+y)\nA(3) B(y) -> C(y)\nA(x) B(x0) -> A(x) A(x0)"
+    )
     assert str(derive(system, 1)[1]) == "C(3)C(1)A(0)A(0)"
 
 
@@ -131,8 +134,13 @@ def test_what_chance_erased_is_told_with_all_that_it_replaced(seed: int) -> None
     told = explain(derivation, 1)
     assert [1 + len(outcome.others) for outcome in told] == [size for size in derivation.origins(1).sizes if size]
     for outcome in told:
-        assert outcome.production == ("production 1, A B -> ε : 1" if outcome.others else
-                                      "production 2, A -> ε : 1" if outcome.module.symbol == "A" else "no production is for B")
+        assert outcome.production == (
+            "production 1, A B -> ε : 1"
+            if outcome.others
+            else "production 2, A -> ε : 1"
+            if outcome.module.symbol == "A"
+            else "no production is for B"
+        )
 
 
 def test_a_diagram_says_what_it_does_not_show() -> None:
@@ -149,13 +157,16 @@ def test_the_share_of_a_production_counts_longer_ones_too() -> None:
 PAIRS = read("axiom: A B\nA B -> B A A\nA(t) -> A(t+1)\ndecomposition:\nA(t) : t > 2 -> A(0)")
 
 
-@pytest.mark.parametrize(("ask", "message"), [
-    (growth, "Growth is defined for systems that replace each module alone"),
-    (timed, "is defined for systems that replace each module alone"),
-    (lambda system: lineage(system, 2), "A cell of a lineage has one mother"),
-    (lambda system: list(lengths(system, 3)), "that is not derived is defined for systems that replace each module alone"),
-    (lambda system: stages(system, durations=True), "How long a module lives cannot be told, since A B -> B A A"),
-])
+@pytest.mark.parametrize(
+    ("ask", "message"),
+    [
+        (growth, "Growth is defined for systems that replace each module alone"),
+        (timed, "is defined for systems that replace each module alone"),
+        (lambda system: lineage(system, 2), "A cell of a lineage has one mother"),
+        (lambda system: list(lengths(system, 3)), "that is not derived is defined for systems that replace each module alone"),
+        (lambda system: stages(system, durations=True), "How long a module lives cannot be told, since A B -> B A A"),
+    ],
+)
 def test_what_a_pseudo_l_system_has_not_is_refused(ask, message: str) -> None:
     with pytest.raises(ModelValueError, match=message):
         ask(PAIRS)

@@ -48,7 +48,11 @@ def test_places_are_states_and_transitions_are_productions() -> None:
     assert [(t.place, t.production) for t in net.transitions] == [(0, 0), (1, 1), (2, 2)]
     assert repr(net) == "S -> L\nL -> A\nA -> L + 2 S"
     assert [(a.transition, a.place, a.copies, a.positions) for a in net.arcs] == [
-        (0, 1, 1, (1,)), (1, 2, 1, (1,)), (2, 1, 1, (1,)), (2, 0, 2, (2, 3))]
+        (0, 1, 1, (1,)),
+        (1, 2, 1, (1,)),
+        (2, 1, 1, (1,)),
+        (2, 0, 2, (2, 3)),
+    ]
 
 
 def test_a_place_that_nothing_leaves_keeps_its_tokens() -> None:
@@ -106,8 +110,10 @@ def test_what_is_grouped_can_be_unfolded() -> None:
     assert len(stages(catalogued("K19"), unfold=True).places) > len(stages(catalogued("K19")).places)
 
 
-@pytest.mark.parametrize("text", ["axiom: A(1)\nA(t) : t > 0 -> A(t+1)", "axiom: A B\nA > B -> B",
-                                  "axiom: A(1)\nA(t) : t < 401 -> A(t+1)\nA(t) -> A(1)"])
+@pytest.mark.parametrize(
+    "text",
+    ["axiom: A(1)\nA(t) : t > 0 -> A(t+1)", "axiom: A B\nA > B -> B", "axiom: A(1)\nA(t) : t < 401 -> A(t+1)\nA(t) -> A(1)"],
+)
 def test_states_that_are_too_many_or_have_neighbours_cannot_be_unfolded(text: str) -> None:
     with pytest.raises(ModelValueError, match="cannot be unfolded"):
         stages(read(text), unfold=True)
@@ -136,8 +142,12 @@ def test_the_tokens_of_a_lumped_net_are_the_words_counts(name: str) -> None:
 
 def test_a_lumped_net_of_too_many_transitions_is_grouped() -> None:
     assert repr(stages(catalogued("K19"))).splitlines() == [
-        "A -> 2 F + 2 I + 4 [ + 4 & + 3 ~ + 2 L + 4 ] + 3 / + 2 A + K if A(7)", "A -> A if t < 7", "I -> 2 F + I if t > 0",
-        "L -> L", "K -> K"]
+        "A -> 2 F + 2 I + 4 [ + 4 & + 3 ~ + 2 L + 4 ] + 3 / + 2 A + K if A(7)",
+        "A -> A if t < 7",
+        "I -> 2 F + I if t > 0",
+        "L -> L",
+        "K -> K",
+    ]
 
 
 def test_symbols_that_are_never_met_have_no_place() -> None:
@@ -157,9 +167,14 @@ def follows(net: Stages, system: LSystem, steps: int) -> None:
 
 def test_places_are_parted_as_far_as_their_futures_differ() -> None:
     rules = "\ninterpretation:\nA -> R(1,1)\nB -> L(1,1)\nC -> R(1,1)\nD -> L(1,1)"
-    assert [len(stages(read(text + rules)).places) for text in (
-        "axiom: A B\nA -> B\nB -> A", "axiom: A\nA -> B\nB -> C\nC -> C D\nD -> D C", "axiom: A\nA -> B\nB -> C\nC -> F",
-    )] == [1, 3, 4]
+    assert [
+        len(stages(read(text + rules)).places)
+        for text in (
+            "axiom: A B\nA -> B\nB -> A",
+            "axiom: A\nA -> B\nB -> C\nC -> C D\nD -> D C",
+            "axiom: A\nA -> B\nB -> C\nC -> F",
+        )
+    ] == [1, 3, 4]
 
 
 def test_a_module_that_is_not_met_has_no_place() -> None:
@@ -228,8 +243,10 @@ def systems_of_chance(draw: st.DrawFn) -> LSystem:
     rules = []
     for bud in BUDS:
         ways = draw(st.lists(st.tuples(words, weights), max_size=3))
-        rules += [Production((Pattern(bud),), made, probability=weight if number else Number(Fraction(13, 20)))
-                  for number, (made, weight) in enumerate(ways)]
+        rules += [
+            Production((Pattern(bud),), made, probability=weight if number else Number(Fraction(13, 20)))
+            for number, (made, weight) in enumerate(ways)
+        ]
     return LSystem(tuple(map(Pattern, BUDS)), tuple(rules))
 
 
@@ -252,8 +269,9 @@ def test_expected_tokens_are_the_mean_of_what_chance_may_do(system: LSystem, ste
     counts: Mapping[str, Fraction] = dict.fromkeys(BUDS, Fraction(1))
     for _ in range(steps):
         counts = mean(system, counts)
-    assert {place.symbol: n for place, n in zip(net.places, net.expected(steps), strict=True) if n} == \
-        {symbol: n for symbol, n in counts.items() if n}
+    assert {place.symbol: n for place, n in zip(net.places, net.expected(steps), strict=True) if n} == {
+        symbol: n for symbol, n in counts.items() if n
+    }
 
 
 @given(systems_of_chance(), st.integers(0, 99))
@@ -295,14 +313,18 @@ def test_lots_are_drawn_by_whoever_fires() -> None:
 
 def test_weights_that_are_none_leave_the_net_grouped() -> None:
     assert stages(read("axiom: A\nA -> B : 0\nA -> C : 0")).grouped
-    assert repr(stages(read("axiom: A(1)\nA(t) -> A(t+1) : t\nA(t) -> B : 2"))) == \
-        "A -> A if with weight t\nA -> B if with weight 2"
+    assert (
+        repr(stages(read("axiom: A(1)\nA(t) -> A(t+1) : t\nA(t) -> B : 2")))
+        == "A -> A if with weight t\nA -> B if with weight 2"
+    )
 
 
 def test_chance_that_hangs_on_a_value_is_that_of_each_state() -> None:
     net = stages(read("axiom: A(1)\nA(t) : t < 3 -> A(t+1) : t\nA(t) : t < 3 -> B : 2\nA(t) -> A(1)"))
-    assert repr(net) == ("A(1) -> A(2) with probability 1/3\nA(1) -> B with probability 2/3\n"
-                         "A(2) -> A(3) with probability 0.5\nA(2) -> B with probability 0.5\nA(3) -> A(1)")
+    assert repr(net) == (
+        "A(1) -> A(2) with probability 1/3\nA(1) -> B with probability 2/3\n"
+        "A(2) -> A(3) with probability 0.5\nA(2) -> B with probability 0.5\nA(3) -> A(1)"
+    )
 
 
 def test_cells_that_go_other_ways_with_another_chance_have_places_of_their_own() -> None:
@@ -312,12 +334,19 @@ def test_cells_that_go_other_ways_with_another_chance_have_places_of_their_own()
 
 def test_context_and_condition_stand_apart() -> None:
     assert [transition.condition for transition in stages(catalogued("J3")).transitions] == [
-        "a(i) > c : i > 1", "a(i) < b : i < w", "a(w) < b", "c < b", "a(i) < c : i > 1", "a(1) < c"]
+        "a(i) > c : i > 1",
+        "a(i) < b : i < w",
+        "a(w) < b",
+        "c < b",
+        "a(i) < c : i > 1",
+        "a(1) < c",
+    ]
 
 
 def test_decomposition_takes_no_time() -> None:
-    assert repr(stages(catalogued("P8"))) == ("M -> M\nM -> 2 M at once if x >= x_div && p == LEFT\n"
-                                              "M -> 2 M at once if x >= x_div && p == RIGHT")
+    assert repr(stages(catalogued("P8"))) == (
+        "M -> M\nM -> 2 M at once if x >= x_div && p == LEFT\nM -> 2 M at once if x >= x_div && p == RIGHT"
+    )
 
 
 def test_repetitions_are_counted_or_named() -> None:
@@ -337,9 +366,15 @@ def test_a_rule_behind_one_that_always_matches_has_no_transition() -> None:
 CELLS_OF_TWO_AGES = "short = 1/5\naxiom: M(0)\nM(1) -> M(short) M(0)"
 
 
-@pytest.mark.parametrize("text", [
-    CELLS_OF_TWO_AGES, "axiom: ar(0)\nar(1) -> al(0) br(0)\nal(1) -> bl(0) ar(0)\nbr(1) -> ar(0)\nbl(1) -> al(0)",
-    "axiom: a(0) X\na(2) -> a(0) b(1/3) X W(0)\nb(1) -> a(1/2) [b(0)] W(2)", "axiom: a(1/4)\na(1) -> a(1/4) a(1/2)"])
+@pytest.mark.parametrize(
+    "text",
+    [
+        CELLS_OF_TWO_AGES,
+        "axiom: ar(0)\nar(1) -> al(0) br(0)\nal(1) -> bl(0) ar(0)\nbr(1) -> ar(0)\nbl(1) -> al(0)",
+        "axiom: a(0) X\na(2) -> a(0) b(1/3) X W(0)\nb(1) -> a(1/2) [b(0)] W(2)",
+        "axiom: a(1/4)\na(1) -> a(1/4) a(1/2)",
+    ],
+)
 @given(st.integers(0, 40))
 def test_tokens_of_a_timed_net_move_when_their_time_is_up(text: str, twelfths: int) -> None:
     growing = timed(read(text))
@@ -400,8 +435,10 @@ def test_the_paper_s_net_has_two_stages_with_durations() -> None:
 def test_the_rule_that_is_the_first_to_apply_ends_a_life() -> None:
     text = "axiom: a(0) b(0,1)\na(t) -> a(t+1)\nb(t,p) -> b(t+1,p)\ndecomposition:\n"
     rules = "a(t) : t >= 3 -> b(0,0)\na(t) : t > 2 -> b(0,1)\nb(t,p) : t > 1 && p == 1 -> a(0)\nb(t,p) : t > 4 -> a(0) a(0)"
-    assert repr(stages(read(text + rules), durations=True)) == \
-        "a(0) -> b(0,0) after 3\nb(0,0) -> 2 a(0) after 5\nb(0,1) -> a(0) after 2"
+    assert (
+        repr(stages(read(text + rules), durations=True))
+        == "a(0) -> b(0,0) after 3\nb(0,0) -> 2 a(0) after 5\nb(0,1) -> a(0) after 2"
+    )
 
 
 @pytest.mark.parametrize("name", ["J1", "K8"])

@@ -52,8 +52,9 @@ def test_the_number_of_parameters_belongs_to_the_symbol() -> None:
 
 
 def test_a_production_made_by_hand_has_no_place_in_a_text() -> None:
-    system = replace(AGES, source="", axiom=(Pattern("axiom"),), productions=(
-        Production((Pattern("axiom"),), read("axiom: A(1/0)").axiom),))
+    system = replace(
+        AGES, source="", axiom=(Pattern("axiom"),), productions=(Production((Pattern("axiom"),), read("axiom: A(1/0)").axiom),)
+    )
     with pytest.raises(ModelValueError) as caught:
         States(system).successor(0)
     assert caught.value.message == "axiom under production 1, axiom -> A(1/0), has no value: division by zero"
@@ -83,9 +84,15 @@ def test_drawing_rules_leave_the_table_alone() -> None:
     assert states.inexact is None
 
 
-@pytest.mark.parametrize(("rules", "filament"), [
-    ("", False), ("interpretation:\nA -> R(1,1)\nB -> L(1,1,0.5)", True), ("interpretation:\nA -> R(1)", False),
-    ("interpretation:\nA -> R(1,1) F", False), ("interpretation:\nA -> ε", False),
-])
+@pytest.mark.parametrize(
+    ("rules", "filament"),
+    [
+        ("", False),
+        ("interpretation:\nA -> R(1,1)\nB -> L(1,1,0.5)", True),
+        ("interpretation:\nA -> R(1)", False),
+        ("interpretation:\nA -> R(1,1) F", False),
+        ("interpretation:\nA -> ε", False),
+    ],
+)
 def test_a_filament_is_drawn_as_cells_alone(rules: str, filament: bool) -> None:
     assert is_filament(read(f"axiom: A B\n{rules}")) is filament

@@ -21,9 +21,16 @@ ANABAENA = timed(read("axiom: ar(0)\nar(1) -> al(0) br(0)\nal(1) -> bl(0) ar(0)\
 TIMES = st.fractions(0, 4, max_denominator=12)
 
 
-@pytest.mark.parametrize(("at", "word"), [
-    ("1/2", "ar(0.5)"), (1, "ar(1)"), (1.5, "al(0.5)br(0.5)"), (2.5, "bl(0.5)ar(0.5)ar(0.5)"),
-    (3.5, "al(0.5)al(0.5)br(0.5)al(0.5)br(0.5)")])
+@pytest.mark.parametrize(
+    ("at", "word"),
+    [
+        ("1/2", "ar(0.5)"),
+        (1, "ar(1)"),
+        (1.5, "al(0.5)br(0.5)"),
+        (2.5, "bl(0.5)ar(0.5)ar(0.5)"),
+        (3.5, "al(0.5)al(0.5)br(0.5)al(0.5)br(0.5)"),
+    ],
+)
 def test_the_words_of_seed_003(at: object, word: str) -> None:
     assert str(ANABAENA.word(at)) == word
 
@@ -95,23 +102,27 @@ def test_a_mother_is_as_long_as_her_daughters(t_s: float, t_l: float, older: flo
     t_div = max(t_s, t_l) + older
     base = growth_base(t_div, t_s, t_l)
     assert base > 1
-    assert base**(t_s - t_div) + base**(t_l - t_div) == pytest.approx(1, abs=1e-9)
+    assert base ** (t_s - t_div) + base ** (t_l - t_div) == pytest.approx(1, abs=1e-9)
 
 
-@pytest.mark.parametrize("ages", [(math.inf, 0, 0), (math.nan, 0, 0), (1, 0, math.nan), (5e-324, 0, 0), (1, -math.inf, 0),
-                                  (1, 1, 0)])
+@pytest.mark.parametrize(
+    "ages", [(math.inf, 0, 0), (math.nan, 0, 0), (1, 0, math.nan), (5e-324, 0, 0), (1, -math.inf, 0), (1, 1, 0)]
+)
 def test_there_is_no_base_for_ages_that_make_no_sense(ages: tuple[float, float, float]) -> None:
     with pytest.raises(ModelValueError):
         growth_base(*ages)
 
 
-@given(st.floats(-3, 3), st.lists(st.floats(0.1, 3), min_size=1, max_size=4),
-       st.lists(st.floats(0.1, 9), min_size=5, max_size=5))
+@given(
+    st.floats(-3, 3), st.lists(st.floats(0.1, 3), min_size=1, max_size=4), st.lists(st.floats(0.1, 9), min_size=5, max_size=5)
+)
 def test_coefficients_that_change_their_sign_once_have_one_root(least: float, gaps: list[float], sizes: list[float]) -> None:
     exponents = [least + sum(gaps[:index]) for index in range(len(gaps) + 1)]
     for changed in range(1, len(exponents)):
-        powers = [(exponent, -size if index < changed else size)
-                  for index, (exponent, size) in enumerate(zip(exponents, sizes, strict=False))]
+        powers = [
+            (exponent, -size if index < changed else size)
+            for index, (exponent, size) in enumerate(zip(exponents, sizes, strict=False))
+        ]
         root = positive_root(powers)
         terms = [c * root**exponent for exponent, c in powers]
         assert abs(sum(terms)) <= 1e-9 * max(map(abs, terms))
@@ -127,8 +138,10 @@ def test_all_roots_of_a_polynomial_are_found(planted: list[Fraction]) -> None:
 
 
 @settings(max_examples=30)
-@given(st.lists(st.fractions(Fraction(1, 5), 5, max_denominator=6), min_size=1, max_size=4),
-       st.sampled_from([1, 3, Fraction(1, 2)]))
+@given(
+    st.lists(st.fractions(Fraction(1, 5), 5, max_denominator=6), min_size=1, max_size=4),
+    st.sampled_from([1, 3, Fraction(1, 2)]),
+)
 def test_all_roots_of_a_sum_of_exponentials_are_found(planted: list[Fraction], rate: Fraction) -> None:
     z = sympy.exp(sympy.Rational(*Fraction(rate).as_integer_ratio()) * X)
     found = roots(sympy.expand(sympy.prod([z - sympy.Rational(*root.as_integer_ratio()) for root in planted])))
@@ -154,8 +167,9 @@ def test_any_other_equation_is_solved_between_opposite_signs(low: float, high: f
             roots(X * sympy.exp(X) - sympy.E, *ends)
 
 
-@pytest.mark.parametrize("equation", [3**X - 5 * 2**X + 5, X**sympy.Rational(137, 100) - 3 * X**sympy.Rational(31, 100) + 1,
-                                      X**99 - 3 * X + 1])
+@pytest.mark.parametrize(
+    "equation", [3**X - 5 * 2**X + 5, X ** sympy.Rational(137, 100) - 3 * X ** sympy.Rational(31, 100) + 1, X**99 - 3 * X + 1]
+)
 def test_where_signs_change_twice_no_root_is_taken_for_the_only_one(equation: sympy.Expr) -> None:
     with pytest.raises(ModelValueError, match="No rule finds where"):
         roots(equation)

@@ -24,9 +24,16 @@ BOMBS = {
     "daughters of many ages": "axiom: A(0)\nA(1) -> repeat(1000,i)<repeat(1000,j)<B(i,j)>>",
     "a decomposition": f"axiom: A(0)\nA(t) -> A(t+1)\ndecomposition:\nA(t) : t >= 1 -> {MANY}",
     "a production": f"axiom: A(0)\nA(t) : t < 1 -> A(t+1)\nA(t) -> {MANY}",
-    "one that doubles": "axiom: a(0)\na(n) -> a(n+1)\ndecomposition:\na(n) : n < 60 -> a(n+1) a(n+1)"}
-CALLS = ("timed(s).word(5)", "lineage(timed(s), 5)", "stages(timed(s))", "stages(s, durations=True)",
-         "continuity(s, {'A B': 't'})", "lineage(derive(s, 0))")
+    "one that doubles": "axiom: a(0)\na(n) -> a(n+1)\ndecomposition:\na(n) : n < 60 -> a(n+1) a(n+1)",
+}
+CALLS = (
+    "timed(s).word(5)",
+    "lineage(timed(s), 5)",
+    "stages(timed(s))",
+    "stages(s, durations=True)",
+    "continuity(s, {'A B': 't'})",
+    "lineage(derive(s, 0))",
+)
 CHILD = """
 import resource, sys, time
 import sympy  # which takes most of a second
@@ -42,7 +49,7 @@ except LSystemError as error:
 spent, held = time.process_time() - start, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before
 print(found, spent < 1, held < 300 * 1024)
 """
-FORTY = ' '.join(f"S{number}" for number in range(40))
+FORTY = " ".join(f"S{number}" for number in range(40))
 
 
 @pytest.mark.slow
@@ -108,9 +115,14 @@ def test_continuity_of_many_ages_is_refused() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("growth_function", ["*".join(f"(t+{number})" for number in range(30)),
-                                             "*".join(f"sin(t+{number})" for number in range(25)),
-                                             "*".join(f"log(t+{number})" for number in range(1, 25))])
+@pytest.mark.parametrize(
+    "growth_function",
+    [
+        "*".join(f"(t+{number})" for number in range(30)),
+        "*".join(f"sin(t+{number})" for number in range(25)),
+        "*".join(f"log(t+{number})" for number in range(1, 25)),
+    ],
+)
 def test_continuity_of_products_ends_with_its_budget(growth_function: str) -> None:
     start = time.process_time()
     with limits(seconds=0.3), pytest.raises(ModelLimitError, match="was not decided"):
@@ -124,16 +136,38 @@ def test_continuity_of_tangents_is_decided() -> None:
 
 NUMBERS = ("0", "1", "2", "-1", "1/2", "1/3", "10^9", "1/10^9", "c", "c/3", "sqrt(2)", "1e300", "0 - 1e300", "2^200", "1e-300")
 """Ages as a stranger may write them."""
-TIMES = (0, 1, -1, "1/2", 10**6, 1e300, 5e-324, float("nan"), float("inf"), "1/3", "x", None, True, "", 2**4000,
-         Fraction(1, 3**300))
+TIMES = (
+    0,
+    1,
+    -1,
+    "1/2",
+    10**6,
+    1e300,
+    5e-324,
+    float("nan"),
+    float("inf"),
+    "1/3",
+    "x",
+    None,
+    True,
+    "",
+    2**4000,
+    Fraction(1, 3**300),
+)
 """Times of all kinds."""
 UNKNOWN = ("1", "c", "1e300", "0")
 
 
-FORMS = ("{0}({1}) -> {2}", "{0}(t) : t < {1} -> {0}(t+1)\n{0}(t) -> {2}", "{0}(t) -> {0}(t+c)\n>{0}(t) : t > {1} -> {2}",
-         "{0}(t) : t+c >= {1} -> {2}\n{0}(t) -> {0}(t+c)", "{0}(t) -> {0}(t+c)\n>{0}(t) : 1/t > {1} -> {2}",
-         "{0}(t) : t*t < {1} -> {0}(t+1)\n{0}(t) -> {2}", "{0}(t) : t/{1} > 1 || !(t != {1}) -> {2}\n{0}(t) -> {0}(t+1)",
-         "{0}(t) -> {0}(t+c)\n>{0}(t) : t >= {1} -> {0}(t-1) repeat(t) <B(0)>")
+FORMS = (
+    "{0}({1}) -> {2}",
+    "{0}(t) : t < {1} -> {0}(t+1)\n{0}(t) -> {2}",
+    "{0}(t) -> {0}(t+c)\n>{0}(t) : t > {1} -> {2}",
+    "{0}(t) : t+c >= {1} -> {2}\n{0}(t) -> {0}(t+c)",
+    "{0}(t) -> {0}(t+c)\n>{0}(t) : 1/t > {1} -> {2}",
+    "{0}(t) : t*t < {1} -> {0}(t+1)\n{0}(t) -> {2}",
+    "{0}(t) : t/{1} > 1 || !(t != {1}) -> {2}\n{0}(t) -> {0}(t+1)",
+    "{0}(t) -> {0}(t+c)\n>{0}(t) : t >= {1} -> {0}(t-1) repeat(t) <B(0)>",
+)
 """What is said of a letter, given an age and a successor; lines with > are decomposition rules."""
 
 
@@ -152,11 +186,18 @@ def _strange_systems(draw: st.DrawFn) -> str:
 
 def _questions(system: LSystem, time: object, unknown: str) -> list[Callable[[], object]]:
     """Whatever may be asked of a system with ages."""
-    return [lambda: timed(system, c=unknown).word(time), lambda: str(lineage(timed(system), time)),
-            lambda: pnml(stages(timed(system, c=unknown))), lambda: repr(stages(system, durations=True)),
-            lambda: repr(stages(system, durations=True, c=unknown)), lambda: draw(stages(system, durations=True)),
-            lambda: repr(continuity(system, {"A": "1 + t", "B": "c*t"}, c=unknown)),
-            lambda: str(lineage(derive(system, 3))), lambda: repr(growth(system)), lambda: draw(lineage(timed(system), 3))]
+    return [
+        lambda: timed(system, c=unknown).word(time),
+        lambda: str(lineage(timed(system), time)),
+        lambda: pnml(stages(timed(system, c=unknown))),
+        lambda: repr(stages(system, durations=True)),
+        lambda: repr(stages(system, durations=True, c=unknown)),
+        lambda: draw(stages(system, durations=True)),
+        lambda: repr(continuity(system, {"A": "1 + t", "B": "c*t"}, c=unknown)),
+        lambda: str(lineage(derive(system, 3))),
+        lambda: repr(growth(system)),
+        lambda: draw(lineage(timed(system), 3)),
+    ]
 
 
 @pytest.mark.slow

@@ -62,12 +62,21 @@ def test_later_engines_serve_whatever_earlier_ones_serve() -> None:
     assert all(earlier.within(later) for earlier, later in pairwise(ENGINES.values()))
 
 
-@pytest.mark.parametrize(("traits", "engine"), [
-    (Traits(), ColumnarSteps), (Traits(scalar=True), CountingEngine), (Traits(unknown=True), CountingEngine),
-    (Traits(context=1, stochastic=True, meta=True), ContextEngine), (Traits(context=2), Stepper),
-    (Traits(branching_context=True, context=1), Stepper), (Traits(meta=True, cut=True), Stepper),
-    (Traits(random=True), Stepper),
-    (Traits(decomposition=True, varying_decomposition=True), Stepper), (Traits(sensitive=True), Stepper)])
+@pytest.mark.parametrize(
+    ("traits", "engine"),
+    [
+        (Traits(), ColumnarSteps),
+        (Traits(scalar=True), CountingEngine),
+        (Traits(unknown=True), CountingEngine),
+        (Traits(context=1, stochastic=True, meta=True), ContextEngine),
+        (Traits(context=2), Stepper),
+        (Traits(branching_context=True, context=1), Stepper),
+        (Traits(meta=True, cut=True), Stepper),
+        (Traits(random=True), Stepper),
+        (Traits(decomposition=True, varying_decomposition=True), Stepper),
+        (Traits(sensitive=True), Stepper),
+    ],
+)
 def test_the_first_engine_that_serves(traits: Traits, engine: type) -> None:
     assert next(engine for engine in ENGINES if serves(engine, traits)) is engine
 

@@ -58,11 +58,15 @@ def test_a_production_moves_tokens_along_one_transition(symbols: set[str]) -> No
     for before, after in pairwise(derive(read(ENDLESS), 12)):
         moved: Counter[int | None] = Counter()
         for module, production in zip(before, produced(before.states, before), strict=True):
-            [*ways] = (number for number, way in enumerate(net.transitions)
-                       if way.place == net.place_of(module) and way.production == production)
+            [*ways] = (
+                number
+                for number, way in enumerate(net.transitions)
+                if way.place == net.place_of(module) and way.production == production
+            )
             assert len(ways) == (production is not None)
-            moved += Counter({arc.place: arc.copies for arc in net.arcs if arc.transition in ways}
-                             if ways else {net.place_of(module): 1})
+            moved += Counter(
+                {arc.place: arc.copies for arc in net.arcs if arc.transition in ways} if ways else {net.place_of(module): 1}
+            )
         assert tuple(moved[place] for place in range(len(net.places))) == net.tokens(after)
         assert sum(net.tokens(after)) == len(after)
 
@@ -72,8 +76,9 @@ def produced(states: States, word: object) -> Iterator[int | None]:
     return (states.production(states.number(module.symbol, module.arguments)) for module in word)  # type: ignore[attr-defined]
 
 
-@pytest.mark.parametrize(("name", "symbols"), [("K19", "A"), ("K19", "AI"), ("K14", "AB"), ("P4", "M"), ("K8", "*"),
-                                               ("J4", ())])
+@pytest.mark.parametrize(
+    ("name", "symbols"), [("K19", "A"), ("K19", "AI"), ("K14", "AB"), ("P4", "M"), ("K8", "*"), ("J4", ())]
+)
 def test_systems_of_the_catalogue(name: str, symbols: tuple[str, ...]) -> None:
     system = catalogued(name)
     net, whole = stages(system, unfold=[*symbols]), stages(system, unfold=[])
@@ -94,8 +99,7 @@ def test_where_no_other_symbol_s_values_matter_the_tokens_can_be_moved() -> None
 
 
 def test_a_parameter_that_decides_nothing_is_left_out() -> None:
-    net = stages(read("axiom: A(0,1)\nA(t,x) : t < 2 -> A(t+1,2*x) L(x) L(2*x)\nA(t,x) -> A(0,x)\nL(x) -> L(x+1)"),
-                 unfold="A")
+    net = stages(read("axiom: A(0,1)\nA(t,x) : t < 2 -> A(t+1,2*x) L(x) L(2*x)\nA(t,x) -> A(0,x)\nL(x) -> L(x+1)"), unfold="A")
     assert repr(net) == "A(0) -> A(1) + 2 L\nA(1) -> A(2) + 2 L\nA(2) -> A(0)\nL -> L"
     assert [arc.positions for arc in net.arcs] == [(1,), (2, 3), (1,), (2, 3), (1,), (1,)]
     assert net.tokens([Module("A", (2, 4)), Module("L", (7,)), Module("B")]) == (0, 0, 1, 1)
@@ -103,8 +107,10 @@ def test_a_parameter_that_decides_nothing_is_left_out() -> None:
 
 def test_chance_that_hangs_on_a_value_is_that_of_each_stage() -> None:
     net = stages(read("axiom: A(1)\nA(t) : t < 3 -> A(t+1) C(0) : t\nA(t) : t < 3 -> C(1) : 2\nC(x) -> C(x+1)"), unfold="A")
-    assert repr(net) == ("A(1) -> A(2) + C with probability 1/3\nA(1) -> C with probability 2/3\n"
-                         "A(2) -> A(3) + C with probability 0.5\nA(2) -> C with probability 0.5\nC -> C")
+    assert repr(net) == (
+        "A(1) -> A(2) + C with probability 1/3\nA(1) -> C with probability 2/3\n"
+        "A(2) -> A(3) + C with probability 0.5\nA(2) -> C with probability 0.5\nC -> C"
+    )
 
 
 def test_neighbours_may_decide_what_becomes_of_the_others() -> None:
@@ -116,21 +122,28 @@ def test_neighbours_may_decide_what_becomes_of_the_others() -> None:
 
 
 def test_decomposition_of_the_others_takes_no_time() -> None:
-    net = stages(read("axiom: A(0)\nA(t) -> A(t+1)\nB(t) : t < 2 -> B(t+1)\ndecomposition:\nA(t) : t > 3 -> A(0) B(1)"),
-                 unfold="B")
+    net = stages(
+        read("axiom: A(0)\nA(t) -> A(t+1)\nB(t) : t < 2 -> B(t+1)\ndecomposition:\nA(t) : t > 3 -> A(0) B(1)"), unfold="B"
+    )
     assert repr(net) == "A -> A\nB(1) -> B(2)\nA -> A + B(1) at once if t > 3"
     with pytest.raises(ModelValueError, match="The stages of A cannot be unfolded"):
         stages(net.system, unfold="A")
 
 
-@pytest.mark.parametrize(("text", "symbol", "hint"), [
-    ("axiom: A B\nA > B -> B", "A", "neighbours"), ("axiom: A\nA -> A(uniform(0,1))", "A", "random numbers"),
-    ("axiom: A B\nA B -> B", "B", "neighbours"), ("axiom: A(1)\nA(t) : t > 0 -> A(t+1)", "A", "more than 400"),
-    ("axiom: A(1)\nA(t) : t < 401 -> A(t+1)\nA(t) -> A(1)", "A", "more than 400"),
-    ("axiom: A(0)\nA(t) -> B(t)\nB(t) : t < 4 -> B(t+1)", "B", "unfold A, too"),
-    ("axiom: A\nA -> A B(uniform(0,1))\nB(t) : t < 1/2 -> B(t)", "B", "unfold A, too"),
-    ("axiom: A\nA > A -> repeat(3, i) <B(i)>\nB(t) : t > 0 -> B(t-1)", "B", "unfold A, too"),
-    ("axiom: A\nA > A -> B(1/0)\nB(t) : t > 0 -> B(t-1)", "B", "unfold A, too")])
+@pytest.mark.parametrize(
+    ("text", "symbol", "hint"),
+    [
+        ("axiom: A B\nA > B -> B", "A", "neighbours"),
+        ("axiom: A\nA -> A(uniform(0,1))", "A", "random numbers"),
+        ("axiom: A B\nA B -> B", "B", "neighbours"),
+        ("axiom: A(1)\nA(t) : t > 0 -> A(t+1)", "A", "more than 400"),
+        ("axiom: A(1)\nA(t) : t < 401 -> A(t+1)\nA(t) -> A(1)", "A", "more than 400"),
+        ("axiom: A(0)\nA(t) -> B(t)\nB(t) : t < 4 -> B(t+1)", "B", "unfold A, too"),
+        ("axiom: A\nA -> A B(uniform(0,1))\nB(t) : t < 1/2 -> B(t)", "B", "unfold A, too"),
+        ("axiom: A\nA > A -> repeat(3, i) <B(i)>\nB(t) : t > 0 -> B(t-1)", "B", "unfold A, too"),
+        ("axiom: A\nA > A -> B(1/0)\nB(t) : t > 0 -> B(t-1)", "B", "unfold A, too"),
+    ],
+)
 def test_stages_that_cannot_be_told(text: str, symbol: str, hint: str) -> None:
     with pytest.raises(ModelValueError, match=f"The stages of {symbol} cannot be unfolded") as caught:
         stages(read(text), unfold=symbol)

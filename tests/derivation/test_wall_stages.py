@@ -22,8 +22,7 @@ def test_a_diagram_that_would_not_be_legible_is_refused(monkeypatch: pytest.Monk
 def test_edges_of_a_cellwork_have_stages_too() -> None:
     box = cellwork_system("K33")
     net = wall_stages(box)
-    assert str(net) == ("P -> 2 R + [PQ: P] P + [PR: Q] Q\nQ -> P\nR -> Q\n"
-                        "besides: two markers [ ] that match make an edge")
+    assert str(net) == ("P -> 2 R + [PQ: P] P + [PR: Q] Q\nQ -> P\nR -> Q\nbesides: two markers [ ] that match make an edge")
     assert (net.start, [place.symbol for place in net.places]) == ((4, 4, 4), ["P", "Q", "R"])
     some = wall_stages(read_cellwork(str(box).replace("Q: * -> P", "Q: PQ QR -> P")))
     assert [transition.condition for transition in some.transitions] == ["", "in PQ QR", ""]

@@ -131,7 +131,8 @@ def test_a_word_is_shown_with_four_digits_and_written_exactly() -> None:
     assert "118587876497/38400000000" in str(word)
     assert read_word(str(word)) == tuple(word)
     assert repr(derive(read("axiom: A(0.7)\nA(t) -> A(t+0.1)"), 3, arithmetic="float")) == (
-        "0 A(0.7)\n1 A(0.7999999999999999)\n2 A(0.8999999999999999)\n3 A(0.9999999999999999)")
+        "0 A(0.7)\n1 A(0.7999999999999999)\n2 A(0.8999999999999999)\n3 A(0.9999999999999999)"
+    )
 
 
 @given(st.one_of(st.fractions().map(normalised), st.floats(allow_nan=False, allow_infinity=False), st.integers()))

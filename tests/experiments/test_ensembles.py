@@ -50,8 +50,11 @@ class TestLaws:
     def test_a_run_is_what_its_seed_gives(self) -> None:
         table = ensemble(PLANT, [3, 1, 4], ["modules", "F"], steps=[0, 2])
         assert table.columns == ("seed", "step", "modules", "F")
-        assert table.rows == tuple((seed, step, len(word), word.counts()["F"]) for seed, step in product((3, 1, 4), (0, 2))
-                                   for word in [derive(PLANT, step, seed=seed)[-1]])
+        assert table.rows == tuple(
+            (seed, step, len(word), word.counts()["F"])
+            for seed, step in product((3, 1, 4), (0, 2))
+            for word in [derive(PLANT, step, seed=seed)[-1]]
+        )
 
     def test_the_mean_number_of_strokes_is_that_of_the_model(self) -> None:
         """Kurth: E[F] is multiplied by 11/3 a step."""
@@ -103,30 +106,64 @@ class TestMeasures:
         assert table.measures == ("twigs", "strokes drawn")
         assert all(2 * row[2] + 1 == row[3] for row in table.rows)
 
-    @pytest.mark.parametrize(("measure", "said"), [
-        ("hieght", 'Did you mean "height"'), ("Q", "Measures are: modules"), ([], "Nothing is measured"),
-        (7, "A measure is a name"),
-        ({"a": 7}, "must be a name or a function"), ({1: "F"}, "name of a measure is a text"), (["F", "F"], 'called "F"'),
-        ({"seed": "F"}, 'called "seed"'), (lambda _: "many", "must give a number"), (lambda _: 1 / 0, "ZeroDivisionError")])
+    @pytest.mark.parametrize(
+        ("measure", "said"),
+        [
+            ("hieght", 'Did you mean "height"'),
+            ("Q", "Measures are: modules"),
+            ([], "Nothing is measured"),
+            (7, "A measure is a name"),
+            ({"a": 7}, "must be a name or a function"),
+            ({1: "F"}, "name of a measure is a text"),
+            (["F", "F"], 'called "F"'),
+            ({"seed": "F"}, 'called "seed"'),
+            (lambda _: "many", "must give a number"),
+            (lambda _: 1 / 0, "ZeroDivisionError"),
+        ],
+    )
     def test_a_wrong_measure_is_explained(self, measure: Any, said: str) -> None:
         with pytest.raises(LSystemError, match=said):
             ensemble(PLANT, 2, measure, steps=1)
 
 
 class TestRefusals:
-    @pytest.mark.parametrize(("over", "said"), [
-        ({"dd": [1]}, 'Did you mean "d"'), ("rate", "declares no range"), ({"d": 3}, "values of \"d\" are needed"),
-        ({"d": "12"}, "values of \"d\" are needed"), ({"d": ["x"]}, "x"), (3, "Constants to vary"), ([3], "name of a constant"),
-        ({"d": []}, "nothing to run"), ({"seed": ["1"]}, "whole number"), ({"d": count()}, "would take")])
+    @pytest.mark.parametrize(
+        ("over", "said"),
+        [
+            ({"dd": [1]}, 'Did you mean "d"'),
+            ("rate", "declares no range"),
+            ({"d": 3}, 'values of "d" are needed'),
+            ({"d": "12"}, 'values of "d" are needed'),
+            ({"d": ["x"]}, "x"),
+            (3, "Constants to vary"),
+            ([3], "name of a constant"),
+            ({"d": []}, "nothing to run"),
+            ({"seed": ["1"]}, "whole number"),
+            ({"d": count()}, "would take"),
+        ],
+    )
     def test_a_wrong_sweep_is_explained(self, over: Any, said: str) -> None:
         with limits(bytes=10_000), pytest.raises(LSystemError, match=said):
             sweep(ALGA, over)
 
-    @pytest.mark.parametrize(("given", "said"), [
-        ({"seeds": -1}, "number of seeds"), ({"seeds": "12"}, "whole number"), ({"seeds": 0}, "nothing to run"),
-        ({"seeds": 10**9}, "would take"), ({"seeds": count()}, "would take"), ({"seeds": [0.5]}, "whole number"),
-        ({"steps": -1}, "The step"), ({"steps": []}, "one step"), ({"steps": "5"}, "whole number"), ({"seed": 3}, "is varied"),
-        ({"executor": 2}, "concurrent.futures"), ({"progress": 1}, "True or False"), ({"q": 1}, "no constant 'q'")])
+    @pytest.mark.parametrize(
+        ("given", "said"),
+        [
+            ({"seeds": -1}, "number of seeds"),
+            ({"seeds": "12"}, "whole number"),
+            ({"seeds": 0}, "nothing to run"),
+            ({"seeds": 10**9}, "would take"),
+            ({"seeds": count()}, "would take"),
+            ({"seeds": [0.5]}, "whole number"),
+            ({"steps": -1}, "The step"),
+            ({"steps": []}, "one step"),
+            ({"steps": "5"}, "whole number"),
+            ({"seed": 3}, "is varied"),
+            ({"executor": 2}, "concurrent.futures"),
+            ({"progress": 1}, "True or False"),
+            ({"q": 1}, "no constant 'q'"),
+        ],
+    )
     def test_a_wrong_ensemble_is_explained(self, given: dict[str, Any], said: str) -> None:
         with limits(bytes=100_000), pytest.raises(LSystemError, match=said):
             ensemble(PLANT, **{"seeds": 2, **given})
@@ -214,8 +251,9 @@ class TestWhoeverMakesTheRuns:
 
     def test_threads_make_the_same_table(self) -> None:
         with ThreadPoolExecutor(3) as executor:
-            assert ensemble(PLANT, 60, ["F", twigs], steps=(3, 5), executor=executor) == \
-                ensemble(PLANT, 60, ["F", twigs], steps=(3, 5))
+            assert ensemble(PLANT, 60, ["F", twigs], steps=(3, 5), executor=executor) == ensemble(
+                PLANT, 60, ["F", twigs], steps=(3, 5)
+            )
 
     @pytest.mark.slow
     def test_processes_make_the_same_table(self) -> None:
@@ -237,8 +275,12 @@ class TestWhoeverMakesTheRuns:
     def test_a_cluster_makes_the_same_table_even_if_a_worker_is_killed(self, tmp_path: Path) -> None:
         distributed = pytest.importorskip("dask.distributed")
         alone = sweep(PLANT, {"seed": range(400)}, ["F", "height"], steps=5)
-        with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None, local_directory=tmp_path,
-                                      host="127.0.0.1") as cluster, distributed.Client(cluster) as client:
+        with (
+            distributed.LocalCluster(
+                n_workers=2, threads_per_worker=1, dashboard_address=None, local_directory=tmp_path, host="127.0.0.1"
+            ) as cluster,
+            distributed.Client(cluster) as client,
+        ):
             executor = client.get_executor()
             assert sweep(PLANT, {"seed": range(400)}, ["F", "height"], steps=5, executor=executor) == alone
             victim = KillsAWorker(executor, min(client.run(os.getpid).values()))
@@ -290,7 +332,7 @@ class TestTables:
     def test_a_summary_describes_the_distribution_over_seeds(self) -> None:
         summary = self.TABLE.summary()
         assert summary.columns == ("p", "step", "runs", "mean", "sd", "least", "median", "greatest")
-        assert summary.rows[0] == (Fraction(1, 2), 3, 2, 17, pytest.approx(128 ** 0.5), 9, 17, 25)
+        assert summary.rows[0] == (Fraction(1, 2), 3, 2, 17, pytest.approx(128**0.5), 9, 17, 25)
         with pytest.raises(ModelNameError, match="was varied, not measured"):
             self.TABLE.summary("p")
 

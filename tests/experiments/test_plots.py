@@ -87,8 +87,9 @@ class TestCurves:
         shown = plot(system("J1"), 12)
         words = derive(system("J1"), 12)
         for curve, letter in zip(points(shown), "ab", strict=True):
-            assert curve == tuple((step, sum(n for symbol, n in word.counts().items() if symbol[0] == letter))
-                                  for step, word in enumerate(words))
+            assert curve == tuple(
+                (step, sum(n for symbol, n in word.counts().items() if symbol[0] == letter)) for step, word in enumerate(words)
+            )
         assert repr(shown) == "2 curves (a, b) of modules, step n from 0 to 12, largest 233"
 
     def test_a_word_with_the_meta_rule_stays_short(self) -> None:
@@ -99,14 +100,14 @@ class TestCurves:
     def test_with_the_right_base_the_length_of_a_filament_never_jumps(self) -> None:
         """P. Prusinkiewicz, Introduction to Modeling with L-systems, section 8: it is a^t."""
         right, small, large = points(PLOTS["continuity"]())
-        assert all(length == pytest.approx(2.1673 ** time, rel=1e-4) for time, length in right)
+        assert all(length == pytest.approx(2.1673**time, rel=1e-4) for time, length in right)
         for wrong, sign in ((small, 1), (large, -1)):
             jumps = [after[1] - before[1] - 0.02 for before, after in pairwise(wrong)]
             assert max(sign * jump for jump in jumps) > 0.1
 
     def test_a_measure_is_plotted_over_the_steps(self) -> None:
         [widths] = points(plot(system("P8"), 4, "width"))
-        assert [round(width, 2) for _, width in widths] == pytest.approx([1.7185 ** step for step in range(5)], abs=0.02)
+        assert [round(width, 2) for _, width in widths] == pytest.approx([1.7185**step for step in range(5)], abs=0.02)
 
     def test_many_kinds_of_modules_are_counted_together(self) -> None:
         many = read("axiom: A B C D E F G\nA -> A B")
@@ -182,25 +183,36 @@ class TestOtherCharts:
 
 
 class TestRefusals:
-    @pytest.mark.parametrize(("ask", "said"), [
-        (lambda: plot("J1"), "can be plotted, not str"), (lambda: plot({}), "nothing to plot"),
-        (lambda: plot({str(n): ALGA for n in range(9)}), "cannot be told apart"),
-        (lambda: plot({"a": ALGA, "b": ALGA}, 3, ["A", "modules"]), "one thing is measured"),
-        (lambda: plot({"a": ALGA, "b": timed(system("P7"))}, 3), "do not stand along one axis"),
-        (lambda: plot(derive(ALGA, 3), 4), "chosen already"), (lambda: plot(timed(system("P7")), 3, dt=1), "when it is made"),
-        (lambda: plot(timed(system("P7")), -1), "above 0"), (lambda: plot(timed(system("P7")), "n"), "above 0"),
-        (lambda: plot(ALGA, 10**6), "at most 5,000 steps"), (lambda: plot(ALGA, 2, lambda _: 10**400), "too great to plot"),
-        (lambda: plot(ALGA, 3, log=1), "True or False"), (lambda: plot(stages(ALGA), 3, "A"), "nothing else is measured"),
-        (lambda: plot(growth(ALGA), 3), "no choice \"n\""), (lambda: plot(stages(ALGA), d=3), "no choice \"d\""),
-        (lambda: plot(growth(read("axiom: A\nA -> B B\nB -> A"))), "do not settle"),
-        (lambda: plot(stages(read("axiom: A\nA -> *")), 3), "no module at step 3"),
-        (lambda: plot(map_system("K28"), 2, "cells"), "nothing else is measured"),
-        (lambda: plot(map_system("K28"), 2, d=1), "no constants"), (lambda: ensemble(ALGA, 1).plot(), "Only one setting"),
-        (lambda: ensemble(ALGA, 2).plot("seed"), "varied, not measured"),
-        (lambda: plot(ensemble(ALGA, 2), 3), "no choice \"n\""),
-        (lambda: sweep(ALGA, {"d": [1, 2], "k": [1, 2]}, steps=[1, 2]).plot(), r"table\.where\(step = 1\)"),
-        (lambda: sweep(ALGA, {"d": range(1, 20)}, steps=range(3)).plot(), "cannot be told apart"),
-        (lambda: figure(plot(ALGA, 2), n=3), "chosen when it is made")])
+    @pytest.mark.parametrize(
+        ("ask", "said"),
+        [
+            (lambda: plot("J1"), "can be plotted, not str"),
+            (lambda: plot({}), "nothing to plot"),
+            (lambda: plot({str(n): ALGA for n in range(9)}), "cannot be told apart"),
+            (lambda: plot({"a": ALGA, "b": ALGA}, 3, ["A", "modules"]), "one thing is measured"),
+            (lambda: plot({"a": ALGA, "b": timed(system("P7"))}, 3), "do not stand along one axis"),
+            (lambda: plot(derive(ALGA, 3), 4), "chosen already"),
+            (lambda: plot(timed(system("P7")), 3, dt=1), "when it is made"),
+            (lambda: plot(timed(system("P7")), -1), "above 0"),
+            (lambda: plot(timed(system("P7")), "n"), "above 0"),
+            (lambda: plot(ALGA, 10**6), "at most 5,000 steps"),
+            (lambda: plot(ALGA, 2, lambda _: 10**400), "too great to plot"),
+            (lambda: plot(ALGA, 3, log=1), "True or False"),
+            (lambda: plot(stages(ALGA), 3, "A"), "nothing else is measured"),
+            (lambda: plot(growth(ALGA), 3), 'no choice "n"'),
+            (lambda: plot(stages(ALGA), d=3), 'no choice "d"'),
+            (lambda: plot(growth(read("axiom: A\nA -> B B\nB -> A"))), "do not settle"),
+            (lambda: plot(stages(read("axiom: A\nA -> *")), 3), "no module at step 3"),
+            (lambda: plot(map_system("K28"), 2, "cells"), "nothing else is measured"),
+            (lambda: plot(map_system("K28"), 2, d=1), "no constants"),
+            (lambda: ensemble(ALGA, 1).plot(), "Only one setting"),
+            (lambda: ensemble(ALGA, 2).plot("seed"), "varied, not measured"),
+            (lambda: plot(ensemble(ALGA, 2), 3), 'no choice "n"'),
+            (lambda: sweep(ALGA, {"d": [1, 2], "k": [1, 2]}, steps=[1, 2]).plot(), r"table\.where\(step = 1\)"),
+            (lambda: sweep(ALGA, {"d": range(1, 20)}, steps=range(3)).plot(), "cannot be told apart"),
+            (lambda: figure(plot(ALGA, 2), n=3), "chosen when it is made"),
+        ],
+    )
     def test_what_cannot_be_plotted_is_explained(self, ask: Callable[[], Any], said: str) -> None:
         with limits(seconds=60), pytest.raises(LSystemError, match=said):
             ask()
@@ -240,11 +252,11 @@ class TestFormats:
 def test_a_curve_over_time_jumps_upright_at_each_division_by_the_whole_jump(a, end):
     """Before it the mother is a long, and after it the daughters are 1 and a^0.2 long; the second division is at 1.8."""
     points = plot(timed(system("P7"), a=a), end).chart.curves[0].points
-    for time, others in ((1, 0), (1.8, a ** 0.8)):
-        assert [y for x, y in points if x == time] == pytest.approx([others + a, others + 1 + a ** 0.2])
+    for time, others in ((1, 0), (1.8, a**0.8)):
+        assert [y for x, y in points if x == time] == pytest.approx([others + a, others + 1 + a**0.2])
     assert [x for x, _ in points] == sorted(x for x, _ in points)
 
 
-@pytest.mark.parametrize(("end", "largest"), [(2, 3 + 3 ** 0.2 + 3 ** 0.4), (1, 3)])
+@pytest.mark.parametrize(("end", "largest"), [(2, 3 + 3**0.2 + 3**0.4), (1, 3)])
 def test_the_largest_value_of_a_curve_over_time_is_that_just_before_a_division(end, largest):
     assert repr(plot({"a = 3": timed(system("P7"), a=3)}, end)).endswith(f"largest {largest:.6g}")

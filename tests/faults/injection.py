@@ -20,11 +20,13 @@ Line: TypeAlias = tuple[str, int]
 """A file and the number of a line in it."""
 Work: TypeAlias = Callable[[], object]
 
-FAULTS: Mapping[str, Callable[[], BaseException]] = MappingProxyType({
-    "interrupt": KeyboardInterrupt,
-    "no memory": MemoryError,
-    "full disk": lambda: OSError(errno.ENOSPC, "No space left on device"),
-})
+FAULTS: Mapping[str, Callable[[], BaseException]] = MappingProxyType(
+    {
+        "interrupt": KeyboardInterrupt,
+        "no memory": MemoryError,
+        "full disk": lambda: OSError(errno.ENOSPC, "No space left on device"),
+    }
+)
 
 
 def lines_of(work: Work, rooms: Sequence[str]) -> list[Line]:
@@ -44,8 +46,9 @@ def bytecodes_of(work: Work, rooms: Sequence[str]) -> dict[object, int]:
     return first
 
 
-def break_off(work: Work, rooms: Sequence[str], moment: int, fault: Callable[[], BaseException],
-              before: str = "line") -> BaseException | None:
+def break_off(
+    work: Work, rooms: Sequence[str], moment: int, fault: Callable[[], BaseException], before: str = "line"
+) -> BaseException | None:
     """Do some work, and raise an error before the line, or the "opcode", that it comes to at a moment, counted from 0. What has
     come out of it."""
     left = moment
@@ -73,7 +76,7 @@ def moments_of(lines: Sequence[Line], most: int) -> list[int]:
         reached.setdefault(line, []).append(moment)
     keeping = [line for line in reached if line[1] in _keeping_lines(line[0])]
     others = [line for line in reached if line[1] not in _keeping_lines(line[0])]
-    chosen = keeping + others[::-(-len(others) // most) or 1]
+    chosen = keeping + others[:: -(-len(others) // most) or 1]
     return sorted({found[number % 3 * (len(found) - 1) // 2] for number, found in enumerate(map(reached.__getitem__, chosen))})
 
 
@@ -82,15 +85,23 @@ def _keeping_lines(file: str) -> frozenset[int]:
     """The lines of the functions in a file that change an attribute of their object, or something that it holds."""
     nodes = ast.walk(ast.parse(Path(file).read_text(encoding="utf-8")))
     functions = [node for node in nodes if isinstance(node, ast.FunctionDef)]
-    return frozenset(line for function in functions if function.name != "__init__" and any(map(_keeps, ast.walk(function)))
-                     for line in range(function.lineno, (function.end_lineno or 0) + 1))
+    return frozenset(
+        line
+        for function in functions
+        if function.name != "__init__" and any(map(_keeps, ast.walk(function)))
+        for line in range(function.lineno, (function.end_lineno or 0) + 1)
+    )
 
 
 def _keeps(node: ast.AST) -> bool:
     if isinstance(node, ast.Attribute | ast.Subscript) and isinstance(node.ctx, ast.Store):
         return ast.unparse(node).startswith("self")
-    return (isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and ast.unparse(node.func).startswith("self")
-            and node.func.attr in ("append", "add", "setdefault", "extend", "update"))
+    return (
+        isinstance(node, ast.Call)
+        and isinstance(node.func, ast.Attribute)
+        and ast.unparse(node.func).startswith("self")
+        and node.func.attr in ("append", "add", "setdefault", "extend", "update")
+    )
 
 
 def forget(rooms: Sequence[str]) -> None:

@@ -25,23 +25,26 @@ from tests.faults.injection import Work, break_off, bytecodes_of
 BUDGETS = ("budget.py", "supervision.py")
 PANELS = ("classroom/panel/explorer.py", "classroom/panel/comparison.py", "classroom/lessons/predict.py", "classroom/widget.py")
 ALGAE = "axiom: a\na -> ab\nb -> a"
-ASKED: Mapping[str, Mapping[str, object]] = MappingProxyType({
-    "a book": {"kind": "book", "constants": {}, "seed": 1},
-    "other rules": {"kind": "rules", "text": "axiom: b\na -> ab\nb -> a"},
-    "rules with a mistake": {"kind": "rules", "text": "a ->> b ("},
-    "a link": {"kind": "keep", "what": "link"},
-    "a page": {"kind": "keep", "what": "page"},
-    "a drawing": {"kind": "keep", "what": "svg"},
-    "variants": {"kind": "variants"},
-})
+ASKED: Mapping[str, Mapping[str, object]] = MappingProxyType(
+    {
+        "a book": {"kind": "book", "constants": {}, "seed": 1},
+        "other rules": {"kind": "rules", "text": "axiom: b\na -> ab\nb -> a"},
+        "rules with a mistake": {"kind": "rules", "text": "a ->> b ("},
+        "a link": {"kind": "keep", "what": "link"},
+        "a page": {"kind": "keep", "what": "page"},
+        "a drawing": {"kind": "keep", "what": "svg"},
+        "variants": {"kind": "variants"},
+    }
+)
 
 
 def hooks() -> object:
     return sys.getprofile(), sys.gettrace(), sys.unraisablehook
 
 
-def interrupted_everywhere(work: Work, rooms: tuple[str, ...], then: Callable[[], object] = lambda: None,
-                           tried: Collection[object] = ()) -> Collection[object]:
+def interrupted_everywhere(
+    work: Work, rooms: tuple[str, ...], then: Callable[[], object] = lambda: None, tried: Collection[object] = ()
+) -> Collection[object]:
     """Interrupt some work before each of its bytecodes but the tried ones, and each time see that nothing is left behind.
     The bytecodes."""
     work()
@@ -83,8 +86,11 @@ def test_a_budget_ends_with_its_frame_whatever_interrupts_it(monkeypatch: pytest
 def test_a_budget_ends_with_its_block_where_the_frame_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:
     """As in a loop of a cell, which tries again."""
     monkeypatch.setattr("lsys_kit.budget.SECONDS_BETWEEN_LOOKS", 0)
-    left = [(in_task(), current()) for moment in [*bytecodes_of(budgeted_work, BUDGETS).values()][::7]
-            if break_off(budgeted_work, BUDGETS, moment, KeyboardInterrupt, "opcode")]
+    left = [
+        (in_task(), current())
+        for moment in [*bytecodes_of(budgeted_work, BUDGETS).values()][::7]
+        if break_off(budgeted_work, BUDGETS, moment, KeyboardInterrupt, "opcode")
+    ]
     assert {*left} == {(False, Limits())}
 
 
@@ -97,11 +103,14 @@ def unraised(monkeypatch: pytest.MonkeyPatch) -> list[object]:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("make", [
-    partial(explore, read(ALGAE), 2),
-    lambda: compare(read(ALGAE), read(ALGAE), step=1),
-    partial(predict, "How many cells has step 6?", "21 cells"),
-])
+@pytest.mark.parametrize(
+    "make",
+    [
+        partial(explore, read(ALGAE), 2),
+        lambda: compare(read(ALGAE), read(ALGAE), step=1),
+        partial(predict, "How many cells has step 6?", "21 cells"),
+    ],
+)
 def test_a_widget_that_was_interrupted_while_it_was_made_is_gone(make: Callable[[], Any], unraised: list[object]) -> None:
     assert len(interrupted_everywhere(lambda: make().close(), PANELS)) > 20
     gc.collect()

@@ -36,15 +36,29 @@ def older_course(folder: Path, version: int = 1) -> None:
 
 WRITERS: dict[str, tuple[Write, Write, tuple[str, ...]]] = {
     "a new file": (nothing, lambda folder: create_file(folder / "a", b"new"), ("files.py",)),
-    "a file": (lambda folder: save_file(folder / "a", b"lsys-kit old"), lambda folder: save_file(folder / "a", b"lsys-kit new"),
-               ("files.py",)),
-    "a model": (nothing, lambda folder: main(["convert", "K12", "--to", "grogra", "-o", str(folder / "a.txt")]),
-                ("files.py", "commands/models.py")),
-    "the course": (older_course, lambda folder: copy_course(folder / "mine", folder / "kit"),
-                   ("files.py", "classroom/course.py")),
-    **{ending: (lambda folder, ending=ending: SMALL.save(folder / f"a.{ending}"),  # type: ignore[misc]
-                lambda folder, ending=ending: LARGE.save(folder / f"a.{ending}"),  # type: ignore[misc]
-                ("files.py", "pictures/formats/files.py")) for ending in ("svg", "png", "glb", "obj")},
+    "a file": (
+        lambda folder: save_file(folder / "a", b"lsys-kit old"),
+        lambda folder: save_file(folder / "a", b"lsys-kit new"),
+        ("files.py",),
+    ),
+    "a model": (
+        nothing,
+        lambda folder: main(["convert", "K12", "--to", "grogra", "-o", str(folder / "a.txt")]),
+        ("files.py", "commands/models.py"),
+    ),
+    "the course": (
+        older_course,
+        lambda folder: copy_course(folder / "mine", folder / "kit"),
+        ("files.py", "classroom/course.py"),
+    ),
+    **{
+        ending: (
+            lambda folder, ending=ending: SMALL.save(folder / f"a.{ending}"),  # type: ignore[misc]
+            lambda folder, ending=ending: LARGE.save(folder / f"a.{ending}"),  # type: ignore[misc]
+            ("files.py", "pictures/formats/files.py"),
+        )
+        for ending in ("svg", "png", "glb", "obj")
+    },
     "pnml": (nothing, lambda folder: draw(stages(system("P2"))).save(folder / "a.pnml"), ("files.py",)),
 }
 """How the old file is written, how the new one is, and the files of the package at whose lines that is broken off."""

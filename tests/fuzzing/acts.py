@@ -53,11 +53,13 @@ def saved(path: Path) -> Callable[[Any], object]:
 
 def typed(*arguments: str) -> Callable[[Any], object]:
     """Type a command; what is said is thrown away, as it may be long."""
+
     def command(_: object) -> None:
         with open("/dev/null", "w") as nowhere, redirect_stdout(nowhere), redirect_stderr(StringIO()) as said:
             status = main(arguments)
         if status:
             raise kit.LSystemError(said.getvalue()[:200])
+
     return command
 
 
@@ -68,46 +70,86 @@ def asked(**content: object) -> Callable[[Any], object]:
 
 def put(name: str) -> Callable[[Any], object]:
     """Give a widget a value as a browser does."""
+
     def give(given: tuple[Any, Any]) -> None:
         try:
             setattr(given[0], name, given[1])
         except (RecursionError, OverflowError) as error:  # JSON has neither such nesting nor such numbers
             raise kit.LSystemError("No message says this") from error
+
     return give
 
 
 MAKERS: Mapping[str, Callable[[Any], Any]] = {
-    "Film": lambda system: kit.animate(system, 6), "Comparison": lambda system: kit.compare(system, system, step=6),
-    "Continuity": lambda system: kit.continuity(system, {}), "Derivation": lambda system: kit.derive(system, 9),
-    "Word": lambda system: longest(system)[-1], "Picture": lambda system: kit.draw(longest(system)),
+    "Film": lambda system: kit.animate(system, 6),
+    "Comparison": lambda system: kit.compare(system, system, step=6),
+    "Continuity": lambda system: kit.continuity(system, {}),
+    "Derivation": lambda system: kit.derive(system, 9),
+    "Word": lambda system: longest(system)[-1],
+    "Picture": lambda system: kit.draw(longest(system)),
     "NetPicture": lambda system: kit.draw(kit.stages(system)),
-    "LineagePicture": lambda system: kit.draw(kit.lineage(system, 6)), "Explorer": lambda system: kit.explore(system, 9),
+    "LineagePicture": lambda system: kit.draw(kit.lineage(system, 6)),
+    "Explorer": lambda system: kit.explore(system, 9),
     "SmallMultiples": lambda system: kit.draw(system, steps=[3, 6, 9]),
-    "Sight": lambda system: kit.explore(system, 9).sight, "Growth": kit.growth, "Stages": kit.stages, "Timed": kit.timed,
-    "Fits": lambda system: kit.infer(kit.derive(system, 4)), "Lineage": lambda system: kit.lineage(system, 9),
+    "Sight": lambda system: kit.explore(system, 9).sight,
+    "Growth": kit.growth,
+    "Stages": kit.stages,
+    "Timed": kit.timed,
+    "Fits": lambda system: kit.infer(kit.derive(system, 4)),
+    "Lineage": lambda system: kit.lineage(system, 9),
     "RuleFinder": lambda system: kit.rule_finder(kit.derive(system, 4)),
     "DrawingFits": lambda system: kit.infer([kit.draw(system, step) for step in range(4)]),
     "Table": lambda system: kit.ensemble(system, 3, ["modules", "height"], steps=range(9), progress=False),
-    "Plot": lambda system: kit.plot(system, 9), "QRCode": lambda system: kit.qr_code(kit.link(system)),
-    "LSystem": lambda system: system, "Prediction": lambda system: kit.predict("What comes?", kit.draw(system, 6)),
-    "Observation": lambda system: kit.derive(system, 6).sight(6), "Origins": lambda system: kit.derive(system, 9).origins(9),
-    "Column": lambda system: kit.derive(system, 9).column(),     "Linked": lambda system: kit.linked(kit.link(system)),
+    "Plot": lambda system: kit.plot(system, 9),
+    "QRCode": lambda system: kit.qr_code(kit.link(system)),
+    "LSystem": lambda system: system,
+    "Prediction": lambda system: kit.predict("What comes?", kit.draw(system, 6)),
+    "Observation": lambda system: kit.derive(system, 6).sight(6),
+    "Origins": lambda system: kit.derive(system, 9).origins(9),
+    "Column": lambda system: kit.derive(system, 9).column(),
+    "Linked": lambda system: kit.linked(kit.link(system)),
     "Explanation": lambda system: kit.explain(kit.derive(system, 7), 7),
-    "Drawing": lambda system: longest_drawn(system).drawing(), "Scene": lambda system: longest_drawn(system).scene,
+    "Drawing": lambda system: longest_drawn(system).drawing(),
+    "Scene": lambda system: longest_drawn(system).scene,
     "Mesh": lambda system: longest_drawn(system).mesh,
 }
 """How each result is made of an L-system."""
 MAP_MAKERS: Mapping[str, Callable[[Any], Any]] = {
-    "Development": longest, "Map": lambda system: longest(system)[-1], "MapPicture": lambda system: kit.draw(system, 5),
-    "PhasesPicture": lambda system: kit.draw(system, 5, phases=True), "MapSystem": lambda system: system}
+    "Development": longest,
+    "Map": lambda system: longest(system)[-1],
+    "MapPicture": lambda system: kit.draw(system, 5),
+    "PhasesPicture": lambda system: kit.draw(system, 5, phases=True),
+    "MapSystem": lambda system: system,
+}
 CELLWORK_MAKERS: Mapping[str, Callable[[Any], Any]] = {
-    "CellworkDevelopment": longest, "Cellwork": lambda system: longest(system)[-1], "CellworkSystem": lambda system: system}
+    "CellworkDevelopment": longest,
+    "Cellwork": lambda system: longest(system)[-1],
+    "CellworkSystem": lambda system: system,
+}
 """The same of a map system and of a cellwork system."""
 ARGUMENTS: Mapping[str, tuple[Any, ...]] = {
-    "to": (100_000,), "counts": (10**6,), "counts_of": ("A", 10**6), "lengths": (10**6,), "length": (10**7,), "word": (30,),
-    "recurrence_of": ("A",), "expected": (30_000,), "tokens": (10**6,), "origins": (9,), "ancestors": (9,), "sight": (9,),
-    "coded": ({"A": "B" * 10**6},), "division": (0,), "later": (10**6,), "place_of": (0,), "line": (0,),
-    "in_places": ({},), "fired": ([0],), "daughters": (0,), "series": (10**6,), "picture": (9,),
+    "to": (100_000,),
+    "counts": (10**6,),
+    "counts_of": ("A", 10**6),
+    "lengths": (10**6,),
+    "length": (10**7,),
+    "word": (30,),
+    "recurrence_of": ("A",),
+    "expected": (30_000,),
+    "tokens": (10**6,),
+    "origins": (9,),
+    "ancestors": (9,),
+    "sight": (9,),
+    "coded": ({"A": "B" * 10**6},),
+    "division": (0,),
+    "later": (10**6,),
+    "place_of": (0,),
+    "line": (0,),
+    "in_places": ({},),
+    "fired": ([0],),
+    "daughters": (0,),
+    "series": (10**6,),
+    "picture": (9,),
 }
 """What members of results are called with that need an argument; the others are called with none."""
 
@@ -119,6 +161,7 @@ def longest_drawn(system: Any) -> Any:
 
 def used(name: str, folder: Path) -> Callable[[Any], object]:
     """Look at a member of a result, and call it where it can be called."""
+
     def use(result: Any) -> object:
         found = getattr(result, name)
         if name == "save":
@@ -128,14 +171,17 @@ def used(name: str, folder: Path) -> Callable[[Any], object]:
 
             return found(Figure().subplots())
         return found(*ARGUMENTS.get(name, ())) if callable(found) else found
+
     return use
 
 
 def offered(makers: Mapping[str, Callable[[Any], Any]], folder: Path) -> Mapping[str, Calls]:
     """A row for each member of each result, and for the result as it prints."""
-    return {f"{result}.{name}": (make, used(name, folder), *[list] * (name in ("modules", "rules")))
-            for result, make in makers.items() for name in members(result)} | \
-        {f"{result}.__repr__": (make, repr) for result, make in makers.items()}
+    return {
+        f"{result}.{name}": (make, used(name, folder), *[list] * (name in ("modules", "rules")))
+        for result, make in makers.items()
+        for name in members(result)
+    } | {f"{result}.__repr__": (make, repr) for result, make in makers.items()}
 
 
 def acts(folder: Path) -> Mapping[str, Calls]:
@@ -159,10 +205,14 @@ def acts(folder: Path) -> Mapping[str, Calls]:
         "draw: longest": (longest, kit.draw, SVG),
         "draw: many seeds": (lambda system: kit.draw(system, seeds=range(9), n=6), SVG),
         "draw: large": (lambda system: kit.draw(system, 9, size=(4_000, 4_000)), saved(folder / "large.png")),
-        **{f"save: {ending}": (longest_drawn, saved(folder / f"picture{ending}"))
-           for ending in (".svg", ".png", ".pdf", ".glb", ".obj")},
-        **{f"save: {ending}": (lambda system: kit.animate(system, 9), saved(folder / f"film{ending}"))
-           for ending in (".gif", ".apng", ".mp4")},
+        **{
+            f"save: {ending}": (longest_drawn, saved(folder / f"picture{ending}"))
+            for ending in (".svg", ".png", ".pdf", ".glb", ".obj")
+        },
+        **{
+            f"save: {ending}": (lambda system: kit.animate(system, 9), saved(folder / f"film{ending}"))
+            for ending in (".gif", ".apng", ".mp4")
+        },
         "save: .pnml": (kit.stages, kit.draw, saved(folder / "net.pnml")),
         "figure": (lambda system: kit.figure(system, n=6),),
         "animate": (lambda system: kit.animate(system, 9), lambda film: film.gif),
@@ -188,8 +238,10 @@ def acts(folder: Path) -> Mapping[str, Calls]:
         "explore": (lambda system: kit.explore(system, 9), lambda panel: panel.text),
         "compare": (lambda system: kit.compare(system, system, step=9), lambda found: found.text),
         "Explorer.answers: book": (kit.explore, asked(kind="book", constants={}, seed=3)),
-        "Explorer.answers: rules": (lambda system: (kit.explore(kit.read(SMALL)), str(system)),
-                                    lambda given: asked(kind="rules", text=given[1])(given[0])),
+        "Explorer.answers: rules": (
+            lambda system: (kit.explore(kit.read(SMALL)), str(system)),
+            lambda given: asked(kind="rules", text=given[1])(given[0]),
+        ),
         "Explorer.answers: variants": (kit.explore, asked(kind="variants")),
         "Explorer.answers: page": (kit.explore, asked(kind="keep", what="page")),
         "Explorer.answers: drawing": (kit.explore, asked(kind="keep", what="drawing")),
@@ -203,14 +255,28 @@ def acts(folder: Path) -> Mapping[str, Calls]:
         "check": (lambda system: kit.check("1.3", str(system)),),
         "predict": (lambda system: kit.predict("What comes?", kit.draw(system, 9)),),
         **{f"write: {name}": (lambda system, name=name: kit.write(system, name),) for name in DIALECTS},
-        **{f"lsys-kit {line.partition(' ')[0]}: {line}": (kept, typed(*line.replace("MODEL", model).replace("OUT",
-            str(folder)).split()))
-           for line in ("derive MODEL -n 12", "derive MODEL -n 100000 --counts", "derive MODEL -n 30 --json",
-                        "derive MODEL -n 1000000 --counts --json", "draw MODEL -n 9 -o OUT/a.png",
-                        "draw MODEL -n 9 -o OUT/a.gif",
-                        "draw MODEL -n 4,6,8 -o OUT/a.svg", "draw MODEL -n 9 -o OUT/a.glb", "stages MODEL -o OUT/net.pnml",
-                        "stages MODEL --unfold -o OUT/net.svg", "convert MODEL --to cpfg", "link MODEL --qr OUT/code.png",
-                        "page MODEL -o OUT/page.html", "wall OUT -o OUT/wall.html")},
+        **{
+            f"lsys-kit {line.partition(' ')[0]}: {line}": (
+                kept,
+                typed(*line.replace("MODEL", model).replace("OUT", str(folder)).split()),
+            )
+            for line in (
+                "derive MODEL -n 12",
+                "derive MODEL -n 100000 --counts",
+                "derive MODEL -n 30 --json",
+                "derive MODEL -n 1000000 --counts --json",
+                "draw MODEL -n 9 -o OUT/a.png",
+                "draw MODEL -n 9 -o OUT/a.gif",
+                "draw MODEL -n 4,6,8 -o OUT/a.svg",
+                "draw MODEL -n 9 -o OUT/a.glb",
+                "stages MODEL -o OUT/net.pnml",
+                "stages MODEL --unfold -o OUT/net.svg",
+                "convert MODEL --to cpfg",
+                "link MODEL --qr OUT/code.png",
+                "page MODEL -o OUT/page.html",
+                "wall OUT -o OUT/wall.html",
+            )
+        },
     }
 
 
@@ -273,50 +339,121 @@ def text_acts(folder: Path) -> Mapping[str, Calls]:
     return {
         "read": (kit.read,),
         **{f"read: {name}": (partial(kit.read, notation=name),) for name in DIALECTS},
-        "read_map: text": (kit.read_map,), "read_cellwork: text": (kit.read_cellwork,),
-        "linked": (kit.linked,), "qr_code": (kit.qr_code, SVG),
+        "read_map: text": (kit.read_map,),
+        "read_cellwork: text": (kit.read_cellwork,),
+        "linked": (kit.linked,),
+        "qr_code": (kit.qr_code, SVG),
         "with_surface: text": (lambda text: kit.with_surface(small, "L", text),),
-        **{f"check: {exercise}": (partial(kit.check, exercise),)
-           for exercise in ("0.1", "0.2", "0.3", "1.1", "1.3", "2.1", "5.5", "7.3", "10.5", "16.5", "17.1")},
+        **{
+            f"check: {exercise}": (partial(kit.check, exercise),)
+            for exercise in ("0.1", "0.2", "0.3", "1.1", "1.3", "2.1", "5.5", "7.3", "10.5", "16.5", "17.1")
+        },
         "Practice.check": (lambda text: kit.practice("derive", 1, 1).check(text),),
         "Explorer.answers: text": (lambda text: asked(kind="rules", text=text)(kit.explore(small)),),
         "Worksheet.asked": (lambda text: (kit.worksheet("01", "counts"), {"number": 1, "entries": [text]}), put("asked")),
         "Prompt.typed": (lambda text: (kit.predict("What comes?", "21").prompt, text), put("typed")),
         "lsys-kit convert: text": (kept, typed("convert", str(path), "--to", "abop")),
         "lsys-kit wall: text": (kept, typed("wall", str(folder), "-o", str(folder / "wall.html"))),
-        "lsys-kit collect": (lambda text: (folder / "book.ipynb").write_text(text, errors="replace"),
-                             typed("collect", str(folder), "-o", str(folder / "marks.csv"))),
-        "lsys-kit exercises": (lambda text: (folder / "own.toml").write_text(text, errors="replace"),
-                               typed("exercises", "check", str(folder))),
-        "exercises: own": (lambda text: (folder / "own.toml").write_text(text, errors="replace"),
-            lambda _: kit.exercises(folder)),
+        "lsys-kit collect": (
+            lambda text: (folder / "book.ipynb").write_text(text, errors="replace"),
+            typed("collect", str(folder), "-o", str(folder / "marks.csv")),
+        ),
+        "lsys-kit exercises": (
+            lambda text: (folder / "own.toml").write_text(text, errors="replace"),
+            typed("exercises", "check", str(folder)),
+        ),
+        "exercises: own": (
+            lambda text: (folder / "own.toml").write_text(text, errors="replace"),
+            lambda _: kit.exercises(folder),
+        ),
     }
 
 
 NAMED: Mapping[str, tuple[tuple[object, ...], tuple[str, ...]]] = {
-    "derive": ((), ("steps", "seed", "arithmetic", "c")), "growth": ((), ("c",)),
+    "derive": ((), ("steps", "seed", "arithmetic", "c")),
+    "growth": ((), ("c",)),
     "stages": ((), ("polarity", "unfold", "durations", "c")),
-    "draw": ((), ("n", "angle", "size", "seeds", "steps", "marked", "cells", "view", "seed", "c", "labels", "colours", "widths",
-                  "background")),
-    "animate": ((), ("n", "seconds", "size", "view")), "lineage": ((), ("n", "seed", "c")),
-    "explore": ((), ("step", "angle", "seed", "sliders", "unfold", "c")), "plot": ((2,), ("measure", "c", "log")),
-    "ensemble": ((2,), ("measure", "steps", "c")), "sweep": (({"c": [1, 2]},), ("measure", "steps", "seed")),
-    "variants": ((), ("number", "seed")), "link": ((), ("settings", "base")), "write": ((), ("notation",)),
-    "compare": (({"c": 1},), ("step", "sliders")), "with_surface": (("L",), ("text",)), "figure": ((), ("n", "angle")),
+    "draw": (
+        (),
+        (
+            "n",
+            "angle",
+            "size",
+            "seeds",
+            "steps",
+            "marked",
+            "cells",
+            "view",
+            "seed",
+            "c",
+            "labels",
+            "colours",
+            "widths",
+            "background",
+        ),
+    ),
+    "animate": ((), ("n", "seconds", "size", "view")),
+    "lineage": ((), ("n", "seed", "c")),
+    "explore": ((), ("step", "angle", "seed", "sliders", "unfold", "c")),
+    "plot": ((2,), ("measure", "c", "log")),
+    "ensemble": ((2,), ("measure", "steps", "c")),
+    "sweep": (({"c": [1, 2]},), ("measure", "steps", "seed")),
+    "variants": ((), ("number", "seed")),
+    "link": ((), ("settings", "base")),
+    "write": ((), ("notation",)),
+    "compare": (({"c": 1},), ("step", "sliders")),
+    "with_surface": (("L",), ("text",)),
+    "figure": ((), ("n", "angle")),
 }
 """For functions of a system other arguments that they need, and those by name that get a value."""
 FIRST = (
-    "animate", "cellwork_system", "compare", "derive", "draw", "draw_hierarchy", "exercises", "explore", "figure", "growth",
-    "infer", "language", "lineage", "link", "linked", "map_system", "plot", "pnml", "practice", "progress", "qr_code", "read",
-    "read_cellwork", "read_map", "rule_finder", "score", "stages", "system", "timed", "variants", "vote", "write")
+    "animate",
+    "cellwork_system",
+    "compare",
+    "derive",
+    "draw",
+    "draw_hierarchy",
+    "exercises",
+    "explore",
+    "figure",
+    "growth",
+    "infer",
+    "language",
+    "lineage",
+    "link",
+    "linked",
+    "map_system",
+    "plot",
+    "pnml",
+    "practice",
+    "progress",
+    "qr_code",
+    "read",
+    "read_cellwork",
+    "read_map",
+    "rule_finder",
+    "score",
+    "stages",
+    "system",
+    "timed",
+    "variants",
+    "vote",
+    "write",
+)
 """Functions whose first argument gets a value."""
 ASKED: Mapping[str, tuple[str, ...]] = {
-    "Growth": ("counts", "lengths", "length", "recurrence_of"), "Stages": ("expected", "tokens", "place_of", "line",
-        "in_places", "fired"),
-    "Derivation": ("to", "counts", "origins", "ancestors", "sight", "column", "__getitem__"), "Word": ("coded", "__getitem__"),
-    "Picture": ("image", "drawing"), "Timed": ("word", "later", "division"), "Lineage": ("daughters",),
-    "Table": ("where", "summary", "plot", "measured", "__getitem__"), "LSystem": ("picture",), "Continuity": ("solve",),
-    "Fits": ("__getitem__",), "Practice": ("check",),
+    "Growth": ("counts", "lengths", "length", "recurrence_of"),
+    "Stages": ("expected", "tokens", "place_of", "line", "in_places", "fired"),
+    "Derivation": ("to", "counts", "origins", "ancestors", "sight", "column", "__getitem__"),
+    "Word": ("coded", "__getitem__"),
+    "Picture": ("image", "drawing"),
+    "Timed": ("word", "later", "division"),
+    "Lineage": ("daughters",),
+    "Table": ("where", "summary", "plot", "measured", "__getitem__"),
+    "LSystem": ("picture",),
+    "Continuity": ("solve",),
+    "Fits": ("__getitem__",),
+    "Practice": ("check",),
 }
 """Members of results that get a value."""
 
@@ -326,49 +463,78 @@ def value_acts(folder: Path) -> Mapping[str, Calls]:
     plant = kit.read(f"angle: 20\nsteps: 3\n{SMALL}\ninterpretation:\na(x) -> F(1)[+F(1)]")
     ageing = kit.read("axiom: a(0)\na(1) -> a(0) b(0)\nb(1) -> a(0)")
     panel = partial(kit.explore, plant)
-    makers = {**MAKERS, "Timed": lambda _: kit.timed(ageing), "Continuity": lambda _: kit.continuity(ageing, {}),
-              "Word": lambda system: kit.derive(system, 3)[3], "Picture": lambda system: kit.draw(system, 3),
-              "Lineage": lambda _: kit.lineage(kit.timed(ageing), 3), "Practice": lambda _: kit.practice("derive", 1, 1)}
+    makers = {
+        **MAKERS,
+        "Timed": lambda _: kit.timed(ageing),
+        "Continuity": lambda _: kit.continuity(ageing, {}),
+        "Word": lambda system: kit.derive(system, 3)[3],
+        "Picture": lambda system: kit.draw(system, 3),
+        "Lineage": lambda _: kit.lineage(kit.timed(ageing), 3),
+        "Practice": lambda _: kit.practice("derive", 1, 1),
+    }
     return {
-        **{f"{name}: {key}": (lambda value, name=name, given=given, key=key: getattr(kit, name)(plant, *given,
-            **{key: value}), shown)
-           for name, (given, keys) in NAMED.items() for key in keys},
+        **{
+            f"{name}: {key}": (
+                lambda value, name=name, given=given, key=key: getattr(kit, name)(plant, *given, **{key: value}),
+                shown,
+            )
+            for name, (given, keys) in NAMED.items()
+            for key in keys
+        },
         **{f"{name}: value": (getattr(kit, name), shown) for name in FIRST},
-        **{f"{result}.{name}: value": (
-            lambda value, result=result, name=name: getattr(makers[result](plant), name)(value), shown)
-           for result, names in ASKED.items() for name in names},
+        **{
+            f"{result}.{name}: value": (
+                lambda value, result=result, name=name: getattr(makers[result](plant), name)(value),
+                shown,
+            )
+            for result, names in ASKED.items()
+            for name in names
+        },
         "ensemble: seeds": (lambda value: kit.ensemble(plant, value, progress=False), repr),
         "sweep: over": (lambda value: kit.sweep(plant, value, progress=False), repr),
         "infer: constants": (partial(kit.infer, ["a+", "ab+"]), repr),
         "infer: context": (lambda value: kit.infer(["a", "ab"], context=value), repr),
         "infer: angle": (lambda value: kit.infer([[(0, 0, 0, 1)]] * 2, angle=value), repr),
         "rule_finder: constants": (partial(kit.rule_finder, ["a", "ab"]), repr),
-        "check: value": (partial(kit.check, "1.1"), repr), "check: hint": (partial(kit.check, "1.1", "a"), repr),
-        "practice: seed": (partial(kit.practice, "derive", 1), repr), "practice: level": (partial(kit.practice, "derive"),
-            repr),
-        "predict: question": (lambda value: kit.predict(value, 1), repr), "predict: what": (partial(kit.predict, "What?"),
-            repr),
-        "vote: again": (partial(kit.vote, "01"), repr), "worksheet": (lambda value: kit.worksheet(value, "counts"),),
-        "worksheet: table": (partial(kit.worksheet, "01"), repr), "explain: step": (partial(kit.explain, kit.derive(plant,
-            2)), repr),
+        "check: value": (partial(kit.check, "1.1"), repr),
+        "check: hint": (partial(kit.check, "1.1", "a"), repr),
+        "practice: seed": (partial(kit.practice, "derive", 1), repr),
+        "practice: level": (partial(kit.practice, "derive"), repr),
+        "predict: question": (lambda value: kit.predict(value, 1), repr),
+        "predict: what": (partial(kit.predict, "What?"), repr),
+        "vote: again": (partial(kit.vote, "01"), repr),
+        "worksheet": (lambda value: kit.worksheet(value, "counts"),),
+        "worksheet: table": (partial(kit.worksheet, "01"), repr),
+        "explain: step": (partial(kit.explain, kit.derive(plant, 2)), repr),
         "continuity: lengths": (partial(kit.continuity, ageing), repr),
         "continuity: order": (partial(kit.continuity, ageing, {"a": "1"}), repr),
-        "plot: in time": (partial(kit.plot, kit.timed(ageing)), shown), "pnml: net": (kit.pnml,),
+        "plot: in time": (partial(kit.plot, kit.timed(ageing)), shown),
+        "pnml: net": (kit.pnml,),
         "limits": (lambda value: kit.limits(seconds=value).__enter__(),),
         "Growth.counts_of: steps": (partial(kit.growth(plant).counts_of, "a"), shown),
         "Picture.save: dots": (lambda value: kit.draw(plant, 3).save(folder / "dots.png", dpi=value),),
         "Explorer.answers: value": (lambda value: asked(kind="book", constants={"c": value}, seed=1)(panel()),),
         "Explorer.settings": (lambda value: (panel(), {"c": value}), put("settings")),
-        **{f"Explorer.{name}": (lambda value: (panel(), value), put(name))
-           for name in ("model", "angle", "around", "above", "mark", "seed", "step")},
-        **{f"Prompt.{name}": (lambda value: (kit.predict("What?", "21").prompt, value), put(name))
-           for name in ("question", "revealed", "words")},
-        **{f"RuleFinder.{name}": (lambda value: (kit.rule_finder(["a", "ab"]), value), put(name)) for name in ("found",
-            "words", "step")},
-        **{f"VoteBox.{name}": (lambda value: (kit.vote("01"), value), put(name)) for name in ("asked", "chosen", "said",
-            "words")},
-        **{f"Worksheet.{name}": (lambda value: (kit.worksheet("01", "counts"), value), put(name))
-           for name in ("asked", "result", "sheet", "words")},
+        **{
+            f"Explorer.{name}": (lambda value: (panel(), value), put(name))
+            for name in ("model", "angle", "around", "above", "mark", "seed", "step")
+        },
+        **{
+            f"Prompt.{name}": (lambda value: (kit.predict("What?", "21").prompt, value), put(name))
+            for name in ("question", "revealed", "words")
+        },
+        **{
+            f"RuleFinder.{name}": (lambda value: (kit.rule_finder(["a", "ab"]), value), put(name))
+            for name in ("found", "words", "step")
+        },
+        **{
+            f"VoteBox.{name}": (lambda value: (kit.vote("01"), value), put(name))
+            for name in ("asked", "chosen", "said", "words")
+        },
+        **{
+            f"Worksheet.{name}": (lambda value: (kit.worksheet("01", "counts"), value), put(name))
+            for name in ("asked", "result", "sheet", "words")
+        },
         "Worksheet.asked: entries": (lambda value: (kit.worksheet("01", "counts"), {"entries": value}), put("asked")),
     }
 
@@ -383,17 +549,43 @@ def _nothing_grows(*names: str) -> Mapping[str, str]:
 
 
 LEFT_OUT: Mapping[str, str] = {
-    **_nothing_grows("book_systems", "cellwork_systems", "map_systems", "systems", "lsys-kit list", "ExerciseList.__repr__",
-                     "lsys-kit site", "VoteBox.close", "VoteBox.page_data", "VoteBox.__repr__", "Worksheet.close",
-                     "Worksheet.entries", "PanelWithWorksheet.close", "PanelWithWorksheet.__repr__",
-                     "Worksheet.page_data", "Worksheet.__repr__", "Progress.count", "Progress.state", "Progress.__repr__",
-                     "Verdict.__repr__", "Practice.next", "Practice.__repr__", "Comparison.left", "Comparison.right",
-                     "Comparison.shared"),
+    **_nothing_grows(
+        "book_systems",
+        "cellwork_systems",
+        "map_systems",
+        "systems",
+        "lsys-kit list",
+        "ExerciseList.__repr__",
+        "lsys-kit site",
+        "VoteBox.close",
+        "VoteBox.page_data",
+        "VoteBox.__repr__",
+        "Worksheet.close",
+        "Worksheet.entries",
+        "PanelWithWorksheet.close",
+        "PanelWithWorksheet.__repr__",
+        "Worksheet.page_data",
+        "Worksheet.__repr__",
+        "Progress.count",
+        "Progress.state",
+        "Progress.__repr__",
+        "Verdict.__repr__",
+        "Practice.next",
+        "Practice.__repr__",
+        "Comparison.left",
+        "Comparison.right",
+        "Comparison.shared",
+    ),
     "lsys-kit lab": "it serves until it is closed",
     **{f"HierarchyPicture.{name}": "it has one picture alone" for name in (*members("HierarchyPicture"), "__repr__")},
 }
 """The public ways that are not tried, and why."""
 GROUPS: tuple[tuple[Mapping[str, Any], Callable[[Any], Any], Callable[[Path], Mapping[str, Calls]]], ...] = (
-    (BOMBS, kit.read, acts), (MAPS, kit.read_map, map_acts), (CELLWORKS, kit.read_cellwork, cellwork_acts),
-    (WORDS, made, word_acts), (TEXTS, str, text_acts), (VALUES, made, value_acts))
+    (BOMBS, kit.read, acts),
+    (MAPS, kit.read_map, map_acts),
+    (CELLWORKS, kit.read_cellwork, cellwork_acts),
+    (WORDS, made, word_acts),
+    (TEXTS, str, text_acts),
+    (VALUES, made, value_acts),
+)
 """Each kind of bombs, how one is taken from the table, and what is done with it."""

@@ -66,8 +66,12 @@ def warm_up(folder: Path) -> None:
     """Import what the calls need, which takes its time once."""
     from lsys_kit import limits, read, read_cellwork, read_map
 
-    small: dict[Callable[[Any], Any], Any] = {read: SMALL, read_map: "map: ABAB\nA -> B[-A][+A]B\nB -> A",
-                                              read_cellwork: "cellwork: 1(0,0,0)", str: "a"}
+    small: dict[Callable[[Any], Any], Any] = {
+        read: SMALL,
+        read_map: "map: ABAB\nA -> B[-A][+A]B\nB -> A",
+        read_cellwork: "cellwork: 1(0,0,0)",
+        str: "a",
+    }
     for _, taken, acts in GROUPS:
         for calls in acts(folder).values() if taken in small else ():
             found: Any = None

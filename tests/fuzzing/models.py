@@ -27,7 +27,7 @@ BOMBS: Mapping[str, str] = {
     "many rules": "axiom: A(0)\nA(n) : n<900 -> A(n+1) B(n) B(n) B(n+1)\nB(n) : n>0 -> B(n-1) B(n-1)",
     "decomposition": "axiom: a(0)\ndecomposition:\na(n) : n<60 -> a(n+1) a(n+1)",
     "wide decomposition": "axiom: a\na -> a a\ndecomposition:\na -> repeat(5000,i)<b>\nb -> repeat(5000,i)<c>\n"
-                          "c -> repeat(5000,i)<d>",
+    "c -> repeat(5000,i)<d>",
     "interpretation": "axiom: a\na -> a a\ninterpretation:\na -> repeat(100000,i)<repeat(100000,j)<F>>",
     "nested interpretation": "axiom: a\na -> a\ndepth: 100\ninterpretation:\na -> a a",
     "interpretations": "axiom: A(0)\nA(n) -> A(n+1) B(n)\nB(n) -> B(n+1/7)\ninterpretation:\nB(n) -> repeat(100000,i)<F>",
@@ -62,8 +62,13 @@ BOMBS: Mapping[str, str] = {
     "nested brackets": "axiom: A\nA -> [A]F[A]",
     "space": "axiom: A\nA -> &(20)F[/(30)A][^(10)A]A",
     "tropism": "axiom: A\nA -> &(20)F$[/(30)A]A",
-    "macros": "\n".join([*(f"#define {new} {' '.join(old * 10)}" for old, new in zip("Fabcdefg", "abcdefgh", strict=True)),
-                         "Axiom: h", "F --> F"]),
+    "macros": "\n".join(
+        [
+            *(f"#define {new} {' '.join(old * 10)}" for old, new in zip("Fabcdefg", "abcdefgh", strict=True)),
+            "Axiom: h",
+            "F --> F",
+        ]
+    ),
     "jagged surface": f"axiom: A\nA -> ~L +(7) A A\nsurface L: {CORNERS}",
     "jagged surface in space": f"axiom: A\nA -> ~L &(7) A A\nsurface L: {CORNERS}",
     "jagged polygon": "axiom: A\nA -> {.repeat(3000,i)<+(90*i)F(1+i).>} &(7) A A",
@@ -71,16 +76,19 @@ BOMBS: Mapping[str, str] = {
     "a thousand rules": "axiom: A0\n" + "\n".join(f"A{k} -> A{k + 1} A{k // 2}" for k in range(990)),
     "long successor": f"axiom: A\nA -> {'A[+A]' * 8_000}",
     "long axiom": f"axiom: {'A[+A]' * 8_000}\nA -> A A",
-    "long names": "axiom: N0\n".replace("N", "N" * 60) + "\n".join(
-        f"N{k} -> N{k + 1} N0".replace("N", "N" * 60) for k in range(300)),
+    "long names": "axiom: N0\n".replace("N", "N" * 60)
+    + "\n".join(f"N{k} -> N{k + 1} N0".replace("N", "N" * 60) for k in range(300)),
     "deep brackets": f"axiom: A\nA -> {'[' * 5_000}A{']' * 5_000}A",
     "deep repetition": f"axiom: A\nA -> {''.join(f'repeat(9,i{k})<' for k in range(40))}A{'>' * 40}",
     "deep expression": f"axiom: A(1)\nA(x) -> A({'(x+' * 45}1{')' * 45}) A(x+1)",
-    "many parameters": f"axiom: A({','.join(['1'] * 16)})\n" + "A({0}) -> A({1}) A({0})".format(
-        ",".join(f"x{k}" for k in range(16)), ",".join(f"x{k}+x{(k + 1) % 16}" for k in range(16))),
+    "many parameters": f"axiom: A({','.join(['1'] * 16)})\n"
+    + "A({0}) -> A({1}) A({0})".format(
+        ",".join(f"x{k}" for k in range(16)), ",".join(f"x{k}+x{(k + 1) % 16}" for k in range(16))
+    ),
     "huge numbers": "axiom: A(9)\nA(x) -> A(x*x) A(x+1) repeat(x,i)<B(x^i)>",
-    "many constants": "\n".join([*(f"c{k} = {k % 10} in 0 .. 9 by 1" for k in range(300)),
-                                 "axiom: A(c1)", "A(x) -> A(x+c2) A(x*c3)"]),
+    "many constants": "\n".join(
+        [*(f"c{k} = {k % 10} in 0 .. 9 by 1" for k in range(300)), "axiom: A(c1)", "A(x) -> A(x+c2) A(x*c3)"]
+    ),
 }
 """L-systems."""
 
@@ -124,37 +132,69 @@ WORDS: Mapping[str, Callable[[], Any]] = {
 """What rules are looked for in."""
 
 TEXTS: Mapping[str, str] = {
-    "letters": "a" * 999_000, "lines of letters": f"{'a' * 40_000}\n" * 24, "blanks": " " * 999_000,
+    "letters": "a" * 999_000,
+    "lines of letters": f"{'a' * 40_000}\n" * 24,
+    "blanks": " " * 999_000,
     "empty lines": "\n" * 999_000,
-    "digits": "9" * 49_000, "axiom of digits": f"axiom: A({'9' * 1_900})\nA(x) -> A(x*x)", "many digits": "9 " * 24_000,
-    "opened": "(" * 49_000, "opened branches": "axiom: " + "[" * 49_000, "closed": ")" * 49_000, "quotes": '"' * 49_000,
-    "arrows": "-> " * 16_000, "commas": "," * 49_000, "braces": "{" * 49_000, "comments": "/*" * 400_000,
+    "digits": "9" * 49_000,
+    "axiom of digits": f"axiom: A({'9' * 1_900})\nA(x) -> A(x*x)",
+    "many digits": "9 " * 24_000,
+    "opened": "(" * 49_000,
+    "opened branches": "axiom: " + "[" * 49_000,
+    "closed": ")" * 49_000,
+    "quotes": '"' * 49_000,
+    "arrows": "-> " * 16_000,
+    "commas": "," * 49_000,
+    "braces": "{" * 49_000,
+    "comments": "/*" * 400_000,
     "signs": "+-" * 24_000,
-    "statements": "A -> B\n" * 140_000, "axioms": "axiom: A\n" * 100_000, "empty macros": "#define A B\n" * 80_000,
+    "statements": "A -> B\n" * 140_000,
+    "axioms": "axiom: A\n" * 100_000,
+    "empty macros": "#define A B\n" * 80_000,
     "constants alone": "\n".join(f"c{number} = {number}" for number in range(60_000)),
     "axiom of powers": "axiom: A(" + "9^" * 900 + "9)",
-    "factorials": f"axiom: A({'factorial(' * 40}9{')' * 40})", "exponents": "axiom: A(1e999999999999)",
-    "names": f"axiom: {'n' * 40_000}", "markup": "<a>" * 300_000, "braces and brackets": "{[(" * 16_000,
+    "factorials": f"axiom: A({'factorial(' * 40}9{')' * 40})",
+    "exponents": "axiom: A(1e999999999999)",
+    "names": f"axiom: {'n' * 40_000}",
+    "markup": "<a>" * 300_000,
+    "braces and brackets": "{[(" * 16_000,
     "rows": "1 2 3\n" * 160_000,
-    "points": "0 0 0 0 0 1 0 1 0 0 1 1\n" * 40_000, "map of walls": f"map: {'AB' * 24_000}\n{'A -> AB' * 9}",
+    "points": "0 0 0 0 0 1 0 1 0 0 1 1\n" * 40_000,
+    "map of walls": f"map: {'AB' * 24_000}\n{'A -> AB' * 9}",
     "far text": "\U000f0000" * 400_000,
-    "link": "#lsys=" + "a" * 900_000, "broken link": "#lsys=" + "aS0zKBwA" * 90_000, "surrogates": "\ud800" * 400_000,
+    "link": "#lsys=" + "a" * 900_000,
+    "broken link": "#lsys=" + "aS0zKBwA" * 90_000,
+    "surrogates": "\ud800" * 400_000,
 }
 """Texts of about the size that is read, and of a line."""
 
 VALUES: Mapping[str, Callable[[], Any]] = {
-    "a billion": lambda: 10**9, "five thousand digits": lambda: 10**5_000, "a negative one": lambda: -10**5_000,
-    "a fraction": lambda: Fraction(10**5_000 + 1, 7), "greatest double": lambda: 1.7e308, "least double": lambda: 5e-324,
-    "infinity": lambda: inf, "a million digits": lambda: "9" * 10**6, "an exponent": lambda: "1e999999999",
+    "a billion": lambda: 10**9,
+    "five thousand digits": lambda: 10**5_000,
+    "a negative one": lambda: -(10**5_000),
+    "a fraction": lambda: Fraction(10**5_000 + 1, 7),
+    "greatest double": lambda: 1.7e308,
+    "least double": lambda: 5e-324,
+    "infinity": lambda: inf,
+    "a million digits": lambda: "9" * 10**6,
+    "an exponent": lambda: "1e999999999",
     "nested powers": lambda: "9^9^9^9^9",
-    "ten million letters": lambda: "a" * 10**7, "a range": lambda: range(10**12), "without end": lambda: count(),
+    "ten million letters": lambda: "a" * 10**7,
+    "a range": lambda: range(10**12),
+    "without end": lambda: count(),
     "the same": lambda: repeat("a"),
-    "a long list": lambda: [0] * 10**7, "a list of lists": lambda: [[0] * 1_000] * 1_000,
+    "a long list": lambda: [0] * 10**7,
+    "a list of lists": lambda: [[0] * 1_000] * 1_000,
     "nested lists": lambda: nested(50_000),
-    "bytes": lambda: b"a" * 10**7, "a mapping": lambda: {f"a{number}": number for number in range(10**6)},
-    "two billions": lambda: (10**9, 10**9), "a set": lambda: {*range(10**6)}, "an array": lambda: np.zeros((10**4, 10**3)),
-    "a mapping of ranges": lambda: {"c": range(10**12)}, "a mapping without end": lambda: {"c": count()},
-    "a mapping of digits": lambda: {"c": "9" * 10**6}, "an expression": lambda: sympy.Symbol("x") ** 10**9,
+    "bytes": lambda: b"a" * 10**7,
+    "a mapping": lambda: {f"a{number}": number for number in range(10**6)},
+    "two billions": lambda: (10**9, 10**9),
+    "a set": lambda: {*range(10**6)},
+    "an array": lambda: np.zeros((10**4, 10**3)),
+    "a mapping of ranges": lambda: {"c": range(10**12)},
+    "a mapping without end": lambda: {"c": count()},
+    "a mapping of digits": lambda: {"c": "9" * 10**6},
+    "an expression": lambda: sympy.Symbol("x") ** 10**9,
 }
 """Values of any argument: made anew each time, since some are used up."""
 

@@ -21,8 +21,13 @@ from lsys_kit.__main__ import _argument_parser
 from lsys_kit.errors import LSystemError
 from lsys_kit.notation.registry import DIALECTS
 
-PARTS = ("lsys_kit.notation.model.", "lsys_kit.derivation.core.states", "lsys_kit.derivation.core.rules",
-         "lsys_kit.classroom.catalogue", "lsys_kit.budget")
+PARTS = (
+    "lsys_kit.notation.model.",
+    "lsys_kit.derivation.core.states",
+    "lsys_kit.derivation.core.rules",
+    "lsys_kit.classroom.catalogue",
+    "lsys_kit.budget",
+)
 """Rooms whose records results are made of: nobody asks these for work, but systems."""
 SYSTEMS = ("LSystem", "MapSystem", "CellworkSystem")
 HINT = re.compile(r"\.\w+")
@@ -30,8 +35,13 @@ HINT = re.compile(r"\.\w+")
 
 def public_ways() -> set[str]:
     """The names of all."""
-    return {*functions(), *commands(), *formats(), *answers(),
-            *(f"{result}.{name}" for result in results() for name in (*members(result), "__repr__"))}
+    return {
+        *functions(),
+        *commands(),
+        *formats(),
+        *answers(),
+        *(f"{result}.{name}" for result in results() for name in (*members(result), "__repr__")),
+    }
 
 
 def functions() -> Iterator[str]:
@@ -63,8 +73,11 @@ def answers() -> Iterator[str]:
     for name, found in {**results(), "Prompt": Prompt}.items():
         if issubclass(found, traitlets.HasTraits):
             own = (each for each in found.class_traits(sync=True) if not each.startswith("_"))
-            yield from (f"{name}.{each}" for each in own if any(each in vars(base) for base in found.__mro__
-                                                               if base.__module__.startswith("lsys_kit")))
+            yield from (
+                f"{name}.{each}"
+                for each in own
+                if any(each in vars(base) for base in found.__mro__ if base.__module__.startswith("lsys_kit"))
+            )
     yield "Explorer.answers"
 
 
@@ -89,8 +102,15 @@ def members(result: str) -> list[str]:
 def _public(found: type) -> Iterator[tuple[str, Any]]:
     """The properties and methods of a class that are the kit's own, each with its function."""
     for name, member in inspect.getmembers_static(found):
-        function = member.fget if isinstance(member, property) else member.func if isinstance(member, cached_property) else \
-            inspect.unwrap(member) if inspect.isfunction(member) else None
+        function = (
+            member.fget
+            if isinstance(member, property)
+            else member.func
+            if isinstance(member, cached_property)
+            else inspect.unwrap(member)
+            if inspect.isfunction(member)
+            else None
+        )
         public = not name.startswith("_") or name in ("__getitem__", "__iter__")
         if function is not None and public and function.__module__.startswith("lsys_kit"):
             yield name, function
@@ -103,14 +123,22 @@ def _returned(function: Any) -> Iterator[type]:
         for name in re.findall(r"[A-Z]\w*", todo.pop()):
             found = getattr(sys.modules[function.__module__], name, None) or _classes().get(name)
             todo += [found] if isinstance(found, str) else []  # another name of several classes
-            yield from (each for each in (found, *get_args(found)) if isinstance(each, type)
-                        and each.__module__.startswith("lsys_kit"))
+            yield from (
+                each for each in (found, *get_args(found)) if isinstance(each, type) and each.__module__.startswith("lsys_kit")
+            )
 
 
 @cache
 def _classes() -> dict[str, type]:
     """All classes of the kit by name, for those that are named for type checkers alone."""
-    modules = [import_module(each.name) for each in pkgutil.walk_packages(kit.__path__, "lsys_kit.")
-               if not each.name.endswith("__main__")]
-    return {name: found for module in modules for name, found in vars(module).items()
-            if isinstance(found, type) and found.__module__ == module.__name__}
+    modules = [
+        import_module(each.name)
+        for each in pkgutil.walk_packages(kit.__path__, "lsys_kit.")
+        if not each.name.endswith("__main__")
+    ]
+    return {
+        name: found
+        for module in modules
+        for name, found in vars(module).items()
+        if isinstance(found, type) and found.__module__ == module.__name__
+    }

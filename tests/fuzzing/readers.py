@@ -57,8 +57,18 @@ def fuzz(notation: str, folder: str, texts: int) -> None:
         except LSystemError as error:
             str(error)
 
-    atheris.Setup([sys.argv[0], folder, f"-max_len={LONGEST}", f"-runs={texts}", f"-timeout={SLOWEST}",
-                   f"-seed={os.environ.get('SEED', '1')}", f"-artifact_prefix={folder}/"], one)
+    atheris.Setup(
+        [
+            sys.argv[0],
+            folder,
+            f"-max_len={LONGEST}",
+            f"-runs={texts}",
+            f"-timeout={SLOWEST}",
+            f"-seed={os.environ.get('SEED', '1')}",
+            f"-artifact_prefix={folder}/",
+        ],
+        one,
+    )
     atheris.Fuzz()
 
 
@@ -69,8 +79,13 @@ def main(texts: int, *notations: str) -> int:
     for notation in notations or tuple(DIALECTS):
         with tempfile.TemporaryDirectory() as folder:
             seeds(notation, Path(folder))
-            run = subprocess.run([sys.executable, "-m", "tests.fuzzing.readers", "--fuzz", notation, folder, str(texts)],
-                                 capture_output=True, text=True, check=False, env={**os.environ, "PYTHONHASHSEED": "0"})
+            run = subprocess.run(
+                [sys.executable, "-m", "tests.fuzzing.readers", "--fuzz", notation, folder, str(texts)],
+                capture_output=True,
+                text=True,
+                check=False,
+                env={**os.environ, "PYTHONHASHSEED": "0"},
+            )
             told = [line for line in run.stderr.splitlines() if "DONE" in line or "stat::" in line]
             print(notation, *told[-1:], sep=": ", flush=True)
             if run.returncode:

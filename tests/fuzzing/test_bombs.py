@@ -48,8 +48,12 @@ def test_what_breaks_a_limit_is_found() -> None:
 @linux
 @pytest.mark.slow
 def test_a_share_of_the_table_keeps_to_its_limits() -> None:
-    run = subprocess.run([sys.executable, "-m", "tests.fuzzing.bombs", "--rows", "150", "0.1", "200"],
-                         capture_output=True, text=True, check=False)
+    run = subprocess.run(
+        [sys.executable, "-m", "tests.fuzzing.bombs", "--rows", "150", "0.1", "200"],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert (run.returncode, run.stderr) == (0, "")
     assert "in 0.1 seconds" in run.stdout
 

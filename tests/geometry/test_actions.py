@@ -21,8 +21,10 @@ from lsys_kit.notation.model.system import LSystem, Production
 from tests.geometry.test_instancing import agree, draw_all_instanced
 
 EVERY_COMMAND = [(turtle, symbol) for turtle, column in COMMANDS.items() for symbol, commands in column.items() if commands]
-STROKE = {turtle: next(symbol for symbol, commands in column.items() if commands and commands[0].action == "draw")
-          for turtle, column in COMMANDS.items()}
+STROKE = {
+    turtle: next(symbol for symbol, commands in column.items() if commands and commands[0].action == "draw")
+    for turtle, column in COMMANDS.items()
+}
 PITCH = {"abop": "&", "grogra": "RL"}
 POLYGON = [Pattern(symbol) for symbol in "{F+F.+F}"]
 APEX, BUD = Pattern("apex"), Pattern("bud")
@@ -36,8 +38,7 @@ def phrases(turtle: str, symbol: str) -> st.SearchStrategy[list[Pattern]]:
         return st.just(POLYGON if symbol in "{.}" else [Pattern(found[0]), stroke, Pattern(found[1])])
     scales = COMMANDS[turtle][symbol][0].argument not in ("", "all", "more", "less")  # but not beyond what can be drawn
     few = st.sampled_from((0, Fraction(1, 2), 1) if scales else (0, 2, 3, 20, 90, 180)).map(Number)
-    values = st.lists(few, min_size=3 * (symbol == "@M"),
-                      max_size={"@M": 3, "@B": 2}.get(symbol, 1))
+    values = st.lists(few, min_size=3 * (symbol == "@M"), max_size={"@M": 3, "@B": 2}.get(symbol, 1))
     named = [Pattern("leaf")] if symbol == "~" else []
     return values.map(lambda arguments: [Pattern(symbol, tuple(arguments)), *named])
 
@@ -57,8 +58,12 @@ def systems(draw: st.DrawFn, turtle: str, symbol: str) -> LSystem:
     """A system whose axiom and rules contain a command, in the plane or in space."""
     pitch = [Pattern(PITCH[turtle], (Number(40),))] if turtle in PITCH and draw(st.booleans()) else []
     word = successors(turtle, symbol)
-    return LSystem((*pitch, *draw(word), APEX), tuple(Production((apex,), draw(word)) for apex in (APEX, BUD)),
-                   turtle=turtle, angle=draw(st.sampled_from((90, 25))))
+    return LSystem(
+        (*pitch, *draw(word), APEX),
+        tuple(Production((apex,), draw(word)) for apex in (APEX, BUD)),
+        turtle=turtle,
+        angle=draw(st.sampled_from((90, 25))),
+    )
 
 
 def check_drawings(system: LSystem) -> None:
@@ -71,8 +76,11 @@ def check_drawings(system: LSystem) -> None:
         flat = place_path(trace(words[-1]), float(system.angle), float(system.heading))
         near = 1e-9 * max(1.0, *map(abs, (*whole.corners[0], *whole.corners[1])))
         assert whole.segments.ends[:, [1, 4]] == pytest.approx(0, abs=near)
-        for found, expected in ((flat.segments.points, whole.segments.points), (flat.polygons.points, whole.polygons.points),
-                                (flat.discs.centres, whole.discs.centres)):
+        for found, expected in (
+            (flat.segments.points, whole.segments.points),
+            (flat.polygons.points, whole.polygons.points),
+            (flat.discs.centres, whole.discs.centres),
+        ):
             assert found == pytest.approx(expected[:, [0, 2]], rel=0, abs=near)
         whole = flat
     assert (instanced is not None) == all(command.instanceable for command, _ in commands_of(system))

@@ -26,8 +26,10 @@ def test_a_box_stands_in_the_frame_of_the_turtle(way, length, width):
     plain = PlainTurtle()
     for module in way:
         plain.obey(*module)
-    corners = [plain.place + plain.scale * plain.frame @ corner
-               for corner in product((0, length), (-width / 2, width / 2), (-width / 2, width / 2))]
+    corners = [
+        plain.place + plain.scale * plain.frame @ corner
+        for corner in product((0, length), (-width / 2, width / 2), (-width / 2, width / 2))
+    ]
     sides = list(drawn_modules([*way, ("&", 0), ("@B", length, width)]).polygons)
     near = 1e-9 * max(1.0, np.abs(corners).max())
     assert len(sides) == 6
@@ -67,8 +69,10 @@ def test_in_the_plane_it_is_a_rectangle_and_the_turtle_stays():
 
 
 def test_without_numbers_it_is_a_step_long_and_as_wide_as_a_stroke():
-    extents = [np.ptp(drawn(f"{text} &").polygons.points, axis=0).round(9).tolist()
-               for text in ("@B", "@B(3)", "!(2) @B", "!(2) @D(2) @B(3)", "@D(2) @B(3,1)")]
+    extents = [
+        np.ptp(drawn(f"{text} &").polygons.points, axis=0).round(9).tolist()
+        for text in ("@B", "@B(3)", "!(2) @B", "!(2) @D(2) @B(3)", "@D(2) @B(3,1)")
+    ]
     assert extents == [[0.1, 0.1, 1], [0.1, 0.1, 3], [2, 2, 1], [4, 4, 6], [2, 2, 6]]
 
 

@@ -20,9 +20,15 @@ def rooms(found, points):  # type: ignore[no-untyped-def]
     return volumes(points, tissue, area_vectors(points, tissue, tissue.following))
 
 
-@pytest.mark.parametrize(("forces", "side"), [
-    (SPACE_FORCES, 2.0), (Forces(rest=1, pressure=24), 3.0), (Forces(rest=0, pressure=4), 1.0),
-    (Forces(stiffness=2, rest=1, pressure=16), 2.0)])
+@pytest.mark.parametrize(
+    ("forces", "side"),
+    [
+        (SPACE_FORCES, 2.0),
+        (Forces(rest=1, pressure=24), 3.0),
+        (Forces(rest=0, pressure=4), 1.0),
+        (Forces(stiffness=2, rest=1, pressure=16), 2.0),
+    ],
+)
 def test_a_cube_is_as_large_as_springs_and_pressure_balance(forces: Forces, side: float) -> None:
     """At a corner each spring pulls with k (s - l0), each of three walls pushes with a quarter of s² P0 / s³."""
     assert forces.stiffness * (side - forces.rest) == pytest.approx(forces.pressure / (4 * side))

@@ -22,15 +22,85 @@ def test_a_symbol_means_one_thing_in_a_dialect():
         assert max(symbols.values()) == 1
 
 
-@pytest.mark.parametrize("symbol", ["F", "f", "G", "g", "@M", "+", "-", "&", "^", "\\", "/", "|", "$", "@v", ";", ",", "#", "!",
-                                    "'", "[", "]", "{", ".", "}", "~", "@o", "@c", "@O", "%", "?P", "?H", "?U", "?L", "?E",
-                                    "@Ts", "@R", "@Gs", "@Gc", "@Ge", "@PS", "@PC", "@PD", "@D", "@Di", "@B", "@L"])
+@pytest.mark.parametrize(
+    "symbol",
+    [
+        "F",
+        "f",
+        "G",
+        "g",
+        "@M",
+        "+",
+        "-",
+        "&",
+        "^",
+        "\\",
+        "/",
+        "|",
+        "$",
+        "@v",
+        ";",
+        ",",
+        "#",
+        "!",
+        "'",
+        "[",
+        "]",
+        "{",
+        ".",
+        "}",
+        "~",
+        "@o",
+        "@c",
+        "@O",
+        "%",
+        "?P",
+        "?H",
+        "?U",
+        "?L",
+        "?E",
+        "@Ts",
+        "@R",
+        "@Gs",
+        "@Gc",
+        "@Ge",
+        "@PS",
+        "@PC",
+        "@PD",
+        "@D",
+        "@Di",
+        "@B",
+        "@L",
+    ],
+)
 def test_abop_has_the_commands_of_appendix_c_and_of_cpfg(symbol):
     assert symbol in COMMANDS["abop"]
 
 
-@pytest.mark.parametrize("symbol", ["F", "F+", "F*", "f", "@", "P", "RU", "RL", "RH", "RV", "RG", "$", "+", "-", "[", "]", "/",
-                                    "%", *(letter + more for letter in "LDNVCHU" for more in ("", "+", "*", "l", "l+", "l*"))])
+@pytest.mark.parametrize(
+    "symbol",
+    [
+        "F",
+        "F+",
+        "F*",
+        "f",
+        "@",
+        "P",
+        "RU",
+        "RL",
+        "RH",
+        "RV",
+        "RG",
+        "$",
+        "+",
+        "-",
+        "[",
+        "]",
+        "/",
+        "%",
+        *(letter + more for letter in "LDNVCHU" for more in ("", "+", "*", "l", "l+", "l*")),
+    ],
+)
 def test_grogra_has_the_commands_of_kurths_lectures(symbol):
     assert symbol in COMMANDS["grogra"]
 

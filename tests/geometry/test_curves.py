@@ -74,8 +74,10 @@ class PlainTurtle:
 
         def place(s, t):
             return casteljau([casteljau(row, t / across) for row in rows], s / along)
-        self.corners += [place(i + a, j + b) for i in range(along) for j in range(across)
-                         for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
+
+        self.corners += [
+            place(i + a, j + b) for i in range(along) for j in range(across) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))
+        ]
 
 
 def casteljau(points, t):
@@ -97,8 +99,10 @@ steps = st.tuples(st.sampled_from("Ff"), st.integers(1, 5))
 cylinders = st.sampled_from([("@Gs",), ("@Gc",), ("@Ge",)]) | st.tuples(st.sampled_from(["@Gc", "@Ge"]), st.integers(1, 9))
 scales = st.tuples(st.sampled_from(["@D", "@Di"]), st.sampled_from([0.5, 1, 3]))
 words = st.lists(turns | steps | cylinders | scales | st.tuples(st.just("!"), st.integers(1, 9)), max_size=20).flatmap(
-    lambda word: st.integers(0, len(word)).map(lambda at: [("!", 2), ("@Gs",), *word[:at], ("[",), *word[at:], ("]",), ("F", 1),
-                                                            ("@Ge", 3)]))
+    lambda word: st.integers(0, len(word)).map(
+        lambda at: [("!", 2), ("@Gs",), *word[:at], ("[",), *word[at:], ("]",), ("F", 1), ("@Ge", 3)]
+    )
+)
 
 
 @given(words)
@@ -169,7 +173,15 @@ def test_patches_of_many_faces_keep_to_the_limit_of_memory():
 
 def test_a_heading_is_given_as_cpfg_counts_directions():
     """x to the right, y upwards, z towards the viewer."""
-    for text, end in (("@R(1,0,0)F", (1, 0, 0)), ("@R(0,0,2)F", (0, -1, 0)), ("@R(0,3,0)F", (0, 0, 1)), ("@R F", (0, 0, 1)),
-                      ("@R(1,0,0)+(90)F", (0, 0, 1)), ("@R(1,0,0)^(90)F", (0, -1, 0)), ("@R(1,0,0,0,1,0)^(90)F", (0, 0, 1)),
-                      ("@R(0,0,-1)+(90)F", (-1, 0, 0)), ("@R(0,0,1,0,0,5)F", (0, -1, 0))):
+    for text, end in (
+        ("@R(1,0,0)F", (1, 0, 0)),
+        ("@R(0,0,2)F", (0, -1, 0)),
+        ("@R(0,3,0)F", (0, 0, 1)),
+        ("@R F", (0, 0, 1)),
+        ("@R(1,0,0)+(90)F", (0, 0, 1)),
+        ("@R(1,0,0)^(90)F", (0, -1, 0)),
+        ("@R(1,0,0,0,1,0)^(90)F", (0, 0, 1)),
+        ("@R(0,0,-1)+(90)F", (-1, 0, 0)),
+        ("@R(0,0,1,0,0,5)F", (0, -1, 0)),
+    ):
         assert drawn_text(text).segments.ends[0, 3:] == pytest.approx(end, abs=NEAR), text

@@ -25,8 +25,28 @@ def scene(text: str, parts: int) -> Scene:
     return place_path(trace(word), 360 / parts, 0)
 
 
-COMMANDS = ["F", "G", "D", "M", "+", "-", "|", "!", "A", ("\\", 30), ("\\", 12.5), ("/", 90), ("@", 0.5), ("@I", 0.5),
-            ("@Q", 2), ("@IQ", 2), ("@QI", 3), ("C", 9), ("<", 250), (">", 3)]
+COMMANDS = [
+    "F",
+    "G",
+    "D",
+    "M",
+    "+",
+    "-",
+    "|",
+    "!",
+    "A",
+    ("\\", 30),
+    ("\\", 12.5),
+    ("/", 90),
+    ("@", 0.5),
+    ("@I", 0.5),
+    ("@Q", 2),
+    ("@IQ", 2),
+    ("@QI", 3),
+    ("C", 9),
+    ("<", 250),
+    (">", 3),
+]
 
 
 def plain_turtle(word, parts):
@@ -63,8 +83,13 @@ def plain_turtle(word, parts):
 
 modules = st.sampled_from([command if isinstance(command, tuple) else (command, None) for command in COMMANDS])
 flat = st.lists(modules, max_size=12)
-branched = st.recursive(flat, lambda inner: st.lists(st.one_of(inner, inner.map(
-    lambda word: [("[", None), *word, ("]", None)])), max_size=4).map(lambda words: [*chain(*words)]), max_leaves=10)
+branched = st.recursive(
+    flat,
+    lambda inner: st.lists(st.one_of(inner, inner.map(lambda word: [("[", None), *word, ("]", None)])), max_size=4).map(
+        lambda words: [*chain(*words)]
+    ),
+    max_leaves=10,
+)
 
 
 @given(branched, st.integers(3, 50))
@@ -84,11 +109,16 @@ def test_the_turtle_in_space_draws_the_same(word, parts):
     assert np.allclose(whole.segments.ends[:, [1, 4]], 0, atol=1e-9 * (1 + np.abs(ends).max(initial=0)))
 
 
-@pytest.mark.parametrize(("text", "steps", "at_once"), [
-    ("Angle 5\nAxiom FA\nA=[+F!A]@.8|F<1[-A]", 9, True), ("Angle 34\nAxiom FX\nF=\nX=----F!X!++++++++F!X!----", 9, True),
-    ("Angle 4\nAxiom F(A)F\nA=F(A)+A\nF=", 9, True), ("Angle 4\nAxiom D\nD=\\42!D!/84!D!\\42", 9, False),
-    ("Angle 8\nAxiom X\nX=F+D[X]\\30-X", 9, False),
-])
+@pytest.mark.parametrize(
+    ("text", "steps", "at_once"),
+    [
+        ("Angle 5\nAxiom FA\nA=[+F!A]@.8|F<1[-A]", 9, True),
+        ("Angle 34\nAxiom FX\nF=\nX=----F!X!++++++++F!X!----", 9, True),
+        ("Angle 4\nAxiom F(A)F\nA=F(A)+A\nF=", 9, True),
+        ("Angle 4\nAxiom D\nD=\\42!D!/84!D!\\42", 9, False),
+        ("Angle 8\nAxiom X\nX=F+D[X]\\30-X", 9, False),
+    ],
+)
 def test_what_is_drawn_at_once_is_what_a_turtle_draws(text, steps, at_once):
     derivation = derive(read(text, "fractint"), steps)
     pieces = draw_instanced(derivation, steps, float(derivation.states.system.angle))
@@ -108,7 +138,7 @@ def test_a_turn_round_is_no_half_turn_where_the_angle_does_not_allow_it():
 
 
 def test_any_character_may_be_a_symbol_and_none_is_told_to_be_unknown():
-    assert scene("F\"=?".replace("=", ",") + "~(A.4)#&^", 4).unknown == ()
+    assert scene('F"=?'.replace("=", ",") + "~(A.4)#&^", 4).unknown == ()
 
 
 def test_the_koch_curve_lies_as_in_fractint():

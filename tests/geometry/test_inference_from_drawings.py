@@ -24,22 +24,33 @@ from lsys_kit.notation.model.system import LSystem
 
 TO = 1e-9
 PLANTS = {
-    "1.24a": "angle: 25.7\naxiom: F\nF -> F[+F]F[-F]F", "1.24b": "angle: 20\naxiom: F\nF -> F[+F]F[-F][F]",
+    "1.24a": "angle: 25.7\naxiom: F\nF -> F[+F]F[-F]F",
+    "1.24b": "angle: 20\naxiom: F\nF -> F[+F]F[-F][F]",
     "1.24c": "angle: 22.5\naxiom: F\nF -> FF-[-F+F+F]+[+F-F-F]",
-    "1.24d": "angle: 20\naxiom: X\nX -> F[+X]F[-X]+X\nF -> FF", "1.24e": "angle: 25.7\naxiom: X\nX -> F[+X][-X]FX\nF -> FF",
+    "1.24d": "angle: 20\naxiom: X\nX -> F[+X]F[-X]+X\nF -> FF",
+    "1.24e": "angle: 25.7\naxiom: X\nX -> F[+X][-X]FX\nF -> FF",
     "1.24f": "angle: 22.5\naxiom: X\nX -> F-[[X]+X]+F[+FX]-X\nF -> FF",
-    "one branch": "angle: 30\naxiom: F\nF -> F[+F]F", "the other": "angle: 30\naxiom: F\nF -> F[-F]F",
-    "three stems": "angle: 35\naxiom: F[+F]F\nF -> F[+F]F", "a bush": "angle: 36\naxiom: X\nX -> F[+X][X]-X",
+    "one branch": "angle: 30\naxiom: F\nF -> F[+F]F",
+    "the other": "angle: 30\naxiom: F\nF -> F[-F]F",
+    "three stems": "angle: 35\naxiom: F[+F]F\nF -> F[+F]F",
+    "a bush": "angle: 36\naxiom: X\nX -> F[+X][X]-X",
 }
 CURVES = {
-    "T2": "angle: 60\naxiom: F--F--F\nF -> F+F--F+F", "K3": "angle: 60\naxiom: F\nF -> F-F++F-F",
-    "1.6": "axiom: F-F-F-F\nF -> F-F+F+FF-F-F+F", "1.7b": "axiom: -F\nF -> F+F-F-F+F",
-    "1.9d": "axiom: F-F-F-F\nF -> FF-F--F-F", "1.9e": "axiom: F-F-F-F\nF -> F-FF--F-F",
+    "T2": "angle: 60\naxiom: F--F--F\nF -> F+F--F+F",
+    "K3": "angle: 60\naxiom: F\nF -> F-F++F-F",
+    "1.6": "axiom: F-F-F-F\nF -> F-F+F+FF-F-F+F",
+    "1.7b": "axiom: -F\nF -> F+F-F-F+F",
+    "1.9d": "axiom: F-F-F-F\nF -> FF-F--F-F",
+    "1.9e": "axiom: F-F-F-F\nF -> F-FF--F-F",
     "1.9f": "axiom: F-F-F-F\nF -> F-F+F-F-F",
-    "Levy": "angle: 45\naxiom: F\nF -> +F--F+", "a line": "axiom: F\nF -> FF",
+    "Levy": "angle: 45\naxiom: F\nF -> +F--F+",
+    "a line": "axiom: F\nF -> FF",
 }
-LARGE = {"1.9a": "axiom: F-F-F-F\nF -> FF-F-F-F-F-F+F", "1.9b": "axiom: F-F-F-F\nF -> FF-F-F-F-FF",
-         "1.9c": "axiom: F-F-F-F\nF -> FF-F+F-F-FF"}
+LARGE = {
+    "1.9a": "axiom: F-F-F-F\nF -> FF-F-F-F-F-F+F",
+    "1.9b": "axiom: F-F-F-F\nF -> FF-F-F-F-FF",
+    "1.9c": "axiom: F-F-F-F\nF -> FF-F+F-F-FF",
+}
 
 
 def strokes_of(model: LSystem, step: int) -> Floats:
@@ -84,8 +95,11 @@ def test_curves_whose_strokes_lie_on_one_another_are_found_too(name: str) -> Non
 
 TWO_SYMBOLS = {
     "1.10b, arrowhead": ("angle: 60\naxiom: F_r\nF_l -> F_r+F_l+F_r\nF_r -> F_l-F_r-F_l", 3, 12),
-    "1.11a, Gosper": ("angle: 60\naxiom: F_l\nF_l -> F_l+F_r++F_r-F_l--F_l F_l-F_r+\n"
-                      "F_r -> -F_l+F_r F_r++F_r+F_l--F_l-F_r", 3, 2),
+    "1.11a, Gosper": (
+        "angle: 60\naxiom: F_l\nF_l -> F_l+F_r++F_r-F_l--F_l F_l-F_r+\nF_r -> -F_l+F_r F_r++F_r+F_l--F_l-F_r",
+        3,
+        2,
+    ),
     "dragon of X and Y": ("axiom: F X\nX -> X+Y F+\nY -> -F X-Y", 4, 8),
 }
 
@@ -135,8 +149,7 @@ def test_pictures_and_scenes_are_drawings() -> None:
     plant = system("K5")
     fits = infer([draw(plant, step) for step in range(3)])
     assert [*fits] == [*infer([scene_of(derive(plant, step)) for step in range(3)])]
-    assert str(fits) == "\n".join([
-        "One system draws these 3 pictures:", "  angle: 25.7", "  axiom: F", "  F -> F[+F]F[-F]F"])
+    assert str(fits) == "\n".join(["One system draws these 3 pictures:", "  angle: 25.7", "  axiom: F", "  F -> F[+F]F[-F]F"])
 
 
 def test_an_angle_of_which_others_are_multiples_may_be_none_of_them() -> None:
@@ -172,32 +185,38 @@ def test_many_systems_are_not_all_shown() -> None:
 ONE, TWO = [(0, 0, 0, 1)], [(0, 0, 0, 1), (0, 1, 1, 1)]
 
 
-@pytest.mark.parametrize(("pictures", "why"), [
-    ([ONE, TWO, TWO], "They have 1, 2, 2 strokes: a rule that replaces each stroke by so many others multiplies them"),
-    ([ONE, [(0, 0, 0, 1), (5, 5, 5, 6)]], "The strokes of step 1 do not hang together."),
-    ([[], ONE], "Where the first picture is empty, the next two are needed"),
-    ([[], ONE, [*TWO, (9, 9, 9, 10)]], "Their strokes do not stand where a rule"),
-    ([ONE, TWO, [*TWO, (1, 1, 1, 2), (5, 5, 5, 6)]], "Their strokes do not stand where a rule"),
-])
+@pytest.mark.parametrize(
+    ("pictures", "why"),
+    [
+        ([ONE, TWO, TWO], "They have 1, 2, 2 strokes: a rule that replaces each stroke by so many others multiplies them"),
+        ([ONE, [(0, 0, 0, 1), (5, 5, 5, 6)]], "The strokes of step 1 do not hang together."),
+        ([[], ONE], "Where the first picture is empty, the next two are needed"),
+        ([[], ONE, [*TWO, (9, 9, 9, 10)]], "Their strokes do not stand where a rule"),
+        ([ONE, TWO, [*TWO, (1, 1, 1, 2), (5, 5, 5, 6)]], "Their strokes do not stand where a rule"),
+    ],
+)
 def test_a_refusal_says_why(pictures: Sequence[Any], why: str) -> None:
     fits = infer(pictures)
     assert not fits
     assert str(fits).startswith(f"No system was found that draws these {len(pictures)} pictures. {why}")
 
 
-@pytest.mark.parametrize(("pictures", "choices", "message"), [
-    ([ONE], {}, "Rules are found from two pictures at least; there is one"),
-    ([ONE, [(0, 0, 0, 1), (0, 1, 0, 4)]], {}, "The strokes of step 1 differ in length"),
-    ([ONE, [(0, 0, 0, 0)]], {}, "The strokes of step 1 differ in length"),
-    ([ONE, [(0, 0, 1)]], {}, "The drawing of step 1 must be a picture in the plane"),
-    ([ONE, "F+F"], {}, "The drawing of step 1 must be a picture in the plane"),
-    ([ONE, [(0, 0, 0, float("nan"))]], {}, "The drawing of step 1 must be a picture in the plane"),
-    ([ONE, TWO], {"context": (1, 0)}, "Erasing and contexts are for words, and these are pictures"),
-    ([ONE, TWO], {"erasing": True}, "Erasing and contexts are for words, and these are pictures"),
-    ([ONE, TWO], {"angle": 0}, "The angle is from 1 to 180 degrees, not 0"),
-    ([ONE, TWO], {"angle": "1/0"}, '"1/0" has no value'), (["a", "ab"], {"angle": 90}, "An angle is for pictures, and these "
-                                                                                       "are words"),
-])
+@pytest.mark.parametrize(
+    ("pictures", "choices", "message"),
+    [
+        ([ONE], {}, "Rules are found from two pictures at least; there is one"),
+        ([ONE, [(0, 0, 0, 1), (0, 1, 0, 4)]], {}, "The strokes of step 1 differ in length"),
+        ([ONE, [(0, 0, 0, 0)]], {}, "The strokes of step 1 differ in length"),
+        ([ONE, [(0, 0, 1)]], {}, "The drawing of step 1 must be a picture in the plane"),
+        ([ONE, "F+F"], {}, "The drawing of step 1 must be a picture in the plane"),
+        ([ONE, [(0, 0, 0, float("nan"))]], {}, "The drawing of step 1 must be a picture in the plane"),
+        ([ONE, TWO], {"context": (1, 0)}, "Erasing and contexts are for words, and these are pictures"),
+        ([ONE, TWO], {"erasing": True}, "Erasing and contexts are for words, and these are pictures"),
+        ([ONE, TWO], {"angle": 0}, "The angle is from 1 to 180 degrees, not 0"),
+        ([ONE, TWO], {"angle": "1/0"}, '"1/0" has no value'),
+        (["a", "ab"], {"angle": 90}, "An angle is for pictures, and these are words"),
+    ],
+)
 def test_what_cannot_be_used_is_said(pictures: Sequence[Any], choices: dict[str, Any], message: str) -> None:
     with pytest.raises(ModelValueError) as refused:
         infer(pictures, **choices)

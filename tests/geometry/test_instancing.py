@@ -16,8 +16,26 @@ from lsys_kit.geometry.turtle.plane import place_path, trace
 from lsys_kit.geometry.turtle.space import trace_in_space
 from lsys_kit.notation.model.system import LSystem
 
-PLANE = ("F", "f", "+", "-", "F(2)", "+(33)", "|", "!(2)", ";", "A", "B", "@o", "@c(3)", "@D(2)", "@Di(0.5)", "@B(3,2)",
-         "[+A]", "[F-B]")
+PLANE = (
+    "F",
+    "f",
+    "+",
+    "-",
+    "F(2)",
+    "+(33)",
+    "|",
+    "!(2)",
+    ";",
+    "A",
+    "B",
+    "@o",
+    "@c(3)",
+    "@D(2)",
+    "@Di(0.5)",
+    "@B(3,2)",
+    "[+A]",
+    "[F-B]",
+)
 SPACE = (*PLANE, "&", "^(20)", "/", "\\(70)", "[&A]", "@O(2)")
 SYSTEM = "axiom: {}\nA -> {}\nB -> {}\nF -> {}"
 
@@ -29,8 +47,11 @@ def words(of: tuple[str, ...]) -> st.SearchStrategy[str]:
 def agree(one: Scene, other: Scene) -> None:
     """Two scenes are the same, to a billionth of their extent."""
     extent = max(1.0, *np.ptp(np.array(other.corners), axis=0))
-    for ours, theirs in ((one.segments.ends, other.segments.ends), (one.polygons.points, other.polygons.points),
-                         (one.discs.centres, other.discs.centres)):
+    for ours, theirs in (
+        (one.segments.ends, other.segments.ends),
+        (one.polygons.points, other.polygons.points),
+        (one.discs.centres, other.discs.centres),
+    ):
         assert ours.shape == theirs.shape
         assert np.abs(ours - theirs).max(initial=0) <= 1e-9 * extent
     for ours, theirs in ((one.segments, other.segments), (one.polygons, other.polygons), (one.discs, other.discs)):

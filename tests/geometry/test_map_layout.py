@@ -47,7 +47,7 @@ def test_a_square_of_any_size_comes_to_rest_as_that_one(side: float) -> None:
 
 @pytest.mark.parametrize(("stiffness", "rest", "pressure"), [(2, 0.1, 0.1), (1, 0.5, 0.1), (1, 0.1, 0.4), (0.5, 0, 0.2)])
 def test_other_forces_have_another_balance(stiffness: float, rest: float, pressure: float) -> None:
-    side = (rest + (rest**2 + 2 * pressure / stiffness)**0.5) / 2
+    side = (rest + (rest**2 + 2 * pressure / stiffness) ** 0.5) / 2
     at_rest, *_ = equilibrium(square(0.3), SQUARE, Forces(stiffness, rest, pressure))
     assert np.ptp(at_rest, axis=0) == pytest.approx([side, side], abs=1e-9)
 
@@ -84,7 +84,7 @@ def test_a_force_is_the_slope_of_an_energy() -> None:
 
     def energy(at: np.ndarray) -> float:
         lengths = np.hypot(*(at[net.ends[:, 1]] - at[net.ends[:, 0]]).T)
-        return float(((lengths - 0.1)**2).sum() / 2 - 0.1 * np.log(areas(at, net)).sum())
+        return float(((lengths - 0.1) ** 2).sum() / 2 - 0.1 * np.log(areas(at, net)).sum())
 
     push = pushes(points, net)
     for vertex, axis in ((0, 0), (3, 1), (9, 0), (13, 1)):
@@ -183,4 +183,4 @@ def test_a_relaxation_that_blows_up_keeps_the_steps_before() -> None:
     assert isinstance(kept, list)
     assert kept
     assert f"This was step {len(kept)}. Step" in (error.value.hint or "")
-    np.testing.assert_equal(kept, [*place_maps(maps[:len(kept)], forces)])
+    np.testing.assert_equal(kept, [*place_maps(maps[: len(kept)], forces)])

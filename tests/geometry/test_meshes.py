@@ -43,7 +43,7 @@ def volume(mesh):
 
 def prism(radius):
     """The area of a stroke's end."""
-    return SIDES / 2 * math.sin(2 * math.pi / SIDES) * radius ** 2
+    return SIDES / 2 * math.sin(2 * math.pi / SIDES) * radius**2
 
 
 WAYS = st.text("+-&^/\\|", min_size=0, max_size=12)
@@ -104,9 +104,12 @@ def test_cells_are_spheres_made_longer():
 @pytest.mark.parametrize("n", range(5))
 def test_an_outline_with_bays_is_parted_without_overlaps(n):
     made = mesh("angle: 60\naxiom: {F--F--F}\nF -> F+F--F+F", n)
-    flat = [area for area, facing in zip(areas(made), made.normals[made.triangles[:, 0]], strict=True)
-            if made.normals[-1] @ facing > 0.999][-(3 * 4 ** n - 2):]
-    inside = math.sqrt(3) / 4 * 9 ** n * (8 - 3 * (4 / 9) ** n) / 5
+    flat = [
+        area
+        for area, facing in zip(areas(made), made.normals[made.triangles[:, 0]], strict=True)
+        if made.normals[-1] @ facing > 0.999
+    ][-(3 * 4**n - 2) :]
+    inside = math.sqrt(3) / 4 * 9**n * (8 - 3 * (4 / 9) ** n) / 5
     assert np.linalg.norm(flat, axis=1).sum() == pytest.approx(inside, rel=1e-5)
 
 
@@ -121,12 +124,16 @@ def test_any_outline_is_parted_into_as_many_triangles_as_it_should(corners):
 
 @given(st.lists(st.floats(0.3, 3), min_size=3, max_size=15))
 def test_a_star_is_covered_once(distances):
-    around = [(math.cos(a) * r, math.sin(a) * r, 0.0)
-              for r, a in zip(distances, np.arange(len(distances)) * 2 * math.pi / len(distances), strict=True)]
+    around = [
+        (math.cos(a) * r, math.sin(a) * r, 0.0)
+        for r, a in zip(distances, np.arange(len(distances)) * 2 * math.pi / len(distances), strict=True)
+    ]
     shoelace = sum(ax * by - ay * bx for (ax, ay, _), (bx, by, _) in pairwise([*around, around[0]])) / 2
     points = np.array(around)
-    parts = [np.cross(points[b] - points[a], points[c] - points[a])[2] / 2
-             for a, b, c in triangulate(points, np.array([0.0, 0.0, 1.0]))]
+    parts = [
+        np.cross(points[b] - points[a], points[c] - points[a])[2] / 2
+        for a, b, c in triangulate(points, np.array([0.0, 0.0, 1.0]))
+    ]
     assert min(parts) >= -1e-9
     assert sum(parts) == pytest.approx(shoelace)
 
@@ -153,8 +160,11 @@ def edges_by_place(made):
 
 @given(st.lists(st.tuples(st.sampled_from("+-&^"), st.integers(0, 80), st.floats(0.1, 1), st.booleans()), max_size=7))
 def test_a_path_is_one_closed_tube_however_it_bends(bends):
-    made = mesh("axiom: !(0.1)F" + "".join(f"{way}({turn}) {';(3)' if other else ''} !({width / 5:.3f}) F(2)"
-                                          for way, turn, width, other in bends) + "&(0)")
+    made = mesh(
+        "axiom: !(0.1)F"
+        + "".join(f"{way}({turn}) {';(3)' if other else ''} !({width / 5:.3f}) F(2)" for way, turn, width, other in bends)
+        + "&(0)"
+    )
     edges = edges_by_place(made)
     assert sorted(edges) == sorted((b, a) for a, b in edges)
     places = len(np.unique(made.vertices.round(5), axis=0))
@@ -171,7 +181,7 @@ def test_a_tube_keeps_its_width_where_it_bends(turn):
 
 def test_the_ring_of_a_bend_lies_in_the_plane_that_bisects_it():
     made = mesh("axiom: !(1)F(4)&(90)F(4)")
-    ring = made.vertices[SIDES:2 * SIDES]
+    ring = made.vertices[SIDES : 2 * SIDES]
     assert np.ptp(ring @ np.array([0, -1, -1])) < 1e-5 or np.ptp(ring @ np.array([0, 1, -1])) < 1e-5
 
 

@@ -10,10 +10,15 @@ from lsys_kit.geometry.filament import filament
 from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
 
 
-@pytest.mark.parametrize(("text", "mode"), [
-    ("axiom: F[+F]F", DrawingMode.PLANE), ("axiom: F[&F]F", DrawingMode.SPACE),
-    ("axiom: a\ninterpretation:\na -> R(2,1)", DrawingMode.FILAMENT),
-    ("axiom: a & a\ninterpretation:\na -> R(2,1)", DrawingMode.FILAMENT)])
+@pytest.mark.parametrize(
+    ("text", "mode"),
+    [
+        ("axiom: F[+F]F", DrawingMode.PLANE),
+        ("axiom: F[&F]F", DrawingMode.SPACE),
+        ("axiom: a\ninterpretation:\na -> R(2,1)", DrawingMode.FILAMENT),
+        ("axiom: a & a\ninterpretation:\na -> R(2,1)", DrawingMode.FILAMENT),
+    ],
+)
 def test_a_system_is_a_filament_or_in_the_plane_or_in_space(text: str, mode: DrawingMode) -> None:
     assert drawing_mode(read(text)) is mode
 

@@ -41,7 +41,7 @@ def test_plants_in_space_have_them_by_themselves():
 def test_parts_that_are_drawn_once_and_copied_have_them_too():
     tree = "colours: natural\nangle: 25\naxiom: F\nF -> F[&F]F[^F]F"
     found = colours(tree, 6)
-    assert len(found) == 5 ** 6
+    assert len(found) == 5**6
     assert {*found} == {16, 17, 18, 20, 21, 22, 23}
 
 

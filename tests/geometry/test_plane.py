@@ -34,8 +34,11 @@ def plain_turtle(text, angle, heading):
     return np.array(strokes).reshape(-1, 4)
 
 
-branched = st.recursive(st.text("Ff+-", max_size=8), lambda inner: st.lists(
-    st.one_of(inner, inner.map(lambda text: f"[{text}]")), max_size=4).map("".join), max_leaves=20)
+branched = st.recursive(
+    st.text("Ff+-", max_size=8),
+    lambda inner: st.lists(st.one_of(inner, inner.map(lambda text: f"[{text}]")), max_size=4).map("".join),
+    max_leaves=20,
+)
 
 
 @given(branched, st.floats(0, 180), st.floats(-180, 180))
@@ -52,8 +55,11 @@ def test_turning_the_start_turns_the_picture(text, turn):
     word = " ".join(text)
     straight, turned = scene(word, 25, 0).segments.ends, scene(word, 25, turn).segments.ends
     rotation = cmath.exp(1j * math.radians(turn))
-    assert np.allclose(straight.view(complex) * rotation if len(straight) else straight,
-                       turned.view(complex) if len(turned) else turned, atol=1e-9)
+    assert np.allclose(
+        straight.view(complex) * rotation if len(straight) else straight,
+        turned.view(complex) if len(turned) else turned,
+        atol=1e-9,
+    )
 
 
 @given(branched.filter(bool))

@@ -33,8 +33,12 @@ def test_what_is_drawn_at_a_scale_is_so_many_times_as_large(drawing, data, facto
     leaf = [("~",), ("L",), ("f",), ("~",), ("L", 2)]
     plain, scaled = (drawing([*first, *modules, *leaf]) for first in ([], [("@D", factor)]))
     near = 1e-9 * factor * extent(plain)
-    for found, expected in ((scaled.segments.ends, plain.segments.ends), (scaled.polygons.points, plain.polygons.points),
-                            (scaled.discs.centres, plain.discs.centres), (scaled.discs.radii, plain.discs.radii)):
+    for found, expected in (
+        (scaled.segments.ends, plain.segments.ends),
+        (scaled.polygons.points, plain.polygons.points),
+        (scaled.discs.centres, plain.discs.centres),
+        (scaled.discs.radii, plain.discs.radii),
+    ):
         assert found == pytest.approx(factor * expected, rel=0, abs=near)
     widths = plain.segments.widths
     assert scaled.segments.widths == pytest.approx(np.where(widths == OWN, OWN, factor * widths))
@@ -45,8 +49,19 @@ def test_what_is_drawn_at_a_scale_is_so_many_times_as_large(drawing, data, facto
 @given(FREE, FACTORS, st.data())
 def test_scales_that_leave_it_as_it_is_change_nothing(modules, factor, data):
     at = data.draw(st.integers(0, len(modules)))
-    nothing = data.draw(st.sampled_from(([("@D",)], [("@D", 1)], [("@Di",)], [("@Dd", 1)], [("@Di", factor), ("@Dd", factor)],
-                                         [("[",), ("@D", factor), ("]",)], [("@D", factor), ("@D",)])))
+    nothing = data.draw(
+        st.sampled_from(
+            (
+                [("@D",)],
+                [("@D", 1)],
+                [("@Di",)],
+                [("@Dd", 1)],
+                [("@Di", factor), ("@Dd", factor)],
+                [("[",), ("@D", factor), ("]",)],
+                [("@D", factor), ("@D",)],
+            )
+        )
+    )
     assert same(*(trace_in_space(word_of(word)) for word in (modules, [*modules[:at], *nothing, *modules[at:]])))
 
 

@@ -56,40 +56,76 @@ def command(symbols, values=None):
     return st.tuples(st.sampled_from(symbols), *([] if values is None else [values]))
 
 
-WIDTHS = {"abop": command("#!;,'") | command("#!", lengths) | command(";,'", st.integers(0, 9))
-          | command(("@D", "@Di", "@Dd"), st.integers(0, 30).map(lambda tenths: tenths / 10)),
-          "grogra": command(("D", "P", "L")) | command(("D", "D+", "D*", "L", "L+", "Ll", "Dl", "F+"), lengths)
-          | command(("L*", "Ll*", "Dl*", "F*"), st.integers(0, 15).map(lambda tenths: tenths / 10))
-          | command("P", st.integers(0, 15)) | command("N") | command(("@",), st.integers(0, 4).map(lambda part: part / 4)),
-          "plant-string": st.nothing(), "fractint": command("C<>", st.integers(0, 300)) | command("<>C") | command(
-              ("@", "@I", "@Q", "@IQ"), st.integers(1, 30).map(lambda tenths: tenths / 10))}
-STROKES = {"abop": command("FfGg+-") | command("Ff", lengths) | command("+-", degrees) | command("|"),
-           "grogra": command(("F", "f", "+", "-", "RU")) | command("Ff", lengths) | command(("RU",), degrees),
-           "plant-string": command("IAB+-"), "fractint": command("FGDM+-|!") | command("\\/", degrees)}
-SHAPES = {"abop": command("{.}") | command(("@o", "@c", "@O"), lengths) | command(("@o", "@c", "@B"))
-          | st.tuples(st.just("@B"), lengths, lengths) | st.just(("/", 180)) | st.just(("\\", -540))
-          | st.tuples(st.just("@L"), lengths),
-          "grogra": st.just(("RH", 180)), "plant-string": command("LF"), "fractint": st.nothing()}
-TURNS = {"abop": command("&^\\/") | command("&^\\/", degrees), "grogra": command(("RL", "RH")) | command(("RL", "RH"), degrees),
-         "plant-string": st.nothing(), "fractint": st.nothing()}
+WIDTHS = {
+    "abop": command("#!;,'")
+    | command("#!", lengths)
+    | command(";,'", st.integers(0, 9))
+    | command(("@D", "@Di", "@Dd"), st.integers(0, 30).map(lambda tenths: tenths / 10)),
+    "grogra": command(("D", "P", "L"))
+    | command(("D", "D+", "D*", "L", "L+", "Ll", "Dl", "F+"), lengths)
+    | command(("L*", "Ll*", "Dl*", "F*"), st.integers(0, 15).map(lambda tenths: tenths / 10))
+    | command("P", st.integers(0, 15))
+    | command("N")
+    | command(("@",), st.integers(0, 4).map(lambda part: part / 4)),
+    "plant-string": st.nothing(),
+    "fractint": command("C<>", st.integers(0, 300))
+    | command("<>C")
+    | command(("@", "@I", "@Q", "@IQ"), st.integers(1, 30).map(lambda tenths: tenths / 10)),
+}
+STROKES = {
+    "abop": command("FfGg+-") | command("Ff", lengths) | command("+-", degrees) | command("|"),
+    "grogra": command(("F", "f", "+", "-", "RU")) | command("Ff", lengths) | command(("RU",), degrees),
+    "plant-string": command("IAB+-"),
+    "fractint": command("FGDM+-|!") | command("\\/", degrees),
+}
+SHAPES = {
+    "abop": command("{.}")
+    | command(("@o", "@c", "@O"), lengths)
+    | command(("@o", "@c", "@B"))
+    | st.tuples(st.just("@B"), lengths, lengths)
+    | st.just(("/", 180))
+    | st.just(("\\", -540))
+    | st.tuples(st.just("@L"), lengths),
+    "grogra": st.just(("RH", 180)),
+    "plant-string": command("LF"),
+    "fractint": st.nothing(),
+}
+TURNS = {
+    "abop": command("&^\\/") | command("&^\\/", degrees),
+    "grogra": command(("RL", "RH")) | command(("RL", "RH"), degrees),
+    "plant-string": st.nothing(),
+    "fractint": st.nothing(),
+}
 TRADITIONS = list(STROKES)
 
 
 def branched(commands, brackets=(("[", "]"),)):
     """Words of some commands, with branches in them."""
-    return st.recursive(st.lists(commands, max_size=8), lambda inner: st.lists(st.one_of(
-        inner, *(inner.map(lambda word, pair=pair: [(pair[0],), *word, (pair[1],)]) for pair in brackets)),
-        max_size=4).map(lambda parts: [module for part in parts for module in part]), max_leaves=12)
+    return st.recursive(
+        st.lists(commands, max_size=8),
+        lambda inner: st.lists(
+            st.one_of(inner, *(inner.map(lambda word, pair=pair: [(pair[0],), *word, (pair[1],)]) for pair in brackets)),
+            max_size=4,
+        ).map(lambda parts: [module for part in parts for module in part]),
+        max_leaves=12,
+    )
 
 
 def pairs(tradition):
     return (("[", "]"), ("(", ")")) if tradition == "plant-string" else (("[", "]"),)
 
 
-flat_words = st.sampled_from(TRADITIONS).flatmap(lambda tradition: st.tuples(st.just(tradition), branched(
-    STROKES[tradition] | WIDTHS[tradition] | SHAPES[tradition], pairs(tradition))))
-free_words = st.sampled_from(TRADITIONS).flatmap(lambda tradition: st.tuples(st.just(tradition), branched(
-    STROKES[tradition] | WIDTHS[tradition] | TURNS[tradition] | SHAPES[tradition], pairs(tradition))))
+flat_words = st.sampled_from(TRADITIONS).flatmap(
+    lambda tradition: st.tuples(
+        st.just(tradition), branched(STROKES[tradition] | WIDTHS[tradition] | SHAPES[tradition], pairs(tradition))
+    )
+)
+free_words = st.sampled_from(TRADITIONS).flatmap(
+    lambda tradition: st.tuples(
+        st.just(tradition),
+        branched(STROKES[tradition] | WIDTHS[tradition] | TURNS[tradition] | SHAPES[tradition], pairs(tradition)),
+    )
+)
 
 
 def extent(scene):
@@ -100,12 +136,15 @@ def extent(scene):
 def same(one, other, at_most=1e-9):
     """Whether two scenes in space have the same shapes in the same places."""
     near = at_most * extent(one)
-    return (len(one.segments) == len(other.segments) and len(one.polygons) == len(other.polygons)
-            and np.allclose(one.segments.ends, other.segments.ends, rtol=0, atol=near)
-            and np.allclose(one.segments.widths, other.segments.widths, rtol=1e-12)
-            and (one.segments.colours == other.segments.colours).all()
-            and np.allclose(one.polygons.points, other.polygons.points, rtol=0, atol=near)
-            and np.allclose(one.discs.centres, other.discs.centres, rtol=0, atol=near))
+    return (
+        len(one.segments) == len(other.segments)
+        and len(one.polygons) == len(other.polygons)
+        and np.allclose(one.segments.ends, other.segments.ends, rtol=0, atol=near)
+        and np.allclose(one.segments.widths, other.segments.widths, rtol=1e-12)
+        and (one.segments.colours == other.segments.colours).all()
+        and np.allclose(one.polygons.points, other.polygons.points, rtol=0, atol=near)
+        and np.allclose(one.discs.centres, other.discs.centres, rtol=0, atol=near)
+    )
 
 
 @given(flat_words, degrees, degrees)
@@ -122,8 +161,11 @@ def test_the_turtles_in_the_plane_and_in_space_agree(found, angle, heading):
     assert np.allclose(flat.labels.points, whole.labels.points[:, plane], rtol=0, atol=near)
     assert flat.labels.texts == whole.labels.texts
     assert (flat.labels.states == whole.labels.states).all()
-    for kind, details in (("segments", "orders states widths colours"), ("polygons", "starts states colours"),
-                          ("discs", "radii kinds states colours")):
+    for kind, details in (
+        ("segments", "orders states widths colours"),
+        ("polygons", "starts states colours"),
+        ("discs", "radii kinds states colours"),
+    ):
         for detail in details.split():
             assert (getattr(getattr(flat, kind), detail) == getattr(getattr(whole, kind), detail)).all()
     assert flat.unknown == whole.unknown
@@ -156,9 +198,12 @@ def test_turning_the_start_turns_the_picture(found, angle, heading):
     assert np.allclose(straight.polygons.points @ rotation, turned.polygons.points, rtol=0, atol=near)
 
 
-ONCE_ROUND = {"abop": [[(symbol, 360)] for symbol in "+-&^/\\"] + [[("|",), ("|",)]],
-              "grogra": [[(symbol, 360)] for symbol in ("RU", "RL", "RH")], "plant-string": [[("+",)] * 5],
-              "fractint": [[("+",)] * 5, [("\\", 360)], [("!",), ("!",)]]}
+ONCE_ROUND = {
+    "abop": [[(symbol, 360)] for symbol in "+-&^/\\"] + [[("|",), ("|",)]],
+    "grogra": [[(symbol, 360)] for symbol in ("RU", "RL", "RH")],
+    "plant-string": [[("+",)] * 5],
+    "fractint": [[("+",)] * 5, [("\\", 360)], [("!",), ("!",)]],
+}
 
 
 @given(free_words, st.data())
@@ -185,8 +230,9 @@ def test_the_commands_of_abop_come_in_opposite_pairs(modules, pair, angle):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("tradition", "symbols"), [("abop", "+-&^\\/|$[]F"), ("grogra", ("+", "-", "RU", "RL", "RH", "RV", "$",
-                                                                                          "[", "]", "F"))])
+@pytest.mark.parametrize(
+    ("tradition", "symbols"), [("abop", "+-&^\\/|$[]F"), ("grogra", ("+", "-", "RU", "RL", "RH", "RV", "$", "[", "]", "F"))]
+)
 def test_a_frame_stays_orthonormal_in_a_million_commands(tradition, symbols):
     chance = np.random.default_rng(7)
     axes = [["+"], ["^"]] if tradition == "abop" else [["RU"], ["RL"]]
@@ -233,8 +279,11 @@ def test_abops_commands_turn_as_their_names_say(angle):
 def test_grogras_rotations_are_right_handed(angle):
     """The columns of each matrix are the new left, up and head in terms of the old (systems of seed 003)."""
     cos, sin = math.cos(math.radians(angle)), math.sin(math.radians(angle))
-    matrices = {"RU": [[cos, 0, sin], [0, 1, 0], [-sin, 0, cos]], "RL": [[1, 0, 0], [0, cos, -sin], [0, sin, cos]],
-                "RH": [[cos, -sin, 0], [sin, cos, 0], [0, 0, 1]]}
+    matrices = {
+        "RU": [[cos, 0, sin], [0, 1, 0], [-sin, 0, cos]],
+        "RL": [[1, 0, 0], [0, cos, -sin], [0, sin, cos]],
+        "RH": [[cos, -sin, 0], [sin, cos, 0], [0, 0, 1]],
+    }
     for symbol, matrix in matrices.items():
         head, left, up = frame_after(f"{symbol}({angle})", turtle="grogra")
         assert np.allclose(np.column_stack([left, up, head]), matrix)
@@ -320,8 +369,12 @@ def test_a_jump_is_to_a_point_as_cpfg_counts_it():
 
 
 def test_grogras_at_goes_back_on_the_last_stroke():
-    ends = both(word_of([("F", 10), ("[",), ("@", 0.5), ("RU", 90), ("F", 1), ("@", 0), ("F", 2), ("]",), ("f", 4), ("@",),
-                         ("F", 3)], "grogra"))
+    ends = both(
+        word_of(
+            [("F", 10), ("[",), ("@", 0.5), ("RU", 90), ("F", 1), ("@", 0), ("F", 2), ("]",), ("f", 4), ("@",), ("F", 3)],
+            "grogra",
+        )
+    )
     assert ends == pytest.approx(np.array([[0, 0, 0, 10], [0, 5, 1, 5], [0, 5, 2, 5], [0, 10, 0, 13]]))
 
 
@@ -353,7 +406,7 @@ def test_colours_step_along_a_ramp_and_stay_at_its_ends():
 
 
 def test_a_polygon_has_a_corner_at_the_end_of_each_f_and_none_at_that_of_g():
-    polygon, = drawn("F { . f + F + G(3) | G(3) | . }", angle=90).polygons
+    (polygon,) = drawn("F { . f + F + G(3) | G(3) | . }", angle=90).polygons
     assert polygon[:, [0, 2]].tolist() == [[0, 1], [0, 2], [-1, 2], [-1, 2]]
 
 
@@ -465,7 +518,7 @@ def test_kochs_curve_after_six_steps_has_the_measures_of_kurths_picture():
 @pytest.mark.parametrize("step", range(1, 7))
 def test_sierpinskis_triangle_of_k4_has_the_same_corners_at_each_step_and_closes(step):
     ends = both(listing("sierpinski", step))
-    assert len(ends) == 2 * 3 ** step
+    assert len(ends) == 2 * 3**step
     corners = ends.reshape(-1, 2)
     assert ends[-1, 2:] == pytest.approx([0, 0], abs=1e-9)
     assert corners.min(axis=0) == pytest.approx([0, 0], abs=1e-9)
@@ -491,8 +544,8 @@ def test_the_branches_of_k2_stand_to_the_right():
 def test_the_pseudo_plant_of_k5_is_three_times_as_high_at_each_step():
     for step in range(5):
         ends = both(listing("pseudo-plant", step))
-        assert len(ends) == 5 ** step
-        assert ends[-1, 2:] == pytest.approx([0, 100 * 3 ** step])
+        assert len(ends) == 5**step
+        assert ends[-1, 2:] == pytest.approx([0, 100 * 3**step])
 
 
 def test_the_branches_of_k11_are_longer_towards_the_tip():
@@ -516,7 +569,7 @@ def test_the_dichotomy_of_k20_doubles():
 @pytest.mark.parametrize("step", range(5))
 def test_kochs_snowflake_closes(step):
     ends = trace_in_space(derive(system("T2"), step)[-1]).segments.ends
-    assert len(ends) == 3 * 4 ** step
+    assert len(ends) == 3 * 4**step
     assert ends[-1, 3:] == pytest.approx([0, 0, 0], abs=1e-9)
 
 

@@ -78,7 +78,7 @@ def test_new_walls_rise_to_the_right_and_to_the_left_in_turn(step: int, rising: 
     """Seen from outside, right is east."""
     found = derive(K34, step)[-1]
     *_, (points, _) = place_on_sphere(derive(K34, step), STILL)
-    new = [wall for wall in found.walls if wall.label == "e"][4 * (step - 1):]
+    new = [wall for wall in found.walls if wall.label == "e"][4 * (step - 1) :]
     assert len(new) == 4 * step
     for wall in new:
         start, end = points[wall.start], points[wall.end]

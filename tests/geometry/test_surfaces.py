@@ -67,8 +67,13 @@ def test_the_petals_of_a_flower_are_hollow_towards_its_axis():
     outlines = surfaces()["flower"].outlines
     for left, right in zip(outlines[::2], outlines[1::2], strict=True):
         midrib = np.array(max(set(left) & set(right), key=np.linalg.norm))
-        edges = np.mean([max(half, key=lambda corner, other=other: min(np.hypot.reduce(np.array(other) - corner, axis=1)))
-                         for half, other in ((left, right), (right, left))], axis=0)
+        edges = np.mean(
+            [
+                max(half, key=lambda corner, other=other: min(np.hypot.reduce(np.array(other) - corner, axis=1)))
+                for half, other in ((left, right), (right, left))
+            ],
+            axis=0,
+        )
         outward = np.array([0, *midrib[1:]])
         assert edges @ outward / (edges @ midrib) < midrib @ outward / (midrib @ midrib)
 
@@ -110,13 +115,19 @@ def test_a_surface_that_nobody_knows_is_listed_once():
     assert len(scene.polygons) == len(surfaces()["leaf"].faces)
 
 
-@pytest.mark.parametrize(("word", "said"), [
-    ("F ~X(2) ~l ~X",
-     "no surface is called X or l: there are L (leaf), needle, P (petal), sepal, B (bud), K (flower), rosette, fruit; a model "
-     "declares others"),
-    ("F RH ~ Leaf", "passed over, without a meaning here: RH; no surface is called Leaf: there are L (leaf)"),
-    ("F ~", "passed over, because no surface is named after it: ~"), ("F ~L ~rosette(2)", ""),
-])
+@pytest.mark.parametrize(
+    ("word", "said"),
+    [
+        (
+            "F ~X(2) ~l ~X",
+            "no surface is called X or l: there are L (leaf), needle, P (petal), sepal, B (bud), K (flower), rosette, fruit; "
+            "a model declares others",
+        ),
+        ("F RH ~ Leaf", "passed over, without a meaning here: RH; no surface is called Leaf: there are L (leaf)"),
+        ("F ~", "passed over, because no surface is named after it: ~"),
+        ("F ~L ~rosette(2)", ""),
+    ],
+)
 @pytest.mark.parametrize("more", ["", "&(30)F"])
 def test_what_is_no_surface_is_said_with_those_that_there_are(word, said, more):
     text = f"axiom: {more} {word}"

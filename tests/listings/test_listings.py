@@ -49,14 +49,25 @@ def _letter(match: re.Match[str]) -> Told:
 
 
 SPELLINGS: Mapping[str, tuple[str, Callable[[re.Match[str]], Told]]] = {
-    "J1 T1 K1": (r"([ab][lr])", _letter), "J2": (r"([abcd])", _letter), "J3": (r"([abc])(?:\[(\d+)\])?", _letter),
-    "J4 J5": (r"([AB][lr])(\d+)", _letter), "P1 P2 P3": (r"([A-Z])([<>])(?:\((\d+)\))?", _cell),
-    "P4": (r"M\((\d+),([LR])\)", _aged), "P5 P6 P8": (r"([\d.]+)([LR])", _aged), "P9": (r"([WM])([\d.]+)", _letter),
-    "K27": (r"\((\w+),([\d.]+)\)", _letter), "T2 K16 L1 L2": (r"(\S)", _letter),
+    "J1 T1 K1": (r"([ab][lr])", _letter),
+    "J2": (r"([abcd])", _letter),
+    "J3": (r"([abc])(?:\[(\d+)\])?", _letter),
+    "J4 J5": (r"([AB][lr])(\d+)", _letter),
+    "P1 P2 P3": (r"([A-Z])([<>])(?:\((\d+)\))?", _cell),
+    "P4": (r"M\((\d+),([LR])\)", _aged),
+    "P5 P6 P8": (r"([\d.]+)([LR])", _aged),
+    "P9": (r"([WM])([\d.]+)", _letter),
+    "K27": (r"\((\w+),([\d.]+)\)", _letter),
+    "T2 K16 L1 L2": (r"(\S)", _letter),
 }
 """How the table spells the modules of some systems, and what it means; all others are spelt in the listing's notation."""
-AXIOMS = {"abop": "axiom: {}", "cpfg": "Axiom: {}", "plant-string": "Axiom: {}", "grogra": "\\axiom {},",
-          "mathematica": "axiom = AXIOM[{}];"}
+AXIOMS = {
+    "abop": "axiom: {}",
+    "cpfg": "Axiom: {}",
+    "plant-string": "Axiom: {}",
+    "grogra": "\\axiom {},",
+    "mathematica": "axiom = AXIOM[{}];",
+}
 BEGUN = {"002-L2.abop.txt": "\\vec{L}", "002-L3.abop.txt": "\\vec{M}(2)", "003-signal.abop.txt": "saaaa"}
 """Listings without an axiom, and the word of step 0, with which the table begins."""
 FRAGMENTS = {
@@ -213,12 +224,16 @@ AS_PRINTED: Mapping[str, Callable[[LSystem, LSystem], bool]] = {
     "000-ILSystem1.mathematica.txt": lambda system, _: symbols(derive(system, 7)[-1]) == "cccccccd",
     "000-ILSystem2.mathematica.txt": lambda system, _: len(set(words(system, 14))) == 11,
     "000-figure-2.mathematica.txt": lambda system, corrected: words(system, 10) == words(corrected, 10),
-    "000-figure-3.mathematica.txt": lambda system, _:
-        words(system, 10) == words(listed(by_file("000-figure-2.mathematica.txt")), 10),
+    "000-figure-3.mathematica.txt": lambda system, _: (
+        words(system, 10) == words(listed(by_file("000-figure-2.mathematica.txt")), 10)
+    ),
     "002-L2.abop.txt": lambda system, _: words(system, 4)[-1] == "L_l S_l",
     "002-L3.abop.txt": lambda system, _: words(system, 4)[-1] == "M_r(2)M_r(1)",
-    "002-L9.cpfg.txt": lambda system, _: len(derive(system, 5)[-1]) == 3 and system.notes[-2:] == (
-        "The production W(tl) < M(t,p) > W(tr) can never match: no module M with 2 parameters occurs.",) * 2,
+    "002-L9.cpfg.txt": lambda system, _: (
+        len(derive(system, 5)[-1]) == 3
+        and system.notes[-2:]
+        == ("The production W(tl) < M(t,p) > W(tr) can never match: no module M with 2 parameters occurs.",) * 2
+    ),
     "003-stochastic.abop.txt": lambda system, corrected: words(system, 4) == words(corrected, 4),
 }
 """What listings with errata do as printed: the layer of ILSystem2 sticks, L-system 9 cannot divide, two figures are one."""

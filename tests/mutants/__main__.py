@@ -20,9 +20,15 @@ from tests.mutants.changes import ROOT, Change, Site, changes
 from tests.mutants.running import CHOSEN, Outcome, Runner
 from tests.mutants.schemata import Switches
 
-SHARES: Mapping[str, int] = MappingProxyType({
-    "lsys_kit/derivation": 50, "lsys_kit/geometry": 40, "lsys_kit/notation/model": 20,
-    "lsys_kit/classroom/exercises/kinds": 20, "lsys_kit/classroom/panel/scripts": 20})
+SHARES: Mapping[str, int] = MappingProxyType(
+    {
+        "lsys_kit/derivation": 50,
+        "lsys_kit/geometry": 40,
+        "lsys_kit/notation/model": 20,
+        "lsys_kit/classroom/exercises/kinds": 20,
+        "lsys_kit/classroom/panel/scripts": 20,
+    }
+)
 """How many of 150 mutants are drawn from each room."""
 
 
@@ -52,20 +58,30 @@ def taken(earlier: Path) -> dict[Change, Site]:
 def table(outcomes: Mapping[Change, Outcome]) -> str:
     """How many mutants of each room were tried and caught."""
     rows = {room: [outcome for change, outcome in outcomes.items() if change.file.startswith(f"{room}/")] for room in SHARES}
-    return "\n".join([f"{'room':40} mutants  caught", *(
-        f"{room:40}{len(every):8}{sum(each.caught for each in every):8}"
-        for room, every in {**rows, "together": [*outcomes.values()]}.items())])
+    return "\n".join(
+        [
+            f"{'room':40} mutants  caught",
+            *(
+                f"{room:40}{len(every):8}{sum(each.caught for each in every):8}"
+                for room, every in {**rows, "together": [*outcomes.values()]}.items()
+            ),
+        ]
+    )
 
 
 def _survivors(sites: Mapping[Change, Site], outcomes: Mapping[Change, Outcome]) -> str:
-    return "\n".join(f"{change.file}:{sites[change].line} {change.where} ({outcome.tests} quick tests)\n"
-                     f"    {change.old}\n    {change.new}"
-                     for change, outcome in outcomes.items() if not outcome.caught)
+    return "\n".join(
+        f"{change.file}:{sites[change].line} {change.where} ({outcome.tests} quick tests)\n    {change.old}\n    {change.new}"
+        for change, outcome in outcomes.items()
+        if not outcome.caught
+    )
 
 
 def _save(path: Path, sites: Mapping[Change, Site], outcomes: Mapping[Change, Outcome], seconds: float) -> None:
-    rows = [{**asdict(change), "line": site.line, **(asdict(outcomes[change]) if change in outcomes else {})}
-            for change, site in sites.items()]
+    rows = [
+        {**asdict(change), "line": site.line, **(asdict(outcomes[change]) if change in outcomes else {})}
+        for change, site in sites.items()
+    ]
     path.write_text(json.dumps({"seconds": round(seconds), "mutants": rows}, indent=1), "utf-8")
 
 

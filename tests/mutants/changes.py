@@ -38,11 +38,31 @@ class Site:
     text: str = ""
 
 
-_OTHER: Mapping[type[ast.AST], type[ast.AST]] = MappingProxyType({
-    ast.Eq: ast.NotEq, ast.NotEq: ast.Eq, ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Gt: ast.GtE, ast.GtE: ast.Gt, ast.Is: ast.IsNot,
-    ast.IsNot: ast.Is, ast.In: ast.NotIn, ast.NotIn: ast.In, ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div,
-    ast.Div: ast.Mult, ast.FloorDiv: ast.Mult, ast.Mod: ast.Mult, ast.Pow: ast.Mult, ast.BitOr: ast.BitAnd,
-    ast.BitAnd: ast.BitOr, ast.And: ast.Or, ast.Or: ast.And})
+_OTHER: Mapping[type[ast.AST], type[ast.AST]] = MappingProxyType(
+    {
+        ast.Eq: ast.NotEq,
+        ast.NotEq: ast.Eq,
+        ast.Lt: ast.LtE,
+        ast.LtE: ast.Lt,
+        ast.Gt: ast.GtE,
+        ast.GtE: ast.Gt,
+        ast.Is: ast.IsNot,
+        ast.IsNot: ast.Is,
+        ast.In: ast.NotIn,
+        ast.NotIn: ast.In,
+        ast.Add: ast.Sub,
+        ast.Sub: ast.Add,
+        ast.Mult: ast.Div,
+        ast.Div: ast.Mult,
+        ast.FloorDiv: ast.Mult,
+        ast.Mod: ast.Mult,
+        ast.Pow: ast.Mult,
+        ast.BitOr: ast.BitAnd,
+        ast.BitAnd: ast.BitOr,
+        ast.And: ast.Or,
+        ast.Or: ast.And,
+    }
+)
 
 
 @cache
@@ -108,8 +128,10 @@ def changed(node: ast.expr, condition: bool) -> list[ast.expr]:
     """What may stand instead of an expression."""
     match node:
         case ast.Compare(left, operators, right):
-            return [ast.Compare(left, [*operators[:at], _other(each), *operators[at + 1:]], right)
-                    for at, each in enumerate(operators)]
+            return [
+                ast.Compare(left, [*operators[:at], _other(each), *operators[at + 1 :]], right)
+                for at, each in enumerate(operators)
+            ]
         case ast.BinOp(left, operator, right) if type(operator) in _OTHER and not any(map(_is_text, (left, right))):
             return [ast.BinOp(left, _other(operator), right)]
         case ast.BoolOp(operator, values):
@@ -134,13 +156,28 @@ def _is_text(node: ast.AST) -> bool:
 _WORDS_OF_A_SCRIPT = re.compile(
     r"//[^\n]*|/\*.*?\*/|`(?:\\.|[^`\\])*`|\"(?:\\.|[^\"\\\n])*\"|'(?:\\.|[^'\\\n])*'"
     r"|(?<=[(,=:?!&|\[] )/(?![/*])(?:\\.|\[[^\]\n]*\]|[^/\\\n])+/\w*|(?<=[(,\[])/(?![/*])(?:\\.|\[[^\]\n]*\]|[^/\\\n])+/\w*",
-    re.DOTALL)
+    re.DOTALL,
+)
 """Comments, texts and patterns."""
 _IN_A_SCRIPT = re.compile(
-    r"(?<= )(?:[!=]==|[<>]=?|[-+*/]|&&|\|\|)(?= )|(?<![\w.$#])\d+(?:\.\d+)?(?![\w.])|\bif (?P<condition>\()")
-_OTHER_IN_A_SCRIPT = MappingProxyType({
-    "===": "!==", "!==": "===", "<": "<=", "<=": "<", ">": ">=", ">=": ">", "+": "-", "-": "+", "*": "/", "/": "*",
-    "&&": "||", "||": "&&"})
+    r"(?<= )(?:[!=]==|[<>]=?|[-+*/]|&&|\|\|)(?= )|(?<![\w.$#])\d+(?:\.\d+)?(?![\w.])|\bif (?P<condition>\()"
+)
+_OTHER_IN_A_SCRIPT = MappingProxyType(
+    {
+        "===": "!==",
+        "!==": "===",
+        "<": "<=",
+        "<=": "<",
+        ">": ">=",
+        ">=": ">",
+        "+": "-",
+        "-": "+",
+        "*": "/",
+        "/": "*",
+        "&&": "||",
+        "||": "&&",
+    }
+)
 _FUNCTION = re.compile(r"^ *(?:export )?(?:async )?(?:function\*? |const |(?=\w+\(.*\{$))(\w+)", re.MULTILINE)
 
 
@@ -152,7 +189,7 @@ def in_script(text: str) -> Iterator[tuple[str, str, str, Site]]:
         at, end = found.span()
         if found["condition"]:
             end = _closing(code, at + 3) + 1
-            new = f"if (!{text[at + 3:end]})"
+            new = f"if (!{text[at + 3 : end]})"
         else:
             new = _OTHER_IN_A_SCRIPT.get(found[0]) or str(float(found[0]) + 1).removesuffix(".0")
         begin, stop = text.rfind("\n", 0, at) + 1, text.find("\n", end)

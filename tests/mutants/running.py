@@ -79,13 +79,14 @@ class Runner:
     def _find_out(self) -> None:
         """Which quick tests come to which change, and how long they take."""
         by_file = [list(group) for _, group in groupby(self._quick, lambda item: item.path)]
-        parts = [list(chain.from_iterable(by_file[start::self.jobs])) for start in range(self.jobs)]
+        parts = [list(chain.from_iterable(by_file[start :: self.jobs])) for start in range(self.jobs)]
         numbers = {change: number for number, change in enumerate(self.chosen)}
         self._tests = {change: [] for change in self.chosen}
         begun = time.monotonic()
         found: dict[str, tuple[float, list[int]]] = {}
-        for _, each in in_parallel(lambda part: forked(lambda: self._seen(parts[part], numbers), SECONDS_OF_A_ROOM),
-                                   range(self.jobs), self.jobs):
+        for _, each in in_parallel(
+            lambda part: forked(lambda: self._seen(parts[part], numbers), SECONDS_OF_A_ROOM), range(self.jobs), self.jobs
+        ):
             found |= each
         self.log(f"{len(found)} quick tests pass, in {time.monotonic() - begun:.0f} s")
         for item in self._quick:
@@ -130,8 +131,14 @@ class Runner:
         """The number of the first test that fails, or -1."""
         if change:
             self.switches.turn_on(change)
-        return next((number for number, (item, following) in enumerate(zip(items, [*items, None][1:], strict=True))
-                     if not self._passes(item, following)), -1)
+        return next(
+            (
+                number
+                for number, (item, following) in enumerate(zip(items, [*items, None][1:], strict=True))
+                if not self._passes(item, following)
+            ),
+            -1,
+        )
 
     def _cost(self, item: pytest.Item) -> float:
         return self._seconds.get(item.nodeid, SECONDS_OF_OTHERS)
@@ -168,8 +175,10 @@ def fails_alone(change: Change) -> bool:
     tests = ["-q", "-x", "--thorough", "-m", "not slow and not browser", f"tests/{room}", f"lsys_kit/{room}"]
     with tempfile.TemporaryDirectory() as folder:
         (file := Path(folder, "on.json")).write_text(json.dumps({"mutants": [asdict(change)]}), "utf-8")
-        passes = [subprocess.run([sys.executable, "-m", module, *of_it, *tests], cwd=ROOT, capture_output=True).returncode == 0
-                  for module, *of_it in (("tests.mutants.alone", file), ("pytest",))]
+        passes = [
+            subprocess.run([sys.executable, "-m", module, *of_it, *tests], cwd=ROOT, capture_output=True).returncode == 0
+            for module, *of_it in (("tests.mutants.alone", file), ("pytest",))
+        ]
     return passes == [False, True]
 
 
@@ -181,8 +190,13 @@ def _near(item: pytest.Item, change: Change) -> bool:
 
 def _in_pages(items: Iterable[pytest.Item]) -> list[pytest.Item]:
     """Tests that open scripts in a browser, without Jupyter."""
-    return [item for item in items if item.path.parent == ROOT / "tests" / "classroom" and item.get_closest_marker("browser")
-            and "lab" not in getattr(item, "fixturenames", ())]
+    return [
+        item
+        for item in items
+        if item.path.parent == ROOT / "tests" / "classroom"
+        and item.get_closest_marker("browser")
+        and "lab" not in getattr(item, "fixturenames", ())
+    ]
 
 
 def _rank(item: pytest.Item, script: str) -> tuple[bool, bool, str]:

@@ -144,6 +144,6 @@ def _change_script(change: Change) -> None:
 
     def changed_text(path: Path, *arguments: object, **options: object) -> str:
         text: str = read(path, *arguments, **options)  # type: ignore[arg-type]
-        return f"{text[:site.at]}{site.text}{text[site.end:]}" if path == script else text
+        return f"{text[: site.at]}{site.text}{text[site.end :]}" if path == script else text
 
     Path.read_text = changed_text  # type: ignore[assignment,method-assign]

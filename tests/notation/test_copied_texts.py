@@ -29,9 +29,17 @@ def test_what_other_programs_take_is_refused_with_what_to_type(text: str, messag
     assert hint in (found.value.hint or "")
 
 
-@pytest.mark.parametrize("text", [
-    "angle: 60\naxiom: F\nF -> F \\ F / F", "axiom: A(1)\nA(x) -> F(x) A(x*2)", "axiom: F\nF -> +++F;(2)F",
-    "alphabet: 2\naxiom: F\nF -> 2 F", "axiom: A\nA -> B\nB -> *", "axiom: A\nA -> F[+A]F A"])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "angle: 60\naxiom: F\nF -> F \\ F / F",
+        "axiom: A(1)\nA(x) -> F(x) A(x*2)",
+        "axiom: F\nF -> +++F;(2)F",
+        "alphabet: 2\naxiom: F\nF -> 2 F",
+        "axiom: A\nA -> B\nB -> *",
+        "axiom: A\nA -> F[+A]F A",
+    ],
+)
 def test_what_is_advised_is_read_without_a_note(text: str) -> None:
     assert read(text).notes == ()
 
@@ -44,20 +52,29 @@ def test_where_fractint_is_only_guessed_its_angle_is_told_in_degrees(text: str) 
     assert read("Tree {\nAngle 30\nAxiom F\nF=F+F\n}").notes == ("Read as fractint.",)
 
 
-@pytest.mark.parametrize(("text", "typed"), [("axiom: F\nF -> F3+f2", {"F3": "F(3)", "f2": "f(2)"}),
-                                             ("axiom: F\nF -> C0F[+F]F", {"C0F": "C(0)"})])
+@pytest.mark.parametrize(
+    ("text", "typed"), [("axiom: F\nF -> F3+f2", {"F3": "F(3)", "f2": "f(2)"}), ("axiom: F\nF -> C0F[+F]F", {"C0F": "C(0)"})]
+)
 def test_a_name_with_a_number_in_it_is_noted(text: str, typed: dict[str, str]) -> None:
     assert [note for note in read(text).notes if "draws nothing" in note] == [
         f'"{name}" is read as one symbol, which draws nothing. {name[0]} with a value is typed {value}; what is repeated is '
-        'written out, as in "+++".' for name, value in typed.items()]
+        'written out, as in "+++".'
+        for name, value in typed.items()
+    ]
     name = next(iter(typed))
     for declared in (f"axiom: F\nF -> {name}\n{name} -> F", f"alphabet: {name}\naxiom: F\nF -> {name}"):
         assert not any("draws nothing" in note for note in read(declared).notes)
 
 
-@pytest.mark.parametrize("text", [
-    "axiom = F++F++F\nF -> F-F++F-F\nangle = 60", "Axiom = F++F++F\nF -> F-F++F-F\nAngle = 60°",
-    "axiom: F++F++F\nF -> F-F++F-F\nangle: 60 degrees", "angle = 60 deg\naxiom = F++F++F\nF -> F-F++F-F"])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "axiom = F++F++F\nF -> F-F++F-F\nangle = 60",
+        "Axiom = F++F++F\nF -> F-F++F-F\nAngle = 60°",
+        "axiom: F++F++F\nF -> F-F++F-F\nangle: 60 degrees",
+        "angle = 60 deg\naxiom = F++F++F\nF -> F-F++F-F",
+    ],
+)
 def test_settings_may_have_the_sign_of_constants_and_angles_their_unit(text: str) -> None:
     assert read(text) == read("angle: 60\naxiom: F++F++F\nF -> F-F++F-F")
 
@@ -73,12 +90,15 @@ def test_apostrophes_around_a_word_are_no_quotation_marks() -> None:
 def test_a_constant_that_is_used_nowhere_is_noted() -> None:
     assert read("k = 2\naxiom: F\nF -> F[+F]").notes == ('The constant "k" is used nowhere.',)
     assert read("delta = 22.5\naxiom: F\nF -> F[+F]").notes == (
-        'The constant "delta" is used nowhere. For the angle of the turns type "angle: 22.5".',)
+        'The constant "delta" is used nowhere. For the angle of the turns type "angle: 22.5".',
+    )
     assert read("k = 2\nm = k\nangle: 9\naxiom: F\nF -> F(m)").notes == ()
 
 
-ANGLE_OF_CPFG = 'cpfg keeps the angle by which + turns in a file of the view. It is 90 degrees here; for 22.5 put the line ' \
+ANGLE_OF_CPFG = (
+    "cpfg keeps the angle by which + turns in a file of the view. It is 90 degrees here; for 22.5 put the line "
     '"/* angle: 22.5 */" above the axiom.'
+)
 
 
 def test_what_cpfg_keeps_in_another_file_is_told() -> None:

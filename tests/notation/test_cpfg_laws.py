@@ -45,18 +45,29 @@ def lettered(module: Pattern) -> Pattern:
 
 
 def in_letters(rule: Production) -> Production:
-    return Production(tuple(map(lettered, rule.predecessors)), tuple(map(lettered, rule.successor)), spelt(rule.condition),  # type: ignore[arg-type]
-                      tuple(map(lettered, rule.left)), tuple(map(lettered, rule.right)), spelt(rule.probability))
+    return Production(
+        tuple(map(lettered, rule.predecessors)),
+        tuple(map(lettered, rule.successor)),
+        spelt(rule.condition),  # type: ignore[arg-type]
+        tuple(map(lettered, rule.left)),
+        tuple(map(lettered, rule.right)),
+        spelt(rule.probability),
+    )
 
 
 def in_cpfg(system: LSystem) -> LSystem:
     """A system with symbols and distributions that cpfg has."""
-    return replace(system, axiom=tuple(map(lettered, system.axiom)), productions=tuple(map(in_letters, system.productions)),
-                   decomposition=tuple(map(in_letters, system.decomposition)))
+    return replace(
+        system,
+        axiom=tuple(map(lettered, system.axiom)),
+        productions=tuple(map(in_letters, system.productions)),
+        decomposition=tuple(map(in_letters, system.decomposition)),
+    )
 
 
 def with_ends(system: LSystem) -> LSystem:
     """The branches of every other right context end where they are named."""
+
     def ended(rule: Production) -> Production:
         right = [part for module in rule.right for part in ((Pattern(END), module) if module.symbol == "]" else (module,))]
         return replace(rule, right=tuple(right))
@@ -68,18 +79,33 @@ def settings(system: LSystem) -> st.SearchStrategy[LSystem]:
     """A system with all kinds of settings."""
     few = st.none() | st.integers(0, 3)
     angles = st.sampled_from((90, 60, Fraction(257, 10), -45, Fraction(1, 3)))
-    return st.builds(lambda **made: replace(system, **made), angle=angles, heading=angles, seed=st.none() | st.integers(-2, 9),
-                     length=st.none() | st.sampled_from((0, 5, Fraction(1, 2))), steps=few, depth=st.integers(0, 3),
-                     decomposition_depth=few, interpretation=st.sampled_from(((), tuple(system.decomposition[:1]))))
+    return st.builds(
+        lambda **made: replace(system, **made),
+        angle=angles,
+        heading=angles,
+        seed=st.none() | st.integers(-2, 9),
+        length=st.none() | st.sampled_from((0, 5, Fraction(1, 2))),
+        steps=few,
+        depth=st.integers(0, 3),
+        decomposition_depth=few,
+        interpretation=st.sampled_from(((), tuple(system.decomposition[:1]))),
+    )
 
 
-ANY_SYSTEM = st.one_of(systems(), systems_with(CONTEXT, CHANCE, DECOMPOSITION, CUT, SEVERAL)).map(in_cpfg).flatmap(
-    lambda system: st.sampled_from((system, with_ends(system)))).flatmap(settings)
+ANY_SYSTEM = (
+    st.one_of(systems(), systems_with(CONTEXT, CHANCE, DECOMPOSITION, CUT, SEVERAL))
+    .map(in_cpfg)
+    .flatmap(lambda system: st.sampled_from((system, with_ends(system))))
+    .flatmap(settings)
+)
 
 
 def writable(system: LSystem) -> bool:
-    chance = any(rule.probability is not None or any(map(is_random, module.arguments))  # type: ignore[arg-type]
-                 for rule in system.interpretation for module in rule.modules)
+    chance = any(
+        rule.probability is not None or any(map(is_random, module.arguments))  # type: ignore[arg-type]
+        for rule in system.interpretation
+        for module in rule.modules
+    )
     return not chance and lacking(CPFG, system) is None
 
 
@@ -137,12 +163,22 @@ def expressions(draw: st.DrawFn, truth: bool = False, depth: int = 3) -> Express
     return Apply(draw(st.sampled_from(("abs", "sqrt", "sin", "atan", "floor", "exp"))), operands[:1])
 
 
-@pytest.mark.parametrize(("kit", "cpfg"), [
-    ("-t^2", "-(t^2)"), ("(-t)^2", "(-t)^2"), ("t^x^2", "t^(x^2)"), ("(t^x)^2", "(t^x)^2"), ("t^-x", "t^(-x)"),
-    ("2 * rem(t + 1, x)", "2 * ((t + 1) % x)"), ("mod(t, x)", "t - x * floor(t/x)"),
-    ("-if(t < 1, x, 2)", "-(t < 1 ? x : 2)"), ("t - (x - 1)", "t - (x - 1)"),
-    ("max(t, -x)", "(t > -x ? t : -x)"), ("uniform(-1, x)", "((-1) + ran(x - -1))"),
-])
+@pytest.mark.parametrize(
+    ("kit", "cpfg"),
+    [
+        ("-t^2", "-(t^2)"),
+        ("(-t)^2", "(-t)^2"),
+        ("t^x^2", "t^(x^2)"),
+        ("(t^x)^2", "(t^x)^2"),
+        ("t^-x", "t^(-x)"),
+        ("2 * rem(t + 1, x)", "2 * ((t + 1) % x)"),
+        ("mod(t, x)", "t - x * floor(t/x)"),
+        ("-if(t < 1, x, 2)", "-(t < 1 ? x : 2)"),
+        ("t - (x - 1)", "t - (x - 1)"),
+        ("max(t, -x)", "(t > -x ? t : -x)"),
+        ("uniform(-1, x)", "((-1) + ran(x - -1))"),
+    ],
+)
 def test_what_binds_otherwise_in_cpfg_is_put_in_parentheses(kit: str, cpfg: str) -> None:
     expression = read_expression(kit)
     assert expression_text(expression) == cpfg
@@ -158,18 +194,22 @@ def test_any_expression_binds_as_it_is_written(number: Expression, truth: Expres
     assert read(text, "cpfg").productions == (made,)
 
 
-@pytest.mark.parametrize(("text", "feature"), [
-    ("axiom: al", 'symbol "al"'), ("axiom: A\nA -> repeat(2) <B>", "repetition"),
-    ("axiom: f f\nmeta: f f -> f", "meta-rules"),
-    ("turtle: grogra\naxiom: F", "turtle commands of GROGRA"),
-    ("turtle: plant-string\naxiom: F", "turtle commands of plant strings"),
-    ("axiom: A(1)\nA(t) -> A(poisson(t))", 'function "poisson"'), ("axiom: A(1)\nA(t) -> A(min(t, 1, 2))",
-     'function "min" of more than two numbers, or of random numbers'),
-    ("axiom: A(1)\nA(t) -> A(uniform(uniform(0, 1), 2))", "random numbers from a random number on"),
-    ("axiom: A(1)\nA(t) -> A(if(t < 1, t, 1))", 'other words for "min"'),
-    ("k = 1 in 0 .. 2*3\naxiom: A", "ends of sliders that are calculated"),
-    ("ignore: al\naxiom: A", 'symbol "al"'),
-])
+@pytest.mark.parametrize(
+    ("text", "feature"),
+    [
+        ("axiom: al", 'symbol "al"'),
+        ("axiom: A\nA -> repeat(2) <B>", "repetition"),
+        ("axiom: f f\nmeta: f f -> f", "meta-rules"),
+        ("turtle: grogra\naxiom: F", "turtle commands of GROGRA"),
+        ("turtle: plant-string\naxiom: F", "turtle commands of plant strings"),
+        ("axiom: A(1)\nA(t) -> A(poisson(t))", 'function "poisson"'),
+        ("axiom: A(1)\nA(t) -> A(min(t, 1, 2))", 'function "min" of more than two numbers, or of random numbers'),
+        ("axiom: A(1)\nA(t) -> A(uniform(uniform(0, 1), 2))", "random numbers from a random number on"),
+        ("axiom: A(1)\nA(t) -> A(if(t < 1, t, 1))", 'other words for "min"'),
+        ("k = 1 in 0 .. 2*3\naxiom: A", "ends of sliders that are calculated"),
+        ("ignore: al\naxiom: A", 'symbol "al"'),
+    ],
+)
 def test_what_cpfg_lacks_is_named(text: str, feature: str) -> None:
     with pytest.raises(ModelValueError) as caught:
         write(read(text), "cpfg")
@@ -185,12 +225,74 @@ def test_the_end_of_a_branch_is_nothing_by_itself() -> None:
 # Any text
 
 PIECES = [
-    "A", "B", "F", "t", "x", "[", "]", "(", ")", "-->", "->", ":", "=", "==", "<", ">", "0", "2.5", ".5", "+", "-", "*", "/",
-    "//", "^", "&&", "||", "!", ",", ";", "?", "%", "@", "@o", "?P", "{", "}", "{x=1;}", "if(", "else", "/*", "*/",
+    "A",
+    "B",
+    "F",
+    "t",
+    "x",
+    "[",
+    "]",
+    "(",
+    ")",
+    "-->",
+    "->",
+    ":",
+    "=",
+    "==",
+    "<",
+    ">",
+    "0",
+    "2.5",
+    ".5",
+    "+",
+    "-",
+    "*",
+    "/",
+    "//",
+    "^",
+    "&&",
+    "||",
+    "!",
+    ",",
+    ";",
+    "?",
+    "%",
+    "@",
+    "@o",
+    "?P",
+    "{",
+    "}",
+    "{x=1;}",
+    "if(",
+    "else",
+    "/*",
+    "*/",
     "/* angle: 3 */",
-    "/* 1 .. 2 by 1 */", "#define n 3", "#define", "Axiom:", "Lsystem: 1", "endlsystem", "derivation length:",
-    "maximum depth: 2", "decomposition", "homomorphism", "ignore:", "consider:", "seed: 2", "Start:", "ran(", "while", "-o>",
-    "\n", "\n", " ", "\t", "\x00", "Ф", "−", "ε",
+    "/* 1 .. 2 by 1 */",
+    "#define n 3",
+    "#define",
+    "Axiom:",
+    "Lsystem: 1",
+    "endlsystem",
+    "derivation length:",
+    "maximum depth: 2",
+    "decomposition",
+    "homomorphism",
+    "ignore:",
+    "consider:",
+    "seed: 2",
+    "Start:",
+    "ran(",
+    "while",
+    "-o>",
+    "\n",
+    "\n",
+    " ",
+    "\t",
+    "\x00",
+    "Ф",
+    "−",
+    "ε",
 ]
 MODELS = [
     "#define dt 0.7 /* 0.1 .. 2 by 0.1 */\nLsystem: 1\nAxiom: A(0)\nA(t) : t+dt >= 1 && !(t > 3) --> [+A(t+dt-1)]B(sqrt(t)^2)",
@@ -232,14 +334,27 @@ def test_a_text_is_a_system_or_an_explained_slip(text: str) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("text", [
-    "Axiom: " + "/" * 49_000, "Axiom: " + "[" * 49_000, "Axiom: A(" + "sqrt(" * 9_000, "Axiom: A(" + "!" * 49_000,
-    "Axiom: A\nA : {" + "if(1){" * 8_000, "Axiom: A\nA : 1 {" + "if(1){" * 4_000 + "}" * 4_000 + "} --> B",
-    "Axiom: A(1)\nA(t) : {" + "t=t+t;" * 60 + "} 1 --> A(t)", "Axiom: A(1)\nA(t) : {" + "if(t>1){t=t+t;}" * 60 + "} 1 --> A(t)",
-    "derivation length: 9^9^9^9\nAxiom: A", "#define a 1 /* " * 60_000, "a\n" * 400_000, "//" * 499_000,
-    "#define" + " " * 900_000, "A\n" + " B\n" * 300_000,
-    "Axiom: A\n" + "".join(f"A(t) : t < {i} --> A(t+1)[+B(t*2)]{'F//F' * 230}\n" for i in range(999)),
-], ids=range(15))
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Axiom: " + "/" * 49_000,
+        "Axiom: " + "[" * 49_000,
+        "Axiom: A(" + "sqrt(" * 9_000,
+        "Axiom: A(" + "!" * 49_000,
+        "Axiom: A\nA : {" + "if(1){" * 8_000,
+        "Axiom: A\nA : 1 {" + "if(1){" * 4_000 + "}" * 4_000 + "} --> B",
+        "Axiom: A(1)\nA(t) : {" + "t=t+t;" * 60 + "} 1 --> A(t)",
+        "Axiom: A(1)\nA(t) : {" + "if(t>1){t=t+t;}" * 60 + "} 1 --> A(t)",
+        "derivation length: 9^9^9^9\nAxiom: A",
+        "#define a 1 /* " * 60_000,
+        "a\n" * 400_000,
+        "//" * 499_000,
+        "#define" + " " * 900_000,
+        "A\n" + " B\n" * 300_000,
+        "Axiom: A\n" + "".join(f"A(t) : t < {i} --> A(t+1)[+B(t*2)]{'F//F' * 230}\n" for i in range(999)),
+    ],
+    ids=range(15),
+)
 def test_no_text_takes_long(text: str) -> None:
     started = time.process_time()
     error_of(lambda: read(text, "cpfg"))

@@ -16,21 +16,29 @@ from lsys_kit.notation.read import read
 from lsys_kit.notation.write import write
 
 
-@pytest.mark.parametrize(("text", "meant"), [
-    ("#define k 2\nStart: {n = 3*k; m = n+1;}\nAxiom: A(m)\nA(t) : t < n --> B",
-     "#define k 2\n#define n (3*k)\n#define m (3*k+1)\nAxiom: A(m)\nA(t) : t < n --> B"),
-    ("Start: {\nn=1;\nif (n > 0) {\nn=n+1;\n}\n}\nAxiom: A(n)", "#define n (1 > 0 ? 1+1 : 1)\nAxiom: A(n)"),
-    ("Start: {n=1;}\nStart: {n=n+1;}\nAxiom: A(n)", "#define n (1+1)\nAxiom: A(n)"),
-    ("Start: {srand(7);}\nAxiom: A", "seed: 7\nAxiom: A"), ("seed: 5\nStart: {srand(7);}\nAxiom: A", "seed: 5\nAxiom: A"),
-    ("End: {x = 3; printf(\"%f\", x);}\nAxiom: A", "Axiom: A"),
-    ("Start: {i=0;}\nEndEach: {i=i+1; printf(\"step %f\\n\", i);}\nAxiom: A\nA --> B", "Axiom: A\nA --> B"),
-    ("Start: {i=0;}\nAxiom: A(0)\nA(t) : 1 {i=t+1;} --> A(i)", "Axiom: A(0)\nA(t) --> A(t+1)"),
-    ("EndEach: {t=t+1;}\nAxiom: A(0)\nA(t) --> A(t+1)", "Axiom: A(0)\nA(t) --> A(t+1)"),
-    ('Axiom: A(0)\nA(t) : 1 {printf("%f", t); x=t+1; stop(1);} --> A(x)', "Axiom: A(0)\nA(t) --> A(t+1)"),
-    ("Define: {array a[3] = {1,2,3};}\nAxiom: A(a[0])B(a[2])C(a[7])", "Axiom: A(1)B(3)C(3)"),
-    ("#define N 2\nDefine: {\n array a[N]={N,\n N+1}, b[1] = {5};\n}\nAxiom: A(a[1])B(b[a[0]])",
-     "#define N 2\nAxiom: A(N+1)B(5)"),
-])
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        (
+            "#define k 2\nStart: {n = 3*k; m = n+1;}\nAxiom: A(m)\nA(t) : t < n --> B",
+            "#define k 2\n#define n (3*k)\n#define m (3*k+1)\nAxiom: A(m)\nA(t) : t < n --> B",
+        ),
+        ("Start: {\nn=1;\nif (n > 0) {\nn=n+1;\n}\n}\nAxiom: A(n)", "#define n (1 > 0 ? 1+1 : 1)\nAxiom: A(n)"),
+        ("Start: {n=1;}\nStart: {n=n+1;}\nAxiom: A(n)", "#define n (1+1)\nAxiom: A(n)"),
+        ("Start: {srand(7);}\nAxiom: A", "seed: 7\nAxiom: A"),
+        ("seed: 5\nStart: {srand(7);}\nAxiom: A", "seed: 5\nAxiom: A"),
+        ('End: {x = 3; printf("%f", x);}\nAxiom: A', "Axiom: A"),
+        ('Start: {i=0;}\nEndEach: {i=i+1; printf("step %f\\n", i);}\nAxiom: A\nA --> B', "Axiom: A\nA --> B"),
+        ("Start: {i=0;}\nAxiom: A(0)\nA(t) : 1 {i=t+1;} --> A(i)", "Axiom: A(0)\nA(t) --> A(t+1)"),
+        ("EndEach: {t=t+1;}\nAxiom: A(0)\nA(t) --> A(t+1)", "Axiom: A(0)\nA(t) --> A(t+1)"),
+        ('Axiom: A(0)\nA(t) : 1 {printf("%f", t); x=t+1; stop(1);} --> A(x)', "Axiom: A(0)\nA(t) --> A(t+1)"),
+        ("Define: {array a[3] = {1,2,3};}\nAxiom: A(a[0])B(a[2])C(a[7])", "Axiom: A(1)B(3)C(3)"),
+        (
+            "#define N 2\nDefine: {\n array a[N]={N,\n N+1}, b[1] = {5};\n}\nAxiom: A(a[1])B(b[a[0]])",
+            "#define N 2\nAxiom: A(N+1)B(5)",
+        ),
+    ],
+)
 def test_what_is_computed_once_is_a_constant(text: str, meant: str) -> None:
     system = read(f"Lsystem: 1\n{text}")
     assert system == read(f"Lsystem: 1\n{meant}")
@@ -41,56 +49,73 @@ def test_what_is_computed_once_is_a_constant(text: str, meant: str) -> None:
 def test_an_element_is_the_one_with_its_number(size: int) -> None:
     """And below the first or beyond the last the nearest, as in cpfg; what follows the point of a number does not count."""
     elements = [10 * place for place in range(size)]
-    system = read(f"Lsystem: 1\nDefine: {{array a[{size}] = {{{','.join(map(str, elements))}}};}}\nAxiom: A(-2)\n"
-                  "A(t) --> A(t+1/2)B(a[t])")
+    system = read(
+        f"Lsystem: 1\nDefine: {{array a[{size}] = {{{','.join(map(str, elements))}}};}}\nAxiom: A(-2)\nA(t) --> A(t+1/2)B(a[t])"
+    )
     found = [module.arguments[0] for module in derive(system, 2 * size + 8)[-1] if module.symbol == "B"]
     assert found[::-1] == [elements[min(max(0, step // 2 - 2), size - 1)] for step in range(2 * size + 8)]
 
 
-@pytest.mark.parametrize(("text", "name", "place"), [
-    ("Start: {c=1;}\nAxiom: AB\nA : 1 {c=2;} --> F\nB --> F(c)", "c", (5, 9)),
-    ("Start: {c=1;}\nEndEach: {c=c+1;}\nAxiom: A\nhomomorphism\nA --> F(c)", "c", (6, 9)),
-    ("Start: {c=1;}\nEndEach: {c=c+1;}\nAxiom: A\nA : c>2 --> B\ndecomposition\nB --> A", "c", (5, 5)),
-    ("Start: {c=1;}\nEndEach: {c=c+1;}\nAxiom: A(c)", "c", (4, 10)),
-    ("EndEach: {c=c+ran(1);}\nAxiom: A\nA : c>2 --> B", "c", (4, 5)),
-    ("EndEach: {c=c+1;}\nAxiom: F\nF : c>2 --> FF", "c", (4, 5)),
-    ("EndEach: {c=c+1;}\nAxiom: +\n+ : c>2 --> -", "c", (4, 5)),
-    ("EndEach: {c=c+1;}\nAxiom: AA(1)\nA : c>2 --> B", "c", (4, 5)),
-    ("EndEach: {c=c+1;}\nAxiom: A\nA : c>2 {c=3;} --> B(c)", "c", (4, 5)),
-])
+@pytest.mark.parametrize(
+    ("text", "name", "place"),
+    [
+        ("Start: {c=1;}\nAxiom: AB\nA : 1 {c=2;} --> F\nB --> F(c)", "c", (5, 9)),
+        ("Start: {c=1;}\nEndEach: {c=c+1;}\nAxiom: A\nhomomorphism\nA --> F(c)", "c", (6, 9)),
+        ("Start: {c=1;}\nEndEach: {c=c+1;}\nAxiom: A\nA : c>2 --> B\ndecomposition\nB --> A", "c", (5, 5)),
+        ("Start: {c=1;}\nEndEach: {c=c+1;}\nAxiom: A(c)", "c", (4, 10)),
+        ("EndEach: {c=c+ran(1);}\nAxiom: A\nA : c>2 --> B", "c", (4, 5)),
+        ("EndEach: {c=c+1;}\nAxiom: F\nF : c>2 --> FF", "c", (4, 5)),
+        ("EndEach: {c=c+1;}\nAxiom: +\n+ : c>2 --> -", "c", (4, 5)),
+        ("EndEach: {c=c+1;}\nAxiom: AA(1)\nA : c>2 --> B", "c", (4, 5)),
+        ("EndEach: {c=c+1;}\nAxiom: A\nA : c>2 {c=3;} --> B(c)", "c", (4, 5)),
+    ],
+)
 def test_a_variable_that_changes_is_named_where_it_is_used(text: str, name: str, place: tuple[int, int]) -> None:
     with pytest.raises(ModelNameError, match=f'The variable "{name}" changes while the model runs') as caught:
         read(f"Lsystem: 1\n{text}")
     assert (caught.value.line, caught.value.column) == place
 
 
-@pytest.mark.parametrize(("text", "error", "said"), [
-    ("Start: {k=1;}\nAxiom: A", ModelNameError, 'constant "k" cannot be changed'),
-    ("Start: {x=y;}\nAxiom: A(x)", ModelNameError, 'I do not know the name "y"'),
-    ("Start: {x=y; srand(x);}\nAxiom: A", ModelNameError, 'I do not know the name "y"'),
-    ("Start: {x=ran(1);}\nAxiom: A(x)", ModelValueError, "draws a new number at every use"),
-    ("Define: {array a[2]={1,2};}\nAxiom: A\nA --> B(a[ran(2)])", ModelValueError, "index of an array cannot be random"),
-    ("Define: {array a[2]={1,2};}\nAxiom: A\nA : 1 {a[1]=5;} --> B(a[1])", ModelSyntaxError, "no arrays that change"),
-])
+@pytest.mark.parametrize(
+    ("text", "error", "said"),
+    [
+        ("Start: {k=1;}\nAxiom: A", ModelNameError, 'constant "k" cannot be changed'),
+        ("Start: {x=y;}\nAxiom: A(x)", ModelNameError, 'I do not know the name "y"'),
+        ("Start: {x=y; srand(x);}\nAxiom: A", ModelNameError, 'I do not know the name "y"'),
+        ("Start: {x=ran(1);}\nAxiom: A(x)", ModelValueError, "draws a new number at every use"),
+        ("Define: {array a[2]={1,2};}\nAxiom: A\nA --> B(a[ran(2)])", ModelValueError, "index of an array cannot be random"),
+        ("Define: {array a[2]={1,2};}\nAxiom: A\nA : 1 {a[1]=5;} --> B(a[1])", ModelSyntaxError, "no arrays that change"),
+    ],
+)
 def test_what_no_constant_can_be_is_said(text: str, error: type[Exception], said: str) -> None:
     with pytest.raises(error, match=said):
         read(f"#define k 3\nLsystem: 1\n{text}")
 
 
-RULES = ("A(x) : n < 3 --> F[+A(x+n)]B", "A(x) : x > n --> C", "B > [A(x)] --> A(n)", "B : n == 2 --> A(0)B",
-         "A(x) < B --> BF(n)",
-         "C --> A(p)", "B < C --> *", "D : p > 5 --> B",
-         "D --> DB", "A(x) --> A(x+1)")
+RULES = (
+    "A(x) : n < 3 --> F[+A(x+n)]B",
+    "A(x) : x > n --> C",
+    "B > [A(x)] --> A(n)",
+    "B : n == 2 --> A(0)B",
+    "A(x) < B --> BF(n)",
+    "C --> A(p)",
+    "B < C --> *",
+    "D : p > 5 --> B",
+    "D --> DB",
+    "A(x) --> A(x+1)",
+)
 """Productions that use a counter n, and p, which depends on it."""
 
 
 def carried(word: Iterable[Module], arities: dict[str, int]) -> str:
     """A word without what its modules carry."""
-    return joined_word(module_text(Module(m.symbol, m.arguments[:arities.get(m.symbol, 9)])) for m in word)
+    return joined_word(module_text(Module(m.symbol, m.arguments[: arities.get(m.symbol, 9)])) for m in word)
 
 
-@given(st.lists(st.sampled_from(RULES), min_size=1, max_size=5, unique=True),
-       st.sampled_from(("n=n+1;", "n=n+2; if (n > 5) {n=0;}")))
+@given(
+    st.lists(st.sampled_from(RULES), min_size=1, max_size=5, unique=True),
+    st.sampled_from(("n=n+1;", "n=n+2; if (n > 5) {n=0;}")),
+)
 def test_counters_are_what_the_statements_around_the_steps_make_them(rules: list[str], counting: str) -> None:
     """The definition: in each step the productions are those with the values that the counters have then."""
     body, start = "\n".join(rules), "A(0)[B]CDF"

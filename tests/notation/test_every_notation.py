@@ -40,8 +40,9 @@ def test_what_is_written_reads_back_as_the_same_system(id: str, notation: str) -
 def test_the_same_words_come_out_in_every_notation(id: str, notation: str) -> None:
     back = read(write(system(id), notation), notation)
     for seed in (None, 7):
-        assert [tuple(word) for word in derive(back, STEPS, seed=seed)] == \
-            [tuple(word) for word in derive(DIALECTS[notation].translated(system(id)), STEPS, seed=seed)]
+        assert [tuple(word) for word in derive(back, STEPS, seed=seed)] == [
+            tuple(word) for word in derive(DIALECTS[notation].translated(system(id)), STEPS, seed=seed)
+        ]
 
 
 @pytest.mark.parametrize(("id", "notation"), REFUSED)

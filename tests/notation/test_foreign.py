@@ -24,11 +24,21 @@ from tests.notation.test_recognised import LISTINGS, SHORT
 
 TESTS = Path(__file__).parents[1]
 EXAMPLES = tomllib.loads((TESTS / "notebooks" / "examples.toml").read_text(encoding="utf-8"))["notations"]
-OWN = sorted({
-    *(write(system(id), notation) for id in systems() for notation in DIALECTS if not lacking(DIALECTS[notation], system(id))),
-    *(system(id).source for id in systems()), *(text for texts in SHORT.values() for text in texts),
-    *((TESTS / "listings" / file).read_text(encoding="utf-8") for file, _ in LISTINGS),
-    *(example["listing"] for example in EXAMPLES.values()), *MODELS})
+OWN = sorted(
+    {
+        *(
+            write(system(id), notation)
+            for id in systems()
+            for notation in DIALECTS
+            if not lacking(DIALECTS[notation], system(id))
+        ),
+        *(system(id).source for id in systems()),
+        *(text for texts in SHORT.values() for text in texts),
+        *((TESTS / "listings" / file).read_text(encoding="utf-8") for file, _ in LISTINGS),
+        *(example["listing"] for example in EXAMPLES.values()),
+        *MODELS,
+    }
+)
 """Texts in the kit's notations."""
 TEXTS = [(name, text, line) for name, texts in FOREIGN.items() for text, line in texts]
 
@@ -53,14 +63,16 @@ def test_the_message_says_whose_format_it_is_and_where_that_is_seen(name: str, t
 def test_the_ends_of_lines_change_nothing() -> None:
     told = [claim(text.replace("\n", "\r\n")) for _, text, _ in TEXTS]
     assert [(f"This is {name}, which the kit does not read", line) for name, _, line in TEXTS] == [
-        (found.message, found.line) for found in told]
+        (found.message, found.line) for found in told
+    ]
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "text", "line"), [row for row in TEXTS if row[0] != L_PY])
 @pytest.mark.parametrize("notation", DIALECTS)
 def test_where_a_notation_was_asked_for_its_own_reader_says_what_is_wrong_and_the_format_is_a_guess(
-        notation: str, name: str, text: str, line: int) -> None:
+    notation: str, name: str, text: str, line: int
+) -> None:
     with pytest.raises(LSystemError) as found:
         read(text, notation)
     assert "which the kit does not read" not in found.value.message
@@ -85,17 +97,27 @@ def test_a_message_says_what_the_kit_lacks_and_what_to_try(row) -> None:
     assert re.fullmatch(r"[A-Z].*[^.]\. [A-Z].*\.", f"{row.lacks}. {row.advice}")
 
 
-@pytest.mark.parametrize("text", [
-    "axiom: A(1)\nA(t) : t < 5 -> B(t+1)", "#define n 5\nAxiom: A(0)\nA(t) : t < 5 --> F(1)A(t+1)", "axiom: X\nX -> F + X",
-    "axiom: A(1)\nA(x) : x < 5 -> F(1) A(x+1)", "* # A(1),\nA(x) # F(x) RU30 A(x*0.8)", "axiom: F\nF -> F-F++F-F",
-    "axiom: A\nA -> F[+A]A", "steps: 3\naxiom: F\nF -> F+F", "angle: 45\nsteps: 8\naxiom: A\np1: A -> F[+A]A",
-    "steps: 5\nangle: 20\naxiom: A\nA -> F[+A]\\/A",
-])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "axiom: A(1)\nA(t) : t < 5 -> B(t+1)",
+        "#define n 5\nAxiom: A(0)\nA(t) : t < 5 --> F(1)A(t+1)",
+        "axiom: X\nX -> F + X",
+        "axiom: A(1)\nA(x) : x < 5 -> F(1) A(x+1)",
+        "* # A(1),\nA(x) # F(x) RU30 A(x*0.8)",
+        "axiom: F\nF -> F-F++F-F",
+        "axiom: A\nA -> F[+A]A",
+        "steps: 3\naxiom: F\nF -> F+F",
+        "angle: 45\nsteps: 8\naxiom: A\np1: A -> F[+A]A",
+        "steps: 5\nangle: 20\naxiom: A\nA -> F[+A]\\/A",
+    ],
+)
 def test_what_is_advised_is_read(text: str) -> None:
     assert read(text).axiom
 
 
 # --- never the kit's own ----------------------------------------------------------------------------------------------------
+
 
 @pytest.mark.parametrize("text", [*OWN, *MENTIONS])
 def test_no_text_in_a_notation_of_the_kit_is_called_foreign(text: str) -> None:
@@ -128,12 +150,18 @@ def test_what_only_mentions_another_program_is_read(text: str) -> None:
     assert read(text).axiom
 
 
-@pytest.mark.parametrize(("text", "message"), [
-    ("axiom: A\nproduction:\nA --> A B", 'I do not know "production:"'), ("A ==> B", "This is not an arrow"),
-    ("derivation length: 5 // n; or so\nAxiom: A\nB", "An arrow is missing"),
-    ("Axiom: A\nproduction:\nA -> A B", 'I do not know "production:"'), ("# a plant\naxiom: A", "This is not a production"),
-    ('axiom: "A"', "Quotation marks are not needed here"), ("#defin n 3\nAxiom: A\nA --> B", "This is not a production"),
-])
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("axiom: A\nproduction:\nA --> A B", 'I do not know "production:"'),
+        ("A ==> B", "This is not an arrow"),
+        ("derivation length: 5 // n; or so\nAxiom: A\nB", "An arrow is missing"),
+        ("Axiom: A\nproduction:\nA -> A B", 'I do not know "production:"'),
+        ("# a plant\naxiom: A", "This is not a production"),
+        ('axiom: "A"', "Quotation marks are not needed here"),
+        ("#defin n 3\nAxiom: A\nA --> B", "This is not a production"),
+    ],
+)
 def test_a_slip_has_the_message_of_its_notation(text: str, message: str) -> None:
     with pytest.raises(LSystemError) as found:
         read(text)
@@ -143,8 +171,11 @@ def test_a_slip_has_the_message_of_its_notation(text: str, message: str) -> None
 
 # --- L-Py and cpfg ----------------------------------------------------------------------------------------------------------
 
-RULES = st.lists(st.sampled_from(["A --> F[+A]A", "F --> FF", "B(x) --> F(x)B(x+1)", "A < B --> C", "A(t) : t > 1 --> F(t)"]),
-                 min_size=1, max_size=4).map("\n".join)
+RULES = st.lists(
+    st.sampled_from(["A --> F[+A]A", "F --> FF", "B(x) --> F(x)B(x+1)", "A < B --> C", "A(t) : t > 1 --> F(t)"]),
+    min_size=1,
+    max_size=4,
+).map("\n".join)
 
 
 @given(RULES, st.permutations(["Axiom: A", "derivation length: 3", "/* a plant */", ""]), st.sampled_from(["", "\nendlsystem"]))
@@ -169,23 +200,68 @@ def test_it_can_be_read_as_cpfgs_all_the_same() -> None:
 
 # --- names and time ---------------------------------------------------------------------------------------------------------
 
-@pytest.mark.parametrize(("name", "told"), [
-    ("tree.lpy", "a model of L-Py"), ("a/b/TREE.RGG", "a model in XL"), ("x.jff", "an L-system of JFLAP"),
-    ("x.rkt", "a model in Racket"), ("x.ipynb", "a Jupyter notebook"), ("x.py", "a program in Python"),
-    ("x.l", None), ("x.txt", None), ("lpy", None), ("", None),
-])
+
+@pytest.mark.parametrize(
+    ("name", "told"),
+    [
+        ("tree.lpy", "a model of L-Py"),
+        ("a/b/TREE.RGG", "a model in XL"),
+        ("x.jff", "an L-system of JFLAP"),
+        ("x.rkt", "a model in Racket"),
+        ("x.ipynb", "a Jupyter notebook"),
+        ("x.py", "a program in Python"),
+        ("x.l", None),
+        ("x.txt", None),
+        ("lpy", None),
+        ("", None),
+    ],
+)
 def test_the_name_of_a_file_is_a_hint(name: str, told: str | None) -> None:
     assert told in name_hint(name) if told else name_hint(name) is None
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("text", [
-    "\n", " ", "a", "Axiom:", "production:\n", "<", "{", "import ", "#", "A = ", "__a", "x:", "'a", '"a', "Axiom:\n", "#lang\n",
-    "(", "module ", "void a(", "p1:", "\t\n", "Axiom: A\nderivation length: 1\n", "private ", "<type> ", "[{", "==", "# ",
-    "1\n", "# a\n", "1 # a\n", "axiom a\n", "recursion 3\n", "rules:\n", "for a in ",
-])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "\n",
+        " ",
+        "a",
+        "Axiom:",
+        "production:\n",
+        "<",
+        "{",
+        "import ",
+        "#",
+        "A = ",
+        "__a",
+        "x:",
+        "'a",
+        '"a',
+        "Axiom:\n",
+        "#lang\n",
+        "(",
+        "module ",
+        "void a(",
+        "p1:",
+        "\t\n",
+        "Axiom: A\nderivation length: 1\n",
+        "private ",
+        "<type> ",
+        "[{",
+        "==",
+        "# ",
+        "1\n",
+        "# a\n",
+        "1 # a\n",
+        "axiom a\n",
+        "recursion 3\n",
+        "rules:\n",
+        "for a in ",
+    ],
+)
 def test_a_glance_is_short(text: str) -> None:
-    long = (text * GLANCE)[:20 * GLANCE]
+    long = (text * GLANCE)[: 20 * GLANCE]
     started = time.process_time()
     foreign_format(long)
     mistakable_format(long)

@@ -12,17 +12,20 @@ from lsys_kit.notation.read import read
 from lsys_kit.notation.syntax.text.greek import GREEK, name_of
 
 
-@pytest.mark.parametrize(("text", "same"), [
-    ("α = 25\naxiom: F(α)\nF(x) -> F(x*α)", "alpha = 25\naxiom: F(alpha)\nF(x) -> F(x * alpha)"),
-    ("α_1 = 25\naxiom: F(α_1)", "alpha_1 = 25\naxiom: F(alpha_1)"),
-    ("axiom: αβ\nα -> β\nβ -> αβ", "axiom: alpha beta\nalpha -> beta\nbeta -> alpha beta"),
-    ("axiom: Aα\nα -> Aα", "axiom: A alpha\nalpha -> A alpha"),
-    ("ω : A(1)\np1 : A(λ) : λ > 2 → B(λ)", "axiom: A(1)\nA(lambda) : lambda > 2 -> B(lambda)"),
-    ("n=5, δ=25.7°\nF\nF → F[+(δ)F]", "delta = 25.7\nangle: 25.7\nsteps: 5\naxiom: F\nF -> F[+(delta)F]"),
-    ("n=5, δ=25.7°\nF\nF → F[+F]", "angle: 25.7\nsteps: 5\naxiom: F\nF -> F[+F]"),
-    ("\\omega : \\alpha\np_1 : \\alpha \\rightarrow \\alpha\\beta", "axiom: alpha\nalpha -> alpha beta"),
-    ("axiom: A\nA -> ε", "axiom: A\nA -> ε"),
-])
+@pytest.mark.parametrize(
+    ("text", "same"),
+    [
+        ("α = 25\naxiom: F(α)\nF(x) -> F(x*α)", "alpha = 25\naxiom: F(alpha)\nF(x) -> F(x * alpha)"),
+        ("α_1 = 25\naxiom: F(α_1)", "alpha_1 = 25\naxiom: F(alpha_1)"),
+        ("axiom: αβ\nα -> β\nβ -> αβ", "axiom: alpha beta\nalpha -> beta\nbeta -> alpha beta"),
+        ("axiom: Aα\nα -> Aα", "axiom: A alpha\nalpha -> A alpha"),
+        ("ω : A(1)\np1 : A(λ) : λ > 2 → B(λ)", "axiom: A(1)\nA(lambda) : lambda > 2 -> B(lambda)"),
+        ("n=5, δ=25.7°\nF\nF → F[+(δ)F]", "delta = 25.7\nangle: 25.7\nsteps: 5\naxiom: F\nF -> F[+(delta)F]"),
+        ("n=5, δ=25.7°\nF\nF → F[+F]", "angle: 25.7\nsteps: 5\naxiom: F\nF -> F[+F]"),
+        ("\\omega : \\alpha\np_1 : \\alpha \\rightarrow \\alpha\\beta", "axiom: alpha\nalpha -> alpha beta"),
+        ("axiom: A\nA -> ε", "axiom: A\nA -> ε"),
+    ],
+)
 def test_a_greek_letter_is_its_name(text: str, same: str) -> None:
     system = read(text, "abop")
     assert str(system) == same

@@ -61,6 +61,7 @@ def successor(text: str) -> str:
 
 # --- what a text says -----------------------------------------------------------------------------------------------
 
+
 def test_a_system_prints_as_it_was_laid_out() -> None:
     assert str(grogra(FULL)) == FULL
     assert grogra(str(grogra(FULL))) == grogra(FULL)
@@ -78,16 +79,35 @@ def test_every_arrow_parts_a_symbol_from_what_replaces_it(arrow: str) -> None:
 
 
 def test_numbers_are_glued_to_built_in_commands_and_to_no_other_symbol() -> None:
-    assert successor("a # RU45 RH-25 L*0.6 D+3 F100 P2 L10 @.5 Ll*2 RV-0.03") == \
-        "RU(45)RH(-25)L*(0.6)D+(3)F(100)P(2)L(10)@(0.5)Ll*(2)RV(-0.03)"
-    assert [m.symbol for m in grogra("* # u1' t0 s1 FF RU45x b").productions[0].successor] == \
-        ["u1'", "t0", "s1", "FF", "RU45x", "b"]
+    assert (
+        successor("a # RU45 RH-25 L*0.6 D+3 F100 P2 L10 @.5 Ll*2 RV-0.03")
+        == "RU(45)RH(-25)L*(0.6)D+(3)F(100)P(2)L(10)@(0.5)Ll*(2)RV(-0.03)"
+    )
+    assert [m.symbol for m in grogra("* # u1' t0 s1 FF RU45x b").productions[0].successor] == [
+        "u1'",
+        "t0",
+        "s1",
+        "FF",
+        "RU45x",
+        "b",
+    ]
     assert grogra("a # F(100) L*(0.6)") == grogra("a # F100 L*0.6")
 
 
 def test_an_operator_is_part_of_a_command_only_where_a_value_follows() -> None:
-    assert [m.symbol for m in grogra("* # F+F--F+ F L+(3) L *").productions[0].successor] == \
-        ["F", "+", "F", "-", "-", "F", "+", "F", "L+", "L", "*"]
+    assert [m.symbol for m in grogra("* # F+F--F+ F L+(3) L *").productions[0].successor] == [
+        "F",
+        "+",
+        "F",
+        "-",
+        "-",
+        "F",
+        "+",
+        "F",
+        "L+",
+        "L",
+        "*",
+    ]
 
 
 def test_a_symbol_may_be_replaced_by_nothing() -> None:
@@ -138,25 +158,39 @@ def test_what_has_no_meaning_here_is_told() -> None:
 
 
 def test_constants_are_declared_with_the_range_of_their_slider() -> None:
-    assert [str(c) for c in grogra("\\const n 3 in 1 .. 9 by 2, \\const m (2*n), \\const k -1, \\axiom a(m)").constants] == \
-        ["n = 3 in 1 .. 9 by 2", "m = 2 * n", "k = -1"]
+    assert [str(c) for c in grogra("\\const n 3 in 1 .. 9 by 2, \\const m (2*n), \\const k -1, \\axiom a(m)").constants] == [
+        "n = 3 in 1 .. 9 by 2",
+        "m = 2 * n",
+        "k = -1",
+    ]
 
 
 def test_what_only_the_slides_spell_so_is_told() -> None:
     text = "a \\rightarrow F [RU45 b] a,\n(x \\geq 17) b(x) → \\dots\nStartwort a"
     assert grogra(text).notes[:2] == (
         'Read as in GROGRA: "\\rightarrow" as "#", "\\geq" as ">=", "→" as "#", "Startwort" as "\\axiom".',
-        '"\\dots" marks something that is not printed: it is left out.')
+        '"\\dots" marks something that is not printed: it is left out.',
+    )
     assert grogra("a # b /* → */, \\axiom a").notes == ()
 
 
 # --- variables ------------------------------------------------------------------------------------------------------
 
-@pytest.mark.parametrize(("kind", "drawn"), [
-    ("uniform 0 360", "uniform(0, 360)"), ("uniform -10 0", "uniform(-10, 0)"), ("normal 0 9", "normal(0, 3)"),
-    ("normal 1 0.25", "normal(1, 0.5)"), ("normal 0 15", "normal(0, sqrt(15))"), ("binomial 10 0.5", "binomial(10, 0.5)"),
-    ("poisson (k+1)", "poisson(k + 1)"), ("distribution 0.2 0.8", "table(0.2, 0.8)"), ("table 1 2 k", "table(1, 2, k)"),
-])
+
+@pytest.mark.parametrize(
+    ("kind", "drawn"),
+    [
+        ("uniform 0 360", "uniform(0, 360)"),
+        ("uniform -10 0", "uniform(-10, 0)"),
+        ("normal 0 9", "normal(0, 3)"),
+        ("normal 1 0.25", "normal(1, 0.5)"),
+        ("normal 0 15", "normal(0, sqrt(15))"),
+        ("binomial 10 0.5", "binomial(10, 0.5)"),
+        ("poisson (k+1)", "poisson(k + 1)"),
+        ("distribution 0.2 0.8", "table(0.2, 0.8)"),
+        ("table 1 2 k", "table(1, 2, k)"),
+    ],
+)
 def test_a_random_variable_is_drawn_anew_at_every_use(kind: str, drawn: str) -> None:
     text = f"\\const k 2, \\var x {kind}, \\axiom a, a # RU(x) F(1 + x)"
     assert successor(text) == f"RU({drawn})F(1 + {drawn})"
@@ -177,8 +211,9 @@ def test_a_parameter_comes_before_a_variable_of_its_name() -> None:
 def test_an_index_counts_the_repetitions_of_its_level() -> None:
     system = grogra("\\var i index, \\var j index 1, * # &2 < a(i) &3 < b(i, j) > >")
     assert str(derive(system, 1)[1]) == ("a(0) b(0, 0) b(0, 1) b(0, 2) a(1) b(1, 0) b(1, 1) b(1, 2)")
-    assert system.productions[0].successor == (Repeat(Number(2), (
-        Pattern("a", (Name("i"),)), Repeat(Number(3), (Pattern("b", (Name("i"), Name("j"))),), "j")), "i"),)
+    assert system.productions[0].successor == (
+        Repeat(Number(2), (Pattern("a", (Name("i"),)), Repeat(Number(3), (Pattern("b", (Name("i"), Name("j"))),), "j")), "i"),
+    )
 
 
 def test_two_indexes_of_one_level_count_alike() -> None:
@@ -205,35 +240,52 @@ def test_functions_of_expressions_are_the_kits_own() -> None:
 
 # --- chance ---------------------------------------------------------------------------------------------------------
 
-@pytest.mark.parametrize(("rules", "whole"), [
-    ("a # b ?0.65, a # c ?0.35", "a -> b : 0.65 | a -> c : 0.35"),
-    ("a # b ?0.3, a # c ?0.5", "a -> b : 0.3 | a -> c : 0.5 | a -> a : 0.2"),
-    ("a # b ?0.3, a # c", "a -> b : 0.3 | a -> c : 0.7"),
-    ("a # b ?1/3", "a -> b : 1/3 | a -> a : 2/3"),
-    ("a # b ?0.7, a # c ?0.6", "a -> b : 0.7 | a -> c : 0.3"),
-    ("a # b ?1, a # c", "a -> b : 1 | a -> c"),
-    ("a # b ?p, a # c", "a -> b : p | a -> c : max(0, 1 - p)"),
-    ("a # b ?p, a # c ?0.1", "a -> b : p | a -> c : 0.1 | a -> a : max(0, 1 - (p + 0.1))"),
-    ("(t < 5) a(t) # b ?0.3", "a(t) : t < 5 -> b : 0.3 | a(t) : t < 5 -> a(t) : 0.7"),
-    ("(t < 5) a(t) # b ?0.3, a(s) # c ?0.5",
-     "a(t) : t < 5 -> b : 0.3 | a(s) -> c : 0.5 | a(t) -> a(t) : max(0, 1 - (if(t < 5, 0.3, 0) + 0.5))"),
-    ("(t < 5) a(t) # b ?0.8, (t >= 5) a(t) # c ?0.7",
-     "a(t) : t < 5 -> b : 0.8 | a(t) : t >= 5 -> c : 0.7 | "
-     "a(t) -> a(t) : max(0, 1 - (if(t < 5, 0.8, 0) + if(t >= 5, 0.7, 0)))"),
-    ("(t < 5) a(t) # b ?0.7, (t > 2) a(t) # c ?0.7, a(t) # d",
-     "a(t) : t < 5 -> b : 0.7 | a(t) : t > 2 -> c : min(0.7, max(0, 1 - if(t < 5, 0.7, 0))) | a(t) -> d : "
-     "max(0, 1 - (if(t < 5, 0.7, 0) + if(t > 2, 0.7, 0)))"),
-    ("a # b ?p, a # c ?(1-p)", "a -> b : p | a -> c : 1 - p"),
-    ("(t < 2) a(t) # b, (t < 3) a(t) # c ?p, (t < 1) a(t) # d, a(t) # e ?p",
-     "a(t) : t < 2 -> b | a(t) : t < 3 -> c : p | a(t) : t < 1 -> d : max(0, 1 - if(t < 3, p, 0)) | "
-     "a(t) -> e : min(p, max(0, 1 - (if(t < 3, p, 0) + if(t < 1, 1, 0)))) | "
-     "a(t) -> a(t) : max(0, 1 - (if(t < 3, p, 0) + if(t < 1, 1, 0) + p))"),
-    ("(t < 5) a(t) # b ?0.3, (s < 5) a(s) # c(s) ?0.5",
-     "a(t) : t < 5 -> b : 0.3 | a(s) : s < 5 -> c(s) : 0.5 | a(t) : t < 5 -> a(t) : 0.2"),
-    ("a < a # b ?0.4, a # c", "a < a -> b : 0.4 | a < a -> c : 0.6 | a -> c"),
-    ("a(1) # b ?0.5, (n < 0) a(n) # d, a(n) # c(n)", "a(1) -> b : 0.5 | a(n) : n < 0 -> d | a(1) -> c(1) : 0.5 | a(n) -> c(n)"),
-    ("(t > 1) a(t) # b, a(t) # c ?0.5", "a(t) : t > 1 -> b | a(t) -> c : 0.5 | a(t) -> a(t) : 0.5"),
-])
+
+@pytest.mark.parametrize(
+    ("rules", "whole"),
+    [
+        ("a # b ?0.65, a # c ?0.35", "a -> b : 0.65 | a -> c : 0.35"),
+        ("a # b ?0.3, a # c ?0.5", "a -> b : 0.3 | a -> c : 0.5 | a -> a : 0.2"),
+        ("a # b ?0.3, a # c", "a -> b : 0.3 | a -> c : 0.7"),
+        ("a # b ?1/3", "a -> b : 1/3 | a -> a : 2/3"),
+        ("a # b ?0.7, a # c ?0.6", "a -> b : 0.7 | a -> c : 0.3"),
+        ("a # b ?1, a # c", "a -> b : 1 | a -> c"),
+        ("a # b ?p, a # c", "a -> b : p | a -> c : max(0, 1 - p)"),
+        ("a # b ?p, a # c ?0.1", "a -> b : p | a -> c : 0.1 | a -> a : max(0, 1 - (p + 0.1))"),
+        ("(t < 5) a(t) # b ?0.3", "a(t) : t < 5 -> b : 0.3 | a(t) : t < 5 -> a(t) : 0.7"),
+        (
+            "(t < 5) a(t) # b ?0.3, a(s) # c ?0.5",
+            "a(t) : t < 5 -> b : 0.3 | a(s) -> c : 0.5 | a(t) -> a(t) : max(0, 1 - (if(t < 5, 0.3, 0) + 0.5))",
+        ),
+        (
+            "(t < 5) a(t) # b ?0.8, (t >= 5) a(t) # c ?0.7",
+            "a(t) : t < 5 -> b : 0.8 | a(t) : t >= 5 -> c : 0.7 | "
+            "a(t) -> a(t) : max(0, 1 - (if(t < 5, 0.8, 0) + if(t >= 5, 0.7, 0)))",
+        ),
+        (
+            "(t < 5) a(t) # b ?0.7, (t > 2) a(t) # c ?0.7, a(t) # d",
+            "a(t) : t < 5 -> b : 0.7 | a(t) : t > 2 -> c : min(0.7, max(0, 1 - if(t < 5, 0.7, 0))) | a(t) -> d : "
+            "max(0, 1 - (if(t < 5, 0.7, 0) + if(t > 2, 0.7, 0)))",
+        ),
+        ("a # b ?p, a # c ?(1-p)", "a -> b : p | a -> c : 1 - p"),
+        (
+            "(t < 2) a(t) # b, (t < 3) a(t) # c ?p, (t < 1) a(t) # d, a(t) # e ?p",
+            "a(t) : t < 2 -> b | a(t) : t < 3 -> c : p | a(t) : t < 1 -> d : max(0, 1 - if(t < 3, p, 0)) | "
+            "a(t) -> e : min(p, max(0, 1 - (if(t < 3, p, 0) + if(t < 1, 1, 0)))) | "
+            "a(t) -> a(t) : max(0, 1 - (if(t < 3, p, 0) + if(t < 1, 1, 0) + p))",
+        ),
+        (
+            "(t < 5) a(t) # b ?0.3, (s < 5) a(s) # c(s) ?0.5",
+            "a(t) : t < 5 -> b : 0.3 | a(s) : s < 5 -> c(s) : 0.5 | a(t) : t < 5 -> a(t) : 0.2",
+        ),
+        ("a < a # b ?0.4, a # c", "a < a -> b : 0.4 | a < a -> c : 0.6 | a -> c"),
+        (
+            "a(1) # b ?0.5, (n < 0) a(n) # d, a(n) # c(n)",
+            "a(1) -> b : 0.5 | a(n) : n < 0 -> d | a(1) -> c(1) : 0.5 | a(n) -> c(n)",
+        ),
+        ("(t > 1) a(t) # b, a(t) # c ?0.5", "a(t) : t > 1 -> b | a(t) -> c : 0.5 | a(t) -> a(t) : 0.5"),
+    ],
+)
 def test_what_probabilities_leave_is_the_chance_that_nothing_happens(rules: str, whole: str) -> None:
     system = grogra(f"\\const p 0.3, \\axiom a a(1), {rules}")
     assert " | ".join(map(str, system.productions)) == whole
@@ -242,7 +294,8 @@ def test_what_probabilities_leave_is_the_chance_that_nothing_happens(rules: str,
 
 def test_probabilities_that_were_changed_are_told() -> None:
     assert grogra("\\axiom a, a # b ?0.7, a # c ?0.6").notes == (
-        "The probabilities of a add up to more than 1: 0.6 is read as 0.3.",)
+        "The probabilities of a add up to more than 1: 0.6 is read as 0.3.",
+    )
     assert grogra("\\axiom a, a # b ?0.7").notes == ("a stays as it is with the probability that its rules leave: 0.3.",)
 
 
@@ -281,13 +334,13 @@ def _taken(rules: str, t: int) -> dict[str, Fraction]:
 def test_of_the_rules_that_match_each_is_applied_as_often_as_grogra_says(rules: str, t: int) -> None:
     system = grogra(f"\\axiom a(0), {rules}")
     order = {"t": 0}
-    matching = [rule for rule in system.productions
-                if rule.condition is None or function_of(rule.condition, order)((t,))]
+    matching = [rule for rule in system.productions if rule.condition is None or function_of(rule.condition, order)((t,))]
     if not matching or matching[0].probability is None:  # the kit's rule: the first that matches, unless that has a weight
         weights = [(matching[0], Fraction(1))] if matching else []
     else:
-        weights = [(rule, Fraction(function_of(rule.probability, order)((t,)))) for rule in matching
-                   if rule.probability is not None]
+        weights = [
+            (rule, Fraction(function_of(rule.probability, order)((t,)))) for rule in matching if rule.probability is not None
+        ]
     total = sum((weight for _, weight in weights), Fraction(0))
     found: Counter[str] = Counter({} if weights else {"a": Fraction(1)})  # type: ignore[dict-item]
     for rule, weight in weights:
@@ -303,11 +356,20 @@ def test_conditions_that_are_apart_never_hold_at_once(one: Expression, other: Ex
         assert not exclusive(one, other)
 
 
-@pytest.mark.parametrize(("one", "other", "are"), [
-    ("t < 2", "t >= 2", True), ("t < 2", "t > 1", False), ("t = 1", "t = 2", True), ("t < 1 || t > 4", "t = 3", True),
-    ("!(t < 1)", "t < 1", True), ("t < x", "t > x", False), ("t < 1 && x < 1", "t = 0 && x > 1", True),
-    ("1 < t", "t <= 1", True), ("t + 1 < 2", "t > 5", False),
-])
+@pytest.mark.parametrize(
+    ("one", "other", "are"),
+    [
+        ("t < 2", "t >= 2", True),
+        ("t < 2", "t > 1", False),
+        ("t = 1", "t = 2", True),
+        ("t < 1 || t > 4", "t = 3", True),
+        ("!(t < 1)", "t < 1", True),
+        ("t < x", "t > x", False),
+        ("t < 1 && x < 1", "t = 0 && x > 1", True),
+        ("1 < t", "t <= 1", True),
+        ("t + 1 < 2", "t > 5", False),
+    ],
+)
 def test_conditions_that_compare_with_numbers_are_told_apart(one: str, other: str, are: bool) -> None:
     first, second = (rule.condition for rule in grogra(f"({one}) a(t, x) # b, ({other}) a(t, x) # c").productions)
     assert exclusive(first, second) == exclusive(second, first) == are
@@ -333,7 +395,9 @@ def test_a_random_flight_has_a_segment_more_at_every_step() -> None:
 def test_a_plant_of_many_meristems_renews_itself_from_its_roots() -> None:
     system = grogra((LISTINGS / "003-meristems.grogra.txt").read_text(encoding="utf-8"))
     assert [note.split(" comes")[0] for note in system.notes] == [
-        "Production 12, for u1, is never applied: production 11", "Production 13, for u1', is never applied: production 10"]
+        "Production 12, for u1, is never applied: production 11",
+        "Production 13, for u1', is never applied: production 10",
+    ]
     words = [derive(system, 15, seed=seed)[15] for seed in range(20)]
     assert {derive(system, 5, seed=seed)[5].counts()["F"] for seed in range(20)} == {59}
     assert 954 <= mean(word.counts()["F"] for word in words) <= 1448  # K12: the first rule that matches
@@ -341,6 +405,7 @@ def test_a_plant_of_many_meristems_renews_itself_from_its_roots() -> None:
 
 
 # --- print that cannot be told apart --------------------------------------------------------------------------------
+
 
 def test_an_l_that_stands_for_a_1_is_read_as_one() -> None:
     system = grogra("* # ul b1, u1 # F bl, b1 # c")
@@ -366,6 +431,7 @@ def test_the_plant_of_seed_003_grows_as_printed() -> None:
 
 # --- what is written ------------------------------------------------------------------------------------------------
 
+
 def test_a_word_prints_as_in_the_slides() -> None:
     word = derive(grogra("\\axiom a, a # F [RU45 b] a, b # F b"), 2)[2]
     assert str(word) == "F [RU45 F b] F [RU45 b] a"
@@ -374,32 +440,44 @@ def test_a_word_prints_as_in_the_slides() -> None:
 
 def test_a_number_that_is_not_plain_stands_in_parentheses() -> None:
     notation = dialect_named("grogra")
-    word = [Module("RU", (Fraction(1, 3),)), Module("F", (1e30,)), Module("RU", (-45,)), Module("L*", (0.5,)),
-            Module("a", (1,)), Module("F", (1, 2))]
+    word = [
+        Module("RU", (Fraction(1, 3),)),
+        Module("F", (1e30,)),
+        Module("RU", (-45,)),
+        Module("L*", (0.5,)),
+        Module("a", (1,)),
+        Module("F", (1, 2)),
+    ]
     assert notation.word(word) == "RU(1/3) F(1e+30) RU-45 L*0.5 a(1) F(1, 2)"
 
 
 def test_names_that_are_taken_are_left_to_their_owners() -> None:
     system = read("x0 = 1\naxiom: a\na -> F(uniform(0, x0)) b(2)\nb(x1) -> F(uniform(0, 1) + x1)")
-    assert write(system, "grogra").split("\n")[2:5] == [
-        "\\var x2 uniform 0 x0,", "\\var x3 uniform 0 1,", "\\axiom a,"]
+    assert write(system, "grogra").split("\n")[2:5] == ["\\var x2 uniform 0 x0,", "\\var x3 uniform 0 1,", "\\axiom a,"]
     assert grogra(write(system, "grogra")) == system
 
 
-@pytest.mark.parametrize(("text", "lacking"), [
-    ("axiom: A\nmeta: A A -> A", "meta-rules"), ("axiom: A\ndecomposition:\nA -> B", "decomposition rules"),
-    ("ignore: +\naxiom: A", "ignored symbols"), ("axiom: A\nA -> B : 1\nA -> C : 1", "probabilities with another sum than 1"),
-    ("axiom: A\nA -> B : 0.5", "probabilities with another sum than 1"),
-    ("axiom: A(1)\nA(t) -> F(uniform(0, t))", "random numbers that depend on parameters"),
-    ("axiom: A\nA -> F(uniform(0, uniform(0, 1)))", "random numbers that depend on parameters"),
-    ("axiom: A\nA -> F(normal(0, sqrt(4)))", "random number like normal(0, sqrt(4))"),
-    ("axiom: A\nA -> repeat(2, i) <F>", 'index like "i", which counts and is not used'),
-    ("axiom: A\nA -> repeat(2, i) <F(i)> repeat(2) <repeat(2, i) <F(i)>>", 'index like "i", which counts at two levels'),
-    ("axiom: A # B", 'symbol "#"'), ("axiom: & A", 'symbol "&"'), ("axiom: F100 A", 'symbol "F100"'),
-    ("axiom: A(1)\nA(t) -> F(sensed(t, 1))", "sensitive functions whose number is calculated"),
-    ("axiom: al a1", 'such difference between 1 and l ("al" is read as "a1")'),
-    ("axiom: A\nA > [B ε] -> C", "branch ends in contexts"),
-])
+@pytest.mark.parametrize(
+    ("text", "lacking"),
+    [
+        ("axiom: A\nmeta: A A -> A", "meta-rules"),
+        ("axiom: A\ndecomposition:\nA -> B", "decomposition rules"),
+        ("ignore: +\naxiom: A", "ignored symbols"),
+        ("axiom: A\nA -> B : 1\nA -> C : 1", "probabilities with another sum than 1"),
+        ("axiom: A\nA -> B : 0.5", "probabilities with another sum than 1"),
+        ("axiom: A(1)\nA(t) -> F(uniform(0, t))", "random numbers that depend on parameters"),
+        ("axiom: A\nA -> F(uniform(0, uniform(0, 1)))", "random numbers that depend on parameters"),
+        ("axiom: A\nA -> F(normal(0, sqrt(4)))", "random number like normal(0, sqrt(4))"),
+        ("axiom: A\nA -> repeat(2, i) <F>", 'index like "i", which counts and is not used'),
+        ("axiom: A\nA -> repeat(2, i) <F(i)> repeat(2) <repeat(2, i) <F(i)>>", 'index like "i", which counts at two levels'),
+        ("axiom: A # B", 'symbol "#"'),
+        ("axiom: & A", 'symbol "&"'),
+        ("axiom: F100 A", 'symbol "F100"'),
+        ("axiom: A(1)\nA(t) -> F(sensed(t, 1))", "sensitive functions whose number is calculated"),
+        ("axiom: al a1", 'such difference between 1 and l ("al" is read as "a1")'),
+        ("axiom: A\nA > [B ε] -> C", "branch ends in contexts"),
+    ],
+)
 def test_what_the_notation_lacks_is_named(text: str, lacking: str) -> None:
     with pytest.raises(ModelValueError) as refused:
         write(read(text), "grogra")
@@ -456,11 +534,79 @@ def _words(system: LSystem, seed: int) -> list[tuple[Pattern, ...]] | str:
 # --- any text -------------------------------------------------------------------------------------------------------
 
 PIECES = (
-    "a", "b", "F", "u1'", "ul", "t", "[", "]", "(", ")", "->", "#", "##", "→", "\\rightarrow", ":", "=", "==", "<", "<=", "0",
-    "2.5", "1e9", ".", "+", "-", "*", "/", "^", "&&", "!", ",", ";", "?", "?0.5", "&", "&3 <", "\\var", "\\axiom", "\\angle",
+    "a",
+    "b",
+    "F",
+    "u1'",
+    "ul",
+    "t",
+    "[",
+    "]",
+    "(",
+    ")",
+    "->",
+    "#",
+    "##",
+    "→",
+    "\\rightarrow",
+    ":",
+    "=",
+    "==",
+    "<",
+    "<=",
+    "0",
+    "2.5",
+    "1e9",
+    ".",
+    "+",
+    "-",
+    "*",
+    "/",
+    "^",
+    "&&",
+    "!",
+    ",",
+    ";",
+    "?",
+    "?0.5",
+    "&",
+    "&3 <",
+    "\\var",
+    "\\axiom",
+    "\\angle",
     "\\set",
-    "\\const", "\\dots", "\\geq", "index", "uniform", "function", "/*", "*/", "%", "'", '"', "~", "@", "@o", "RU45", "L*0.6",
-    "D+3", "\n", " ", "\t", "\x00", "\ufeff", "\u202e", "\ud800", "Ф", "Startwort a", "ε", "in", "..", "max(", "if(")
+    "\\const",
+    "\\dots",
+    "\\geq",
+    "index",
+    "uniform",
+    "function",
+    "/*",
+    "*/",
+    "%",
+    "'",
+    '"',
+    "~",
+    "@",
+    "@o",
+    "RU45",
+    "L*0.6",
+    "D+3",
+    "\n",
+    " ",
+    "\t",
+    "\x00",
+    "\ufeff",
+    "\u202e",
+    "\ud800",
+    "Ф",
+    "Startwort a",
+    "ε",
+    "in",
+    "..",
+    "max(",
+    "if(",
+)
 MODELS = (FULL, *(path.read_text(encoding="utf-8") for path in sorted(LISTINGS.glob("*.grogra.txt"))))
 
 
@@ -470,7 +616,7 @@ def spoilt(draw: st.DrawFn) -> str:
     text = draw(st.sampled_from(MODELS))
     for _ in range(draw(st.integers(0, 2))):
         start = draw(st.integers(0, len(text)))
-        text = text[:start] + draw(st.sampled_from(("", *PIECES))) + text[start + draw(st.integers(0, 3)):]
+        text = text[:start] + draw(st.sampled_from(("", *PIECES))) + text[start + draw(st.integers(0, 3)) :]
     return text
 
 
@@ -486,11 +632,17 @@ def test_any_text_is_a_system_or_an_explained_slip(text: str) -> None:
     assert system is None or grogra(str(system)) == system
 
 
-@pytest.mark.parametrize("text", [
-    "axiom: A\nA -> B(L*0.5) : 0.5", "axiom: &A\n&B < A -> repeat(2) <&A>", "axiom: A\nA -> A # B",
-    "axiom: A\n\\ < A -> RU(45)",
-    "p_1 : (a_r, 1) \\rightarrow (a_l, 0)(b_r, 0)", "#define N 3\nAxiom: A\nA --> F",
-])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "axiom: A\nA -> B(L*0.5) : 0.5",
+        "axiom: &A\n&B < A -> repeat(2) <&A>",
+        "axiom: A\nA -> A # B",
+        "axiom: A\n\\ < A -> RU(45)",
+        "p_1 : (a_r, 1) \\rightarrow (a_l, 0)(b_r, 0)",
+        "#define N 3\nAxiom: A\nA --> F",
+    ],
+)
 def test_other_notations_have_none_of_its_marks(text: str) -> None:
     assert dialect_named("grogra").likely(text) == 0
     assert recognise(text).name != "grogra"

@@ -17,8 +17,10 @@ IN_FRONT = 'It is written in front, in parentheses: "(t < 6) k(t) # k(t+1)".'
 REPEAT = 'A repetition reads "&(3) < F a >"; for the turn that ABOP writes as "&", type "RL(60)".'
 BEHIND = 'Contexts come before the "#"; after it "<" and ">" go with "&(3)".'
 NUMBER = 'Numbers are glued to a turtle command, as in "F100", or written in parentheses after a symbol, as in "a(2)".'
-NAMES = ('A parameter is named in front, as in "a(t) # a(t+1)"; a constant or a variable on a line such as "\\const k 3," or '
-         '"\\var x uniform 0 360,".')
+NAMES = (
+    'A parameter is named in front, as in "a(t) # a(t+1)"; a constant or a variable on a line such as "\\const k 3," or '
+    '"\\var x uniform 0 360,".'
+)
 KINDS = "Kinds of variables are: uniform, normal, binomial, poisson, distribution, table, index, function."
 LETTERS = "Symbols are made of the letters A to Z, digits, _ and '."
 A_VALUE = 'Possible here: a number, a name or "(".'
@@ -34,7 +36,7 @@ COMMAS = [
     ("\\var x uniform 0 360\n\\var y uniform 0 1", 'A "," is missing here', 1, 21, COMMA),
     ("a # b;\nc # d", 'This ";" does not separate rules', 1, 6, COMMA),
     ("a # b ?0,5", "A number is typed with a point", 1, 9, 'Type "0.5", not "0,5".'),
-    ("a # b # c", 'This is a second arrow in one rule', 1, 7, COMMA),
+    ("a # b # c", "This is a second arrow in one rule", 1, 7, COMMA),
 ]
 ARROWS = [
     ("a F a", "An arrow is missing here", 1, 3, RULE),
@@ -100,8 +102,13 @@ WORDS = [
     ("a(t) # b(t**2)", "This is not an operator", 1, 11, 'A power is typed "t^2".'),
     ('a # "b"', "Quotation marks are not needed here", 1, 5, "Words are typed without quotation marks."),
     ("a # \\vec{b}", 'I do not know "\\vec"', 1, 5, "Possible here: a symbol or the end of the line."),
-    ("a # b(uniform(0, 1))", "A random number is declared on a line of its own", 1, 7,
-     'Type "\\var x uniform ...," there, and "x" here.'),
+    (
+        "a # b(uniform(0, 1))",
+        "A random number is declared on a line of its own",
+        1,
+        7,
+        'Type "\\var x uniform ...," there, and "x" here.',
+    ),
     ("s < a ## b", "A rule of the interpretation cannot have a context", 1, 1, "It is applied to one module at a time."),
 ]
 LINES = [
@@ -109,18 +116,33 @@ LINES = [
     ("\\foo 3, a # b", 'I do not know "\\foo"', 1, 1, "Possible are: \\axiom, \\angle, \\length, \\const, \\var, \\set."),
     ("\\angle, a # b", 'Something is missing after "\\angle"', 1, 1, 'It reads as in "\\angle 60,".'),
     ("\\var x, a # b", 'Something is missing after "\\var"', 1, 1, 'It reads as in "\\var x uniform 0 360,".'),
-    ("\\set turtle abob, a # b", 'There is no turtle called "abob"', 1, 13,
-     "Turtles are: abop, grogra, plant-string, fractint."),
+    (
+        "\\set turtle abob, a # b",
+        'There is no turtle called "abob"',
+        1,
+        13,
+        "Turtles are: abop, grogra, plant-string, fractint.",
+    ),
     ("\\const k = 3, a # b", 'This "=" is not needed', 1, 10, 'Type "\\const k 3,".'),
     ("angle: 60, a # b", "This setting is written as in another notation", 1, 1, 'Type "\\angle 60,".'),
     ("start: a, a # b", "This setting is written as in another notation", 1, 1, 'Type "\\axiom a,".'),
     ("\\length 100 50, a # b", 'I did not expect "50" here', 1, 13, "Possible here: the end of the line."),
     ("\\axiom a, \\axiom b, a # b", "This is a second axiom", 1, 11, "A system has one axiom."),
     ("\\angle 60, \\angle 30, a # b", "The angle is set a second time", 1, 12, "Keep one of the two lines."),
-    ("\\var x uniform 0, a # RU(x)", 'A variable of the kind "uniform" takes 2 values, not 1', 1, 8,
-     'Type "\\var x uniform 0 360,".'),
-    ("\\var x distribution, a # RU(x)", 'A variable of the kind "distribution" takes 1 or more values, not 0', 1, 8,
-     'Type "\\var x distribution 0.2 0.3 0.5,".'),
+    (
+        "\\var x uniform 0, a # RU(x)",
+        'A variable of the kind "uniform" takes 2 values, not 1',
+        1,
+        8,
+        'Type "\\var x uniform 0 360,".',
+    ),
+    (
+        "\\var x distribution, a # RU(x)",
+        'A variable of the kind "distribution" takes 1 or more values, not 0',
+        1,
+        8,
+        'Type "\\var x distribution 0.2 0.3 0.5,".',
+    ),
     ("\\var i index 0 1, a # b", 'A variable of the kind "index" takes up to 1 value, not 2', 1, 8, 'Type "\\var i index 0,".'),
     ("\\var f function 2 1, a # b(f(1, 2))", "f(...) takes 1 value, not 2", 1, 28, None),
     ("\\var f function 2 1, a # b(f)", '"f" is a function, and its values are missing', 1, 28, 'It is called as in "f(1)".'),
@@ -139,34 +161,77 @@ UNKNOWN = [
     ("\\angle k, a # b", 'The name "k" cannot be used here', 1, 8, "The angle is set to a number."),
     ("a # b(f(1))", 'I do not know the function "f"', 1, 7, 'Declare it, as in "\\var f function 2 1,".'),
     ("a # b(sqr(2))", 'I do not know the function "sqr"', 1, 7, 'Did you mean "sqrt"?'),
-    ("\\var i index, a # b(i)", '"i" counts repetitions, and nothing is repeated here', 1, 21,
-     'It is used in what is repeated, as in "&(3) < a(i) >".'),
-    ("\\var i index 1, a # &3 < b(i) >", '"i" counts repetitions, and nothing is repeated here', 1, 28,
-     'It is used in what is repeated, as in "&(3) < a(i) >" with 1 more around it.'),
+    (
+        "\\var i index, a # b(i)",
+        '"i" counts repetitions, and nothing is repeated here',
+        1,
+        21,
+        'It is used in what is repeated, as in "&(3) < a(i) >".',
+    ),
+    (
+        "\\var i index 1, a # &3 < b(i) >",
+        '"i" counts repetitions, and nothing is repeated here',
+        1,
+        28,
+        'It is used in what is repeated, as in "&(3) < a(i) >" with 1 more around it.',
+    ),
     ("\\const n 3, \\var n uniform 0 1, a # b", 'The name "n" is declared twice', 1, 20, "Keep one of the two lines."),
     ("\\const angle 60, a # b", '"angle" is a setting, not a constant', 1, 1, 'Type "\\angle 60,".'),
     ("a(t, t) # b", 'The parameter "t" is named twice', 1, 6, "Give each parameter a name of its own."),
 ]
 SENSELESS = [
     ("\\axiom a 8-1, a # b", '"8-1" runs backwards', 1, 10, 'Steps are counted upwards, as in "1-8".'),
-    ("\\var x uniform 0 1, (x < 0.5) a # b", '"x" draws a new number at every use, which is not possible here', 1, 22,
-     'Random variables belong after the "#" of a rule, as in "a # F(x)".'),
-    ("\\var x uniform 0 1, \\axiom a(x), a(t) # b", '"x" draws a new number at every use, which is not possible here', 1, 30,
-     'Random variables belong after the "#" of a rule, as in "a # F(x)".'),
-    ("\\var f function x 1, a # b", 'The values of the function "f" must be whole numbers, 0 or more', 1, 8,
-     'Type "\\var f function 2 1,".'),
-    ("(t) k(t) # b", '"t" is a number, but something true or false is needed here', 1, 2,
-     'Compare it with something, as in "t > 0".'),
-    ("a(t) # b ?(t<5)", 'A probability follows the "?", but "t < 5" is true or false', 1, 12,
-     'A condition is written in front: "(t < 6) k(t) # k(t+1)".'),
-    ("a ## b ?0.5", "A rule of the interpretation cannot have a probability", 1, 9,
-     "A word is always drawn in the same way; chance belongs in the productions."),
+    (
+        "\\var x uniform 0 1, (x < 0.5) a # b",
+        '"x" draws a new number at every use, which is not possible here',
+        1,
+        22,
+        'Random variables belong after the "#" of a rule, as in "a # F(x)".',
+    ),
+    (
+        "\\var x uniform 0 1, \\axiom a(x), a(t) # b",
+        '"x" draws a new number at every use, which is not possible here',
+        1,
+        30,
+        'Random variables belong after the "#" of a rule, as in "a # F(x)".',
+    ),
+    (
+        "\\var f function x 1, a # b",
+        'The values of the function "f" must be whole numbers, 0 or more',
+        1,
+        8,
+        'Type "\\var f function 2 1,".',
+    ),
+    (
+        "(t) k(t) # b",
+        '"t" is a number, but something true or false is needed here',
+        1,
+        2,
+        'Compare it with something, as in "t > 0".',
+    ),
+    (
+        "a(t) # b ?(t<5)",
+        'A probability follows the "?", but "t < 5" is true or false',
+        1,
+        12,
+        'A condition is written in front: "(t < 6) k(t) # k(t+1)".',
+    ),
+    (
+        "a ## b ?0.5",
+        "A rule of the interpretation cannot have a probability",
+        1,
+        9,
+        "A word is always drawn in the same way; chance belongs in the productions.",
+    ),
     ("a # b ?(1/0)", '"1/0" has no value: division by zero', 1, 9, None),
     ("a # &2.5 < b >", '"2.5" is not a number of repetitions', 1, 6, "It must be a whole number from 0 to 100,000."),
 ]
 UNREADABLE = [*COMMAS, *ARROWS, *REPETITIONS, *CONDITIONS, *PARENTHESES, *WORDS, *LINES]
-ROWS = [*((ModelSyntaxError, row) for row in UNREADABLE), *((ModelNameError, row) for row in UNKNOWN),
-        *((ModelValueError, row) for row in SENSELESS)]
+ROWS = [
+    *((ModelSyntaxError, row) for row in UNREADABLE),
+    *((ModelNameError, row) for row in UNKNOWN),
+    *((ModelValueError, row) for row in SENSELESS),
+]
 
 
 def slip(text: str) -> LSystemError:

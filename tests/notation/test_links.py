@@ -45,9 +45,13 @@ def test_the_link_of_a_map_is_that_of_a_map() -> None:
     assert not is_map(packed(LinkContent("abop", {}, "axiom: A")))
 
 
-@pytest.mark.parametrize(("line", "kind", "told"), [
-    ("field: lihgt(1)", ModelNameError, 'I do not know the field "lihgt"'),
-    ("field: light(1, 2, 3, 4)", ModelSyntaxError, "takes 0 to 1 values, not 4")])
+@pytest.mark.parametrize(
+    ("line", "kind", "told"),
+    [
+        ("field: lihgt(1)", ModelNameError, 'I do not know the field "lihgt"'),
+        ("field: light(1, 2, 3, 4)", ModelSyntaxError, "takes 0 to 1 values, not 4"),
+    ],
+)
 def test_a_field_that_there_is_not_is_named(line: str, kind: type[Exception], told: str) -> None:
     with pytest.raises(kind, match=told):
         read(f"axiom: A ?E(0)\nA > ?E(x) -> A\n{line}")

@@ -33,19 +33,28 @@ def test_what_is_written_reads_back(system: MapSystem) -> None:
 def test_what_is_read_is_a_record() -> None:
     found = read_map("map: A> B C2<\nsteps: 3\nA> -> B [-A>] [+C2] A<  /* twice */")
     assert found.axiom == (Edge("A", ">"), Edge("B"), Edge("C2", "<"))
-    assert found.productions == (EdgeProduction(Edge("A", ">"), (
-        Edge("B"), Marker("-", Edge("A", ">")), Marker("+", Edge("C2")), Edge("A", "<"))),)
+    assert found.productions == (
+        EdgeProduction(Edge("A", ">"), (Edge("B"), Marker("-", Edge("A", ">")), Marker("+", Edge("C2")), Edge("A", "<"))),
+    )
     assert found.steps == 3
     assert str(found) == "map: A>BC2<\nsteps: 3\nA> -> B[-A>][+C2]A<"
 
 
-@pytest.mark.parametrize("text", [
-    "ω: ABC\np_1 : A → B[-A][+A]B", "\\omega = ABC\nA \\rightarrow B[−A][+A]B,", "Startwort ABC,\nA ::= B [- A] [+ A] B",
-    "axiom: A B C\nA --> B[-A]\n    [+A]B", "P = {\n  A -> B[-A][+A]B\n}\nmap: ABC", "map:ABC\np1: A->B[-A][+A]B",
-    "$\\omega : ABC$\n$A \\to B[-A][+A]B$", "```\n**map:** ABC\n1. A -> B[-A][+A]B\n```",
-    "$$\\begin{aligned}\n\\omega &: ABC \\\\\np_1 &: A \\rightarrow B[-A][+A]B\n\\end{aligned}$$",
-    "\\[\n\\omega: ABC\n\\]\n\\[ A \\longmapsto B[-A][+A]B \\quad (1) \\]",
-])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "ω: ABC\np_1 : A → B[-A][+A]B",
+        "\\omega = ABC\nA \\rightarrow B[−A][+A]B,",
+        "Startwort ABC,\nA ::= B [- A] [+ A] B",
+        "axiom: A B C\nA --> B[-A]\n    [+A]B",
+        "P = {\n  A -> B[-A][+A]B\n}\nmap: ABC",
+        "map:ABC\np1: A->B[-A][+A]B",
+        "$\\omega : ABC$\n$A \\to B[-A][+A]B$",
+        "```\n**map:** ABC\n1. A -> B[-A][+A]B\n```",
+        "$$\\begin{aligned}\n\\omega &: ABC \\\\\np_1 &: A \\rightarrow B[-A][+A]B\n\\end{aligned}$$",
+        "\\[\n\\omega: ABC\n\\]\n\\[ A \\longmapsto B[-A][+A]B \\quad (1) \\]",
+    ],
+)
 def test_print_has_many_forms(text: str) -> None:
     assert read_map(text) == read_map("map: ABC\nA -> B[-A][+A]B")
 
@@ -56,8 +65,16 @@ def test_a_mistake_in_a_formula_is_shown_where_it_was_typed() -> None:
     assert (found.value.message, found.value.line, found.value.column) == ('This "+" is outside of a marker', 2, 18)
 
 
-@pytest.mark.parametrize(("right", "left"), [("\\overrightarrow{A}", "\\overleftarrow{A}"), ("\\vec A", "\\overleftarrow A"),
-                                             ("A\u20d7", "A\u20d6"), ("A>", "A<"), ("\\vec{ A }", "A  <")])
+@pytest.mark.parametrize(
+    ("right", "left"),
+    [
+        ("\\overrightarrow{A}", "\\overleftarrow{A}"),
+        ("\\vec A", "\\overleftarrow A"),
+        ("A\u20d7", "A\u20d6"),
+        ("A>", "A<"),
+        ("\\vec{ A }", "A  <"),
+    ],
+)
 def test_arrows_stand_over_the_letters_or_behind_them(right: str, left: str) -> None:
     assert read_map(f"map: {right} {left} B").axiom == (Edge("A", ">"), Edge("A", "<"), Edge("B"))
 
@@ -97,8 +114,13 @@ UNREADABLE = [
     ("map: ABC\nA -> ε", "A wall cannot be erased", 2, 6, PROPAGATING),
     ("map: ABC\nA -> *", "A wall cannot be erased", 2, 6, PROPAGATING),
     ("map: ABC\nAB -> C", "Only one wall can be replaced", 2, 2, "Maps have no contexts. Write a production for each wall."),
-    ("map: ABC\nA < B > C -> D", "Only one wall can be replaced", 2, 5,
-     "Maps have no contexts. Write a production for each wall."),
+    (
+        "map: ABC\nA < B > C -> D",
+        "Only one wall can be replaced",
+        2,
+        5,
+        "Maps have no contexts. Write a production for each wall.",
+    ),
     ("map: ABC\nA(t) -> B", "A wall has no values", 2, 2, LETTERS),
     ("map: ABC\nA : 1 < 2 -> B", "A wall has no condition", 2, 3, PRODUCTION),
     ("map: ABC\nA_1 -> B", "A letter has no subscript here", 2, 2, "Write the number after the letter, as in A1."),
@@ -117,29 +139,55 @@ UNREADABLE = [
     ("map: ABC\nA -> B-A]B", 'This "-" is outside of a marker', 2, 7, MARKER),
     ("map: ABC\n# a cell", "This is not a production", 2, 1, 'A comment is written between "/*" and "*/".'),
     ("map: ABC\n/* a cell", "This comment is never closed", 2, 1, 'A comment ends with "*/".'),
-    ("map: ABC\n\u0410 -> B", 'I cannot read the character "А" (CYRILLIC CAPITAL LETTER A)', 2, 1,
-     "Walls are letters from A to Z."),
+    (
+        "map: ABC\n\u0410 -> B",
+        'I cannot read the character "А" (CYRILLIC CAPITAL LETTER A)',
+        2,
+        1,
+        "Walls are letters from A to Z.",
+    ),
 ]
 SENSELESS = [
     ("map: AB", "The first cell has only 2 walls", 1, 6, 'A cell has three walls or more, as in "map: AAA".'),
     ("map: A>", "The first cell has only 1 wall", 1, 6, 'A cell has three walls or more, as in "map: AAA".'),
-    ("sphere: D>", "The sphere has only 1 wall from pole to pole", 1, 9,
-     'Two walls or more divide it into cells, as in "sphere: D>D>D>D>".'),
-    ("map: ABC\nA< -> B", "A production is written in the direction of its wall", 2, 1,
-     'Write "A> -> ...": what becomes of the wall, from its beginning to its end.'),
-    ("map: ABC\nA -> B\nA -> C", "This is a second production for A", 3, 1,
-     "A wall has at most one production. With an arrow and without, walls are different ones."),
+    (
+        "sphere: D>",
+        "The sphere has only 1 wall from pole to pole",
+        1,
+        9,
+        'Two walls or more divide it into cells, as in "sphere: D>D>D>D>".',
+    ),
+    (
+        "map: ABC\nA< -> B",
+        "A production is written in the direction of its wall",
+        2,
+        1,
+        'Write "A> -> ...": what becomes of the wall, from its beginning to its end.',
+    ),
+    (
+        "map: ABC\nA -> B\nA -> C",
+        "This is a second production for A",
+        3,
+        1,
+        "A wall has at most one production. With an arrow and without, walls are different ones.",
+    ),
     ("map: ABC\nA -> [-A]", "Nothing is left of the wall A", 2, 7, "Walls are never erased: write the letter of a wall too."),
     ("map: ABC\nA> -> [-A]B", "This marker is at the end of the wall", 2, 8, BETWEEN),
     ("map: ABC\nA> -> B[-A]", "This marker is at the end of the wall", 2, 9, BETWEEN),
-    ("map: ABC\nA -> B[-A]C", "The neutral wall A would become something else from its other end", 2, 6,
-     'Read backwards, where left is right, this is "C[+A]B", and a wall without an arrow has no beginning. '
-     'Make both the same, or give the wall an arrow: "A> -> ...".'),
+    (
+        "map: ABC\nA -> B[-A]C",
+        "The neutral wall A would become something else from its other end",
+        2,
+        6,
+        'Read backwards, where left is right, this is "C[+A]B", and a wall without an arrow has no beginning. '
+        'Make both the same, or give the wall an arrow: "A> -> ...".',
+    ),
 ]
 
 
-@pytest.mark.parametrize(("kind", "row"), [*((ModelSyntaxError, row) for row in UNREADABLE),
-                                           *((ModelValueError, row) for row in SENSELESS)])
+@pytest.mark.parametrize(
+    ("kind", "row"), [*((ModelSyntaxError, row) for row in UNREADABLE), *((ModelValueError, row) for row in SENSELESS)]
+)
 def test_a_slip_is_explained(kind: type[LSystemError], row: Sequence[object]) -> None:
     text, *expected = row
     with pytest.raises(LSystemError) as caught:
@@ -149,8 +197,9 @@ def test_a_slip_is_explained(kind: type[LSystemError], row: Sequence[object]) ->
     assert type(error) is kind
 
 
-@pytest.mark.parametrize("successor", ["B[-A][+A]B", "B[+A][-A]B", "B[-A]x[+A]B", "B>B<", "B<[-C>]x[+C>]B>", "A",
-                                       "B[-A][-C][+C][+A]B"])
+@pytest.mark.parametrize(
+    "successor", ["B[-A][+A]B", "B[+A][-A]B", "B[-A]x[+A]B", "B>B<", "B<[-C>]x[+C>]B>", "A", "B[-A][-C][+C][+A]B"]
+)
 def test_a_neutral_wall_becomes_the_same_from_both_ends(successor: str) -> None:
     assert read_map(f"map: AAA\nA -> {successor}").productions
 
@@ -165,25 +214,67 @@ def test_a_neutral_wall_that_differs_from_its_ends_is_refused_but_not_one_with_a
 def test_what_can_never_take_part_is_told() -> None:
     assert read_map("map: A>A>A>\nA> -> A>[-B>]A>\nC -> D").notes == (
         "The production C -> D is never used: no wall C occurs.",
-        "Markers of B> divide no cell: they need markers of B<, and there are none.")
+        "Markers of B> divide no cell: they need markers of B<, and there are none.",
+    )
     assert read_map("map: A>A>A<\nA> -> A>[-B>][-B<][-C]A>\nB> -> A>\nC -> D").notes == ()
 
 
-@pytest.mark.parametrize(("text", "message"), [
-    ("map: " + "A" * 60_000, "This line has 60,005 characters; the limit is 50,000"),
-    ("map: ABC" + "".join(f"\nA{i} -> A" for i in range(1_001)), "The model has more than 1,000 productions"),
-    ("map: A" + "1" * 65 + "BC", "This name has more than 64 letters"),
-    ("map: ABC" + " " * 1_000_000, "The text has 1,000,008 characters; the limit is 1,000,000"),
-])
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("map: " + "A" * 60_000, "This line has 60,005 characters; the limit is 50,000"),
+        ("map: ABC" + "".join(f"\nA{i} -> A" for i in range(1_001)), "The model has more than 1,000 productions"),
+        ("map: A" + "1" * 65 + "BC", "This name has more than 64 letters"),
+        ("map: ABC" + " " * 1_000_000, "The text has 1,000,008 characters; the limit is 1,000,000"),
+    ],
+)
 def test_what_is_too_long_is_refused(text: str, message: str) -> None:
     with pytest.raises((ModelLimitError, ModelSyntaxError)) as caught:
         read_map(text)
     assert caught.value.message == message
 
 
-PIECES = ["A", "B", "x1", ">", "<", "[", "]", "[-", "[+A]", "->", "→", "map:", "steps:", "3", "\n", " ", "ω", ":", "=", ",",
-          "ε", "\\vec", "\\overleftarrow{A}", "A\u20d7", "{", "}", "(", ")", "+", "-", "−", "/*", "*/", "p_1 :", "Startwort",
-          "#", "_", "\u0410", "\x00"]
+PIECES = [
+    "A",
+    "B",
+    "x1",
+    ">",
+    "<",
+    "[",
+    "]",
+    "[-",
+    "[+A]",
+    "->",
+    "→",
+    "map:",
+    "steps:",
+    "3",
+    "\n",
+    " ",
+    "ω",
+    ":",
+    "=",
+    ",",
+    "ε",
+    "\\vec",
+    "\\overleftarrow{A}",
+    "A\u20d7",
+    "{",
+    "}",
+    "(",
+    ")",
+    "+",
+    "-",
+    "−",
+    "/*",
+    "*/",
+    "p_1 :",
+    "Startwort",
+    "#",
+    "_",
+    "\u0410",
+    "\x00",
+]
 
 
 @given(st.lists(st.sampled_from(PIECES), max_size=14).map("".join))

@@ -63,7 +63,7 @@ def test_a_corrected_listing_derives_its_words(file: str) -> None:
     derivation = derive(system, max([step for step, _ in listing["expected"]] + [len(listing.get("counts", "1")) - 1]))
     assert [spelt(derivation[step]) for step, _ in listing["expected"]] == [spelt(word) for _, word in listing["expected"]]
     counts = listing.get("counts", [])
-    assert [len(word) for word in derivation][:len(counts)] == counts
+    assert [len(word) for word in derivation][: len(counts)] == counts
 
 
 @pytest.mark.parametrize("file", SYSTEMS)
@@ -101,21 +101,32 @@ def test_as_printed_figure_3_is_figure_2() -> None:
     assert derive(read(corrected("000-figure-3.mathematica.txt")), 9)[-1] != derive(two, 9)[-1]
 
 
-@pytest.mark.parametrize(("file", "steps"), [
-    ("000-anabaena", 6), ("000-ILSystem1", 15), ("000-ILSystem2", 30), ("000-ILSystem3", 9), ("000-figure-2", 10),
-    ("000-figure-3", 15)])
+@pytest.mark.parametrize(
+    ("file", "steps"),
+    [
+        ("000-anabaena", 6),
+        ("000-ILSystem1", 15),
+        ("000-ILSystem2", 30),
+        ("000-ILSystem3", 9),
+        ("000-figure-2", 10),
+        ("000-figure-3", 15),
+    ],
+)
 def test_a_run_says_how_many_steps(file: str, steps: int) -> None:
     assert read(printed(f"{file}.mathematica.txt")).steps == steps
 
 
-@pytest.mark.parametrize(("file", "note"), [
-    ("000-anabaena", "The comma after the last LRule is ignored."),
-    ("000-ILSystem1", '"baaaaaad" is read as b a a a a a a d.'),
-    ("000-ILSystem2", PASSED_OVER + "ColumnForm."),
-    ("000-ILSystem3", PASSED_OVER + "postProcessingFunction, ColumnForm."),
-    ("000-figure-3", '"ILSYSTEM3" is read as "ILSystem3".'),
-    ("000-figure-3", PASSED_OVER + "postProcessingFunction, CellLayerPlot."),
-])
+@pytest.mark.parametrize(
+    ("file", "note"),
+    [
+        ("000-anabaena", "The comma after the last LRule is ignored."),
+        ("000-ILSystem1", '"baaaaaad" is read as b a a a a a a d.'),
+        ("000-ILSystem2", PASSED_OVER + "ColumnForm."),
+        ("000-ILSystem3", PASSED_OVER + "postProcessingFunction, ColumnForm."),
+        ("000-figure-3", '"ILSYSTEM3" is read as "ILSystem3".'),
+        ("000-figure-3", PASSED_OVER + "postProcessingFunction, CellLayerPlot."),
+    ],
+)
 def test_what_is_forgiven_or_passed_over_is_told(file: str, note: str) -> None:
     assert note in read(printed(f"{file}.mathematica.txt")).notes
 
@@ -141,8 +152,9 @@ def test_definitions_that_draw_are_passed_over() -> None:
         """
     system = read(printed("000-anabaena.mathematica.txt").replace("skipPattern", text + "skipPattern"))
     assert system == read(printed("000-anabaena.mathematica.txt"))
-    assert system.notes[-1] == (PASSED_OVER + "kLSystems, Format, interpret, disksAndCircles, maxX, CellCircle, "
-                                "CellLayerGraphics, Show.")
+    assert system.notes[-1] == (
+        PASSED_OVER + "kLSystems, Format, interpret, disksAndCircles, maxX, CellCircle, CellLayerGraphics, Show."
+    )
 
 
 # What a text says -----------------------------------------------------------------------------------------------------
@@ -165,12 +177,16 @@ def test_a_printed_rule_is_an_lrule() -> None:
 @pytest.mark.parametrize("arrow", ["->", "→"])
 def test_a_printed_rule_has_an_arrow(arrow: str) -> None:
     assert read(f"Axiom: ab\nRules: a < b > {arrow} ba\na {arrow}").productions == (
-        Production((Pattern("b"),), (Pattern("b"), Pattern("a")), left=(Pattern("a"),)), Production((Pattern("a"),), ()))
+        Production((Pattern("b"),), (Pattern("b"), Pattern("a")), left=(Pattern("a"),)),
+        Production((Pattern("a"),), ()),
+    )
 
 
 def test_a_name_of_several_letters_stays_whole_between_commas() -> None:
-    assert [len(read(text).axiom) for text in ("axiom = AXIOM[ab]; LRule[LEFT[], PRED[a], RIGHT[], SUCC[b]]",
-                                               "Axiom: ab\nRules: a -> b")] == [1, 2]
+    assert [
+        len(read(text).axiom)
+        for text in ("axiom = AXIOM[ab]; LRule[LEFT[], PRED[a], RIGHT[], SUCC[b]]", "Axiom: ab\nRules: a -> b")
+    ] == [1, 2]
 
 
 def test_the_rules_may_stand_before_the_axiom() -> None:
@@ -183,8 +199,9 @@ def test_patterns_have_conditions_of_their_own() -> None:
 
 
 def test_a_condition_may_stand_behind_any_parameter() -> None:
-    assert rule("LEFT[], PRED[M[t_ /; t < w, p_ /; p == t]], RIGHT[], SUCC[b]") \
-        == rule("LEFT[], PRED[M[t_, p_] /; t < w && p == t], RIGHT[], SUCC[b]")
+    assert rule("LEFT[], PRED[M[t_ /; t < w, p_ /; p == t]], RIGHT[], SUCC[b]") == rule(
+        "LEFT[], PRED[M[t_, p_] /; t < w && p == t], RIGHT[], SUCC[b]"
+    )
 
 
 def test_a_value_is_asked_for_by_its_name() -> None:
@@ -199,29 +216,56 @@ def test_an_underscore_alone_stands_for_any_value() -> None:
 
 
 def test_a_comparison_may_go_on() -> None:
-    assert rule("LEFT[], PRED[a[i_ /; 1 < i <= w != 5]], RIGHT[], SUCC[]") \
-        == rule("LEFT[], PRED[a[i_ /; 1 < i && i <= w && w != 5]], RIGHT[], SUCC[]")
+    assert rule("LEFT[], PRED[a[i_ /; 1 < i <= w != 5]], RIGHT[], SUCC[]") == rule(
+        "LEFT[], PRED[a[i_ /; 1 < i && i <= w && w != 5]], RIGHT[], SUCC[]"
+    )
 
 
 def test_symbols_that_are_no_names_stand_in_quotation_marks() -> None:
     assert rule(r'LEFT[], PRED["+"[i_]], RIGHT["[", b, "]"], SUCC[F, "[", "+"[i], "\\", "L*"[0.5], "]"]') == Production(
-        (Pattern("+", (Name("i"),)),), (*map(Pattern, ("F", "[")), Pattern("+", (Name("i"),)), Pattern("\\"),
-                                    Pattern("L*", (Number(Fraction(1, 2)),)), Pattern("]")),
-        right=tuple(map(Pattern, "[b]")))
+        (Pattern("+", (Name("i"),)),),
+        (
+            *map(Pattern, ("F", "[")),
+            Pattern("+", (Name("i"),)),
+            Pattern("\\"),
+            Pattern("L*", (Number(Fraction(1, 2)),)),
+            Pattern("]"),
+        ),
+        right=tuple(map(Pattern, "[b]")),
+    )
 
 
-@pytest.mark.parametrize(("text", "same"), [
-    ("Sqrt[i]", "sqrt(i)"), ("Abs[i]", "abs(i)"), ("Floor[i]", "floor(i)"), ("Ceiling[i]", "ceil(i)"), ("Exp[i]", "exp(i)"),
-    ("Log[i]", "log(i)"), ("Min[i, 1, 2]", "min(i, 1, 2)"), ("Max[i, 1]", "max(i, 1)"), ("Mod[i, 3]", "mod(i, 3)"),
-    ("If[i > 1 || !(i == 0), 2, 3]", "if(i > 1 || !(i == 0), 2, 3)"), ("i^2", "i^2"), ("1.5*^-1 + 2. + .5", "0.15 + 2 + 0.5"),
-    ("Sin[i Degree]", "sin(i)"), ("Cos[(i + 1)*Degree]", "cos(i + 1)"), ("Tan[2*i Degree]", "tan(2 * i)"),
-    ("Sin[30°]", "sin(30)"),
-    ("ArcSin[i]/Degree + 1", "asin(i) + 1"), ("2*(ArcTan[i]/Degree)", "2 * atan(i)"), ("ArcCos[i]/Degree*2", "acos(i) * 2"),
-    ("Random[Real, {0, i}]", "uniform(0, i)"), ("RandomReal[{1, 2}]", "uniform(1, 2)"), ("Random[Real,{1,2}]", "uniform(1, 2)"),
-    ("RandomVariate[NormalDistribution[i, 1]]", "normal(i, 1)"),
-    ("RandomVariate[BinomialDistribution[4, 0.5]]", "binomial(4, 0.5)"),
-    ("RandomVariate[PoissonDistribution[i]]", "poisson(i)"), ("RandomChoice[{1, i} -> {0, 1}]", "table(1, i)"),
-])
+@pytest.mark.parametrize(
+    ("text", "same"),
+    [
+        ("Sqrt[i]", "sqrt(i)"),
+        ("Abs[i]", "abs(i)"),
+        ("Floor[i]", "floor(i)"),
+        ("Ceiling[i]", "ceil(i)"),
+        ("Exp[i]", "exp(i)"),
+        ("Log[i]", "log(i)"),
+        ("Min[i, 1, 2]", "min(i, 1, 2)"),
+        ("Max[i, 1]", "max(i, 1)"),
+        ("Mod[i, 3]", "mod(i, 3)"),
+        ("If[i > 1 || !(i == 0), 2, 3]", "if(i > 1 || !(i == 0), 2, 3)"),
+        ("i^2", "i^2"),
+        ("1.5*^-1 + 2. + .5", "0.15 + 2 + 0.5"),
+        ("Sin[i Degree]", "sin(i)"),
+        ("Cos[(i + 1)*Degree]", "cos(i + 1)"),
+        ("Tan[2*i Degree]", "tan(2 * i)"),
+        ("Sin[30°]", "sin(30)"),
+        ("ArcSin[i]/Degree + 1", "asin(i) + 1"),
+        ("2*(ArcTan[i]/Degree)", "2 * atan(i)"),
+        ("ArcCos[i]/Degree*2", "acos(i) * 2"),
+        ("Random[Real, {0, i}]", "uniform(0, i)"),
+        ("RandomReal[{1, 2}]", "uniform(1, 2)"),
+        ("Random[Real,{1,2}]", "uniform(1, 2)"),
+        ("RandomVariate[NormalDistribution[i, 1]]", "normal(i, 1)"),
+        ("RandomVariate[BinomialDistribution[4, 0.5]]", "binomial(4, 0.5)"),
+        ("RandomVariate[PoissonDistribution[i]]", "poisson(i)"),
+        ("RandomChoice[{1, i} -> {0, 1}]", "table(1, i)"),
+    ],
+)
 def test_functions_are_those_of_mathematica(text: str, same: str) -> None:
     system = read(rules(f"LEFT[], PRED[a[i_]], RIGHT[], SUCC[a[{text}]]"))
     assert system.productions == read(f"axiom: a(1)\na(i) -> a({same})").productions
@@ -255,8 +299,10 @@ def test_a_definition_goes_on_where_it_cannot_end() -> None:
 
 
 def test_definitions_may_stand_in_any_order() -> None:
-    text = "run[s, n];\ns = LSystem[start, grow];\ngrow := LRULES[first, LRule[LEFT[], PRED[b], RIGHT[], SUCC[a[w]]]];\n" \
+    text = (
+        "run[s, n];\ns = LSystem[start, grow];\ngrow := LRULES[first, LRule[LEFT[], PRED[b], RIGHT[], SUCC[a[w]]]];\n"
         "first = LRule[LEFT[], PRED[a[w]], RIGHT[], SUCC[b]];\nstart := AXIOM[a[w]];\nw = v + 1;\nn = 2*w;\nv = 1;"
+    )
     system = read(text, "mathematica")
     assert [constant.name for constant in system.constants] == ["v", "w", "n"]
     assert (system.steps, [str(word) for word in derive(system, 3)]) == (4, ["a[2]", "b", "a[2]", "b"])
@@ -271,39 +317,56 @@ def test_the_last_definition_of_a_name_counts() -> None:
 TWO = "s = LSystem[AXIOM[a], LRULES[]];\nt = LSystem[AXIOM[b], LRULES[]];\n"
 
 
-@pytest.mark.parametrize(("runs", "axiom", "note"), [
-    ("", "b", "Several systems are defined and none is run: the last is read."),
-    ("run[s, 3];", "a", "Several systems are defined: the last that is run is read."),
-    ("run[t, 3];\nrunKLSYSTEM[s, 3]", "a", "Several systems are defined: the last that is run is read."),
-    ("RunKLSystem[LSystem[AXIOM[c], LRULES[]], 3]", "c", "Several systems are defined: the last that is run is read."),
-])
+@pytest.mark.parametrize(
+    ("runs", "axiom", "note"),
+    [
+        ("", "b", "Several systems are defined and none is run: the last is read."),
+        ("run[s, 3];", "a", "Several systems are defined: the last that is run is read."),
+        ("run[t, 3];\nrunKLSYSTEM[s, 3]", "a", "Several systems are defined: the last that is run is read."),
+        ("RunKLSystem[LSystem[AXIOM[c], LRULES[]], 3]", "c", "Several systems are defined: the last that is run is read."),
+    ],
+)
 def test_of_several_systems_the_last_that_is_run_is_read(runs: str, axiom: str, note: str) -> None:
     system = read(TWO + runs, "mathematica")
     assert (str(system.axiom[0]), system.notes) == (axiom, (note,))
 
 
-@pytest.mark.parametrize(("text", "note"), [
-    ("axiom = AXIOM[a]; run[lsystem, 3]", '"lsystem" is not defined: what the text defines is run.'),
-    ("AXIOM[a]; LRule[LEFT[], PRED[a], RIGHT[], SUCC[]]; LRULES[]", "A rule outside of LRULES is not used."),
-    ("axiom = AXIOM[a]; axiom", None), ("axiom = AXIOM[a]; growth", PASSED_OVER + "growth."),
-    ("w = 3; axiom = AXIOM[a]", 'The constant "w" is used nowhere.'),
-])
+@pytest.mark.parametrize(
+    ("text", "note"),
+    [
+        ("axiom = AXIOM[a]; run[lsystem, 3]", '"lsystem" is not defined: what the text defines is run.'),
+        ("AXIOM[a]; LRule[LEFT[], PRED[a], RIGHT[], SUCC[]]; LRULES[]", "A rule outside of LRULES is not used."),
+        ("axiom = AXIOM[a]; axiom", None),
+        ("axiom = AXIOM[a]; growth", PASSED_OVER + "growth."),
+        ("w = 3; axiom = AXIOM[a]", 'The constant "w" is used nowhere.'),
+    ],
+)
 def test_notes_tell_what_is_odd(text: str, note: str | None) -> None:
     assert read(text, "mathematica").notes == ((note,) if note else ())
 
 
 def test_what_contexts_pass_over() -> None:
     text = rules("LEFT[a[i_]], PRED[b], RIGHT[], SUCC[c]", axiom='a[1], F, "+", b')
-    patterns = {"{F, \"+\"}": ("F", "+"), "{Null}": (), "{}": (), '{"Null"}': ("Null",), "{F}": ("F",)}
+    patterns = {'{F, "+"}': ("F", "+"), "{Null}": (), "{}": (), '{"Null"}': ("Null",), "{F}": ("F",)}
     for pattern, ignored in patterns.items():
         assert read(f"{text}\nskipPattern = {pattern};").ignored == ignored
-    assert [str(derive(read(f"{text}\nskipPattern = {pattern};"), 1)[-1]) for pattern in ("{F}", '{F, "+"}')] \
-        == ['a[1] F "+" b', 'a[1] F "+" c']
+    assert [str(derive(read(f"{text}\nskipPattern = {pattern};"), 1)[-1]) for pattern in ("{F}", '{F, "+"}')] == [
+        'a[1] F "+" b',
+        'a[1] F "+" c',
+    ]
 
 
-@pytest.mark.parametrize(("test", "condition"), [
-    ("EvenQ[n]", "mod(n, 2) == 0"), ("OddQ[n + 1]", "mod(n + 1, 2) == 1"), ("Positive[n]", "n > 0"), ("Negative[n]", "n < 0"),
-    ("NonNegative[n]", "n >= 0"), ("NonPositive[n] && EvenQ[n]", "n <= 0 && mod(n, 2) == 0")])
+@pytest.mark.parametrize(
+    ("test", "condition"),
+    [
+        ("EvenQ[n]", "mod(n, 2) == 0"),
+        ("OddQ[n + 1]", "mod(n + 1, 2) == 1"),
+        ("Positive[n]", "n > 0"),
+        ("Negative[n]", "n < 0"),
+        ("NonNegative[n]", "n >= 0"),
+        ("NonPositive[n] && EvenQ[n]", "n <= 0 && mod(n, 2) == 0"),
+    ],
+)
 def test_a_test_of_a_number_is_a_condition(test: str, condition: str) -> None:
     found = read(f"Axiom: a[4]\nRules: a[n_ /; {test}] -> a[n/2]b", "mathematica")
     assert str(found.productions[0].condition) == condition

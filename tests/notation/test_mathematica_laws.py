@@ -57,7 +57,12 @@ def test_a_word_prints_with_blanks_and_reads_back() -> None:
     assert str(word) == "Al[1] Br[1]"
     assert read_word(str(word), "mathematica") == tuple(word)
     assert read_word('F "[" "+"[1/2] M[-1, 0.5] "]"', "mathematica") == (
-        Module("F"), Module("["), Module("+", (Fraction(1, 2),)), Module("M", (-1, Fraction(1, 2))), Module("]"))
+        Module("F"),
+        Module("["),
+        Module("+", (Fraction(1, 2),)),
+        Module("M", (-1, Fraction(1, 2))),
+        Module("]"),
+    )
 
 
 @pytest.mark.parametrize("condition", ["p && q", "p && (q && r)", "(p && q) && (r && s)", "r && p && q", "p || q", "q && p"])
@@ -73,14 +78,22 @@ def test_names_of_definitions_are_no_constants() -> None:
     assert read(write(system, "mathematica")) == system
 
 
-@pytest.mark.parametrize(("text", "lacking"), [
-    ("axiom: A\nA -> B : 0.5", "probabilities"), ("axiom: A\ndecomposition:\nA -> B", "decomposition rules"),
-    ("axiom: A\ninterpretation:\nA -> F", "interpretation rules"), ("axiom: A\nmeta: A A -> A", "meta-rules"),
-    ("axiom: A\nA -> repeat(2) <B>", "repetition"), ("consider: A\naxiom: A", "considered symbols"),
-    ("depth: 2\naxiom: A", "depth"), ("decomposition depth: 2\naxiom: A", "depth"),
-    ("axiom: A(1)\nA(t_) -> A(t_)", 'name like "t_"'), ("length = 3\naxiom: A(length)", 'other meaning of the name "length"'),
-    ("axiom: A(1)\nA(Degree) -> A(1)", 'other meaning of the name "Degree"'),
-])
+@pytest.mark.parametrize(
+    ("text", "lacking"),
+    [
+        ("axiom: A\nA -> B : 0.5", "probabilities"),
+        ("axiom: A\ndecomposition:\nA -> B", "decomposition rules"),
+        ("axiom: A\ninterpretation:\nA -> F", "interpretation rules"),
+        ("axiom: A\nmeta: A A -> A", "meta-rules"),
+        ("axiom: A\nA -> repeat(2) <B>", "repetition"),
+        ("consider: A\naxiom: A", "considered symbols"),
+        ("depth: 2\naxiom: A", "depth"),
+        ("decomposition depth: 2\naxiom: A", "depth"),
+        ("axiom: A(1)\nA(t_) -> A(t_)", 'name like "t_"'),
+        ("length = 3\naxiom: A(length)", 'other meaning of the name "length"'),
+        ("axiom: A(1)\nA(Degree) -> A(1)", 'other meaning of the name "Degree"'),
+    ],
+)
 def test_what_mathematica_lacks_is_named(text: str, lacking: str) -> None:
     message = re.escape(f"The notation mathematica has no {lacking}, which this system needs")
     with pytest.raises(ModelValueError, match=message):
@@ -112,10 +125,19 @@ def test_what_is_written_is_read_again(system: LSystem) -> None:
     one, other = (derive(each, 2, seed=5)[-1] for each in (system, again))
     assert tuple(one) == tuple(other)
     assert read_word(MATHEMATICA.word(one), "mathematica") == tuple(one) or any(
-        isinstance(argument, float) for module in one for argument in module.arguments)
-    SEEN.update({"systems": 1, "inside": bool(re.search(r"_ /; [^]]*\]\]", text)), "behind": "] /;" in text,
-                 "random": "Random" in text, "ignored": bool(system.ignored), "constants": bool(system.constants),
-                 "quoted": '"[", ' in text})
+        isinstance(argument, float) for module in one for argument in module.arguments
+    )
+    SEEN.update(
+        {
+            "systems": 1,
+            "inside": bool(re.search(r"_ /; [^]]*\]\]", text)),
+            "behind": "] /;" in text,
+            "random": "Random" in text,
+            "ignored": bool(system.ignored),
+            "constants": bool(system.constants),
+            "quoted": '"[", ' in text,
+        }
+    )
 
 
 def test_the_systems_written_had_everything() -> None:
@@ -125,8 +147,13 @@ def test_the_systems_written_had_everything() -> None:
 @given(conditions(("i", "t", "j"), 1), conditions(("i", "t", "j"), 1), conditions(("i", "t", "j"), 1), st.booleans())
 def test_every_condition_is_read_again(one: Expression, two: Expression, three: Expression, leftward: bool) -> None:
     joined = Apply("&&", (Apply("&&", (one, two)), three)) if leftward else Apply("&&", (one, Apply("&&", (two, three))))
-    production = Production((Pattern("B", (Name("t"),)),), (), joined, (Pattern("A", (Name("i"),)), Pattern("x")),
-                            (Pattern("["), Pattern("C", (Name("j"),)), Pattern("]")))
+    production = Production(
+        (Pattern("B", (Name("t"),)),),
+        (),
+        joined,
+        (Pattern("A", (Name("i"),)), Pattern("x")),
+        (Pattern("["), Pattern("C", (Name("j"),)), Pattern("]")),
+    )
     system = LSystem((Pattern("B", (Number(1),)),), (production,))
     assert read(write(system, "mathematica"), "mathematica") == system
 
@@ -139,10 +166,71 @@ def test_conditions_are_not_nested_without_end() -> None:
 
 
 PIECES = [
-    "A", "b", "LEFT[", "PRED[", "SUCC[", "LRule[", "LRULES[", "AXIOM[", "LSystem[", "run[", "Sin[", "ArcSin[",
-    "RandomReal[{", "If[", "]", "[", "{", "}", "(", ")", ",", ";", "=", ":=", "==", "_", "i_", "x__", "/;", "<", ">", "->",
-    "→", '"', '"+"', "(*", "*)", "1", "2.5", "1*^3", "Degree", "/", "Rules:", "Axiom:", "skipPattern", "angle", "&", "#",
-    "//", "@", "%", "<<", "$", "α", "Null", "\n", " ", "\x00", "\ud800", "/*", "..", "by", ".", "?"]
+    "A",
+    "b",
+    "LEFT[",
+    "PRED[",
+    "SUCC[",
+    "LRule[",
+    "LRULES[",
+    "AXIOM[",
+    "LSystem[",
+    "run[",
+    "Sin[",
+    "ArcSin[",
+    "RandomReal[{",
+    "If[",
+    "]",
+    "[",
+    "{",
+    "}",
+    "(",
+    ")",
+    ",",
+    ";",
+    "=",
+    ":=",
+    "==",
+    "_",
+    "i_",
+    "x__",
+    "/;",
+    "<",
+    ">",
+    "->",
+    "→",
+    '"',
+    '"+"',
+    "(*",
+    "*)",
+    "1",
+    "2.5",
+    "1*^3",
+    "Degree",
+    "/",
+    "Rules:",
+    "Axiom:",
+    "skipPattern",
+    "angle",
+    "&",
+    "#",
+    "//",
+    "@",
+    "%",
+    "<<",
+    "$",
+    "α",
+    "Null",
+    "\n",
+    " ",
+    "\x00",
+    "\ud800",
+    "/*",
+    "..",
+    "by",
+    ".",
+    "?",
+]
 
 
 @st.composite
@@ -151,7 +239,7 @@ def spoilt(draw: st.DrawFn) -> str:
     text = draw(st.sampled_from([FULL, *LISTINGS]))
     for _ in range(draw(st.integers(1, 3))):
         start = draw(st.integers(0, len(text)))
-        text = text[:start] + draw(st.sampled_from(["", *PIECES])) + text[start + draw(st.integers(0, 3)):]
+        text = text[:start] + draw(st.sampled_from(["", *PIECES])) + text[start + draw(st.integers(0, 3)) :]
     return text
 
 
@@ -174,13 +262,27 @@ def test_a_text_is_a_system_or_an_explained_slip(text: str) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("text", [
-    "axiom = AXIOM[" + "a," * 490_000, "[" * 10**6, "(* " * 333_333, "(* *)" * 200_000, '"' * 10**6, ";" * 10**6,
-    "x = " + "\n" * 999_990, "a[1] " * 9_900, "a_ " * 300_000, "x =\n\n" * 180_000, "k = 1; (* 1 .. " * 60_000,
-    "x = " + "1+" * 20_000, "a[:= " * 200_000,
-    "LRULES[" + "LRule[LEFT[], PRED[a[i_ /; i < 3]], RIGHT[b], SUCC[a[i + 1], b]],\n" * 14_000,
-    "".join(f"k{i} = k{i + 1} + 1;\n" for i in range(1_800)),
-], ids=range(15))
+@pytest.mark.parametrize(
+    "text",
+    [
+        "axiom = AXIOM[" + "a," * 490_000,
+        "[" * 10**6,
+        "(* " * 333_333,
+        "(* *)" * 200_000,
+        '"' * 10**6,
+        ";" * 10**6,
+        "x = " + "\n" * 999_990,
+        "a[1] " * 9_900,
+        "a_ " * 300_000,
+        "x =\n\n" * 180_000,
+        "k = 1; (* 1 .. " * 60_000,
+        "x = " + "1+" * 20_000,
+        "a[:= " * 200_000,
+        "LRULES[" + "LRule[LEFT[], PRED[a[i_ /; i < 3]], RIGHT[b], SUCC[a[i + 1], b]],\n" * 14_000,
+        "".join(f"k{i} = k{i + 1} + 1;\n" for i in range(1_800)),
+    ],
+    ids=range(15),
+)
 def test_no_text_takes_long(text: str) -> None:
     started = process_time()
     with pytest.raises(LSystemError):

@@ -28,12 +28,27 @@ from lsys_kit.notation.write import write
 SLIPS = [
     ("cpfg", "Axiom: A(1)\nA(t) : 1 {x = t + 1; --> F(x)", 'This "{" is never closed', 2, 10),
     ("cpfg", "Axiom: A(1)\nA(t) : 1 {x = t + 1; y = 2", 'This "{" is never closed', 2, 10),
-    ("cpfg", "Axiom: A(1)\nA(t) : 1 {if (t > 1) {x = 2;} else {x = ran(1);}} --> F(x) F(x)",
-     'The random number "x" would be drawn anew at each of its uses', 2, 37),
-    ("cpfg", "Axiom: A(1)\nA(t) : 1 {x = t*t*t*t; y = x*x*x*x*x; z = y*y*y*y*y; w = z*z*z*z*z*z; v = w*w*w*w;} --> F(v)",
-     "What is computed here becomes too long an expression", 2, 75),
-    ("cpfg", f"Axiom: A(1)\nA(t) : 1 {{{'if (t > 1) {' * 60}x = 1;{'}' * 60}}} --> F(x)",
-     "Choices are nested more than 50 deep", 2, 123),
+    (
+        "cpfg",
+        "Axiom: A(1)\nA(t) : 1 {if (t > 1) {x = 2;} else {x = ran(1);}} --> F(x) F(x)",
+        'The random number "x" would be drawn anew at each of its uses',
+        2,
+        37,
+    ),
+    (
+        "cpfg",
+        "Axiom: A(1)\nA(t) : 1 {x = t*t*t*t; y = x*x*x*x*x; z = y*y*y*y*y; w = z*z*z*z*z*z; v = w*w*w*w;} --> F(v)",
+        "What is computed here becomes too long an expression",
+        2,
+        75,
+    ),
+    (
+        "cpfg",
+        f"Axiom: A(1)\nA(t) : 1 {{{'if (t > 1) {' * 60}x = 1;{'}' * 60}}} --> F(x)",
+        "Choices are nested more than 50 deep",
+        2,
+        123,
+    ),
     ("fractint", "Koch {\nAngle 6\nAxiom F\nF\n}", "This rule has no successor", 4, 1),
     ("fractint", "Angle 6\nAxiom F\nF\u2003", "This rule has no successor", 3, 1),
     ("fractint", "Koch {\nAngle 6\nAxiom F\nF  -> FF\n}", "Fractint has no arrows", 4, 4),
@@ -155,18 +170,28 @@ def test_a_macro_or_an_array_without_its_brackets_is_a_name() -> None:
 
 
 COUNTED = [
-    ("n = 0; m = 0;", "n = n + m; m = m + 1;", "A : n < 3 --> F A",
-     "Axiom: A(0,0)\nA(n,m) : n < 3 --> FA(n + m,m + 1)\nA(n,m) --> A(n + m,m + 1)", "A carries n, m as parameters"),
-    ("n = 0;", "n = n + 1;", "A --> C\nC < B : n < 3 --> A\nB --> B\nC --> B",
-     "Axiom: A(0)\nA(n) --> C(n + 1)\nC(n_l0) < B(n) : n < 3 --> A(n + 1)\nB(n) --> B(n + 1)\nC(n) --> B(n + 1)",
-     "A, B, C carry n as a parameter"),
+    (
+        "n = 0; m = 0;",
+        "n = n + m; m = m + 1;",
+        "A : n < 3 --> F A",
+        "Axiom: A(0,0)\nA(n,m) : n < 3 --> FA(n + m,m + 1)\nA(n,m) --> A(n + m,m + 1)",
+        "A carries n, m as parameters",
+    ),
+    (
+        "n = 0;",
+        "n = n + 1;",
+        "A --> C\nC < B : n < 3 --> A\nB --> B\nC --> B",
+        "Axiom: A(0)\nA(n) --> C(n + 1)\nC(n_l0) < B(n) : n < 3 --> A(n + 1)\nB(n) --> B(n + 1)\nC(n) --> B(n + 1)",
+        "A, B, C carry n as a parameter",
+    ),
 ]
 """Counters of cpfg, how they change, productions, the system whose modules carry them, and what is said of it."""
 
 
 @pytest.mark.parametrize(("first", "then", "productions", "carrying", "said"), COUNTED)
 def test_counters_that_depend_on_one_another_or_have_neighbours_are_carried(
-        first: str, then: str, productions: str, carrying: str, said: str) -> None:
+    first: str, then: str, productions: str, carrying: str, said: str
+) -> None:
     found = read(f"Axiom: A\nStart: {{{first}}}\nEndEach: {{{then}}}\n{productions}", "cpfg")
     assert write(found, "cpfg") == f"Lsystem: 1\n{carrying}\nendlsystem"
     assert found.notes == (f"To follow the steps {said}.",)
@@ -184,7 +209,6 @@ def test_a_model_says_where_its_colours_come_from(source: str) -> None:
     found = read(f"colours: {source}\naxiom: A")
     assert found.colours == source
     assert read(write(found, "abop")) == found
-
 
 
 def test_widths_may_be_in_pixels() -> None:

@@ -42,15 +42,29 @@ def test_a_model_is_read_line_by_line() -> None:
     assert symbols(system) == ("A", "[", "B", "]")
 
 
-@pytest.mark.parametrize("text", [
-    "axiom: A\nA -> B A", "AXIOM : A\nA-->B A", "ω: A\nA → B A", "omega: A\nA ⟶ B A", "axiom: A\n\n\nA -> B A\n",
-    "axiom: A\r\nA -> B A\r\n",
-    "  axiom: A\n  A -> B A", "\taxiom: A\n\tA -> B A", "axiom: A\nA\n-> B A", "axiom: A\nA ->\n  B A", "axiom: A\nA -> B\n  A",
-    "axiom:\n  A\nA -> B A", "axiom: A /* one */\nA /* two\n lines */ -> B A", "A -> B A\naxiom: A",
-    "productions:\nA -> B A\naxiom: A",
-    "axiom: A\nA : * -> B A", "\ufeffaxiom: A\nA -> B\u00a0A",
-    "axiom: A\ninterpretation:\nproductions:\nA -> B A",
-])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "axiom: A\nA -> B A",
+        "AXIOM : A\nA-->B A",
+        "ω: A\nA → B A",
+        "omega: A\nA ⟶ B A",
+        "axiom: A\n\n\nA -> B A\n",
+        "axiom: A\r\nA -> B A\r\n",
+        "  axiom: A\n  A -> B A",
+        "\taxiom: A\n\tA -> B A",
+        "axiom: A\nA\n-> B A",
+        "axiom: A\nA ->\n  B A",
+        "axiom: A\nA -> B\n  A",
+        "axiom:\n  A\nA -> B A",
+        "axiom: A /* one */\nA /* two\n lines */ -> B A",
+        "A -> B A\naxiom: A",
+        "productions:\nA -> B A\naxiom: A",
+        "axiom: A\nA : * -> B A",
+        "\ufeffaxiom: A\nA -> B\u00a0A",
+        "axiom: A\ninterpretation:\nproductions:\nA -> B A",
+    ],
+)
 def test_a_production_may_be_laid_out_in_many_ways(text: str) -> None:
     assert read(text) == LSystem((A,), (Production((A,), (B, A)),))
 
@@ -66,11 +80,20 @@ def test_indented_statements_begin_for_themselves() -> None:
     assert (system.constants[0].name, system.angle) == ("k", 60)
 
 
-@pytest.mark.parametrize(("text", "parts"), [
-    ("", []), ("\n \n", []), ("a\nb", ["a", "b"]), ("a\n  b", ["a\n  b"]), (" a\n b", ["a", "b"]),
-    ("a ->\n b\nc", ["a ->\n b", "c"]),
-    ("a /* x\n y */ b", ["a /* x\n y */ b"]), ("/* x */\na", ["a"]), ("a -> b /* x */\nc -> d", ["a -> b", "c -> d"]),
-])
+@pytest.mark.parametrize(
+    ("text", "parts"),
+    [
+        ("", []),
+        ("\n \n", []),
+        ("a\nb", ["a", "b"]),
+        ("a\n  b", ["a\n  b"]),
+        (" a\n b", ["a", "b"]),
+        ("a ->\n b\nc", ["a ->\n b", "c"]),
+        ("a /* x\n y */ b", ["a /* x\n y */ b"]),
+        ("/* x */\na", ["a"]),
+        ("a -> b /* x */\nc -> d", ["a -> b", "c -> d"]),
+    ],
+)
 def test_statements_are_lines_and_what_goes_on_with_them(text: str, parts: list[str]) -> None:
     assert [text[start:end] for start, end in statements(text)] == parts
 
@@ -105,27 +128,62 @@ def test_a_range_may_be_calculated_from_constants_before_it() -> None:
     assert str(system.constants[1]) == "k = n in 1/2 .. 2 * n by n/6"
 
 
-@pytest.mark.parametrize(("text", "axiom"), [
-    ("FFF", "F F F"), ("FX", "F X"), ("al br", "al br"), ("F(1)FF(2)", "F(1)F F(2)"), ("XFX", "X F X"), ("Ff", "F f"),
-    ("X1", "X1"),
-])
+@pytest.mark.parametrize(
+    ("text", "axiom"),
+    [
+        ("FFF", "F F F"),
+        ("FX", "F X"),
+        ("al br", "al br"),
+        ("F(1)FF(2)", "F(1)F F(2)"),
+        ("XFX", "X F X"),
+        ("Ff", "F f"),
+        ("X1", "X1"),
+    ],
+)
 def test_letters_written_together_are_parted_where_there_is_one_way(text: str, axiom: str) -> None:
     extra = "\nX -> F" if "X" in text and text == "FX" else ""
     assert write(read(f"axiom: {text}{extra}")).split("\n")[0] == f"axiom: {axiom}"
 
 
-@pytest.mark.parametrize(("rules", "said"), [
-    ("A -> aAA", "aAA=a A A"), ("F -> F[-F]cF[+F][F]", "cF=c F"), ("a -> cRb", "cRb"), ("X -> XtF", "XtF=X t F"),
-    ("A -> FX", "FX=F X"), ("A -> AB", "AB=A B"), ("A -> Bud A", ""), ("A -> Bud A\nB -> A", "Bud"), ("a -> leaf a", "leaf"),
-    ("A -> Flower(2) A", "Flower"), ("A -> Apex(2)", "Apex"), ("a -> abc", "abc"), ("A -> Bb", ""), ("A -> bBb", "bBb"),
-    ("A -> [+AxA]A", "AxA=A x A"), ("a -> FaF\nF -> FF", "FaF=F a F FF=F F"), ("X -> F+X\nF -> FXf", "FXf=F X f"),
-    ("Al(t) -> Al(t+1) Br(0)", ""), ("ar -> al br\nal -> aRal", ""), ("S -> aSb", "aSb=a S b"), ("A -> newA", "newA=n e w A"),
-    ("alphabet: aAA\nA -> aAA", ""), ("A -> a A A", ""), ("A -> f(A)", "")])
+@pytest.mark.parametrize(
+    ("rules", "said"),
+    [
+        ("A -> aAA", "aAA=a A A"),
+        ("F -> F[-F]cF[+F][F]", "cF=c F"),
+        ("a -> cRb", "cRb"),
+        ("X -> XtF", "XtF=X t F"),
+        ("A -> FX", "FX=F X"),
+        ("A -> AB", "AB=A B"),
+        ("A -> Bud A", ""),
+        ("A -> Bud A\nB -> A", "Bud"),
+        ("a -> leaf a", "leaf"),
+        ("A -> Flower(2) A", "Flower"),
+        ("A -> Apex(2)", "Apex"),
+        ("a -> abc", "abc"),
+        ("A -> Bb", ""),
+        ("A -> bBb", "bBb"),
+        ("A -> [+AxA]A", "AxA=A x A"),
+        ("a -> FaF\nF -> FF", "FaF=F a F FF=F F"),
+        ("X -> F+X\nF -> FXf", "FXf=F X f"),
+        ("Al(t) -> Al(t+1) Br(0)", ""),
+        ("ar -> al br\nal -> aRal", ""),
+        ("S -> aSb", "aSb=a S b"),
+        ("A -> newA", "newA=n e w A"),
+        ("alphabet: aAA\nA -> aAA", ""),
+        ("A -> a A A", ""),
+        ("A -> f(A)", ""),
+    ],
+)
 def test_letters_that_run_together_are_parted_or_it_is_said(rules: str, said: str) -> None:
     first = rules.split("\n")[-1].partition(" ->")[0].partition("(")
     notes = read(f"axiom: {first[0]}{'(0)' * bool(first[1])}\n{rules}").notes
-    found = [f"{name}={' '.join(parts)}" for note in notes if (match := re.match(r'"(\w+)" is read as (.*)\.', note))
-             for name, parts in [(match[1], match[2].split())] if "one symbol" not in note]
+    found = [
+        f"{name}={' '.join(parts)}"
+        for note in notes
+        if (match := re.match(r'"(\w+)" is read as (.*)\.', note))
+        for name, parts in [(match[1], match[2].split())]
+        if "one symbol" not in note
+    ]
     whole = [note.split('"')[1] for note in notes if "is read as one symbol" in note]
     assert " ".join([*found, *whole]) == said
 
@@ -157,9 +215,17 @@ def test_words_and_numbers_can_be_read_alone() -> None:
     assert read_number("1.5e2") == 150
 
 
-@pytest.mark.parametrize(("text", "kind"), [("A(t)", ModelNameError), ("A(1/0)", ModelValueError), ("A(1", ModelSyntaxError),
-                                            ("A(1 < 2)", ModelValueError), ("[A", ModelSyntaxError),
-                                            ("A -> B", ModelSyntaxError)])
+@pytest.mark.parametrize(
+    ("text", "kind"),
+    [
+        ("A(t)", ModelNameError),
+        ("A(1/0)", ModelValueError),
+        ("A(1", ModelSyntaxError),
+        ("A(1 < 2)", ModelValueError),
+        ("[A", ModelSyntaxError),
+        ("A -> B", ModelSyntaxError),
+    ],
+)
 def test_a_word_has_numbers_and_closed_brackets(text: str, kind: type[Exception]) -> None:
     with pytest.raises(kind):
         read_word(text)
@@ -195,8 +261,10 @@ def test_plant_strings_have_two_kinds_of_branches() -> None:
     assert str(system) == "angle: 30\nsteps: 3\nAxiom: I\nI -> I[A]A(I)A\nA -> ε"
 
 
-@pytest.mark.parametrize(("rules", "successor"), [
-    ("A -> BA", "B A"), ("A -> FAXF", "F A X F"), ("A -> BUD", "BUD"), ("A -> Bud", "Bud"), ("A -> BA\nBA -> A", "BA")])
+@pytest.mark.parametrize(
+    ("rules", "successor"),
+    [("A -> BA", "B A"), ("A -> FAXF", "F A X F"), ("A -> BUD", "BUD"), ("A -> Bud", "Bud"), ("A -> BA\nBA -> A", "BA")],
+)
 def test_capital_letters_in_a_row_are_symbols_if_one_of_them_is_rewritten(rules: str, successor: str) -> None:
     system = read(f"axiom: A\n{rules}")
     assert " ".join(module.symbol for module in system.productions[0].successor) == successor
@@ -204,8 +272,10 @@ def test_capital_letters_in_a_row_are_symbols_if_one_of_them_is_rewritten(rules:
 
 
 TURTLES = {
-    "abop": (1.0, 1, 2.4, True, False), "grogra": (100.0, -1, 0.1, False, False),
-    "plant-string": (1.0, 1, 0.1, False, False), "fractint": (1.0, 1, 0.1, False, True),
+    "abop": (1.0, 1, 2.4, True, False),
+    "grogra": (100.0, -1, 0.1, False, False),
+    "plant-string": (1.0, 1, 0.1, False, False),
+    "fractint": (1.0, 1, 0.1, False, True),
 }
 """For each dialect of turtle commands the length of a step, the side of the turtle's left, the width of its strokes, whether
 that is in pixels, and whether any sign is a symbol."""

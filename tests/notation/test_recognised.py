@@ -16,40 +16,80 @@ from lsys_kit.notation.write import write
 from tests.plants import plant
 
 FOLDER = Path(__file__).parents[1] / "listings"
-LISTINGS = [(listing["file"], listing["notation"])
-            for listing in tomllib.loads((FOLDER / "listings.toml").read_text(encoding="utf-8"))["listing"]
-            if listing["notation"] in DIALECTS]
+LISTINGS = [
+    (listing["file"], listing["notation"])
+    for listing in tomllib.loads((FOLDER / "listings.toml").read_text(encoding="utf-8"))["listing"]
+    if listing["notation"] in DIALECTS
+]
 ALIKE = "003-parameters.grogra.txt"
 """One production that two notations spell alike."""
 WRITTEN = [(id, name) for name, notation in DIALECTS.items() for id in systems() if not lacking(notation, system(id))]
 SHORT = {
     "abop": [
-        "", "axiom: A", "A -> B", "axiom: A\nA -> A B", "axiom: F\nF -> F[+F]F[-F]F", "axiom: F\nF → F F", "axiom: A\nA --> B",
-        "F ::= F+F", "p1: a -> b", "p_1: a_r \\rightarrow a_l b_r,\np_2: a_l \\rightarrow a_r", "s < a > \\rightarrow a s,",
-        "axiom: A(1)\nA(x) : x > 1 -> A(x-1)", "k = 3\naxiom: A(k)\nA(x) -> B(x)", "axiom: F\nF -> F(d)", "axiom: A # B",
-        "axiom: A\nA -> B : 0.5\nA -> C : 0.5", "axiom: A\nignore: + -\nB < A -> C", "axiom: A\ndecomposition:\nA -> B",
-        "Axiom: F\nF -> FF", "Axiom = F\nF -> FF", "axiom: A\nA -> repeat(3) <F>", "axiom: A /* #define */",
+        "",
+        "axiom: A",
+        "A -> B",
+        "axiom: A\nA -> A B",
+        "axiom: F\nF -> F[+F]F[-F]F",
+        "axiom: F\nF → F F",
+        "axiom: A\nA --> B",
+        "F ::= F+F",
+        "p1: a -> b",
+        "p_1: a_r \\rightarrow a_l b_r,\np_2: a_l \\rightarrow a_r",
+        "s < a > \\rightarrow a s,",
+        "axiom: A(1)\nA(x) : x > 1 -> A(x-1)",
+        "k = 3\naxiom: A(k)\nA(x) -> B(x)",
+        "axiom: F\nF -> F(d)",
+        "axiom: A # B",
+        "axiom: A\nA -> B : 0.5\nA -> C : 0.5",
+        "axiom: A\nignore: + -\nB < A -> C",
+        "axiom: A\ndecomposition:\nA -> B",
+        "Axiom: F\nF -> FF",
+        "Axiom = F\nF -> FF",
+        "axiom: A\nA -> repeat(3) <F>",
+        "axiom: A /* #define */",
     ],
     "plant-string": [
-        "I -> I[A]A(I)A", "Axiom: I\nI -> I(I)[I]", "Axiom = I\nProductions:\nI -> I(A)\nA -> I",
-        "Number of productions: 1\nI -> II", "Axiom: I\nI -> II\nStage 1 string: II", "turtle: abop\nAxiom: F\nF -> FF",
+        "I -> I[A]A(I)A",
+        "Axiom: I\nI -> I(I)[I]",
+        "Axiom = I\nProductions:\nI -> I(A)\nA -> I",
+        "Number of productions: 1\nI -> II",
+        "Axiom: I\nI -> II\nStage 1 string: II",
+        "turtle: abop\nAxiom: F\nF -> FF",
     ],
     "cpfg": [
-        "#define a 1\nAxiom: F\nF --> FF", "Lsystem: 1\nAxiom: F\nF --> F", "Axiom: F\nF --> FF",
-        "Axiom: A(1)\nA(x) : x>1 --> A(x-1)B(x)", "Axiom: A\nhomomorphism:\nA --> F",
+        "#define a 1\nAxiom: F\nF --> FF",
+        "Lsystem: 1\nAxiom: F\nF --> F",
+        "Axiom: F\nF --> FF",
+        "Axiom: A(1)\nA(x) : x>1 --> A(x-1)B(x)",
+        "Axiom: A\nhomomorphism:\nA --> F",
         "derivation length: 3\nAxiom: F\nF --> FF",
     ],
     "grogra": [
-        "* # F a,\na # F [ RU45 a ] a", "\\angle 60,\n* # F", "a # b", "* -> F a,\na -> F", "a # F ?0.5",
-        "\\var x uniform 0 1,\n* # F", "(t<6) k(t) # k(t+1)", "* → F a, a → RU(30) F a", "a -> &(3) < F >",
+        "* # F a,\na # F [ RU45 a ] a",
+        "\\angle 60,\n* # F",
+        "a # b",
+        "* -> F a,\na -> F",
+        "a # F ?0.5",
+        "\\var x uniform 0 1,\n* # F",
+        "(t<6) k(t) # k(t+1)",
+        "* → F a, a → RU(30) F a",
+        "a -> &(3) < F >",
     ],
     "fractint": [
-        "Angle 6\nAxiom F\nF=F+F", "Koch {\n  angle 6\n  axiom f\n  f=f+f\n  }", "Axiom F",
-        "angle=6", "A { Angle 8 ; -> eighths\nAxiom F->5\n}",
-        "; Dear all -> look:\nThis: is it {\nAngle 4\n}", "comment {\n  axiom: A\n  A -> B\n}\nA {\n  Angle 4\n}",
+        "Angle 6\nAxiom F\nF=F+F",
+        "Koch {\n  angle 6\n  axiom f\n  f=f+f\n  }",
+        "Axiom F",
+        "angle=6",
+        "A { Angle 8 ; -> eighths\nAxiom F->5\n}",
+        "; Dear all -> look:\nThis: is it {\nAngle 4\n}",
+        "comment {\n  axiom: A\n  A -> B\n}\nA {\n  Angle 4\n}",
     ],
     "mathematica": [
-        "LRule[LEFT[], PRED[a], RIGHT[], SUCC[b]]", "AXIOM[a]", "Axiom: a\nRules: a -> b", "Axiom: a\n\nRules: < a > -> b",
+        "LRule[LEFT[], PRED[a], RIGHT[], SUCC[b]]",
+        "AXIOM[a]",
+        "Axiom: a\nRules: a -> b",
+        "Axiom: a\n\nRules: < a > -> b",
         "axiom = AXIOM[a[1]];\nlrules = LRULES[LRule[LEFT[], PRED[a[i_ /; i < 3]], RIGHT[], SUCC[a[i+1]]]];",
     ],
 }

@@ -37,9 +37,12 @@ A -> F~leaf(2)~Q
 
 coordinates = st.one_of(st.integers(-5, 5), st.fractions(-9, 9, max_denominator=1_000), st.floats(-9, 9))
 points = st.tuples(coordinates, coordinates, coordinates)
-shapes = st.one_of(st.lists(points, min_size=3, max_size=9).map(lambda corners: {"polygon": tuple(corners)}),
-                   st.lists(st.lists(points, min_size=16, max_size=16).map(tuple), min_size=1, max_size=2).map(
-                       lambda patches: {"patches": tuple(patches)}))
+shapes = st.one_of(
+    st.lists(points, min_size=3, max_size=9).map(lambda corners: {"polygon": tuple(corners)}),
+    st.lists(st.lists(points, min_size=16, max_size=16).map(tuple), min_size=1, max_size=2).map(
+        lambda patches: {"patches": tuple(patches)}
+    ),
+)
 
 
 def test_a_polygon_and_patches_are_read() -> None:
@@ -60,8 +63,9 @@ def test_surfaces_are_written_back() -> None:
 @settings(max_examples=25)
 @given(st.lists(shapes, max_size=2))
 def test_what_is_written_reads_back(found: list[dict[str, object]]) -> None:
-    system = LSystem((Pattern("A"),), (), surfaces=tuple(
-        SurfaceShape(f"s{number}", **shape) for number, shape in enumerate(found)))  # type: ignore[arg-type]
+    system = LSystem(
+        (Pattern("A"),), (), surfaces=tuple(SurfaceShape(f"s{number}", **shape) for number, shape in enumerate(found))
+    )  # type: ignore[arg-type]
     assert read(write(system)) == system
 
 
@@ -71,28 +75,40 @@ def test_the_name_of_a_surface_is_no_row_of_letters() -> None:
 
 
 def test_an_indented_model_has_surfaces_too() -> None:
-    assert len(read("""
+    assert (
+        len(
+            read("""
         axiom: A
         surface leaf: (0, 0) (1, 0) (1, 1)
-        A -> ~leaf""").surfaces) == 1
+        A -> ~leaf""").surfaces
+        )
+        == 1
+    )
 
 
-@pytest.mark.parametrize(("line", "message", "quoted", "error"), [
-    ("surface leaf: (0,0) (1,0)", "A polygon has at least three corners", "surface leaf:", ModelSyntaxError),
-    ("surface leaf: patch (0,0) (1,2)", "A patch has 16 control points, not 2", "patch", ModelSyntaxError),
-    ("surface leaf: (0,0) (1,0) (n,1)", 'The name "n" cannot be used here', "n", ModelNameError),
-    ("surface leaf: (0,0) (1,0) (1<2,1)", '"1 < 2" is true or false, but a number is needed here', "1<2", ModelValueError),
-    ("surface leaf: (0,0) (1e9+1,1) (2,0)", "This point is too far away", "1e9+1,1", ModelValueError),
-    ("surface leaf: (0,0) (1,1) (2,0)\nsurface leaf: (0,0) (1,1) (2,0)", 'The surface "leaf" is declared twice',
-     "surface leaf:", ModelNameError),
-    ("surface: (0,0) (1,1) (2,0)", "A surface needs a name and a colon", "surface", ModelSyntaxError),
-    ("surface leaf (0,0) (1,1) (2,0)", "A surface needs a name and a colon", "surface", ModelSyntaxError),
-    ("surface leaf: leaf.s", "A model opens no files", "leaf.s", ModelSyntaxError),
-    ("surface leaf:", 'There is nothing after "surface leaf:"', "surface leaf:", ModelSyntaxError),
-    ("surface leaf: (0) (1,0) (1,1)", "This is no point of a surface", "(0", ModelSyntaxError),
-    ("surface leaf: (0,0), (1,1), (2,0)", 'I did not expect "," here', ",", ModelSyntaxError),
-    ("surface leaf: round", 'I did not expect "round" here', "round", ModelSyntaxError),
-])
+@pytest.mark.parametrize(
+    ("line", "message", "quoted", "error"),
+    [
+        ("surface leaf: (0,0) (1,0)", "A polygon has at least three corners", "surface leaf:", ModelSyntaxError),
+        ("surface leaf: patch (0,0) (1,2)", "A patch has 16 control points, not 2", "patch", ModelSyntaxError),
+        ("surface leaf: (0,0) (1,0) (n,1)", 'The name "n" cannot be used here', "n", ModelNameError),
+        ("surface leaf: (0,0) (1,0) (1<2,1)", '"1 < 2" is true or false, but a number is needed here', "1<2", ModelValueError),
+        ("surface leaf: (0,0) (1e9+1,1) (2,0)", "This point is too far away", "1e9+1,1", ModelValueError),
+        (
+            "surface leaf: (0,0) (1,1) (2,0)\nsurface leaf: (0,0) (1,1) (2,0)",
+            'The surface "leaf" is declared twice',
+            "surface leaf:",
+            ModelNameError,
+        ),
+        ("surface: (0,0) (1,1) (2,0)", "A surface needs a name and a colon", "surface", ModelSyntaxError),
+        ("surface leaf (0,0) (1,1) (2,0)", "A surface needs a name and a colon", "surface", ModelSyntaxError),
+        ("surface leaf: leaf.s", "A model opens no files", "leaf.s", ModelSyntaxError),
+        ("surface leaf:", 'There is nothing after "surface leaf:"', "surface leaf:", ModelSyntaxError),
+        ("surface leaf: (0) (1,0) (1,1)", "This is no point of a surface", "(0", ModelSyntaxError),
+        ("surface leaf: (0,0), (1,1), (2,0)", 'I did not expect "," here', ",", ModelSyntaxError),
+        ("surface leaf: round", 'I did not expect "round" here', "round", ModelSyntaxError),
+    ],
+)
 def test_what_is_wrong_with_a_surface_is_said(line: str, message: str, quoted: str, error: type[LSystemError]) -> None:
     text = f"n = 3\naxiom: A\n{line}\nA -> F ~leaf"
     with pytest.raises(error) as caught:
@@ -159,14 +175,17 @@ def test_a_surface_file_of_cpfg_is_taken_into_the_frame_of_the_turtle() -> None:
     assert with_surface(system, "L", FILE + FILE).surfaces[1].patches == (patch, patch)
 
 
-@pytest.mark.parametrize(("old", "new", "message", "line"), [
-    ("CONTACT POINT  X: 1", "CONTACT POINT  X:", 'There is no line "CONTACT POINT"', None),
-    ("SIZE: 2.0", "SIZE: -1", 'There is no line "SIZE:" with a positive number', 7),
-    ("SIZE: 2.0", "", 'There is no line "SIZE:" with a positive number', None),
-    ("X: 0 Y: 0.5 Z: 1", "X: 0 Y: 0.5 Z: 0", "This direction cannot be used", 6),
-    ("X: 0.00 Y: 2", "X: 0.00 Y: 0", "This direction cannot be used", 5),
-    ("1 4 3  1 4 3  1 4 3  1 4 3", "1 4 3", "A patch has four lines of four points, and here are 3", None),
-])
+@pytest.mark.parametrize(
+    ("old", "new", "message", "line"),
+    [
+        ("CONTACT POINT  X: 1", "CONTACT POINT  X:", 'There is no line "CONTACT POINT"', None),
+        ("SIZE: 2.0", "SIZE: -1", 'There is no line "SIZE:" with a positive number', 7),
+        ("SIZE: 2.0", "", 'There is no line "SIZE:" with a positive number', None),
+        ("X: 0 Y: 0.5 Z: 1", "X: 0 Y: 0.5 Z: 0", "This direction cannot be used", 6),
+        ("X: 0.00 Y: 2", "X: 0.00 Y: 0", "This direction cannot be used", 5),
+        ("1 4 3  1 4 3  1 4 3  1 4 3", "1 4 3", "A patch has four lines of four points, and here are 3", None),
+    ],
+)
 def test_what_is_wrong_with_a_surface_file_is_said(old: str, new: str, message: str, line: int | None) -> None:
     with pytest.raises(ModelSyntaxError, match=re.escape(message)) as caught:
         with_surface(LSystem((), ()), "L", FILE.replace(old, new))
@@ -178,9 +197,14 @@ def test_a_surface_file_may_have_the_line_ends_of_windows() -> None:
     assert found == wanted
 
 
-@pytest.mark.parametrize(("old", "new"), [
-    ("SIZE: 2.0", "SIZE: 1e-12"), ("1 4 3  1 4 3  1 4 3  1 4 3", "1 4 3  1 4 3  1 4 3  1 4 1e12"),
-    ("CONTACT POINT  X: 1", f"CONTACT POINT  X: {'9' * 400}")])
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("SIZE: 2.0", "SIZE: 1e-12"),
+        ("1 4 3  1 4 3  1 4 3  1 4 3", "1 4 3  1 4 3  1 4 3  1 4 1e12"),
+        ("CONTACT POINT  X: 1", f"CONTACT POINT  X: {'9' * 400}"),
+    ],
+)
 def test_a_surface_is_not_so_large_that_it_cannot_be_written(old: str, new: str) -> None:
     with pytest.raises(ModelValueError, match="A control point is too far away"):
         with_surface(LSystem((), ()), "L", FILE.replace(old, new))

@@ -44,12 +44,19 @@ def test_a_system_changes_its_notation() -> None:
     assert read(write(system, "plant-string"), "plant-string") == system
 
 
-@pytest.mark.parametrize(("text", "lacking"), [
-    ("axiom: A(1)", "parameters"), ("axiom: al", "symbols of several letters"), ("axiom: A\nA : 1 < 2 -> B", "conditions"),
-    ("k = 1\naxiom: A", "constants"), ("axiom: A\ninterpretation:\nA -> F", "interpretation rules"),
-    ("heading: 0\naxiom: A", "starting direction"), ("axiom: A_", "symbols of several letters"),
-    ("axiom: A\nA -> B(1)", "parameters"),
-])
+@pytest.mark.parametrize(
+    ("text", "lacking"),
+    [
+        ("axiom: A(1)", "parameters"),
+        ("axiom: al", "symbols of several letters"),
+        ("axiom: A\nA : 1 < 2 -> B", "conditions"),
+        ("k = 1\naxiom: A", "constants"),
+        ("axiom: A\ninterpretation:\nA -> F", "interpretation rules"),
+        ("heading: 0\naxiom: A", "starting direction"),
+        ("axiom: A_", "symbols of several letters"),
+        ("axiom: A\nA -> B(1)", "parameters"),
+    ],
+)
 def test_what_a_plant_string_lacks_is_named(text: str, lacking: str) -> None:
     with pytest.raises(ModelValueError, match=f"The notation plant-string has no {lacking}, which this system needs"):
         write(read(text), "plant-string")
@@ -60,9 +67,10 @@ def test_round_branches_are_for_plant_strings() -> None:
         write(read("Axiom: I\nI -> I(A)", "plant-string"), "abop")
 
 
-@pytest.mark.parametrize(("text", "notation", "symbol"), [
-    ("Axiom: F,A", "cpfg", ","), ("* # u1' F,", "grogra", "*"),
-    ("\\axiom L*0.5 F,", "grogra", "L*")])
+@pytest.mark.parametrize(
+    ("text", "notation", "symbol"),
+    [("Axiom: F,A", "cpfg", ","), ("* # u1' F,", "grogra", "*"), ("\\axiom L*0.5 F,", "grogra", "L*")],
+)
 def test_symbols_that_the_kit_s_own_notation_cannot_have_are_named(text: str, notation: str, symbol: str) -> None:
     with pytest.raises(ModelValueError) as caught:
         write(read(text, notation), "abop")
@@ -86,22 +94,27 @@ def test_names_are_kept_apart_and_nothing_else() -> None:
     assert dialect_named("plant-string").word(word) == "AB[+F]al_b("
 
 
-@pytest.mark.parametrize(("expression", "text"), [
-    (Apply("*", (Apply("+", (Name("a"), Name("b"))), Name("c"))), "(a + b) * c"),
-    (Apply("-", (Name("a"), Apply("-", (Name("b"), Name("c"))))), "a - (b - c)"),
-    (Apply("-", (Apply("-", (Name("a"), Name("b"))), Name("c"))), "a - b - c"),
-    (Apply("/", (Name("a"), Apply("*", (Name("b"), Name("c"))))), "a/(b * c)"),
-    (Apply("^", (Apply("^", (Name("a"), Name("b"))), Name("c"))), "(a^b)^c"),
-    (Apply("^", (Name("a"), Apply("^", (Name("b"), Name("c"))))), "a^b^c"),
-    (Apply("^", (Number(-2), Number(2))), "(-2)^2"),
-    (Apply("-x", (Apply("^", (Name("a"), Number(2))),)), "-a^2"),
-    (Apply("^", (Apply("-x", (Name("a"),)), Number(2))), "(-a)^2"),
-    (Apply("*", (Number(Fraction(1, 3)), Name("a"))), "1/3 * a"),
-    (Apply("^", (Number(Fraction(1, 3)), Name("a"))), "(1/3)^a"),
-    (Apply("!", (Apply("&&", (Apply("<", (Name("a"), Name("b"))), Apply("!", (Apply(">", (Name("a"), Name("b"))),)))),)),
-     "!(a < b && !(a > b))"),
-    (Apply("max", (Name("a"), Apply("-x", (Name("b"),)), Number(1))), "max(a, -b, 1)"),
-])
+@pytest.mark.parametrize(
+    ("expression", "text"),
+    [
+        (Apply("*", (Apply("+", (Name("a"), Name("b"))), Name("c"))), "(a + b) * c"),
+        (Apply("-", (Name("a"), Apply("-", (Name("b"), Name("c"))))), "a - (b - c)"),
+        (Apply("-", (Apply("-", (Name("a"), Name("b"))), Name("c"))), "a - b - c"),
+        (Apply("/", (Name("a"), Apply("*", (Name("b"), Name("c"))))), "a/(b * c)"),
+        (Apply("^", (Apply("^", (Name("a"), Name("b"))), Name("c"))), "(a^b)^c"),
+        (Apply("^", (Name("a"), Apply("^", (Name("b"), Name("c"))))), "a^b^c"),
+        (Apply("^", (Number(-2), Number(2))), "(-2)^2"),
+        (Apply("-x", (Apply("^", (Name("a"), Number(2))),)), "-a^2"),
+        (Apply("^", (Apply("-x", (Name("a"),)), Number(2))), "(-a)^2"),
+        (Apply("*", (Number(Fraction(1, 3)), Name("a"))), "1/3 * a"),
+        (Apply("^", (Number(Fraction(1, 3)), Name("a"))), "(1/3)^a"),
+        (
+            Apply("!", (Apply("&&", (Apply("<", (Name("a"), Name("b"))), Apply("!", (Apply(">", (Name("a"), Name("b"))),)))),)),
+            "!(a < b && !(a > b))",
+        ),
+        (Apply("max", (Name("a"), Apply("-x", (Name("b"),)), Number(1))), "max(a, -b, 1)"),
+    ],
+)
 def test_parentheses_stand_where_they_are_needed(expression: Apply, text: str) -> None:
     assert str(expression) == text
 

@@ -76,7 +76,7 @@ def test_a_symbol_is_written_where_it_can_be_read_and_named_where_it_cannot(nota
     written = set()
     for symbol in {symbol for symbols in SYMBOLS for symbol in symbols}:
         one, rules = Pattern(symbol), (Production((Pattern("A"),), (Pattern(symbol), Pattern("A"), Pattern(symbol))),)
-        heads = Production((one,), (Pattern("F"),)),
+        heads = (Production((one,), (Pattern("F"),)),)
         for system in (LSystem((one,), rules), LSystem((one, one), heads), LSystem((one,), rules, ignored=(symbol,))):
             angled = LSystem(system.axiom, system.productions, ignored=system.ignored, turtle=turtle, heading=heading, angle=60)
             if reads_back(angled, notation):
@@ -85,8 +85,22 @@ def test_a_symbol_is_written_where_it_can_be_read_and_named_where_it_cannot(nota
 
 
 @pytest.mark.parametrize("notation", DIALECTS)
-@pytest.mark.parametrize("number", ["0", "4444444444", "1e300", "0.5", "3e-99", "7e-400", "1e-999",
-                                    "0." + "4" * 299, "0." + "7" * 900, "1" * 308, "1." + "2" * 400 + "e-300"])
+@pytest.mark.parametrize(
+    "number",
+    [
+        "0",
+        "4444444444",
+        "1e300",
+        "0.5",
+        "3e-99",
+        "7e-400",
+        "1e-999",
+        "0." + "4" * 299,
+        "0." + "7" * 900,
+        "1" * 308,
+        "1." + "2" * 400 + "e-300",
+    ],
+)
 def test_a_number_of_any_size_reads_back(notation: str, number: str) -> None:
     value = read_expression(number)
     assert isinstance(value, Number)
@@ -95,8 +109,10 @@ def test_a_number_of_any_size_reads_back(notation: str, number: str) -> None:
         reads_back(LSystem((Pattern("F"),), (), **settings), notation)  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize(("number", "text"), [
-    ("7e-400", "7e-400"), ("1.25e-350", "1.25e-350"), ("3e-9", "0.000000003"), ("0." + "7" * 900, "0." + "7" * 900)])
+@pytest.mark.parametrize(
+    ("number", "text"),
+    [("7e-400", "7e-400"), ("1.25e-350", "1.25e-350"), ("3e-9", "0.000000003"), ("0." + "7" * 900, "0." + "7" * 900)],
+)
 def test_a_long_decimal_has_an_exponent_where_that_is_shorter(number: str, text: str) -> None:
     assert str(read_expression(number)) == text
 
@@ -115,24 +131,36 @@ def test_a_setting_is_the_decimal_that_it_is_printed_as(value: float, exact: Fra
     assert read("angle: sqrt(2)\naxiom: F").angle == Fraction("1.4142135623730951")
 
 
-@pytest.mark.parametrize(("text", "source", "notation", "lost"), [
-    ("\\axiom F_A", "grogra", "abop", 'the interpretation without "F_A -> F"'),
-    ("\\axiom F,\n{(t) # F(t)", "grogra", "abop", '"{(t) -> F(t)"'),
-    ("#define turtle 3\nAxiom: F", "cpfg", "mathematica", 'other meaning of the name "turtle"'),
-    ("depth: 2\naxiom: F", "abop", "plant-string", '"depth: 2"'),
-])
+@pytest.mark.parametrize(
+    ("text", "source", "notation", "lost"),
+    [
+        ("\\axiom F_A", "grogra", "abop", 'the interpretation without "F_A -> F"'),
+        ("\\axiom F,\n{(t) # F(t)", "grogra", "abop", '"{(t) -> F(t)"'),
+        ("#define turtle 3\nAxiom: F", "cpfg", "mathematica", 'other meaning of the name "turtle"'),
+        ("depth: 2\naxiom: F", "abop", "plant-string", '"depth: 2"'),
+    ],
+)
 def test_what_would_be_read_otherwise_is_quoted(text: str, source: str, notation: str, lost: str) -> None:
     with pytest.raises(ModelValueError) as refused:
         write(read(text, source), notation)
     assert lost in refused.value.message
 
 
-@pytest.mark.parametrize(("text", "source", "notation"), [
-    ("Axiom: 0", "cpfg", "plant-string"), ("Axiom: A\nA --> AB//grows", "cpfg", "plant-string"),
-    ("Axiom: ;", "cpfg", "plant-string"), ("axiom: @G . F", "abop", "mathematica"), ("axiom: @ G //", "abop", "mathematica"),
-    ("axiom: F\nsteps: 4444444444", "abop", "grogra"), ("ignore: 3\nalphabet: 3\naxiom: 3", "abop", "abop"),
-    ("axiom: @G @ G\nG -> @G", "abop", "abop"), ("Lsystem: 1\nAxiom: @Ts\n@Ts --> F@Ts", "cpfg", "cpfg"),
-    ("angle: -45\nAxiom: A", "plant-string", "plant-string"), ("angle: 1/3\nAxiom: A", "plant-string", "plant-string"),
-])
+@pytest.mark.parametrize(
+    ("text", "source", "notation"),
+    [
+        ("Axiom: 0", "cpfg", "plant-string"),
+        ("Axiom: A\nA --> AB//grows", "cpfg", "plant-string"),
+        ("Axiom: ;", "cpfg", "plant-string"),
+        ("axiom: @G . F", "abop", "mathematica"),
+        ("axiom: @ G //", "abop", "mathematica"),
+        ("axiom: F\nsteps: 4444444444", "abop", "grogra"),
+        ("ignore: 3\nalphabet: 3\naxiom: 3", "abop", "abop"),
+        ("axiom: @G @ G\nG -> @G", "abop", "abop"),
+        ("Lsystem: 1\nAxiom: @Ts\n@Ts --> F@Ts", "cpfg", "cpfg"),
+        ("angle: -45\nAxiom: A", "plant-string", "plant-string"),
+        ("angle: 1/3\nAxiom: A", "plant-string", "plant-string"),
+    ],
+)
 def test_what_was_once_written_and_refused(text: str, source: str, notation: str) -> None:
     assert reads_back(read(text, source), notation) == (notation != "plant-string" or source == notation)

@@ -65,7 +65,7 @@ def words(draw: st.DrawFn, names: tuple[str, ...], most: int = 3, chance: bool =
         inner = draw(words((*names, index) if index else names, most, chance, deep - 1)) or (Pattern("B"),)
         word.append(Repeat(draw(drawn(names) if names else st.integers(0, 5).map(Number)), inner, index))
     if word and draw(st.integers(0, 2)) == 0:
-        word[0:len(word) // 2] = [Pattern("["), *word[0:len(word) // 2], Pattern("]")]
+        word[0 : len(word) // 2] = [Pattern("["), *word[0 : len(word) // 2], Pattern("]")]
     return tuple(word)
 
 
@@ -124,8 +124,13 @@ def systems(draw: st.DrawFn) -> LSystem:
         tuple(draw(st.lists(rules("productions"), max_size=4))),
         interpretation=tuple(draw(st.lists(rules("interpretation"), max_size=1))),
         decomposition=tuple(draw(st.lists(rules("decomposition"), max_size=2))),
-        meta=tuple(draw(st.lists(meta_rules(), max_size=2))), depth=draw(st.integers(1, 3)), alphabet=ALPHABET,
-        ignored=() if considers else passed, considered=passed if considers else (), branches=draw(st.sampled_from(BRANCHES)))
+        meta=tuple(draw(st.lists(meta_rules(), max_size=2))),
+        depth=draw(st.integers(1, 3)),
+        alphabet=ALPHABET,
+        ignored=() if considers else passed,
+        considered=passed if considers else (),
+        branches=draw(st.sampled_from(BRANCHES)),
+    )
 
 
 SEEN: Counter[str] = Counter()
@@ -137,14 +142,18 @@ SEEN: Counter[str] = Counter()
 def test_what_is_written_is_read_again(system: LSystem) -> None:
     assert read(write(system)) == system
     every = (*system.productions, *system.decomposition)
-    SEEN.update({
-        "systems": 1, "context": any(rule.left or rule.right for rule in every),
-        "probability": any(rule.probability is not None for rule in every),
-        "repeat": any(isinstance(item, Repeat) for rule in every for item in rule.successor),
-        "random": any(name in write(system) for name in ("uniform", "normal", "binomial", "poisson", "table")),
-        "meta": bool(system.meta), "decomposition": bool(system.decomposition),
-        "ignored": bool(system.ignored or system.considered),
-    })
+    SEEN.update(
+        {
+            "systems": 1,
+            "context": any(rule.left or rule.right for rule in every),
+            "probability": any(rule.probability is not None for rule in every),
+            "repeat": any(isinstance(item, Repeat) for rule in every for item in rule.successor),
+            "random": any(name in write(system) for name in ("uniform", "normal", "binomial", "poisson", "table")),
+            "meta": bool(system.meta),
+            "decomposition": bool(system.decomposition),
+            "ignored": bool(system.ignored or system.considered),
+        }
+    )
 
 
 def test_the_systems_written_had_everything() -> None:
@@ -152,12 +161,17 @@ def test_the_systems_written_had_everything() -> None:
         assert {kind for kind, count in SEEN.items() if count < SEEN["systems"] / 10} == set()
 
 
-@pytest.mark.parametrize(("text", "lacking"), [
-    ("axiom: A\nA < B -> C", "contexts"), ("axiom: A\nA -> B : 0.5", "probabilities"),
-    ("ignore: B\naxiom: A", "ignored symbols"),
-    ("axiom: A\nA -> repeat(2) <B>", "repetition"), ("axiom: A\ndecomposition:\nA -> B", "decomposition rules"),
-    ("axiom: A\nmeta: A A -> A", "meta-rules"),
-])
+@pytest.mark.parametrize(
+    ("text", "lacking"),
+    [
+        ("axiom: A\nA < B -> C", "contexts"),
+        ("axiom: A\nA -> B : 0.5", "probabilities"),
+        ("ignore: B\naxiom: A", "ignored symbols"),
+        ("axiom: A\nA -> repeat(2) <B>", "repetition"),
+        ("axiom: A\ndecomposition:\nA -> B", "decomposition rules"),
+        ("axiom: A\nmeta: A A -> A", "meta-rules"),
+    ],
+)
 def test_what_a_plant_string_lacks_is_named(text: str, lacking: str) -> None:
     with pytest.raises(ModelValueError, match=f"The notation plant-string has no {lacking}, which this system needs"):
         write(read(text), "plant-string")

@@ -28,8 +28,10 @@ SECONDS = 300
 """For each cell."""
 WIDGET = "application/vnd.jupyter.widget-view+json"
 PICTURE = "image/png"
-METADATA = {"kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"},
-            "language_info": {"name": "python"}}
+METADATA = {
+    "kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"},
+    "language_info": {"name": "python"},
+}
 CELL_METADATA = ("deletable", "editable", "nbgrader", "tags")
 """What a cell's metadata may say; the rest is how somebody's screen looked."""
 
@@ -44,8 +46,14 @@ def rebuilt(path: Path) -> str:
     stored = nbformat.read(path, as_version=4)
     run = nbformat.from_dict(json.loads(json.dumps(stored)))
     os.environ["TQDM_DISABLE"] = "1"  # a progress bar says how busy the machine was
-    NotebookClient(run, timeout=SECONDS, kernel_name="python3", store_widget_state=False, record_timing=False,
-                   resources={"metadata": {"path": str(path.parent)}}).execute()
+    NotebookClient(
+        run,
+        timeout=SECONDS,
+        kernel_name="python3",
+        store_widget_state=False,
+        record_timing=False,
+        resources={"metadata": {"path": str(path.parent)}},
+    ).execute()
     return normalised(run, stored)
 
 

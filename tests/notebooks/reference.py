@@ -82,8 +82,9 @@ def _pictures(row: Row) -> Iterator[NotebookNode]:
     for turtle, symbols in symbols_of(row).items():
         for symbol in symbols:
             notation, text = example_of(turtle, symbol)
-            yield new_code_cell(f"# {EXAMPLES['turtles'][turtle]['title']}: {symbol}\n"
-                                f'draw(read({_quoted(text)}, "{notation}"), 0, turtle=True)')
+            yield new_code_cell(
+                f'# {EXAMPLES["turtles"][turtle]["title"]}: {symbol}\ndraw(read({_quoted(text)}, "{notation}"), 0, turtle=True)'
+            )
 
 
 def _notation_cells() -> Iterator[NotebookNode]:

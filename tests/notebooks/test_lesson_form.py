@@ -36,9 +36,31 @@ FEW = 2_000
 """The modules of a panel whose sliders are counted, so that its steps are few."""
 FIRST_WITH_PYTHON = 8
 """Before this lesson nothing is asked of a student's Python but names, numbers and texts."""
-PLAIN = (ast.Module, ast.ImportFrom, ast.alias, ast.Expr, ast.Assign, ast.Call, ast.keyword, ast.Name, ast.Load, ast.Store,
-         ast.Constant, ast.Attribute, ast.Subscript, ast.List, ast.Tuple, ast.Dict, ast.UnaryOp, ast.USub, ast.BinOp, ast.Add,
-         ast.Sub, ast.Mult, ast.Div)
+PLAIN = (
+    ast.Module,
+    ast.ImportFrom,
+    ast.alias,
+    ast.Expr,
+    ast.Assign,
+    ast.Call,
+    ast.keyword,
+    ast.Name,
+    ast.Load,
+    ast.Store,
+    ast.Constant,
+    ast.Attribute,
+    ast.Subscript,
+    ast.List,
+    ast.Tuple,
+    ast.Dict,
+    ast.UnaryOp,
+    ast.USub,
+    ast.BinOp,
+    ast.Add,
+    ast.Sub,
+    ast.Mult,
+    ast.Div,
+)
 
 every_lesson = pytest.mark.parametrize("name", names())
 
@@ -66,9 +88,13 @@ def page(name: str) -> str:
 
 def calls(name: str, function: str) -> list[tuple[int, ast.Call]]:
     """The calls of a function in a lesson, each with the number of its code cell."""
-    return [(number, node) for number, source in enumerate(code(name)) if not source.startswith("%")
-            for node in ast.walk(ast.parse(source))
-            if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == function]
+    return [
+        (number, node)
+        for number, source in enumerate(code(name))
+        if not source.startswith("%")
+        for node in ast.walk(ast.parse(source))
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == function
+    ]
 
 
 def given(call: ast.Call) -> list[object]:

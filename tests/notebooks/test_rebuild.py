@@ -31,13 +31,23 @@ def noted(widget: str, picture: str, count: int, minute: str) -> nbformat.Notebo
     """A notebook as somebody's machine leaves it."""
     view = {"model_id": widget, "version_major": 2, "version_minor": 0}
     outputs = [
-        new_output("stream", name="stdout", text="one\n"), new_output("stream", name="stdout", text="two\n"),
-        new_output("execute_result", {"text/plain": "a picture", PNG: picture, WIDGET: view}, execution_count=count,
-                   metadata={"needs_background": "light"}),
+        new_output("stream", name="stdout", text="one\n"),
+        new_output("stream", name="stdout", text="two\n"),
+        new_output(
+            "execute_result",
+            {"text/plain": "a picture", PNG: picture, WIDGET: view},
+            execution_count=count,
+            metadata={"needs_background": "light"},
+        ),
         new_output("error", ename="ModelSyntaxError", evalue="An arrow is missing", traceback=[f"/home/{widget}/x.py", "..."]),
     ]
-    cell = new_code_cell("draw()", execution_count=count, outputs=outputs, id="drawing",
-                         metadata={"execution": {"iopub.status.busy": minute}, "scrolled": True, "tags": ["raises-exception"]})
+    cell = new_code_cell(
+        "draw()",
+        execution_count=count,
+        outputs=outputs,
+        id="drawing",
+        metadata={"execution": {"iopub.status.busy": minute}, "scrolled": True, "tags": ["raises-exception"]},
+    )
     title, empty = new_markdown_cell("# Title", id="title", metadata={"collapsed": minute}), new_code_cell("", id="empty")
     metadata = {"language_info": {"name": "python", "version": minute}, "widgets": {"state": {widget: minute}}}
     return new_notebook(cells=[title, empty, cell], metadata=metadata)

@@ -10,8 +10,13 @@ from lsys_kit.geometry.turtle.commands.table import COMMAND_TABLE, COMMANDS
 from lsys_kit.notation.registry import DIALECTS
 from tests.notebooks.reference import EXAMPLES, FOLDER, built, example_of, symbols_of
 
-SHOWN = [(turtle, symbol) for row in COMMAND_TABLE if row.commands
-         for turtle, symbols in symbols_of(row).items() for symbol in symbols]
+SHOWN = [
+    (turtle, symbol)
+    for row in COMMAND_TABLE
+    if row.commands
+    for turtle, symbols in symbols_of(row).items()
+    for symbol in symbols
+]
 
 
 @pytest.mark.parametrize("name", sorted(built()))

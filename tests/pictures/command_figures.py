@@ -19,8 +19,10 @@ LETTERS: dict[str, tuple[Line, ...]] = {
     "L": (((0, 1), (0, 0), (0.5, 0)),),
     "U": (((0, 1), (0, 0.2), (0.15, 0), (0.45, 0), (0.6, 0.2), (0.6, 1)),),
     "λ": (((0, 1), (0.13, 1), (0.6, 0)), ((0.31, 0.6), (0, 0))),
-    "g": (((0.5, 0.6), (0.3, 0.65), (0.1, 0.55), (0, 0.35), (0.1, 0.1), (0.3, 0), (0.5, 0.1)),
-          ((0.5, 0.65), (0.5, -0.2), (0.35, -0.35), (0.1, -0.3))),
+    "g": (
+        ((0.5, 0.6), (0.3, 0.65), (0.1, 0.55), (0, 0.35), (0.1, 0.1), (0.3, 0), (0.5, 0.1)),
+        ((0.5, 0.65), (0.5, -0.2), (0.35, -0.35), (0.1, -0.3)),
+    ),
     "α": (((0.7, 0.65), (0.5, 0.1), (0.3, 0), (0.1, 0.1), (0, 0.3), (0.1, 0.55), (0.3, 0.65), (0.5, 0.55), (0.7, 0)),),
 }
 """The lines of letters, to the right and up from their lower left corners."""
@@ -57,19 +59,30 @@ def stroke() -> LSystem:
     axes = axis("", "", BLUE, "H", 8, -12) + axis("RU(90)", "RU(-90)", RED, "L", -10, 12)
     end = "[RU(90) F(12)] [RU(-90) F(12)]"
     measure = f"P({GREY}) D(1.5) RU(-90) f(24) RU(90) {end} RU(180) F(180) {end}"
-    return _model("axiom: T", "T -> F T", "interpretation:", f"T -> {axes}",
-                  f"F -> P({BROWN}) D(14) F(180) [{measure} RU(180) f(90) P({DARK}) D(2) {letter('λ', -32, -10)}]")
+    return _model(
+        "axiom: T",
+        "T -> F T",
+        "interpretation:",
+        f"T -> {axes}",
+        f"F -> P({BROWN}) D(14) F(180) [{measure} RU(180) f(90) P({DARK}) D(2) {letter('λ', -32, -10)}]",
+    )
 
 
 def roll() -> LSystem:
     """`RH` turns left and up around head, by an angle α."""
-    arc = (f"[RH(-a) P({GREY}) D(1.5) [RU(90) F(100)] RU(90) f(60) RL(-90 - a/20) P({DARK}) D(2) "
-           "repeat(10) <F(120*sin(a/20)) RL(-a/10)>]")
-    axes = (axis("", "", BLUE, "H", 8, -12) + axis("RU(90)", "RU(-90) RH(-a)", RED, "L", -4, 14)
-            + axis("RL(-90)", "RL(90) RH(-a)", GREEN, "U", 4, 10))
+    arc = (
+        f"[RH(-a) P({GREY}) D(1.5) [RU(90) F(100)] RU(90) f(60) RL(-90 - a/20) P({DARK}) D(2) "
+        "repeat(10) <F(120*sin(a/20)) RL(-a/10)>]"
+    )
+    axes = (
+        axis("", "", BLUE, "H", 8, -12)
+        + axis("RU(90)", "RU(-90) RH(-a)", RED, "L", -4, 14)
+        + axis("RL(-90)", "RL(90) RH(-a)", GREEN, "U", 4, 10)
+    )
     mark = f"[RH(-a/2) RU(90) f(74) RU(-90) RH(-a/2) D(2) P({DARK}) {letter('α', -4, -6)}]"
-    return _model("axiom: T(0)", "T(a) -> RH(50) T(a + 50)", "interpretation:", f"T(a) : a > 0 -> {arc} {mark} {axes}",
-                  f"T(a) -> {axes}")
+    return _model(
+        "axiom: T(0)", "T(a) -> RH(50) T(a + 50)", "interpretation:", f"T(a) : a > 0 -> {arc} {mark} {axes}", f"T(a) -> {axes}"
+    )
 
 
 def bend() -> LSystem:
@@ -78,9 +91,13 @@ def bend() -> LSystem:
     second = _bent(first)
     sum = f"[P({GREY}) D(2) F(100) RG P({RED}) D(4) F({100 * PULL}) {ARROW} RU(180) f(30) D(2) {letter('g', 8, -6)}]"
     return _model(
-        f"axiom: RU({first}) T({first})", f"T(a) : a == {first} -> B T({second})", f"T(a) -> B T({_bent(second)})",
-        "interpretation:", f"T(a) -> [P({BLUE}) D(4) F(100) {ARROW} RU(-a) D(2) {letter('H', 8, -4)}]",
-        f"B -> {sum} RV({PULL})")
+        f"axiom: RU({first}) T({first})",
+        f"T(a) : a == {first} -> B T({second})",
+        f"T(a) -> B T({_bent(second)})",
+        "interpretation:",
+        f"T(a) -> [P({BLUE}) D(4) F(100) {ARROW} RU(-a) D(2) {letter('H', 8, -4)}]",
+        f"B -> {sum} RV({PULL})",
+    )
 
 
 def _bent(angle: float) -> float:

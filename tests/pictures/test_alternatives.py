@@ -11,12 +11,19 @@ from lsys_kit import cellwork_system, draw, draw_hierarchy, ensemble, lineage, m
 
 SPANS = {"lifeTimeA": [2, 3], "lifeTimeB": [2, 3]}
 PICTURES = {
-    "a filament": lambda: draw(system("J1"), 2), "a plant": lambda: draw(system("K5"), 2),
-    "a stage diagram": lambda: draw(stages(system("J4"))), "a lineage": lambda: draw(lineage(system("P6"), 2)),
-    "a map": lambda: draw(map_system("K28"), 1), "a map on a sphere": lambda: draw(map_system("K34"), 1),
-    "a plot": lambda: plot(system("J1"), 5), "a distribution": lambda: ensemble(system("K7"), 5, steps=2).plot(),
-    "frequencies": lambda: plot(stages(system("P2")), 9), "a grid": lambda: sweep(system("J4"), SPANS, steps=5).plot(),
-    "a cellwork": lambda: draw(cellwork_system("K33"), 1), "the hierarchy": draw_hierarchy, "a code": lambda: qr_code("text"),
+    "a filament": lambda: draw(system("J1"), 2),
+    "a plant": lambda: draw(system("K5"), 2),
+    "a stage diagram": lambda: draw(stages(system("J4"))),
+    "a lineage": lambda: draw(lineage(system("P6"), 2)),
+    "a map": lambda: draw(map_system("K28"), 1),
+    "a map on a sphere": lambda: draw(map_system("K34"), 1),
+    "a plot": lambda: plot(system("J1"), 5),
+    "a distribution": lambda: ensemble(system("K7"), 5, steps=2).plot(),
+    "frequencies": lambda: plot(stages(system("P2")), 9),
+    "a grid": lambda: sweep(system("J4"), SPANS, steps=5).plot(),
+    "a cellwork": lambda: draw(cellwork_system("K33"), 1),
+    "the hierarchy": draw_hierarchy,
+    "a code": lambda: qr_code("text"),
 }
 
 

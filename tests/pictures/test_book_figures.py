@@ -31,7 +31,8 @@ from tests.pictures.test_seed_figures import GOLDEN, alike
 GALLERY = nbformat.read(ROOT / "notebooks" / "gallery.ipynb", as_version=4)
 CODE = "\n".join(cell.source for cell in GALLERY.cells if cell.cell_type == "code")
 STEPS: Mapping[str, int | None] = {
-    id: int(steps) if steps else None for id, steps in re.findall(r'^draw\(system\("(ABOP[^"]+)"\)(?:, (\d+))?\)$', CODE, re.M)}
+    id: int(steps) if steps else None for id, steps in re.findall(r'^draw\(system\("(ABOP[^"]+)"\)(?:, (\d+))?\)$', CODE, re.M)
+}
 """The figures that the gallery shows, and how many steps of each, where these are not those of the book."""
 
 PLACES = {"3-mycelis": "3.3.3", "4-sunflower": "4.1", "4-cylinder": "4.2", "4-spike": "4.2"}
@@ -47,6 +48,7 @@ def drawn(id: str) -> Picture:
 
 
 # --- the gallery and the catalogue -------------------------------------------------------------------------------------------
+
 
 def test_the_gallery_shows_every_figure_of_the_catalogue() -> None:
     assert sorted(STEPS) == sorted(book_systems())
@@ -77,7 +79,7 @@ def test_a_listing_as_printed_is_in_the_catalogue(path: Path) -> None:
     printed, number = read(path.read_text("utf-8")), path.stem.partition("-")[0]
     id = {"2.6": "ABOP-2.6a", "2.8": "ABOP-2.8a"}.get(number, f"ABOP-{number}")
     assert printed.productions == system(id).productions
-    assert printed.axiom == system(id).axiom[number == "2.8":]
+    assert printed.axiom == system(id).axiom[number == "2.8" :]
     assert (printed.steps, printed.angle, printed.constants) == (system(id).steps, system(id).angle, system(id).constants)
 
 
@@ -93,6 +95,7 @@ def test_what_is_seen_is_said_above_each_picture() -> None:
 
 
 # --- the pictures ------------------------------------------------------------------------------------------------------------
+
 
 def test_every_golden_picture_of_the_book_belongs_to_a_figure() -> None:
     assert {path.stem for path in (GOLDEN / "book").glob("*.svg")} == STEPS.keys()
@@ -160,8 +163,13 @@ def pull(turtle: PlainTurtle, values: list[float]) -> None:
 
 
 OTHERS: Mapping[str, Callable[[PlainTurtle, list[float]], None]] = {
-    "[": push, "]": pop, "$": level, "@Ts": pull, "|": lambda turtle, _: turtle.rotate(turtle.frame[2], 180.0),
-    **dict.fromkeys("DSR", lambda turtle, _: turtle.places.append(turtle.at))}
+    "[": push,
+    "]": pop,
+    "$": level,
+    "@Ts": pull,
+    "|": lambda turtle, _: turtle.rotate(turtle.frame[2], 180.0),
+    **dict.fromkeys("DSR", lambda turtle, _: turtle.places.append(turtle.at)),
+}
 """The other commands that the listings have; D, S and R are the florets of chapter 4."""
 DRAWN_AS: Mapping[str, Mapping[str, str]] = {"ABOP-5.9": {"X": "&"}, "ABOP-3-mycelis": {"G": ""}}
 """Symbols that turn as a command does, or are not drawn."""
@@ -196,6 +204,7 @@ def test_a_plain_turtle_draws_the_same_figure_of_the_book(id: str) -> None:
 
 # --- what geometry says of them ----------------------------------------------------------------------------------------------
 
+
 def corners(id: str, steps: int | None = None) -> np.ndarray:
     """The corners of a line without branches or gaps, from its start on, at the step of the book or another one."""
     found = system(id)
@@ -222,10 +231,22 @@ def test_a_quadratic_koch_island_keeps_its_area(step: int) -> None:
     assert abs(x[:-1] @ y[1:] - x[1:] @ y[:-1]) / 2 == pytest.approx(16**step)
 
 
-@pytest.mark.parametrize(("id", "axiom", "base"), [
-    ("ABOP-1.6", 4, 8), ("ABOP-1.7a", 4, 18), ("ABOP-1.7b", 1, 5), ("ABOP-1.8", 4, 18), ("ABOP-1.10a", 1, 2),
-    ("ABOP-1.10b", 1, 3), ("ABOP-1.11a", 1, 7), ("ABOP-1.11b", 1, 25), ("ABOP-1.24a", 1, 5), ("ABOP-1.24b", 1, 5),
-    ("ABOP-1.24c", 1, 8)])
+@pytest.mark.parametrize(
+    ("id", "axiom", "base"),
+    [
+        ("ABOP-1.6", 4, 8),
+        ("ABOP-1.7a", 4, 18),
+        ("ABOP-1.7b", 1, 5),
+        ("ABOP-1.8", 4, 18),
+        ("ABOP-1.10a", 1, 2),
+        ("ABOP-1.10b", 1, 3),
+        ("ABOP-1.11a", 1, 7),
+        ("ABOP-1.11b", 1, 25),
+        ("ABOP-1.24a", 1, 5),
+        ("ABOP-1.24b", 1, 5),
+        ("ABOP-1.24c", 1, 8),
+    ],
+)
 def test_edges_multiply(id: str, axiom: int, base: int) -> None:
     words = derive(system(id), 3)
     assert [sum(module.symbol.startswith("F") for module in word) for word in words] == [axiom * base**n for n in range(4)]
@@ -248,9 +269,16 @@ def test_the_quadratic_gosper_curve_fills_a_square() -> None:
     assert len(line) - 1 == 25 * 25
 
 
-@pytest.mark.parametrize(("id", "side", "width"), [
-    ("ABOP-1.15", 32, 31), ("ABOP-1.16a", 27, 26), ("ABOP-1.16b", 16, 15), ("ABOP-1.17a", 27, 26),
-    ("ABOP-1.17b", 25, 24 * 2**0.5)])
+@pytest.mark.parametrize(
+    ("id", "side", "width"),
+    [
+        ("ABOP-1.15", 32, 31),
+        ("ABOP-1.16a", 27, 26),
+        ("ABOP-1.16b", 16, 15),
+        ("ABOP-1.17a", 27, 26),
+        ("ABOP-1.17b", 25, 24 * 2**0.5),
+    ],
+)
 def test_a_curve_of_tiles_visits_every_point_of_a_square(id: str, side: int, width: float) -> None:
     line = corners(id)
     assert len(line) == different(line) == side**2

@@ -63,13 +63,16 @@ def test_one_cell_or_one_generation_is_lit() -> None:
         draw(K33, 3, generation=1)
 
 
-@pytest.mark.parametrize(("choices", "kind", "message"), [
-    ({"angle": 30}, ModelNameError, 'A cellwork has no "angle". Its forces are stiffness, rest, pressure, damping'),
-    ({"pressure": -1}, ModelValueError, '"pressure" must lie between'),
-    ({"view": ("x", 0)}, ModelValueError, "\"view\" must be a number, not .x.. \\(30, 15\\) is from"),
-    ({"cell": "x"}, ModelValueError, "The number of a cell must be a whole number"),
-    ({"generation": -1}, ModelValueError, "The number of a generation must be a whole number"),
-])
+@pytest.mark.parametrize(
+    ("choices", "kind", "message"),
+    [
+        ({"angle": 30}, ModelNameError, 'A cellwork has no "angle". Its forces are stiffness, rest, pressure, damping'),
+        ({"pressure": -1}, ModelValueError, '"pressure" must lie between'),
+        ({"view": ("x", 0)}, ModelValueError, '"view" must be a number, not .x.. \\(30, 15\\) is from'),
+        ({"cell": "x"}, ModelValueError, "The number of a cell must be a whole number"),
+        ({"generation": -1}, ModelValueError, "The number of a generation must be a whole number"),
+    ],
+)
 def test_choices_are_checked(choices: dict[str, object], kind: type[Exception], message: str) -> None:
     with pytest.raises(kind, match=message):
         draw(K33, 1, **choices)

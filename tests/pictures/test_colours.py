@@ -26,7 +26,7 @@ def in_the_word(word):
     found = {}
     for module in {word.states.modules[state] for state in word.numbers()}:
         label = re.escape(html_label(module, word.states.system))
-        for colour in re.findall(rf'border-bottom:2px solid (#\w+);[^>]*>{label}</span>', word_html(word)):
+        for colour in re.findall(rf"border-bottom:2px solid (#\w+);[^>]*>{label}</span>", word_html(word)):
             found.setdefault(module.symbol, set()).add(colour)
     return found
 

@@ -160,12 +160,15 @@ def test_names_of_a_model_never_become_markup():
     assert "<script" not in picture.svg
 
 
-@pytest.mark.parametrize(("what", "hint"), [
-    (system("K5"), "marked, cells, field, view, steps, seeds, size, colours, widths, turtle, legend, background."),
-    (system("J4"), "Constants of the system are: lifeTimeA, lifeTimeB."),
-    (stages(system("P2")), "Options are: tokens, positions, size, labels, colours, background."),
-    (lineage(system("P6"), 2), "Options are: intervals, size, labels, colours, legend, background."),
-])
+@pytest.mark.parametrize(
+    ("what", "hint"),
+    [
+        (system("K5"), "marked, cells, field, view, steps, seeds, size, colours, widths, turtle, legend, background."),
+        (system("J4"), "Constants of the system are: lifeTimeA, lifeTimeB."),
+        (stages(system("P2")), "Options are: tokens, positions, size, labels, colours, background."),
+        (lineage(system("P6"), 2), "Options are: intervals, size, labels, colours, legend, background."),
+    ],
+)
 def test_an_option_that_there_is_not_is_named(what, hint):
     with pytest.raises(ModelNameError) as caught:
         draw(what, material="wood")

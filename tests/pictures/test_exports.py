@@ -50,7 +50,7 @@ def kept(what, path):
 def painted(path):
     """The colours in a .glb file, as linear light."""
     content = path.read_bytes()
-    tree = json.loads(content[20:20 + struct.unpack("<I", content[12:16])[0]])
+    tree = json.loads(content[20 : 20 + struct.unpack("<I", content[12:16])[0]])
     return {tuple(material["pbrMetallicRoughness"]["baseColorFactor"]) for material in tree["materials"]}
 
 
@@ -65,13 +65,15 @@ def rgb(colour):
 
 # --- meshes -----------------------------------------------------------------------------------------------------------
 
+
 @pytest.mark.parametrize("ending", ["glb", "obj"])
 def test_another_program_reads_every_vertex_and_triangle(tmp_path, ending):
     picture = draw(BUSH, 4)
     parts = kept(picture, tmp_path / f"bush.{ending}").geometry.values()
     assert sum(len(part.faces) for part in parts) == len(picture.mesh.triangles)
-    count = sum(len(part.vertices) for part in parts) if ending == "glb" else \
-        (tmp_path / "bush.obj").read_text().count("\nv ")  # trimesh joins vertices of an .obj file
+    count = (
+        sum(len(part.vertices) for part in parts) if ending == "glb" else (tmp_path / "bush.obj").read_text().count("\nv ")
+    )  # trimesh joins vertices of an .obj file
     assert count == len(picture.mesh.vertices)
 
 
@@ -87,8 +89,9 @@ def test_a_kept_mesh_is_as_large_as_the_scene_and_stands_upright(tmp_path, endin
 
 def test_a_glb_has_the_colours_of_the_drawing(tmp_path):
     loaded = kept(draw(LINE, 0), tmp_path / "line.glb")
-    assert painted(tmp_path / "line.glb") == {(*(round(value, 6) for value in light(colour)), 1.0)
-                                              for colour in (colours(LINE)["F"], CHOSEN[4])}
+    assert painted(tmp_path / "line.glb") == {
+        (*(round(value, 6) for value in light(colour)), 1.0) for colour in (colours(LINE)["F"], CHOSEN[4])
+    }
     assert {part.visual.material.name for part in loaded.geometry.values()} == {colours(LINE)["F"], CHOSEN[4]}
 
 
@@ -99,8 +102,9 @@ def test_an_obj_has_the_colours_of_the_drawing_beside_it(tmp_path):
     lines = (tmp_path / "my_line.mtl").read_text().splitlines()
     kinds = {tuple(round(255 * float(value)) for value in line.split()[1:]) for line in lines if line.startswith("Kd ")}
     assert kinds == {rgb(colours(LINE)["F"]), rgb(CHOSEN[4])}
-    assert {line.split()[1] for line in text.splitlines() if line.startswith("usemtl")} \
-        == {line.split()[1] for line in lines if line.startswith("newmtl")}
+    assert {line.split()[1] for line in text.splitlines() if line.startswith("usemtl")} == {
+        line.split()[1] for line in lines if line.startswith("newmtl")
+    }
 
 
 def test_the_sides_of_a_kept_mesh_are_where_its_normals_say(tmp_path):
@@ -121,7 +125,7 @@ def test_a_glb_is_laid_out_as_its_standard_says():
     content = glb(picture.mesh, picture.colour_of)
     assert struct.unpack("<4sII", content[:12]) == (b"glTF", 2, len(content))
     length, kind = struct.unpack("<I4s", content[12:20])
-    tree, rest = json.loads(content[20:20 + length]), content[20 + length:]
+    tree, rest = json.loads(content[20 : 20 + length]), content[20 + length :]
     assert (length % 4, kind, rest[4:8]) == (0, b"JSON", b"BIN\0")
     assert struct.unpack("<I", rest[:4])[0] == len(rest) - 8 == tree["buffers"][0]["byteLength"]
     assert all(view["byteOffset"] % 4 == 0 for view in tree["bufferViews"])
@@ -173,6 +177,7 @@ def test_a_hundred_thousand_strokes_are_kept_in_seconds(tmp_path):
 
 # --- pages ------------------------------------------------------------------------------------------------------------
 
+
 @pytest.mark.parametrize("id", ["J1", "K5", "K14"])
 def test_a_page_is_the_same_every_time(tmp_path, id):
     for name in ("a", "b"):
@@ -190,6 +195,7 @@ def test_a_page_says_what_it_shows(tmp_path):
 
 
 # --- films ------------------------------------------------------------------------------------------------------------
+
 
 def frames(content):
     return [frame.convert("RGB").copy() for frame in ImageSequence.Iterator(Image.open(io.BytesIO(content)))]
@@ -262,13 +268,17 @@ def test_a_film_takes_what_a_drawing_takes():
     assert str(animate(system("J4"), 6, lifeTimeA=2)) != str(animate(system("J4"), 6))
 
 
-@pytest.mark.parametrize(("what", "choices", "said"), [
-    ("K5", {}, "can be animated, not str"),
-    (derive(system("K5"), 1)[1], {}, "can be animated, not Word"),
-    (system("K5"), {"n": 2, "seconds": 0}, "0.02 to 60 seconds, not for 0"),
-    (system("K5"), {"n": 2, "seconds": 61}, "0.02 to 60"),
-    (derive(system("K5"), 1), {"n": 2}, "when a system is derived"),
-], ids=str)
+@pytest.mark.parametrize(
+    ("what", "choices", "said"),
+    [
+        ("K5", {}, "can be animated, not str"),
+        (derive(system("K5"), 1)[1], {}, "can be animated, not Word"),
+        (system("K5"), {"n": 2, "seconds": 0}, "0.02 to 60 seconds, not for 0"),
+        (system("K5"), {"n": 2, "seconds": 61}, "0.02 to 60"),
+        (derive(system("K5"), 1), {"n": 2}, "when a system is derived"),
+    ],
+    ids=str,
+)
 def test_what_makes_no_film_is_said(what, choices, said):
     with pytest.raises(ModelValueError, match=said):
         animate(what, **choices)
@@ -287,15 +297,26 @@ def test_a_notebook_shows_a_film():
 
 # --- from the shell ---------------------------------------------------------------------------------------------------
 
-@pytest.mark.parametrize(("ending", "head"), [
-    ("svg", b"<svg"), ("png", b"\x89PNG"), ("pdf", b"%PDF"), ("glb", b"glTF"), ("obj", b"# A drawing"), ("gif", b"GIF89a"),
-    ("apng", b"\x89PNG")])
+
+@pytest.mark.parametrize(
+    ("ending", "head"),
+    [
+        ("svg", b"<svg"),
+        ("png", b"\x89PNG"),
+        ("pdf", b"%PDF"),
+        ("glb", b"glTF"),
+        ("obj", b"# A drawing"),
+        ("gif", b"GIF89a"),
+        ("apng", b"\x89PNG"),
+    ],
+)
 @pytest.mark.parametrize("id", ["K5", "J1", "K14"])
 def test_the_shell_writes_each_format(tmp_path, capsys, id, ending, head):
     assert main(["draw", id, "-n", "2", "-o", str(tmp_path / f"out.{ending}")]) == 0
     assert (tmp_path / f"out.{ending}").read_bytes().startswith(head)
-    assert capsys.readouterr().out.startswith("steps 0 to 2" if ending in ("gif", "apng") or id == "J1" else str(
-        draw(system(id), 2)))
+    assert capsys.readouterr().out.startswith(
+        "steps 0 to 2" if ending in ("gif", "apng") or id == "J1" else str(draw(system(id), 2))
+    )
 
 
 def test_the_shell_chooses_the_pace_of_a_film(tmp_path, capsys):
@@ -316,6 +337,7 @@ def test_a_name_that_is_none_is_an_error_of_the_kit(tmp_path, what, name):
 
 
 # --- into figures of one's own ----------------------------------------------------------------------------------------
+
 
 def test_a_system_gives_its_picture():
     assert system("T2").picture(3).svg == draw(system("T2"), 3).svg
@@ -363,9 +385,11 @@ def test_what_a_picture_shows_is_not_chosen_for_its_figure():
 
 @pytest.mark.slow
 def test_no_window_and_no_pyplot_is_opened_by_an_export(tmp_path):
-    code = ("import sys; from lsys_kit import *; p = draw(system('K14'), 2)\n"
-            "for ending in ('pdf', 'png', 'glb', 'obj', 'svg'): p.save(sys.argv[1] + '/a.' + ending)\n"
-            "animate(system('K14'), 2).save(sys.argv[1] + '/a.gif'); print('matplotlib.pyplot' in sys.modules)")
+    code = (
+        "import sys; from lsys_kit import *; p = draw(system('K14'), 2)\n"
+        "for ending in ('pdf', 'png', 'glb', 'obj', 'svg'): p.save(sys.argv[1] + '/a.' + ending)\n"
+        "animate(system('K14'), 2).save(sys.argv[1] + '/a.gif'); print('matplotlib.pyplot' in sys.modules)"
+    )
     done = subprocess.run([sys.executable, "-c", code, str(tmp_path)], capture_output=True, text=True, timeout=120, check=True)
     assert done.stdout == "False\n"
 

@@ -39,8 +39,11 @@ def test_cells_are_drawn_as_their_seed_draws_them() -> None:
 @pytest.mark.parametrize("age", ["1/3", "7", "1234567", "1e-7"])
 def test_ages_of_walls_lie_within_the_picture(age: str) -> None:
     rules = f"axiom: V({age}) a V({age}) a V({age})\nV(t) -> V(t)\ninterpretation:\na -> R(30,1)\nV(t) -> W(t)"
-    ages = [(int(text.get("x", "")), text.text or "") for text in ET.fromstring(draw(read(rules), 1).svg).iter(f"{SVG}text")
-            if text.get("font-size") == "105"]
+    ages = [
+        (int(text.get("x", "")), text.text or "")
+        for text in ET.fromstring(draw(read(rules), 1).svg).iter(f"{SVG}text")
+        if text.get("font-size") == "105"
+    ]
     assert len(ages) == 6
     for x, text in ages:
         assert 30 * len(text) <= x <= WIDTH * 10 - 30 * len(text), "a figure is six tenths as wide as high"

@@ -46,13 +46,20 @@ from lsys_kit.files import made_by_the_kit
 GROWING = read("axiom: F\nF -> FF")
 BUSH = read("angle: 25\naxiom: !(0.4)F[&!(0.3)F@O(0.4);(4)@O(0.3)]^F{-f+f+f}")
 KINDS: dict[str, Callable[[], Any]] = {
-    "plane": lambda: draw(system("K5"), 3), "space": lambda: draw(BUSH, 0),
-    "filament": lambda: draw(system("J1"), 4), "timed filament": lambda: draw(system("P6"), 3),
-    "walls": lambda: draw(system("P9w"), 2), "steps": lambda: draw(GROWING, steps=[1, 2]),
+    "plane": lambda: draw(system("K5"), 3),
+    "space": lambda: draw(BUSH, 0),
+    "filament": lambda: draw(system("J1"), 4),
+    "timed filament": lambda: draw(system("P6"), 3),
+    "walls": lambda: draw(system("P9w"), 2),
+    "steps": lambda: draw(GROWING, steps=[1, 2]),
     "net": lambda: draw(stages(system("J4")), tokens=derive(system("J4"), 9)[-1]),
-    "lineage": lambda: draw(lineage(system("P6"), 5), intervals=[(1, 2)]), "map": lambda: draw(map_system("K28"), 2),
-    "sphere": lambda: draw(map_system("K34"), 2), "cells": lambda: draw(cellwork_system("K33"), 1),
-    "languages": draw_hierarchy, "code": lambda: qr_code("https://example.org/"), "plot": lambda: plot(system("J1"), 6),
+    "lineage": lambda: draw(lineage(system("P6"), 5), intervals=[(1, 2)]),
+    "map": lambda: draw(map_system("K28"), 2),
+    "sphere": lambda: draw(map_system("K34"), 2),
+    "cells": lambda: draw(cellwork_system("K33"), 1),
+    "languages": draw_hierarchy,
+    "code": lambda: qr_code("https://example.org/"),
+    "plot": lambda: plot(system("J1"), 6),
 }
 SOLID = ("plane", "space", "filament", "timed filament", "walls", "cells")
 IN_UNITS = ("plane", "space", "cells")
@@ -67,8 +74,11 @@ def picture(request: pytest.FixtureRequest) -> Any:
 def texts(svg: str) -> list[str]:
     """The texts in a picture."""
     root = defusedxml.ElementTree.fromstring(svg)
-    return ["".join(piece for piece in each.itertext() if piece not in titles(each)) for each in root.iter() if
-            each.tag.endswith("}text")]
+    return [
+        "".join(piece for piece in each.itertext() if piece not in titles(each))
+        for each in root.iter()
+        if each.tag.endswith("}text")
+    ]
 
 
 def titles(element: Any) -> list[str]:
@@ -86,6 +96,7 @@ def pixels(image: Image.Image, size: tuple[int, int] | None = None) -> np.ndarra
 
 
 # --- files ------------------------------------------------------------------------------------------------------------
+
 
 @pytest.mark.slow
 def test_each_picture_is_kept_as_svg_png_and_pdf_of_one_size(picture: Any, tmp_path: Path) -> None:
@@ -168,14 +179,17 @@ def test_a_png_has_so_many_dots_per_inch(kind: str, tmp_path: Path) -> None:
     assert np.abs(pixels(image, usual.size) - pixels(usual)).mean() < 3
 
 
-@pytest.mark.parametrize(("name", "dpi", "said"), [("a.svg", 300, "chosen for .png files"), ("a.png", 0, "24 to 2,400 dots"),
-                                                   ("a.png", "3000", "not 3000")])
+@pytest.mark.parametrize(
+    ("name", "dpi", "said"),
+    [("a.svg", 300, "chosen for .png files"), ("a.png", 0, "24 to 2,400 dots"), ("a.png", "3000", "not 3000")],
+)
 def test_dots_that_make_no_sense_are_told(name: str, dpi: object, said: str, tmp_path: Path) -> None:
     with pytest.raises(ModelValueError, match=said):
         draw(GROWING, 1).save(tmp_path / name, dpi=dpi)
 
 
 # --- what belongs in every format -------------------------------------------------------------------------------------
+
 
 @pytest.mark.slow
 def test_rows_keep_their_steps_their_times_and_the_mark_in_every_format(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -195,15 +209,19 @@ def test_rows_keep_their_steps_their_times_and_the_mark_in_every_format(monkeypa
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("make", [lambda: draw(system("K5"), 4), lambda: draw(GROWING, steps=[3, 4]),
-                                  lambda: draw(system("K19"), 9)])
+@pytest.mark.parametrize(
+    "make", [lambda: draw(system("K5"), 4), lambda: draw(GROWING, steps=[3, 4]), lambda: draw(system("K19"), 9)]
+)
 def test_what_is_too_much_for_a_page_has_three_hundred_dots_per_inch(make: Callable[[], Any]) -> None:
     with limits(figure=10):
         picture = make()
         with pikepdf.open(io.BytesIO(picture.pdf)) as file:
             images = [each for each in file.pages[0].Resources.XObject.values() if each.Subtype == "/Image"]
-            places = [[float(number) for number in operands] for operands, operator in
-                      pikepdf.parse_content_stream(file.pages[0]) if str(operator) == "cm"]
+            places = [
+                [float(number) for number in operands]
+                for operands, operator in pikepdf.parse_content_stream(file.pages[0])
+                if str(operator) == "cm"
+            ]
     across = [place[0] for place in places if place[1] == 0 and place[0] > 50]
     for image, units in zip(images, across, strict=True):
         scale = next(place[0] for place in places if place[0] < 1 and place[0] != 0.75) * 0.75
@@ -214,9 +232,12 @@ def test_what_is_too_much_for_a_page_has_three_hundred_dots_per_inch(make: Calla
 
 FILMS: dict[str, tuple[Callable[[], Any], int]] = {
     "plant": (lambda: animate(system("K5"), 2, size=(201, 151)), 3),
-    "filament": (lambda: animate(system("J1"), 3, size=200), 4), "tokens": (lambda: animate(stages(system("J4")), 3), 4),
-    "lineage": (lambda: animate(lineage(system("P6"), 3), size=200), 4), "map": (lambda: animate(map_system("K28"), 2), 3),
-    "sphere": (lambda: animate(map_system("K34"), 1), 2), "cells": (lambda: animate(cellwork_system("K33"), 1, size=200), 2),
+    "filament": (lambda: animate(system("J1"), 3, size=200), 4),
+    "tokens": (lambda: animate(stages(system("J4")), 3), 4),
+    "lineage": (lambda: animate(lineage(system("P6"), 3), size=200), 4),
+    "map": (lambda: animate(map_system("K28"), 2), 3),
+    "sphere": (lambda: animate(map_system("K34"), 1), 2),
+    "cells": (lambda: animate(cellwork_system("K33"), 1, size=200), 2),
     "pictures": (lambda: animate([draw(GROWING, 1), plot(system("J1"), 3)], size=200), 2),
     "turntable": (lambda: animate(BUSH, 0, turntable=True, size=100), 60),
 }
@@ -297,9 +318,15 @@ def test_what_a_picture_shows_is_not_chosen_for_its_film(choices: dict[str, Any]
         animate(draw(system("K5"), 1), **choices)
 
 
-@pytest.mark.parametrize(("what", "choices", "said"), [
-    (system("K5"), {"steps": [1, 2]}, "no option \"steps\""), (system("K5"), {"colour": "red"}, "Did you mean \"colours\""),
-    (stages(system("J4")), {"angle": 20}, "no option \"angle\"")], ids=str)
+@pytest.mark.parametrize(
+    ("what", "choices", "said"),
+    [
+        (system("K5"), {"steps": [1, 2]}, 'no option "steps"'),
+        (system("K5"), {"colour": "red"}, 'Did you mean "colours"'),
+        (stages(system("J4")), {"angle": 20}, 'no option "angle"'),
+    ],
+    ids=str,
+)
 def test_what_is_no_choice_of_a_film_is_said(what: Any, choices: dict[str, Any], said: str) -> None:
     with pytest.raises(ModelNameError, match=said):
         animate(what, 1, **choices)
@@ -319,11 +346,19 @@ def test_a_name_of_a_file_is_a_text_or_a_path(path: Any) -> None:
 
 # --- the shell --------------------------------------------------------------------------------------------------------
 
+
 @pytest.mark.slow
-@pytest.mark.parametrize(("typed", "name"), [
-    (["draw", "K5", "-n", "2", "--dpi", "192"], "k5.png"), (["draw", "K28", "-n", "1"], "k28.gif"),
-    (["draw", "K19", "-n", "5", "--turntable", "--size", "60"], "k19.mp4"), (["stages", "J4", "-n", "2"], "j4.apng"),
-    (["stages", "J4", "-n", "2", "--dpi", "100"], "j4.png"), (["stages", "J4"], "j4.pdf")])
+@pytest.mark.parametrize(
+    ("typed", "name"),
+    [
+        (["draw", "K5", "-n", "2", "--dpi", "192"], "k5.png"),
+        (["draw", "K28", "-n", "1"], "k28.gif"),
+        (["draw", "K19", "-n", "5", "--turntable", "--size", "60"], "k19.mp4"),
+        (["stages", "J4", "-n", "2"], "j4.apng"),
+        (["stages", "J4", "-n", "2", "--dpi", "100"], "j4.png"),
+        (["stages", "J4"], "j4.pdf"),
+    ],
+)
 def test_the_shell_writes_them(typed: list[str], name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main([*typed, "-o", str(tmp_path / name)]) == 0
     assert made_by_the_kit(tmp_path / name)

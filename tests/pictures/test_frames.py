@@ -20,11 +20,33 @@ from lsys_kit.pictures.rendering.painters_order import BROADEST_CASING
 from lsys_kit.pictures.style.palette import PAPER
 
 BOOK = Path(__file__).parents[1] / "listings" / "abop"
-COMMANDS = st.sampled_from(["F", "F(3)", "F(40)", "+", "-(50)", "#(0.3)", "!(2)", "!(9)", "#(30)", "[F]", "[+F]", "[+(90)F]",
-                            "@c(2)", "@o(1)", "{+F+F+F}", "~L(3)"])
+COMMANDS = st.sampled_from(
+    [
+        "F",
+        "F(3)",
+        "F(40)",
+        "+",
+        "-(50)",
+        "#(0.3)",
+        "!(2)",
+        "!(9)",
+        "#(30)",
+        "[F]",
+        "[+F]",
+        "[+(90)F]",
+        "@c(2)",
+        "@o(1)",
+        "{+F+F+F}",
+        "~L(3)",
+    ]
+)
 WORDS = st.lists(COMMANDS, min_size=1, max_size=12).map("".join)
-MODELS = st.builds("{}angle: 60\naxiom: {}{}".format, st.sampled_from(["", "widths: units\n", "widths: pixels\n"]), WORDS,
-                   st.sampled_from(["", "&(30)F", "&(90)!(5)F"]))
+MODELS = st.builds(
+    "{}angle: 60\naxiom: {}{}".format,
+    st.sampled_from(["", "widths: units\n", "widths: pixels\n"]),
+    WORDS,
+    st.sampled_from(["", "&(30)F", "&(90)!(5)F"]),
+)
 WIDTHS = re.compile(r'stroke-width="(\d+)"')
 
 
@@ -51,8 +73,9 @@ def test_svg_holds_what_is_painted(text):
 @given(MODELS)
 def test_png_holds_what_is_painted(text):
     image = np.array(Image.open(io.BytesIO(drawn(text).png)).convert("RGB"))
-    edge = np.concatenate([image[:3].reshape(-1, 3), image[-3:].reshape(-1, 3), image[:, :3].reshape(-1, 3),
-                           image[:, -3:].reshape(-1, 3)])
+    edge = np.concatenate(
+        [image[:3].reshape(-1, 3), image[-3:].reshape(-1, 3), image[:, :3].reshape(-1, 3), image[:, -3:].reshape(-1, 3)]
+    )
     assert (edge == tuple(bytes.fromhex(PAPER[1:]))).all()
 
 
@@ -82,6 +105,7 @@ def test_a_film_of_thick_strokes_holds_them():
 
 
 # --- widths -----------------------------------------------------------------------------------------------------------
+
 
 @pytest.mark.parametrize("width", [1, 2, 5.5, 10, 40])
 @pytest.mark.parametrize("length", [1, 10, 100])

@@ -48,9 +48,16 @@ def test_each_language_stands_in_its_classes_and_in_no_other() -> None:
         assert {each.name for each in (*CHOMSKY, *PARALLEL) if each.holds(language.x, language.y)} == language.classes
 
 
-@pytest.mark.parametrize(("rules", "language"), [
-    ("axiom: a", "a a a a"), ("axiom: b\nb -> a b a", "b aba aabaa aaabaaa"), ("axiom: a a\na -> a a", "aa aaaa aaaaaaaa"),
-    ("axiom: a\na < a -> a\na > a -> a\na -> a a", "a aa aa aa")], ids=["one word", "not regular", "not free", "not 0L"])
+@pytest.mark.parametrize(
+    ("rules", "language"),
+    [
+        ("axiom: a", "a a a a"),
+        ("axiom: b\nb -> a b a", "b aba aabaa aaabaaa"),
+        ("axiom: a a\na -> a a", "aa aaaa aaaaaaaa"),
+        ("axiom: a\na < a -> a\na > a -> a\na -> a a", "a aa aa aa"),
+    ],
+    ids=["one word", "not regular", "not free", "not 0L"],
+)
 def test_an_example_is_derived(rules: str, language: str) -> None:
     words = derive(read(rules), len(language.split()) - 1)
     assert ["".join(str(word).split()) for word in words] == language.split()

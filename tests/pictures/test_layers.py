@@ -53,7 +53,8 @@ def test_crossings_are_counted_as_one_sees_them(graph: tuple[int, list[tuple[int
     rank = {vertex: number for number, layer in enumerate(found.layers) for vertex in layer}
     pieces = [piece for chain in found.chains for piece in pairwise(chain)]
     assert found.crossings == sum(
-        rank[a] == rank[c] and (place[a] - place[c]) * (place[b] - place[d]) < 0 for (a, b), (c, d) in combinations(pieces, 2))
+        rank[a] == rank[c] and (place[a] - place[c]) * (place[b] - place[d]) < 0 for (a, b), (c, d) in combinations(pieces, 2)
+    )
 
 
 def test_a_tree_has_no_crossings() -> None:
@@ -115,8 +116,9 @@ def test_a_row_of_stages_without_crossings_stays_a_row() -> None:
 def test_a_net_with_very_many_arcs_stands_in_rows(monkeypatch: pytest.MonkeyPatch) -> None:
     """Each of 60 symbols becomes 4 others: to look for layers of so many arcs would take minutes."""
     names = [f"s{number}" for number in range(60)]
-    rules = [f"{name} -> {' '.join(names[(7 * number + 11 * copy) % 60] for copy in range(4))}"
-             for number, name in enumerate(names)]
+    rules = [
+        f"{name} -> {' '.join(names[(7 * number + 11 * copy) % 60] for copy in range(4))}" for number, name in enumerate(names)
+    ]
     net = stages(read("\n".join([f"alphabet: {' '.join(names)}", f"axiom: {' '.join(names)}", *rules])))
     monkeypatch.setattr(parts, "layered_layout", None)
     assert len(parts.parts_of(net, False, steering_of(net.system)).arcs) == 240

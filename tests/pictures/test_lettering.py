@@ -15,8 +15,9 @@ from lsys_kit.pictures.formats.vector.lettering import PLAIN, advance, glyph, op
 from lsys_kit.pictures.style.palette import INK
 
 SIZE = 400
-FONT = ImageFont.truetype(Path(matplotlib.get_data_path()) / "fonts/ttf/DejaVuSans.ttf", SIZE,
-                          layout_engine=ImageFont.Layout.BASIC)
+FONT = ImageFont.truetype(
+    Path(matplotlib.get_data_path()) / "fonts/ttf/DejaVuSans.ttf", SIZE, layout_engine=ImageFont.Layout.BASIC
+)
 
 
 def painted_by_another(letter: str) -> np.ndarray:
@@ -30,7 +31,7 @@ def painted_by_another(letter: str) -> np.ndarray:
 def test_a_letter_has_the_shape_that_another_program_gives_it(letter: str) -> None:
     mask, left, top = glyph(letter, SIZE)
     ours = np.zeros((4 * SIZE, 4 * SIZE), bool)
-    ours[2 * SIZE + top:2 * SIZE + top + mask.shape[0], 2 * SIZE + left:2 * SIZE + left + mask.shape[1]] = mask
+    ours[2 * SIZE + top : 2 * SIZE + top + mask.shape[0], 2 * SIZE + left : 2 * SIZE + left + mask.shape[1]] = mask
     theirs = painted_by_another(letter)
     assert (ours & theirs).sum() > 0.9 * (ours | theirs).sum()  # the other program moves edges to whole pixels
     assert abs(advance(letter, SIZE) - FONT.getlength(letter)) < 1

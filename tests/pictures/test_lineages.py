@@ -27,8 +27,9 @@ def texts(picture: LineagePicture) -> list[str]:
 
 def paths(picture: LineagePicture, **wanted: str) -> list[str]:
     found = ET.fromstring(picture.svg).iter(f"{SVG}path")
-    return [path.get("d", "") for path in found
-            if all(path.get(name.replace("_", "-")) == value for name, value in wanted.items())]
+    return [
+        path.get("d", "") for path in found if all(path.get(name.replace("_", "-")) == value for name, value in wanted.items())
+    ]
 
 
 @pytest.mark.parametrize(("id", "steps"), [("P1", 5), ("P6", 6), ("J4", 9), ("K27", 9), ("P9", 6), ("P8", 6)])
@@ -70,8 +71,11 @@ def test_the_axis_has_the_times_of_the_steps() -> None:
 def test_short_and_long_cells_have_the_colour_of_their_symbol_and_are_told_apart_by_dashes() -> None:
     picture = draw(P6)
     assert {"M(0)", "M(0.2)", "within a step"} <= set(texts(picture))
-    dashes = {path.get("stroke-dasharray") for path in ET.fromstring(picture.svg).iter(f"{SVG}path")
-              if path.get("stroke") == colour_of("M", P6.states.system)}
+    dashes = {
+        path.get("stroke-dasharray")
+        for path in ET.fromstring(picture.svg).iter(f"{SVG}path")
+        if path.get("stroke") == colour_of("M", P6.states.system)
+    }
     assert dashes == {None, "80 45"}
 
 

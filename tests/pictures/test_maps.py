@@ -131,15 +131,18 @@ def test_the_cells_of_a_step_come_to_rest_from_picture_to_picture() -> None:
     assert draw(derive(K28, 0), iterations=[0]).maps[0].counts == (4, 4, 1)
 
 
-@pytest.mark.parametrize(("choices", "kind", "message"), [
-    ({"iterations": [-1]}, ModelValueError, "Iterations are whole numbers from 0 on, each greater than the one before"),
-    ({"iterations": [3, 3]}, ModelValueError, "Iterations are whole numbers from 0 on, each greater than the one before"),
-    ({"iterations": ["3"]}, ModelValueError, "Iterations are whole numbers from 0 on, each greater than the one before"),
-    ({"iterations": range(13)}, ModelValueError, "A picture shows 12 iterations at most, not 13"),
-    ({"angle": 30}, ModelNameError, 'A map has no "angle". Its forces are stiffness, rest, pressure, damping'),
-    ({"pressure": -1}, ModelValueError, '"pressure" must lie between 0.001 and 10, not be -1'),
-    ({"stiffness": "1e9"}, ModelValueError, '"stiffness" must lie between 0.01 and 100, not be 1e'),
-])
+@pytest.mark.parametrize(
+    ("choices", "kind", "message"),
+    [
+        ({"iterations": [-1]}, ModelValueError, "Iterations are whole numbers from 0 on, each greater than the one before"),
+        ({"iterations": [3, 3]}, ModelValueError, "Iterations are whole numbers from 0 on, each greater than the one before"),
+        ({"iterations": ["3"]}, ModelValueError, "Iterations are whole numbers from 0 on, each greater than the one before"),
+        ({"iterations": range(13)}, ModelValueError, "A picture shows 12 iterations at most, not 13"),
+        ({"angle": 30}, ModelNameError, 'A map has no "angle". Its forces are stiffness, rest, pressure, damping'),
+        ({"pressure": -1}, ModelValueError, '"pressure" must lie between 0.001 and 10, not be -1'),
+        ({"stiffness": "1e9"}, ModelValueError, '"stiffness" must lie between 0.01 and 100, not be 1e'),
+    ],
+)
 def test_forces_are_named_and_lie_where_they_can_be_computed(choices: dict[str, object], kind: type, message: str) -> None:
     with pytest.raises(kind, match=re.escape(message)):
         draw(K28, 1, **choices)
@@ -177,8 +180,9 @@ def test_a_step_without_markers_has_phases_too() -> None:
     assert str(draw(plain, 1, phases=True)) == "step 1 in 4 pictures: 0 of 0 markers match; at the end 1 cell"
 
 
-@pytest.mark.parametrize(("steps", "phases", "says"), [(0, True, "Phases are those of a step"), (1, "yes", "True or False"),
-                                                       (1, 1, "True or False")])
+@pytest.mark.parametrize(
+    ("steps", "phases", "says"), [(0, True, "Phases are those of a step"), (1, "yes", "True or False"), (1, 1, "True or False")]
+)
 def test_phases_are_those_of_a_step(steps: int, phases: object, says: str) -> None:
     with pytest.raises(ModelValueError, match=says):
         draw(K28, steps, phases=phases)  # type: ignore[call-overload]

@@ -45,6 +45,7 @@ def lengths(svg):
 
 # --- steps and seeds --------------------------------------------------------------------------------------------------
 
+
 def test_steps_stand_side_by_side_on_one_scale():
     found = draw(GROWING, steps=[1, 2, 4])
     assert isinstance(found, SmallMultiples)
@@ -84,14 +85,19 @@ def test_rows_of_a_filament_are_chosen_by_steps():
     assert [row.step for row in draw(system("J1"), steps=[1, 3, 6]).rows] == [1, 3, 6]
 
 
-@pytest.mark.parametrize(("what", "choices", "message"), [
-    (GROWING, {"n": 3, "steps": [1]}, "Steps are chosen by n or by steps"),
-    (GROWING, {"steps": [-1]}, "must be a whole number"), (GROWING, {"steps": "12"}, "takes a list of whole numbers"),
-    (GROWING, {"seed": 1, "seeds": [1, 2]}, "Give either seed=1 or seeds"),
-    (derive(GROWING, 3), {"steps": [1, 5]}, "Step 5 has not been derived"),
-    (derive(GROWING, 3), {"seeds": [1, 2]}, "Seeds are chosen when a system is derived"),
-    (derive(GROWING, 3)[1], {"steps": [1]}, "a word has none"), (system("J1"), {"seeds": [1, 2]}, "the steps of one seed"),
-])
+@pytest.mark.parametrize(
+    ("what", "choices", "message"),
+    [
+        (GROWING, {"n": 3, "steps": [1]}, "Steps are chosen by n or by steps"),
+        (GROWING, {"steps": [-1]}, "must be a whole number"),
+        (GROWING, {"steps": "12"}, "takes a list of whole numbers"),
+        (GROWING, {"seed": 1, "seeds": [1, 2]}, "Give either seed=1 or seeds"),
+        (derive(GROWING, 3), {"steps": [1, 5]}, "Step 5 has not been derived"),
+        (derive(GROWING, 3), {"seeds": [1, 2]}, "Seeds are chosen when a system is derived"),
+        (derive(GROWING, 3)[1], {"steps": [1]}, "a word has none"),
+        (system("J1"), {"seeds": [1, 2]}, "the steps of one seed"),
+    ],
+)
 def test_what_makes_no_sense_is_told(what, choices, message):
     with pytest.raises(ModelValueError, match=message):
         draw(what, **choices)
@@ -104,12 +110,18 @@ def test_there_are_not_too_many():
 
 # --- sizes ------------------------------------------------------------------------------------------------------------
 
-PICTURES = {"plant": lambda **size: draw(system("K5"), 3, **size), "filament": lambda **size: draw(system("J1"), 5, **size),
-            "in space": lambda **size: draw(system("K19"), 9, **size),
-            "cells": lambda **size: draw(cellwork_system("K33"), 1, **size),
-            "steps": lambda **size: draw(GROWING, steps=[1, 2], **size)}
-SVG_ONLY = {"net": lambda **size: draw(stages(system("P2")), **size), "map": lambda **size: draw(map_system("K28"), 1, **size),
-            "lineage": lambda **size: draw(lineage(system("P6"), 2), **size)}
+PICTURES = {
+    "plant": lambda **size: draw(system("K5"), 3, **size),
+    "filament": lambda **size: draw(system("J1"), 5, **size),
+    "in space": lambda **size: draw(system("K19"), 9, **size),
+    "cells": lambda **size: draw(cellwork_system("K33"), 1, **size),
+    "steps": lambda **size: draw(GROWING, steps=[1, 2], **size),
+}
+SVG_ONLY = {
+    "net": lambda **size: draw(stages(system("P2")), **size),
+    "map": lambda **size: draw(map_system("K28"), 1, **size),
+    "lineage": lambda **size: draw(lineage(system("P6"), 2), **size),
+}
 
 
 @pytest.mark.slow
@@ -155,6 +167,7 @@ def test_a_film_has_the_size_that_was_chosen(what):
 
 
 # --- the shell --------------------------------------------------------------------------------------------------------
+
 
 @pytest.mark.slow
 def test_the_shell_draws_steps_and_seeds_from_a_side_in_a_size(tmp_path, capsys):

@@ -48,8 +48,12 @@ def sampled(path: str) -> list[tuple[float, float]]:
         bend = (numbers[0], numbers[1]) if command == "Q" else ((x + end[0]) / 2, (y + end[1]) / 2)
         pieces = max(40, int(abs(end[0] - x) + abs(end[1] - y)) * 2)
         for t in (i / pieces for i in range(1, pieces + 1)):
-            points.append(tuple((1 - t) ** 2 * a + 2 * t * (1 - t) * b + t * t * c  # type: ignore[arg-type]
-                                for a, b, c in zip((x, y), bend, end, strict=True)))
+            points.append(
+                tuple(
+                    (1 - t) ** 2 * a + 2 * t * (1 - t) * b + t * t * c  # type: ignore[arg-type]
+                    for a, b, c in zip((x, y), bend, end, strict=True)
+                )
+            )
     return points
 
 
@@ -153,9 +157,18 @@ def test_the_row_of_l_system_2_reads_as_in_the_paper() -> None:
     assert len({text.attrib["y"] for text in labels}) == 1  # type: ignore[union-attr]
 
 
-@pytest.mark.parametrize(("name", "wanted"), [
-    ("J1", ["b a"]), ("P1", ["S L"]), ("P4", ["M(1) M(2) M(3) M(4) M(5)"]), ("J4", ["A(1) A(2) A(3)", "B(1) B(2)"]),
-    ("K2", ["a b F"]), ("L1", ["I A B"]), ("T2", ["F"])])
+@pytest.mark.parametrize(
+    ("name", "wanted"),
+    [
+        ("J1", ["b a"]),
+        ("P1", ["S L"]),
+        ("P4", ["M(1) M(2) M(3) M(4) M(5)"]),
+        ("J4", ["A(1) A(2) A(3)", "B(1) B(2)"]),
+        ("K2", ["a b F"]),
+        ("L1", ["I A B"]),
+        ("T2", ["F"]),
+    ],
+)
 def test_rows_of_stages(name: str, wanted: list[str]) -> None:
     net = stages(system(name))
     steering = steering_of(net.system)
@@ -280,9 +293,15 @@ def test_no_text_covers_another(name: str, positions: bool) -> None:
     assert [(a, b) for a, b in combinations(boxes, 2) if a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]] == []
 
 
-@pytest.mark.parametrize(("name", "wanted"), [
-    ("K7", ["p = 1/3"] * 3), ("K8", ["p = 0.65", "p = 0.35"]), ("K19", ["A(7)", "t < 7", "t > 0"]),
-    ("P8", ["at once, x ≥ x_div and p = LEFT", "at once, x ≥ x_div and p = RIGHT"])])
+@pytest.mark.parametrize(
+    ("name", "wanted"),
+    [
+        ("K7", ["p = 1/3"] * 3),
+        ("K8", ["p = 0.65", "p = 0.35"]),
+        ("K19", ["A(7)", "t < 7", "t > 0"]),
+        ("P8", ["at once, x ≥ x_div and p = LEFT", "at once, x ≥ x_div and p = RIGHT"]),
+    ],
+)
 def test_a_bar_tells_on_which_terms_it_fires(name: str, wanted: list[str]) -> None:
     texts = [t for t in svg_of(stages(system(name))).iter(f"{SVG}text") if t.get("class") == "terms"]
     assert [t.findtext(f"{SVG}title") for t in texts] == wanted
@@ -292,7 +311,9 @@ def test_durations_stand_at_the_bars_of_a_timed_net() -> None:
     net = stages(timed(read("axiom: M(0)\nM(1) -> M(0) M(1/5)")))
     assert collisions(net) == []
     assert [t.findtext(f"{SVG}title") for t in svg_of(net).iter(f"{SVG}text") if t.get("class") == "terms"] == [
-        "after 0.2", "after 0.8"]
+        "after 0.2",
+        "after 0.8",
+    ]
 
 
 def test_what_no_bar_shows_is_written_below() -> None:

@@ -43,7 +43,8 @@ DRAWN = {
     "a lineage": lambda **choices: draw(lineage(system("P6"), 2), **choices),
     "a map": lambda **choices: draw(map_system("K28"), 1, **choices),
     "a map on a sphere": lambda **choices: draw(map_system("K34"), 1, **choices),
-    "a cellwork": lambda **choices: draw(cellwork_system("K33"), 1, **choices)}
+    "a cellwork": lambda **choices: draw(cellwork_system("K33"), 1, **choices),
+}
 VALUES = {"labels": False, "colours": "symbols", "widths": 2, "turtle": True, "legend": True, "background": "dark"}
 
 every_kind = pytest.mark.parametrize("kind", DRAWN)
@@ -63,6 +64,7 @@ def painted(svg):
 
 # --- what can be chosen for what ----------------------------------------------------------------------------------------------
 
+
 @every_kind
 @pytest.mark.parametrize("name", OPTIONS)
 def test_an_option_changes_the_picture_or_is_refused(kind, name):
@@ -76,14 +78,20 @@ def test_an_option_changes_the_picture_or_is_refused(kind, name):
             DRAWN[kind](**{name: VALUES[name]})
 
 
-@pytest.mark.parametrize(("choices", "message"), [
-    ({"labels": "yes"}, 'True or False for "labels"'), ({"legend": 1}, 'True or False for "legend"'),
-    ({"background": "drak"}, 'Did you mean "dark"'), ({"background": "no such colour"}, 'Give "light", "dark", "none"'),
-    ({"background": 3}, "3 is no colour"), ({"colours": "natural"}, "Only strokes of a turtle have natural colours"),
-    ({"colours": "red"}, 'are "natural", "symbols" or colours of symbols'),
-    ({"colours": {"A": "gren"}}, 'Did you mean "green"'),
-    ({"colours": {"A": "#12"}}, "is no colour"),
-])
+@pytest.mark.parametrize(
+    ("choices", "message"),
+    [
+        ({"labels": "yes"}, 'True or False for "labels"'),
+        ({"legend": 1}, 'True or False for "legend"'),
+        ({"background": "drak"}, 'Did you mean "dark"'),
+        ({"background": "no such colour"}, 'Give "light", "dark", "none"'),
+        ({"background": 3}, "3 is no colour"),
+        ({"colours": "natural"}, "Only strokes of a turtle have natural colours"),
+        ({"colours": "red"}, 'are "natural", "symbols" or colours of symbols'),
+        ({"colours": {"A": "gren"}}, 'Did you mean "green"'),
+        ({"colours": {"A": "#12"}}, "is no colour"),
+    ],
+)
 def test_a_value_that_makes_no_sense_is_told(choices, message):
     with pytest.raises(ModelValueError, match=message):
         draw(system("J4"), 2, **choices)
@@ -106,6 +114,7 @@ def test_a_symbol_that_there_is_not_is_named():
 
 
 # --- colours ------------------------------------------------------------------------------------------------------------------
+
 
 def test_a_chosen_colour_is_the_same_in_all_pictures_and_no_other_changes():
     model = system("J4")
@@ -138,6 +147,7 @@ def test_symbols_can_take_the_place_of_the_colours_that_a_model_chooses():
 
 # --- backgrounds --------------------------------------------------------------------------------------------------------------
 
+
 @every_kind
 def test_on_dark_paper_nothing_is_left_of_light_paper(kind):
     svg = DRAWN[kind](background="dark").svg
@@ -167,8 +177,9 @@ def test_lines_on_dark_paper_are_those_of_the_theme_in_every_format():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", ["the drawing of a turtle", "drawings side by side", "a filament", "a stage diagram",
-                                  "a cellwork"])
+@pytest.mark.parametrize(
+    "kind", ["the drawing of a turtle", "drawings side by side", "a filament", "a stage diagram", "a cellwork"]
+)
 def test_without_paper_the_page_shines_through(kind):
     picture, opaque = DRAWN[kind](background="none"), DRAWN[kind]()
     found = pixels(picture)
@@ -185,6 +196,7 @@ def test_a_colour_may_be_the_background():
 
 
 # --- widths -------------------------------------------------------------------------------------------------------------------
+
 
 def stroke_widths(**choices):
     model = read("axiom: F !(0.4) F [+ F]")
@@ -218,6 +230,7 @@ def test_strokes_have_the_widths_of_their_orders_or_a_constant_one():
 
 
 # --- labels and legends -------------------------------------------------------------------------------------------------------
+
 
 @pytest.mark.parametrize("kind", ["drawings side by side", "a stage diagram"])
 def test_without_labels_there_is_no_text(kind):
@@ -262,6 +275,7 @@ def test_the_legend_of_a_figure_is_that_of_matplotlib():
 
 # --- films and the shell ------------------------------------------------------------------------------------------------------
 
+
 @pytest.mark.parametrize("what", [PLANT, system("J4")])
 def test_a_film_has_the_looks_of_a_picture(what):
     usual, chosen = (animate(what, 3, **choices) for choices in ({}, {"background": "dark", "legend": True}))
@@ -288,11 +302,14 @@ def test_the_shell_knows_the_same_options(tmp_path):
     assert draw(stages(system("J4")), background="none").svg[200:] in (tmp_path / "net.svg").read_text()
 
 
-@pytest.mark.parametrize(("rules", "corners"), [
-    ("axiom: F(10)", [[0, 0], [-0.48, -1.2], [0.48, -1.2]]),
-    ("heading: 0\naxiom: F(10)", [[0, 0], [-1.2, 0.48], [-1.2, -0.48]]),
-    ("turtle: grogra\naxiom: F(10)", [[0, 0], [0.48, -1.2], [-0.48, -1.2]]),
-])
+@pytest.mark.parametrize(
+    ("rules", "corners"),
+    [
+        ("axiom: F(10)", [[0, 0], [-0.48, -1.2], [0.48, -1.2]]),
+        ("heading: 0\naxiom: F(10)", [[0, 0], [-1.2, 0.48], [-1.2, -0.48]]),
+        ("turtle: grogra\naxiom: F(10)", [[0, 0], [0.48, -1.2], [-0.48, -1.2]]),
+    ],
+)
 def test_an_arrow_points_where_the_turtle_looks_at_its_start(rules: str, corners: list[list[float]]) -> None:
     picture = draw(read(rules), 0, turtle=True)
     assert np.allclose(picture.scene.polygons.points, corners)

@@ -34,21 +34,28 @@ COLOUR, WIDTH = st.integers(0, 15), st.sampled_from([OWN, 0.5, 1, 2])
 
 def built(strokes, faces, rounds):
     """A scene in space of strokes with widths and colours, triangles with colours, and spheres with radii and colours."""
+
     def column(rows, at, kind=np.int64):
         return np.array([row[at] for row in rows], kind)
 
     ends = np.array([(*row[0], *row[1]) for row in strokes], float).reshape(-1, 6)
     corners = np.array([row[:3] for row in faces], float).reshape(-1, 3)
     zeros = [np.zeros(len(rows), np.int64) for rows in (strokes, faces, rounds)]
-    return Scene(Segments(ends, zeros[0], zeros[0], column(strokes, 2, float), column(strokes, 3)),
-                 polygons=Polygons(corners, np.arange(len(faces) + 1) * 3, zeros[1], column(faces, 3)),
-                 discs=Discs(column(rounds, 0, float).reshape(-1, 3), column(rounds, 1, float), zeros[2] + DISC, zeros[2],
-                             column(rounds, 2)))
+    return Scene(
+        Segments(ends, zeros[0], zeros[0], column(strokes, 2, float), column(strokes, 3)),
+        polygons=Polygons(corners, np.arange(len(faces) + 1) * 3, zeros[1], column(faces, 3)),
+        discs=Discs(
+            column(rounds, 0, float).reshape(-1, 3), column(rounds, 1, float), zeros[2] + DISC, zeros[2], column(rounds, 2)
+        ),
+    )
 
 
-SCENES = st.builds(built, st.lists(st.tuples(POINT, POINT, WIDTH, COLOUR), min_size=1, max_size=8),
-                   st.lists(st.tuples(POINT, POINT, POINT, COLOUR), max_size=6),
-                   st.lists(st.tuples(POINT, st.integers(1, 4), COLOUR), max_size=6))
+SCENES = st.builds(
+    built,
+    st.lists(st.tuples(POINT, POINT, WIDTH, COLOUR), min_size=1, max_size=8),
+    st.lists(st.tuples(POINT, POINT, POINT, COLOUR), max_size=6),
+    st.lists(st.tuples(POINT, st.integers(1, 4), COLOUR), max_size=6),
+)
 SIDES = st.tuples(st.sampled_from([0, 90, 30, -145]), st.sampled_from([0, 90, 20, -60]))
 
 
@@ -76,10 +83,9 @@ def test_a_casing_hides_what_is_farther_than_its_stroke_is_long(scene, side):
     shapes, strokes = display_list(seen, 20.0, {}), len(scene.segments)
     where = {one: place for place, one in enumerate(painted(shapes))}
     assert {shapes.palette[colour] for colour in shapes.lines.colours[:strokes]} == {PAPER}
-    depths, ends = seen.depths[len(scene.polygons):], scene.segments.points.reshape(-1, 2, 3)
+    depths, ends = seen.depths[len(scene.polygons) :], scene.segments.points.reshape(-1, 2, 3)
     lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-    sides = {(*one, *other) for a, b, c in map(np.ndarray.tolist, scene.polygons)
-             for one, other in permutations((a, b, c), 2)}
+    sides = {(*one, *other) for a, b, c in map(np.ndarray.tolist, scene.polygons) for one, other in permutations((a, b, c), 2)}
     for number in range(strokes):
         if (*ends[number].ravel().tolist(),) in sides:
             continue
@@ -107,9 +113,11 @@ def test_svg_has_the_shapes_in_the_order_in_which_they_are_painted(scene):
     points = frame.points(shapes.lines.ends).tolist()
     centres = frame.points(shapes.rounds.centres).tolist()
     corners = [frame.points(each).tolist() for each in np.split(shapes.areas.points, shapes.areas.starts[1:-1])]
-    written = {"LineRun": lambda n: "M{} {}L{} {}".format(*points[n]),
-               "RoundRun": lambda n: 'cx="{}" cy="{}"'.format(*centres[n]),
-               "AreaRun": lambda n: " ".join(map("{0[0]},{0[1]}".format, corners[n]))}
+    written = {
+        "LineRun": lambda n: "M{} {}L{} {}".format(*points[n]),
+        "RoundRun": lambda n: 'cx="{}" cy="{}"'.format(*centres[n]),
+        "AreaRun": lambda n: " ".join(map("{0[0]},{0[1]}".format, corners[n])),
+    }
     found = re.findall(r'M\S+ \S+?L\S+ -?\d+|cx="\S+" cy="\S+"|(?<=points=")[^"]*', svg)
     assert found == [written[kind](number) for kind, number in painted(shapes)]
 
@@ -140,8 +148,11 @@ def test_each_point_of_a_png_has_the_colour_of_what_is_painted_there_last(scene)
             inside = within(shapes, frame, run, number, places)
             last[inside > 2] = len(colours)
             sure &= np.abs(inside) > 2
-            colours.append(run.colour if isinstance(run, LineRun) else shapes.palette[
-                (shapes.areas if isinstance(run, AreaRun) else shapes.rounds).fills[number]])
+            colours.append(
+                run.colour
+                if isinstance(run, LineRun)
+                else shapes.palette[(shapes.areas if isinstance(run, AreaRun) else shapes.rounds).fills[number]]
+            )
     expected = np.array([tuple(bytes.fromhex(colour[1:])) for colour in [*colours, "#ffffff"]])[last]
     assert (image[np.ix_(rows, columns)] == expected)[sure].all()
 
@@ -149,7 +160,7 @@ def test_each_point_of_a_png_has_the_colour_of_what_is_painted_there_last(scene)
 def within(shapes, frame, run, number, places):
     """How many pixels far places lie inside a shape; negative outside."""
     if isinstance(run, AreaRun):
-        corners = frame.points(shapes.areas.points[slice(*shapes.areas.starts[number:number + 2])]) / 10
+        corners = frame.points(shapes.areas.points[slice(*shapes.areas.starts[number : number + 2])]) / 10
         inside = Path(np.vstack([corners, corners[:1]])).contains_points(places.reshape(-1, 2)).reshape(places.shape[:2])
         return np.where(inside, 1, -1) * distance(places, [*corners, corners[0]])
     if isinstance(run, LineRun):

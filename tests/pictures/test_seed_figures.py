@@ -25,8 +25,10 @@ CLOSE = {True: 1.0, False: 0.011}
 
 WHITE_AND_GREY = {"al": "white", "bl": "white", "ar": "grey", "br": "grey"}
 FIGURES: Mapping[str, tuple[str, Callable[[], str]]] = {
-    "000-figure-1": ("Simulated cell layer growth: arrows pointing left (white) and right (grey)",
-                     lambda: draw(system("J1"), 6, colours=WHITE_AND_GREY).svg),
+    "000-figure-1": (
+        "Simulated cell layer growth: arrows pointing left (white) and right (grey)",
+        lambda: draw(system("J1"), 6, colours=WHITE_AND_GREY).svg,
+    ),
     "000-figure-2": ("Algae growth with two classes of cells a (big) and b (small)", lambda: draw(system("J4"), 10).svg),
     "000-figure-3": ("Algae growth with lifetimes 2 and 5 for cells a and b", lambda: draw(system("J5"), 15, legend=True).svg),
     "000-figure-4": ("Example of an artificial flower", lambda: draw(system("J6"), 12).svg),
@@ -38,10 +40,14 @@ FIGURES: Mapping[str, tuple[str, Callable[[], str]]] = {
     "002-figure-3-left": ("Improved developmental sequence (L-system 2)", lambda: draw(system("P2"), 16, legend=True).svg),
     "002-figure-3-right": ("The corresponding sequence of L-system 3", lambda: draw(system("P3"), 16).svg),
     "002-figure-4-left": ("L-system 5, time step 0.7", lambda: draw(system("P5"), 6).svg),
-    "002-figure-4-right": ("L-system 5, time step 1.4: cells that should have divided",
-                           lambda: draw(system("P5"), 3, dt="1.4").svg),
-    "002-figure-5": ("Development considered in continuous time",
-                     lambda: draw(lineage(system("P5"), 6), intervals=[("1.4", "2.1"), ("1.4", "2.8")]).svg),
+    "002-figure-4-right": (
+        "L-system 5, time step 1.4: cells that should have divided",
+        lambda: draw(system("P5"), 3, dt="1.4").svg,
+    ),
+    "002-figure-5": (
+        "Development considered in continuous time",
+        lambda: draw(lineage(system("P5"), 6), intervals=[("1.4", "2.1"), ("1.4", "2.8")]).svg,
+    ),
     "002-figure-6": ("L-system 6: a step, then decomposition", lambda: draw(lineage(system("P6"), 3, dt="1.4")).svg),
     "002-figure-8": ("Explicitly represented cell walls", lambda: draw(system("P9w"), 5).svg),
     "003-effect-of-F": ("The effect of F, where the current step is λ", lambda: draw(stroke(), steps=[0, 1, 2]).svg),
@@ -67,24 +73,38 @@ FIGURES: Mapping[str, tuple[str, Callable[[], str]]] = {
     "003-dichotomy": ("Dichotomous branching that does not look around", lambda: draw(system("K20"), 8).svg),
     "003-sensitive-dichotomy": ("Dichotomous branching that keeps its distance", lambda: draw(system("K21"), 8).svg),
     "003-overshading": ("Overshading in two dimensions", lambda: draw(system("K22")).svg),
-    "003-toppled": ("Overshading: the tree topples when all its branches are dead",
-                    lambda: draw(system("K22"), 23, apart=400).svg),
+    "003-toppled": (
+        "Overshading: the tree topples when all its branches are dead",
+        lambda: draw(system("K22"), 23, apart=400).svg,
+    ),
     "003-light": ("Trees that compete for light", lambda: draw(system("K23"), 15).svg),
     "003-stand": ("A stand of nine trees", lambda: draw(system("K23"), 13, trees=9).svg),
-    "003-pruning": ("Pruning in two dimensions: dormant buds, and a signal that wakes the next one",
-                    lambda: draw(system("K24"), steps=[4, 5, 6, 7, 8, 9, 10, 11]).svg),
+    "003-pruning": (
+        "Pruning in two dimensions: dormant buds, and a signal that wakes the next one",
+        lambda: draw(system("K24"), steps=[4, 5, 6, 7, 8, 9, 10, 11]).svg,
+    ),
     "003-outline": ("Pruning to another outline", lambda: draw(system("K24b")).svg),
     "003-topiary": ("Pruning in three dimensions", lambda: draw(system("K25"), steps=[9, 10, 12, 20, 30, 70]).svg),
-    **{f"003-topiary-{solid}": ("Pruning in three dimensions, to another solid",
-                                lambda n=n, number=number: draw(system("K25"), n, solid=number, L=8 if number < 3 else 14).svg)
-       for number, (solid, n) in enumerate({"sphere": 70, "cone": 100, "spiral": 110}.items(), 2)},
-    **{f"003-movement-{name}": (f"An organism that moves: {name}", lambda short=short: draw(system("K26"), short=short).svg)
-       for short, name in enumerate(("path", "short-word"))},
+    **{
+        f"003-topiary-{solid}": (
+            "Pruning in three dimensions, to another solid",
+            lambda n=n, number=number: draw(system("K25"), n, solid=number, L=8 if number < 3 else 14).svg,
+        )
+        for number, (solid, n) in enumerate({"sphere": 70, "cone": 100, "spiral": 110}.items(), 2)
+    },
+    **{
+        f"003-movement-{name}": (f"An organism that moves: {name}", lambda short=short: draw(system("K26"), short=short).svg)
+        for short, name in enumerate(("path", "short-word"))
+    },
     "003-timed": ("Timed Anabaena", lambda: draw(lineage(system("K27"), 12)).svg),
-    **{f"003-map-{n}": (f"Map L-system {n}", lambda n=n: draw(map_system(f"K{27 + n}"), 3, labels=n == 1).svg)
-       for n in (1, 2, 3)},
-    "003-forces": ("On the way to rest: some iterations",
-                   lambda: draw(map_system("K29"), 3, iterations=[0, 20, 80], labels=False).svg),
+    **{
+        f"003-map-{n}": (f"Map L-system {n}", lambda n=n: draw(map_system(f"K{27 + n}"), 3, labels=n == 1).svg)
+        for n in (1, 2, 3)
+    },
+    "003-forces": (
+        "On the way to rest: some iterations",
+        lambda: draw(map_system("K29"), 3, iterations=[0, 20, 80], labels=False).svg,
+    ),
     "003-microsorium": ("Gametophyte of Microsorium linguaeforme", lambda: draw(map_system("K32"), 9, labels=False).svg),
     "003-patella": ("Embryo of the snail Patella vulgata", lambda: draw(map_system("K34"), 3).svg),
     **{f"003-cellwork-{n}": (f"Cellwork L-system, step {n}", lambda n=n: draw(cellwork_system("K33"), n).svg) for n in (1, 4)},
@@ -122,10 +142,17 @@ def test_a_figure_is_drawn_as_it_was(name: str, request: pytest.FixtureRequest) 
     assert alike(svg, path.read_text(encoding="utf-8").rstrip("\n")), f"{caption}: {path.name} looks different now"
 
 
-@pytest.mark.parametrize("wrong", [
-    lambda: draw(system("T2"), 2, angle=61).svg, lambda: draw(system("T2"), 1).svg, lambda: draw(system("K3"), 3).svg,
-    lambda: draw(system("T2"), 2).svg.replace("#28A964", "#28A965"), lambda: draw(system("T2"), 2).svg.replace("192", "194"),
-], ids=["another angle", "another step", "another system", "another colour", "another place"])
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        lambda: draw(system("T2"), 2, angle=61).svg,
+        lambda: draw(system("T2"), 1).svg,
+        lambda: draw(system("K3"), 3).svg,
+        lambda: draw(system("T2"), 2).svg.replace("#28A964", "#28A965"),
+        lambda: draw(system("T2"), 2).svg.replace("192", "194"),
+    ],
+    ids=["another angle", "another step", "another system", "another colour", "another place"],
+)
 def test_a_wrong_picture_is_found(wrong: Callable[[], str]) -> None:
     golden = (GOLDEN / "001-koch-2.svg").read_text(encoding="utf-8").rstrip("\n")
     assert alike(draw(system("T2"), 2).svg, golden)

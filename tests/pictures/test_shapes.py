@@ -25,8 +25,10 @@ NUMBERS = st.integers(-1000, 1000)
 
 
 def svg(body: str, width: int = 40, height: int = 30, box: str = "0 0 400 300") -> str:
-    return (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}" width="{width}" height="{height}"><title>-</title>'
-            f'<rect width="100%" height="100%" fill="#FFFFFF"/>{body}</svg>')
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}" width="{width}" height="{height}"><title>-</title>'
+        f'<rect width="100%" height="100%" fill="#FFFFFF"/>{body}</svg>'
+    )
 
 
 def pixels(body: str, **choices: object) -> np.ndarray:
@@ -34,6 +36,7 @@ def pixels(body: str, **choices: object) -> np.ndarray:
 
 
 # --- paths ------------------------------------------------------------------------------------------------------------
+
 
 @given(st.lists(st.tuples(NUMBERS, NUMBERS), min_size=2, max_size=6))
 def test_relative_and_short_commands_mean_the_same(points: list[tuple[int, int]]) -> None:
@@ -49,7 +52,7 @@ def test_relative_and_short_commands_mean_the_same(points: list[tuple[int, int]]
 def test_a_quadratic_curve_is_the_same_as_a_cubic_one(x: int, y: int, to_x: int, to_y: int) -> None:
     corners = subpaths(plain(f"M0 0Q{x} {y} {to_x} {to_y}"), 10)[0].corners
     shares = np.linspace(0, 1, len(corners))[:, None]
-    expected = 2 * (1 - shares) * shares * (x, y) + shares ** 2 * (to_x, to_y)
+    expected = 2 * (1 - shares) * shares * (x, y) + shares**2 * (to_x, to_y)
     assert corners == pytest.approx(expected, abs=0.01)
 
 
@@ -76,6 +79,7 @@ def test_a_number_of_a_page_has_no_exponent(value: float) -> None:
 
 # --- reading ----------------------------------------------------------------------------------------------------------
 
+
 def test_groups_pass_on_how_shapes_look_and_where() -> None:
     body = '<g fill="#FF0000" transform="translate(100 50) scale(10)"><path d="M0 0H10V10H0Z"/></g>'
     found = pixels(body)
@@ -92,8 +96,9 @@ def test_a_view_that_does_not_begin_at_nought_is_moved() -> None:
 
 @pytest.mark.parametrize(("anchor", "share"), [("start", 0), ("middle", 0.5), ("end", 1)])
 def test_a_text_is_held_where_its_anchor_says(anchor: str, share: float) -> None:
-    [_, text] = drawing_of(svg(f'<text x="200" y="150" font-size="50" text-anchor="{anchor}">a<tspan dy="9" font-size="50%">1'
-                               '</tspan></text>')).shapes
+    [_, text] = drawing_of(
+        svg(f'<text x="200" y="150" font-size="50" text-anchor="{anchor}">a<tspan dy="9" font-size="50%">1</tspan></text>')
+    ).shapes
     assert isinstance(text, Text)
     assert text.runs[0].x == pytest.approx(200 - share * (advance("a", 50) + advance("1", 25)))
     assert text.runs[1].x == pytest.approx(text.runs[0].x + advance("a", 50))
@@ -107,9 +112,12 @@ def test_what_the_kit_never_writes_is_not_read() -> None:
 
 # --- painting ---------------------------------------------------------------------------------------------------------
 
+
 def test_opacity_mixes_with_what_is_there() -> None:
-    over = pixels('<rect width="400" height="300" fill="#FF0000"/><rect width="400" height="300" fill="#0000FF" '
-                  'fill-opacity="0.25"/><path d="M0 150H400" stroke="#FFFFFF" stroke-width="100" stroke-opacity="0.5"/>')
+    over = pixels(
+        '<rect width="400" height="300" fill="#FF0000"/><rect width="400" height="300" fill="#0000FF" '
+        'fill-opacity="0.25"/><path d="M0 150H400" stroke="#FFFFFF" stroke-width="100" stroke-opacity="0.5"/>'
+    )
     assert over[2, 20].tolist() == pytest.approx([191, 0, 64], abs=2)
     assert over[15, 20].tolist() == pytest.approx([223, 128, 160], abs=2)
 
@@ -137,8 +145,9 @@ def test_a_sphere_is_lighter_towards_the_light() -> None:
     assert image[middle - reach, middle - reach] > image[middle + reach, middle + reach] + 30
 
 
-@pytest.mark.parametrize("make", [lambda: draw(system("J1"), 3), lambda: draw(stages(system("J4"))),
-                                  lambda: plot(system("J1"), 4)])
+@pytest.mark.parametrize(
+    "make", [lambda: draw(system("J1"), 3), lambda: draw(stages(system("J4"))), lambda: plot(system("J1"), 4)]
+)
 def test_twice_as_large_is_the_same_with_finer_pixels(make) -> None:  # type: ignore[no-untyped-def]
     drawing = make().drawing()
     usual, large = (np.asarray(painted(drawing, factor).convert("L"), float) for factor in (1.0, 2.0))

@@ -54,9 +54,14 @@ def test_a_sphere_can_be_turned() -> None:
     assert len(areas(draw(EIGHT, 0, view=(10, 0)).svg)) == 5
 
 
-@pytest.mark.parametrize(("choices", "kind", "message"), [
-    ({"angle": 30}, ModelNameError, 'A map on a sphere has no "angle"'), ({"rest": -1}, ModelValueError, '"rest" must lie'),
-    ({"iterations": [3]}, ModelNameError, 'A map on a sphere has no "iterations"')])
+@pytest.mark.parametrize(
+    ("choices", "kind", "message"),
+    [
+        ({"angle": 30}, ModelNameError, 'A map on a sphere has no "angle"'),
+        ({"rest": -1}, ModelValueError, '"rest" must lie'),
+        ({"iterations": [3]}, ModelNameError, 'A map on a sphere has no "iterations"'),
+    ],
+)
 def test_choices_are_checked(choices: dict[str, object], kind: type[Exception], message: str) -> None:
     with pytest.raises(kind, match=message):
         draw(K34, 1, **choices)

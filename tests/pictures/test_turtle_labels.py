@@ -66,7 +66,7 @@ def test_pixels_show_them(background: str) -> None:
 
 def test_films_show_them() -> None:
     ours, plain = (animate(system, 2).images[-1] for system in (TREE, UNLABELLED))
-    both = [np.asarray(image.convert("L"), float)[:, :min(ours.width, plain.width)] for image in (ours, plain)]
+    both = [np.asarray(image.convert("L"), float)[:, : min(ours.width, plain.width)] for image in (ours, plain)]
     assert (np.abs(both[0] - both[1]) > 100).sum() > 20
 
 

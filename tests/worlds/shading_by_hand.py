@@ -75,7 +75,7 @@ def grown(word: Word, seats: Iterator[bool], most: int) -> Word:
             continue
         free = module[0] in ("t", "b") and next(seats)
         cut = cut or module[0] == "%"
-        found += [] if cut else successor(module, word[place + 1:], free, most)
+        found += [] if cut else successor(module, word[place + 1 :], free, most)
     return found
 
 
@@ -110,9 +110,11 @@ def shoots(word: Word) -> int:
 
 def numbers_of_shoots(steps: int, most: int = 3, apart: float = 600, later: int = 4) -> list[list[int]]:
     """For each step from 0 on, how many shoots each of the three trees has."""
-    word: Word = [[("T",), ("t", -later, 0)],
-                  [("turn", 90), ("move", apart), ("turn", -90), ("T",), ("t", 0, 0)],
-                  [("turn", -90), ("move", apart), ("turn", 90), ("T",), ("t", -2 * later, 0)]]
+    word: Word = [
+        [("T",), ("t", -later, 0)],
+        [("turn", 90), ("move", apart), ("turn", -90), ("T",), ("t", 0, 0)],
+        [("turn", -90), ("move", apart), ("turn", 90), ("T",), ("t", -2 * later, 0)],
+    ]
     found = [[shoots(tree) for tree in word]]
     for _ in range(steps):
         begins: list[Place] = []

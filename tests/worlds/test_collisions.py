@@ -84,20 +84,20 @@ def test_ulams_branching_grows_by_four_times_a_power_of_three() -> None:
 
 def test_the_ends_of_the_shoots_are_the_living_cells() -> None:
     ends = scene_of(derive(read(ULAM), 8, field=Alone())[-1]).segments.ends.round().astype(int)
-    assert len({tuple(end) for end in ends[:, -len(ends[0]) // 2:].tolist()}) == automaton(2, 8)[-1] - 1
+    assert len({tuple(end) for end in ends[:, -len(ends[0]) // 2 :].tolist()}) == automaton(2, 8)[-1] - 1
 
 
 def test_the_sierpinski_triangle_is_pascals_triangle_of_odd_numbers() -> None:
     """In row n there are 2^m odd numbers, where n has m ones in binary digits, and 3^k in the first 2^k rows."""
     grown = shoots(read(SIERPINSKI), 15, field=Alone())
     assert grown == list(accumulate(2 ** row.bit_count() for row in range(1, 16)))
-    assert [1 + grown[2 ** k - 2] for k in range(1, 5)] == [3 ** k for k in range(1, 5)]
+    assert [1 + grown[2**k - 2] for k in range(1, 5)] == [3**k for k in range(1, 5)]
 
 
 def test_each_row_of_the_triangle_is_where_the_binomial_coefficients_are_odd() -> None:
     ends = scene_of(derive(read(SIERPINSKI), 15, field=Alone())[-1]).segments.ends
     x, y = ends[:, -len(ends[0]) // 2], ends[:, -1]
-    rows = [round(-height / 0.75 ** 0.5) for height in y]
+    rows = [round(-height / 0.75**0.5) for height in y]
     found = {(row, round(across + row / 2)) for row, across in zip(rows, x, strict=True)}
     assert found == {(row, k) for row in range(1, 16) for k in range(row + 1) if (row & k) == k}
 
@@ -107,8 +107,11 @@ def test_spheres_at_the_tips_tell_the_same() -> None:
 
 
 def test_it_is_the_same_in_cpfgs_notation() -> None:
-    cpfg = read("Lsystem: 1\nderivation length: 10\nAxiom: [FA][+(90)FA][-(90)FA][|FA]\nf?E(x) : x==1 --> FA\n"
-                "decomposition\nA --> [+(90)f?E(0)][-(90)f?E(0)]f?E(0)\nendlsystem", "cpfg")
+    cpfg = read(
+        "Lsystem: 1\nderivation length: 10\nAxiom: [FA][+(90)FA][-(90)FA][|FA]\nf?E(x) : x==1 --> FA\n"
+        "decomposition\nA --> [+(90)f?E(0)][-(90)f?E(0)]f?E(0)\nendlsystem",
+        "cpfg",
+    )
     assert shoots(cpfg, 10, field=Alone()) == shoots(read(ULAM), 10, field=Alone())
     written = read(write(read(SIERPINSKI), "cpfg"), "cpfg")
     assert shoots(written, 10, field=Alone()) == shoots(read(SIERPINSKI), 10, field=Alone())

@@ -39,16 +39,21 @@ def by_definition(threshold: float, steps: int) -> list[str]:
             elif module in "+-":
                 way += 30 if module == "+" else -30
             elif module in "FG":
-                end = tuple(p + {"F": 100, "G": 70}[module] * f(math.radians(way))
-                            for p, f in zip(place, (math.sin, math.cos), strict=True))
+                end = tuple(
+                    p + {"F": 100, "G": 70}[module] * f(math.radians(way))
+                    for p, f in zip(place, (math.sin, math.cos), strict=True)
+                )
                 drawn.append((place, end))
                 place, last = end, (len(drawn) - 1, *last)
             elif module == "[":
                 stack.append((place, way, last))
             elif module == "]":
                 place, way, last = stack.pop()
-        word = [made for at, module in enumerate(word)
-                for made in (grown(module, asking[at], drawn, threshold) if at in asking else module)]
+        word = [
+            made
+            for at, module in enumerate(word)
+            for made in (grown(module, asking[at], drawn, threshold) if at in asking else module)
+        ]
     return words
 
 
@@ -122,8 +127,7 @@ def test_the_explanation_tells_what_was_seen() -> None:
     fates = [fate for fate in explain(derive(dichotomy(), 5), 5) if fate.module.symbol in "ab"]
     stopped = [fate for fate in fates if not fate.production.startswith("production")]
     assert len(fates), len(stopped) == (16, 4)
-    assert stopped[0].refused == (
-        "production 2, (f(1) > 60) b → RH180 F70 [ - b ] + a: f(1) > 60 is false where f is 30",)
+    assert stopped[0].refused == ("production 2, (f(1) > 60) b → RH180 F70 [ - b ] + a: f(1) > 60 is false where f is 30",)
 
 
 def test_words_alone_do_not_tell_what_is_seen() -> None:
@@ -156,13 +160,16 @@ def test_an_answer_is_a_number_like_any_other() -> None:
     assert halves[6].arguments == (Fraction(1, 4),)
 
 
-@pytest.mark.parametrize(("rule", "said", "column"), [
-    ("a # F(f(1)) a", r"a under production 1, .*, has no value: the result is too large.* an answer is infinite", 1),
-    ("(f(0-1) > 60) a # F(1/0) a", "has no value: division by zero", 1),
-    ("(g(1) > 60) a # F a", "has no value: function 3 is not known; functions are 1, 2, 4, 7, 9", 1),
-    ("(h > 60) a # F a", "function 2, the distance to the nearest shoot, takes 1 or 2 values, not 0", 1),
-    ("(f > 60) a # F a", r'"f" is a function, and its values are missing', 2),
-])
+@pytest.mark.parametrize(
+    ("rule", "said", "column"),
+    [
+        ("a # F(f(1)) a", r"a under production 1, .*, has no value: the result is too large.* an answer is infinite", 1),
+        ("(f(0-1) > 60) a # F(1/0) a", "has no value: division by zero", 1),
+        ("(g(1) > 60) a # F a", "has no value: function 3 is not known; functions are 1, 2, 4, 7, 9", 1),
+        ("(h > 60) a # F a", "function 2, the distance to the nearest shoot, takes 1 or 2 values, not 0", 1),
+        ("(f > 60) a # F a", r'"f" is a function, and its values are missing', 2),
+    ],
+)
 def test_a_question_without_an_answer_is_explained(rule: str, said: str, column: int) -> None:
     text = "\\axiom a,\n\\var f function 2 1,\n\\var g function 3 1,\n\\var h function 2 0,\n" + rule
     with pytest.raises(ModelValueError if "missing" not in said else LSystemError, match=said) as caught:
@@ -175,7 +182,7 @@ def test_a_derivation_that_takes_too_long_keeps_its_steps() -> None:
     with limits(seconds=0.5), pytest.raises(ModelLimitError, match=r"was not reached in 0\.5 seconds") as caught:
         derive(dichotomy(), 1000)
     kept = [word.counts().get("F", 0) for word in list(caught.value.partial)[:6]]
-    assert kept == shoots(dichotomy(), 5)[:len(kept)] != []
+    assert kept == shoots(dichotomy(), 5)[: len(kept)] != []
 
 
 def test_a_notebook_shows_the_first_words() -> None:
@@ -195,6 +202,7 @@ def test_the_dichotomy_can_be_explored_and_drawn() -> None:
 def test_a_plant_and_its_mirror_image_see_the_same() -> None:
     here = derive(dichotomy(), 6)[-1]
     there = derive(read(LISTING.replace("- b", "* b").replace("+ a", "- a").replace("* b", "+ b"), "grogra"), 6)[-1]
-    answers = [[observe(word).sees(at, 2, 1) for at, module in enumerate(word) if module.symbol in "ab"]
-               for word in (here, there)]
+    answers = [
+        [observe(word).sees(at, 2, 1) for at, module in enumerate(word) if module.symbol in "ab"] for word in (here, there)
+    ]
     assert answers[0] == answers[1]

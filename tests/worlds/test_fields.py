@@ -51,8 +51,9 @@ class Bad:
 
 
 def scene_of(found: list[tuple[tuple[float, float, float], float]]) -> Surroundings:
-    return Surroundings(np.empty((0, 2, 3)), np.array([centre for centre, _ in found]).reshape(-1, 3),
-                        np.array([radius for _, radius in found]))
+    return Surroundings(
+        np.empty((0, 2, 3)), np.array([centre for centre, _ in found]).reshape(-1, 3), np.array([radius for _, radius in found])
+    )
 
 
 def at(*places: tuple[float, float, float]) -> list[Question]:
@@ -66,9 +67,9 @@ def plain_light(place: tuple[float, float, float], found: list[tuple[tuple[float
         crossed = 0
         for centre, radius in found:
             away = np.subtract(centre, place)
-            b, c = float(away @ direction), float(away @ away) - radius ** 2
+            b, c = float(away @ direction), float(away @ away) - radius**2
             crossed += b * b - c > 1e-9 and b + math.sqrt(max(0.0, b * b - c)) > 1e-9 and any(away)
-        total += weight * part ** crossed
+        total += weight * part**crossed
     return total
 
 
@@ -83,15 +84,21 @@ def test_light_is_that_of_a_plain_sum_over_rays_and_spheres(places, found, part)
     assert Light(part).answer(at(*places), scene_of(found)) == pytest.approx(plain)
 
 
-def plain_shadows(place: tuple[float, float, float], found: list[tuple[tuple[float, float, float], float]], size: float,
-                  a: float, b: float, depth: int) -> float:
+def plain_shadows(
+    place: tuple[float, float, float],
+    found: list[tuple[tuple[float, float, float], float]],
+    size: float,
+    a: float,
+    b: float,
+    depth: int,
+) -> float:
     """The light at a place, each sphere casting its pyramid of shadows downwards."""
     own, left = any(centre == place for centre, _ in found), 1.0
     x, y, z = (math.floor(value / size) for value in place)
     for centre, _ in found:
         i, j, k = (math.floor(value / size) for value in centre)
         if 0 <= (q := j - y) <= depth and abs(i - x) <= q and abs(k - z) <= q:
-            left -= a / b ** q
+            left -= a / b**q
     return max(left + a * own, 0.0)
 
 
@@ -116,7 +123,7 @@ def test_voxels_that_are_too_small_are_an_error() -> None:
 
 @given(points, spheres, st.integers(0, 11))
 def test_no_sphere_brings_light_and_one_taken_away_takes_none(place, found, number) -> None:
-    fewer = found[:number] + found[number + 1:]
+    fewer = found[:number] + found[number + 1 :]
     [before], [after] = (Light().answer(at(place), scene_of(each)) for each in (found, fewer))
     assert before <= after + 1e-12 <= 1 + 2e-12
 
@@ -131,8 +138,9 @@ def test_an_eighth_of_a_turn_round_the_vertical_changes_no_light(place, found, e
     grown = [(centre, radius + 0.0123) for centre, radius in found]  # no ray grazes a sphere
     near = min((abs(math.dist(centre, place) - radius) for centre, radius in grown), default=1)
     if near > 1e-3:
-        assert Light().answer(at(turned(place)), scene_of([(turned(centre), radius) for centre, radius in grown])) == \
-            pytest.approx(Light().answer(at(place), scene_of(grown)))
+        assert Light().answer(
+            at(turned(place)), scene_of([(turned(centre), radius) for centre, radius in grown])
+        ) == pytest.approx(Light().answer(at(place), scene_of(grown)))
 
 
 def test_the_sphere_round_the_place_is_its_own_and_one_above_shades_it() -> None:
@@ -144,8 +152,9 @@ def test_the_sphere_round_the_place_is_its_own_and_one_above_shades_it() -> None
 
 @given(st.lists(points, min_size=1, max_size=5), spheres, st.sampled_from((0.5, 2.0, 50.0)))
 def test_space_is_the_least_distance_from_all_spheres_but_the_own(places, found, reach) -> None:
-    least = [min([reach, *(math.dist(place, centre) - radius for centre, radius in found if place != centre)])
-             for place in places]
+    least = [
+        min([reach, *(math.dist(place, centre) - radius for centre, radius in found if place != centre)]) for place in places
+    ]
     assert Space(reach).answer(at(*places), scene_of(found)) == pytest.approx(least)
 
 
@@ -175,17 +184,31 @@ def test_a_square_is_as_deep_as_its_nearest_side_is_far(x, y) -> None:
 def test_a_notch_is_outside() -> None:
     arrow = Polygon(0, 0, 4, 4, 0, 2, -4, 4)
     assert [depth > 0 for depth in arrow.answer(at((0.0, 1.0, 0.0), (0.0, 3.0, 0.0), (2.9, 3.2, 0.0)), scene_of([]))] == [
-        True, False, True]
+        True,
+        False,
+        True,
+    ]
 
 
 def test_a_constant_that_is_called_like_a_coordinate_is_the_constant() -> None:
     assert str(observe(derive(read("x = 7\nfield: place(x + y)\naxiom: F ?E(0)"), 0)[0]).word) == "F?E(8)"
 
 
-@pytest.mark.parametrize("field", ["light", "light(0.25)", "light(k/2)", "space(3)", "shadows",
-                                   "shadows(k, 0.2, 2, 3)", "water(k)", "water(2, 1/2)",
-                                   "polygon(0,0, 2,0, k,3)",
-                                   "place(x^2 + y - k, z)"])
+@pytest.mark.parametrize(
+    "field",
+    [
+        "light",
+        "light(0.25)",
+        "light(k/2)",
+        "space(3)",
+        "shadows",
+        "shadows(k, 0.2, 2, 3)",
+        "water(k)",
+        "water(2, 1/2)",
+        "polygon(0,0, 2,0, k,3)",
+        "place(x^2 + y - k, z)",
+    ],
+)
 def test_a_field_is_written_as_it_is_read(field) -> None:
     system = read(f"k = 1 in 0 .. 2 by 1\nfield: {field}\naxiom: A?E(0)")
     assert read(str(system)) == system
@@ -221,13 +244,26 @@ def test_a_question_without_a_field_is_an_error_with_what_was_finished() -> None
     assert caught.value.partial.steps == 3
 
 
-@pytest.mark.parametrize(("given", "message"), [
-    (None, "returned nothing"), ([1], "1 values for 3 questions"), ([1, 2, math.nan], "nan at .0, 3, 0., which is no finite"),
-    ([1, 2, math.inf], "no finite number"), ([1, 2, 10 ** 400], "no finite number"), ([1, 2, 3, 4], "more than 3 values for 3"),
-    (lambda questions: repeat(1), "more than 3 values for 3 questions"), ([1, 2, repeat(1)], "no number"),
-    ([1, 2, "3"], "no number"), ([1, 2, None], "no number"), ([1, 2, (1, 2)], "2 values"),
-    (7, "TypeError"), ([1, 2, 1j], "no number"),
-    (lambda questions: 1 / 0, "ZeroDivisionError"), (lambda questions: questions[9], "IndexError")])
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        (None, "returned nothing"),
+        ([1], "1 values for 3 questions"),
+        ([1, 2, math.nan], "nan at .0, 3, 0., which is no finite"),
+        ([1, 2, math.inf], "no finite number"),
+        ([1, 2, 10**400], "no finite number"),
+        ([1, 2, 3, 4], "more than 3 values for 3"),
+        (lambda questions: repeat(1), "more than 3 values for 3 questions"),
+        ([1, 2, repeat(1)], "no number"),
+        ([1, 2, "3"], "no number"),
+        ([1, 2, None], "no number"),
+        ([1, 2, (1, 2)], "2 values"),
+        (7, "TypeError"),
+        ([1, 2, 1j], "no number"),
+        (lambda questions: 1 / 0, "ZeroDivisionError"),
+        (lambda questions: questions[9], "IndexError"),
+    ],
+)
 def test_a_bad_field_is_an_error_that_keeps_the_finished_steps(given, message) -> None:
     grows = read("axiom: A\nA -> F ?E(0) A\n?E(r) -> ?E(r)")
     with pytest.raises(ModelValueError, match=message) as caught:
@@ -255,9 +291,21 @@ def test_the_explorer_takes_the_field_that_the_text_names_and_no_other() -> None
         explore(read("axiom: F A ?E(0)\nA > ?E(y) : y < 3 -> F A"), 5, field=Heights())
 
 
-@pytest.mark.parametrize("text", ["light(2)", "light(-1)", "shadows(0)", "shadows(1, 0)", "shadows(1, 1, 1)",
-                                  "shadows(1, 1, 2, 0.5)", "shadows(1, 1, 2, 99)", "water(1, 0)",
-                                  "polygon(0,0,1,0,1,1,2)", "light(log(-1))"])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "light(2)",
+        "light(-1)",
+        "shadows(0)",
+        "shadows(1, 0)",
+        "shadows(1, 1, 1)",
+        "shadows(1, 1, 2, 0.5)",
+        "shadows(1, 1, 2, 99)",
+        "water(1, 0)",
+        "polygon(0,0,1,0,1,1,2)",
+        "light(log(-1))",
+    ],
+)
 def test_a_field_with_impossible_values_is_an_error(text) -> None:
     with pytest.raises(LSystemError):
         derive(read(f"field: {text}\naxiom: ?E(0)"), 1)
@@ -276,8 +324,17 @@ def test_the_steps_asked_for_at_once_are_those_asked_for_one_by_one() -> None:
 @pytest.mark.slow
 def test_every_process_gets_the_same_answers() -> None:
     program = "import sys; from lsys_kit import derive, read; print(derive(read(sys.stdin.read()), 7)[-1])"
-    texts = {subprocess.run([sys.executable, "-c", program], input=SHADED, capture_output=True, text=True, check=True,
-                            env={**os.environ, "PYTHONHASHSEED": seed}).stdout for seed in ("1", "2")}
+    texts = {
+        subprocess.run(
+            [sys.executable, "-c", program],
+            input=SHADED,
+            capture_output=True,
+            text=True,
+            check=True,
+            env={**os.environ, "PYTHONHASHSEED": seed},
+        ).stdout
+        for seed in ("1", "2")
+    }
     assert texts == {f"{derive(read(SHADED), 7)[-1]}\n"}
 
 

@@ -19,8 +19,11 @@ def count(word: Word, symbol: str) -> int:
 
 def leaves(word: Word) -> list[tuple[float, float]]:
     """The living leaf clusters: what each makes, and how long it will live."""
-    return [(float(module.arguments[0]), float(module.arguments[1]))
-            for module in word if module.symbol == "L" and module.arguments[1] > 0]
+    return [
+        (float(module.arguments[0]), float(module.arguments[1]))
+        for module in word
+        if module.symbol == "L" and module.arguments[1] > 0
+    ]
 
 
 @pytest.fixture(scope="module")
@@ -45,8 +48,12 @@ def test_a_branch_without_flow_is_cut_off_and_gone_a_step_later(two) -> None:
 
 @pytest.mark.slow
 def test_a_shoot_that_goes_on_takes_the_other_side_and_one_alone_turns_by_five_degrees(two) -> None:
-    turns = {(module.symbol, abs(module.arguments[0]), module.arguments[0] > 0)
-             for word in two for module in word if module.symbol in "+-" and module.arguments}
+    turns = {
+        (module.symbol, abs(module.arguments[0]), module.arguments[0] > 0)
+        for word in two
+        for module in word
+        if module.symbol in "+-" and module.arguments
+    }
     assert turns == {("-", angle, left) for angle in (5, 20) for left in (True, False)} | {("+", 32, True), ("+", 32, False)}
 
 
@@ -79,8 +86,7 @@ def test_trees_that_cannot_shade_one_another_grow_as_if_alone() -> None:
 
 def test_nine_trees_stand_in_rows_of_three() -> None:
     word = derive(system("K23"), 1, trees=9)[-1]
-    assert [module.arguments for module in word if module.symbol == "@M"] == [
-        (4 * (i % 3), 0, -4 * (i // 3)) for i in range(9)]
+    assert [module.arguments for module in word if module.symbol == "@M"] == [(4 * (i % 3), 0, -4 * (i // 3)) for i in range(9)]
 
 
 def test_the_same_forest_grows_whatever_the_seed_is_and_in_which_steps_it_is_asked_for(two) -> None:

@@ -54,7 +54,8 @@ def of_mean_lengths() -> LSystem:
 @pytest.mark.parametrize("m", [1, 2, 3, 4])
 @pytest.mark.parametrize("apart", [600, 350])
 def test_trees_of_mean_lengths_have_the_shoots_that_an_interpreter_without_the_kit_counts(
-        of_mean_lengths: LSystem, m: int, apart: int) -> None:
+    of_mean_lengths: LSystem, m: int, apart: int
+) -> None:
     words = derive(of_mean_lengths, 18, m=m, apart=apart)
     assert [trees(word) for word in words] == numbers_of_shoots(18, m, apart)
 
@@ -87,7 +88,7 @@ def test_a_tree_beside_an_older_one_has_fewer_shoots(seed: int) -> None:
 def test_branches_are_shorter_on_the_shaded_side() -> None:
     word = derive(system("K22"), 14)[-1]
     strokes = scene_of(word).segments  # the cones are drawn wider
-    across = strokes.ends[strokes.widths == 5][:trees(word)[0], 3]  # the first tree's, whose older neighbour is on the right
+    across = strokes.ends[strokes.widths == 5][: trees(word)[0], 3]  # the first tree's, whose older neighbour is on the right
     assert max(across) < 0.7 * -min(across)
 
 

@@ -25,16 +25,20 @@ from lsys_kit.worlds.sight import TurtleObservation, observe
 from tests.derivation.random_systems import CHANCE, CONTEXT, CUT, REPETITION, systems, systems_with
 
 FUNCTIONS = {1: (1,), 2: (1,), 4: (60, 1), 7: (), 9: (60, 1)}
-ASKING = tuple(Production((Pattern("x"),), (), Apply(">", (Apply("sensed", (Number(number), *map(Number, values))), Number(0))))
-               for number, values in FUNCTIONS.items())
+ASKING = tuple(
+    Production((Pattern("x"),), (), Apply(">", (Apply("sensed", (Number(number), *map(Number, values))), Number(0))))
+    for number, values in FUNCTIONS.items()
+)
 """Rules that make modules x ask; they are never applied here."""
 
 
 def word_of(modules: str | list[Pattern], **settings) -> Word:
     """A word as it is: its modules parted by blanks, such as `F(2)` or `+(45)`, and those called x ask."""
     if isinstance(modules, str):
-        modules = [Pattern(symbol, tuple(Number(float(value)) for value in values.rstrip(")").split(",") if value))
-                   for symbol, _, values in (part.partition("(") for part in modules.split())]
+        modules = [
+            Pattern(symbol, tuple(Number(float(value)) for value in values.rstrip(")").split(",") if value))
+            for symbol, _, values in (part.partition("(") for part in modules.split())
+        ]
     return derive(LSystem(tuple(modules), ASKING, **settings), 0)[0]
 
 
@@ -52,11 +56,15 @@ degrees = st.integers(-72, 72).map(lambda tens: Number(5 * tens))
 lengths = st.integers(1, 6).map(lambda halves: Number(halves / 2))
 moves = st.one_of(
     st.builds(lambda symbol, value: [Pattern(symbol, (value,)), Pattern("x")], st.sampled_from("FFf"), lengths),
-    st.builds(lambda symbol, value: [Pattern(symbol, (value,))], st.sampled_from("+&/"), degrees))
+    st.builds(lambda symbol, value: [Pattern(symbol, (value,))], st.sampled_from("+&/"), degrees),
+)
 plants = st.recursive(
     st.lists(moves, min_size=1, max_size=5).map(lambda parts: list(chain.from_iterable(parts))),
     lambda inner: st.lists(inner | inner.map(lambda word: [Pattern("["), *word, Pattern("]")]), min_size=1, max_size=4).map(
-        lambda parts: list(chain.from_iterable(parts))), max_leaves=8)
+        lambda parts: list(chain.from_iterable(parts))
+    ),
+    max_leaves=8,
+)
 
 
 @given(systems_with({CONTEXT}) | systems_with({CHANCE, REPETITION}) | systems_with({CUT, CONTEXT}) | systems())
@@ -91,8 +99,9 @@ def test_the_turtles_axes_are_told_at_right_angles(modules: list[Pattern], turns
 
 
 @given(plants, lengths, st.tuples(degrees, degrees, degrees))
-def test_moving_and_turning_a_whole_plant_changes_no_distance(modules: list[Pattern], far: Number,
-                                                              turns: tuple[Number, ...]) -> None:
+def test_moving_and_turning_a_whole_plant_changes_no_distance(
+    modules: list[Pattern], far: Number, turns: tuple[Number, ...]
+) -> None:
     prefix = [Pattern("f", (far,)), *(Pattern(symbol, (turn,)) for symbol, turn in zip("+&/", turns, strict=True))]
     here, there = observe(word_of(modules)), observe(word_of([*prefix, Pattern("f", (far,)), *modules]))
     for number, values in ((2, (1,)), (9, (180, 1))):
@@ -111,7 +120,8 @@ def test_moving_a_plant_to_another_place_changes_nothing(modules: list[Pattern],
 def test_twice_as_large_a_plant_has_twice_the_distances(modules: list[Pattern]) -> None:
     larger = [Pattern(m.symbol, (Number(2 * float(m.arguments[0].value)),)) if m.symbol in "Ff" else m for m in modules]
     assert asked(observe(word_of(larger)), 2, 2) == pytest.approx(
-        [2 * d for d in asked(observe(word_of(modules)), 2, 1)], abs=1e-8)
+        [2 * d for d in asked(observe(word_of(modules)), 2, 1)], abs=1e-8
+    )
 
 
 def by_definition(word: Word, at: int, least: float) -> float:
@@ -130,7 +140,7 @@ def by_definition(word: Word, at: int, least: float) -> float:
             branch = stack.pop()
     ends = trace_in_space(word).segments.ends
     assert shoot
-    points = [ends[n, i:i + 3] for n in range(len(ends)) for i in (0, 3) if n not in shoot and lengths[n] >= least]
+    points = [ends[n, i : i + 3] for n in range(len(ends)) for i in (0, 3) if n not in shoot and lengths[n] >= least]
     return min((math.dist(ends[shoot[-1], 3:], point) for point in points), default=math.inf)
 
 
@@ -205,38 +215,46 @@ def test_before_the_first_shoot_a_module_asks_from_where_the_turtle_is() -> None
     assert asked(observe(word_of("[ +(70) x ]")), 7) == [70]
 
 
-@pytest.mark.parametrize(("word", "answer"), [
-    ("F(1) x", 0), ("+(90) F(1) x", 90), ("&(35) F(1) x", 35), ("+(180) F(1) x", 180), ("+(20) F(1) -(20) x", 20)])
+@pytest.mark.parametrize(
+    ("word", "answer"),
+    [("F(1) x", 0), ("+(90) F(1) x", 90), ("&(35) F(1) x", 35), ("+(180) F(1) x", 180), ("+(20) F(1) -(20) x", 20)],
+)
 def test_an_inclination_is_that_of_the_shoot(word: str, answer: float) -> None:
     assert asked(observe(word_of(word)), 7) == [pytest.approx(answer)]
 
 
-@pytest.mark.parametrize(("word", "answer"), [
-    ("F(1) x", math.inf),
-    ("F(1) x [ +(30) F(1) ]", 30),
-    ("F(1) x [ F(1) ]", 0),
-    ("F(1) x [ +(60) F(1) ] [ -(40) F(1) ]", 40),
-    ("F(1) x [ f(3) +(90) f(2) +(180) F(4) ]", 0),
-    ("F(1) x [ f(3) +(90) f(1) F(4) ]", math.degrees(math.atan2(1, 3))),
-    ("F(1) x [ ^(90) f(5) &(90) f(1) +(90) f(1) +(180) F(2) ]", 0),
-    ("[ -(90) F(3) x ] F(5)", math.degrees(math.atan2(3, 5))),
-    ("f(2) [ +(90) F(3) x ] [ -(90) F(3) ]", math.inf),
-    ("+(90) f(2) -(90) F(4) +(180) f(1) F(2) x", 0),
-])
+@pytest.mark.parametrize(
+    ("word", "answer"),
+    [
+        ("F(1) x", math.inf),
+        ("F(1) x [ +(30) F(1) ]", 30),
+        ("F(1) x [ F(1) ]", 0),
+        ("F(1) x [ +(60) F(1) ] [ -(40) F(1) ]", 40),
+        ("F(1) x [ f(3) +(90) f(2) +(180) F(4) ]", 0),
+        ("F(1) x [ f(3) +(90) f(1) F(4) ]", math.degrees(math.atan2(1, 3))),
+        ("F(1) x [ ^(90) f(5) &(90) f(1) +(90) f(1) +(180) F(2) ]", 0),
+        ("[ -(90) F(3) x ] F(5)", math.degrees(math.atan2(3, 5))),
+        ("f(2) [ +(90) F(3) x ] [ -(90) F(3) ]", math.inf),
+        ("+(90) f(2) -(90) F(4) +(180) f(1) F(2) x", 0),
+    ],
+)
 def test_the_steepest_way_up_is_measured_from_the_vertical(word: str, answer: float) -> None:
     assert asked(observe(word_of(word)), 1, 1) == [pytest.approx(answer)]
 
 
-@pytest.mark.parametrize(("word", "angle", "count"), [
-    ("F(1) x", 180, 0),
-    ("F(1) x [ f(1) F(1) ]", 10, 1),
-    ("F(1) x [ F(1) ]", 90, 0),
-    ("F(1) x [ f(1) +(90) f(1) F(1) ] [ f(2) F(1) ]", 44, 1),
-    ("F(1) x [ f(1) +(90) f(1) F(1) ] [ f(2) F(1) ]", 45, 2),
-    ("F(1) x [ f(1) +(90) f(1) F(1) ] [ f(2) F(0.5) ]", 45, 1),
-    ("[ F(1) +(90) F(1) ] [ -(90) f(3) F(1) x ]", 45, 0),
-    ("[ F(1) +(90) F(1) ] [ -(90) f(3) F(1) x ]", 90, 2),
-])
+@pytest.mark.parametrize(
+    ("word", "angle", "count"),
+    [
+        ("F(1) x", 180, 0),
+        ("F(1) x [ f(1) F(1) ]", 10, 1),
+        ("F(1) x [ F(1) ]", 90, 0),
+        ("F(1) x [ f(1) +(90) f(1) F(1) ] [ f(2) F(1) ]", 44, 1),
+        ("F(1) x [ f(1) +(90) f(1) F(1) ] [ f(2) F(1) ]", 45, 2),
+        ("F(1) x [ f(1) +(90) f(1) F(1) ] [ f(2) F(0.5) ]", 45, 1),
+        ("[ F(1) +(90) F(1) ] [ -(90) f(3) F(1) x ]", 45, 0),
+        ("[ F(1) +(90) F(1) ] [ -(90) f(3) F(1) x ]", 90, 2),
+    ],
+)
 def test_shoots_that_begin_in_a_cone_above_are_counted(word: str, angle: float, count: int) -> None:
     assert asked(observe(word_of(word)), 4, angle, 1) == [count]
 

@@ -41,8 +41,10 @@ NUMBER = re.compile(r"(?<=[(,])-?\d[\d.e+-]*")
 
 def printed(word: Iterable[Module]) -> str:
     """A word as cpfg prints it: numbers with six digits."""
-    return "".join(module.symbol + (f"({','.join(f'{float(v):g}' for v in module.arguments)})" if module.arguments else "")
-                   for module in word)
+    return "".join(
+        module.symbol + (f"({','.join(f'{float(v):g}' for v in module.arguments)})" if module.arguments else "")
+        for module in word
+    )
 
 
 def shown(word: Iterable[Module]) -> str:
@@ -65,8 +67,16 @@ def test_the_model_of_the_virtual_laboratory_gives_the_words_of_cpfg() -> None:
 
 def test_the_topiary_of_the_table_of_systems() -> None:
     words = [shown(word) for word in derive(system("K24"), 7)]
-    assert words == ["FA?P", "F@oF/A?P", "F@oF/@oF/A?P", "F@oF/@oF/@oF/A?P", "F@oF/@oF/@oF/@oF/A?P", "F@oF/@oF/@oF/@oF/T",
-                     "F@oF/@oF/@oF/@oS/", "F@oF/@oF/@oF/[+FA?P]/"]
+    assert words == [
+        "FA?P",
+        "F@oF/A?P",
+        "F@oF/@oF/A?P",
+        "F@oF/@oF/@oF/A?P",
+        "F@oF/@oF/@oF/@oF/A?P",
+        "F@oF/@oF/@oF/@oF/T",
+        "F@oF/@oF/@oF/@oS/",
+        "F@oF/@oF/@oF/[+FA?P]/",
+    ]
 
 
 @pytest.mark.parametrize(("id", "size", "steps"), [("K24", 2, 20), ("K24", 4, 68), ("K24", 3, 40), ("K25", 4, 130)])
@@ -121,8 +131,10 @@ def test_a_plant_of_800_steps_is_more_than_wires() -> None:
 
 
 def test_a_signal_goes_on_until_it_has_woken_so_many_buds() -> None:
-    before = read("consider: F @o S\naxiom: @o F @o F @o F S(2)\nF > S(n) -> S(n) F\n@o > S(n) : n > 1 -> S(n-1) b\n"
-                  "@o > S(n) -> b\nS(n) -> ε")
+    before = read(
+        "consider: F @o S\naxiom: @o F @o F @o F S(2)\nF > S(n) -> S(n) F\n@o > S(n) : n > 1 -> S(n-1) b\n"
+        "@o > S(n) -> b\nS(n) -> ε"
+    )
     assert str(derive(before, 6)[-1]) == "@o F b F b F"
 
 
@@ -139,7 +151,7 @@ def test_the_fir_tree_is_cut_to_its_outline() -> None:
 def test_another_outline_in_the_text_cuts_another_shape() -> None:
     text = system("K24b").source
     first = text.index("polygon(")
-    house = text[first:text.index(")", first) + 1]
+    house = text[first : text.index(")", first) + 1]
     box = read(text.replace(house, "polygon(-2,0, 2,0, 2,4, -2,4)").replace("axiom: B", "axiom:"))
     words = [shown(word).replace("%?E", "").replace("?E", "?P") for word in derive(box, 5)]
     assert words == [shown(word) for word in derive(system("K24"), 5)]
@@ -216,4 +228,5 @@ def test_the_legend_of_the_lesson_is_what_is_drawn(where: str) -> None:
     assert (first[:2] + first[2:]) == pytest.approx(second[:2] + second[2:]), "two strokes with the same middle"
     assert (first[2:] - first[:2]) @ (second[2:] - second[:2]) == pytest.approx(0)
     assert [(kind, radius) for kind, radius in zip(signal.discs.kinds, signal.discs.radii, strict=True) if radius > 0.125] == [
-        (DISC, 0.2)]
+        (DISC, 0.2)
+    ]

@@ -153,9 +153,7 @@ def _counts(exercise: Exercise, history: History) -> tuple[int, ...]:
 
 
 def _matrix(_: Exercise, history: History) -> tuple[int, ...] | None:
-    return (
-        None if history.offset or not isinstance(history.words, Derived) else tuple(map(int, growth(history.system).matrix))
-    )
+    return None if history.offset or not isinstance(history.words, Derived) else tuple(map(int, growth(history.system).matrix))
 
 
 def _stages(_: Exercise, history: History) -> object:

@@ -90,7 +90,7 @@ def checked(asked: Exercise, answer: object, hint: object, solution: object, cal
         with limits(**_budget()), Task(gettext("It was not checked")):
             verdict, tried = _judged(asked, answer)
     except ModelLimitError as grown:
-        advice = "" if "limits(" in (grown.hint or "") else f' {(grown.hint or "").split("kept. ")[-1]}'.rstrip()
+        advice = "" if "limits(" in (grown.hint or "") else f" {(grown.hint or '').split('kept. ')[-1]}".rstrip()
         said = gettext("Your answer cannot be followed to its end. {reason}.", reason=grown.message)
         return Verdict("Not yet", said + advice)
     except LSystemError as mistake:
@@ -105,8 +105,10 @@ def _prepare(exercise: Exercise) -> None:
     try:
         wrong_answers(exercise)
     except LSystemError as mistake:
-        raise ModelFileError(f"Exercise {exercise.id} has a mistake in its file. {mistake.message}",
-                             hint="lsys-kit exercises check FOLDER says where it is.") from None
+        raise ModelFileError(
+            f"Exercise {exercise.id} has a mistake in its file. {mistake.message}",
+            hint="lsys-kit exercises check FOLDER says where it is.",
+        ) from None
 
 
 def _budget() -> dict[str, float]:
@@ -140,8 +142,10 @@ def _hints(exercise: Exercise, number: object, call: str) -> list[str]:
     most = len(exercise.hints)
     if isinstance(number, bool) or not isinstance(number, int) or not 0 <= number <= most:
         raise ModelValueError(gettext("Exercise {id} has the hints 1 to {most}", id=exercise.id, most=most))
-    shown = [gettext("Hint {number} of {most}: {hint}", number=at, most=most, hint=hint)
-             for at, hint in enumerate(exercise.hints[:number], 1)]
+    shown = [
+        gettext("Hint {number} of {most}: {hint}", number=at, most=most, hint=hint)
+        for at, hint in enumerate(exercise.hints[:number], 1)
+    ]
     more = [gettext("One more: {call}.", call=f"{call}, hint={number + 1})")] if 0 < number < most else []
     return [*shown, *more]
 

@@ -51,8 +51,10 @@ def exercise_notebook(lesson: Lesson, folder: str = "") -> str:
     """
     notebook = {
         "cells": list(_with_execution_counts(_cells(lesson, folder))),
-        "metadata": {"kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"},
-                     "language_info": {"name": "python"}},
+        "metadata": {
+            "kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"},
+            "language_info": {"name": "python"},
+        },
         "nbformat": 4,
         "nbformat_minor": 5,
     }
@@ -82,8 +84,10 @@ def _cells(lesson: Lesson, folder: str) -> Iterator[NotebookCell]:
     yield _code("import", _beginning(folder))
     for exercise in lesson.exercises:
         yield from _exercise_cells(exercise)
-    yield _markdown("summary", f"## {gettext('Summary')}\n\n{lesson.summary}\n\n"
-                    f"[{gettext('Back to the lesson')}](../notebooks/{lesson.name}.ipynb)")
+    yield _markdown(
+        "summary",
+        f"## {gettext('Summary')}\n\n{lesson.summary}\n\n[{gettext('Back to the lesson')}](../notebooks/{lesson.name}.ipynb)",
+    )
     all_lessons = gettext("progress() shows all lessons")
     yield _code("progress", f'progress("{lesson.name}")   # {all_lessons}', progress_of(Record(), lesson.name))
     yield _markdown("marks", gettext(_MARKS))
@@ -101,8 +105,10 @@ def _beginning(folder: str) -> str:
 def _introduction(lesson: Lesson) -> str:
     objectives = "\n".join(f"- {objective}" for objective in lesson.objectives)
     goes_with = gettext("They go with the lesson {lesson}.", lesson=f"[{lesson.title}](../notebooks/{lesson.name}.ipynb)")
-    return (f"# {gettext('Exercises: {title}', title=lesson.title)}\n\n{lesson.introduction} {goes_with}\n\n"
-            f"**{gettext('After these exercises you can')}**\n\n{objectives}\n\n{gettext(_HOW, id=lesson.exercises[0].id)}")
+    return (
+        f"# {gettext('Exercises: {title}', title=lesson.title)}\n\n{lesson.introduction} {goes_with}\n\n"
+        f"**{gettext('After these exercises you can')}**\n\n{objectives}\n\n{gettext(_HOW, id=lesson.exercises[0].id)}"
+    )
 
 
 def _exercise_cells(exercise: Exercise) -> Iterator[NotebookCell]:
@@ -123,8 +129,15 @@ def _score_cell(exercise: Exercise) -> NotebookCell:
     """
     name = f"score-{re.sub('[^A-Za-z0-9_-]', '-', exercise.id)}"
     cell = _code(name, f'from lsys_kit import score\n\nscore("{exercise.id}")')
-    graded = {"schema_version": 3, "grade_id": name, "grade": True, "points": 1, "locked": True, "solution": False,
-              "task": False}
+    graded = {
+        "schema_version": 3,
+        "grade_id": name,
+        "grade": True,
+        "points": 1,
+        "locked": True,
+        "solution": False,
+        "task": False,
+    }
     shown = {"data": {"text/plain": ["0.0"]}, "execution_count": None, "metadata": {}, "output_type": "execute_result"}
     return {**cell, "metadata": {"nbgrader": graded}, "outputs": [shown]}
 
@@ -140,11 +153,26 @@ def _markdown(name: str, text: str) -> NotebookCell:
 
 
 def _code(name: str, text: str, shown: Verdict | Progress | None = None) -> NotebookCell:
-    outputs = [] if shown is None else [{
-        "data": {"text/html": _source_lines(shown._repr_html_()), "text/plain": _source_lines(repr(shown))},
-        "execution_count": None, "metadata": {}, "output_type": "execute_result"}]
-    return {"cell_type": "code", "execution_count": None, "id": name, "metadata": {}, "outputs": outputs,
-            "source": _source_lines(text)}
+    outputs = (
+        []
+        if shown is None
+        else [
+            {
+                "data": {"text/html": _source_lines(shown._repr_html_()), "text/plain": _source_lines(repr(shown))},
+                "execution_count": None,
+                "metadata": {},
+                "output_type": "execute_result",
+            }
+        ]
+    )
+    return {
+        "cell_type": "code",
+        "execution_count": None,
+        "id": name,
+        "metadata": {},
+        "outputs": outputs,
+        "source": _source_lines(text),
+    }
 
 
 def _with_execution_counts(cells: Iterable[NotebookCell]) -> Iterator[NotebookCell]:

@@ -60,9 +60,11 @@ class Verdict(float):
     def _repr_html_(self) -> str:
         """The box: a sign, a word and the message, all text escaped."""
         sign, colour = SIGNS_AND_COLOURS[self.said]
-        return (f'<div class="{PLAIN_TEXT}" role="status" style="border-left:6px solid {colour};background:{PAPER};color:{INK};'
-                'padding:6px 12px">'
-                f'<span aria-hidden="true">{sign}</span> <b>{escaped(gettext(self.said))}.</b> {_html(self.message)}</div>')
+        return (
+            f'<div class="{PLAIN_TEXT}" role="status" style="border-left:6px solid {colour};background:{PAPER};color:{INK};'
+            'padding:6px 12px">'
+            f'<span aria-hidden="true">{sign}</span> <b>{escaped(gettext(self.said))}.</b> {_html(self.message)}</div>'
+        )
 
 
 def _html(message: str) -> str:

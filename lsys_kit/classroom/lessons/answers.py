@@ -40,9 +40,11 @@ def is_right(entry: str, right: Sequence[str], within: str = "0") -> bool:
     if len(entry) > MOST_CHARACTERS:
         return False
     near = number_of(within) or 0
-    return any(_without_blanks(entry).casefold() == _without_blanks(each).casefold()
-               or any(abs(number - wanted) <= near for number in _readings(entry) for wanted in _numbers(each))
-               for each in right)
+    return any(
+        _without_blanks(entry).casefold() == _without_blanks(each).casefold()
+        or any(abs(number - wanted) <= near for number in _readings(entry) for wanted in _numbers(each))
+        for each in right
+    )
 
 
 def _readings(entry: str) -> Iterator[Fraction]:

@@ -49,8 +49,9 @@ def _settings(where: str, row: object) -> dict[str, str]:
 
 def _vote(where: str, entries: Mapping[str, Any]) -> Vote:
     found = _taken(where, entries, _VOTE)
-    options = tuple(Option(**_taken(f"{where}, option {place}", each, _OPTION))
-                    for place, each in enumerate(found["options"], 1))
+    options = tuple(
+        Option(**_taken(f"{where}, option {place}", each, _OPTION)) for place, each in enumerate(found["options"], 1)
+    )
     if len(options) != OPTIONS or sum(each.right for each in options) != 1:
         raise ModelFileError(f"{where}: there must be {OPTIONS} options, and one of them must have right = true")
     if unknown := [key for key in found["picture"] if key not in _PICTURE]:
@@ -152,9 +153,18 @@ def _entries(where: str, value: object) -> dict[str, Any]:
 Shape = Mapping[str, tuple[Callable[[str, object], Any], Any]]
 """For each entry how it is read, and what it is when it is left out; `...` where it may not be left out."""
 _LESSON: Shape = {
-    "number": (_number, ...), "title": (_text, ...), "question": (_text, ...), "minutes": (_number, ...),
-    "track": (_texts, ...), "objectives": (_texts, ...), "summary": (_text, ...), "systems": (_texts, ...),
-    "points": (_texts, ...), "misconceptions": (_texts, ...), "vote": (_entries, ...), "tables": (_list, ...),
+    "number": (_number, ...),
+    "title": (_text, ...),
+    "question": (_text, ...),
+    "minutes": (_number, ...),
+    "track": (_texts, ...),
+    "objectives": (_texts, ...),
+    "summary": (_text, ...),
+    "systems": (_texts, ...),
+    "points": (_texts, ...),
+    "misconceptions": (_texts, ...),
+    "vote": (_entries, ...),
+    "tables": (_list, ...),
     "settings": (_list, []),
 }
 _VOTE: Shape = {"question": (_text, ...), "options": (_list, ...), "picture": (_entries, {})}

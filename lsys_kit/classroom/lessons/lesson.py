@@ -52,8 +52,12 @@ class Table:
     @property
     def blanks(self) -> tuple[tuple[int, int, Blank], ...]:
         """The blanks, each with its row and its column, row by row."""
-        return tuple((row, column, cell) for row, cells in enumerate(self.rows) for column, cell in enumerate(cells)
-                     if isinstance(cell, Blank))
+        return tuple(
+            (row, column, cell)
+            for row, cells in enumerate(self.rows)
+            for column, cell in enumerate(cells)
+            if isinstance(cell, Blank)
+        )
 
 
 @dataclass(frozen=True)

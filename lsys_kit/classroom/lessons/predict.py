@@ -106,8 +106,11 @@ class Prediction(Unfinalized, VBox):  # type: ignore[misc]
         """The live question; for a page without a kernel the question with its answer."""
         bundle = super()._repr_mimebundle_(**options)
         pictures = {kind: self._media[kind] for kind in _STORED if kind in self._media}
-        asked = {"text/html": boxed_html(f"<p>{prose_html(self.prompt.question)}</p>") + self._media["text/html"]
-                 } if "text/html" in self._media else {}
+        asked = (
+            {"text/html": boxed_html(f"<p>{prose_html(self.prompt.question)}</p>") + self._media["text/html"]}
+            if "text/html" in self._media
+            else {}
+        )
         return {**dict(bundle or {}), **pictures, **asked, "text/plain": repr(self)}
 
     def close(self) -> None:

@@ -25,8 +25,9 @@ MOST_CHARACTERS = 400
 """Longer words and productions are cut off here."""
 
 
-def rule_finder(words: Iterable[object], constants: Iterable[str] = ("+", "-"), erasing: bool = False,
-                context: tuple[int, int] = (0, 0)) -> RuleFinder:
+def rule_finder(
+    words: Iterable[object], constants: Iterable[str] = ("+", "-"), erasing: bool = False, context: tuple[int, int] = (0, 0)
+) -> RuleFinder:
     """The words of an organism up to a step that can be chosen, and beside them all systems that fit.
 
     A slider goes from step 1 to the last. Where several systems fit, it is shown what each of them says of the step at which
@@ -118,8 +119,10 @@ class RuleFinder(LessonWidget):
         return dict(self.found)
 
     def _stored(self) -> dict[str, Any]:
-        rows = "".join(f"<tr><td>{step}</td><td><code>{escaped(word)}</code></td><td>{self._fits_html(step)}</td></tr>"
-                       for step, word in enumerate(self._words))
+        rows = "".join(
+            f"<tr><td>{step}</td><td><code>{escaped(word)}</code></td><td>{self._fits_html(step)}</td></tr>"
+            for step, word in enumerate(self._words)
+        )
         head = "<thead><tr><th>step</th><th>word</th><th>systems that fit</th></tr></thead>"
         return {"text/html": boxed_html(f"<table>{head}<tbody>{rows}</tbody></table>"), "text/plain": repr(self)}
 
@@ -148,7 +151,7 @@ def _all_found(rows: Sequence[Row], constants: Iterable[str], erasing: bool, con
         if none:
             yield Found("0", Explanation(f"No system fits these {step + 1} words, since none fits those up to step {none}."))
             continue
-        yield (found := _found(rows[:step + 1], constants, erasing, context))
+        yield (found := _found(rows[: step + 1], constants, erasing, context))
         none = step if found.count == "0" else 0
 
 
@@ -161,7 +164,7 @@ def _found(rows: Sequence[Row], constants: Iterable[str], erasing: bool, context
             raise
         return Found(f"{error.needed:,}" if error.needed else f"more than {MOST_FITS:,}", Explanation(str(error)))
     said = explanation(fits)
-    return Found(str(len(fits)), said, tuple(_words_at(fits[:len(said.own)], said.parting)))
+    return Found(str(len(fits)), said, tuple(_words_at(fits[: len(said.own)], said.parting)))
 
 
 def _words_at(systems: Sequence[LSystem], step: int | None) -> Iterator[list[str]]:
@@ -174,9 +177,16 @@ def _data(found: Found) -> dict[str, Any]:
     """What the script has to know of a step."""
     same = sum(1 for _ in takewhile(lambda column: len({*column}) == 1, zip(*found.next_words, strict=False)))
     words = [[" ".join([*word[:same], ""]), _cut(" ".join(word[same:]))] for word in found.next_words]
-    return {"count": found.count, "heading": found.said.heading, "common": _texts(found.said.common),
-            "systems": [_texts(each) for each in found.said.own], "more": found.said.more, "parting": found.said.parting,
-            "words": words, "notes": [*found.said.notes]}
+    return {
+        "count": found.count,
+        "heading": found.said.heading,
+        "common": _texts(found.said.common),
+        "systems": [_texts(each) for each in found.said.own],
+        "more": found.said.more,
+        "parting": found.said.parting,
+        "words": words,
+        "notes": [*found.said.notes],
+    }
 
 
 def _rules_html(productions: Iterable[object]) -> str:

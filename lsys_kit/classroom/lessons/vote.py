@@ -138,8 +138,12 @@ def _picture(choices: Mapping[str, Any]) -> dict[str, Any]:
     """The picture of a vote, by media types."""
     if not choices:
         return {}
-    drawn = draw(_pictured(choices), choices.get("step"), **choices.get("constants", {}),
-                 **{name: value for name, value in choices.items() if name in ("angle", "cells", "view")})
+    drawn = draw(
+        _pictured(choices),
+        choices.get("step"),
+        **choices.get("constants", {}),
+        **{name: value for name, value in choices.items() if name in ("angle", "cells", "view")},
+    )
     with limits(segments=min(MOST_SHAPES, current().segments)):
         return svg_bundle(drawn.svg, repr(drawn))
 
@@ -161,19 +165,29 @@ def _receipt(ballot: Ballot) -> dict[str, str]:
     """What is said after the first vote: nothing of what is right."""
     if ballot.first == NONE:
         return {}
-    return {"text": gettext("Your vote, {letter}, is kept. The question comes again at the end of the lesson.",
-                            letter=LETTERS[ballot.first])}
+    return {
+        "text": gettext(
+            "Your vote, {letter}, is kept. The question comes again at the end of the lesson.", letter=LETTERS[ballot.first]
+        )
+    }
 
 
 def _reply(vote: Vote, ballot: Ballot) -> dict[str, str]:
     """What is said before and after the second vote."""
-    before = (gettext("Your first vote was {letter}.", letter=LETTERS[ballot.first]) if ballot.first != NONE else
-              gettext("You have not voted the first time."))
+    before = (
+        gettext("Your first vote was {letter}.", letter=LETTERS[ballot.first])
+        if ballot.first != NONE
+        else gettext("You have not voted the first time.")
+    )
     if ballot.second == NONE:
         return {"before": before}
     option = vote.options[ballot.second]
-    return {"before": before, "verdict": "Right" if option.right else "Not right", "text": option.reply,
-            "changed": _change(vote, ballot)}
+    return {
+        "before": before,
+        "verdict": "Right" if option.right else "Not right",
+        "text": option.reply,
+        "changed": _change(vote, ballot),
+    }
 
 
 def _change(vote: Vote, ballot: Ballot) -> str:
@@ -183,6 +197,7 @@ def _change(vote: Vote, ballot: Ballot) -> str:
     if ballot.first == ballot.second:
         return gettext("You voted the same way the first time.")
     back = gettext("You were right the first time.") if vote.options[ballot.first].right else ""
-    changed = gettext("You have changed your vote from {first} to {second}.", first=LETTERS[ballot.first],
-                      second=LETTERS[ballot.second])
+    changed = gettext(
+        "You have changed your vote from {first} to {second}.", first=LETTERS[ballot.first], second=LETTERS[ballot.second]
+    )
     return f"{changed} {back}".rstrip()

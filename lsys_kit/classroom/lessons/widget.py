@@ -14,8 +14,21 @@ from lsys_kit.translation import gettext
 MOST_TYPED = 1_000
 """What is typed into a box is cut off here."""
 LABELS = (
-    "vote", "prediction", "table to fill", "Show", "I have no idea, show me", "You said:", "You wanted to see it.", "Check",
-    "Right", "Not right", "right", "not yet", "not filled in yet", "The kernel does not answer. Run the cell again.")
+    "vote",
+    "prediction",
+    "table to fill",
+    "Show",
+    "I have no idea, show me",
+    "You said:",
+    "You wanted to see it.",
+    "Check",
+    "Right",
+    "Not right",
+    "right",
+    "not yet",
+    "not filled in yet",
+    "The kernel does not answer. Run the cell again.",
+)
 """What the scripts of questions show by themselves."""
 _MARKED = re.compile(r"`([^`]+)`|\*([^*]+)\*")
 

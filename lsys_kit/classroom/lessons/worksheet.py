@@ -89,8 +89,8 @@ class Worksheet(LessonWidget):
     @property
     def entries(self) -> list[str]:
         """What is in the cells to be filled, row by row, when they were last checked."""
-        given = [str(each)[:MOST_CHARACTERS + 1] for each in islice(self.asked.get("entries", ()), len(self._table.blanks))]
-        return (given + [""] * len(self._table.blanks))[:len(self._table.blanks)]
+        given = [str(each)[: MOST_CHARACTERS + 1] for each in islice(self.asked.get("entries", ()), len(self._table.blanks))]
+        return (given + [""] * len(self._table.blanks))[: len(self._table.blanks)]
 
     @property
     def page_data(self) -> dict[str, Any]:
@@ -137,8 +137,11 @@ class PanelWithWorksheet(Unfinalized, HBox):  # type: ignore[misc]
     def _repr_mimebundle_(self, **options: object) -> dict[str, Any]:
         """The live widgets, and what a page without a kernel shows of both."""
         panel, sheet = self.panel._stored(), self.sheet._stored()
-        return {**dict(super()._repr_mimebundle_(**options) or {}), "text/html": html(panel) + sheet["text/html"],
-                "text/plain": repr(self)}
+        return {
+            **dict(super()._repr_mimebundle_(**options) or {}),
+            "text/html": html(panel) + sheet["text/html"],
+            "text/plain": repr(self),
+        }
 
     def close(self) -> None:
         """Close the panel and the table, and what the browser keeps of them."""
@@ -157,8 +160,10 @@ def marked(table: Table, entries: Sequence[str]) -> list[str]:
     ['right', 'right', 'right', 'not yet', 'not filled in yet', 'not filled in yet', 'not filled in yet', 'not filled in yet']
     """
     given = [*entries, *[""] * len(table.blanks)]
-    return [MISSING if not entry.strip() else RIGHT if is_right(entry, blank.right, blank.within) else NOT_YET
-            for entry, (_, _, blank) in zip(given, table.blanks, strict=False)]
+    return [
+        MISSING if not entry.strip() else RIGHT if is_right(entry, blank.right, blank.within) else NOT_YET
+        for entry, (_, _, blank) in zip(given, table.blanks, strict=False)
+    ]
 
 
 def summary(table: Table, marks: Sequence[str]) -> str:
@@ -170,8 +175,11 @@ def summary(table: Table, marks: Sequence[str]) -> str:
     right, missing, total = marks.count(RIGHT), marks.count(MISSING), len(marks)
     if right == total:
         return gettext("All cells are right.") if total > 1 else gettext("The cell is right.")
-    parts = [ngettext("{number} of {total} cells is right", "{number} of {total} cells are right", right, total=total)
-             if total > 1 else gettext("0 of 1 cell is right")]
+    parts = [
+        ngettext("{number} of {total} cells is right", "{number} of {total} cells are right", right, total=total)
+        if total > 1
+        else gettext("0 of 1 cell is right")
+    ]
     if missing:
         parts.append(ngettext("{number} is not filled in yet", "{number} are not filled in yet", missing))
     again = gettext("Look again at {place}.", place=_place(table, marks.index(NOT_YET))) if NOT_YET in marks else ""

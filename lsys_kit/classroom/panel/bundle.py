@@ -46,8 +46,9 @@ def bundled(name: str, without: frozenset[str] = frozenset()) -> str:
             needed[script] = set() if script in without else set(_IMPORT.findall(source(script)))
             todo += needed[script]
     order = TopologicalSorter({script: sorted(needed[script]) for script in sorted(needed)}).static_order()
-    return "\n".join(_plain(script) if script == name else _nothing(script) if script in without else _enclosed(script)
-                     for script in order)
+    return "\n".join(
+        _plain(script) if script == name else _nothing(script) if script in without else _enclosed(script) for script in order
+    )
 
 
 def _plain(name: str) -> str:
@@ -87,8 +88,9 @@ def _scripts() -> Mapping[str, Traversable]:
     """The scripts by their names, in whatever folder they are."""
     home = files(__package__) / "scripts"
     folders = [home, *(place for place in home.iterdir() if place.is_dir())]
-    return {place.name.removesuffix(".js"): place for folder in folders for place in folder.iterdir()
-            if place.name.endswith(".js")}
+    return {
+        place.name.removesuffix(".js"): place for folder in folders for place in folder.iterdir() if place.name.endswith(".js")
+    }
 
 
 @cache
@@ -101,6 +103,12 @@ def style(name: str = "panel") -> str:
 def _variables(theme: Theme) -> str:
     """The colours of a theme as variables of a style; on dark paper also those of lines, behind the ones that they replace."""
     lines = " ".join(f"{colour} {seen}" for colour, seen in DARK_LINES.items()) if theme.dark else "none"
-    named = {"paper": theme.paper, "ink": theme.ink, "quiet": theme.quiet, "mark": theme.mark, "mark-edge": theme.mark_edge,
-             "lines": f'"{lines}"'}
+    named = {
+        "paper": theme.paper,
+        "ink": theme.ink,
+        "quiet": theme.quiet,
+        "mark": theme.mark,
+        "mark-edge": theme.mark_edge,
+        "lines": f'"{lines}"',
+    }
     return " ".join(f"--lsys-{name}: {value.lower()};" for name, value in named.items())

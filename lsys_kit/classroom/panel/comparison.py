@@ -21,10 +21,15 @@ _COMMON = {"what": "The system", "step": "The step", "sliders": "The choice of s
 """What a side cannot have of its own, though `explore` takes it."""
 
 
-def compare(what: LSystem | MapSystem | CellworkSystem | str,
-            *others: LSystem | MapSystem | CellworkSystem | str | Mapping[str, object],
-            step: int | None = None, sliders: str | Collection[str] | None = None, show: str | Collection[str] | None = None,
-            shared: str | Collection[str] = (), **choices: object) -> Comparison:
+def compare(
+    what: LSystem | MapSystem | CellworkSystem | str,
+    *others: LSystem | MapSystem | CellworkSystem | str | Mapping[str, object],
+    step: int | None = None,
+    sliders: str | Collection[str] | None = None,
+    show: str | Collection[str] | None = None,
+    shared: str | Collection[str] = (),
+    **choices: object,
+) -> Comparison:
     """Show two systems, or one under two settings of its constants, side by side with one step slider.
 
     Where the words differ is marked, and said in words below.
@@ -66,8 +71,10 @@ def compare(what: LSystem | MapSystem | CellworkSystem | str,
     for name in choices:
         if name == "field":
             explore(what, field=choices[name])  # says why a panel has none
-        raise ModelValueError(f'"{quotable(name)}" stands beside what is compared, and belongs to one side of it',
-                              hint=f'Each side has settings of its own: compare("J4", {{}}, {{"{quotable(name)}": ...}}).')
+        raise ModelValueError(
+            f'"{quotable(name)}" stands beside what is compared, and belongs to one side of it',
+            hint=f'Each side has settings of its own: compare("J4", {{}}, {{"{quotable(name)}": ...}}).',
+        )
     match others:
         case (Mapping() as first, Mapping() as second):
             sides = (what, first), (what, second)
@@ -76,8 +83,10 @@ def compare(what: LSystem | MapSystem | CellworkSystem | str,
         case (LSystem() | MapSystem() | CellworkSystem() | str() as other,):
             sides = (what, {}), (other, {})
         case _:
-            raise ModelValueError("Two systems are compared, or one system under two settings",
-                                  hint='For example compare("P2", "P3"), or compare("J4", {}, {"lifeTimeA": 2}).')
+            raise ModelValueError(
+                "Two systems are compared, or one system under two settings",
+                hint='For example compare("P2", "P3"), or compare("J4", {}, {"lifeTimeA": 2}).',
+            )
     left = explore(sides[0][0], step, sliders=sliders, show=show, **_named(sides[0][1]))
     right = explore(sides[1][0], left.step, sliders=sliders, show=show, **_named(sides[1][1]))
     return Comparison(left, right, chosen_names(shared, "slider", [name for name in left.settings if name in right.settings]))
@@ -88,8 +97,10 @@ def _named(settings: Mapping[str, object]) -> dict[str, Any]:
         if not isinstance(name, str):
             raise ModelValueError(f"Constants have names, not {name!r}", hint='A setting is for example {"lifeTimeA": 2}.')
         if name in _COMMON:
-            raise ModelValueError(f"{_COMMON[name]} is no setting of one side",
-                                  hint='It stands beside the two, as in compare("J4", {}, {"lifeTimeA": 2}, step=9).')
+            raise ModelValueError(
+                f"{_COMMON[name]} is no setting of one side",
+                hint='It stands beside the two, as in compare("J4", {}, {"lifeTimeA": 2}, step=9).',
+            )
     return dict(settings)
 
 

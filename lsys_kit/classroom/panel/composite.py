@@ -121,7 +121,7 @@ def _abridged(numbers: Sequence[int], kept: int, chips: Mapping[int, Chip]) -> I
     yield from (chips[state] for state in numbers[:head])
     if left_out or not kept:
         yield _chip((f"… {left_out:,} more …" if left_out else "the empty word", "", ""))
-    yield from (chips[state] for state in numbers[head + left_out:])
+    yield from (chips[state] for state in numbers[head + left_out :])
 
 
 def _wrapped(chips: Sequence[Chip], width: float) -> Iterator[list[Chip]]:
@@ -149,4 +149,4 @@ def _chip(label: tuple[str, ...], colour: str = "", marked: bool = False) -> Chi
 
 
 def _short(text: str) -> str:
-    return text if len(text) <= LONGEST else f"{text[:LONGEST - 1]}…"
+    return text if len(text) <= LONGEST else f"{text[: LONGEST - 1]}…"

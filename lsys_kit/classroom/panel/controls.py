@@ -51,8 +51,10 @@ def slider_ranges(system: LSystem, changes: Mapping[str, object]) -> dict[str, S
         if constant.range:
             low, high, step = (function_of(part, order)(tuple(values.values())) for part in constant.range)
             if not low <= value <= high:
-                raise ModelValueError(f"{constant.name} = {number_text(value)} lies outside its slider's range",
-                                      hint=f"It goes from {number_text(low)} to {number_text(high)}.")
+                raise ModelValueError(
+                    f"{constant.name} = {number_text(value)} lies outside its slider's range",
+                    hint=f"It goes from {number_text(low)} to {number_text(high)}.",
+                )
             found[constant.name] = SliderRange(value, low, high, step)
         elif not _derived(constant.value) and _calculated_with(constant.name, system):
             found[constant.name] = _guessed(value)

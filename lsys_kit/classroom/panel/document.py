@@ -105,8 +105,10 @@ def deflated_text(text: str) -> str:
 def _policy(program: Program | None) -> str:
     """What a page lets run, load and send: its own scripts, its own pictures, nothing."""
     runs = f"script-src {_hashed(_FIRST)} {_hashed(program.script)}; " if program else ""
-    return (f"default-src 'none'; {runs}style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'; "
-            "require-trusted-types-for 'script'; trusted-types lsys")
+    return (
+        f"default-src 'none'; {runs}style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'; "
+        "require-trusted-types-for 'script'; trusted-types lsys"
+    )
 
 
 def _scripts(program: Program) -> str:

@@ -24,9 +24,17 @@ from lsys_kit.notation.model.system import LSystem
 _ID = re.compile(r"[\w-]+(\.[\w-]+)?")
 
 
-def explore(what: LSystem | MapSystem | CellworkSystem | str, step: int | None = None, *, angle: object = None, seed: int = 0,
-            sliders: str | Collection[str] | None = None, unfold: Unfolding = False, show: str | Collection[str] | None = None,
-            **constants: object) -> Explorer:
+def explore(
+    what: LSystem | MapSystem | CellworkSystem | str,
+    step: int | None = None,
+    *,
+    angle: object = None,
+    seed: int = 0,
+    sliders: str | Collection[str] | None = None,
+    unfold: Unfolding = False,
+    show: str | Collection[str] | None = None,
+    **constants: object,
+) -> Explorer:
     """Show a system with its sliders: rules, word, stage diagram and drawing of one step, side by side.
 
     Parameters
@@ -71,13 +79,20 @@ def explore(what: LSystem | MapSystem | CellworkSystem | str, step: int | None =
     {'dt': '1'}
     """
     if "field" in constants:
-        raise ModelValueError("The explorer takes no field of Python: its pages and links hold the text of the model alone",
-                              hint='Name a field in the text, as in "field: light", or draw or animate with field=...')
+        raise ModelValueError(
+            "The explorer takes no field of Python: its pages and links hold the text of the model alone",
+            hint='Name a field in the text, as in "field: light", or draw or animate with field=...',
+        )
     title = ""
     if isinstance(what, str) and _ID.fullmatch(what.strip()):
         title = entry(what.strip()).id
-        what = map_system(title) if is_map_system(title) else cellwork_system(title) if is_cellwork_system(title) \
+        what = (
+            map_system(title)
+            if is_map_system(title)
+            else cellwork_system(title)
+            if is_cellwork_system(title)
             else catalogued(title)
+        )
     if isinstance(what, str) and is_link(what):
         there = linked(what)
         given: dict[str, Any] = {**there.settings, **settings_given(step, angle, seed), **constants}
@@ -117,6 +132,7 @@ def chosen_names(names: str | Collection[str], what: str, offered: Collection[st
     for name in asked:
         require(name, str, f"The name of a {what}")
         if name not in offered:
-            raise ModelNameError(f"There is no {what} {shown(name)}", hint=suggestion(name, offered)
-                                 or f"The {what}s are: {', '.join(offered)}.")
+            raise ModelNameError(
+                f"There is no {what} {shown(name)}", hint=suggestion(name, offered) or f"The {what}s are: {', '.join(offered)}."
+            )
     return frozenset(asked)

@@ -65,16 +65,30 @@ class Explorer(KitWidget):
     seed = traitlets.Int().tag(sync=True)
     settings = traitlets.Dict().tag(sync=True)
 
-    def __init__(self, opened: Opened, step: int | None, angle: object, seed: int, without: Collection[str] = (),
-                 unfold: Unfolding = False, show: Collection[str] | None = None) -> None:
+    def __init__(
+        self,
+        opened: Opened,
+        step: int | None,
+        angle: object,
+        seed: int,
+        without: Collection[str] = (),
+        unfold: Unfolding = False,
+        show: Collection[str] | None = None,
+    ) -> None:
         first = opened.steps if step is None else whole_number(step, "The step")
         turn = opened.turned(angle)
         if isinstance(seed, bool) or not isinstance(seed, int):
             raise ModelValueError(f"The seed must be a whole number, not {shown(seed)}")
         self._ready, self._opened, self._given, self._without, self._unfold = False, opened, opened, frozenset(without), unfold
         self._show = None if show is None else [view for view in VIEWS if view in show]
-        super().__init__(step=first, angle=round(turn, 1), seed=seed, settings=_texts(opened.first), around=opened.side[0],
-                         above=opened.side[1])
+        super().__init__(
+            step=first,
+            angle=round(turn, 1),
+            seed=seed,
+            settings=_texts(opened.first),
+            around=opened.side[0],
+            above=opened.side[1],
+        )
         try:
             self._begin(first, step is None)
         except BaseException:
@@ -164,8 +178,11 @@ class Explorer(KitWidget):
     @traitlets.validate("settings")
     def _possible_settings(self, proposal: Any) -> dict[str, str]:
         given = {**self.settings, **proposal["value"]} if self._ready else proposal["value"]
-        return {name: number_text(nearest(self._opened.values[name], name, text)) for name, text in given.items()
-                if name in self._opened.values}
+        return {
+            name: number_text(nearest(self._opened.values[name], name, text))
+            for name, text in given.items()
+            if name in self._opened.values
+        }
 
     # -- what happens ---------------------------------------------------------------------------------------------------
 
@@ -173,11 +190,22 @@ class Explorer(KitWidget):
         """What the browser needs of a system: its sliders, and its book for some values of them."""
         sliders = [slider(name, what.values[name], value, what.hint) for name, value in what.first.items()]
         made = what.book(values, self.seed, first)
-        return {"book": made, "asked": {"constants": _texts(values), "seed": self.seed}, "constants": sliders,
-                "chance": made["chance"] and "seed" not in self._without,
-                "fixed": "".join(fixed_text(what.fixed)), "without": sorted(self._without),
-                "unfold": self._unfold, "show": self._show, "step": min(first, made["steps"]), "angle": self.angle,
-                "around": self.around, "above": self.above, "seed": self.seed, **translated_labels()}
+        return {
+            "book": made,
+            "asked": {"constants": _texts(values), "seed": self.seed},
+            "constants": sliders,
+            "chance": made["chance"] and "seed" not in self._without,
+            "fixed": "".join(fixed_text(what.fixed)),
+            "without": sorted(self._without),
+            "unfold": self._unfold,
+            "show": self._show,
+            "step": min(first, made["steps"]),
+            "angle": self.angle,
+            "around": self.around,
+            "above": self.above,
+            "seed": self.seed,
+            **translated_labels(),
+        }
 
     def _offer_constants(self) -> None:
         """Each constant with a slider is an attribute that can be set and linked."""
@@ -201,8 +229,10 @@ class Explorer(KitWidget):
 
     def _values(self, settings: Mapping[str, object]) -> dict[str, Value]:
         """The values of the sliders for some settings."""
-        return {name: nearest(values, name, settings.get(name, self._opened.first[name]))
-                for name, values in self._opened.values.items()}
+        return {
+            name: nearest(values, name, settings.get(name, self._opened.first[name]))
+            for name, values in self._opened.values.items()
+        }
 
     def _limited(self) -> AbstractContextManager[object]:
         return limits(modules=min(MOST_MODULES, current().modules))
@@ -249,8 +279,11 @@ class Explorer(KitWidget):
 
     def _variants(self, _: Mapping[str, Any]) -> dict[str, Any]:
         """Nine variants of the system, each with its book."""
-        return {"variants": [{"text": str(variant), "book": opened(variant).book({}, self.seed, 0)}
-                             for variant in self._opened.variants(9)]}
+        return {
+            "variants": [
+                {"text": str(variant), "book": opened(variant).book({}, self.seed, 0)} for variant in self._opened.variants(9)
+            ]
+        }
 
     def _kept(self, content: Mapping[str, Any]) -> dict[str, Any]:
         """What is taken along: the drawing as SVG, or a link to the panel as it stands, or the panel as a page."""

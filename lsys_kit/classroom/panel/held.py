@@ -172,8 +172,11 @@ def held_text(fixed: Mapping[str, Value], held: Held, all_values: Mapping[str, S
     'Fixed on this page: k = 2. It holds 2 of the 1,000 values of a and the seeds 0 to 8. a, b and seed move one at a time: \
 the other sliders then go back to their first values.'
     """
-    fewer = [f"{len(each):,} of the {len(all_values[name]):,} values of {name}" for name, each in held.values.items()
-             if name != SEED and len(each) < len(all_values[name])]
+    fewer = [
+        f"{len(each):,} of the {len(all_values[name]):,} values of {name}"
+        for name, each in held.values.items()
+        if name != SEED and len(each) < len(all_values[name])
+    ]
     seeds = _seeds_text(held.values[SEED]) if SEED in held.values else ()
     holds = [f"{'It' if fixed else 'This page'} holds {_listed([*fewer, *seeds])}."] if fewer or seeds else []
     return " ".join((*fixed_text(fixed, "Fixed on this page"), *holds, *_alone_text(held)))

@@ -41,8 +41,13 @@ STYLE = f"""
 """
 _CELLS, _STROKES, _TISSUES = frozenset(("filament",)), frozenset(("turtle", "painter", "projection")), frozenset(("tissue",))
 _MAPS = frozenset(("map", "relaxation", "relaxing", "tension"))
-_NOT_NEEDED = {"filament": _STROKES | _MAPS | _TISSUES, "plane": _CELLS | _MAPS | _TISSUES, "space": _CELLS | _MAPS | _TISSUES,
-               "map": _CELLS | _TISSUES | {"turtle"}, "tissue": _CELLS | _MAPS | {"turtle"}}
+_NOT_NEEDED = {
+    "filament": _STROKES | _MAPS | _TISSUES,
+    "plane": _CELLS | _MAPS | _TISSUES,
+    "space": _CELLS | _MAPS | _TISSUES,
+    "map": _CELLS | _TISSUES | {"turtle"},
+    "tissue": _CELLS | _MAPS | {"turtle"},
+}
 """The scripts that draw other systems than that of a page, by the way in which it is drawn."""
 
 
@@ -89,10 +94,21 @@ def not_needed(*modes: str) -> frozenset[str]:
     return frozenset.intersection(*(_NOT_NEEDED[mode] for mode in modes))
 
 
-def page_data(system: LSystem, changes: Mapping[str, object] | None = None, seed: int = 0, *, title: str = "",
-              step: int | None = None, angle: object = None, around: int = 0, above: int = 0,
-              asked: Sequence[Mapping[str, object]] = (), without: Collection[str] = (),
-              unfold: Unfolding = False, made: Made | None = None) -> dict[str, Any]:
+def page_data(
+    system: LSystem,
+    changes: Mapping[str, object] | None = None,
+    seed: int = 0,
+    *,
+    title: str = "",
+    step: int | None = None,
+    angle: object = None,
+    around: int = 0,
+    above: int = 0,
+    asked: Sequence[Mapping[str, object]] = (),
+    without: Collection[str] = (),
+    unfold: Unfolding = False,
+    made: Made | None = None,
+) -> dict[str, Any]:
     """What a page says of a system: its sliders, and the books of their settings.
 
     Parameters
@@ -125,8 +141,11 @@ def page_data(system: LSystem, changes: Mapping[str, object] | None = None, seed
     """
     given = {name: number_from(value, name) for name, value in (changes or {}).items()}
     ranges = slider_ranges(system, given)
-    start: dict[str, Value] = {**{name: value for name, value in given.items() if name not in ranges},
-                               **{name: span.value for name, span in ranges.items()}, SEED: seed}
+    start: dict[str, Value] = {
+        **{name: value for name, value in given.items() if name not in ranges},
+        **{name: span.value for name, span in ranges.items()},
+        SEED: seed,
+    }
     wanted = first_step(system) if step is None else step
     shelf = _Shelf(start, partial(book, system, title=title, least=wanted, unfold=unfold))
     if made and {**made.settings, SEED: made.seed} == start and wanted <= max(made.least, made.book["steps"]):
@@ -136,15 +155,30 @@ def page_data(system: LSystem, changes: Mapping[str, object] | None = None, seed
     held = _held(shelf, values, seed if first["chance"] and "seed" not in without else None, asked)
     fixed = {name: value for name, value in start.items() if name not in held.values and (name != SEED or first["chance"])}
     turn = turning_angle(angle, system)
-    model = {"constants": [slider(name, held.values[name], start[name]) for name in values if name in held.values],
-             "chance": SEED in held.values, "seeds": [*map(number_text, held.values.get(SEED, ()))],
-             "together": held.together, "fixed": held_text(fixed, held, values), "without": sorted(without),
-             "unfold": unfold, "step": min(wanted, first["steps"]),
-             "angle": round(turn, 1), "around": around, "above": above, "seed": seed, **translated_labels()}
+    model = {
+        "constants": [slider(name, held.values[name], start[name]) for name in values if name in held.values],
+        "chance": SEED in held.values,
+        "seeds": [*map(number_text, held.values.get(SEED, ()))],
+        "together": held.together,
+        "fixed": held_text(fixed, held, values),
+        "without": sorted(without),
+        "unfold": unfold,
+        "step": min(wanted, first["steps"]),
+        "angle": round(turn, 1),
+        "around": around,
+        "above": above,
+        "seed": seed,
+        **translated_labels(),
+    }
     own = {"notation": system.notation, "text": write(system), "angle": round(float(system.angle), 1)}
     kept = {name: number_text(value) for name, value in fixed.items() if name != SEED}
-    return {"model": model, "mode": first["mode"], "system": own, "fixed": kept,
-            "books": deflated(shared([shelf.book(each) for each in settings(held)]))}
+    return {
+        "model": model,
+        "mode": first["mode"],
+        "system": own,
+        "fixed": kept,
+        "books": deflated(shared([shelf.book(each) for each in settings(held)])),
+    }
 
 
 def save_page(path: str | Path, text: str) -> None:
@@ -161,12 +195,15 @@ def save_page(path: str | Path, text: str) -> None:
     save_file(path, text.encode())
 
 
-def _held(shelf: _Shelf, values: Mapping[str, Sequence[Value]], seed: int | None,
-          asked: Sequence[Mapping[str, object]]) -> Held:
+def _held(
+    shelf: _Shelf, values: Mapping[str, Sequence[Value]], seed: int | None, asked: Sequence[Mapping[str, object]]
+) -> Held:
     """The settings for which a page has room: what a book takes is seen from those with the fewest values of each slider."""
     rows = [*_asked_settings(values, seed, asked)]
-    choices = {name: constant_choice(each, shelf.start[name], {row[name] for row in rows if name in row})
-               for name, each in values.items()}
+    choices = {
+        name: constant_choice(each, shelf.start[name], {row[name] for row in rows if name in row})
+        for name, each in values.items()
+    }
     if seed is not None:
         choices[SEED] = seed_choice(seed, {int(row[SEED]) for row in rows if SEED in row})
     few = fewest(choices, shelf.room([{}], MOST_FOR_FEWEST))
@@ -176,13 +213,15 @@ def _held(shelf: _Shelf, values: Mapping[str, Sequence[Value]], seed: int | None
     return planned({name: choices[name] for name in few.values}, together, most)
 
 
-def _asked_settings(values: Mapping[str, Sequence[Value]], seed: int | None,
-                    asked: Sequence[Mapping[str, object]]) -> Iterator[dict[str, Value]]:
+def _asked_settings(
+    values: Mapping[str, Sequence[Value]], seed: int | None, asked: Sequence[Mapping[str, object]]
+) -> Iterator[dict[str, Value]]:
     """What is asked for of the sliders of a system: whatever lies between their ends, and whole seeds."""
     for row in asked:
         given = {name: number_from(value, name) for name, value in row.items()}
-        found = {name: value for name, value in given.items()
-                 if name in values and values[name][0] <= value <= values[name][-1]}
+        found = {
+            name: value for name, value in given.items() if name in values and values[name][0] <= value <= values[name][-1]
+        }
         if seed is not None and "seed" not in values and isinstance(given.get("seed"), int):
             found[SEED] = given["seed"]
         if found:
@@ -250,8 +289,13 @@ def shared(books: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
     """
     names = [*dict.fromkeys(name for each in books for name in each)]
     parts: list[dict[str, int]] = [{} for _ in names]
-    rows = [[parts[number].setdefault(json.dumps(each[name]), len(parts[number])) if name in each else -1
-             for number, name in enumerate(names)] for each in books]
+    rows = [
+        [
+            parts[number].setdefault(json.dumps(each[name]), len(parts[number])) if name in each else -1
+            for number, name in enumerate(names)
+        ]
+        for each in books
+    ]
     return {"names": names, "parts": [[*map(json.loads, part)] for part in parts], "rows": rows}
 
 

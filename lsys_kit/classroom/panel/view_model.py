@@ -75,10 +75,12 @@ class StepView:
 
     def __str__(self) -> str:
         """The view in words."""
-        places = [f"{place_text(place, self.net.system)}: {count:,}"
-                  for place, count in zip(self.net.places, self.tokens, strict=True) if place.symbol[0].isalpha()]
-        return (f"Step {self.step}: {self.modules}. {abridged(self.word, 160)}. Stages {', '.join(places)}. "
-                f"{self.scene}.")
+        places = [
+            f"{place_text(place, self.net.system)}: {count:,}"
+            for place, count in zip(self.net.places, self.tokens, strict=True)
+            if place.symbol[0].isalpha()
+        ]
+        return f"Step {self.step}: {self.modules}. {abridged(self.word, 160)}. Stages {', '.join(places)}. {self.scene}."
 
 
 class ViewModel:
@@ -112,11 +114,19 @@ class ViewModel:
         """The derivation and the net for given constants."""
         key = tuple(constants.items())
         given: dict[str, Any] = dict(constants)
-        return self._known.found(key, lambda: (derive(self.system, 0, seed=self.seed, **given),
-                                             net_of(self.system, given, self._unfold)))
+        return self._known.found(
+            key, lambda: (derive(self.system, 0, seed=self.seed, **given), net_of(self.system, given, self._unfold))
+        )
 
-    def sight(self, step: int, constants: Mapping[str, object], angle: float | None = None, place: int = -1,
-              around: float = 0.0, above: float = 0.0) -> StepView:
+    def sight(
+        self,
+        step: int,
+        constants: Mapping[str, object],
+        angle: float | None = None,
+        place: int = -1,
+        around: float = 0.0,
+        above: float = 0.0,
+    ) -> StepView:
         """What there is to see at a step.
 
         Parameters
@@ -148,12 +158,16 @@ class ViewModel:
             scene = rows[-1].scene
             picture = filament_picture(derivation, rows, step, marked)
         else:
-            scene = coloured(place_path(path, turn, float(self.system.heading)), self.system) if path is not None else \
-                self._scene(derivation, turn)
+            scene = (
+                coloured(place_path(path, turn, float(self.system.heading)), self.system)
+                if path is not None
+                else self._scene(derivation, turn)
+            )
             [scene] = in_units([scene], self.system)
             [seen] = project_smoothly([scene], (around, above))
-            picture = Picture((FilamentRow(step, seen),), state_colours(derivation), None, marked,
-                              scene if scene.dimension == 3 else None)
+            picture = Picture(
+                (FilamentRow(step, seen),), state_colours(derivation), None, marked, scene if scene.dimension == 3 else None
+            )
         return StepView(step, word, net, net.tokens(word), marked, scene, picture)
 
     def _sequence(self, derivation: Derivation, last: int) -> tuple[FilamentRow, ...]:

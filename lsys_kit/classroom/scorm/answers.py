@@ -57,9 +57,15 @@ def page_data(exercise: Exercise) -> dict[str, Any] | None:
     with suppress(LSystemError, _NotExact):
         replies = _REPLIES[exercise.kind](exercise)
         salt = hashlib.sha256(repr(exercise).encode()).hexdigest()[:16]
-        return {"id": exercise.id, "kind": exercise.kind, "salt": salt, "hints": list(exercise.hints),
-                "otherwise": _otherwise(exercise), "replies": dict(sorted(_sealed(salt, *each) for each in replies.items())),
-                **_reading(exercise)}
+        return {
+            "id": exercise.id,
+            "kind": exercise.kind,
+            "salt": salt,
+            "hints": list(exercise.hints),
+            "otherwise": _otherwise(exercise),
+            "replies": dict(sorted(_sealed(salt, *each) for each in replies.items())),
+            **_reading(exercise),
+        }
     return None
 
 
@@ -139,8 +145,10 @@ def _of_numbers(exercise: Exercise) -> dict[str, Reply]:
 
 def _of_rounded_numbers(exercise: Exercise) -> dict[str, Reply]:
     part, solution = Fraction(exercise.tolerance) / PARTS_OF_A_TOLERANCE, Fraction(solution_of(exercise))
-    right = {rounded_key(solution + at * part, part): _reply(exercise, solution)
-             for at in range(-PARTS_OF_A_TOLERANCE, PARTS_OF_A_TOLERANCE + 1)}
+    right = {
+        rounded_key(solution + at * part, part): _reply(exercise, solution)
+        for at in range(-PARTS_OF_A_TOLERANCE, PARTS_OF_A_TOLERANCE + 1)
+    }
     wrong = {rounded_key(each.answer, part): _reply(exercise, each.answer) for each in wrong_answers(exercise)}
     if right.keys() & wrong.keys():
         raise _NotExact
@@ -164,7 +172,12 @@ def _answers(exercise: Exercise) -> Iterator[Any]:
 
 
 _REPLIES: Mapping[str, Callable[[Exercise], dict[str, Reply]]] = {
-    "choice": _of_options, "line": _of_lines, "number": _of_numbers, "table": _of_tables, "word": _of_words}
+    "choice": _of_options,
+    "line": _of_lines,
+    "number": _of_numbers,
+    "table": _of_tables,
+    "word": _of_words,
+}
 """The kinds of answers that a page can check."""
 
 
@@ -188,5 +201,8 @@ def _reading(exercise: Exercise) -> dict[str, Any]:
         return {}
     part = Fraction(exercise.tolerance) / PARTS_OF_A_TOLERANCE
     unit = exercise.unit if exercise.unit.lower() in UNITS else gettext(exercise.unit)
-    return {"unit": unit, "known": f"{exercise.question} {exercise.unit} {unit}".lower(),
-            "part": [str(part.numerator), str(part.denominator)] if part else None}
+    return {
+        "unit": unit,
+        "known": f"{exercise.question} {exercise.unit} {unit}".lower(),
+        "part": [str(part.numerator), str(part.denominator)] if part else None,
+    }

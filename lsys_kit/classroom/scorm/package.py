@@ -59,8 +59,9 @@ def write_package(what: str, path: str | Path) -> tuple[tuple[Lesson, ...], Path
         raise ModelValueError(f'A package is a .zip file, and "{quotable(path.name)}" is none')
     pages = {lesson: page for lesson in map(translated_lesson, lessons_of(what)) if (page := exercise_page(lesson))}
     if not pages:
-        raise ModelFileError("None of these exercises can be checked in a page",
-                             hint="Pages check choices, lines, numbers, tables and words.")
+        raise ModelFileError(
+            "None of these exercises can be checked in a page", hint="Pages check choices, lines, numbers, tables and words."
+        )
     save_file(path, package(list(pages), list(pages.values())))
     return tuple(pages), path
 
@@ -78,8 +79,10 @@ def lessons_of(what: str) -> tuple[Lesson, ...]:
     found = tuple(lesson for lesson in lessons() if wanted in (lesson.name, lesson.name.partition("_")[0]))
     if not found:
         names = [lesson.name for lesson in lessons()]
-        raise ModelNameError(f'"{quotable(what)}" is no folder and no lesson',
-                             hint=suggestion(what[:100], names) or f"Lessons are: {', '.join(names)}.")
+        raise ModelNameError(
+            f'"{quotable(what)}" is no folder and no lesson',
+            hint=suggestion(what[:100], names) or f"Lessons are: {', '.join(names)}.",
+        )
     return found
 
 
@@ -116,8 +119,9 @@ def manifest(told: Sequence[Lesson], names: Sequence[str]) -> str:
     """
     ids = " ".join(exercise.id for lesson in told for exercise in lesson.exercises)
     own = hashlib.sha256(f"{ids} {' '.join(lesson.name for lesson in told)}".encode()).hexdigest()[:12]
-    root = ElementTree.Element("manifest", {"xmlns": CONTENT, "xmlns:adlcp": ADL, "identifier": f"lsys-kit-exercises-{own}",
-                                            "version": "1.0"})
+    root = ElementTree.Element(
+        "manifest", {"xmlns": CONTENT, "xmlns:adlcp": ADL, "identifier": f"lsys-kit-exercises-{own}", "version": "1.0"}
+    )
     metadata = _added(root, "metadata")
     _added(metadata, "schema", "ADL SCORM")
     _added(metadata, "schemaversion", "1.2")
@@ -127,8 +131,11 @@ def manifest(told: Sequence[Lesson], names: Sequence[str]) -> str:
     for number, (lesson, name) in enumerate(zip(told, names, strict=True), 1):
         item = _added(organization, "item", identifier=f"item-{number}", identifierref=f"page-{number}", isvisible="true")
         _added(item, "title", lesson.title)
-        resource = _added(resources, "resource", **{"identifier": f"page-{number}", "type": "webcontent",
-                                                    "adlcp:scormtype": "sco", "href": name})
+        resource = _added(
+            resources,
+            "resource",
+            **{"identifier": f"page-{number}", "type": "webcontent", "adlcp:scormtype": "sco", "href": name},
+        )
         _added(resource, "file", href=name)
     ElementTree.indent(root)
     return f'<?xml version="1.0" encoding="UTF-8"?>\n{ElementTree.tostring(root, "unicode")}\n'

@@ -75,5 +75,7 @@ def _make_room(folder: Path, places: Mapping[str, Path]) -> None:
             name = quotable(str(folder))
             raise ModelFileError(f'The site cannot be written to "{name}": {fault.strerror or fault}') from None
         if os.path.lexists(place) and not made_by_the_kit(place):
-            raise ModelFileError(f'"{quotable(str(place))}" is there already, and was not made by the kit',
-                                 hint="It would be lost: choose another folder, or delete it first.")
+            raise ModelFileError(
+                f'"{quotable(str(place))}" is there already, and was not made by the kit',
+                hint="It would be lost: choose another folder, or delete it first.",
+            )

@@ -26,8 +26,11 @@ _SIZE = re.compile(r'<svg(?: (?!width)[\w:]+="[^"]*")*( width="[^"]*" height="[^
 
 def cells_html(cells: list[Any], links: Links, parts: Parts) -> str:
     """Cells of a notebook as HTML; what the script of the page has to know is added to `parts`."""
-    return "".join(markdown_html(cell.source, links) if cell.cell_type == "markdown" else _code_html(cell, parts)
-                   for cell in cells if cell.cell_type in ("markdown", "code") and cell.source.strip())
+    return "".join(
+        markdown_html(cell.source, links) if cell.cell_type == "markdown" else _code_html(cell, parts)
+        for cell in cells
+        if cell.cell_type in ("markdown", "code") and cell.source.strip()
+    )
 
 
 def _code_html(cell: Any, parts: Parts) -> str:

@@ -67,7 +67,7 @@ def markdown_html(text: str, links: Links) -> str:
     renderer = Renderer(escape=True)
     read = mistune.create_markdown(renderer=renderer, plugins=["table", "math"])
     renderer.register("inline_math", lambda _, text: mathml(text))
-    renderer.register("block_math", lambda _, text: f"<div class=\"formula\" tabindex=\"0\">{mathml(text, 'block')}</div>\n")
+    renderer.register("block_math", lambda _, text: f'<div class="formula" tabindex="0">{mathml(text, "block")}</div>\n')
     renderer.register("table", lambda _, text: f'<div class="scroll" tabindex="0"><table>\n{text}</table></div>\n')
     renderer.register("table_cell", _table_cell)
     return str(read(text))
@@ -75,7 +75,7 @@ def markdown_html(text: str, links: Links) -> str:
 
 def _table_cell(_: object, text: str, align: str | None = None, head: bool = False) -> str:
     """A cell of a table, in which a bar is written with a backslash before it."""
-    tag, inside = ("th", " scope=\"col\"") if head else ("td", "")
+    tag, inside = ("th", ' scope="col"') if head else ("td", "")
     return f"<{tag}{inside}>{text.replace(chr(92) + '|', '|')}</{tag}>\n"
 
 

@@ -83,8 +83,10 @@ def notebook_page(entry: Entry, cells: Sequence[Any], entries: Sequence[Entry]) 
     links, parts, [head, *rest] = links_of(entry.name, {each.name for each in entries}), Parts(), _seen(entry, cells)
     begin = cells_html([head], links, parts) + _note(entry) + cells_html(rest, links, parts)
     row = _neighbours(entry, entries)
-    body = (f'<a class="skip" href="#main">Skip to the text</a>\n<header>{_above(entry)}</header>\n'
-            f'<main id="main">\n{begin}</main>\n<footer><nav aria-label="other pages">{row}</nav></footer>\n')
+    body = (
+        f'<a class="skip" href="#main">Skip to the text</a>\n<header>{_above(entry)}</header>\n'
+        f'<main id="main">\n{begin}</main>\n<footer><nav aria-label="other pages">{row}</nav></footer>\n'
+    )
     described = prose_text(entry.lesson.question) if entry.lesson else entry.title
     return document(entry.title, body, style("course"), described, _program(parts))
 
@@ -118,13 +120,18 @@ def _lesson_row(entry: Entry, entries: Sequence[Entry]) -> str:
     """A lesson in the list: its title, what it asks, how long it takes, its tracks, its exercises."""
     exercises = next((each for each in entries if each.name == f"exercises/{PurePosixPath(entry.name).name}"), None)
     told = entry.lesson
-    facts = [f"{told.minutes} minutes", *(f'<span class="track" title="{TRACKS[each]}">{each}</span>' for each in told.track)] \
-        if told else []
+    facts = (
+        [f"{told.minutes} minutes", *(f'<span class="track" title="{TRACKS[each]}">{each}</span>' for each in told.track)]
+        if told
+        else []
+    )
     also = [f'<a href="{escaped(exercises.page)}">exercises</a>'] if exercises else []
     asked = f"<p>{prose_html(told.question)}</p>" if told else ""
     number = f"<span>{told.number}</span> " if told else ""
-    return (f'<li><h3>{number}<a href="{escaped(entry.page)}">{escaped(entry.title)}</a></h3>{asked}'
-            f'<p class="quiet">{" · ".join([*facts, *also])}</p></li>\n')
+    return (
+        f'<li><h3>{number}<a href="{escaped(entry.page)}">{escaped(entry.title)}</a></h3>{asked}'
+        f'<p class="quiet">{" · ".join([*facts, *also])}</p></li>\n'
+    )
 
 
 def _seen(entry: Entry, cells: Sequence[Any]) -> list[Any]:
@@ -154,8 +161,10 @@ def _above(entry: Entry) -> str:
 
 def _neighbours(entry: Entry, entries: Sequence[Entry]) -> str:
     """Links to the pages before and after one of the same kind, and from a lesson to its exercises or back."""
-    return "\n".join(f'<a class="{kind}" href="{escaped(relpath(other.page, entry.folder))}"><span>{label}</span> '
-                     f"{escaped(other.title)}</a>" for kind, label, other in _others(entry, entries))
+    return "\n".join(
+        f'<a class="{kind}" href="{escaped(relpath(other.page, entry.folder))}"><span>{label}</span> {escaped(other.title)}</a>'
+        for kind, label, other in _others(entry, entries)
+    )
 
 
 def _others(entry: Entry, entries: Sequence[Entry]) -> Iterator[tuple[str, str, Entry]]:
@@ -195,8 +204,9 @@ def _with_books_once(parts: Parts) -> dict[str, Any]:
     def numbered(data: Any) -> Any:
         if not isinstance(data, dict):
             return data
-        return {name: books.setdefault(value, len(books)) if name == "books" else numbered(value)
-                for name, value in data.items()}
+        return {
+            name: books.setdefault(value, len(books)) if name == "books" else numbered(value) for name, value in data.items()
+        }
 
     found = [numbered(part) for part in parts]
     return {"parts": found, "books": [*books]}

@@ -54,8 +54,14 @@ def run(name: str, path: Path, stopped: Event | None = None) -> Any:
             raise KeyboardInterrupt
 
     client = nbclient.NotebookClient(
-        notebook, timeout=SECONDS, kernel_name="python3", store_widget_state=False, extra_arguments=["--log-level=ERROR"],
-        on_cell_start=unless_stopped, resources={"metadata": {"path": str(path.parent)}})
+        notebook,
+        timeout=SECONDS,
+        kernel_name="python3",
+        store_widget_state=False,
+        extra_arguments=["--log-level=ERROR"],
+        on_cell_start=unless_stopped,
+        resources={"metadata": {"path": str(path.parent)}},
+    )
     environment = {**os.environ, "TQDM_DISABLE": "1"}
     try:
         try:
@@ -65,8 +71,10 @@ def run(name: str, path: Path, stopped: Event | None = None) -> Any:
         except RuntimeError:  # the kernel did not start: another program took one of its ports before it could
             client.execute(env=environment)
     except nbclient.exceptions.CellExecutionError as failed:
-        raise LSystemError(f"A cell of {name} fails: {failed.ename}: {failed.evalue}",
-                           hint="Run the lesson in JupyterLab to see which: lsys-kit lab.") from None
+        raise LSystemError(
+            f"A cell of {name} fails: {failed.ename}: {failed.evalue}",
+            hint="Run the lesson in JupyterLab to see which: lsys-kit lab.",
+        ) from None
     del notebook.cells[0]
     return notebook
 

@@ -19,8 +19,15 @@ from lsys_kit.classroom.panel.explorer import Explorer
 
 PART = "application/vnd.lsys-kit.page-part+json"
 """The media type of what a page has to know of a panel, a question or a table to open it: its kind, its data, its words."""
-KINDS: Mapping[type, str] = {Explorer: "panel", Comparison: "comparison", VoteBox: "vote", Prediction: "prediction",
-                             Worksheet: "worksheet", PanelWithWorksheet: "beside", RuleFinder: "rules"}
+KINDS: Mapping[type, str] = {
+    Explorer: "panel",
+    Comparison: "comparison",
+    VoteBox: "vote",
+    Prediction: "prediction",
+    Worksheet: "worksheet",
+    PanelWithWorksheet: "beside",
+    RuleFinder: "rules",
+}
 """What the script of a page calls the widgets of the kit."""
 
 

@@ -35,8 +35,14 @@ def cellwork_step(found: Cellwork, system: CellworkSystem, step: int) -> Cellwor
     return Cellwork(tuple(vertices), tuple(edges), tuple(walls), tuple(cells), tuple(mothers))
 
 
-def _divided_cell(cell: Sequence[WallSide], divided: Sequence[DividedWall], edges: Sequence[CellEdge], walls: list[CellWall],
-                  called: str, source: str) -> list[tuple[WallSide, ...]]:
+def _divided_cell(
+    cell: Sequence[WallSide],
+    divided: Sequence[DividedWall],
+    edges: Sequence[CellEdge],
+    walls: list[CellWall],
+    called: str,
+    source: str,
+) -> list[tuple[WallSide, ...]]:
     """A cell divided by the wall that a cycle of new edges spans; the cell alone, where there is none."""
     sides = tuple(WallSide(new, forward) for wall, forward in cell for new in divided[wall].walls)
     borders: dict[str, list[int]] = {}
@@ -53,7 +59,11 @@ def _divided_cell(cell: Sequence[WallSide], divided: Sequence[DividedWall], edge
         start, end = next(each.at for each in parted if each.new_wall == [*borders][-1]) or (None, None)
         raise ModelValueError(
             f"{called} has new edges in a cycle, but they do not lie in one new wall: they name {' and '.join(borders)}",
-            source, start, end, "Markers whose edges are to bound one new wall end in the same label.")
+            source,
+            start,
+            end,
+            "Markers whose edges are to bound one new wall end in the same label.",
+        )
     return [sides]
 
 
@@ -85,8 +95,13 @@ def _parted(sides: Sequence[WallSide], walls: Sequence[CellWall]) -> Iterator[tu
     """The walls of the two daughters of a cell that the last wall of all divides, which both have."""
     new, cycle = len(walls) - 1, {side.edge: side.forward for side in walls[-1].sides}
     own = _one_side(sides, walls, cycle)
-    along = next(side.forward == forward for side in sides if side.wall in own
-                 for edge, forward in walls[side.wall].sides if edge in cycle and edge == next(iter(cycle)))
+    along = next(
+        side.forward == forward
+        for side in sides
+        if side.wall in own
+        for edge, forward in walls[side.wall].sides
+        if edge in cycle and edge == next(iter(cycle))
+    )
     outward = along != cycle[next(iter(cycle))]
     yield (*(side for side in sides if side.wall in own), WallSide(new, outward))
     yield (*(side for side in sides if side.wall not in own), WallSide(new, not outward))

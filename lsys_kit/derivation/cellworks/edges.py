@@ -73,13 +73,16 @@ def _replaced(edge: CellEdge, production: CellworkProduction, vertices: list[Ver
     between = range(len(vertices), len(vertices) + len(successor) - 1)
     vertices += (Vertex((edge.start, edge.end), Fraction(part, len(successor))) for part in range(1, len(successor)))
     ends = [edge.start, *between, edge.end]
-    edges += (CellEdge(new.label, *((b, a) if new.arrow == "<" else (a, b)), bool(new.arrow))
-              for new, a, b in zip(successor, ends, ends[1:], strict=False))
+    edges += (
+        CellEdge(new.label, *((b, a) if new.arrow == "<" else (a, b)), bool(new.arrow))
+        for new, a, b in zip(successor, ends, ends[1:], strict=False)
+    )
     return DividedEdge(range(first, len(edges)), [new.arrow == "<" for new in successor], between, production.marked)
 
 
-def divided_walls(found: Cellwork, partings: Sequence[DividedEdge], becomes: Mapping[str, str], edges: list[CellEdge],
-                  walls: list[CellWall]) -> list[DividedWall]:
+def divided_walls(
+    found: Cellwork, partings: Sequence[DividedEdge], becomes: Mapping[str, str], edges: list[CellEdge], walls: list[CellWall]
+) -> list[DividedWall]:
     """Each wall, divided by a new edge between two of its markers that match, at most once; or whole, with another label."""
     made = []
     for wall in counted(found.walls):
@@ -93,8 +96,10 @@ def divided_walls(found: Cellwork, partings: Sequence[DividedEdge], becomes: Map
         forward, border = one.new_edge.arrow != "<", len(edges)
         ends = (one.vertex, other.vertex) if forward else (other.vertex, one.vertex)
         edges.append(CellEdge(one.new_edge.label, *ends, bool(one.new_edge.arrow)))
-        walls += (CellWall(one.before, (*sides[:one.place], EdgeSide(border, forward), *sides[other.place:])),
-                  CellWall(one.behind, (*sides[one.place:other.place], EdgeSide(border, not forward))))
+        walls += (
+            CellWall(one.before, (*sides[: one.place], EdgeSide(border, forward), *sides[other.place :])),
+            CellWall(one.behind, (*sides[one.place : other.place], EdgeSide(border, not forward))),
+        )
         made.append(DividedWall(range(first, first + 2), border, one.new_wall, one.at))
     return made
 
@@ -106,8 +111,9 @@ def _around(wall: CellWall, partings: Sequence[DividedEdge]) -> tuple[list[EdgeS
     for edge, forward in wall.sides:
         parting, way = partings[edge], 1 if forward else -1
         before = len(made)
-        made += (EdgeSide(new, turned != forward)
-                 for new, turned in zip(parting.edges[::way], parting.turned[::way], strict=True))
+        made += (
+            EdgeSide(new, turned != forward) for new, turned in zip(parting.edges[::way], parting.turned[::way], strict=True)
+        )
         meetings = zip(parting.vertices[::way], parting.marked[::way], strict=True)
         for place, (vertex, markers) in enumerate(meetings, before + 1):
             some = (marker if forward else marker.turned for marker in markers[::way] if marker.wall in (wall.label, ANY))

@@ -66,8 +66,9 @@ class RuleApplication:
         """Whether a rule accepts some values: they are equal to those it asks for, and its condition is true."""
         given = (*values, *self.constants, chance)
         try:
-            return (all(equal_values(values[i], wanted(given)) for i, wanted in rule.equalities)
-                    and (rule.condition is None or bool(rule.condition(given))))
+            return all(equal_values(values[i], wanted(given)) for i, wanted in rule.equalities) and (
+                rule.condition is None or bool(rule.condition(given))
+            )
         except TypeError:
             raise undecided_condition(self.system, self.constants, module, rule) from None
         except (ArithmeticError, ValueError) as fault:
@@ -98,8 +99,9 @@ class RuleApplication:
         except (ArithmeticError, ValueError) as fault:
             raise rule_error(self.system, rule.production.predecessor, rule, fault) from None
 
-    def apply(self, rule: Rule, module: Module, values: tuple[Value, ...] | None = None,
-             chance: Chance | None = None) -> Iterator[tuple[str, tuple[Value, ...]]]:
+    def apply(
+        self, rule: Rule, module: Module, values: tuple[Value, ...] | None = None, chance: Chance | None = None
+    ) -> Iterator[tuple[str, tuple[Value, ...]]]:
         """The symbols and values that a rule makes of a module, given the values of all parameters that it names."""
         given = (*(module.arguments if values is None else values), *self.constants)
         try:
@@ -111,8 +113,9 @@ class RuleApplication:
                 raise
             raise rule_error(self.system, module, rule, ValueError(UNKNOWN)) from None
 
-    def _written(self, parts: Iterable[ModuleTemplate | RepeatTemplate], given: tuple[object, ...],
-                 chance: Chance | None) -> Iterator[tuple[str, tuple[Value, ...]]]:
+    def _written(
+        self, parts: Iterable[ModuleTemplate | RepeatTemplate], given: tuple[object, ...], chance: Chance | None
+    ) -> Iterator[tuple[str, tuple[Value, ...]]]:
         values: tuple[object, ...] = (*given, chance)
         for part in parts:
             if isinstance(part, ModuleTemplate):

@@ -12,12 +12,16 @@ from lsys_kit.errors import ModelValueError
 def check_d0l(states: States, what: str) -> None:
     """Refuse a question that has an answer only where every module alone decides what becomes of it."""
     if states.traits.predecessor > 1:
-        raise ModelValueError(f"{what} is defined for systems that replace each module alone, not several together",
-                              hint="Derive this system, and look at its words.")
+        raise ModelValueError(
+            f"{what} is defined for systems that replace each module alone, not several together",
+            hint="Derive this system, and look at its words.",
+        )
     if not states.traits.d0l:
-        raise ModelValueError(f"{what} is defined for context-free systems without chance, cuts and meta-rules",
-                              hint="Derive this system, and look at its words; where chance chooses its "
-                                   "productions, stages(system).expected(n) gives the average counts.")
+        raise ModelValueError(
+            f"{what} is defined for context-free systems without chance, cuts and meta-rules",
+            hint="Derive this system, and look at its words; where chance chooses its "
+            "productions, stages(system).expected(n) gives the average counts.",
+        )
 
 
 def closure(states: States, limit: int) -> Sequence[int] | None:

@@ -34,8 +34,12 @@ def interpretations(states: States, numbers: Sequence[int]) -> dict[int, tuple[M
         found[state] = interpretation_of(states, states.modules[state])
         size += len(found[state])
         if size > most:
-            raise ModelLimitError(f"The modules are drawn as more than {most:,} different ones", limit=most, needed=size,
-                                  hint="Use smaller numbers of repetitions, or a smaller depth.")
+            raise ModelLimitError(
+                f"The modules are drawn as more than {most:,} different ones",
+                limit=most,
+                needed=size,
+                hint="Use smaller numbers of repetitions, or a smaller depth.",
+            )
     return found
 
 
@@ -60,8 +64,11 @@ def _bounded(made: Iterable[_T], already: int, module: Module) -> list[_T]:
     most = current().interpretation
     taken = list(islice(made, max(0, most - already) + 1))
     if already + len(taken) > most:
-        raise ModelLimitError(f"{module} is drawn as more than {most:,} modules", limit=most,
-                              hint="Use smaller numbers of repetitions, or a smaller depth.")
+        raise ModelLimitError(
+            f"{module} is drawn as more than {most:,} modules",
+            limit=most,
+            hint="Use smaller numbers of repetitions, or a smaller depth.",
+        )
     return taken
 
 

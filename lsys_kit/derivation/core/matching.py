@@ -189,13 +189,14 @@ def match_predecessor(rule: Rule, word: Sequence[Module], position: int) -> tupl
     They stand one directly behind the other: no symbol is ignored between them.
     """
     size = len(rule.predecessors)
-    if size > 1 and tuple(map(kind_of, word[position + 1:position + size])) != rule.predecessors[1:]:
+    if size > 1 and tuple(map(kind_of, word[position + 1 : position + size])) != rule.predecessors[1:]:
         return None
     return tuple(range(position, position + size))
 
 
-def match_context(rule: Rule, word: Sequence[Module], symbols: Sequence[str], around: Neighbours,
-                  own: tuple[int, ...]) -> tuple[int, ...] | None:
+def match_context(
+    rule: Rule, word: Sequence[Module], symbols: Sequence[str], around: Neighbours, own: tuple[int, ...]
+) -> tuple[int, ...] | None:
     """The positions of the modules that a rule names, in the order written, where its contexts match; else None.
 
     What it replaces stands at its own positions; its contexts are what stands before the first of them and behind the last.
@@ -212,8 +213,9 @@ def values_at(word: Sequence[Module], positions: Sequence[int]) -> tuple[Value, 
     return tuple(value for at in positions for value in word[at].arguments)
 
 
-def _followed(row: Branch, word: Sequence[Module], symbols: Sequence[str], around: Neighbours,
-              position: int) -> tuple[int, ...] | None:
+def _followed(
+    row: Branch, word: Sequence[Module], symbols: Sequence[str], around: Neighbours, position: int
+) -> tuple[int, ...] | None:
     """The positions of a row of modules and branches that begins behind a position, or None."""
     if not row:
         return ()
@@ -229,8 +231,9 @@ def _followed(row: Branch, word: Sequence[Module], symbols: Sequence[str], aroun
     return None if found is None else (at, *found)
 
 
-def _branched(row: Branch, word: Sequence[Module], symbols: Sequence[str], around: Neighbours,
-              position: int) -> tuple[int, ...] | None:
+def _branched(
+    row: Branch, word: Sequence[Module], symbols: Sequence[str], around: Neighbours, position: int
+) -> tuple[int, ...] | None:
     """The positions of a row that begins with branches, which stand behind a position."""
     first = next((index for index, item in enumerate(row) if not is_branch(item)), len(row))
     there = iter(() if around.passing.flat else branches(symbols, around, position))
@@ -244,8 +247,9 @@ def _branched(row: Branch, word: Sequence[Module], symbols: Sequence[str], aroun
     return None if rest is None else (*found, *rest)
 
 
-def _first_match(branch: Branch, word: Sequence[Module], symbols: Sequence[str], around: Neighbours,
-                 there: Iterator[int]) -> tuple[int, ...] | None:
+def _first_match(
+    branch: Branch, word: Sequence[Module], symbols: Sequence[str], around: Neighbours, there: Iterator[int]
+) -> tuple[int, ...] | None:
     """The positions of a branch that is named, in the first of some branches that it may be; those before are used up."""
     for opened in there:
         inside = _followed(branch, word, symbols, around, opened)

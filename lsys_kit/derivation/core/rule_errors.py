@@ -36,8 +36,11 @@ def rule_error(system: LSystem, module: Module | Pattern, rule: Rule, fault: Exc
 def undecided_condition(system: LSystem, constants: Sequence[Value], module: Module, rule: Rule) -> LSystemError:
     """A condition that depends on an unknown constant."""
     names = sorted({str(name) for value in constants for name in getattr(value, "free_symbols", ())})
-    said = (f"Whether production {rule.number + 1}, {as_written(system, rule.production)}, applies to "
-            f"{dialect_named(system.notation).module(module)} cannot be decided")
+    said = (
+        f"Whether production {rule.number + 1}, {as_written(system, rule.production)}, applies to "
+        f"{dialect_named(system.notation).module(module)} cannot be decided"
+    )
     start, end = rule.production.at or (None, None)
-    return ModelValueError(said, system.source or None, start, end,
-                           f"It depends on {', '.join(names)}: choose a value for {names[0]}.")
+    return ModelValueError(
+        said, system.source or None, start, end, f"It depends on {', '.join(names)}: choose a value for {names[0]}."
+    )

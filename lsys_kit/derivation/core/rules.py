@@ -151,23 +151,29 @@ def rule_for(system: LSystem, number: int, production: Production, arithmetic: s
     made = [expression for expression in expressions_of(production.successor) if isinstance(expression, Expression)]
     matched = [part for part in (production.condition, production.probability) if part is not None]
     return Rule(
-        number, production, tuple(map(kind_of, production.predecessors)),
-        tuple(map(kind_of, reversed(production.left))), _branched_context(production.right),
+        number,
+        production,
+        tuple(map(kind_of, production.predecessors)),
+        tuple(map(kind_of, reversed(production.left))),
+        _branched_context(production.right),
         tuple((i, ready(a)) for i, a in enumerate(arguments) if not formal[i]),
         None if production.condition is None else ready(production.condition),
         None if production.probability is None else ready(production.probability),
         _templates(production.successor, order, len(arguments) + len(constants), arithmetic),
-        any(map(is_random, [*matched, *made])), any(map(_looks, [*matched, *made])),
+        any(map(is_random, [*matched, *made])),
+        any(map(_looks, [*matched, *made])),
         any(is_random(part) or _looks(part) for part in matched),
-        tuple((question, ready(question)) for question in sensed_in(production.condition)) if production.condition else ())
+        tuple((question, ready(question)) for question in sensed_in(production.condition)) if production.condition else (),
+    )
 
 
 def _looks(expression: Expression) -> bool:
     return any(True for _ in sensed_in(expression))
 
 
-def _templates(items: Sequence[Item], order: Mapping[str, int], size: int,
-           arithmetic: str) -> tuple[ModuleTemplate | RepeatTemplate, ...]:
+def _templates(
+    items: Sequence[Item], order: Mapping[str, int], size: int, arithmetic: str
+) -> tuple[ModuleTemplate | RepeatTemplate, ...]:
     """A successor's functions; those of a repeated part take one value more, what counts in it."""
     found: list[ModuleTemplate | RepeatTemplate] = []
     for item in items:
@@ -215,16 +221,25 @@ def constants_of(system: LSystem, changes: Mapping[str, object], arithmetic: str
     values: list[Value] = []
     for constant in system.constants:
         try:
-            value = (number_from(changes[constant.name], constant.name) if constant.name in changes
-                     else finite(function_of(constant.value, order, arithmetic)(tuple(values))))
+            value = (
+                number_from(changes[constant.name], constant.name)
+                if constant.name in changes
+                else finite(function_of(constant.value, order, arithmetic)(tuple(values)))
+            )
         except (ArithmeticError, ValueError) as fault:
-            raise ModelValueError(f'The constant "{constant.name}" has no value: {reason_of(fault)}', system.source or None,
-                                  *(constant.at or (None, None))) from None
+            raise ModelValueError(
+                f'The constant "{constant.name}" has no value: {reason_of(fault)}',
+                system.source or None,
+                *(constant.at or (None, None)),
+            ) from None
         except TypeError:
             if not any(map(is_symbolic, values)):
                 raise
-            raise ModelValueError(f'The constant "{constant.name}" has no value: it depends on an unknown constant',
-                                  system.source or None, *(constant.at or (None, None))) from None
+            raise ModelValueError(
+                f'The constant "{constant.name}" has no value: it depends on an unknown constant',
+                system.source or None,
+                *(constant.at or (None, None)),
+            ) from None
         values.append(float(value) if arithmetic == "float" and not is_symbolic(value) else value)
     return tuple(values)
 

@@ -127,8 +127,11 @@ class States(RuleApplication):
 
     def is_d0l(self, state: int) -> bool:
         """Whether the state alone decides what becomes of it, unless it is cut off."""
-        return (not self.traits.varying_decomposition and all(rule.d0l for rule in self.candidates(state))
-                and not (self._joined and kind_of(self.modules[state]) in self._joined))
+        return (
+            not self.traits.varying_decomposition
+            and all(rule.d0l for rule in self.candidates(state))
+            and not (self._joined and kind_of(self.modules[state]) in self._joined)
+        )
 
     def successor(self, state: int) -> tuple[int, ...]:
         """The states that replace a state in one step: itself, where no production matches.
@@ -154,18 +157,22 @@ class States(RuleApplication):
         """The rule that rewrites a state, or None; a `ModelValueError` where the state alone does not decide that."""
         if state not in self._applied:
             if not self.is_d0l(state):
-                raise ModelValueError(f"What becomes of {self.modules[state]} does not depend on its symbol and values alone",
-                                      hint="Derive the system, and ask for the origins of a step.")
+                raise ModelValueError(
+                    f"What becomes of {self.modules[state]} does not depend on its symbol and values alone",
+                    hint="Derive the system, and ask for the origins of a step.",
+                )
             self._applied[state] = self.matching_rule(self.modules[state], self.rules)
         return self._applied[state]
 
-    def applied_states(self, rule: Rule, module: Module, values: Sequence[object] | None = None,
-                     chance: Chance | None = None) -> tuple[int, ...]:
+    def applied_states(
+        self, rule: Rule, module: Module, values: Sequence[object] | None = None, chance: Chance | None = None
+    ) -> tuple[int, ...]:
         """The states that a rule makes of a module, before any decomposition."""
         return tuple(self.number(*made) for made in self._made(rule, module, values, chance))
 
-    def replacement(self, rule: Rule, module: Module, values: Sequence[object] | None = None,
-                 chance: Chance | None = None) -> tuple[int, ...]:
+    def replacement(
+        self, rule: Rule, module: Module, values: Sequence[object] | None = None, chance: Chance | None = None
+    ) -> tuple[int, ...]:
         """The states that replace a module by a rule, after decomposition."""
         if not self.decomposition:
             return self.applied_states(rule, module, values, chance)
@@ -176,8 +183,9 @@ class States(RuleApplication):
                 raise self._too_many(rule, module)
         return tuple(found)
 
-    def _made(self, rule: Rule, module: Module, values: Sequence[object] | None,
-              chance: Chance | None) -> Iterator[tuple[str, tuple[Value, ...]]]:
+    def _made(
+        self, rule: Rule, module: Module, values: Sequence[object] | None, chance: Chance | None
+    ) -> Iterator[tuple[str, tuple[Value, ...]]]:
         """The symbols and values of the modules that a rule makes; no more of them than a word may have."""
         most = current().modules
         self._outgrown = False
@@ -190,8 +198,13 @@ class States(RuleApplication):
 
     def _too_many(self, rule: Rule, module: Module) -> ModelLimitError:
         most, (start, end) = current().modules, rule.production.at or (None, None)
-        return ModelLimitError(f"{module} becomes more than {most:,} modules in one step", limit=most,
-                               source=self.system.source or None, start=start, end=end)
+        return ModelLimitError(
+            f"{module} becomes more than {most:,} modules in one step",
+            limit=most,
+            source=self.system.source or None,
+            start=start,
+            end=end,
+        )
 
     def decompose(self, module: Module, chance: Chance | None = None) -> tuple[int, ...]:
         """The states of a module's parts, and of their parts, until nothing is left to replace or the depth is reached."""
@@ -213,12 +226,16 @@ class States(RuleApplication):
                 found.append(self.number(part.symbol, part.arguments))
             elif depth == deepest:
                 start, end = rule.production.at or (None, None)
-                raise ModelLimitError(f"{module} is decomposed more than {deepest} times, last by "
-                                      f"{as_written(self.system, rule.production)}",
-                                      limit=deepest, source=self.system.source or None, start=start, end=end,
-                                      hint="A condition before the arrow can bring it to an end."
-                                      if rule.production.condition is None else
-                                      "What is made must come nearer to where the condition ends.")
+                raise ModelLimitError(
+                    f"{module} is decomposed more than {deepest} times, last by {as_written(self.system, rule.production)}",
+                    limit=deepest,
+                    source=self.system.source or None,
+                    start=start,
+                    end=end,
+                    hint="A condition before the arrow can bring it to an end."
+                    if rule.production.condition is None
+                    else "What is made must come nearer to where the condition ends.",
+                )
             else:
                 todo += [(Module(*made), depth + 1) for made in reversed([*self._made(rule, part, None, chance)])]
             if len(found) + len(todo) > most:

@@ -105,8 +105,9 @@ S0L = Traits(stochastic=True, decomposition=True, repetition=True, scalar=True, 
 @lru_cache(maxsize=256)
 def traits_of(system: LSystem, arithmetic: str = "exact") -> Traits:
     """The traits of a system whose constants are all known."""
-    rewriting, decomposing = (list(chain(*rules_of(system, arithmetic, section).values()))
-                              for section in ("productions", "decomposition"))
+    rewriting, decomposing = (
+        list(chain(*rules_of(system, arithmetic, section).values())) for section in ("productions", "decomposition")
+    )
     rules, symbols = [*rewriting, *decomposing], {module.symbol for module in _written(system)}
     return Traits(
         context=max((len(side) for rule in rules for side in (rule.left, rule.right)), default=0),
@@ -115,10 +116,13 @@ def traits_of(system: LSystem, arithmetic: str = "exact") -> Traits:
         stochastic=any(rule.probability is not None for rule in rewriting),
         random=any(rule.random for rule in rules),
         sensitive=any(rule.looks for rule in rules) or not symbols.isdisjoint(QUERIES),
-        cut=CUT in symbols, meta=bool(system.meta), decomposition=bool(decomposing),
+        cut=CUT in symbols,
+        meta=bool(system.meta),
+        decomposition=bool(decomposing),
         varying_decomposition=not all(rule.d0l for rule in decomposing),
         repetition=any(isinstance(item, Repeat) for rule in rules for item in rule.production.successor),
-        scalar=not all(_has_column_form(rule, arithmetic) for rule in rules))
+        scalar=not all(_has_column_form(rule, arithmetic) for rule in rules),
+    )
 
 
 def _written(system: LSystem) -> Iterator[Pattern]:
@@ -127,8 +131,9 @@ def _written(system: LSystem) -> Iterator[Pattern]:
     yield from flat(chain(system.axiom, *successors))
 
 
-COLUMN_OPERATORS = frozenset(("||", "&&", "!", "==", "!=", "<", "<=", ">", ">=", "+", "-", "*", "/", "-x", "abs", "floor",
-                              "ceil"))
+COLUMN_OPERATORS = frozenset(
+    ("||", "&&", "!", "==", "!=", "<", "<=", ">", ">=", "+", "-", "*", "/", "-x", "abs", "floor", "ceil")
+)
 """The operators that can be computed for a whole column of numbers at once, with the same result to the last bit."""
 
 

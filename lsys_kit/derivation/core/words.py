@@ -136,7 +136,7 @@ def blocks(numbers: Sequence[int], size: int = INTERVAL) -> Iterator[Sequence[in
     >>> list(blocks([1, 2, 3, 4, 5], 2))
     [[1, 2], [3, 4], [5]]
     """
-    return (numbers[first:first + size] for first in counted(range(0, len(numbers), size), 1))
+    return (numbers[first : first + size] for first in counted(range(0, len(numbers), size), 1))
 
 
 def text_of(states: States, codes: Sequence[int] | np.ndarray[Any, Any], shown: bool = False) -> str:
@@ -144,8 +144,11 @@ def text_of(states: States, codes: Sequence[int] | np.ndarray[Any, Any], shown: 
     numbers = codes.tolist() if isinstance(codes, np.ndarray) else codes
     notation = dialect_named(states.system.notation)
     counts = state_counts(Word(states, codes))
-    texts = {state: notation.module(rounded_module(module) if shown else module)
-             for state in counted(counts) for module in (states.modules[state],)}
+    texts = {
+        state: notation.module(rounded_module(module) if shown else module)
+        for state in counted(counts)
+        for module in (states.modules[state],)
+    }
     _check_size(texts, counts)
     return notation.joined(map(texts.__getitem__, chain.from_iterable(blocks(numbers))))
 

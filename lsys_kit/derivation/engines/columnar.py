@@ -90,8 +90,10 @@ class ColumnWord(Word):
         """The numbers of the states, which are numbered now."""
         if self._row is None:
             with Task("The modules of the word were not numbered"):
-                numbers = [self.states.number(self.names[kind][0], row[:self.names[kind][1]])
-                           for kind, row in counted(zip(self.kinds.tolist(), self.values.rows(), strict=True))]
+                numbers = [
+                    self.states.number(self.names[kind][0], row[: self.names[kind][1]])
+                    for kind, row in counted(zip(self.kinds.tolist(), self.values.rows(), strict=True))
+                ]
                 self._row = np.array(numbers, dtype=code_type(len(self.states)))
         return self._row
 
@@ -167,8 +169,9 @@ class ColumnarSteps:
     def _collected(self, shape: tuple[int, int]) -> FloatColumns | ExactColumns:
         return ExactColumns(shape) if self.states.arithmetic == "exact" else FloatColumns(shape)
 
-    def _write(self, rule: ColumnRule, named: Mapping[str, Any], kinds: Array, columns: FloatColumns | ExactColumns,
-               at: Any) -> None:
+    def _write(
+        self, rule: ColumnRule, named: Mapping[str, Any], kinds: Array, columns: FloatColumns | ExactColumns, at: Any
+    ) -> None:
         """Write what a rule makes of a block of rows, from given places on."""
         for offset, (kind, arguments) in enumerate(rule.parts):
             places = slice(at.start + offset, at.stop, at.step) if isinstance(at, slice) else at + offset
@@ -197,8 +200,9 @@ class ColumnarSteps:
     def _named(self, rule: ColumnRule, word: ColumnWord, rows: Any) -> dict[str, Any]:
         """The columns of a rule's names."""
         number = exact_number if self.states.arithmetic == "exact" else float
-        named: dict[str, Any] = {name: number(value) for name, value in
-                                 zip(self._constants, self.states.constants, strict=True)}
+        named: dict[str, Any] = {
+            name: number(value) for name, value in zip(self._constants, self.states.constants, strict=True)
+        }
         return named | dict(zip(rule.names, word.values.columns(rows, len(rule.names)), strict=True))
 
 
@@ -221,5 +225,5 @@ def _blocks(rule: ColumnRule, size: int, rows: Any, starts: Array | None) -> Ite
             high = min(low + BLOCK_ROWS, size)
             yield slice(low, high), slice(low * every, high * every, max(every, 1))
         else:
-            block = rows[low:low + BLOCK_ROWS]
+            block = rows[low : low + BLOCK_ROWS]
             yield block, starts[block]

@@ -118,6 +118,7 @@ def _over_common(operation: Callable[[Any, Any], Any], left: ExactColumn, right:
 
 def _compared(operation: Callable[[Any, Any], Any]) -> Callable[[ExactColumn, ExactColumn], Any]:
     """A comparison of two columns, row by row."""
+
     def compare(left: ExactColumn, right: ExactColumn) -> Any:
         return np.asarray(operation((left - right).numerators, 0), dtype=bool)
 
@@ -131,15 +132,45 @@ def _exact(operation: Callable[..., Any]) -> Callable[..., Any]:
 _TRUTHS: Mapping[str, Callable[..., Any]] = {"||": np.logical_or, "&&": np.logical_and, "!": np.logical_not}
 OPERATIONS: Mapping[str, Mapping[str, Callable[..., Any]]] = {
     "float": {
-        **_TRUTHS, "==": np.equal, "!=": np.not_equal, "<": np.less, "<=": np.less_equal, ">": np.greater,
-        ">=": np.greater_equal, "+": np.add, "-": np.subtract, "*": np.multiply, "/": np.divide, "-x": np.negative,
-        "abs": np.abs, "sqrt": np.sqrt, "floor": np.floor, "ceil": np.ceil},
+        **_TRUTHS,
+        "==": np.equal,
+        "!=": np.not_equal,
+        "<": np.less,
+        "<=": np.less_equal,
+        ">": np.greater,
+        ">=": np.greater_equal,
+        "+": np.add,
+        "-": np.subtract,
+        "*": np.multiply,
+        "/": np.divide,
+        "-x": np.negative,
+        "abs": np.abs,
+        "sqrt": np.sqrt,
+        "floor": np.floor,
+        "ceil": np.ceil,
+    },
     "exact": {
-        **_TRUTHS, **{sign: _exact(_compared(operation)) for sign, operation in (
-            ("==", operator.eq), ("!=", operator.ne), ("<", operator.lt), ("<=", operator.le), (">", operator.gt),
-            (">=", operator.ge))},
-        "+": _exact(operator.add), "-": _exact(operator.sub), "*": _exact(operator.mul), "/": _exact(operator.truediv),
-        "-x": _exact(operator.neg), "abs": _exact(abs), "floor": _exact(math.floor), "ceil": _exact(math.ceil)},
+        **_TRUTHS,
+        **{
+            sign: _exact(_compared(operation))
+            for sign, operation in (
+                ("==", operator.eq),
+                ("!=", operator.ne),
+                ("<", operator.lt),
+                ("<=", operator.le),
+                (">", operator.gt),
+                (">=", operator.ge),
+            )
+        },
+        "+": _exact(operator.add),
+        "-": _exact(operator.sub),
+        "*": _exact(operator.mul),
+        "/": _exact(operator.truediv),
+        "-x": _exact(operator.neg),
+        "abs": _exact(abs),
+        "floor": _exact(math.floor),
+        "ceil": _exact(math.ceil),
+    },
 }
 """For each arithmetic what computes an operator for whole columns, with the results that numbers have one by one."""
 
@@ -167,7 +198,7 @@ def column_function(expression: Expression, arithmetic: str) -> ColumnFunction:
 def _listed(array: Array) -> Iterator[list[Any]]:
     """The rows of an array as lists."""
     for first in range(0, len(array), ROWS_AT_A_TIME):
-        yield from array[first:first + ROWS_AT_A_TIME].tolist()
+        yield from array[first : first + ROWS_AT_A_TIME].tolist()
 
 
 class FloatValues:

@@ -65,8 +65,9 @@ class Replacements:
 
     def replaced(self, chosen: IntegerArray) -> IntegerArray:
         """The replacements of some numbers, one after another."""
-        if chosen.dtype == np.uint8 and all(self._bytes.add(number, replacement.states)
-                                            for number, replacement in enumerate(self.replacements)):
+        if chosen.dtype == np.uint8 and all(
+            self._bytes.add(number, replacement.states) for number, replacement in enumerate(self.replacements)
+        ):
             return self._bytes.replaced(chosen.tobytes())
         sizes = self.sizes()
         lengths = sizes[chosen]
@@ -218,8 +219,10 @@ class ContextEngine:
 
     def _drawn(self, numbers: IntegerArray, where: IntegerArray | None, step: int) -> IntegerArray:
         """For each module the number of its replacement, after chance; `where` it stands, if not at its own place."""
-        drawn = [self._choose(choice, np.flatnonzero(numbers == -number), where, step)
-                 for number, choice in enumerate(self._choices, 1)]
+        drawn = [
+            self._choose(choice, np.flatnonzero(numbers == -number), where, step)
+            for number, choice in enumerate(self._choices, 1)
+        ]
         result: IntegerArray = (numbers - 1).astype(code_type(len(self.outcomes.replacements)))
         for ours, outcomes in drawn:
             result[ours] = outcomes

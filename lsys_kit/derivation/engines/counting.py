@@ -94,8 +94,10 @@ class CountingEngine:
         before, columns = self.word(step - 1), self._columns
         check_step(self.states, step)
         try:
-            return columns.step(before if isinstance(before, ColumnWord) else columns.word(before),
-                                partial(check_size, self.states, step, held=self._late_bytes))
+            return columns.step(
+                before if isinstance(before, ColumnWord) else columns.word(before),
+                partial(check_size, self.states, step, held=self._late_bytes),
+            )
         except ArithmeticError:
             return self._from_table(before.numbers(), step)
 
@@ -122,7 +124,7 @@ class CountingEngine:
         if small and before is not None:
             return Word(self.states, self._replaced(before, self._steps[step - 1][0]))
         with Task("The word was not built"):
-            array = expand(self.states, [counts for counts, _ in self._steps[:step + 1]])
+            array = expand(self.states, [counts for counts, _ in self._steps[: step + 1]])
         return Word(self.states, array.tolist() if small else array)
 
     def _replaced(self, word: Word, present: dict[int, int]) -> Sequence[int] | np.ndarray[Any, Any]:

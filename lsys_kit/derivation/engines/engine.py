@@ -100,12 +100,20 @@ def check_size(states: States, step: int, size: int, word: int | None = None, he
     """
     most = current()
     if size > most.modules:
-        raise ModelLimitError(f"Step {step} would have {grouped(size)} modules; the limit is {grouped(most.modules)}",
-                              limit=most.modules, needed=size, hint="Take fewer steps, or set limits(modules=...).")
+        raise ModelLimitError(
+            f"Step {step} would have {grouped(size)} modules; the limit is {grouped(most.modules)}",
+            limit=most.modules,
+            needed=size,
+            hint="Take fewer steps, or set limits(modules=...).",
+        )
     needed = (size * code_type(len(states)).itemsize if word is None else word) + len(states) * STATE_BYTES + held
     if needed > most.bytes:
-        raise ModelLimitError(f"Step {step} would take {grouped(needed)} bytes; the limit is {grouped(most.bytes)}",
-                              limit=most.bytes, needed=needed, hint="Take fewer steps, or set limits(bytes=...).")
+        raise ModelLimitError(
+            f"Step {step} would take {grouped(needed)} bytes; the limit is {grouped(most.bytes)}",
+            limit=most.bytes,
+            needed=needed,
+            hint="Take fewer steps, or set limits(bytes=...).",
+        )
 
 
 def check_step(states: States, step: int, size: int = 0) -> None:

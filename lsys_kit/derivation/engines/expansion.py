@@ -118,10 +118,10 @@ def expand(states: States, present: Sequence[Collection[int]]) -> np.ndarray[Any
             look = at + MODULES_BETWEEN_CHECKS
         size = sizes[step][state]
         if size <= PIECE:
-            word[at:at + size] = pieces[step][state]
+            word[at : at + size] = pieces[step][state]
         elif (state, step) in written:
             start = written[state, step]
-            word[at:at + size] = word[start:start + size]
+            word[at : at + size] = word[start : start + size]
         else:
             written[state, step] = at
             todo += [(successor, step + 1) for successor in reversed(states.successor(state))]
@@ -139,12 +139,18 @@ def _sizes(states: States, present: Sequence[Collection[int]]) -> list[dict[int,
     return sizes[::-1]
 
 
-def _pieces(states: States, present: Sequence[Collection[int]],
-            sizes: Sequence[dict[int, int]]) -> list[dict[int, tuple[int, ...]]]:
+def _pieces(
+    states: States, present: Sequence[Collection[int]], sizes: Sequence[dict[int, int]]
+) -> list[dict[int, tuple[int, ...]]]:
     """For each step and state whose size is small, what the state becomes by the last step."""
     pieces: list[dict[int, tuple[int, ...]]] = [{state: (state,) for state in present[-1]}]
     for step in counted(range(len(present) - 2, -1, -1), STEPS_BETWEEN_CHECKS):
         after = pieces[-1]
-        pieces.append({state: tuple([code for s in states.successor(state) for code in after[s]])
-                       for state in present[step] if sizes[step][state] <= PIECE})
+        pieces.append(
+            {
+                state: tuple([code for s in states.successor(state) for code in after[s]])
+                for state in present[step]
+                if sizes[step][state] <= PIECE
+            }
+        )
     return pieces[::-1]

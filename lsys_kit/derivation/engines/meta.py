@@ -52,11 +52,12 @@ def apply_meta_rules(states: States, codes: Sequence[int]) -> tuple[list[int], l
     return done, origins
 
 
-def _applied(states: States, rules: Sequence[tuple[tuple[ModuleKind, ...], Rule]],
-             done: Sequence[int]) -> tuple[int, tuple[int, ...]] | None:
+def _applied(
+    states: States, rules: Sequence[tuple[tuple[ModuleKind, ...], Rule]], done: Sequence[int]
+) -> tuple[int, tuple[int, ...]] | None:
     """How many of the last modules the first matching meta-rule takes, and what it makes of them."""
     for kinds, rule in rules:
-        last = [states.modules[code] for code in done[-len(kinds):]]
+        last = [states.modules[code] for code in done[-len(kinds) :]]
         if tuple(map(kind_of, last)) != kinds:
             continue
         values: tuple[Value, ...] = tuple(value for module in last for value in module.arguments)

@@ -73,13 +73,14 @@ class SteppingEngine:
         def origins() -> Origins:
             sizes = arrays.outcomes.sizes()[chosen]
             productions = [replacement.production for replacement in arrays.outcomes.replacements]
-            return Origins(np.repeat(np.arange(len(chosen)), sizes).tolist(),
-                           [productions[outcome] for outcome in np.repeat(chosen, sizes).tolist()])
+            return Origins(
+                np.repeat(np.arange(len(chosen)), sizes).tolist(),
+                [productions[outcome] for outcome in np.repeat(chosen, sizes).tolist()],
+            )
 
         return self._shortened(word.numbers(), origins) if self.states.system.meta else (word, origins)
 
-    def _one_by_one(self, codes: Sequence[int], step: int,
-                    sees: SensingFunction | None) -> tuple[Word, Callable[[], Origins]]:
+    def _one_by_one(self, codes: Sequence[int], step: int, sees: SensingFunction | None) -> tuple[Word, Callable[[], Origins]]:
         """The next word and its origins, module by module."""
         sizes, productions, replaced, word = list[int](), list[int | None](), list[int](), list[int]()
         for number, replacement in enumerate(self._stepper.replacements(codes, step - 1, sees)):
@@ -92,9 +93,11 @@ class SteppingEngine:
         check_size(self.states, step, len(word), held=self._held)
 
         def origins() -> Origins:
-            return Origins(np.repeat(np.arange(len(sizes)), sizes).tolist(),
-                           [made for made, size in zip(productions, sizes, strict=True) for _ in range(size)],
-                           replaced if self.states.traits.predecessor > 1 else ())
+            return Origins(
+                np.repeat(np.arange(len(sizes)), sizes).tolist(),
+                [made for made, size in zip(productions, sizes, strict=True) for _ in range(size)],
+                replaced if self.states.traits.predecessor > 1 else (),
+            )
 
         return self._shortened(word, origins) if self.states.system.meta else (self._word(word), origins)
 
@@ -124,8 +127,9 @@ class SteppingEngine:
         return self._world(self.word(step)) if self._world else None
 
 
-def _resumed(states: States, seed: int, by_arrays: bool, world: Observer | None,
-             steps: Sequence[tuple[Word, Origins]]) -> SteppingEngine:
+def _resumed(
+    states: States, seed: int, by_arrays: bool, world: Observer | None, steps: Sequence[tuple[Word, Origins]]
+) -> SteppingEngine:
     """An engine that goes on from some steps."""
     stepper = Stepper(states, seed)
     engine = SteppingEngine(stepper, ContextEngine(stepper) if by_arrays else None, world)

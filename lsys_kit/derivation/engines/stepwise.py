@@ -142,7 +142,7 @@ class Stepper:
             return Replacement(self.states.decompose(old.modules[position], chance), None)
         values = next(values for found, values in matched if found is rule)
         size = len(rule.predecessors)
-        key = old.codes[position] if size == 1 else tuple(old.codes[position:position + size]), values, rule.number
+        key = old.codes[position] if size == 1 else tuple(old.codes[position : position + size]), values, rule.number
         repeatable = not (rule.random or rule.looks or self.states.traits.varying_decomposition)
         if repeatable and key in self._made:
             return self._made[key]
@@ -169,7 +169,7 @@ class Stepper:
             return None
         longest = max((len(rule.predecessors) for rule in rules), default=1) if self.together else 1
         if old.around is None:
-            return tuple(old.codes[position:position + longest])
+            return tuple(old.codes[position : position + longest])
         if longest > 1 or any(is_branch(item) for rule in rules for item in rule.right):
             return None
         left = neighbours_along(old.around.before, position, max((len(rule.left) for rule in rules), default=0))
@@ -179,7 +179,7 @@ class Stepper:
     def context(self, rule: Rule, old: ParentWord, position: int) -> tuple[int, ...] | None:
         """The positions of the modules that a rule names, where what it replaces is there and its contexts match; else None."""
         own = match_predecessor(rule, old.modules, position) if self.together else (position,)
-        if own is None or (len(own) > 1 and CUT in old.symbols[own[1]:own[-1] + 1]):  # no rule replaces what is cut off
+        if own is None or (len(own) > 1 and CUT in old.symbols[own[1] : own[-1] + 1]):  # no rule replaces what is cut off
             return None
         return own if old.around is None else match_context(rule, old.modules, old.symbols, old.around, own)
 

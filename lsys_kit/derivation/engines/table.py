@@ -18,12 +18,14 @@ from lsys_kit.derivation.engines.engine import Engine, Observer
 from lsys_kit.derivation.engines.stepping import SteppingEngine
 from lsys_kit.derivation.engines.stepwise import Stepper
 
-ENGINES: Mapping[type, Traits] = MappingProxyType({
-    ColumnarSteps: Traits(),
-    CountingEngine: D0L,
-    ContextEngine: S0L._replace(context=1, meta=True),
-    Stepper: Traits(MOST, MOST, *[True] * 11),
-})
+ENGINES: Mapping[type, Traits] = MappingProxyType(
+    {
+        ColumnarSteps: Traits(),
+        CountingEngine: D0L,
+        ContextEngine: S0L._replace(context=1, meta=True),
+        Stepper: Traits(MOST, MOST, *[True] * 11),
+    }
+)
 """The most that a system may have to be derived in columns, by counting, by arrays, and module by module."""
 
 

@@ -57,7 +57,7 @@ def orbit(table: States) -> tuple[tuple[int, ...], list[tuple[int, ...]]]:
     """
     rows = list(held(row_of(table, counts) for counts in islice(counts_of_steps(table), 2 * len(table) + 2)))
     rule = next(rule for rule in map(partial(_rule_of_weighted_sum, rows), count()) if _continued(rule, rows))
-    return rule, rows[:len(rule)]
+    return rule, rows[: len(rule)]
 
 
 def _rule_of_weighted_sum(rows: Sequence[Sequence[int]], trial: int) -> tuple[int, ...]:
@@ -69,5 +69,6 @@ def _rule_of_weighted_sum(rows: Sequence[Sequence[int]], trial: int) -> tuple[in
 def _continued(rule: Sequence[int], rows: Sequence[Sequence[int]]) -> bool:
     """Whether a rule gives each count of the row behind the first ones."""
     size = len(rule)
-    return all(column[size] == sum(c * column[size - k] for k, c in enumerate(rule, 1) if c)
-               for column in zip(*rows, strict=True))
+    return all(
+        column[size] == sum(c * column[size - k] for k, c in enumerate(rule, 1) if c) for column in zip(*rows, strict=True)
+    )

@@ -115,15 +115,19 @@ class Growth:
         with Task("The lengths were not found"):
             followed = islice(counts_of_steps(self.table), last + 1)
             rows = ((sum(counts.get(state, 0) for state in states),) for counts in followed)
-            return [length for length, in held(rows)]
+            return [length for (length,) in held(rows)]
 
     def _check(self, step: int) -> None:
         """Refuse a step that is no whole number, or so late that its counts would be too long to use."""
         step = whole_number(step, "The step")
         digits = step * math.log10(max(greatest_root(self.recurrence, exact=False), 1)) if step > DIGITS else 0
         if digits > DIGITS:
-            raise ModelLimitError(f"The numbers of step {step:,} would have about {digits:,.0f} digits; "
-                                  f"the limit is {DIGITS:,}", limit=DIGITS, needed=digits, hint="Take fewer steps.")
+            raise ModelLimitError(
+                f"The numbers of step {step:,} would have about {digits:,.0f} digits; the limit is {DIGITS:,}",
+                limit=DIGITS,
+                needed=digits,
+                hint="Take fewer steps.",
+            )
 
     def length(self, step: int) -> int:
         """The number of modules at a step, exactly, without the steps before.
@@ -162,7 +166,7 @@ class Growth:
     def _rule(self) -> tuple[tuple[int, ...], list[int]]:
         """The shortest rule that the lengths obey from the first on, and as many lengths."""
         rule = tuple(map(int, shortest_rule(self._terms)))
-        return rule, self._terms[:len(rule)]
+        return rule, self._terms[: len(rule)]
 
     @cached_property
     def _terms(self) -> list[int]:
@@ -249,8 +253,10 @@ class Growth:
     def __repr__(self) -> str:
         rule = " + ".join(f"{'' if c == 1 else f'{c} '}N(t-{k})" for k, c in enumerate(self.recurrence, 1) if c)
         rule = rule.replace("+ -1 ", "- ").replace("+ -", "- ")
-        return (f"{len(self.table)} states; lengths {', '.join(map(str, self.lengths(9)))}, ...; "
-                f"N(t) = {rule or 0}; growth per step {self.rate:.4f}")
+        return (
+            f"{len(self.table)} states; lengths {', '.join(map(str, self.lengths(9)))}, ...; "
+            f"N(t) = {rule or 0}; growth per step {self.rate:.4f}"
+        )
 
 
 def growth(system: LSystem, **constants: object) -> Growth:
@@ -290,8 +296,11 @@ def _growth(system: LSystem, constants: dict[str, object]) -> Growth:
     states = States(slice_system(system), constants)
     check_d0l(states, "Growth")
     if closure(states, current().states) is None:
-        raise ModelLimitError("The system reaches too many distinct modules for a finite growth matrix: more than "
-                              f"{current().states:,}", limit=current().states, needed=len(states),
-                              hint=f"The last one was {states.modules[-1]}; where a condition depends on a parameter that "
-                                   "grows for ever, there is no growth matrix.")
+        raise ModelLimitError(
+            f"The system reaches too many distinct modules for a finite growth matrix: more than {current().states:,}",
+            limit=current().states,
+            needed=len(states),
+            hint=f"The last one was {states.modules[-1]}; where a condition depends on a parameter that "
+            "grows for ever, there is no growth matrix.",
+        )
     return Growth(states)

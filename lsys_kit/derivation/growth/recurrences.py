@@ -132,7 +132,7 @@ def generating_function(rule: Sequence[int], terms: Sequence[int]) -> sympy.Expr
     import sympy
 
     x = sympy.Symbol("x")
-    above = [a - sum(c * terms[t - k] for k, c in enumerate(rule[:t], 1)) for t, a in enumerate(terms[:len(rule)])]
+    above = [a - sum(c * terms[t - k] for k, c in enumerate(rule[:t], 1)) for t, a in enumerate(terms[: len(rule)])]
     below = [1, *(-c for c in rule)]
     return sympy.Poly(above[::-1] or [0], x).as_expr() / sympy.Poly(below[::-1], x).as_expr()
 
@@ -248,8 +248,8 @@ def closed_form(rule: Sequence[int], terms: Sequence[int]) -> sympy.Expr | None:
 
     x, t = sympy.Symbol("x"), sympy.Symbol("t")
     whole = polynomial(rule)
-    series = sympy.Poly(list(terms[:len(rule)]) or [0], x)  # the terms as digits behind the point, in powers of 1/x
-    above, _ = (whole * series).div(sympy.Poly(x**len(rule), x))
+    series = sympy.Poly(list(terms[: len(rule)]) or [0], x)  # the terms as digits behind the point, in powers of 1/x
+    above, _ = (whole * series).div(sympy.Poly(x ** len(rule), x))
     total = sympy.Integer(0)
     for factor, times in whole.factor_list()[1]:
         part = _part(above, whole, factor, times, t)
@@ -275,7 +275,7 @@ def _part(above: sympy.Poly, whole: sympy.Poly, factor: sympy.Poly, times: int, 
     rest = whole.quo(factor**times).as_expr()
     total = sympy.Integer(0)
     for root in roots:
-        others = rest * reduce(lambda product, other: product * (x - other)**times, [r for r in roots if r != root], 1)
+        others = rest * reduce(lambda product, other: product * (x - other) ** times, [r for r in roots if r != root], 1)
         share = sympy.diff(above.as_expr() / others * x**t, x, times - 1) / sympy.factorial(times - 1)
         weight = sympy.expand(sympy.radsimp(sympy.simplify(share.subs(x, root) / root**t)))
         total += sympy.expand(weight) * root**t

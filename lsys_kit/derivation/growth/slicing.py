@@ -37,9 +37,13 @@ def slice_system(system: LSystem) -> LSystem:
     """
     kept = deciding_positions(system)
     return replace(
-        system, axiom=tuple(without_arguments(module, kept) for module in system.axiom),
+        system,
+        axiom=tuple(without_arguments(module, kept) for module in system.axiom),
         productions=tuple(_sliced_production(rule, kept) for rule in system.productions),
-        decomposition=tuple(_sliced_production(rule, kept) for rule in system.decomposition), interpretation=(), source="")
+        decomposition=tuple(_sliced_production(rule, kept) for rule in system.decomposition),
+        interpretation=(),
+        source="",
+    )
 
 
 def deciding_positions(system: LSystem) -> frozenset[ArgumentPosition]:
@@ -54,8 +58,11 @@ def deciding_positions(system: LSystem) -> frozenset[ArgumentPosition]:
     rules = (*system.productions, *system.decomposition)
     constants = frozenset(constant.name for constant in system.constants)
     found = {position for rule in rules for position in _deciding(rule, constants)} | {
-        (module.symbol, len(module.arguments), i) for rule in system.meta
-        for module in (*rule.predecessors, *flat(rule.successor)) for i in range(len(module.arguments))}
+        (module.symbol, len(module.arguments), i)
+        for rule in system.meta
+        for module in (*rule.predecessors, *flat(rule.successor))
+        for i in range(len(module.arguments))
+    }
     while True:
         more = {position for rule in rules for position in _sources(rule, found)} | _clashes(system, found)
         if more <= found:
@@ -101,20 +108,27 @@ def _clashes(system: LSystem, found: Set[ArgumentPosition]) -> set[ArgumentPosit
     sizes: dict[str, set[int]] = defaultdict(set)
     for module in (*system.axiom, *(m for rule in (*system.productions, *system.decomposition) for m in rule.modules)):
         sizes[module.symbol].add(len(module.arguments))
-    return {(symbol, size, i) for symbol, all_sizes in sizes.items()
-            if len({sum((symbol, size, i) in found for i in range(size)) for size in all_sizes}) < len(all_sizes)
-            for size in all_sizes for i in range(size)}
+    return {
+        (symbol, size, i)
+        for symbol, all_sizes in sizes.items()
+        if len({sum((symbol, size, i) in found for i in range(size)) for size in all_sizes}) < len(all_sizes)
+        for size in all_sizes
+        for i in range(size)
+    }
 
 
 def _sliced_production(rule: Production, kept: Set[ArgumentPosition]) -> Production:
-    own, left, right = (tuple(without_arguments(module, kept) for module in modules)
-                        for modules in (rule.predecessors, rule.left, rule.right))
+    own, left, right = (
+        tuple(without_arguments(module, kept) for module in modules) for modules in (rule.predecessors, rule.left, rule.right)
+    )
     return replace(rule, predecessors=own, successor=_sliced_items(rule.successor, kept), left=left, right=right)
 
 
 def _sliced_items(items: Iterable[Item], kept: Set[ArgumentPosition]) -> tuple[Item, ...]:
-    return tuple(replace(item, body=_sliced_items(item.body, kept)) if isinstance(item, Repeat)
-                 else without_arguments(item, kept) for item in items)
+    return tuple(
+        replace(item, body=_sliced_items(item.body, kept)) if isinstance(item, Repeat) else without_arguments(item, kept)
+        for item in items
+    )
 
 
 def without_arguments(module: _UnitT, kept: Set[ArgumentPosition]) -> _UnitT:

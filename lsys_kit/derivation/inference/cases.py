@@ -57,8 +57,12 @@ def fewest_cases(kind: Kind, successors: dict[Values, Row]) -> list[Case]:
     """The fewest cases that the modules of a kind fall into, rather with simple laws, which one point shows, than others."""
     points = sorted(successors.items())
     fewest = len({_symbols(word) for word in successors.values()})
-    return next(found for most in count(fewest) for free in (1, POINTS_FOR_TWO_NUMBERS - 1)
-                for found in _divided(kind, points, [], most, free))
+    return next(
+        found
+        for most in count(fewest)
+        for free in (1, POINTS_FOR_TWO_NUMBERS - 1)
+        for found in _divided(kind, points, [], most, free)
+    )
 
 
 def _divided(kind: Kind, points: Sequence[tuple[Values, Row]], cases: list[Case], most: int, free: int) -> Iterator[list[Case]]:
@@ -69,10 +73,10 @@ def _divided(kind: Kind, points: Sequence[tuple[Values, Row]], cases: list[Case]
             yield cases
         return
     for number, case in enumerate(cases):
-        wider, others = (*case, points[0]), cases[:number] + cases[number + 1:]
+        wider, others = (*case, points[0]), cases[:number] + cases[number + 1 :]
         same = _symbols(case[0][1]) == _symbols(points[0][1])
         if same and _apart(wider, others) and (len(wider) <= free or _successor(kind, wider, False) is not None):
-            yield from _divided(kind, points[1:], [*cases[:number], wider, *cases[number + 1:]], most, free)
+            yield from _divided(kind, points[1:], [*cases[:number], wider, *cases[number + 1 :]], most, free)
     if len(cases) < most and _apart((points[0],), cases):
         yield from _divided(kind, points[1:], [*cases, (points[0],)], most, free)
 
@@ -106,8 +110,12 @@ def _successor(kind: Kind, case: Case, keeps: bool) -> tuple[Pattern, ...] | Non
     found = []
     for index, module in enumerate(words[0]):
         made = [[word[index].arguments[place] for word in words] for place in range(len(module.arguments))]
-        laws = [Name(names[place]) if keeps and place < len(names) and values == [each[place] for each in given]
-                else law_of(given, values, names, place) for place, values in enumerate(made)]
+        laws = [
+            Name(names[place])
+            if keeps and place < len(names) and values == [each[place] for each in given]
+            else law_of(given, values, names, place)
+            for place, values in enumerate(made)
+        ]
         if None in laws:
             return None
         found.append(Pattern(module.symbol, tuple(law for law in laws if law is not None)))
@@ -120,7 +128,7 @@ def names_of(kind: Kind) -> list[str]:
     >>> names_of(("F", 2)), names_of(("F", 4))
     (['x', 'y'], ['x1', 'x2', 'x3', 'x4'])
     """
-    return [*NAMES[:kind[1]]] if kind[1] <= len(NAMES) else [f"x{number}" for number in range(1, kind[1] + 1)]
+    return [*NAMES[: kind[1]]] if kind[1] <= len(NAMES) else [f"x{number}" for number in range(1, kind[1] + 1)]
 
 
 def _production(kind: Kind, case: Case, others: Sequence[Case]) -> Production:

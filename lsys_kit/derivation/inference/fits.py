@@ -44,8 +44,13 @@ class Wider:
     left_open: int = 0
 
     def __str__(self) -> str:
-        count = "many systems fit" if self.systems is None else "one system fits" if self.systems == 1 \
+        count = (
+            "many systems fit"
+            if self.systems is None
+            else "one system fits"
+            if self.systems == 1
             else f"{self.systems:,} systems fit"
+        )
         contexts = self.conditions.context != (0, 0)
         choices = [f"context={self.conditions.context}"] * contexts + ["erasing=True"] * self.conditions.erasing
         said = f"With {', '.join(choices)} {count}"
@@ -199,11 +204,20 @@ def explanation(fits: Fits) -> Explanation:
     if len(fits) == 1:
         return Explanation(f"One system fits these {len(fits.words)} words", common, notes=tuple(_unknown(fits)))
     step = parting_step(fits[:MOST_COMPARED], len(fits.words))
-    later = "as far as was looked, later words are the same" if step is None else \
-        f"they part {'at' if step == len(fits.words) or len(fits) <= MOST_COMPARED else 'by'} step {step}"
+    later = (
+        "as far as was looked, later words are the same"
+        if step is None
+        else f"they part {'at' if step == len(fits.words) or len(fits) <= MOST_COMPARED else 'by'} step {step}"
+    )
     own = tuple(tuple(rule for rule in system.productions if rule not in common) for system in fits[:MOST_SHOWN])
-    return Explanation(f"{len(fits)} systems fit these {len(fits.words)} words; {later}", common, own,
-                       max(0, len(fits) - MOST_SHOWN), step, tuple(_unknown(fits)))
+    return Explanation(
+        f"{len(fits)} systems fit these {len(fits.words)} words; {later}",
+        common,
+        own,
+        max(0, len(fits) - MOST_SHOWN),
+        step,
+        tuple(_unknown(fits)),
+    )
 
 
 def _lines(productions: Sequence[Production], margin: str) -> Iterator[str]:

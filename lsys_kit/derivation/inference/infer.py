@@ -33,8 +33,9 @@ CONTEXTS = ((1, 0), (0, 1), (1, 1), (2, 0), (0, 2), (2, 1), (1, 2), (2, 2))
 """The contexts that are tried where no system fits, the smallest first."""
 
 
-def infer(words: Iterable[object], constants: Iterable[str] = ("+", "-"), erasing: bool = False,
-          context: tuple[int, int] = (0, 0)) -> Fits:
+def infer(
+    words: Iterable[object], constants: Iterable[str] = ("+", "-"), erasing: bool = False, context: tuple[int, int] = (0, 0)
+) -> Fits:
     """All deterministic systems that fit a sequence of words: each of them derives every word from the one before.
 
     The arguments, what is returned and the errors are those of the public function, which finds the rules of pictures, too.
@@ -69,16 +70,20 @@ def infer(words: Iterable[object], constants: Iterable[str] = ("+", "-"), erasin
 def conditions_of(constants: object, erasing: object, context: object) -> Conditions:
     """What is looked for, where the arguments say that."""
     if not isinstance(constants, Iterable):
-        raise ModelValueError(f"The constants must be symbols in a row, not {type(constants).__name__}",
-                              hint='Give their symbols, as in constants=("+", "-").')
+        raise ModelValueError(
+            f"The constants must be symbols in a row, not {type(constants).__name__}",
+            hint='Give their symbols, as in constants=("+", "-").',
+        )
     symbols = set[str]()
     for symbol in counted(constants):
         require(symbol, str, "A symbol as a constant")
         symbols.add(symbol)
     require(erasing, bool, 'True or False for "erasing"')
     if not isinstance(context, Sequence) or isinstance(context, str) or len(context) != 2:
-        raise ModelValueError(f"The context must be two whole numbers, not {shown(context)}",
-                              hint="Say how many neighbours to the left and to the right, as in context=(1, 0).")
+        raise ModelValueError(
+            f"The context must be two whole numbers, not {shown(context)}",
+            hint="Say how many neighbours to the left and to the right, as in context=(1, 0).",
+        )
     left, right = (whole_number(size, "Each size of the context") for size in context)
     return Conditions(frozenset(symbols), bool(erasing), (left, right))
 
@@ -87,8 +92,10 @@ def _check_brackets(rows: tuple[Row, ...]) -> None:
     """Contexts follow branches: they need words whose brackets are well nested."""
     for step, row in enumerate(rows):
         if not well_nested(row):
-            raise ModelValueError(f"The word of step {step} has a bracket without its partner, so that it has no contexts",
-                                  hint="Look for systems without contexts, or mend the word.")
+            raise ModelValueError(
+                f"The word of step {step} has a bracket without its partner, so that it has no contexts",
+                hint="Look for systems without contexts, or mend the word.",
+            )
 
 
 def _fits(rows: tuple[Row, ...], found: Sequence[Table], conditions: Conditions) -> Fits:

@@ -71,8 +71,9 @@ def _combined(given: Sequence[Values], made: Sequence[Value], names: Sequence[st
     for first in _axes(names, place):
         for second in range(len(names)):
             for operator, sign in (("+", 1), ("-", -1)):
-                if first != second and all(values[first] + sign * values[second] == value
-                                           for values, value in zip(given, made, strict=True)):
+                if first != second and all(
+                    values[first] + sign * values[second] == value for values, value in zip(given, made, strict=True)
+                ):
                     yield Apply(operator, (Name(names[first]), Name(names[second])))
 
 

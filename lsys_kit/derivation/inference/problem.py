@@ -109,8 +109,13 @@ def problem_of(words: Sequence[Row], conditions: Conditions, last: int | None = 
         for module in counted(word):
             codes.setdefault(module, chr(FIRST_CHARACTER + len(codes)))
     numbers: dict[Letter, int] = {}
-    rows = [[codes[letter.module] if letter.module.symbol in conditions.unchanged else numbers.setdefault(letter, len(numbers))
-             for letter in letters_of(word, conditions)] for word in words[:-1]]
+    rows = [
+        [
+            codes[letter.module] if letter.module.symbol in conditions.unchanged else numbers.setdefault(letter, len(numbers))
+            for letter in letters_of(word, conditions)
+        ]
+        for word in words[:-1]
+    ]
     behind = 0 if last is None else len(rows[-1]) - last
     if behind:
         rows[-1][last:] = [numbers.setdefault(REST, len(numbers))]

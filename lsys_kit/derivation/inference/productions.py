@@ -77,13 +77,18 @@ def _explicit(table: Table, usual: Row) -> list[Letter]:
 def _least_context(letter: Letter, table: Table) -> Letter:
     """The letter with as few of its neighbours as distinguish it from those that become something else."""
     sizes = [(left, right) for left in range(len(letter.left) + 1) for right in range(len(letter.right) + 1)]
-    contexts = (Letter(letter.left[len(letter.left) - left:], letter.module, letter.right[:right])
-                for left, right in sorted(sizes, key=sum))
-    return next(context for context in contexts
-                if all(word == table[letter] for other, word in table.items() if _extends(other, context)))
+    contexts = (
+        Letter(letter.left[len(letter.left) - left :], letter.module, letter.right[:right])
+        for left, right in sorted(sizes, key=sum)
+    )
+    return next(
+        context
+        for context in contexts
+        if all(word == table[letter] for other, word in table.items() if _extends(other, context))
+    )
 
 
 def _extends(letter: Letter, context: Letter) -> bool:
     """Whether a letter has the neighbours that a context asks for."""
     left, right = len(context.left), len(context.right)
-    return (letter.left[max(0, len(letter.left) - left):] == context.left and letter.right[:right] == context.right)
+    return letter.left[max(0, len(letter.left) - left) :] == context.left and letter.right[:right] == context.right

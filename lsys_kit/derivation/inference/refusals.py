@@ -65,13 +65,13 @@ def contradiction(words: Sequence[Row], conditions: Conditions) -> Contradiction
 
 def _contradiction(words: Sequence[Row], conditions: Conditions) -> Contradiction:
     step = first_impossible_step(words, conditions)
-    words = words[:step + 1]
+    words = words[: step + 1]
     letters = [*letters_of(words[step - 1], conditions)]
     place = bisect_left(range(1, len(letters)), True, key=lambda count: first_table(words, conditions, count) is None)
     if not letters:
         return Contradiction(step, 0, None)
     some = islice(tables(problem_of(words, conditions, place), MOST_SUCCESSORS_TRIED), SOLUTIONS_COMPARED)
-    asked = {_asked(words[step], letters[:place + 1], table, conditions) for table in some}
+    asked = {_asked(words[step], letters[: place + 1], table, conditions) for table in some}
     needed, there, begin = asked.pop() if len(asked) == 1 else (None, (), place)
     if needed == there:
         needed, there = None, ()
@@ -82,12 +82,12 @@ def _asked(word: Row, letters: Sequence[Letter], table: Table, conditions: Condi
     """What the last of some letters would become, what stands in its place, and where."""
     *before, needed = (successor(letter, table, conditions) for letter in letters)
     begin = sum(len(each or ()) for each in before)
-    return needed, word[begin:begin + len(needed or ())], begin
+    return needed, word[begin : begin + len(needed or ())], begin
 
 
 def first_impossible_step(words: Sequence[Row], conditions: Conditions) -> int:
     """The first step that cannot come from the one before, if those before it did."""
-    return 1 + bisect_left(range(1, len(words)), True, key=lambda step: first_table(words[:step + 1], conditions) is None)
+    return 1 + bisect_left(range(1, len(words)), True, key=lambda step: first_table(words[: step + 1], conditions) is None)
 
 
 def first_table(words: Sequence[Row], conditions: Conditions, last: int | None = None) -> Table | None:

@@ -65,7 +65,7 @@ class _Change:
     instead: str
 
     def to(self, word: str) -> str:
-        return word[:self.place] + self.instead + word[self.place + self.letters:]
+        return word[: self.place] + self.instead + word[self.place + self.letters :]
 
 
 @dataclass(frozen=True)
@@ -99,8 +99,12 @@ def slips(words: Sequence[Row], found: Contradiction, conditions: Conditions) ->
     near = {found.step: found.begin, found.step - 1: found.place - 1}
     for suspect in range(found.step, -1, -1):
         for change in _slips_of(texts, suspect, near.get(suspect, 0)):
-            yield Slip(suspect, change.place + 1, words[suspect][change.place:change.place + change.letters],
-                       tuple(modules[ord(letter) - FIRST_CHARACTER] for letter in change.instead))
+            yield Slip(
+                suspect,
+                change.place + 1,
+                words[suspect][change.place : change.place + change.letters],
+                tuple(modules[ord(letter) - FIRST_CHARACTER] for letter in change.instead),
+            )
 
 
 def doubtful_words(words: Sequence[Row], found: Contradiction, conditions: Conditions) -> Iterator[int]:
@@ -122,8 +126,11 @@ def _modules(words: Sequence[Row]) -> list[Module]:
 
 def _texts(words: Sequence[Row], conditions: Conditions) -> _Texts:
     codes = {module: chr(FIRST_CHARACTER + number) for number, module in enumerate(_modules(words))}
-    return _Texts(tuple("".join(codes[module] for module in word) for word in words),
-                  "".join(code for module, code in codes.items() if module.symbol in conditions.unchanged), conditions.erasing)
+    return _Texts(
+        tuple("".join(codes[module] for module in word) for word in words),
+        "".join(code for module, code in codes.items() if module.symbol in conditions.unchanged),
+        conditions.erasing,
+    )
 
 
 def _known_without(texts: _Texts, suspect: int) -> Known | None:
@@ -142,7 +149,7 @@ def _slips_of(texts: _Texts, suspect: int, near: int) -> Iterator[_Change]:
     most = MOST_LETTERS_READ // (LETTERS_A_TRIAL + sum(map(len, texts.words)))
     for change in islice(_changes(texts, suspect, known.successors, near), most):
         check_budget()
-        before, behind = texts.words[max(0, suspect - 1):suspect], texts.words[suspect + 1:suspect + 2]
+        before, behind = texts.words[max(0, suspect - 1) : suspect], texts.words[suspect + 1 : suspect + 2]
         around = [*before, change.to(texts.words[suspect]), *behind]
         changed = [texts.equation(*step) for step in pairwise(around)]
         changed = [each and put_in(each, known.successors) for each in changed]
@@ -175,7 +182,7 @@ def _changes_at(word: str, place: int, alphabet: Iterable[str]) -> Iterator[_Cha
     many."""
     if place < len(word):
         yield from (_Change(place, 1, letter) for letter in alphabet)
-    yield from (_Change(first, 2, word[first:first + 2][::-1]) for first in (place, place - 1) if 0 <= first < len(word) - 1)
+    yield from (_Change(first, 2, word[first : first + 2][::-1]) for first in (place, place - 1) if 0 <= first < len(word) - 1)
     yield from (_Change(place, 0, letter) for letter in alphabet)
     if place < len(word) and len(word) > 1:
         yield _Change(place, 1, "")

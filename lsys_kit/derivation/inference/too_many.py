@@ -48,15 +48,22 @@ def too_many(problem: Problem, listed: Fits, found: Sequence[Table]) -> ModelLim
     rules = [str(production) for production in productions_of(certain)]
     has = f" {all_of_them} have {_some(rules)}." if rules else ""
     hint = f"{_what_to_try(problem)}{has} They differ in what becomes of {_some(left)}."
-    return ModelLimitError(f"{said} these {len(listed.words)} words", limit=most, needed=count.solutions if count else None,
-                           partial=listed, hint=hint)
+    return ModelLimitError(
+        f"{said} these {len(listed.words)} words",
+        limit=most,
+        needed=count.solutions if count else None,
+        partial=listed,
+        hint=hint,
+    )
 
 
 def _what_to_try(problem: Problem) -> str:
     """More steps tell more, but not where each brings modules with new values."""
     if any(letter.module.arguments and (letter.left or letter.right) for letter in problem.letters):
-        return ("With contexts, a module with other values, or other neighbours, is another letter: laws of values are looked "
-                "for without contexts only.")
+        return (
+            "With contexts, a module with other values, or other neighbours, is another letter: laws of values are looked "
+            "for without contexts only."
+        )
     return "Give more steps."
 
 

@@ -40,12 +40,16 @@ def read_words(given: object) -> tuple[Row, ...]:
         There are not two words at least, or one of them is none.
     """
     if isinstance(given, str) or not isinstance(given, Iterable):
-        raise ModelValueError(f"A sequence of words is needed, not {type(given).__name__}",
-                              hint='Give the words of steps 0, 1, 2, ... in a list, as in infer(["a", "ab", "aba"]).')
+        raise ModelValueError(
+            f"A sequence of words is needed, not {type(given).__name__}",
+            hint='Give the words of steps 0, 1, 2, ... in a list, as in infer(["a", "ab", "aba"]).',
+        )
     words = [*counted(given, 1)]
     if len(words) < 2:
-        raise ModelValueError(f"Rules are found from two words at least; there {'is one' if words else 'are none'}",
-                              hint='Give the words of steps 0, 1, 2, ... in a list, as in infer(["a", "ab", "aba"]).')
+        raise ModelValueError(
+            f"Rules are found from two words at least; there {'is one' if words else 'are none'}",
+            hint='Give the words of steps 0, 1, 2, ... in a list, as in infer(["a", "ab", "aba"]).',
+        )
     texts = [word for word in words if isinstance(word, str)]
     valued = any(map(VALUE.search, texts))
     printed = valued or any(len(text.split()) > 1 for text in texts)
@@ -54,8 +58,11 @@ def read_words(given: object) -> tuple[Row, ...]:
         found.append(_row(word, step, printed, valued))
         left -= len(found[-1])
         if left < 0:
-            raise ModelLimitError(f"The words up to step {step} have more than {MOST_MODULES:,} modules", limit=MOST_MODULES,
-                                  hint="Give fewer steps.")
+            raise ModelLimitError(
+                f"The words up to step {step} have more than {MOST_MODULES:,} modules",
+                limit=MOST_MODULES,
+                hint="Give fewer steps.",
+            )
     return tuple(found)
 
 
@@ -70,8 +77,11 @@ def _row(word: object, step: int, printed: bool, valued: bool) -> Row:
         raise ModelValueError(f"The word of step {step} must be a text or a row of modules, not {type(word).__name__}")
     for module in row:
         if module.symbol == CUT or (module.symbol[:1] == "?" and len(module.symbol) > 1):
-            raise ModelValueError(f'The word of step {step} has the module "{quotable(module.symbol)}", which is no letter '
-                                  "that rules alone replace", hint="Such a module cuts a branch, or asks what the turtle sees.")
+            raise ModelValueError(
+                f'The word of step {step} has the module "{quotable(module.symbol)}", which is no letter '
+                "that rules alone replace",
+                hint="Such a module cuts a branch, or asks what the turtle sees.",
+            )
     return row
 
 
@@ -79,8 +89,10 @@ def _require_values(text: str, step: int) -> None:
     """Refuse parentheses without numbers in words whose symbols have values: there they are no symbols themselves."""
     found = re.search(r"\([^()]*\)?|\)", VALUE.sub(" ", text))
     if found:
-        raise ModelValueError(f'The word of step {step} has "{quotable(found[0])}", which are no values',
-                              hint="Values are numbers with commas between them, as in A(1,2.5).")
+        raise ModelValueError(
+            f'The word of step {step} has "{quotable(found[0])}", which are no values',
+            hint="Values are numbers with commas between them, as in A(1,2.5).",
+        )
 
 
 def _printed_modules(text: str) -> Iterable[Module]:
@@ -95,8 +107,10 @@ def _module(given: object, step: int) -> Module:
     if not isinstance(given, Module):
         raise ModelValueError(f"The word of step {step} must be a text or a row of modules, and has {shown(given)}")
     if any(map(is_symbolic, given.arguments)):
-        raise ModelValueError(f"The word of step {step} has {quotable(str(given))}, whose value is not known",
-                              hint="Give the constants of the system numbers.")
+        raise ModelValueError(
+            f"The word of step {step} has {quotable(str(given))}, whose value is not known",
+            hint="Give the constants of the system numbers.",
+        )
     return Module(given.symbol, given.arguments)
 
 

@@ -72,11 +72,16 @@ def replaced_map(found: Map, productions: Mapping[Edge, EdgeProduction]) -> tupl
         inside = {wall: RIGHT if forward else LEFT for wall, forward in cell}
         for one, other in permutations(matching(marks) or (), 2):
             partners[one.wall, one.vertex, inside[one.wall], one.edge] = other.vertex
-    made = ((number, vertex, marker.side, marker.edge) for number, parting in enumerate(partings)
-            for vertex, markers in zip(parting.vertices, parting.marked, strict=False) for marker in markers)
+    made = (
+        (number, vertex, marker.side, marker.edge)
+        for number, parting in enumerate(partings)
+        for vertex, markers in zip(parting.vertices, parting.marked, strict=False)
+        for marker in markers
+    )
     stubs = [Stub(*marker, partners.get(marker)) for marker in made]
-    return Map(tuple(vertices), tuple(walls), tuple(cells), tuple(_replaced(found.boundary, partings)[0]),
-               tuple(range(len(cells)))), stubs
+    return Map(
+        tuple(vertices), tuple(walls), tuple(cells), tuple(_replaced(found.boundary, partings)[0]), tuple(range(len(cells)))
+    ), stubs
 
 
 def predecessor_of(wall: Wall) -> Edge:
@@ -92,28 +97,38 @@ def _successor(wall: Wall, productions: Mapping[Edge, EdgeProduction]) -> tuple[
 
 def dividing_walls(before: Map, after: Map, productions: Mapping[Edge, EdgeProduction]) -> Sequence[Wall]:
     """The walls of a map that divide a cell of the map before it."""
-    return after.walls[sum(len(_successor(wall, productions)) for wall in counted(before.walls)):]
+    return after.walls[sum(len(_successor(wall, productions)) for wall in counted(before.walls)) :]
 
 
 def _all_parted(found: Map, productions: Mapping[Edge, EdgeProduction]) -> tuple[list[Vertex], list[Wall], list[DividedWall]]:
     """The vertices and walls of a map whose walls are replaced, and what has become of each."""
     vertices, walls = [*found.vertices], list[Wall]()
-    return vertices, walls, [_parted(number, wall, productions.get(predecessor_of(wall)), vertices, walls)
-                             for number, wall in enumerate(counted(found.walls))]
+    return (
+        vertices,
+        walls,
+        [
+            _parted(number, wall, productions.get(predecessor_of(wall)), vertices, walls)
+            for number, wall in enumerate(counted(found.walls))
+        ],
+    )
 
 
-def _parted(number: int, wall: Wall, production: EdgeProduction | None, vertices: list[Vertex],
-            walls: list[Wall]) -> DividedWall:
+def _parted(
+    number: int, wall: Wall, production: EdgeProduction | None, vertices: list[Vertex], walls: list[Wall]
+) -> DividedWall:
     """Replace a wall, in its own direction: its vertices and walls are put behind those that there are."""
     edges = production.walls if production else (predecessor_of(wall),)
     between = range(len(vertices), len(vertices) + len(edges) - 1)
     vertices += (Vertex((wall.start, wall.end), Fraction(part, len(edges)), number) for part in range(1, len(edges)))
     ends = [wall.start, *between, wall.end]
     first = len(walls)
-    walls += (Wall(edge.label, *((b, a) if edge.arrow == "<" else (a, b)), bool(edge.arrow))
-              for edge, a, b in zip(edges, ends, ends[1:], strict=False))
-    return DividedWall(range(first, len(walls)), [edge.arrow == "<" for edge in edges], between,
-                   _marked(production) if production else ())
+    walls += (
+        Wall(edge.label, *((b, a) if edge.arrow == "<" else (a, b)), bool(edge.arrow))
+        for edge, a, b in zip(edges, ends, ends[1:], strict=False)
+    )
+    return DividedWall(
+        range(first, len(walls)), [edge.arrow == "<" for edge in edges], between, _marked(production) if production else ()
+    )
 
 
 def _marked(production: EdgeProduction) -> list[list[Marker]]:
@@ -135,8 +150,7 @@ def _replaced(sides: Sequence[Side], partings: Sequence[DividedWall]) -> tuple[l
         parting = partings[wall]
         way, inside = (1, RIGHT) if forward else (-1, LEFT)
         before = len(made)
-        made += (Side(new, turned != forward)
-                 for new, turned in zip(parting.walls[::way], parting.turned[::way], strict=True))
+        made += (Side(new, turned != forward) for new, turned in zip(parting.walls[::way], parting.turned[::way], strict=True))
         meetings = zip(parting.vertices[::way], parting.marked[::way], strict=False)
         for place, (vertex, markers) in enumerate(meetings, before + 1):
             marks += (Mark(place, wall, vertex, marker.edge) for marker in markers[::way] if marker.side == inside)
@@ -153,8 +167,10 @@ def _divided(sides: list[Side], marks: Sequence[Mark], walls: list[Wall]) -> lis
     ends = (first.vertex, second.vertex) if forward else (second.vertex, first.vertex)
     new = len(walls)
     walls.append(Wall(first.edge.label, *ends, bool(first.edge.arrow)))
-    return [(*sides[:first.place], Side(new, forward), *sides[second.place:]),
-            (*sides[first.place:second.place], Side(new, not forward))]
+    return [
+        (*sides[: first.place], Side(new, forward), *sides[second.place :]),
+        (*sides[first.place : second.place], Side(new, not forward)),
+    ]
 
 
 def matching(marks: Sequence[Mark]) -> tuple[Mark, Mark] | None:

@@ -58,25 +58,40 @@ def net_of(states: States, ways: Mapping[Any, Sequence[Way]], grouped: bool, whe
     arcs: list[Arc] = []
     for at_once, place in product((False, True), ways):
         for way in (way for way in ways[place] if way.transition.at_once is at_once):
-            arcs += [Arc(len(transitions), numbers[made.place], made.copies, made.positions, made.factor)
-                     for made in way.products]
+            arcs += [
+                Arc(len(transitions), numbers[made.place], made.copies, made.positions, made.factor) for made in way.products
+            ]
             transitions.append(replace(way.transition, place=numbers[place]))
     start = Counter(where(states.modules[state]) for state in states.axiom)
     places = tuple(Place(place.symbol, (place,)) if isinstance(place, Module) else Place(place[0], ()) for place in ways)
-    return Stages(states.system, places, tuple(transitions), tuple(arcs), tuple(start[number] for number in range(len(places))),
-                  grouped, tuple(_unshown(states)), where)
+    return Stages(
+        states.system,
+        places,
+        tuple(transitions),
+        tuple(arcs),
+        tuple(start[number] for number in range(len(places))),
+        grouped,
+        tuple(_unshown(states)),
+        where,
+    )
 
 
-def ways_of_kind(states: States, tables: Sequence[Mapping[ModuleKind, Sequence[Rule]]], kind: ModuleKind,
-                 place_of: Callable[[Pattern], ModuleKind | Module] = kind_of) -> Iterator[Way]:
+def ways_of_kind(
+    states: States,
+    tables: Sequence[Mapping[ModuleKind, Sequence[Rule]]],
+    kind: ModuleKind,
+    place_of: Callable[[Pattern], ModuleKind | Module] = kind_of,
+) -> Iterator[Way]:
     """The ways out of the place of all modules of a kind, by rewriting and by decomposition."""
     for at_once in (False, True):
         rules = tables[at_once].get(kind, ())
         for rule, chance in zip(rules, _chances(rules, states), strict=True):
             if len(rule.predecessors) == 1:  # others are told besides
                 terms = _requirements(rule, chance, states.system)
-                yield Way(Transition(0, rule.number, terms, None if chance == 1 else chance, None, at_once),
-                          tuple(_products(rule.production.successor, states, place_of)))
+                yield Way(
+                    Transition(0, rule.number, terms, None if chance == 1 else chance, None, at_once),
+                    tuple(_products(rule.production.successor, states, place_of)),
+                )
 
 
 def _place(where: dict[ModuleKind, int], module: Module) -> int | None:
@@ -104,15 +119,25 @@ def reachable_kinds(states: States, tables: Sequence[Mapping[ModuleKind, Sequenc
 
 def _applicable(rules: Sequence[Rule]) -> Sequence[Rule]:
     """The rules of one kind up to the first that always matches: no later one is ever applied."""
-    last = next((number for number, rule in enumerate(rules, 1) if not (rule.left or rule.right or rule.predecessors[1:])
-                 and not rule.equalities and rule.condition is None and rule.probability is None), len(rules))
+    last = next(
+        (
+            number
+            for number, rule in enumerate(rules, 1)
+            if not (rule.left or rule.right or rule.predecessors[1:])
+            and not rule.equalities
+            and rule.condition is None
+            and rule.probability is None
+        ),
+        len(rules),
+    )
     return rules[:last]
 
 
 def _chances(rules: Sequence[Rule], states: States) -> Sequence[Value | None]:
     """How likely each rule of one kind is, where that is constant: all have the same conditions, and constant weights."""
-    asked = {(rule.production.predecessors, rule.production.left, rule.production.right, rule.production.condition)
-             for rule in rules}
+    asked = {
+        (rule.production.predecessors, rule.production.left, rule.production.right, rule.production.condition) for rule in rules
+    }
     weights = [constant_value(rule.production.probability, states) for rule in rules]
     if len(asked) == 1:
         with suppress(ValueError, TypeError):  # no weights: one is missing, negative or unknown

@@ -84,12 +84,14 @@ def life_stages(ages: AgeModel, limit: int, look: Callable[[Module], Hashable] =
         _divide_alike(ages, first, look)
         return _divided_lives(ages, first)
     except TypeError:
-        raise ModelValueError("How long a module lives depends on a constant that is not known",
-                              hint="Choose a value for it.") from None
+        raise ModelValueError(
+            "How long a module lives depends on a constant that is not known", hint="Choose a value for it."
+        ) from None
 
 
-def _divide_alike(ages: AgeModel, first: Mapping[AgelessModule, Mapping[Value, dict[Value, Module]]],
-                  look: Callable[[Module], Hashable]) -> None:
+def _divide_alike(
+    ages: AgeModel, first: Mapping[AgelessModule, Mapping[Value, dict[Value, Module]]], look: Callable[[Module], Hashable]
+) -> None:
     """Let lives begin a stage where those of modules that look alike do."""
     rows = [born for phases in first.values() for born in phases.values()]
     begun = [(age, module, look(module)) for born in rows for age, module in born.items()]
@@ -97,8 +99,16 @@ def _divide_alike(ages: AgeModel, first: Mapping[AgelessModule, Mapping[Value, d
         youngest = born[min(born)]
         for age, module, seen in begun:
             end, other = ages.end(youngest), ages.aged(youngest, age)
-            if (age not in born and min(born) < age and ages.phase(age) == ages.phase(min(born)) and other != module
-                    and end is not None and end.rule is not None and age < end.age and look(other) == seen):
+            if (
+                age not in born
+                and min(born) < age
+                and ages.phase(age) == ages.phase(min(born))
+                and other != module
+                and end is not None
+                and end.rule is not None
+                and age < end.age
+                and look(other) == seen
+            ):
                 born[age] = other
 
 
@@ -108,26 +118,31 @@ def _divided_lives(ages: AgeModel, first: Mapping[AgelessModule, Mapping[Value, 
     for kind, phases in first.items():
         for phase, born in phases.items():
             mortal = any(_is_mortal(ages, module) for module in born.values())
-            rows.setdefault(kind, {})[phase] = len(modules), sorted(born)[:None if mortal else 1]
+            rows.setdefault(kind, {})[phase] = len(modules), sorted(born)[: None if mortal else 1]
             modules += [born[age] for age in rows[kind][phase][1]]
     found = LifeStages(ages, tuple(modules), (), rows)
     outcomes: list[tuple[Outcome, ...]] = []
     for number, row in (part for phases in rows.values() for part in phases.values()):
-        outcomes += [_outcomes(found, number + at, age, row[at + 1] if at + 1 < len(row) else None)
-                     for at, age in enumerate(row)]
+        outcomes += [
+            _outcomes(found, number + at, age, row[at + 1] if at + 1 < len(row) else None) for at, age in enumerate(row)
+        ]
     _check_time_passes(modules, outcomes)
     return LifeStages(ages, found.modules, tuple(outcomes), rows)
 
 
 def _check_time_passes(modules: Sequence[Module], outcomes: Sequence[Sequence[Outcome]]) -> None:
     """Refuse modules that lead back to themselves in no time."""
-    at_once = {number: [state for outcome in ways if outcome.span == 0 for state in outcome.successor]
-               for number, ways in enumerate(outcomes)}
+    at_once = {
+        number: [state for outcome in ways if outcome.span == 0 for state in outcome.successor]
+        for number, ways in enumerate(outcomes)
+    }
     try:
         TopologicalSorter(at_once).prepare()
     except CycleError as found:
-        raise ModelValueError(f"{modules[found.args[1][0]]} divides endlessly within one instant",
-                              hint="Let a daughter begin younger than the age at which she divides.") from None
+        raise ModelValueError(
+            f"{modules[found.args[1][0]]} divides endlessly within one instant",
+            hint="Let a daughter begin younger than the age at which she divides.",
+        ) from None
 
 
 def _is_mortal(ages: AgeModel, module: Module) -> bool:

@@ -133,8 +133,11 @@ class Stages:
         """
         require(word, Iterable, "A word")
         found: Counter[int | None] = Counter()
-        counts = ((word.states.modules[state], count) for state, count in state_counts(word).items()) \
-            if isinstance(word, Word) else ((module, 1) for module in word)
+        counts = (
+            ((word.states.modules[state], count) for state, count in state_counts(word).items())
+            if isinstance(word, Word)
+            else ((module, 1) for module in word)
+        )
         for module, count in counts:
             require(module, Module, "A word of modules")
             found[self.place_of(module)] += count
@@ -204,8 +207,9 @@ class Stages:
         every(found, Real, "A number of tokens")
         with Task("The tokens that are expected were not found"):
             for _ in counted(range(last), 1):
-                found = self._moved(found, [found[way.place] * (1 if way.chance is None else way.chance)
-                                            for way in self.transitions])
+                found = self._moved(
+                    found, [found[way.place] * (1 if way.chance is None else way.chance) for way in self.transitions]
+                )
         return found
 
     def _firings(self, tokens: Sequence[int], chance: Chance | None) -> list[int]:
@@ -217,8 +221,10 @@ class Stages:
                 ways.setdefault(transition.place, []).append(number)
         for place, numbers in ways.items():
             if chance is None:
-                raise ModelValueError(f"Which transition takes a token of {self.places[place]} is decided by chance",
-                                      hint="Ask for expected(steps), or choose at random with fired(tokens, Chance(1, 0, 0)).")
+                raise ModelValueError(
+                    f"Which transition takes a token of {self.places[place]} is decided by chance",
+                    hint="Ask for expected(steps), or choose at random with fired(tokens, Chance(1, 0, 0)).",
+                )
             weights = [self.transitions[number].chance or 0 for number in numbers]
             drawn = Counter(choose(weights, chance.unit()) for _ in range(tokens[place]))
             for index, number in enumerate(numbers):
@@ -238,18 +244,23 @@ class Stages:
         if self.grouped:
             raise ModelValueError("The tokens of a net that is grouped by symbol cannot be moved without their values")
         if any(transition.span is not None for transition in self.transitions):
-            raise ModelValueError("The tokens of a timed net move each at its own time, not in steps",
-                                  hint="timed(system).word(t) gives the word at any time, and tokens(word) its tokens.")
+            raise ModelValueError(
+                "The tokens of a timed net move each at its own time, not in steps",
+                hint="timed(system).word(t) gives the word at any time, and tokens(word) its tokens.",
+            )
 
     def __repr__(self) -> str:
-        return "\n".join([*(self.line(number) for number in range(len(self.transitions))),
-                          *(f"besides: {text}" for text in self.besides)])
+        return "\n".join(
+            [*(self.line(number) for number in range(len(self.transitions))), *(f"besides: {text}" for text in self.besides)]
+        )
 
     def line(self, number: int) -> str:
         """A transition in one line: what it makes of what, and on which terms."""
         if whole_number(number, "The number of a transition") >= len(self.transitions):
-            raise ModelValueError(f"There are {len(self.transitions)} transitions, and none has the number {number}",
-                                  hint="They are counted from 0.")
+            raise ModelValueError(
+                f"There are {len(self.transitions)} transitions, and none has the number {number}",
+                hint="They are counted from 0.",
+            )
         transition = self.transitions[number]
         made = [f"{_times(arc)}{self.places[arc.place]}" for arc in self.arcs if arc.transition == number]
         return " ".join([f"{self.places[transition.place]} -> {' + '.join(made) or 'ε'}", *_terms(transition)])

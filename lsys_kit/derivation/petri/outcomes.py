@@ -57,8 +57,9 @@ def outcomes_of(states: States, state: int) -> tuple[Outcome, ...]:
         raise rule_error(states.system, module, matched[0][0], fault) from None
     except TypeError:
         raise rule_error(states.system, module, matched[0][0], ValueError(UNKNOWN)) from None
-    return tuple(Outcome(rule.number, states.replacement(rule, module), chance)
-                 for (rule, _), chance in zip(lots, likely, strict=True))
+    return tuple(
+        Outcome(rule.number, states.replacement(rule, module), chance) for (rule, _), chance in zip(lots, likely, strict=True)
+    )
 
 
 def all_outcomes(states: States, limit: int) -> list[tuple[Outcome, ...]] | None:

@@ -20,8 +20,13 @@ GRAMMAR = "http://www.pnml.org/version-2009/grammar/"
 TOOL = {"tool": "lsys-kit", "version": "1"}
 
 
-_UNKNOWN = {"condition": "condition such as", "probability": "probability such as", "duration": "duration such as",
-            "factor": "number of copies such as", "besides": "rule such as"}
+_UNKNOWN = {
+    "condition": "condition such as",
+    "probability": "probability such as",
+    "duration": "duration such as",
+    "factor": "number of copies such as",
+    "besides": "rule such as",
+}
 """What a plain net cannot say, in words."""
 
 
@@ -138,9 +143,11 @@ def _arc(page: Element, number: int, arc: Arc) -> None:
 
 def _terms(transition: Transition) -> Mapping[str, str]:
     """What a plain net cannot say of a transition; empty where there is nothing to say."""
-    return {"probability": "" if transition.chance is None else likelihood(transition.chance),
-            "duration": "0" if transition.at_once else "" if transition.span is None else number_text(transition.span),
-            "condition": transition.condition}
+    return {
+        "probability": "" if transition.chance is None else likelihood(transition.chance),
+        "duration": "0" if transition.at_once else "" if transition.span is None else number_text(transition.span),
+        "condition": transition.condition,
+    }
 
 
 def _labelled(node: Element, tag: str, text: str) -> None:

@@ -56,8 +56,13 @@ class _Table:
     most: int = 10 * MOST_PLACES
 
 
-def stages(system: LSystem | Timed, polarity: bool = False, durations: bool = False,
-           unfold: bool | str | Collection[str] = False, **constants: object) -> Stages:
+def stages(
+    system: LSystem | Timed,
+    polarity: bool = False,
+    durations: bool = False,
+    unfold: bool | str | Collection[str] = False,
+    **constants: object,
+) -> Stages:
     """The stage diagram of a system.
 
     Parameters
@@ -113,13 +118,16 @@ def _stages(system: LSystem | Timed, polarity: bool, durations: bool, unfold: ob
     require(durations, bool, 'True or False for "durations"')
     symbols = _symbols_from(unfold)
     if symbols is not None and (durations or isinstance(system, Timed)):
-        raise ModelValueError("Only all symbols of a timed net can be unfolded, because it is never grouped by symbol",
-                              hint="Give unfold=True, or leave out the durations.")
+        raise ModelValueError(
+            "Only all symbols of a timed net can be unfolded, because it is never grouped by symbol",
+            hint="Give unfold=True, or leave out the durations.",
+        )
     most = MOST_UNFOLDED if unfold is True else MOST_PLACES
     if isinstance(system, Timed):
         if constants:
-            raise ModelValueError("The constants of a timed system are chosen when it is made",
-                                  hint="Write stages(timed(system, name=value)).")
+            raise ModelValueError(
+                "The constants of a timed system are chosen when it is made", hint="Write stages(timed(system, name=value))."
+            )
         return _timed_net(system.ages, polarity, most)
     states = States(system, constants)
     if durations:
@@ -129,8 +137,14 @@ def _stages(system: LSystem | Timed, polarity: bool, durations: bool, unfold: ob
         return unfolded_symbols(states, constants, symbols, MOST_UNFOLDED)
     if unfold:
         return _unfolded(net for net, _ in nets)
-    return next((net for net, legible in nets if len(net.places) <= most and len(net.transitions) <= legible
-                 and len(net.arcs) <= MOST_ARCS), None) or by_symbol(states)
+    return next(
+        (
+            net
+            for net, legible in nets
+            if len(net.places) <= most and len(net.transitions) <= legible and len(net.arcs) <= MOST_ARCS
+        ),
+        None,
+    ) or by_symbol(states)
 
 
 def _symbols_from(unfold: object) -> tuple[str, ...] | None:
@@ -150,8 +164,10 @@ def _unfolded(nets: Iterable[Stages]) -> Stages:
     """The first net whose places can be shown."""
     net = next((net for net in nets if len(net.places) <= MOST_UNFOLDED), None)
     if net is None:
-        raise ModelValueError("The stages of this system cannot be unfolded",
-                              hint=f"They are more than {MOST_UNFOLDED}, or the neighbours of a module decide what it becomes.")
+        raise ModelValueError(
+            "The stages of this system cannot be unfolded",
+            hint=f"They are more than {MOST_UNFOLDED}, or the neighbours of a module decide what it becomes.",
+        )
     return net
 
 
@@ -199,14 +215,22 @@ def _net(table: _Table, states: States, polarity: bool) -> Stages:
     arcs: list[Arc] = []
     for number, group in enumerate(members):
         for ways in _side_by_side(table, group, classes):
-            arcs += [Arc(len(transitions), target, copies, spots)
-                     for target, copies, spots in _targets([[classes[row] for row in way.successor] for way in ways])]
+            arcs += [
+                Arc(len(transitions), target, copies, spots)
+                for target, copies, spots in _targets([[classes[row] for row in way.successor] for way in ways])
+            ]
             chance = None if ways[0].chance == 1 else ways[0].chance
             transitions.append(Transition(number, ways[0].production, "", chance, ways[0].span))
     start = Counter(_place_of(classes, table.row, states.modules[state]) for state in states.axiom)
     places = tuple(Place(table.modules[group[0]].symbol, tuple(table.modules[row] for row in group)) for group in members)
-    return Stages(states.system, places, tuple(transitions), tuple(arcs), tuple(start[number] for number in range(len(places))),
-                  _where=partial(_place_of, classes, table.row))
+    return Stages(
+        states.system,
+        places,
+        tuple(transitions),
+        tuple(arcs),
+        tuple(start[number] for number in range(len(places))),
+        _where=partial(_place_of, classes, table.row),
+    )
 
 
 def _place_of(classes: Sequence[int], row_of: Callable[[Module], int | None], module: Module) -> int | None:
@@ -235,8 +259,12 @@ def _merged(table: _Table) -> list[int]:
     """
     classes = _class_numbers([_appearance(table.states, module) for module in table.modules])
     while True:
-        finer = _class_numbers([(classes[row], *sorted(_likeness(outcome, classes) for outcome in outcomes))
-                           for row, outcomes in enumerate(table.outcomes)])
+        finer = _class_numbers(
+            [
+                (classes[row], *sorted(_likeness(outcome, classes) for outcome in outcomes))
+                for row, outcomes in enumerate(table.outcomes)
+            ]
+        )
         if finer == classes:
             return classes
         classes = finer

@@ -122,9 +122,14 @@ def _net(found: _Unfolding, most: int) -> Stages:
     tables = applicable_rules(found.states)
     ways: dict[ModuleKind | Module, list[Way]] = {
         kind: [*ways_of_kind(found.states, tables, kind, partial(_place_of_pattern, found, kind))]
-        for kind in found.kinds if kind[0] not in found.symbols}
-    exact = not any(way.transition.condition or way.transition.at_once or any(made.factor for made in way.products)
-                    for every in ways.values() for way in every)
+        for kind in found.kinds
+        if kind[0] not in found.symbols
+    }
+    exact = not any(
+        way.transition.condition or way.transition.at_once or any(made.factor for made in way.products)
+        for every in ways.values()
+        for way in every
+    )
     ways.update(_ways_of_stages(found, ways, most).items())
     order = [symbol for symbol, _ in found.kinds]
     ways = {place: ways[place] for place in sorted(ways, key=lambda place: order.index(_symbol(place)))}
@@ -141,8 +146,9 @@ def _number(found: _Unfolding, numbers: Mapping[ModuleKind | Module, int], modul
     return numbers.get(found.sliced(module) if module.symbol in found.symbols else kind_of(module))
 
 
-def _ways_of_stages(found: _Unfolding, others: Mapping[ModuleKind | Module, Sequence[Way]],
-                    most: int) -> dict[Module, list[Way]]:
+def _ways_of_stages(
+    found: _Unfolding, others: Mapping[ModuleKind | Module, Sequence[Way]], most: int
+) -> dict[Module, list[Way]]:
     """The ways out of each stage of the symbols that are unfolded, in the order in which the stages are met."""
     axiom = (found.states.modules[state] for state in found.states.axiom)
     todo = deque(found.sliced(module) for module in axiom if module.symbol in found.symbols)
@@ -171,9 +177,13 @@ def _ways_of_stage(found: _Unfolding, kind: Mapping[ModuleKind, ModuleKind], mod
     for outcome in outcomes_of(table, table.number(module.symbol, module.arguments)):
         made = (table.modules[state] for state in outcome.successor)
         places = [each if each.symbol in found.symbols else kind[kind_of(each)] for each in made]
-        yield Way(Transition(0, outcome.production, "", None if outcome.chance == 1 else outcome.chance),
-                  tuple(Product(place, copies, tuple(spot for spot, other in enumerate(places, 1) if other == place))
-                        for place, copies in Counter(places).items()))
+        yield Way(
+            Transition(0, outcome.production, "", None if outcome.chance == 1 else outcome.chance),
+            tuple(
+                Product(place, copies, tuple(spot for spot, other in enumerate(places, 1) if other == place))
+                for place, copies in Counter(places).items()
+            ),
+        )
 
 
 def _place_of_pattern(found: _Unfolding, mother: ModuleKind, pattern: Pattern) -> ModuleKind | Module:

@@ -64,8 +64,10 @@ def letters_of_walls(system: MapSystem | CellworkSystem) -> LSystem:
     def patterns(parts: Sequence[SuccessorPart | EdgePart]) -> tuple[Pattern, ...]:
         return tuple(Pattern(symbols[kind_of(_edge_of(part))]) for part in parts)
 
-    return LSystem(patterns(system.axiom), tuple(Production(patterns([made.predecessor]), patterns(made.successor))
-                                                 for made in system.productions))
+    return LSystem(
+        patterns(system.axiom),
+        tuple(Production(patterns([made.predecessor]), patterns(made.successor)) for made in system.productions),
+    )
 
 
 def wall_stages(system: MapSystem | CellworkSystem) -> Stages:
@@ -94,14 +96,23 @@ def wall_stages(system: MapSystem | CellworkSystem) -> Stages:
         arcs += _arcs(rule, production, numbers)
     for what, size, most in ((many, len(symbols), MOST_PLACES), ("arrows", len(arcs), MOST_ARCS)):
         if size > most:
-            raise ModelLimitError(f"It would have {size:,} {what}, and with more than {most} it is not legible", limit=most,
-                                  needed=size)
+            raise ModelLimitError(
+                f"It would have {size:,} {what}, and with more than {most} it is not legible", limit=most, needed=size
+            )
     start = Counter(numbers[kind_of(edge)] for edge in system.axiom)
     places = tuple(Place(symbol, (Module(symbol),)) for symbol in symbols.values())
     by_module = {place.modules[0]: number for number, place in enumerate(places)}
     besides = (MARKERS.format(what=one),) if any(system.markers) else ()
-    return Stages(letters_of_walls(system), places, tuple(transitions), tuple(arcs), tuple(start[n] for n in numbers.values()),
-                  True, besides, _where=by_module.get)
+    return Stages(
+        letters_of_walls(system),
+        places,
+        tuple(transitions),
+        tuple(arcs),
+        tuple(start[n] for n in numbers.values()),
+        True,
+        besides,
+        _where=by_module.get,
+    )
 
 
 def _asked(production: EdgeProduction | CellworkProduction) -> str:

@@ -48,8 +48,12 @@ class StepAges(AgeModel):
     @cached_property
     def growing(self) -> frozenset[int]:
         """The numbers of the productions that do nothing but let time pass."""
-        return frozenset(rule.number for rules in self.states.rules.values() for rule in rules
-                         if _grows(rule.production, self.parameter(kind_of(rule.production.predecessor))))
+        return frozenset(
+            rule.number
+            for rules in self.states.rules.values()
+            for rule in rules
+            if _grows(rule.production, self.parameter(kind_of(rule.production.predecessor)))
+        )
 
     @property
     def tells_ends(self) -> bool:
@@ -86,12 +90,16 @@ class StepAges(AgeModel):
         terms = AgeTerms(self.states, rule, at)
         if terms.age is None or is_pointwise(rule.production.condition, terms.age):
             return False
-        others = [argument for module, age in zip(made, ages, strict=True)
-                  for place, argument in enumerate(module.arguments) if place != age]
+        others = [
+            argument
+            for module, age in zip(made, ages, strict=True)
+            for place, argument in enumerate(module.arguments)
+            if place != age
+        ]
         counts = [item.count for item in _repeats(rule.production.successor)]
-        return (not any(map(terms.depends, [*others, *counts]))
-                and all(unit_slope(module.arguments[age], terms.age)
-                        for module, age in zip(made, ages, strict=True) if age is not None))
+        return not any(map(terms.depends, [*others, *counts])) and all(
+            unit_slope(module.arguments[age], terms.age) for module, age in zip(made, ages, strict=True) if age is not None
+        )
 
     def phase(self, age: Value) -> Value:
         return 0 if self.even or self.step is None else normalised(age % self.step)
@@ -114,8 +122,15 @@ class StepAges(AgeModel):
 
     def is_late(self, module: Module) -> bool:
         end = self.end(module)
-        return (self.even and end is not None and end.rule is not None and self.step is not None and end.mother != module
-                and self.age(end.mother) != end.age and end.age - (self.age(module) or 0) < self.step)
+        return (
+            self.even
+            and end is not None
+            and end.rule is not None
+            and self.step is not None
+            and end.mother != module
+            and self.age(end.mother) != end.age
+            and end.age - (self.age(module) or 0) < self.step
+        )
 
     def _found_end(self, module: Module) -> End | None:
         if self.step is None:
@@ -162,8 +177,9 @@ class StepAges(AgeModel):
         """How a life ends whose length does not depend on that of steps."""
         age = self.age(module) or 0
         parts = list(self._parts(module, sorted(set(self._cuts(module, rules)))))
-        now = max(at for at, (start, includes, _) in enumerate(parts)
-                  if start is None or start < age or (includes and start == age))
+        now = max(
+            at for at, (start, includes, _) in enumerate(parts) if start is None or start < age or (includes and start == age)
+        )
         while now < len(parts) and parts[now][2] is None:
             now += 1
         if now == len(parts):
@@ -202,9 +218,14 @@ class StepAges(AgeModel):
 
 def _untold(why: str, source: str | None = None, start: int | None = None, end: int | None = None) -> ModelValueError:
     """How long modules live is not known."""
-    return ModelValueError(f"How long a module lives cannot be told, since {why}", source, start, end,
-                           'Productions such as "a(t) -> a(t+dt)" with rules such as "a(t) : t > 1 -> b(t-1)" tell it; so do '
-                           "the productions of timed(system).")
+    return ModelValueError(
+        f"How long a module lives cannot be told, since {why}",
+        source,
+        start,
+        end,
+        'Productions such as "a(t) -> a(t+dt)" with rules such as "a(t) : t > 1 -> b(t-1)" tell it; so do '
+        "the productions of timed(system).",
+    )
 
 
 def age_model(states: States) -> StepAges:
@@ -254,8 +275,10 @@ def _grows(production: Production, age: int | None) -> bool:
         return False
     if not isinstance(after[0], Pattern) or kind_of(after[0]) != kind_of(before):
         return False
-    return all(_added(old, new) is not None if at == age else old == new
-               for at, (old, new) in enumerate(zip(before.arguments, after[0].arguments, strict=True)))
+    return all(
+        _added(old, new) is not None if at == age else old == new
+        for at, (old, new) in enumerate(zip(before.arguments, after[0].arguments, strict=True))
+    )
 
 
 def _added(old: Any, new: Any) -> Expression | None:

@@ -104,10 +104,16 @@ class CellDivisions:
         check_budget()
         self._parts += 1
         if self._parts > MOST_PARTS or depth > min(current().decomposition, MOST_DEPTH):
-            raise ModelLimitError(f"{module} is decomposed into too many modules for a lineage", limit=MOST_PARTS,
-                                  hint="A condition before the arrow can bring it to an end.")
-        rule = None if depth == self.states.system.decomposition_depth else \
-            self.states.matching_rule(module, self.states.decomposition)
+            raise ModelLimitError(
+                f"{module} is decomposed into too many modules for a lineage",
+                limit=MOST_PARTS,
+                hint="A condition before the arrow can bring it to an end.",
+            )
+        rule = (
+            None
+            if depth == self.states.system.decomposition_depth
+            else self.states.matching_rule(module, self.states.decomposition)
+        )
         return CellPart(module, at_birth) if rule is None else self._replaced(module, at_birth, rule, depth + 1)
 
 
@@ -148,8 +154,11 @@ class CellGrowth:
         check_budget()
         self._parts += 1
         if self._parts > MOST_FOLLOWED:
-            raise ModelLimitError(f"More than {MOST_FOLLOWED:,} modules come and go in the steps of this lineage",
-                                  limit=MOST_FOLLOWED, hint="Take fewer steps.")
+            raise ModelLimitError(
+                f"More than {MOST_FOLLOWED:,} modules come and go in the steps of this lineage",
+                limit=MOST_FOLLOWED,
+                hint="Take fewer steps.",
+            )
         if part.parts is None:
             self.found(owner, step, part.module)
             return

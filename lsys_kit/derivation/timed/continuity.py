@@ -71,8 +71,11 @@ class Continuity:
         """The equations that the unknown names must satisfy."""
         import sympy
 
-        return tuple(dict.fromkeys(sympy.Eq(division.mother, division.daughters) for division in self.divisions
-                                   if division.defect.free_symbols))
+        return tuple(
+            dict.fromkeys(
+                sympy.Eq(division.mother, division.daughters) for division in self.divisions if division.defect.free_symbols
+            )
+        )
 
     @property
     def unknowns(self) -> tuple[str, ...]:
@@ -125,8 +128,7 @@ class Continuity:
             where = "" if ends == [None, None] else " in that range"
             raise ModelValueError(f'No value of "{name}"{where} makes the length continuous')
         values = ", ".join(f"{float(root):.6g}" for root in found)
-        raise ModelValueError(f'More than one value of "{name}" makes the length continuous: {values}',
-                              hint=hint)
+        raise ModelValueError(f'More than one value of "{name}" makes the length continuous: {values}', hint=hint)
 
     def _equation(self, name: str) -> sympy.Expr:
         """What is 0 where the length is continuous, with no other unknown name in it."""
@@ -141,8 +143,10 @@ class Continuity:
             others |= unknown_names(*factors) - {name}
         if not others:
             raise ModelValueError(f'No value of "{name}" makes the length continuous')
-        raise ModelValueError(f'The value of "{name}" depends on {", ".join(sorted(others))}',
-                              hint=f"Give {min(others)} a value: continuity(..., {min(others)}=1).")
+        raise ModelValueError(
+            f'The value of "{name}" depends on {", ".join(sorted(others))}',
+            hint=f"Give {min(others)} a value: continuity(..., {min(others)}=1).",
+        )
 
     def _is_solved(self, name: str, value: sympy.Expr) -> bool:
         """Whether a value leaves no jump that its name decides, and no mother without a length."""
@@ -154,12 +158,17 @@ class Continuity:
             growth = [(function.subs(point), life.subs(point)) for function, life in self._growth]
         except ValueError:  # it compares numbers that are not real
             return False
-        return (all(equal_lengths(before, after) and (order or before != 0) for order, before, after in lengths)
-                and all(is_continuous(function, life) is not False for function, life in growth))
+        return all(equal_lengths(before, after) and (order or before != 0) for order, before, after in lengths) and all(
+            is_continuous(function, life) is not False for function, life in growth
+        )
 
     def __repr__(self) -> str:
-        return "\n".join([*map(str, self.divisions), *(f"{letter}: unknown names decide whether its growth is continuous"
-                                                       for letter in self.undecided)])
+        return "\n".join(
+            [
+                *map(str, self.divisions),
+                *(f"{letter}: unknown names decide whether its growth is continuous" for letter in self.undecided),
+            ]
+        )
 
 
 def continuity(system: LSystem | Timed, lengths: Mapping[str, str], order: int = 0, **constants: object) -> Continuity:
@@ -218,11 +227,14 @@ def _continuity(system: LSystem | Timed, lengths: Mapping[str, str], order: int,
     lives = _life_spans(growing, productions)
     texts = written_functions(lengths, lives)
     functions = length_functions(growing, texts, given, lives)
-    undecided = tuple(letter for letter, life in lives.items()
-                      if not is_decided(letter, texts[letter], functions[letter], life, order))
-    divisions = tuple(Division(production, k, *(_total_length(growing.ages, modules, functions, k)
-                                                for modules in ([mother], daughters)))
-                      for k in range(order + 1) for production, mother, daughters in productions)
+    undecided = tuple(
+        letter for letter, life in lives.items() if not is_decided(letter, texts[letter], functions[letter], life, order)
+    )
+    divisions = tuple(
+        Division(production, k, *(_total_length(growing.ages, modules, functions, k) for modules in ([mother], daughters)))
+        for k in range(order + 1)
+        for production, mother, daughters in productions
+    )
     for division in divisions:
         _ = division.defect  # found here, where the time that it takes counts
     return Continuity(divisions, undecided, tuple((functions[letter], life) for letter, life in lives.items()))
@@ -242,7 +254,6 @@ def _solved_value(value: object) -> object:
     import sympy
 
     return float(value) if isinstance(value, sympy.Expr) and value.is_number and not value.is_Rational else value
-
 
 
 def _divisions(growing: Timed) -> Iterator[tuple[Production, Module, list[Module]]]:
@@ -269,8 +280,11 @@ def _life_spans(growing: Timed, divisions: Iterable[tuple[Production, Module, li
 
     ages: dict[str, set[Value]] = {}
     ended = [mother for _, mother, _ in divisions]
-    for module in (*(growing.states.modules[state] for state in growing.states.axiom), *ended,
-                   *(made for _, _, daughters in divisions for made in daughters)):
+    for module in (
+        *(growing.states.modules[state] for state in growing.states.axiom),
+        *ended,
+        *(made for _, _, daughters in divisions for made in daughters),
+    ):
         age = growing.ages.age(module)
         if age is not None:
             ages.setdefault(module.symbol, set()).add(age)
@@ -278,8 +292,10 @@ def _life_spans(growing: Timed, divisions: Iterable[tuple[Production, Module, li
                 raise ModelLimitError(f"{module.symbol} has more than {MOST_LETTERS:,} first and last ages", limit=MOST_LETTERS)
     endless = ages.keys() - {module.symbol for module in ended}
     known = {symbol: list(map(in_sympy, found)) for symbol, found in ages.items()}
-    return {symbol: sympy.Interval(sympy.Min(*found), sympy.oo if symbol in endless else sympy.Max(*found))
-            for symbol, found in known.items()}
+    return {
+        symbol: sympy.Interval(sympy.Min(*found), sympy.oo if symbol in endless else sympy.Max(*found))
+        for symbol, found in known.items()
+    }
 
 
 def _total_length(ages: AgeModel, modules: Iterable[Module], functions: Mapping[str, sympy.Expr], order: int) -> sympy.Expr:
@@ -289,8 +305,12 @@ def _total_length(ages: AgeModel, modules: Iterable[Module], functions: Mapping[
     counts = Counter((module.symbol, age) for module in modules if (age := ages.age(module)) is not None)
     cells = {(symbol, in_sympy(age)): number for (symbol, age), number in counts.items()}
     try:
-        return sympy.Add(*(number * sympy.diff(functions[symbol], the_age(), order).subs(the_age(), age)
-                           for (symbol, age), number in cells.items()))
+        return sympy.Add(
+            *(
+                number * sympy.diff(functions[symbol], the_age(), order).subs(the_age(), age)
+                for (symbol, age), number in cells.items()
+            )
+        )
     except ValueError:  # it compares numbers that are not real
         letters = " or ".join(symbol for symbol, _ in cells)
         raise ModelValueError(f"The length of {letters} has no value at a division") from None

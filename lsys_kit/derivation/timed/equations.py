@@ -40,8 +40,10 @@ def growth_base(t_div: float, t_s: float, t_l: float) -> float:
     2.167303978
     """
     if not (max(t_s, t_l) < t_div and math.isfinite(t_div - min(t_s, t_l))):
-        raise ModelValueError(f"With daughters of age {t_s} and {t_l} no growth is continuous at the age {t_div}",
-                              hint="A daughter begins younger than the age at which cells divide.")
+        raise ModelValueError(
+            f"With daughters of age {t_s} and {t_l} no growth is continuous at the age {t_div}",
+            hint="A daughter begins younger than the age at which cells divide.",
+        )
     return positive_root([(t_div, 1), (t_s, -1), (t_l, -1)])
 
 
@@ -68,8 +70,10 @@ def positive_root(powers: Sequence[tuple[float, float]]) -> float:
         return math.fsum(c * math.exp(exponent * log - greatest) for exponent, (_, c) in zip(exponents, powers, strict=True))
 
     if (total(-FARTHEST) < 0) == (total(FARTHEST) < 0):
-        raise ModelValueError("The solution is too large or too small for a floating-point number",
-                              hint="Let a daughter begin clearly younger than the age at which cells divide.")
+        raise ModelValueError(
+            "The solution is too large or too small for a floating-point number",
+            hint="Let a daughter begin clearly younger than the age at which cells divide.",
+        )
     return math.exp(bisected(total, -FARTHEST, FARTHEST))
 
 
@@ -117,8 +121,13 @@ def _in_powers(equation: sympy.Expr, name: sympy.Symbol, z: sympy.Symbol) -> sym
     if any(part.has(name) and not isinstance(part, sympy.exp) for part in equation.atoms(Application)):
         return equation
     powers = [(part, part.as_base_exp()) for part in equation.atoms(sympy.Pow, sympy.exp) if part.has(name)]
-    return equation.xreplace({part: z ** (exponent / name * sympy.log(base)) for part, (base, exponent) in powers
-                              if base.is_number and (exponent / name).is_number})
+    return equation.xreplace(
+        {
+            part: z ** (exponent / name * sympy.log(base))
+            for part, (base, exponent) in powers
+            if base.is_number and (exponent / name).is_number
+        }
+    )
 
 
 def _roots_of_powers(equation: sympy.Expr, z: sympy.Symbol) -> list[sympy.Expr] | None:
@@ -156,6 +165,8 @@ def _root_between(equation: sympy.Expr, name: sympy.Symbol, low: float | None, h
         return math.nan
 
     if low is None or high is None or not value(low) * value(high) < 0:
-        raise ModelValueError(f'No rule finds where "{number_text(equation)}" is 0',
-                              hint=f"Give two numbers between which {name} lies, where the expression has opposite signs.")
+        raise ModelValueError(
+            f'No rule finds where "{number_text(equation)}" is 0',
+            hint=f"Give two numbers between which {name} lies, where the expression has opposite signs.",
+        )
     return sympy.Float(bisected(value, low, high))

@@ -48,8 +48,11 @@ class Division:
         if self.defect == 0:
             return f"{what}continuous"
         before, after, jump = (number_text(_brief(part)) for part in (self.mother, self.daughters, -self.defect))
-        return what + (f"continuous where {before} = {after}" if self.defect.free_symbols else
-                       f"{before} before, {after} after, a jump of {jump}")
+        return what + (
+            f"continuous where {before} = {after}"
+            if self.defect.free_symbols
+            else f"{before} before, {after} after, a jump of {jump}"
+        )
 
 
 def equal_lengths(before: sympy.Expr, after: sympy.Expr) -> bool:

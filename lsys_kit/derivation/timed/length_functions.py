@@ -32,27 +32,32 @@ def written_functions(lengths: Mapping[str, str], lives: Mapping[str, sympy.Set]
     texts = {symbol: text for symbols, text in lengths.items() for symbol in symbols.split()}
     for symbol in (*texts, *lives):
         if symbol not in lives:
-            raise ModelNameError(f'The system has no letter "{symbol}" with an age',
-                                 hint=suggestion(symbol, lives) or f"Its letters are: {', '.join(lives)}.")
+            raise ModelNameError(
+                f'The system has no letter "{symbol}" with an age',
+                hint=suggestion(symbol, lives) or f"Its letters are: {', '.join(lives)}.",
+            )
         if symbol not in texts:
             raise ModelNameError(f'The letter "{symbol}" has no growth function', hint='Where it has no length, write "0".')
     return texts
 
 
-def length_functions(growing: Timed, texts: Mapping[str, str], given: Mapping[str, object],
-               lives: Mapping[str, sympy.Set]) -> dict[str, sympy.Expr]:
+def length_functions(
+    growing: Timed, texts: Mapping[str, str], given: Mapping[str, object], lives: Mapping[str, sympy.Set]
+) -> dict[str, sympy.Expr]:
     """The growth function of each letter, with the values of all known names in it."""
     import sympy
 
     trees = {text: _read(text) for text in texts.values()}
     constants = [constant.name for constant in growing.states.system.constants]
     if AGE in constants:
-        raise ModelNameError(f'The system has a constant "{AGE}", which is the age in a growth function',
-                             hint="Give the constant another name.")
+        raise ModelNameError(
+            f'The system has a constant "{AGE}", which is the age in a growth function', hint="Give the constant another name."
+        )
     used = {name for tree in trees.values() for name in names_in(tree)} - {AGE, *constants}
     for name in given.keys() - used:
-        raise ModelNameError(f'Neither the system nor a growth function has the name "{name}"',
-                             hint=suggestion(name, {*used, *constants}))
+        raise ModelNameError(
+            f'Neither the system nor a growth function has the name "{name}"', hint=suggestion(name, {*used, *constants})
+        )
     values = {name: in_sympy(value) for name, value in zip(constants, growing.states.constants, strict=True)}
     values |= {name: in_sympy(given[name], name) if name in given else unknown_constant(name) for name in used}
     sizes = {name: _size(value) for name, value in values.items()}
@@ -88,8 +93,12 @@ def _towers(tree: Expression, text: str) -> int:
     if not isinstance(tree, Apply):
         return 0
     if tree.operator in JUMPS:
-        raise ModelValueError(f'"{tree}" may jump, which no length does', text, *span(tree),
-                              "A length that stays within limits is written with min, max and abs.")
+        raise ModelValueError(
+            f'"{tree}" may jump, which no length does',
+            text,
+            *span(tree),
+            "A length that stays within limits is written with min, max and abs.",
+        )
     return max(_towers(operand, text) for operand in tree.operands) + (tree.operator in ("^", "exp"))
 
 
@@ -115,11 +124,14 @@ def is_decided(letter: str, text: str, function: sympy.Expr, life: sympy.Set, or
     verdicts = [is_continuous(sympy.diff(function, the_age(), k), life) for k in range(order + 1)]
     if False in verdicts:
         which = f"Derivative {verdicts.index(False)} of the" if verdicts.index(False) else "The"
-        raise ModelValueError(f'{which} growth function "{text}" is not continuous on the life span of {letter}, '
-                              f"from {life.inf} to {life.sup}")
+        raise ModelValueError(
+            f'{which} growth function "{text}" is not continuous on the life span of {letter}, from {life.inf} to {life.sup}'
+        )
     if None in verdicts and not (function.free_symbols | life.free_symbols) - {the_age()}:
-        raise ModelValueError(f'Whether the growth function "{text}" is continuous on the life span of {letter} is undecided',
-                              hint="Write it in a simpler way.")
+        raise ModelValueError(
+            f'Whether the growth function "{text}" is continuous on the life span of {letter} is undecided',
+            hint="Write it in a simpler way.",
+        )
     return None not in verdicts
 
 
@@ -134,8 +146,9 @@ def is_continuous(function: sympy.Expr, life: sympy.Set) -> bool | None:
     if _is_hard(function):
         return None
     positive = {name: sympy.Dummy(positive=True) for name in names}
-    real = function.replace(lambda part: part.is_Pow and part.exp.is_Rational and part.exp.q > 1,
-                            lambda part: part.base ** (part.exp / 2))  # an odd root of a negative number is none here
+    real = function.replace(
+        lambda part: part.is_Pow and part.exp.is_Rational and part.exp.q > 1, lambda part: part.base ** (part.exp / 2)
+    )  # an odd root of a negative number is none here
     whole = life.xreplace(positive)
     try:
         found = continuous_domain(real.xreplace(positive), age, whole)
@@ -162,7 +175,8 @@ def _is_hard(function: sympy.Expr) -> bool:
         for part in () if isinstance(outer, everywhere) else parts & inner.atoms(sympy.Pow, sympy.Function):
             base, exponent = part.as_base_exp()
             if bent(part.args[0] if base == part else exponent) or bool(
-                    base.has(the_age()) and not (exponent.is_Rational and max(abs(exponent.p), exponent.q) <= MOST_DEGREE)):
+                base.has(the_age()) and not (exponent.is_Rational and max(abs(exponent.p), exponent.q) <= MOST_DEGREE)
+            ):
                 return True
     return False
 

@@ -62,8 +62,13 @@ class Lineage:
     @property
     def divisions(self) -> tuple[Value, ...]:
         """When cells divide, in the order of time."""
-        return tuple(sorted(cell.ended for number, cell in enumerate(self.cells)
-                            if cell.ended is not None and len(self.daughters(number)) > 1))
+        return tuple(
+            sorted(
+                cell.ended
+                for number, cell in enumerate(self.cells)
+                if cell.ended is not None and len(self.daughters(number)) > 1
+            )
+        )
 
     @cached_property
     def _daughters(self) -> dict[int, tuple[int, ...]]:
@@ -76,14 +81,22 @@ class Lineage:
     def __str__(self) -> str:
         living, late = len(self.words[-1]), sum(cell.due is not None for cell in self.cells)
         divided = len(self.divisions)
-        return (f"{living:,} cell{'s' * (living != 1)} at time {number_text(self.times[-1])}, after {divided:,} "
-                f"division{'s' * (divided != 1)}" + (f"; {late:,} late" if late else ""))
+        return (
+            f"{living:,} cell{'s' * (living != 1)} at time {number_text(self.times[-1])}, after {divided:,} "
+            f"division{'s' * (divided != 1)}" + (f"; {late:,} late" if late else "")
+        )
 
     __repr__ = __str__
 
 
-def lineage(what: LSystem | Derivation | Timed, n: object = None, *, seed: int | None = None, arithmetic: str = "exact",
-            **constants: object) -> Lineage:
+def lineage(
+    what: LSystem | Derivation | Timed,
+    n: object = None,
+    *,
+    seed: int | None = None,
+    arithmetic: str = "exact",
+    **constants: object,
+) -> Lineage:
     """Which cell comes from which, and when each divides.
 
     Parameters
@@ -117,20 +130,25 @@ def lineage(what: LSystem | Derivation | Timed, n: object = None, *, seed: int |
         return _lineage(what, n, seed, arithmetic, constants)
 
 
-def _lineage(what: LSystem | Derivation | Timed, n: object, seed: int | None, arithmetic: str,
-             constants: dict[str, object]) -> Lineage:
+def _lineage(
+    what: LSystem | Derivation | Timed, n: object, seed: int | None, arithmetic: str, constants: dict[str, object]
+) -> Lineage:
     if isinstance(what, LSystem):
         steps: Any = n if n is not None else what.steps if what.steps is not None else 5
         start = derive(what, 0, seed=seed, arithmetic=arithmetic, **constants)
         if start.states.traits.sensitive:
-            raise ModelValueError("The system asks what the turtle sees, which words alone do not say",
-                                  hint="Derive it first, and ask for the lineage of the derivation.")
+            raise ModelValueError(
+                "The system asks what the turtle sees, which words alone do not say",
+                hint="Derive it first, and ask for the lineage of the derivation.",
+            )
         return _derived_lineage(start.to(steps))
     if isinstance(what, Timed) and n is not None and not constants:
         return _timed_lineage(what, number_from(n, "time"))
     if isinstance(what, Timed):
-        raise ModelValueError("The lineage of a timed system needs the time at which it ends, and nothing else",
-                              hint="Ask for lineage(timed(system), 5).")
+        raise ModelValueError(
+            "The lineage of a timed system needs the time at which it ends, and nothing else",
+            hint="Ask for lineage(timed(system), 5).",
+        )
     if not isinstance(what, Derivation):
         raise ModelValueError(f"Only systems, derivations and timed systems have a lineage, not {type(what).__name__}")
     if n is not None or constants:
@@ -142,11 +160,17 @@ def _derived_lineage(derivation: Derivation) -> Lineage:
     """The lineage of a derivation."""
     states = derivation.states
     if states.traits.predecessor > 1:
-        raise ModelValueError("A cell of a lineage has one mother, but this system replaces several modules together",
-                              hint="explain(derivation, step) tells which modules become which.")
+        raise ModelValueError(
+            "A cell of a lineage has one mother, but this system replaces several modules together",
+            hint="explain(derivation, step) tells which modules become which.",
+        )
     if sum(derivation.lengths) > MOST_CELLS:
-        raise ModelLimitError(f"The words of a lineage may have {MOST_CELLS:,} modules together", limit=MOST_CELLS,
-                              needed=sum(derivation.lengths), hint="Take fewer steps.")
+        raise ModelLimitError(
+            f"The words of a lineage may have {MOST_CELLS:,} modules together",
+            limit=MOST_CELLS,
+            needed=sum(derivation.lengths),
+            hint="Take fewer steps.",
+        )
     growth, divisions = CellGrowth(states), CellDivisions(states)
     length = divisions.ages.step or 1
     for module in derivation[0]:
@@ -181,8 +205,9 @@ def _timed_lineage(system: Timed, end: Value) -> Lineage:
     """The lineage of a timed system up to a time."""
     word, growth = system.word(end), CellGrowth(system.states)
     if len(word) > MOST_CELLS:
-        raise ModelLimitError(f"A lineage may have {MOST_CELLS:,} cells", limit=MOST_CELLS, needed=len(word),
-                              hint="Take an earlier time.")
+        raise ModelLimitError(
+            f"A lineage may have {MOST_CELLS:,} cells", limit=MOST_CELLS, needed=len(word), hint="Take an earlier time."
+        )
     axiom = [system.states.modules[state] for state in system.states.axiom]
     for module in axiom:
         growth.found(growth.born(None, 0, module), 0, module)

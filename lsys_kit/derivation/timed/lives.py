@@ -69,12 +69,12 @@ class AgeModel(ABC):
     def aged(self, module: Module, age: Value) -> Module:
         """A module at another age; itself, where it has none."""
         at, values = self.parameter(kind_of(module)), module.arguments
-        return module if at is None else Module(module.symbol, (*values[:at], age, *values[at + 1:]))
+        return module if at is None else Module(module.symbol, (*values[:at], age, *values[at + 1 :]))
 
     def ageless(self, module: Module) -> AgelessModule:
         """A module without its age."""
         at, values = self.parameter(kind_of(module)), module.arguments
-        return module.symbol, values if at is None else values[:at] + values[at + 1:]
+        return module.symbol, values if at is None else values[:at] + values[at + 1 :]
 
     def phase(self, _age: Value) -> Value:
         """What distinguishes modules of different ages that never reach the same age; 0 where time passes evenly."""
@@ -119,9 +119,14 @@ class AgeModel(ABC):
         found = [Module(*part) for part in islice(self.states.apply(rule, module), most + 1)]
         if len(found) > most:
             start, end = rule.production.at or (None, None)
-            raise ModelLimitError(f"{module} becomes more than {most:,} modules at once", limit=most,
-                                  source=self.states.system.source or None, start=start, end=end,
-                                  hint="Use smaller numbers of repetitions.")
+            raise ModelLimitError(
+                f"{module} becomes more than {most:,} modules at once",
+                limit=most,
+                source=self.states.system.source or None,
+                start=start,
+                end=end,
+                hint="Use smaller numbers of repetitions.",
+            )
         return found
 
     def check_birth(self, module: Module) -> None:
@@ -173,8 +178,11 @@ def births(ages: AgeModel, limit: int) -> dict[AgelessModule, dict[Value, dict[V
             continue
         born[age] = module
         if sum(len(others) for phases in found.values() for others in phases.values()) > limit:
-            raise ModelLimitError(f"Modules are born at more than {limit} different ages", limit=limit,
-                                  hint="Let the ages of daughters at birth not depend on the age of their mother.")
+            raise ModelLimitError(
+                f"Modules are born at more than {limit} different ages",
+                limit=limit,
+                hint="Let the ages of daughters at birth not depend on the age of their mother.",
+            )
         todo += dict.fromkeys(ages.daughters(module)[::-1])
     return found
 
@@ -184,6 +192,10 @@ def undecided_age(states: States, module: Module, production: Production) -> Mod
     values = (*states.constants, *module.arguments)
     names = sorted({str(name) for value in values for name in getattr(value, "free_symbols", ())})
     start, end = production.at or (None, None)
-    return ModelValueError(f"The age at which {module} becomes what {production} says cannot be decided",
-                           states.system.source or None, start, end,
-                           f"It depends on {', '.join(names)}: choose a value for {names[0]}." if names else None)
+    return ModelValueError(
+        f"The age at which {module} becomes what {production} says cannot be decided",
+        states.system.source or None,
+        start,
+        end,
+        f"It depends on {', '.join(names)}: choose a value for {names[0]}." if names else None,
+    )

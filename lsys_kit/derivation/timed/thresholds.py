@@ -22,7 +22,8 @@ _LINEAR: Mapping[str, Callable[[Sequence[Any], Sequence[Value]], Value]] = {
     "-": lambda slopes, _: slopes[0] - slopes[1],
     "-x": lambda slopes, _: -slopes[0],
     "*": lambda slopes, factors: slopes[0] * factors[1] + slopes[1] * factors[0],
-    "/": lambda slopes, factors: divide(slopes[0], factors[1])}
+    "/": lambda slopes, factors: divide(slopes[0], factors[1]),
+}
 """For each operator that may keep a slope the same at all ages how it does, given slopes and fixed values of its operands."""
 _CONNECTIVES = frozenset(("&&", "||", "!"))
 _COMPARISONS = frozenset(("<", "<=", ">", ">=", "==", "!="))
@@ -112,8 +113,9 @@ class AgeTerms:
             if difference is None or slope is None:
                 return None
             if slope != 0:
-                young = Module(module.symbol, tuple(0 if at == self.parameter else value
-                                                    for at, value in enumerate(module.arguments)))
+                young = Module(
+                    module.symbol, tuple(0 if at == self.parameter else value for at, value in enumerate(module.arguments))
+                )
                 found.append(divide(-self.value(difference, young), slope))
         asked = self.rule.production.predecessor.arguments[self.parameter]
         return found if self.age is not None else [*found, self.value(asked, module)]

@@ -128,15 +128,20 @@ class Timed:
             if daughters is None:
                 found.append(self.states.number(*self._older(module, left)))
             elif instant > deepest:
-                raise ModelValueError(f"{module} divides endlessly within one instant",
-                                      hint="Let a daughter begin younger than the age at which she divides.")
+                raise ModelValueError(
+                    f"{module} divides endlessly within one instant",
+                    hint="Let a daughter begin younger than the age at which she divides.",
+                )
             else:
                 instant = instant + 1 if rest == left else 0
                 todo += zip(reversed(daughters), repeat(rest), repeat(instant))
             visited += 1
             if len(found) + len(todo) > most:
-                raise ModelLimitError(f"The word would have more than {most:,} modules", limit=most,
-                                      hint="Take an earlier time, or set limits(modules=...).")
+                raise ModelLimitError(
+                    f"The word would have more than {most:,} modules",
+                    limit=most,
+                    hint="Take an earlier time, or set limits(modules=...).",
+                )
             if visited % MODULES_BETWEEN_CHECKS == 0:
                 check_budget()
         return Word(self.states, found)
@@ -201,8 +206,12 @@ def timed(system: LSystem, **constants: object) -> Timed:
             if [index for index, _ in rule.equalities] != [0] or rule.condition is not None:
                 start, end = rule.production.at or (None, None)
                 shown = as_written(system, rule.production)
-                raise ModelValueError(f"The production {shown} does not say at which age it applies",
-                                      system.source or None, start, end,
-                                      'A timed production reads "a(1) -> b(0) a(0)"; in steps of time it reads '
-                                      '"a(t) : t >= 1 -> b(t-1) a(t-1)", beside "a(t) -> a(t+dt)".')
+                raise ModelValueError(
+                    f"The production {shown} does not say at which age it applies",
+                    system.source or None,
+                    start,
+                    end,
+                    'A timed production reads "a(1) -> b(0) a(0)"; in steps of time it reads '
+                    '"a(t) : t >= 1 -> b(t-1) a(t-1)", beside "a(t) -> a(t+dt)".',
+                )
     return Timed(timed_age_model(states))

@@ -61,8 +61,10 @@ def word_with(way: Traversal, apices: Mapping[int, Sequence[Apex]]) -> str:
 def _from(way: Traversal, behind: int, main: set[int], apices: Mapping[int, Sequence[Apex]]) -> str:
     """What is drawn from the end of a stroke on: branches in brackets, then what needs none."""
     following = [each for each in range(len(way)) if way.before[each] == behind]
-    parts = [(each in main, turns_text(way.turns[each]) + "F" + _from(way, each, main, apices))
-             for each in sorted(following, key=lambda each: (each in main, -abs(way.turns[each]), -way.turns[each]))]
+    parts = [
+        (each in main, turns_text(way.turns[each]) + "F" + _from(way, each, main, apices))
+        for each in sorted(following, key=lambda each: (each in main, -abs(way.turns[each]), -way.turns[each]))
+    ]
     parts = [*((False, turns_text(apex.turns) + apex.symbol) for apex in apices.get(behind, ())), *parts]
     if not parts:
         return ""

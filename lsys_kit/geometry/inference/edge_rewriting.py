@@ -108,8 +108,15 @@ def _spread(middles: Numbers, directions: Numbers) -> Numbers:
     """Numbers that no motion of a drawing changes: how far strokes are from its centre, and how they stand to it."""
     off = middles - middles.mean(axis=1, keepdims=True)
     far = abs(off) ** 2
-    return np.stack([far.mean(axis=1), (far**2).mean(axis=1) ** 0.5, (off**2).mean(axis=1).__abs__(),
-                     ((off * directions.conj()).real ** 2).mean(axis=1)], axis=1)
+    return np.stack(
+        [
+            far.mean(axis=1),
+            (far**2).mean(axis=1) ** 0.5,
+            (off**2).mean(axis=1).__abs__(),
+            ((off * directions.conj()).real ** 2).mean(axis=1),
+        ],
+        axis=1,
+    )
 
 
 def _alike(own: Numbers, other: Numbers) -> Any:

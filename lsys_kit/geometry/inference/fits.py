@@ -52,7 +52,8 @@ class DrawingFits(SystemsFound):
         else:
             step = parting_step(self[:MOST_SHOWN], len(self.drawings))
             yield f"{len(self)} systems draw {count}; " + (
-                "as far as was looked, later pictures are the same:" if step is None else f"they part at step {step}:")
+                "as far as was looked, later pictures are the same:" if step is None else f"they part at step {step}:"
+            )
         for number, system in enumerate(self[:MOST_SHOWN], 1):
             yield from [f" {number}."] if len(self) > 1 else []
             yield from (f"  {line}" for line in str(system).splitlines())

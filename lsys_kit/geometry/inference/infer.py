@@ -27,13 +27,26 @@ from lsys_kit.notation.read import read
 
 
 @overload
-def infer(words: Iterable[str], constants: Iterable[str] = ..., erasing: bool = ...,
-          context: tuple[int, int] = ...) -> Fits: ...
+def infer(
+    words: Iterable[str], constants: Iterable[str] = ..., erasing: bool = ..., context: tuple[int, int] = ...
+) -> Fits: ...
 @overload
-def infer(words: Iterable[object], constants: Iterable[str] = ..., erasing: bool = ..., context: tuple[int, int] = ..., *,
-          angle: object = ...) -> Fits | DrawingFits: ...
-def infer(words: Iterable[object], constants: Iterable[str] = ("+", "-"), erasing: bool = False,
-          context: tuple[int, int] = (0, 0), *, angle: object = None) -> Fits | DrawingFits:
+def infer(
+    words: Iterable[object],
+    constants: Iterable[str] = ...,
+    erasing: bool = ...,
+    context: tuple[int, int] = ...,
+    *,
+    angle: object = ...,
+) -> Fits | DrawingFits: ...
+def infer(
+    words: Iterable[object],
+    constants: Iterable[str] = ("+", "-"),
+    erasing: bool = False,
+    context: tuple[int, int] = (0, 0),
+    *,
+    angle: object = None,
+) -> Fits | DrawingFits:
     """All systems that fit a sequence of words, or that draw a sequence of pictures.
 
     Parameters
@@ -112,8 +125,9 @@ a. A system without contexts would fit if letter 4 of step 3, a, were b. With co
         return _inferred([*counted(words)] if isinstance(words, list | tuple) else words, constants, erasing, context, angle)
 
 
-def _inferred(given: Iterable[Any], constants: Iterable[str], erasing: bool, context: tuple[int, int],
-              angle: object) -> Fits | DrawingFits:
+def _inferred(
+    given: Iterable[Any], constants: Iterable[str], erasing: bool, context: tuple[int, int], angle: object
+) -> Fits | DrawingFits:
     if isinstance(given, list) and any(map(is_drawing, counted(given))):
         if erasing is not False or not (isinstance(context, tuple) and context == (0, 0)):
             raise ModelValueError("Erasing and contexts are for words, and these are pictures", hint="Leave them out.")
@@ -125,8 +139,10 @@ def _inferred(given: Iterable[Any], constants: Iterable[str], erasing: bool, con
 
 def _of_drawings(drawings: tuple[Strokes, ...], angle: object) -> DrawingFits:
     if len(drawings) < 2:
-        raise ModelValueError("Rules are found from two pictures at least; there is one",
-                              hint="Give the pictures of steps 0, 1, 2, ... in a list.")
+        raise ModelValueError(
+            "Rules are found from two pictures at least; there is one",
+            hint="Give the pictures of steps 0, 1, 2, ... in a list.",
+        )
     refusal = _refusal(drawings)
     if refusal:
         return DrawingFits(drawings, (), refusal)
@@ -137,8 +153,11 @@ def _of_drawings(drawings: tuple[Strokes, ...], angle: object) -> DrawingFits:
             if text not in found and draws(system := read(text), drawings):
                 found[text] = system
             if len(found) > MOST_FITS:
-                raise ModelLimitError(f"More than {MOST_FITS:,} systems draw these {len(drawings)} pictures", limit=MOST_FITS,
-                                      hint="Give more steps.")
+                raise ModelLimitError(
+                    f"More than {MOST_FITS:,} systems draw these {len(drawings)} pictures",
+                    limit=MOST_FITS,
+                    hint="Give more steps.",
+                )
     except ModelLimitError as error:
         error.partial = _sorted(drawings, found)
         raise
@@ -188,8 +207,9 @@ def _candidates(drawings: tuple[Strokes, ...], turning: Turning, found: Collecti
     if factor is not None:
         yield from (f"{head}{axiom}\nF -> {word}" for axiom, word in edge_rules(drawings, turning, factor))
         if not found and may_have_two_symbols(drawings, factor):
-            yield from (f"{head}F_l\nF_l -> {left}\nF_r -> {right}"
-                        for left, right in two_symbol_rules(drawings, turning, factor))
+            yield from (
+                f"{head}F_l\nF_l -> {left}\nF_r -> {right}" for left, right in two_symbol_rules(drawings, turning, factor)
+            )
         return
     for word, longer in node_rules(drawings, turning):
         yield f"{head}X\nX -> {word}" + (f"\nF -> {'F' * longer}" if longer > 1 else "")

@@ -80,12 +80,13 @@ def _ways(stalk: Strokes, turning: Turning) -> Iterator[Traversal]:
             yield way
 
 
-def _standing(way: Traversal, stalk: Strokes, drawing: _Drawing, longer: int,
-              turning: Turning) -> Iterator[tuple[Places, list[_Copy]]]:
+def _standing(
+    way: Traversal, stalk: Strokes, drawing: _Drawing, longer: int, turning: Turning
+) -> Iterator[tuple[Places, list[_Copy]]]:
     """Where the long stalk can be in a drawing: the other strokes, and the copies that can stand on it there."""
     ends = stalk.ends - stalk.point(way.points[0])
     parts = np.concatenate([ends[:, :1] * (longer - each) + ends[:, 1:] * each for each in range(longer + 1)], axis=1)
-    long = np.concatenate([parts[:, each:each + 2] for each in range(longer)])
+    long = np.concatenate([parts[:, each : each + 2] for each in range(longer)])
     begin, along = long[0, 0], long[0, 1] - long[0, 0]
     for one, other in np.concatenate([drawing.ends, drawing.ends[:, ::-1]]):
         check_budget()
@@ -93,11 +94,20 @@ def _standing(way: Traversal, stalk: Strokes, drawing: _Drawing, longer: int,
         places = drawing.places((long - begin) * turn + one)
         if places is not None and not (taken := Counter(places)) - drawing.strokes:
             start = one - begin * turn
-            yield drawing.strokes - taken, [
-                _Copy(behind, int(turns), Counter(found))
-                for behind, point in enumerate(way.points, START) for turns in turning.several
-                if (found := drawing.places(
-                    start + turn * ((stalk.point(point) - stalk.point(way.points[0])) * longer + ends * turning.by(turns))))]
+            yield (
+                drawing.strokes - taken,
+                [
+                    _Copy(behind, int(turns), Counter(found))
+                    for behind, point in enumerate(way.points, START)
+                    for turns in turning.several
+                    if (
+                        found := drawing.places(
+                            start
+                            + turn * ((stalk.point(point) - stalk.point(way.points[0])) * longer + ends * turning.by(turns))
+                        )
+                    )
+                ],
+            )
 
 
 def _covers(copies: Sequence[_Copy], left: Places, many: int) -> Iterator[tuple[_Copy, ...]]:

@@ -122,8 +122,11 @@ def read_drawings(given: Iterable[object]) -> tuple[Strokes, ...]:
     for step, each in enumerate(counted(given, 1)):
         found.append(Strokes(_unit_strokes(_coordinates(each, step), step)))
         if sum(map(len, found)) > MOST_STROKES:
-            raise ModelLimitError(f"The drawings up to step {step} have more than {MOST_STROKES:,} strokes",
-                                  limit=MOST_STROKES, hint="Give fewer steps.")
+            raise ModelLimitError(
+                f"The drawings up to step {step} have more than {MOST_STROKES:,} strokes",
+                limit=MOST_STROKES,
+                hint="Give fewer steps.",
+            )
     return tuple(found)
 
 
@@ -136,8 +139,10 @@ def _coordinates(given: Any, step: int) -> Floats:
     if not found.size:
         return np.empty((0, 4))
     if found.ndim != 2 or found.shape[1] != 4 or not np.isfinite(found).all():
-        raise ModelValueError(f"The drawing of step {step} must be a picture in the plane, or strokes with four numbers each",
-                              hint="A stroke is a row of x and y of its one end, then x and y of its other.")
+        raise ModelValueError(
+            f"The drawing of step {step} must be a picture in the plane, or strokes with four numbers each",
+            hint="A stroke is a row of x and y of its one end, then x and y of its other.",
+        )
     return found
 
 
@@ -148,8 +153,9 @@ def _unit_strokes(coordinates: Floats, step: int) -> Points:
     lengths = abs(ends[:, 1] - ends[:, 0])
     usual = float(np.median(lengths))
     if not usual or (abs(lengths / usual - 1) > NEAR).any():
-        raise ModelValueError(f"The strokes of step {step} differ in length",
-                              hint="Rules are found for drawings whose strokes are equally long.")
+        raise ModelValueError(
+            f"The strokes of step {step} differ in length", hint="Rules are found for drawings whose strokes are equally long."
+        )
     return np.asarray((ends - ends.mean()) / usual)
 
 

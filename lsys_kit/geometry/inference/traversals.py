@@ -122,8 +122,12 @@ def _branching(strokes: Strokes, turning: Turning, size: int, places: Sequence[_
                 turns = _turns(places[0], chosen, turning)
                 if turns is not None:
                     ends, numbers = [each[1] for each in chosen], [each[0] for each in chosen]
-                    further = _Drawn((*drawn.before, *(places[0].behind,) * many), (*drawn.turns, *turns),
-                                     (*drawn.points, *ends), (*drawn.numbers, *numbers))
+                    further = _Drawn(
+                        (*drawn.before, *(places[0].behind,) * many),
+                        (*drawn.turns, *turns),
+                        (*drawn.points, *ends),
+                        (*drawn.numbers, *numbers),
+                    )
                     reached = [_Place(done + at, end, direction) for at, (_, end, direction) in enumerate(chosen)]
                     yield from _branching(strokes, turning, size, (*places[1:], *reached), further)
 

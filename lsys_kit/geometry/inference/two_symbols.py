@@ -137,8 +137,9 @@ def _ahead(walk: _Walk, direction: float, turning: Turning) -> bool:
 
 def _word(rules: Rules, kind: str, factor: int) -> str:
     """The successor of a kind of strokes; a turn that no drawing shows is none."""
-    parts = [f"{turns_text(rules.get(('turn', kind, place), 0))}F_{KINDS[rules[('kind', kind, place)]]}"
-             for place in range(factor)]
+    parts = [
+        f"{turns_text(rules.get(('turn', kind, place), 0))}F_{KINDS[rules[('kind', kind, place)]]}" for place in range(factor)
+    ]
     return " ".join(parts).replace(" +", "+").replace(" -", "-") + turns_text(rules.get(("turn", kind, factor), 0))
 
 

@@ -101,35 +101,53 @@ def mesh_of(scene: Scene, own_widths: Sequence[float] = OWN_WIDTHS) -> Mesh:
     balls = discs.kinds == SPHERE
     centres, radii = _in_space(discs.centres), discs.radii
     lengths, breadths = cells.sizes.T / 2
-    return _merged_meshes([
-        *_tubes(scene.segments, _extent(scene), own_widths),
-        _faces(scene.polygons),
-        _copies(disc(), centres[~balls], radii[~balls, None], discs.states[~balls], discs.colours[~balls]),
-        _copies(ball(), centres[balls], radii[balls, None], discs.states[balls], discs.colours[balls]),
-        _copies(ball(), _in_space(cells.centres), np.stack([lengths, breadths, breadths], axis=1), cells.states,
-                np.full(len(cells), OWN))])
+    return _merged_meshes(
+        [
+            *_tubes(scene.segments, _extent(scene), own_widths),
+            _faces(scene.polygons),
+            _copies(disc(), centres[~balls], radii[~balls, None], discs.states[~balls], discs.colours[~balls]),
+            _copies(ball(), centres[balls], radii[balls, None], discs.states[balls], discs.colours[balls]),
+            _copies(
+                ball(),
+                _in_space(cells.centres),
+                np.stack([lengths, breadths, breadths], axis=1),
+                cells.states,
+                np.full(len(cells), OWN),
+            ),
+        ]
+    )
 
 
 def _check_triangles(scene: Scene) -> None:
     vertices, needed = _size(scene)
     if needed > current().triangles:
-        raise ModelLimitError(f"The drawing would have up to {needed:,} triangles; the limit is {current().triangles:,}",
-                              limit=current().triangles, needed=needed,
-                              hint="Take fewer steps, or set limits(triangles=...).")
+        raise ModelLimitError(
+            f"The drawing would have up to {needed:,} triangles; the limit is {current().triangles:,}",
+            limit=current().triangles,
+            needed=needed,
+            hint="Take fewer steps, or set limits(triangles=...).",
+        )
     check_bytes(vertices * VERTEX_BYTES + needed * TRIANGLE_BYTES, lambda: "The mesh was not made")
     most = int(np.diff(scene.polygons.starts).max(initial=0))
     if most > MOST_CORNERS:
-        raise ModelLimitError(f"A polygon has {most:,} corners; {MOST_CORNERS:,} can be triangulated",
-                              limit=MOST_CORNERS, needed=most, hint="Take fewer steps.")
+        raise ModelLimitError(
+            f"A polygon has {most:,} corners; {MOST_CORNERS:,} can be triangulated",
+            limit=MOST_CORNERS,
+            needed=most,
+            hint="Take fewer steps.",
+        )
 
 
 def _size(scene: Scene) -> tuple[int, int]:
     """How many vertices and triangles the mesh of a scene has at most."""
     balls = int((scene.discs.kinds == SPHERE).sum()) + len(scene.cells)
     copies = ((disc(), len(scene.discs) + len(scene.cells) - balls), (ball(), balls))
-    return (len(scene.segments) * _SIDE + len(scene.polygons.points) + sum(len(shape.vertices) * n for shape, n in copies),
-            len(scene.segments) * (_SIDE + _CAPS) + len(scene.polygons.points)
-            + sum(len(shape.triangles) * n for shape, n in copies))
+    return (
+        len(scene.segments) * _SIDE + len(scene.polygons.points) + sum(len(shape.vertices) * n for shape, n in copies),
+        len(scene.segments) * (_SIDE + _CAPS)
+        + len(scene.polygons.points)
+        + sum(len(shape.triangles) * n for shape, n in copies),
+    )
 
 
 def _in_space(points: Floats) -> Floats:
@@ -149,8 +167,9 @@ def _merged_meshes(meshes: Sequence[Mesh]) -> Mesh:
         return meshes[0]
     firsts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
     triangles = [mesh.triangles + np.uint32(first) for mesh, first in zip(meshes, firsts, strict=False)]
-    joined = {name: np.concatenate([getattr(mesh, name) for mesh in meshes])
-              for name in ("vertices", "normals", "states", "colours")}
+    joined = {
+        name: np.concatenate([getattr(mesh, name) for mesh in meshes]) for name in ("vertices", "normals", "states", "colours")
+    }
     return Mesh(triangles=np.concatenate(triangles), **joined)
 
 
@@ -166,8 +185,9 @@ def _tubes(segments: Segments, reach: float, own_widths: Sequence[float]) -> lis
     radii = np.stack([start_widths(segments, widths, reach), widths], axis=1)[there] / 2
     looks = np.column_stack([segments.states, np.broadcast_to(segments.colours, len(segments))])[there]
     strokes = connected(points[there], radii, segments.orders[there], looks, reach * NEAR)
-    return [_tube_mesh(rings(some, sides))
-            for some, sides in zip(by_width(strokes, THIN * reach), (SIDES, THIN_SIDES), strict=True)]
+    return [
+        _tube_mesh(rings(some, sides)) for some, sides in zip(by_width(strokes, THIN * reach), (SIDES, THIN_SIDES), strict=True)
+    ]
 
 
 def _tube_mesh(found: Rings) -> Mesh:
@@ -204,15 +224,21 @@ def _faces(polygons: Polygons) -> Mesh:
     points, sizes = _in_space(polygons.points), np.diff(polygons.starts)
     facing, smooth = normals_of(points, polygons.starts), polygons.smooth
     spans = np.stack([polygons.starts[:-1], polygons.starts[1:]], axis=1)
-    triangles = [np.array(triangulate(points[first:last], way), np.int64).reshape(-1, 3) + first
-                 for (first, last), way in counted(zip(spans[~smooth].tolist(), facing[~smooth], strict=True), 1)]
+    triangles = [
+        np.array(triangulate(points[first:last], way), np.int64).reshape(-1, 3) + first
+        for (first, last), way in counted(zip(spans[~smooth].tolist(), facing[~smooth], strict=True), 1)
+    ]
     normals = np.repeat(facing, sizes, axis=0)
     if smooth.any():
         corners = np.repeat(smooth, sizes)
         normals[corners] = polygons.normals[corners]
-    return Mesh(points.astype(np.float32), normals.astype(np.float32),
-                np.concatenate([*triangles, _fans(spans[smooth])]).astype(np.uint32),
-                np.repeat(polygons.states, sizes), np.repeat(polygons.colours, sizes))
+    return Mesh(
+        points.astype(np.float32),
+        normals.astype(np.float32),
+        np.concatenate([*triangles, _fans(spans[smooth])]).astype(np.uint32),
+        np.repeat(polygons.states, sizes),
+        np.repeat(polygons.colours, sizes),
+    )
 
 
 def _fans(spans: Integers) -> Integers:
@@ -247,5 +273,10 @@ def _copies(shape: Solid, centres: Floats, sizes: Floats, states: Integers, colo
         outward = shape.normals / np.where(sizes[some] > 0, sizes[some], 1.0)[:, None]
         normals[some] = outward / np.linalg.norm(outward, axis=2, keepdims=True)
     firsts = np.arange(len(centres), dtype=np.uint32) * np.uint32(count)
-    return Mesh(vertices.reshape(-1, 3), normals.reshape(-1, 3), (firsts[:, None, None] + shape.triangles).reshape(-1, 3),
-                np.repeat(states, count), np.repeat(colours, count))
+    return Mesh(
+        vertices.reshape(-1, 3),
+        normals.reshape(-1, 3),
+        (firsts[:, None, None] + shape.triangles).reshape(-1, 3),
+        np.repeat(states, count),
+        np.repeat(colours, count),
+    )

@@ -39,8 +39,9 @@ def prism_triangles(sides: int) -> tuple[Numbers, Numbers, Numbers]:
     """The triangles of a prism whose first ring of vertices is its start: its sides; its start; its end as if it were alone."""
     here = np.arange(sides)
     there = (here + 1) % sides
-    walls = np.concatenate([np.stack([here, there, there + sides], axis=1),
-                            np.stack([here, there + sides, here + sides], axis=1)])
+    walls = np.concatenate(
+        [np.stack([here, there, there + sides], axis=1), np.stack([here, there + sides, here + sides], axis=1)]
+    )
     start = np.array([(0, k + 1, k) for k in range(1, sides - 1)])
     return walls.astype(np.uint32), start.astype(np.uint32), start[:, [0, 2, 1]].astype(np.uint32)
 
@@ -57,13 +58,17 @@ def disc() -> Solid:
 @cache
 def ball() -> Solid:
     """A sphere of radius 1: an icosahedron, subdivided twice."""
-    golden = (1 + 5 ** 0.5) / 2
+    golden = (1 + 5**0.5) / 2
     corners = [np.roll(np.array([0.0, a, b * golden]), k) for k in range(3) for a in (1, -1) for b in (1, -1)]
     points = [corner / np.linalg.norm(corner) for corner in corners]
     edge = 1.1 * min(float(np.linalg.norm(points[0] - other)) for other in points[1:])
-    faces = [(a, b, c) if np.linalg.det([points[a], points[b], points[c]]) > 0 else (a, c, b)
-             for a in range(12) for b in range(a) for c in range(b)
-             if max(np.linalg.norm(points[i] - points[j]) for i, j in ((a, b), (b, c), (c, a))) < edge]
+    faces = [
+        (a, b, c) if np.linalg.det([points[a], points[b], points[c]]) > 0 else (a, c, b)
+        for a in range(12)
+        for b in range(a)
+        for c in range(b)
+        if max(np.linalg.norm(points[i] - points[j]) for i, j in ((a, b), (b, c), (c, a))) < edge
+    ]
     for _ in range(2):
         faces = _subdivided(faces, points)
     vertices = np.array(points)
@@ -80,8 +85,12 @@ def _subdivided(faces: Sequence[tuple[int, int, int]], points: list[Floats]) -> 
             points.append((points[i] + points[j]) / np.linalg.norm(points[i] + points[j]))
         return middles[frozenset((i, j))]
 
-    return [part for a, b, c in faces for ab, bc, ca in [(middle(a, b), middle(b, c), middle(c, a))]
-            for part in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))]
+    return [
+        part
+        for a, b, c in faces
+        for ab, bc, ca in [(middle(a, b), middle(b, c), middle(c, a))]
+        for part in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))
+    ]
 
 
 def _solid(vertices: Floats, normals: Floats, triangles: Sequence[tuple[int, int, int]]) -> Solid:

@@ -168,8 +168,9 @@ def _joined(strokes: Strokes) -> Strokes:
         return strokes
     ways, even = strokes.ways, strokes.radii[:, 0] == strokes.radii[:, 1]
     on_line = (np.abs(ways - np.roll(ways, 1, axis=0)) < STRAIGHT).all(axis=1)
-    goes_on = (strokes.follows & on_line & even & np.roll(even, 1)
-               & (strokes.looks == np.roll(strokes.looks, 1, axis=0)).all(axis=1))
+    goes_on = (
+        strokes.follows & on_line & even & np.roll(even, 1) & (strokes.looks == np.roll(strokes.looks, 1, axis=0)).all(axis=1)
+    )
     firsts = np.flatnonzero(~goes_on)
     lasts = np.append(firsts[1:], len(goes_on)) - 1
     found = strokes.taken(firsts)
@@ -203,8 +204,9 @@ def rings(strokes: Strokes, sides: int) -> Rings:
         vertices[end_rings[here]] = strokes.ends[some, 1, None] + strokes.radii[some, 1, None, None] * bent
         begins = here[~follows[some]]
         normals[start_rings[begins]] = around[~follows[some]]
-        vertices[start_rings[begins]] = (strokes.ends[begins, 0, None]
-                                         + strokes.radii[begins, 0, None, None] * around[~follows[some]])
+        vertices[start_rings[begins]] = (
+            strokes.ends[begins, 0, None] + strokes.radii[begins, 0, None, None] * around[~follows[some]]
+        )
     again = np.flatnonzero(changes & follows)
     for whole in (vertices, normals):
         whole[start_rings[again]] = whole[end_rings[again - 1]]

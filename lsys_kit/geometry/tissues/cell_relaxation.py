@@ -74,8 +74,13 @@ def relax_in_space(points: Floats, tissue: SolidTissue, forces: Forces = SPACE_F
         The positions grow beyond all bounds.
     """
     following = tissue.following
-    return until_rest(points, forces.damping, lambda at: volumes(at, tissue, area_vectors(at, tissue, following)), LEAST_VOLUME,
-                      lambda at, room: _force(at, tissue, following, room, forces))
+    return until_rest(
+        points,
+        forces.damping,
+        lambda at: volumes(at, tissue, area_vectors(at, tissue, following)),
+        LEAST_VOLUME,
+        lambda at, room: _force(at, tissue, following, room, forces),
+    )
 
 
 def _force(points: Floats, tissue: SolidTissue, following: Integers, room: Floats, forces: Forces) -> Floats:
@@ -87,8 +92,11 @@ def _force(points: Floats, tissue: SolidTissue, following: Integers, room: Float
     pressures = forces.pressure / np.maximum(room, LEAST_VOLUME)
     net = np.bincount(tissue.walls, weights=tissue.signs * pressures[tissue.cells], minlength=len(tissue.sizes))
     push = area_vectors(points, tissue, following) * (net / tissue.sizes)[:, None]
-    return (summed_at_vertices(first, pull, len(points)) - summed_at_vertices(second, pull, len(points))
-            + summed_at_vertices(tissue.corners, np.repeat(push, tissue.sizes, axis=0), len(points)))
+    return (
+        summed_at_vertices(first, pull, len(points))
+        - summed_at_vertices(second, pull, len(points))
+        + summed_at_vertices(tissue.corners, np.repeat(push, tissue.sizes, axis=0), len(points))
+    )
 
 
 def area_vectors(points: Floats, tissue: SolidTissue, following: Integers) -> Floats:

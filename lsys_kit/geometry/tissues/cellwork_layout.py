@@ -67,7 +67,7 @@ def _first_places(development: CellworkDevelopment) -> Floats:
 
 def _with_new_vertices(found: Cellwork, points: Floats) -> Floats:
     """The positions of the vertices of a cellwork, given those of the one before it: new ones divide their edges."""
-    new = found.vertices[len(points):]
+    new = found.vertices[len(points) :]
     ends = np.array([vertex.between for vertex in new], dtype=np.int64).reshape(-1, 2)
     shares = np.array([float(vertex.share) for vertex in new]).reshape(-1, 1)
     return np.concatenate([points, points[ends[:, 0]] * (1 - shares) + points[ends[:, 1]] * shares])
@@ -104,9 +104,16 @@ def cellwork_scene(found: Cellwork, points: Floats, numbers: Mapping[str, int], 
     shown = {side.edge for wall in around for side in found.walls[wall].sides}
     rows = [points[found.corners(found.walls[wall])][:: 1 if forward else -1] for wall, forward in outer.items()]
     rest = [(edge.start, edge.end) for number, edge in enumerate(found.edges) if number not in shown]
-    return Scene(_segments(points, rest, dim), polygons=Polygons(
-        np.concatenate(rows) if rows else np.empty((0, 3)), np.cumsum([0, *map(len, rows)]),
-        _whole(numbers[found.walls[wall].label] for wall in outer), np.full(len(rows), OWN)), discs=no_discs(3))
+    return Scene(
+        _segments(points, rest, dim),
+        polygons=Polygons(
+            np.concatenate(rows) if rows else np.empty((0, 3)),
+            np.cumsum([0, *map(len, rows)]),
+            _whole(numbers[found.walls[wall].label] for wall in outer),
+            np.full(len(rows), OWN),
+        ),
+        discs=no_discs(3),
+    )
 
 
 def _segments(points: Floats, ends: list[tuple[int, int]], state: int) -> Segments:

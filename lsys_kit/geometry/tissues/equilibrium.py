@@ -134,8 +134,10 @@ def wall_hessian(points: Floats, tissue: Tissue, forces: Forces) -> csr_array:
     ways = along / lengths[:, None]
     block = forces.stiffness * ((1 - slack) * np.eye(2) + slack * ways[:, :, None] * ways[:, None, :])
     one, other = _axes(first), _axes(second)
-    rows, columns, values = zip(*((a, b, sign * block) for a, b, sign in (
-        (one, one, 1), (other, other, 1), (one, other, -1), (other, one, -1))), strict=True)
+    rows, columns, values = zip(
+        *((a, b, sign * block) for a, b, sign in ((one, one, 1), (other, other, 1), (one, other, -1), (other, one, -1))),
+        strict=True,
+    )
     shape = points.size, points.size
     row = np.concatenate([np.repeat(each, 2) for each in rows])
     column = np.concatenate([np.tile(each.reshape(-1, 2), 2).ravel() for each in columns])

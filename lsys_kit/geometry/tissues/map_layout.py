@@ -111,7 +111,7 @@ def polygon(corners: int) -> Floats:
 
 def insert_vertices(found: Map, points: Floats) -> Floats:
     """The positions of the vertices of a map, given those of the map before it: new ones divide their walls."""
-    new = found.vertices[len(points):]
+    new = found.vertices[len(points) :]
     ends = np.array([vertex.between for vertex in new], dtype=np.int64).reshape(-1, 2)
     shares = np.array([float(vertex.share) for vertex in new]).reshape(-1, 1)
     return np.concatenate([points, points[ends[:, 0]] * (1 - shares) + points[ends[:, 1]] * shares])
@@ -137,5 +137,7 @@ def scenes(maps: Iterable[Map], places: Iterable[Floats]) -> Iterator[Scene]:
         drawn = np.array([labels.setdefault(wall.label, len(labels)) for wall in found.walls], dtype=np.int64)
         states = np.array([kinds.setdefault(word, len(kinds)) for word in cell_words(found)], dtype=np.int64)
         own = np.full(len(states), -1)
-        yield Scene(Segments(points[net.ends].reshape(-1, 4), np.zeros(len(drawn), np.int64), drawn),
-                    polygons=Polygons(points[net.corners], net.starts, states, own))
+        yield Scene(
+            Segments(points[net.ends].reshape(-1, 4), np.zeros(len(drawn), np.int64), drawn),
+            polygons=Polygons(points[net.corners], net.starts, states, own),
+        )

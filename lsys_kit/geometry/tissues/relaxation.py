@@ -124,12 +124,18 @@ def relax(points: Floats, tissue: Tissue, forces: Forces = DEFAULT_FORCES) -> It
     >>> print(np.ptp(at_rest, axis=0).round(3), areas(at_rest, square).round(3))
     [0.279 0.279] [0.078]
     """
-    return until_rest(points, forces.damping, lambda at: areas(at, tissue), LEAST_AREA,
-                      lambda at, room: force(at, tissue, room, forces))
+    return until_rest(
+        points, forces.damping, lambda at: areas(at, tissue), LEAST_AREA, lambda at, room: force(at, tissue, room, forces)
+    )
 
 
-def until_rest(points: Floats, damping: float, room_at: Callable[[Floats], Floats], least: float,
-               force_at: Callable[[Floats, Floats], Floats]) -> Iterator[Floats]:
+def until_rest(
+    points: Floats,
+    damping: float,
+    room_at: Callable[[Floats], Floats],
+    least: float,
+    force_at: Callable[[Floats, Floats], Floats],
+) -> Iterator[Floats]:
     """The positions of vertices at first, and after each iteration until they are at rest, in the plane or in space.
 
     Parameters
@@ -161,8 +167,10 @@ def until_rest(points: Floats, damping: float, room_at: Callable[[Floats], Float
 def check_bounds(points: Floats) -> Floats:
     """The same positions, if they are within bounds."""
     if not np.abs(points).max() < FARTHEST:  # which NaN is not
-        raise ModelValueError("The relaxation blows up: vertices fly apart instead of coming to rest",
-                              hint="Make stiffness or pressure smaller, or damping nearer to 1.")
+        raise ModelValueError(
+            "The relaxation blows up: vertices fly apart instead of coming to rest",
+            hint="Make stiffness or pressure smaller, or damping nearer to 1.",
+        )
     return points
 
 
@@ -173,8 +181,9 @@ def with_finished(error: ModelValueError, finished: Sequence[Floats]) -> ModelVa
     return error.with_hint(f"This was step {step}.{kept} {error.hint}")
 
 
-def _integrated(points: Floats, speeds: Floats, push: Floats, room: Floats, room_at: Callable[[Floats], Floats],
-                least: float) -> tuple[float, Floats, Floats]:
+def _integrated(
+    points: Floats, speeds: Floats, push: Floats, room: Floats, room_at: Callable[[Floats], Floats], least: float
+) -> tuple[float, Floats, Floats]:
     """One time step, short enough that no cell loses more than half of its room: its length, the positions and the room."""
     pace = TIME_STEP
     while True:
@@ -197,8 +206,12 @@ def force(points: Floats, tissue: Tissue, room: Floats, forces: Forces) -> Float
     push = np.repeat(forces.pressure / np.maximum(room, LEAST_AREA) / 2, tissue.sizes)
     rising, running = y[tissue.preceding] - y[tissue.following], x[tissue.following] - x[tissue.preceding]
     parts = ((pull * across, push * rising), (pull * up, push * running))
-    return np.column_stack([np.bincount(tissue.pushed, weights=np.concatenate([pulls, -pulls, pushes]), minlength=len(points))
-                            for pulls, pushes in parts])
+    return np.column_stack(
+        [
+            np.bincount(tissue.pushed, weights=np.concatenate([pulls, -pulls, pushes]), minlength=len(points))
+            for pulls, pushes in parts
+        ]
+    )
 
 
 def summed_at_vertices(at: Integers, pushes: Floats, size: int) -> Floats:

@@ -79,7 +79,7 @@ def place_on_sphere(maps: Development, forces: Forces = SPHERE_FORCES) -> Iterat
 def _with_new_vertices(found: Map, points: Floats, longitudes: dict[int, float]) -> Floats:
     """The positions of the vertices of a map, given those of the map before it: new ones divide their arcs."""
     new = [points]
-    for vertex in found.vertices[len(points):]:
+    for vertex in found.vertices[len(points) :]:
         start, end = vertex.between or (0, 0)
         if vertex.wall in longitudes:
             share = float(vertex.share) if start == 0 else 1 - float(vertex.share)
@@ -137,5 +137,9 @@ def _force(points: Floats, net: Tissue, forces: Forces) -> Floats:
     pressures = np.repeat(forces.pressure / np.maximum(room, LEAST_AREA), np.diff(net.starts))
     outward = cross((here + following) / 2, following - here) * (pressures / 2)[:, None]
     size = len(points)
-    return (summed_at_vertices(first, pull, size) - summed_at_vertices(second, pull, size)
-            + summed_at_vertices(net.corners, outward, size) + summed_at_vertices(net.following, outward, size))
+    return (
+        summed_at_vertices(first, pull, size)
+        - summed_at_vertices(second, pull, size)
+        + summed_at_vertices(net.corners, outward, size)
+        + summed_at_vertices(net.following, outward, size)
+    )

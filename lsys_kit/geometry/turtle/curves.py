@@ -75,8 +75,12 @@ def hermite(start: AxisPoint, end: AxisPoint, parts: int) -> Floats:
     first, last = np.array(start.place), np.array(end.place)
     reach = TANGENT * float(np.linalg.norm(last - first))
     t = np.arange(1, parts)[:, None] / parts
-    found: Floats = ((1 + 2 * t) * (1 - t)**2 * first + t * (1 - t)**2 * reach * np.array(start.heading)
-                     + t**2 * (3 - 2 * t) * last - t**2 * (1 - t) * reach * np.array(end.heading))
+    found: Floats = (
+        (1 + 2 * t) * (1 - t) ** 2 * first
+        + t * (1 - t) ** 2 * reach * np.array(start.heading)
+        + t**2 * (3 - 2 * t) * last
+        - t**2 * (1 - t) * reach * np.array(end.heading)
+    )
     return found
 
 
@@ -122,6 +126,11 @@ def _number_of(instruction: Instruction) -> float:
 
 
 CURVE_HANDLERS: Mapping[str, Handler] = {
-    "begin cylinder": _begin_cylinder, "continue cylinder": _continue_cylinder, "end cylinder": _end_cylinder,
-    "begin patch": _begin_patch, "set control point": _set_control_point, "draw patch": _draw_patch}
+    "begin cylinder": _begin_cylinder,
+    "continue cylinder": _continue_cylinder,
+    "end cylinder": _end_cylinder,
+    "begin patch": _begin_patch,
+    "set control point": _set_control_point,
+    "draw patch": _draw_patch,
+}
 """The handlers, by action."""

@@ -32,6 +32,7 @@ def _forward_by_second_heading(drawn: bool) -> Handler:
         orientation, turtle.orientation = turtle.orientation, turtle.initial_orientation(turtle.second_heading)
         forward(turtle, instruction)
         turtle.orientation = orientation
+
     return handler
 
 
@@ -44,6 +45,10 @@ def _mirror_turns(turtle: Turtle, _: Instruction) -> None:
 
 
 FRACTINT_HANDLERS: Mapping[str, Handler] = {
-    "draw by second heading": _forward_by_second_heading(True), "move by second heading": _forward_by_second_heading(False),
-    "turn second heading": _turn_second_heading, "mirror turns": _mirror_turns, "set palette colour": _set_palette_colour}
+    "draw by second heading": _forward_by_second_heading(True),
+    "move by second heading": _forward_by_second_heading(False),
+    "turn second heading": _turn_second_heading,
+    "mirror turns": _mirror_turns,
+    "set palette colour": _set_palette_colour,
+}
 """The handlers, by action."""

@@ -62,8 +62,10 @@ def unit(a: Vector) -> Vector:
 def rotated_towards(a: Vector, b: Vector, cos: float, sin: float) -> tuple[Vector, Vector]:
     """Two orthogonal unit vectors after a rotation of the first towards the second."""
     (ax, ay, az), (bx, by, bz) = a, b
-    return ((cos * ax + sin * bx, cos * ay + sin * by, cos * az + sin * bz),
-            (cos * bx - sin * ax, cos * by - sin * ay, cos * bz - sin * az))
+    return (
+        (cos * ax + sin * bx, cos * ay + sin * by, cos * az + sin * bz),
+        (cos * bx - sin * ax, cos * by - sin * ay, cos * bz - sin * az),
+    )
 
 
 def next_frame(head: Vector, left: Vector, up: Vector, rotations: int) -> TurtleFrame:

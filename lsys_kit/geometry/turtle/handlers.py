@@ -14,19 +14,33 @@ from lsys_kit.geometry.turtle.shapes import Outline, RoundShape, Writing, label_
 from lsys_kit.geometry.turtle.surfaces import surfaces
 from lsys_kit.geometry.turtle.turtle import Turtle
 
-LAST_COLOUR = 2 ** 31 - 1
+LAST_COLOUR = 2**31 - 1
 """The greatest number of a colour."""
 
 Handler: TypeAlias = Callable[[Any, Any], None]
 """Carries out an instruction, given a turtle and the operand of the instruction."""
 
-_SAVED_ATTRIBUTES = ("position", "orientation", "length", "width", "colour", "gravitropism", "tropisms", "last", "restored",
-                     "mirror", "second_heading", "axis", "scale")
+_SAVED_ATTRIBUTES = (
+    "position",
+    "orientation",
+    "length",
+    "width",
+    "colour",
+    "gravitropism",
+    "tropisms",
+    "last",
+    "restored",
+    "mirror",
+    "second_heading",
+    "axis",
+    "scale",
+)
 _saved_state = attrgetter(*_SAVED_ATTRIBUTES)
 
 
 def forward_handler(drawn: bool, vertex: bool) -> Handler:
     """A handler that moves the turtle forward, with or without a stroke and a vertex of a polygon."""
+
     def handler(turtle: Turtle, instruction: Instruction) -> None:
         turtle.forward(_size(turtle, instruction), drawn)
         if vertex and turtle.open_polygons:
@@ -35,6 +49,7 @@ def forward_handler(drawn: bool, vertex: bool) -> Handler:
             for name, value in turtle.restored:
                 setattr(turtle, name, value)
             turtle.restored = ()
+
     return handler
 
 
@@ -79,6 +94,7 @@ def _set_once(name: str, change: Handler) -> Handler:
     def handler(turtle: Turtle, instruction: Instruction) -> None:
         turtle.restored = ((name, getattr(turtle, name)), *turtle.restored)  # the earliest value is set last, and stays
         change(turtle, instruction)
+
     return handler
 
 
@@ -90,9 +106,21 @@ def _push(turtle: Turtle, _: Instruction) -> None:
 
 def _pop(turtle: Turtle, _: Instruction) -> None:
     if turtle.stack:
-        (turtle.position, turtle.orientation, turtle.length, turtle.width, turtle.colour, turtle.gravitropism,
-         turtle.tropisms, turtle.last, turtle.restored, turtle.mirror, turtle.second_heading,
-         turtle.axis, turtle.scale) = turtle.stack.pop()
+        (
+            turtle.position,
+            turtle.orientation,
+            turtle.length,
+            turtle.width,
+            turtle.colour,
+            turtle.gravitropism,
+            turtle.tropisms,
+            turtle.last,
+            turtle.restored,
+            turtle.mirror,
+            turtle.second_heading,
+            turtle.axis,
+            turtle.scale,
+        ) = turtle.stack.pop()
 
 
 def _begin_polygon(turtle: Turtle, _: Instruction) -> None:
@@ -143,6 +171,7 @@ def _draw_round(kind: int) -> Handler:
     def handler(turtle: Turtle, instruction: Instruction) -> None:
         width = instruction.factor * _shape_width(turtle) + instruction.addend
         turtle.rounds.append(RoundShape(turtle.position, turtle.scale * abs(width) / 2, kind, turtle.state, turtle.colour))
+
     return handler
 
 
@@ -164,16 +193,35 @@ def _draw_label(turtle: Turtle, instruction: Instruction) -> None:
 
 
 COMMON_HANDLERS: Mapping[str, Handler] = {
-    "draw": forward_handler(True, True), "move": forward_handler(False, True),
-    "draw without vertex": forward_handler(True, False), "move without vertex": forward_handler(False, False),
-    "set length": _set_length, "reset length": _reset("length"), "set length once": _set_once("length", _set_length),
-    "set width": _set_width, "reset width": _reset("width"), "set width once": _set_once("width", _set_width),
-    "set scale": _set_scale, "set gravitropism": _set_gravitropism, "reset gravitropism": _reset("gravitropism"),
+    "draw": forward_handler(True, True),
+    "move": forward_handler(False, True),
+    "draw without vertex": forward_handler(True, False),
+    "move without vertex": forward_handler(False, False),
+    "set length": _set_length,
+    "reset length": _reset("length"),
+    "set length once": _set_once("length", _set_length),
+    "set width": _set_width,
+    "reset width": _reset("width"),
+    "set width once": _set_once("width", _set_width),
+    "set scale": _set_scale,
+    "set gravitropism": _set_gravitropism,
+    "reset gravitropism": _reset("gravitropism"),
     "set gravitropism once": _set_once("gravitropism", _set_gravitropism),
-    "set colour": _set_colour, "step colour": _step_colour, "reset colour": _reset("colour"), "push": _push, "pop": _pop,
-    "begin polygon": _begin_polygon, "record vertex": _record_vertex, "end polygon": _end_polygon,
-    "expect surface": expect_surface, "draw expected surface": _draw_expected_surface, "draw surface": draw_surface,
-    "draw circle": _draw_round(CIRCLE), "draw disc": _draw_round(DISC), "draw sphere": _draw_round(SPHERE),
-    "draw box": _draw_box, "draw label": _draw_label,
+    "set colour": _set_colour,
+    "step colour": _step_colour,
+    "reset colour": _reset("colour"),
+    "push": _push,
+    "pop": _pop,
+    "begin polygon": _begin_polygon,
+    "record vertex": _record_vertex,
+    "end polygon": _end_polygon,
+    "expect surface": expect_surface,
+    "draw expected surface": _draw_expected_surface,
+    "draw surface": draw_surface,
+    "draw circle": _draw_round(CIRCLE),
+    "draw disc": _draw_round(DISC),
+    "draw sphere": _draw_round(SPHERE),
+    "draw box": _draw_box,
+    "draw label": _draw_label,
 }
 """The handlers that the turtles in the plane and in space share, by action."""

@@ -196,13 +196,19 @@ class Prototypes:
             np.ascontiguousarray(points[:, self._axes]),
             ((strokes[6] - opened).astype(np.int16), strokes[7].astype(np.int32), strokes[8], strokes[9].astype(np.int32)),
             self._points(corners),
-            (np.array([len(outline.corners) for outline in turtle.outlines], np.int64),
-             *(np.array([outline[place] for outline in turtle.outlines], np.int32) for place in (1, 2))),
+            (
+                np.array([len(outline.corners) for outline in turtle.outlines], np.int64),
+                *(np.array([outline[place] for outline in turtle.outlines], np.int32) for place in (1, 2)),
+            ),
             self._points([found.place for found in turtle.rounds]),
-            (np.array([found.radius for found in turtle.rounds]),
-             *(np.array([found[place] for found in turtle.rounds], np.int32) for place in (2, 3, 4))),
+            (
+                np.array([found.radius for found in turtle.rounds]),
+                *(np.array([found[place] for found in turtle.rounds], np.int32) for place in (2, 3, 4)),
+            ),
             np.array(turtle.position)[self._axes],
-            (np.array(turtle.orientation[:3]).T @ self._inverse)[np.ix_(self._axes, self._axes)], _carried_by(turtle))
+            (np.array(turtle.orientation[:3]).T @ self._inverse)[np.ix_(self._axes, self._axes)],
+            _carried_by(turtle),
+        )
 
     def _points(self, places: Sequence[Any]) -> Floats:
         return np.ascontiguousarray(np.array(places, np.float64).reshape(-1, 3)[:, self._axes])
@@ -216,13 +222,24 @@ def _merged_instances(instances: Sequence[Instance], end: Floats, rotation: Floa
     sizes = [len(order) for order in orders]
     raised = [order + np.int16(part.order) if part.order else order for order, part in zip(orders, drawn, strict=True)]
     return Prototype(
-        strokes, (_concatenated(raised, np.int16), _concatenated(states, np.int32), _constant_or_all(widths, sizes, np.float64),
-                  _constant_or_all(colours, sizes, np.int32)),
+        strokes,
+        (
+            _concatenated(raised, np.int16),
+            _concatenated(states, np.int32),
+            _constant_or_all(widths, sizes, np.float64),
+            _constant_or_all(colours, sizes, np.int32),
+        ),
         _transformed([(part, part.prototype.corners) for part in instances], len(end)),
         tuple(_concatenated([part.prototype.of_polygons[place] for part in instances], np.int64) for place in range(3)),
         _transformed([(part, part.prototype.centres) for part in instances], len(end)),
-        tuple(_concatenated([part.prototype.of_discs[place] for part in instances], np.float64 if place == 0 else np.int64)
-              for place in range(4)), end, rotation, carried)
+        tuple(
+            _concatenated([part.prototype.of_discs[place] for part in instances], np.float64 if place == 0 else np.int64)
+            for place in range(4)
+        ),
+        end,
+        rotation,
+        carried,
+    )
 
 
 def _concatenated(columns: Sequence[np.ndarray[Any, Any]], kind: Any) -> np.ndarray[Any, Any]:
@@ -243,11 +260,11 @@ def _transformed(parts: Sequence[tuple[Instance, Floats]], size: int) -> Floats:
         rotation, at = np.ascontiguousarray(part.rotation.T), np.tile(part.position, min(POINTS_AT_A_TIME, len(points)))
         straight = np.array_equal(rotation, np.eye(size))  # as along most of a stem
         for first in range(0, len(points), POINTS_AT_A_TIME):
-            block, there = points[first:first + POINTS_AT_A_TIME], whole[last:last + POINTS_AT_A_TIME]
-            there = there[:len(block)]
+            block, there = points[first : first + POINTS_AT_A_TIME], whole[last : last + POINTS_AT_A_TIME]
+            there = there[: len(block)]
             if not straight:
                 block = np.matmul(block, rotation, out=there)
-            np.add(block.reshape(-1), at[:block.size], out=there.reshape(-1))
+            np.add(block.reshape(-1), at[: block.size], out=there.reshape(-1))
             last += len(block)
     return whole
 

@@ -18,8 +18,12 @@ MOST_CURVED = 150
 """Where more surfaces are drawn, each is drawn by its outlines: one sees little of its curvature."""
 
 
-def run_turtle(turtle: Turtle, word: Word, handlers: Mapping[str, Handler],
-               prepare: Callable[[Instruction], Any] = lambda instruction: instruction) -> None:
+def run_turtle(
+    turtle: Turtle,
+    word: Word,
+    handlers: Mapping[str, Handler],
+    prepare: Callable[[Instruction], Any] = lambda instruction: instruction,
+) -> None:
     """Interpret a word by a turtle; actions without a handler are skipped.
 
     Parameters
@@ -54,8 +58,11 @@ def run_turtle(turtle: Turtle, word: Word, handlers: Mapping[str, Handler],
 
 def _surfaces_in(word: Word, compiled: CompiledWord) -> int:
     """How many surfaces a word draws."""
-    drawing = {state: many for state, calls in compiled.calls.items()
-               if (many := sum(handler in (expect_surface, draw_surface) for handler, _ in calls))}
+    drawing = {
+        state: many
+        for state, calls in compiled.calls.items()
+        if (many := sum(handler in (expect_surface, draw_surface) for handler, _ in calls))
+    }
     return sum(drawing.get(state, 0) for state in word.numbers()) if drawing else 0
 
 
@@ -89,7 +96,8 @@ class CompiledWord(NamedTuple):
 def compile_word(word: Word, handlers: Mapping[str, Handler], prepare: Callable[[Instruction], Any]) -> CompiledWord:
     """Compile a word for a turtle with some handlers."""
     system, drawn = word.states.system, interpretations(word.states, word.numbers())
-    calls = {state: [(handlers[instruction.action], prepare(instruction)) for instruction in found
-                     if instruction.action in handlers]
-             for state, found in counted(instructions(drawn, system.turtle, system.angle).items())}
+    calls = {
+        state: [(handlers[instruction.action], prepare(instruction)) for instruction in found if instruction.action in handlers]
+        for state, found in counted(instructions(drawn, system.turtle, system.angle).items())
+    }
     return CompiledWord(calls, unknown_commands(drawn, system))

@@ -85,12 +85,12 @@ def patch_grid(control: Floats, along: int, across: int) -> tuple[Floats, Floats
 
 def _bernstein(t: Floats) -> Floats:
     """Bernstein's polynomials of degree 3 at some places."""
-    return np.stack([(1 - t)**3, 3 * t * (1 - t)**2, 3 * t**2 * (1 - t), t**3], axis=1)
+    return np.stack([(1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t**2 * (1 - t), t**3], axis=1)
 
 
 def _slopes(t: Floats) -> Floats:
     """Their derivatives."""
-    return np.stack([-3 * (1 - t)**2, 3 * (1 - t) * (1 - 3 * t), 3 * t * (2 - 3 * t), 3 * t**2], axis=1)
+    return np.stack([-3 * (1 - t) ** 2, 3 * (1 - t) * (1 - 3 * t), 3 * t * (2 - 3 * t), 3 * t**2], axis=1)
 
 
 def _tensor(rows: Floats, control: Floats, columns: Floats) -> Floats:
@@ -101,8 +101,7 @@ def _tensor(rows: Floats, control: Floats, columns: Floats) -> Floats:
 def _normals(control: Floats, rows: Floats, columns: Floats) -> Floats:
     """The unit normals at the corners of faces: the cross products of the tangents; upwards where there is none."""
     rows, columns = (np.clip(places, INWARDS, 1 - INWARDS) for places in (rows, columns))
-    found = np.cross(_tensor(_slopes(rows), control, _bernstein(columns)),
-                     _tensor(_bernstein(rows), control, _slopes(columns)))
+    found = np.cross(_tensor(_slopes(rows), control, _bernstein(columns)), _tensor(_bernstein(rows), control, _slopes(columns)))
     lengths = np.linalg.norm(found, axis=2, keepdims=True)
     return np.where(lengths > 0, found / np.where(lengths > 0, lengths, 1.0), (0.0, 0.0, 1.0))
 
@@ -127,7 +126,7 @@ def _boundary(points: Floats) -> list[Corner]:
     around = np.concatenate([points[:-1, 0], points[-1, :-1], points[:0:-1, -1], points[0, :0:-1]])
     corners = [_rounded(corner) for corner in around.tolist()]
     farthest = max(range(len(corners)), key=lambda number: math.dist(corners[number][:2], corners[0][:2]))
-    halves = (_simplified(half) for half in (corners[:farthest + 1], [*corners[farthest:], corners[0]]))
+    halves = (_simplified(half) for half in (corners[: farthest + 1], [*corners[farthest:], corners[0]]))
     bent = [corner for half in halves for corner in half[:-1]]
     return bent if len(bent) > 2 else corners
 
@@ -140,7 +139,7 @@ def _simplified(line: list[Corner]) -> list[Corner]:
     if max(aside, default=0.0) <= BESIDE * length:
         return [line[0], line[-1]]
     bend = aside.index(max(aside)) + 1
-    return [*_simplified(line[:bend + 1])[:-1], *_simplified(line[bend:])]
+    return [*_simplified(line[: bend + 1])[:-1], *_simplified(line[bend:])]
 
 
 def _rounded(corner: Sequence[float]) -> Corner:
@@ -208,9 +207,13 @@ def revolved_facets(profile: Sequence[Sequence[float]], sides: int, pieces: int)
     lengths = np.linalg.norm(slopes, axis=1, keepdims=True)
     slopes = slopes / np.where(lengths > 0, lengths, 1.0)
     angles = -2 * np.pi * np.arange(sides + 1) / sides % (2 * np.pi)
-    points, normals = (np.stack([np.broadcast_to(each[:, :1], (len(each), sides + 1)), each[:, 1:] * np.cos(angles),
-                                 each[:, 1:] * np.sin(angles)], axis=2)
-                       for each in (places, slopes[:, ::-1] * (-1, 1)))
+    points, normals = (
+        np.stack(
+            [np.broadcast_to(each[:, :1], (len(each), sides + 1)), each[:, 1:] * np.cos(angles), each[:, 1:] * np.sin(angles)],
+            axis=2,
+        )
+        for each in (places, slopes[:, ::-1] * (-1, 1))
+    )
     side = [(float(ahead), float(out), 0.0) for ahead, out in places]
     outline = [*side, *((ahead, -out, 0.0) for ahead, out, _ in side[-2:0:-1])]
     return _grid_facets(points, normals, [*dict.fromkeys(map(_rounded, outline))])
@@ -220,5 +223,5 @@ def _along(profile: Floats, basis: Callable[[Floats], Floats], pieces: int) -> F
     """The places along the curves of a profile, or the slopes there: just inside where a curve ends in a point."""
     t = np.linspace(0, 1, pieces + 1)
     weights = basis(np.clip(t, INWARDS, 1 - INWARDS) if basis is _slopes else t)
-    curves = [weights @ profile[first:first + 4] for first in range(0, len(profile) - 1, 3)]
+    curves = [weights @ profile[first : first + 4] for first in range(0, len(profile) - 1, 3)]
     return np.concatenate([curves[0], *(curve[1:] for curve in curves[1:])])

@@ -128,11 +128,26 @@ def _return_to_stroke(turtle: PlaneTurtle, instruction: Instruction) -> None:
 
 LARGEST_EXACT = 2.0**40
 """Greater angles are reduced to less than a full turn, so that their multiples are no less exact."""
-_COLUMN_TYPES = {"turns": np.float64, "offsets": np.float64, "lengths": np.float64, "parents": np.int64, "drawn": np.bool_,
-                 "orders": np.int64, "states": np.int64, "widths": np.float64, "colours": np.int64}
+_COLUMN_TYPES = {
+    "turns": np.float64,
+    "offsets": np.float64,
+    "lengths": np.float64,
+    "parents": np.int64,
+    "drawn": np.bool_,
+    "orders": np.int64,
+    "states": np.int64,
+    "widths": np.float64,
+    "colours": np.int64,
+}
 PLANE_HANDLERS: Mapping[str, Handler] = {
-    **COMMON_HANDLERS, **FRACTINT_HANDLERS, "turn": _turn, "turn by mirrored angle": _turn_by_mirrored_angle,
-    "turn back": _turn, "roll": _roll, "return to stroke": _return_to_stroke}
+    **COMMON_HANDLERS,
+    **FRACTINT_HANDLERS,
+    "turn": _turn,
+    "turn by mirrored angle": _turn_by_mirrored_angle,
+    "turn back": _turn,
+    "roll": _roll,
+    "return to stroke": _return_to_stroke,
+}
 """The handlers of the turtle in the plane, by action."""
 
 
@@ -160,10 +175,16 @@ def trace(word: Word) -> Path:
     turtle.take_look(system)
     run_turtle(turtle, word, PLANE_HANDLERS)
     columns = list(zip(*turtle.steps, strict=True)) or [()] * len(_COLUMN_TYPES)
-    steps: dict[str, Any] = {name: np.array(column, kind)
-                             for (name, kind), column in zip(_COLUMN_TYPES.items(), columns, strict=True)}
-    return Path(**steps, outlines=tuple(turtle.outlines), rounds=tuple(turtle.rounds),
-                written=tuple(turtle.labels), unknown=tuple(turtle.unknown))
+    steps: dict[str, Any] = {
+        name: np.array(column, kind) for (name, kind), column in zip(_COLUMN_TYPES.items(), columns, strict=True)
+    }
+    return Path(
+        **steps,
+        outlines=tuple(turtle.outlines),
+        rounds=tuple(turtle.rounds),
+        written=tuple(turtle.labels),
+        unknown=tuple(turtle.unknown),
+    )
 
 
 def place_path(path: Path, angle: float, heading: float = 90.0) -> Scene:
@@ -180,8 +201,13 @@ def place_path(path: Path, angle: float, heading: float = 90.0) -> Scene:
     vectors = path.lengths[:, None] * np.column_stack([np.cos(radians), np.sin(radians)])
     ends = _summed_along_parents(vectors, path.parents)
     drawn = path.drawn
-    strokes = Segments(np.concatenate([ends - vectors, ends], axis=1)[drawn], path.orders[drawn], path.states[drawn],
-                       path.widths[drawn], path.colours[drawn])
+    strokes = Segments(
+        np.concatenate([ends - vectors, ends], axis=1)[drawn],
+        path.orders[drawn],
+        path.states[drawn],
+        path.widths[drawn],
+        path.colours[drawn],
+    )
     places = np.vstack([ends, np.zeros(2)])  # the last is the origin, which is step -1
 
     def points(numbers: list[int]) -> Floats:

@@ -89,17 +89,29 @@ def _normals_at_corners(outlines: Sequence[Outline]) -> Floats:
 
 def collected_labels(written: Sequence[Writing], points: Callable[[list[Any]], Floats]) -> Labels:
     """The labels that a turtle has written, given a function from positions to coordinates."""
-    return Labels(points([each.place for each in written]), tuple(each.text for each in written),
-                  np.array([each.state for each in written], np.int64))
+    return Labels(
+        points([each.place for each in written]),
+        tuple(each.text for each in written),
+        np.array([each.state for each in written], np.int64),
+    )
 
 
-def collected_shapes(outlines: Sequence[Outline], rounds: Sequence[RoundShape],
-                     points: Callable[[list[Any]], Floats]) -> tuple[Polygons, Discs]:
+def collected_shapes(
+    outlines: Sequence[Outline], rounds: Sequence[RoundShape], points: Callable[[list[Any]], Floats]
+) -> tuple[Polygons, Discs]:
     """The polygons and discs that a turtle has drawn, given a function from positions to coordinates."""
     sizes = [len(outline.corners) for outline in outlines]
     states, colours = (np.array([outline[field] for outline in outlines], np.int64) for field in (1, 2))
-    polygons = Polygons(points([corner for outline in outlines for corner in outline.corners]), np.cumsum([0, *sizes]),
-                        states, colours, _normals_at_corners(outlines))
-    discs = Discs(points([found.place for found in rounds]), np.array([found.radius for found in rounds], np.float64),
-                  *(np.array([found[field] for found in rounds], np.int64) for field in (2, 3, 4)))
+    polygons = Polygons(
+        points([corner for outline in outlines for corner in outline.corners]),
+        np.cumsum([0, *sizes]),
+        states,
+        colours,
+        _normals_at_corners(outlines),
+    )
+    discs = Discs(
+        points([found.place for found in rounds]),
+        np.array([found.radius for found in rounds], np.float64),
+        *(np.array([found[field] for found in rounds], np.int64) for field in (2, 3, 4)),
+    )
     return polygons, discs

@@ -87,8 +87,14 @@ class SpaceTurtle(Turtle):
             return
         check_budget()
         for face, normals in zip(surface.faces, surface.normals, strict=True) if size else ():
-            self.outlines.append(Outline(self.local_points(face, size), self.state, self.colour,
-                                         [combined(self.orientation, normal) for normal in normals]))
+            self.outlines.append(
+                Outline(
+                    self.local_points(face, size),
+                    self.state,
+                    self.colour,
+                    [combined(self.orientation, normal) for normal in normals],
+                )
+            )
 
     def local_point(self, ahead: float, left: float, up: float) -> Vector:
         (x, y, z), (u, v, w) = self.position, combined(self.orientation, (ahead, left, up))
@@ -195,17 +201,30 @@ def _return_to_stroke(turtle: SpaceTurtle, instruction: Instruction) -> None:
     """Move to a point of the last stroke."""
     if turtle.last is not None:
         first = turtle.last * _STROKE_COLUMNS
-        x, y, z, u, v, w = turtle.strokes[first:first + 6]
+        x, y, z, u, v, w = turtle.strokes[first : first + 6]
         part = instruction.factor + instruction.addend
         turtle.position = x + part * (u - x), y + part * (v - y), z + part * (w - z)
 
 
 _ROTATIONS: Mapping[str, Handler] = {
-    "turn": _turn, "turn by mirrored angle": _turn_by_mirrored_angle, "turn back": _turn, "pitch": _pitch, "roll": _roll}
+    "turn": _turn,
+    "turn by mirrored angle": _turn_by_mirrored_angle,
+    "turn back": _turn,
+    "pitch": _pitch,
+    "roll": _roll,
+}
 SPACE_HANDLERS: Mapping[str, Handler] = {
-    **COMMON_HANDLERS, **FRACTINT_HANDLERS, **CURVE_HANDLERS, **_ROTATIONS, "level": _level, "set heading": _set_heading,
-    "gravitropism": _bend_by_gravitropism, "set tropism": _set_tropism,
-    "set position": _set_position, "return to stroke": _return_to_stroke}
+    **COMMON_HANDLERS,
+    **FRACTINT_HANDLERS,
+    **CURVE_HANDLERS,
+    **_ROTATIONS,
+    "level": _level,
+    "set heading": _set_heading,
+    "gravitropism": _bend_by_gravitropism,
+    "set tropism": _set_tropism,
+    "set position": _set_position,
+    "return to stroke": _return_to_stroke,
+}
 """The handlers of the turtle in space, by action."""
 
 
@@ -241,14 +260,20 @@ def trace_in_space(word: Word, angle: float | None = None) -> Scene:
     """
     system = word.states.system
     turn = float(system.angle) if angle is None else angle
-    turtle = SpaceTurtle(initial_frame(system.turtle, float(system.heading)), initial_step(system),
-                         TURTLE_DIALECTS[system.turtle].width)
+    turtle = SpaceTurtle(
+        initial_frame(system.turtle, float(system.heading)), initial_step(system), TURTLE_DIALECTS[system.turtle].width
+    )
     turtle.take_look(system)
     turtle.in_plane = in_plane(system)
     run_turtle(turtle, word, SPACE_HANDLERS, lambda instruction: operand(instruction, turn))
     polygons, discs = collected_shapes(turtle.outlines, turtle.rounds, _points)
-    return Scene(strokes_of(turtle), polygons=polygons, discs=discs, labels=collected_labels(turtle.labels, _points),
-                 unknown=tuple(turtle.unknown))
+    return Scene(
+        strokes_of(turtle),
+        polygons=polygons,
+        discs=discs,
+        labels=collected_labels(turtle.labels, _points),
+        unknown=tuple(turtle.unknown),
+    )
 
 
 def strokes_of(turtle: SpaceTurtle) -> Segments:

@@ -154,13 +154,16 @@ def passed_over(unknown: Sequence[str]) -> str:
     """
     names = [symbol[1:] for symbol in unknown if symbol[0] == "~" and symbol != "~"]
     others = [symbol for symbol in unknown if symbol[0] != "~" and symbol != "@PD"]
-    there_are = ", ".join(f"{surface.symbols[0]} ({surface.name})" if len(surface.symbols) > 1 else surface.name
-                          for surface in surfaces().values())
-    said = [f"passed over, without a meaning here: {quotable(' '.join(others))}" if others else "",
-            f"no surface is called {quotable(' or '.join(names))}: there are {there_are}; a model declares others"
-            if names else "",
-            "@PD draws a patch whose sixteen control points are set by @PC" if "@PD" in unknown else "",
-            "passed over, because no surface is named after it: ~" if "~" in unknown else ""]
+    there_are = ", ".join(
+        f"{surface.symbols[0]} ({surface.name})" if len(surface.symbols) > 1 else surface.name
+        for surface in surfaces().values()
+    )
+    said = [
+        f"passed over, without a meaning here: {quotable(' '.join(others))}" if others else "",
+        f"no surface is called {quotable(' or '.join(names))}: there are {there_are}; a model declares others" if names else "",
+        "@PD draws a patch whose sixteen control points are set by @PC" if "@PD" in unknown else "",
+        "passed over, because no surface is named after it: ~" if "~" in unknown else "",
+    ]
     return "; ".join(filter(None, said))
 
 
@@ -173,10 +176,19 @@ def surfaces_of(system: LSystem) -> Mapping[str, str]:
     """
     known = surfaces_by_symbol(system)
     words = [tuple(flat(word)) for word in (system.axiom, *(rule.successor for rule in system.rules))]
-    called = [(behind.symbol, surface.name) for word in words for before, behind in pairwise(word)
-              if before.symbol == "~" and (surface := known.get(behind.symbol))]
-    drawn = [(module.symbol, command.surface) for word in words for module in word
-            for command in COMMANDS[system.turtle].get(module.symbol, ()) if command.surface]
+    called = [
+        (behind.symbol, surface.name)
+        for word in words
+        for before, behind in pairwise(word)
+        if before.symbol == "~" and (surface := known.get(behind.symbol))
+    ]
+    drawn = [
+        (module.symbol, command.surface)
+        for word in words
+        for module in word
+        for command in COMMANDS[system.turtle].get(module.symbol, ())
+        if command.surface
+    ]
     found = dict((*called, *drawn))
     for rule in system.interpretation:
         shown = next((found[module.symbol] for module in flat(rule.successor) if module.symbol in found), None)

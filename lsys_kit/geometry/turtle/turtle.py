@@ -49,10 +49,36 @@ class Turtle(ABC):
         Whether it stays in the plane of the picture, where boxes are rectangles; whether it draws surfaces by their outlines.
     """
 
-    __slots__ = ("axis", "bracket_limit", "colour", "expects_surface", "first_width", "flat", "gravitropism", "in_plane",
-                 "initial", "labels", "last", "length", "mirror", "open_polygons", "orientation", "outlines", "patches",
-                 "position", "restored", "rounds", "scale", "second_heading", "stack", "state", "surfaces", "tropisms",
-                 "unknown", "width")
+    __slots__ = (
+        "axis",
+        "bracket_limit",
+        "colour",
+        "expects_surface",
+        "first_width",
+        "flat",
+        "gravitropism",
+        "in_plane",
+        "initial",
+        "labels",
+        "last",
+        "length",
+        "mirror",
+        "open_polygons",
+        "orientation",
+        "outlines",
+        "patches",
+        "position",
+        "restored",
+        "rounds",
+        "scale",
+        "second_heading",
+        "stack",
+        "state",
+        "surfaces",
+        "tropisms",
+        "unknown",
+        "width",
+    )
 
     def __init__(self, position: Any, orientation: Any, step: float, first_width: float = WIDTH) -> None:
         self.position, self.orientation = position, orientation

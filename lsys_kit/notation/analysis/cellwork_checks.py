@@ -67,8 +67,12 @@ def _check_surface(system: CellworkSystem) -> None:
                 raise problem("edge of two kinds", wall.at, edge=f"{begun}-{end}", one=known, other=here)
     for ends, walls in walls_of.items():
         if len(walls) != 2:
-            raise problem("first cell not closed", system.walls[walls[0]].at, edge="-".join(sorted(ends)),
-                          count=f"{len(walls)} wall" + "s" * (len(walls) > 1))
+            raise problem(
+                "first cell not closed",
+                system.walls[walls[0]].at,
+                edge="-".join(sorted(ends)),
+                count=f"{len(walls)} wall" + "s" * (len(walls) > 1),
+            )
     euler = len(system.corners) - len(walls_of) + len(system.walls)
     if euler != 2 or len(_reached(walls_of)) != len(system.walls):
         raise problem("first cell in parts", system.walls[0].at, euler=euler)
@@ -105,8 +109,9 @@ def _check_successor(production: CellworkProduction) -> None:
     if end is not None:
         raise problem("marker at end", end.at)
     if not edge.arrow and _by_walls(production) != _by_walls(production.turned):
-        raise problem("neutral edge not symmetric", edge.at, edge=edge,
-                      backwards=" ".join(map(str, production.turned.successor)))
+        raise problem(
+            "neutral edge not symmetric", edge.at, edge=edge, backwards=" ".join(map(str, production.turned.successor))
+        )
 
 
 def _by_walls(production: CellworkProduction) -> tuple[tuple[Edge, ...], list[dict[str, list[EdgeMarker]]]]:
@@ -126,8 +131,12 @@ def unused_parts(system: CellworkSystem) -> Iterator[Problem]:
     for production in system.productions:
         if production.predecessor not in occurring:
             yield Problem("edge never occurs", production.at, {"production": production, "edge": production.predecessor})
-    walls = {ANY, *(wall.label for wall in system.walls), *(made.successor for made in system.wall_productions),
-             *(label for marker in system.markers for label in (*marker.daughters, marker.new_wall))}
+    walls = {
+        ANY,
+        *(wall.label for wall in system.walls),
+        *(made.successor for made in system.wall_productions),
+        *(label for marker in system.markers for label in (*marker.daughters, marker.new_wall)),
+    }
     for marker in system.markers:
         if marker.wall not in walls:
             yield Problem("wall never occurs", marker.at, {"marker": marker, "wall": marker.wall})

@@ -42,8 +42,7 @@ def closest(name: str, known: Collection[str], likeness: float = 0.6) -> str | N
     'lifeTimeA'
     """
     name = name[:_LONGEST_NAME]
-    close = (get_close_matches(name, sorted(known), 1, likeness)
-             or get_close_matches(name.lower(), sorted(known), 1, likeness))
+    close = get_close_matches(name, sorted(known), 1, likeness) or get_close_matches(name.lower(), sorted(known), 1, likeness)
     return close[0] if close else None
 
 
@@ -81,8 +80,13 @@ def check_expression(expression: Expression, names: Collection[str], wanted: str
     "number" or a "truth" as wanted."""
     if isinstance(expression, Name) and expression.name not in names:
         known = ", ".join(f'"{name}"' for name in sorted(names))
-        raise problem("unknown name" if known else "name among none", expression.at, closest(expression.name, names),
-                    name=expression.name, known=known)
+        raise problem(
+            "unknown name" if known else "name among none",
+            expression.at,
+            closest(expression.name, names),
+            name=expression.name,
+            known=known,
+        )
     if isinstance(expression, Apply):
         operator = OPERATORS[expression.operator]
         if operator.random and not chance:
@@ -100,13 +104,19 @@ def check_constants(constants: Iterable[Constant]) -> None:
         if constant.name in values:
             raise problem("constant twice", constant.at, name=constant.name)
         if constant.name in SETTINGS:
-            raise problem("setting as constant", constant.at, name=constant.name, keyword=constant.name.lower(),
-                        value=constant.value)
+            raise problem(
+                "setting as constant", constant.at, name=constant.name, keyword=constant.name.lower(), value=constant.value
+            )
         if not isinstance(constant.value, Name) and constant.name in names_in(constant.value):
             raise problem("constant of itself", constant.at, name=constant.name)
         if isinstance(constant.value, Name) and constant.value.name not in values:
-            raise problem("name as constant", constant.value.at, closest(constant.value.name, values), name=constant.value,
-                        constant=constant.name)
+            raise problem(
+                "name as constant",
+                constant.value.at,
+                closest(constant.value.name, values),
+                name=constant.value,
+                constant=constant.name,
+            )
         for expression in (constant.value, *(constant.range or ())):
             check_expression(expression, values.keys())
         check_range(constant, values)
@@ -169,8 +179,9 @@ def check_repeat(repeat: Repeat, names: Collection[str], chance: bool) -> None:
     check_expression(repeat.count, names, chance=chance)
     if repeat.index in names:
         raise problem("index taken", repeat.at, name=repeat.index)
-    if isinstance(repeat.count, Number) and not (isinstance(repeat.count.value, int)
-                                                 and 0 <= repeat.count.value <= current().repetitions):
+    if isinstance(repeat.count, Number) and not (
+        isinstance(repeat.count.value, int) and 0 <= repeat.count.value <= current().repetitions
+    ):
         raise problem("number of repetitions", repeat.count.at, expression=repeat.count, most=current().repetitions)
     check_word(repeat.body, {*names, repeat.index} - {""}, chance=chance)
 
@@ -189,12 +200,22 @@ def check_field(field: Pattern, constants: Collection[str]) -> None:
     """A field is one of those that the kit has, and its values are numbers, as many as it takes."""
     form = FIELD_FORMS.get(field.symbol)
     if form is None:
-        raise problem("unknown field", field.at, closest(field.symbol, FIELD_FORMS, 0.7), name=field.symbol,
-                      known=", ".join(sorted(FIELD_FORMS)))
+        raise problem(
+            "unknown field",
+            field.at,
+            closest(field.symbol, FIELD_FORMS, 0.7),
+            name=field.symbol,
+            known=", ".join(sorted(FIELD_FORMS)),
+        )
     if not form.least <= len(field.arguments) <= form.most:
         wanted = f"{form.least}" if form.least == form.most else f"{form.least} to {form.most}"
-        raise problem("number of arguments", field.at, name=field.symbol, wanted=f"{wanted} value{'s' * (wanted != '1')}",
-                      given=len(field.arguments))
+        raise problem(
+            "number of arguments",
+            field.at,
+            name=field.symbol,
+            wanted=f"{wanted} value{'s' * (wanted != '1')}",
+            given=len(field.arguments),
+        )
     for argument in field.arguments:
         check_expression(argument, {*constants, *form.names})
 

@@ -35,11 +35,22 @@ def warnings(system: LSystem) -> list[Problem]:
     ('Production 2, for A, is never applied: production 1 comes before it and matches every A.',)
     """
     reachable = _reachable_kinds(system)
-    return [*_unmatched(system, reachable), *_overtaken(system.productions, system, "production"),
-            *_overtaken(system.decomposition, system, "decomposition rule"), *_without_probability(system),
-            *_other_arities(system, reachable), *_several_replaced(system), *_final_signs(system),
-            *_in_quotation_marks(system), *_unanswered(system, reachable), *_passed_over(system), *_timed(system),
-            *_drawn_no_further(system, reachable), *_drawn_as_itself(system), *slips(system)]
+    return [
+        *_unmatched(system, reachable),
+        *_overtaken(system.productions, system, "production"),
+        *_overtaken(system.decomposition, system, "decomposition rule"),
+        *_without_probability(system),
+        *_other_arities(system, reachable),
+        *_several_replaced(system),
+        *_final_signs(system),
+        *_in_quotation_marks(system),
+        *_unanswered(system, reachable),
+        *_passed_over(system),
+        *_timed(system),
+        *_drawn_no_further(system, reachable),
+        *_drawn_as_itself(system),
+        *slips(system),
+    ]
 
 
 def _reachable_kinds(system: LSystem) -> set[_ModuleKind]:
@@ -72,16 +83,22 @@ def _unmatched(system: LSystem, reachable: set[_ModuleKind]) -> Iterator[Problem
         missing = next((module for module in needed if _kind(module) not in reachable and module.symbol != END), None)
         if missing is not None:
             other = missing.symbol.swapcase()
-            yield Problem("never matches", rule.at, {"rule": rule, "missing": _described(missing, symbols)},
-                          other if other in symbols and missing.symbol not in symbols else None)
+            yield Problem(
+                "never matches",
+                rule.at,
+                {"rule": rule, "missing": _described(missing, symbols)},
+                other if other in symbols and missing.symbol not in symbols else None,
+            )
 
 
 def _passed_over(system: LSystem) -> Iterator[Problem]:
     """The productions whose contexts name what contexts pass over."""
     for rule in system.productions:
         seen = (module.symbol for module in (*rule.left, *rule.right) if module.symbol not in ("[", "]", "(", ")", END))
-        passed = next((symbol for symbol in seen if symbol in system.ignored
-                       or (system.considered and symbol not in system.considered)), None)
+        passed = next(
+            (symbol for symbol in seen if symbol in system.ignored or (system.considered and symbol not in system.considered)),
+            None,
+        )
         if passed:
             yield Problem("context passed over", rule.at, {"rule": rule, "symbol": passed})
 
@@ -110,9 +127,16 @@ def _several_replaced(system: LSystem) -> Iterator[Problem]:
     numbers = [number for number, rule in enumerate(system.productions, 1) if len(rule.predecessors) > 1]
     if numbers:
         rule, others = system.productions[numbers[0] - 1], f"; so are those of {len(numbers) - 1} other productions"
-        yield Problem("several replaced", rule.at, {"number": numbers[0], "rule": rule, "count": len(rule.predecessors),
-                                                    "others": others * (len(numbers) > 2)
-                                                    or "; so are those of another production" * (len(numbers) == 2)})
+        yield Problem(
+            "several replaced",
+            rule.at,
+            {
+                "number": numbers[0],
+                "rule": rule,
+                "count": len(rule.predecessors),
+                "others": others * (len(numbers) > 2) or "; so are those of another production" * (len(numbers) == 2),
+            },
+        )
 
 
 def _final_signs(system: LSystem) -> Iterator[Problem]:
@@ -150,8 +174,9 @@ def _timed(system: LSystem) -> Iterator[Problem]:
     constants = _values_of_constants(system)
     rules = [rule for rule in system.productions if constants is not None and _asks_age(rule, constants)]
     if rules and len(rules) == len(system.productions) and not system.decomposition:
-        ages = {(_kind(module), _number(module.arguments[0], constants or {}))
-                for module in flat(system.axiom) if module.arguments}
+        ages = {
+            (_kind(module), _number(module.arguments[0], constants or {})) for module in flat(system.axiom) if module.arguments
+        }
         asked = {(_kind(rule.predecessor), _number(rule.predecessor.arguments[0], constants or {})) for rule in rules}
         if not ages & asked and None not in {age for _, age in ages | asked}:
             yield Problem("only in time", rules[0].at, {"rule": rules[0]})
@@ -187,9 +212,14 @@ def _drawn_as(system: LSystem) -> dict[_ModuleKind, dict[_ModuleKind, None]]:
     found: dict[_ModuleKind, dict[_ModuleKind, None]] = {kind: {} for kind in ruled}
     for rule in system.interpretation:
         own = _kind(rule.predecessor)
-        found[own] |= {kind: None for kind in map(_kind, flat(rule.successor))
-                       if kind in ruled and kind[0][0].isalpha() and kind[0] not in _DRAWN_EITHER_WAY
-                       and not (kind == own and _always(rule, constants))}
+        found[own] |= {
+            kind: None
+            for kind in map(_kind, flat(rule.successor))
+            if kind in ruled
+            and kind[0][0].isalpha()
+            and kind[0] not in _DRAWN_EITHER_WAY
+            and not (kind == own and _always(rule, constants))
+        }
     return found
 
 
@@ -205,8 +235,15 @@ def _asks_age(rule: Production, constants: Mapping[str, Value]) -> bool:
     """Whether all that a production asks is the first value of a module."""
     first, *others = rule.predecessor.arguments or (None,)
     free = [isinstance(argument, Name) and argument.name not in constants for argument in (first, *others)]
-    return (first is not None and not free[0] and all(free[1:]) and len(rule.predecessors) == 1
-            and not (rule.left or rule.right) and rule.condition is None and rule.probability is None)
+    return (
+        first is not None
+        and not free[0]
+        and all(free[1:])
+        and len(rule.predecessors) == 1
+        and not (rule.left or rule.right)
+        and rule.condition is None
+        and rule.probability is None
+    )
 
 
 def _values_of_constants(system: LSystem) -> dict[str, Value] | None:
@@ -239,8 +276,11 @@ def _overtaken(rules: Iterable[Production], system: LSystem, called: str) -> Ite
     for number, rule in enumerate(rules, 1):
         kind = _kind(rule.predecessor)
         if kind in certain:
-            yield Problem(f"{called} never applied", rule.at, {
-                "number": number, "rule": rule, "first": certain[kind], "module": rule.predecessor})
+            yield Problem(
+                f"{called} never applied",
+                rule.at,
+                {"number": number, "rule": rule, "first": certain[kind], "module": rule.predecessor},
+            )
         elif rule.probability is not None:
             random.add(kind)
         elif kind not in random and not rule.left and not rule.right and _always(rule, constants):

@@ -17,8 +17,11 @@ LEAST_WALLS, LEAST_MERIDIANS = 3, 2
 def check_map(system: MapSystem) -> None:
     """The first cell has an inside, and each wall has at most one production, which can be applied from either of its ends."""
     if len(system.axiom) < (LEAST_MERIDIANS if system.sphere else LEAST_WALLS):
-        raise problem("undivided sphere" if system.sphere else "cell without inside", _row_span(system.axiom),
-                    walls="1 wall" if len(system.axiom) == 1 else f"{len(system.axiom)} walls")
+        raise problem(
+            "undivided sphere" if system.sphere else "cell without inside",
+            _row_span(system.axiom),
+            walls="1 wall" if len(system.axiom) == 1 else f"{len(system.axiom)} walls",
+        )
     met: set[Edge] = set()
     for production in system.productions:
         _check_predecessor(production, met)
@@ -49,8 +52,12 @@ def _check_neutral(production: EdgeProduction) -> None:
     """A wall without direction may be read from either end, so what it becomes must be the same from both."""
     if production.predecessor.arrow or places(production.successor) == places(production.turned):
         return
-    raise problem("neutral wall not symmetric", _row_span(production.successor), wall=production.predecessor,
-                backwards="".join(map(str, production.turned)))
+    raise problem(
+        "neutral wall not symmetric",
+        _row_span(production.successor),
+        wall=production.predecessor,
+        backwards="".join(map(str, production.turned)),
+    )
 
 
 def places(parts: tuple[SuccessorPart, ...]) -> list[Edge | tuple[tuple[Edge, ...], ...]]:

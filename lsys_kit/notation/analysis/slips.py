@@ -44,8 +44,11 @@ def _unused_constants(system: LSystem) -> Iterator[Problem]:
     for constant in constants:
         if words[constant.name] == 1:
             angle = constant.name.lower() in _ANGLES and "angle" not in system.source
-            yield Problem("angle used nowhere" if angle else "constant used nowhere", constant.at,
-                          {"name": constant.name, "value": constant.value})
+            yield Problem(
+                "angle used nowhere" if angle else "constant used nowhere",
+                constant.at,
+                {"name": constant.name, "value": constant.value},
+            )
 
 
 def _comments(system: LSystem) -> Iterator[Problem]:
@@ -54,8 +57,11 @@ def _comments(system: LSystem) -> Iterator[Problem]:
     if not any(comment for _, comment in comments):
         return
     said = (module.symbol for rule, comment in comments for module in islice(flat(rule.successor), _before(rule, comment)))
-    known = {*said, *(module.symbol for rule in system.rules for module in rule.predecessors),
-             *(module.symbol for module in system.axiom)}
+    known = {
+        *said,
+        *(module.symbol for rule in system.rules for module in rule.predecessors),
+        *(module.symbol for module in system.axiom),
+    }
     for rule, comment in comments:
         words = [module.symbol for module in comment if module.symbol.isalnum() and module.symbol not in known]
         if any(map(_PROSE.fullmatch, words)) and words[0] == next(m.symbol for m in comment if m.symbol.isalnum()):
@@ -74,9 +80,9 @@ def _comment(successor: Sequence[Item], source: str) -> Sequence[Pattern]:
     runs = [(sign, [at for at, _ in run]) for sign, run in groupby(enumerate(end), lambda pair: pair[1].symbol)]
     for (sign, places), (following, _) in pairwise(runs):
         start = (end[places[0]].at or (0, 0))[0]
-        alone = sign in _ALONE and source[start - 1:start].isspace()
+        alone = sign in _ALONE and source[start - 1 : start].isspace()
         if (alone or (sign in _DOUBLED and len(places) > 1)) and following.isalnum():
-            return end[places[0]:]
+            return end[places[0] :]
     return ()
 
 
@@ -95,7 +101,7 @@ def _decimal_commas(system: LSystem) -> Iterator[Problem]:
     for module in dict.fromkeys(whole):
         if module.symbol in single - pairs:
             start, end = module.at or (0, 0)
-            typed = _DECIMAL_COMMA.search(system.source[start:end + 1]) or _DECIMAL_COMMA.search(str(module))
+            typed = _DECIMAL_COMMA.search(system.source[start : end + 1]) or _DECIMAL_COMMA.search(str(module))
             meant = f"{module.symbol}({typed[1]}.{typed[2]})" if typed else None
             yield Problem("decimal comma", module.at, {"module": module}, meant)
 

@@ -190,8 +190,15 @@ class CellworkSystem:
 
     def __str__(self) -> str:
         steps = () if self.steps is None else (f"steps: {self.steps}",)
-        return "\n".join((f"cellwork: {' '.join(map(str, self.corners))}", *steps, *map(str, self.walls),
-                          *map(str, self.productions), *map(str, self.wall_productions)))
+        return "\n".join(
+            (
+                f"cellwork: {' '.join(map(str, self.corners))}",
+                *steps,
+                *map(str, self.walls),
+                *map(str, self.productions),
+                *map(str, self.wall_productions),
+            )
+        )
 
     def __repr__(self) -> str:
         return abridged_text(str(self))
@@ -199,8 +206,11 @@ class CellworkSystem:
     @property
     def axiom(self) -> tuple[Edge, ...]:
         """The edges of the first cell, each once."""
-        found = {frozenset(ends): edge for wall in self.walls
-                 for *ends, edge in zip(wall.corners, (*wall.corners[1:], wall.corners[0]), wall.edges, strict=True)}
+        found = {
+            frozenset(ends): edge
+            for wall in self.walls
+            for *ends, edge in zip(wall.corners, (*wall.corners[1:], wall.corners[0]), wall.edges, strict=True)
+        }
         return tuple(found.values())
 
     @property

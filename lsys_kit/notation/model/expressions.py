@@ -110,8 +110,11 @@ def styled_text(expression: Expression, style: Style = PLAIN_STYLE) -> str:
         return spelt[0] + _operand_text(expression.operands[0], tightly, style)
     left, right = expression.operands
     power = expression.operator == "^"
-    return (_operand_text(left, operator.precedence + power, style) + operator.spelling(spelt)
-            + _operand_text(right, operator.precedence + (not power), style))
+    return (
+        _operand_text(left, operator.precedence + power, style)
+        + operator.spelling(spelt)
+        + _operand_text(right, operator.precedence + (not power), style)
+    )
 
 
 def _operand_text(expression: Expression, precedence: int, style: Style) -> str:
@@ -148,8 +151,7 @@ def is_random(expression: Expression) -> bool:
     >>> is_random(Apply("+", (Name("t"), Apply("uniform", (Number(0), Number(1))))))
     True
     """
-    return isinstance(expression, Apply) and (OPERATORS[expression.operator].random
-                                              or any(map(is_random, expression.operands)))
+    return isinstance(expression, Apply) and (OPERATORS[expression.operator].random or any(map(is_random, expression.operands)))
 
 
 def sensed_in(expression: Expression) -> Iterator[Apply]:
@@ -230,13 +232,37 @@ def _sympy_table() -> dict[str, Callable[..., sympy.Basic]]:
 
     degree = sympy.pi / 180
     return {
-        "||": sympy.Or, "&&": sympy.And, "!": sympy.Not, "==": sympy.Eq, "!=": sympy.Ne,
-        "<": sympy.Lt, "<=": sympy.Le, ">": sympy.Gt, ">=": sympy.Ge,
-        "+": sympy.Add, "-": lambda x, y: x - y, "*": sympy.Mul, "/": lambda x, y: x / y, "-x": lambda x: -x,
-        "^": sympy.Pow, "abs": sympy.Abs, "floor": sympy.floor, "ceil": sympy.ceiling, "min": sympy.Min,
-        "max": sympy.Max, "mod": sympy.Mod, "rem": remainder, "if": lambda c, x, y: sympy.Piecewise((x, c), (y, True)),
-        "sqrt": sympy.sqrt, "exp": sympy.exp, "log": sympy.log,
-        "sin": lambda x: sympy.sin(x * degree), "cos": lambda x: sympy.cos(x * degree), "tan": lambda x: sympy.tan(x * degree),
-        "asin": lambda x: sympy.asin(x) / degree, "acos": lambda x: sympy.acos(x) / degree,
-        "atan": lambda x: sympy.atan(x) / degree, "sensed": sympy.Function("sensed"),
+        "||": sympy.Or,
+        "&&": sympy.And,
+        "!": sympy.Not,
+        "==": sympy.Eq,
+        "!=": sympy.Ne,
+        "<": sympy.Lt,
+        "<=": sympy.Le,
+        ">": sympy.Gt,
+        ">=": sympy.Ge,
+        "+": sympy.Add,
+        "-": lambda x, y: x - y,
+        "*": sympy.Mul,
+        "/": lambda x, y: x / y,
+        "-x": lambda x: -x,
+        "^": sympy.Pow,
+        "abs": sympy.Abs,
+        "floor": sympy.floor,
+        "ceil": sympy.ceiling,
+        "min": sympy.Min,
+        "max": sympy.Max,
+        "mod": sympy.Mod,
+        "rem": remainder,
+        "if": lambda c, x, y: sympy.Piecewise((x, c), (y, True)),
+        "sqrt": sympy.sqrt,
+        "exp": sympy.exp,
+        "log": sympy.log,
+        "sin": lambda x: sympy.sin(x * degree),
+        "cos": lambda x: sympy.cos(x * degree),
+        "tan": lambda x: sympy.tan(x * degree),
+        "asin": lambda x: sympy.asin(x) / degree,
+        "acos": lambda x: sympy.acos(x) / degree,
+        "atan": lambda x: sympy.atan(x) / degree,
+        "sensed": sympy.Function("sensed"),
     }

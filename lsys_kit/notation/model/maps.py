@@ -104,8 +104,10 @@ class EdgeProduction:
     @property
     def turned(self) -> tuple[SuccessorPart, ...]:
         """The successor, read from the other end."""
-        return tuple(part.turned if isinstance(part, Edge) else replace(part, side=OTHER_SIDE[part.side])
-                     for part in reversed(self.successor))
+        return tuple(
+            part.turned if isinstance(part, Edge) else replace(part, side=OTHER_SIDE[part.side])
+            for part in reversed(self.successor)
+        )
 
 
 @dataclass(frozen=True)

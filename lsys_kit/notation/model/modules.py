@@ -97,8 +97,7 @@ def joined(texts: Iterable[str]) -> str:
 
 def _runs_on(last: str, name: str) -> bool:
     """Whether a name directly after a module would be read together with it."""
-    return (_word_like(last[-1:]) or last == "@" or (last == "\\" and name[:1].islower())
-            or (last == "." and name[:1].isdigit()))
+    return _word_like(last[-1:]) or last == "@" or (last == "\\" and name[:1].islower()) or (last == "." and name[:1].isdigit())
 
 
 def _word_like(character: str) -> bool:

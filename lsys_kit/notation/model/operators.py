@@ -117,8 +117,9 @@ def _sensed(number: Function, *operands: Function) -> Function:
     def evaluate(v: tuple[Any, ...]) -> Any:
         sees = getattr(v[-1], "sees", None) if v else None
         if sees is None:
-            raise ValueError(f"function {short_text(number(v))} depends on what the turtle sees, which a word "
-                             "alone does not tell")
+            raise ValueError(
+                f"function {short_text(number(v))} depends on what the turtle sees, which a word alone does not tell"
+            )
         return sees(number(v), *[operand(v) for operand in operands])
 
     return evaluate

@@ -46,8 +46,9 @@ class SurfaceShape:
         object.__setattr__(self, "patches", tuple(map(_exact, self.patches)))
 
     def __str__(self) -> str:
-        rows = [" ".join(map(_point_text, patch[first:first + ROW]))
-                for patch in self.patches for first in range(0, ROW**2, ROW)]
+        rows = [
+            " ".join(map(_point_text, patch[first : first + ROW])) for patch in self.patches for first in range(0, ROW**2, ROW)
+        ]
         lines = [("  patch " if number % ROW == 0 else "        ") + row for number, row in enumerate(rows)]
         return "\n".join([f"surface {self.name}:" + "".join(f" {_point_text(corner)}" for corner in self.polygon), *lines])
 

@@ -53,12 +53,15 @@ class TurtleDialect:
         return self.name.replace("-", "_")
 
 
-TURTLE_DIALECTS: Mapping[str, TurtleDialect] = {dialect.name: dialect for dialect in (
-    TurtleDialect("abop", "The Algorithmic Beauty of Plants", width=2.4, pixels=True),
-    TurtleDialect("grogra", "GROGRA", length=100.0, left=-1, names=True),
-    TurtleDialect("plant-string", "plant strings"),
-    TurtleDialect("fractint", "Fractint", any_sign=True),
-)}
+TURTLE_DIALECTS: Mapping[str, TurtleDialect] = {
+    dialect.name: dialect
+    for dialect in (
+        TurtleDialect("abop", "The Algorithmic Beauty of Plants", width=2.4, pixels=True),
+        TurtleDialect("grogra", "GROGRA", length=100.0, left=-1, names=True),
+        TurtleDialect("plant-string", "plant strings"),
+        TurtleDialect("fractint", "Fractint", any_sign=True),
+    )
+}
 """All dialects of turtle commands, by name."""
 
 

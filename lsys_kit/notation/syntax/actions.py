@@ -23,8 +23,23 @@ from lsys_kit.notation.model.modules import Pattern, Repeat
 from lsys_kit.notation.model.system import Constant, MetaRule, Production
 from lsys_kit.notation.syntax.spelling import ModelError
 
-_SPELLINGS = {"∨": "||", "∧": "&&", "¬": "!", "≤": "<=", "≥": ">=", "≠": "!=", "−": "-", "·": "*", "×": "*",
-              "\\leq": "<=", "\\geq": ">=", "\\neq": "!=", "\\le": "<=", "\\ge": ">=", "\\ne": "!="}
+_SPELLINGS = {
+    "∨": "||",
+    "∧": "&&",
+    "¬": "!",
+    "≤": "<=",
+    "≥": ">=",
+    "≠": "!=",
+    "−": "-",
+    "·": "*",
+    "×": "*",
+    "\\leq": "<=",
+    "\\geq": ">=",
+    "\\neq": "!=",
+    "\\le": "<=",
+    "\\ge": ">=",
+    "\\ne": "!=",
+}
 _LEFT = "\u20d6"
 """An arrow to the left, over the letter before it."""
 _LONGEST_NUMBER = 1_000
@@ -127,8 +142,9 @@ class Expressions(Transformer[Any, Any]):
         operator = OPERATORS.get(name)
         functions = [known for known, entry in OPERATORS.items() if entry.precedence is None]
         if operator is None or name not in functions:
-            raise problem("unknown function", place_of(name), closest(name, functions, 0.7), name=name,
-                        known=", ".join(sorted(functions)))
+            raise problem(
+                "unknown function", place_of(name), closest(name, functions, 0.7), name=name, known=", ".join(sorted(functions))
+            )
         check_arity(name, str(name), operands)
         return self._applied(str(name), operands, place_of(name, operands[-1]))
 

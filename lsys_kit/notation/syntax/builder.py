@@ -52,7 +52,8 @@ class Draft:
     axiom: tuple[Pattern, ...] | None = None
     constants: list[Constant] = field(default_factory=list)
     sections: dict[str, list[Production]] = field(
-        default_factory=lambda: {"productions": [], "decomposition": [], "interpretation": []})
+        default_factory=lambda: {"productions": [], "decomposition": [], "interpretation": []}
+    )
     meta: list[MetaRule] = field(default_factory=list)
     surfaces: list[SurfaceText] = field(default_factory=list)
     settings: dict[str, Any] = field(default_factory=dict)
@@ -71,8 +72,12 @@ class Draft:
         elif kind == "production":
             self.sections[self.section].append(replace(record, at=at))
             if len(self.sections[self.section]) > current().rules:
-                raise ModelLimitError(f"The model has more than {current().rules:,} productions", limit=current().rules,
-                                      source=self.source, start=at[0])
+                raise ModelLimitError(
+                    f"The model has more than {current().rules:,} productions",
+                    limit=current().rules,
+                    source=self.source,
+                    start=at[0],
+                )
         elif kind == "section":
             self.section = record
         elif kind == "meta":
@@ -115,9 +120,17 @@ def build_system(draft: Draft) -> LSystem:
     if "field" in draft.settings:
         check_field(draft.settings["field"], names)
     sections = {section: tuple(productions) for section, productions in draft.sections.items()}
-    return LSystem(draft.axiom, constants=tuple(draft.constants), meta=tuple(draft.meta), notation=draft.notation,
-                   source=source, notes=tuple(draft.notes), surfaces=checked_surfaces(draft.surfaces),
-                   **sections, **_checked_settings(draft))  # type: ignore[arg-type]
+    return LSystem(
+        draft.axiom,
+        constants=tuple(draft.constants),
+        meta=tuple(draft.meta),
+        notation=draft.notation,
+        source=source,
+        notes=tuple(draft.notes),
+        surfaces=checked_surfaces(draft.surfaces),
+        **sections,
+        **_checked_settings(draft),
+    )  # type: ignore[arg-type]
 
 
 def _checked_settings(draft: Draft) -> dict[str, Any]:

@@ -43,22 +43,32 @@ def foreign_comment(failure: ParseFailure) -> ModelSyntaxError | None:
 
 def parentheses(failure: ParseFailure) -> ModelSyntaxError | None:
     """Parentheses that do not match, or that are empty."""
-    found, before, opened = failure.found, failure.before, unclosed_bracket(failure.text[failure.start:failure.at])
+    found, before, opened = failure.found, failure.before, unclosed_bracket(failure.text[failure.start : failure.at])
     ended = not found or found in failure.spelling.outside or failure.spelling.arrows.match(found)
     closes_nowhere = unclosed_bracket(failure.statement) is not None
     unfinished = ended or (found != "," and "RPAR" in failure.accepted and (closes_nowhere or len(failure.accepted) == 1))
     if opened is not None and unfinished and not failure.accepted >= VALUE_TOKENS:
         return failure.error('This "(" is never closed', 'Every "(" needs a ")" after it.', failure.start + opened, 1)
     if found.startswith(",") and (pair := re.search(r"[(,]\s*(\([^()]*)$", before)):
-        return failure.error("There are several values in the place of one", 'Each has a place of its own: type "A(1, 2)", not '
-                             '"A((1, 2))".', failure.start + pair.start(1), failure.at + 1 - failure.start - pair.start(1))
+        return failure.error(
+            "There are several values in the place of one",
+            'Each has a place of its own: type "A(1, 2)", not "A((1, 2))".',
+            failure.start + pair.start(1),
+            failure.at + 1 - failure.start - pair.start(1),
+        )
     if found.startswith(")") and opened is None:
         branch = before.count("[") > before.count("]")
-        return failure.error('This ")" closes nothing', 'A branch that begins with "[" ends with "]".' if branch else
-                             'Every ")" needs a "(" before it.')
+        return failure.error(
+            'This ")" closes nothing',
+            'A branch that begins with "[" ends with "]".' if branch else 'Every ")" needs a "(" before it.',
+        )
     if found.startswith(")") and before.endswith("("):
-        return failure.error("There is nothing in these parentheses", "Write a value there, or leave the parentheses out.",
-                             failure.start + len(before) - 1, failure.at + 2 - failure.start - len(before))
+        return failure.error(
+            "There is nothing in these parentheses",
+            "Write a value there, or leave the parentheses out.",
+            failure.start + len(before) - 1,
+            failure.at + 2 - failure.start - len(before),
+        )
     return None
 
 
@@ -76,7 +86,7 @@ def second_comparison(failure: ParseFailure) -> ModelSyntaxError | None:
     chain = re.search(rf"(?<![\w.])([\w.]++)\s*+({relation})\s*+([\w.]+)$", failure.before[-200:])
     if not chain or not re.match(relation, failure.found):
         return None
-    right = re.match(r"\s*([\w.]+)", failure.after[len(failure.found):])
+    right = re.match(r"\s*([\w.]+)", failure.after[len(failure.found) :])
     twice = f"{chain[1]} {chain[2]} {chain[3]} && {chain[3]} {failure.found} {right[1] if right else '...'}"
     return failure.error("This is a second comparison", f'Compare twice, as in "{twice}".')
 
@@ -98,8 +108,7 @@ def missing_operator(failure: ParseFailure) -> ModelSyntaxError | None:
 def value_in_parentheses(failure: ParseFailure) -> ModelSyntaxError | None:
     """A value too few anywhere, or an operator too few in parentheses."""
     inside = unclosed_bracket(failure.before) is not None and "SYMBOL" not in failure.accepted
-    return missing_value(failure) or (
-        missing_operator(failure) if inside and re.search(r"[\w)]$", failure.before) else None)
+    return missing_value(failure) or (missing_operator(failure) if inside and re.search(r"[\w)]$", failure.before) else None)
 
 
 def repetition(failure: ParseFailure) -> ModelSyntaxError | None:
@@ -110,7 +119,7 @@ def repetition(failure: ParseFailure) -> ModelSyntaxError | None:
         return None
     if failure.accepted == {"LESSTHAN"}:
         return failure.error('A "<" is missing here', spelling.repetition)
-    opened = unclosed_bracket(blank_parentheses(failure.before[arrow.end():]), "<>")
+    opened = unclosed_bracket(blank_parentheses(failure.before[arrow.end() :]), "<>")
     ended = not found or found in spelling.outside - {"<", ">"} or spelling.arrows.match(found)
     if "MORETHAN" in failure.accepted and opened is not None and ended:
         return failure.error('This "<" is never closed', spelling.repetition, failure.start + arrow.end() + opened, 1)
@@ -124,5 +133,5 @@ def repetition(failure: ParseFailure) -> ModelSyntaxError | None:
 def after_first(failure: ParseFailure) -> int:
     """The offset of what follows the first module of a statement."""
     head = re.match(failure.spelling.first_module, failure.statement)
-    rest = blank_parentheses(failure.statement)[head.end() if head else 0:]
+    rest = blank_parentheses(failure.statement)[head.end() if head else 0 :]
     return failure.end - len(rest.lstrip())

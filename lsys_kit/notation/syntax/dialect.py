@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from lsys_kit.notation.syntax.builder import Draft
     from lsys_kit.notation.syntax.failure import ParseFailure
 
+
 def whole(text: str, name: str | None) -> str:
     """A text that holds one system, which has no name."""
     if name is not None:

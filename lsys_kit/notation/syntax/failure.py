@@ -12,8 +12,17 @@ from lsys_kit.notation.syntax.spelling import Spelling
 from lsys_kit.notation.syntax.text.statements import ARROW, without_comments
 
 _TOKEN_NAMES = {
-    "ARROW": "an arrow", "NAME": "a name", "SYMBOL": "a symbol", "NUMBER": "a number", "LPAR": '"("', "RPAR": '")"',
-    "COMMA": '","', "COLON": '":"', "$END": "the end of the line", "RANGE": '".."', "IN": '"in"',
+    "ARROW": "an arrow",
+    "NAME": "a name",
+    "SYMBOL": "a symbol",
+    "NUMBER": "a number",
+    "LPAR": '"("',
+    "RPAR": '")"',
+    "COMMA": '","',
+    "COLON": '":"',
+    "$END": "the end of the line",
+    "RANGE": '".."',
+    "IN": '"in"',
 }
 
 
@@ -45,20 +54,21 @@ class ParseFailure:
     @property
     def statement(self) -> str:
         """The whole statement."""
-        return self.text[self.start:self.end]
+        return self.text[self.start : self.end]
 
     @property
     def before(self) -> str:
         """The statement up to the place."""
-        return self.text[self.start:self.at].rstrip()
+        return self.text[self.start : self.at].rstrip()
 
     @property
     def after(self) -> str:
         """The statement from the place on."""
-        return self.text[self.at:self.end]
+        return self.text[self.at : self.end]
 
-    def error(self, message: str, hint: str | None = None, at: int | None = None,
-              length: int | None = None) -> ModelSyntaxError:
+    def error(
+        self, message: str, hint: str | None = None, at: int | None = None, length: int | None = None
+    ) -> ModelSyntaxError:
         """What is wrong, at the place or at another offset."""
         at = self.at if at is None else at
         return ModelSyntaxError(message, self.source, at, at + (length or max(1, len(self.found))), hint)

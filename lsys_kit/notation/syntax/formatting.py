@@ -24,8 +24,11 @@ def settings(system: LSystem, turtle: str = OWN_NOTATION) -> Iterator[str]:
         yield f"heading: {literal_text(system.heading)}"
     if system.length is not None:
         yield f"length: {literal_text(system.length)}"
-    for keyword, number in (("steps", system.steps), ("seed", system.seed),
-                            ("decomposition depth", system.decomposition_depth)):
+    for keyword, number in (
+        ("steps", system.steps),
+        ("seed", system.seed),
+        ("decomposition depth", system.decomposition_depth),
+    ):
         if number is not None:
             yield f"{keyword}: {number}"
     if system.depth != 1:
@@ -88,7 +91,8 @@ FEATURES: dict[str, Callable[[LSystem], bool]] = {
     "ignored symbols": lambda s: bool(s.ignored or s.considered),
     "right contexts that name the next branch": lambda s: s.branches == NEXT_BRANCH,
     "right contexts that pass over brackets": lambda s: s.branches == FLAT,
-    "right contexts that name any branch": lambda s: s.branches == ANY_BRANCH and any(
-        module.symbol in OPENING for rule in s.productions for module in rule.right),
+    "right contexts that name any branch": lambda s: (
+        s.branches == ANY_BRANCH and any(module.symbol in OPENING for rule in s.productions for module in rule.right)
+    ),
 }
 """What a system may need, and whether it does."""

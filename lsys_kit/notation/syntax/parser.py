@@ -25,8 +25,13 @@ def parse(notation: Grammar, rule: str, text: str, start: int, end: int) -> Any:
     """The record of a stretch of a text."""
     check_budget()
     if end - start > current().line:
-        raise ModelLimitError(f"This line has {end - start:,} characters; the limit is {current().line:,}",
-                              limit=current().line, needed=end - start, source=text, start=start)
+        raise ModelLimitError(
+            f"This line has {end - start:,} characters; the limit is {current().line:,}",
+            limit=current().line,
+            needed=end - start,
+            source=text,
+            start=start,
+        )
     try:
         return _parser(notation).parse(TextSlice(text, start, end), start=rule)
     except UnexpectedInput as unexpected:
@@ -40,5 +45,11 @@ def parse(notation: Grammar, rule: str, text: str, start: int, end: int) -> Any:
 
 @cache
 def _parser(notation: Grammar) -> Lark:
-    return Lark.open(str(_SYNTAX.parent / "dialects" / notation.file), import_paths=[str(_SYNTAX)], parser="lalr",
-                     start=[*notation.starts], maybe_placeholders=False, transformer=notation.transformer())
+    return Lark.open(
+        str(_SYNTAX.parent / "dialects" / notation.file),
+        import_paths=[str(_SYNTAX)],
+        parser="lalr",
+        start=[*notation.starts],
+        maybe_placeholders=False,
+        transformer=notation.transformer(),
+    )

@@ -25,7 +25,7 @@ def diagnose_predecessor(failure: ParseFailure) -> ModelSyntaxError | None:
     arrow = ARROW.search(failure.text, failure.start, failure.end)
     if arrow is None:
         return _missing_arrow(failure)
-    head = failure.text[failure.start:arrow.start()]
+    head = failure.text[failure.start : arrow.start()]
     if head.rstrip().endswith("<") and ":" not in head:
         return failure.error("The module to replace is missing", failure.spelling.contexts, arrow.start(), len(arrow.group()))
     if failure.at > arrow.start() or (":" in failure.before and not head.startswith("meta")):
@@ -33,8 +33,10 @@ def diagnose_predecessor(failure: ParseFailure) -> ModelSyntaxError | None:
     if failure.accepted == {"ARROW"} and failure.found in _NOT_IN_STRINGS:
         return failure.error(f"A plant string has no {_NOT_IN_STRINGS[failure.found]}", failure.spelling.rule_example)
     if failure.found == "ε":
-        return failure.error('This "ε" does not end a branch', 'It is written before the "]" of a branch in a right context, '
-                             'as in "A > [B ε]C -> D".')
+        return failure.error(
+            'This "ε" does not end a branch',
+            'It is written before the "]" of a branch in a right context, as in "A > [B ε]C -> D".',
+        )
     return _condition(failure, head) or _context(failure) or _several(failure)
 
 
@@ -43,8 +45,12 @@ def _missing_arrow(failure: ParseFailure) -> ModelSyntaxError | None:
         return None
     garbled = _GARBLED_ARROW.search(failure.text, failure.start, failure.end)
     if garbled:
-        return failure.error("This is not an arrow", f'An arrow is typed "{failure.spelling.arrow}", in one piece.',
-                             garbled.start(), len(garbled.group()))
+        return failure.error(
+            "This is not an arrow",
+            f'An arrow is typed "{failure.spelling.arrow}", in one piece.',
+            garbled.start(),
+            len(garbled.group()),
+        )
     at = after_first(failure) if "LESSTHAN" in failure.accepted else failure.at
     return failure.error("An arrow is missing here", failure.spelling.rule_example, at)
 
@@ -55,7 +61,7 @@ def _condition(failure: ParseFailure, head: str) -> ModelSyntaxError | None:
     found = _CONDITION.match(failure.text, second, failure.start + len(head))
     if not found or head.startswith("meta") or not {"COLON", "LESSTHAN", "NAME"} & failure.accepted:
         return None
-    parameters = re.findall(r"\w+", failure.text[failure.start:second])[1:]
+    parameters = re.findall(r"\w+", failure.text[failure.start : second])[1:]
     if found[1] or found[3] not in "<>" or {found[2], found[4]} & {*parameters} or found[4][:1].isdigit():
         return failure.error(*worded(Problem("condition without colon"), failure.spelling), second)
     return None
@@ -82,16 +88,18 @@ def _context(failure: ParseFailure) -> ModelSyntaxError | None:
     if found not in ("<", ">") or "RELATION" in failure.accepted:
         return None
     if before.startswith("meta"):
-        return failure.error("A meta-rule has no contexts", 'It says what replaces a row of modules, as in '
-                             '"meta: f(x) f(y) -> f(x+y)".')
+        return failure.error(
+            "A meta-rule has no contexts", 'It says what replaces a row of modules, as in "meta: f(x) f(y) -> f(x+y)".'
+        )
     if before.endswith("<"):
         return failure.error("The module to replace is missing", failure.spelling.contexts)
     if found in before:
         side, example = ("left", "A B < C") if found == "<" else ("right", "A > B C")
         return failure.error(f'This is a second "{found}"', f'A production has one {side} context: "{example} {arrow} D".')
     if ">" in before:
-        return failure.error("A left context is not possible here",
-                             f'It comes before the module that is replaced: "C < A > B {arrow} D".')
+        return failure.error(
+            "A left context is not possible here", f'It comes before the module that is replaced: "C < A > B {arrow} D".'
+        )
     return None
 
 
@@ -99,6 +107,7 @@ def _several(failure: ParseFailure) -> ModelSyntaxError | None:
     """More than one module to replace, in a plant string."""
     if "ARROW" in failure.accepted and not _OPERATORS & failure.accepted and failure.found[:1].isalpha():
         arrow = failure.spelling.arrow
-        return failure.error("Only one module can be replaced",
-                             f'Write a production for each: "A {arrow} ...", then "B {arrow} ...".')
+        return failure.error(
+            "Only one module can be replaced", f'Write a production for each: "A {arrow} ...", then "B {arrow} ...".'
+        )
     return None

@@ -59,10 +59,14 @@ def segment_system(system: LSystem) -> tuple[LSystem, dict[str, list[str]]]:
     made: dict[str, list[str]] = {}
     while found := _glued(_divisible_modules(system), _known(system)):
         made |= found
-        system = replace(system, axiom=_segmented(system.axiom, found), productions=_segmented_rules(system.productions, found),
-                         decomposition=_segmented_rules(system.decomposition, found),
-                         interpretation=_segmented_rules(system.interpretation, found),
-                         meta=tuple(replace(rule, successor=_segmented(rule.successor, found)) for rule in system.meta))
+        system = replace(
+            system,
+            axiom=_segmented(system.axiom, found),
+            productions=_segmented_rules(system.productions, found),
+            decomposition=_segmented_rules(system.decomposition, found),
+            interpretation=_segmented_rules(system.interpretation, found),
+            meta=tuple(replace(rule, successor=_segmented(rule.successor, found)) for rule in system.meta),
+        )
     return system, made
 
 
@@ -70,10 +74,15 @@ def segment_with_notes(system: LSystem) -> LSystem:
     """What `segment_system` makes of a system, with a note for each name that was divided."""
     segmented, made = segment_system(system)
     notes = [f'"{name}" is read as {" ".join(pieces)}.' for name, pieces in made.items()]
-    notes += [f'"{name}" is read as one symbol; for several put blanks between them: {" ".join(pieces)}.'
-              for name, pieces in _words(segmented)]
-    notes += [f'"{name}" is read as one symbol, which draws nothing. {name[0]} with a value is typed {name[0]}({digits}); '
-              'what is repeated is written out, as in "+++".' for name, digits in _numbered(segmented)]
+    notes += [
+        f'"{name}" is read as one symbol; for several put blanks between them: {" ".join(pieces)}.'
+        for name, pieces in _words(segmented)
+    ]
+    notes += [
+        f'"{name}" is read as one symbol, which draws nothing. {name[0]} with a value is typed {name[0]}({digits}); '
+        'what is repeated is written out, as in "+++".'
+        for name, digits in _numbered(segmented)
+    ]
     return replace(segmented, notes=(*system.notes, *notes)) if notes else system
 
 
@@ -120,8 +129,15 @@ def _divisible_modules(system: LSystem) -> Iterable[Pattern]:
 
 
 def _segmented_rules(rules: Iterable[Production], made: dict[str, list[str]]) -> tuple[Production, ...]:
-    return tuple(replace(rule, left=_segmented(rule.left, made), right=_segmented(rule.right, made),
-                         successor=_segmented(rule.successor, made)) for rule in rules)
+    return tuple(
+        replace(
+            rule,
+            left=_segmented(rule.left, made),
+            right=_segmented(rule.right, made),
+            successor=_segmented(rule.successor, made),
+        )
+        for rule in rules
+    )
 
 
 def _segmented(word: Iterable[Item], made: dict[str, list[str]]) -> tuple[Any, ...]:
@@ -167,7 +183,11 @@ def _ways(name: str, parts: frozenset[str]) -> list[list[str]]:
     """The ways to divide a name into symbols, two at most."""
     ways: list[list[list[str]]] = [[[]]]
     for end in range(1, len(name) + 1):
-        found = [[*way, name[start:end]] for start in range(max(0, end - 64), end) if name[start:end] in parts
-                 for way in ways[start][:2]]
+        found = [
+            [*way, name[start:end]]
+            for start in range(max(0, end - 64), end)
+            if name[start:end] in parts
+            for way in ways[start][:2]
+        ]
         ways.append(found[:2])
     return ways[-1]

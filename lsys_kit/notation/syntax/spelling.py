@@ -99,8 +99,10 @@ class Spelling:
     name_rule: str = "Names are made of the letters A to Z, digits and _."
     apart: str = "Write one production per line."
     repetition: str = 'A repetition reads "repeat(3) <F>", or, with a name that counts from 0, "repeat(3, i) <F(i)>".'
-    after_arrow: str = 'A context is written before the arrow; after it "<" and ">" go with "repeat(3)". ' \
+    after_arrow: str = (
+        'A context is written before the arrow; after it "<" and ">" go with "repeat(3)". '
         'For rolls type "\\" and "/"; for longer steps, give F a length: A(x) -> F(x) A(x*2).'
+    )
     arrows: re.Pattern[str] = ARROW
     relations: str = r"(?:[<>]=?|[=!]=|[≤≥≠])"
     comment_marks: str = "#define|#|//|%"

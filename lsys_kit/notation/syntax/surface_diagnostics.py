@@ -19,18 +19,29 @@ def surface_declaration(failure: ParseFailure) -> ModelSyntaxError | None:
     if not found or ARROW.search(failure.statement):
         return None
     if not found["named"]:
-        return failure.error("A surface needs a name and a colon", 'It reads "surface leaf: (0, 0) (1, 0.2) (1, -0.2)".',
-                             failure.start, len(found[0]))
+        return failure.error(
+            "A surface needs a name and a colon",
+            'It reads "surface leaf: (0, 0) (1, 0.2) (1, -0.2)".',
+            failure.start,
+            len(found[0]),
+        )
     file = _FILE.search(failure.statement, found.end())
     if file:
-        return failure.error("A model opens no files", "Read the file yourself: with_surface(system, name, text).",
-                             failure.start + file.start(), len(file[0]))
+        return failure.error(
+            "A model opens no files",
+            "Read the file yourself: with_surface(system, name, text).",
+            failure.start + file.start(),
+            len(file[0]),
+        )
     read = failure.at - failure.start
     opened = unclosed_bracket(failure.statement[:read])
     if opened is not None:
         return failure.error("This is no point of a surface", _POINT, failure.start + opened, read - opened)
     if not failure.found:
         return failure.error(f"There is nothing after {quoted(failure.before)}", _POINT, failure.start, len(failure.before))
-    hint = "Points are separated by blanks." if failure.found == "," else \
-        f'{_POINT} A surface is a polygon, or patches that each begin with "patch".'
+    hint = (
+        "Points are separated by blanks."
+        if failure.found == ","
+        else f'{_POINT} A surface is a polygon, or patches that each begin with "patch".'
+    )
     return failure.error(f"I did not expect {quoted(failure.found)} here", hint)

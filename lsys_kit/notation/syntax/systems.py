@@ -47,10 +47,14 @@ def text_in(notation: Dialect, system: LSystem) -> str:
     with Task("The model was not written"):
         missing = lacking(notation, system)
         if missing:
-            without = (f'They are left out by write(system, "{notation.name}", interpretation=False), '
-                       "and in a shell by --no-interpretation.")
-            raise ModelValueError(f"The notation {notation.name} has no {missing}, which this system needs",
-                                  hint=without if missing == "interpretation rules" else None)
+            without = (
+                f'They are left out by write(system, "{notation.name}", interpretation=False), '
+                "and in a shell by --no-interpretation."
+            )
+            raise ModelValueError(
+                f"The notation {notation.name} has no {missing}, which this system needs",
+                hint=without if missing == "interpretation rules" else None,
+            )
         system = notation.translated(system)
         text = notation.write(system)
         lost = _lost(notation, system, text)
@@ -110,8 +114,11 @@ def _lost(notation: Dialect, system: LSystem, text: str) -> str | None:
         raise
     except LSystemError as error:
         return _quoted(text.split("\n")[error.line - 1]) if error.line else "a part of it"
-    compared = ((part.name, getattr(system, part.name), getattr(back, part.name)) for part in fields(system)
-                if part.compare or part.name in LOOK)
+    compared = (
+        (part.name, getattr(system, part.name), getattr(back, part.name))
+        for part in fields(system)
+        if part.compare or part.name in LOOK
+    )
     return next((_different(*parts) for parts in compared if parts[1] != parts[2]), None)
 
 
@@ -122,7 +129,7 @@ def _different(name: str, wanted: object, found: object) -> str:
     others = found if isinstance(found, tuple) else ()
     if name == "axiom":
         return _quoted(f"axiom: {joined(map(str, wanted))}")
-    part = next((one for number, one in enumerate(wanted) if others[number:number + 1] != (one,)), None)
+    part = next((one for number, one in enumerate(wanted) if others[number : number + 1] != (one,)), None)
     return f"the {name} without {_quoted(str(others[-1]))}" if part is None else _quoted(str(part))
 
 

@@ -55,7 +55,20 @@ def _piece(scene: Scene, in_line: NDArray[np.bool_], wall_in_line: NDArray[np.bo
     """Some cells and walls of a filament, from 0 on."""
     cells, walls = scene.cells, scene.walls
     start = float(cells.centres[in_line, 0][0] - cells.sizes[in_line, 0][0] / 2)
-    return replace(scene, cells=Cells(cells.centres[in_line] - [start, 0.0], cells.sizes[in_line], cells.polarities[in_line],
-                                      cells.shades[in_line], cells.states[in_line]),
-                   walls=Walls(walls.places[wall_in_line] - start, walls.heights[wall_in_line], walls.ages[wall_in_line],
-                               walls.shades[wall_in_line], walls.states[wall_in_line]))
+    return replace(
+        scene,
+        cells=Cells(
+            cells.centres[in_line] - [start, 0.0],
+            cells.sizes[in_line],
+            cells.polarities[in_line],
+            cells.shades[in_line],
+            cells.states[in_line],
+        ),
+        walls=Walls(
+            walls.places[wall_in_line] - start,
+            walls.heights[wall_in_line],
+            walls.ages[wall_in_line],
+            walls.shades[wall_in_line],
+            walls.states[wall_in_line],
+        ),
+    )

@@ -89,18 +89,33 @@ class FilamentLayout:
         """The cells of a row; no more than so many in a pixel."""
         cells, left = row.scene.cells, self._left(row)
         some = self._seen(cells.centres[:, 0], most)
-        return (DrawnCell(left + x, length / 2, width / 2, way, shade, state) for x, (length, width), way, shade, state in zip(
-            (cells.centres[some, 0] * self.scale).tolist(), (cells.sizes[some] * self.scale).tolist(),
-            cells.polarities[some].tolist(), cells.shades[some].tolist(), cells.states[some].tolist(), strict=True))
+        return (
+            DrawnCell(left + x, length / 2, width / 2, way, shade, state)
+            for x, (length, width), way, shade, state in zip(
+                (cells.centres[some, 0] * self.scale).tolist(),
+                (cells.sizes[some] * self.scale).tolist(),
+                cells.polarities[some].tolist(),
+                cells.shades[some].tolist(),
+                cells.states[some].tolist(),
+                strict=True,
+            )
+        )
 
     def walls(self, row: FilamentRow, most: float = math.inf) -> Iterator[DrawnWall]:
         """The walls of a row; no more than so many in a pixel."""
         walls, left = row.scene.walls, self._left(row)
         some = self._seen(walls.places, most)
-        return (DrawnWall(left + x, height / 2, "" if math.isnan(age) else f"{age:.4g}", shade, state)
-                for x, height, age, shade, state in zip(
-                    (walls.places[some] * self.scale).tolist(), (walls.heights[some] * self.scale).tolist(),
-                    walls.ages[some].tolist(), walls.shades[some].tolist(), walls.states[some].tolist(), strict=True))
+        return (
+            DrawnWall(left + x, height / 2, "" if math.isnan(age) else f"{age:.4g}", shade, state)
+            for x, height, age, shade, state in zip(
+                (walls.places[some] * self.scale).tolist(),
+                (walls.heights[some] * self.scale).tolist(),
+                walls.ages[some].tolist(),
+                walls.shades[some].tolist(),
+                walls.states[some].tolist(),
+                strict=True,
+            )
+        )
 
     def _seen(self, places: Floats, most: float) -> Any:
         """Which of the shapes at some places are drawn, if no more than so many can be seen in a pixel: the first at each."""
@@ -114,8 +129,9 @@ class FilamentLayout:
         return self.gutter + (WIDTH - self.gutter - MARGIN - length * self.scale) / 2
 
 
-def filament_layout(rows: Sequence[FilamentRow], numbered: bool = False, time: Value | None = None,
-                    written: bool = True) -> FilamentLayout:
+def filament_layout(
+    rows: Sequence[FilamentRow], numbered: bool = False, time: Value | None = None, written: bool = True
+) -> FilamentLayout:
     """The layout of some rows.
 
     Parameters

@@ -29,8 +29,15 @@ LETTER = 11
 """The size of letters in cells, in pixels."""
 
 
-def rows_svg(sheet: FilamentLayout, look: str, colour_of: Mapping[int, str], current: int | None = None,
-             marked: Collection[int] = (), image: str = "", letters: Mapping[int, str] = MappingProxyType({})) -> str:
+def rows_svg(
+    sheet: FilamentLayout,
+    look: str,
+    colour_of: Mapping[int, str],
+    current: int | None = None,
+    marked: Collection[int] = (),
+    image: str = "",
+    letters: Mapping[int, str] = MappingProxyType({}),
+) -> str:
     """Filaments below one another, centred, with a common scale; the current row on a tinted band. An image, if there is one,
     stands for the band and for all cells. Letters are written into cells, as far as they fit."""
     body = [image, _heading(sheet)] if sheet.numbered else [image]
@@ -52,8 +59,11 @@ def _heading(sheet: FilamentLayout) -> str:
     y, texts = tenths(MARGIN + sheet.head - 7), [(MARGIN + STEPS - 8, "step")]
     if sheet.time is not None:
         texts.append((MARGIN + STEPS + TIMES - 8, '<tspan font-style="italic">t</tspan>'))
-    return "".join(f'<text x="{tenths(x)}" y="{y}" font-size="110" text-anchor="end" font-family="sans-serif" '
-                   f'fill="{theme().quiet}">{text}</text>' for x, text in texts)
+    return "".join(
+        f'<text x="{tenths(x)}" y="{y}" font-size="110" text-anchor="end" font-family="sans-serif" '
+        f'fill="{theme().quiet}">{text}</text>'
+        for x, text in texts
+    )
 
 
 def band_of(sheet: FilamentLayout, place: int) -> tuple[float, float, float, float, float]:
@@ -64,8 +74,10 @@ def band_of(sheet: FilamentLayout, place: int) -> tuple[float, float, float, flo
 
 def _band(sheet: FilamentLayout, place: int) -> str:
     left, top, right, _, corner = band_of(sheet, place)
-    return (f'<rect x="{tenths(left)}" y="{tenths(top)}" width="{tenths(right - left)}" height="{tenths(sheet.pitch)}" '
-            f'rx="{tenths(corner)}" fill="{theme().mark}"/>')
+    return (
+        f'<rect x="{tenths(left)}" y="{tenths(top)}" width="{tenths(right - left)}" height="{tenths(sheet.pitch)}" '
+        f'rx="{tenths(corner)}" fill="{theme().mark}"/>'
+    )
 
 
 def _row_labels(sheet: FilamentLayout, row: FilamentRow, middle: float, current: bool) -> str:
@@ -76,8 +88,11 @@ def _row_labels(sheet: FilamentLayout, row: FilamentRow, middle: float, current:
     if sheet.time is not None:
         texts.append((MARGIN + STEPS + TIMES - 8, time_text(row.step * sheet.time)))
     weight = f'fill="{theme().ink}" font-weight="bold"' if current else f'fill="{theme().quiet}"'
-    return "".join(f'<text x="{tenths(x)}" y="{tenths(middle) + round(0.35 * size)}" font-size="{size}" '
-                   f'text-anchor="end" font-family="sans-serif" {weight}>{text}</text>' for x, text in texts)
+    return "".join(
+        f'<text x="{tenths(x)}" y="{tenths(middle) + round(0.35 * size)}" font-size="{size}" '
+        f'text-anchor="end" font-family="sans-serif" {weight}>{text}</text>'
+        for x, text in texts
+    )
 
 
 def time_text(time: Value) -> str:
@@ -90,23 +105,32 @@ def time_text(time: Value) -> str:
     return escape(text if len(text) <= 6 else f"{float(time):.4g}")
 
 
-def filament_svg(cells: Sequence[DrawnCell], look: str, middle: float, colour_of: Mapping[int, str],
-              marked: Collection[int] = ()) -> str:
+def filament_svg(
+    cells: Sequence[DrawnCell], look: str, middle: float, colour_of: Mapping[int, str], marked: Collection[int] = ()
+) -> str:
     """One filament: cells, lighter when young, with arrows for their polarity."""
     fills = {key: cell_fill(colour_of.get(key[0], GREEN), key[1]) for key in {(c.state, c.shade) for c in cells}}
     y, shapes, arrows = tenths(middle), [], []
     for cell in cells:
         x, rx, ry = tenths(cell.x), tenths(cell.length), tenths(cell.width)
-        outline = f'{theme().mark_edge}" stroke-width="{10 * MARKED:.0f}' if cell.state in marked else \
-            edge_colour(colour_of.get(cell.state, GREEN))
-        shape = (f'<ellipse cx="{x}" cy="{y}" rx="{rx}" ry="{ry}"' if look == "ellipses" else
-                 f'<rect x="{x - rx}" y="{y - ry}" width="{2 * rx}" height="{2 * ry}" rx="{min(rx, ry)}"')
+        outline = (
+            f'{theme().mark_edge}" stroke-width="{10 * MARKED:.0f}'
+            if cell.state in marked
+            else edge_colour(colour_of.get(cell.state, GREEN))
+        )
+        shape = (
+            f'<ellipse cx="{x}" cy="{y}" rx="{rx}" ry="{ry}"'
+            if look == "ellipses"
+            else f'<rect x="{x - rx}" y="{y - ry}" width="{2 * rx}" height="{2 * ry}" rx="{min(rx, ry)}"'
+        )
         shapes.append(f'{shape} fill="{fills[cell.state, cell.shade]}" stroke="{outline}"/>')
         if cell.way and rx > 25:
             arrows.append(arrow(x, y, rx, ry, cell.way))
-    return (f'<g stroke-width="10">{"".join(shapes)}</g>'
-            f'<path d="{"".join(arrows)}" fill="none" stroke="{theme().ink}" stroke-width="10" stroke-linecap="round" '
-            f'stroke-linejoin="round"/>')
+    return (
+        f'<g stroke-width="10">{"".join(shapes)}</g>'
+        f'<path d="{"".join(arrows)}" fill="none" stroke="{theme().ink}" stroke-width="10" stroke-linecap="round" '
+        f'stroke-linejoin="round"/>'
+    )
 
 
 def letters_fit(sheet: FilamentLayout, letters: Mapping[int, str]) -> bool:
@@ -117,10 +141,20 @@ def letters_fit(sheet: FilamentLayout, letters: Mapping[int, str]) -> bool:
 def _letters_svg(cells: Sequence[DrawnCell], middle: float, colour_of: Mapping[int, str], letters: Mapping[int, str]) -> str:
     """The letters in cells, where there is room, each on its cell's own colour."""
     y = tenths(middle + 0.36 * LETTER)
-    texts = [f'<text x="{tenths(cell.x)}" y="{y}" stroke="{cell_fill(colour_of.get(cell.state, GREEN), cell.shade)}">'
-             f"{escape(letters[cell.state])}</text>" for cell in cells if letters.get(cell.state) and _fits(cell, letters)]
-    return (f'<g font-size="{10 * LETTER}" font-family="sans-serif" font-style="italic" text-anchor="middle" '
-            f'fill="{theme().ink}" stroke-width="40" paint-order="stroke">{"".join(texts)}</g>') if texts else ""
+    texts = [
+        f'<text x="{tenths(cell.x)}" y="{y}" stroke="{cell_fill(colour_of.get(cell.state, GREEN), cell.shade)}">'
+        f"{escape(letters[cell.state])}</text>"
+        for cell in cells
+        if letters.get(cell.state) and _fits(cell, letters)
+    ]
+    return (
+        (
+            f'<g font-size="{10 * LETTER}" font-family="sans-serif" font-style="italic" text-anchor="middle" '
+            f'fill="{theme().ink}" stroke-width="40" paint-order="stroke">{"".join(texts)}</g>'
+        )
+        if texts
+        else ""
+    )
 
 
 def _fits(cell: DrawnCell, letters: Mapping[int, str]) -> bool:
@@ -145,8 +179,9 @@ def wall_colour(colour: str, shade: float) -> str:
     return mixed(line(colour), theme().ink, 1 - (1 - OLDEST) * shade)
 
 
-def _walls_svg(walls: Sequence[DrawnWall], middle: float, aged: bool, colour_of: Mapping[int, str],
-               marked: Collection[int]) -> str:
+def _walls_svg(
+    walls: Sequence[DrawnWall], middle: float, aged: bool, colour_of: Mapping[int, str], marked: Collection[int]
+) -> str:
     """The walls of a filament, with their ages above."""
     parts = []
     for wall in walls:
@@ -154,8 +189,11 @@ def _walls_svg(walls: Sequence[DrawnWall], middle: float, aged: bool, colour_of:
         colour = theme().mark_edge if wall.state in marked else wall_colour(colour_of.get(wall.state, GREEN), wall.shade)
         parts.append(f'<path d="M{x} {top}V{bottom}" stroke="{colour}" stroke-width="{tenths(wall_width(wall.shade))}"/>')
     if aged and _ages_fit(walls):
-        parts += [f'<text x="{tenths(_age_place(wall))}" y="{tenths(middle - wall.height - 4.5)}" font-size="105" '
-                  f'text-anchor="middle" font-family="sans-serif" fill="{theme().ink}">{wall.age}</text>' for wall in walls]
+        parts += [
+            f'<text x="{tenths(_age_place(wall))}" y="{tenths(middle - wall.height - 4.5)}" font-size="105" '
+            f'text-anchor="middle" font-family="sans-serif" fill="{theme().ink}">{wall.age}</text>'
+            for wall in walls
+        ]
     return f'<g stroke-linecap="round">{"".join(parts)}</g>' if parts else ""
 
 

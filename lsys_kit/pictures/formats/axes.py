@@ -55,8 +55,17 @@ def plot_turtle(ax: Axes, scene: Scene, colour_of: Mapping[int, str]) -> None:
     frame = frame_in(ax, scene)
     shapes = list(_painted(display_list(scene, frame.scale, colour_of)))
     paths, insides, edges, widths = zip(*shapes, strict=True) if shapes else [()] * 4
-    ax.add_collection(PathCollection(paths, facecolors=to_rgba_array(insides), edgecolors=to_rgba_array(edges),
-                                     linewidths=widths, capstyle="round", joinstyle="round", transform=ax.transData))
+    ax.add_collection(
+        PathCollection(
+            paths,
+            facecolors=to_rgba_array(insides),
+            edgecolors=to_rgba_array(edges),
+            linewidths=widths,
+            capstyle="round",
+            joinstyle="round",
+            transform=ax.transData,
+        )
+    )
     left, top = frame.left - MARGIN / frame.scale, frame.top + MARGIN / frame.scale
     _plot_labels(ax, scene.labels)
     ax.update_datalim([(left, top), (left + frame.width / frame.scale, top - frame.height / frame.scale)])
@@ -68,8 +77,16 @@ def _plot_labels(ax: Axes, labels: Labels) -> None:
 
     halo = [withStroke(linewidth=3, foreground=theme().paper)]
     for place, text in zip(labels.points.tolist(), labels.texts, strict=True):
-        ax.annotate(text, place, (LABEL_GAP, 0), textcoords="offset points", va="center", fontsize=LABEL, color=theme().ink,
-                    path_effects=halo)
+        ax.annotate(
+            text,
+            place,
+            (LABEL_GAP, 0),
+            textcoords="offset points",
+            va="center",
+            fontsize=LABEL,
+            color=theme().ink,
+            path_effects=halo,
+        )
 
 
 def _painted(shapes: DisplayList) -> Iterator[PaintedPath]:

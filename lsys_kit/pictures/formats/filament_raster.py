@@ -21,8 +21,14 @@ CELLS_A_PIXEL = 16
 """Of more cells than this in one pixel, the others cannot be seen."""
 
 
-def rows_image(sheet: FilamentLayout, look: str, colour_of: Mapping[int, str], current: int | None = None,
-               marked: Collection[int] = (), enlarged: float = 1.0) -> Image:
+def rows_image(
+    sheet: FilamentLayout,
+    look: str,
+    colour_of: Mapping[int, str],
+    current: int | None = None,
+    marked: Collection[int] = (),
+    enlarged: float = 1.0,
+) -> Image:
     """Filaments below one another, with a common scale, without text; the current row on a tinted band."""
     from PIL import Image, ImageDraw
 
@@ -41,8 +47,11 @@ def rows_image(sheet: FilamentLayout, look: str, colour_of: Mapping[int, str], c
         for wall in counted(sheet.walls(row, CELLS_A_PIXEL)):
             reach, colour = (wall.height + 2) * fine, wall_colour(colour_of.get(wall.state, GREEN), wall.shade)
             colour = theme().mark_edge if wall.state in marked else colour
-            pen.line([(wall.x * fine, middle - reach), (wall.x * fine, middle + reach)], fill=colour,
-                     width=max(1, round(wall_width(wall.shade) * fine)))
+            pen.line(
+                [(wall.x * fine, middle - reach), (wall.x * fine, middle + reach)],
+                fill=colour,
+                width=max(1, round(wall_width(wall.shade) * fine)),
+            )
     return image.resize((wide, high), Image.Resampling.BOX)
 
 

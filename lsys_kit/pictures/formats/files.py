@@ -34,8 +34,10 @@ def save_as(path: Path, formats: Encoders, hint: str = "") -> None:
         The name ends in something else, a file that the kit did not make is there already, or the file cannot be written.
     """
     if path.suffix.lower() not in formats:
-        raise ModelFileError(f'This picture cannot be written to "{quotable(path.name)}"',
-                             hint=f"Let the name end in {listed(formats)}. {hint}".rstrip())
+        raise ModelFileError(
+            f'This picture cannot be written to "{quotable(path.name)}"',
+            hint=f"Let the name end in {listed(formats)}. {hint}".rstrip(),
+        )
     with Task("The file was not written"):
         content = formats[path.suffix.lower()]()
     save_file(path, content)

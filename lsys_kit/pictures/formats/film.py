@@ -24,8 +24,20 @@ SECONDS, HELD = 0.6, 4
 """The duration of each step in seconds, and the factor by which the last is shown longer."""
 RATE = 25
 """An MP4 film has so many pictures a second at least, many of them the same, because players expect about as many."""
-SETTINGS = ("-preset", "medium", "-crf", "16", "-threads", "1", "-fflags", "+bitexact", "-flags:v", "+bitexact",
-            "-movflags", "+faststart")
+SETTINGS = (
+    "-preset",
+    "medium",
+    "-crf",
+    "16",
+    "-threads",
+    "1",
+    "-fflags",
+    "+bitexact",
+    "-flags:v",
+    "+bitexact",
+    "-movflags",
+    "+faststart",
+)
 """What ffmpeg is told besides: to lose hardly anything, to write the same every time, and to let a page play the beginning
 while the rest is loaded."""
 
@@ -83,8 +95,15 @@ class Film:
         LSystemError
             For .mp4 there is no ffmpeg, or it failed.
         """
-        save_as(path_from(path), {".gif": lambda: marked_gif(self.gif), ".apng": lambda: marked_png(self.apng),
-                                  ".png": lambda: marked_png(self.apng), ".mp4": lambda: marked_mp4(self.mp4)})
+        save_as(
+            path_from(path),
+            {
+                ".gif": lambda: marked_gif(self.gif),
+                ".apng": lambda: marked_png(self.apng),
+                ".png": lambda: marked_png(self.apng),
+                ".mp4": lambda: marked_mp4(self.mp4),
+            },
+        )
 
     def _film(self, form: str) -> bytes:
         buffer, step = io.BytesIO(), round(1000 * self.seconds)
@@ -115,16 +134,26 @@ def mp4_of(images: Sequence[Image], seconds: float) -> bytes:
     """
     try:
         from imageio_ffmpeg import get_ffmpeg_exe, write_frames
+
         get_ffmpeg_exe()
     except (ImportError, RuntimeError):
-        raise LSystemError("Films in .mp4 are written by the program ffmpeg, which is not installed",
-                           hint="Install it with: pip install 'lsys-kit[film]'; or take .gif or .apng.") from None
+        raise LSystemError(
+            "Films in .mp4 are written by the program ffmpeg, which is not installed",
+            hint="Install it with: pip install 'lsys-kit[film]'; or take .gif or .apng.",
+        ) from None
     even = [_even(image) for image in images]
     with tempfile.TemporaryDirectory() as folder:
         target = Path(folder) / "film.mp4"
-        writer = write_frames(str(target), even[0].size, fps=1 / Fraction(seconds).limit_denominator(1_000), codec="libx264",
-                              quality=None, macro_block_size=1, ffmpeg_log_level="fatal",
-                              output_params=[*SETTINGS, "-r", f"{max(RATE, 1 / seconds):g}"])
+        writer = write_frames(
+            str(target),
+            even[0].size,
+            fps=1 / Fraction(seconds).limit_denominator(1_000),
+            codec="libx264",
+            quality=None,
+            macro_block_size=1,
+            ffmpeg_log_level="fatal",
+            output_params=[*SETTINGS, "-r", f"{max(RATE, 1 / seconds):g}"],
+        )
         try:
             writer.send(None)
             for image in counted(even, 1):
@@ -139,7 +168,8 @@ def _even(image: Image) -> Image:
     """An image with even numbers of pixels across and down, as H.264 wants it: pixels like those of its corner may be added."""
     from PIL import Image
 
-    paper = Image.new("RGB", (image.width + image.width % 2, image.height + image.height % 2),
-                      image.convert("RGB").getpixel((0, 0)))
+    paper = Image.new(
+        "RGB", (image.width + image.width % 2, image.height + image.height % 2), image.convert("RGB").getpixel((0, 0))
+    )
     paper.paste(image)
     return paper

@@ -33,7 +33,7 @@ def touched(across: Coordinates, down: Coordinates, shape: tuple[int, ...], numb
     """
     found = np.zeros(shape[0] * shape[1], dtype=bool if numbers is None else np.int32)
     for first in range(0, len(across), STROKES_AT_A_TIME):
-        x, y = across[first:first + STROKES_AT_A_TIME], down[first:first + STROKES_AT_A_TIME]
+        x, y = across[first : first + STROKES_AT_A_TIME], down[first : first + STROKES_AT_A_TIME]
         wide, high = x[:, 1] - x[:, 0], y[:, 1] - y[:, 0]
         steps = np.ceil(np.maximum(np.abs(wide), np.abs(high))).astype(np.int32)
         np.maximum(steps, 1, out=steps)
@@ -43,7 +43,7 @@ def touched(across: Coordinates, down: Coordinates, shape: tuple[int, ...], numb
             along = np.arange(int(counts.sum()), dtype=np.int32) - np.repeat(np.cumsum(counts) - counts, counts)
             column = (np.repeat(x[some, 0], counts) + np.repeat(wide[some] / steps[some], counts) * along).astype(np.int32)
             row = (np.repeat(y[some, 0], counts) + np.repeat(high[some] / steps[some], counts) * along).astype(np.int32)
-            here = True if numbers is None else np.repeat(numbers[first:first + STROKES_AT_A_TIME][some], counts)
+            here = True if numbers is None else np.repeat(numbers[first : first + STROKES_AT_A_TIME][some], counts)
             found[row * shape[1] + column] = here
     return found.reshape(shape)
 
@@ -75,6 +75,6 @@ def spread(found: NDArray[Any], radius: float) -> NDArray[Any]:
             side += 1
             np.maximum(row[:, side:], found[:, :-side], out=row[:, side:])
             np.maximum(row[:, :-side], found[:, side:], out=row[:, :-side])
-        np.maximum(whole[up:], row[:height - up], out=whole[up:])
-        np.maximum(whole[:height - up], row[up:], out=whole[:height - up])
+        np.maximum(whole[up:], row[: height - up], out=whole[up:])
+        np.maximum(whole[: height - up], row[up:], out=whole[: height - up])
     return whole

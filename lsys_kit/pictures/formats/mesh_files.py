@@ -54,8 +54,12 @@ def by_colour(mesh: Mesh, colour_of: Mapping[int, str]) -> Iterator[ColouredMesh
         check_budget()
         ours = np.flatnonzero(colours == number)
         renumbered[ours] = np.arange(len(ours), dtype=np.uint32)
-        yield ColouredMesh(names[number], _upright(mesh.vertices[ours]), _upright(mesh.normals[ours]),
-                           renumbered[mesh.triangles[first == number]])
+        yield ColouredMesh(
+            names[number],
+            _upright(mesh.vertices[ours]),
+            _upright(mesh.normals[ours]),
+            renumbered[mesh.triangles[first == number]],
+        )
 
 
 def _bytes_of(mesh: Mesh) -> int:
@@ -85,8 +89,14 @@ def glb(mesh: Mesh, colour_of: Mapping[int, str]) -> bytes:
         primitives.append({"attributes": attributes, "indices": _accessor(lists, data, part.triangles), "material": number})
         lists["materials"].append(_material(part.colour))
     if primitives:  # in glTF no list is empty
-        tree |= {"scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "meshes": [{"primitives": primitives}],
-                 **lists, "buffers": [{"byteLength": len(data)}]}
+        tree |= {
+            "scene": 0,
+            "scenes": [{"nodes": [0]}],
+            "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": primitives}],
+            **lists,
+            "buffers": [{"byteLength": len(data)}],
+        }
     return _packed(json.dumps(tree, separators=(",", ":")).encode(), data)
 
 
@@ -95,10 +105,15 @@ def _accessor(lists: Mapping[str, list[Any]], data: bytearray, rows: Singles | N
     vectors = rows.dtype == np.float32
     check_budget()
     added = rows.astype(rows.dtype.newbyteorder("<"), copy=False).tobytes()
-    lists["bufferViews"].append({"buffer": 0, "byteOffset": len(data), "byteLength": len(added),
-                                 "target": _VERTICES if vectors else _INDICES})
-    accessor = {"bufferView": len(lists["bufferViews"]) - 1, "componentType": _FLOAT if vectors else _UNSIGNED,
-                "count": len(rows) if vectors else rows.size, "type": "VEC3" if vectors else "SCALAR"}
+    lists["bufferViews"].append(
+        {"buffer": 0, "byteOffset": len(data), "byteLength": len(added), "target": _VERTICES if vectors else _INDICES}
+    )
+    accessor = {
+        "bufferView": len(lists["bufferViews"]) - 1,
+        "componentType": _FLOAT if vectors else _UNSIGNED,
+        "count": len(rows) if vectors else rows.size,
+        "type": "VEC3" if vectors else "SCALAR",
+    }
     if vectors:
         accessor |= {"min": rows.min(axis=0).tolist(), "max": rows.max(axis=0).tolist()}
     data += added
@@ -109,8 +124,11 @@ def _accessor(lists: Mapping[str, list[Any]], data: bytearray, rows: Singles | N
 def _material(colour: str) -> dict[str, Any]:
     """A matt, double-sided material of a colour."""
     factor = [round(_linear(channel), 6) for channel in channels(colour)]
-    return {"name": colour, "doubleSided": True,
-            "pbrMetallicRoughness": {"baseColorFactor": [*factor, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.8}}
+    return {
+        "name": colour,
+        "doubleSided": True,
+        "pbrMetallicRoughness": {"baseColorFactor": [*factor, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.8},
+    }
 
 
 def channels(colour: str) -> tuple[float, float, float]:
@@ -151,9 +169,12 @@ def obj(mesh: Mesh, colour_of: Mapping[int, str], library: str) -> bytes:
     _check_copies(mesh, 2 * LINE_BYTES * (len(mesh.triangles) + 2 * len(mesh.vertices)) + _bytes_of(mesh))
     found, first = [f"# A drawing of lsys-kit\nmtllib {library}\n".encode()], 1
     for part in by_colour(mesh, colour_of):
-        found += [*_formatted_rows("v %.7g %.7g %.7g\n", part.vertices), *_formatted_rows("vn %.7g %.7g %.7g\n", part.normals),
-                  f"usemtl {_material_name(part.colour)}\n".encode(),
-                  *_formatted_rows("f %d//%d %d//%d %d//%d\n", part.triangles, repeated=2, added=first)]
+        found += [
+            *_formatted_rows("v %.7g %.7g %.7g\n", part.vertices),
+            *_formatted_rows("vn %.7g %.7g %.7g\n", part.normals),
+            f"usemtl {_material_name(part.colour)}\n".encode(),
+            *_formatted_rows("f %d//%d %d//%d %d//%d\n", part.triangles, repeated=2, added=first),
+        ]
         first += len(part.vertices)
     return b"".join(found)
 
@@ -161,15 +182,17 @@ def obj(mesh: Mesh, colour_of: Mapping[int, str], library: str) -> bytes:
 def _formatted_rows(pattern: str, rows: Singles | Numbers, repeated: int = 1, added: int = 0) -> Iterator[bytes]:
     """The lines for some rows, block by block; each number has something added, and stands there several times."""
     for first in counted(range(0, len(rows), ROWS_AT_A_TIME), 1):
-        some = np.repeat(rows[first:first + ROWS_AT_A_TIME] + rows.dtype.type(added), repeated, axis=1)
+        some = np.repeat(rows[first : first + ROWS_AT_A_TIME] + rows.dtype.type(added), repeated, axis=1)
         yield (pattern * len(some) % tuple(some.ravel().tolist())).encode()
 
 
 def mtl(mesh: Mesh, colour_of: Mapping[int, str]) -> bytes:
     """The colours of a mesh as text of an .mtl file."""
-    materials = (f"newmtl {_material_name(colour)}\nKd {red:.4f} {green:.4f} {blue:.4f}\nKs 0 0 0\nillum 1\n"
-                 for colour in dict.fromkeys(part.colour for part in by_colour(mesh, colour_of))
-                 for red, green, blue in [channels(colour)])
+    materials = (
+        f"newmtl {_material_name(colour)}\nKd {red:.4f} {green:.4f} {blue:.4f}\nKs 0 0 0\nillum 1\n"
+        for colour in dict.fromkeys(part.colour for part in by_colour(mesh, colour_of))
+        for red, green, blue in [channels(colour)]
+    )
     return "".join(["# Colours of a drawing of lsys-kit\n", *materials]).encode()
 
 

@@ -124,9 +124,11 @@ class SVGPicture(ABC):
     def _encoders(self, path: Path, dpi: object = None) -> dict[str, Callable[[], bytes]]:
         """For each extension what encodes the picture."""
         dots = dots_from(dpi, path)
-        return {".svg": lambda: marked_xml(self.svg),
-                ".png": lambda: marked_png(self.png if dots is None else encoded(self.image(dots / INCH)), dots),
-                ".pdf": lambda: self.pdf}
+        return {
+            ".svg": lambda: marked_xml(self.svg),
+            ".png": lambda: marked_png(self.png if dots is None else encoded(self.image(dots / INCH)), dots),
+            ".pdf": lambda: self.pdf,
+        }
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
         return svg_bundle(self.svg, repr(self))
@@ -164,13 +166,16 @@ def svg_bundle(svg: str, text: str) -> dict[str, Any]:
 
 def film_bundle(moving: bytes, still: Callable[[], bytes], text: str) -> dict[str, Any]:
     """A film as a GIF that can be stopped, with its text alternative, by media types; stopped it shows its last picture."""
-    html = (f"{_STYLE}<div class='lsys-film'><label><input type='checkbox' checked> play</label><br>"
-            f"{_image('gif', moving, text, 'lsys-moving')}{_image('png', still(), text, 'lsys-still')}</div>")
+    html = (
+        f"{_STYLE}<div class='lsys-film'><label><input type='checkbox' checked> play</label><br>"
+        f"{_image('gif', moving, text, 'lsys-moving')}{_image('png', still(), text, 'lsys-still')}</div>"
+    )
     return {"text/html": html, "image/gif": base64.b64encode(moving).decode(), "text/plain": text}
 
 
-_STYLE = ("<style>.lsys-film:has(input:checked) .lsys-still, .lsys-film:has(input:not(:checked)) .lsys-moving {display: none}"
-          "</style>")
+_STYLE = (
+    "<style>.lsys-film:has(input:checked) .lsys-still, .lsys-film:has(input:not(:checked)) .lsys-moving {display: none}</style>"
+)
 
 
 def _image(form: str, data: bytes, text: str, kind: str = "") -> str:

@@ -67,8 +67,9 @@ def _outline(sheet: Sheet, shape: Outline, place: Place) -> None:
     if look.stroke:
         dashes, width = [each * place.scale for each in look.dashes], max(1, round(look.width * place.scale))
         lines = [part for each in paths for part in dashed(each, dashes)] if dashes else paths
-        _with_opacity(sheet, look.stroke, look.stroke_opacity,
-                      lambda pen, colour: _stroke(pen, lines, colour, width, look.round_ends))
+        _with_opacity(
+            sheet, look.stroke, look.stroke_opacity, lambda pen, colour: _stroke(pen, lines, colour, width, look.round_ends)
+        )
 
 
 def _whole(points: Floats) -> list[tuple[int, int]]:

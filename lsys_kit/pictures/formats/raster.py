@@ -98,7 +98,7 @@ def turtle_image(scene: Scene, colour_of: Mapping[int, str], frame: ViewFrame, e
 
 def samples_for(width: float, height: float) -> int:
     """The supersampling factor of an image: less than usual for one of so many pixels that memory would not do."""
-    needed = [POINT_BYTES * round(width * height) * samples ** 2 for samples in range(1, FINE + 1)]
+    needed = [POINT_BYTES * round(width * height) * samples**2 for samples in range(1, FINE + 1)]
     check_bytes(needed[0], lambda: "The picture was not drawn")
     return sum(size <= current().bytes for size in needed)
 
@@ -143,15 +143,19 @@ def _spread_out(shapes: DisplayList, fine: float) -> NDArray[np.int64]:
     return np.where((many < FEW_RUNS)[which] & (squares >= 1), -1, squares)
 
 
-def _painted_in_turn(shapes: DisplayList, grid: FineGrid, across: Coordinates, down: Coordinates,
-                     spread_out: NDArray[np.int64]) -> Grid:
+def _painted_in_turn(
+    shapes: DisplayList, grid: FineGrid, across: Coordinates, down: Coordinates, spread_out: NDArray[np.int64]
+) -> Grid:
     """The grid with the numbers of what is painted one after another: polygons, discs, and some lines."""
     from PIL import Image, ImageDraw
 
     sheet = Image.new("I", (grid.width, grid.height), 0)
     pen = ImageDraw.Draw(sheet)
-    painters = {AREA: _area_painter(shapes.areas, grid, pen), ROUND: _round_painter(shapes.rounds, grid, pen),
-                0: _line_painter(shapes.lines, grid.fine, across, down, pen)}
+    painters = {
+        AREA: _area_painter(shapes.areas, grid, pen),
+        ROUND: _round_painter(shapes.rounds, grid, pen),
+        0: _line_painter(shapes.lines, grid.fine, across, down, pen),
+    }
     runs = np.flatnonzero(spread_out < 0)
     columns = (np.minimum(shapes.keys, 0)[runs], shapes.starts[runs], shapes.starts[runs + 1])
     for kind, first, end in counted(zip(*(column.tolist() for column in columns), strict=True)):
@@ -162,6 +166,7 @@ def _painted_in_turn(shapes: DisplayList, grid: FineGrid, across: Coordinates, d
 
 def _line_painter(lines: Lines, fine: float, across: Coordinates, down: Coordinates, pen: ImageDraw) -> ShapePainter:
     """A function that paints a line with round ends."""
+
     def paint(which: int, number: int) -> None:
         (x, to_x), (y, to_y), reach = across[which].tolist(), down[which].tolist(), float(lines.widths[which]) * fine / 20
         length = math.hypot(to_x - x, to_y - y) or 1.0
@@ -169,6 +174,7 @@ def _line_painter(lines: Lines, fine: float, across: Coordinates, down: Coordina
         pen.polygon([x + aside, y + up, to_x + aside, to_y + up, to_x - aside, to_y - up, x - aside, y - up], fill=number)
         for left, top in ((x, y), (to_x, to_y)):
             pen.ellipse((left - reach, top - reach, left + reach, top + reach), fill=number)
+
     return paint
 
 
@@ -178,10 +184,11 @@ def _area_painter(areas: Areas, grid: FineGrid, pen: ImageDraw) -> ShapePainter:
     edges, edge = (areas.edges != NO_COLOUR).tolist(), max(1, round(2 * grid.fine / FINE))
 
     def paint(which: int, number: int) -> None:
-        points = corners[ends[which]:ends[which + 1]]
+        points = corners[ends[which] : ends[which + 1]]
         pen.polygon(points, fill=number)
         if edges[which]:
             pen.line(points + points[:2], fill=number + 1, width=edge)
+
     return paint
 
 
@@ -195,6 +202,7 @@ def _round_painter(rounds: Rounds, grid: FineGrid, pen: ImageDraw) -> ShapePaint
         (x, y), reach = middles[which], max(2.0, radii[which] * grid.frame.scale * grid.fine)
         box = (x - reach, y - reach, x + reach, y + reach)
         pen.ellipse(box, fill=number if fills[which] else None, outline=number + edges[which], width=edge)
+
     return paint
 
 
@@ -248,13 +256,16 @@ def _pixels(ends: Coordinates, scene: Scene, grid: FineGrid) -> tuple[Coordinate
     """The columns and rows of the ends of lines in the fine grid."""
     precision = np.dtype(np.float32 if max(map(abs, scene.box)) < FLOAT32_RANGE else np.float64)
     frame, fine = grid.frame, grid.fine
-    ends, (left, top, factor, margin) = ends.astype(precision), np.array(
-        [frame.left, frame.top, frame.scale * fine, MARGIN * fine], precision)
+    ends, (left, top, factor, margin) = (
+        ends.astype(precision),
+        np.array([frame.left, frame.top, frame.scale * fine, MARGIN * fine], precision),
+    )
     return (ends[:, ::2] - left) * factor + margin, (top - ends[:, 1::2]) * factor + margin
 
 
-def _paint_at_once(seen: Grid, shapes: DisplayList, across: Coordinates, down: Coordinates,
-                   spread_out: NDArray[np.int64]) -> None:
+def _paint_at_once(
+    seen: Grid, shapes: DisplayList, across: Coordinates, down: Coordinates, spread_out: NDArray[np.int64]
+) -> None:
     """Paint lines over what has smaller numbers.
 
     Those that are spread alike are rasterised and then dilated all at once, so that the time depends on the number of their
@@ -262,9 +273,9 @@ def _paint_at_once(seen: Grid, shapes: DisplayList, across: Coordinates, down: C
     """
     starts, sizes = shapes.starts, np.diff(shapes.starts)
     for square in np.unique(spread_out[spread_out >= 0]).tolist():
-        runs, radius = np.flatnonzero(spread_out == square), square ** 0.5
+        runs, radius = np.flatnonzero(spread_out == square), square**0.5
         if len(runs) == 1:  # then it is enough to know where they are
-            first, end = starts[runs[0]:runs[0] + 2].tolist()
+            first, end = starts[runs[0] : runs[0] + 2].tolist()
             chosen = shapes.numbers[first:end]
             found = spread(touched(across[chosen], down[chosen], seen.shape), radius)
             np.maximum(seen, 2 * first + 1, out=seen, where=found)

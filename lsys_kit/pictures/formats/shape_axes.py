@@ -54,14 +54,24 @@ def _plot_outline(ax: Axes, shape: Outline, place: Place, points: float, layer: 
     from matplotlib.path import Path
 
     look, paths = shape.look, subpaths(shape.data, place.scale)
-    closed = [Path(_placed(np.vstack([each.corners, each.corners[:1]]) if each.closed else each.corners, place),
-                   closed=each.closed) for each in paths]
+    closed = [
+        Path(_placed(np.vstack([each.corners, each.corners[:1]]) if each.closed else each.corners, place), closed=each.closed)
+        for each in paths
+    ]
     width, ends = look.width * place.scale * points, "round" if look.round_ends else "butt"
     dashes = (0, tuple(dash / look.width for dash in look.dashes)) if look.dashes else "solid"
-    ax.add_patch(PathPatch(
-        Path.make_compound_path(*closed), facecolor=to_rgba(look.fill or "none", look.fill_opacity if look.fill else 0),
-        edgecolor=to_rgba(look.stroke or "none", look.stroke_opacity if look.stroke else 0), linewidth=width, capstyle=ends,
-        joinstyle="round", linestyle=dashes, zorder=layer))
+    ax.add_patch(
+        PathPatch(
+            Path.make_compound_path(*closed),
+            facecolor=to_rgba(look.fill or "none", look.fill_opacity if look.fill else 0),
+            edgecolor=to_rgba(look.stroke or "none", look.stroke_opacity if look.stroke else 0),
+            linewidth=width,
+            capstyle=ends,
+            joinstyle="round",
+            linestyle=dashes,
+            zorder=layer,
+        )
+    )
 
 
 def _plot_raster(ax: Axes, shape: Raster, place: Place, layer: int) -> None:
@@ -77,8 +87,13 @@ def _plot_sphere(ax: Axes, shape: Sphere, place: Place, layer: int) -> None:
     (x, y), radius = _placed((shape.x, shape.y), place), shape.radius * place.scale
     down, across = (np.mgrid[:PIXELS, :PIXELS] + 0.5) / PIXELS
     colours, opacity = gradient_at(shape.gradient, across, down)
-    image = ax.imshow(np.dstack([colours, opacity]), extent=(x - radius, x + radius, y - radius, y + radius), zorder=layer,
-                      interpolation="bilinear", aspect="equal")
+    image = ax.imshow(
+        np.dstack([colours, opacity]),
+        extent=(x - radius, x + radius, y - radius, y + radius),
+        zorder=layer,
+        interpolation="bilinear",
+        aspect="equal",
+    )
     image.set_clip_path(Circle((x, y), radius, transform=ax.transData))
 
 
@@ -89,6 +104,17 @@ def _plot_text(ax: Axes, shape: Text, place: Place, points: float, layer: int) -
     weight = "bold" if shape.font.bold else "normal"
     for run in shape.runs:
         x, y = _placed((run.x, run.y), place)
-        ax.text(x, y, run.text, fontsize=run.size * place.scale * points, color=shape.colour, zorder=layer, parse_math=False,
-                fontfamily=NAMES[shape.font.family], fontstyle="oblique" if run.italic else "normal", fontweight=weight,
-                path_effects=halo if shape.halo else None, clip_on=True)
+        ax.text(
+            x,
+            y,
+            run.text,
+            fontsize=run.size * place.scale * points,
+            color=shape.colour,
+            zorder=layer,
+            parse_math=False,
+            fontfamily=NAMES[shape.font.family],
+            fontstyle="oblique" if run.italic else "normal",
+            fontweight=weight,
+            path_effects=halo if shape.halo else None,
+            clip_on=True,
+        )

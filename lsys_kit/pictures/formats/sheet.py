@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from PIL.ImageDraw import ImageDraw
 
 Point: TypeAlias = tuple[float, float]
-PIXEL_BYTES = 3 * (FINE ** 2 + 1)
+PIXEL_BYTES = 3 * (FINE**2 + 1)
 """What a pixel takes while a sheet is painted and reduced."""
 SUBSCRIPT, LOWERED = 0.7, 0.21
 """The size of a subscript and how far it is lowered, to the size of the text."""

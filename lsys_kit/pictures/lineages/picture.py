@@ -91,8 +91,9 @@ def _interval(given: object) -> tuple[Value, Value]:
     return number_from(given[0], "interval"), number_from(given[1], "interval")
 
 
-def lineage_picture(lineage: Lineage, intervals: Iterable[tuple[object, object]] = (), *, labels: bool = True,
-                    legend: bool = True) -> LineagePicture:
+def lineage_picture(
+    lineage: Lineage, intervals: Iterable[tuple[object, object]] = (), *, labels: bool = True, legend: bool = True
+) -> LineagePicture:
     """The picture of a lineage, with some intervals of time marked.
 
     Raises
@@ -103,31 +104,46 @@ def lineage_picture(lineage: Lineage, intervals: Iterable[tuple[object, object]]
         An interval does not lie within the time of the lineage.
     """
     if len(lineage.words[-1]) > MOST_LINES:
-        raise ModelLimitError(f"{len(lineage.words[-1]):,} cells are too many for a picture of their lineage; it can have "
-                              f"{MOST_LINES}", limit=MOST_LINES, needed=len(lineage.words[-1]), hint="Take fewer steps.")
+        raise ModelLimitError(
+            f"{len(lineage.words[-1]):,} cells are too many for a picture of their lineage; it can have {MOST_LINES}",
+            limit=MOST_LINES,
+            needed=len(lineage.words[-1]),
+            hint="Take fewer steps.",
+        )
     if len(lineage.cells) > current().segments:
-        raise ModelLimitError(f"The tree of this lineage would have {len(lineage.cells):,} lines; a picture may have "
-                              f"{current().segments:,}", limit=current().segments, needed=len(lineage.cells),
-                              hint="Take fewer steps, or set limits(segments=...).")
+        raise ModelLimitError(
+            f"The tree of this lineage would have {len(lineage.cells):,} lines; a picture may have {current().segments:,}",
+            limit=current().segments,
+            needed=len(lineage.cells),
+            hint="Take fewer steps, or set limits(segments=...).",
+        )
     require(intervals, Iterable, "A list of intervals, each a pair of times,")
     found = tuple(map(_interval, intervals))
     for first, last in found:
         if not 0 <= first < last <= lineage.times[-1]:
-            raise ModelValueError(f"No interval from {time_text(first)} to {time_text(last)} can be marked",
-                                  hint=f"The lineage lasts from 0 to {time_text(lineage.times[-1])}.")
+            raise ModelValueError(
+                f"No interval from {time_text(first)} to {time_text(last)} can be marked",
+                hint=f"The lineage lasts from 0 to {time_text(lineage.times[-1])}.",
+            )
     return LineagePicture(lineage, found, labels, legend)
 
 
-def drawn_lineage(lineage: Lineage, intervals: Sequence[tuple[Value, Value]] = (), labels: bool = True,
-                  legend: bool = True) -> str:
+def drawn_lineage(
+    lineage: Lineage, intervals: Sequence[tuple[Value, Value]] = (), labels: bool = True, legend: bool = True
+) -> str:
     """A lineage as SVG text."""
     tree = tree_of(lineage, BRACKET * len(intervals))
     half = max((cell.width for cell in tree.row), default=8.0)
     middle = tree.y(lineage.times[-1]) + TAIL + half
     meaning, parts = _legend(tree) if legend else "", middle + half + 24
-    body = [_axis(tree) if labels else "", *(_bracket(tree, place, *interval) for place, interval in enumerate(intervals)),
-            *(_line(tree, cell) for cell in range(len(lineage.cells))), _flags(tree), _last_word(tree, middle, labels),
-            f'<g transform="translate({AXIS * 10} {tenths(parts)})" font-family="sans-serif" font-size="13">{meaning}</g>']
+    body = [
+        _axis(tree) if labels else "",
+        *(_bracket(tree, place, *interval) for place, interval in enumerate(intervals)),
+        *(_line(tree, cell) for cell in range(len(lineage.cells))),
+        _flags(tree),
+        _last_word(tree, middle, labels),
+        f'<g transform="translate({AXIS * 10} {tenths(parts)})" font-family="sans-serif" font-size="13">{meaning}</g>',
+    ]
     height = round(parts) + (MARGIN if meaning else -MARGIN)
     return document(background(WIDTH, height) + "".join(body), WIDTH, height, f"Lineage of {lineage}")
 
@@ -141,15 +157,17 @@ def _axis(tree: Tree) -> str:
     parts = [f'<text x="{tenths(AXIS - 10)}" y="{tenths(MARGIN + HEAD - 16)}" font-size="110" fill="{quiet}">{name}</text>']
     for time in _ticks(lineage):
         y = tenths(tree.y(time))
-        parts.append(f'<path d="M{tenths(AXIS)} {y}H{tenths(WIDTH - MARGIN)}" stroke="{fine}" stroke-width="8"/>'
-                     f'<text x="{tenths(AXIS - 10)}" y="{y + 42}" font-size="120" fill="{quiet}">{time_text(time)}</text>')
+        parts.append(
+            f'<path d="M{tenths(AXIS)} {y}H{tenths(WIDTH - MARGIN)}" stroke="{fine}" stroke-width="8"/>'
+            f'<text x="{tenths(AXIS - 10)}" y="{y + 42}" font-size="120" fill="{quiet}">{time_text(time)}</text>'
+        )
     return f'<g text-anchor="end" font-family="sans-serif">{"".join(parts)}</g>'
 
 
 def _ticks(lineage: Lineage) -> Sequence[Value]:
     """The times on the axis: those of steps, or whole ones."""
     if lineage.stepwise:
-        return lineage.times[::-(-len(lineage.times) // MOST_TICKS)]
+        return lineage.times[:: -(-len(lineage.times) // MOST_TICKS)]
     end = lineage.times[-1]
     return range(0, int(end) + 1, max(1, -(-int(end) // MOST_TICKS)))
 
@@ -157,9 +175,11 @@ def _ticks(lineage: Lineage) -> Sequence[Value]:
 def _bracket(tree: Tree, place: int, first: Value, last: Value) -> str:
     """An interval beside the tree, with its length."""
     x, top, bottom = tree.right + BRACKET * place + 18, tree.y(first), tree.y(last)
-    return (f'<path d="M{tenths(x - 5)} {tenths(top)}h100M{tenths(x)} {tenths(top)}V{tenths(bottom)}m-50 0h100" fill="none" '
-            f'stroke="{theme().ink}" stroke-width="14"/><text x="{tenths(x + 8)}" y="{tenths((top + bottom) / 2 + 4.5)}" '
-            f'font-size="130" font-family="sans-serif" fill="{theme().ink}">{time_text(last - first)}</text>')
+    return (
+        f'<path d="M{tenths(x - 5)} {tenths(top)}h100M{tenths(x)} {tenths(top)}V{tenths(bottom)}m-50 0h100" fill="none" '
+        f'stroke="{theme().ink}" stroke-width="14"/><text x="{tenths(x + 8)}" y="{tenths((top + bottom) / 2 + 4.5)}" '
+        f'font-size="130" font-family="sans-serif" fill="{theme().ink}">{time_text(last - first)}</text>'
+    )
 
 
 def _line(tree: Tree, number: int) -> str:
@@ -167,15 +187,21 @@ def _line(tree: Tree, number: int) -> str:
     cell, kind, x = tree.lineage.cells[number], tree.kinds[tree.kind_of[number]], tree.x[number]
     bottom = tree.y(tree.lineage.times[-1]) + TAIL if cell.ended is None else tree.y(cell.ended)
     seen = tree.y(tree.lineage.times[cell.modules[0][0]]) if cell.modules else bottom
-    late = "" if cell.due is None else (f'<path d="M{tenths(x)} {tenths(tree.y(max(cell.due, cell.born)))}V{tenths(bottom)}" '
-                                        f'{_late_look()} fill="none"/>')
+    late = (
+        ""
+        if cell.due is None
+        else (
+            f'<path d="M{tenths(x)} {tenths(tree.y(max(cell.due, cell.born)))}V{tenths(bottom)}" {_late_look()} fill="none"/>'
+        )
+    )
     start, turned = _branch_path(tree, number, bottom)
     look = f'fill="none" stroke="{line(kind.colour)}" stroke-linecap="round"{kind.broken}'
     if seen <= turned or not tree.lineage.stepwise:
         return f'{late}<path d="{start}V{tenths(bottom)}" {look} stroke-width="{THICK}"/>'
     thin = f'{late}<path d="{start}V{tenths(seen)}" {look} stroke-width="{THIN}"/>'
-    return thin + (f'<path d="M{tenths(x)} {tenths(seen)}V{tenths(bottom)}" {look} stroke-width="{THICK}"/>'
-                   if bottom > seen else "")
+    return thin + (
+        f'<path d="M{tenths(x)} {tenths(seen)}V{tenths(bottom)}" {look} stroke-width="{THICK}"/>' if bottom > seen else ""
+    )
 
 
 def _late_look() -> str:
@@ -191,8 +217,10 @@ def _branch_path(tree: Tree, number: int, bottom: float) -> tuple[str, float]:
         return f"M{tenths(x)} {tenths(top)}", top
     away = x - tree.x[cell.mother]
     bend = min(BEND, abs(away), bottom - top)
-    return (f"M{tenths(x - away)} {tenths(top)}H{tenths(x - (bend if away > 0 else -bend))}"
-            f"Q{tenths(x)} {tenths(top)} {tenths(x)} {tenths(top + bend)}"), top + bend
+    return (
+        f"M{tenths(x - away)} {tenths(top)}H{tenths(x - (bend if away > 0 else -bend))}"
+        f"Q{tenths(x)} {tenths(top)} {tenths(x)} {tenths(top + bend)}"
+    ), top + bend
 
 
 def _flags(tree: Tree) -> str:
@@ -217,25 +245,35 @@ def _last_word(tree: Tree, middle: float, labels: bool) -> str:
     longest = max((len(str(module)) for module in modules), default=0)
     if not labels or any(after - before < 7 * longest for before, after in pairwise(places)):
         return ""
-    return "".join(f'<text transform="translate({tenths(x)} {tenths(middle + 6)}) scale(10)" font-size="13" '
-                   f'text-anchor="middle" font-family="sans-serif" fill="{theme().ink}">'
-                   f"{svg_label(module.symbol, system, values_text(module))}</text>"
-                   for x, module in zip(places, modules, strict=True))
+    return "".join(
+        f'<text transform="translate({tenths(x)} {tenths(middle + 6)}) scale(10)" font-size="13" '
+        f'text-anchor="middle" font-family="sans-serif" fill="{theme().ink}">'
+        f"{svg_label(module.symbol, system, values_text(module))}</text>"
+        for x, module in zip(places, modules, strict=True)
+    )
 
 
 def _legend(tree: Tree) -> str:
     """What the lines mean: kinds of cells by what they are at birth; what is not in a word yet, what is late."""
     cells, entries = tree.lineage.cells, []
     if len(tree.kinds) > 1:
-        entries += [(f'stroke="{line(kind.colour)}" stroke-width="{THICK}" stroke-linecap="round"{kind.broken}', kind.label,
-                     kind.characters) for kind in tree.kinds]
+        entries += [
+            (
+                f'stroke="{line(kind.colour)}" stroke-width="{THICK}" stroke-linecap="round"{kind.broken}',
+                kind.label,
+                kind.characters,
+            )
+            for kind in tree.kinds
+        ]
     if tree.lineage.stepwise and any(not cell.modules or tree.lineage.times[cell.modules[0][0]] > cell.born for cell in cells):
         entries.append((f'stroke="{theme().quiet}" stroke-width="{THIN}"', "within a step", 13))
     if any(cell.due is not None for cell in cells):
         entries.append((_late_look(), "should have divided", 19))
     parts, x = [], 0
     for look, label, characters in entries:
-        parts.append(f'<path d="M{x} 0h280" {look}/><text transform="translate({x + 360} 45) scale(10)" fill="{theme().ink}">'
-                     f"{label}</text>")
+        parts.append(
+            f'<path d="M{x} 0h280" {look}/><text transform="translate({x + 360} 45) scale(10)" fill="{theme().ink}">'
+            f"{label}</text>"
+        )
         x += 360 + 65 * characters + 280
     return "".join(parts)

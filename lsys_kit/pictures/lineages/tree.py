@@ -130,10 +130,17 @@ def _filament(lineage: Lineage, right: int) -> list[DrawnCell]:
     scale = min((right - AXIS - MARGIN) / scene.width, BROADEST / scene.height) if len(scene.cells) else 1.0
     left = (right + AXIS - scene.width * scale) / 2
     cells = scene.cells
-    return [DrawnCell(left + x * scale, length * scale / 2, width * scale / 2, way, shade, number)
-            for number, (x, _), (length, width), way, shade in zip(
-                lineage.words[-1], cells.centres.tolist(), cells.sizes.tolist(), cells.polarities.tolist(),
-                cells.shades.tolist(), strict=True)]
+    return [
+        DrawnCell(left + x * scale, length * scale / 2, width * scale / 2, way, shade, number)
+        for number, (x, _), (length, width), way, shade in zip(
+            lineage.words[-1],
+            cells.centres.tolist(),
+            cells.sizes.tolist(),
+            cells.polarities.tolist(),
+            cells.shades.tolist(),
+            strict=True,
+        )
+    ]
 
 
 def _kinds(lineage: Lineage) -> tuple[list[CellKind], list[int], dict[int, str]]:
@@ -152,16 +159,20 @@ def _kinds(lineage: Lineage) -> tuple[list[CellKind], list[int], dict[int, str]]
         members[numbers[key]][module] = None
     kinds = [_cell_kind(lineage, list(modules), number) for number, modules in enumerate(members)]
     system = lineage.states.system
-    return kinds, [numbers[key] for key in keys], {cell: colour_of(lineage.cells[cell].modules[-1][1].symbol, system)
-                                                   for cell in lineage.words[-1]}
+    return (
+        kinds,
+        [numbers[key] for key in keys],
+        {cell: colour_of(lineage.cells[cell].modules[-1][1].symbol, system) for cell in lineage.words[-1]},
+    )
 
 
 def _cell_kind(lineage: Lineage, modules: Sequence[Module], number: int) -> CellKind:
     system, symbol = lineage.states.system, modules[0].symbol
     letter, subscript, values = place_parts(Place(symbol, tuple(modules)), system)
     name = f"{letter}_{subscript}" if subscript else letter
-    return CellKind(svg_label(name, system, values), len(name + values), colour_of(symbol, system),
-                    DASHES[number % len(DASHES)])
+    return CellKind(
+        svg_label(name, system, values), len(name + values), colour_of(symbol, system), DASHES[number % len(DASHES)]
+    )
 
 
 def _base(lineage: Lineage, module: Module) -> str:

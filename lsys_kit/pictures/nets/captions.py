@@ -10,7 +10,7 @@ from lsys_kit.notation.model.arithmetic import number_text
 
 LONGEST_CAPTION, LONGEST_FOOTNOTE = 24, 120
 """Longer terms are footnotes; longer footnotes are abbreviated. A caption's title shows the full text."""
-_UNITS = ((10 ** 12, "T"), (10 ** 9, "G"), (10 ** 6, "M"), (10 ** 3, "k"))
+_UNITS = ((10**12, "T"), (10**9, "G"), (10**6, "M"), (10**3, "k"))
 
 
 def short(count: int) -> str:
@@ -19,7 +19,7 @@ def short(count: int) -> str:
     >>> [short(n) for n in (7, 999, 1000, 1250, 31_999, 3_400_000, 10 ** 40)]
     ['7', '999', '1k', '1.2k', '31k', '3.4M', '10^40']
     """
-    if count >= 10 ** 15:
+    if count >= 10**15:
         return f"10^{int(math.log10(count))}"
     for size, unit in _UNITS:
         if count >= 10 * size:
@@ -35,10 +35,17 @@ def terms_of(transition: Transition) -> str:
     >>> terms_of(Transition(0, 0, "t >= 1", at_once=True)), terms_of(Transition(0, 1, chance=0.5))
     ('at once, t ≥ 1', 'p = 0.5')
     """
-    return ", ".join(filter(None, (
-        "at once" if transition.at_once else "",
-        "" if transition.chance is None else f"p = {likelihood(transition.chance)}",
-        "" if transition.span is None else f"after {number_text(transition.span)}", readable(transition.condition))))
+    return ", ".join(
+        filter(
+            None,
+            (
+                "at once" if transition.at_once else "",
+                "" if transition.chance is None else f"p = {likelihood(transition.chance)}",
+                "" if transition.span is None else f"after {number_text(transition.span)}",
+                readable(transition.condition),
+            ),
+        )
+    )
 
 
 def notes_of(net: Stages, positions: bool) -> dict[int, str]:
@@ -72,8 +79,10 @@ def readable(condition: str) -> str:
 
 def width_of(text: str, size: float) -> float:
     """An upper estimate of the width of a text, independent of installed fonts."""
-    return size * math.fsum(0.34 if letter in "iljtf.,:;()[]|'! " else 1.0 if letter in "mwMW" else
-                            0.8 if letter.isupper() else 0.64 for letter in text)
+    return size * math.fsum(
+        0.34 if letter in "iljtf.,:;()[]|'! " else 1.0 if letter in "mwMW" else 0.8 if letter.isupper() else 0.64
+        for letter in text
+    )
 
 
 def captions_of(net: Stages, places: Collection[int]) -> tuple[dict[int, str], tuple[str, ...]]:
@@ -97,4 +106,4 @@ def captions_of(net: Stages, places: Collection[int]) -> tuple[dict[int, str], t
 
 
 def _abbreviated(text: str) -> str:
-    return text if len(text) <= LONGEST_FOOTNOTE else text[:LONGEST_FOOTNOTE - 1].rstrip() + "…"
+    return text if len(text) <= LONGEST_FOOTNOTE else text[: LONGEST_FOOTNOTE - 1].rstrip() + "…"

@@ -50,7 +50,7 @@ def ordered(stretches: Sequence[Stretch]) -> list[int]:
 def _moved_to_best_place(order: list[int], number: int, cost: Sequence[Sequence[int]]) -> bool:
     """Move a stretch to the place with the fewest crossings; tell whether that helped."""
     now = order.index(number)
-    rest = order[:now] + order[now + 1:]
+    rest = order[:now] + order[now + 1 :]
     totals = [sum(cost[number][other] for other in rest)]
     for other in rest:
         totals.append(totals[-1] - cost[number][other] + cost[other][number])
@@ -69,8 +69,9 @@ def levels(stretches: Sequence[Stretch], order: Sequence[int]) -> list[int]:
     """
     found = [0] * len(stretches)
     for place, number in enumerate(order):
-        found[number] = max((found[other] + 1 for other in order[:place] if _meet(stretches[number], stretches[other])),
-                            default=0)
+        found[number] = max(
+            (found[other] + 1 for other in order[:place] if _meet(stretches[number], stretches[other])), default=0
+        )
     return found
 
 

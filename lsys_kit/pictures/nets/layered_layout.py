@@ -137,8 +137,9 @@ def _rises(layers: Layers, ys: Mapping[int, float]) -> list[float]:
     return found
 
 
-def _columns(layers: Layers, boxes: Mapping[int, _Box], rises: Sequence[float],
-             note: float) -> list[tuple[float, float, float]]:
+def _columns(
+    layers: Layers, boxes: Mapping[int, _Box], rises: Sequence[float], note: float
+) -> list[tuple[float, float, float]]:
     """For each column its left edge, its middle and its right edge; there is room for the widest note between two columns."""
     found, left = [], EDGE
     for i, layer in enumerate(layers.layers):
@@ -157,10 +158,16 @@ def _rows(graph: _Graph, layers: Layers, ports: Mapping[tuple[int, int], float],
     from scipy.sparse import coo_array
 
     count = sum(map(len, layers.layers))
-    pieces = [(a, b, ports.get((edge, a), 0.0) - ports.get((edge, b), 0.0), _weight(edge, a, b, graph))
-              for edge, chain in enumerate(layers.chains) for a, b in pairwise(chain)]
-    neighbours = [(a, b, boxes.get(a, _LINE).below + boxes.get(b, _LINE).above + SPACE)
-                  for layer in layers.layers for a, b in pairwise(layer)]
+    pieces = [
+        (a, b, ports.get((edge, a), 0.0) - ports.get((edge, b), 0.0), _weight(edge, a, b, graph))
+        for edge, chain in enumerate(layers.chains)
+        for a, b in pairwise(chain)
+    ]
+    neighbours = [
+        (a, b, boxes.get(a, _LINE).below + boxes.get(b, _LINE).above + SPACE)
+        for layer in layers.layers
+        for a, b in pairwise(layer)
+    ]
     entries: list[tuple[int, int, float]] = []
     bounds: list[float] = []
     for i, (a, b, shift, _) in enumerate(pieces):  # |a + shift - b| is at most the piece's own variable
@@ -183,8 +190,15 @@ def _weight(edge: int, a: int, b: int, graph: _Graph) -> int:
     return FEED if edge < len(graph.bars) else DUMMY if a >= real and b >= real else ARC
 
 
-def _placed(graph: _Graph, layers: Layers, ports: Mapping[tuple[int, int], float], boxes: Mapping[int, _Box],
-            xs: Sequence[tuple[float, float, float]], ys: Mapping[int, float], texts: Texts) -> Layout:
+def _placed(
+    graph: _Graph,
+    layers: Layers,
+    ports: Mapping[tuple[int, int], float],
+    boxes: Mapping[int, _Box],
+    xs: Sequence[tuple[float, float, float]],
+    ys: Mapping[int, float],
+    texts: Texts,
+) -> Layout:
     column = {vertex: xs[i] for i, layer in enumerate(layers.layers) for vertex in layer}
     lines = [_line(edge, chain, graph, ports, column, ys) for edge, chain in enumerate(layers.chains)]
     lines = [line[::-1] if edge in layers.turned else line for edge, line in enumerate(lines)]
@@ -194,20 +208,29 @@ def _placed(graph: _Graph, layers: Layers, ports: Mapping[tuple[int, int], float
         vertex = len(graph.places) + i
         x, y, half = column[vertex][1], ys[vertex], _half(vertex, ports)
         bars[bar] = BarPosition(x, y, half, lines[i], (x - texts.terms.get(bar, 0.0) / 2, y - half - 4))
-    arcs = dict(zip(graph.arcs, lines[len(graph.bars):], strict=True))
+    arcs = dict(zip(graph.arcs, lines[len(graph.bars) :], strict=True))
     taken = [(x, y + RADIUS + LABEL / 2, texts.labels[place] / 2, LABEL / 2) for place, (x, y) in circles.items()]
     taken += [(x, y, RADIUS, RADIUS) for x, y in circles.values()]
     taken += [(bar.x, bar.y, 2.0, bar.half) for bar in bars.values()]
-    taken += [(bars[number].x, bars[number].y - bars[number].half - 8, width / 2, 6.0)
-              for number, width in texts.terms.items() if number in bars]
+    taken += [
+        (bars[number].x, bars[number].y - bars[number].half - 8, width / 2, 6.0)
+        for number, width in texts.terms.items()
+        if number in bars
+    ]
     notes = _notes(arcs, lines, texts, taken)
     width = max((right for *_, right in xs), default=0.0) + EDGE
     height = max((ys[v] + boxes.get(v, _LINE).below for v in ys), default=0.0) + EDGE
     return Layout(width, height, circles, bars, arcs, notes)
 
 
-def _line(edge: int, chain: Sequence[int], graph: _Graph, ports: Mapping[tuple[int, int], float],
-          column: Mapping[int, tuple[float, float, float]], ys: Mapping[int, float]) -> tuple[Point, ...]:
+def _line(
+    edge: int,
+    chain: Sequence[int],
+    graph: _Graph,
+    ports: Mapping[tuple[int, int], float],
+    column: Mapping[int, tuple[float, float, float]],
+    ys: Mapping[int, float],
+) -> tuple[Point, ...]:
     """The vertices of the line of an edge, from left to right."""
     heights = [ys[vertex] + ports.get((edge, vertex), 0.0) for vertex in chain]
     first, last = chain[0], chain[-1]
@@ -220,11 +243,12 @@ def _line(edge: int, chain: Sequence[int], graph: _Graph, ports: Mapping[tuple[i
 
 def _reach(vertex: int, port: float, graph: _Graph) -> float:
     """How far from the middle of a vertex a line meets it."""
-    return (RADIUS ** 2 - port ** 2) ** 0.5 if vertex < len(graph.places) else 0.0
+    return (RADIUS**2 - port**2) ** 0.5 if vertex < len(graph.places) else 0.0
 
 
-def _notes(arcs: Mapping[int, tuple[Point, ...]], lines: Sequence[tuple[Point, ...]], texts: Texts,
-           taken: list[_Patch]) -> dict[int, Point]:
+def _notes(
+    arcs: Mapping[int, tuple[Point, ...]], lines: Sequence[tuple[Point, ...]], texts: Texts, taken: list[_Patch]
+) -> dict[int, Point]:
     """The positions of the notes of arcs: each on its line, as far from other lines and texts as it can be, within reason."""
     found: dict[int, Point] = {}
     for arc in (arc for arc in texts.notes if arc in arcs):
@@ -242,5 +266,9 @@ def _notes(arcs: Mapping[int, tuple[Point, ...]], lines: Sequence[tuple[Point, .
 
 def _sampled(line: Sequence[Point]) -> list[Point]:
     """Points along a line, a few pixels apart."""
-    return [(a[0] + t / n * (b[0] - a[0]), a[1] + t / n * (b[1] - a[1]))
-            for a, b in pairwise(line) for n in [max(2, int(dist(a, b) / 4))] for t in range(n + 1)]
+    return [
+        (a[0] + t / n * (b[0] - a[0]), a[1] + t / n * (b[1] - a[1]))
+        for a, b in pairwise(line)
+        for n in [max(2, int(dist(a, b) / 4))]
+        for t in range(n + 1)
+    ]

@@ -113,14 +113,20 @@ def _ranks(count: int, edges: Sequence[tuple[int, int]], weights: Sequence[int])
     np.subtract.at(costs, ends[:, 0], weights)
     values = np.repeat([1.0, -1.0], len(edges))
     rows, columns = np.tile(numbers, 2), np.concatenate([ends[:, 0], ends[:, 1]])
-    solved = linprog(costs, coo_array((values, (rows, columns)), shape=(len(edges), count)).tocsr(), -np.ones(len(edges)),
-                     bounds=(0, None), method="highs-ds")
+    solved = linprog(
+        costs,
+        coo_array((values, (rows, columns)), shape=(len(edges), count)).tocsr(),
+        -np.ones(len(edges)),
+        bounds=(0, None),
+        method="highs-ds",
+    )
     ranks: list[int] = np.rint(solved.x).astype(int).tolist()
     return ranks
 
 
-def _with_dummies(count: int, edges: Sequence[tuple[int, int]],
-                  ranks: Sequence[int]) -> tuple[list[list[int]], list[list[int]]]:
+def _with_dummies(
+    count: int, edges: Sequence[tuple[int, int]], ranks: Sequence[int]
+) -> tuple[list[list[int]], list[list[int]]]:
     """The layers with a dummy wherever an edge passes one, and the chain of each edge."""
     layers: list[list[int]] = [[] for _ in range(max(ranks, default=-1) + 1)]
     for vertex, rank in enumerate(ranks):
@@ -177,8 +183,11 @@ def _swept(order: list[list[int]], pieces: tuple[dict[int, list[int]], dict[int,
 
 def _by_means(layer: Sequence[int], neighbours: dict[int, list[int]], place: dict[int, float]) -> list[int]:
     """A layer by the mean place of its vertices' neighbours; vertices without any stay where they are."""
-    means = {vertex: sum([place[other] for other in neighbours[vertex]]) / len(neighbours[vertex])
-             for vertex in layer if vertex in neighbours}
+    means = {
+        vertex: sum([place[other] for other in neighbours[vertex]]) / len(neighbours[vertex])
+        for vertex in layer
+        if vertex in neighbours
+    }
     movable = iter(sorted(means, key=means.__getitem__))
     return [next(movable) if vertex in means else vertex for vertex in layer]
 

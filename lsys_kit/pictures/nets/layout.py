@@ -106,8 +106,13 @@ def layout_of(net: Stages, plan: Plan, texts: Texts) -> Layout:
     grid = _grid(net, plan, texts)
     circles = {place: (grid.columns[c], grid.rows[r]) for r, row in enumerate(plan.rows) for c, place in enumerate(row)}
     heights = _exit_heights(plan, circles)
-    bars = {number: bar for place, own in plan.bars.items() for number, bar in
-            _bars(own, circles[place], grid.bars[_column(plan, place)], heights, plan, texts.labels[place]).items()}
+    bars = {
+        number: bar
+        for place, own in plan.bars.items()
+        for number, bar in _bars(
+            own, circles[place], grid.bars[_column(plan, place)], heights, plan, texts.labels[place]
+        ).items()
+    }
     arcs = {route.arc: _corners(route, net, plan, grid, circles, heights) for route in plan.routes}
     notes = {arc: _note(arc, width, arcs) for arc, width in texts.notes.items() if arc in arcs}
     return Layout(grid.width, grid.height, circles, bars, arcs, notes)
@@ -120,16 +125,26 @@ def crossings(layout: Layout) -> int:
 
 def crossed_notes(layout: Layout, widths: Mapping[int, float]) -> int:
     """The number of notes on arcs, of given widths, that another arc runs through."""
-    return sum(any(p[0] == q[0] and abs(p[0] - layout.notes[arc][0]) < widths[arc] / 2
-                   and min(p[1], q[1]) - 7 < layout.notes[arc][1] < max(p[1], q[1]) + 7
-                   for other, line in layout.arcs.items() if other != arc for p, q in pairwise(line))
-               for arc in layout.notes)
+    return sum(
+        any(
+            p[0] == q[0]
+            and abs(p[0] - layout.notes[arc][0]) < widths[arc] / 2
+            and min(p[1], q[1]) - 7 < layout.notes[arc][1] < max(p[1], q[1]) + 7
+            for other, line in layout.arcs.items()
+            if other != arc
+            for p, q in pairwise(line)
+        )
+        for arc in layout.notes
+    )
 
 
 def _crossings(first: Sequence[Point], second: Sequence[Point]) -> int:
     """The number of points in which two lines cross, each a sequence of vertices."""
-    return sum(_turn(p, q, r) * _turn(p, q, s) < 0 and _turn(r, s, p) * _turn(r, s, q) < 0
-               for p, q in pairwise(first) for r, s in pairwise(second))
+    return sum(
+        _turn(p, q, r) * _turn(p, q, s) < 0 and _turn(r, s, p) * _turn(r, s, q) < 0
+        for p, q in pairwise(first)
+        for r, s in pairwise(second)
+    )
 
 
 def _turn(a: Point, b: Point, c: Point) -> float:
@@ -156,8 +171,16 @@ def _grid(net: Stages, plan: Plan, texts: Texts) -> _Grid:
     xs = tuple(accumulate(pitches, initial=EDGE + room[0] + first))
     right = max((x + reach for x, reach in zip(xs, east, strict=False)), default=0.0)
     ys, tops, bottom = _row_positions(plan)
-    return _Grid(xs, ys, tops, tuple(bars), tuple(slots), (xs[0] - (west[0] if west else 0), right + 4),
-                 right + room[1] + EDGE, bottom + EDGE)
+    return _Grid(
+        xs,
+        ys,
+        tops,
+        tuple(bars),
+        tuple(slots),
+        (xs[0] - (west[0] if west else 0), right + 4),
+        right + room[1] + EDGE,
+        bottom + EDGE,
+    )
 
 
 def _before_bar(plan: Plan, place: int, label: float) -> float:
@@ -169,8 +192,9 @@ def _before_bar(plan: Plan, place: int, label: float) -> float:
 def _turning(plan: Plan, place: int, bar: float, texts: Texts) -> float:
     """Where lines first turn off in a channel: to the right of terms and labels, with room for the note of a loop."""
     loops = (arc for arc in plan.entries.get(place, ()) if any(arc in plan.exits[t] for t in plan.bars[place]))
-    return max(bar + 10 + _widest(texts.terms, plan.bars[place]), texts.labels[place] / 2 + 6,
-               _widest(texts.notes, loops) + 2 * ROUND)
+    return max(
+        bar + 10 + _widest(texts.terms, plan.bars[place]), texts.labels[place] / 2 + 6, _widest(texts.notes, loops) + 2 * ROUND
+    )
 
 
 def _taken(plan: Plan, column: int, texts: Texts) -> float:
@@ -212,8 +236,9 @@ def _exit_heights(plan: Plan, circles: Mapping[int, Point]) -> dict[int, float]:
     return found
 
 
-def _bars(own: Sequence[int], circle: Point, reach: float, heights: Mapping[int, float], plan: Plan,
-          label: float) -> dict[int, BarPosition]:
+def _bars(
+    own: Sequence[int], circle: Point, reach: float, heights: Mapping[int, float], plan: Plan, label: float
+) -> dict[int, BarPosition]:
     """The bars of a place, and the lines to them; the line to one of several bars turns beside the label."""
     found = {}
     x, start = circle[0] + reach, (circle[0] + RADIUS, circle[1])
@@ -227,8 +252,9 @@ def _bars(own: Sequence[int], circle: Point, reach: float, heights: Mapping[int,
     return found
 
 
-def _corners(route: Route, net: Stages, plan: Plan, grid: _Grid, circles: Mapping[int, Point],
-             heights: Mapping[int, float]) -> tuple[Point, ...]:
+def _corners(
+    route: Route, net: Stages, plan: Plan, grid: _Grid, circles: Mapping[int, Point], heights: Mapping[int, float]
+) -> tuple[Point, ...]:
     """The vertices of the line of an arc."""
     arc, (row, column), to = route.arc, route.source, route.target[0]
     place = net.arcs[arc].place
@@ -247,7 +273,7 @@ def _corners(route: Route, net: Stages, plan: Plan, grid: _Grid, circles: Mappin
         corners += [(turn, corners[-1][1]), (turn, lane)]
     shift = _shift(arc, plan.entries[place])
     end = circles[place][0] + shift
-    return (*corners, (end, corners[-1][1]), (end, y_circle - (RADIUS ** 2 - shift ** 2) ** 0.5))
+    return (*corners, (end, corners[-1][1]), (end, y_circle - (RADIUS**2 - shift**2) ** 0.5))
 
 
 def _shift(arc: int, entries: Sequence[int]) -> float:
@@ -275,6 +301,10 @@ def _note(arc: int, width: float, arcs: Mapping[int, tuple[Point, ...]]) -> Poin
 def _free_intervals(a: Point, b: Point, others: Iterable[Sequence[Point]]) -> list[tuple[float, float, float]]:
     """The intervals of a lane between the lines that cross it, each with the vertical position of the lane."""
     left, right = sorted((a[0], b[0]))
-    cuts = {p[0] for line in others for p, q in pairwise(line)
-            if p[0] == q[0] and min(p[1], q[1]) - 7 < a[1] < max(p[1], q[1]) + 7 and left < p[0] < right}
+    cuts = {
+        p[0]
+        for line in others
+        for p, q in pairwise(line)
+        if p[0] == q[0] and min(p[1], q[1]) - 7 < a[1] < max(p[1], q[1]) + 7 and left < p[0] < right
+    }
     return [(start, end, a[1]) for start, end in pairwise([left, *sorted(cuts), right])]

@@ -141,29 +141,36 @@ def parts_of(net: Stages, positions: bool, steering: frozenset[str], chosen: tup
     names = {place: place_text(net.places[place], net.system) for place in order}
     notes = notes_of(net, positions)
     terms, numbered = captions_of(net, order)
-    texts = Texts({place: width_of(name, LABEL_SIZE) for place, name in names.items()},
-                  {number: width_of(text, SMALL) for number, text in terms.items()},
-                  {arc: width_of(text, SMALL) for arc, text in notes.items()})
+    texts = Texts(
+        {place: width_of(name, LABEL_SIZE) for place, name in names.items()},
+        {number: width_of(text, SMALL) for number, text in terms.items()},
+        {arc: width_of(text, SMALL) for arc, text in notes.items()},
+    )
     layout = clearest_layout(net, rows, texts, widest_legible(net, order, texts))
     besides = tuple(f"besides: {readable(text)}" for text in net.besides)
     footnotes = (*numbered, *besides)
     fills = _fills(net, order, dict(chosen))
     return Parts(
         math.ceil(max([layout.width, *(width_of(text, SMALL) + 2 * EDGE for text in footnotes)])),
-        math.ceil(layout.height + LINE * len(footnotes)), _description([*names.values()], besides),
+        math.ceil(layout.height + LINE * len(footnotes)),
+        _description([*names.values()], besides),
         tuple(_place(net, place, names[place], layout, *fills[place]) for place in order),
-        tuple(_bar(number, bar, terms.get(number, ""), terms_of(net.transitions[number]))
-              for number, bar in layout.bars.items()),
+        tuple(
+            _bar(number, bar, terms.get(number, ""), terms_of(net.transitions[number])) for number, bar in layout.bars.items()
+        ),
         tuple(_arc(arc, corners) for arc, corners in layout.arcs.items()),
         tuple(NotePart(*layout.notes[arc], width_of(text, SMALL), text) for arc, text in notes.items() if arc in layout.notes),
-        footnotes, layout.height)
+        footnotes,
+        layout.height,
+    )
 
 
 def positions_in(net: Stages) -> dict[str, Point]:
     """Where places and transitions stand in the picture of a net, by their names in PNML."""
     parts = parts_of(net, False, steering_of(net.system))
     return {f"p{part.place}": (part.x, part.y) for part in parts.places} | {
-        f"t{part.transition}": (part.x, part.y) for part in parts.bars}
+        f"t{part.transition}": (part.x, part.y) for part in parts.bars
+    }
 
 
 def widest_legible(net: Stages, places: Iterable[int], texts: Texts) -> float:
@@ -218,8 +225,11 @@ def _fills(net: Stages, order: Sequence[int], chosen: Mapping[str, str]) -> dict
     groups: dict[str, list[int]] = {}
     for place in sorted(order, key=lambda place: _rank(net.places[place])):
         groups.setdefault(palette.get(net.places[place].symbol, QUIET), []).append(place)
-    return {place: (colour, PALEST + (LABELLED - PALEST) * number / (max(len(group), 2) - 1))
-            for colour, group in groups.items() for number, place in enumerate(group)}
+    return {
+        place: (colour, PALEST + (LABELLED - PALEST) * number / (max(len(group), 2) - 1))
+        for colour, group in groups.items()
+        for number, place in enumerate(group)
+    }
 
 
 def _rank(place: Place) -> tuple[float, ...]:
@@ -236,8 +246,12 @@ def _arc(number: int, corners: Sequence[Point]) -> ArcPart:
     back, aside = (8.5 * (nx - x), 8.5 * (ny - y)), (3.4 * (ny - y), 3.4 * (x - nx))
     ends = sorted((x + back[0] + side * aside[0], y + back[1] + side * aside[1]) for side in (1, -1))
     head = "".join(f"L{a:.1f} {b:.1f}" for a, b in ends)
-    return ArcPart(number, rounded_path(corners), rounded_path([*corners[:-1], _point_towards(corners[-1], corners[-2], 10)]),
-                   f"M{x:.1f} {y:.1f}{head}Z")
+    return ArcPart(
+        number,
+        rounded_path(corners),
+        rounded_path([*corners[:-1], _point_towards(corners[-1], corners[-2], 10)]),
+        f"M{x:.1f} {y:.1f}{head}Z",
+    )
 
 
 def rounded_path(corners: Sequence[Point]) -> str:

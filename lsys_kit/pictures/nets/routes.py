@@ -138,7 +138,7 @@ def _leads(net: Stages, group: Sequence[int], sole: bool = False) -> dict[int, l
 def _wrapped(chain: Sequence[int], longest: int) -> list[tuple[int, ...]]:
     """A chain as rows of nearly equal length."""
     size = ceil(len(chain) / ceil(len(chain) / longest))
-    return [tuple(chain[i:i + size]) for i in range(0, len(chain), size)]
+    return [tuple(chain[i : i + size]) for i in range(0, len(chain), size)]
 
 
 def planned(net: Stages, rows: Sequence[tuple[int, ...]]) -> Plan:
@@ -150,8 +150,12 @@ def planned(net: Stages, rows: Sequence[tuple[int, ...]]) -> Plan:
         There are too many arcs.
     """
     if len(net.arcs) > MOST_ARCS:
-        raise ModelLimitError(f"A stage diagram with {len(net.arcs):,} arcs would not be legible; it may have {MOST_ARCS:,}",
-                              limit=MOST_ARCS, needed=len(net.arcs), hint="print(stages(system)) writes it as text.")
+        raise ModelLimitError(
+            f"A stage diagram with {len(net.arcs):,} arcs would not be legible; it may have {MOST_ARCS:,}",
+            limit=MOST_ARCS,
+            needed=len(net.arcs),
+            hint="print(stages(system)) writes it as text.",
+        )
     cells = {place: (r, c) for r, row in enumerate(rows) for c, place in enumerate(row)}
     columns = max(map(len, rows), default=0)
     bars: dict[int, list[int]] = {place: [] for place in cells}
@@ -162,12 +166,25 @@ def planned(net: Stages, rows: Sequence[tuple[int, ...]]) -> Plan:
     lanes = _lanes(routes, columns)
     climbs = _climbs(routes, lanes)
     slots = _slots(routes, lanes, columns)
-    return Plan(tuple(rows), {place: tuple(own) for place, own in bars.items()}, tuple(routes), lanes, climbs, slots,
-                _exits(net, routes, slots, climbs), _entries(net, routes, lanes))
+    return Plan(
+        tuple(rows),
+        {place: tuple(own) for place, own in bars.items()},
+        tuple(routes),
+        lanes,
+        climbs,
+        slots,
+        _exits(net, routes, slots, climbs),
+        _entries(net, routes, lanes),
+    )
 
 
-def _route(number: int, net: Stages, cells: Mapping[int, tuple[int, int]], bars: Mapping[int, Sequence[int]],
-           rows: Sequence[Sequence[int]]) -> Route:
+def _route(
+    number: int,
+    net: Stages,
+    cells: Mapping[int, tuple[int, int]],
+    bars: Mapping[int, Sequence[int]],
+    rows: Sequence[Sequence[int]],
+) -> Route:
     """The route of an arc, the shorter one if there are two."""
     arc = net.arcs[number]
     place = net.transitions[arc.transition].place
@@ -240,8 +257,9 @@ def _slots(routes: Sequence[Route], lanes: Mapping[tuple[int, int], int], column
     return {arc: slot for members in channels.values() for slot, (_, _, arc) in enumerate(sorted(members))}
 
 
-def _exits(net: Stages, routes: Sequence[Route], slots: Mapping[int, int],
-           climbs: Mapping[int, int]) -> dict[int, tuple[int, ...]]:
+def _exits(
+    net: Stages, routes: Sequence[Route], slots: Mapping[int, int], climbs: Mapping[int, int]
+) -> dict[int, tuple[int, ...]]:
     """The arcs of each bar from top to bottom: those that turn up, go straight on, and turn down."""
     found: dict[int, list[tuple[int, int, int]]] = {number: [] for number in range(len(net.transitions))}
     for route in routes:

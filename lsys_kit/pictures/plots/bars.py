@@ -62,8 +62,10 @@ class HistogramChart(Chart):
     @cached_property
     def text(self) -> str:
         """How many runs there are, the least, the mean and the greatest value."""
-        return (f"{len(self.values):,} runs, {plain(self.across.label)}: least {tick_text(min(self.values))}, mean "
-                f"{tick_text(float(f'{self._mean:.6g}'))}, greatest {tick_text(max(self.values))}")
+        return (
+            f"{len(self.values):,} runs, {plain(self.across.label)}: least {tick_text(min(self.values))}, mean "
+            f"{tick_text(float(f'{self._mean:.6g}'))}, greatest {tick_text(max(self.values))}"
+        )
 
     @property
     def _mean(self) -> float:
@@ -88,9 +90,16 @@ class HistogramChart(Chart):
         ax.set_ylim(0, top)
         ax.plot([self._mean] * 2, [0, top], color=VERMILION, linewidth=2, clip_on=False)
         left = self._mean > edges[0] + 0.7 * (edges[-1] - edges[0])
-        ax.annotate(f"mean {tick_text(float(f'{self._mean:.4g}'))}", (self._mean, top), (-6 if left else 6, 0),
-                    textcoords="offset points", ha="right" if left else "left", va="top", color=shaded(VERMILION, 0.8),
-                    fontsize=SIZE)
+        ax.annotate(
+            f"mean {tick_text(float(f'{self._mean:.4g}'))}",
+            (self._mean, top),
+            (-6 if left else 6, 0),
+            textcoords="offset points",
+            ha="right" if left else "left",
+            va="top",
+            color=shaded(VERMILION, 0.8),
+            fontsize=SIZE,
+        )
 
 
 class Share(NamedTuple):
@@ -141,11 +150,23 @@ class ShareChart(Chart):
         ax.grid(visible=False)
         ax.spines["bottom"].set_visible(False)
         places = range(len(self.shares))
-        ax.barh(places, [each.share for each in self.shares], height=0.66,
-                color=[tinted(each.colour, 0.7) for each in self.shares], clip_on=False)
+        ax.barh(
+            places,
+            [each.share for each in self.shares],
+            height=0.66,
+            color=[tinted(each.colour, 0.7) for each in self.shares],
+            clip_on=False,
+        )
         for place, each in zip(places, self.shares, strict=True):
-            ax.annotate(f"{each.share:.1%}", (each.share, place), (6, 0), textcoords="offset points", va="center", color=INK,
-                        fontsize=SIZE)
+            ax.annotate(
+                f"{each.share:.1%}",
+                (each.share, place),
+                (6, 0),
+                textcoords="offset points",
+                va="center",
+                color=INK,
+                fontsize=SIZE,
+            )
         ax.set_yticks(places, [each.label for each in self.shares], fontsize=SIZE)
         ax.set_xticks([])
         ax.set_xlim(0, max(each.share for each in self.shares) or 1)

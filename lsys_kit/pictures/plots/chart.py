@@ -130,10 +130,28 @@ def set_paper(ax: Axes, across: Axis, up: Axis) -> None:
     ax.grid(axis="y", color=RULE, linewidth=1, clip_on=False)
     ax.set_axisbelow(True)
     ax.tick_params(length=0, labelsize=SIZE - 1, labelcolor=INK, pad=6)
-    ax.annotate(across.label, (0.5, 0), (0, -26), xycoords="axes fraction", textcoords="offset points", ha="center", va="top",
-                color=INK, fontsize=SIZE)
-    ax.annotate(up.label, (0, 1), (0, 14), xycoords="axes fraction", textcoords="offset points", ha="left", va="bottom",
-                color=INK, fontsize=SIZE)
+    ax.annotate(
+        across.label,
+        (0.5, 0),
+        (0, -26),
+        xycoords="axes fraction",
+        textcoords="offset points",
+        ha="center",
+        va="top",
+        color=INK,
+        fontsize=SIZE,
+    )
+    ax.annotate(
+        up.label,
+        (0, 1),
+        (0, 14),
+        xycoords="axes fraction",
+        textcoords="offset points",
+        ha="left",
+        va="bottom",
+        color=INK,
+        fontsize=SIZE,
+    )
     for axis, one in ((ax.xaxis, across), (ax.yaxis, up)):
         _set_ticks(axis, one)
 
@@ -142,8 +160,11 @@ def _set_ticks(axis: object, one: Axis) -> None:
     """Round numbers along an axis, written as in a text."""
     from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
 
-    locator = LogLocator(numticks=MOST_TICKS) if one.log else MaxNLocator(MOST_TICKS, steps=[1, 2, 5, 10], integer=one.whole,
-                                                                          min_n_ticks=1)
+    locator = (
+        LogLocator(numticks=MOST_TICKS)
+        if one.log
+        else MaxNLocator(MOST_TICKS, steps=[1, 2, 5, 10], integer=one.whole, min_n_ticks=1)
+    )
     axis.set_major_locator(locator)  # type: ignore[attr-defined]
     axis.set_minor_locator(NullLocator())  # type: ignore[attr-defined]
     axis.set_major_formatter(FuncFormatter(lambda value, _: tick_text(value)))  # type: ignore[attr-defined]

@@ -72,8 +72,10 @@ class CurveChart(Chart):
         named = [plain(curve.label) for curve in self.curves if curve.label]
         names = f" ({', '.join(named)})" if named else ""
         many = len(self.curves)
-        return (f"{many} curve{'s' * (many != 1)}{names} of {plain(self.up.label)}, {plain(self.across.label)} from "
-                f"{tick_text(left)} to {tick_text(right)}, largest {tick_text(most)}")
+        return (
+            f"{many} curve{'s' * (many != 1)}{names} of {plain(self.up.label)}, {plain(self.across.label)} from "
+            f"{tick_text(left)} to {tick_text(right)}, largest {tick_text(most)}"
+        )
 
     def _span(self, axis: int) -> tuple[float, float]:
         values = [point[axis] for curve in self.curves for point in curve.points]
@@ -102,8 +104,17 @@ class CurveChart(Chart):
             ax.plot(*zip(*points, strict=True), color=curve.colour, alpha=0.3, linewidth=1, clip_on=False) if points else None
             return
         dots = "o" if len(points) <= MOST_DOTS else None
-        ax.plot([x for x, _ in points], [y for _, y in points], color=curve.colour, linewidth=2, linestyle=dashes, marker=dots,
-                markersize=5, markeredgewidth=0, clip_on=False)
+        ax.plot(
+            [x for x, _ in points],
+            [y for _, y in points],
+            color=curve.colour,
+            linewidth=2,
+            linestyle=dashes,
+            marker=dots,
+            markersize=5,
+            markeredgewidth=0,
+            clip_on=False,
+        )
 
     def _set_limits(self, ax: Axes) -> None:
         """From the first to the last point, and from 0 where that is near."""
@@ -123,8 +134,17 @@ class CurveChart(Chart):
         to_axes = ax.transData + ax.transAxes.inverted()
         ends = [float(to_axes.transform(curve.points[-1])[1]) * room for curve in named]
         for curve, place in zip(named, spread(ends, LABEL_DISTANCE), strict=True):
-            ax.annotate(curve.label, (1, place / room), (10, 0), xycoords="axes fraction", textcoords="offset points",
-                        ha="left", va="center", color=shaded(curve.colour, 0.7), fontsize=SIZE)
+            ax.annotate(
+                curve.label,
+                (1, place / room),
+                (10, 0),
+                xycoords="axes fraction",
+                textcoords="offset points",
+                ha="left",
+                va="center",
+                color=shaded(curve.colour, 0.7),
+                fontsize=SIZE,
+            )
 
 
 def spread(places: Sequence[float], distance: float) -> list[float]:

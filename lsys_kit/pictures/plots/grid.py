@@ -49,8 +49,10 @@ class GridChart(Chart):
         """What the grid holds."""
         values = self.values.values()
         least, most = map(number_texts(values), (min(values), max(values)))
-        return (f"{plain(self.label)} for {plain(self.across)} from {self.columns[0]} to {self.columns[-1]} and "
-                f"{plain(self.up)} from {self.rows[0]} to {self.rows[-1]}: {len(values)} values from {least} to {most}")
+        return (
+            f"{plain(self.label)} for {plain(self.across)} from {self.columns[0]} to {self.columns[-1]} and "
+            f"{plain(self.up)} from {self.rows[0]} to {self.rows[-1]}: {len(values)} values from {least} to {most}"
+        )
 
     @property
     def height(self) -> int:
@@ -73,11 +75,26 @@ class GridChart(Chart):
         room = (WIDTH - left - right) / len(self.columns)
         for (column, row), value in self.values.items():
             strength = 0.12 + 0.88 * ((value - low) / (high - low) if high > low else 0.5)
-            ax.add_patch(Rectangle((column - 0.5, row - 0.5), 1, 1, facecolor=tinted(BLUE, strength), edgecolor=PAPER,
-                                   linewidth=2, clip_on=False))
+            ax.add_patch(
+                Rectangle(
+                    (column - 0.5, row - 0.5),
+                    1,
+                    1,
+                    facecolor=tinted(BLUE, strength),
+                    edgecolor=PAPER,
+                    linewidth=2,
+                    clip_on=False,
+                )
+            )
             if room >= max(LEAST_ROOM, width(write(value), SIZE - 1) + 4) and high_enough:
-                ax.annotate(write(value), (column, row), ha="center", va="center", fontsize=SIZE - 1,
-                            color=PAPER if strength > DARK else INK)
+                ax.annotate(
+                    write(value),
+                    (column, row),
+                    ha="center",
+                    va="center",
+                    fontsize=SIZE - 1,
+                    color=PAPER if strength > DARK else INK,
+                )
         self._set_paper(ax, ceil_ratio(max(width(text, SIZE - 1) for text in self.columns) + 8, room))
 
     def _set_paper(self, ax: Axes, every: int) -> None:

@@ -48,7 +48,7 @@ def literal(text: str) -> str:
     >>> print(literal("a$b"), literal("x" * 50))
     a\\$b xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx…
     """
-    short = text if len(text) <= MOST_LETTERS else f"{text[:MOST_LETTERS - 1]}…"
+    short = text if len(text) <= MOST_LETTERS else f"{text[: MOST_LETTERS - 1]}…"
     return visible(short).replace("$", "\\$")
 
 

@@ -76,20 +76,24 @@ class SVGRenderer(RendererBase):
         if broad and rgbFace is not None:
             dots = "".join(f"M{x} {y}h0" for x, y in places)
             faint = "" if rgbFace[3] == 1 else f' stroke-opacity="{rgbFace[3]:.2g}"'
-            self.elements.append(f'<path d="{dots}" stroke="{to_hex(rgbFace)}" stroke-width="{10 * broad:.0f}" '
-                                 f'stroke-linecap="round"{faint}/>')
+            self.elements.append(
+                f'<path d="{dots}" stroke="{to_hex(rgbFace)}" stroke-width="{10 * broad:.0f}" stroke-linecap="round"{faint}/>'
+            )
 
-    def draw_text(self, gc: Any, x: float, y: float, s: str, prop: Any, angle: float, ismath: Any = False,
-                  mtext: Any = None) -> None:
+    def draw_text(
+        self, gc: Any, x: float, y: float, s: str, prop: Any, angle: float, ismath: Any = False, mtext: Any = None
+    ) -> None:
         """Write a label at the point by which it is aligned: what surrounds a text differs a little between versions of
         matplotlib, and a page may have other letters."""
         size = prop.get_size_in_points()
         across, up = mtext.get_transform().transform(mtext.get_unitless_position())
         down = self.height - up + _BELOW[mtext.get_verticalalignment()] * size
         place = f'x="{round(10 * across + NUDGE)}" y="{round(10 * down + NUDGE)}"'
-        self.elements.append(f'<text {place} font-size="{10 * size:.0f}" '
-                             f'fill="{to_hex(gc.get_rgb())}"{_HELD[mtext.get_horizontalalignment()]}>'
-                             f"{spans(_label(s, ismath), 10 * size)}</text>")
+        self.elements.append(
+            f'<text {place} font-size="{10 * size:.0f}" '
+            f'fill="{to_hex(gc.get_rgb())}"{_HELD[mtext.get_horizontalalignment()]}>'
+            f"{spans(_label(s, ismath), 10 * size)}</text>"
+        )
 
 
 def svg_elements(figure: Figure, width: int, height: int) -> str:
@@ -106,8 +110,10 @@ def _label(text: str, mathematical: object) -> str:
 
 def _path_data(path: Path, transform: Any) -> str:
     """A path as SVG writes it."""
-    return "".join(_COMMANDS[code] + ("" if code == Path.CLOSEPOLY else _numbers(corners))
-                   for corners, code in path.iter_segments(transform, simplify=False))
+    return "".join(
+        _COMMANDS[code] + ("" if code == Path.CLOSEPOLY else _numbers(corners))
+        for corners, code in path.iter_segments(transform, simplify=False)
+    )
 
 
 def _numbers(corners: Any) -> str:
@@ -122,5 +128,7 @@ def _stroke(gc: Any) -> str:
     _, dashes = gc.get_dashes()
     broken = f' stroke-dasharray="{" ".join(f"{10 * each:.0f}" for each in dashes)}"' if dashes is not None else ""
     faint = "" if colour[3] == 1 else f' stroke-opacity="{colour[3]:.2g}"'
-    return (f' stroke="{to_hex(colour)}" stroke-width="{10 * broad:.0f}" stroke-linecap="round" stroke-linejoin="round"'
-            f"{faint}{broken}")
+    return (
+        f' stroke="{to_hex(colour)}" stroke-width="{10 * broad:.0f}" stroke-linecap="round" stroke-linejoin="round"'
+        f"{faint}{broken}"
+    )

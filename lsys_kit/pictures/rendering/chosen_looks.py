@@ -27,9 +27,12 @@ def with_colours_of_symbols(scene: Scene, states: Collection[int] | None = None)
     [-1, -1]
     """
     segments, polygons, discs = scene.segments, scene.polygons, scene.discs
-    return replace(scene, segments=replace(segments, colours=_colours(segments, states)),
-                   polygons=replace(polygons, colours=_colours(polygons, states)),
-                   discs=replace(discs, colours=_colours(discs, states)))
+    return replace(
+        scene,
+        segments=replace(segments, colours=_colours(segments, states)),
+        polygons=replace(polygons, colours=_colours(polygons, states)),
+        discs=replace(discs, colours=_colours(discs, states)),
+    )
 
 
 def _colours(shapes: Segments | Polygons | Discs, states: Collection[int] | None) -> Integers:
@@ -53,9 +56,16 @@ def with_start(scene: Scene, system: LSystem) -> Scene:
     size = (float(np.ptp(scene.corners, axis=0).max()) or 1.0) * START
     arrow, found = size * np.array([0 * head, left * 0.4 - head, -left * 0.4 - head]), scene.polygons
     flat = np.zeros((3, 3)) if len(found.normals) else found.normals
-    return replace(scene, polygons=Polygons(
-        np.concatenate([found.points, arrow]), np.append(found.starts, len(found.points) + 3), np.append(found.states, 0),
-        np.append(np.broadcast_to(found.colours, len(found)), START_COLOUR), np.concatenate([found.normals, flat])))
+    return replace(
+        scene,
+        polygons=Polygons(
+            np.concatenate([found.points, arrow]),
+            np.append(found.starts, len(found.points) + 3),
+            np.append(found.states, 0),
+            np.append(np.broadcast_to(found.colours, len(found)), START_COLOUR),
+            np.concatenate([found.normals, flat]),
+        ),
+    )
 
 
 def with_widths(scene: Scene, widths: str = "", factor: float = 1.0) -> Scene:

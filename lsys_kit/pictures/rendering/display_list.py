@@ -108,8 +108,9 @@ class DisplayList:
     def __iter__(self) -> Iterator[Run]:
         """The runs, one after another."""
         colours, widths = colours_and_widths(self.keys)
-        for (start, stop), key, colour, width in zip(pairwise(self.starts.tolist()), self.keys.tolist(), colours.tolist(),
-                                                     widths.tolist(), strict=True):
+        for (start, stop), key, colour, width in zip(
+            pairwise(self.starts.tolist()), self.keys.tolist(), colours.tolist(), widths.tolist(), strict=True
+        ):
             numbers = self.numbers[start:stop]
             if key >= 0:
                 yield LineRun(numbers, self.palette[colour], width)

@@ -96,8 +96,12 @@ def painted_box(scene: Scene) -> tuple[float, float, float, float]:
         reach = reach * scene.factors.max(axis=1)
     x, y = ends[:, ::2], ends[:, 1::2]
     left, bottom, right, top = scene.box
-    return (min(left, float((x.min(axis=1) - reach).min())), min(bottom, float((y.min(axis=1) - reach).min())),
-            max(right, float((x.max(axis=1) + reach).max())), max(top, float((y.max(axis=1) + reach).max())))
+    return (
+        min(left, float((x.min(axis=1) - reach).min())),
+        min(bottom, float((y.min(axis=1) - reach).min())),
+        max(right, float((x.max(axis=1) + reach).max())),
+        max(top, float((y.max(axis=1) + reach).max())),
+    )
 
 
 def frame_of(box: tuple[float, float, float, float], width: float = WIDTH, height: float = HEIGHT) -> ViewFrame:

@@ -38,8 +38,12 @@ def widths_by_order(usual: Sequence[float]) -> list[float]:
 def stroke_widths(segments: Segments, scale: float, thin: float) -> Integers:
     """The widths of strokes in tenths of a pixel: one that the turtle has set is scaled with the drawing; others depend on the
     branch order, and are made finer by a factor."""
-    by_order = np.array([max(round(least), round(10 * width * thin))
-                         for width, least in zip(widths_by_order(STROKES), widths_by_order(LEAST), strict=True)])
+    by_order = np.array(
+        [
+            max(round(least), round(10 * width * thin))
+            for width, least in zip(widths_by_order(STROKES), widths_by_order(LEAST), strict=True)
+        ]
+    )
     widths = by_order[np.minimum(segments.orders, len(STROKES) - 1)]
     if (segments.widths != OWN).any():
         given = np.clip(np.rint(segments.widths * scale * 10), THINNEST, BROADEST).astype(np.int64)
@@ -56,7 +60,7 @@ def stroke_scale(segments: Segments, scale: float, boldest: float = 1.0) -> floa
 
 def median_length(segments: Segments) -> float:
     """The median length of strokes, from a part of them where they are many; infinite without strokes."""
-    some = segments.ends[::len(segments) // SAMPLE + 1]
+    some = segments.ends[:: len(segments) // SAMPLE + 1]
     return float(np.median(np.hypot(some[:, 2] - some[:, 0], some[:, 3] - some[:, 1]))) if len(some) else np.inf
 
 

@@ -72,15 +72,26 @@ def _in_the_plane(scene: Scene, scale: float, colour_of: Mapping[int, str]) -> D
     widths = stroke_widths(segments, scale, stroke_scale(segments, scale))
     lines, paper = Lines(segments.ends, widths, colours, segments.states), 2 * len(names)
     keys = keys_of(lines)
-    runs = {AREA: np.arange(len(polygons)),
-            **{key: np.flatnonzero(keys == key) for key in np.flatnonzero(np.bincount(keys)).tolist()},
-            ROUND: np.arange(len(discs))}
+    runs = {
+        AREA: np.arange(len(polygons)),
+        **{key: np.flatnonzero(keys == key) for key in np.flatnonzero(np.bincount(keys)).tolist()},
+        ROUND: np.arange(len(discs)),
+    }
     return DisplayList(
-        lines, Areas(polygons.points, polygons.starts, of_polygons + len(names), of_polygons),
-        Rounds(discs.centres, discs.radii, np.where(discs.kinds == CIRCLE, paper, of_discs + len(names)), of_discs,
-               np.zeros(len(discs), bool)),
-        [*map(line, names), *(tinted(name, FILLED) for name in names), theme().ground], np.concatenate([*runs.values()]),
-        np.cumsum([0, *map(len, runs.values())]), np.array([*runs]))
+        lines,
+        Areas(polygons.points, polygons.starts, of_polygons + len(names), of_polygons),
+        Rounds(
+            discs.centres,
+            discs.radii,
+            np.where(discs.kinds == CIRCLE, paper, of_discs + len(names)),
+            of_discs,
+            np.zeros(len(discs), bool),
+        ),
+        [*map(line, names), *(tinted(name, FILLED) for name in names), theme().ground],
+        np.concatenate([*runs.values()]),
+        np.cumsum([0, *map(len, runs.values())]),
+        np.array([*runs]),
+    )
 
 
 def _in_space(scene: ProjectedScene, scale: float, colour_of: Mapping[int, str]) -> DisplayList:
@@ -95,23 +106,33 @@ def _in_space(scene: ProjectedScene, scale: float, colour_of: Mapping[int, str])
     lines[toned] = ~cylinders.tapered
     casings, faces, strokes, discs = _first_slots(scene, toned)
     own = shade_numbers(colours, scene.nearness, OWN)
-    bodies = own[len(faces):len(faces) + len(strokes)]
-    areas = [_faces(scene, colours), _polygons(capsules(cylinders.some(cylinders.tapered)), bodies[~lines]),
-             *_stripes(cylinders, bodies[toned])]
+    bodies = own[len(faces) : len(faces) + len(strokes)]
+    areas = [
+        _faces(scene, colours),
+        _polygons(capsules(cylinders.some(cylinders.tapered)), bodies[~lines]),
+        *_stripes(cylinders, bodies[toned]),
+    ]
     stripes_of = strokes[toned]
     slots = [casings, strokes[lines], faces, strokes[~lines], stripes_of + 1, stripes_of + 2, discs]
-    return _with_few_colours(_lines(segments, widths, bodies, lines, len(casings), paper_number(names)), _joined(areas),
-                             _rounds(scene, own), names, _inverse(np.concatenate(slots)))
+    return _with_few_colours(
+        _lines(segments, widths, bodies, lines, len(casings), paper_number(names)),
+        _joined(areas),
+        _rounds(scene, own),
+        names,
+        _inverse(np.concatenate(slots)),
+    )
 
 
 def _lines(segments: Segments, widths: Integers, colours: Integers, chosen: NDArray[np.bool_], cased: int, paper: int) -> Lines:
     """The casings of the first strokes, then some strokes."""
     if chosen.all() and not cased:
         return Lines(segments.ends, widths, colours, segments.states)
-    return Lines(np.concatenate([segments.ends[:cased], segments.ends[chosen]]),
-                 np.concatenate([np.minimum(casing_widths(widths[:cased]), BROADEST), widths[chosen]]),
-                 np.concatenate([np.full(cased, paper), colours[chosen]]),
-                 np.concatenate([segments.states[:cased], segments.states[chosen]]))
+    return Lines(
+        np.concatenate([segments.ends[:cased], segments.ends[chosen]]),
+        np.concatenate([np.minimum(casing_widths(widths[:cased]), BROADEST), widths[chosen]]),
+        np.concatenate([np.full(cased, paper), colours[chosen]]),
+        np.concatenate([segments.states[:cased], segments.states[chosen]]),
+    )
 
 
 def casing_widths(widths: Integers) -> Integers:
@@ -147,7 +168,7 @@ def _first_slots(scene: ProjectedScene, toned: NDArray[np.bool_]) -> Sequence[In
     casings = np.maximum(scene.casing_depths, scene.depths.min(initial=np.inf))
     order = far_to_near(np.concatenate([casings, scene.depths]), scene.extent)
     counts = np.ones(len(order), np.int64)
-    counts[len(casings) + polygons:len(counts) - discs] += 2 * toned
+    counts[len(casings) + polygons : len(counts) - discs] += 2 * toned
     first = np.empty(len(order), np.int64)
     first[order] = np.cumsum(counts[order]) - counts[order]
     return np.split(first, np.cumsum([len(casings), polygons, strokes]))
@@ -163,8 +184,10 @@ def _inverse(slots: Integers) -> Integers:
 def _faces(scene: ProjectedScene, colours: Integers) -> Areas:
     """Polygons, as bright as they face the light, with darker edges; there are none between the faces of a curved surface."""
     many, bright = len(scene.polygons), brightness(scene.normals)
-    inside, edges = (shade_numbers(colours[:many], scene.nearness[:many], bright + more)
-                     for more in (0, np.where(scene.polygons.smooth, 0, EDGE)))
+    inside, edges = (
+        shade_numbers(colours[:many], scene.nearness[:many], bright + more)
+        for more in (0, np.where(scene.polygons.smooth, 0, EDGE))
+    )
     return Areas(scene.polygons.points, scene.polygons.starts, inside, edges)
 
 
@@ -190,19 +213,37 @@ def _joined(areas: Sequence[Areas]) -> Areas:
 def _rounds(scene: ProjectedScene, own: Integers) -> Rounds:
     """Circles, which are empty, discs and spheres."""
     discs = scene.discs
-    colours = own[len(own) - len(discs):]
-    return Rounds(discs.centres, discs.radii, np.where(discs.kinds == CIRCLE, NO_COLOUR, colours),
-                  np.where(discs.kinds == SPHERE, NO_COLOUR, colours + EDGE), discs.kinds == SPHERE)
+    colours = own[len(own) - len(discs) :]
+    return Rounds(
+        discs.centres,
+        discs.radii,
+        np.where(discs.kinds == CIRCLE, NO_COLOUR, colours),
+        np.where(discs.kinds == SPHERE, NO_COLOUR, colours + EDGE),
+        discs.kinds == SPHERE,
+    )
 
 
 def _with_few_colours(lines: Lines, areas: Areas, rounds: Rounds, names: Sequence[str], order: Integers) -> DisplayList:
     """The display list with a palette of the shades that occur."""
-    used = np.unique(np.concatenate([np.flatnonzero(np.bincount(lines.colours)), areas.fills, areas.edges, rounds.fills,
-                                     rounds.edges, [paper_number(names)]]))
+    used = np.unique(
+        np.concatenate(
+            [
+                np.flatnonzero(np.bincount(lines.colours)),
+                areas.fills,
+                areas.edges,
+                rounds.fills,
+                rounds.edges,
+                [paper_number(names)],
+            ]
+        )
+    )
     used = used[used != NO_COLOUR]
     number = np.full(paper_number(names) + 2, NO_COLOUR)  # which the last stands for
     number[used] = np.arange(len(used))
-    return in_order(lines._replace(colours=number[lines.colours]),
-                    areas._replace(fills=number[areas.fills], edges=number[areas.edges]),
-                    rounds._replace(fills=number[rounds.fills], edges=number[rounds.edges]),
-                    shades(names, used.tolist()), order)
+    return in_order(
+        lines._replace(colours=number[lines.colours]),
+        areas._replace(fills=number[areas.fills], edges=number[areas.edges]),
+        rounds._replace(fills=number[rounds.fills], edges=number[rounds.edges]),
+        shades(names, used.tolist()),
+        order,
+    )

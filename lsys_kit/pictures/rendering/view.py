@@ -163,24 +163,34 @@ def lies_flat(scene: Scene) -> bool:
 def _spans(scene: Scene) -> Floats:
     """The extents of the points of a scene along the axes."""
     points = _points([scene])
-    return np.array([max(each[:, axis].max() for each in points) - min(each[:, axis].min() for each in points)
-                     for axis in range(scene.dimension)])
+    return np.array(
+        [
+            max(each[:, axis].max() for each in points) - min(each[:, axis].min() for each in points)
+            for axis in range(scene.dimension)
+        ]
+    )
 
 
 def _points(scenes: Sequence[Scene]) -> list[Floats]:
     """The points of scenes in space: ends of strokes, corners of polygons, centres."""
-    some = [each for scene in scenes for each in (scene.segments.points, scene.polygons.points, scene.discs.centres,
-                                                   scene.labels.points)]
+    some = [
+        each
+        for scene in scenes
+        for each in (scene.segments.points, scene.polygons.points, scene.discs.centres, scene.labels.points)
+    ]
     return [each for each in some if len(each)] or [np.zeros((1, 3))]
 
 
 def _flattened(scene: Scene) -> Scene:
     """A scene in space seen from the front, as one in the plane."""
     segments, polygons, discs = scene.segments, scene.polygons, scene.discs
-    return Scene(replace(segments, ends=segments.points[:, ::2].reshape(-1, 4)),
-                 polygons=replace(polygons, points=polygons.points[:, ::2], normals=np.empty((0, 3))),
-                 discs=replace(discs, centres=discs.centres[:, ::2]),
-                 labels=_placed(scene.labels, lambda points: points[:, ::2]), unknown=scene.unknown)
+    return Scene(
+        replace(segments, ends=segments.points[:, ::2].reshape(-1, 4)),
+        polygons=replace(polygons, points=polygons.points[:, ::2], normals=np.empty((0, 3))),
+        discs=replace(discs, centres=discs.centres[:, ::2]),
+        labels=_placed(scene.labels, lambda points: points[:, ::2]),
+        unknown=scene.unknown,
+    )
 
 
 def _placed(labels: Labels, place: Callable[[Floats], Floats]) -> Labels:
@@ -209,12 +219,18 @@ def _projected(scene: Scene, cylinder: Cylinder, view: View) -> ProjectedScene:
     reach = cylinder.radius * math.cos(math.radians(view[1])) + cylinder.half_height * abs(math.sin(math.radians(view[1])))
     middle = float(_mapped(cylinder.middle[None], side[2][:, None])[0, 0])
     return ProjectedScene(
-        replace(segments, ends=ends.reshape(-1, 4)), polygons=replace(polygons, points=corners),
-        discs=replace(discs, centres=centres, radii=discs.radii * factors), unknown=scene.unknown, depths=depths,
+        replace(segments, ends=ends.reshape(-1, 4)),
+        polygons=replace(polygons, points=corners),
+        discs=replace(discs, centres=centres, radii=discs.radii * factors),
+        unknown=scene.unknown,
+        depths=depths,
         labels=_placed(scene.labels, lambda points: _seen(points, side, cylinder)[0]),
-        nearness=np.clip((depths - middle) / (2 * reach or 1.0) + 0.5, 0, 1), extent=float(_spans(scene).max()),
+        nearness=np.clip((depths - middle) / (2 * reach or 1.0) + 0.5, 0, 1),
+        extent=float(_spans(scene).max()),
         factors=_stroke_factors(segments, end_factors.reshape(-1, 2)),
-        casing_depths=_casing_depths(scene, depths), normals=_normals(polygons, side))
+        casing_depths=_casing_depths(scene, depths),
+        normals=_normals(polygons, side),
+    )
 
 
 def _seen(points: Floats, side: tuple[Floats, Floats, Floats], cylinder: Cylinder) -> tuple[Floats, Floats]:
@@ -235,9 +251,13 @@ def _stroke_factors(segments: Segments, factors: Floats) -> Floats:
 def _shape_depths(scene: Scene, towards: Floats) -> Floats:
     """How near each shape is: the mean of its corners, the middle of a stroke, a centre."""
     segments, polygons, discs = scene.segments, scene.polygons, scene.discs
-    return np.concatenate([_means(_depths(polygons.points, towards), polygons.starts),
-                           (_depths(segments.ends[:, :3], towards) + _depths(segments.ends[:, 3:], towards)) / 2,
-                           _depths(discs.centres, towards)])
+    return np.concatenate(
+        [
+            _means(_depths(polygons.points, towards), polygons.starts),
+            (_depths(segments.ends[:, :3], towards) + _depths(segments.ends[:, 3:], towards)) / 2,
+            _depths(discs.centres, towards),
+        ]
+    )
 
 
 def _casing_depths(scene: Scene, depths: Floats) -> Floats:
@@ -246,7 +266,9 @@ def _casing_depths(scene: Scene, depths: Floats) -> Floats:
     if len(segments) > MOST_CYLINDERS:
         return np.empty(0)
     lengths = np.linalg.norm(segments.ends[:, 3:] - segments.ends[:, :3], axis=1)
-    found: Floats = np.where(are_edges(segments, scene.polygons), -np.inf, depths[polygons:polygons + len(segments)] - lengths)
+    found: Floats = np.where(
+        are_edges(segments, scene.polygons), -np.inf, depths[polygons : polygons + len(segments)] - lengths
+    )
     return found
 
 
@@ -272,8 +294,7 @@ def axes(around: float, above: float) -> tuple[Floats, Floats, Floats]:
     right = np.array([math.cos(around), math.sin(around), 0.0])
     level = np.array([math.sin(around), -math.cos(around), 0.0])
     vertical = np.array([0.0, 0.0, 1.0])
-    return (right, math.cos(above) * vertical - math.sin(above) * level,
-            math.cos(above) * level + math.sin(above) * vertical)
+    return (right, math.cos(above) * vertical - math.sin(above) * level, math.cos(above) * level + math.sin(above) * vertical)
 
 
 def _mapped(points: Floats, matrix: Floats) -> Floats:

@@ -45,8 +45,11 @@ def polar_symbols(system: LSystem) -> Mapping[str, tuple[str, str]]:
     {'ar': ('a', 'r'), 'al': ('a', 'l')}
     """
     names = set(symbols(system))
-    return {name: (name[:-1].rstrip("_"), name[-1]) for name in symbols(system)
-            if len(name) > 1 and name[-1] in "lr" and name[:-1] + {"l": "r", "r": "l"}[name[-1]] in names}
+    return {
+        name: (name[:-1].rstrip("_"), name[-1])
+        for name in symbols(system)
+        if len(name) > 1 and name[-1] in "lr" and name[:-1] + {"l": "r", "r": "l"}[name[-1]] in names
+    }
 
 
 def label_parts(symbol: str, system: LSystem) -> tuple[str, str]:
@@ -66,8 +69,10 @@ def label_parts(symbol: str, system: LSystem) -> tuple[str, str]:
 
 def values_text(module: Module) -> str:
     """A module's values in parentheses, as they are shown, or nothing."""
-    values = ",".join(number_text(rounded(value)) if is_symbolic(value) or abs(float(value)) < 1e6 else f"{float(value):.3g}"
-                      for value in module.arguments)
+    values = ",".join(
+        number_text(rounded(value)) if is_symbolic(value) or abs(float(value)) < 1e6 else f"{float(value):.3g}"
+        for value in module.arguments
+    )
     return f"({values})" if values else ""
 
 

@@ -65,8 +65,11 @@ def shades(names: Sequence[str], numbers: Sequence[int]) -> list[str]:
 
 def _shade(colour: str, number: int) -> str:
     near, bright = divmod(number, STEPS + 1)
-    lit = mixed(colour, WHITE, 1 - LIGHTEST * (bright - OWN) / (STEPS - OWN)) if bright > OWN else \
-        mixed(colour, BLACK, 1 - DARKEST * (OWN - bright) / OWN)
+    lit = (
+        mixed(colour, WHITE, 1 - LIGHTEST * (bright - OWN) / (STEPS - OWN))
+        if bright > OWN
+        else mixed(colour, BLACK, 1 - DARKEST * (OWN - bright) / OWN)
+    )
     return mixed(lit, theme().paper, 1 - HAZE * (1 - near / STEPS))
 
 

@@ -33,10 +33,20 @@ BLACKEST = 0.179
 NOTHING = "none"
 """The ground of a picture without paper."""
 DARK_LINES: Mapping[str, str] = {
-    "#28A964": "#77BD7E", "#AF7605": "#FEC95A", "#0658A0": "#3570A4", "#B97FB3": "#CF80B7", "#B3482B": "#BC6149",
+    "#28A964": "#77BD7E",
+    "#AF7605": "#FEC95A",
+    "#0658A0": "#3570A4",
+    "#B97FB3": "#CF80B7",
+    "#B3482B": "#BC6149",
     "#337CCD": "#6284ED",
-    "#5A3A24": "#9F8B7C", "#5B4626": "#A48F72", "#59522A": "#A29769", "#54602F": "#97A167", "#4D6F38": "#8CAA6B",
-    "#448043": "#83B170", "#399351": "#7CB776"}
+    "#5A3A24": "#9F8B7C",
+    "#5B4626": "#A48F72",
+    "#59522A": "#A29769",
+    "#54602F": "#97A167",
+    "#4D6F38": "#8CAA6B",
+    "#448043": "#83B170",
+    "#399351": "#7CB776",
+}
 """Lines on dark paper: of the colours of symbols, then of the ramp from bark to leaves."""
 
 

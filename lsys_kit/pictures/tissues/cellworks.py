@@ -60,9 +60,16 @@ class CellworkPicture(Picture):
         return described([f"step {self.rows[-1].step}", ", ".join(counts), shown, "walls of one colour have the same label"])
 
 
-def cellwork_picture(what: CellworkSystem | CellworkDevelopment, n: int | None = None, *, view: object = SIDE,
-                     cell: int | None = None, generation: int | None = None, legend: bool = False,
-                     **forces: object) -> CellworkPicture:
+def cellwork_picture(
+    what: CellworkSystem | CellworkDevelopment,
+    n: int | None = None,
+    *,
+    view: object = SIDE,
+    cell: int | None = None,
+    generation: int | None = None,
+    legend: bool = False,
+    **forces: object,
+) -> CellworkPicture:
     """The picture of a cellwork system after `n` steps, or of the last step of a development."""
     if isinstance(what, CellworkSystem):
         what = develop_cellwork(what, n if n is not None else what.steps if what.steps is not None else STEPS)
@@ -75,19 +82,22 @@ def cellwork_picture(what: CellworkSystem | CellworkDevelopment, n: int | None =
     return picture_at(what[:], points, lit, side, legend)
 
 
-def cellwork_steps(what: CellworkSystem | CellworkDevelopment, n: int | None = None, *, legend: bool = False,
-                   **forces: object) -> list[CellworkPicture]:
+def cellwork_steps(
+    what: CellworkSystem | CellworkDevelopment, n: int | None = None, *, legend: bool = False, **forces: object
+) -> list[CellworkPicture]:
     """The pictures of all steps of a cellwork system, or of a development, for a film."""
     if isinstance(what, CellworkSystem):
         what = develop_cellwork(what, n if n is not None else what.steps if what.steps is not None else STEPS)
     _check_size(what)
     places = place_cellworks(what, forces_of(forces, SPACE_FORCES, "cellwork"))
-    return [picture_at(what[:step + 1], points, range(len(what[step].cells)), SIDE, legend)
-            for step, points in enumerate(places)]
+    return [
+        picture_at(what[: step + 1], points, range(len(what[step].cells)), SIDE, legend) for step, points in enumerate(places)
+    ]
 
 
-def picture_at(cellworks: Sequence[Cellwork], points: Floats, lit: Collection[int], view: View,
-               legend: bool = False) -> CellworkPicture:
+def picture_at(
+    cellworks: Sequence[Cellwork], points: Floats, lit: Collection[int], view: View, legend: bool = False
+) -> CellworkPicture:
     """The picture of the last of the cellworks of steps 0, 1, 2, ..., given the positions of its vertices; perhaps with what
     the colours of walls mean."""
     last, labels = cellworks[-1], {label: number for number, label in enumerate(wall_labels(cellworks))}
@@ -96,8 +106,9 @@ def picture_at(cellworks: Sequence[Cellwork], points: Floats, lit: Collection[in
     [seen] = project([solid], view)
     colours = _colours(labels)
     meaning = Legend(tuple(Entry((colours[number],), ("", "", label)) for label, number in labels.items())) if legend else None
-    return CellworkPicture((FilamentRow(len(cellworks) - 1, seen),), colours, solid=solid, counts=last.counts, lit=len(lit),
-                           legend=meaning)
+    return CellworkPicture(
+        (FilamentRow(len(cellworks) - 1, seen),), colours, solid=solid, counts=last.counts, lit=len(lit), legend=meaning
+    )
 
 
 def lit_cells(development: CellworkDevelopment, cell: int | None = None, generation: int | None = None) -> Collection[int]:
@@ -105,8 +116,9 @@ def lit_cells(development: CellworkDevelopment, cell: int | None = None, generat
     cells = range(len(development[-1].cells))
     if cell is not None:
         if whole_number(cell, "The number of a cell") not in cells:
-            raise ModelValueError(f"There is no cell {cell}",
-                                  hint=f"The cells of step {development.steps} are 0 to {cells[-1]}.")
+            raise ModelValueError(
+                f"There is no cell {cell}", hint=f"The cells of step {development.steps} are 0 to {cells[-1]}."
+            )
         return {cell}
     if generation is None:
         return cells
@@ -114,16 +126,22 @@ def lit_cells(development: CellworkDevelopment, cell: int | None = None, generat
     lit = {each for each in cells if generations[each] == whole_number(generation, "The number of a generation")}
     if not lit:
         there = ", ".join(map(str, sorted({*generations})))
-        raise ModelValueError(f"There is no cell of generation {generation}",
-                              hint=f"Generations are counted by divisions; at step {development.steps} there are: {there}.")
+        raise ModelValueError(
+            f"There is no cell of generation {generation}",
+            hint=f"Generations are counted by divisions; at step {development.steps} there are: {there}.",
+        )
     return lit
 
 
 def _check_size(development: CellworkDevelopment) -> None:
     shapes = len(development[-1].walls) + len(development[-1].edges)
     if shapes > current().figure:
-        raise ModelLimitError(f"The picture would have {shapes:,} walls and edges; the limit is {current().figure:,}",
-                              limit=current().figure, needed=shapes, hint="Take fewer steps, or set limits(figure=...).")
+        raise ModelLimitError(
+            f"The picture would have {shapes:,} walls and edges; the limit is {current().figure:,}",
+            limit=current().figure,
+            needed=shapes,
+            hint="Take fewer steps, or set limits(figure=...).",
+        )
 
 
 def labels_of_walls(system: CellworkSystem) -> Collection[str]:

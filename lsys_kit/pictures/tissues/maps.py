@@ -136,8 +136,9 @@ def _unsettled_text(steps: Sequence[int]) -> str:
     return f"step {some} does not settle" if len(steps) == 1 else f"steps {some} do not settle"
 
 
-def map_picture(what: MapSystem | Development, n: int | None = None, iterations: Sequence[int] = (), labels: bool = True,
-                **forces: object) -> MapPicture:
+def map_picture(
+    what: MapSystem | Development, n: int | None = None, iterations: Sequence[int] = (), labels: bool = True, **forces: object
+) -> MapPicture:
     """The picture of a map system after `n` steps, or of a development; or of the relaxation of its last step."""
     what = developed(what, n)
     require(iterations, Sequence, "A list of iterations")
@@ -152,8 +153,9 @@ def map_picture(what: MapSystem | Development, n: int | None = None, iterations:
     reached = [*equilibria(what, forces_of(forces))]
     places = [each.points for each in reached]
     unsettled = [step for step, each in enumerate(reached) if not each.settled and step >= first]
-    return MapPicture(what[first:], places[first:], [*scenes(what, places)][first:], range(first, len(what)), None, unsettled,
-                      labels)
+    return MapPicture(
+        what[first:], places[first:], [*scenes(what, places)][first:], range(first, len(what)), None, unsettled, labels
+    )
 
 
 def _checked_iterations(given: Sequence[int]) -> list[int]:
@@ -182,8 +184,12 @@ def check_walls(maps: Sequence[Map]) -> None:
     """A picture can have as many walls as some maps."""
     walls = sum(len(found.walls) for found in maps)
     if walls > current().segments:
-        raise ModelLimitError(f"The picture would have {walls:,} walls; the limit is {current().segments:,}",
-                              limit=current().segments, needed=walls, hint="Take fewer steps, or set limits(segments=...).")
+        raise ModelLimitError(
+            f"The picture would have {walls:,} walls; the limit is {current().segments:,}",
+            limit=current().segments,
+            needed=walls,
+            hint="Take fewer steps, or set limits(segments=...).",
+        )
 
 
 class Panel(NamedTuple):
@@ -209,8 +215,13 @@ def arranged(some: Sequence[Scene]) -> list[Panel]:
         for scene in line:
             (left, _, _, highest), own = scene.box, scene.width * scale
             drop = top + (height - scene.height * scale) / 2
-            panels.append(Panel(ViewFrame(scale, left - across / scale, highest + drop / scale, *size),
-                                round((MARGIN + across + own / 2) * 10), round((MARGIN + top + height + NUMBER + 3) * 10)))
+            panels.append(
+                Panel(
+                    ViewFrame(scale, left - across / scale, highest + drop / scale, *size),
+                    round((MARGIN + across + own / 2) * 10),
+                    round((MARGIN + top + height + NUMBER + 3) * 10),
+                )
+            )
             across += own + GAP
         top += height + CAPTION
     return panels
@@ -219,8 +230,11 @@ def arranged(some: Sequence[Scene]) -> list[Panel]:
 def _common_scale(some: Sequence[Scene]) -> float:
     """Pixels per unit: such that all maps fit into one line, if they are large enough then."""
     in_line = (WIDTH - 2 * MARGIN - GAP * (len(some) - 1)) / math.fsum(scene.width for scene in some)
-    return min(min(LARGE, in_line) if in_line >= SMALL else MIDDLE, *((WIDTH - 2 * MARGIN) / scene.width for scene in some),
-               *(HIGHEST / scene.height for scene in some))
+    return min(
+        min(LARGE, in_line) if in_line >= SMALL else MIDDLE,
+        *((WIDTH - 2 * MARGIN) / scene.width for scene in some),
+        *(HIGHEST / scene.height for scene in some),
+    )
 
 
 def _maps_by_line(some: Sequence[Scene], scale: float) -> Iterator[list[Scene]]:
@@ -239,14 +253,18 @@ def _maps_by_line(some: Sequence[Scene], scale: float) -> Iterator[list[Scene]]:
 
 def panel_svg(found: Map, places: Floats, scene: Scene, panel: Panel, number: int, labels: bool = True) -> str:
     """One map: its cells, its walls, their arrows and labels, and the number of the step below."""
-    return (f"{cells_svg(scene.polygons, panel.frame)}{walls_svg(found, places, panel.frame, labels)}"
-            f"{caption_svg(str(number), panel.x, panel.y)}")
+    return (
+        f"{cells_svg(scene.polygons, panel.frame)}{walls_svg(found, places, panel.frame, labels)}"
+        f"{caption_svg(str(number), panel.x, panel.y)}"
+    )
 
 
 def caption_svg(text: str, x: int, y: int) -> str:
     """What stands below a map."""
-    return (f'<text x="{x}" y="{y}" font-size="{NUMBER * 10}" text-anchor="middle" font-family="sans-serif" '
-            f'fill="{theme().quiet}">{text}</text>')
+    return (
+        f'<text x="{x}" y="{y}" font-size="{NUMBER * 10}" text-anchor="middle" font-family="sans-serif" '
+        f'fill="{theme().quiet}">{text}</text>'
+    )
 
 
 def cells_svg(cells: Polygons, frame: ViewFrame) -> str:
@@ -275,14 +293,18 @@ def walls_svg(found: Map, places: Floats, frame: ViewFrame, labelled: bool = Tru
             arrows.append(_wall_arrow(x, y, to_x, to_y, length))
         if labelled and length > LEAST_LABELLED * 10:
             labels.append(wall_label(wall.label, (x + to_x) // 2, (y + to_y) // 2))
-    return (f'<path d="{"".join(strokes)}" fill="none" stroke="{theme().ink}" stroke-width="16" stroke-linecap="round"/>'
-            f'<path d="{"".join(arrows)}" fill="{theme().ink}"/>{labels_svg(labels)}')
+    return (
+        f'<path d="{"".join(strokes)}" fill="none" stroke="{theme().ink}" stroke-width="16" stroke-linecap="round"/>'
+        f'<path d="{"".join(arrows)}" fill="{theme().ink}"/>{labels_svg(labels)}'
+    )
 
 
 def labels_svg(labels: Sequence[str]) -> str:
     """The letters of walls."""
-    return (f'<g font-family="Georgia,serif" font-size="{LABEL * 10:.0f}" text-anchor="middle" fill="{theme().ink}" '
-            f'stroke="{theme().paper}" stroke-width="40" stroke-linejoin="round" paint-order="stroke">{"".join(labels)}</g>')
+    return (
+        f'<g font-family="Georgia,serif" font-size="{LABEL * 10:.0f}" text-anchor="middle" fill="{theme().ink}" '
+        f'stroke="{theme().paper}" stroke-width="40" stroke-linejoin="round" paint-order="stroke">{"".join(labels)}</g>'
+    )
 
 
 def _wall_arrow(x: int, y: int, to_x: int, to_y: int, length: float) -> str:

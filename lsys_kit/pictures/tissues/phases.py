@@ -99,7 +99,7 @@ class PhasesPicture(SVGPicture):
 
     @cached_property
     def _scenes(self) -> Sequence[Scene]:
-        before = self.places[:len(self.maps[0].vertices)]
+        before = self.places[: len(self.maps[0].vertices)]
         return [*scenes(self.maps, (before, self.places, self.places))]
 
     @property
@@ -153,9 +153,11 @@ class PhasesPicture(SVGPicture):
             if self.labels and not alone:
                 letters.append(wall_label(stub.edge.label, at_x, at_y, stub.edge.arrow))
         dashed = f'stroke-dasharray="{BROKEN}"'
-        return (f'<path d="{"".join(broken)}" fill="none" stroke="{line(BLUE)}" stroke-width="16" {dashed}/>'
-                f'<path d="{"".join(pale)}" fill="none" stroke="{theme().quiet}" stroke-width="10" {dashed}/>'
-                f'<path d="{"".join(lines)}" fill="none" stroke="{line(BLUE)}" stroke-width="{STROKE}"/>{labels_svg(letters)}')
+        return (
+            f'<path d="{"".join(broken)}" fill="none" stroke="{line(BLUE)}" stroke-width="16" {dashed}/>'
+            f'<path d="{"".join(pale)}" fill="none" stroke="{theme().quiet}" stroke-width="10" {dashed}/>'
+            f'<path d="{"".join(lines)}" fill="none" stroke="{line(BLUE)}" stroke-width="{STROKE}"/>{labels_svg(letters)}'
+        )
 
     def _out(self, stub: Stub) -> Floats:
         """A vector as long as the wall of a marker, to the side of it where the marker stands."""

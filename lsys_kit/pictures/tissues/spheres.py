@@ -40,10 +40,12 @@ STRAIGHT = math.radians(6)
 """Arcs are drawn as straight pieces that turn by this angle at most."""
 SLIVER = 0.1
 """Twice the area that an outline along the rim may enclose, because it is made of straight pieces."""
-_SHADE = ('<radialGradient id="lsys-sphere" cx="0.38" cy="0.32" r="0.72">'
-          '<stop offset="0" stop-color="#FFFFFF" stop-opacity="0.5"/><stop offset="0.5" stop-color="#FFFFFF" stop-opacity="0"/>'
-          '<stop offset="0.55" stop-color="#000000" stop-opacity="0"/>'
-          '<stop offset="1" stop-color="#000000" stop-opacity="0.45"/></radialGradient>')
+_SHADE = (
+    '<radialGradient id="lsys-sphere" cx="0.38" cy="0.32" r="0.72">'
+    '<stop offset="0" stop-color="#FFFFFF" stop-opacity="0.5"/><stop offset="0.5" stop-color="#FFFFFF" stop-opacity="0"/>'
+    '<stop offset="0.55" stop-color="#000000" stop-opacity="0"/>'
+    '<stop offset="1" stop-color="#000000" stop-opacity="0.45"/></radialGradient>'
+)
 
 
 @dataclass(frozen=True)
@@ -81,8 +83,17 @@ class SpherePicture(MapPicture):
         """Some of the spheres as SVG."""
         many = len(places)
         radius = min(LARGEST, (WIDTH - 2 * MARGIN - GAP * (many - 1)) / (2 * many))
-        spheres = [_sphere_svg(self.maps[place], self.views[place], MARGIN + radius + number * (2 * radius + GAP),
-                               MARGIN + radius, radius, self.numbers[place]) for number, place in enumerate(places)]
+        spheres = [
+            _sphere_svg(
+                self.maps[place],
+                self.views[place],
+                MARGIN + radius + number * (2 * radius + GAP),
+                MARGIN + radius,
+                radius,
+                self.numbers[place],
+            )
+            for number, place in enumerate(places)
+        ]
         width = math.ceil(2 * MARGIN + many * 2 * radius + (many - 1) * GAP)
         height = math.ceil(2 * MARGIN + 2 * radius + CAPTION)
         body = f"{background(width, height)}<defs>{_SHADE}</defs>{''.join(spheres)}"
@@ -90,8 +101,9 @@ class SpherePicture(MapPicture):
         return resized(document(body, width, height, words), self.pixels)
 
 
-def sphere_picture(what: MapSystem | Development, n: int | None = None, *, view: object = SIDE,
-                   **forces: object) -> SpherePicture:
+def sphere_picture(
+    what: MapSystem | Development, n: int | None = None, *, view: object = SIDE, **forces: object
+) -> SpherePicture:
     """The picture of a map system on a sphere after `n` steps, or of a development."""
     if isinstance(what, MapSystem):
         what = develop(what, n if n is not None else what.steps if what.steps is not None else STEPS)
@@ -102,8 +114,7 @@ def sphere_picture(what: MapSystem | Development, n: int | None = None, *, view:
     return spheres_at(what, [*place_on_sphere(what, chosen)], range(max(0, len(what) - MOST_MAPS), len(what)), side)
 
 
-def spheres_at(maps: Sequence[Map], placed: Sequence[Placed], steps: Sequence[int],
-               view: View) -> SpherePicture:
+def spheres_at(maps: Sequence[Map], placed: Sequence[Placed], steps: Sequence[int], view: View) -> SpherePicture:
     """The picture of some steps, given the maps of all steps and where each lies on the sphere."""
     side, kinds = np.column_stack(axes(*map(math.radians, view))), kinds_of_cells(maps)
     views = [SphereView([each @ side for each in wall_arcs(maps[step], *placed[step])], kinds[step]) for step in steps]
@@ -148,11 +159,13 @@ def _sphere_svg(found: Map, view: SphereView, x: float, y: float, radius: float,
         cells.append(f'<path d="{outline}" fill="{cell_colour(kind)}" fill-rule="evenodd"/>')
     walls = "".join(_visible(each, x, y, radius) for each in view.arcs)
     centre = f'cx="{round(10 * x)}" cy="{round(10 * y)}" r="{round(10 * radius)}"'
-    return (f'{"".join(cells)}<circle {centre} fill="url(#lsys-sphere)"/><path d="{walls}" fill="none" stroke="{theme().ink}" '
-            f'stroke-width="14" stroke-linecap="round" stroke-linejoin="round"/>'
-            f'<circle {centre} fill="none" stroke="{theme().ink}" stroke-width="14"/>'
-            f'<text x="{round(10 * x)}" y="{round(10 * (y + radius + NUMBER + 8))}" font-size="{NUMBER * 10}" '
-            f'text-anchor="middle" font-family="sans-serif" fill="{theme().quiet}">{step}</text>')
+    return (
+        f'{"".join(cells)}<circle {centre} fill="url(#lsys-sphere)"/><path d="{walls}" fill="none" stroke="{theme().ink}" '
+        f'stroke-width="14" stroke-linecap="round" stroke-linejoin="round"/>'
+        f'<circle {centre} fill="none" stroke="{theme().ink}" stroke-width="14"/>'
+        f'<text x="{round(10 * x)}" y="{round(10 * (y + radius + NUMBER + 8))}" font-size="{NUMBER * 10}" '
+        f'text-anchor="middle" font-family="sans-serif" fill="{theme().quiet}">{step}</text>'
+    )
 
 
 def _seen_outlines(around: Floats) -> list[Floats]:
@@ -184,7 +197,7 @@ def _to_the_front(points: Floats) -> Floats:
             between = angles[here] + turn * _shares(abs(turn))[1:]
             rows.append(np.column_stack([np.cos(between), np.sin(between)]))
         else:
-            rows.append(points[there:there + 1, :2] / (np.linalg.norm(points[there, :2]) if hidden[there] else 1.0))
+            rows.append(points[there : there + 1, :2] / (np.linalg.norm(points[there, :2]) if hidden[there] else 1.0))
     return np.concatenate(rows)
 
 
@@ -192,8 +205,11 @@ def _visible(points: Floats, x: float, y: float, radius: float) -> str:
     """The part of a wall that is seen, as pieces of a path."""
     seen = points[:, 2] >= 0
     places = list(zip(*_pixels(points[:, :2], x, y, radius), strict=True))
-    return "".join(f"M{places[at][0]} {places[at][1]}L{places[at + 1][0]} {places[at + 1][1]}"
-                   for at in range(len(points) - 1) if seen[at] and seen[at + 1])
+    return "".join(
+        f"M{places[at][0]} {places[at][1]}L{places[at + 1][0]} {places[at + 1][1]}"
+        for at in range(len(points) - 1)
+        if seen[at] and seen[at + 1]
+    )
 
 
 def _pixels(points: Floats, x: float, y: float, radius: float) -> tuple[list[int], list[int]]:

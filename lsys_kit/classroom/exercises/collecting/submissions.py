@@ -118,8 +118,10 @@ def _python(source: str) -> str:
 def _checked(statement: ast.stmt, names: dict[str, object]) -> Iterator[tuple[str, object]]:
     """The answers that a statement checks; what it assigns to a name is kept."""
     match statement:
-        case (ast.Assign(targets=[ast.Name(id=name)], value=value)
-              | ast.AnnAssign(target=ast.Name(id=name), value=ast.expr() as value)):
+        case (
+            ast.Assign(targets=[ast.Name(id=name)], value=value)
+            | ast.AnnAssign(target=ast.Name(id=name), value=ast.expr() as value)
+        ):
             names[name] = written(value, names)
     if isinstance(statement, ast.Expr | ast.Assign):
         for node in ast.walk(statement):

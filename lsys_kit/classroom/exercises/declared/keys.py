@@ -217,11 +217,7 @@ def _asked_problems(problem: Callable[..., Problem], declared: Mapping[str, Any]
 
 
 def _part_problems(
-    problem: Callable[..., Problem],
-    declared: Mapping[str, Any],
-    part: str,
-    record: type,
-    needed: Sequence[str],
+    problem: Callable[..., Problem], declared: Mapping[str, Any], part: str, record: type, needed: Sequence[str]
 ) -> Iterator[Problem]:
     known = [each.name for each in fields(record)]
     parts = declared.get(part, ())

@@ -56,8 +56,9 @@ def with_given(exercise: Exercise, own: Sequence[EdgeProduction]) -> MapAnswer:
 def _read(exercise: Exercise, answer: object) -> MapAnswer:
     if isinstance(answer, MapSystem):
         return MapAnswer(answer, answer.productions)
-    return read_typed(text_answer(answer, gettext("A rule for walls"), '"A -> B[-A][+A]B"'),
-                      lambda typed: _read_text(exercise, typed))
+    return read_typed(
+        text_answer(answer, gettext("A rule for walls"), '"A -> B[-A][+A]B"'), lambda typed: _read_text(exercise, typed)
+    )
 
 
 def _read_text(exercise: Exercise, text: str) -> MapAnswer:
@@ -67,8 +68,10 @@ def _read_text(exercise: Exercise, text: str) -> MapAnswer:
     given = read_map(exercise.given).productions
     own = tuple(each for each in read_map(f"{text}\n{exercise.given}").productions if each not in given)
     if not own:
-        raise ModelValueError(gettext("There is no production here that the question does not give"),
-                              hint=gettext("Write it as: A -> B[-A][+A]B."))
+        raise ModelValueError(
+            gettext("There is no production here that the question does not give"),
+            hint=gettext("Write it as: A -> B[-A][+A]B."),
+        )
     return with_given(exercise, own)
 
 
@@ -84,8 +87,9 @@ def same_maps(one: Map, other: Map) -> bool:
     """
     if one.counts != other.counts or cells_of(one) != cells_of(other) or _walls_of(one) != _walls_of(other):
         return False
-    return len(one.walls) > MOST_WALLS_LAID or bool(nx.is_isomorphic(
-        _graph(one), _graph(other), lambda a, b: a["kind"] == b["kind"], lambda a, b: a["way"] == b["way"]))
+    return len(one.walls) > MOST_WALLS_LAID or bool(
+        nx.is_isomorphic(_graph(one), _graph(other), lambda a, b: a["kind"] == b["kind"], lambda a, b: a["way"] == b["way"])
+    )
 
 
 def cells_of(found: Map) -> Counter[tuple[Edge, ...]]:
@@ -130,8 +134,12 @@ def _first_step_apart(exercise: Exercise, mine: MapAnswer, wanted: MapAnswer) ->
 
 def _steps_right(exercise: Exercise, mine: MapAnswer, wanted: MapAnswer) -> tuple[int, int]:
     """How many steps are right in a row, of those that are not right without the rules that were typed."""
-    untyped = MapAnswer(MapSystem(wanted.system.axiom, read_map(exercise.given).productions if exercise.given else (),
-                                  sphere=wanted.system.sphere), ())
+    untyped = MapAnswer(
+        MapSystem(
+            wanted.system.axiom, read_map(exercise.given).productions if exercise.given else (), sphere=wanted.system.sphere
+        ),
+        (),
+    )
     given = _agreeing_steps(exercise, untyped, wanted)
     return max(_agreeing_steps(exercise, mine, wanted) - given, 0), exercise.steps - given
 
@@ -152,9 +160,14 @@ def _difference(exercise: Exercise, mine: MapAnswer, wanted: MapAnswer) -> Diffe
     own, other = develop(mine.system, step)[step], develop(wanted.system, step)[step]
     mine_cells, wanted_cells = cells_of(own), cells_of(other)
     likeness = (mine_cells & wanted_cells).total() / max(mine_cells.total(), wanted_cells.total())
-    said = _in_words(step, own, other) if _has_rule(mine.system) else gettext(
-        "None of your rules is for a wall of the first cell, {walls}. Letters must be the same, with an arrow or without.",
-        walls=" ".join(map(str, mine.system.axiom)))
+    said = (
+        _in_words(step, own, other)
+        if _has_rule(mine.system)
+        else gettext(
+            "None of your rules is for a wall of the first cell, {walls}. Letters must be the same, with an arrow or without.",
+            walls=" ".join(map(str, mine.system.axiom)),
+        )
+    )
     return Difference(said, likeness)
 
 
@@ -167,16 +180,25 @@ def _has_rule(system: MapSystem) -> bool:
 def _in_words(step: int, own: Map, other: Map) -> str:
     many = len(own.cells)
     if many != len(other.cells):
-        has = ngettext("At step {step} your map has {count} cell.", "At step {step} your map has {count} cells.", many,
-                       step=step, count=many)
+        has = ngettext(
+            "At step {step} your map has {count} cell.",
+            "At step {step} your map has {count} cells.",
+            many,
+            step=step,
+            count=many,
+        )
         return f"{has} {gettext('That is not the right number. Which two markers match in a cell, and which do not?')}"
     strange = next((cell for cell in cell_words(own) if cell not in cells_of(other)), None)
     if strange is None:
-        return gettext("At step {step} your cells have the right walls, but other neighbours. Where do the new walls begin?",
-                       step=step)
-    return gettext("At step {step} the number of cells is right. But one of your cells has, clockwise, the walls {walls}. "
-                   "Follow them back: from which part of your rule does each of them come?",
-                   step=step, walls=" ".join(map(str, strange)))
+        return gettext(
+            "At step {step} your cells have the right walls, but other neighbours. Where do the new walls begin?", step=step
+        )
+    return gettext(
+        "At step {step} the number of cells is right. But one of your cells has, clockwise, the walls {walls}. "
+        "Follow them back: from which part of your rule does each of them come?",
+        step=step,
+        walls=" ".join(map(str, strange)),
+    )
 
 
 def _honest(_: Exercise, mine: MapAnswer, __: MapAnswer) -> bool:
@@ -188,5 +210,14 @@ def _praise(exercise: Exercise, _: MapAnswer, __: MapAnswer) -> str:
     return gettext("The maps of all steps from 0 to {last} agree.", last=exercise.steps)
 
 
-MAP = AnswerKind('rules for walls, as a text between """ and """', _read, _same, _difference, _honest, _praise, _alike,
-                 _steps_right, "Right: {right} of {all} steps.")
+MAP = AnswerKind(
+    'rules for walls, as a text between """ and """',
+    _read,
+    _same,
+    _difference,
+    _honest,
+    _praise,
+    _alike,
+    _steps_right,
+    "Right: {right} of {all} steps.",
+)

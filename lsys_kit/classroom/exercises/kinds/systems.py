@@ -234,5 +234,14 @@ def _praise(exercise: Exercise, _: SystemAnswer, wanted: SystemAnswer) -> str:
     )
 
 
-SYSTEM = AnswerKind('lines of the system, as a text between """ and """', _read, same, _difference, _honest, _praise, alike,
-                    tests_passed, "Passed: {right} of {all} tests.")
+SYSTEM = AnswerKind(
+    'lines of the system, as a text between """ and """',
+    _read,
+    same,
+    _difference,
+    _honest,
+    _praise,
+    alike,
+    tests_passed,
+    "Passed: {right} of {all} tests.",
+)

@@ -91,6 +91,7 @@ def branches_kept(states: States, word: list[int]) -> list[int]:
 
 def vanishing(states: States, word: list[int]) -> list[int]:
     """A letter without a production vanishes."""
+
     def successor(state: int) -> Sequence[int]:
         vanishes = states.production(state) is None and states.modules[state].symbol[:1].isalpha()
         return () if vanishes else states.successor(state)

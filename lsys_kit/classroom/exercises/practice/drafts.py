@@ -91,8 +91,14 @@ def derivation_text(words: Sequence[str]) -> str:
     return gettext("Step by step:") + "\n" + "\n".join(f"  {step}  {word}" for step, word in enumerate(words))
 
 
-def number_exercise(question: str, right: Fraction | int, wrong: Sequence[tuple[Fraction | int, str]], explanation: str,
-                    hints: tuple[str, ...], unit: str = "") -> Exercise | None:
+def number_exercise(
+    question: str,
+    right: Fraction | int,
+    wrong: Sequence[tuple[Fraction | int, str]],
+    explanation: str,
+    hints: tuple[str, ...],
+    unit: str = "",
+) -> Exercise | None:
     """A question for a number, with wrong answers and what is said of each; None where two of all these are the same.
 
     >>> number_exercise("How many?", 3, [(3, "You guessed.")], "", ()) is None
@@ -104,8 +110,9 @@ def number_exercise(question: str, right: Fraction | int, wrong: Sequence[tuple[
     return Exercise("", "", "number", question, str(right), explanation, hints, slips=slips, unit=unit)
 
 
-def choice_exercise(chance: Random, question: str, right: str, wrong: Sequence[tuple[str, str]], explanation: str,
-                    hints: tuple[str, ...]) -> Exercise | None:
+def choice_exercise(
+    chance: Random, question: str, right: str, wrong: Sequence[tuple[str, str]], explanation: str, hints: tuple[str, ...]
+) -> Exercise | None:
     """A question with options in no order, of which each wrong one has its reply; None where two of them are the same.
 
     >>> choice_exercise(Random(1), "Which?", "a", [("a", "No.")], "", ()) is None

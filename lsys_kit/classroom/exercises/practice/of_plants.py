@@ -120,8 +120,7 @@ def _wrong_days(starts: int, there: int, through: int, day: int) -> list[tuple[i
         (
             starts + there * through,
             gettext(
-                "So long it takes through the internodes of the day on which it sets out. "
-                "Meanwhile others are made above them."
+                "So long it takes through the internodes of the day on which it sets out. Meanwhile others are made above them."
             ),
         ),
         (day - starts, gettext("So many days the signal is on its way. On which day did it set out?")),

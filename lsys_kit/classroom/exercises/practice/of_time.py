@@ -206,8 +206,5 @@ def _filament(chance: Random) -> Exercise | None:
     )
 
 
-OF_TIME = {
-    "slices": Topic("Slices of time", 11, _slices),
-    "lengths": Topic("Without a jump", 12, _lengths),
-}
+OF_TIME = {"slices": Topic("Slices of time", 11, _slices), "lengths": Topic("Without a jump", 12, _lengths)}
 """In the order of the lessons."""

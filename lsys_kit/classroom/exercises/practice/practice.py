@@ -27,7 +27,15 @@ from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.translation import gettext, language
 
 TOPICS: Mapping[str, Topic] = {
-    **OF_WORDS, **OF_NUMBERS, **OF_CHANCE, **OF_DRAWINGS, **OF_PLANTS, **OF_TIME, **OF_SPACE, **OF_LANGUAGES}
+    **OF_WORDS,
+    **OF_NUMBERS,
+    **OF_CHANCE,
+    **OF_DRAWINGS,
+    **OF_PLANTS,
+    **OF_TIME,
+    **OF_SPACE,
+    **OF_LANGUAGES,
+}
 """What can be practised."""
 LEVELS = 3
 """How many levels there are."""

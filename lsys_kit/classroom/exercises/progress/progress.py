@@ -60,9 +60,11 @@ class Progress:
         """The page: all text escaped, and a column for as many lessons as there is room for."""
         rows = "".join(_html_rows(self))
         label = gettext("progress")
-        notes = "".join(f"<p style=\"margin:6px 0 0\">{_linked(self, note)}</p>" for note in _notes(self))
-        return (f'<div class="{PLAIN_TEXT}" role="region" aria-label="{label}" style="{_BOX}"><b>{escaped(_heading(self))}</b>'
-                f'<div style="{_COLUMNS}">{rows}</div>{notes}</div>')
+        notes = "".join(f'<p style="margin:6px 0 0">{_linked(self, note)}</p>' for note in _notes(self))
+        return (
+            f'<div class="{PLAIN_TEXT}" role="region" aria-label="{label}" style="{_BOX}"><b>{escaped(_heading(self))}</b>'
+            f'<div style="{_COLUMNS}">{rows}</div>{notes}</div>'
+        )
 
 
 def progress(lesson: str | int | None = None) -> Progress:
@@ -111,8 +113,10 @@ def _named(lessons: Sequence[Lesson], name: object) -> Lesson:
     found = [each for each in lessons if wanted in (each.name, each.name.partition("_")[0])]
     if not found:
         names = [each.name for each in lessons]
-        raise ModelNameError(f'There is no lesson "{quotable(wanted)}" with exercises',
-                             hint=suggestion(wanted[:100], names) or f"Lessons are: {', '.join(names)}.")
+        raise ModelNameError(
+            f'There is no lesson "{quotable(wanted)}" with exercises',
+            hint=suggestion(wanted[:100], names) or f"Lessons are: {', '.join(names)}.",
+        )
     return found[-1]
 
 
@@ -165,8 +169,11 @@ def _notes(page: Progress) -> Iterator[str]:
     if page.record.problem:
         yield page.record.problem
     if len(page.lessons) > 1:
-        kept = (gettext("Tries are kept in {file}, in the folder of the course.", file=FILE) if page.record.folder else
-                gettext("Tries are forgotten when Python ends. To keep them, work in a copy of the course: lsys-kit lab."))
+        kept = (
+            gettext("Tries are kept in {file}, in the folder of the course.", file=FILE)
+            if page.record.folder
+            else gettext("Tries are forgotten when Python ends. To keep them, work in a copy of the course: lsys-kit lab.")
+        )
         yield f"{kept} {gettext(FOR_YOU)}"
 
 
@@ -197,8 +204,7 @@ def _chip(page: Progress, exercise: Exercise, text: str) -> str:
     sign, rest = text.split(" ", 1)
     name = gettext(state)
     style = f"display:inline-block;margin:2px 8px 2px 0;border-bottom:3px solid {SIGNS[state][1]}"
-    return (f'<span title="{name}" style="{style}">'
-            f'<span role="img" aria-label="{name}:">{sign}</span> {escaped(rest)}</span>')
+    return f'<span title="{name}" style="{style}"><span role="img" aria-label="{name}:">{sign}</span> {escaped(rest)}</span>'
 
 
 def _link(page: Progress, lesson: Lesson, text: str) -> str:

@@ -22,8 +22,28 @@ _NAMES: Mapping[str, tuple[str, Value]] = {
 UNITS: Mapping[str, tuple[str, Value]] = {name: unit for names, unit in _NAMES.items() for name in names.split()}
 """For each name of a unit what it measures, and how much of the first unit of that it is."""
 SAME_THING = (
-    frozenset(("cell", "letter", "module", "symbol", "character", "char", "element", "piece", "zelle", "zellen", "buchstabe",
-               "buchstaben", "modul", "symbole", "zeichen", "elemente", "stück", "stücke")),
+    frozenset(
+        (
+            "cell",
+            "letter",
+            "module",
+            "symbol",
+            "character",
+            "char",
+            "element",
+            "piece",
+            "zelle",
+            "zellen",
+            "buchstabe",
+            "buchstaben",
+            "modul",
+            "symbole",
+            "zeichen",
+            "elemente",
+            "stück",
+            "stücke",
+        )
+    ),
     frozenset(("wall", "edge", "wand", "wände", "kante", "kanten")),
 )
 """Words for one thing that is counted: what a word is made of, what a map is made of."""

@@ -59,8 +59,15 @@ def first_step(system: LSystem) -> int:
     return USUAL_STEPS if system.steps is None else system.steps
 
 
-def book(system: LSystem, settings: Mapping[str, object] | None = None, seed: int | None = None, *, title: str = "",
-         least: int = 0, unfold: Unfolding = False) -> dict[str, Any]:
+def book(
+    system: LSystem,
+    settings: Mapping[str, object] | None = None,
+    seed: int | None = None,
+    *,
+    title: str = "",
+    least: int = 0,
+    unfold: Unfolding = False,
+) -> dict[str, Any]:
     """The book of a system, ready to be written as JSON.
 
     Parameters
@@ -104,16 +111,28 @@ def book(system: LSystem, settings: Mapping[str, object] | None = None, seed: in
         symbols, rows = _labels(derivation.states, pages.numbers, net)
         states = derivation.states
         return {
-            "title": visible(title), "text": system.source, "notation": system.notation,
-            "notes": [*map(visible, system.notes)], "noun": "module",
+            "title": visible(title),
+            "text": system.source,
+            "notation": system.notation,
+            "notes": [*map(visible, system.notes)],
+            "noun": "module",
             "settings": {c.name: number_text(value) for c, value in zip(system.constants, states.constants, strict=True)},
-            "chance": _has_chance(states), "symbols": symbols, "states": rows,
-            "productions": [{"text": visible(as_written(system, rule)), "at": list(rule.at) if rule.at else None}
-                            for rule in system.productions],
+            "chance": _has_chance(states),
+            "symbols": symbols,
+            "states": rows,
+            "productions": [
+                {"text": visible(as_written(system, rule)), "at": list(rule.at) if rule.at else None}
+                for rule in system.productions
+            ],
             "file": file_stem(title, "L-system", system.source or repr(system)),
-            "steps": pages.last, "end": pages.end, "axiom": [pages.numbers[state] for state in states.axiom],
-            **(_table(states, pages.numbers) if states.traits.d0l else _history(derivation, pages)), "net": diagram,
-            **drawing_entries(states, [*pages.numbers], pages.drawn, pages.last), "growth": growth_entry(system, given)}
+            "steps": pages.last,
+            "end": pages.end,
+            "axiom": [pages.numbers[state] for state in states.axiom],
+            **(_table(states, pages.numbers) if states.traits.d0l else _history(derivation, pages)),
+            "net": diagram,
+            **drawing_entries(states, [*pages.numbers], pages.drawn, pages.last),
+            "growth": growth_entry(system, given),
+        }
 
 
 @dataclass
@@ -189,10 +208,17 @@ def _labels(states: States, numbers: Iterable[int], net: Stages | None) -> tuple
     for state in numbers:
         module = states.modules[state]
         place = None if net is None else net.place_of(module)
-        rows.append([symbols.setdefault(module.symbol, len(symbols)), values_text(module), -1 if place is None else place,
-                     visible(notation.module(module))])
-    return [[*map(visible, label_parts(symbol, system)), palette.get(symbol, ""), int(symbol in steering)]
-            for symbol in symbols], rows
+        rows.append(
+            [
+                symbols.setdefault(module.symbol, len(symbols)),
+                values_text(module),
+                -1 if place is None else place,
+                visible(notation.module(module)),
+            ]
+        )
+    return [
+        [*map(visible, label_parts(symbol, system)), palette.get(symbol, ""), int(symbol in steering)] for symbol in symbols
+    ], rows
 
 
 def _has_chance(states: States) -> bool:
@@ -203,10 +229,11 @@ def _has_chance(states: States) -> bool:
 def _table(states: States, numbers: Mapping[int, int]) -> dict[str, Any]:
     """The successors of states that alone decide them, and the productions that are applied; nothing of states of the last step
     that lead out of the book."""
-    rows = {state: row for state in numbers
-            if (row := states.successors.get(state)) is not None and numbers.keys() >= {*row}}
-    return {"successors": [[numbers[s] for s in rows[state]] if state in rows else [] for state in numbers],
-            "applied": [-1 if state not in rows or (made := states.production(state)) is None else made for state in numbers]}
+    rows = {state: row for state in numbers if (row := states.successors.get(state)) is not None and numbers.keys() >= {*row}}
+    return {
+        "successors": [[numbers[s] for s in rows[state]] if state in rows else [] for state in numbers],
+        "applied": [-1 if state not in rows or (made := states.production(state)) is None else made for state in numbers],
+    }
 
 
 def _history(derivation: Derivation, pages: _Pages) -> dict[str, Any]:

@@ -32,8 +32,10 @@ def last_held(sizes: Iterable[int], asked: int, most: int, called: str) -> tuple
     last = min(max([asked, *(step for step, sum in enumerate(sums) if sum <= most)]), len(sums) - 1)
     if last == len(sums) - 1:
         return last, ""
-    return last, (f"The panel ends at step {last}: later {called} take long to come to rest. "
-                  f"The rules may ask for more: steps: {last + 1}")
+    return last, (
+        f"The panel ends at step {last}: later {called} take long to come to rest. "
+        f"The rules may ask for more: steps: {last + 1}"
+    )
 
 
 def span(rule: EdgeProduction | CellworkProduction) -> list[int] | None:

@@ -53,8 +53,10 @@ def drawn_rows(states: States, numbers: Sequence[int], mode: DrawingMode) -> lis
     [[['draw', 0, 2, [2], 0]], [['turn', 1, 0, 0, 0]], []]
     """
     if mode is DrawingMode.FILAMENT:
-        return [[[None if math.isnan(number) else _plain(number) for number in shape] for shape in shapes]
-                for shapes in shapes_of(states, numbers).values()]
+        return [
+            [[None if math.isnan(number) else _plain(number) for number in shape] for shape in shapes]
+            for shapes in shapes_of(states, numbers).values()
+        ]
     system, drawn = states.system, interpretations(states, numbers)
     if any(module.symbol == "~" for module in system.modules):
         drawn = {**drawn, _TILDE: (Module("~"),)}
@@ -83,35 +85,59 @@ def drawing_entries(states: States, numbers: Sequence[int], drawn: list[list[Any
     system, mode = states.system, drawing_mode(states.system)
     if mode is DrawingMode.FILAMENT:
         step = age_model(states).step
-        return {"mode": "filament", "cells": drawn, "look": system.cells, "time": None if step is None else float(step),
-                "times": [] if step is None else [time_text(step * number) for number in range(last + 1)],
-                "unknown": [], "said": ""}
+        return {
+            "mode": "filament",
+            "cells": drawn,
+            "look": system.cells,
+            "time": None if step is None else float(step),
+            "times": [] if step is None else [time_text(step * number) for number in range(last + 1)],
+            "unknown": [],
+            "said": "",
+        }
     unknown = (*unknown_commands(interpretations(states, numbers), system), *_not_surfaces(system))
-    return {"mode": mode.name.lower(), "turtle": _turtle(system, drawn), "unknown": [*map(visible, unknown)],
-            "said": passed_over(unknown)}
+    return {
+        "mode": mode.name.lower(),
+        "turtle": _turtle(system, drawn),
+        "unknown": [*map(visible, unknown)],
+        "said": passed_over(unknown),
+    }
 
 
 def _turtle(system: LSystem, calls: list[list[Any]]) -> dict[str, Any]:
     dialect = TURTLE_DIALECTS[system.turtle]
     named = {surface for row in calls for *_, surface in row if surface}
-    return {"side": dialect.left, "length": initial_step(system), "width": dialect.width,
-            "colour": initial_colour(system), "natural": has_natural_colours(system), "heading": float(system.heading),
-            "angle": float(system.angle), "pixels": system.widths or ("auto" if dialect.pixels else "units"), "calls": calls,
-            "surfaces": {name: faces_in(surfaces_by_symbol(system)[name], drawing_mode(system)) for name in sorted(named)},
-            "colours": [*CHOSEN],
-            "uses angle": any(action in BY_ANGLE and factor for row in calls for action, factor, *_ in row)}
+    return {
+        "side": dialect.left,
+        "length": initial_step(system),
+        "width": dialect.width,
+        "colour": initial_colour(system),
+        "natural": has_natural_colours(system),
+        "heading": float(system.heading),
+        "angle": float(system.angle),
+        "pixels": system.widths or ("auto" if dialect.pixels else "units"),
+        "calls": calls,
+        "surfaces": {name: faces_in(surfaces_by_symbol(system)[name], drawing_mode(system)) for name in sorted(named)},
+        "colours": [*CHOSEN],
+        "uses angle": any(action in BY_ANGLE and factor for row in calls for action, factor, *_ in row),
+    }
 
 
 def faces_in(surface: Surface, mode: DrawingMode) -> dict[str, list[Any]]:
     """The faces of a surface in a book, none where it is flat, and its outlines."""
     curved = mode is DrawingMode.SPACE and bool(surface.normals)
-    return {"faces": [[*map(list, face)] for face in surface.faces if curved],
-            "outlines": [[*map(list, face)] for face in surface.outlines]}
+    return {
+        "faces": [[*map(list, face)] for face in surface.faces if curved],
+        "outlines": [[*map(list, face)] for face in surface.outlines],
+    }
 
 
 def _not_surfaces(system: LSystem) -> Iterable[str]:
     """What stands behind a tilde and is no surface, with its tilde."""
     known = surfaces_by_symbol(system)
     words = [tuple(flat(word)) for word in (system.axiom, *(rule.successor for rule in system.rules))]
-    return dict.fromkeys(f"~{behind.symbol}" for word in words for before, behind in pairwise(word)
-                         if before.symbol == "~" and behind.symbol not in known)
+    return dict.fromkeys(
+        f"~{behind.symbol}"
+        for word in words
+        for before, behind in pairwise(word)
+        if before.symbol == "~" and behind.symbol not in known
+    )

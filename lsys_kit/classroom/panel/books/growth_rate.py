@@ -61,7 +61,7 @@ def _remainder(polynomial: Sequence[int], divisor: Sequence[int]) -> list[int]:
     for at in range(len(left) - len(divisor) + 1):
         for k, c in enumerate(divisor[1:], 1):
             left[at + k] -= left[at] * c
-    return left[max(0, len(left) - len(divisor) + 1):]
+    return left[max(0, len(left) - len(divisor) + 1) :]
 
 
 def _quadratic_root(p: int, discriminant: int) -> str:

@@ -88,7 +88,7 @@ def maps_at_rest(system: MapSystem, forces: Forces, least: int = 0) -> MapsAtRes
             if not reached:
                 raise
             end = sentence(error)
-    return MapsAtRest(system, forces, maps[:len(reached)], reached, end)
+    return MapsAtRest(system, forces, maps[: len(reached)], reached, end)
 
 
 def steps_of(system: MapSystem) -> int:
@@ -106,7 +106,7 @@ def _developed(system: MapSystem, asked: int) -> tuple[Sequence[Map], str]:
             raise
         found, end = error.partial, sentence(error)
     last, early = last_held((len(each.walls) for each in found), asked, MOST_UNASKED, "maps")
-    return found[:last + 1], early or end
+    return found[: last + 1], early or end
 
 
 def map_book(found: MapsAtRest, settings: Mapping[str, Value], title: str = "") -> dict[str, Any]:
@@ -135,17 +135,31 @@ def map_book(found: MapsAtRest, settings: Mapping[str, Value], title: str = "") 
     with Task("The book was not finished"):
         net, diagram = net_entry(lambda: wall_stages(system), lambda _: frozenset())
         return {
-            "title": title, "text": system.source, "notation": "map", "notes": [*map(visible, system.notes)],
-            "noun": "wall", "mode": "map",
-            "settings": {name: number_text(value) for name, value in settings.items()}, "chance": False,
+            "title": title,
+            "text": system.source,
+            "notation": "map",
+            "notes": [*map(visible, system.notes)],
+            "noun": "wall",
+            "mode": "map",
+            "settings": {name: number_text(value) for name, value in settings.items()},
+            "chance": False,
             "symbols": [[*label_parts(symbol, letters), colours(letters)[symbol], 0] for symbol in kinds.values()],
             "states": [[number, edge.arrow, -1 if net is None else number, str(edge)] for edge, number in numbers.items()],
             "productions": [{"text": str(rule), "at": span(rule)} for rule in system.productions],
             "file": file_stem(title, "map", system.source or repr(system)),
-            "steps": found.last, "end": found.end, "axiom": [numbers[kind_of(edge)] for edge in system.axiom],
-            **_history(found, numbers), "net": diagram, "counts": [each.counts for each in found.maps],
-            "forces": asdict(found.forces), "first": _flat(polygon(len(system.axiom))), "maps": _pages(found),
-            "unknown": [], "said": "".join(unmatched_markers(system, found.maps)).rstrip("."), "growth": None}
+            "steps": found.last,
+            "end": found.end,
+            "axiom": [numbers[kind_of(edge)] for edge in system.axiom],
+            **_history(found, numbers),
+            "net": diagram,
+            "counts": [each.counts for each in found.maps],
+            "forces": asdict(found.forces),
+            "first": _flat(polygon(len(system.axiom))),
+            "maps": _pages(found),
+            "unknown": [],
+            "said": "".join(unmatched_markers(system, found.maps)).rstrip("."),
+            "growth": None,
+        }
 
 
 def _history(found: MapsAtRest, numbers: Mapping[Edge, int]) -> dict[str, Any]:
@@ -155,9 +169,11 @@ def _history(found: MapsAtRest, numbers: Mapping[Edge, int]) -> dict[str, Any]:
     many = [len(production.walls) for production in found.system.productions]
     words = [[_kind(wall) for wall in each.walls] for each in found.maps]
     made = [[rules.get(kind, -1) for kind in word] for word in words[:-1]]
-    return {"words": [packed(_whole(numbers[kind] for kind in word)) for word in words],
-            "made": [packed(_whole(row)) for row in made],
-            "daughters": [packed(_whole(1 if rule < 0 else many[rule] for rule in row)) for row in made]}
+    return {
+        "words": [packed(_whole(numbers[kind] for kind in word)) for word in words],
+        "made": [packed(_whole(row)) for row in made],
+        "daughters": [packed(_whole(1 if rule < 0 else many[rule] for rule in row)) for row in made],
+    }
 
 
 def _kind(wall: Wall) -> Edge:
@@ -172,11 +188,18 @@ def _pages(found: MapsAtRest) -> list[dict[str, Any]]:
     for each, reached in zip(found.maps, found.equilibria, strict=True):
         net = tissue(each)
         new = [(*vertex.between, float(vertex.share)) for vertex in each.vertices[known:] if vertex.between]
-        pages.append({
-            "points": _flat(reached.points), "iterations": reached.iterations, "settled": reached.settled,
-            "ends": packed(net.ends.ravel()),
-            "corners": packed(net.corners), "starts": packed(net.starts), "new": new,
-            "kinds": packed(_whole(kinds.setdefault(word, len(kinds)) for word in cell_words(each)))})
+        pages.append(
+            {
+                "points": _flat(reached.points),
+                "iterations": reached.iterations,
+                "settled": reached.settled,
+                "ends": packed(net.ends.ravel()),
+                "corners": packed(net.corners),
+                "starts": packed(net.starts),
+                "new": new,
+                "kinds": packed(_whole(kinds.setdefault(word, len(kinds)) for word in cell_words(each))),
+            }
+        )
         known = len(each.vertices)
     return pages
 

@@ -34,8 +34,9 @@ def net_of(system: LSystem, constants: Mapping[str, object], unfold: Unfolding =
     return stages(system, **given)
 
 
-def net_entry(made: Callable[[], Stages],
-              steering: Callable[[LSystem], frozenset[str]] = steering_of) -> tuple[Stages | None, dict[str, Any]]:
+def net_entry(
+    made: Callable[[], Stages], steering: Callable[[LSystem], frozenset[str]] = steering_of
+) -> tuple[Stages | None, dict[str, Any]]:
     """A net and its diagram, without the symbols that only steer; where there is none to be drawn, a diagram that says why.
 
     >>> from lsys_kit.derivation.petri.stages import stages
@@ -54,23 +55,49 @@ def net_entry(made: Callable[[], Stages],
 
 
 def _diagram(parts: Parts, names: list[str]) -> dict[str, Any]:
-    return {"width": parts.width, "height": parts.height, "description": visible(parts.description), "radius": RADIUS,
-            "names": [*map(visible, names)],
-            "places": [*map(_place, parts.places)], "bars": [*map(_bar, parts.bars)], "arcs": [*map(_arc, parts.arcs)],
-            "notes": [*map(_note, parts.notes)],
-            "footnotes": [{"x": EDGE, "y": _tenths(parts.foot + LINE * line), "text": visible(text)}
-                        for line, text in enumerate(parts.footnotes)]}
+    return {
+        "width": parts.width,
+        "height": parts.height,
+        "description": visible(parts.description),
+        "radius": RADIUS,
+        "names": [*map(visible, names)],
+        "places": [*map(_place, parts.places)],
+        "bars": [*map(_bar, parts.bars)],
+        "arcs": [*map(_arc, parts.arcs)],
+        "notes": [*map(_note, parts.notes)],
+        "footnotes": [
+            {"x": EDGE, "y": _tenths(parts.foot + LINE * line), "text": visible(text)}
+            for line, text in enumerate(parts.footnotes)
+        ],
+    }
 
 
 def _place(part: PlacePart) -> dict[str, Any]:
-    return {"place": part.place, "x": _tenths(part.x), "y": _tenths(part.y), "letter": visible(part.letter),
-            "subscript": visible(part.subscript), "values": part.values, "name": visible(part.name),
-            "title": visible(part.title), "colour": part.colour, "strength": part.strength}
+    return {
+        "place": part.place,
+        "x": _tenths(part.x),
+        "y": _tenths(part.y),
+        "letter": visible(part.letter),
+        "subscript": visible(part.subscript),
+        "values": part.values,
+        "name": visible(part.name),
+        "title": visible(part.title),
+        "colour": part.colour,
+        "strength": part.strength,
+    }
 
 
 def _bar(part: BarPart) -> dict[str, Any]:
-    return {"x": _tenths(part.x), "y": _tenths(part.y), "half": _tenths(part.half), "line": part.line,
-            "terms": visible(part.terms), "full": visible(part.full), "tx": _tenths(part.tx), "ty": _tenths(part.ty)}
+    return {
+        "x": _tenths(part.x),
+        "y": _tenths(part.y),
+        "half": _tenths(part.half),
+        "line": part.line,
+        "terms": visible(part.terms),
+        "full": visible(part.full),
+        "tx": _tenths(part.tx),
+        "ty": _tenths(part.ty),
+    }
 
 
 def _arc(part: ArcPart) -> dict[str, Any]:

@@ -77,7 +77,7 @@ def tissue_at_rest(system: TissueSystem, forces: Forces, least: int = 0) -> Tiss
             if not places:
                 raise
             end = sentence(error)
-    return TissueAtRest(system, steps[:len(places)], places, end)
+    return TissueAtRest(system, steps[: len(places)], places, end)
 
 
 def steps_of(system: TissueSystem) -> int:
@@ -102,8 +102,8 @@ def _developed(system: TissueSystem, asked: int) -> tuple[CellworkDevelopment | 
 
 def _up_to(found: CellworkDevelopment | Development, last: int) -> CellworkDevelopment | Development:
     if isinstance(found, CellworkDevelopment):
-        return CellworkDevelopment(found.system, found[:last + 1])
-    return Development(found.system, found[:last + 1])
+        return CellworkDevelopment(found.system, found[: last + 1])
+    return Development(found.system, found[: last + 1])
 
 
 def _edges(found: Cellwork | Map) -> int:

@@ -72,15 +72,28 @@ def tissue_book(found: TissueAtRest, settings: Mapping[str, Value], title: str =
         _, diagram = net_entry(lambda: wall_stages(system), lambda _: frozenset())
         edges = [[*label_parts(symbol, letters), colours(letters)[symbol], 0] for symbol in kinds.values()]
         return {
-            "title": title, "text": system.source, "notation": "map" if isinstance(system, MapSystem) else "cellwork",
-            "notes": [*map(visible, system.notes)], "noun": "cell", "mode": "tissue", "chance": False,
+            "title": title,
+            "text": system.source,
+            "notation": "map" if isinstance(system, MapSystem) else "cellwork",
+            "notes": [*map(visible, system.notes)],
+            "noun": "cell",
+            "mode": "tissue",
+            "chance": False,
             "settings": {name: number_text(value) for name, value in settings.items()},
             "productions": [{"text": str(rule), "at": span(rule)} for rule in system.productions],
             "file": file_stem(title, "map" if isinstance(system, MapSystem) else "cellwork", system.source or repr(system)),
-            "steps": found.last, "end": found.end, "axiom": [], **_cells(found, edges, [*map(str, kinds)]), "net": diagram,
-            "tokens": [*_tokens(found, kinds)], "sizes": [*map(size_text, found.steps)],
-            "pages": _pages(found, {edge: number for number, edge in enumerate(kinds)}), "unknown": [],
-            "said": "" if any(_divided(found)) or not found.last else NEVER_DIVIDED, "growth": None}
+            "steps": found.last,
+            "end": found.end,
+            "axiom": [],
+            **_cells(found, edges, [*map(str, kinds)]),
+            "net": diagram,
+            "tokens": [*_tokens(found, kinds)],
+            "sizes": [*map(size_text, found.steps)],
+            "pages": _pages(found, {edge: number for number, edge in enumerate(kinds)}),
+            "unknown": [],
+            "said": "" if any(_divided(found)) or not found.last else NEVER_DIVIDED,
+            "growth": None,
+        }
 
 
 def _divided(found: TissueAtRest) -> Iterator[bool]:
@@ -105,20 +118,25 @@ def _cells(found: TissueAtRest, edges: list[list[Any]], kinds: Sequence[str]) ->
     walls = wall_labels(_cellworks(found))
     order, palette = {label: number for number, label in enumerate(walls)}, [*walls.values()] or [*SERIES]
     numbers: dict[tuple[Written, int], int] = {}
-    words = [[numbers.setdefault(cell, len(kinds) + len(numbers)) for cell in zip(_written(step), looks, strict=True)]
-             for step, looks in zip(found.steps, _looks(found), strict=True)]
+    words = [
+        [numbers.setdefault(cell, len(kinds) + len(numbers)) for cell in zip(_written(step), looks, strict=True)]
+        for step, looks in zip(found.steps, _looks(found), strict=True)
+    ]
     plain = len(edges) + len(palette)
     symbol = {written: plain if look < 0 else len(edges) + look % len(palette) for written, look in numbers}
     many = [np.bincount(step.mothers) for step in found.steps[1:]]
     return {
         "symbols": [*edges, *(["", "", colour, 0] for colour in palette), ["", "", "", 0]],
-        "states": [*([number, "", number, text] for number, text in enumerate(kinds)),
-                   *([symbol[written], text_of(written), -1, text_of(written)] for written, _ in numbers)],
+        "states": [
+            *([number, "", number, text] for number, text in enumerate(kinds)),
+            *([symbol[written], text_of(written), -1, text_of(written)] for written, _ in numbers),
+        ],
         "walls": [[label, colour] for label, colour in walls.items()],
         "around": [[[order[label], cycle] for label, cycle in written if label] for written, _ in numbers],
         "words": [packed(_whole(word)) for word in words],
         "made": [packed(_whole([-1] * len(word))) for word in words[:-1]],
-        "daughters": [*map(packed, many)]}
+        "daughters": [*map(packed, many)],
+    }
 
 
 def _cellworks(found: TissueAtRest) -> list[Cellwork]:
@@ -139,13 +157,14 @@ def _written(found: Cellwork | Map) -> Iterator[Written]:
     if isinstance(found, Map):
         yield from ((("", "".join(map(str, found.word(cell)))),) for cell in found.cells)
     else:
-        yield from (tuple((found.walls[wall].label, cycle_text(found, wall, forward)) for wall, forward in cell)
-                    for cell in found.cells)
+        yield from (
+            tuple((found.walls[wall].label, cycle_text(found, wall, forward)) for wall, forward in cell) for cell in found.cells
+        )
 
 
 def cycle_text(found: Cellwork, wall: int, forward: bool) -> str:
     """The edges once around a wall, counter-clockwise as seen from outside of the cell, from where they are the least word."""
-    sides = [(found.edges[edge], along == forward) for edge, along in found.walls[wall].sides][::1 if forward else -1]
+    sides = [(found.edges[edge], along == forward) for edge, along in found.walls[wall].sides][:: 1 if forward else -1]
     letters = [(edge.label, (">" if along else "<") if edge.directed else "") for edge, along in sides]
     first = least_rotation(letters)
     return "".join(str(Edge(*letter)) for letter in letters[first:] + letters[:first])
@@ -175,8 +194,12 @@ def _pages(found: TissueAtRest, numbers: Mapping[Edge, int]) -> list[dict[str, A
     """What is drawn of each step."""
     order = {label: number for number, label in enumerate(wall_labels(_cellworks(found)))}
     kinds, steps = kinds_of_cells(_maps(found)), enumerate(zip(found.steps, found.places, strict=True))
-    return [_cellwork_page(step, places, numbers, order) if isinstance(step, Cellwork)
-            else _sphere_page(step, places, numbers, kinds[number]) for number, (step, places) in steps]
+    return [
+        _cellwork_page(step, places, numbers, order)
+        if isinstance(step, Cellwork)
+        else _sphere_page(step, places, numbers, kinds[number])
+        for number, (step, places) in steps
+    ]
 
 
 def _cellwork_page(found: Cellwork, points: Floats, numbers: Mapping[Edge, int], order: Mapping[str, int]) -> dict[str, Any]:
@@ -184,12 +207,15 @@ def _cellwork_page(found: Cellwork, points: Floats, numbers: Mapping[Edge, int],
     for each wall of each cell the cell, the wall, and whether its edges run counter-clockwise as seen from outside."""
     tissue = solid_tissue(found)
     return {
-        "points": _coordinates(points), "ends": packed(tissue.ends.ravel()),
+        "points": _coordinates(points),
+        "ends": packed(tissue.ends.ravel()),
         "edges": packed(_whole(numbers[_kind(edge)] for edge in found.edges)),
-        "corners": packed(tissue.corners), "starts": packed(tissue.starts),
+        "corners": packed(tissue.corners),
+        "starts": packed(tissue.starts),
         "borders": packed(_whole(side.edge for wall in found.walls for side in wall.sides)),
         "labels": packed(_whole(order[wall.label] for wall in found.walls)),
-        "sides": packed(_whole(part for side in found.cells_at() for part in side))}
+        "sides": packed(_whole(part for side in found.cells_at() for part in side)),
+    }
 
 
 def _sphere_page(found: Map, placed: Placed, numbers: Mapping[Edge, int], kinds: Sequence[int]) -> dict[str, Any]:
@@ -197,10 +223,13 @@ def _sphere_page(found: Map, placed: Placed, numbers: Mapping[Edge, int], kinds:
     each cell, with 1 where their direction runs clockwise around it, and where each cell starts; the kinds of cells."""
     arcs = [*wall_arcs(found, *placed)]
     return {
-        "points": _coordinates(np.concatenate(arcs)), "arcs": packed(_whole([0, *accumulate(map(len, arcs))])),
+        "points": _coordinates(np.concatenate(arcs)),
+        "arcs": packed(_whole([0, *accumulate(map(len, arcs))])),
         "edges": packed(_whole(numbers[_kind(wall)] for wall in found.walls)),
         "sides": packed(_whole(part for cell in found.cells for side in cell for part in side)),
-        "starts": packed(_whole([0, *accumulate(map(len, found.cells))])), "kinds": packed(_whole(kinds))}
+        "starts": packed(_whole([0, *accumulate(map(len, found.cells))])),
+        "kinds": packed(_whole(kinds)),
+    }
 
 
 def _coordinates(points: Floats) -> list[float]:

@@ -29,9 +29,14 @@ def _decades(*powers: str) -> tuple[Value, ...]:
     return tuple(map(normalised, (*parts, Fraction(powers[-1]))))
 
 
-VALUES: Mapping[str, tuple[Value, ...]] = MappingProxyType({
-    "stiffness": _decades("0.1", "1", "10"), "rest": tuple(normalised(Fraction(part, 20)) for part in range(21)),
-    "pressure": _decades("0.01", "0.1", "1"), "damping": _decades("0.1", "1", "10")})
+VALUES: Mapping[str, tuple[Value, ...]] = MappingProxyType(
+    {
+        "stiffness": _decades("0.1", "1", "10"),
+        "rest": tuple(normalised(Fraction(part, 20)) for part in range(21)),
+        "pressure": _decades("0.01", "0.1", "1"),
+        "damping": _decades("0.1", "1", "10"),
+    }
+)
 """The values of the sliders of the forces, where a kind of system has no others."""
 SHARE = 1 / 8
 """The part of the limit of bytes up to which cells at rest are kept."""
@@ -122,8 +127,9 @@ class OpenedCells(Generic[Found]):
         There is no such force, or it is too small or too great.
     """
 
-    def __init__(self, system: Any, title: str, changes: Mapping[str, object] | None, without: Collection[str],
-                 of: Kind[Found]) -> None:
+    def __init__(
+        self, system: Any, title: str, changes: Mapping[str, object] | None, without: Collection[str], of: Kind[Found]
+    ) -> None:
         self.system, self.title, self._of = system, title, of
         self.kind, self.side, self.hint = of.page, of.view, f"the force of cells and {of.sides}:"
         forces = forces_of(dict(changes or {}), of.usual, of.called)
@@ -133,7 +139,8 @@ class OpenedCells(Generic[Found]):
         self.declared: Mapping[str, Value] = {name: exact(getattr(of.usual, name)) for name in VALUES}
         self.given: Mapping[str, Any] = self.fixed
         self.values: Mapping[str, Sequence[Value]] = {
-            name: tuple(sorted({*of.values[name], value})) for name, value in self.first.items()}
+            name: tuple(sorted({*of.values[name], value})) for name, value in self.first.items()
+        }
         self._kept = Cache[tuple[Forces, int], Found](of.size, SHARE)
 
     @property
@@ -146,8 +153,9 @@ class OpenedCells(Generic[Found]):
 
     def turned(self, angle: object) -> float:
         if angle is not None:
-            raise ModelValueError(f"A {self._of.called} has no angle",
-                                  hint=f"Its cells come to rest under the forces of its {self._of.sides}.")
+            raise ModelValueError(
+                f"A {self._of.called} has no angle", hint=f"Its cells come to rest under the forces of its {self._of.sides}."
+            )
         return 0.0
 
     def link(self, chosen: Viewing) -> str:

@@ -14,9 +14,13 @@ from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
 
 
-def opened(system: LSystem | MapSystem | CellworkSystem, title: str = "",
-           changes: Mapping[str, object] | None = None, without: Collection[str] = (),
-           unfold: Unfolding = False) -> Opened:
+def opened(
+    system: LSystem | MapSystem | CellworkSystem,
+    title: str = "",
+    changes: Mapping[str, object] | None = None,
+    without: Collection[str] = (),
+    unfold: Unfolding = False,
+) -> Opened:
     """A system of any kind, opened.
 
     Parameters

@@ -27,8 +27,9 @@ def _bytes_of(found: MapsAtRest) -> int:
     return WALL_BYTES * sum(len(each.walls) for each in found.maps)
 
 
-MAPS = Kind("map", "map L-system", MAP.name, "walls", DEFAULT_FORCES, VALUES, (0, 0), read_map, steps_of, maps_at_rest,
-            _bytes_of)
+MAPS = Kind(
+    "map", "map L-system", MAP.name, "walls", DEFAULT_FORCES, VALUES, (0, 0), read_map, steps_of, maps_at_rest, _bytes_of
+)
 
 
 class OpenedMap(OpenedCells[MapsAtRest]):
@@ -40,8 +41,9 @@ class OpenedMap(OpenedCells[MapsAtRest]):
         There is no such force, or it is too small or too great.
     """
 
-    def __init__(self, system: MapSystem, title: str = "", changes: Mapping[str, object] | None = None,
-                 without: Collection[str] = ()) -> None:
+    def __init__(
+        self, system: MapSystem, title: str = "", changes: Mapping[str, object] | None = None, without: Collection[str] = ()
+    ) -> None:
         super().__init__(system, title, changes, without, MAPS)
 
     def book(self, values: Mapping[str, Value], seed: int, least: int) -> dict[str, Any]:
@@ -61,6 +63,15 @@ class OpenedMap(OpenedCells[MapsAtRest]):
         made = self.book(chosen.values, 0, chosen.step)
         sliders = [slider(name, self.values[name], value, self.hint) for name, value in chosen.values.items()]
         fixed, said = {name: number_text(value) for name, value in self.fixed.items()}, held_text(self.fixed, Held(), {})
-        model = {"constants": sliders, "chance": False, "fixed": said, "step": min(chosen.step, made["steps"]),
-                 "angle": 0, "around": 0, "above": 0, "seed": 0, **translated_labels()}
+        model = {
+            "constants": sliders,
+            "chance": False,
+            "fixed": said,
+            "step": min(chosen.step, made["steps"]),
+            "angle": 0,
+            "around": 0,
+            "above": 0,
+            "seed": 0,
+            **translated_labels(),
+        }
         return {"model": model, "mode": "map", "system": self.own(), "fixed": fixed, "books": deflated(shared([made]))}

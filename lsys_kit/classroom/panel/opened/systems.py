@@ -41,8 +41,14 @@ class OpenedSystem:
 
     hint, kind = "", "L-system"
 
-    def __init__(self, system: LSystem, title: str = "", changes: Mapping[str, object] | None = None,
-                 without: Collection[str] = (), unfold: Unfolding = False) -> None:
+    def __init__(
+        self,
+        system: LSystem,
+        title: str = "",
+        changes: Mapping[str, object] | None = None,
+        without: Collection[str] = (),
+        unfold: Unfolding = False,
+    ) -> None:
         self.system, self.title, self._without, self._unfold = system, title, without, unfold
         ranges = slider_ranges(system, changes or {})
         moving = {name: span for name, span in ranges.items() if name not in without}
@@ -50,9 +56,12 @@ class OpenedSystem:
         self.values: Mapping[str, Sequence[Value]] = {name: slider_values(span) for name, span in moving.items()}
         self.fixed: Mapping[str, Value] = {name: span.value for name, span in ranges.items() if name in without}
         self.declared: Mapping[str, Value] = dict(
-            zip((each.name for each in system.constants), constants_of(system, {}), strict=True))
-        self.given: Mapping[str, Any] = {**{name: value for name, value in (changes or {}).items() if name not in ranges},
-                                         **self.fixed}
+            zip((each.name for each in system.constants), constants_of(system, {}), strict=True)
+        )
+        self.given: Mapping[str, Any] = {
+            **{name: value for name, value in (changes or {}).items() if name not in ranges},
+            **self.fixed,
+        }
         self._made: Made | None = None
         self._views = lru_cache(maxsize=4)(lambda seed: ViewModel(system, seed, unfold))
 
@@ -98,9 +107,20 @@ class OpenedSystem:
         return {"image/png": base64.b64encode(composite_png(self.sight(chosen))).decode()}
 
     def page_data(self, chosen: Viewing, asked: Sequence[Mapping[str, object]] = ()) -> dict[str, Any]:
-        return page_data(self.system, {**self.given, **chosen.values}, chosen.seed, title=self.title, step=chosen.step,
-                         angle=chosen.angle, around=chosen.around, above=chosen.above, asked=asked, without=self._without,
-                         unfold=self._unfold, made=self._made)
+        return page_data(
+            self.system,
+            {**self.given, **chosen.values},
+            chosen.seed,
+            title=self.title,
+            step=chosen.step,
+            angle=chosen.angle,
+            around=chosen.around,
+            above=chosen.above,
+            asked=asked,
+            without=self._without,
+            unfold=self._unfold,
+            made=self._made,
+        )
 
     def link(self, chosen: Viewing) -> str:
         turn = {} if chosen.angle == round(float(self.system.angle), 1) else {ANGLE: chosen.angle}

@@ -36,12 +36,38 @@ def _bytes_of(found: TissueAtRest) -> int:
     return EDGE_BYTES * sum(len(each.cells) * 8 for each in found.steps)
 
 
-CELLWORKS = Kind("cellwork", "cellwork L-system", CELLWORK.name, "edges", SPACE_FORCES, MappingProxyType({
-    **VALUES, "rest": tuple(normalised(Fraction(part, 10)) for part in range(21)),
-    "pressure": tuple(normalised(Fraction(part, 2)) for part in range(1, 21))}),
-    cellworks.SIDE, read_cellwork, steps_of, tissue_at_rest, _bytes_of)
-SPHERES = Kind("map on a sphere", "map L-system", MAP.name, "edges", SPHERE_FORCES, VALUES,
-               spheres.SIDE, read_map, steps_of, tissue_at_rest, _bytes_of)
+CELLWORKS = Kind(
+    "cellwork",
+    "cellwork L-system",
+    CELLWORK.name,
+    "edges",
+    SPACE_FORCES,
+    MappingProxyType(
+        {
+            **VALUES,
+            "rest": tuple(normalised(Fraction(part, 10)) for part in range(21)),
+            "pressure": tuple(normalised(Fraction(part, 2)) for part in range(1, 21)),
+        }
+    ),
+    cellworks.SIDE,
+    read_cellwork,
+    steps_of,
+    tissue_at_rest,
+    _bytes_of,
+)
+SPHERES = Kind(
+    "map on a sphere",
+    "map L-system",
+    MAP.name,
+    "edges",
+    SPHERE_FORCES,
+    VALUES,
+    spheres.SIDE,
+    read_map,
+    steps_of,
+    tissue_at_rest,
+    _bytes_of,
+)
 
 
 class OpenedTissue(OpenedCells[TissueAtRest]):
@@ -53,8 +79,9 @@ class OpenedTissue(OpenedCells[TissueAtRest]):
         There is no such force, or it is too small or too great.
     """
 
-    def __init__(self, system: TissueSystem, title: str = "", changes: Mapping[str, object] | None = None,
-                 without: Collection[str] = ()) -> None:
+    def __init__(
+        self, system: TissueSystem, title: str = "", changes: Mapping[str, object] | None = None, without: Collection[str] = ()
+    ) -> None:
         super().__init__(system, title, changes, without, CELLWORKS if isinstance(system, CellworkSystem) else SPHERES)
 
     def book(self, values: Mapping[str, Value], seed: int, least: int) -> dict[str, Any]:
@@ -62,8 +89,9 @@ class OpenedTissue(OpenedCells[TissueAtRest]):
 
     def sight(self, chosen: Viewing) -> CellSight:
         found, step = self.shown(chosen), chosen.step
-        return CellSight(step, size_text(found.steps[step]), found.steps[step],
-                         _picture(found, step, (chosen.around, chosen.above)))
+        return CellSight(
+            step, size_text(found.steps[step]), found.steps[step], _picture(found, step, (chosen.around, chosen.above))
+        )
 
     def still(self, chosen: Viewing) -> Mapping[str, str]:
         return {"image/svg+xml": self.sight(chosen).svg}
@@ -73,14 +101,23 @@ class OpenedTissue(OpenedCells[TissueAtRest]):
         made = self.book(chosen.values, 0, chosen.step)
         forces = {**self.fixed, **chosen.values}
         fixed, said = {name: number_text(value) for name, value in forces.items()}, held_text(forces, Held(), {})
-        model = {"constants": [], "chance": False, "fixed": said, "step": min(chosen.step, made["steps"]), "angle": 0,
-                  "around": chosen.around, "above": chosen.above, "seed": 0, **translated_labels()}
+        model = {
+            "constants": [],
+            "chance": False,
+            "fixed": said,
+            "step": min(chosen.step, made["steps"]),
+            "angle": 0,
+            "around": chosen.around,
+            "above": chosen.above,
+            "seed": 0,
+            **translated_labels(),
+        }
         return {"model": model, "mode": "tissue", "system": self.own(), "fixed": fixed, "books": deflated(shared([made]))}
 
 
 def _picture(found: TissueAtRest, step: int, view: View) -> CellworkPicture | SpherePicture:
     """The picture of a step, seen from a side."""
-    steps, places = found.steps[:step + 1], found.places
+    steps, places = found.steps[: step + 1], found.places
     if isinstance(found.system, MapSystem):
         return spheres_at([each for each in steps if isinstance(each, Map)], places, [step], view)
     cells = range(len(steps[-1].cells))

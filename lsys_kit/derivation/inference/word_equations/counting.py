@@ -50,8 +50,9 @@ class _Counting:
     kept: dict[Question, Count] = field(default_factory=dict)
 
 
-def count_of(equations: Sequence[Equation], bounds: Bounds, usable: Callable[[str], bool] = lambda word: True,
-             trials: float = inf) -> Count:
+def count_of(
+    equations: Sequence[Equation], bounds: Bounds, usable: Callable[[str], bool] = lambda word: True, trials: float = inf
+) -> Count:
     """How many solutions there are with usable successors; `GivenUp` where so many trials do not suffice.
 
     >>> from lsys_kit.derivation.inference.word_equations.bounds import first_bounds

@@ -41,11 +41,11 @@ def put_in(equation: Equation, known: Successors) -> Equation | None:
     if items and isinstance(front := items[0], str):
         if not target.startswith(front):
             return None
-        items, target = items[1:], target[len(front):]
+        items, target = items[1:], target[len(front) :]
     if items and isinstance(back := items[-1], str):
         if not target.endswith(back):
             return None
-        items, target = items[:-1], target[:len(target) - len(back)]
+        items, target = items[:-1], target[: len(target) - len(back)]
     return Equation(tuple(items), target) if items or not target else None
 
 

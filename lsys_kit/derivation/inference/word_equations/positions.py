@@ -102,5 +102,5 @@ def parts(equation: Equation, gaps: Sequence[int]) -> Iterator[Equation]:
     begin = 0
     for end in range(1, len(gaps)):
         if gaps[end] & (gaps[end] - 1) == 0:
-            yield Equation(equation.items[begin:end], equation.target[least(gaps[begin]):least(gaps[end])])
+            yield Equation(equation.items[begin:end], equation.target[least(gaps[begin]) : least(gaps[end])])
             begin = end

@@ -60,8 +60,10 @@ def instructions(drawn: Mapping[int, Sequence[Module]], dialect: str, angle: Val
     table, symbols = COMMANDS[dialect], {module.symbol for image in counted(drawn.values()) for module in image}
     called = _EXPECTED_SURFACE if "~" in symbols & table.keys() else ()
     commands = {symbol: (*(called if symbol != "~" else ()), *table.get(symbol, ())) for symbol in symbols}
-    return {state: [_instruction(command, module, angle) for module in _counted(image) for command in commands[module.symbol]]
-            for state, image in counted(drawn.items())}
+    return {
+        state: [_instruction(command, module, angle) for module in _counted(image) for command in commands[module.symbol]]
+        for state, image in counted(drawn.items())
+    }
 
 
 def _counted(image: Sequence[Module]) -> Iterable[Module]:
@@ -140,8 +142,9 @@ def unknown_commands(drawn: Mapping[int, Sequence[Module]], system: LSystem) -> 
     known = {module.symbol for rule in (*system.productions, *system.decomposition) for module in rule.predecessors}
     known |= COMMANDS[system.turtle].keys()
     met = dict.fromkeys(module.symbol for image in counted(drawn.values()) for module in image)
-    return tuple(symbol for symbol in met
-                 if symbol not in known and _looks_like_a_command(symbol, TURTLE_DIALECTS[system.turtle]))
+    return tuple(
+        symbol for symbol in met if symbol not in known and _looks_like_a_command(symbol, TURTLE_DIALECTS[system.turtle])
+    )
 
 
 def _looks_like_a_command(symbol: str, dialect: TurtleDialect) -> bool:

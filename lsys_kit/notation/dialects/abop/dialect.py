@@ -36,7 +36,7 @@ def _resolve_deferred(draft: Draft) -> None:
     plain = without_comments(draft.source)
     for kind, record, at in draft.deferred:
         if kind == "axiom" and not IN_A_SET.search(plain):
-            raise missing_keyword_colon(draft.source, at[0], draft.source[at[0]:at[0] + 5], draft.source[at[0] + 5:at[1]])
+            raise missing_keyword_colon(draft.source, at[0], draft.source[at[0] : at[0] + 5], draft.source[at[0] + 5 : at[1]])
         draft.add(kind, record, at)
     length = next((constant for constant in draft.constants if constant.name == "d"), None)
     if length and re.search(r"(δ|\\delta)\s*=", plain) and len(re.findall(r"\bd\b", plain)) == 1:
@@ -57,13 +57,18 @@ def _finish(draft: Draft) -> LSystem:
 def _with_edges(system: LSystem) -> LSystem:
     """F_l, F_r and the like are kinds of edges: a turtle draws each as F (ABOP, section 1.4.1)."""
     drawn = {rule.predecessor.symbol for rule in system.interpretation}
-    edges = {(module.symbol, len(module.arguments)) for module in system.modules
-             if _EDGE.fullmatch(module.symbol) and module.symbol not in drawn}
+    edges = {
+        (module.symbol, len(module.arguments))
+        for module in system.modules
+        if _EDGE.fullmatch(module.symbol) and module.symbol not in drawn
+    }
     if not edges:
         return system
     names = [tuple(Name(f"x{i}") for i in range(size)) for _, size in sorted(edges)]
-    rules = (Production((Pattern(symbol, values),), (Pattern("F", values[:1]),))
-             for (symbol, _), values in zip(sorted(edges), names, strict=True))
+    rules = (
+        Production((Pattern(symbol, values),), (Pattern("F", values[:1]),))
+        for (symbol, _), values in zip(sorted(edges), names, strict=True)
+    )
     shown = ", ".join(sorted({symbol for symbol, _ in edges}))
     return replace(system, interpretation=(*system.interpretation, *rules), notes=(*system.notes, f"Drawn as F: {shown}."))
 
@@ -74,8 +79,15 @@ def _write(system: LSystem) -> str:
     system = replace(system, alphabet=(*system.alphabet, *sorted(digits)))
     while mistaken := segment_system(system)[1]:
         system = replace(system, alphabet=(*system.alphabet, *mistaken))
-    return "\n".join([*map(str, system.constants), *settings(system), *map(str, system.surfaces),
-                      f"axiom: {joined(map(str, system.axiom))}", *sections(system, str)])
+    return "\n".join(
+        [
+            *map(str, system.constants),
+            *settings(system),
+            *map(str, system.surfaces),
+            f"axiom: {joined(map(str, system.axiom))}",
+            *sections(system, str),
+        ]
+    )
 
 
 def _lacking(system: LSystem) -> str | None:
@@ -83,6 +95,15 @@ def _lacking(system: LSystem) -> str | None:
 
 
 ABOP = Dialect(
-    name="abop", statements=printed_statements, transformer=_transformer, finish=_finish,
-    diagnostics=(surface_declaration, *DIAGNOSTICS), module=str,
-    joined=joined, write=_write, missing_feature=_lacking, likely=likely, transcribe=transcribe)
+    name="abop",
+    statements=printed_statements,
+    transformer=_transformer,
+    finish=_finish,
+    diagnostics=(surface_declaration, *DIAGNOSTICS),
+    module=str,
+    joined=joined,
+    write=_write,
+    missing_feature=_lacking,
+    likely=likely,
+    transcribe=transcribe,
+)

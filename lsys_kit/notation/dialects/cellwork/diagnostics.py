@@ -27,8 +27,12 @@ def _settings(failure: ParseFailure) -> ModelSyntaxError | None:
         return failure.error('After "steps:" a whole number is needed', 'Type "steps: 4".', failure.start, 5)
     if name == "cellwork":
         return failure.error("This is no corner", _CORNERS)
-    return failure.error(f'A cellwork has no "{setting[1]}:"', 'It has "cellwork:", "wall ...:", "steps:" and productions.',
-                         failure.start, len(setting[1]))
+    return failure.error(
+        f'A cellwork has no "{setting[1]}:"',
+        'It has "cellwork:", "wall ...:", "steps:" and productions.',
+        failure.start,
+        len(setting[1]),
+    )
 
 
 def _wall(failure: ParseFailure) -> ModelSyntaxError | None:
@@ -58,10 +62,18 @@ def _production(failure: ParseFailure) -> ModelSyntaxError | None:
         return failure.error("The walls of the edge are missing here", 'Write "P: * -> ..." for an edge P in any walls.')
     if "ARROW" in failure.accepted:
         return failure.error("An arrow is missing here", SPELLING.rule_example)
-    return failure.error(f"I did not expect {quoted(failure.found)}" if failure.found else "Something is missing here",
-                         SPELLING.rule_example)
+    return failure.error(
+        f"I did not expect {quoted(failure.found)}" if failure.found else "Something is missing here", SPELLING.rule_example
+    )
 
 
 DIAGNOSTICS: Sequence[Diagnostic] = (
-    foreign_comment, unreadable_character, _settings, _wall, second_arrow, _marker, _production)
+    foreign_comment,
+    unreadable_character,
+    _settings,
+    _wall,
+    second_arrow,
+    _marker,
+    _production,
+)
 """The diagnostics of a cellwork system, the most specific first."""

@@ -77,8 +77,10 @@ def read_cellwork(text: str) -> CellworkSystem:
     if is_link(text):
         content = unpacked(text)
         if content.notation != CELLWORK.name:
-            raise ModelValueError("This is the link of another system, not of a cellwork system",
-                                  hint="L-systems are read by read(link), map systems by read_map(link).")
+            raise ModelValueError(
+                "This is the link of another system, not of a cellwork system",
+                hint="L-systems are read by read(link), map systems by read_map(link).",
+            )
         text = content.text
     with reporting(text, SPELLING):
         system = _system(text)
@@ -96,8 +98,14 @@ def _system(text: str) -> CellworkSystem:
         made[kind].append(record)
     if not (made["cellwork"] and made["wall"]):
         raise problem("no first cell", (len(text), len(text)))
-    return CellworkSystem(made["cellwork"][0], tuple(made["wall"]), tuple(made["production"]), tuple(made["wall_production"]),
-                          next(iter(made["steps"]), None), text)
+    return CellworkSystem(
+        made["cellwork"][0],
+        tuple(made["wall"]),
+        tuple(made["production"]),
+        tuple(made["wall_production"]),
+        next(iter(made["steps"]), None),
+        text,
+    )
 
 
 @v_args(inline=True)
@@ -126,7 +134,7 @@ class _CellworkStatements(Transformer[Any, Any]):
     def production(self, predecessor: Edge, *parts: Any) -> tuple[str, CellworkProduction]:
         arrow = next(place for place, part in enumerate(parts) if isinstance(part, Token) and part.type == "ARROW")
         walls = tuple(dict.fromkeys(_name(wall) for wall in parts[:arrow] if wall != ANY))
-        successor: tuple[EdgePart, ...] = parts[arrow + 1:]
+        successor: tuple[EdgePart, ...] = parts[arrow + 1 :]
         return "production", CellworkProduction(predecessor, walls, successor, predecessor.at)
 
     def steps(self, _: Token, number: Token) -> tuple[str, int]:
@@ -154,5 +162,6 @@ def _number(token: Token) -> str:
     return str(token)
 
 
-CELLWORK = Grammar(name="cellwork", transformer=_CellworkStatements, diagnostics=DIAGNOSTICS, starts=("statement",),
-                   spelling=SPELLING)
+CELLWORK = Grammar(
+    name="cellwork", transformer=_CellworkStatements, diagnostics=DIAGNOSTICS, starts=("statement",), spelling=SPELLING
+)

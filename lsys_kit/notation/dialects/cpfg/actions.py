@@ -60,8 +60,12 @@ def _is_block(part: Any) -> bool:
 
 
 def _misplaced_equals(token: Token) -> ActionError:
-    return ActionError(ModelSyntaxError, 'This "=" is not at the end of a branch', (token.start_pos or 0, token.end_pos or 0),
-                       'It is written before a "]", as in "A > [B=]C --> D"; to compare two values, type "==".')
+    return ActionError(
+        ModelSyntaxError,
+        'This "=" is not at the end of a branch',
+        (token.start_pos or 0, token.end_pos or 0),
+        'It is written before a "]", as in "A > [B=]C --> D"; to compare two values, type "==".',
+    )
 
 
 @v_args(inline=True)
@@ -119,8 +123,9 @@ class CpfgStatements(_CpfgExpressions, Statements):
         """A line of a view file: a symbol, a file, and how large it is."""
         words = token.split(":", 1)[1].split()
         if len(words) < 2:
-            raise ActionError(ModelSyntaxError, "A surface has a symbol and a file", place_of(token),
-                              'It reads "surface: l leaf.s 1.5".')
+            raise ActionError(
+                ModelSyntaxError, "A surface has a symbol and a file", place_of(token), 'It reads "surface: l leaf.s 1.5".'
+            )
         return "deferred", ("view surface", (words[0], words[1]))
 
     def mark(self, *_: Token) -> tuple[str, Any]:
@@ -174,8 +179,12 @@ class CpfgStatements(_CpfgExpressions, Statements):
             return Assignment(self.name(name), as_number(values[0]))
         if name in SILENT:
             return ()
-        raise ActionError(ModelSyntaxError, f"The kit has no {name}(...)", place_of(name),
-                          "Compute what a rule needs in its own block, with assignments and if.")
+        raise ActionError(
+            ModelSyntaxError,
+            f"The kit has no {name}(...)",
+            place_of(name),
+            "Compute what a rule needs in its own block, with assignments and if.",
+        )
 
     def assignment(self, name: Token, _: Token, value: Expression) -> Assignment:
         return Assignment(self.name(name), as_number(value))
@@ -183,8 +192,9 @@ class CpfgStatements(_CpfgExpressions, Statements):
     def choice(self, condition: Expression, then: Any, otherwise: Any = ()) -> Choice:
         choice = Choice(as_truth(condition), _as_block(then), _as_block(otherwise))
         if choice.depth > current().depth:
-            raise ActionError(ModelSyntaxError, f"Choices are nested more than {current().depth} deep",
-                              _expression_span(condition))
+            raise ActionError(
+                ModelSyntaxError, f"Choices are nested more than {current().depth} deep", _expression_span(condition)
+            )
         return choice
 
     def production(self, *parts: Any) -> tuple[str, Any]:

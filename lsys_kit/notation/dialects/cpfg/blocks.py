@@ -61,9 +61,11 @@ def substitute(production: Production, before: Block, after: Block, constants: C
     last = rule.computed(after, first)
     condition, probability = production.condition, production.probability
     done = replace(
-        production, condition=None if condition is None else rule.replaced(condition, first),
+        production,
+        condition=None if condition is None else rule.replaced(condition, first),
         successor=tuple(_substituted_module(rule, module, last) for module in flat(production.successor)),
-        probability=None if probability is None else rule.replaced(probability, last))
+        probability=None if probability is None else rule.replaced(probability, last),
+    )
     _check_draws(done, (*before, *after), source)
     return done
 
@@ -100,8 +102,12 @@ class _Rule:
             if isinstance(statement, Choice):
                 values = self._chosen(statement, values)
             elif statement.name.name in self.constants:
-                raise ModelNameError(f'The constant "{statement.name}" cannot be changed', self.source, *span(statement.name),
-                                     "Give what is computed a name of its own.")
+                raise ModelNameError(
+                    f'The constant "{statement.name}" cannot be changed',
+                    self.source,
+                    *span(statement.name),
+                    "Give what is computed a name of its own.",
+                )
             else:
                 values = {**values, statement.name.name: self.replaced(statement.value, values)}
         return values
@@ -111,22 +117,37 @@ class _Rule:
         condition = self.replaced(choice.condition, values)
         then, otherwise = self.computed(choice.then, values), self.computed(choice.otherwise, values)
         changed = [name for name in {**then, **otherwise} if then.get(name) is not otherwise.get(name)]
-        return {**values, **{name: Apply("if", (condition, self._value(name, then, choice, "false"),
-                                                self._value(name, otherwise, choice, "true"))) for name in changed}}
+        return {
+            **values,
+            **{
+                name: Apply(
+                    "if", (condition, self._value(name, then, choice, "false"), self._value(name, otherwise, choice, "true"))
+                )
+                for name in changed
+            },
+        }
 
     def _value(self, name: str, values: Bindings, choice: Choice, truth: str) -> Expression:
         """The expression of a name in one of the two cases."""
         if name in values or name in self.parameters:
             return values.get(name, Name(name))
-        raise ModelNameError(f'"{name}" has a value only where this condition is {truth}', self.source, *span(choice.condition),
-                             f'Give it one in the other case, too: "else {{{name} = 0;}}".')
+        raise ModelNameError(
+            f'"{name}" has a value only where this condition is {truth}',
+            self.source,
+            *span(choice.condition),
+            f'Give it one in the other case, too: "else {{{name} = 0;}}".',
+        )
 
     def replaced(self, expression: Expression, values: Bindings) -> Expression:
         """An expression with its names replaced."""
         result = _with_values(expression, values)
         if getattr(result, "depth", 0) > current().depth or _long(result):
-            raise ModelSyntaxError("What is computed here becomes too long an expression", self.source, *span(expression),
-                                   "Compute less in one rule, and the rest in the next step.")
+            raise ModelSyntaxError(
+                "What is computed here becomes too long an expression",
+                self.source,
+                *span(expression),
+                "Compute less in one rule, and the rest in the next step.",
+            )
         return result
 
 
@@ -175,5 +196,9 @@ def _drawn_twice(draw: Apply, block: Block, source: str) -> ModelValueError:
     """The error for a random number that is used twice, with its name, if it has one."""
     owner = next((a for a in _assignments(block) if any(applied is draw for applied in _operators(a.value))), None)
     what = f'The random number "{owner.name}"' if owner else "This random number"
-    return ModelValueError(f"{what} would be drawn anew at each of its uses", source, *span(owner.name if owner else draw),
-                           'Make it the parameter of a module, as in "A --> B(ran(1))", and use that in the next step.')
+    return ModelValueError(
+        f"{what} would be drawn anew at each of its uses",
+        source,
+        *span(owner.name if owner else draw),
+        'Make it the parameter of a module, as in "A --> B(ran(1))", and use that in the next step.',
+    )

@@ -48,8 +48,9 @@ def _own_names(production: Production) -> set[str]:
     return {a.name for module in production.parameters for a in module.arguments if isinstance(a, Name)}
 
 
-def with_counters(axiom: Sequence[Pattern], productions: Sequence[Production], others: Iterable[Production],
-                  counters: Counters) -> tuple[tuple[Pattern, ...], list[Production], str] | None:
+def with_counters(
+    axiom: Sequence[Pattern], productions: Sequence[Production], others: Iterable[Production], counters: Counters
+) -> tuple[tuple[Pattern, ...], list[Production], str] | None:
     """An axiom and productions whose modules carry the counters that they use, and what to say of it.
 
     Parameters
@@ -77,8 +78,10 @@ def with_counters(axiom: Sequence[Pattern], productions: Sequence[Production], o
         return None
     carrying = _Carrying(names, kinds, counters)
     symbols, plural = sorted({symbol for symbol, _ in kinds}), len(names) > 1
-    said = (f"To follow the steps {', '.join(symbols)} {'carries' if len(symbols) == 1 else 'carry'} {', '.join(names)} as "
-            f"{'parameters' if plural else 'a parameter'}.")
+    said = (
+        f"To follow the steps {', '.join(symbols)} {'carries' if len(symbols) == 1 else 'carry'} {', '.join(names)} as "
+        f"{'parameters' if plural else 'a parameter'}."
+    )
     rules = [carrying.production(rule) for rule in productions]
     return tuple(carrying.made(module, counters.first) for module in axiom), [*rules, *carrying.waiting(rules)], said
 
@@ -98,14 +101,22 @@ def _kind(module: Pattern) -> tuple[str, int]:
 def _carriers(productions: Sequence[Production], names: Collection[str]) -> set[tuple[str, int]]:
     """The kinds of modules that carry counters: those whose productions use them, and those that make such modules."""
     kinds = {_kind(rule.predecessor) for rule in productions if not names_used(rule).isdisjoint(names)}
-    while more := {_kind(rule.predecessor) for rule in productions
-                   if not kinds.isdisjoint(map(_kind, flat(rule.successor)))} - kinds:
+    while (
+        more := {_kind(rule.predecessor) for rule in productions if not kinds.isdisjoint(map(_kind, flat(rule.successor)))}
+        - kinds
+    ):
         kinds |= more
     return kinds
 
 
-def _possible(axiom: Sequence[Pattern], productions: Sequence[Production], others: Iterable[Production], counters: Counters,
-              names: Sequence[str], kinds: Collection[tuple[str, int]]) -> bool:
+def _possible(
+    axiom: Sequence[Pattern],
+    productions: Sequence[Production],
+    others: Iterable[Production],
+    counters: Counters,
+    names: Sequence[str],
+    kinds: Collection[tuple[str, int]],
+) -> bool:
     """Whether the modules can carry the counters, and nothing else is about them."""
     modules = [*axiom, *(module for rule in productions for module in rule.modules)]
     met = set(map(_kind, modules))
@@ -136,10 +147,12 @@ class _Carrying:
         """A production that hands the counters on."""
         following = self.counters.following
         return replace(
-            rule, predecessors=(self.made(rule.predecessor, {name: Name(name) for name in self.names}),),
+            rule,
+            predecessors=(self.made(rule.predecessor, {name: Name(name) for name in self.names}),),
             left=tuple(self._beside(module, f"l{at}") for at, module in enumerate(rule.left)),
             right=tuple(self._beside(module, f"r{at}") for at, module in enumerate(rule.right)),
-            successor=tuple(self.made(module, following) for module in flat(rule.successor)))
+            successor=tuple(self.made(module, following) for module in flat(rule.successor)),
+        )
 
     def _beside(self, module: Pattern, mark: str) -> Pattern:
         """A module of a context, whose counters have names that nothing uses."""
@@ -147,11 +160,19 @@ class _Carrying:
 
     def waiting(self, rules: Iterable[Production]) -> Iterator[Production]:
         """The productions of modules that wait: nothing changes but the counters."""
-        always = {_kind(rule.predecessor) for rule in rules if not (rule.left or rule.right) and rule.condition is None
-                  and rule.probability is None and all(isinstance(a, Name) for a in rule.predecessor.arguments)}
+        always = {
+            _kind(rule.predecessor)
+            for rule in rules
+            if not (rule.left or rule.right)
+            and rule.condition is None
+            and rule.probability is None
+            and all(isinstance(a, Name) for a in rule.predecessor.arguments)
+        }
         for symbol, size in sorted(self.kinds):
             if (symbol, size + len(self.names)) not in always:
                 values = tuple(Name(f"x_{place}") for place in range(1, size + 1))
                 module = Pattern(symbol, values)
-                yield Production((self.made(module, {name: Name(name) for name in self.names}),),
-                                 (self.made(module, self.counters.following),))
+                yield Production(
+                    (self.made(module, {name: Name(name) for name in self.names}),),
+                    (self.made(module, self.counters.following),),
+                )

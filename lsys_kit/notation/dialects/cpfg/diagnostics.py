@@ -24,11 +24,30 @@ _BEHIND_A_NAME = {"[": "arrays", "{": "loops"}
 """What a statement in a block is, by the character that follows its first name."""
 
 CPFG_KEYWORDS: Mapping[str, str] = {
-    "Axiom": "A", "Lsystem": "1", "derivation length": "9", "maximum depth": "2", "seed": "3", "ignore": "+-", "consider": "AB",
-    "angle": "30", "heading": "90", "length": "1", "decomposition": "", "homomorphism": "", "endlsystem": ""}
+    "Axiom": "A",
+    "Lsystem": "1",
+    "derivation length": "9",
+    "maximum depth": "2",
+    "seed": "3",
+    "ignore": "+-",
+    "consider": "AB",
+    "angle": "30",
+    "heading": "90",
+    "length": "1",
+    "decomposition": "",
+    "homomorphism": "",
+    "endlsystem": "",
+}
 """The keywords, each with an example of what follows its colon."""
-_SYNONYMS = {"steps": "derivation length", "derivation": "derivation length", "depth": "maximum depth", "start": "Axiom",
-         "initiator": "Axiom", "interpretations": "homomorphism", "end lsystem": "endlsystem"}
+_SYNONYMS = {
+    "steps": "derivation length",
+    "derivation": "derivation length",
+    "depth": "maximum depth",
+    "start": "Axiom",
+    "initiator": "Axiom",
+    "interpretations": "homomorphism",
+    "end lsystem": "endlsystem",
+}
 """Other words for a keyword."""
 _MACRO = re.compile(r"#[ \t]*define\b[ \t]*(\w+)?[ \t]*")
 
@@ -51,8 +70,12 @@ def _included(failure: ParseFailure) -> ModelSyntaxError | None:
     if found is None:
         return None
     name = found[2].strip() or "that is to be included"
-    return failure.error(f"The file {quoted(name) if found[1] else name} is not part of this text",
-                         "Put what it says in place of this line.", failure.start, found.end())
+    return failure.error(
+        f"The file {quoted(name) if found[1] else name} is not part of this text",
+        "Put what it says in place of this line.",
+        failure.start,
+        found.end(),
+    )
 
 
 def _label(failure: ParseFailure) -> ModelSyntaxError | None:
@@ -60,8 +83,9 @@ def _label(failure: ParseFailure) -> ModelSyntaxError | None:
     label = re.match(r'"[^"\n]*"?', failure.found) if "SYMBOL" not in failure.accepted else None
     if label is None or unclosed_bracket(failure.before, "()") is None:
         return None
-    return failure.error("The kit has no texts among values", "Leave the label out, or write a number.",
-                         failure.at, len(label.group()))
+    return failure.error(
+        "The kit has no texts among values", "Leave the label out, or write a number.", failure.at, len(label.group())
+    )
 
 
 def _in_a_block(failure: ParseFailure) -> ModelSyntaxError | None:
@@ -85,8 +109,9 @@ def _end_of_block(failure: ParseFailure) -> ModelSyntaxError | None:
     if "SEMICOLON" in failure.accepted and re.match(r"\}|[A-Za-z_]", failure.found):
         return failure.error('A ";" is missing here', 'Every assignment ends with one, as in "{x = t + 1;}".')
     if not failure.found or ARROW.match(failure.found):
-        return failure.error('This "{" is never closed', 'Every block ends with "}", as in "{x = t + 1;}".',
-                             failure.start + opened, 1)
+        return failure.error(
+            'This "{" is never closed', 'Every block ends with "}", as in "{x = t + 1;}".', failure.start + opened, 1
+        )
     return None
 
 
@@ -96,20 +121,26 @@ def _macro_definition(failure: ParseFailure) -> ModelSyntaxError | None:
     defined = _MACRO.match(statement)
     if not defined:
         return None
-    value, at = statement[defined.end():], failure.start + defined.end()
+    value, at = statement[defined.end() :], failure.start + defined.end()
     if not defined[1]:
         return failure.error("A name is missing here", _CONSTANTS, at)
     if not value:
-        return failure.error(f'The macro "{defined[1]}" has no value', f'Give it a number: "#define {defined[1]} 1".',
-                             failure.start)
+        return failure.error(
+            f'The macro "{defined[1]}" has no value', f'Give it a number: "#define {defined[1]} 1".', failure.start
+        )
     if value[0] == "=":
         return failure.error('This "=" is not needed', f'Type "#define {defined[1]} {excerpt(value[1:].strip())}".', at, 1)
     if re.match(r"-?[\d.(]|[A-Za-z_]\w*[ \t]*[(*/+%^-]", value):
         shared = next(filter(None, (diagnostic(failure) for diagnostic in SHARED_DIAGNOSTICS[1:])), None)
-        return shared or failure.error(f"I did not expect {quoted(failure.found)} here" if failure.found else
-                                      "The line ends too early", _CONSTANTS)
-    return failure.error(f'The macro "{defined[1]}" is not a number',
-                         f'Write {excerpt(value)} itself wherever "{defined[1]}" is used.', at, len(value))
+        return shared or failure.error(
+            f"I did not expect {quoted(failure.found)} here" if failure.found else "The line ends too early", _CONSTANTS
+        )
+    return failure.error(
+        f'The macro "{defined[1]}" is not a number',
+        f'Write {excerpt(value)} itself wherever "{defined[1]}" is used.',
+        at,
+        len(value),
+    )
 
 
 def _keyword(failure: ParseFailure) -> ModelSyntaxError | None:
@@ -118,7 +149,7 @@ def _keyword(failure: ParseFailure) -> ModelSyntaxError | None:
     word = re.match(r"([A-Za-z]{3,}(?:[ \t]+[A-Za-z]{3,})?)[ \t]*(:?)[ \t]*", statement)
     if not word or ARROW.search(statement) or re.match(r"(start|end)[ \t]*+(each)?[ \t]*+:\s*+\{", statement, re.IGNORECASE):
         return None
-    name, rest = " ".join(word[1].lower().split()), excerpt(statement[word.end():].strip())
+    name, rest = " ".join(word[1].lower().split()), excerpt(statement[word.end() :].strip())
     keyword = _SYNONYMS.get(name) or _similar_keyword(name)
     if keyword is None:
         return None
@@ -138,5 +169,13 @@ def _similar_keyword(name: str) -> str | None:
 
 
 DIAGNOSTICS: Sequence[Diagnostic] = (
-    _feature, _included, _label, _in_a_block, _end_of_block, _macro_definition, _keyword, *SHARED_DIAGNOSTICS)
+    _feature,
+    _included,
+    _label,
+    _in_a_block,
+    _end_of_block,
+    _macro_definition,
+    _keyword,
+    *SHARED_DIAGNOSTICS,
+)
 """The diagnostics of a cpfg text, the most specific first."""

@@ -30,7 +30,8 @@ from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, edited
 
 _MARKS = re.compile(
     r"^[ \t]*(#[ \t]*define\b|(lsystem|derivation[ \t]+length|maximum[ \t]+depth)[ \t]*:|endlsystem\b|homomorphism\b)",
-    re.MULTILINE | re.IGNORECASE)
+    re.MULTILINE | re.IGNORECASE,
+)
 _NUMBERED = re.compile(r"^[ \t]*Lsystem[ \t]*:", re.MULTILINE | re.IGNORECASE)
 _LABEL = re.compile(rf"^[ \t]*+{LABEL}[ \t]*+:[ \t]*+(?=[^\n]*-->)", re.MULTILINE)
 _AXIOM_MARK = re.compile(r"^[ \t]*Axiom[ \t]*:", re.MULTILINE)
@@ -111,16 +112,22 @@ def _resolve_passed(draft: Draft, passed: tuple[str, tuple[str, ...], bool], at:
     rules = draft.sections["productions"]
     words = (draft.axiom or (), *(flat(rule.successor) for rule in rules))
     if keyword == "consider" and any(rule.right for rule in rules) and any(module.symbol == "[" for module in chain(*words)):
-        draft.notes.append('Right contexts pass over brackets, as in cpfg, because "consider:" does not list them: they read '
-                           f'the word as if it were flat. To follow its branches, write "consider: {"".join(symbols)}[]".')
+        draft.notes.append(
+            'Right contexts pass over brackets, as in cpfg, because "consider:" does not list them: they read '
+            f'the word as if it were flat. To follow its branches, write "consider: {"".join(symbols)}[]".'
+        )
 
 
 def _resolve_count(draft: Draft, section: str, keyword: str, expression: Expression, at: tuple[int, int]) -> None:
     """Take in a number of steps or rounds, or a seed, which may be calculated from constants."""
     depths = {"decomposition": "decomposition_depth", "interpretation": "depth"}
     if keyword == "maximum depth" and section not in depths:
-        raise ModelSyntaxError('This "maximum depth:" is in no section', draft.source, *at,
-                               'It belongs below "decomposition" or below "homomorphism".')
+        raise ModelSyntaxError(
+            'This "maximum depth:" is in no section',
+            draft.source,
+            *at,
+            'It belongs below "decomposition" or below "homomorphism".',
+        )
     name = depths[section] if keyword == "maximum depth" else "seed" if keyword == "seed" else "steps"
     if name in draft.settings:
         raise ModelSyntaxError(f'"{keyword}:" is set a second time', draft.source, *at, "Keep one of the two lines.")
@@ -137,14 +144,20 @@ def _check_macros(draft: Draft) -> None:
     for index, constant in enumerate(draft.constants):
         value = constant.value
         if constant.name in SETTINGS:
-            raise ModelNameError(f'The name "{constant.name}" is taken by a setting', draft.source, *span(constant),
-                                 f'Give the macro another name, such as "{constant.name.upper()}".')
+            raise ModelNameError(
+                f'The name "{constant.name}" is taken by a setting',
+                draft.source,
+                *span(constant),
+                f'Give the macro another name, such as "{constant.name.upper()}".',
+            )
         if isinstance(value, Name) and value.name not in names[:index]:
             later = value.name in names
             raise ModelSyntaxError(
                 f'The macro "{value}" is defined further down' if later else f'The macro "{constant.name}" is not a number',
-                draft.source, *span(value), 'Put its line before this one.' if later else
-                f'Write "{value}" itself wherever "{constant.name}" is used.')
+                draft.source,
+                *span(value),
+                "Put its line before this one." if later else f'Write "{value}" itself wherever "{constant.name}" is used.',
+            )
     check_constants(draft.constants)
 
 
@@ -158,13 +171,17 @@ def _notes(draft: Draft) -> Iterator[str]:
             yield f'The macro "{constant.name}" is a number here; cpfg puts its text in place: write "({value})".'
     for kind, record, _ in draft.deferred:
         if kind == "view surface":
-            yield (f'The surface "~{record[0]}" is in the file "{record[1]}", which a model does not open: '
-                   f'with_surface(system, "{record[0]}", text) takes it out of its text.')
+            yield (
+                f'The surface "~{record[0]}" is in the file "{record[1]}", which a model does not open: '
+                f'with_surface(system, "{record[0]}", text) takes it out of its text.'
+            )
     yield from _split_symbols(draft)
     words = chain(draft.axiom or (), *(flat(rule.successor) for rules in draft.sections.values() for rule in rules))
     if "angle" not in draft.settings and any(module.symbol in _TURNS and not module.arguments for module in words):
-        yield ('cpfg keeps the angle by which + turns in a file of the view. It is 90 degrees here; for 22.5 put the line '
-               '"/* angle: 22.5 */" above the axiom.')
+        yield (
+            "cpfg keeps the angle by which + turns in a file of the view. It is 90 degrees here; for 22.5 put the line "
+            '"/* angle: 22.5 */" above the axiom.'
+        )
     productions = [production for rules in draft.sections.values() for production in rules]
     rewritten = {module.symbol for production in productions for module in production.predecessors}
     for production in productions:
@@ -180,19 +197,27 @@ def _split_symbols(draft: Draft) -> Iterator[str]:
     """Notes on "@o" and the like, which to cpfg are two symbols, so that a rule for the letter applies to the second."""
     rules = [rule for rules in draft.sections.values() for rule in rules]
     words = chain(draft.axiom or (), *(flat(rule.successor) for rule in rules))
-    pairs = {(module.symbol[1:], len(module.arguments)): module for module in words
-             if len(module.symbol) > 1 and module.symbol[0] in "@?"}
+    pairs = {
+        (module.symbol[1:], len(module.arguments)): module
+        for module in words
+        if len(module.symbol) > 1 and module.symbol[0] in "@?"
+    }
     for asked in dict.fromkeys((m.symbol, len(m.arguments)) for rule in rules for m in rule.parameters):
         if asked in pairs:
             pair = pairs[asked].symbol
-            yield (f'"{pair}" is one symbol here, and what is said of "{pair[1:]}" before an arrow is not about it; to cpfg '
-                   f'"{pair}" is "{pair[0]}" and "{pair[1:]}".')
+            yield (
+                f'"{pair}" is one symbol here, and what is said of "{pair[1:]}" before an arrow is not about it; to cpfg '
+                f'"{pair}" is "{pair[0]}" and "{pair[1:]}".'
+            )
 
 
 def _infix(expression: Expression) -> bool:
     """Whether an expression is made with an operator between two others."""
-    return (isinstance(expression, Apply) and len(expression.operands) == 2
-            and OPERATORS[expression.operator].precedence is not None)
+    return (
+        isinstance(expression, Apply)
+        and len(expression.operands) == 2
+        and OPERATORS[expression.operator].precedence is not None
+    )
 
 
 def _enclosed(value: str) -> bool:
@@ -204,7 +229,9 @@ def _likely(text: str) -> int:
     """Ten for each mark that only cpfg has, more for its own name; two for a capital "Axiom:" and long arrows after letters."""
     marks = len(_MARKS.findall(text))
     if not marks and _AXIOM_MARK.search(text):
-        heads = [line[:arrow.start()] for line in text.splitlines() if (arrow := ARROW.search(line)) and arrow.group() == "-->"]
+        heads = [
+            line[: arrow.start()] for line in text.splitlines() if (arrow := ARROW.search(line)) and arrow.group() == "-->"
+        ]
         single = all(len(name) == 1 for head in heads for name in re.findall(r"\w+", blank_parentheses(head).split(":")[0]))
         return 2 * (bool(heads) and single)
     return 10 * marks + 200 * bool(_NUMBERED.search(text))
@@ -218,6 +245,16 @@ def _transcribe(source: str) -> Transcript:
 
 
 CPFG = Dialect(
-    name="cpfg", statements=statements, transformer=CpfgStatements, finish=_finish, diagnostics=DIAGNOSTICS, module=module_text,
-    joined=joined_word, write=system_text, missing_feature=missing_feature, likely=_likely, spelling=SPELLING,
-    transcribe=_transcribe)
+    name="cpfg",
+    statements=statements,
+    transformer=CpfgStatements,
+    finish=_finish,
+    diagnostics=DIAGNOSTICS,
+    module=module_text,
+    joined=joined_word,
+    write=system_text,
+    missing_feature=missing_feature,
+    likely=_likely,
+    spelling=SPELLING,
+    transcribe=_transcribe,
+)

@@ -49,8 +49,24 @@ BUILT: Mapping[str, Callable[[Expression, TextSpan], Apply]] = {"ran": _uniform,
 ALSO: Mapping[str, str] = {"abs": "abs", "pow": "^"}
 """Functions that C has and people type."""
 _FUNCTIONS: Mapping[str, str] = {**{name: name for name in SAME}, **RENAMED, **ALSO}
-ABSENT = ("atan2", "bran", "func", "inblob", "printf", "fprintf", "fopen", "fclose", "fflush", "fscanf", "srand", "stop",
-          "play", "curveX", "curveY", "curveZ")
+ABSENT = (
+    "atan2",
+    "bran",
+    "func",
+    "inblob",
+    "printf",
+    "fprintf",
+    "fopen",
+    "fclose",
+    "fflush",
+    "fscanf",
+    "srand",
+    "stop",
+    "play",
+    "curveX",
+    "curveY",
+    "curveZ",
+)
 """Functions of cpfg that the kit does not have."""
 CURVES = frozenset(("func", "curveX", "curveY", "curveZ"))
 _CURVES = "Its values are in a file of curves, which is not part of this text: write an expression in its place."
@@ -78,8 +94,9 @@ def as_number(expression: Expression) -> Expression:
 def wanted(operator: str, operands: tuple[Expression, ...]) -> tuple[Expression, ...]:
     """The operands of an operator as it takes them: truths or numbers."""
     entry = OPERATORS[operator]
-    return tuple(as_truth(operand) if entry.wanted(index) == "truth" else as_number(operand)
-                 for index, operand in enumerate(operands))
+    return tuple(
+        as_truth(operand) if entry.wanted(index) == "truth" else as_number(operand) for index, operand in enumerate(operands)
+    )
 
 
 def resolve_call(name: str, operands: tuple[Expression, ...], at: TextSpan) -> Apply:
@@ -93,24 +110,34 @@ def resolve_call(name: str, operands: tuple[Expression, ...], at: TextSpan) -> A
         raise ActionError(ModelNameError, f"The kit has no {name}(...)", place, _CURVES if name in CURVES else None)
     if name not in _FUNCTIONS and name not in BUILT:
         known = (*SAME, *RENAMED, *BUILT)
-        raise ActionError(ModelNameError, f'I do not know the function "{name}"', place, _instead(name)
-                      or suggestion(name, known, 0.7) or f"Functions are: {', '.join(sorted(known))}.")
+        raise ActionError(
+            ModelNameError,
+            f'I do not know the function "{name}"',
+            place,
+            _instead(name) or suggestion(name, known, 0.7) or f"Functions are: {', '.join(sorted(known))}.",
+        )
     count = 1 if name in BUILT else OPERATORS[_FUNCTIONS[name]].arity[0]
     if len(operands) != count:
         raise ActionError(ModelSyntaxError, f"{name}(...) takes {count} value{'s' * (count > 1)}, not {len(operands)}", place)
     if name not in BUILT:
         return Apply(_FUNCTIONS[name], wanted(_FUNCTIONS[name], operands), at)
     if name != "ran" and is_random(operands[0]):
-        raise ActionError(ModelValueError, f"{name}(...) cannot be of a random number", place,
-                      _ROUNDED if name == "trunc" else None)
+        raise ActionError(
+            ModelValueError, f"{name}(...) cannot be of a random number", place, _ROUNDED if name == "trunc" else None
+        )
     return BUILT[name](as_number(operands[0]), at)
 
 
 def _instead(name: str) -> str | None:
     """What cpfg has in place of a function of the kit."""
-    return {"if": 'A choice is typed "t < 5 ? 1 : 2".', "min": 'Type "x < y ? x : y".', "max": 'Type "x > y ? x : y".',
-            "mod": 'Type "x - y*floor(x/y)".', "rem": 'Type "x % y".',
-            "uniform": 'Type "ran(x)", a number from 0 to x.'}.get(name)
+    return {
+        "if": 'A choice is typed "t < 5 ? 1 : 2".',
+        "min": 'Type "x < y ? x : y".',
+        "max": 'Type "x > y ? x : y".',
+        "mod": 'Type "x - y*floor(x/y)".',
+        "rem": 'Type "x % y".',
+        "uniform": 'Type "ran(x)", a number from 0 to x.',
+    }.get(name)
 
 
 _LESS: Mapping[str, str] = {"<": "min", ">": "max"}

@@ -107,7 +107,7 @@ class Macros:
         for found in _NAME.finditer(text):
             call = self._call(text, found, hidden, at) if found.start() >= last else None
             if call is not None:
-                parts += (text[last:found.start()], call[0])
+                parts += (text[last : found.start()], call[0])
                 last = call[1]
         return "".join((*parts, text[last:]))
 
@@ -137,8 +137,13 @@ class Macros:
     def _with_values(self, name: str, macro: Macro, values: list[str], at: int) -> str:
         parameters = macro.parameters or ()
         if len(values) != len(parameters) and (parameters or values != [""]):
-            raise ModelSyntaxError(f"The macro {name}({','.join(parameters)}) is given {len(values)} "
-                                   f"value{'s' * (len(values) != 1)}, not {len(parameters)}", self.text, at, at + len(name))
+            raise ModelSyntaxError(
+                f"The macro {name}({','.join(parameters)}) is given {len(values)} "
+                f"value{'s' * (len(values) != 1)}, not {len(parameters)}",
+                self.text,
+                at,
+                at + len(name),
+            )
         known = dict(zip(parameters, values, strict=False))
         self._spend(sum(len(known.get(found, "")) for found in _NAME.findall(macro.body)), at)
         return _NAME.sub(lambda found: known.get(found.group(), found.group()), macro.body)
@@ -146,8 +151,13 @@ class Macros:
     def _element(self, elements: tuple[str, ...], index: str, at: int) -> str:
         """What chooses an element; below the first and beyond the last it is the nearest, as in cpfg, which warns of that."""
         if _RANDOM.search(index):
-            raise ModelValueError("The index of an array cannot be random here", self.text, at, at + 1,
-                                  'Make it the parameter of a module, as in "A --> B(ran(3))", and use that in the next step.')
+            raise ModelValueError(
+                "The index of an array cannot be random here",
+                self.text,
+                at,
+                at + 1,
+                'Make it the parameter of a module, as in "A --> B(ran(3))", and use that in the next step.',
+            )
         if index.strip().isdecimal():
             return elements[min(int(index), len(elements) - 1)]
         self._spend(len(index) * len(elements), at)
@@ -158,10 +168,10 @@ class Macros:
         depth, begun, values = 0, start, list[str]()
         for sign in _SIGNS.finditer(text, start, start + current().expression):
             if sign.group() == "," and not depth:
-                values.append(text[begun:sign.start()].strip())
+                values.append(text[begun : sign.start()].strip())
                 begun = sign.end()
             elif sign.group() in ")]" and not depth:
-                return [*values, text[begun:sign.start()].strip()], sign.end()
+                return [*values, text[begun : sign.start()].strip()], sign.end()
             else:
                 depth += (sign.group() in "([{") - (sign.group() in ")]}")
         raise ModelSyntaxError("The values of this macro never end", self.text, at, at + 1, 'Every "(" needs a ")" after it.')
@@ -169,8 +179,12 @@ class Macros:
     def _spend(self, characters: int, at: int) -> None:
         self._spent += characters
         if self._spent > current().text:
-            raise ModelLimitError(f"Macros make the text longer than {current().text:,} characters", limit=current().text,
-                                  source=self.text, start=at)
+            raise ModelLimitError(
+                f"Macros make the text longer than {current().text:,} characters",
+                limit=current().text,
+                source=self.text,
+                start=at,
+            )
 
 
 def _chosen(elements: tuple[str, ...], first: int, index: str) -> str:
@@ -202,5 +216,5 @@ def macro_of(name: str, rest: str, known: Collection[str]) -> Macro | None:
     """
     parameters = _PARAMETERS.match(rest)
     if parameters:
-        return Macro(rest[parameters.end():].strip(), tuple(_NAME.findall(parameters[1])))
+        return Macro(rest[parameters.end() :].strip(), tuple(_NAME.findall(parameters[1])))
     return Macro("") if not rest.strip() and name in known else None

@@ -67,7 +67,7 @@ class _Preprocessor:
         made = arrays_in(arrays[1], self.text) if arrays else None
         if arrays and made is not None:
             self.macros.table |= made
-            self.text = self.text[:arrays.start()] + re.sub(r"[^\n]", " ", arrays.group()) + self.text[arrays.end():]
+            self.text = self.text[: arrays.start()] + re.sub(r"[^\n]", " ", arrays.group()) + self.text[arrays.end() :]
             self.macros.text = self.text
         first = [Edit(*arrays.span(), "")] if arrays and made is not None else []
         edits = first + [edit for line in counted(_LINE.finditer(self.text)) for edit in self._line(line)]
@@ -89,7 +89,7 @@ class _Preprocessor:
             at = start + directive.end()
             yield from getattr(self, f"_{directive[1]}")(start, at, end) if self.reading else [Edit(start, end, "")]
         else:
-            self._condition(directive[1], _joined(line.group()[directive.end():]).strip(), start)
+            self._condition(directive[1], _joined(line.group()[directive.end() :]).strip(), start)
             yield Edit(start, end, "")
 
     def _omitted(self, start: int, end: int) -> Iterator[Edit]:
@@ -117,7 +117,7 @@ class _Preprocessor:
         named = re.compile(r"[A-Za-z_]\w*").match(self.text, at, end)
         if named is None:
             return
-        name, rest = named.group(), _joined(self.text[named.end():end])
+        name, rest = named.group(), _joined(self.text[named.end() : end])
         macro = macro_of(name, rest, self.asked)
         if macro is None and rest.strip() and self.macros.is_text(rest.strip()):
             macro = Macro(rest.strip())
@@ -142,8 +142,9 @@ class _Preprocessor:
             holds = self.reading and self._holds(keyword, asked, at)
             self.open.append((at, holds, holds or not self.reading))
             if len(self.open) > current().depth:
-                raise self._error(f"Conditions are nested more than {current().depth} deep", at,
-                                  "Keep the lines that are meant.")
+                raise self._error(
+                    f"Conditions are nested more than {current().depth} deep", at, "Keep the lines that are meant."
+                )
             return
         if not self.open:
             raise self._error(f'This "#{keyword}" belongs to no condition', at, 'A condition begins with "#if".')
@@ -163,8 +164,9 @@ class _Preprocessor:
             check_expression(expression, known, expression_type(expression))
             return bool(value_of(expression, known))
         except (LSystemError, ProblemFound):
-            raise self._error("This condition has no value", at,
-                              'It is made of numbers, macros that are numbers, and "defined".') from None
+            raise self._error(
+                "This condition has no value", at, 'It is made of numbers, macros that are numbers, and "defined".'
+            ) from None
 
     def _is_defined(self, name: str) -> bool:
         return name in self.macros.table or name in self.values

@@ -13,7 +13,8 @@ from lsys_kit.notation.syntax.text.statements import ARROW, without_comments
 KEPT = re.compile(
     r"^[ \t]*/\*[ \t]*((?:angle|heading|length):[ \t]*-?\d[\d.]*(?:e[+-]?\d+)?(?:/\d+)?"
     r"|cells:[ \t]*(?:ellipses|rectangles)|widths:[ \t]*(?:pixels|units)|colours:[ \t]*(?:natural|symbols))[ \t]*\*/[ \t]*$",
-    re.MULTILINE)
+    re.MULTILINE,
+)
 """A comment in which a text keeps what cpfg has in other files: `/* angle: 25.7 */`, alone on its line."""
 _RANGED = re.compile(r"[ \t]*/\*[ \t]*-?[\d./]+[ \t]+\.\.[ \t]+-?[\d./]+([ \t]+by[ \t]+[\d./]+)?[ \t]*\*/")
 """A comment after a constant that gives the range of its slider."""
@@ -21,7 +22,8 @@ _KEYWORD = re.compile(
     r"#[ \t]*(define|undef|include|if\w*|el\w+|endif)\b"
     r"|(lsystem|derivation[ \t]*length|maximum[ \t]+depth|seed|ignore|consider|angle|heading|length|surface)[ \t]*:"
     r"|(productions?|decomposition|homomorphism|interpretation)\b(?![^\n]*[<>])|endlsystem\b",
-    re.IGNORECASE)
+    re.IGNORECASE,
+)
 _PHASE = re.compile(r"(start|end)[ \t]*+(each)?[ \t]*+:", re.IGNORECASE)
 _AXIOM_START = re.compile(r"axiom[ \t]*:", re.IGNORECASE)
 _BEGIN = re.compile(r"lsystem[ \t]*:", re.IGNORECASE)
@@ -55,8 +57,13 @@ def statements(text: str) -> Iterator[tuple[int, int]]:
         if begins and begun:
             raise ModelSyntaxError("A second L-system begins here", text, start, end, "The kit has no L-systems inside others.")
         if ended:
-            raise ModelSyntaxError('This comes after "endlsystem"', text, start, end,
-                                   'An L-system ends there: put "endlsystem" last, or leave it out.')
+            raise ModelSyntaxError(
+                'This comes after "endlsystem"',
+                text,
+                start,
+                end,
+                'An L-system ends there: put "endlsystem" last, or leave it out.',
+            )
         begun, ended = begun or begins, _END.match(text, start) is not None
         yield start, end
 
@@ -96,7 +103,7 @@ def _nonblank_lines(text: str) -> Iterator[_Line]:
         line, content = found.group(), found.group().strip()
         if not content:
             continue
-        blank = line[:len(line) - len(line.lstrip())]
+        blank = line[: len(line) - len(line.lstrip())]
         start = found.start() + len(blank)
         if _KEYWORD.match(content):
             content = content.split("//")[0].rstrip()

@@ -69,8 +69,9 @@ def with_surface(system: LSystem, name: str, text: str) -> LSystem:
     if not _NAME.fullmatch(name):
         raise ModelValueError("A surface is called by a name", hint='Such as "L" or "leaf".')
     if len(text) > current().text:
-        raise ModelLimitError(f"The text has {len(text):,} characters; the limit is {current().text:,}",
-                              limit=current().text, needed=len(text))
+        raise ModelLimitError(
+            f"The text has {len(text):,} characters; the limit is {current().text:,}", limit=current().text, needed=len(text)
+        )
     others = tuple(surface for surface in system.surfaces if surface.name != name)
     return replace(system, surfaces=(*others, SurfaceShape(name, patches=_patches(text))))
 
@@ -84,9 +85,12 @@ def _patches(text: str) -> tuple[tuple[SurfacePoint, ...], ...]:
     axes = (ahead, left, _cross(ahead, left))
     rows = [_placed(match.group(), contact, axes, size) for match in _ROW.finditer(text)]
     if not rows or len(rows) % ROW:
-        raise ModelSyntaxError(f"A patch has four lines of four points, and here are {len(rows)} such lines", text,
-                               hint="A point is three numbers.")
-    return tuple(tuple(point for row in rows[first:first + ROW] for point in row) for first in range(0, len(rows), ROW))
+        raise ModelSyntaxError(
+            f"A patch has four lines of four points, and here are {len(rows)} such lines",
+            text,
+            hint="A point is three numbers.",
+        )
+    return tuple(tuple(point for row in rows[first : first + ROW] for point in row) for first in range(0, len(rows), ROW))
 
 
 def _vector(text: str, keyword: str) -> _Vector:
@@ -94,8 +98,11 @@ def _vector(text: str, keyword: str) -> _Vector:
     pattern = "".join(rf"[ \t]+{axis}:[ \t]*({_NUMBER})" for axis in "XYZ")
     found = re.search(rf"^{keyword}{pattern}", text, re.MULTILINE)
     if not found:
-        raise ModelSyntaxError(f'There is no line "{keyword}" with its X:, Y: and Z:', text,
-                               hint="The files of cpfg whose names end in .s have one.")
+        raise ModelSyntaxError(
+            f'There is no line "{keyword}" with its X:, Y: and Z:',
+            text,
+            hint="The files of cpfg whose names end in .s have one.",
+        )
     x, y, z = map(float, found.groups())
     return x, y, z
 
@@ -103,8 +110,9 @@ def _vector(text: str, keyword: str) -> _Vector:
 def _size(text: str) -> float:
     found = re.search(rf"^SIZE:[ \t]*({_NUMBER})", text, re.MULTILINE)
     if not found or not float(found[1]) > 0:
-        raise ModelSyntaxError('There is no line "SIZE:" with a positive number', text,
-                               *(found.span() if found else (None, None)))
+        raise ModelSyntaxError(
+            'There is no line "SIZE:" with a positive number', text, *(found.span() if found else (None, None))
+        )
     return float(found[1])
 
 
@@ -112,8 +120,9 @@ def _unit(vector: _Vector, text: str, keyword: str) -> _Vector:
     length = math.hypot(*vector)
     if not length:
         start = text.index(f"{keyword} ")
-        raise ModelSyntaxError("This direction cannot be used", text, start, start + len(keyword),
-                               "HEADING and UP are not zero, and not parallel.")
+        raise ModelSyntaxError(
+            "This direction cannot be used", text, start, start + len(keyword), "HEADING and UP are not zero, and not parallel."
+        )
     x, y, z = vector
     return x / length, y / length, z / length
 
@@ -128,10 +137,11 @@ def _placed(line: str, contact: _Vector, axes: Sequence[_Vector], size: float) -
     numbers = [*map(float, line.split())]
     found: list[_Vector] = []
     for first in range(0, len(numbers), 3):
-        x, y, z = (number - origin for number, origin in zip(numbers[first:first + 3], contact, strict=True))
+        x, y, z = (number - origin for number, origin in zip(numbers[first : first + 3], contact, strict=True))
         ahead, left, up = (round((x * u + y * v + z * w) / size, DECIMALS) + 0.0 for u, v, w in axes)
         if not all(abs(coordinate) <= LARGEST for coordinate in (ahead, left, up)):
-            raise ModelValueError("A control point is too far away",
-                                  hint="Divided by the size that the file names, coordinates are about 1.")
+            raise ModelValueError(
+                "A control point is too far away", hint="Divided by the size that the file names, coordinates are about 1."
+            )
         found.append((ahead, left, up))
     return found

@@ -43,8 +43,9 @@ class Variables:
     counters: Counters = field(default_factory=lambda: Counters({}, {}))
 
 
-def variables_of(phases: Mapping[str, Sequence[Block]], rules: Iterable[Block], macros: Iterable[str],
-                 source: str) -> Variables:
+def variables_of(
+    phases: Mapping[str, Sequence[Block]], rules: Iterable[Block], macros: Iterable[str], source: str
+) -> Variables:
     """The variables of a model.
 
     Parameters
@@ -90,7 +91,10 @@ def check_changing(productions: Iterable[Production], changing: frozenset[str], 
         for expression in used_expressions(production):
             found = sorted(names_in(expression) & used)
             if found:
-                raise ModelNameError(f'The variable "{found[0]}" changes while the model runs', source, *span(expression),
-                                     'The kit has no such variables: give the modules that use it a parameter, as in '
-                                     f'"A({found[0]}) --> A({found[0]}+1)".')
-
+                raise ModelNameError(
+                    f'The variable "{found[0]}" changes while the model runs',
+                    source,
+                    *span(expression),
+                    "The kit has no such variables: give the modules that use it a parameter, as in "
+                    f'"A({found[0]}) --> A({found[0]}+1)".',
+                )

@@ -50,8 +50,11 @@ def _lines(system: LSystem) -> Iterator[str]:
         if number is not None:
             yield f"{keyword}: {number}"
     yield from _passed(system)
-    for keyword, value, usual in (("angle", system.angle, 90), ("heading", system.heading, 90),
-                                  ("length", system.length, None)):
+    for keyword, value, usual in (
+        ("angle", system.angle, 90),
+        ("heading", system.heading, 90),
+        ("length", system.length, None),
+    ):
         if value != usual and value is not None:
             yield f"/* {keyword}: {literal_text(value)} */"
     yield from (f"/* {name}: {said} */" for name, said in look(system))
@@ -111,10 +114,15 @@ def missing_feature(system: LSystem) -> str | None:
     """The first thing that a system has and cpfg lacks, in words."""
     if system.turtle != "abop":
         return f"turtle commands of {TURTLE_DIALECTS[system.turtle].title}"
-    found = chain((first_missing(system, "round brackets as branches", "repetition", "meta-rules",
-                                 "right contexts that name any branch", "field"),),
-                  map(missing_function, _expressions(system)),
-                  map(_lacking_range, system.constants))
+    found = chain(
+        (
+            first_missing(
+                system, "round brackets as branches", "repetition", "meta-rules", "right contexts that name any branch", "field"
+            ),
+        ),
+        map(missing_function, _expressions(system)),
+        map(_lacking_range, system.constants),
+    )
     return next(filter(None, found), None)
 
 

@@ -42,8 +42,12 @@ class Records(Transformer[Any, Any]):
         """Fractint passes over what stands behind the point."""
         whole = count.split(".")[0]
         if len(whole) > len(str(MOST)) or not LEAST <= int(whole) <= MOST:
-            raise ActionError(ModelSyntaxError, f"A full turn cannot have {whole[:10]} parts here", _at(count),
-                          f'"Angle n" makes + and - turn by 360/n degrees, with n from {LEAST} to {MOST}.')
+            raise ActionError(
+                ModelSyntaxError,
+                f"A full turn cannot have {whole[:10]} parts here",
+                _at(count),
+                f'"Angle n" makes + and - turn by 360/n degrees, with n from {LEAST} to {MOST}.',
+            )
         return "deferred", ("angle", Number(normalised(Fraction(360, int(whole))), _at(count)))
 
     def steps(self, _: Token, count: Token) -> tuple[str, Number]:
@@ -58,14 +62,22 @@ class Records(Transformer[Any, Any]):
         if "=" not in predecessor and re.match("--?>", "".join(module.symbol for module in word[:3])):
             raise ActionError(ModelSyntaxError, "Fractint has no arrows", word[0].at, f'Type "{predecessor[0]}=...".')
         if symbol in RESERVED:
-            raise ActionError(ModelSyntaxError, f'"{predecessor[0]}" is a command, which a rule cannot rewrite', at,  # type: ignore[arg-type]
-                          "Choose another letter for the predecessor.")
+            raise ActionError(
+                ModelSyntaxError,
+                f'"{predecessor[0]}" is a command, which a rule cannot rewrite',
+                at,  # type: ignore[arg-type]
+                "Choose another letter for the predecessor.",
+            )
         return "deferred", ("rule", Production((Pattern(symbol, at=at),), word))  # type: ignore[arg-type]
 
     def erasing(self, predecessor: Token) -> tuple[str, Any]:
         if "=" not in predecessor:
-            raise ActionError(ModelSyntaxError, "This rule has no successor", _at(predecessor),
-                          f'To erase {predecessor[0]}, write "{predecessor[0]}=".')
+            raise ActionError(
+                ModelSyntaxError,
+                "This rule has no successor",
+                _at(predecessor),
+                f'To erase {predecessor[0]}, write "{predecessor[0]}=".',
+            )
         return self.production(predecessor, ())
 
 
@@ -75,6 +87,10 @@ def _at(token: Token) -> tuple[int, int]:
 
 def _number(token: Token, digits: str) -> Number:
     if not re.fullmatch(r"\d++\.?\d*+|\.\d++", digits) or len(digits) > LONGEST:
-        raise ActionError(ModelSyntaxError, "A command cannot take this number", _at(token),
-                      'A command takes digits with at most one point, as in "@.5" or "\\30".')
+        raise ActionError(
+            ModelSyntaxError,
+            "A command cannot take this number",
+            _at(token),
+            'A command takes digits with at most one point, as in "@.5" or "\\30".',
+        )
     return Number(normalised(Fraction(f"0{digits}" if digits[0] == "." else digits.rstrip("."))), _at(token))

@@ -14,7 +14,7 @@ _LINES = f'A line is "Angle 6", "Axiom F--F--F" or a rule. {_RULE}'
 
 def _line(failure: ParseFailure) -> str:
     """The line, in which "/*" does not begin a comment."""
-    return failure.source[failure.start:failure.end]
+    return failure.source[failure.start : failure.end]
 
 
 def _colon(failure: ParseFailure) -> ModelSyntaxError | None:
@@ -46,9 +46,13 @@ def _arrow(failure: ParseFailure) -> ModelSyntaxError | None:
     """An arrow where Fractint has an equals sign."""
     line = _line(failure)
     arrow = ARROW.search(line)
-    if arrow and re.fullmatch(r"\S\s*", line[:arrow.start()]):
-        return failure.error("Fractint has no arrows", f'Type "{line[0]}={line[arrow.end():].strip()[:20]}".',
-                             failure.start + arrow.start(), len(arrow[0]))
+    if arrow and re.fullmatch(r"\S\s*", line[: arrow.start()]):
+        return failure.error(
+            "Fractint has no arrows",
+            f'Type "{line[0]}={line[arrow.end() :].strip()[:20]}".',
+            failure.start + arrow.start(),
+            len(arrow[0]),
+        )
     return None
 
 
@@ -61,8 +65,9 @@ def _beginning(failure: ParseFailure) -> ModelSyntaxError | None:
     line = _line(failure)
     head = re.match(r"[^\s=]{2,}(?=\s*=)", line)
     if head:
-        return failure.error("A rule rewrites one character", f'{quoted(head[0])} are several characters. {_RULE}', None,
-                             len(head[0]))
+        return failure.error(
+            "A rule rewrites one character", f"{quoted(head[0])} are several characters. {_RULE}", None, len(head[0])
+        )
     if len(line) == 1 and line not in "={}":
         return failure.error("This rule has no successor", f'To erase {line}, write "{line}=".')
     return failure.error("This line makes no sense in Fractint", _LINES, None, len(line.split()[0]))
@@ -74,11 +79,15 @@ def _in_a_word(failure: ParseFailure) -> ModelSyntaxError | None:
     if failure.found == "}":
         return failure.error('This "}" closes nothing', 'A system begins with its name and "{", as in "Koch {".')
     if failure.found == "%":
-        return failure.error('"%" cannot be a symbol here', "In this kit it cuts off a branch, which Fractint does not do. "
-                             "Choose another character.")
+        return failure.error(
+            '"%" cannot be a symbol here',
+            "In this kit it cuts off a branch, which Fractint does not do. Choose another character.",
+        )
     if failure.found:
-        return failure.error(f"{named(failure.found[0])} cannot be a symbol",
-                             'Symbols are letters, digits and signs of ASCII, but not ";", "=", "{" and "}".')
+        return failure.error(
+            f"{named(failure.found[0])} cannot be a symbol",
+            'Symbols are letters, digits and signs of ASCII, but not ";", "=", "{" and "}".',
+        )
     return None
 
 

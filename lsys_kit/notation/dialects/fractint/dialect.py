@@ -51,14 +51,18 @@ def _note_angle(draft: Draft, angle: Number) -> None:
     """Say what the angle means where nothing but the reader says that a text is one of Fractint's: it has no braces."""
     if "{" not in uncommented(draft.source):
         parts = Fraction(360) / Fraction(angle.value)
-        draft.notes.append(f'"Angle {parts}" is a turn of {float(angle.value):.4g} degrees: 360 divided by {parts}. '
-                           f'For {parts} degrees write "angle: {parts}" and "axiom: ...", and each rule with "->".')
+        draft.notes.append(
+            f'"Angle {parts}" is a turn of {float(angle.value):.4g} degrees: 360 divided by {parts}. '
+            f'For {parts} degrees write "angle: {parts}" and "axiom: ...", and each rule with "->".'
+        )
 
 
 def _check(draft: Draft, said: set[str]) -> None:
     """A system has an axiom and an angle."""
-    wanted = {"axiom": ("There is no axiom", 'Give the first word on a line of its own, as in "Axiom F--F--F".'),
-              "angle": ("There is no angle", 'Give the parts of a full turn on a line of its own, as in "Angle 6".')}
+    wanted = {
+        "axiom": ("There is no axiom", 'Give the first word on a line of its own, as in "Axiom F--F--F".'),
+        "angle": ("There is no angle", 'Give the parts of a full turn on a line of its own, as in "Angle 6".'),
+    }
     for kind, (message, hint) in wanted.items():
         if kind not in said:
             end = max((at[1] for _, _, at in draft.deferred), default=len(draft.source.rstrip()))
@@ -77,9 +81,12 @@ def _joined(draft: Draft) -> list[Production]:
 def _one(draft: Draft, parts: list[tuple[Production, tuple[int, int]]]) -> Production:
     successor = tuple(chain.from_iterable(rule.successor for rule, _ in parts))
     if pair := merged_pair(flat(successor)):
-        raise ModelSyntaxError(f'"{pair[1].symbol}" would be read as part of "{module_text(pair[0])}" in the rule before',
-                               draft.source, *(pair[1].at or parts[0][1]),
-                               "Rules for the same symbol are joined: divide the word elsewhere.")
+        raise ModelSyntaxError(
+            f'"{pair[1].symbol}" would be read as part of "{module_text(pair[0])}" in the rule before',
+            draft.source,
+            *(pair[1].at or parts[0][1]),
+            "Rules for the same symbol are joined: divide the word elsewhere.",
+        )
     return Production(parts[0][0].predecessors, successor, at=parts[0][1] if len(parts) == 1 else None)
 
 
@@ -90,12 +97,24 @@ def _likely(text: str) -> int:
         return 0
     plain = uncommented(text)
     sample = system_entries(islice(entries_in(plain), SAMPLED_SYSTEMS))
-    bodies = [plain[entry.opened + 1:entry.stop] for entry in sample] or [plain]
+    bodies = [plain[entry.opened + 1 : entry.stop] for entry in sample] or [plain]
     said = [line.strip() for body in bodies for line in body.splitlines()]
     return 0 if any(map(_OTHER.match, said)) else 10 * sum(map(bool, map(_SAID.match, said)))
 
 
 FRACTINT = Dialect(
-    name=NAME, statements=statement_lines, transformer=Records, finish=_finish, diagnostics=DIAGNOSTICS, module=module_text,
-    joined="".join, write=system_text, missing_feature=lacking, likely=_likely, turtle=NAME,
-    entry=selected_entry, starts=("statement", "word"), translated=translated)
+    name=NAME,
+    statements=statement_lines,
+    transformer=Records,
+    finish=_finish,
+    diagnostics=DIAGNOSTICS,
+    module=module_text,
+    joined="".join,
+    write=system_text,
+    missing_feature=lacking,
+    likely=_likely,
+    turtle=NAME,
+    entry=selected_entry,
+    starts=("statement", "word"),
+    translated=translated,
+)

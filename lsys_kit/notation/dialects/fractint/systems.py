@@ -60,8 +60,9 @@ def entries(text: str) -> list[FileEntry]:
     """
     found = [*islice(entries_in(uncommented(text)), MOST_ENTRIES + 1)]
     if len(found) > MOST_ENTRIES:
-        raise ModelLimitError(f"This text has more than {MOST_ENTRIES:,} systems", limit=MOST_ENTRIES,
-                              source=text, start=found[-1].at)
+        raise ModelLimitError(
+            f"This text has more than {MOST_ENTRIES:,} systems", limit=MOST_ENTRIES, source=text, start=found[-1].at
+        )
     return system_entries(found)
 
 
@@ -77,7 +78,7 @@ def entries_in(plain: str) -> Iterator[FileEntry]:
     before, at = -1, next(braces)
     for after in braces:
         if plain[at] == "{":
-            yield FileEntry(*_name(plain, before + 1, at), at, after, plain[after:after + 1] == "}")
+            yield FileEntry(*_name(plain, before + 1, at), at, after, plain[after : after + 1] == "}")
         before, at = at, after
 
 
@@ -113,7 +114,7 @@ def selected_entry(text: str, name: str | None) -> str:
     else:
         return text
     end = entry.stop + 1 if entry.closed else entry.opened + 1
-    return _blank(text[:entry.at]) + text[entry.at:end] + _blank(text[end:])
+    return _blank(text[: entry.at]) + text[entry.at : end] + _blank(text[end:])
 
 
 def _blank(text: str) -> str:
@@ -133,13 +134,22 @@ def _named(found: Sequence[FileEntry], name: str) -> FileEntry:
 def _which(found: Sequence[FileEntry], text: str) -> LSystemError:
     """Which of several systems is meant?"""
     if not found:
-        return ModelSyntaxError("There is no system in this text", text, uncommented(text).index("{"), None,
-                                'A system reads "Koch { ... }", with the angle, the axiom and the rules in the braces.')
+        return ModelSyntaxError(
+            "There is no system in this text",
+            text,
+            uncommented(text).index("{"),
+            None,
+            'A system reads "Koch { ... }", with the angle, the axiom and the rules in the braces.',
+        )
     names, second = _names(found), found[1]
-    choose = f'Choose one by its name: read(text, name="{quotable(names[0])}"), or --name in a shell. {_listed(names)}' \
-        if names else 'Give each a name before its "{", as in "Koch {".'
-    return ModelValueError(f"There are {len(found):,} systems in this text", text, second.at,
-                           second.at + max(1, len(second.name)), choose)
+    choose = (
+        f'Choose one by its name: read(text, name="{quotable(names[0])}"), or --name in a shell. {_listed(names)}'
+        if names
+        else 'Give each a name before its "{", as in "Koch {".'
+    )
+    return ModelValueError(
+        f"There are {len(found):,} systems in this text", text, second.at, second.at + max(1, len(second.name)), choose
+    )
 
 
 def _names(found: Sequence[FileEntry]) -> list[str]:
@@ -161,8 +171,9 @@ def statement_lines(text: str) -> Iterator[tuple[int, int]]:
     """
     found = entries(text)
     if found and not found[0].closed:
-        raise ModelSyntaxError('This "{" is never closed', text, found[0].opened, None,
-                               'A system ends with "}", before the next one begins.')
+        raise ModelSyntaxError(
+            'This "{" is never closed', text, found[0].opened, None, 'A system ends with "}", before the next one begins.'
+        )
     first, last = (found[0].opened + 1, found[0].stop) if found else (0, len(text))
     said = ((line.start(), line[0], line[0].strip(_BLANKS)) for line in _LINE.finditer(uncommented(text), first, last))
     lines = ((start + line.index(part), start + line.index(part) + len(part)) for start, line, part in said if part)

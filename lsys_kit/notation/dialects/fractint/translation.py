@@ -57,19 +57,33 @@ def translated(system: LSystem) -> LSystem:
                 yield replace(module, symbol=letters[module.symbol])
 
     def rule(production: Production) -> Production:
-        return replace(production, predecessors=tuple(word(production.predecessors)),
-                       successor=tuple(word(flat(production.successor))))
+        return replace(
+            production, predecessors=tuple(word(production.predecessors)), successor=tuple(word(flat(production.successor)))
+        )
 
-    return replace(system, turtle=NAME, heading=0, angle=Fraction(360, turning.parts), alphabet=(),
-                   axiom=(*_turns(turning.start), *word(system.axiom)), productions=tuple(map(rule, system.productions)))
+    return replace(
+        system,
+        turtle=NAME,
+        heading=0,
+        angle=Fraction(360, turning.parts),
+        alphabet=(),
+        axiom=(*_turns(turning.start), *word(system.axiom)),
+        productions=tuple(map(rule, system.productions)),
+    )
 
 
 def untranslatable(system: LSystem) -> str | None:
     """What Fractint's turtle lacks of a system with other turtle commands, in words."""
     if system.turtle != "abop":
         return f"turtle commands of {TURTLE_DIALECTS[system.turtle].title}"
-    strange = next((module for module in system.modules if module.arguments or not (
-        module.symbol in _SAME or module.symbol in _TURNS or module.symbol in _LETTERS)), None)
+    strange = next(
+        (
+            module
+            for module in system.modules
+            if module.arguments or not (module.symbol in _SAME or module.symbol in _TURNS or module.symbol in _LETTERS)
+        ),
+        None,
+    )
     if strange:
         return f'module "{strange}"'
     head = next((rule.predecessor.symbol for rule in system.productions if rule.predecessor.symbol in "+-|"), None)

@@ -46,8 +46,14 @@ def merged_pair(modules: Iterable[Pattern]) -> tuple[Pattern, Pattern] | None:
     >>> found and "".join(map(module_text, found))
     '<15'
     """
-    return next(((left, right) for left, right in pairwise(modules)
-                 if _COMMAND.fullmatch(left.symbol) and _goes_on(left, right.symbol)), None)
+    return next(
+        (
+            (left, right)
+            for left, right in pairwise(modules)
+            if _COMMAND.fullmatch(left.symbol) and _goes_on(left, right.symbol)
+        ),
+        None,
+    )
 
 
 def _goes_on(command: Pattern, symbol: str) -> bool:
@@ -58,8 +64,12 @@ def _goes_on(command: Pattern, symbol: str) -> bool:
 def system_text(system: LSystem) -> str:
     """The text of a system, under the name that it had."""
     steps = [] if system.steps is None else [f"; steps: {system.steps}"]
-    body = [*steps, f"Angle {360 / Fraction(system.angle)}", f"Axiom {_word(system.axiom)}",
-            *(line for production in system.productions for line in _rules(production))]
+    body = [
+        *steps,
+        f"Angle {360 / Fraction(system.angle)}",
+        f"Axiom {_word(system.axiom)}",
+        *(line for production in system.productions for line in _rules(production)),
+    ]
     return "\n".join([f"{_name(system)} {{", *(f"  {line}" for line in body), "  }"])
 
 
@@ -86,10 +96,25 @@ def _rules(production: Production) -> Iterator[str]:
 
 def lacking(system: LSystem) -> str | None:
     """The first thing that a system has and the notation lacks, in words."""
-    return (first_missing(system, "conditions", "contexts", "predecessors of several modules", "probabilities", "repetition",
-                          "constants", "decomposition rules", "meta-rules", "interpretation rules", "ignored symbols",
-                          "field")
-            or _strange_setting(system) or _strange_rule(system) or _strange_word(system))
+    return (
+        first_missing(
+            system,
+            "conditions",
+            "contexts",
+            "predecessors of several modules",
+            "probabilities",
+            "repetition",
+            "constants",
+            "decomposition rules",
+            "meta-rules",
+            "interpretation rules",
+            "ignored symbols",
+            "field",
+        )
+        or _strange_setting(system)
+        or _strange_rule(system)
+        or _strange_word(system)
+    )
 
 
 def _strange_setting(system: LSystem) -> str | None:
@@ -100,8 +125,12 @@ def _strange_setting(system: LSystem) -> str | None:
         return f"angle of {number_text(system.angle)} degrees"
     if system.heading != 0:
         return f"starting direction of {number_text(system.heading)} degrees"
-    settings = {"length of a step": system.length, "seed": system.seed,
-                "depth": system.decomposition_depth, "depth of interpretation": None if system.depth == 1 else system.depth}
+    settings = {
+        "length of a step": system.length,
+        "seed": system.seed,
+        "depth": system.decomposition_depth,
+        "depth of interpretation": None if system.depth == 1 else system.depth,
+    }
     return next((name for name, value in settings.items() if value is not None), None)
 
 

@@ -63,8 +63,12 @@ class _GrograExpressions(Expressions):
         operator = OPERATORS.get(name)
         at = name.start_pos or 0, name.end_pos or 0
         if operator is not None and operator.random:
-            raise ActionError(ModelSyntaxError, "A random number is declared on a line of its own", at,
-                          f'Type "\\var x {name} ...," there, and "x" here.')
+            raise ActionError(
+                ModelSyntaxError,
+                "A random number is declared on a line of its own",
+                at,
+                f'Type "\\var x {name} ...," there, and "x" here.',
+            )
         if operator is not None and operator.precedence is None and name != "sensed":
             return super().call(name, *operands)
         return self._applied("sensed", (Name(str(name), at), *operands), at)  # the text's own; its name is looked up later
@@ -83,8 +87,12 @@ class _GrograStatements(_GrograExpressions, Statements):
     def axiom(self, _: Token, word: tuple[Pattern, ...], *steps: Token) -> tuple[str, Any]:
         ends = [int(end) for end in steps[0].split("-")] if steps else []
         if ends and ends[0] > ends[-1]:
-            raise ActionError(ModelValueError, f'"{steps[0]}" runs backwards', (steps[0].start_pos or 0, steps[0].end_pos or 0),
-                          'Steps are counted upwards, as in "1-8".')
+            raise ActionError(
+                ModelValueError,
+                f'"{steps[0]}" runs backwards',
+                (steps[0].start_pos or 0, steps[0].end_pos or 0),
+                'Steps are counted upwards, as in "1-8".',
+            )
         return "deferred", ("axiom", (word, ends[-1] if ends else None))
 
     def setting(self, keyword: Token, value: Expression) -> tuple[str, Any]:

@@ -58,8 +58,11 @@ def declarations(system: LSystem) -> Declared:
     draws = dict.fromkeys(call for call in calls if call.operator != "sensed")
     functions = dict.fromkeys(_function_key(call) for call in calls if call.operator == "sensed")
     levels = {repeat.index: level for repeat, level in _repeats(system) if repeat.index}
-    return Declared(dict(zip(draws, _free_names("x", taken), strict=False)),
-                    dict(zip(functions, _free_names("f", taken), strict=False)), levels)
+    return Declared(
+        dict(zip(draws, _free_names("x", taken), strict=False)),
+        dict(zip(functions, _free_names("f", taken), strict=False)),
+        levels,
+    )
 
 
 def _free_names(letter: str, taken: Collection[str]) -> Iterator[str]:
@@ -153,8 +156,9 @@ def with_variables(expression: Expression, names: Declared) -> Expression:
 
 def rule_with_variables(rule: Production, names: Declared) -> Production:
     """A rule with variables in place of random and sensitive calls."""
-    condition, probability = (part if part is None else with_variables(part, names)
-                              for part in (rule.condition, rule.probability))
+    condition, probability = (
+        part if part is None else with_variables(part, names) for part in (rule.condition, rule.probability)
+    )
     return replace(rule, condition=condition, probability=probability, successor=tuple(_named_items(rule.successor, names)))
 
 

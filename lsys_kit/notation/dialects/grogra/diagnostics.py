@@ -27,11 +27,16 @@ from lsys_kit.notation.syntax.text.statements import blank_parentheses
 
 _IN_FRONT = 'It is written in front, in parentheses: "(t < 6) k(t) # k(t+1)".'
 _NUMBER = 'Numbers are glued to a turtle command, as in "F100", or written in parentheses after a symbol, as in "a(2)".'
-_DIRECTIVES = {
-    "axiom": "a", "angle": "60", "length": "100", "const": "k 3", "var": "x uniform 0 360", "set": "turtle abop"}
+_DIRECTIVES = {"axiom": "a", "angle": "60", "length": "100", "const": "k 3", "var": "x uniform 0 360", "set": "turtle abop"}
 """The words that follow a backslash, each with an example of what comes next."""
 _SYNONYMS = {
-    "start": "axiom", "startwort": "axiom", "winkel": "angle", "delta": "angle", "constant": "const", "variable": "var"}
+    "start": "axiom",
+    "startwort": "axiom",
+    "winkel": "angle",
+    "delta": "angle",
+    "constant": "const",
+    "variable": "var",
+}
 
 
 def _no_predecessor(failure: ParseFailure) -> ModelSyntaxError | None:
@@ -45,18 +50,18 @@ def _no_predecessor(failure: ParseFailure) -> ModelSyntaxError | None:
 
 def _comma(failure: ParseFailure) -> ModelSyntaxError | None:
     """Two statements, without a comma between them; a number with a comma in it."""
-    if re.match(r"\d+$", failure.statement) and re.search(r"\d,$", failure.text[:failure.start]):
+    if re.match(r"\d+$", failure.statement) and re.search(r"\d,$", failure.text[: failure.start]):
         return failure.error("A number is typed with a point", 'Type "0.5", not "0,5".', failure.start - 1, 1)
     line = failure.text.rfind("\n", failure.start, failure.at) + 1
-    begins = line + len(failure.text[line:failure.end]) - len(failure.text[line:failure.end].lstrip())
+    begins = line + len(failure.text[line : failure.end]) - len(failure.text[line : failure.end].lstrip())
     first = RULE_ARROW.search(failure.before)
-    if line <= failure.start or unclosed_bracket(failure.text[failure.start:begins]) is not None:
+    if line <= failure.start or unclosed_bracket(failure.text[failure.start : begins]) is not None:
         return None
     new = begins == failure.at and ("$END" in failure.accepted or failure.found.startswith("\\"))
     later = failure.before.startswith("\\") or (first is not None and first.end() < line - failure.start)
     if not (new or (later and RULE_ARROW.match(failure.found))):
         return None
-    end = failure.start + len(failure.text[failure.start:begins].rstrip())
+    end = failure.start + len(failure.text[failure.start : begins].rstrip())
     if failure.text[end - 1] == ";":
         return failure.error('This ";" does not separate rules', SPELLING.apart, end - 1, 1)
     return failure.error('A "," is missing here', SPELLING.apart, end, 1)
@@ -69,8 +74,16 @@ def _directive(failure: ParseFailure) -> ModelSyntaxError | None:
     if not word:
         meant = _similar_directive(foreign[1]) if foreign and failure.found == ":" else None
         rest = failure.after[1:].strip()
-        return failure.error("This setting is written as in another notation", f'Type "\\{meant} {excerpt(rest)},".',
-                             failure.start, len(foreign[0])) if meant and foreign else None
+        return (
+            failure.error(
+                "This setting is written as in another notation",
+                f'Type "\\{meant} {excerpt(rest)},".',
+                failure.start,
+                len(foreign[0]),
+            )
+            if meant and foreign
+            else None
+        )
     name, meant = word[1], _similar_directive(word[1])
     if name not in _DIRECTIVES:
         hint = f'Did you mean "\\{meant}"?' if meant else f"Possible are: {', '.join(chr(92) + n for n in _DIRECTIVES)}."
@@ -78,13 +91,18 @@ def _directive(failure: ParseFailure) -> ModelSyntaxError | None:
     if failure.found.startswith("=") and failure.before.split()[0] == "\\const":
         return failure.error('This "=" is not needed', f'Type "{failure.before} {excerpt(failure.after[1:].strip())},".')
     if "TRADITION" in failure.accepted:
-        return failure.error(f"There is no turtle called {quoted(failure.found)}",
-                             f"Turtles are: {', '.join(TURTLE_DIALECTS)}.")
-    behind = failure.text[failure.start + len(word[0]):failure.at].strip()
+        return failure.error(
+            f"There is no turtle called {quoted(failure.found)}", f"Turtles are: {', '.join(TURTLE_DIALECTS)}."
+        )
+    behind = failure.text[failure.start + len(word[0]) : failure.at].strip()
     if failure.found or (behind and name not in ("const", "var")):
         return None
-    return failure.error(f'Something is missing after "\\{name}"', f'It reads as in "\\{name} {_DIRECTIVES[name]},".',
-                         failure.start, len(word[0]))
+    return failure.error(
+        f'Something is missing after "\\{name}"',
+        f'It reads as in "\\{name} {_DIRECTIVES[name]},".',
+        failure.start,
+        len(word[0]),
+    )
 
 
 def _similar_directive(word: str) -> str | None:
@@ -129,10 +147,13 @@ def _other_notation(failure: ParseFailure) -> ModelSyntaxError | None:
         return failure.error("A condition is not possible here", _IN_FRONT)
     inside = unclosed_bracket(failure.before) is not None
     compared = re.search(r"[<>]$", failure.before) and failure.found[:1].isdigit()
-    if not arrow and not inside and "RELATION" not in failure.accepted and (
-            compared or re.match(r"[<>!=]?=|[≤≥≠]|\\[lgn]e", failure.found)):
-        return failure.error("This condition has no parentheses", _IN_FRONT, failure.start,
-                             max(1, len(failure.before)))
+    if (
+        not arrow
+        and not inside
+        and "RELATION" not in failure.accepted
+        and (compared or re.match(r"[<>!=]?=|[≤≥≠]|\\[lgn]e", failure.found))
+    ):
+        return failure.error("This condition has no parentheses", _IN_FRONT, failure.start, max(1, len(failure.before)))
     if failure.before.endswith("?") and failure.accepted >= VALUE_TOKENS:
         return failure.error('A probability is missing after "?"', 'Type it as in "?0.5", at the end of the rule.')
     return None
@@ -166,6 +187,22 @@ def _tex_macro(failure: ParseFailure) -> ModelSyntaxError | None:
 
 
 DIAGNOSTICS: Sequence[Diagnostic] = (
-    foreign_comment, _no_predecessor, _comma, _directive, _comparison, _predecessor, _repeat, repetition, misspelling,
-    _other_notation, parentheses, _arrow, second_arrow, unreadable_character, value_in_parentheses, _stray_number, _tex_macro)
+    foreign_comment,
+    _no_predecessor,
+    _comma,
+    _directive,
+    _comparison,
+    _predecessor,
+    _repeat,
+    repetition,
+    misspelling,
+    _other_notation,
+    parentheses,
+    _arrow,
+    second_arrow,
+    unreadable_character,
+    value_in_parentheses,
+    _stray_number,
+    _tex_macro,
+)
 """The diagnostics of a text in GROGRA's notation, the most specific first."""

@@ -28,19 +28,27 @@ from lsys_kit.notation.syntax.text.transcript import edited
 from lsys_kit.notation.syntax.text.typesetting import formula_signs
 from lsys_kit.notation.syntax.wording import reporting
 
-_SLIDE_SPELLINGS = {"→": "#", "⟶": "#", "\\rightarrow": "#", "\\longrightarrow": "#", "Startwort": "\\axiom",
-              **{tex: sign for tex, sign in RELATIONS.items() if tex != "="}}
+_SLIDE_SPELLINGS = {
+    "→": "#",
+    "⟶": "#",
+    "\\rightarrow": "#",
+    "\\longrightarrow": "#",
+    "Startwort": "\\axiom",
+    **{tex: sign for tex, sign in RELATIONS.items() if tex != "="},
+}
 """How the slides spell words of GROGRA."""
 _SPELT = re.compile(r"[→⟶]|\\[A-Za-z]+|\bStartwort\b")
 _ARROW = r"(?:##?|->|→|\\rightarrow)"
 _MARKS = re.compile(
-    r"^[ \t]*\\(?:angle|axiom|var|const|set|length)\b(?![^,\n]{0,200}(?:->|→))"      # a line that begins with a backslash
-    rf"|^[ \t]*\*[ \t]*{_ARROW}"                                                     # the rule for the start symbol
-    rf"|^[ \t]*\([^()\n]{{1,80}}\)[ \t]*[A-Za-z*][^:\n#>→]{{0,80}}{_ARROW}"           # a condition in front
-    r"|^[ \t]*[A-Za-z]\w{0,30}'*(?:\([^()\n]{1,80}\))?[ \t]+##?[ \t]"                # "#" as an arrow
-    rf"|{_ARROW}[^&#→\n]{{0,200}}&[ \t]*(?:\d+|\w+|\([^()\n]{{1,80}}\))[ \t]*<"       # what is repeated
-    r"|\?[ \t]*\d*\.\d+[ \t]*(?:,|$)"                                                # a probability
-    r"|(?<![\w'.(,*/+-])R[ULHV]-?\d", re.MULTILINE)
+    r"^[ \t]*\\(?:angle|axiom|var|const|set|length)\b(?![^,\n]{0,200}(?:->|→))"  # a line that begins with a backslash
+    rf"|^[ \t]*\*[ \t]*{_ARROW}"  # the rule for the start symbol
+    rf"|^[ \t]*\([^()\n]{{1,80}}\)[ \t]*[A-Za-z*][^:\n#>→]{{0,80}}{_ARROW}"  # a condition in front
+    r"|^[ \t]*[A-Za-z]\w{0,30}'*(?:\([^()\n]{1,80}\))?[ \t]+##?[ \t]"  # "#" as an arrow
+    rf"|{_ARROW}[^&#→\n]{{0,200}}&[ \t]*(?:\d+|\w+|\([^()\n]{{1,80}}\))[ \t]*<"  # what is repeated
+    r"|\?[ \t]*\d*\.\d+[ \t]*(?:,|$)"  # a probability
+    r"|(?<![\w'.(,*/+-])R[ULHV]-?\d",
+    re.MULTILINE,
+)
 """What only texts in this notation have."""
 
 
@@ -80,8 +88,12 @@ def _add_setting(draft: Draft, at: tuple[int, int], name: str, value: object) ->
     if name in draft.settings:
         raise ModelSyntaxError(f"The {name} is set a second time", draft.source, *at, "Keep one of the two lines.")
     if isinstance(value, Expression) and names_in(value):
-        raise ModelNameError(f'The name "{sorted(names_in(value))[0]}" cannot be used here', draft.source, *span(value),
-                             f"The {name} is set to a number.")
+        raise ModelNameError(
+            f'The name "{sorted(names_in(value))[0]}" cannot be used here',
+            draft.source,
+            *span(value),
+            f"The {name} is set to a number.",
+        )
     draft.settings[name] = value
 
 
@@ -91,14 +103,17 @@ def _default_axiom(draft: Draft, notes: list[str]) -> None:
     if draft.axiom is not None:
         return
     if not rules:
-        raise ModelSyntaxError("There is no axiom and no rule", draft.source, len(draft.source), None,
-                               'Give the first word, as in "\\axiom a,".')
+        raise ModelSyntaxError(
+            "There is no axiom and no rule", draft.source, len(draft.source), None, 'Give the first word, as in "\\axiom a,".'
+        )
     draft.axiom = START
     if all(rule.predecessor.symbol != "*" for rule in rules):
         first = rules[0].predecessor
         draft.axiom = (replace(first, arguments=tuple(a if isinstance(a, Number) else Number(0) for a in first.arguments)),)
-        notes.append(f'No rule is for "*": the axiom is {module_text(draft.axiom[0])}, as in the first rule; '
-                     'type "\\axiom ...," for another.')
+        notes.append(
+            f'No rule is for "*": the axiom is {module_text(draft.axiom[0])}, as in the first rule; '
+            'type "\\axiom ...," for another.'
+        )
 
 
 def _check_constants(draft: Draft) -> None:
@@ -137,8 +152,11 @@ def with_ones(system: LSystem) -> tuple[LSystem, list[str]]:
     """
     rewritten = {rule.predecessor.symbol for rule in system.rules}
     symbols = dict.fromkeys(module.symbol for module in system.modules)
-    ones = {symbol: _one(symbol) for symbol in symbols
-            if symbol not in rewritten and _one(symbol) in symbols and _one(symbol) != symbol}
+    ones = {
+        symbol: _one(symbol)
+        for symbol in symbols
+        if symbol not in rewritten and _one(symbol) in symbols and _one(symbol) != symbol
+    }
     if not ones:
         return system, []
 
@@ -151,8 +169,12 @@ def with_ones(system: LSystem) -> tuple[LSystem, list[str]]:
     def rule(r: Production) -> Production:
         return replace(r, left=tuple(map(module, r.left)), right=tuple(map(module, r.right)), successor=word(r.successor))
 
-    read = replace(system, axiom=tuple(map(module, system.axiom)), productions=tuple(map(rule, system.productions)),
-                   interpretation=tuple(map(rule, system.interpretation)))
+    read = replace(
+        system,
+        axiom=tuple(map(module, system.axiom)),
+        productions=tuple(map(rule, system.productions)),
+        interpretation=tuple(map(rule, system.interpretation)),
+    )
     return read, [f'"{symbol}" is read as "{one}".' for symbol, one in ones.items()]
 
 
@@ -172,6 +194,17 @@ def _lacking(system: LSystem) -> str | None:
 
 
 GROGRA = Dialect(
-    name="grogra", statements=statements, transformer=transformer, finish=_finish, diagnostics=DIAGNOSTICS, module=module_text,
-    joined=joined_word, write=system_text, missing_feature=_lacking, likely=lambda text: 2 * len(_MARKS.findall(text)),
-    turtle="grogra", spelling=SPELLING, transcribe=lambda source: edited(source, formula_signs(source)))
+    name="grogra",
+    statements=statements,
+    transformer=transformer,
+    finish=_finish,
+    diagnostics=DIAGNOSTICS,
+    module=module_text,
+    joined=joined_word,
+    write=system_text,
+    missing_feature=_lacking,
+    likely=lambda text: 2 * len(_MARKS.findall(text)),
+    turtle="grogra",
+    spelling=SPELLING,
+    transcribe=lambda source: edited(source, formula_signs(source)),
+)

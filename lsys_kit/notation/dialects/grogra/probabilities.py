@@ -77,15 +77,26 @@ def _candidates(rules: Sequence[Production], row: Sequence[int], constants: froz
             names = dict(zip(_parameters(rule, constants), first.predecessor.arguments, strict=True))
             condition = None if rule.condition is None else renamed(rule.condition, names)
             if condition is None or names_in(condition) or value_of(condition):
-                yield number, replace(first, successor=renamed_items(rule.successor, names), probability=None,
-                                      condition=condition if condition and names_in(condition) else None)
+                yield (
+                    number,
+                    replace(
+                        first,
+                        successor=renamed_items(rule.successor, names),
+                        probability=None,
+                        condition=condition if condition and names_in(condition) else None,
+                    ),
+                )
 
 
 def _is_for_all(rule: Production, other: Production, constants: frozenset[str]) -> bool:
     """Whether a rule is for all modules of the kind that another is for, whatever their values and neighbours."""
     one, two = rule.predecessor, other.predecessor
-    return ((one.symbol, len(one.arguments)) == (two.symbol, len(two.arguments)) and not rule.left and not rule.right
-            and len(_parameters(rule, constants)) == len(one.arguments))
+    return (
+        (one.symbol, len(one.arguments)) == (two.symbol, len(two.arguments))
+        and not rule.left
+        and not rule.right
+        and len(_parameters(rule, constants)) == len(one.arguments)
+    )
 
 
 def renamed(expression: Expression, names: Mapping[str, Expression]) -> Expression:
@@ -104,9 +115,11 @@ def renamed(expression: Expression, names: Mapping[str, Expression]) -> Expressi
 def renamed_items(items: Iterable[Item], names: Mapping[str, Expression]) -> tuple[Item, ...]:
     """A word with others in place of some names."""
     return tuple(
-        Repeat(renamed(item.count, names), renamed_items(item.body, names), item.index, item.at) if isinstance(item, Repeat)
+        Repeat(renamed(item.count, names), renamed_items(item.body, names), item.index, item.at)
+        if isinstance(item, Repeat)
         else replace(item, arguments=tuple(renamed(a, names) for a in item.arguments))
-        for item in items)
+        for item in items
+    )
 
 
 @dataclass
@@ -139,8 +152,11 @@ class _Shares:
 
     def beside(self, condition: _Condition) -> list[_Condition]:
         """The conditions that may hold together with another."""
-        return [other for other in self.parts
-                if other in (None, condition) or len(self.parts) > _MOST_COMPARED or not exclusive(other, condition)]
+        return [
+            other
+            for other in self.parts
+            if other in (None, condition) or len(self.parts) > _MOST_COMPARED or not exclusive(other, condition)
+        ]
 
     def taken(self, condition: _Condition) -> Fraction:
         """What is taken at most where a condition holds."""
@@ -188,11 +204,14 @@ def _remaining(terms: list[Expression]) -> Expression:
     """What is left by probabilities that are not all numbers."""
     count = len(terms)
     while len(terms) > 1:  # in pairs, so that a long sum is not nested deeply
-        terms = [Apply("+", (*terms[i:i + 2],)) if terms[i + 1:] else terms[i] for i in range(0, len(terms), 2)]
+        terms = [Apply("+", (*terms[i : i + 2],)) if terms[i + 1 :] else terms[i] for i in range(0, len(terms), 2)]
     left = Apply("max", (Number(0), Apply("-", (Number(1), *terms)))) if terms else Number(1)
     if len(str(left)) > current().expression:
-        raise ModelLimitError(f"What {count} rules leave is written with more than {current().expression:,} characters",
-                              limit=current().expression, hint="Write their probabilities as numbers.")
+        raise ModelLimitError(
+            f"What {count} rules leave is written with more than {current().expression:,} characters",
+            limit=current().expression,
+            hint="Write their probabilities as numbers.",
+        )
     return left
 
 

@@ -20,17 +20,37 @@ from lsys_kit.notation.model.modules import Item, Repeat, expressions_of
 from lsys_kit.notation.model.system import Production
 
 VARIABLE_KINDS: Mapping[str, tuple[int, int, str]] = {
-    "uniform": (2, 2, "0 360"), "normal": (2, 2, "0 15"), "binomial": (2, 2, "10 0.5"), "poisson": (1, 1, "3"),
-    "distribution": (1, 16, "0.2 0.3 0.5"), "table": (1, 16, "0.2 0.3 0.5"), "index": (0, 1, "0"), "function": (2, 2, "2 1"),
+    "uniform": (2, 2, "0 360"),
+    "normal": (2, 2, "0 15"),
+    "binomial": (2, 2, "10 0.5"),
+    "poisson": (1, 1, "3"),
+    "distribution": (1, 16, "0.2 0.3 0.5"),
+    "table": (1, 16, "0.2 0.3 0.5"),
+    "index": (0, 1, "0"),
+    "function": (2, 2, "2 1"),
 }
 """For each kind of variable the least and the greatest number of its values, and an example of them."""
-QUERY_FUNCTIONS = frozenset((
-    "negbinomial", "generation", "length", "diameter", "color", "order", "xcoordinate", "ycoordinate", "zcoordinate",
-    "register", "local"))
+QUERY_FUNCTIONS = frozenset(
+    (
+        "negbinomial",
+        "generation",
+        "length",
+        "diameter",
+        "color",
+        "order",
+        "xcoordinate",
+        "ycoordinate",
+        "zcoordinate",
+        "register",
+        "local",
+    )
+)
 """Other kinds of variables in GROGRA: most depend on the turtle, which words do not know."""
 _POSSIBLE = f"Kinds of variables are: {', '.join(VARIABLE_KINDS)}."
-_UNKNOWN_NAME_HINT = ('A parameter is named in front, as in "a(t) # a(t+1)"; a constant or a variable on a line such as '
-                      '"\\const k 3," or "\\var x uniform 0 360,".')
+_UNKNOWN_NAME_HINT = (
+    'A parameter is named in front, as in "a(t) # a(t+1)"; a constant or a variable on a line such as '
+    '"\\const k 3," or "\\var x uniform 0 360,".'
+)
 
 
 @dataclass(frozen=True)
@@ -83,8 +103,9 @@ def check_variables(variables: Sequence[Variable], constants: Iterable[str], sou
     taken = set(constants)
     for variable in variables:
         if variable.name in taken:
-            raise ModelNameError(f'The name "{variable.name}" is declared twice', source, *_offsets(variable.at),
-                                 "Keep one of the two lines.")
+            raise ModelNameError(
+                f'The name "{variable.name}" is declared twice', source, *_offsets(variable.at), "Keep one of the two lines."
+            )
         taken.add(variable.name)
         _check_kind(variable, source)
         known = Scope(source, frozenset(constants), {v.name: v for v in variables})
@@ -97,14 +118,19 @@ def _check_kind(variable: Variable, source: str) -> None:
     if kind in QUERY_FUNCTIONS:
         raise ModelNameError(f'A variable of the kind "{kind}" is not possible here', source, *at, _POSSIBLE)
     if kind not in VARIABLE_KINDS:
-        raise ModelNameError(f'There is no kind of variable called "{kind}"', source, *at,
-                             suggestion(kind, VARIABLE_KINDS) or _POSSIBLE)
+        raise ModelNameError(
+            f'There is no kind of variable called "{kind}"', source, *at, suggestion(kind, VARIABLE_KINDS) or _POSSIBLE
+        )
     least, most, example = VARIABLE_KINDS[kind]
     hint = f'Type "\\var {variable.name} {kind} {example},".'
     if not least <= len(variable.values) <= most:
         wanted = f"{least}" if least == most else f"up to {most}" if least == 0 else f"{least} or more"
-        raise ModelSyntaxError(f'A variable of the kind "{kind}" takes {wanted} value{"s" * (most > 1)}, not '
-                               f"{len(variable.values)}", source, *at, hint)
+        raise ModelSyntaxError(
+            f'A variable of the kind "{kind}" takes {wanted} value{"s" * (most > 1)}, not {len(variable.values)}',
+            source,
+            *at,
+            hint,
+        )
     if kind in ("index", "function") and (len(variable.numbers) < len(variable.values) or min(variable.numbers, default=0) < 0):
         raise ModelValueError(f'The values of the {kind} "{variable.name}" must be whole numbers, 0 or more', source, *at, hint)
 
@@ -138,16 +164,27 @@ def _resolve_name(name: Name, scope: Scope) -> Expression:
     if variable.kind == "function" and variable.numbers[1] == 0:
         return Apply("sensed", (Number(variable.numbers[0]),), name.at)
     if variable.kind == "function":
-        raise ModelSyntaxError(f'"{name}" is a function, and its values are missing', scope.source, *_offsets(name.at),
-                               f'It is called as in "{name}({", ".join("1" * variable.numbers[1])})".')
+        raise ModelSyntaxError(
+            f'"{name}" is a function, and its values are missing',
+            scope.source,
+            *_offsets(name.at),
+            f'It is called as in "{name}({", ".join("1" * variable.numbers[1])})".',
+        )
     if variable.kind == "index":
         inside = f" with {variable.level} more around it" if variable.level else ""
-        raise ModelNameError(f'"{name}" counts repetitions, and nothing is repeated here', scope.source, *_offsets(name.at),
-                             f'It is used in what is repeated, as in "&(3) < a({name}) >"{inside}.')
+        raise ModelNameError(
+            f'"{name}" counts repetitions, and nothing is repeated here',
+            scope.source,
+            *_offsets(name.at),
+            f'It is used in what is repeated, as in "&(3) < a({name}) >"{inside}.',
+        )
     if not scope.chance:
-        raise ModelValueError(f'"{name}" draws a new number at every use, which is not possible here', scope.source,
-                              *_offsets(name.at),
-                              f'Random variables belong after the "#" of a rule, as in "a # F({name})".')
+        raise ModelValueError(
+            f'"{name}" draws a new number at every use, which is not possible here',
+            scope.source,
+            *_offsets(name.at),
+            f'Random variables belong after the "#" of a rule, as in "a # F({name})".',
+        )
     return replace(random_call(variable), at=name.at)
 
 
@@ -178,13 +215,18 @@ def _sensed_call(expression: Apply, name: Name, values: list[Expression], scope:
     if variable is None or variable.kind != "function":
         functions = {v.name for v in scope.variables.values() if v.kind == "function"}
         functions |= {known for known, operator in OPERATORS.items() if operator.precedence is None and not operator.random}
-        raise ModelNameError(f'I do not know the function "{name}"', scope.source, *_offsets(name.at),
-                             suggestion(name.name, functions - {"sensed"}, 0.7)
-                             or f'Declare it, as in "\\var {name} function 2 {len(values)},".')
+        raise ModelNameError(
+            f'I do not know the function "{name}"',
+            scope.source,
+            *_offsets(name.at),
+            suggestion(name.name, functions - {"sensed"}, 0.7)
+            or f'Declare it, as in "\\var {name} function 2 {len(values)},".',
+        )
     number, count = variable.numbers
     if len(values) != count:
-        raise ModelSyntaxError(f"{name}(...) takes {count} value{'s' * (count != 1)}, not {len(values)}", scope.source,
-                               *_offsets(name.at))
+        raise ModelSyntaxError(
+            f"{name}(...) takes {count} value{'s' * (count != 1)}, not {len(values)}", scope.source, *_offsets(name.at)
+        )
     return Apply("sensed", (Number(number), *values), expression.at)
 
 
@@ -193,8 +235,12 @@ def resolve_rule(rule: Production, scope: Scope, chance: bool) -> Production:
     named = {a.name for module in rule.parameters for a in module.arguments if isinstance(a, Name)}
     scope = replace(scope, known=scope.known | named)
     condition, probability = (part if part is None else resolve(part, scope) for part in (rule.condition, rule.probability))
-    return replace(rule, condition=condition, probability=probability,
-                   successor=resolve_items(rule.successor, replace(scope, chance=chance)))
+    return replace(
+        rule,
+        condition=condition,
+        probability=probability,
+        successor=resolve_items(rule.successor, replace(scope, chance=chance)),
+    )
 
 
 def resolve_items(items: Iterable[Item], scope: Scope, depth: int = 0) -> tuple[Item, ...]:
@@ -203,8 +249,11 @@ def resolve_items(items: Iterable[Item], scope: Scope, depth: int = 0) -> tuple[
     for item in items:
         if isinstance(item, Repeat):
             used = names_of(item.body)
-            counters = [v.name for v in scope.variables.values()
-                        if v.kind == "index" and v.level == depth and v.name in used - scope.known]
+            counters = [
+                v.name
+                for v in scope.variables.values()
+                if v.kind == "index" and v.level == depth and v.name in used - scope.known
+            ]
             index = counters[0] if counters else ""
             inner = replace(scope, counting={**scope.counting, **dict.fromkeys(counters, index)})
             found.append(Repeat(resolve(item.count, scope), resolve_items(item.body, inner, depth + 1), index, item.at))

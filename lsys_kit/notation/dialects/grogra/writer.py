@@ -49,8 +49,10 @@ def joined_word(texts: Iterable[str]) -> str:
 
 def successor_text(items: Iterable[Item]) -> str:
     """The text of a successor, with what is repeated as `&(n) < ... >`."""
-    return joined_word(f"&{_count_text(item.count)} < {successor_text(item.body)} >" if isinstance(item, Repeat)
-                       else module_text(item) for item in items)
+    return joined_word(
+        f"&{_count_text(item.count)} < {successor_text(item.body)} >" if isinstance(item, Repeat) else module_text(item)
+        for item in items
+    )
 
 
 def _count_text(count: Expression) -> str:
@@ -63,27 +65,44 @@ def rule_text(rule: Production, arrow: str = "#") -> str:
     condition = "" if rule.condition is None else f"({styled_text(rule.condition, STYLE)})"
     left, right = joined_word(map(module_text, rule.left)), joined_word(map(module_text, rule.right))
     probability = "" if rule.probability is None else f"?{styled_text(rule.probability, STYLE)}"
-    parts = (condition, f"{left} <" if left else "", module_text(rule.predecessor), f"> {right}" if right else "", arrow,
-             successor_text(rule.successor), probability)
+    parts = (
+        condition,
+        f"{left} <" if left else "",
+        module_text(rule.predecessor),
+        f"> {right}" if right else "",
+        arrow,
+        successor_text(rule.successor),
+        probability,
+    )
     return " ".join(filter(None, parts))
 
 
 def system_text(system: LSystem) -> str:
     """The text of a system that lacks nothing in GROGRA's notation."""
     names = declarations(system)
-    return ",\n".join([
-        *_settings(system), *map(_constant, system.constants), *map(_variable, names.variables), *_axiom(system),
-        *(rule_text(rule_with_variables(rule, names)) for rule in system.productions),
-        *(rule_text(rule_with_variables(rule, names), "##") for rule in system.interpretation)])
+    return ",\n".join(
+        [
+            *_settings(system),
+            *map(_constant, system.constants),
+            *map(_variable, names.variables),
+            *_axiom(system),
+            *(rule_text(rule_with_variables(rule, names)) for rule in system.productions),
+            *(rule_text(rule_with_variables(rule, names), "##") for rule in system.interpretation),
+        ]
+    )
 
 
 def _settings(system: LSystem) -> Iterator[str]:
     """The lines of settings that differ from the defaults."""
     if system.turtle != "grogra":
         yield f"\\set turtle {system.turtle}"
-    for directive, value, usual in (("\\angle", system.angle, 90), ("\\set heading", system.heading, 90),
-                                    ("\\length", system.length, None), ("\\set seed", system.seed, None),
-                                    ("\\set depth", system.depth, 1)):
+    for directive, value, usual in (
+        ("\\angle", system.angle, 90),
+        ("\\set heading", system.heading, 90),
+        ("\\length", system.length, None),
+        ("\\set seed", system.seed, None),
+        ("\\set depth", system.depth, 1),
+    ):
         if value is not None and value != usual:
             yield f"{directive} {_value_text(Number(value))}"
     yield from (f"\\set {name} {said}" for name, said in look(system))
@@ -114,11 +133,21 @@ def _variable(variable: Variable) -> str:
 def missing_feature(system: LSystem) -> str | None:
     """The first thing that a system has and GROGRA's notation lacks, in words."""
     ends = any(module.symbol == END for rule in system.rules for module in rule.right)
-    return (first_missing(system, "round brackets as branches", "predecessors of several modules", "decomposition rules",
-                          "meta-rules", "ignored symbols", "right contexts that name the next branch",
-                          "right contexts that pass over brackets", "field")
-            or (None if system.decomposition_depth is None else "depth of decomposition")
-            or ("branch ends in contexts" if ends else None)
-            or (None if system.axiom else "empty axiom")
-            or inexpressible(system)
-            or (None if complete_probabilities(system)[0] == system.productions else "probabilities with another sum than 1"))
+    return (
+        first_missing(
+            system,
+            "round brackets as branches",
+            "predecessors of several modules",
+            "decomposition rules",
+            "meta-rules",
+            "ignored symbols",
+            "right contexts that name the next branch",
+            "right contexts that pass over brackets",
+            "field",
+        )
+        or (None if system.decomposition_depth is None else "depth of decomposition")
+        or ("branch ends in contexts" if ends else None)
+        or (None if system.axiom else "empty axiom")
+        or inexpressible(system)
+        or (None if complete_probabilities(system)[0] == system.productions else "probabilities with another sum than 1")
+    )

@@ -38,12 +38,13 @@ def _foreign_setting(failure: ParseFailure) -> ModelSyntaxError | None:
     statement = failure.statement
     setting, axiom = _SETTING.match(statement), _FIRST_CELL.match(statement)
     if axiom and not ARROW.search(statement):
-        return _first_cell(failure, axiom[1], statement[axiom.end():].strip())
+        return _first_cell(failure, axiom[1], statement[axiom.end() :].strip())
     if setting and setting[1].lower() == "steps":
         return failure.error('After "steps:" a whole number is needed', 'Type "steps: 4".', failure.start, 5)
     if setting and not ARROW.search(statement):
-        return failure.error(f'A map system has no "{setting[1]}:"', 'It has "map:", "steps:" and productions.', failure.start,
-                             len(setting[1]))
+        return failure.error(
+            f'A map system has no "{setting[1]}:"', 'It has "map:", "steps:" and productions.', failure.start, len(setting[1])
+        )
     return None
 
 
@@ -63,16 +64,20 @@ def _brackets(failure: ParseFailure) -> ModelSyntaxError | None:
     if failure.found == "]" and opened is None:
         return failure.error('This "]" closes nothing', _MARKER)
     if "ARROW" in failure.accepted or not ARROW.search(failure.text, failure.start, failure.end):
-        return failure.error("A marker is not possible here", "Markers come after the arrow of a production.") \
-            if failure.found == "[" else None
+        return (
+            failure.error("A marker is not possible here", "Markers come after the arrow of a production.")
+            if failure.found == "["
+            else None
+        )
     if opened is None:
         return None
     at = failure.start + opened
     if not failure.found or ("RSQB" in failure.accepted and ARROW.match(failure.found)):
         return failure.error('This "[" is never closed', _MARKER, at, 1)
     if failure.accepted == {"SIDE"} and failure.found != "[":
-        return failure.error("This marker does not say on which side it is",
-                             "Left of the wall is +, right is -, seen in its direction.")
+        return failure.error(
+            "This marker does not say on which side it is", "Left of the wall is +, right is -, seen in its direction."
+        )
     if failure.found == "]" and "LABEL" in failure.accepted:
         return failure.error("This marker has no letter", _MARKER)
     if failure.found in ("+", "-", "−") and "LABEL" in failure.accepted:
@@ -86,11 +91,16 @@ def _arrow(failure: ParseFailure) -> ModelSyntaxError | None:
     """An arrow that is missing, misspelt, or with nothing before or after it."""
     arrow = ARROW.search(failure.text, failure.start, failure.end)
     if ARROW.match(failure.found) and "ARROW" not in failure.accepted:
-        return failure.error("An arrow is not possible here" if failure.before else "There is nothing before the arrow",
-                             SPELLING.rule_example)
+        return failure.error(
+            "An arrow is not possible here" if failure.before else "There is nothing before the arrow", SPELLING.rule_example
+        )
     if not failure.found and arrow and arrow.end() - failure.start >= len(failure.before):
-        return failure.error("There is nothing after the arrow", "Walls are never erased: write what this one becomes.",
-                             arrow.start(), len(arrow.group()))
+        return failure.error(
+            "There is nothing after the arrow",
+            "Walls are never erased: write what this one becomes.",
+            arrow.start(),
+            len(arrow.group()),
+        )
     if arrow is None and "ARROW" in failure.accepted:
         spelt = _MISSPELT_ARROWS.match(failure.text, failure.at, failure.end)
         if spelt:
@@ -103,8 +113,9 @@ def _walls(failure: ParseFailure) -> ModelSyntaxError | None:
     """Something beside a wall."""
     if failure.found in ("<", ">"):
         message = "This is a second {}" if re.search(r"\w[<>]$", failure.before) else "There is no wall before this {}"
-        return failure.error(message.format(quoted(failure.found)),
-                             'A wall points one way, and its arrow comes after its letter: A> or A<.')
+        return failure.error(
+            message.format(quoted(failure.found)), "A wall points one way, and its arrow comes after its letter: A> or A<."
+        )
     if "ARROW" in failure.accepted and failure.found[:1].isalpha() and failure.found.isascii():
         return failure.error("Only one wall can be replaced", "Maps have no contexts. Write a production for each wall.")
     if failure.found[:1].isdigit():
@@ -113,5 +124,12 @@ def _walls(failure: ParseFailure) -> ModelSyntaxError | None:
 
 
 DIAGNOSTICS: Sequence[Diagnostic] = (
-    foreign_comment, _foreign_setting, _brackets, second_arrow, _arrow, _walls, unreadable_character)
+    foreign_comment,
+    _foreign_setting,
+    _brackets,
+    second_arrow,
+    _arrow,
+    _walls,
+    unreadable_character,
+)
 """The diagnostics of a map system, the most specific first."""

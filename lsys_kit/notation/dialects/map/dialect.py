@@ -67,8 +67,9 @@ def read_map(text: str) -> MapSystem:
     if is_link(text):
         content = unpacked(text)
         if content.notation != MAP.name:
-            raise ModelValueError("This is the link of an L-system, not of a map system",
-                                  hint="L-systems are read by read(link).")
+            raise ModelValueError(
+                "This is the link of an L-system, not of a map system", hint="L-systems are read by read(link)."
+            )
         text = content.text
     transcript = edited(text, typesetting(without_comments(text)))
     try:
@@ -93,8 +94,9 @@ def _system(text: str) -> MapSystem:
         else:
             settings[kind] = record
         if len(productions) > current().rules:
-            raise ModelLimitError(f"The model has more than {current().rules:,} productions", limit=current().rules,
-                                  source=text, start=start)
+            raise ModelLimitError(
+                f"The model has more than {current().rules:,} productions", limit=current().rules, source=text, start=start
+            )
     if "first" not in settings:
         raise problem("no first cell", (len(text), len(text)))
     sphere, axiom = settings["first"]

@@ -123,8 +123,12 @@ class _MathematicaStatements(MathematicaExpressions):
             return _check_plain_name(token, "A symbol")
         text = re.sub(r"\\(.)", r"\1", token[1:-1])
         if not SYMBOL_PATTERN.fullmatch(text):
-            raise ActionError(ModelSyntaxError, "There is more than one symbol between these quotation marks", place_of(token),
-                          'Separate symbols by commas, as in \'F, "+", F\'.')
+            raise ActionError(
+                ModelSyntaxError,
+                "There is more than one symbol between these quotation marks",
+                place_of(token),
+                "Separate symbols by commas, as in 'F, \"+\", F'.",
+            )
         return token.update(value=text)
 
     def pattern(self, symbol: Token, *arguments: RequiredArgument) -> PatternDefinition:
@@ -133,15 +137,23 @@ class _MathematicaStatements(MathematicaExpressions):
     def parameter(self, blank: Token, *condition: Expression) -> RequiredArgument:
         name = blank[:-1]
         if name.endswith("_"):
-            raise ActionError(ModelSyntaxError, f'"{blank}" matches a row of values', place_of(blank),
-                          f'A parameter matches one: type "{name.rstrip("_")}_".')
+            raise ActionError(
+                ModelSyntaxError,
+                f'"{blank}" matches a row of values',
+                place_of(blank),
+                f'A parameter matches one: type "{name.rstrip("_")}_".',
+            )
         check_name(_check_plain_name(blank.update(value=name), "A parameter"))
         return RequiredArgument(Name(name, place_of(blank)), True, *condition)
 
     def argument(self, value: Expression, *condition: Expression) -> RequiredArgument:
         if condition:
-            raise ActionError(ModelSyntaxError, 'A parameter is named with "_" after it', value.at,
-                          f'Type "{value}_ /; ...".' if isinstance(value, Name) else None)
+            raise ActionError(
+                ModelSyntaxError,
+                'A parameter is named with "_" after it',
+                value.at,
+                f'Type "{value}_ /; ...".' if isinstance(value, Name) else None,
+            )
         return RequiredArgument(value)
 
     def conditioned(self, pattern: PatternDefinition, condition: Expression) -> PatternDefinition:
@@ -153,8 +165,15 @@ class _MathematicaStatements(MathematicaExpressions):
     def succ(self, _: Token, *word: WordDefinition) -> WordDefinition:
         return word[0] if word else ()
 
-    def lrule(self, keyword: Token, left: tuple[PatternDefinition, ...], pred: tuple[PatternDefinition, ...],
-              right: tuple[PatternDefinition, ...], succ: WordDefinition, closing: Token) -> RuleDefinition:
+    def lrule(
+        self,
+        keyword: Token,
+        left: tuple[PatternDefinition, ...],
+        pred: tuple[PatternDefinition, ...],
+        right: tuple[PatternDefinition, ...],
+        succ: WordDefinition,
+        closing: Token,
+    ) -> RuleDefinition:
         return _rule_of(left, pred[0], right, succ, (keyword.start_pos or 0, closing.end_pos or 0))
 
     def before(self, *patterns: PatternDefinition) -> tuple[str, tuple[PatternDefinition, ...]]:
@@ -194,8 +213,12 @@ class _MathematicaStatements(MathematicaExpressions):
     def unknown(self, _: Token, __: Token, call: Token) -> tuple[str, Any]:
         name = call.split("[")[0].rstrip()
         at = call.start_pos or 0
-        raise ActionError(ModelNameError, f'I do not know "{name}[...]"', (at, at + len(name)),
-                          INSTEAD.get(name) or spelling_hint(name) or "What prints or draws can be left out.")
+        raise ActionError(
+            ModelNameError,
+            f'I do not know "{name}[...]"',
+            (at, at + len(name)),
+            INSTEAD.get(name) or spelling_hint(name) or "What prints or draws can be left out.",
+        )
 
     def constant(self, name: Token, _: Token, value: Expression, *slider: Any) -> tuple[str, Any]:
         check_name(_check_plain_name(name, "A constant"))
@@ -206,8 +229,12 @@ class _MathematicaStatements(MathematicaExpressions):
 
     def turtle(self, keyword: Token, _: Token, tradition: Token) -> tuple[str, Any]:
         if tradition[1:-1] not in TURTLE_DIALECTS:
-            raise ActionError(ModelNameError, f"I do not know the turtle commands of {tradition}", place_of(tradition),
-                          f'Turtle commands are those of {quoted_dialects("or")}.')
+            raise ActionError(
+                ModelNameError,
+                f"I do not know the turtle commands of {tradition}",
+                place_of(tradition),
+                f"Turtle commands are those of {quoted_dialects('or')}.",
+            )
         return "deferred", ("setting", ("turtle", str(tradition[1:-1])))
 
     def look(self, token: Token) -> tuple[str, Any]:
@@ -235,16 +262,23 @@ class _MathematicaStatements(MathematicaExpressions):
 def _check_plain_name(name: Token, what: str) -> Token:
     """A name that means nothing else in Mathematica."""
     if name.endswith("_"):
-        raise ActionError(ModelSyntaxError, f'{what} has a name without "_" at its end', place_of(name),
-                      f'Type "{name.rstrip("_")}".')
+        raise ActionError(
+            ModelSyntaxError, f'{what} has a name without "_" at its end', place_of(name), f'Type "{name.rstrip("_")}".'
+        )
     if name == "Degree":
-        raise ActionError(ModelNameError, f'{what} cannot be called "Degree"', place_of(name),
-                      "It says that an angle is in degrees.")
+        raise ActionError(
+            ModelNameError, f'{what} cannot be called "Degree"', place_of(name), "It says that an angle is in degrees."
+        )
     return name
 
 
-def _rule_of(left: tuple[PatternDefinition, ...], pattern: PatternDefinition, right: tuple[PatternDefinition, ...],
-          successor: WordDefinition, at: tuple[int, int]) -> RuleDefinition:
+def _rule_of(
+    left: tuple[PatternDefinition, ...],
+    pattern: PatternDefinition,
+    right: tuple[PatternDefinition, ...],
+    successor: WordDefinition,
+    at: tuple[int, int],
+) -> RuleDefinition:
     """The rule of some patterns and a successor."""
     every = (*left, pattern, *right)
     condition = condition_of(condition for one in every for condition in one.conditions)
@@ -253,14 +287,16 @@ def _rule_of(left: tuple[PatternDefinition, ...], pattern: PatternDefinition, ri
     numbers = count(1)
     modules = tuple(_module_of(one, numbers) for one in every)
     own = len(left)
-    production = Production((modules[own],), successor, condition, modules[:own], modules[own + 1:])
+    production = Production((modules[own],), successor, condition, modules[:own], modules[own + 1 :])
     return RuleDefinition(production, tuple(argument for one in every for argument in one.arguments), at)
 
 
 def _module_of(pattern: PatternDefinition, numbers: Iterator[int]) -> Pattern:
     """The module of a pattern; a parameter that is only "_" is named by the next number."""
-    arguments = tuple(Name(f"_{next(numbers)}", required.value.at) if required.value == Name("") else required.value
-                      for required in pattern.arguments)
+    arguments = tuple(
+        Name(f"_{next(numbers)}", required.value.at) if required.value == Name("") else required.value
+        for required in pattern.arguments
+    )
     return Pattern(str(pattern.symbol), arguments, place_of(pattern.symbol, *arguments))
 
 

@@ -70,8 +70,12 @@ def _in_order(constants: Iterable[Constant], source: str) -> list[Constant]:
         return [known[name] for name in TopologicalSorter(uses).static_order()]
     except CycleError as found:
         name = found.args[1][0]
-        raise ModelNameError(f'The constant "{name}" is defined in terms of itself', source, *span(known[name]),
-                             "Give it a value that can be computed without it.") from None
+        raise ModelNameError(
+            f'The constant "{name}" is defined in terms of itself',
+            source,
+            *span(known[name]),
+            "Give it a value that can be computed without it.",
+        ) from None
 
 
 def _names_of_constant(constant: Constant) -> set[str]:
@@ -85,8 +89,13 @@ def _check_constants(constants: Iterable[Constant]) -> None:
     for constant in constants:
         value = constant.value
         if isinstance(value, Name) and value.name not in names:
-            raise problem("word as axiom" if constant.name.lower() == "axiom" else "name as constant", value.at,
-                          closest(value.name, names), name=value, constant=constant.name)
+            raise problem(
+                "word as axiom" if constant.name.lower() == "axiom" else "name as constant",
+                value.at,
+                closest(value.name, names),
+                name=value,
+                constant=constant.name,
+            )
     check_constants(constants)
 
 
@@ -95,8 +104,12 @@ def _check_names(rule: RuleDefinition, constants: Collection[str], source: str) 
     for argument in rule.arguments:
         value = argument.value
         if argument.named and str(value) in constants:
-            raise ModelNameError(f'"{value}" is already a constant', source, *span(value),
-                                 f'Give the parameter another name; or type "{value}" to match the constant\'s value.')
+            raise ModelNameError(
+                f'"{value}" is already a constant',
+                source,
+                *span(value),
+                f'Give the parameter another name; or type "{value}" to match the constant\'s value.',
+            )
         strange = () if argument.named else sorted(names_in(value) - set(constants))
         if strange:
             name = re.sub(r"_(Integer|Real|Rational|Symbol|String|List)$", "", strange[0])
@@ -134,8 +147,12 @@ def _used_names(draft: Draft, definitions: Definitions) -> set[str]:
     """The names that anything uses."""
     rules = draft.sections["productions"]
     steps = definitions.run.steps if definitions.run else None
-    parts = [*(argument for module in _modules(draft) for argument in module.arguments), *(rule.condition for rule in rules),
-             *definitions.settings.values(), steps]
+    parts = [
+        *(argument for module in _modules(draft) for argument in module.arguments),
+        *(rule.condition for rule in rules),
+        *definitions.settings.values(),
+        steps,
+    ]
     names = [names_in(part) for part in parts if isinstance(part, Expression)]
     return set().union(*names, *map(_names_of_constant, draft.constants))
 

@@ -32,9 +32,14 @@ class MathematicaExpressions(Expressions):
         if name in TESTS:
             return self._test(name, operands)
         if name not in FUNCTIONS:
-            raise ActionError(ModelNameError, f'I do not know the function "{name}"', place_of(name),
-                          INSTEAD.get(name) or spelling_hint(name)
-                          or f"Functions are: {', '.join(sorted((*FUNCTIONS, *TESTS, *ANGLES)))}.")
+            raise ActionError(
+                ModelNameError,
+                f'I do not know the function "{name}"',
+                place_of(name),
+                INSTEAD.get(name)
+                or spelling_hint(name)
+                or f"Functions are: {', '.join(sorted((*FUNCTIONS, *TESTS, *ANGLES)))}.",
+            )
         return self._of(name, FUNCTIONS[name], operands)
 
     def _test(self, name: Token, operands: tuple[Expression, ...]) -> Expression:
@@ -58,18 +63,27 @@ class MathematicaExpressions(Expressions):
     def degrees(self, name: Token, angle: Expression, *sign: Token) -> Expression:
         times, degree = (*sign, None)[0], sign[-1]
         if len(sign) == 2 and times not in ("*", "·", "×"):
-            raise ActionError(ModelSyntaxError, "An angle is so many times Degree", place_of(times, degree),
-                          f'Type "{name}[x Degree]".')
+            raise ActionError(
+                ModelSyntaxError, "An angle is so many times Degree", place_of(times, degree), f'Type "{name}[x Degree]".'
+            )
         return self._of(name, ANGLES[name], (angle,))
 
     def radians(self, name: Token, angle: Expression) -> Expression:
-        raise ActionError(ModelSyntaxError, f"{name}[...] without Degree takes an angle in radians", place_of(name, angle),
-                      f'Angles are in degrees here: type "{name}[x Degree]".')
+        raise ActionError(
+            ModelSyntaxError,
+            f"{name}[...] without Degree takes an angle in radians",
+            place_of(name, angle),
+            f'Angles are in degrees here: type "{name}[x Degree]".',
+        )
 
     def inverse(self, name: Token, value: Expression, over: Token, degree: Token) -> Expression:
         if over != "/":
-            raise ActionError(ModelSyntaxError, f"{name}[...] is an angle in radians", place_of(name, degree),
-                          f'Angles are in degrees here: type "{name}[x]/Degree".')
+            raise ActionError(
+                ModelSyntaxError,
+                f"{name}[...] is an angle in radians",
+                place_of(name, degree),
+                f'Angles are in degrees here: type "{name}[x]/Degree".',
+            )
         return self._of(name, INVERSES[name], (value,))
 
     def uniform(self, name: Token, *ends: Expression) -> Expression:
@@ -77,8 +91,12 @@ class MathematicaExpressions(Expressions):
 
     def drawn(self, _: Token, distribution: Token, *operands: Expression) -> Expression:
         if distribution not in DISTRIBUTIONS:
-            raise ActionError(ModelNameError, f'I do not know the distribution "{distribution}"', place_of(distribution),
-                          suggestion(distribution, DISTRIBUTIONS) or f"Distributions are: {', '.join(DISTRIBUTIONS)}.")
+            raise ActionError(
+                ModelNameError,
+                f'I do not know the distribution "{distribution}"',
+                place_of(distribution),
+                suggestion(distribution, DISTRIBUTIONS) or f"Distributions are: {', '.join(DISTRIBUTIONS)}.",
+            )
         return self._of(distribution, DISTRIBUTIONS[distribution], operands)
 
     def numbers(self, *values: Expression) -> tuple[Expression, ...]:
@@ -86,6 +104,10 @@ class MathematicaExpressions(Expressions):
 
     def table(self, name: Token, weights: tuple[Expression, ...], _: Token, values: tuple[Expression, ...]) -> Expression:
         if [value.value if isinstance(value, Number) else None for value in values] != list(range(len(weights))):
-            raise ActionError(ModelSyntaxError, "The weights are those of 0, 1, 2, ...", place_of(*values),
-                          'Type as many numbers as weights, as in "RandomChoice[{1, 2, 1} -> {0, 1, 2}]".')
+            raise ActionError(
+                ModelSyntaxError,
+                "The weights are those of 0, 1, 2, ...",
+                place_of(*values),
+                'Type as many numbers as weights, as in "RandomChoice[{1, 2, 1} -> {0, 1, 2}]".',
+            )
         return self._of(name, "table", weights)

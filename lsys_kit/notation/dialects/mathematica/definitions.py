@@ -20,9 +20,11 @@ from lsys_kit.notation.model.system import Constant
 Thing = TypeVar("Thing")
 _SYSTEM_EXAMPLE = 'An L-system reads "lsystem = LSystem[axiom, lrules];": its axiom, then its rules.'
 _HINTS = {
-    "system": 'A system is run after it is defined: "lsystem = LSystem[axiom, lrules];".', "axiom": _SYSTEM_EXAMPLE,
+    "system": 'A system is run after it is defined: "lsystem = LSystem[axiom, lrules];".',
+    "axiom": _SYSTEM_EXAMPLE,
     "list of rules": _SYSTEM_EXAMPLE,
-    "rule": 'A rule is defined before its name is used in LRULES: "grow = LRule[LEFT[], PRED[A], RIGHT[], SUCC[A, A]];".'}
+    "rule": 'A rule is defined before its name is used in LRULES: "grow = LRule[LEFT[], PRED[A], RIGHT[], SUCC[A, A]];".',
+}
 
 
 @dataclass
@@ -152,7 +154,12 @@ def _lookup(definitions: Definitions, table: Mapping[str, Thing], name: Token, k
     same = next((known for known in table if known.casefold() == name.casefold()), None)
     if same is None:
         named = [known for known in table if not known.isdigit()]
-        raise ModelNameError(f'No {kind} has the name "{name}"', definitions.source, name.start_pos, name.end_pos,
-                             suggestion(name, named) or _HINTS[kind])
+        raise ModelNameError(
+            f'No {kind} has the name "{name}"',
+            definitions.source,
+            name.start_pos,
+            name.end_pos,
+            suggestion(name, named) or _HINTS[kind],
+        )
     definitions.notes[f'"{name}" is read as "{same}".'] = None
     return table[same]

@@ -86,7 +86,7 @@ def _rule_parts(failure: ParseFailure) -> ModelSyntaxError | None:
     part = _HEAD.match(failure.after)
     name = part.group() if part else ""
     if head == "LRULE" and at is not None:
-        there = re.findall(rf"\b({'|'.join(RULE_PARTS)})\s*\[", failure.text[at:failure.at], re.IGNORECASE)
+        there = re.findall(rf"\b({'|'.join(RULE_PARTS)})\s*\[", failure.text[at : failure.at], re.IGNORECASE)
         wanted = RULE_PARTS[len(there)] if len(there) < len(RULE_PARTS) else ""
         if wanted and wanted == name.upper():
             return failure.error(f'A "," is missing before {name}', _RULE)
@@ -114,7 +114,7 @@ def _round_brackets(failure: ParseFailure) -> ModelSyntaxError | None:
 
 def _unknown_call(failure: ParseFailure) -> ModelSyntaxError | None:
     """A call that is not known, in a statement of its own."""
-    call = re.fullmatch(r"([A-Za-z]\w*)\s*\[.*\]\s*", failure.text[failure.start:failure.end], re.DOTALL)
+    call = re.fullmatch(r"([A-Za-z]\w*)\s*\[.*\]\s*", failure.text[failure.start : failure.end], re.DOTALL)
     if not call or failure.found:
         return None
     hint = spelling_hint(call[1]) or "What prints or draws can be left out; a rule has an arrow."
@@ -147,8 +147,9 @@ def _unreadable(failure: ParseFailure) -> ModelSyntaxError | None:
     """A name that Mathematica knows and the kit does not: with "$", or with Greek letters."""
     letter = re.match(r"\\\[(\w+)\]", failure.after)
     if letter:
-        return failure.error(f'I cannot read "{letter.group()}"', f'Spell the letter: "{letter[1].lower()}".',
-                             length=len(letter.group()))
+        return failure.error(
+            f'I cannot read "{letter.group()}"', f'Spell the letter: "{letter[1].lower()}".', length=len(letter.group())
+        )
     if re.match(r"\$\w", failure.after) or re.match(r"\w*\$", failure.found):
         return failure.error('A name has no "$"', failure.spelling.name_rule, length=1)
     return unreadable_character(failure)
@@ -160,10 +161,11 @@ def _quotation_marks(failure: ParseFailure) -> ModelSyntaxError | None:
         return failure.error("This quotation mark is never closed", _QUOTES + r' A "\" is typed "\\".')
     in_a_word = {"STRING", "COMMA", "RBRACE"} & failure.accepted and not {"NUMBER", "TIMES"} & failure.accepted
     if in_a_word and re.fullmatch(r"[^\w\s,;\])}\"(]", failure.found):
-        return failure.error(f'The symbol {quoted(failure.found)} has no quotation marks', _QUOTES)
+        return failure.error(f"The symbol {quoted(failure.found)} has no quotation marks", _QUOTES)
     if failure.accepted == {"STRING"}:
-        return failure.error("Quotation marks are missing here",
-                             f'Type "{excerpt(failure.found)}" with a quotation mark on each side.')
+        return failure.error(
+            "Quotation marks are missing here", f'Type "{excerpt(failure.found)}" with a quotation mark on each side.'
+        )
     return None
 
 
@@ -191,8 +193,10 @@ def _steps(failure: ParseFailure) -> ModelSyntaxError | None:
 def _lists(failure: ParseFailure) -> ModelSyntaxError | None:
     """A list where none is possible, or braces that are missing."""
     if failure.found == "{":
-        return failure.error("A list is not possible here", 'Rules belong in "LRULES[...]", the axiom in "AXIOM[...]"; '
-                             "what was printed can be left out.")
+        return failure.error(
+            "A list is not possible here",
+            'Rules belong in "LRULES[...]", the axiom in "AXIOM[...]"; what was printed can be left out.',
+        )
     if failure.accepted == {"LBRACE"}:
         return failure.error("Braces are missing here", f'Type "{{{excerpt(failure.found)}}}".')
     return None
@@ -201,9 +205,12 @@ def _lists(failure: ParseFailure) -> ModelSyntaxError | None:
 def _angles(failure: ParseFailure) -> ModelSyntaxError | None:
     inverse = re.search(r"\b(Arc\w++)\s*+\[[^\[\]]*+\]$", failure.before)
     if inverse and failure.accepted == {"TIMES"}:
-        return failure.error(f"{inverse[1]}[...] is an angle in radians",
-                             f'Angles are in degrees here: type "{inverse[1]}[x]/Degree".',
-                             failure.start + inverse.start(), len(inverse[1]))
+        return failure.error(
+            f"{inverse[1]}[...] is an angle in radians",
+            f'Angles are in degrees here: type "{inverse[1]}[x]/Degree".',
+            failure.start + inverse.start(),
+            len(inverse[1]),
+        )
     if failure.found not in ("Degree", "°"):
         return None
     if _innermost_bracket(failure)[0] in ("SIN", "COS", "TAN"):
@@ -229,8 +236,25 @@ def _random(failure: ParseFailure) -> ModelSyntaxError | None:
 
 
 _DIAGNOSTICS_OF_BARE_TEXT: Sequence[Diagnostic] = (
-    _unclosed, _random, _steps, _closed, _rule_parts, _condition, _round_brackets, _arrow_in_brackets, _unknown_call, _angles,
-    _unreadable, *PRINTED_DIAGNOSTICS, _definition, _lists, _quotation_marks, _commas, misspelling, _value_or_operator)
+    _unclosed,
+    _random,
+    _steps,
+    _closed,
+    _rule_parts,
+    _condition,
+    _round_brackets,
+    _arrow_in_brackets,
+    _unknown_call,
+    _angles,
+    _unreadable,
+    *PRINTED_DIAGNOSTICS,
+    _definition,
+    _lists,
+    _quotation_marks,
+    _commas,
+    misspelling,
+    _value_or_operator,
+)
 
 
 def _diagnose_bare_text(failure: ParseFailure) -> ModelSyntaxError | None:

@@ -21,8 +21,9 @@ from lsys_kit.notation.syntax.formatting import first_missing
 from lsys_kit.notation.syntax.text.subscripts import LINE_OF_SUBSCRIPTS, subscripts
 from lsys_kit.notation.syntax.text.transcript import Transcript, as_typed, edited
 
-_MARKS = re.compile(r"\b(?:LRule|LRULES|AXIOM|LSystem|run\w*System)\s*\[|\w_\s*/;|^[^\S\n]*+Rules\s*+:",
-                    re.IGNORECASE | re.MULTILINE)
+_MARKS = re.compile(
+    r"\b(?:LRule|LRULES|AXIOM|LSystem|run\w*System)\s*\[|\w_\s*/;|^[^\S\n]*+Rules\s*+:", re.IGNORECASE | re.MULTILINE
+)
 """What is found in texts of this notation, and in no others."""
 _SETTING_NAMES = frozenset(("angle", "heading", "length", "seed", "steps", "turtle", "skippattern"))
 """What a definition sets, so that no constant can have that name."""
@@ -30,9 +31,17 @@ _SETTING_NAMES = frozenset(("angle", "heading", "length", "seed", "steps", "turt
 
 def _lacking(system: LSystem) -> str | None:
     return first_missing(
-        system, "predecessors of several modules", "probabilities", "repetition", "decomposition rules", "interpretation rules",
-        "meta-rules", "right contexts that name the next branch", "right contexts that pass over brackets", "field") \
-        or next(_own_lacks(system), None)
+        system,
+        "predecessors of several modules",
+        "probabilities",
+        "repetition",
+        "decomposition rules",
+        "interpretation rules",
+        "meta-rules",
+        "right contexts that name the next branch",
+        "right contexts that pass over brackets",
+        "field",
+    ) or next(_own_lacks(system), None)
 
 
 def _own_lacks(system: LSystem) -> Iterator[str]:
@@ -53,9 +62,11 @@ def _own_lacks(system: LSystem) -> Iterator[str]:
 def _names_and_functions(system: LSystem) -> tuple[set[str], set[str]]:
     """The names and the functions of a system."""
     names, functions = {constant.name for constant in system.constants}, set[str]()
-    parts = [*(part for constant in system.constants for part in (constant.value, *(constant.range or ()))),
-             *(rule.condition for rule in system.rules),
-             *(argument for module in system.modules for argument in module.arguments)]
+    parts = [
+        *(part for constant in system.constants for part in (constant.value, *(constant.range or ()))),
+        *(rule.condition for rule in system.rules),
+        *(argument for module in system.modules for argument in module.arguments),
+    ]
     while parts:
         part = parts.pop()
         if isinstance(part, Name):
@@ -74,7 +85,16 @@ def _transcribe(source: str) -> Transcript:
 
 
 MATHEMATICA = Dialect(
-    name="mathematica", statements=statements, transformer=transformer, finish=finish, diagnostics=DIAGNOSTICS,
-    module=module_text, joined=" ".join, write=system_text, missing_feature=_lacking,
-    likely=lambda text: 3 * len(_MARKS.findall(text)), spelling=SPELLING,
-    transcribe=_transcribe)
+    name="mathematica",
+    statements=statements,
+    transformer=transformer,
+    finish=finish,
+    diagnostics=DIAGNOSTICS,
+    module=module_text,
+    joined=" ".join,
+    write=system_text,
+    missing_feature=_lacking,
+    likely=lambda text: 3 * len(_MARKS.findall(text)),
+    spelling=SPELLING,
+    transcribe=_transcribe,
+)

@@ -8,19 +8,36 @@ from difflib import get_close_matches
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Style, styled_text
 
 FUNCTIONS: Mapping[str, str] = {
-    "Abs": "abs", "Floor": "floor", "Ceiling": "ceil", "Min": "min", "Max": "max", "Mod": "mod", "If": "if", "Sqrt": "sqrt",
-    "Exp": "exp", "Log": "log"}
+    "Abs": "abs",
+    "Floor": "floor",
+    "Ceiling": "ceil",
+    "Min": "min",
+    "Max": "max",
+    "Mod": "mod",
+    "If": "if",
+    "Sqrt": "sqrt",
+    "Exp": "exp",
+    "Log": "log",
+}
 """The functions of Mathematica that are the kit's under another name."""
 TESTS: Mapping[str, tuple[str | None, str, int]] = {
-    "EvenQ": ("mod", "==", 0), "OddQ": ("mod", "==", 1), "Positive": (None, ">", 0), "Negative": (None, "<", 0),
-    "NonNegative": (None, ">=", 0), "NonPositive": (None, "<=", 0)}
+    "EvenQ": ("mod", "==", 0),
+    "OddQ": ("mod", "==", 1),
+    "Positive": (None, ">", 0),
+    "Negative": (None, "<", 0),
+    "NonNegative": (None, ">=", 0),
+    "NonPositive": (None, "<=", 0),
+}
 """Tests of a number: how it, or what is left of it modulo 2, compares with which number."""
 ANGLES: Mapping[str, str] = {"Sin": "sin", "Cos": "cos", "Tan": "tan"}
 """Those that take an angle, and ..."""
 INVERSES: Mapping[str, str] = {f"Arc{name}": f"a{function}" for name, function in ANGLES.items()}
 """... those that give one."""
 DISTRIBUTIONS: Mapping[str, str] = {
-    "NormalDistribution": "normal", "BinomialDistribution": "binomial", "PoissonDistribution": "poisson"}
+    "NormalDistribution": "normal",
+    "BinomialDistribution": "binomial",
+    "PoissonDistribution": "poisson",
+}
 """What a random number is drawn from."""
 
 _BY_FUNCTION = {function: name for table in (ANGLES, INVERSES, DISTRIBUTIONS) for name, function in table.items()}

@@ -11,8 +11,9 @@ from lsys_kit.notation.syntax.dialect import Diagnostic
 from lsys_kit.notation.syntax.failure import ParseFailure
 from lsys_kit.notation.syntax.text.statements import ARROW
 
-_PRINTED_RULE = ('A printed rule reads "a < b > c -> d": left context, what is replaced, right context, an arrow, '
-                 'what replaces it.')
+_PRINTED_RULE = (
+    'A printed rule reads "a < b > c -> d": left context, what is replaced, right context, an arrow, what replaces it.'
+)
 _PRINTED_ARROWS = {"->", "→"}
 
 

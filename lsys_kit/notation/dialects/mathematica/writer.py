@@ -47,8 +47,13 @@ def system_text(system: LSystem) -> str:
     """The text of a system that lacks nothing in this notation."""
     taken = {constant.name for constant in system.constants}
     lrules, lsystem, growth = (_free_name(name, taken) for name in ("lrules", "lsystem", "growth"))
-    lines = [*map(_constant, system.constants), *_settings(system), f"axiom = AXIOM[{_word_text(system.axiom)}];",
-             _lrules_text(system, lrules, taken), f"{lsystem} = LSystem[axiom, {lrules}];"]
+    lines = [
+        *map(_constant, system.constants),
+        *_settings(system),
+        f"axiom = AXIOM[{_word_text(system.axiom)}];",
+        _lrules_text(system, lrules, taken),
+        f"{lsystem} = LSystem[axiom, {lrules}];",
+    ]
     if system.ignored:
         lines.append(f"skipPattern = {{{', '.join(map(symbol_text, system.ignored))}}};")
     if system.steps is not None:
@@ -72,8 +77,12 @@ def _constant(constant: Constant) -> str:
 def _settings(system: LSystem) -> Iterator[str]:
     if system.turtle != OWN_NOTATION:
         yield f'turtle = "{system.turtle}";'
-    for name, value, usual in (("angle", system.angle, 90), ("heading", system.heading, 90), ("length", system.length, None),
-                               ("seed", system.seed, None)):
+    for name, value, usual in (
+        ("angle", system.angle, 90),
+        ("heading", system.heading, 90),
+        ("length", system.length, None),
+        ("seed", system.seed, None),
+    ):
         if value is not None and value != usual:
             yield f"{name} = {literal_text(value)};"
     yield from (f'{name} = "{said}";' for name, said in look(system))
@@ -93,15 +102,19 @@ def _rule(production: Production, constants: Collection[str]) -> str:
     conditions = _conditions(production, constants)
     patterns = [_pattern(module, constants, conditions.get(index)) for index, module in enumerate(production.parameters)]
     own = len(production.left)
-    return (f"LRule[LEFT[{', '.join(patterns[:own])}], PRED[{patterns[own]}], RIGHT[{', '.join(patterns[own + 1:])}], "
-            f"SUCC[{_word_text(flat(production.successor))}]]")
+    return (
+        f"LRule[LEFT[{', '.join(patterns[:own])}], PRED[{patterns[own]}], RIGHT[{', '.join(patterns[own + 1 :])}], "
+        f"SUCC[{_word_text(flat(production.successor))}]]"
+    )
 
 
 def _pattern(module: Pattern, constants: Collection[str], condition: Expression | None) -> str:
     """A pattern with its condition: inside, where it is about the only parameter, else after it."""
     parameters = _parameters(module, constants)
-    texts = [f"{argument}_" if isinstance(argument, Name) and argument.name in parameters else _argument_text(argument)
-             for argument in module.arguments]
+    texts = [
+        f"{argument}_" if isinstance(argument, Name) and argument.name in parameters else _argument_text(argument)
+        for argument in module.arguments
+    ]
     if condition is None:
         return _with_arguments(module, texts)
     if len(parameters) == len(texts) == 1 and names_in(condition) <= {*parameters, *constants}:

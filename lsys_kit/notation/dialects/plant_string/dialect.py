@@ -19,7 +19,8 @@ from lsys_kit.notation.syntax.text.statements import ARROW, blank_parentheses, s
 
 NAME = "plant-string"
 _WORD = r"[A-Za-z\[\]()+\-\s]*+"
-_LINE = re.compile(rf"""\s*+(?:
+_LINE = re.compile(
+    rf"""\s*+(?:
       axiom\s*[:=](?P<axiom>{_WORD})
     | (?P<rule>[A-Za-z]\s*(?:->|→)(?:{_WORD}|\s*[ε*]\s*))
     | (?:angle|length|steps|seed|number\s+of\s+productions)\s*:\s*-?[\d.]+(?:e[+-]?\d+|/\d+)?\s*
@@ -27,13 +28,18 @@ _LINE = re.compile(rf"""\s*+(?:
     | productions\s*:\s*
     | {HEADING}
     | (?-i:{SENTENCE})
-    | stage\s+\d+\s+string\s*:{_WORD})""", re.IGNORECASE | re.VERBOSE)
+    | stage\s+\d+\s+string\s*:{_WORD})""",
+    re.IGNORECASE | re.VERBOSE,
+)
 """A line of a plant string."""
 _FOREIGN_KEYWORD = re.compile(
-    r"((?:decomposition[ \t]+)?depth|heading|alphabet|ignore|consider|meta|decomposition|interpretation)[ \t]*:", re.IGNORECASE)
+    r"((?:decomposition[ \t]+)?depth|heading|alphabet|ignore|consider|meta|decomposition|interpretation)[ \t]*:", re.IGNORECASE
+)
 _HEADING = re.compile(r"(number[ \t]+of[ \t]+productions|stage[ \t]+\d+[ \t]+string)(?![ \t]*:)", re.IGNORECASE)
-_MARKS = tuple((re.compile(pattern, re.IGNORECASE), weight) for pattern, weight in (
-    (r"number\s+of\s+productions", 2), (r"stage\s+\d+\s+string", 2), (r"turtle\s*:\s*abop", 2)))
+_MARKS = tuple(
+    (re.compile(pattern, re.IGNORECASE), weight)
+    for pattern, weight in ((r"number\s+of\s+productions", 2), (r"stage\s+\d+\s+string", 2), (r"turtle\s*:\s*abop", 2))
+)
 """How lines begin that other notations hardly have, and how much each says."""
 
 
@@ -42,10 +48,14 @@ def _other_notation(failure: ParseFailure) -> ModelSyntaxError | None:
     line = failure.statement
     keyword, heading = _FOREIGN_KEYWORD.match(line), _HEADING.match(line)
     if keyword:
-        return failure.error(f'A plant string has no "{keyword[1].lower()}:"', "Its settings are angle, length, seed, steps "
-                             "and turtle.", failure.start, len(keyword[1]))
+        return failure.error(
+            f'A plant string has no "{keyword[1].lower()}:"',
+            "Its settings are angle, length, seed, steps and turtle.",
+            failure.start,
+            len(keyword[1]),
+        )
     if heading:
-        return missing_keyword_colon(failure.source, failure.start, heading[1], line[heading.end():])
+        return missing_keyword_colon(failure.source, failure.start, heading[1], line[heading.end() :])
     if failure.found == ":" and ARROW.search(failure.before):
         return failure.error("A plant string has no probabilities", failure.spelling.rule_example)
     return None
@@ -68,9 +78,22 @@ def _lines(system: LSystem) -> Iterator[str]:
 
 def _lacking(system: LSystem) -> str | None:
     return first_missing(
-        system, "parameters", "symbols of several letters", "conditions", "contexts", "predecessors of several modules",
-        "probabilities", "repetition", "constants", "decomposition rules", "meta-rules", "interpretation rules",
-        "starting direction", "ignored symbols", "field")
+        system,
+        "parameters",
+        "symbols of several letters",
+        "conditions",
+        "contexts",
+        "predecessors of several modules",
+        "probabilities",
+        "repetition",
+        "constants",
+        "decomposition rules",
+        "meta-rules",
+        "interpretation rules",
+        "starting direction",
+        "ignored symbols",
+        "field",
+    )
 
 
 def _likely(text: str) -> int:
@@ -96,6 +119,17 @@ def _branches(words: Iterable[str]) -> int:
 
 
 PLANT_STRING = Dialect(
-    name=NAME, statements=statements, transformer=Statements, finish=_finish, diagnostics=(_other_notation, *DIAGNOSTICS),
-    module=str, joined="".join, write=lambda system: "\n".join(_lines(system)), missing_feature=_lacking, likely=_likely,
-    turtle=NAME, starts=("statement", "word"), transcribe=without_headings)
+    name=NAME,
+    statements=statements,
+    transformer=Statements,
+    finish=_finish,
+    diagnostics=(_other_notation, *DIAGNOSTICS),
+    module=str,
+    joined="".join,
+    write=lambda system: "\n".join(_lines(system)),
+    missing_feature=_lacking,
+    likely=_likely,
+    turtle=NAME,
+    starts=("statement", "word"),
+    transcribe=without_headings,
+)

@@ -16,7 +16,8 @@ GREEK = re.compile(r"[Α-ΡΣ-Ωα-δζ-ωϑϕϱµ]|\\(?:[Aa]lpha|[Bb]eta|[Gg]am
 """A letter, or its macro in LaTeX."""
 _SETTING = re.compile(
     rf"(?:^|[,;])[ \t]*+(?:(?P<axiom>{OMEGA})[ \t]*+(?:[:=]|{ARROW.pattern})"
-    r"|(?P<angle>δ|\\delta)[ \t]*+[:=](?:[ \t]*+(?P<value>\d[\d.]*+))?)")
+    r"|(?P<angle>δ|\\delta)[ \t]*+[:=](?:[ \t]*+(?P<value>\d[\d.]*+))?)"
+)
 """Where a letter has its own meaning: before the axiom or the angle, at the beginning of a line or after a comma."""
 
 
@@ -43,7 +44,7 @@ def named_letters(text: str, start: int, latex: bool) -> Iterator[tuple[str, Edi
         letter = match.group()
         if match.start() in settings or (letter[0] == "\\" and not latex):  # a backslash is a roll, before a name
             continue
-        before, after = text[match.start() - 1:match.start()], text[match.end():match.end() + 1]
+        before, after = text[match.start() - 1 : match.start()], text[match.end() : match.end() + 1]
         apart = " " * bool(re.match(r"[A-Za-z]", before)), " " * (after.isalpha() and after != "ε")
         yield letter, Edit(start + match.start(), start + match.end(), f"{apart[0]}{name_of(letter)}{apart[1]}")
 

@@ -8,13 +8,16 @@ from collections.abc import Iterator
 from lsys_kit.notation.syntax.text.statements import ARROW
 from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, edited
 
-HEADING = (r"(?:example|beispiel|figure|fig\.?|abbildung|abb\.?|l-system|listing|exercise|aufgabe|table|tabelle)[ \t]*+"
-           r"\d[\d.]*+[ \t]*+[a-z]?[ \t]*+[:.)]?[ \t]*+")
+HEADING = (
+    r"(?:example|beispiel|figure|fig\.?|abbildung|abb\.?|l-system|listing|exercise|aufgabe|table|tabelle)[ \t]*+"
+    r"\d[\d.]*+[ \t]*+[a-z]?[ \t]*+[:.)]?[ \t]*+"
+)
 SENTENCE = r"[A-ZÄÖÜ][a-zäöüß]*+(?:,?[ \t]++(?:[A-Za-zÄÖÜäöüß'’-]{2,}|a|I))+[.:!][ \t]*+"
 """Several words, of which none but "a" and "I" has one letter, with a full stop or a colon behind them."""
 RULES = r"(?:(?:rewriting |production )?rules|(?:produktions)?regeln|produktionen)\b(?![ \t]*+(?:=(?!=)|[(<>]))"
-_PRINTED = re.compile(rf"^[ \t]*+(?:(?P<rules>(?i:{RULES})[ \t]*+(?::|(?!{ARROW.pattern})))|(?:(?i:{HEADING})|{SENTENCE})$)",
-                      re.MULTILINE)
+_PRINTED = re.compile(
+    rf"^[ \t]*+(?:(?P<rules>(?i:{RULES})[ \t]*+(?::|(?!{ARROW.pattern})))|(?:(?i:{HEADING})|{SENTENCE})$)", re.MULTILINE
+)
 _AND = re.compile(r"(?<![ \t])(?:[ \t]*+,)?[ \t]++(?:and|und)[ \t]++")
 
 

@@ -32,10 +32,10 @@ def printed_statements(text: str) -> Iterator[tuple[int, int]]:
     used = frozenset(re.findall(r"\b\w++(?!\s*:)", plain)) if _LABELLED.search(plain) else frozenset()
     for start, end in _members(plain, text):
         label = _LABEL.match(plain, start, end)
-        if label and _is_label(plain[label.end():end], label[1] in used):
+        if label and _is_label(plain[label.end() : end], label[1] in used):
             start = label.end()
         if plain[end - 1] == ",":
-            rule = plain[start:end - 1].rstrip()
+            rule = plain[start : end - 1].rstrip()
             arrow = ARROW.search(rule)
             end = start + len(rule) if arrow and arrow.end() < len(rule) else end
         yield start, end
@@ -44,7 +44,7 @@ def printed_statements(text: str) -> Iterator[tuple[int, int]]:
 def _is_label(rest: str, used: bool) -> bool:
     """Whether a name with a colon after it labels a production, and is not a module with a condition."""
     arrow = ARROW.search(rest)
-    head = rest[:arrow.start()] if arrow else ""
+    head = rest[: arrow.start()] if arrow else ""
     bare = blank_parentheses(head)
     if ":" in bare or _TWO_NAMES.match(bare):
         return True
@@ -71,8 +71,9 @@ def _members(plain: str, source: str) -> Iterator[tuple[int, int]]:
             yield from _split_at_commas(plain, opened.end(), end - 1) if closed else [(first, end)]
             opened = None
     if opened is not None:
-        raise ModelSyntaxError('This "{" is never closed', source, opened.end() - 1, opened.end(),
-                               'Every "{" needs a "}" after it.')
+        raise ModelSyntaxError(
+            'This "{" is never closed', source, opened.end() - 1, opened.end(), 'Every "{" needs a "}" after it.'
+        )
 
 
 def _split_at_commas(plain: str, start: int, end: int) -> Iterator[tuple[int, int]]:
@@ -80,7 +81,7 @@ def _split_at_commas(plain: str, start: int, end: int) -> Iterator[tuple[int, in
     depth = 0
     for match in (*_BRACKET_OR_COMMA.finditer(plain, start, end), None):
         if match is None or (match[0] == "," and depth == 0):
-            member = plain[start:match.start() if match else end]
+            member = plain[start : match.start() if match else end]
             if member.strip():
                 yield start + len(member) - len(member.lstrip()), start + len(member.rstrip())
             start += len(member) + 1

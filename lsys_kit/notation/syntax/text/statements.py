@@ -11,7 +11,8 @@ from lsys_kit.errors import ModelLimitError, ModelSyntaxError, ModelValueError
 
 ARROW = re.compile(r"-->|->|→|⟶|::=|\\(?:(?:long)?(?:rightarrow|mapsto)|to)(?![A-Za-z])|\\xrightarrow")
 _STARTS = re.compile(
-    rf"{ARROW.pattern}|^\s*(?:\\?[A-Za-z_]\w*|[ωδ])\s*=(?!=)|^\s*\\?(?:surface[ \t]+\w+|[A-Za-zωδ]+)\s*:(?!.*[<>=])")
+    rf"{ARROW.pattern}|^\s*(?:\\?[A-Za-z_]\w*|[ωδ])\s*=(?!=)|^\s*\\?(?:surface[ \t]+\w+|[A-Za-zωδ]+)\s*:(?!.*[<>=])"
+)
 _CONTINUES = re.compile(rf"({ARROW.pattern}|&&|\|\||(?<!productions)(?<!decomposition)(?<!interpretation):)$", re.IGNORECASE)
 _AT_THE_MARGIN, _INDENT = re.compile(r"^\S", re.MULTILINE), re.compile(r"^[^\S\n]*+(?=\S)", re.MULTILINE)
 _FILLED_LINE = re.compile(r"^[^\S\n]*+\S.*", re.MULTILINE)
@@ -62,7 +63,7 @@ def without_comments(text: str) -> str:
         closed = text.find("*/", opened + 2)
         if closed < 0:
             raise ModelSyntaxError("This comment is never closed", text, opened, opened + 2, 'A comment ends with "*/".')
-        parts += (text[at:opened], re.sub(r"[^\n]", " ", text[opened:closed + 2]))
+        parts += (text[at:opened], re.sub(r"[^\n]", " ", text[opened : closed + 2]))
         at = closed + 2
     return "".join((*parts, text[at:]))
 
@@ -86,8 +87,9 @@ def check_text(text: str) -> None:
     if not isinstance(text, str):
         raise ModelValueError(f"A model is read from text, not from {type(text).__name__}")
     if len(text) > current().text:
-        raise ModelLimitError(f"The text has {len(text):,} characters; the limit is {current().text:,}",
-                              limit=current().text, needed=len(text))
+        raise ModelLimitError(
+            f"The text has {len(text):,} characters; the limit is {current().text:,}", limit=current().text, needed=len(text)
+        )
 
 
 def bounded(statements: Iterator[tuple[int, int]], text: str) -> list[tuple[int, int]]:
@@ -95,12 +97,17 @@ def bounded(statements: Iterator[tuple[int, int]], text: str) -> list[tuple[int,
     lines, most = 2 * current().rules, max(current().line, PER_RULE * current().rules)
     found = [*islice(statements, lines + 1)]
     if len(found) > lines:
-        raise ModelLimitError(f"The model has more than {lines:,} lines that are not blank", limit=lines, source=text,
-                              start=found[-1][0])
+        raise ModelLimitError(
+            f"The model has more than {lines:,} lines that are not blank", limit=lines, source=text, start=found[-1][0]
+        )
     characters = 0
     for start, end in found:
         characters += len("".join(text[start:end].split()))
         if characters > most:
-            raise ModelLimitError(f"The model has more than {most:,} characters, without blanks and comments", limit=most,
-                                  source=text, start=start)
+            raise ModelLimitError(
+                f"The model has more than {most:,} characters, without blanks and comments",
+                limit=most,
+                source=text,
+                start=start,
+            )
     return found

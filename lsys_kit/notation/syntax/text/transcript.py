@@ -55,7 +55,7 @@ class Transcript:
         """An error about the text, as one about the source."""
         if self.text == self.source or error.line is None or error.source != self.text:
             return error
-        before = sum(len(line) + 1 for line in self.text.split("\n")[:error.line - 1])
+        before = sum(len(line) + 1 for line in self.text.split("\n")[: error.line - 1])
         start, end = before + (error.column or 1) - 1, before + (error.end or 2) - 1
         return error.moved(self.source, self.origin(start), max(self.origin(end), self.origin(start) + 1))
 
@@ -92,7 +92,7 @@ def edited(source: str | Transcript, edits: Iterable[Edit], notes: Sequence[str]
     for edit in sorted(set(edits)):
         if edit.start < at:  # within what another edit has replaced
             continue
-        for text, origin in ((typed[at:edit.start], at), (edit.text, edit.start), ("", edit.start)):
+        for text, origin in ((typed[at : edit.start], at), (edit.text, edit.start), ("", edit.start)):
             starts.append(length)
             origins.append(origin)
             parts.append(text)

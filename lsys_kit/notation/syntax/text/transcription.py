@@ -72,7 +72,8 @@ _SIGNS_OF_PRINT = (
     re.compile(r"=[ \t]*+[\d.]++[ \t]*+[,;]"),
     re.compile(rf"\.\d++[ \t]*+(?:{_ARROW})"),
     re.compile(rf"\n[ \t]*+{_SETTING_NAME}[ \t]*+(?:=(?!=)|:[^\n]*deg)"),
-    re.compile(r"\n(?!\n)[ \t]*+(?:[pP]_?+[\d{]|[Ss][Tt][Aa][Rr][Tt]|[#.\d]|[-*][ \t]|\(\d|[^:<\n]*+<[ \t]*+\d)"))
+    re.compile(r"\n(?!\n)[ \t]*+(?:[pP]_?+[\d{]|[Ss][Tt][Aa][Rr][Tt]|[#.\d]|[-*][ \t]|\(\d|[^:<\n]*+<[ \t]*+\d)"),
+)
 """A text with none of these and nothing typographic is written as the kit writes it, and is not looked at line by line.
 Each begins with one character, which is quickly found."""
 
@@ -133,9 +134,11 @@ class _Listing:
     def __init__(self, plain: str) -> None:
         self.plain = plain
         longest = current().line  # longer ones will be refused
-        self.lines = [_Line(match.start(), line, None if _OMEGA.match(line) else ARROW.search(line))
-                      for match in re.finditer(r"[^\n]+", plain)
-                      if len(line := match.group()) <= longest and not line.isspace()]
+        self.lines = [
+            _Line(match.start(), line, None if _OMEGA.match(line) else ARROW.search(line))
+            for match in re.finditer(r"[^\n]+", plain)
+            if len(line := match.group()) <= longest and not line.isspace()
+        ]
         self.labelled = any(_LABEL.match(line.text) or _OMEGA.match(line.text) for line in self.lines)
         self.printed = self.labelled or bool(_DELTA.search(plain))
         self.first = next((index for index, line in enumerate(self.lines) if line.arrow), len(self.lines))
@@ -157,7 +160,7 @@ class _Listing:
                 yield Edit(line.start + start.start(1), line.start + start.end(), "axiom:")
             elif (omega := _OMEGA.match(line.text)) and omega[1]:
                 yield Edit(line.start + omega.start(1), line.start + omega.end(1), ":")
-            if _NAMED_AXIOM.match(line.text) and line.text[:line.end - line.start].endswith(","):
+            if _NAMED_AXIOM.match(line.text) and line.text[: line.end - line.start].endswith(","):
                 yield Edit(line.end - 1, line.end, "")
         yield from self._axiom()
 
@@ -174,7 +177,7 @@ class _Listing:
 
     def _assignments(self, line: _Line) -> Iterator[Edit]:
         for match in re.finditer(r"[,;]|\.(?=[ \t]*$)", line.text):
-            yield Edit(line.start + match.start(), line.start + match.end(), "\n" if line.text[match.end():].strip() else "")
+            yield Edit(line.start + match.start(), line.start + match.end(), "\n" if line.text[match.end() :].strip() else "")
         steps = _STEPS.search(line.text)
         if steps and self.printed and sum(1 for _ in islice(_N.finditer(self.plain), 2)) == 1:
             self.notes.append('"n" is read as the number of steps.')
@@ -220,8 +223,8 @@ class _Listing:
                 elif self._goes_on(index):  # on one line, since "C : .5" alone on its line would begin a production
                     yield Edit(self.lines[index - 1].end, line.start, " ")
                 continue
-            yield from self._head(line, line.text[:arrow.start()])
-            condition = ":" in self._bare(line)[:arrow.start()]  # which may end with a number, too
+            yield from self._head(line, line.text[: arrow.start()])
+            condition = ":" in self._bare(line)[: arrow.start()]  # which may end with a number, too
             over = None if condition else _PROBABILITY.search(line.text)
             if over:
                 yield Edit(line.start + over.start(), line.start + over.end(), "")
@@ -275,7 +278,7 @@ class _Listing:
     def _bare(self, line: _Line) -> str:
         """A line without its label, its values and what stands over its arrow, every other character in its place."""
         label = _LABEL.match(line.text)
-        text = " " * label.end() + line.text[label.end():] if label else line.text
+        text = " " * label.end() + line.text[label.end() :] if label else line.text
         return _PROBABILITY.sub(lambda match: " " * len(match.group()), blank_parentheses(text))
 
 

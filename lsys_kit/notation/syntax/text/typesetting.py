@@ -15,15 +15,19 @@ from typing import NamedTuple
 from lsys_kit.notation.syntax.text.statements import ARROW, LABEL, OMEGA
 from lsys_kit.notation.syntax.text.transcript import Edit
 
-MACRO = re.compile(r"\\(?:(?:long)?(?:rightarrow|mapsto)|to(?![A-Za-z])|xrightarrow|omega|vec|overleftarrow|overrightarrow|"
-                   r"begin[ \t]*+\{)")
+MACRO = re.compile(
+    r"\\(?:(?:long)?(?:rightarrow|mapsto)|to(?![A-Za-z])|xrightarrow|omega|vec|overleftarrow|overrightarrow|"
+    r"begin[ \t]*+\{)"
+)
 _DOLLARS = re.compile(r"^[ \t]*+(\$)(?![\s<$])[^$\n]*+(\$)[,.;]?[ \t]*+$", re.MULTILINE)
 """What begins and ends a formula. A single "$" is a command of the turtle, unless the line begins and ends with one."""
 _DISPLAY = re.compile(r"^[ \t]*+(?:(\\[\[(])(?:.*(\\[\])]))?|(\\[\])]))[ \t]*+$|(\$\$)", re.MULTILINE)
 """The same among macros; a bracket is one alone on a line, or both on one, and no branch after a roll."""
 _ENVIRONMENT = re.compile(
     r"\\begin[ \t]*+\{(array|align(?:ed|at)?\*?|eqnarray\*?|gather(?:ed)?\*?|split|tabular)\}(?:[ \t]*+\{[^{}\n]*+\})?"
-    r"(?P<rows>.*?)(?P<end>\\end[ \t]*+\{\1\}|\Z)", re.DOTALL)
+    r"(?P<rows>.*?)(?P<end>\\end[ \t]*+\{\1\}|\Z)",
+    re.DOTALL,
+)
 _ROW_END = re.compile(r"\\\\(?:\[[^\[\]\n]*+\])?")
 _NUMBER = r"[ \t]*+\(\d+[a-z]?\)(?=[ \t]*+(?:$|\$\$|\\\]|\\\\|\\end))"
 _NUMBERED = re.compile(rf"\\q?quad{_NUMBER}|\\tag\*?[ \t]*+\{{[^{{}}\n]*+\}}", re.MULTILINE)
@@ -136,5 +140,5 @@ class _Cell(NamedTuple):
 def _cell(plain: str, start: int, end: int) -> _Cell:
     text = plain[start:end]
     arrow = ARROW.search(text)
-    before, behind = (text[:arrow.start()], text[arrow.end():]) if arrow else ("", "")
+    before, behind = (text[: arrow.start()], text[arrow.end() :]) if arrow else ("", "")
     return _Cell(*map(bool, (text.strip(), _BEGINS.match(text), arrow, before.strip(), behind.strip())))

@@ -66,28 +66,56 @@ def _base_name(font: Font, letters: Iterable[str]) -> str:
     return f"{tag}+{FAMILIES[font.family]}{'-Bold' * font.bold}"
 
 
-def _add(objects: Objects, part: object, name: str, data: bytes, codes: Mapping[str, int],
-         widths: Sequence[int]) -> int:
+def _add(objects: Objects, part: object, name: str, data: bytes, codes: Mapping[str, int], widths: Sequence[int]) -> int:
     """Add the objects of a font."""
     head, across = part["head"], part["hhea"]  # type: ignore[index]
     unit = 1000 / head.unitsPerEm
     file = objects.stream(data, {"Length1": len(data)})
-    about = objects.add(dictionary({
-        "Type": "/FontDescriptor", "FontName": f"/{name}", "Flags": SYMBOLIC, "ItalicAngle": UPRIGHT, "StemV": 80,
-        "FontBBox": [round(unit * each) for each in (head.xMin, head.yMin, head.xMax, head.yMax)],
-        "Ascent": round(unit * across.ascent), "Descent": round(unit * across.descent),
-        "CapHeight": round(unit * 0.73 * head.unitsPerEm), "FontFile2": reference(file)}))
-    inner = objects.add(dictionary({
-        "Type": "/Font", "Subtype": "/CIDFontType2", "BaseFont": f"/{name}", "CIDToGIDMap": "/Identity",
-        "CIDSystemInfo": {"Registry": "(Adobe)", "Ordering": "(Identity)", "Supplement": 0},
-        "FontDescriptor": reference(about), "W": [0, [round(unit * width, 3) for width in widths]]}))
-    return objects.add(dictionary({
-        "Type": "/Font", "Subtype": "/Type0", "BaseFont": f"/{name}", "Encoding": "/Identity-H",
-        "DescendantFonts": [reference(inner)], "ToUnicode": reference(objects.stream(_letters_of(codes)))}))
+    about = objects.add(
+        dictionary(
+            {
+                "Type": "/FontDescriptor",
+                "FontName": f"/{name}",
+                "Flags": SYMBOLIC,
+                "ItalicAngle": UPRIGHT,
+                "StemV": 80,
+                "FontBBox": [round(unit * each) for each in (head.xMin, head.yMin, head.xMax, head.yMax)],
+                "Ascent": round(unit * across.ascent),
+                "Descent": round(unit * across.descent),
+                "CapHeight": round(unit * 0.73 * head.unitsPerEm),
+                "FontFile2": reference(file),
+            }
+        )
+    )
+    inner = objects.add(
+        dictionary(
+            {
+                "Type": "/Font",
+                "Subtype": "/CIDFontType2",
+                "BaseFont": f"/{name}",
+                "CIDToGIDMap": "/Identity",
+                "CIDSystemInfo": {"Registry": "(Adobe)", "Ordering": "(Identity)", "Supplement": 0},
+                "FontDescriptor": reference(about),
+                "W": [0, [round(unit * width, 3) for width in widths]],
+            }
+        )
+    )
+    return objects.add(
+        dictionary(
+            {
+                "Type": "/Font",
+                "Subtype": "/Type0",
+                "BaseFont": f"/{name}",
+                "Encoding": "/Identity-H",
+                "DescendantFonts": [reference(inner)],
+                "ToUnicode": reference(objects.stream(_letters_of(codes))),
+            }
+        )
+    )
 
 
 def _letters_of(codes: Mapping[str, int]) -> bytes:
     """The table of what the letters of a font stand for."""
     rows = [f"<{code:04X}> <{letter.encode('utf-16-be').hex().upper()}>\n" for letter, code in codes.items() if code]
-    blocks = [rows[first:first + MOST_ENTRIES] for first in range(0, len(rows), MOST_ENTRIES)]
+    blocks = [rows[first : first + MOST_ENTRIES] for first in range(0, len(rows), MOST_ENTRIES)]
     return _MAP.format("".join(f"{len(block)} beginbfchar\n{''.join(block)}endbfchar\n" for block in blocks)).encode()

@@ -34,13 +34,22 @@ def pdf(drawing: Drawing) -> bytes:
     content = objects.stream(writer.content(drawing.shapes, Place(POINT, 0.0, POINT * drawing.height)).encode("ascii"))
     resources = objects.add(dictionary(writer.resources))
     page, pages = resources + 1, resources + 2
-    objects.add(dictionary({
-        "Type": "/Page", "Parent": reference(pages), "MediaBox": [0, 0, POINT * drawing.width, POINT * drawing.height],
-        "Group": {"S": "/Transparency", "CS": "/DeviceRGB"}, "Resources": reference(resources),
-        "Contents": reference(content)}))
+    objects.add(
+        dictionary(
+            {
+                "Type": "/Page",
+                "Parent": reference(pages),
+                "MediaBox": [0, 0, POINT * drawing.width, POINT * drawing.height],
+                "Group": {"S": "/Transparency", "CS": "/DeviceRGB"},
+                "Resources": reference(resources),
+                "Contents": reference(content),
+            }
+        )
+    )
     objects.add(dictionary({"Type": "/Pages", "Kids": [reference(page)], "Count": 1}))
-    root = objects.add(dictionary({"Type": "/Catalog", "Pages": reference(pages),
-                                   "ViewerPreferences": {"DisplayDocTitle": "true"}}))
+    root = objects.add(
+        dictionary({"Type": "/Catalog", "Pages": reference(pages), "ViewerPreferences": {"DisplayDocTitle": "true"}})
+    )
     info = objects.add(f"<</Title {string(drawing.title)} /Creator {string(KIT_MARK.decode())}>>")
     return objects.file(root, info)
 
@@ -69,8 +78,13 @@ class _Writer:
         self._names: dict[object, str] = {}
         self._codes: dict[Font, Mapping[str, int]] = {}
         for font in dict.fromkeys(shape.font for shape in shapes if isinstance(shape, Text)):
-            letters = {letter for shape in shapes if isinstance(shape, Text) and shape.font == font
-                       for run in shape.runs for letter in run.text}
+            letters = {
+                letter
+                for shape in shapes
+                if isinstance(shape, Text) and shape.font == font
+                for run in shape.runs
+                for letter in run.text
+            }
             number, self._codes[font] = add_font(objects, font, letters)
             self._named("Font", font, number)
 
@@ -109,8 +123,10 @@ class _Writer:
             yield _colour(look.fill, "rg")
         if look.stroke:
             dashes = " ".join(map(number_text, look.dashes))
-            yield (f"{_colour(look.stroke, 'RG')} {number_text(look.width)} w {int(look.round_ends)} J {ROUND_JOINS} "
-                   f"[{dashes}] 0 d")
+            yield (
+                f"{_colour(look.stroke, 'RG')} {number_text(look.width)} w {int(look.round_ends)} J {ROUND_JOINS} "
+                f"[{dashes}] 0 d"
+            )
         painted = "B" if look.fill and look.stroke else "f" if look.fill else "S"
         yield path + painted + "*" * (look.evenodd and painted != "S")
         yield from ("Q",) if clear else ()
@@ -136,23 +152,42 @@ class _Writer:
     def _shading(self, gradient: Gradient, colours: Sequence[Sequence[float]]) -> int:
         """A radial gradient in a square whose side is 1, through some colours."""
         offsets = [stop.offset for stop in gradient.stops]
-        pieces = [{"FunctionType": 2, "Domain": [0, 1], "N": 1, "C0": first, "C1": last}
-                  for first, last in pairwise(colours)]
-        function = {"FunctionType": 3, "Domain": [0, 1], "Functions": pieces, "Bounds": offsets[1:-1],
-                    "Encode": [0, 1] * len(pieces)}
+        pieces = [{"FunctionType": 2, "Domain": [0, 1], "N": 1, "C0": first, "C1": last} for first, last in pairwise(colours)]
+        function = {
+            "FunctionType": 3,
+            "Domain": [0, 1],
+            "Functions": pieces,
+            "Bounds": offsets[1:-1],
+            "Encode": [0, 1] * len(pieces),
+        }
         space = "/DeviceRGB" if len(colours[0]) == 3 else "/DeviceGray"
-        return self._objects.add(dictionary({
-            "ShadingType": 3, "ColorSpace": space, "Extend": ["true", "true"], "Function": function,
-            "Coords": [gradient.x, gradient.y, 0, gradient.x, gradient.y, gradient.radius]}))
+        return self._objects.add(
+            dictionary(
+                {
+                    "ShadingType": 3,
+                    "ColorSpace": space,
+                    "Extend": ["true", "true"],
+                    "Function": function,
+                    "Coords": [gradient.x, gradient.y, 0, gradient.x, gradient.y, gradient.radius],
+                }
+            )
+        )
 
     def _mask(self, gradient: Gradient) -> str:
         """What makes a gradient as opaque as its stops say."""
         key = ("mask", gradient)
         if key not in self._names:
             grey = self._shading(gradient, [[stop.opacity] for stop in gradient.stops])
-            form = self._objects.stream(b"/S0 sh", {
-                "Type": "/XObject", "Subtype": "/Form", "BBox": [0, 0, 1, 1],
-                "Group": {"S": "/Transparency", "CS": "/DeviceGray"}, "Resources": {"Shading": {"S0": reference(grey)}}})
+            form = self._objects.stream(
+                b"/S0 sh",
+                {
+                    "Type": "/XObject",
+                    "Subtype": "/Form",
+                    "BBox": [0, 0, 1, 1],
+                    "Group": {"S": "/Transparency", "CS": "/DeviceGray"},
+                    "Resources": {"Shading": {"S0": reference(grey)}},
+                },
+            )
             mask = {"Type": "/Mask", "S": "/Luminosity", "G": reference(form)}
             self._named("ExtGState", key, self._objects.add(dictionary({"Type": "/ExtGState", "SMask": mask})))
         return f"/{self._names[key]} gs "
@@ -173,9 +208,17 @@ class _Writer:
 
         seen = Image.open(io.BytesIO(shape.png)).convert("RGBA")
         image = Image.alpha_composite(Image.new("RGBA", seen.size, "white"), seen).convert("RGB")
-        number = self._objects.stream(image.tobytes(), {
-            "Type": "/XObject", "Subtype": "/Image", "Width": image.width, "Height": image.height, "ColorSpace": "/DeviceRGB",
-            "BitsPerComponent": 8})
+        number = self._objects.stream(
+            image.tobytes(),
+            {
+                "Type": "/XObject",
+                "Subtype": "/Image",
+                "Width": image.width,
+                "Height": image.height,
+                "ColorSpace": "/DeviceRGB",
+                "BitsPerComponent": 8,
+            },
+        )
         name = self._named("XObject", object(), number)
         x, y, width, height = map(number_text, (shape.x, shape.y + shape.height, shape.width, -shape.height))
         yield f"q {width} 0 0 {height} {x} {y} cm /{name} Do Q"

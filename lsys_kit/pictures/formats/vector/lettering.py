@@ -97,7 +97,7 @@ def _cross(mask: Mask, contour: NDArray[Any]) -> None:
         rows = np.arange(round(min(y, y_next)), round(max(y, y_next)))  # whose middles lie between the ends
         for row in rows.tolist():
             across = x + (row + 0.5 - y) * (x_next - x) / (y_next - y)
-            mask[row, max(0, round(across)):] ^= True
+            mask[row, max(0, round(across)) :] ^= True
 
 
 def font_path(face: Font) -> Path:
@@ -171,6 +171,7 @@ def _corners(start: tuple[float, float], control: tuple[float, float], end: tupl
     found = []
     for number in range(1, PIECES + 1):
         t = number / PIECES
-        found.append(tuple((1 - t) ** 2 * a + 2 * t * (1 - t) * b + t * t * c
-                           for a, b, c in zip(start, control, end, strict=True)))
+        found.append(
+            tuple((1 - t) ** 2 * a + 2 * t * (1 - t) * b + t * t * c for a, b, c in zip(start, control, end, strict=True))
+        )
     return found  # type: ignore[return-value]

@@ -50,13 +50,16 @@ def _plain_commands(data: str) -> Iterator[str]:
             continue
         size = _SIZES[command]
         for first in range(0, len(numbers), size):
-            points = _points(command, numbers[first:first + size], here, here if letter.islower() else (0.0, 0.0))
+            points = _points(command, numbers[first : first + size], here, here if letter.islower() else (0.0, 0.0))
             if command == "M":
                 start, command = points[-1], "L"
                 yield "M" + _written(points)
             else:
-                yield ("C" + _written(_raised(here, *points))) if command == "Q" else \
-                    ("C" if command == "C" else "L") + _written(points)
+                yield (
+                    ("C" + _written(_raised(here, *points)))
+                    if command == "Q"
+                    else ("C" if command == "C" else "L") + _written(points)
+                )
             here = points[-1]
 
 
@@ -87,10 +90,16 @@ def rectangle(x: float, y: float, width: float, height: float, corner: float = 0
     """
     across, up = min(corner, width / 2), min(corner, height / 2)
     if not across:
-        return f"M{_written([(x, y)])}L{_written([(x + width, y)])}L{_written([(x + width, y + height)])}" \
-               f"L{_written([(x, y + height)])}Z"
-    quarters = [((x + width - across, y + up), (0, -1), (1, 0)), ((x + width - across, y + height - up), (1, 0), (0, 1)),
-                ((x + across, y + height - up), (0, 1), (-1, 0)), ((x + across, y + up), (-1, 0), (0, -1))]
+        return (
+            f"M{_written([(x, y)])}L{_written([(x + width, y)])}L{_written([(x + width, y + height)])}"
+            f"L{_written([(x, y + height)])}Z"
+        )
+    quarters = [
+        ((x + width - across, y + up), (0, -1), (1, 0)),
+        ((x + width - across, y + height - up), (1, 0), (0, 1)),
+        ((x + across, y + height - up), (0, 1), (-1, 0)),
+        ((x + across, y + up), (-1, 0), (0, -1)),
+    ]
     return _of_quarters(quarters, across, up)
 
 
@@ -109,8 +118,11 @@ def _of_quarters(quarters: Sequence[tuple[Point, Point, Point]], across: float, 
     parts: list[str] = []
     for (x, y), (from_x, from_y), (to_x, to_y) in quarters:
         start = x + across * from_x, y + up * from_y
-        controls = [(x + across * (from_x + ARC * to_x), y + up * (from_y + ARC * to_y)),
-                    (x + across * (to_x + ARC * from_x), y + up * (to_y + ARC * from_y)), (x + across * to_x, y + up * to_y)]
+        controls = [
+            (x + across * (from_x + ARC * to_x), y + up * (from_y + ARC * to_y)),
+            (x + across * (to_x + ARC * from_x), y + up * (to_y + ARC * from_y)),
+            (x + across * to_x, y + up * to_y),
+        ]
         parts.append(("L" if parts else f"M{_written([start])}L") + _written([start]) + "C" + _written(controls))
     return "".join(parts) + "Z"
 
@@ -136,9 +148,9 @@ def _curve(controls: Sequence[Point], scale: float) -> list[Point]:
     """The corners of a cubic curve behind its start."""
     start, first, second, end = np.array(controls)
     length = float(np.hypot(*np.diff(controls, axis=0).T).sum()) * scale
-    shares = np.linspace(0, 1, max(LEAST_PIECES, math.ceil(length ** 0.5)) + 1)[1:, None]
+    shares = np.linspace(0, 1, max(LEAST_PIECES, math.ceil(length**0.5)) + 1)[1:, None]
     rest = 1 - shares
-    points = rest ** 3 * start + 3 * rest ** 2 * shares * first + 3 * rest * shares ** 2 * second + shares ** 3 * end
+    points = rest**3 * start + 3 * rest**2 * shares * first + 3 * rest * shares**2 * second + shares**3 * end
     return [*map(tuple, points.tolist())]
 
 

@@ -36,8 +36,22 @@ _SVG = "{http://www.w3.org/2000/svg}"
 _MOVED = re.compile(r"translate\(([^\s()]+) ([^\s()]+)\)")
 _ENLARGED = re.compile(r"scale\(([^\s()]+)\)")
 _GRADIENT = re.compile(r"url\(#(.*)\)")
-_INHERITED = ("fill", "stroke", "stroke-width", "stroke-linecap", "stroke-dasharray", "fill-opacity", "stroke-opacity",
-              "fill-rule", "font-size", "font-family", "font-weight", "font-style", "text-anchor", "paint-order")
+_INHERITED = (
+    "fill",
+    "stroke",
+    "stroke-width",
+    "stroke-linecap",
+    "stroke-dasharray",
+    "fill-opacity",
+    "stroke-opacity",
+    "fill-rule",
+    "font-size",
+    "font-family",
+    "font-weight",
+    "font-style",
+    "text-anchor",
+    "paint-order",
+)
 _SHIFT = {"start": 0.0, "middle": 0.5, "end": 1.0}
 SILENT = ("title", "defs", "radialGradient")
 
@@ -93,6 +107,7 @@ class _Reader:
 
     def _data(self, name: str, own: Attributes) -> str:
         """The outline of an element in the plain form."""
+
         def number(key: str, whole: float = 0.0) -> float:
             text = own.get(key, "0")
             return whole * float(text[:-1]) / 100 if text.endswith("%") else float(text)
@@ -121,15 +136,24 @@ def _placed(element: Element, place: Place) -> Place:
 
 def _look(own: Attributes) -> Look:
     fill, stroke = (own.get(key, default).replace("none", "") for key, default in (("fill", "#000000"), ("stroke", "")))
-    return Look(fill, stroke, float(own.get("stroke-width", 1)), own.get("stroke-linecap") == "round",
-                tuple(map(float, own.get("stroke-dasharray", "").split())), float(own.get("fill-opacity", 1)),
-                float(own.get("stroke-opacity", 1)), own.get("fill-rule") == "evenodd")
+    return Look(
+        fill,
+        stroke,
+        float(own.get("stroke-width", 1)),
+        own.get("stroke-linecap") == "round",
+        tuple(map(float, own.get("stroke-dasharray", "").split())),
+        float(own.get("fill-opacity", 1)),
+        float(own.get("stroke-opacity", 1)),
+        own.get("fill-rule") == "evenodd",
+    )
 
 
 def _gradient(element: Element) -> Gradient:
     x, y, radius = (float(element.attrib[key]) for key in ("cx", "cy", "r"))
-    stops = tuple(Stop(float(each.attrib["offset"]), each.attrib["stop-color"], float(each.attrib.get("stop-opacity", 1)))
-                  for each in element)
+    stops = tuple(
+        Stop(float(each.attrib["offset"]), each.attrib["stop-color"], float(each.attrib.get("stop-opacity", 1)))
+        for each in element
+    )
     return Gradient(x, y, radius, stops)
 
 
@@ -152,8 +176,14 @@ def _text(element: Element, own: Attributes, place: Place) -> Text:
         x += advance(runs[-1].text, high, font)
     back = (x - float(own.get("x", 0))) * _SHIFT[own.get("text-anchor", "start")]
     halo = own.get("stroke", "") if own.get("paint-order") == "stroke" else ""
-    return Text([run._replace(x=run.x - back) for run in runs], font, own.get("fill", "#000000"), halo,
-                float(own.get("stroke-width", 0)), place)
+    return Text(
+        [run._replace(x=run.x - back) for run in runs],
+        font,
+        own.get("fill", "#000000"),
+        halo,
+        float(own.get("stroke-width", 0)),
+        place,
+    )
 
 
 def _stretches(element: Element, own: Attributes) -> Iterator[tuple[str, dict[str, Any]]]:
