@@ -3,7 +3,7 @@
 import { filamentLength } from "../drawing/filament.js";
 import { counted, sizeOf } from "../views/word.js";
 
-const rounded = (size) => Number((size + 1e-9).toFixed(2));
+const rounded = (size, digits = 2) => Number((size + 1e-9).toFixed(digits));
 
 // A step with its tokens, and the width and height of its drawing, if there is one.
 export function caption(book, now, tokens, measured) {
@@ -11,7 +11,7 @@ export function caption(book, now, tokens, measured) {
   const parts = [`step ${now}: ${sizeOf(book, now)}`];
   if (stages > 1) parts.push(`${occupied} of ${counted(stages, "stage")} occupied`);
   if (changesNothing(book, now)) parts.push("this step changes nothing");
-  if (book.data.mode === "filament") parts.push(`length ${rounded(filamentLength(book, now))}`);
+  if (book.data.mode === "filament") parts.push(`length ${rounded(filamentLength(book, now), 4)}`);
   if (measured) parts.push(`width ${rounded(measured[0])}, height ${rounded(measured[1])}`);
   if (book.data.said) parts.push(book.data.said);
   if (now === book.steps && book.data.end) parts.push(book.data.end);
