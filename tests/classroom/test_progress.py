@@ -228,7 +228,7 @@ def test_what_is_solved_and_tried_is_counted(new_session):
     tries = [("1.1", False), ("1.1", False), ("1.1", True), ("1.1", False), ("1.2", False)]
     page = progress_of(Record(tuple(Try(*each) for each in tries)), 1)
     assert repr(page).splitlines()[:4] == [
-        "Parallel rewriting: 1 of 5 solved, 1 more tried.",
+        "All at once: 1 of 5 solved, 1 more tried.",
         "✓ 1.1  A word by hand (3 tries)",
         "◐ 1.2  Find the bug",
         "○ 1.3  The filament in a mirror",
