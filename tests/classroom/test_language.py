@@ -193,7 +193,7 @@ def test_no_hint_contains_the_solution(exercise):
 @pytest.mark.usefixtures("german")
 def test_a_notebook_is_written_in_the_language():
     notebook = exercise_notebook(translated_lesson(LESSONS[1]))
-    assert "# Aufgaben: Paralleles Ersetzen" in notebook
+    assert "# Aufgaben: Alles auf einmal" in notebook
     assert json.loads(notebook)["cells"][1]["source"] == ["from lsys_kit import check, language, progress\n", 'language("de");']
     assert not re.search(r"After these exercises|hints 1 to|Not answered|Replace the", notebook)
 
@@ -311,15 +311,15 @@ def test_a_page_for_platforms_is_in_the_language():
     lesson = lessons()[1]
     page = exercise_page(lesson)
     assert page.startswith('<!doctype html>\n<html lang="de">')
-    assert "<h1>Aufgaben: Paralleles Ersetzen</h1>" in page
+    assert "<h1>Aufgaben: Alles auf einmal</h1>" in page
     for said in ("Das ist Übung und keine Prüfung.", "Deine Antwort, ein Wort", "<h2>Zusammenfassung</h2>", "Im Notebook</h2>"):
         assert said in page
-    assert manifest([translated_lesson(lesson)], ["01.html"]).count("Paralleles Ersetzen") == 2
+    assert manifest([translated_lesson(lesson)], ["01.html"]).count("Alles auf einmal") == 2
     assert words_of_page()["{number} of {total} solved."] == "{number} von {total} gelöst."
 
 
 @pytest.mark.usefixtures("german")
 def test_progress_is_in_the_language():
     page = progress_of(Record((Try("1.1", True),)), 1)
-    assert repr(page).startswith("Paralleles Ersetzen: 1 von 5 gelöst.\n✓ 1.1  Ein Wort von Hand\n")
+    assert repr(page).startswith("Alles auf einmal: 1 von 5 gelöst.\n✓ 1.1  Ein Wort von Hand\n")
     assert 'aria-label="gelöst:"' in page._repr_html_()
