@@ -12,7 +12,7 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from typing import NoReturn
 
-from lsys_kit.commands import classes, course, hard_limits, models
+from lsys_kit import commands
 from lsys_kit.errors import LSystemError, printable
 
 BAD_INPUT, INTERRUPTED, BROKEN_PIPE = 2, 130, 141
@@ -42,7 +42,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def run() -> int:
     """Carry out the command line of this process, which has hard limits of its own; return its exit status."""
-    return _carried_out(sys.argv[1:], hard_limits.set_hard_limits)
+    return _carried_out(sys.argv[1:], commands.set_hard_limits)
 
 
 def _carried_out(arguments: Sequence[str], prepare: Callable[[str], None]) -> int:
@@ -56,8 +56,8 @@ def _carried_out(arguments: Sequence[str], prepare: Callable[[str], None]) -> in
         return _refused(str(mistake))
     except MemoryError:
         return _refused("The command needs more memory than there is for it. Take fewer steps.")
-    except hard_limits.UsedUp:
-        return _refused(f"The command was not finished in {hard_limits.most_seconds()} seconds. Take fewer steps.")
+    except commands.UsedUp:
+        return _refused(f"The command was not finished in {commands.most_seconds()} seconds. Take fewer steps.")
     except KeyboardInterrupt:
         return INTERRUPTED
     except BrokenPipeError:
@@ -90,14 +90,14 @@ def _argument_parser() -> argparse.ArgumentParser:
         added.set_defaults(action=action)
         return added
 
-    command("list", models.list_systems, "List the systems of the catalogue.")
-    derive = command("derive", models.print_words, "Print the words of steps 0 to N, one per line.")
+    command("list", commands.list_systems, "List the systems of the catalogue.")
+    derive = command("derive", commands.print_words, "Print the words of steps 0 to N, one per line.")
     _add_system(derive, steps_needed=True)
     derive.add_argument("--counts", action="store_true", help="print the number of modules of each step instead")
     derive.add_argument("--json", action="store_true", help="print one JSON document")
     draw = command(
         "draw",
-        models.draw_word,
+        commands.draw_word,
         "Draw the word of step N, or a filament with the steps before it.",
         "Example: lsys-kit draw K5 -n 4 -o plant.gif",
     )
@@ -121,7 +121,7 @@ def _argument_parser() -> argparse.ArgumentParser:
     draw.add_argument("--size", type=_numbers, metavar="WIDTH[,HEIGHT]", help="the size of a picture or film in pixels")
     draw.add_argument("--turntable", action="store_true", help="let the film show a plant in space from all sides")
     _add_film(draw)
-    stages = command("stages", models.draw_stages, "Draw the stage diagram, with the tokens of the word of step N.")
+    stages = command("stages", commands.draw_stages, "Draw the stage diagram, with the tokens of the word of step N.")
     _add_system(stages, steps_needed=False)
     _add_unfold(stages)
     _add_looks(stages)
@@ -138,21 +138,21 @@ def _argument_parser() -> argparse.ArgumentParser:
     )
     convert = command(
         "convert",
-        models.convert,
+        commands.convert,
         "Print a model in another notation.",
         "Example: lsys-kit convert K5 --to plant-string -o plant.txt",
     )
     _add_conversion(convert)
     link = command(
         "link",
-        models.print_link,
+        commands.print_link,
         "Print a model with its settings as an address, which the other commands read.",
         "Example: lsys-kit link J4 -n 9 --base https://example.org/j4.html --qr j4.svg",
     )
     _add_link(link)
     page = command(
         "page",
-        models.write_page,
+        commands.write_page,
         "Write a page with sliders, which needs neither Python nor a network.",
         "Example: lsys-kit page J4 -n 9 -o j4.html",
     )
@@ -163,23 +163,23 @@ def _argument_parser() -> argparse.ArgumentParser:
     page.add_argument("-o", "--output", required=True, metavar="FILE", help="an .html file")
     site = command(
         "site",
-        course.write_site,
+        commands.write_site,
         "Write the course as pages whose panels move, which need neither Python nor a network.",
         "Example: lsys-kit site -o course",
     )
     site.add_argument("-o", "--output", required=True, metavar="FOLDER", help="the folder for the pages")
-    lab = command("lab", course.open_lab, "Copy the course into a folder of your own and open it in JupyterLab.")
+    lab = command("lab", commands.open_lab, "Copy the course into a folder of your own and open it in JupyterLab.")
     lab.add_argument("folder", nargs="?", metavar="FOLDER", help="default: lsys_kit_course in the current folder")
     _add_class(
         command(
             "collect",
-            classes.collect_marks,
+            commands.collect_marks,
             "Write the marks of a class: check the answers in its notebooks, which are read and never run.",
             "Example: lsys-kit collect handed_in -o marks.csv",
         ),
         command(
             "wall",
-            classes.write_wall,
+            commands.write_wall,
             "Write a page with everybody's plants, from files with links or models.",
             "Example: lsys-kit wall plants -o wall.html",
         ),
@@ -204,18 +204,18 @@ def _add_exercises(parser: argparse.ArgumentParser) -> None:
     text = "Say what is wrong with the exercises in a folder: in which file and line, and what to try."
     check = parts.add_parser("check", help=text, description=text, allow_abbrev=False)
     check.add_argument("folder", nargs="?", metavar="FOLDER", help="a folder of .toml files (default: those of the kit)")
-    check.set_defaults(action=course.check_exercises)
+    check.set_defaults(action=commands.check_exercises)
     text = "Write a notebook for each file of exercises in a folder."
     write = parts.add_parser("notebooks", help=text, description=text, allow_abbrev=False)
     write.add_argument("folder", metavar="FOLDER", help="a folder of .toml files")
     write.add_argument("-o", "--output", required=True, metavar="FOLDER", help="the folder for the notebooks")
-    write.set_defaults(action=course.write_exercises)
+    write.set_defaults(action=commands.write_exercises)
     text = "Write exercises as a package for a learning platform (SCORM 1.2), with pages that need no Python."
     example = "Example: lsys-kit exercises scorm 1 -o lesson_1.zip"
     package = parts.add_parser("scorm", help=text, description=text, epilog=example, allow_abbrev=False)
     package.add_argument("what_exercises", metavar="LESSON", help="a lesson of the kit, such as 1, or a folder of .toml files")
     package.add_argument("-o", "--output", required=True, metavar="FILE", help="a .zip file")
-    package.set_defaults(action=course.write_package)
+    package.set_defaults(action=commands.write_package)
 
 
 def _add_film(parser: argparse.ArgumentParser) -> None:

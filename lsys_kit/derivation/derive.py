@@ -1,6 +1,9 @@
 """Derivation: from the axiom to the word of any step.
 
 A `Derivation` asks its engine for one step after another, within the limits of size and time, and keeps the steps that fit.
+Which engine derives a system follows from the system's traits, and from nothing else: each engine serves the systems that ask
+for no more than the traits in its row of the table. The first that serves a system is the fastest for it. Those further down
+serve it as well, and must give the same words: the laws in the tests compare them.
 """
 
 from __future__ import annotations
@@ -8,21 +11,55 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from operator import index as place
+from types import MappingProxyType
 from typing import Any, TypeAlias, overload
 
 from lsys_kit.budget import Task, check_budget, counted
 from lsys_kit.derivation.cellworks.development import CellworkDevelopment, develop_cellwork
-from lsys_kit.derivation.core.closure import check_d0l
-from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.core.states import States, check_d0l
+from lsys_kit.derivation.core.traits import D0L, MOST, S0L, Traits
 from lsys_kit.derivation.core.words import Word
-from lsys_kit.derivation.engines.counting import next_counts
+from lsys_kit.derivation.engines.columnar import ColumnarSteps
+from lsys_kit.derivation.engines.contexts import ContextEngine
+from lsys_kit.derivation.engines.counting import CountingEngine, next_counts
 from lsys_kit.derivation.engines.engine import Engine, Observation, Observer, Origins, check_size
-from lsys_kit.derivation.engines.table import engine_for
+from lsys_kit.derivation.engines.stepping import SteppingEngine
+from lsys_kit.derivation.engines.stepwise import Stepper
 from lsys_kit.derivation.maps.development import Development, develop
 from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown, whole_number
 from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
+
+ENGINES: Mapping[type, Traits] = MappingProxyType(
+    {
+        ColumnarSteps: Traits(),
+        CountingEngine: D0L,
+        ContextEngine: S0L._replace(context=1, meta=True),
+        Stepper: Traits(MOST, MOST, *[True] * 11),
+    }
+)
+"""The most that a system may have to be derived in columns, by counting, by arrays, and module by module."""
+
+
+def serves(engine: type, traits: Traits) -> bool:
+    """Whether an engine can derive systems with some traits.
+
+    >>> serves(CountingEngine, Traits(decomposition=True)), serves(CountingEngine, Traits(stochastic=True))
+    (True, False)
+    """
+    return traits.within(ENGINES[engine])
+
+
+def engine_for(states: States, seed: int, world: Observer | None = None) -> Engine:
+    """The engine that derives a system; where it asks what the turtle sees, in a world that answers."""
+    traits = states.traits
+    if serves(CountingEngine, traits):
+        return CountingEngine(states, serves(ColumnarSteps, traits))
+    stepper = Stepper(states, seed)
+    arrays = ContextEngine(stepper) if serves(ContextEngine, traits) else None
+    return SteppingEngine(stepper, arrays, world if traits.sensitive else None)
+
 
 _Refusal: TypeAlias = ModelLimitError | ModelValueError
 """Why a step is not made."""

@@ -21,7 +21,7 @@ from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word, blocks
 from lsys_kit.errors import ModelValueError
 from lsys_kit.geometry.scene import Cells, Floats, Scene, Walls
-from lsys_kit.geometry.turtle.commands.instructions import values_of
+from lsys_kit.geometry.turtle.commands import values_of
 from lsys_kit.notation.model.modules import CELLS, WALL, Module
 
 SHAPE_BYTES = 240

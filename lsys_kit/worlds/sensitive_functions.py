@@ -15,10 +15,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from lsys_kit.geometry.scene import OWN, Floats, Integers, Segments
-from lsys_kit.geometry.turtle.commands.table import FIRST_COLOUR
+from lsys_kit.geometry.turtle.commands import FIRST_COLOUR
 from lsys_kit.notation.model.arithmetic import Value
-from lsys_kit.worlds.boxes import Boxes, Cones, counts_in_cones, nearest_in_cones, steepest_lines
-from lsys_kit.worlds.neighbours import NEARNESS, lengths_of
+from lsys_kit.worlds.neighbours import NEARNESS, Boxes, Cones, counts_in_cones, lengths_of, nearest_in_cones, steepest_lines
 
 NO_SHOOT = -1
 """The number of the shoot before the first one."""

@@ -12,8 +12,7 @@ from hypothesis import strategies as st
 
 from lsys_kit import LSystemError, ModelLimitError, ModelValueError, derive, limits, read
 from lsys_kit.derivation.core.traits import COLUMN_OPERATORS
-from lsys_kit.derivation.engines.columnar import ColumnWord
-from lsys_kit.derivation.engines.columns import OPERATIONS, SHORT_BITS, ExactColumns, column_function
+from lsys_kit.derivation.engines.columnar import OPERATIONS, SHORT_BITS, ColumnWord, ExactColumns, column_function
 from lsys_kit.derivation.engines.counting import CountingEngine
 from lsys_kit.notation.model.expressions import Number
 from lsys_kit.notation.model.system import LSystem

@@ -10,8 +10,7 @@ from typing import TypeAlias
 from lsys_kit.budget import Task, limits
 from lsys_kit.classroom.exercises.asked import answer_by, asked_system, right_history, what_is_asked
 from lsys_kit.classroom.exercises.check import BUDGET
-from lsys_kit.classroom.exercises.declared.declarations import QUESTIONS, Questions, questions_in
-from lsys_kit.classroom.exercises.declared.keys import Problem, Source
+from lsys_kit.classroom.exercises.declared.declarations import QUESTIONS, Problem, Questions, Source, questions_in
 from lsys_kit.classroom.exercises.declared.registry import kit_questions
 from lsys_kit.classroom.exercises.exercise import Exercise, Lesson
 from lsys_kit.classroom.exercises.judging import judged, wrong_answers

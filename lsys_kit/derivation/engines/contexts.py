@@ -14,12 +14,11 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from lsys_kit.budget import counted
-from lsys_kit.derivation.core.application import Match
 from lsys_kit.derivation.core.chance import stretches, units
 from lsys_kit.derivation.core.matching import NO_NEIGHBOUR
 from lsys_kit.derivation.core.rules import Rule
-from lsys_kit.derivation.core.states import States
-from lsys_kit.derivation.engines.expansion import ByteTable, code_type
+from lsys_kit.derivation.core.states import Match, States
+from lsys_kit.derivation.engines.engine import ByteTable, code_type
 from lsys_kit.derivation.engines.stepwise import Replacement, Stepper
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.modules import CLOSING, OPENING

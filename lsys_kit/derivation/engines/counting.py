@@ -18,10 +18,9 @@ from lsys_kit.budget import INTERVAL, Task, check_budget, counted
 from lsys_kit.cache import Cache
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word, state_counts, word_bytes
-from lsys_kit.derivation.engines import expansion
+from lsys_kit.derivation.engines import engine
 from lsys_kit.derivation.engines.columnar import ColumnarSteps, ColumnWord
-from lsys_kit.derivation.engines.engine import Origins, check_size, check_step
-from lsys_kit.derivation.engines.expansion import ByteTable, compact, expand
+from lsys_kit.derivation.engines.engine import ByteTable, Origins, check_size, check_step, compact, expand
 
 FEWEST_NEW = 50
 """Words become columns after a step in which more new states than this are met, and they are no small part of its word."""
@@ -120,7 +119,7 @@ class CountingEngine:
     def _built(self, step: int) -> Word:
         if step == 0:
             return Word(self.states, list(self.states.axiom))
-        before, small = self._words.get(step - 1), self.size(step) <= expansion.MOST_LISTED
+        before, small = self._words.get(step - 1), self.size(step) <= engine.MOST_LISTED
         if small and before is not None:
             return Word(self.states, self._replaced(before, self._steps[step - 1][0]))
         with Task("The word was not built"):

@@ -16,7 +16,6 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TypeAlias
 
-from lsys_kit.derivation.core.application import Match
 from lsys_kit.derivation.core.chance import Chance
 from lsys_kit.derivation.core.matching import (
     Neighbours,
@@ -28,7 +27,7 @@ from lsys_kit.derivation.core.matching import (
     values_at,
 )
 from lsys_kit.derivation.core.rules import Rule, is_branch
-from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.core.states import Match, States
 from lsys_kit.derivation.core.traits import CUT
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.modules import CLOSING, OPENING, Module

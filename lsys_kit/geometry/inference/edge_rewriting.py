@@ -15,9 +15,8 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from lsys_kit.budget import check_budget
-from lsys_kit.geometry.inference.drawn_words import word_of
 from lsys_kit.geometry.inference.strokes import Strokes, Turning
-from lsys_kit.geometry.inference.traversals import START, Traversal, branching, in_one_go
+from lsys_kit.geometry.inference.traversals import START, Traversal, branching, in_one_go, word_of
 
 Numbers: TypeAlias = np.ndarray[Any, np.dtype[np.complex128]]
 Drawn: TypeAlias = tuple[Numbers, Numbers, Numbers, Numbers]

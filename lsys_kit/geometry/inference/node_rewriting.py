@@ -16,9 +16,8 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from lsys_kit.budget import check_budget
-from lsys_kit.geometry.inference.drawn_words import Apex, word_with
 from lsys_kit.geometry.inference.strokes import NEAR, Points, Strokes, Turning
-from lsys_kit.geometry.inference.traversals import START, Traversal, branching
+from lsys_kit.geometry.inference.traversals import START, Apex, Traversal, branching, word_with
 
 Places = Counter[int]
 """How many strokes are at each place of a drawing."""

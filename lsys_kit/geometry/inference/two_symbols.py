@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from lsys_kit.budget import check_budget
-from lsys_kit.geometry.inference.drawn_words import turns_text
 from lsys_kit.geometry.inference.strokes import Strokes, Turning
+from lsys_kit.geometry.inference.traversals import turns_text
 
 PICTURES = 4
 """The drawings of so many steps are walked along."""

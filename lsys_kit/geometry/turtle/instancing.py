@@ -21,12 +21,18 @@ from lsys_kit.derivation.core.interpretation import interpretations
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.geometry.scene import Discs, Floats, Polygons, Scene, Segments
-from lsys_kit.geometry.turtle.commands.actions import Effect
-from lsys_kit.geometry.turtle.commands.instructions import Instruction, instructions, unknown_commands
-from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
-from lsys_kit.geometry.turtle.commands.table import commands_of, initial_step, symbols_with
-from lsys_kit.geometry.turtle.frames import initial_frame
-from lsys_kit.geometry.turtle.space import SPACE_HANDLERS, SpaceTurtle, operand
+from lsys_kit.geometry.turtle.commands import (
+    DrawingMode,
+    Effect,
+    Instruction,
+    commands_of,
+    drawing_mode,
+    initial_step,
+    instructions,
+    symbols_with,
+    unknown_commands,
+)
+from lsys_kit.geometry.turtle.space import SPACE_HANDLERS, SpaceTurtle, initial_frame, operand
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 
 Key: TypeAlias = tuple[int, int, tuple[Any, ...]]

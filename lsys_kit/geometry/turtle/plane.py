@@ -17,13 +17,9 @@ import numpy as np
 
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.geometry.scene import Floats, Integers, Scene, Segments
-from lsys_kit.geometry.turtle.commands.instructions import Instruction
-from lsys_kit.geometry.turtle.commands.table import initial_step
-from lsys_kit.geometry.turtle.fractint import FRACTINT_HANDLERS
-from lsys_kit.geometry.turtle.handlers import COMMON_HANDLERS, Handler
-from lsys_kit.geometry.turtle.interpreter import run_turtle
-from lsys_kit.geometry.turtle.shapes import Outline, RoundShape, Writing, collected_labels, collected_shapes
-from lsys_kit.geometry.turtle.turtle import Turtle
+from lsys_kit.geometry.turtle.commands import Instruction, initial_step
+from lsys_kit.geometry.turtle.interpreter import COMMON_HANDLERS, FRACTINT_HANDLERS, Handler, run_turtle
+from lsys_kit.geometry.turtle.turtle import Outline, RoundShape, Turtle, Writing, collected_labels, collected_shapes
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 
 

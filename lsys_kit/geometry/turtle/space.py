@@ -6,6 +6,12 @@ book turn the wrong way if H, L and U are read as columns; here commands do what
 
 In the picture x grows to the right, z upwards and y away from the viewer. The turtle starts at the origin with H upwards.
 ABOP's turtle has L to the left and U towards the viewer, GROGRA's L to the right and U away from the viewer.
+
+It also spans generalised cylinders and patches between points that it has passed. The axis of a generalised cylinder is a curve
+through control points: between two of them a cubic Hermite curve, whose tangents have the directions of the turtle's headings
+there, and are 1.2 times as long as the points are apart. It is drawn as a row of strokes whose width changes evenly; as they
+follow one another, they become one tube, whose round cross sections are carried along it without twist. The control points of a
+patch are those at which the turtle is told so (R. Mech and P. Prusinkiewicz, CPFG user's manual).
 """
 
 from __future__ import annotations
@@ -13,35 +19,201 @@ from __future__ import annotations
 import math
 from array import array
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from lsys_kit.budget import check_budget
+from lsys_kit.budget import check_budget, check_bytes
 from lsys_kit.derivation.core.words import Word
-from lsys_kit.geometry.scene import Floats, Scene, Segments
-from lsys_kit.geometry.turtle.commands.instructions import Instruction
-from lsys_kit.geometry.turtle.commands.mode import in_plane
-from lsys_kit.geometry.turtle.commands.table import WIDTH, initial_step
-from lsys_kit.geometry.turtle.curves import CURVE_HANDLERS
-from lsys_kit.geometry.turtle.fractint import FRACTINT_HANDLERS
-from lsys_kit.geometry.turtle.frames import (
-    TurtleFrame,
-    Vector,
-    combined,
-    cos_sin,
-    cross,
-    initial_frame,
-    next_frame,
-    rotated_towards,
-    unit,
-)
-from lsys_kit.geometry.turtle.handlers import COMMON_HANDLERS, Handler
-from lsys_kit.geometry.turtle.interpreter import run_turtle
-from lsys_kit.geometry.turtle.shapes import Outline, collected_labels, collected_shapes
-from lsys_kit.geometry.turtle.surfaces import Surface
-from lsys_kit.geometry.turtle.turtle import Turtle
+from lsys_kit.geometry.scene import OWN, Floats, Scene, Segments
+from lsys_kit.geometry.turtle.commands import WIDTH, Instruction, in_plane, initial_step
+from lsys_kit.geometry.turtle.interpreter import COMMON_HANDLERS, FRACTINT_HANDLERS, Handler, run_turtle
+from lsys_kit.geometry.turtle.surfaces import Surface, patch_grid
+from lsys_kit.geometry.turtle.turtle import Outline, Turtle, collected_labels, collected_shapes
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
+
+Vector: TypeAlias = tuple[float, float, float]
+TurtleFrame: TypeAlias = tuple[Vector, Vector, Vector, int]
+"""H, L, U, and the number of rotations since they were last made orthonormal."""
+
+RENORMALISATION_INTERVAL = 1_000
+"""The number of rotations after which a frame is made orthonormal again; until then its error is 1e-13 at most."""
+
+
+def combined(frame: TurtleFrame, vector: Vector) -> Vector:
+    """A vector that is given in a frame."""
+    (hx, hy, hz), (lx, ly, lz), (ux, uy, uz), _ = frame
+    ahead, left, up = vector
+    return ahead * hx + left * lx + up * ux, ahead * hy + left * ly + up * uy, ahead * hz + left * lz + up * uz
+
+
+def initial_frame(dialect: str, heading: float = 90.0) -> TurtleFrame:
+    """The frame in which the turtle starts; the heading is an angle in the plane of the picture, 90 is up.
+
+    >>> initial_frame("abop")
+    ((0.0, 0.0, 1.0), (-1.0, 0.0, 0.0), (0.0, -1.0, 0.0), 0)
+    """
+    cos, sin = cos_sin(heading)
+    side = TURTLE_DIALECTS[dialect].left
+    head, left = (cos, 0.0, sin), (-side * sin, 0.0, side * cos)
+    return head, left, cross(head, left), 0
+
+
+def cos_sin(degrees: float) -> tuple[float, float]:
+    """Cosine and sine, exact for quarter turns.
+
+    >>> cos_sin(-90)
+    (0.0, -1.0)
+    """
+    quarters, rest = divmod(degrees, 90.0)
+    if rest == 0:
+        return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[int(quarters) % 4]
+    radians = math.radians(math.fmod(degrees, 360.0))
+    return math.cos(radians), math.sin(radians)
+
+
+def cross(a: Vector, b: Vector) -> Vector:
+    """The cross product of two vectors."""
+    (ax, ay, az), (bx, by, bz) = a, b
+    return ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
+
+
+def unit(a: Vector) -> Vector:
+    """The unit vector of the same direction."""
+    length = math.hypot(*a)
+    return a[0] / length, a[1] / length, a[2] / length
+
+
+def rotated_towards(a: Vector, b: Vector, cos: float, sin: float) -> tuple[Vector, Vector]:
+    """Two orthogonal unit vectors after a rotation of the first towards the second."""
+    (ax, ay, az), (bx, by, bz) = a, b
+    return (
+        (cos * ax + sin * bx, cos * ay + sin * by, cos * az + sin * bz),
+        (cos * bx - sin * ax, cos * by - sin * ay, cos * bz - sin * az),
+    )
+
+
+def next_frame(head: Vector, left: Vector, up: Vector, rotations: int) -> TurtleFrame:
+    """The frame after one more rotation, made orthonormal from time to time."""
+    if rotations < RENORMALISATION_INTERVAL:
+        return head, left, up, rotations + 1
+    head = unit(head)
+    up = unit(cross(head, left))
+    return head, cross(up, head), up, 0
+
+
+TANGENT = 1.2
+"""The lengths of tangents, where their points are 1 apart."""
+MOST_PARTS = 100
+"""A curve has so many parts at most, and a patch so many rows and columns of faces."""
+FACE_BYTES = 1_400
+"""About what a face of a patch takes in memory."""
+_ROWS = 4
+
+
+class AxisPoint(NamedTuple):
+    """A control point of the axis of a generalised cylinder: where the turtle is, its heading, and the width of its strokes."""
+
+    place: tuple[float, float, float]
+    heading: tuple[float, float, float]
+    width: float
+
+
+def _here(turtle: Any) -> AxisPoint:
+    return AxisPoint(turtle.position, turtle.orientation[0], turtle.stroke_width)
+
+
+def _begin_cylinder(turtle: Any, _: Instruction) -> None:
+    turtle.axis = _here(turtle)
+
+
+def _continue_cylinder(turtle: Any, instruction: Instruction) -> None:
+    """Draw the cylinder from its last control point to the turtle."""
+    if turtle.axis is None:
+        return
+    before, turtle.axis = turtle.axis, _here(turtle)
+    parts = _bounded_number(instruction.addend)
+    places = [*map(tuple, hermite(before, turtle.axis, parts).tolist()), turtle.position]
+    bare = OWN in (before.width, turtle.axis.width)
+    for number, (start, end) in enumerate(zip([before.place, *places[:-1]], places, strict=True), 1):
+        share = number / parts
+        turtle.stroke(start, end, OWN if bare else (1 - share) * before.width + share * turtle.axis.width)
+
+
+def _end_cylinder(turtle: Any, instruction: Instruction) -> None:
+    _continue_cylinder(turtle, instruction)
+    turtle.axis = None
+
+
+def hermite(start: AxisPoint, end: AxisPoint, parts: int) -> Floats:
+    """The places on a Hermite curve between its ends.
+
+    >>> hermite(AxisPoint((0, 0, 0), (0, 0, 1), 1), AxisPoint((0, 0, 2), (0, 0, 1), 1), 2).tolist()
+    [[0.0, 0.0, 1.0]]
+    """
+    first, last = np.array(start.place), np.array(end.place)
+    reach = TANGENT * float(np.linalg.norm(last - first))
+    t = np.arange(1, parts)[:, None] / parts
+    found: Floats = (
+        (1 + 2 * t) * (1 - t) ** 2 * first
+        + t * (1 - t) ** 2 * reach * np.array(start.heading)
+        + t**2 * (3 - 2 * t) * last
+        - t**2 * (1 - t) * reach * np.array(end.heading)
+    )
+    return found
+
+
+def _bounded_number(value: float) -> int:
+    return max(1, min(MOST_PARTS, math.floor(value + 0.5)))
+
+
+def _begin_patch(turtle: Any, instruction: Instruction) -> None:
+    turtle.patches[_number_of(instruction)] = {}
+
+
+def _set_control_point(turtle: Any, instruction: Instruction) -> None:
+    """Take the position of the turtle as the control point of a row and a column."""
+    number, row, column, *_ = (*instruction.values, 0.0, 0.0, 0.0)
+    if number in turtle.patches:
+        turtle.patches[number][row, column] = turtle.position
+
+
+def _draw_patch(turtle: Any, instruction: Instruction) -> None:
+    """Draw a patch whose sixteen control points are known; rows and columns count from 0 or from 1."""
+    points = turtle.patches.get(_number_of(instruction), {})
+    rows, columns = (sorted({place[which] for place in points}) for which in (0, 1))
+    if len(points) != _ROWS**2 or len(rows) != _ROWS or len(columns) != _ROWS:
+        turtle.unknown[instruction.symbol] = None
+        return
+    check_bytes(FACE_BYTES * len(turtle.outlines), lambda: "The patches were not drawn")
+    check_budget()
+    control = np.array([[points[row, column] for column in columns] for row in rows])
+    along, across = (_bounded_number(value) for value in (*instruction.values[1:3], *[PATCH_FACES] * 2)[:2])
+    grids = [grid.tolist() for grid in patch_grid(control, along, across)]
+    for i, j in np.ndindex(along, across):
+        places = ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1))
+        corners, normals = ([tuple(grid[a][b]) for a, b in places] for grid in grids)
+        turtle.outlines.append(Outline(corners, turtle.state, turtle.colour, normals))
+
+
+PATCH_FACES = 5
+"""A patch has so many rows and columns of faces, where no number says otherwise."""
+
+
+def _number_of(instruction: Instruction) -> float:
+    return instruction.values[0] if instruction.values else 0.0
+
+
+CURVE_HANDLERS: Mapping[str, Handler] = {
+    "begin cylinder": _begin_cylinder,
+    "continue cylinder": _continue_cylinder,
+    "end cylinder": _end_cylinder,
+    "begin patch": _begin_patch,
+    "set control point": _set_control_point,
+    "draw patch": _draw_patch,
+}
+"""The handlers, by action."""
+
 
 _NEGLIGIBLE = 1e-12
 """Smaller sines are taken for 0."""

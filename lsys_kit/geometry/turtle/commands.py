@@ -1,4 +1,4 @@
-"""What each symbol tells the turtle, in each dialect of turtle commands, side by side.
+"""What each symbol tells the turtle, in each dialect of turtle commands, side by side; and what follows from it.
 
 ABOP's commands are those of The Algorithmic Beauty of Plants, appendix C, and of cpfg, which follows it, with a few of L-Py,
 which follows both; GROGRA's are those of W. Kurth's lecture slides; those of plant strings are the applet's; Fractint's are
@@ -6,21 +6,119 @@ those of its documentation. The dialects agree on most symbols and differ on som
 left appears as a turn to the right, because its turtle shows the picture its other side; in plant strings round brackets are
 branches; Fractint's turtle has two headings, one that `+` and `-` turn by the angle, and another that `\\` and `/` turn by
 degrees. A symbol that is in no column tells the turtle nothing.
+
+Whatever depends on the kind of a command follows from the table of actions: whether a system stays in the plane, whether copies
+of a part may be instanced, and which symbols of a word leave something to be seen. An action that is not declared instanceable
+is always drawn module by module, which is slower but never wrong.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from enum import Enum, Flag, auto
 from functools import cache, partial
 from typing import Literal, NamedTuple
 
+from lsys_kit.budget import INTERVAL, counted
+from lsys_kit.derivation.core.interpretation import is_filament
+from lsys_kit.errors import ModelValueError
 from lsys_kit.geometry.scene import OWN
-from lsys_kit.geometry.turtle.commands.actions import ACTIONS, Effect
-from lsys_kit.notation.model.modules import Pattern
+from lsys_kit.notation.model.arithmetic import Value
+from lsys_kit.notation.model.expressions import Number
+from lsys_kit.notation.model.modules import Module, Pattern
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
+from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS, TurtleDialect
+
+
+class Effect(Flag):
+    """What an action does.
+
+    Attributes
+    ----------
+    VISIBLE
+        It leaves something to be seen: a stroke, a shape, or the gap of a step forward.
+    MOVES
+        It changes the position of the turtle.
+    TURNS
+        It changes the orientation of the turtle.
+    LEAVES_PLANE
+        It may lead out of the plane of the picture.
+    INSTANCEABLE
+        What it does depends only on what the turtle carries (its step, width, colour and the like), and is moved and rotated
+        with the turtle. So a copy of a part with such actions can be placed anywhere.
+    OPENS, CLOSES
+        It saves the state of the turtle at the beginning of a branch, or restores it at the end.
+    """
+
+    VISIBLE = auto()
+    MOVES = auto()
+    TURNS = auto()
+    LEAVES_PLANE = auto()
+    INSTANCEABLE = auto()
+    OPENS = auto()
+    CLOSES = auto()
+
+
+_VISIBLE, _MOVES, _TURNS, _LEAVES_PLANE, _INSTANCEABLE, _OPENS, _CLOSES = Effect
+_NOTHING = Effect(0)
+
+ACTIONS: Mapping[str, Effect] = {
+    "draw": _VISIBLE | _MOVES | _INSTANCEABLE,
+    "move": _VISIBLE | _MOVES | _INSTANCEABLE,
+    "draw without vertex": _VISIBLE | _MOVES | _INSTANCEABLE,
+    "move without vertex": _VISIBLE | _MOVES | _INSTANCEABLE,
+    "set position": _MOVES | _LEAVES_PLANE,
+    "return to stroke": _MOVES,
+    "draw by second heading": _VISIBLE | _MOVES,
+    "move by second heading": _VISIBLE | _MOVES,
+    "turn": _TURNS | _INSTANCEABLE,
+    "turn by mirrored angle": _TURNS | _INSTANCEABLE,
+    "turn back": _TURNS | _INSTANCEABLE,
+    "mirror turns": _INSTANCEABLE,
+    "turn second heading": _INSTANCEABLE,
+    "pitch": _TURNS | _LEAVES_PLANE | _INSTANCEABLE,
+    "roll": _TURNS | _LEAVES_PLANE | _INSTANCEABLE,
+    "level": _TURNS | _LEAVES_PLANE,
+    "gravitropism": _TURNS | _LEAVES_PLANE,
+    "set tropism": _LEAVES_PLANE,
+    "set heading": _TURNS | _LEAVES_PLANE,
+    "set length": _INSTANCEABLE,
+    "reset length": _INSTANCEABLE,
+    "set length once": _INSTANCEABLE,
+    "set width": _INSTANCEABLE,
+    "reset width": _INSTANCEABLE,
+    "set width once": _INSTANCEABLE,
+    "set scale": _INSTANCEABLE,
+    "set colour": _INSTANCEABLE,
+    "step colour": _INSTANCEABLE,
+    "reset colour": _INSTANCEABLE,
+    "set palette colour": _INSTANCEABLE,
+    "set gravitropism": _INSTANCEABLE,
+    "reset gravitropism": _INSTANCEABLE,
+    "set gravitropism once": _INSTANCEABLE,
+    "push": _OPENS | _INSTANCEABLE,
+    "pop": _CLOSES | _MOVES | _TURNS | _INSTANCEABLE,
+    "begin polygon": _NOTHING,
+    "record vertex": _NOTHING,
+    "end polygon": _VISIBLE,
+    "expect surface": _NOTHING,
+    "draw expected surface": _VISIBLE,
+    "draw surface": _VISIBLE | _INSTANCEABLE,
+    "draw circle": _VISIBLE | _INSTANCEABLE,
+    "draw disc": _VISIBLE | _INSTANCEABLE,
+    "draw sphere": _VISIBLE | _INSTANCEABLE,
+    "draw box": _VISIBLE | _INSTANCEABLE,
+    "draw label": _VISIBLE,
+    "begin cylinder": _LEAVES_PLANE,
+    "continue cylinder": _VISIBLE | _LEAVES_PLANE,
+    "end cylinder": _VISIBLE | _LEAVES_PLANE,
+    "begin patch": _LEAVES_PLANE,
+    "set control point": _LEAVES_PLANE,
+    "draw patch": _VISIBLE | _LEAVES_PLANE,
+}
+"""What each action does."""
 
 
 @dataclass(frozen=True)
@@ -255,3 +353,193 @@ def symbols_with(effect: Effect, turtle: str) -> frozenset[str]:
     return frozenset(
         symbol for symbol, commands in COMMANDS[turtle].items() if any(effect in command.effects for command in commands)
     )
+
+
+LARGEST = 1e50
+"""The turtle draws no greater number than this."""
+
+
+class Instruction(NamedTuple):
+    """A command with its numbers: the amount is factor * quantity + addend.
+
+    Attributes
+    ----------
+    action, factor, addend
+        As of `Command`, with the argument taken in.
+    values
+        All arguments.
+    symbol, surface
+        The symbol of the command, and the surface that is drawn.
+    """
+
+    action: str
+    factor: float
+    addend: float
+    values: tuple[float, ...] = ()
+    symbol: str = ""
+    surface: str = ""
+
+
+_EXPECTED_SURFACE = (Command("draw expected surface"),)
+"""Draw the surface named by the symbol, if a tilde stands before it."""
+
+
+def instructions(drawn: Mapping[int, Sequence[Module]], dialect: str, angle: Value = 90) -> dict[int, list[Instruction]]:
+    """The instructions for each state, given the modules that it is drawn as, and the angle of the system.
+
+    Raises
+    ------
+    ModelValueError
+        An argument is too large to draw, or symbolic.
+
+    Examples
+    --------
+    >>> compiled = instructions({0: (Module("F", (2,)), Module("-")), 1: (Module("A"),)}, "abop")
+    >>> {state: [(each.action, each.factor, each.addend) for each in found] for state, found in compiled.items()}
+    {0: [('draw', 0.0, 2.0), ('turn', -1.0, 0.0)], 1: []}
+    """
+    table, symbols = COMMANDS[dialect], {module.symbol for image in counted(drawn.values()) for module in image}
+    called = _EXPECTED_SURFACE if "~" in symbols & table.keys() else ()
+    commands = {symbol: (*(called if symbol != "~" else ()), *table.get(symbol, ())) for symbol in symbols}
+    return {
+        state: [_instruction(command, module, angle) for module in _counted(image) for command in commands[module.symbol]]
+        for state, image in counted(drawn.items())
+    }
+
+
+def _counted(image: Sequence[Module]) -> Iterable[Module]:
+    """The modules that a state is drawn as, with looks at the budget where they are many."""
+    return counted(image) if len(image) > INTERVAL else image
+
+
+def _instruction(command: Command, module: Module, angle: Value) -> Instruction:
+    """A command with the arguments of a module taken in."""
+    values = values_of(module) if command.argument else ()
+    action, factor, addend = command.action, command.factor, command.addend
+    if action == "turn back":
+        factor, addend = _turn_back(angle)
+    elif not values:
+        action = command.bare or action
+    elif command.argument == "all":
+        factor, addend = 0.0, math.copysign(1.0, factor) * values[0]
+    elif command.argument in ("more", "less"):
+        factor, addend = 1.0, values[0] if command.argument == "more" else -values[0]
+    else:
+        factor, addend = _multiple(command.argument, values[0]), 0.0
+    return Instruction(action, factor, addend, values, module.symbol, command.surface)
+
+
+def _turn_back(angle: Value) -> tuple[float, float]:
+    """How Fractint turns round, as a factor of the angle and further degrees: by 180 degrees if the angle divides them, else to
+    the right by the greatest multiple of the angle that is less.
+
+    >>> _turn_back(60), _turn_back(72)
+    ((0.0, 180.0), (-2.0, 0.0))
+    """
+    turns = 180 / angle if angle else 0
+    return (0.0, 180.0) if turns == math.floor(turns) else (-float(math.floor(turns)), 0.0)
+
+
+def _multiple(argument: str, value: float) -> float:
+    """By what a quantity is multiplied, given what the argument stands for; roots and inverses of what is not positive are 0.
+
+    >>> _multiple("times", 3), _multiple("inverse", 4), _multiple("root", 4), _multiple("inverse root", 4)
+    (3, 0.25, 2.0, 0.5)
+    """
+    if argument == "times":
+        return value
+    root = math.sqrt(max(value, 0.0)) if argument.endswith("root") else max(value, 0.0)
+    return 1 / root if argument.startswith("inverse") and root else root
+
+
+def values_of(module: Module) -> tuple[float, ...]:
+    """The arguments of a module as doubles.
+
+    Raises
+    ------
+    ModelValueError
+        An argument is too large to draw, or symbolic.
+    """
+    if not module.arguments:
+        return ()
+    try:
+        values = tuple(map(float, module.arguments))
+    except (TypeError, OverflowError):
+        values = (math.nan,)
+    for value in values:
+        if not -LARGEST <= value <= LARGEST:
+            raise ModelValueError(f"{module} cannot be drawn: a value is too large to draw, or symbolic")
+    return values
+
+
+def unknown_commands(drawn: Mapping[int, Sequence[Module]], system: LSystem) -> tuple[str, ...]:
+    """The symbols without a meaning that look like commands: signs, and commands of another dialect.
+
+    Letters without a meaning are normal, and so are symbols that productions rewrite: they are apices, buds and signals.
+
+    >>> unknown_commands({0: [Module(symbol) for symbol in ("F", "#", "A", "RH", "=")]}, LSystem((), ()))
+    ('RH', '=')
+    """
+    known = {module.symbol for rule in (*system.productions, *system.decomposition) for module in rule.predecessors}
+    known |= COMMANDS[system.turtle].keys()
+    met = dict.fromkeys(module.symbol for image in counted(drawn.values()) for module in image)
+    return tuple(
+        symbol for symbol in met if symbol not in known and _looks_like_a_command(symbol, TURTLE_DIALECTS[system.turtle])
+    )
+
+
+def _looks_like_a_command(symbol: str, dialect: TurtleDialect) -> bool:
+    sign = not (dialect.any_sign or symbol[0].isalnum() or symbol[0] == "_")
+    return sign or (len(symbol) > 1 and any(symbol in column for column in COMMANDS.values()))
+
+
+class DrawingMode(Enum):
+    """How the words of a system are drawn.
+
+    Attributes
+    ----------
+    FILAMENT
+        As cells in a row; the words of a derivation form a developmental sequence.
+    PLANE
+        By a turtle that stays in the plane of the picture.
+    SPACE
+        By a turtle in space, whose drawing can be seen from any side.
+    """
+
+    FILAMENT = auto()
+    PLANE = auto()
+    SPACE = auto()
+
+
+def drawing_mode(system: LSystem) -> DrawingMode:
+    """How the words of a system are drawn.
+
+    >>> from lsys_kit.notation.read import read
+    >>> drawing_mode(read("axiom: a\\ninterpretation:\\na -> R(2,1)")).name
+    'FILAMENT'
+    >>> drawing_mode(read("axiom: F[+F]F")).name, drawing_mode(read("axiom: F[&F]F")).name
+    ('PLANE', 'SPACE')
+    """
+    if is_filament(system):
+        return DrawingMode.FILAMENT
+    return DrawingMode.PLANE if in_plane(system) else DrawingMode.SPACE
+
+
+def in_plane(system: LSystem) -> bool:
+    """Whether the turtle stays in the plane of the picture, however long a system develops.
+
+    A roll by half a turn stays there: left and right change places.
+
+    >>> from lsys_kit.notation.read import read
+    >>> in_plane(read("axiom: F[+F]/(180)F")), in_plane(read("axiom: F[+F]/(90)F"))
+    (True, False)
+    """
+    return all(_stays_in_plane(command, module) for command, module in commands_of(system))
+
+
+def _stays_in_plane(command: Command, module: Pattern) -> bool:
+    """Whether a command stays in the plane, with the argument that a module gives it."""
+    if command.action == "roll" and module.arguments:
+        argument = module.arguments[0]
+        return isinstance(argument, Number) and argument.value % 180 == 0
+    return Effect.LEAVES_PLANE not in command.effects

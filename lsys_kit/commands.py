@@ -1,25 +1,137 @@
-"""The commands about a model: its words, pictures, notations and pages."""
+"""What the commands of the shell do: about a model, for a class, and about the course.
+
+A command runs in a process of its own with hard limits: what its budget cannot see ends all the same. A command about one model
+has time and memory. What works on a folder of them has memory alone: each piece has its own time. The laboratory runs other
+programs for as long as they are wanted, and has neither.
+"""
 
 from __future__ import annotations
 
 import argparse
+import importlib.util
 import json
+import os
+import signal
 import sys
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from dataclasses import replace
+from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from types import FrameType
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 from lsys_kit.budget import Task, check_bytes, counted, current, limits, processor_time
-from lsys_kit.commands.named_systems import named_system, system_or_cells, system_with_constants
-from lsys_kit.errors import ModelFileError, ModelLimitError, ModelNameError, ModelValueError, quotable
-from lsys_kit.files import create_file, file_stem
+from lsys_kit.errors import LSystemError, ModelFileError, ModelLimitError, ModelNameError, ModelValueError, quotable
+from lsys_kit.files import create_file, decoded, file_stem
 
 if TYPE_CHECKING:
     from lsys_kit.derivation.derive import Derivation
+    from lsys_kit.notation.model.cellworks import CellworkSystem
+    from lsys_kit.notation.model.maps import MapSystem
     from lsys_kit.notation.model.system import LSystem
     from lsys_kit.pictures.draw import AnyPicture
     from lsys_kit.pictures.formats.film import Film
+
+
+MOST_NEIGHBOURS = 1_000
+"""How many files beside a missing one are searched for a similar name."""
+
+
+def system_with_constants(options: argparse.Namespace) -> LSystem:
+    """The system that the command line names, with its constants set."""
+    from lsys_kit.derivation.core.rules import constants_of, number_from
+    from lsys_kit.notation.model.expressions import Number
+
+    system, values = named_system(options.system, options.notation, options.name), dict(options.settings)
+    constants_of(system, values)
+    return replace(
+        system,
+        constants=tuple(
+            replace(constant, value=Number(number_from(values[constant.name]))) if constant.name in values else constant
+            for constant in system.constants
+        ),
+    )
+
+
+def system_or_cells(options: argparse.Namespace) -> LSystem | MapSystem | CellworkSystem:
+    """The system that the command line names, or the map or cellwork system of the catalogue."""
+    from lsys_kit.classroom.catalogue import cellwork_system, is_cellwork_system, is_map_system, map_system
+
+    if is_cellwork_system(options.system):
+        return cellwork_system(options.system)
+    return (
+        map_system(options.system)
+        if is_map_system(options.system)
+        else named_system(options.system, options.notation, options.name)
+    )
+
+
+def named_system(name: str, notation: str | None, entry: str | None) -> LSystem:
+    """The system of a link, or of the catalogue with this id or name; else that in the file of this name, or an entry."""
+    from lsys_kit.classroom.catalogue import system
+    from lsys_kit.notation.fragments import is_link
+    from lsys_kit.notation.read import read
+    from lsys_kit.notation.write import write
+
+    if name == "-":
+        return read(_decoded(sys.stdin.buffer, "the standard input"), notation, entry)
+    if is_link(name):
+        return read(name, notation, entry)
+    try:
+        found = system(name)
+    except ModelNameError:
+        return _system_in(name, notation, entry)
+    if entry is not None:
+        raise ModelValueError(f"{name} is one system of the catalogue", hint="Leave out --name.")
+    if notation is not None:
+        write(found, notation)  # raises an error that says what the notation lacks
+        return replace(found, notation=notation)
+    return found
+
+
+def _system_in(name: str, notation: str | None, entry: str | None) -> LSystem:
+    """The system in a file; where none can be read, the file's name may hint at another format."""
+    from lsys_kit.notation.foreign import name_hint
+    from lsys_kit.notation.read import read
+
+    text = _file(name)
+    try:
+        return read(text, notation, entry)
+    except LSystemError as error:
+        hint = name_hint(name)
+        if hint and "which the kit does not read" not in error.message:
+            error.with_hint(f"{error.hint or ''} {hint}".strip())
+        raise
+
+
+def _file(name: str) -> str:
+    """The text of a model file."""
+    try:
+        with Path(name).open("rb") as file:
+            return _decoded(file, f'"{quotable(name)}"')
+    except FileNotFoundError:
+        raise ModelFileError(
+            f'There is no file "{quotable(name)}", and no system of that name in the catalogue', hint=_likely_name(name)
+        ) from None
+    except (OSError, ValueError) as fault:
+        raise ModelFileError(f'"{quotable(name)}" cannot be read: {getattr(fault, "strerror", None) or fault}') from None
+
+
+def _decoded(file: BinaryIO, name: str) -> str:
+    """The text of a file, up to a little more than a model may have."""
+    most = 4 * current().text + 4
+    return decoded(file.read(most), name, most)
+
+
+def _likely_name(name: str) -> str:
+    """A hint at what was probably meant: a file in the same folder, or a system of the catalogue."""
+    from lsys_kit.classroom.catalogue import likely_system, systems
+
+    folder = Path(name).parent
+    beside = [str(path) for path in islice(folder.iterdir(), MOST_NEIGHBOURS)] if folder.is_dir() else []
+    return likely_system(name, beside) or f"Catalogue ids are {', '.join(systems())}."
+
 
 _BASE = 'Give one with --base: where the page of this model stands that "lsys-kit page" makes.'
 BITS_A_DIGIT = 3
@@ -267,3 +379,158 @@ def _keep(text: str, name: str) -> None:
         ) from None
     except (OSError, ValueError) as fault:
         raise ModelFileError(f'"{quotable(name)}" cannot be written: {getattr(fault, "strerror", None) or fault}') from None
+
+
+def collect_marks(options: argparse.Namespace) -> None:
+    """Write the marks of a class as a table."""
+    from lsys_kit.classroom.exercises.collecting.collect import collect, marks_table
+
+    if os.path.lexists(options.output):
+        raise _exists(options.output)
+    marks = collect(options.folder, options.exercises)
+    try:
+        create_file(Path(options.output), marks_table(marks).encode())
+    except FileExistsError:
+        raise _exists(options.output) from None
+    except (OSError, ValueError) as fault:
+        raise ModelFileError(
+            f'"{quotable(options.output)}" cannot be written: {getattr(fault, "strerror", None) or fault}'
+        ) from None
+    unread = sum(not each.scores for each in marks)
+    print(
+        f"{len(marks)} students in {quotable(options.output)}, {unread} without an answer. A check is no examination: the "
+        "answers come with the kit."
+    )
+
+
+def write_wall(options: argparse.Namespace) -> None:
+    """Write a page with the plants of a class."""
+    from lsys_kit.classroom.panel.page import save_page
+    from lsys_kit.classroom.wall import wall, wall_page
+
+    tiles = wall(options.folder)
+    save_page(options.output, wall_page(options.title or Path(options.folder).resolve().name, tiles))
+    missing = sum(bool(tile.mistake) for tile in tiles)
+    print(f"{len(tiles)} plants, {missing} of which cannot be drawn. Open {quotable(options.output)} in a browser.")
+
+
+def _exists(name: str) -> ModelFileError:
+    return ModelFileError(f'"{quotable(name)}" already exists', hint="Files are never overwritten: choose another name.")
+
+
+def check_exercises(options: argparse.Namespace) -> None:
+    """Print what is wrong with the exercises in a folder."""
+    from lsys_kit.classroom.exercises.declared.declarations import QUESTIONS
+    from lsys_kit.classroom.exercises.lint import problems_in
+
+    problems = problems_in(options.folder or QUESTIONS)
+    for problem in problems:
+        print(problem)
+    if problems:
+        raise ModelFileError(
+            f"{len(problems)} mistake{'s' * (len(problems) > 1)} in the exercises",
+            hint="Each line above says where one is and what to try.",
+        )
+    print("No mistakes.")
+
+
+def write_exercises(options: argparse.Namespace) -> None:
+    """Write the notebooks of the exercises in a folder."""
+    from lsys_kit.classroom.exercises.notebooks import write_notebooks
+
+    for path in write_notebooks(options.output, options.folder):
+        print(path)
+
+
+def write_package(options: argparse.Namespace) -> None:
+    """Write exercises as a package for a learning platform."""
+    from lsys_kit.classroom.scorm import package
+
+    for line in package.report(*package.write_package(options.what_exercises, options.output)):
+        print(line)
+
+
+def write_site(options: argparse.Namespace) -> None:
+    """Write the course as static pages."""
+    from lsys_kit.classroom.site.build import build_site
+
+    pages = build_site(options.output)
+    print(f"{len(pages)} pages are written. Open {quotable(str(pages[0]))} in a browser.")
+
+
+def open_lab(options: argparse.Namespace) -> None:
+    """Copy the course and open it in JupyterLab."""
+    from lsys_kit.classroom.course import FOLDER, copy_course, copy_report
+
+    folder = Path(options.folder or FOLDER)
+    copied = copy_course(folder)
+    print(copy_report(folder, copied), flush=True)
+    if importlib.util.find_spec("jupyterlab") is None:
+        raise LSystemError("JupyterLab is not installed", hint="Install it with: pip install 'lsys-kit[lab]'")
+    from jupyterlab.labapp import LabApp
+
+    # In a container everybody is root; the server answers this machine alone, and asks for its token.
+    LabApp.launch_instance(
+        [
+            "--ServerApp.allow_root=True",
+            f"--ServerApp.root_dir={folder.resolve()}",
+            f"--LabApp.default_url=/lab/tree/{copied[0].name}",
+        ]
+    )
+
+
+SECONDS, BYTES = 12, 8
+"""These multiples of the kit's own limits: a command has several tasks, and libraries take memory to begin with."""
+MERCY = 30
+"""So many seconds of the processor after it was told so a process is ended that goes on."""
+LASTING, UNLIMITED = frozenset({"site", "collect", "wall", "exercises"}), frozenset({"lab"})
+"""The commands that have as much time as they need, and those that have memory, too."""
+
+
+class UsedUp(BaseException):
+    """The process has had its time; nothing takes this for an error of its own."""
+
+
+def set_hard_limits(command: str) -> None:
+    """Limit the processor time and the memory of this process, where the platform can, for a command.
+
+    Raises
+    ------
+    UsedUp
+        At any time later, from the time on that is the limit.
+    """
+    try:
+        import resource
+    except ImportError:  # as on Windows, and in a browser
+        return
+    if command not in UNLIMITED:
+        _lower(resource.RLIMIT_DATA, most_bytes())
+    if command not in LASTING | UNLIMITED:
+        signal.signal(signal.SIGXCPU, _refuse)
+        _lower(resource.RLIMIT_CPU, most_seconds(), MERCY)
+
+
+def most_seconds() -> int:
+    """The seconds of the processor that a command may take."""
+    return round(SECONDS * current().seconds)
+
+
+def most_bytes() -> int:
+    """The bytes that a command may take."""
+    return BYTES * current().bytes
+
+
+def _lower(kind: int, most: int, more: int = 0) -> None:
+    """Set a limit, unless a lower one is set already; from `more` beyond it on, there is no mercy."""
+    import resource
+
+    soft, hard = (
+        new if old == resource.RLIM_INFINITY else min(new, old)
+        for new, old in zip((most, most + more), resource.getrlimit(kind), strict=True)
+    )
+    with suppress(OSError, ValueError):  # a platform may have no such limit
+        resource.setrlimit(kind, (soft, hard))
+
+
+def _refuse(_: int, __: FrameType | None) -> None:
+    raise UsedUp
