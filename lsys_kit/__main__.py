@@ -67,7 +67,6 @@ def _carried_out(arguments: Sequence[str], prepare: Callable[[str], None]) -> in
 
 
 def _refused(message: str) -> int:
-    """Say what is wrong."""
     print(f"lsys-kit: {message}", file=sys.stderr)
     return BAD_INPUT
 
@@ -189,7 +188,6 @@ def _argument_parser() -> argparse.ArgumentParser:
 
 
 def _add_class(collect: argparse.ArgumentParser, wall: argparse.ArgumentParser) -> None:
-    """The options of the commands for a class."""
     collect.add_argument("folder", metavar="FOLDER", help="notebooks, one for each student, or a folder for each student")
     collect.add_argument("-o", "--output", required=True, metavar="FILE", help="a new file of comma-separated values (.csv)")
     collect.add_argument("--exercises", metavar="FOLDER", help="a folder with exercises of your own, which are known as well")
@@ -199,7 +197,6 @@ def _add_class(collect: argparse.ArgumentParser, wall: argparse.ArgumentParser) 
 
 
 def _add_exercises(parser: argparse.ArgumentParser) -> None:
-    """What may be done with exercises."""
     parts = parser.add_subparsers(required=True, metavar="WHAT", dest="what")
     text = "Say what is wrong with the exercises in a folder: in which file and line, and what to try."
     check = parts.add_parser("check", help=text, description=text, allow_abbrev=False)
@@ -219,13 +216,11 @@ def _add_exercises(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_film(parser: argparse.ArgumentParser) -> None:
-    """Options of films, and of pictures of pixels."""
     parser.add_argument("--seconds", help="how long a film shows each step (default: 0.6; on a turntable 0.1)")
     parser.add_argument("--dpi", help="the dots per inch of a .png picture (default: 96)")
 
 
 def _add_unfold(parser: argparse.ArgumentParser) -> None:
-    """The option that says which stages of a diagram are shown one by one."""
     parser.add_argument(
         "--unfold",
         nargs="?",
@@ -238,7 +233,6 @@ def _add_unfold(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_system(parser: argparse.ArgumentParser, steps_needed: bool, several_steps: bool = False) -> None:
-    """The options that say which system, and up to which step."""
     _add_model(parser)
     kind, more = (_step_counts, "; several, as in 4,6,8, are drawn side by side") if several_steps else (_step_count, "")
     parser.add_argument("-n", "--steps", type=kind, required=steps_needed, metavar="N", help=f"the number of steps{more}")
@@ -248,7 +242,6 @@ def _add_system(parser: argparse.ArgumentParser, steps_needed: bool, several_ste
 
 
 def _add_looks(parser: argparse.ArgumentParser) -> None:
-    """The options that say how a picture looks."""
     parser.add_argument("--labels", action=argparse.BooleanOptionalAction, help="whether names and steps are written")
     parser.add_argument(
         "--colours", type=_colours, metavar="KIND", help="natural, symbols, or colours of symbols, as in A=seagreen,B=#cc79a7"
@@ -260,7 +253,6 @@ def _add_looks(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_model(parser: argparse.ArgumentParser) -> None:
-    """The options that say which system, with which constants."""
     parser.add_argument(
         "system",
         metavar="SYSTEM",
@@ -290,7 +282,6 @@ def _add_model(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_conversion(parser: argparse.ArgumentParser) -> None:
-    """The options that say what is converted, and to what."""
     parser.add_argument("system", metavar="FILE", help="a model, - for standard input, or an id or name in the catalogue")
     parser.add_argument("--to", required=True, metavar="NOTATION", help="the notation to be printed")
     parser.add_argument("--from", dest="notation", metavar="NOTATION", help="the notation of FILE (default: it is recognised)")
@@ -300,7 +291,6 @@ def _add_conversion(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_link(parser: argparse.ArgumentParser) -> None:
-    """The options that say what goes into a link, and what comes before it."""
     _add_model(parser)
     parser.add_argument("-n", "--steps", type=_step_count, metavar="N", help="the step that is to be seen")
     parser.add_argument("--angle", metavar="DEGREES", help="the angle by which + and - turn")
@@ -323,7 +313,6 @@ def _spread(arguments: Sequence[str]) -> Iterator[str]:
 
 
 def _step_count(text: str) -> int:
-    """A whole number, 0 or greater."""
     if not (text.isascii() and text.isdigit() and len(text) < 20 and int(text) <= MOST_STEPS):
         raise argparse.ArgumentTypeError(f'the number of steps must be a whole number, 0 or greater, not "{text[:40]}"')
     return int(text)
@@ -336,7 +325,6 @@ def _step_counts(text: str) -> int | list[int]:
 
 
 def _numbers(text: str) -> list[int]:
-    """Whole numbers with commas between them."""
     try:
         return [int(each[:20]) for each in text.split(",")]
     except ValueError:
@@ -344,7 +332,6 @@ def _numbers(text: str) -> list[int]:
 
 
 def _symbols(text: str) -> list[str]:
-    """Symbols with commas between them."""
     return text.split(",")
 
 
@@ -358,7 +345,6 @@ def _colours(text: str) -> str | dict[str, str]:
 
 
 def _constant_setting(text: str) -> tuple[str, str]:
-    """The name and the value of a constant."""
     name, equals, value = text.partition("=")
     if not (equals and name.strip() and value.strip()):
         raise argparse.ArgumentTypeError(f'"{text[:40]}" is not NAME=VALUE, as in dt=14/10')
@@ -366,7 +352,6 @@ def _constant_setting(text: str) -> tuple[str, str]:
 
 
 def _seed(text: str) -> int:
-    """A whole number."""
     if re.fullmatch(r"-?[0-9]{1,19}", text):
         return int(text)
     raise argparse.ArgumentTypeError(f'the seed must be a whole number, not "{text[:40]}"')

@@ -107,7 +107,6 @@ class Block:
 
 
 def _runs(wanted: FrameType) -> bool:
-    """Whether a frame is at work, in this thread or in another."""
     return _calls(wanted, sys._getframe(1)) or any(_calls(wanted, top) for top in sys._current_frames().values())
 
 

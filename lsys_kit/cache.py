@@ -42,7 +42,6 @@ class Cache(Generic[_K, _V]):
         return iter(self._found)
 
     def get(self, key: _K) -> _V | None:
-        """A result, or None."""
         found = self._found.pop(key, None)
         if found is not None:
             self._found[key] = found  # the last one in a dictionary was used last
@@ -54,7 +53,6 @@ class Cache(Generic[_K, _V]):
         return self.put(key, make()) if known is None else known
 
     def put(self, key: _K, result: _V) -> _V:
-        """Keep a result."""
         if key in self._found:
             self._bytes -= self._size(self._found.pop(key))
         self._found[key] = result

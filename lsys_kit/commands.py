@@ -39,7 +39,6 @@ MOST_NEIGHBOURS = 1_000
 
 
 def system_with_constants(options: argparse.Namespace) -> LSystem:
-    """The system that the command line names, with its constants set."""
     from lsys_kit.derivation.core.rules import constants_of, number_from
     from lsys_kit.notation.model.expressions import Number
 
@@ -106,7 +105,6 @@ def _system_in(name: str, notation: str | None, entry: str | None) -> LSystem:
 
 
 def _file(name: str) -> str:
-    """The text of a model file."""
     try:
         with Path(name).open("rb") as file:
             return _decoded(file, f'"{quotable(name)}"')
@@ -125,7 +123,6 @@ def _decoded(file: BinaryIO, name: str) -> str:
 
 
 def _likely_name(name: str) -> str:
-    """A hint at what was probably meant: a file in the same folder, or a system of the catalogue."""
     from lsys_kit.classroom.catalogue import likely_system, systems
 
     folder = Path(name).parent
@@ -146,7 +143,6 @@ def list_systems(_: argparse.Namespace) -> None:
 
 
 def print_words(options: argparse.Namespace) -> None:
-    """Print the words of the steps, or their numbers of modules."""
     steps = _counted(options) if options.counts else _derived(options)
     with Task("The steps were not all printed"):
         if options.json:
@@ -189,7 +185,6 @@ def _counted(options: argparse.Namespace) -> Iterator[dict[str, object]]:
 
 
 def _derived(options: argparse.Namespace) -> Iterator[dict[str, object]]:
-    """Each step with its number of modules, and its word."""
     for step, word in enumerate(_derivation(system_with_constants(options), options)):
         yield {"step": step, "modules": len(word), "word": str(word)}
 
@@ -244,7 +239,6 @@ def draw_word(options: argparse.Namespace) -> None:
 
 
 def _film(options: argparse.Namespace) -> dict[str, Any]:
-    """How a film is shown; nothing, if no film is wanted."""
     from lsys_kit.pictures.formats.files import FILMS
 
     turntable = getattr(options, "turntable", False)
@@ -256,7 +250,6 @@ def _film(options: argparse.Namespace) -> dict[str, Any]:
 
 
 def _save(shown: AnyPicture | Film, options: argparse.Namespace) -> None:
-    """Write a picture, with so many dots per inch, or a film; and print what it shows."""
     shown.save(options.output, **({} if options.dpi is None else {"dpi": options.dpi}))
     print(shown)
 
@@ -269,14 +262,12 @@ def _seen(options: argparse.Namespace) -> dict[str, Any]:
 
 
 def _looks(options: argparse.Namespace) -> dict[str, Any]:
-    """How a picture looks, as `draw` takes it; None for what is not given."""
     from lsys_kit.pictures.options import OPTIONS
 
     return {name: getattr(options, name) for name in OPTIONS}
 
 
 def _steps(options: argparse.Namespace) -> dict[str, Any]:
-    """The steps that are drawn, as `draw` takes them."""
     return {"steps": options.steps} if isinstance(options.steps, list) else {"n": options.steps}
 
 
@@ -298,7 +289,6 @@ def draw_stages(options: argparse.Namespace) -> None:
 
 
 def convert(options: argparse.Namespace) -> None:
-    """Print a system in another notation, or write it into a new file; the notes of its reader go to the error stream."""
     from lsys_kit.notation.write import write
 
     system = named_system(options.system, options.notation, options.name)
@@ -311,7 +301,6 @@ def convert(options: argparse.Namespace) -> None:
 
 
 def print_link(options: argparse.Namespace) -> None:
-    """Print the address of a model with its settings, and perhaps write it as a QR code."""
     from lsys_kit.classroom.link import link
     from lsys_kit.pictures.qr_codes import qr_code
 
@@ -358,7 +347,6 @@ def _rest_of_the_time(begun: float) -> limits:
 
 
 def _titles(name: str) -> tuple[str, str]:
-    """The id of a system of the catalogue, if it is one, and what its page is called."""
     from lsys_kit.classroom.catalogue import entry
     from lsys_kit.notation.fragments import is_link
 
@@ -370,7 +358,6 @@ def _titles(name: str) -> tuple[str, str]:
 
 
 def _keep(text: str, name: str) -> None:
-    """Write a text into a new file."""
     try:
         create_file(Path(name), text.encode())
     except FileExistsError:
@@ -382,7 +369,6 @@ def _keep(text: str, name: str) -> None:
 
 
 def collect_marks(options: argparse.Namespace) -> None:
-    """Write the marks of a class as a table."""
     from lsys_kit.classroom.exercises.collecting.collect import collect, marks_table
 
     if os.path.lexists(options.output):
@@ -404,7 +390,6 @@ def collect_marks(options: argparse.Namespace) -> None:
 
 
 def write_wall(options: argparse.Namespace) -> None:
-    """Write a page with the plants of a class."""
     from lsys_kit.classroom.panel.page import save_page
     from lsys_kit.classroom.wall import wall, wall_page
 
@@ -419,7 +404,6 @@ def _exists(name: str) -> ModelFileError:
 
 
 def check_exercises(options: argparse.Namespace) -> None:
-    """Print what is wrong with the exercises in a folder."""
     from lsys_kit.classroom.exercises.declared.declarations import QUESTIONS
     from lsys_kit.classroom.exercises.lint import problems_in
 
@@ -435,7 +419,6 @@ def check_exercises(options: argparse.Namespace) -> None:
 
 
 def write_exercises(options: argparse.Namespace) -> None:
-    """Write the notebooks of the exercises in a folder."""
     from lsys_kit.classroom.exercises.notebooks import write_notebooks
 
     for path in write_notebooks(options.output, options.folder):
@@ -443,7 +426,6 @@ def write_exercises(options: argparse.Namespace) -> None:
 
 
 def write_package(options: argparse.Namespace) -> None:
-    """Write exercises as a package for a learning platform."""
     from lsys_kit.classroom.scorm import package
 
     for line in package.report(*package.write_package(options.what_exercises, options.output)):
@@ -451,7 +433,6 @@ def write_package(options: argparse.Namespace) -> None:
 
 
 def write_site(options: argparse.Namespace) -> None:
-    """Write the course as static pages."""
     from lsys_kit.classroom.site.build import build_site
 
     pages = build_site(options.output)
@@ -459,7 +440,6 @@ def write_site(options: argparse.Namespace) -> None:
 
 
 def open_lab(options: argparse.Namespace) -> None:
-    """Copy the course and open it in JupyterLab."""
     from lsys_kit.classroom.course import FOLDER, copy_course, copy_report
 
     folder = Path(options.folder or FOLDER)
@@ -511,12 +491,10 @@ def set_hard_limits(command: str) -> None:
 
 
 def most_seconds() -> int:
-    """The seconds of the processor that a command may take."""
     return round(SECONDS * current().seconds)
 
 
 def most_bytes() -> int:
-    """The bytes that a command may take."""
     return BYTES * current().bytes
 
 

@@ -181,7 +181,6 @@ def marked_png(image: bytes, dpi: float | None = None) -> bytes:
 
 
 def _chunk(content: bytes) -> bytes:
-    """A chunk of a PNG picture, given its type and its data."""
     return struct.pack(">I", len(content) - 4) + content + struct.pack(">I", zlib.crc32(content))
 
 
@@ -271,7 +270,6 @@ def _check_bytes(content: bytes, name: str) -> None:
 
 
 def _invalid(content: bytes, name: str, encoding: str, start: int) -> ModelFileError:
-    """The error at a byte that is wrong."""
     message = f"{_capital(name)} is not valid {encoding.upper()[:6]} text: byte {start + 1} is wrong"
     if encoding != "utf-8":
         return ModelFileError(message, hint=_SAVE)

@@ -273,7 +273,6 @@ def _listed(ids: Sequence[str]) -> str:
 
 
 def _id_of(id: str, folder: str) -> str | None:
-    """The id of the system that has this id or name, if there is one in the folder."""
     spelt = id.strip().lower() if isinstance(id, str) else ""
     return _ids(folder).get(spelt) or (_ids_by_name(folder).get(spelt) if _NAME_PATTERN.fullmatch(spelt) else None)
 
@@ -294,7 +293,6 @@ def _ids(folder: str) -> Mapping[str, str]:
 
 @cache
 def _ids_by_name(folder: str) -> Mapping[str, str]:
-    """The ids by the names of the systems."""
     return {_entry(id).name: id for id in _ids(folder).values()}
 
 

@@ -127,7 +127,6 @@ def _start(
 
 
 def _received(connection: Connection, child: _Child) -> Any:
-    """The result that a child has sent, or why none came."""
     try:
         done, result = json.loads(connection.recv_bytes(MOST_BYTES))
     except (EOFError, OSError):

@@ -88,7 +88,6 @@ def content_of(path: Path, most: int) -> bytes:
 
 
 def _of_student(entry: os.DirEntry[str], ending: str) -> Iterator[HandedIn]:
-    """What an entry of the folder holds."""
     path = Path(entry.path)
     if entry.is_dir(follow_symlinks=False):
         yield from _in_folder(path, ending)
@@ -98,7 +97,6 @@ def _of_student(entry: os.DirEntry[str], ending: str) -> Iterator[HandedIn]:
 
 
 def _in_folder(path: Path, ending: str) -> Iterator[HandedIn]:
-    """What the folder of one student holds."""
     try:
         inside = list(_files(path))
     except OSError as fault:
@@ -147,7 +145,6 @@ def _ends(name: str, ending: str) -> bool:
 
 
 def _problem(entry: os.DirEntry[str], ending: str) -> str:
-    """Why an entry cannot be read."""
     if entry.is_symlink():
         return "It is a link, and links are not followed"
     if not _ends(entry.name, ending):

@@ -46,7 +46,6 @@ class Linked:
         return "\n".join((repr(self.system), *(f"{name} = {number_text(value)}" for name, value in self.settings.items())))
 
     def _repr_mimebundle_(self, **options: object) -> Any:
-        """The panel that the link leads to."""
         explore = import_module("lsys_kit").explore  # imported late: panels make links
         return explore(self.system, **self.settings)._repr_mimebundle_(**options)
 

@@ -125,7 +125,6 @@ def _shadowed(name: str, shell: Any) -> list[str]:
 
 
 def _standing(name: str, shell: Any) -> str:
-    """What a name means after a text that could not be read."""
     if not name:
         return ""
     if isinstance(shell.user_ns.get(name), LSystem):
@@ -170,7 +169,6 @@ def underlined(mistake: LSystemError, text: str, after: str = "") -> dict[str, s
 
 
 def _quoted_lines(mistake: LSystemError, text: str) -> str:
-    """The lines around a mistake, with their numbers."""
     if mistake.line is None:
         return "<br>"
     lines = text.split("\n")

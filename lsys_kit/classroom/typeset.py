@@ -152,7 +152,6 @@ def boxed(name: str, role: str, colour: str, content: str) -> str:
 
 
 def _table(rows: Iterable[str], look: str = "") -> str:
-    """A table without a notebook's own table style."""
     style = f"border-collapse:collapse;table-layout:auto;margin:4px 0;color:{INK};{look}"
     return f'<table style="{style}"><tbody>{"".join(rows)}</tbody></table>'
 
@@ -166,7 +165,6 @@ def _table_row(cells: Iterable[str], wide: int = 0) -> str:
 
 
 def _rule_rows(system: LSystem) -> Iterator[str]:
-    """Constants, axiom and rules, one row each."""
     for constant in system.constants[:MOST_RULES]:
         yield _table_row(("", _constant_html(constant, system)), wide=3)
     yield _table_row(("<i>ω</i>", _word(system.axiom, system)), wide=3)
@@ -190,7 +188,6 @@ def _constant_html(constant: Constant, system: LSystem) -> str:
 
 
 def _before_arrow(rule: Production | MetaRule, system: LSystem) -> str:
-    """What stands before the arrow."""
     if isinstance(rule, MetaRule):
         text = _word(rule.predecessors, system)
     else:
@@ -201,7 +198,6 @@ def _before_arrow(rule: Production | MetaRule, system: LSystem) -> str:
 
 
 def _arrow_html(rule: Production | MetaRule, system: LSystem) -> str:
-    """The arrow, with the probability over it."""
     if isinstance(rule, MetaRule) or rule.probability is None:
         return "⟶"
     return (
@@ -211,7 +207,6 @@ def _arrow_html(rule: Production | MetaRule, system: LSystem) -> str:
 
 
 def _word(items: tuple[Item, ...], system: LSystem) -> str:
-    """A word or a successor."""
     html = "&thinsp;".join(_item(item, system) for item in islice(items, MOST_MODULES))
     return html + (f" … {len(items) - MOST_MODULES:,} more" if len(items) > MOST_MODULES else "") or "ε"
 

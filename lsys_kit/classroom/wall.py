@@ -192,7 +192,6 @@ def _steps(model: Linked) -> int | None:
 
 
 def _with_constants(model: Linked) -> Any:
-    """The system, with the constants of a link in place of its own."""
     if not isinstance(model.system, LSystem):
         return model.system
     return replace(
@@ -211,7 +210,6 @@ def _choices(model: Linked) -> dict[str, Any]:
 
 
 def _described(model: Linked, picture: str) -> str:
-    """The step and what is seen of it."""
     steps = model.settings.get(STEP, getattr(model.system, "steps", None))
     return picture if steps is None or "step" in picture else f"step {steps}; {picture}"
 

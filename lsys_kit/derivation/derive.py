@@ -180,7 +180,6 @@ class Derivation(Sequence[Word]):
             check_size(self.states, step, self._engine.size(step))
 
     def _refusal(self, error: _Refusal, step: int) -> _Refusal:
-        """The error, with the steps that were finished."""
         error.partial = Derivation(self._engine, step - 1) if step else None
         kept = f"Steps 0-{step - 1} are kept. " if step > 1 else "Step 0 is kept. " if step else ""
         return error.with_hint(kept + (error.hint or ""))
@@ -233,7 +232,6 @@ class Derivation(Sequence[Word]):
         return self._engine.counts(self._reached(step))
 
     def _reached(self, step: int) -> int:
-        """A step that the derivation has."""
         found = whole_number(step, "The step")
         if found > self.steps:
             raise ModelValueError(f"A derivation of {self.steps} steps has no step {shown(step)}")

@@ -206,7 +206,6 @@ def _others_missing(system: LSystem, old: ParentWord, position: int, rule: Rule)
 
 
 def _context_missing(system: LSystem, old: ParentWord, position: int, rule: Rule) -> str:
-    """Which context a module lacks."""
     assert old.around is not None
     word = dialect_named(system.notation).word
     left = neighbours_along(old.around.before, position, len(rule.left))

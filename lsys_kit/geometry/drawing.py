@@ -63,7 +63,6 @@ def coloured(scene: Scene, system: LSystem, colours: str = "") -> Scene:
 
 
 def _stretched(scene: Scene) -> Scene:
-    """A scene whose colours of the ramp reach its end."""
     segments, polygons, discs = scene.segments, scene.polygons, scene.discs
     most = max(int(colours.max(initial=RAMP_START)) for colours in (segments.colours, polygons.colours, discs.colours))
     stretch = (RAMP_END - RAMP_START) / max(min(RAMP_END, most) - RAMP_START, 1)
@@ -81,7 +80,6 @@ def _along_ramp(colours: Integers, stretch: float) -> Integers:
 
 
 def _by_width_or_order(scene: Scene) -> Scene:
-    """A scene in which strokes for which the turtle has chosen no colour have natural ones."""
     segments = scene.segments
     numbers = RAMP_START + np.floor((RAMP_END - RAMP_START) * _youth(segments) + 0.5).astype(np.int64)
     return replace(scene, segments=replace(segments, colours=np.where(segments.colours == OWN, numbers, segments.colours)))

@@ -37,7 +37,6 @@ class Labels:
 
 
 def no_labels(dimension: int = 2) -> Labels:
-    """No labels."""
     return Labels(np.empty((0, dimension)), (), np.empty(0, np.int64))
 
 
@@ -180,7 +179,6 @@ class Polygons:
         return found
 
     def __iter__(self) -> Iterator[Floats]:
-        """The corners of each polygon."""
         return iter(np.split(self.points, self.starts[1:-1]) if len(self) else [])
 
 
@@ -220,27 +218,22 @@ CIRCLE, DISC, SPHERE = range(3)
 
 
 def no_segments(dimension: int = 2) -> Segments:
-    """No strokes."""
     return Segments(np.empty((0, 2 * dimension)), np.empty(0, np.int64), np.empty(0, np.int64))
 
 
 def no_cells() -> Cells:
-    """No cells."""
     return Cells(np.empty((0, 2)), np.empty((0, 2)), np.empty(0, np.int64), np.empty(0), np.empty(0, np.int64))
 
 
 def no_walls() -> Walls:
-    """No walls."""
     return Walls(np.empty(0), np.empty(0), np.empty(0), np.empty(0), np.empty(0, np.int64))
 
 
 def no_polygons(dimension: int = 2) -> Polygons:
-    """No polygons."""
     return Polygons(np.empty((0, dimension)), np.zeros(1, np.int64), np.empty(0, np.int64), np.empty(0, np.int64))
 
 
 def no_discs(dimension: int = 2) -> Discs:
-    """No circles."""
     return Discs(np.empty((0, dimension)), np.empty(0), *(np.empty(0, np.int64) for _ in range(3)))
 
 

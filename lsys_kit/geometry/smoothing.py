@@ -74,7 +74,6 @@ def _grids(corners: Floats, normals: Floats, parts: int) -> Floats:
 
 
 def _cells(parts: int) -> Integers:
-    """The corners of the cells of a grid of points, in order."""
     first = (np.arange(parts)[:, None] * (parts + 1) + np.arange(parts)).ravel()[:, None]
     found: Integers = first + np.array([0, parts + 1, parts + 2, 1])
     return found

@@ -139,7 +139,6 @@ def answered(
 
 
 def _taken(name: str, question: Question, answer: Any, arithmetic: str) -> tuple[Value, ...]:
-    """The values of a query module with its answer."""
     if isinstance(answer, Real):
         return _number(name, question, answer, arithmetic), *question.values[1:]
     if not isinstance(answer, Sequence | np.ndarray) or isinstance(answer, str):
@@ -360,7 +359,6 @@ def _place(states: States) -> Place:
 
 
 def _shaped(states: States, field: Pattern) -> Field:
-    """A field that is shaped by numbers."""
     try:
         values = [float(function(tuple(states.constants))) for function in _functions(states)]
     except (ArithmeticError, ValueError) as fault:

@@ -109,7 +109,6 @@ def _voxels(places: Floats, size: float) -> Floats:
 
 
 def _row_major(voxels: Floats, extent: Floats) -> Floats:
-    """The numbers of voxels: by layer, then by row, then by column."""
     found: Floats = (voxels[:, 1] * extent[0] + voxels[:, 0]) * extent[2] + voxels[:, 2]
     return found
 
@@ -146,14 +145,12 @@ def _close(places: Floats, points: Floats, reach: float) -> tuple[Integers, Inte
 
 
 def tree_of(points: Floats) -> Any:
-    """A k-d tree of points."""
     from scipy.spatial import cKDTree  # imported late: it takes longer to load than the kit
 
     return cKDTree(points, balanced_tree=False)
 
 
 def lengths_of(vectors: Floats) -> Floats:
-    """The lengths of vectors in space."""
     found: Floats = np.sqrt(products(vectors, vectors))
     return found
 

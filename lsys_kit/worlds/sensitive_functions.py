@@ -85,11 +85,9 @@ class Shoots:
         return self._once(("points", least, colour), lambda numbers: self.ends[numbers].reshape(-1, 1, 3), 2)
 
     def starts(self, least: float) -> Things:
-        """Their start points."""
         return self._once(("starts", least, None), lambda numbers: self.ends[numbers, :1])
 
     def fronts(self, least: float) -> Things:
-        """The shoots themselves, seen from the front."""
         return self._once(("fronts", least, None), lambda numbers: self.ends[numbers][:, :, ::2])
 
     def _once(self, key: tuple[str, float, float | None], corners: Callable[[Integers], Floats], each: int = 1) -> Things:
@@ -221,7 +219,6 @@ def shoots_above(asking: Standpoints, angle: float, least: float) -> Integers:
 
 
 def inclination(asking: Standpoints) -> Floats:
-    """The angle of the shoot from the vertical: 0 degrees upright, 90 horizontal, 180 hanging down."""
     found: Floats = np.degrees(np.arctan2(np.hypot(asking.heads[:, 0], asking.heads[:, 1]), asking.heads[:, 2]))
     return found
 

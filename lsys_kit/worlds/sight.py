@@ -138,7 +138,6 @@ class TurtleObservation:
 
     @cached_property
     def _standpoints(self) -> Standpoints:
-        """All who ask, by number."""
         first = {self._numbers[position]: place for position, place in reversed(self.places.items())}
         places = [first[number] for number in range(len(first))]
         own: Integers = np.array([place.shoot for place in places], np.int64)
@@ -152,7 +151,6 @@ class TurtleObservation:
 
 
 def _sensitive_function(number: Value, values: Sequence[Value]) -> SensitiveFunction:
-    """The function with a number, where it takes so many values."""
     sensitive = SENSITIVE_FUNCTIONS.get(number)
     if sensitive is None:
         known = ", ".join(map(str, SENSITIVE_FUNCTIONS))

@@ -162,7 +162,6 @@ def _text_problems(problem: MakeProblem, exercise: Exercise) -> Iterator[Problem
 
 
 def _unread_formulas(exercise: Exercise) -> Iterator[LSystemError]:
-    """What is wrong with the formulas in a reply."""
     for found in FORMULA.finditer(exercise.otherwise):
         try:
             formula_in_reply(found[1])
@@ -171,7 +170,6 @@ def _unread_formulas(exercise: Exercise) -> Iterator[LSystemError]:
 
 
 def _slip_problems(problem: MakeProblem, exercise: Exercise) -> Iterator[Problem]:
-    """Slips that cannot be read, that are right, or that say what others say."""
     kind, solution = ANSWER_KINDS[exercise.kind], solution_of(exercise)
     said: dict[str, int] = {}
     for at, slip in enumerate(exercise.slips):

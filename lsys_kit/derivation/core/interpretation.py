@@ -44,7 +44,6 @@ def interpretations(states: States, numbers: Sequence[int]) -> dict[int, tuple[M
 
 
 def interpretation_of(states: States, module: Module) -> tuple[Module, ...]:
-    """The modules that a module is drawn as."""
     rules = rules_of(states.system, states.arithmetic, "interpretation")
     found: list[Module] = []
     todo = [(module, states.system.depth)]

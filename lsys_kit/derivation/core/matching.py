@@ -30,8 +30,6 @@ NO_NEIGHBOUR = -1
 
 @dataclass(frozen=True)
 class _AllBut:
-    """All symbols but some."""
-
     those: frozenset[str]
 
     def __contains__(self, symbol: object) -> bool:
@@ -109,7 +107,6 @@ def neighbours(symbols: Sequence[str], passing: Passing) -> Neighbours:
 
 
 def _backwards(symbols: Sequence[str], ignored: Container[str]) -> tuple[list[int], list[int]]:
-    """The neighbours to the left, and where each branch closes."""
     before, closing = [NO_NEIGHBOUR] * len(symbols), [NO_NEIGHBOUR] * len(symbols)
     last, stack = NO_NEIGHBOUR, []
     for position, symbol in enumerate(symbols):
@@ -126,7 +123,6 @@ def _backwards(symbols: Sequence[str], ignored: Container[str]) -> tuple[list[in
 
 
 def _ahead(symbols: Sequence[str], ignored: Container[str]) -> tuple[list[int], list[int]]:
-    """The neighbours to the right, and the first module of each branch."""
     after, inside = [NO_NEIGHBOUR] * len(symbols), [NO_NEIGHBOUR] * len(symbols)
     following = NO_NEIGHBOUR
     behind: list[int] = []

@@ -286,7 +286,6 @@ def unknown_constant(name: str) -> Any:
 
 
 def _beginning(given: object) -> str:
-    """The beginning of a value, as a message quotes it."""
     try:
         return repr(quotable(str(given)[:40])) if isinstance(given, str | numbers.Number) else shown(given)
     except ValueError:  # Python refuses to write a whole number of thousands of digits

@@ -39,7 +39,6 @@ UNKNOWN = "it depends on an unknown constant"
 
 
 def rule_error(system: LSystem, module: Module | Pattern, rule: Rule, fault: Exception) -> LSystemError:
-    """A value that cannot be computed."""
     dialect = dialect_named(system.notation)
     shown, production = dialect.module(module), as_written(system, rule.production)
     what = "The axiom" if module is AXIOM else f"{shown} under production {rule.number + 1}, {production},"
@@ -53,7 +52,6 @@ def rule_error(system: LSystem, module: Module | Pattern, rule: Rule, fault: Exc
 
 
 def undecided_condition(system: LSystem, constants: Sequence[Value], module: Module, rule: Rule) -> LSystemError:
-    """A condition that depends on an unknown constant."""
     names = sorted({str(name) for value in constants for name in getattr(value, "free_symbols", ())})
     said = (
         f"Whether production {rule.number + 1}, {as_written(system, rule.production)}, applies to "
@@ -192,7 +190,6 @@ class RuleApplication:
 
 
 def _times(count: Value) -> int:
-    """How often something is repeated."""
     most = current().repetitions
     if count != int(count) or count < 0:
         raise ValueError(f"it is repeated {float(count):g} times, which is no whole number from 0 on")

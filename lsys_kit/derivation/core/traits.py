@@ -138,7 +138,6 @@ COLUMN_OPERATORS = frozenset(
 
 
 def _has_column_form(rule: Rule, arithmetic: str) -> bool:
-    """Whether all expressions of a rule can be computed for whole columns."""
     operators = COLUMN_OPERATORS | ({"sqrt"} if arithmetic == "float" else set())
     return set(_operators(_expressions(rule.production))) <= operators
 
@@ -152,7 +151,6 @@ def _expressions(production: Production) -> Iterator[object]:
 
 
 def _operators(expressions: Iterable[object]) -> Iterator[str]:
-    """All operators in some expressions."""
     for expression in expressions:
         if isinstance(expression, Apply):
             yield expression.operator

@@ -80,7 +80,6 @@ class Word(Sequence[Module]):
 
     @property
     def bytes(self) -> int:
-        """How much memory it takes."""
         return self.codes.nbytes if isinstance(self.codes, np.ndarray) else len(self.codes) * 8
 
     def numbers(self) -> list[int]:
@@ -126,7 +125,6 @@ def state_counts(word: Word) -> Counter[int]:
 
 
 def word_bytes(word: Word) -> int:
-    """How much memory a word takes."""
     return word.bytes
 
 
@@ -154,7 +152,6 @@ def text_of(states: States, codes: Sequence[int] | np.ndarray[Any, Any], shown: 
 
 
 def _check_size(texts: Mapping[int, str], counts: Mapping[int, int]) -> None:
-    """Refuse a text that would take too much memory, given the text of each state and how often it occurs."""
     size = sum(len(texts[state]) * count for state, count in counts.items())
     check_bytes(size, lambda: "The text of the word was not written")
 

@@ -118,7 +118,6 @@ def exact_number(value: Value) -> ExactColumn:
 
 
 def _over_common(operation: Callable[[Any, Any], Any], left: ExactColumn, right: ExactColumn) -> ExactColumn:
-    """A sum or a difference."""
     common = math.lcm(left.denominator, right.denominator)
     bits = 1 + max(column.bits + (common // column.denominator).bit_length() for column in (left, right))
     first, second = (ExactColumn(column.numerators, column.denominator, bits).over(common) for column in (left, right))
@@ -126,8 +125,6 @@ def _over_common(operation: Callable[[Any, Any], Any], left: ExactColumn, right:
 
 
 def _compared(operation: Callable[[Any, Any], Any]) -> Callable[[ExactColumn, ExactColumn], Any]:
-    """A comparison of two columns, row by row."""
-
     def compare(left: ExactColumn, right: ExactColumn) -> Any:
         return np.asarray(operation((left - right).numerators, 0), dtype=bool)
 
@@ -205,7 +202,6 @@ def column_function(expression: Expression, arithmetic: str) -> ColumnFunction:
 
 
 def _listed(array: Array) -> Iterator[list[Any]]:
-    """The rows of an array as lists."""
     for first in range(0, len(array), ROWS_AT_A_TIME):
         yield from array[first : first + ROWS_AT_A_TIME].tolist()
 
@@ -219,12 +215,10 @@ class FloatValues:
         self.array = array
 
     def columns(self, rows: Any, parameters: int) -> Iterator[Array]:
-        """The columns of the first parameters, of some rows."""
         there = self.array[rows]
         return (there[:, parameter] for parameter in range(parameters))
 
     def rows(self) -> Iterable[tuple[Value, ...]]:
-        """The values of each module, as numbers."""
         return map(tuple, _listed(self.array))
 
 
@@ -235,14 +229,12 @@ class FloatColumns:
         self._array = np.zeros(shape)
 
     def write(self, argument: ColumnFunction, named: Mapping[str, Any], places: Any, parameter: int) -> None:
-        """Write what an argument comes to into some places of the column of a parameter."""
         target = self._array[places, parameter] if isinstance(places, slice) else None
         found = argument(named, out=target)
         if target is None or found is not target:
             self._array[places, parameter] = found
 
     def values(self) -> FloatValues:
-        """All that was written."""
         return FloatValues(self._array)
 
 
@@ -254,16 +246,13 @@ class ExactValues:
 
     @property
     def bytes(self) -> int:
-        """About how many bytes one value takes."""
         return 8 if self.bits <= SHORT_BITS else 56
 
     def columns(self, rows: Any, parameters: int) -> Iterator[ExactColumn]:
-        """The columns of the first parameters, of some rows."""
         there = self.numerators[rows]
         return (ExactColumn(there[:, parameter], self.denominator, self.bits) for parameter in range(parameters))
 
     def rows(self) -> Iterable[tuple[Value, ...]]:
-        """The values of each module, as numbers."""
         return (tuple(normalised(Fraction(number, self.denominator)) for number in row) for row in _listed(self.numerators))
 
 
@@ -284,11 +273,9 @@ class ExactColumns:
         self._written: list[tuple[Any, int, ExactColumn]] = []
 
     def write(self, argument: ColumnFunction, named: Mapping[str, Any], places: Any, parameter: int) -> None:
-        """Write what an argument comes to into some places of the column of a parameter."""
         self._written.append((places, parameter, argument(named)))
 
     def values(self) -> ExactValues:
-        """All that was written; an `OverflowError`, where that may be more than the table of states keeps exactly."""
         common = math.lcm(*{column.denominator for _, _, column in self._written})
         bits = max((column.bits + (common // column.denominator).bit_length() for _, _, column in self._written), default=0)
         found = np.zeros(self._shape, dtype=np.int64 if bits <= SHORT_BITS else object)
@@ -352,7 +339,6 @@ class ColumnWord(Word):
 
     @property
     def bytes(self) -> int:
-        """How much memory it takes."""
         return len(self) * (self.values.bytes * max(arity for _, arity in self.names) + 10)
 
     @property
@@ -403,7 +389,6 @@ class ColumnarSteps:
         return ColumnRule(names, tuple(map(ready, [*equal, *condition])), parts)
 
     def _identity(self, kind: ModuleKind) -> ColumnRule:
-        """The rule by which modules stay what they are."""
         names = tuple(f"#{i}" for i in range(kind[1]))
         same = tuple(column_function(Name(name), self.states.arithmetic) for name in names)
         return ColumnRule(names, (), ((self.kinds.index(kind), same),))
@@ -468,7 +453,6 @@ class ColumnarSteps:
         return [(rule, rows) for rule, rows in found if len(rows)]
 
     def _named(self, rule: ColumnRule, word: ColumnWord, rows: Any) -> dict[str, Any]:
-        """The columns of a rule's names."""
         number = exact_number if self.states.arithmetic == "exact" else float
         named: dict[str, Any] = {
             name: number(value) for name, value in zip(self._constants, self.states.constants, strict=True)

@@ -51,11 +51,9 @@ class Replacements:
         return found
 
     def sizes(self) -> IntegerArray:
-        """How many modules each replacement has."""
         return np.array([len(replacement.states) for replacement in self.replacements], dtype=np.int64)
 
     def size(self, chosen: IntegerArray) -> int:
-        """How many modules the replacements of some numbers have together."""
         sizes = [len(replacement.states) for replacement in self.replacements]
         others = [(number, size) for number, size in enumerate(sizes) if size != 1]
         if len(others) > FEW_REPLACEMENTS:

@@ -49,19 +49,15 @@ class CountingEngine:
 
     @property
     def known(self) -> int:
-        """The last step whose size is known."""
         return len(self._steps) + len(self._late) - 1
 
     def size(self, step: int) -> int:
-        """How many modules a known step has."""
         return self._steps[step][1] if step < len(self._steps) else len(self.word(step))
 
     def counts(self, step: int) -> Counter[int]:
-        """How often each state occurs at a known step."""
         return Counter(self._steps[step][0]) if step < len(self._steps) else state_counts(self.word(step))
 
     def advance(self) -> None:
-        """Make one step more known."""
         step, (before, _) = self.known + 1, self._steps[-1]
         if self._late or (self._columnar and self._many_new()):
             self._late.append(self._next_word(step))
@@ -89,7 +85,6 @@ class CountingEngine:
         return ColumnarSteps(self.states)
 
     def _next_word(self, step: int) -> Word:
-        """The next word, where many modules are different: in columns, or from the table of states."""
         before, columns = self.word(step - 1), self._columns
         check_step(self.states, step)
         try:
@@ -101,7 +96,6 @@ class CountingEngine:
             return self._from_table(before.numbers(), step)
 
     def _from_table(self, before: Sequence[int], step: int) -> Word:
-        """The next word, module by module."""
         found: list[int] = []
         for number, state in enumerate(before):
             found += self.states.successors[state]
@@ -111,7 +105,6 @@ class CountingEngine:
         return Word(self.states, compact(found, len(self.states)))
 
     def word(self, step: int) -> Word:
-        """The word of a known step."""
         if step >= len(self._steps):
             return self._late[step - len(self._steps)]
         return self._words.found(step, lambda: self._built(step))
@@ -134,7 +127,6 @@ class CountingEngine:
         return list(chain.from_iterable(map(successors.__getitem__, word.codes)))
 
     def origins(self, step: int) -> Origins:
-        """Where the modules of a step's word come from."""
         parents: list[int] = []
         productions: list[int | None] = []
         for position, state in enumerate(counted(self.word(step - 1).numbers())):

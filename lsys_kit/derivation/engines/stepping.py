@@ -99,19 +99,15 @@ class SteppingEngine:
 
     @property
     def known(self) -> int:
-        """The last step whose word is known."""
         return len(self._steps) - 1
 
     def size(self, step: int) -> int:
-        """How many modules a known step has."""
         return len(self._steps[step][0])
 
     def counts(self, step: int) -> Counter[int]:
-        """How often each state occurs at a known step."""
         return state_counts(self._steps[step][0])
 
     def advance(self) -> None:
-        """Make one step more known; nothing of it is kept before it is finished."""
         step, before, sees = self.known + 1, self._steps[-1][0], None
         if self._world:
             sight = self._world(before)
@@ -173,22 +169,18 @@ class SteppingEngine:
         return Word(self.states, compact(codes, len(self.states)))
 
     def word(self, step: int) -> Word:
-        """The word of a known step."""
         return self._steps[step][0]
 
     def origins(self, step: int) -> Origins:
-        """Where the modules of a step's word come from."""
         return self._steps[step][1]()
 
     def sight(self, step: int) -> Observation | None:
-        """What the next step sees of a known step's word; None without an observer."""
         return self._world(self.word(step)) if self._world else None
 
 
 def _resumed(
     states: States, seed: int, by_arrays: bool, world: Observer | None, steps: Sequence[tuple[Word, Origins]]
 ) -> SteppingEngine:
-    """An engine that goes on from some steps."""
     stepper = Stepper(states, seed)
     engine = SteppingEngine(stepper, ContextEngine(stepper) if by_arrays else None, world)
     engine._steps = [(word, partial(_same, origins)) for word, origins in steps]

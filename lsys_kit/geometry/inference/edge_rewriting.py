@@ -27,7 +27,6 @@ OFF = 1e-3
 
 
 def factor_of(drawings: Sequence[Strokes]) -> int | None:
-    """How many strokes come from each, if it is always the same number; else None."""
     counts = [len(each) for each in drawings]
     if not counts[0]:
         return None

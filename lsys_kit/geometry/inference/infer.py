@@ -54,7 +54,6 @@ class DrawingFits(SystemsFound):
     refusal: str = ""
 
     def lines(self) -> Iterator[str]:
-        """The explanation, line by line."""
         count = f"these {len(self.drawings)} pictures"
         if not self:
             yield f"No system was found that draws {count}. {self.refusal}".strip()
@@ -268,7 +267,6 @@ def _angle(given: object, drawings: tuple[Strokes, ...]) -> float:
 
 
 def _refusal(drawings: tuple[Strokes, ...]) -> str:
-    """Why no system that is looked for can draw some pictures; empty where one could."""
     if not len(drawings[0]):
         if len(drawings) < 3 or not len(drawings[1]):
             return "Where the first picture is empty, the next two are needed, with strokes."

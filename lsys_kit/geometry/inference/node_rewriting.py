@@ -41,7 +41,6 @@ class _Drawing:
         self.strokes = Counter(int(place) for place in self.places(strokes.ends) or ())
 
     def places(self, ends: Points) -> list[int] | None:
-        """The places of some strokes; None where one is not there."""
         near = self.tree.query_ball_point(_features(ends), NEAR)
         return [min(each) for each in near] if all(near) else None
 

@@ -58,7 +58,6 @@ class Strokes:
         return list(zip(first[::2], first[1::2], strict=True))
 
     def point(self, number: int) -> complex:
-        """Where a point is."""
         return complex(self.ends.reshape(-1)[number])
 
     @cached_property
@@ -78,7 +77,6 @@ class Strokes:
 
     @property
     def is_connected(self) -> bool:
-        """Whether the strokes hang together."""
         reached, left = set[int](), [self.vertices[0][0]]
         while left:
             point = left.pop()
@@ -176,7 +174,6 @@ def angle_between(drawings: Sequence[Strokes]) -> float:
 
 
 def _between(strokes: Strokes) -> Iterator[float]:
-    """The angles between the directions of strokes, up to 90 degrees."""
     directions = np.unique(np.round(np.degrees(np.angle(strokes.ends[:, 1] - strokes.ends[:, 0])) % 180, 6))
     for one, other in combinations(directions.tolist(), 2):
         check_budget()
@@ -219,7 +216,6 @@ class Turning:
         return np.arange(-self.most + whole, self.most + 1)
 
     def by(self, number: Any) -> Any:
-        """So many turns as complex numbers."""
         return np.exp(1j * np.radians(self.degrees) * number)
 
     def is_(self, radians: float, number: int) -> bool:

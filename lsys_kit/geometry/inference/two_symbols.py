@@ -87,7 +87,6 @@ def _of_both_kinds(rules: Rules, factor: int) -> bool:
 
 
 def _walked(rules: Rules, strokes: Strokes, turning: Turning, factor: int, steps: int) -> Iterator[Rules]:
-    """What must be known of the rules to draw the strokes of a step."""
     left = [_Walk(rules, _Item(AXIOM, steps, None), point) for point in strokes.leaving]
     while left:
         check_budget()
@@ -99,7 +98,6 @@ def _walked(rules: Rules, strokes: Strokes, turning: Turning, factor: int, steps
 
 
 def _further(walk: _Walk, item: _Item, strokes: Strokes, turning: Turning, factor: int) -> Iterator[_Walk]:
-    """The ways on from a place."""
     name, _, _ = item.what
     if name == "kind" and not item.steps:
         yield from _drawing(walk, item, strokes, turning)

@@ -159,7 +159,6 @@ def _in_space(points: Floats) -> Floats:
 
 
 def _extent(scene: Scene) -> float:
-    """The extent of a scene in its widest direction."""
     least, greatest = scene.corners
     return float((greatest - least).max())
 
@@ -355,6 +354,5 @@ def _on_the_left(points: Floats, a: Floats, b: Floats, level: float) -> NDArray[
 
 
 def _equal_to_any(points: Floats, some: tuple[Floats, ...]) -> NDArray[np.bool_]:
-    """Which points equal one of some."""
     found: NDArray[np.bool_] = np.any([(points == one).all(axis=1) for one in some], axis=0)
     return found

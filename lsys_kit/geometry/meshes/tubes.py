@@ -53,7 +53,6 @@ class Strokes(NamedTuple):
 
     @property
     def lengths(self) -> Floats:
-        """The length of each."""
         found: Floats = np.linalg.norm(self.ends[:, 1] - self.ends[:, 0], axis=1)
         return found
 
@@ -64,7 +63,6 @@ class Strokes(NamedTuple):
         return found
 
     def taken(self, some: Integers | Flags) -> Strokes:
-        """Some of them."""
         return Strokes(self.ends[some], self.radii[some], self.looks[some], self.follows[some])
 
 
@@ -156,7 +154,6 @@ def _unbroken(strokes: Strokes) -> Strokes:
 
 
 def _cosines(strokes: Strokes) -> Floats:
-    """The cosine of the angle between each stroke and the one before."""
     ways = strokes.ways
     found: Floats = np.einsum("ij,ij->i", ways, np.roll(ways, 1, axis=0))
     return found
@@ -241,7 +238,6 @@ def _radials(strokes: Strokes) -> Floats:
 
 
 def _across(ways: Floats) -> Floats:
-    """A unit vector at right angles to each direction."""
     aside = np.zeros_like(ways)
     np.put_along_axis(aside, np.abs(ways).argmin(axis=1)[:, None], 1.0, axis=1)
     normals = np.cross(ways, aside)
@@ -258,13 +254,11 @@ def _rotations(a: Floats, b: Floats) -> Floats:
 
 
 def _product(a: Floats, b: Floats) -> Floats:
-    """The rotations b, then a."""
     real = a[:, 0] * b[:, 0] - np.einsum("ij,ij->i", a[:, 1:], b[:, 1:])
     return np.column_stack([real, a[:, :1] * b[:, 1:] + b[:, :1] * a[:, 1:] + np.cross(a[:, 1:], b[:, 1:])])
 
 
 def _rotated(rotations: Floats, vectors: Floats) -> Floats:
-    """Vectors after rotations."""
     twice = 2 * np.cross(rotations[:, 1:], vectors)
     turned: Floats = vectors + rotations[:, :1] * twice + np.cross(rotations[:, 1:], twice)
     return turned

@@ -175,7 +175,6 @@ class Row(NamedTuple):
 
     @property
     def symbols(self) -> Mapping[str, tuple[str, ...]]:
-        """The symbols of each dialect."""
         return {name: tuple(getattr(self, dialect.column).split()) for name, dialect in TURTLE_DIALECTS.items()}
 
     @property
@@ -311,7 +310,6 @@ WIDTH = 0.1
 
 
 def initial_step(system: LSystem) -> float:
-    """The initial length of a step."""
     return TURTLE_DIALECTS[system.turtle].length if system.length is None else float(system.length)
 
 
@@ -413,7 +411,6 @@ def _counted(image: Sequence[Module]) -> Iterable[Module]:
 
 
 def _instruction(command: Command, module: Module, angle: Value) -> Instruction:
-    """A command with the arguments of a module taken in."""
     values = values_of(module) if command.argument else ()
     action, factor, addend = command.action, command.factor, command.addend
     if action == "turn back":
@@ -538,7 +535,6 @@ def in_plane(system: LSystem) -> bool:
 
 
 def _stays_in_plane(command: Command, module: Pattern) -> bool:
-    """Whether a command stays in the plane, with the argument that a module gives it."""
     if command.action == "roll" and module.arguments:
         argument = module.arguments[0]
         return isinstance(argument, Number) and argument.value % 180 == 0

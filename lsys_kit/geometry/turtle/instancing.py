@@ -126,7 +126,6 @@ class Prototypes:
         self._instructions: dict[int, list[Instruction]] = {}
 
     def _turtle(self) -> SpaceTurtle:
-        """A turtle at its start."""
         system = self.states.system
         turtle = SpaceTurtle(self._initial_frame, initial_step(system), TURTLE_DIALECTS[system.turtle].width)
         turtle.take_look(system)
@@ -134,7 +133,6 @@ class Prototypes:
         return turtle
 
     def of_row(self, row: Sequence[int], steps: int) -> Prototype:
-        """The prototype of a row of states after a number of steps."""
         turtle = self._turtle()
         return self._run(self._of_row(row, steps, _carried_by(turtle)))
 
@@ -184,7 +182,6 @@ class Prototypes:
         return _merged_instances(parts, position, rotation, carried)
 
     def _of_module(self, state: int, carried: tuple[Any, ...]) -> Prototype:
-        """The prototype of a module that is not rewritten."""
         turtle = self._turtle()
         for name, value in zip(_CARRIED_ATTRIBUTES, carried, strict=True):
             setattr(turtle, name, value)
@@ -221,7 +218,6 @@ class Prototypes:
 
 
 def _merged_instances(instances: Sequence[Instance], end: Floats, rotation: Floats, carried: tuple[Any, ...]) -> Prototype:
-    """Instances as one prototype."""
     drawn = [part for part in instances if len(part.prototype.strokes)]
     strokes = _transformed([(part, part.prototype.strokes) for part in drawn], len(end))
     orders, states, widths, colours = zip(*(part.prototype.of_strokes for part in drawn), strict=True) if drawn else [()] * 4
@@ -276,7 +272,6 @@ def _transformed(parts: Sequence[tuple[Instance, Floats]], size: int) -> Floats:
 
 
 def _as_scene(prototype: Prototype, unknown: tuple[str, ...]) -> Scene:
-    """A prototype as a scene."""
     polygons = Polygons(prototype.corners, np.cumsum([0, *prototype.of_polygons[0]]), *prototype.of_polygons[1:])
     radii, kinds, states, colours = prototype.of_discs
     discs = Discs(prototype.centres, radii, kinds, states, colours)

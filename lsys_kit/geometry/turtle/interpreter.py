@@ -153,7 +153,6 @@ def _end_polygon(turtle: Turtle, _: Instruction) -> None:
 
 
 def expect_surface(turtle: Turtle, _: Instruction) -> None:
-    """Draw a surface next, the one that the next symbol names."""
     turtle.expects_surface = True
 
 
@@ -167,7 +166,6 @@ def _draw_expected_surface(turtle: Turtle, instruction: Instruction) -> None:
 
 
 def draw_surface(turtle: Turtle, instruction: Instruction) -> None:
-    """Draw one of the surfaces of the kit."""
     turtle.draw_surface(surfaces()[instruction.surface], _size(turtle, instruction))
 
 
@@ -320,7 +318,6 @@ def run_turtle(
 
 
 def _surfaces_in(word: Word, compiled: CompiledWord) -> int:
-    """How many surfaces a word draws."""
     drawing = {
         state: many
         for state, calls in compiled.calls.items()
@@ -357,7 +354,6 @@ class CompiledWord(NamedTuple):
 
 
 def compile_word(word: Word, handlers: Mapping[str, Handler], prepare: Callable[[Instruction], Any]) -> CompiledWord:
-    """Compile a word for a turtle with some handlers."""
     system, drawn = word.states.system, interpretations(word.states, word.numbers())
     calls = {
         state: [(handlers[instruction.action], prepare(instruction)) for instruction in found if instruction.action in handlers]

@@ -95,7 +95,6 @@ class PlaneTurtle(Turtle):
         return self.step(turns, offset + side * math.degrees(math.atan2(left, ahead)), math.hypot(ahead, left), self.position)
 
     def step(self, turns: float, offset: float, length: float, parent: int, drawn: bool = False) -> int:
-        """Record a step; return its number."""
         self.steps.append((turns, offset, length, parent, drawn, len(self.stack), self.state, self.stroke_width, self.colour))
         return len(self.steps) - 1
 

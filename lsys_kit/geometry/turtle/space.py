@@ -73,13 +73,11 @@ def cos_sin(degrees: float) -> tuple[float, float]:
 
 
 def cross(a: Vector, b: Vector) -> Vector:
-    """The cross product of two vectors."""
     (ax, ay, az), (bx, by, bz) = a, b
     return ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
 
 
 def unit(a: Vector) -> Vector:
-    """The unit vector of the same direction."""
     length = math.hypot(*a)
     return a[0] / length, a[1] / length, a[2] / length
 
@@ -245,7 +243,6 @@ class SpaceTurtle(Turtle):
                 _bend_by_tropism(self, pull)
 
     def stroke(self, start: Vector, end: Vector, width: float) -> None:
-        """Leave a stroke."""
         self.last = len(self.strokes) // _STROKE_COLUMNS
         self.strokes.extend((*start, *end, len(self.stack), self.state, width, self.colour))
 
@@ -325,7 +322,6 @@ def _bend_by_tropism(turtle: SpaceTurtle, pull: Vector) -> None:
 
 
 def _rotate(turtle: SpaceTurtle, axis: Vector, radians: float) -> None:
-    """Rotate the frame about a unit vector."""
     cos, sin = math.cos(radians), math.sin(radians)
     ax, ay, az = axis
 
@@ -370,7 +366,6 @@ def _from_cpfg(point: Vector) -> Vector:
 
 
 def _return_to_stroke(turtle: SpaceTurtle, instruction: Instruction) -> None:
-    """Move to a point of the last stroke."""
     if turtle.last is not None:
         first = turtle.last * _STROKE_COLUMNS
         x, y, z, u, v, w = turtle.strokes[first : first + 6]
@@ -449,7 +444,6 @@ def trace_in_space(word: Word, angle: float | None = None) -> Scene:
 
 
 def strokes_of(turtle: SpaceTurtle) -> Segments:
-    """The strokes that a turtle has drawn, in order."""
     rows = np.array(turtle.strokes).reshape(-1, _STROKE_COLUMNS)
     orders, states, colours = (rows[:, column].astype(np.int64) for column in (6, 7, 9))
     return Segments(rows[:, :6].copy(), orders, states, rows[:, 8].copy(), colours)

@@ -57,12 +57,10 @@ class Facets(NamedTuple):
 
 
 def joined_facets(parts: Sequence[Facets]) -> Facets:
-    """Several parts as one surface."""
     return Facets(*(tuple(face for part in parts for face in part[kind]) for kind in range(3)))
 
 
 def polygon_facets(corners: Sequence[Corner]) -> Facets:
-    """A flat polygon."""
     face = tuple(map(_rounded, corners))
     return Facets((face,), (), (face,))
 
@@ -101,7 +99,6 @@ def _bernstein(t: Floats) -> Floats:
 
 
 def _slopes(t: Floats) -> Floats:
-    """Their derivatives."""
     return np.stack([-3 * (1 - t) ** 2, 3 * (1 - t) * (1 - 3 * t), 3 * t * (2 - 3 * t), 3 * t**2], axis=1)
 
 
@@ -282,7 +279,6 @@ def surfaces() -> Mapping[str, Surface]:
 
 
 def _facets(table: Mapping[str, Any]) -> Facets:
-    """The faces of a surface, as it is described."""
     if "profile" in table:
         return revolved_facets(table["profile"], table["sides"], table["pieces"])
     blade = _blade(table)

@@ -84,7 +84,6 @@ def _side(ends: Sequence[tuple[float, float]], axis: int, end: int) -> Face:
 
 
 def _normals_at_corners(outlines: Sequence[Outline]) -> Floats:
-    """The normals at the corners of polygons, as of `Polygons`."""
     if not any(outline.normals for outline in outlines):
         return np.empty((0, 3))
     return np.array([normal for outline in outlines for normal in outline.normals or [(0.0, 0.0, 0.0)] * len(outline.corners)])
@@ -214,7 +213,6 @@ class Turtle(ABC):
 
     @property
     def stroke_width(self) -> float:
-        """The width of strokes, at the scale of the turtle."""
         return self.width * self.scale if self.width > 0 else self.width
 
     @abstractmethod
@@ -239,7 +237,6 @@ class Turtle(ABC):
         self.draw_faces([rectangle(length, width)] if self.in_plane else box_sides(length, width))
 
     def draw_faces(self, faces: Iterable[Face], size: float = 1.0) -> None:
-        """Draw flat faces, given in the frame of the turtle."""
         check_budget()  # one surface may have thousands of corners
         self.outlines += [Outline(self.local_points(face, size), self.state, self.colour) for face in faces]
 
