@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 
 from lsys_kit.budget import Task, check_bytes, counted, current, limits, processor_time
 from lsys_kit.errors import LSystemError, ModelFileError, ModelLimitError, ModelNameError, ModelValueError, quotable
-from lsys_kit.files import create_file, decoded, file_stem
+from lsys_kit.files import create_file, decoded, file_errors, file_stem
 
 if TYPE_CHECKING:
     from lsys_kit.derivation.derive import Derivation
@@ -105,15 +105,14 @@ def _system_in(name: str, notation: str | None, entry: str | None) -> LSystem:
 
 
 def _file(name: str) -> str:
-    try:
-        with Path(name).open("rb") as file:
-            return _decoded(file, f'"{quotable(name)}"')
-    except FileNotFoundError:
-        raise ModelFileError(
-            f'There is no file "{quotable(name)}", and no system of that name in the catalogue', hint=_likely_name(name)
-        ) from None
-    except (OSError, ValueError) as fault:
-        raise ModelFileError(f'"{quotable(name)}" cannot be read: {getattr(fault, "strerror", None) or fault}') from None
+    with file_errors(f'"{quotable(name)}" cannot be read'):
+        try:
+            with Path(name).open("rb") as file:
+                return _decoded(file, f'"{quotable(name)}"')
+        except FileNotFoundError:
+            raise ModelFileError(
+                f'There is no file "{quotable(name)}", and no system of that name in the catalogue', hint=_likely_name(name)
+            ) from None
 
 
 def _decoded(file: BinaryIO, name: str) -> str:
@@ -294,7 +293,7 @@ def convert(options: argparse.Namespace) -> None:
     system = named_system(options.system, options.notation, options.name)
     text = write(system, options.to, interpretation=not options.no_interpretation)
     if options.output is not None:
-        _keep(f"{text}\n", options.output)
+        _write_new(options.output, f"{text}\n")
     for note in system.notes:
         print(f"lsys-kit: note: {note}", file=sys.stderr)
     print(text if options.output is None else f"Written to {quotable(options.output)} in the notation {options.to}.")
@@ -357,15 +356,13 @@ def _titles(name: str) -> tuple[str, str]:
     return known.id, f"{known.id}: {known.title}"
 
 
-def _keep(text: str, name: str) -> None:
-    try:
-        create_file(Path(name), text.encode())
-    except FileExistsError:
-        raise ModelFileError(
-            f'"{quotable(str(Path(name)))}" already exists', hint="Files are never overwritten: choose another name."
-        ) from None
-    except (OSError, ValueError) as fault:
-        raise ModelFileError(f'"{quotable(name)}" cannot be written: {getattr(fault, "strerror", None) or fault}') from None
+def _write_new(name: str, text: str) -> None:
+    """Write a text into a file that must not be there yet."""
+    with file_errors(f'"{quotable(name)}" cannot be written'):
+        try:
+            create_file(Path(name), text.encode())
+        except FileExistsError:
+            raise _exists(str(Path(name))) from None
 
 
 def collect_marks(options: argparse.Namespace) -> None:
@@ -374,14 +371,7 @@ def collect_marks(options: argparse.Namespace) -> None:
     if os.path.lexists(options.output):
         raise _exists(options.output)
     marks = collect(options.folder, options.exercises)
-    try:
-        create_file(Path(options.output), marks_table(marks).encode())
-    except FileExistsError:
-        raise _exists(options.output) from None
-    except (OSError, ValueError) as fault:
-        raise ModelFileError(
-            f'"{quotable(options.output)}" cannot be written: {getattr(fault, "strerror", None) or fault}'
-        ) from None
+    _write_new(options.output, marks_table(marks))
     unread = sum(not each.scores for each in marks)
     print(
         f"{len(marks)} students in {quotable(options.output)}, {unread} without an answer. A check is no examination: the "

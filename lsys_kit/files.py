@@ -102,6 +102,21 @@ def file_stem(title: str, kind: str, content: str) -> str:
     return said or f"{kind}-{zlib.crc32(content.encode(errors='replace')) & 0xFFFF:04x}"
 
 
+@contextmanager
+def file_errors(what: str, hint: str | None = None) -> Iterator[None]:
+    """A `with` block in which what the system says of a file becomes an error of the kit.
+
+    >>> with file_errors('"plant.txt" cannot be read'):
+    ...     open("/no such folder/plant.txt")
+    Traceback (most recent call last):
+    lsys_kit.errors.ModelFileError: "plant.txt" cannot be read: No such file or directory.
+    """
+    try:
+        yield
+    except (OSError, ValueError) as fault:
+        raise ModelFileError(f"{what}: {getattr(fault, 'strerror', None) or fault}", hint=hint) from None
+
+
 def save_file(path: Path, content: bytes) -> None:
     """Write a file, in place of one that the kit itself has made, perhaps; anything else is not replaced.
 
@@ -111,15 +126,13 @@ def save_file(path: Path, content: bytes) -> None:
         Something that the kit did not make is there already, or the file cannot be written.
     """
     name = quotable(str(path))
-    try:
+    with file_errors(f'"{name}" cannot be written'):
         if os.path.lexists(path) and not made_by_the_kit(path):
             raise ModelFileError(
                 f'"{name}" is there already, and was not made by the kit',
                 hint="It would be lost: choose another name, or delete it first.",
             )
         replace_file(path, content)
-    except (OSError, ValueError) as fault:
-        raise ModelFileError(f'"{name}" cannot be written: {getattr(fault, "strerror", None) or fault}') from None
 
 
 def append_line(path: Path, line: str, head: str) -> None:

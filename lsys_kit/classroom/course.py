@@ -23,7 +23,7 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 
 from lsys_kit.errors import ModelFileError
-from lsys_kit.files import replace_file
+from lsys_kit.files import file_errors, replace_file
 
 COURSE_PARTS = ("notebooks", "exercises", "notebooks/reference")
 """The folders of the course: lessons with the gallery, exercises, and the live references of notations and turtle commands. The
@@ -111,17 +111,12 @@ def copy_course(folder: str | Path = FOLDER, source: Path | None = None) -> tupl
         The folder cannot be written to.
     """
     folder, files = Path(folder), course_files(source)
-    try:
+    with file_errors(f"The course cannot be copied to {folder}", hint="Choose another folder: lsys-kit lab FOLDER."):
         for part in dict.fromkeys(str(parent) for name in files for parent in reversed(PurePosixPath(name).parents)):
             _made_folder(folder / part)
         manifest = _manifest(folder)
         copied = tuple(_copied(folder, name, _content(name, path), manifest) for name, path in files.items())
         replace_file(folder / MANIFEST, json.dumps({"files": manifest}, indent=1, sort_keys=True).encode())
-    except OSError as fault:
-        raise ModelFileError(
-            f"The course cannot be copied to {folder}: {fault.strerror or fault}",
-            hint="Choose another folder: lsys-kit lab FOLDER.",
-        ) from None
     return copied
 
 

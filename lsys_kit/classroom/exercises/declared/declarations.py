@@ -1,17 +1,18 @@
 """The files of exercises: what each key may be, and every mistake found and placed; one bad file stops no other.
 
-The kit's own files are in the folder `questions`; a teacher's have the same form.
+The kit's own files are in the folder `questions`; a teacher's have the same form. What a key may be follows from the type of its
+field.
 """
 
 from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import MISSING, dataclass, fields
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple, TypeAlias
 
 from lsys_kit.budget import Task, counted
 from lsys_kit.classroom.exercises.asked import ASKED_OF_KIND, MORE_ASKED, is_asked_in_full
@@ -20,11 +21,15 @@ from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
 from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.errors import LSystemError, ModelFileError, quotable
+from lsys_kit.files import file_errors
 from lsys_kit.notation.analysis.checks import suggestion
 
+QUESTIONS = Path(__file__).parent.parent / "questions"
+"""The kit's own files."""
 MOST_STEPS = 10_000
 """The last step that a question may ask for."""
 _TABLE_LINE = re.compile(r"^\s*\[\[\s*exercise(?:\.(slips|options))?\s*\]\]")
+MakeProblem: TypeAlias = Callable[..., "Problem"]
 
 
 @dataclass(frozen=True)
@@ -59,42 +64,35 @@ class Source:
         >>> Source("a.toml", '[[exercise]]\\nid = "1"\\n[[exercise.slips]]\\nanswer = "2"').line_of(0, "answer", "slips", 0)
         4
         """
-        at, inside, counts, first = -1, "", {"slips": -1, "options": -1}, 1
+        counts, first, here = {"": -1}, 1, False
         for line_number, line in enumerate(self.text.splitlines(), 1):
-            found = _TABLE_LINE.match(line)
-            if found:
+            if found := _TABLE_LINE.match(line):
                 inside = found[1] or ""
-                if inside:
-                    counts[inside] += 1
-                else:
-                    at, counts = at + 1, {"slips": -1, "options": -1}
-                if at == exercise and inside == part and (not part or counts[part] == number):
-                    first = line_number
-            elif (
-                at == exercise
-                and inside == part
-                and (not part or counts[part] == number)
-                and key
-                and re.match(rf"\s*{re.escape(key)}\s*=", line)
-            ):
+                counts = {**(counts if inside else {}), inside: counts.get(inside, -1) + 1}
+                here = inside == part and counts[""] == exercise and (not part or counts[part] == number)
+                first = line_number if here else first
+            elif here and key and re.match(rf"\s*{re.escape(key)}\s*=", line):
                 return line_number
         return first
 
+    def at_top(self, what: str, hint: str | None = None) -> Problem:
+        """A mistake that is in no exercise."""
+        return Problem(self.file, 1, "", what, hint or "")
 
-def _is_text(value: object) -> bool:
-    return isinstance(value, str)
+    def of(self, number: int, id: str) -> MakeProblem:
+        """What makes mistakes of an exercise, given a key, what is wrong, what to try, and perhaps which slip or option."""
+
+        def problem(key: str, what: str, hint: str | None = None, part: str = "", at: int = 0) -> Problem:
+            return Problem(self.file, self.line_of(number, key, part, at), id, what, hint or "")
+
+        return problem
 
 
-def _is_texts(value: object) -> bool:
-    return isinstance(value, list) and all(map(_is_text, value))
-
-
-def _is_count(value: object) -> bool:
-    return isinstance(value, int) and not isinstance(value, bool) and value >= 0
+# What each key may be
 
 
 def _is_step(value: object) -> bool:
-    return isinstance(value, int) and _is_count(value) and value <= MOST_STEPS
+    return isinstance(value, int) and not isinstance(value, bool) and 0 <= value <= MOST_STEPS
 
 
 def _is_number(value: object) -> bool:
@@ -103,114 +101,125 @@ def _is_number(value: object) -> bool:
     return False
 
 
-def _is_values(value: object) -> bool:
-    return isinstance(value, dict) and all(map(_is_number, value.values()))
+def _list_of(fits: Callable[[Any], bool]) -> Callable[[Any], bool]:
+    return lambda value: isinstance(value, list) and all(map(fits, value))
 
 
-KEYS: Mapping[str, tuple[Callable[[object], bool], str]] = {
-    **dict.fromkeys(
-        (
-            "id",
-            "title",
-            "kind",
-            "question",
-            "solution",
-            "explanation",
-            "otherwise",
-            "template",
-            "system",
-            "asks",
-            "text",
-            "unit",
-            "given",
-            "names",
-        ),
-        (_is_text, 'a text, as "..."'),
+def _table_of(fits: Callable[[Any], bool]) -> Callable[[Any], bool]:
+    return lambda value: isinstance(value, dict) and all(map(fits, value.values()))
+
+
+class Form(NamedTuple):
+    """What a key may be: a test, in words, and how it is read."""
+
+    fits: Callable[[Any], bool]
+    what: str
+    read: Callable[[Any], Any] = lambda value: value
+
+
+def _numbers(values: Mapping[str, object]) -> dict[str, Any]:
+    return {name: number_from(value) for name, value in values.items()}
+
+
+_FORMS: Mapping[str, Form] = {
+    "str": Form(lambda value: isinstance(value, str), 'a text, as "..."'),
+    "tuple[str, ...]": Form(_list_of(lambda value: isinstance(value, str)), 'a list of texts, as ["...", "..."]', tuple),
+    "int": Form(_is_step, f"a whole number up to {MOST_STEPS:,}"),
+    "tuple[int, ...]": Form(_list_of(_is_step), f"a list of whole numbers up to {MOST_STEPS:,}", tuple),
+    "Value": Form(_is_number, "a number", number_from),
+    "bool": Form(lambda value: isinstance(value, bool), "true or false"),
+    "Mapping[str, Value]": Form(_table_of(_is_number), "a table, as { name = 1 }", _numbers),
+    "tuple[Mapping[str, Value], ...]": Form(
+        _list_of(_table_of(_is_number)), "a list of tables, as [{ name = 1 }]", lambda value: tuple(map(_numbers, value))
     ),
-    **dict.fromkeys(("hints", "expects", "unlikely", "symbols", "probes"), (_is_texts, 'a list of texts, as ["...", "..."]')),
-    "objective": (_is_count, "a whole number"),
-    "steps": (_is_step, f"a whole number up to {MOST_STEPS:,}"),
-    "at": (
-        lambda value: isinstance(value, list) and all(map(_is_step, value)),
-        f"a list of whole numbers up to {MOST_STEPS:,}",
-    ),
-    "tolerance": (_is_number, "a number"),
-    "drawn": (lambda value: isinstance(value, bool), "true or false"),
-    "constants": (_is_values, "a table, as { name = 1 }"),
-    "settings": (lambda value: isinstance(value, list) and all(map(_is_values, value)), "a list of tables, as [{ name = 1 }]"),
-    "values": (
-        lambda value: (
-            isinstance(value, dict)
-            and all(isinstance(given, list) and given and all(map(_is_number, given)) for given in value.values())
-        ),
+    "Mapping[str, Sequence[Value]]": Form(
+        _table_of(lambda given: bool(given) and _list_of(_is_number)(given)),
         "a table, as { s = [1, 2, 3] }",
+        lambda value: {name: tuple(map(number_from, given)) for name, given in value.items()},
     ),
-    "slips": (lambda value: isinstance(value, list), "tables [[exercise.slips]]"),
-    "options": (lambda value: isinstance(value, list), "tables [[exercise.options]]"),
+    "tuple[Slip, ...]": Form(
+        lambda value: isinstance(value, list), "tables [[exercise.slips]]", lambda value: tuple(Slip(**each) for each in value)
+    ),
+    "tuple[Option, ...]": Form(
+        lambda value: isinstance(value, list),
+        "tables [[exercise.options]]",
+        lambda value: tuple(Option(**each) for each in value),
+    ),
+}
+"""What a key may be, by the type of its field."""
+
+
+def _forms(record: Any) -> dict[str, Form]:
+    return {part.name: _FORMS[part.type] for part in fields(record) if part.type in _FORMS}
+
+
+KEYS: Mapping[str, Form] = {
+    **_forms(Exercise),
+    "objective": Form(lambda value: isinstance(value, int) and not isinstance(value, bool) and value >= 0, "a whole number"),
 }
 """For each key of an exercise what it may be."""
-_REQUIRED = tuple(part.name for part in fields(Exercise) if part.default is MISSING and part.default_factory is MISSING)
-_NAMED: Mapping[str, Sequence[str]] = {"kind": tuple(ANSWER_KINDS), "names": ("new", "any", "fixed")}
+_TOP = {key: form for key, form in _forms(Lesson).items() if key != "name"}
+_NAMED: Mapping[str, tuple[str, ...]] = {"kind": tuple(ANSWER_KINDS), "names": ("new", "any", "fixed")}
 """Keys whose values are names."""
+_OF_MISCONCEPTIONS = ("expects", "unlikely", "misconception")
 
 
 def lesson_problems(source: Source, declared: Mapping[str, Any]) -> Iterator[Problem]:
     """What is wrong with the top of a file."""
-    for key, fits, what in (
-        ("title", _is_text, "a text"),
-        ("objectives", _is_texts, "a list of texts"),
-        ("introduction", _is_text, "a text"),
-        ("summary", _is_text, "a text"),
-    ):
-        if not fits(declared.get(key)):
-            yield Problem(
-                source.file, 1, "", f'The file needs "{key}", {what}', "It stands at the top, before the first exercise."
-            )
-    for key in declared.keys() - {"title", "objectives", "introduction", "summary", "exercise"}:
-        yield Problem(
-            source.file,
-            1,
-            "",
-            f'There is no key "{quotable(key)}" at the top',
-            suggestion(key, ["title", "objectives", "introduction", "summary", "exercise"]) or "",
-        )
+    for key, form in _TOP.items():
+        if not form.fits(declared.get(key)):
+            what = f'The file needs "{key}", {form.what.partition(", as")[0]}'
+            yield source.at_top(what, "It stands at the top, before the first exercise.")
+    known = [*_TOP, "exercise"]
+    for key in declared.keys() - known:
+        yield source.at_top(f'There is no key "{quotable(key)}" at the top', suggestion(key, known))
     if not isinstance(declared.get("exercise"), list):
-        yield Problem(source.file, 1, "", "There are no exercises", "Each begins with a line [[exercise]].")
+        yield source.at_top("There are no exercises", "Each begins with a line [[exercise]].")
 
 
 def exercise_problems(source: Source, number: int, declared: object) -> Iterator[Problem]:
     """What keeps an exercise from being read."""
     if not isinstance(declared, dict):
-        yield Problem(source.file, 1, "", "An exercise is a table", "Begin it with a line [[exercise]].")
+        yield source.at_top("An exercise is a table", "Begin it with a line [[exercise]].")
         return
-    name = str(declared.get("id", f"number {number + 1}"))
-
-    def problem(key: str, what: str, hint: str | None = "", part: str = "", at: int = 0) -> Problem:
-        return Problem(source.file, source.line_of(number, key, part, at), name, what, hint or "")
-
-    for key in _REQUIRED:
-        if key not in declared:
-            yield problem(key, f'"{key}" is missing', f"Write {key} = ...")
-    for key, value in declared.items():
-        if key not in KEYS:
-            yield problem(key, f'There is no key "{quotable(key)}"', suggestion(key, KEYS))
-        elif not KEYS[key][0](value):
-            yield problem(key, f'"{key}" must be {KEYS[key][1]}')
-        elif key in _NAMED and value not in _NAMED[key]:
-            yield problem(
-                key,
-                f'There is no {key} "{quotable(value)}"',
-                suggestion(value, _NAMED[key]) or f"Choose: {', '.join(_NAMED[key])}.",
-            )
-        elif key in ("expects", "unlikely"):
-            for unknown in (each for each in value if each not in MISCONCEPTIONS):
-                yield problem(key, f'There is no misconception "{quotable(unknown)}"', suggestion(unknown, MISCONCEPTIONS))
-    yield from _part_problems(problem, declared, "slips", Slip, ("answer",))
-    yield from _part_problems(problem, declared, "options", Option, ("text",))
+    problem = source.of(number, str(declared.get("id", f"number {number + 1}")))
+    for wrong in _record_problems(Exercise, KEYS, declared):
+        yield problem(*wrong)
+    for part, record in (("slips", Slip), ("options", Option)):
+        parts = declared.get(part, ())
+        for at, each in enumerate(parts if isinstance(parts, list) else ()):
+            if not isinstance(each, dict):
+                yield problem("", f'"{part}" must be tables', f"Write [[exercise.{part}]].")
+                continue
+            for wrong in _record_problems(record, _forms(record), each, " here"):
+                yield problem(*wrong, part, at)
+            if part == "slips" and not (each.get("says") or each.get("misconception")):
+                yield problem("answer", "A slip needs a reply", 'Write says = "...", or misconception = "...".', part, at)
     yield from _asked_problems(problem, declared)
 
 
-def _asked_problems(problem: Callable[..., Problem], declared: Mapping[str, Any]) -> Iterator[Problem]:
+def _record_problems(
+    record: Any, forms: Mapping[str, Form], declared: Mapping[str, Any], here: str = ""
+) -> Iterator[tuple[str, str, str | None]]:
+    """What is wrong with the keys of an exercise, a slip or an option: the key, what, and what to try."""
+    for part in fields(record):
+        if part.default is MISSING and part.default_factory is MISSING and part.name not in declared:
+            yield part.name, f'"{part.name}" is missing', f"Write {part.name} = ..."
+    for key, value in declared.items():
+        if key not in forms:
+            yield key, f'There is no key "{quotable(key)}"{here}', suggestion(key, forms)
+        elif not forms[key].fits(value):
+            what = forms[key].what
+            yield key, f'"{key}" must be {what.partition(", as")[0] if here else what}', None
+        elif key in _NAMED and value not in _NAMED[key]:
+            hint = suggestion(value, _NAMED[key]) or f"Choose: {', '.join(_NAMED[key])}."
+            yield key, f'There is no {key} "{quotable(value)}"', hint
+        elif key in _OF_MISCONCEPTIONS:
+            for unknown in (each for each in ([value] if isinstance(value, str) else value) if each not in MISCONCEPTIONS):
+                yield key, f'There is no misconception "{quotable(unknown)}"', suggestion(unknown, MISCONCEPTIONS)
+
+
+def _asked_problems(problem: MakeProblem, declared: Mapping[str, Any]) -> Iterator[Problem]:
     kind, asks = str(declared.get("kind")), str(declared.get("asks", ""))
     asked = ASKED_OF_KIND.get(kind, ())
     if "asks" in declared and (asks.partition(" ")[0] not in asked or not is_asked_in_full(asks)):
@@ -222,66 +231,27 @@ def _asked_problems(problem: Callable[..., Problem], declared: Mapping[str, Any]
         yield problem("at", f'The kind "{quotable(kind)}" has no "at"', "Write steps = ..., the step that is asked for.")
 
 
-def _part_problems(
-    problem: Callable[..., Problem], declared: Mapping[str, Any], part: str, record: type, needed: Sequence[str]
-) -> Iterator[Problem]:
-    known = [each.name for each in fields(record)]
-    parts = declared.get(part, ())
-    for at, each in enumerate(parts if isinstance(parts, list) else ()):
-        if not isinstance(each, dict):
-            yield problem("", f'"{part}" must be tables', f"Write [[exercise.{part}]].", "", 0)
-            continue
-        for key in needed:
-            if key not in each:
-                yield problem(key, f'"{key}" is missing', f"Write {key} = ...", part, at)
-        for key, value in each.items():
-            if key not in known:
-                yield problem(key, f'There is no key "{quotable(key)}" here', suggestion(key, known), part, at)
-            elif not (isinstance(value, bool) if key == "near" else _is_text(value)):
-                yield problem(key, f'"{key}" must be {"true or false" if key == "near" else "a text"}', "", part, at)
-            elif key == "misconception" and value not in MISCONCEPTIONS:
-                yield problem(
-                    key, f'There is no misconception "{quotable(value)}"', suggestion(value, MISCONCEPTIONS), part, at
-                )
-        if part == "slips" and not (each.get("says") or each.get("misconception")):
-            yield problem("answer", "A slip needs a reply", 'Write says = "...", or misconception = "...".', part, at)
-
-
-def read_exercise(declared: Mapping[str, Any]) -> Exercise:
-    """The exercise that is declared, without mistakes."""
-    changes: dict[str, Any] = {
-        key: tuple(declared[key]) for key in ("hints", "expects", "unlikely", "symbols", "probes", "at") if key in declared
-    }
-    changes["slips"] = tuple(Slip(**slip) for slip in declared.get("slips", ()))
-    changes["options"] = tuple(Option(**option) for option in declared.get("options", ()))
-    changes["values"] = {name: tuple(map(number_from, given)) for name, given in declared.get("values", {}).items()}
-    changes["constants"] = _numbers(declared.get("constants", {}))
-    changes["settings"] = tuple(map(_numbers, declared.get("settings", ())))
-    changes["tolerance"] = number_from(declared.get("tolerance", 0))
-    return Exercise(**{**declared, **changes})
-
-
-def _numbers(values: Mapping[str, object]) -> dict[str, Any]:
-    return {name: number_from(value) for name, value in values.items()}
-
-
-QUESTIONS = Path(__file__).parent.parent / "questions"
-"""The kit's own files."""
+# Files
 
 
 @dataclass(frozen=True)
 class Questions:
-    """What a folder of exercises holds: the lessons that can be read, where each exercise stands, and what is wrong."""
+    """What a folder of exercises holds: its files, each with the lesson and the numbers of the exercises that can be read; and
+    what is wrong."""
 
-    lessons: tuple[Lesson, ...]
+    files: tuple[tuple[Source, Lesson | None, tuple[int, ...]], ...]
     problems: tuple[Problem, ...]
-    sources: tuple[tuple[Source, tuple[tuple[int, Exercise], ...]], ...]
+
+    @property
+    def lessons(self) -> tuple[Lesson, ...]:
+        """The lessons that can be read."""
+        return tuple(lesson for _, lesson, _ in self.files if lesson)
 
     @property
     def exercises(self) -> Iterator[tuple[Source, int, Exercise]]:
         """Each exercise with its file and its number there."""
-        for source, found in self.sources:
-            yield from ((source, number, exercise) for number, exercise in found)
+        for source, lesson, numbers in self.files:
+            yield from ((source, *each) for each in zip(numbers, lesson.exercises if lesson else (), strict=True))
 
 
 def questions_in(folder: Path) -> Questions:
@@ -292,75 +262,50 @@ def questions_in(folder: Path) -> Questions:
     ModelFileError
         There is no such folder, or no file of exercises in it.
     """
-    try:
-        files = sorted(path for path in folder.iterdir() if path.suffix == ".toml")
-    except (OSError, ValueError) as fault:
-        raise ModelFileError(f'"{quotable(str(folder))}" cannot be read: {getattr(fault, "strerror", None) or fault}') from None
-    if not files:
+    with file_errors(f'"{quotable(str(folder))}" cannot be read'):
+        paths = sorted(path for path in folder.iterdir() if path.suffix == ".toml")
+    if not paths:
         raise ModelFileError(f'There are no files of exercises in "{quotable(str(folder))}"', hint="Their names end in .toml.")
-    lessons, problems, sources = [], [], []
-    for path in files:
+    files, problems = [], list[Problem]()
+    for path in paths:
         with Task("The exercises were not read"):
-            lesson, exercises, source, wrong = _file(path)
-        lessons += [lesson] if lesson else []
-        sources.append((source, exercises))
-        problems += wrong
-    found = Questions(tuple(lessons), tuple(problems), tuple(sources))
-    return Questions(found.lessons, (*found.problems, *_duplicates(found)), found.sources)
+            files.append(_file(path, problems))
+    found = Questions(tuple(files), ())
+    return Questions(found.files, (*problems, *_duplicates(found)))
 
 
 def _duplicates(found: Questions) -> Iterator[Problem]:
     first: dict[str, tuple[str, int]] = {}
     for source, number, exercise in found.exercises:
-        line = source.line_of(number, "id")
-        if exercise.id in first:
-            file, before = first[exercise.id]
-            yield Problem(
-                source.file,
-                line,
-                exercise.id,
-                f'The id "{exercise.id}" stands in {file}, line {before} too',
-                "Give one of them another.",
-            )
-        else:
-            first[exercise.id] = source.file, line
+        here = source.file, source.line_of(number, "id")
+        file, line = first.setdefault(exercise.id, here)
+        if (file, line) != here:
+            what = f'The id "{exercise.id}" stands in {file}, line {line} too'
+            yield source.of(number, exercise.id)("id", what, "Give one of them another.")
 
 
-def _file(path: Path) -> tuple[Lesson | None, tuple[tuple[int, Exercise], ...], Source, list[Problem]]:
+def _file(path: Path, problems: list[Problem]) -> tuple[Source, Lesson | None, tuple[int, ...]]:
+    """What is in a file, and the mistakes in it."""
+    source = Source(path.name, "")
     try:
         source = Source(path.name, path.read_text(encoding="utf-8"))
         declared = tomllib.loads(source.text)
     except tomllib.TOMLDecodeError as fault:
         line = re.search(r"line (\d+)", str(fault))
-        return (
-            None,
-            (),
-            source,
-            [
-                Problem(
-                    path.name,
-                    int(line[1]) if line else 1,
-                    "",
-                    quotable(str(fault)),
-                    "Is a quotation mark or a bracket missing?",
-                )
-            ],
-        )
+        hint = "Is a quotation mark or a bracket missing?"
+        problems.append(Problem(path.name, int(line[1]) if line else 1, "", quotable(str(fault)), hint))
+        return source, None, ()
     except (OSError, UnicodeDecodeError) as fault:
-        return None, (), Source(path.name, ""), [Problem(path.name, 1, "", f"It cannot be read: {fault}", "Save it as UTF-8.")]
-    problems = [*counted(lesson_problems(source, declared), 1)]
-    exercises: list[tuple[int, Exercise]] = []
-    for number, each in enumerate(declared.get("exercise", ()) if isinstance(declared.get("exercise", ()), list) else ()):
+        problems.append(source.at_top(f"It cannot be read: {fault}", "Save it as UTF-8."))
+        return source, None, ()
+    problems += counted(lesson_problems(source, declared), 1)
+    exercises: dict[int, Exercise] = {}
+    given = declared.get("exercise")
+    for number, each in enumerate(given if isinstance(given, list) else ()):
         found = [*counted(exercise_problems(source, number, each), 1)]
         problems += found
         if not found:
-            exercises.append((number, read_exercise(each)))
-    lesson = Lesson(
-        path.stem,
-        str(declared.get("title", path.stem)),
-        tuple(declared.get("objectives", ())),
-        str(declared.get("introduction", "")),
-        str(declared.get("summary", "")),
-        tuple(e for _, e in exercises),
-    )
-    return lesson, tuple(exercises), source, problems
+            exercises[number] = Exercise(**{key: KEYS[key].read(value) for key, value in each.items()})
+    top = {key: form.read(declared[key]) for key, form in _TOP.items() if form.fits(declared.get(key))}
+    usual = {"title": path.stem, "objectives": (), "introduction": "", "summary": ""}
+    return source, Lesson(path.stem, **usual | top, exercises=tuple(exercises.values())), tuple(exercises)
