@@ -223,7 +223,7 @@ def draw_word(options: argparse.Namespace) -> None:
             seed=options.seed,
             arithmetic=options.arithmetic,
             angle=options.angle,
-            seeds=options.seeds,
+            seeds=options.seeds or (),
             **_steps(options),
             **_seen(options),
         )

@@ -1,7 +1,7 @@
 """The files of exercises: what each key may be, and every mistake found and placed; one bad file stops no other.
 
-The kit's own files are in the folder `questions`; a teacher's have the same form. What a key may be follows from the type of its
-field.
+The kit's own files are in the folder `questions`; a teacher's have the same form. What a key may be follows from the type of
+its field.
 """
 
 from __future__ import annotations
