@@ -7,19 +7,22 @@ left appears as a turn to the right, because its turtle shows the picture its ot
 branches; Fractint's turtle has two headings, one that `+` and `-` turn by the angle, and another that `\\` and `/` turn by
 degrees. A symbol that is in no column tells the turtle nothing.
 
-Whatever depends on the kind of a command follows from the table of actions: whether a system stays in the plane, whether copies
-of a part may be instanced, and which symbols of a word leave something to be seen. An action that is not declared instanceable
-is always drawn module by module, which is slower but never wrong.
+The tables stand in `commands.toml`. Whatever depends on the kind of a command follows from that of actions: whether a system
+stays in the plane, whether copies of a part may be instanced, and which symbols of a word leave something to be seen.
 """
 
 from __future__ import annotations
 
 import math
+import tomllib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum, Flag, auto
-from functools import cache, partial
-from typing import Literal, NamedTuple
+from fractions import Fraction
+from functools import cache, reduce
+from operator import or_
+from pathlib import Path
+from typing import Any, Literal, NamedTuple
 
 from lsys_kit.budget import INTERVAL, counted
 from lsys_kit.derivation.core.interpretation import is_filament
@@ -61,62 +64,9 @@ class Effect(Flag):
     CLOSES = auto()
 
 
-_VISIBLE, _MOVES, _TURNS, _LEAVES_PLANE, _INSTANCEABLE, _OPENS, _CLOSES = Effect
-_NOTHING = Effect(0)
-
+_DECLARED = tomllib.loads((Path(__file__).parent / "commands.toml").read_text(encoding="utf-8"))
 ACTIONS: Mapping[str, Effect] = {
-    "draw": _VISIBLE | _MOVES | _INSTANCEABLE,
-    "move": _VISIBLE | _MOVES | _INSTANCEABLE,
-    "draw without vertex": _VISIBLE | _MOVES | _INSTANCEABLE,
-    "move without vertex": _VISIBLE | _MOVES | _INSTANCEABLE,
-    "set position": _MOVES | _LEAVES_PLANE,
-    "return to stroke": _MOVES,
-    "draw by second heading": _VISIBLE | _MOVES,
-    "move by second heading": _VISIBLE | _MOVES,
-    "turn": _TURNS | _INSTANCEABLE,
-    "turn by mirrored angle": _TURNS | _INSTANCEABLE,
-    "turn back": _TURNS | _INSTANCEABLE,
-    "mirror turns": _INSTANCEABLE,
-    "turn second heading": _INSTANCEABLE,
-    "pitch": _TURNS | _LEAVES_PLANE | _INSTANCEABLE,
-    "roll": _TURNS | _LEAVES_PLANE | _INSTANCEABLE,
-    "level": _TURNS | _LEAVES_PLANE,
-    "gravitropism": _TURNS | _LEAVES_PLANE,
-    "set tropism": _LEAVES_PLANE,
-    "set heading": _TURNS | _LEAVES_PLANE,
-    "set length": _INSTANCEABLE,
-    "reset length": _INSTANCEABLE,
-    "set length once": _INSTANCEABLE,
-    "set width": _INSTANCEABLE,
-    "reset width": _INSTANCEABLE,
-    "set width once": _INSTANCEABLE,
-    "set scale": _INSTANCEABLE,
-    "set colour": _INSTANCEABLE,
-    "step colour": _INSTANCEABLE,
-    "reset colour": _INSTANCEABLE,
-    "set palette colour": _INSTANCEABLE,
-    "set gravitropism": _INSTANCEABLE,
-    "reset gravitropism": _INSTANCEABLE,
-    "set gravitropism once": _INSTANCEABLE,
-    "push": _OPENS | _INSTANCEABLE,
-    "pop": _CLOSES | _MOVES | _TURNS | _INSTANCEABLE,
-    "begin polygon": _NOTHING,
-    "record vertex": _NOTHING,
-    "end polygon": _VISIBLE,
-    "expect surface": _NOTHING,
-    "draw expected surface": _VISIBLE,
-    "draw surface": _VISIBLE | _INSTANCEABLE,
-    "draw circle": _VISIBLE | _INSTANCEABLE,
-    "draw disc": _VISIBLE | _INSTANCEABLE,
-    "draw sphere": _VISIBLE | _INSTANCEABLE,
-    "draw box": _VISIBLE | _INSTANCEABLE,
-    "draw label": _VISIBLE,
-    "begin cylinder": _LEAVES_PLANE,
-    "continue cylinder": _VISIBLE | _LEAVES_PLANE,
-    "end cylinder": _VISIBLE | _LEAVES_PLANE,
-    "begin patch": _LEAVES_PLANE,
-    "set control point": _LEAVES_PLANE,
-    "draw patch": _VISIBLE | _LEAVES_PLANE,
+    action: reduce(or_, map(Effect.__getitem__, effects.split()), Effect(0)) for action, effects in _DECLARED["actions"].items()
 }
 """What each action does."""
 
@@ -163,139 +113,30 @@ class Command:
 
 
 class Row(NamedTuple):
-    """A row of the table: the symbols of each dialect, separated by blanks, and the commands that they give the turtle."""
+    """A row of the table: the symbols of each dialect, separated by blanks, and the commands that they give the turtle.
 
-    abop: str
-    grogra: str
-    plant_string: str
+    There are no commands where the meaning of a symbol does not concern the turtle.
+    """
+
     words: str
-    command: Command | None = None
-    then: Command | None = None
+    abop: str = ""
+    grogra: str = ""
+    plant_string: str = ""
     fractint: str = ""
+    commands: tuple[Command, ...] = ()
 
     @property
     def symbols(self) -> Mapping[str, tuple[str, ...]]:
         return {name: tuple(getattr(self, dialect.column).split()) for name, dialect in TURTLE_DIALECTS.items()}
 
-    @property
-    def commands(self) -> tuple[Command, ...]:
-        """What the turtle does; empty for a symbol whose meaning does not concern the turtle."""
-        return tuple(command for command in (self.command, self.then) if command)
+
+def _command(factor: float | str = 1.0, **declared: Any) -> Command:
+    return Command(factor=float(Fraction(factor)), **declared)
 
 
-def _settable(quantity: str) -> Command:
-    """Set a quantity of the turtle; without an argument, to what it was at first."""
-    return Command(f"set {quantity}", bare=f"reset {quantity}")
-
-
-def _colour_step(addend: int) -> Command:
-    """Set the colour; without an argument, to the next one or the one before."""
-    return Command("set colour", addend=addend, bare="step colour")
-
-
-_plain, _more, _times = partial(Command, argument=""), partial(Command, argument="more"), partial(Command, argument="times")
-_LEFT, _RIGHT, _ROUND = Command("turn"), Command("turn", -1.0), Command("turn", 0.0, 180, "")
-_DOWN, _OPEN = Command("gravitropism", 0.0, math.inf, ""), _plain("push")
-_PARTS = 8
-"""A curve has so many parts, where no number says otherwise."""
-_LEAF, _FLOWER = Command("draw surface", 1 / 2, surface="leaf"), Command("draw surface", 1 / 4, surface="rosette")
-
-COMMAND_TABLE: tuple[Row, ...] = (
-    #   ABOP    GROGRA  plants in words; x is the argument                               what to do
-    Row("F", "F", "I", "a stroke forward, as long as the step or x", Command("draw"), fractint="F"),
-    Row("", "", "A", "a stroke of two thirds of the step", Command("draw", 2 / 3)),
-    Row("", "", "B", "a stroke of a third of the step", Command("draw", 1 / 3)),
-    Row("", "F+", "", "a stroke that is longer than the step by x", _more("draw")),
-    Row("", "F*", "", "a stroke of x times the step", _times("draw")),
-    Row("f", "f", "", "forward like `F`, without a stroke", Command("move"), fractint="G"),
-    Row("G", "", "", "a stroke like `F` that makes no corner in `{ }`", Command("draw without vertex")),
-    Row("g", "", "", "forward, without a stroke and without a corner", Command("move without vertex")),
-    Row("@M", "", "", "to the point (x, y, z): z towards the viewer", Command("set position")),
-    Row("", "@", "", "on the last stroke: 0 its start, 1 its end", Command("return to stroke")),
-    Row("+", "+ RU", "+", "turn to its left, by the angle or x degrees", _LEFT),
-    Row("- RU", "-", "-", "turn to its right", _RIGHT),
-    Row("|", "", "", "turn round", _ROUND),
-    Row("&", "RL", "", "pitch its head down, by the angle or x degrees", Command("pitch")),
-    Row("^", "", "", "pitch its head up", Command("pitch", -1.0)),
-    Row("\\", "", "", "roll to its left, by the angle or x degrees", Command("roll")),
-    Row("/", "RH", "", "roll to its right", Command("roll", -1.0)),
-    Row("@R", "", "", "its head points in the direction (x, y, z)", Command("set heading")),
-    Row("$ @v", "$", "", "roll until its left is level and its up points up", _plain("level")),
-    Row("", "RV", "", "bend down, with the strength x or that of `V`", Command("gravitropism")),
-    Row("", "RG", "", "bend straight down", _DOWN),
-    Row("@Ts", "", "", "bend towards gravity after each stroke, elasticity x", Command("set tropism")),
-    Row("", "L", "", "the step is x, or what it was at first", _settable("length")),
-    Row("", "L+", "", "the step is longer by x", _more("set length")),
-    Row("", "L*", "", "the step is x times as long", _times("set length")),
-    Row("", "Ll", "", "the step is x up to the next stroke", Command("set length once")),
-    Row("", "Ll+", "", "the step is longer by x up to the next stroke", _more("set length once")),
-    Row("", "Ll*", "", "the step is x times as long up to the next stroke", _times("set length once")),
-    Row("#", "", "", "strokes are x wide, or 10/7 times as wide", Command("set width", 10 / 7)),
-    Row("!", "", "", "strokes are x wide, or 7/10 times as wide", Command("set width", 7 / 10)),
-    Row("", "D", "", "strokes are x wide, or as wide as at first", _settable("width")),
-    Row("", "D+", "", "strokes are wider by x", _more("set width")),
-    Row("", "D*", "", "strokes are x times as wide", _times("set width")),
-    Row("", "Dl", "", "the next stroke is x wide", Command("set width once")),
-    Row("", "Dl+", "", "the next stroke is wider by x", _more("set width once")),
-    Row("", "Dl*", "", "the next stroke is x times as wide", _times("set width once")),
-    Row("@D", "", "", "the scale of all that is drawn is x, or 1", Command("set scale", 0.0, 1.0)),
-    Row("@Di", "", "", "the scale is x times as great", _times("set scale")),
-    Row("@Dd", "", "", "the scale is 1/x times as great", Command("set scale", argument="inverse")),
-    Row("; '", "", "", "colour x, or the next one", _colour_step(1)),
-    Row(",", "", "", "colour x, or the one before", _colour_step(-1)),
-    Row("", "P", "", "colour x, or that at first", _settable("colour")),
-    Row("", "V", "", "the strength of `RV` is x, or 0 as at first", _settable("gravitropism")),
-    Row("", "V+", "", "the strength of `RV` is greater by x", _more("set gravitropism")),
-    Row("", "V*", "", "the strength of `RV` is x times as great", _times("set gravitropism")),
-    Row("", "Vl", "", "the strength of `RV` is x up to the next stroke", Command("set gravitropism once")),
-    Row("", "Vl+", "", "the same, greater by x", _more("set gravitropism once")),
-    Row("", "Vl*", "", "the same, x times as great", _times("set gravitropism once")),
-    Row("[", "[", "", "a branch begins: the turtle remembers how it is", _OPEN, fractint="["),
-    Row("", "", "[", "a branch begins, to the left", _OPEN, _LEFT),
-    Row("", "", "(", "a branch begins, to the right", _OPEN, _RIGHT),
-    Row("]", "]", "] )", "the branch ends: the turtle is as it was", _plain("pop"), fractint="]"),
-    Row("{", "", "", "a polygon begins: `F` and `f` end in its corners", _plain("begin polygon")),
-    Row(".", "", "", "a corner of the polygon", _plain("record vertex")),
-    Row("}", "", "", "the polygon ends", _plain("end polygon")),
-    Row("~", "", "", "a surface: the next symbol, as long as the step or x", _plain("expect surface")),
-    Row("", "", "L", "a leaf", _LEAF),
-    Row("", "", "F", "a flower", _FLOWER),
-    Row("@Gs", "", "", "a generalised cylinder begins: `F` leaves no stroke", _plain("begin cylinder")),
-    Row("@Gc", "", "", "the cylinder comes here in a curve of x parts", Command("continue cylinder", 0.0, _PARTS)),
-    Row("@Ge", "", "", "the same, and the cylinder ends", Command("end cylinder", 0.0, _PARTS)),
-    Row("@PS", "", "", "a patch with the number x begins", Command("begin patch")),
-    Row("@PC", "", "", "here is a control point of patch x, in row y and column z", Command("set control point")),
-    Row("@PD", "", "", "the patch x is drawn, in y rows and z columns", Command("draw patch")),
-    Row("@o", "", "", "a circle, as wide as a stroke or x", Command("draw circle")),
-    Row("@c", "", "", "a disc, as wide as a stroke or x", Command("draw disc")),
-    Row("@O", "", "", "a sphere, as wide as a stroke or x", Command("draw sphere")),
-    Row("@L", "", "", "a label: x, or several numbers", Command("draw label")),
-    Row("@B", "", "", "a box ahead, as long as the step or x, as wide and deep as a stroke or y", Command("draw box")),
-    Row("", "", "", "a stroke by its second heading, as long as the step", _plain("draw by second heading"), fractint="D"),
-    Row("", "", "", "forward like `D`, without a stroke", _plain("move by second heading"), fractint="M"),
-    Row("", "", "", "turn to its left, by the angle", _plain("turn by mirrored angle"), fractint="+"),
-    Row("", "", "", "turn to its right, by the angle", _plain("turn by mirrored angle", -1.0), fractint="-"),
-    Row("", "", "", "turn round, or to its right by as many angles as fit into half a turn", _plain("turn back"), fractint="|"),
-    Row("", "", "", "turn its second heading to the left, by x degrees", Command("turn second heading"), fractint="\\"),
-    Row("", "", "", "turn its second heading to the right, by x degrees", Command("turn second heading", -1.0), fractint="/"),
-    Row("", "", "", "left and right change places in these turns", _plain("mirror turns"), fractint="!"),
-    Row("", "", "", "the step is x times as long", _times("set length", 0.0), fractint="@"),
-    Row("", "", "", "the step is 1/x times as long", Command("set length", 0.0, argument="inverse"), fractint="@I"),
-    Row("", "", "", "the step is √x times as long", Command("set length", 0.0, argument="root"), fractint="@Q"),
-    Row("", "", "", "the step is 1/√x times as long", Command("set length", 0.0, argument="inverse root"), fractint="@IQ @QI"),
-    Row("", "", "", "colour x", Command("set palette colour", 0.0), fractint="C"),
-    Row("", "", "", "the colour that is x places further", _more("set palette colour"), fractint="<"),
-    Row("", "", "", "the colour that is x places before", Command("set palette colour", argument="less"), fractint=">"),
-    Row("%", "%", "", "the rest of the branch is cut off in the next step"),
-    Row("?P ?H ?U ?L ?E", "", "", "a question to the surroundings"),
-    Row("", "/", "", "a finer scale"),
-    Row("", "*", "", "the start word"),
-    Row("", "N N+ N* Nl Nl+ Nl*", "", "leaves: not seen"),
-    Row("", "C C+ C* Cl Cl+ Cl*", "", "carbon: not seen"),
-    Row("", "H H+ H* Hl Hl+ Hl*", "", "heartwood: not seen"),
-    Row("", "U U+ U* Ul Ul+ Ul*", "", "internodes: not seen"),
+COMMAND_TABLE: tuple[Row, ...] = tuple(
+    Row(**row | {"commands": tuple(_command(**each) for each in row.get("commands", ()))}) for row in _DECLARED["rows"]
 )
-
 COMMANDS: Mapping[str, Mapping[str, tuple[Command, ...]]] = {
     name: {symbol: row.commands for row in COMMAND_TABLE for symbol in row.symbols[name]} for name in TURTLE_DIALECTS
 }
