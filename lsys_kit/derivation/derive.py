@@ -17,7 +17,7 @@ from typing import Any, TypeAlias, overload
 from lsys_kit.budget import Task, check_budget, counted
 from lsys_kit.derivation.cellworks.development import CellworkDevelopment, develop_cellwork
 from lsys_kit.derivation.core.states import States, check_d0l
-from lsys_kit.derivation.core.traits import D0L, MOST, S0L, Traits
+from lsys_kit.derivation.core.traits import ANY, D0L, S0L, Traits
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.engines.columnar import ColumnarSteps
 from lsys_kit.derivation.engines.contexts import ContextEngine
@@ -32,12 +32,7 @@ from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
 
 ENGINES: Mapping[type, Traits] = MappingProxyType(
-    {
-        ColumnarSteps: Traits(),
-        CountingEngine: D0L,
-        ContextEngine: S0L._replace(context=1, meta=True),
-        Stepper: Traits(MOST, MOST, *[True] * 11),
-    }
+    {ColumnarSteps: Traits(), CountingEngine: D0L, ContextEngine: S0L._replace(context=1, meta=True), Stepper: ANY}
 )
 """The most that a system may have to be derived in columns, by counting, by arrays, and module by module."""
 
@@ -74,43 +69,12 @@ def derive(system: MapSystem, steps: int) -> Development: ...
 @overload
 def derive(system: CellworkSystem, steps: int) -> CellworkDevelopment: ...
 def derive(system: Any, steps: int, **choices: Any) -> Derivation | Development | CellworkDevelopment:
-    """Derive a system by its words alone; `lsys_kit.derive` does the same and also answers what modules ask of the turtle.
+    """Derive a system by its words alone; `lsys_kit.derive`, which says more, also answers what modules ask of the turtle.
 
-    Parameters
-    ----------
-    system
-        Any L-system; or a map system or a cellwork system, whose maps or cellworks are derived and which take none of the
-        choices below.
-    steps
-        How many steps.
-    seed
-        The seed of all random numbers: the same seed gives the same words on every machine. By default the system's, else 0.
-    arithmetic
-        "exact", or "float" to compute in doubles as cpfg and L-Py do.
-    **choices
-        New values for declared constants: numbers, or texts such as "14/10".
-
-    Returns
-    -------
-    Derivation
-        A sequence of `steps + 1` words. A word is built when it is first asked for, `[-1]` without those in between. For a
-        map system a `Development`, a sequence of `steps + 1` maps; for a cellwork system a `CellworkDevelopment`.
-
-    Raises
-    ------
-    ModelLimitError
-        A step would be too large; the error gives the step, the size and, in `partial`, the derivation of the steps that fit.
-    ModelValueError
-        A value cannot be computed; the error names the module and the production.
-
-    Examples
-    --------
     >>> from lsys_kit.notation.read import read
     >>> fibonacci = read("axiom: a\\na -> ab\\nb -> a")
     >>> [str(word) for word in derive(fibonacci, 3)]
     ['a', 'a b', 'a b a', 'a b a a b']
-    >>> derive(fibonacci, 30).lengths[-1]
-    2178309
     """
     if not isinstance(system, MapSystem | CellworkSystem):
         return derive_observed(system, steps, None, **choices)

@@ -142,10 +142,10 @@ def rule_for(system: LSystem, number: int, production: Production, arithmetic: s
     constants = [constant.name for constant in system.constants]
     arguments = [argument for module in production.parameters for argument in module.arguments]
     order = {name: len(arguments) + index for index, name in enumerate(constants)}
-    formal = [isinstance(a, Name) and a.name not in order for a in arguments]
-    order.update({a.name: i for i, a in enumerate(arguments) if formal[i]})  # type: ignore[union-attr]
+    formal = {i: a.name for i, a in enumerate(arguments) if isinstance(a, Name) and a.name not in order}
+    order.update({name: i for i, name in formal.items()})
 
-    def ready(expression: Any) -> Function:
+    def ready(expression: Expression) -> Function:
         return function_of(expression, order, arithmetic)
 
     made = [expression for expression in expressions_of(production.successor) if isinstance(expression, Expression)]
@@ -156,7 +156,7 @@ def rule_for(system: LSystem, number: int, production: Production, arithmetic: s
         tuple(map(kind_of, production.predecessors)),
         tuple(map(kind_of, reversed(production.left))),
         _branched_context(production.right),
-        tuple((i, ready(a)) for i, a in enumerate(arguments) if not formal[i]),
+        tuple((i, ready(a)) for i, a in enumerate(arguments) if i not in formal),
         None if production.condition is None else ready(production.condition),
         None if production.probability is None else ready(production.probability),
         _templates(production.successor, order, len(arguments) + len(constants), arithmetic),
@@ -226,20 +226,12 @@ def constants_of(system: LSystem, changes: Mapping[str, object], arithmetic: str
                 if constant.name in changes
                 else finite(function_of(constant.value, order, arithmetic)(tuple(values)))
             )
-        except (ArithmeticError, ValueError) as fault:
-            raise ModelValueError(
-                f'The constant "{constant.name}" has no value: {reason_of(fault)}',
-                system.source or None,
-                *(constant.at or (None, None)),
-            ) from None
-        except TypeError:
-            if not any(map(is_symbolic, values)):
+        except (ArithmeticError, ValueError, TypeError) as fault:
+            if isinstance(fault, TypeError) and not any(map(is_symbolic, values)):
                 raise
-            raise ModelValueError(
-                f'The constant "{constant.name}" has no value: it depends on an unknown constant',
-                system.source or None,
-                *(constant.at or (None, None)),
-            ) from None
+            reason = "it depends on an unknown constant" if isinstance(fault, TypeError) else reason_of(fault)
+            said = f'The constant "{constant.name}" has no value: {reason}'
+            raise ModelValueError(said, system.source or None, *(constant.at or (None, None))) from None
         values.append(float(value) if arithmetic == "float" and not is_symbolic(value) else value)
     return tuple(values)
 

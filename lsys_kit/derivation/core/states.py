@@ -47,8 +47,14 @@ def rule_error(system: LSystem, module: Module | Pattern, rule: Rule, fault: Exc
         hint = "Where there is no such shoot, an answer is infinite." if isinstance(fault, OverflowError) else None
     if isinstance(fault, ZeroDivisionError):
         hint = " ".join(filter(None, (hint, dialect.spelling.wordings.get("division by zero", Wording("")).hint))) or None
+    reason = UNKNOWN if isinstance(fault, TypeError) else reason_of(fault)
+    return ModelValueError(f"{what} has no value: {reason}", hint=hint, **_place(system, rule))
+
+
+def _place(system: LSystem, rule: Rule) -> dict[str, Any]:
+    """Where a rule stands in the text of its system, as errors take it."""
     start, end = rule.production.at or (None, None)
-    return ModelValueError(f"{what} has no value: {reason_of(fault)}", system.source or None, start, end, hint)
+    return {"source": system.source or None, "start": start, "end": end}
 
 
 def undecided_condition(system: LSystem, constants: Sequence[Value], module: Module, rule: Rule) -> LSystemError:
@@ -57,136 +63,14 @@ def undecided_condition(system: LSystem, constants: Sequence[Value], module: Mod
         f"Whether production {rule.number + 1}, {as_written(system, rule.production)}, applies to "
         f"{dialect_named(system.notation).module(module)} cannot be decided"
     )
-    start, end = rule.production.at or (None, None)
-    return ModelValueError(
-        said, system.source or None, start, end, f"It depends on {', '.join(names)}: choose a value for {names[0]}."
-    )
+    hint = f"It depends on {', '.join(names)}: choose a value for {names[0]}."
+    return ModelValueError(said, hint=hint, **_place(system, rule))
 
 
 Match: TypeAlias = tuple[Rule, tuple[Value, ...]]
 """A rule that matches, with the values of all parameters that it names."""
 EXACT_BITS = 128
 """A rational value with more bits than this becomes a double."""
-
-
-class RuleApplication:
-    """The rules of a system at work, under given constants.
-
-    Parameters
-    ----------
-    system
-        Any L-system.
-    constants
-        Values for some of its declared constants.
-    arithmetic
-        "exact", or "float" to compute in doubles as cpfg and L-Py do.
-
-    Attributes
-    ----------
-    constants
-        The values of all declared constants, in their order.
-    """
-
-    def __init__(self, system: LSystem, constants: dict[str, object] | None = None, arithmetic: str = "exact") -> None:
-        require(system, LSystem, "An L-system")
-        require(arithmetic, str, "The name of an arithmetic")
-        if arithmetic not in ("exact", "float"):
-            raise ModelNameError(f'There is no arithmetic called "{arithmetic}"', hint='Choose "exact" or "float".')
-        self.system, self.arithmetic = system, arithmetic
-        self.constants = constants_of(system, constants or {}, arithmetic)
-        self._outgrown = False
-
-    def matching_rule(self, module: Module, rules: Rules, chance: Chance | None = None) -> Rule | None:
-        """The rule that rewrites a module, of rules that need no context."""
-        return self.choose_rule(self.matching_rules(module, rules, chance), chance)
-
-    def matching_rules(self, module: Module, rules: Rules, chance: Chance | None = None) -> list[Match]:
-        """The rules that match a module, up to the first that has no probability."""
-        values: tuple[Value, ...] = module.arguments
-        found: list[Match] = []
-        for rule in rules.get(kind_of(module), ()):
-            if self.matches(rule, values, module, chance):
-                found.append((rule, values))
-                if found[0][0].probability is None:
-                    break
-        return found
-
-    def matches(self, rule: Rule, values: tuple[Value, ...], module: Module, chance: Chance | None = None) -> bool:
-        """Whether a rule accepts some values: they are equal to those it asks for, and its condition is true."""
-        given = (*values, *self.constants, chance)
-        try:
-            return all(equal_values(values[i], wanted(given)) for i, wanted in rule.equalities) and (
-                rule.condition is None or bool(rule.condition(given))
-            )
-        except TypeError:
-            raise undecided_condition(self.system, self.constants, module, rule) from None
-        except (ArithmeticError, ValueError) as fault:
-            raise rule_error(self.system, module, rule, fault) from None
-
-    def choose_rule(self, matched: Sequence[Match], chance: Chance | None) -> Rule | None:
-        """The rule that is applied, of those that match: the first, or one at random where the first has a probability."""
-        if not matched or matched[0][0].probability is None:
-            return matched[0][0] if matched else None
-        weighted = self.weighted(matched, chance)
-        unit = chance.unit() if chance else 0.0
-        try:
-            return weighted[choose([weight for _, weight in weighted], unit)][0]
-        except ValueError as fault:
-            raise rule_error(self.system, weighted[0][0].production.predecessor, weighted[0][0], fault) from None
-        except TypeError:
-            raise rule_error(self.system, weighted[0][0].production.predecessor, weighted[0][0], ValueError(UNKNOWN)) from None
-
-    def weighted(self, matched: Sequence[Match], chance: Chance | None = None) -> list[tuple[Rule, Value]]:
-        """The rules with a probability, of those that match, each with its weight."""
-        return [(rule, self.weight(rule, values, chance)) for rule, values in matched if rule.probability]
-
-    def weight(self, rule: Rule, values: tuple[Value, ...], chance: Chance | None = None) -> Value:
-        """The weight with which a rule is chosen at random."""
-        assert rule.probability
-        try:
-            return finite(rule.probability((*values, *self.constants, chance)))
-        except (ArithmeticError, ValueError) as fault:
-            raise rule_error(self.system, rule.production.predecessor, rule, fault) from None
-
-    def apply(
-        self, rule: Rule, module: Module, values: tuple[Value, ...] | None = None, chance: Chance | None = None
-    ) -> Iterator[tuple[str, tuple[Value, ...]]]:
-        """The symbols and values that a rule makes of a module, given the values of all parameters that it names."""
-        given = (*(module.arguments if values is None else values), *self.constants)
-        try:
-            yield from self._written(rule.successor, given, chance)
-        except (ArithmeticError, ValueError) as fault:
-            raise rule_error(self.system, module, rule, fault) from None
-        except TypeError:
-            if not any(map(is_symbolic, given)):
-                raise
-            raise rule_error(self.system, module, rule, ValueError(UNKNOWN)) from None
-
-    def _written(
-        self, parts: Iterable[ModuleTemplate | RepeatTemplate], given: tuple[object, ...], chance: Chance | None
-    ) -> Iterator[tuple[str, tuple[Value, ...]]]:
-        values: tuple[object, ...] = (*given, chance)
-        for part in parts:
-            if isinstance(part, ModuleTemplate):
-                yield part.symbol, tuple([self._kept(argument(values)) for argument in part.arguments])
-            else:
-                check_budget()  # repetitions within repetitions may each be few
-                for index in counted(range(_times(part.count(values)))):
-                    yield from self._written(part.body, (*given, index), chance)
-
-    def _kept(self, value: Value) -> Value:
-        """The value as the table keeps it: rational up to 128 bits, else a double that is a number."""
-        if value.__class__ is int and -SMALL < value < SMALL:
-            return value
-        finite(value)
-        if is_symbolic(value):
-            value = expanded_value(value)
-        if isinstance(value, float) or is_symbolic(value):
-            return value
-        if max(value.numerator.bit_length(), value.denominator.bit_length()) <= EXACT_BITS:
-            return value
-        self._outgrown = True
-        return float(value)
 
 
 def _times(count: Value) -> int:
@@ -219,8 +103,8 @@ class Successors(dict[int, tuple[int, ...]]):
         return found
 
 
-class States(RuleApplication):
-    """The states of a system under given constants.
+class States:
+    """The states of a system under given constants, and its rules at work.
 
     Parameters
     ----------
@@ -233,6 +117,8 @@ class States(RuleApplication):
 
     Attributes
     ----------
+    constants
+        The values of all declared constants, in their order.
     modules
         The module of each state.
     traits
@@ -253,7 +139,13 @@ class States(RuleApplication):
     """
 
     def __init__(self, system: LSystem, constants: dict[str, object] | None = None, arithmetic: str = "exact") -> None:
-        super().__init__(system, constants, arithmetic)
+        require(system, LSystem, "An L-system")
+        require(arithmetic, str, "The name of an arithmetic")
+        if arithmetic not in ("exact", "float"):
+            raise ModelNameError(f'There is no arithmetic called "{arithmetic}"', hint='Choose "exact" or "float".')
+        self.system, self.arithmetic = system, arithmetic
+        self.constants = constants_of(system, constants or {}, arithmetic)
+        self._outgrown = False
         self.modules: list[Module] = []
         self.inexact: Module | None = None
         self._numbers: dict[tuple[object, ...], int] = {}
@@ -339,14 +231,104 @@ class States(RuleApplication):
             self._applied[state] = self.matching_rule(self.modules[state], self.rules)
         return self._applied[state]
 
+    def matching_rule(self, module: Module, rules: Rules, chance: Chance | None = None) -> Rule | None:
+        """The rule that rewrites a module, of rules that need no context."""
+        return self.choose_rule(self.matching_rules(module, rules, chance), chance)
+
+    def matching_rules(self, module: Module, rules: Rules, chance: Chance | None = None) -> list[Match]:
+        """The rules that match a module, up to the first that has no probability."""
+        values: tuple[Value, ...] = module.arguments
+        found: list[Match] = []
+        for rule in rules.get(kind_of(module), ()):
+            if self.matches(rule, values, module, chance):
+                found.append((rule, values))
+                if found[0][0].probability is None:
+                    break
+        return found
+
+    def matches(self, rule: Rule, values: tuple[Value, ...], module: Module, chance: Chance | None = None) -> bool:
+        """Whether a rule accepts some values: they are equal to those it asks for, and its condition is true."""
+        given = (*values, *self.constants, chance)
+        try:
+            return all(equal_values(values[i], wanted(given)) for i, wanted in rule.equalities) and (
+                rule.condition is None or bool(rule.condition(given))
+            )
+        except TypeError:
+            raise undecided_condition(self.system, self.constants, module, rule) from None
+        except (ArithmeticError, ValueError) as fault:
+            raise rule_error(self.system, module, rule, fault) from None
+
+    def choose_rule(self, matched: Sequence[Match], chance: Chance | None) -> Rule | None:
+        """The rule that is applied, of those that match: the first, or one at random where the first has a probability."""
+        if not matched or matched[0][0].probability is None:
+            return matched[0][0] if matched else None
+        weighted = self.weighted(matched, chance)
+        unit = chance.unit() if chance else 0.0
+        try:
+            return weighted[choose([weight for _, weight in weighted], unit)][0]
+        except (ValueError, TypeError) as fault:
+            raise rule_error(self.system, weighted[0][0].production.predecessor, weighted[0][0], fault) from None
+
+    def weighted(self, matched: Sequence[Match], chance: Chance | None = None) -> list[tuple[Rule, Value]]:
+        """The rules with a probability, of those that match, each with its weight."""
+        return [(rule, self.weight(rule, values, chance)) for rule, values in matched if rule.probability]
+
+    def weight(self, rule: Rule, values: tuple[Value, ...], chance: Chance | None = None) -> Value:
+        """The weight with which a rule is chosen at random."""
+        assert rule.probability
+        try:
+            return finite(rule.probability((*values, *self.constants, chance)))
+        except (ArithmeticError, ValueError) as fault:
+            raise rule_error(self.system, rule.production.predecessor, rule, fault) from None
+
+    def apply(
+        self, rule: Rule, module: Module, values: tuple[Value, ...] | None = None, chance: Chance | None = None
+    ) -> Iterator[tuple[str, tuple[Value, ...]]]:
+        """The symbols and values that a rule makes of a module, given the values of all parameters that it names."""
+        given = (*(module.arguments if values is None else values), *self.constants)
+        try:
+            yield from self._written(rule.successor, given, chance)
+        except (ArithmeticError, ValueError) as fault:
+            raise rule_error(self.system, module, rule, fault) from None
+        except TypeError as fault:
+            if not any(map(is_symbolic, given)):
+                raise
+            raise rule_error(self.system, module, rule, fault) from None
+
+    def _written(
+        self, parts: Iterable[ModuleTemplate | RepeatTemplate], given: tuple[object, ...], chance: Chance | None
+    ) -> Iterator[tuple[str, tuple[Value, ...]]]:
+        values: tuple[object, ...] = (*given, chance)
+        for part in parts:
+            if isinstance(part, ModuleTemplate):
+                yield part.symbol, tuple([self._kept(argument(values)) for argument in part.arguments])
+            else:
+                check_budget()  # repetitions within repetitions may each be few
+                for index in counted(range(_times(part.count(values)))):
+                    yield from self._written(part.body, (*given, index), chance)
+
+    def _kept(self, value: Value) -> Value:
+        """The value as the table keeps it: rational up to 128 bits, else a double that is a number."""
+        if value.__class__ is int and -SMALL < value < SMALL:
+            return value
+        finite(value)
+        if is_symbolic(value):
+            value = expanded_value(value)
+        if isinstance(value, float) or is_symbolic(value):
+            return value
+        if max(value.numerator.bit_length(), value.denominator.bit_length()) <= EXACT_BITS:
+            return value
+        self._outgrown = True
+        return float(value)
+
     def applied_states(
-        self, rule: Rule, module: Module, values: Sequence[object] | None = None, chance: Chance | None = None
+        self, rule: Rule, module: Module, values: tuple[Value, ...] | None = None, chance: Chance | None = None
     ) -> tuple[int, ...]:
         """The states that a rule makes of a module, before any decomposition."""
         return tuple(self.number(*made) for made in self._made(rule, module, values, chance))
 
     def replacement(
-        self, rule: Rule, module: Module, values: Sequence[object] | None = None, chance: Chance | None = None
+        self, rule: Rule, module: Module, values: tuple[Value, ...] | None = None, chance: Chance | None = None
     ) -> tuple[int, ...]:
         """The states that replace a module by a rule, after decomposition."""
         if not self.decomposition:
@@ -359,12 +341,12 @@ class States(RuleApplication):
         return tuple(found)
 
     def _made(
-        self, rule: Rule, module: Module, values: Sequence[object] | None, chance: Chance | None
+        self, rule: Rule, module: Module, values: tuple[Value, ...] | None, chance: Chance | None
     ) -> Iterator[tuple[str, tuple[Value, ...]]]:
         """The symbols and values of the modules that a rule makes; no more of them than a word may have."""
         most = current().modules
         self._outgrown = False
-        for number, made in enumerate(self.apply(rule, module, values, chance)):  # type: ignore[arg-type]
+        for number, made in enumerate(self.apply(rule, module, values, chance)):
             if self._outgrown and self.inexact is None:
                 self.inexact = Module(*made)
             if number == most and module is not AXIOM:  # the axiom is step 0, which is checked like any step
@@ -372,14 +354,9 @@ class States(RuleApplication):
             yield made
 
     def _too_many(self, rule: Rule, module: Module) -> ModelLimitError:
-        most, (start, end) = current().modules, rule.production.at or (None, None)
-        return ModelLimitError(
-            f"{module} becomes more than {most:,} modules in one step",
-            limit=most,
-            source=self.system.source or None,
-            start=start,
-            end=end,
-        )
+        most = current().modules
+        said = f"{module} becomes more than {most:,} modules in one step"
+        return ModelLimitError(said, limit=most, **_place(self.system, rule))
 
     def decompose(self, module: Module, chance: Chance | None = None) -> tuple[int, ...]:
         """The states of a module's parts, and of their parts, until nothing is left to replace or the depth is reached."""
@@ -400,17 +377,11 @@ class States(RuleApplication):
             if rule is None:
                 found.append(self.number(part.symbol, part.arguments))
             elif depth == deepest:
-                start, end = rule.production.at or (None, None)
-                raise ModelLimitError(
-                    f"{module} is decomposed more than {deepest} times, last by {as_written(self.system, rule.production)}",
-                    limit=deepest,
-                    source=self.system.source or None,
-                    start=start,
-                    end=end,
-                    hint="A condition before the arrow can bring it to an end."
-                    if rule.production.condition is None
-                    else "What is made must come nearer to where the condition ends.",
-                )
+                said = f"{module} is decomposed more than {deepest} times, last by {as_written(self.system, rule.production)}"
+                ends = rule.production.condition is not None
+                hint = "What is made must come nearer to where the condition ends."
+                hint = hint if ends else "A condition before the arrow can bring it to an end."
+                raise ModelLimitError(said, limit=deepest, hint=hint, **_place(self.system, rule))
             else:
                 todo += [(Module(*made), depth + 1) for made in reversed([*self._made(rule, part, None, chance)])]
             if len(found) + len(todo) > most:

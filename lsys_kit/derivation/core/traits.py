@@ -23,8 +23,6 @@ CUT = "%"
 """The symbol that cuts off the rest of its branch (ABOP, section 1.8)."""
 QUERIES = frozenset(("?P", "?H", "?U", "?L", "?E"))
 """The symbols whose values come from outside: the turtle's position, its heading, its up and its left, or what a field says."""
-MOST = 10**9
-"""More modules than any production names."""
 
 
 class Traits(NamedTuple):
@@ -98,8 +96,12 @@ class Traits(NamedTuple):
 
 D0L = Traits(decomposition=True, repetition=True, scalar=True, unknown=True)
 """The most that a deterministic system without interactions has."""
-S0L = Traits(stochastic=True, decomposition=True, repetition=True, scalar=True, unknown=True)
+S0L = D0L._replace(stochastic=True)
 """The most that a stochastic system without interactions has."""
+ANY = Traits(
+    **{name: True for name, usual in Traits._field_defaults.items() if usual is False}, context=10**9, predecessor=10**9
+)
+"""What no system exceeds."""
 
 
 @lru_cache(maxsize=256)
