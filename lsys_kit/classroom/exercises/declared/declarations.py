@@ -150,7 +150,7 @@ _FORMS: Mapping[str, Form] = {
 
 
 def _forms(record: Any) -> dict[str, Form]:
-    return {part.name: _FORMS[part.type] for part in fields(record) if part.type in _FORMS}
+    return {part.name: _FORMS[str(part.type)] for part in fields(record) if part.type in _FORMS}
 
 
 KEYS: Mapping[str, Form] = {
