@@ -26,13 +26,6 @@ MOST_STEPS = 10**9
 def main(arguments: Sequence[str] | None = None) -> int:
     """Carry out one command line.
 
-    Returns
-    -------
-    int
-        The exit status.
-
-    Examples
-    --------
     >>> main(["derive", "J1", "-n", "2"])
     ar
     al br

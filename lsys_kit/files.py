@@ -37,13 +37,7 @@ _TO_THE_END = os.O_RDWR | os.O_APPEND | getattr(os, "O_NOFOLLOW", 0) | getattr(o
 
 
 def replace_file(path: Path, content: bytes) -> None:
-    """Write a file, in place of one that may be there.
-
-    Raises
-    ------
-    OSError
-        It cannot be written; what was there is as it was.
-    """
+    """Write a file, in place of one that may be there."""
     with _draft(path, content) as draft:
         if path.is_file() and not path.is_symlink():
             shutil.copymode(path, draft)
@@ -78,11 +72,6 @@ def path_from(given: object) -> Path:
 
     >>> path_from("plant.png").suffix
     '.png'
-
-    Raises
-    ------
-    ModelValueError
-        It is neither a text nor a path.
     """
     try:
         return Path(given)  # type: ignore[arg-type]
@@ -137,15 +126,6 @@ def save_file(path: Path, content: bytes) -> None:
 
 def append_line(path: Path, line: str, head: str) -> None:
     """Add a line to the end of a text file of the kit, at one stroke; two programs that do so at the same time lose nothing.
-
-    Parameters
-    ----------
-    path
-        The file; where none is there it is made.
-    line
-        The line, without its end.
-    head
-        The first line of the file, which shows that it is the kit's.
 
     Raises
     ------
@@ -249,13 +229,6 @@ _SAVE = "Save it as plain text, in UTF-8."
 def decoded(content: bytes, name: str, most: int) -> str:
     r"""The text that the first bytes of a file hold, at most so many; lines end in line feeds.
 
-    Raises
-    ------
-    ModelFileError
-        They hold none.
-
-    Examples
-    --------
     >>> decoded("axiom: Ä\r\n".encode("utf-16"), "the file", 100)
     'axiom: Ä\n'
     """

@@ -210,13 +210,6 @@ def _catalogue(folder: str) -> Catalogue:
 def entry(id: str) -> Entry:
     """What the catalogue knows about a system of any kind, given its id or its name.
 
-    Raises
-    ------
-    ModelNameError
-        No system is called that.
-
-    Examples
-    --------
     >>> entry("P4").words[1]
     'M(2,-1)M(1,1)'
     >>> entry("anabaena-life-spans").id

@@ -99,16 +99,6 @@ def copy_course(folder: str | Path = FOLDER, source: Path | None = None) -> tupl
         The user's folder; it is made if necessary.
     source
         Where the course comes from; by default what came with the kit.
-
-    Returns
-    -------
-    tuple of Copied
-        What became of each file. `copy_report` says it in words.
-
-    Raises
-    ------
-    ModelFileError
-        The folder cannot be written to.
     """
     folder, files = Path(folder), course_files(source)
     with file_errors(f"The course cannot be copied to {folder}", hint="Choose another folder: lsys-kit lab FOLDER."):

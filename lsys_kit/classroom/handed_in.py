@@ -48,11 +48,6 @@ def handed_in(folder: str | Path, ending: str = "") -> list[HandedIn]:
 
     A folder in it belongs to one student, with all that is in it; one without files of this ending is listed with that as its
     problem, as are links, which are never followed. Names that begin with a dot are passed over.
-
-    Raises
-    ------
-    ModelFileError
-        There is no such folder, nothing in it, or too much.
     """
     folder = Path(folder)
     with file_errors(f'"{quotable(str(folder))}" cannot be read'):

@@ -28,13 +28,7 @@ AROUND, WIDTH = 8, 100
 
 
 def load(shell: Any) -> None:
-    """Make `%%lsystem` known to a notebook, and let it show every system in that way.
-
-    Parameters
-    ----------
-    shell
-        IPython's shell, as `%load_ext` gives it.
-    """
+    """Make `%%lsystem` known to a notebook, and let it show every system in that way."""
     from IPython.core.magic import no_var_expand
 
     def lsystem(line: str, cell: str) -> None:
@@ -135,22 +129,6 @@ def _standing(name: str, shell: Any) -> str:
 def underlined(mistake: LSystemError, text: str, after: str = "") -> dict[str, str]:
     """A mistake as a notebook shows it: what is wrong, the text with the wrong stretch underlined, what to try.
 
-    Parameters
-    ----------
-    mistake
-        The mistake.
-    text
-        The whole text, to whose lines the mistake refers.
-    after
-        What else to say, in whole sentences.
-
-    Returns
-    -------
-    dict
-        HTML and plain text, by MIME type.
-
-    Examples
-    --------
     >>> mistake = LSystemError("Here is no arrow", "A B", 2, 3, "Type one.")
     >>> print(underlined(mistake, "A B")["text/plain"])
     Not readable yet. Here is no arrow (line 1, column 3). Type one.

@@ -59,22 +59,6 @@ _CELL = "text-align:left;vertical-align:baseline;padding:1px 10px 1px 0;border:n
 def shown(system: LSystem, name: str = "", notes: Iterable[str] = ()) -> dict[str, str]:
     """A system as a notebook shows it.
 
-    Parameters
-    ----------
-    system
-        Any L-system.
-    name
-        Its name, if it has one.
-    notes
-        Notes besides those of the system's reader, a sentence each.
-
-    Returns
-    -------
-    dict
-        HTML and plain text, by MIME type.
-
-    Examples
-    --------
     >>> from lsys_kit.notation.read import read
     >>> print(shown(read("axiom: F\\nF -> F[+F]"), "twig")["text/plain"])
     twig is an L-system in the notation abop.

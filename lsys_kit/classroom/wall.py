@@ -86,13 +86,7 @@ class Tile:
 
 
 def wall(folder: str | Path) -> list[Tile]:
-    """What stands in a folder, drawn: files with a model, or with links, one a line, perhaps with a name before each.
-
-    Raises
-    ------
-    ModelFileError
-        There is no such folder, nothing in it, or more than a page shows.
-    """
+    """What stands in a folder, drawn: files with a model, or with links, one a line, perhaps with a name before each."""
     given = [each for file in handed_in(folder) for each in models_in(file)]
     if len(given) > MOST_TILES or sum(len(each.text) for each in given) > MOST_CHARACTERS:
         raise ModelFileError(

@@ -120,13 +120,7 @@ class Derivation(Sequence[Word]):
         self.states = engine.states
 
     def to(self, steps: int) -> Derivation:
-        """The same derivation up to another step; known steps are not computed again.
-
-        Raises
-        ------
-        ModelLimitError
-            A step would be too large.
-        """
+        """The same derivation up to another step; known steps are not computed again."""
         last, reached = whole_number(steps, "The number of steps"), 0
         try:
             with Task(lambda: f"Step {reached} was not reached"):
@@ -282,11 +276,6 @@ def lengths(system: LSystem, steps: int, *, arithmetic: str = "exact", **constan
     >>> from lsys_kit.notation.read import read
     >>> len(str(list(lengths(read("axiom: a\\na -> ab\\nb -> a"), 10_000))[-1]))
     2090
-
-    Raises
-    ------
-    ModelLimitError
-        Counting takes too long, since there are too many different modules.
     """
     states, counting = States(system, constants, arithmetic), Task()
     check_d0l(states, "The number of modules of a step that is not derived")

@@ -110,13 +110,6 @@ def scene_of(what: Derivation | Word, angle: float | None = None, colours: str =
     colours
         Whether strokes without a chosen colour have "natural" ones; by default as the system says.
 
-    Raises
-    ------
-    ModelLimitError
-        More brackets are open at once than the limit allows.
-    ModelValueError
-        A value cannot be drawn.
-
     Examples
     --------
     >>> from lsys_kit.derivation.derive import derive
@@ -136,11 +129,6 @@ def turning_angle(given: object, system: LSystem) -> float:
     >>> from lsys_kit.notation.read import read
     >>> turning_angle(None, read("angle: 60\\naxiom: F")), turning_angle("51/2", read("axiom: F"))
     (60.0, 25.5)
-
-    Raises
-    ------
-    ModelValueError
-        It is no number, or a number that is not known.
     """
     return float(system.angle) if given is None else real_from(given, "angle", ANGLE_HINT)
 

@@ -31,13 +31,6 @@ SHAPE_BYTES = 240
 def filament(word: Word) -> Scene:
     """The cells of a word, side by side from x = 0, and the walls between them.
 
-    Raises
-    ------
-    ModelValueError
-        A cell has a length or width that is not positive, or a value is too large to draw, or symbolic.
-
-    Examples
-    --------
     >>> from lsys_kit.derivation.derive import derive
     >>> from lsys_kit.notation.read import read
     >>> growing = read("axiom: a\\na -> a b\\nb -> a\\ninterpretation:\\na -> R(2,1)\\nb -> L(1,1)")
@@ -65,13 +58,6 @@ def shapes_of(states: States, numbers: Sequence[int]) -> dict[int, list[tuple[fl
     """For each of some states the cells and walls that it is drawn as: of a cell 0, its length, width, polarity and shade; of a
     wall 1, 0, 0, its age, which is NaN where it has none, and its shade.
 
-    Raises
-    ------
-    ModelValueError
-        As for `filament`.
-
-    Examples
-    --------
     >>> from lsys_kit.notation.read import read
     >>> states = States(read("axiom: a\\ninterpretation:\\na -> L(2,1) W(3)"))
     >>> shapes_of(states, states.axiom)

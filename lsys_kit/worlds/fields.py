@@ -95,13 +95,6 @@ def answered(
 ) -> list[tuple[Value, ...]]:
     """The values that the query modules have after a field has answered; a single number takes the place of the first.
 
-    Raises
-    ------
-    ModelValueError
-        The field fails, or does not return a number for each question.
-
-    Examples
-    --------
     >>> import numpy as np
     >>> class Height:
     ...     def answer(self, questions, scene):

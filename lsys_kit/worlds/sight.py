@@ -111,13 +111,7 @@ class TurtleObservation:
     places: dict[int, Standpoint]
 
     def sees(self, position: int, function: Value, *values: Value) -> Value:
-        """The value of a sensitive function for the module at a position; both apices of a fork get the same.
-
-        Raises
-        ------
-        ValueError
-            There is no such function, or it takes another number of values.
-        """
+        """The value of a sensitive function for the module at a position; both apices of a fork get the same."""
         key = (function, *values)
         if key not in self._answers:
             self._answers[key] = Answers(self._standpoints, _sensitive_function(function, values), values)
@@ -164,22 +158,6 @@ def _sensitive_function(number: Value, values: Sequence[Value]) -> SensitiveFunc
 def observe(word: Word, field: Field | None = None) -> TurtleObservation:
     """Interpret a word and record what its modules see.
 
-    Parameters
-    ----------
-    word
-        The word; interpretation rules are applied first.
-    field
-        What answers query modules `?E`; by default the field that the model names.
-
-    Raises
-    ------
-    ModelLimitError
-        More brackets are open at once than the limit allows.
-    ModelValueError
-        A value is too large to draw, or symbolic; a query module asks for more than three values; or no field answers.
-
-    Examples
-    --------
     >>> from lsys_kit.derivation.derive import derive
     >>> from lsys_kit.notation.read import read
     >>> print(observe(derive(read("axiom: F(2)[+F(1)?P(0,0)]F(1)?H(0,0,0)"), 0)[0]).word)

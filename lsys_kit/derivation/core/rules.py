@@ -105,17 +105,6 @@ Rules: TypeAlias = Mapping[ModuleKind, tuple[Rule, ...]]
 def rules_of(system: LSystem, arithmetic: str = "exact", section: str = "productions") -> Rules:
     """The rules of a system, by the symbol and the number of parameters of the module that they rewrite; of several, the first.
 
-    Parameters
-    ----------
-    system
-        Any L-system.
-    arithmetic
-        "exact" or "float".
-    section
-        "productions", "decomposition" or "interpretation".
-
-    Examples
-    --------
     >>> from lsys_kit.notation.read import read
     >>> sorted(rules_of(read("axiom: A(0)\\nA(t) : t < 5 -> A(t+1) B")))
     [('A', 1)]

@@ -201,13 +201,7 @@ class States:
         )
 
     def successor(self, state: int) -> tuple[int, ...]:
-        """The states that replace a state in one step: itself, where no production matches.
-
-        Raises
-        ------
-        ModelValueError
-            Its neighbours, chance or what the turtle sees decide that as well.
-        """
+        """The states that replace a state in one step: itself, where no production matches."""
         return self.successors[state]
 
     def width(self, state: int) -> int:

@@ -206,65 +206,44 @@ def _listed(array: Array) -> Iterator[list[Any]]:
         yield from array[first : first + ROWS_AT_A_TIME].tolist()
 
 
-class FloatValues:
-    """The values of a word in doubles, a row for each module."""
+class FloatColumns:
+    """The values of a word in doubles, a row for each module; they are written column by column."""
 
     bytes = 8
-
-    def __init__(self, array: Array) -> None:
-        self.array = array
-
-    def columns(self, rows: Any, parameters: int) -> Iterator[Array]:
-        there = self.array[rows]
-        return (there[:, parameter] for parameter in range(parameters))
-
-    def rows(self) -> Iterable[tuple[Value, ...]]:
-        return map(tuple, _listed(self.array))
-
-
-class FloatColumns:
-    """Columns of doubles that are put together to the values of a word."""
 
     def __init__(self, shape: tuple[int, int]) -> None:
         self._array = np.zeros(shape)
 
     def write(self, argument: ColumnFunction, named: Mapping[str, Any], places: Any, parameter: int) -> None:
+        """Write what an argument comes to into some places of the column of a parameter."""
         target = self._array[places, parameter] if isinstance(places, slice) else None
         found = argument(named, out=target)
         if target is None or found is not target:
             self._array[places, parameter] = found
 
-    def values(self) -> FloatValues:
-        return FloatValues(self._array)
+    def whole(self) -> FloatColumns:
+        """All that was written."""
+        return self
 
-
-class ExactValues:
-    """The exact values of a word: a row of numerators for each module, and one denominator."""
-
-    def __init__(self, numerators: Array, denominator: int, bits: int) -> None:
-        self.numerators, self.denominator, self.bits = numerators, denominator, bits
-
-    @property
-    def bytes(self) -> int:
-        return 8 if self.bits <= SHORT_BITS else 56
-
-    def columns(self, rows: Any, parameters: int) -> Iterator[ExactColumn]:
-        there = self.numerators[rows]
-        return (ExactColumn(there[:, parameter], self.denominator, self.bits) for parameter in range(parameters))
+    def columns(self, rows: Any, parameters: int) -> Iterator[Array]:
+        """The columns of the first parameters, of some rows."""
+        there = self._array[rows]
+        return (there[:, parameter] for parameter in range(parameters))
 
     def rows(self) -> Iterable[tuple[Value, ...]]:
-        return (tuple(normalised(Fraction(number, self.denominator)) for number in row) for row in _listed(self.numerators))
+        """The values of each module, as numbers."""
+        return map(tuple, _listed(self._array))
 
 
 class ExactColumns:
-    """Exact columns that are put together to the values of a word.
+    """The exact values of a word: a row of numerators for each module, and one denominator; they are put together in the end.
 
     Examples
     --------
     >>> columns = ExactColumns((2, 1))
     >>> for row, value in enumerate((Fraction(1, 2), Fraction(2, 3))):
     ...     columns.write(column_function(Number(value), "exact"), {}, row, 0)
-    >>> list(columns.values().rows())
+    >>> list(columns.whole().rows())
     [(Fraction(1, 2),), (Fraction(2, 3),)]
     """
 
@@ -275,7 +254,8 @@ class ExactColumns:
     def write(self, argument: ColumnFunction, named: Mapping[str, Any], places: Any, parameter: int) -> None:
         self._written.append((places, parameter, argument(named)))
 
-    def values(self) -> ExactValues:
+    def whole(self) -> ExactColumns:
+        """All that was written; an `OverflowError`, where that may be more than the table of states keeps exactly."""
         common = math.lcm(*{column.denominator for _, _, column in self._written})
         bits = max((column.bits + (common // column.denominator).bit_length() for _, _, column in self._written), default=0)
         found = np.zeros(self._shape, dtype=np.int64 if bits <= SHORT_BITS else object)
@@ -286,7 +266,21 @@ class ExactColumns:
             found = found.astype(np.int64) if bits <= SHORT_BITS else found
         if max(bits, common.bit_length()) > EXACT_BITS:
             raise OverflowError
-        return ExactValues(found, common, bits)
+        self._numerators, self._denominator, self._bits = found, common, bits
+        self._written.clear()
+        return self
+
+    @property
+    def bytes(self) -> int:
+        """About how many bytes one value takes."""
+        return 8 if self._bits <= SHORT_BITS else 56
+
+    def columns(self, rows: Any, parameters: int) -> Iterator[ExactColumn]:
+        there = self._numerators[rows]
+        return (ExactColumn(there[:, parameter], self._denominator, self._bits) for parameter in range(parameters))
+
+    def rows(self) -> Iterable[tuple[Value, ...]]:
+        return (tuple(normalised(Fraction(number, self._denominator)) for number in row) for row in _listed(self._numerators))
 
 
 BLOCK_ROWS = 2**15
@@ -327,7 +321,7 @@ class ColumnWord(Word):
 
     __slots__ = ("_row", "kinds", "names", "values")
 
-    def __init__(self, states: States, kinds: Array, values: FloatValues | ExactValues, names: Sequence[ModuleKind]) -> None:
+    def __init__(self, states: States, kinds: Array, values: FloatColumns | ExactColumns, names: Sequence[ModuleKind]) -> None:
         self.states, self.kinds, self.values, self.names = states, kinds, values, names
         self._row: Array | None = None
 
@@ -376,15 +370,15 @@ class ColumnarSteps:
         self._rules = [[*map(self._rule, states.rules.get(kind, ())), self._identity(kind)] for kind in self.kinds]
 
     def _rule(self, rule: Rule) -> ColumnRule:
-        def ready(expression: Any) -> ColumnFunction:
+        def ready(expression: Expression) -> ColumnFunction:
             return column_function(expression, self.states.arithmetic)
 
         production = rule.production
         asked = production.predecessor.arguments
-        formal = [isinstance(a, Name) and a.name not in self._constants for a in asked]
-        names = tuple(a.name if formal[i] else f"#{i}" for i, a in enumerate(asked))  # type: ignore[union-attr]
-        equal = [Apply("==", (Name(names[i]), a)) for i, a in enumerate(asked) if not formal[i]]
-        condition = [production.condition] if production.condition is not None else []
+        formal = {i: a.name for i, a in enumerate(asked) if isinstance(a, Name) and a.name not in self._constants}
+        names = tuple(formal.get(i, f"#{i}") for i in range(len(asked)))
+        equal = [Apply("==", (Name(names[i]), a)) for i, a in enumerate(asked) if i not in formal]
+        condition = [] if production.condition is None else [production.condition]
         parts = tuple((self.kinds.index(kind_of(m)), tuple(map(ready, m.arguments))) for m in flat(production.successor))
         return ColumnRule(names, tuple(map(ready, [*equal, *condition])), parts)
 
@@ -401,7 +395,7 @@ class ColumnarSteps:
         for row, module in enumerate(modules):
             for parameter, value in enumerate(module.arguments):
                 columns.write(column_function(Number(value), self.states.arithmetic), {}, row, parameter)
-        return ColumnWord(self.states, kinds, columns.values(), self.kinds)
+        return ColumnWord(self.states, kinds, columns.whole(), self.kinds)
 
     def step(self, word: ColumnWord, check: Callable[[int, int], None] = lambda size, taken: None) -> ColumnWord:
         """The next word; `check` is called with its size and its bytes before it is built, and may raise an error.
@@ -419,7 +413,7 @@ class ColumnarSteps:
             for rule, rows in chosen:
                 for block, at in counted(_blocks(rule, len(word), rows, starts), 1):
                     self._write(rule, self._named(rule, word, block), kinds, columns, at)
-            return ColumnWord(self.states, kinds, columns.values(), self.kinds)
+            return ColumnWord(self.states, kinds, columns.whole(), self.kinds)
 
     def _collected(self, shape: tuple[int, int]) -> FloatColumns | ExactColumns:
         return ExactColumns(shape) if self.states.arithmetic == "exact" else FloatColumns(shape)

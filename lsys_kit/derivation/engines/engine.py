@@ -97,20 +97,7 @@ class ByteTable:
 
 
 def expand(states: States, present: Sequence[Collection[int]]) -> np.ndarray[Any, Any]:
-    """The word of the last step, as an array of states.
-
-    Parameters
-    ----------
-    states
-        The table.
-    present
-        The states that occur in the word of each step.
-
-    Returns
-    -------
-    numpy.ndarray
-        The codes, of the smallest unsigned integer type that holds them.
-    """
+    """The word of the last step, as an array of states."""
     sizes = _sizes(states, present)
     pieces = _pieces(states, present, sizes)
     word = np.empty(sum(sizes[0][state] for state in states.axiom), dtype=code_type(len(states)))

@@ -73,15 +73,6 @@ class ParentWord:
 class Stepper:
     """The steps of one system under one seed; equal cases are computed once.
 
-    Parameters
-    ----------
-    states
-        The table of states.
-    seed
-        The seed of all random numbers.
-
-    Examples
-    --------
     >>> from lsys_kit.notation.read import read
     >>> states = States(read("axiom: b a a\\nb < a -> b"))
     >>> stepper = Stepper(states, 0)
@@ -107,15 +98,6 @@ class Stepper:
         """What each module of a word becomes; what is cut off becomes nothing.
 
         What several modules become together is given with the first of them.
-
-        Parameters
-        ----------
-        codes
-            The word's states.
-        step
-            The word's step, on which its random numbers depend.
-        sees
-            Answers what modules ask of the turtle.
         """
         old, nothing, taken = self.old(codes, sees), Replacement((), None), Replacement((), None, 0)
         behind = 0  # where the scan goes on

@@ -108,13 +108,6 @@ def read_drawings(given: Iterable[object]) -> tuple[Strokes, ...]:
 
     >>> [abs(end - begin).tolist() for begin, end in read_drawings([[(0, 0, 0, 7)]])[0].ends]
     [1.0]
-
-    Raises
-    ------
-    ModelValueError
-        A drawing is not in the plane, or has strokes of several lengths.
-    ModelLimitError
-        There are too many strokes.
     """
     found: list[Strokes] = []
     for step, each in enumerate(counted(given, 1)):

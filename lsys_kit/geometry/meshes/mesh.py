@@ -81,13 +81,6 @@ def mesh_of(scene: Scene, own_widths: Sequence[float] = OWN_WIDTHS) -> Mesh:
         First the strokes, then polygons, discs, spheres and cells, each in the order of the scene. Strokes of length 0 are
         left out.
 
-    Raises
-    ------
-    ModelLimitError
-        There would be more triangles than the limit allows, or a polygon has too many corners.
-    ModelValueError
-        It is too large for the single precision of meshes.
-
     Examples
     --------
     >>> from lsys_kit.derivation.derive import derive

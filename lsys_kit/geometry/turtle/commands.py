@@ -226,13 +226,6 @@ _EXPECTED_SURFACE = (Command("draw expected surface"),)
 def instructions(drawn: Mapping[int, Sequence[Module]], dialect: str, angle: Value = 90) -> dict[int, list[Instruction]]:
     """The instructions for each state, given the modules that it is drawn as, and the angle of the system.
 
-    Raises
-    ------
-    ModelValueError
-        An argument is too large to draw, or symbolic.
-
-    Examples
-    --------
     >>> compiled = instructions({0: (Module("F", (2,)), Module("-")), 1: (Module("A"),)}, "abop")
     >>> {state: [(each.action, each.factor, each.addend) for each in found] for state, found in compiled.items()}
     {0: [('draw', 0.0, 2.0), ('turn', -1.0, 0.0)], 1: []}
@@ -291,13 +284,7 @@ def _multiple(argument: str, value: float) -> float:
 
 
 def values_of(module: Module) -> tuple[float, ...]:
-    """The arguments of a module as doubles.
-
-    Raises
-    ------
-    ModelValueError
-        An argument is too large to draw, or symbolic.
-    """
+    """The arguments of a module as doubles."""
     if not module.arguments:
         return ()
     try:

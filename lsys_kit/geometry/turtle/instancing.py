@@ -104,17 +104,7 @@ def draw_instanced(derivation: Derivation, step: int, angle: float) -> Scene | N
 
 
 class Prototypes:
-    """The prototypes of the drawings of a system, each made once.
-
-    Parameters
-    ----------
-    states
-        The table of states, none of which depends on its neighbours.
-    angle
-        The turning angle in degrees.
-    in_plane
-        Whether the turtle stays in the plane.
-    """
+    """The prototypes of the drawings of a system, each made once."""
 
     def __init__(self, states: States, angle: float, in_plane: bool) -> None:
         self.states, self.angle = states, angle

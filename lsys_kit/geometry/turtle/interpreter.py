@@ -285,26 +285,7 @@ def run_turtle(
     handlers: Mapping[str, Handler],
     prepare: Callable[[Instruction], Any] = lambda instruction: instruction,
 ) -> None:
-    """Interpret a word by a turtle; actions without a handler are skipped.
-
-    Parameters
-    ----------
-    turtle
-        The turtle, at its start.
-    word
-        The word.
-    handlers
-        The handlers of this turtle, by action.
-    prepare
-        The operand of an instruction: computed once for each state, not for each module.
-
-    Raises
-    ------
-    ModelLimitError
-        More brackets are open at once than the limit allows.
-    ModelValueError
-        A value is too large to draw, or symbolic.
-    """
+    """Interpret a word by a turtle; actions without a handler are skipped."""
     with _without_garbage_collection():
         compiled = compile_word(word, handlers, prepare)
         turtle.unknown = dict.fromkeys(compiled.unknown)

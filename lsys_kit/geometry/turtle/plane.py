@@ -149,15 +149,6 @@ PLANE_HANDLERS: Mapping[str, Handler] = {
 def trace(word: Word) -> Path:
     """The path of a turtle that interprets a word; commands that lead out of the plane are skipped.
 
-    Raises
-    ------
-    ModelLimitError
-        More brackets are open at once than the limit allows.
-    ModelValueError
-        A value is too large to draw, or symbolic.
-
-    Examples
-    --------
     >>> from lsys_kit.derivation.derive import derive
     >>> from lsys_kit.notation.read import read
     >>> path = trace(derive(read("axiom: F[+F]-(30)F(2)"), 0)[0])

@@ -398,27 +398,6 @@ SPACE_HANDLERS: Mapping[str, Handler] = {
 def trace_in_space(word: Word, angle: float | None = None) -> Scene:
     """The scene that a turtle in space draws by interpreting a word.
 
-    Parameters
-    ----------
-    word
-        The word; interpretation rules are applied first.
-    angle
-        The angle of turns, pitches and rolls without an argument, in degrees; by default the system's.
-
-    Returns
-    -------
-    Scene
-        Strokes and shapes in space; `unknown` lists the symbols that look like commands and are none.
-
-    Raises
-    ------
-    ModelLimitError
-        More brackets are open at once than the limit allows.
-    ModelValueError
-        A value is too large to draw, or symbolic.
-
-    Examples
-    --------
     >>> from lsys_kit.derivation.derive import derive
     >>> from lsys_kit.notation.read import read
     >>> bush = read("angle: 22.5\\naxiom: A\\nA -> [&F A] /(120) [&F A] /(120) [&F A]")

@@ -342,13 +342,6 @@ def surfaces_by_symbol(system: LSystem) -> Mapping[str, Surface]:
 def passed_over(unknown: Sequence[str]) -> str:
     """What a turtle has passed over, in words; empty if that is nothing.
 
-    Parameters
-    ----------
-    unknown
-        Symbols that look like commands and are none; after a tilde, what no surface is called.
-
-    Examples
-    --------
     >>> passed_over(["~X"])
     'no surface is called X: there are L (leaf), needle, ...; a model declares others'
     >>> passed_over(["~"])

@@ -255,13 +255,7 @@ class Questions:
 
 
 def questions_in(folder: Path) -> Questions:
-    """The exercises in a folder, with all mistakes in its files.
-
-    Raises
-    ------
-    ModelFileError
-        There is no such folder, or no file of exercises in it.
-    """
+    """The exercises in a folder, with all mistakes in its files."""
     with file_errors(f'"{quotable(str(folder))}" cannot be read'):
         paths = sorted(path for path in folder.iterdir() if path.suffix == ".toml")
     if not paths:
