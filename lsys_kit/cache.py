@@ -23,7 +23,7 @@ class Cache(Generic[_K, _V]):
 
     Examples
     --------
-    >>> from lsys_kit.budget import limits
+    >>> from lsys_kit import limits
     >>> with limits(bytes=10):
     ...     cache = Cache(len)
     ...     for text in ("four", "five5", "six", "six"):

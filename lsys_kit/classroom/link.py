@@ -82,7 +82,7 @@ def link(
 
     Examples
     --------
-    >>> from lsys_kit.classroom.catalogue import system
+    >>> from lsys_kit import system
     >>> there = link(system("T2"), {"step": 4}, "https://example.org/panel.html")
     >>> there.partition("=")[0], len(there) < 150, read(there) == system("T2"), dict(linked(there).settings)
     ('https://example.org/panel.html#lsys', True, True, {'step': 4})

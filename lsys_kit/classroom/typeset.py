@@ -59,7 +59,7 @@ _CELL = "text-align:left;vertical-align:baseline;padding:1px 10px 1px 0;border:n
 def shown(system: LSystem, name: str = "", notes: Iterable[str] = ()) -> dict[str, str]:
     """A system as a notebook shows it.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> print(shown(read("axiom: F\\nF -> F[+F]"), "twig")["text/plain"])
     twig is an L-system in the notation abop.
       axiom: F
@@ -80,7 +80,7 @@ def shown(system: LSystem, name: str = "", notes: Iterable[str] = ()) -> dict[st
 def first_words(system: LSystem) -> tuple[list[Word], str]:
     """The words of the first steps while they are short; and the reason where a step cannot be derived.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> first_words(read("axiom: A(0)\\nA(t) -> A(1/t)"))[1]
     'Step 1 cannot be derived. A(0) under production 1, A(t) -> A(1/t), has no value: division by zero.'
     """

@@ -71,7 +71,7 @@ def derive(system: CellworkSystem, steps: int) -> CellworkDevelopment: ...
 def derive(system: Any, steps: int, **choices: Any) -> Derivation | Development | CellworkDevelopment:
     """Derive a system by its words alone; `lsys_kit.derive`, which says more, also answers what modules ask of the turtle.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> fibonacci = read("axiom: a\\na -> ab\\nb -> a")
     >>> [str(word) for word in derive(fibonacci, 3)]
     ['a', 'a b', 'a b a', 'a b a a b']
@@ -174,7 +174,7 @@ class Derivation(Sequence[Word]):
     def notes(self) -> tuple[str, ...]:
         """Remarks: names that were read as several symbols, values that are no longer exact.
 
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> derive(read("axiom: F(0)\\nF(x) -> F(x^2 + 0.1)"), 8).notes
         ('From step 7 on values outgrow 128 bits and are doubles, such as F(0.11270011762177155).',)
         """
@@ -198,7 +198,7 @@ class Derivation(Sequence[Word]):
     def origins(self, step: int) -> Origins:
         """Where the modules of a step's word come from: which module of the previous word, and which production.
 
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> derive(read("axiom: a\\na -> ab\\nb -> a"), 2).origins(2)
         Origins(parents=[0, 0, 1], productions=[0, 0, 1])
         """
@@ -221,7 +221,7 @@ class Derivation(Sequence[Word]):
     def ancestors(self, step: int, before: int = 0) -> list[int]:
         """For each module of a step's word the position of its ancestor in the word of an earlier step.
 
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> derive(read("axiom: b a\\na -> ab\\nb -> a"), 3).ancestors(3)
         [0, 0, 0, 1, 1, 1, 1, 1]
         """
@@ -246,7 +246,7 @@ class Derivation(Sequence[Word]):
 
         Examples
         --------
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> derive(read("axiom: a\\na -> ab\\nb -> a"), 3).column(centred=True)
         0     a
         1    a b
@@ -273,7 +273,7 @@ class Column(str):
 def lengths(system: LSystem, steps: int, *, arithmetic: str = "exact", **constants: object) -> Iterator[int]:
     """The number of modules at steps 0 to `steps`, however large, without building a word.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> len(str(list(lengths(read("axiom: a\\na -> ab\\nb -> a"), 10_000))[-1]))
     2090
     """

@@ -91,8 +91,7 @@ def explain(derivation: Derivation, step: int) -> Explanation:
 
     Examples
     --------
-    >>> from lsys_kit.derivation.derive import derive
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import derive, read
     >>> explain(derive(read("axiom: b a\\nb < a -> b\\na -> c"), 1), 1)
     1. b becomes b: no production is for b
     2. a becomes b: production 1, b < a -> b

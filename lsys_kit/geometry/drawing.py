@@ -33,7 +33,7 @@ from lsys_kit.notation.model.system import LSystem
 def has_natural_colours(system: LSystem) -> bool:
     """Whether strokes have natural colours, if they have no others: as the system says, else if it branches in space.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> [has_natural_colours(read(text)) for text in ("axiom: F[&F]", "axiom: F[+F]", "colours: natural\\naxiom: F[+F]")]
     [True, False, True]
     """
@@ -50,9 +50,8 @@ def coloured(scene: Scene, system: LSystem, colours: str = "") -> Scene:
 
     Where its turtle steps through colours, the farthest step that is drawn is the last colour of the ramp.
 
-    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.turtle.space import trace_in_space
-    >>> from lsys_kit.notation.read import read
     >>> tree = read("colours: natural\\naxiom: F[&F[&F]]")
     >>> coloured(trace_in_space(derive(tree, 0)[0]), tree).segments.colours.tolist()
     [16, 20, 23]
@@ -112,8 +111,7 @@ def scene_of(what: Derivation | Word, angle: float | None = None, colours: str =
 
     Examples
     --------
-    >>> from lsys_kit.derivation.derive import derive
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import derive, read
     >>> plant = derive(read("angle: 25.7\\naxiom: F\\nF -> F[+F]F[-F]F"), 7)
     >>> print(scene_of(plant))
     78,125 segments, width 732.47, height 2187
@@ -126,7 +124,7 @@ def scene_of(what: Derivation | Word, angle: float | None = None, colours: str =
 def turning_angle(given: object, system: LSystem) -> float:
     """The turning angle that a person wants for a system, in degrees; by default the system's.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> turning_angle(None, read("angle: 60\\naxiom: F")), turning_angle("51/2", read("axiom: F"))
     (60.0, 25.5)
     """

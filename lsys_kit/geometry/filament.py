@@ -31,8 +31,7 @@ SHAPE_BYTES = 240
 def filament(word: Word) -> Scene:
     """The cells of a word, side by side from x = 0, and the walls between them.
 
-    >>> from lsys_kit.derivation.derive import derive
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import derive, read
     >>> growing = read("axiom: a\\na -> a b\\nb -> a\\ninterpretation:\\na -> R(2,1)\\nb -> L(1,1)")
     >>> print(filament(derive(growing, 2)[-1]))
     3 cells, width 5, height 1
@@ -58,7 +57,7 @@ def shapes_of(states: States, numbers: Sequence[int]) -> dict[int, list[tuple[fl
     """For each of some states the cells and walls that it is drawn as: of a cell 0, its length, width, polarity and shade; of a
     wall 1, 0, 0, its age, which is NaN where it has none, and its shade.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> states = States(read("axiom: a\\ninterpretation:\\na -> L(2,1) W(3)"))
     >>> shapes_of(states, states.axiom)
     {0: [(0, 2.0, 1.0, -1, 0.0), (1, 0, 0, 3.0, 0.0)]}

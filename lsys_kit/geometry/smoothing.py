@@ -23,9 +23,8 @@ _SIDES = 4
 def smoothed(scene: Scene) -> Scene:
     """A scene in space whose curved surfaces have finer faces, if there are few.
 
-    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.turtle.space import trace_in_space
-    >>> from lsys_kit.notation.read import read
     >>> leaf = trace_in_space(derive(read("axiom: &~L"), 0)[0])
     >>> len(leaf.polygons), len(smoothed(leaf).polygons)
     (30, 480)

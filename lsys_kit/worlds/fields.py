@@ -327,7 +327,7 @@ _NAMED: Mapping[str, Callable[..., Field]] = {
 def named_field(states: States) -> Field | None:
     """The field that a model names, with the values of its constants; None where it names none.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> named_field(States(read("k = 1/2\\nfield: light(k/2)\\naxiom: A"))).transmittance
     0.25
     """

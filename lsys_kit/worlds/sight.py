@@ -158,8 +158,7 @@ def _sensitive_function(number: Value, values: Sequence[Value]) -> SensitiveFunc
 def observe(word: Word, field: Field | None = None) -> TurtleObservation:
     """Interpret a word and record what its modules see.
 
-    >>> from lsys_kit.derivation.derive import derive
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import derive, read
     >>> print(observe(derive(read("axiom: F(2)[+F(1)?P(0,0)]F(1)?H(0,0,0)"), 0)[0]).word)
     F(2)[+F(1)?P(-1,2)]F(1)?H(0,1,0)
     >>> print(observe(derive(read("field: place(y/2)\\naxiom: F?E(0)F?E(0)"), 0)[0]).word)

@@ -60,7 +60,7 @@ class Passing:
 def passing_of(system: LSystem) -> Passing:
     """What the contexts of a system pass over.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> "+" in passing_of(read("ignore: + -\\naxiom: A")).ignored, "B" in passing_of(read("consider: A\\naxiom: A")).ignored
     (True, True)
     """

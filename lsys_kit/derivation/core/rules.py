@@ -105,7 +105,7 @@ Rules: TypeAlias = Mapping[ModuleKind, tuple[Rule, ...]]
 def rules_of(system: LSystem, arithmetic: str = "exact", section: str = "productions") -> Rules:
     """The rules of a system, by the symbol and the number of parameters of the module that they rewrite; of several, the first.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> sorted(rules_of(read("axiom: A(0)\\nA(t) : t < 5 -> A(t+1) B")))
     [('A', 1)]
     """
@@ -197,7 +197,7 @@ def _branched_context(modules: Sequence[Pattern]) -> Branch:
 def constants_of(system: LSystem, changes: Mapping[str, object], arithmetic: str = "exact") -> tuple[Value, ...]:
     """The values of the declared constants, in their order, with some of them changed.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> constants_of(read("dt = 7/10\\nhalf = dt/2\\naxiom: A"), {"dt": "14/10"})
     (Fraction(7, 5), Fraction(7, 10))
     """

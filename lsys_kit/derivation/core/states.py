@@ -130,7 +130,7 @@ class States:
 
     Examples
     --------
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> states = States(read("axiom: A(4)\\nA(t) : t < 5 -> A(t+1)\\nA(t) -> A(1) B"))
     >>> states.axiom, states.successor(0), states.successor(1), states.successor(3)
     ((0,), (1,), (2, 3), (3,))
@@ -413,7 +413,7 @@ def check_d0l(states: States, what: str) -> None:
 def closure(states: States, limit: int) -> Sequence[int] | None:
     """All states that are reached from the axiom, in the order of their numbers; None where there are more than `limit`.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> closure(States(read("axiom: A\\nA -> A B")), 100)
     range(0, 2)
     >>> closure(States(read("axiom: A(0)\\nA(t) -> A(t+1)")), 100) is None

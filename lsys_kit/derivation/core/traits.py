@@ -59,7 +59,7 @@ class Traits(NamedTuple):
 
     Examples
     --------
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> signal = traits_of(read("axiom: b a a\\nb < a -> b"))
     >>> signal.context, signal.stochastic, signal.d0l
     (1, False, False)

@@ -33,8 +33,7 @@ class Word(Sequence[Module]):
 
     Examples
     --------
-    >>> from lsys_kit.derivation.derive import derive
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import derive, read
     >>> word = derive(read("axiom: A(1)\\nA(t) -> A(t+1) [B]"), 2)[-1]
     >>> print(word), len(word), word[0].symbol, word[0].arguments
     A(3)[B][B]
@@ -89,8 +88,7 @@ class Word(Sequence[Module]):
     def coded(self, coding: Mapping[str, str]) -> str:
         """The word's text with some of its modules replaced: a coding (Rozenberg and Salomaa 1980).
 
-        >>> from lsys_kit.derivation.derive import derive
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import derive, read
         >>> derive(read("axiom: S L(1)"), 0)[0].coded({"S": "M(1)"})
         'M(1)L(1)'
         """
@@ -105,8 +103,7 @@ class Word(Sequence[Module]):
     def counts(self) -> Mapping[str, int]:
         """How often each symbol occurs.
 
-        >>> from lsys_kit.derivation.derive import derive
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import derive, read
         >>> dict(derive(read("axiom: a\\na -> ab\\nb -> a"), 5)[-1].counts())
         {'a': 8, 'b': 5}
         """
@@ -159,8 +156,7 @@ def _check_size(texts: Mapping[int, str], counts: Mapping[int, int]) -> None:
 def abridged(word: Word, characters: int) -> str:
     """The text of a word as it is shown: with rounded values, and with its middle left out where it is long.
 
-    >>> from lsys_kit.derivation.derive import derive
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import derive, read
     >>> abridged(derive(read("axiom: F\\nF -> F+F"), 9)[-1], 40)
     'F+F+F+F+F+F+F+F+F+F+ ... +F+F+F+F+F+F+F+F+F+F (1,023 modules)'
     """

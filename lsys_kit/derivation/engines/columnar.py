@@ -353,7 +353,7 @@ class ColumnarSteps:
 
     Examples
     --------
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> states = States(read("axiom: A(1) B\\nA(x) : x < 3 -> A(x+1) A(x/2)"))
     >>> columns = ColumnarSteps(states)
     >>> word = columns.step(columns.word([states.modules[code] for code in states.axiom]))

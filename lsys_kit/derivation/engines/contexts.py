@@ -106,8 +106,8 @@ class ContextEngine:
 
     Examples
     --------
+    >>> from lsys_kit import read
     >>> from lsys_kit.derivation.core.states import States
-    >>> from lsys_kit.notation.read import read
     >>> stepper = Stepper(States(read("axiom: b a a\\nb < a -> b")), 0)
     >>> arrays = ContextEngine(stepper)
     >>> arrays.outcomes.replaced(arrays.chosen(np.array(stepper.states.axiom, dtype=np.uint8), 0)).tolist()

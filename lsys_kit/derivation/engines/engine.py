@@ -60,7 +60,7 @@ class ByteTable:
 
     Examples
     --------
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> states = States(read("axiom: a\\na -> ab\\nb -> a"))
     >>> table = ByteTable(states)
     >>> [table.add(state, states.successor(state)) for state in (0, 1)]

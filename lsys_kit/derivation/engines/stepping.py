@@ -41,7 +41,7 @@ def meta_rules(system: LSystem, arithmetic: str) -> tuple[tuple[tuple[ModuleKind
 def apply_meta_rules(states: States, codes: Sequence[int]) -> tuple[list[int], list[int]]:
     """A word after its meta-rules, and for each module of it the position of the first module that it stands for.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> states = States(read("axiom: f(1) f(2) f(3) A\\nmeta: f(x) f(y) -> f(x+y)"))
     >>> codes, origins = apply_meta_rules(states, states.axiom)
     >>> [str(states.modules[code]) for code in codes], origins

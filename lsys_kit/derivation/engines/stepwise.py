@@ -73,7 +73,7 @@ class ParentWord:
 class Stepper:
     """The steps of one system under one seed; equal cases are computed once.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> states = States(read("axiom: b a a\\nb < a -> b"))
     >>> stepper = Stepper(states, 0)
     >>> [replaced.states for replaced in stepper.replacements(list(states.axiom), 0)]

@@ -76,7 +76,7 @@ def parting_step(systems: Sequence[LSystem], start: int) -> int | None:
     """The first step from `start` on at which some systems draw different pictures; None where there is none as far as is
     looked.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> parting_step([read("angle: 60\\naxiom: F\\nF -> F+F"), read("angle: 60\\naxiom: F\\nF -> F[+F]")], 0)
     2
     """
@@ -190,8 +190,8 @@ a. A system without contexts would fit if letter 4 of step 3, a, were b. With co
 
     A plant from its pictures:
 
+    >>> from lsys_kit import derive
     >>> from lsys_kit.geometry.drawing import scene_of
-    >>> from lsys_kit.worlds.derive import derive
     >>> plant = derive(read("angle: 30\\naxiom: F\\nF -> F[+F]F"), 3)
     >>> infer([scene_of(plant[step]) for step in range(4)])
     One system draws these 4 pictures:

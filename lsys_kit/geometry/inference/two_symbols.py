@@ -64,10 +64,9 @@ class _Walk:
 def two_symbol_rules(drawings: Sequence[Strokes], turning: Turning, factor: int) -> Iterator[tuple[str, str]]:
     """Successors of F_l and of F_r, of so many strokes each, that draw the pictures of steps 1 to 3 from the axiom F_l.
 
+    >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.drawing import scene_of
     >>> from lsys_kit.geometry.inference.strokes import read_drawings
-    >>> from lsys_kit.notation.read import read
-    >>> from lsys_kit.derivation.derive import derive
     >>> dragon = derive(read("axiom: F_l\\nF_l -> F_l+F_r+\\nF_r -> -F_l-F_r"), 3)
     >>> pictures = read_drawings(scene_of(dragon[step]) for step in range(4))
     >>> ("F_l+F_r+", "-F_l-F_r") in [*two_symbol_rules(pictures, Turning(90), 2)]

@@ -83,9 +83,8 @@ def mesh_of(scene: Scene, own_widths: Sequence[float] = OWN_WIDTHS) -> Mesh:
 
     Examples
     --------
-    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.drawing import scene_of
-    >>> from lsys_kit.notation.read import read
     >>> mesh = mesh_of(scene_of(derive(read("axiom: F(10)[&(90)F(5)]@O(2)"), 0)))
     >>> mesh.vertices.shape, mesh.triangles.shape
     ((194, 3), (376, 3))

@@ -158,7 +158,7 @@ def initial_colour(system: LSystem) -> int:
     """The initial colour of strokes: that of their symbol; the first of the ramp, if the model steps through colours; yellow,
     as in GROGRA, in a model for its turtle that chooses colours.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> initial_colour(read("axiom: F ' F")), initial_colour(read("axiom: F ;(2) F"))
     (16, -1)
     >>> initial_colour(read("\\\\axiom F P2 F,", "grogra")), initial_colour(read("\\\\axiom F F,", "grogra"))
@@ -174,7 +174,7 @@ def initial_colour(system: LSystem) -> int:
 def commands_of(system: LSystem) -> Iterator[tuple[Command, Pattern]]:
     """The commands that the axiom and the rules of a system give, each with the pattern that gives it.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> [command.action for command, _ in commands_of(read("axiom: F + A\\nA -> f A"))]
     ['draw', 'turn', 'move']
     """
@@ -339,7 +339,7 @@ class DrawingMode(Enum):
 def drawing_mode(system: LSystem) -> DrawingMode:
     """How the words of a system are drawn.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> drawing_mode(read("axiom: a\\ninterpretation:\\na -> R(2,1)")).name
     'FILAMENT'
     >>> drawing_mode(read("axiom: F[+F]F")).name, drawing_mode(read("axiom: F[&F]F")).name
@@ -355,7 +355,7 @@ def in_plane(system: LSystem) -> bool:
 
     A roll by half a turn stays there: left and right change places.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> in_plane(read("axiom: F[+F]/(180)F")), in_plane(read("axiom: F[+F]/(90)F"))
     (True, False)
     """

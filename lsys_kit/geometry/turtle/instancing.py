@@ -87,8 +87,7 @@ def draw_instanced(derivation: Derivation, step: int, angle: float) -> Scene | N
 
     Examples
     --------
-    >>> from lsys_kit.derivation.derive import derive
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import derive, read
     >>> print(draw_instanced(derive(read("axiom: F\\nF -> F[+F]F[-F]F"), 7), 7, 25.7))
     78,125 segments, width 732.47, height 2187
     """

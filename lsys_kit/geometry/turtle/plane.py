@@ -149,8 +149,7 @@ PLANE_HANDLERS: Mapping[str, Handler] = {
 def trace(word: Word) -> Path:
     """The path of a turtle that interprets a word; commands that lead out of the plane are skipped.
 
-    >>> from lsys_kit.derivation.derive import derive
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import derive, read
     >>> path = trace(derive(read("axiom: F[+F]-(30)F(2)"), 0)[0])
     >>> path.turns.tolist(), path.offsets.tolist(), path.lengths.tolist(), path.parents.tolist()
     ([0.0, 1.0, 0.0], [0.0, 0.0, -30.0], [1.0, 1.0, 2.0], [-1, 0, 0])
@@ -176,8 +175,7 @@ def trace(word: Word) -> Path:
 def place_path(path: Path, angle: float, heading: float = 90.0) -> Scene:
     """The scene of a path for a turning angle and an initial heading, in degrees.
 
-    >>> from lsys_kit.derivation.derive import derive
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import derive, read
     >>> koch = derive(read("axiom: F--F--F\\nF -> F+F--F+F"), 3)[-1]
     >>> print(place_path(trace(koch), 60, 0))
     192 segments, width 27, height 31.18

@@ -398,8 +398,7 @@ SPACE_HANDLERS: Mapping[str, Handler] = {
 def trace_in_space(word: Word, angle: float | None = None) -> Scene:
     """The scene that a turtle in space draws by interpreting a word.
 
-    >>> from lsys_kit.derivation.derive import derive
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import derive, read
     >>> bush = read("angle: 22.5\\naxiom: A\\nA -> [&F A] /(120) [&F A] /(120) [&F A]")
     >>> print(trace_in_space(derive(bush, 4)[-1]))
     120 segments, width 5.22, height 3.78, depth 4.82

@@ -330,7 +330,7 @@ def _floats(point: Sequence[Any]) -> tuple[float, float, float]:
 def surfaces_by_symbol(system: LSystem) -> Mapping[str, Surface]:
     """The surfaces of a system, by what stands for them after a tilde: its own, and those of the kit.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> found = surfaces_by_symbol(read("surface L: (0, 0) (1, 0) (1, 1)\\naxiom: ~L"))
     >>> found["L"].name, found["leaf"].name, len(found["L"].faces)
     ('L', 'leaf', 1)
@@ -365,7 +365,7 @@ def passed_over(unknown: Sequence[str]) -> str:
 def surfaces_of(system: LSystem) -> Mapping[str, str]:
     """For each symbol of a system that is drawn as a surface, directly or by interpretation, the name of the surface.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> surfaces_of(read("axiom: A\\nA -> F [+ ~ L] B\\ninterpretation:\\nB -> ~flower(2)"))
     {'L': 'leaf', 'flower': 'flower', 'B': 'flower'}
     """
