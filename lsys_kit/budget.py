@@ -319,14 +319,15 @@ def check_bytes(needed: int, failed: Callable[[], str]) -> None:
     lsys_kit.errors.ModelLimitError: The word was not built: it would take 1,000,000,000 bytes; the limit is 536,870,912. \
 Take fewer steps, or set limits(bytes=...).
     """
-    most = current().bytes
+    check_limit("bytes", needed, lambda: f"{failed()}: it would take {_written(needed)} bytes")
+
+
+def check_limit(name: str, needed: int, said: Callable[[], str]) -> None:
+    """Refuse what would be past one of the limits; say then how much it would be."""
+    most = getattr(current(), name)
     if needed > most:
-        raise ModelLimitError(
-            f"{failed()}: it would take {_written(needed)} bytes; the limit is {most:,}",
-            limit=most,
-            needed=needed,
-            hint="Take fewer steps, or set limits(bytes=...).",
-        )
+        hint = f"Take fewer steps, or set limits({name}=...)."
+        raise ModelLimitError(f"{said()}; the limit is {most:,}", limit=most, needed=needed, hint=hint)
 
 
 def check_step(step: int, size: int, parts: str, bytes_each: int) -> None:
@@ -337,21 +338,8 @@ def check_step(step: int, size: int, parts: str, bytes_each: int) -> None:
     lsys_kit.errors.ModelLimitError: Step 30 would have 100,000,000 walls or more; the limit is 5,000,000. \
 Take fewer steps, or set limits(modules=...).
     """
-    most = current()
-    if size > most.modules:
-        raise ModelLimitError(
-            f"Step {step} would have {size:,} {parts} or more; the limit is {most.modules:,}",
-            limit=most.modules,
-            needed=size,
-            hint="Take fewer steps, or set limits(modules=...).",
-        )
-    if (needed := size * bytes_each) > most.bytes:
-        raise ModelLimitError(
-            f"Step {step} would take about {needed:,} bytes; the limit is {most.bytes:,}",
-            limit=most.bytes,
-            needed=needed,
-            hint="Take fewer steps, or set limits(bytes=...).",
-        )
+    check_limit("modules", size, lambda: f"Step {step} would have {size:,} {parts} or more")
+    check_limit("bytes", needed := size * bytes_each, lambda: f"Step {step} would take about {needed:,} bytes")
 
 
 def _written(size: int) -> str:

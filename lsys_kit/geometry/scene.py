@@ -258,6 +258,10 @@ class Scene:
     unknown: tuple[str, ...] = ()
 
     @property
+    def _shapes(self) -> dict[str, Segments | Cells | Walls | Polygons | Discs | Labels]:
+        return {name: getattr(self, name) for name in ("segments", "cells", "walls", "polygons", "discs", "labels")}
+
+    @property
     def dimension(self) -> int:
         """2 in the plane, 3 in space."""
         return int(self.segments.ends.shape[1]) // 2
@@ -265,20 +269,13 @@ class Scene:
     @property
     def size(self) -> int:
         """How many shapes there are to draw, with each corner of a polygon."""
-        return (
-            len(self.segments)
-            + len(self.cells)
-            + len(self.walls)
-            + len(self.polygons.points)
-            + len(self.discs)
-            + len(self.labels)
-        )
+        others = len(self.segments) + len(self.cells) + len(self.walls) + len(self.discs) + len(self.labels)
+        return others + len(self.polygons.points)
 
     @property
     def corners(self) -> tuple[Floats, Floats]:
         """The bounding box: the least and the greatest of each coordinate; zeros for an empty scene."""
-        shapes = (self.segments, self.cells, self.walls, self.polygons, self.discs, self.labels)
-        found = [each.points for each in shapes if len(each)] or [np.zeros((1, self.dimension))]
+        found = [each.points for each in self._shapes.values() if len(each)] or [np.zeros((1, self.dimension))]
         axes = range(self.dimension)  # column by column, which is ten times as fast
         return (
             np.array([min(points[:, axis].min() for points in found) for axis in axes]),
@@ -306,15 +303,9 @@ class Scene:
 
     def __str__(self) -> str:
         """The scene in words: the line that replaces a picture where none can be shown."""
-        kinds = (
-            (self.segments, "segment"),
-            (self.cells, "cell"),
-            (self.walls, "wall"),
-            (self.polygons, "polygon"),
-            (self.discs, "disc"),
-            (self.labels, "label"),
-        )
-        counted = [f"{len(shapes):,} {name}{'s' * (len(shapes) != 1)}" for shapes, name in kinds if len(shapes)]
+        counted = [
+            f"{len(each):,} {name[: -1 if len(each) == 1 else None]}" for name, each in self._shapes.items() if len(each)
+        ]
         least, greatest = self.corners
         depth = f", depth {_two_decimals(float(greatest[1] - least[1]))}" if self.dimension == 3 else ""
         return (

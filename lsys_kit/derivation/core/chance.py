@@ -17,6 +17,7 @@ from statistics import NormalDist
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lsys_kit.budget import check_budget, counted
 from lsys_kit.notation.model.arithmetic import Value, normalised
@@ -37,7 +38,7 @@ def splitmix64(number: int) -> int:
     return number ^ number >> 31
 
 
-def splitmix64_array(numbers: np.ndarray[Any, np.dtype[np.uint64]]) -> np.ndarray[Any, np.dtype[np.uint64]]:
+def splitmix64_array(numbers: NDArray[np.uint64]) -> NDArray[np.uint64]:
     """The same for many states at once."""
     numbers = numbers + np.uint64(_GOLDEN)
     numbers = (numbers ^ numbers >> np.uint64(30)) * np.uint64(_FIRST)
@@ -45,7 +46,7 @@ def splitmix64_array(numbers: np.ndarray[Any, np.dtype[np.uint64]]) -> np.ndarra
     return numbers ^ numbers >> np.uint64(31)
 
 
-def units(seed: int, step: int, positions: np.ndarray[Any, Any]) -> np.ndarray[Any, np.dtype[np.float64]]:
+def units(seed: int, step: int, positions: NDArray[Any]) -> NDArray[np.float64]:
     """The first random number, from 0 up to 1, of the modules at some positions of a step's word.
 
     >>> units(1, 2, np.arange(3)).tolist() == [Chance(1, 2, position).unit() for position in range(3)]

@@ -73,6 +73,8 @@ class Neighbours:
 
     Attributes
     ----------
+    symbols
+        Those of the word.
     passing
         What contexts pass over.
     before
@@ -92,6 +94,7 @@ class Neighbours:
     ('C', 'M')
     """
 
+    symbols: Sequence[str]
     passing: Passing
     before: Sequence[int]
     after: Sequence[int]
@@ -103,7 +106,7 @@ def neighbours(symbols: Sequence[str], passing: Passing) -> Neighbours:
     """The neighbours of all positions of a word, in one pass in each direction."""
     before, closing = _backwards(symbols, passing.ignored)
     after, inside = _ahead(symbols, passing.ignored) if not passing.flat else _ahead_of_all(symbols, passing.ignored)
-    return Neighbours(passing, before, after, inside, closing)
+    return Neighbours(symbols, passing, before, after, inside, closing)
 
 
 def _backwards(symbols: Sequence[str], ignored: Container[str]) -> tuple[list[int], list[int]]:
@@ -165,16 +168,17 @@ def neighbours_along(links: Sequence[int], position: int, length: int) -> tuple[
     return tuple(found)
 
 
-def branches(symbols: Sequence[str], around: Neighbours, position: int) -> Iterator[int]:
+def branches(around: Neighbours, position: int) -> Iterator[int]:
     """The opening brackets of the side branches that stand right behind a position, before the next module."""
     position += 1
-    while position < len(symbols):
-        if symbols[position] in OPENING:
+    while position < len(around.symbols):
+        symbol = around.symbols[position]
+        if symbol in OPENING:
             yield position
             position = around.closing[position]
             if position == NO_NEIGHBOUR:
                 return
-        elif symbols[position] in CLOSING or symbols[position] not in around.passing.ignored:
+        elif symbol in CLOSING or symbol not in around.passing.ignored:
             return
         position += 1
 
@@ -190,9 +194,7 @@ def match_predecessor(rule: Rule, word: Sequence[Module], position: int) -> tupl
     return tuple(range(position, position + size))
 
 
-def match_context(
-    rule: Rule, word: Sequence[Module], symbols: Sequence[str], around: Neighbours, own: tuple[int, ...]
-) -> tuple[int, ...] | None:
+def match_context(rule: Rule, word: Sequence[Module], around: Neighbours, own: tuple[int, ...]) -> tuple[int, ...] | None:
     """The positions of the modules that a rule names, in the order written, where its contexts match; else None.
 
     What it replaces stands at its own positions; its contexts are what stands before the first of them and behind the last.
@@ -200,7 +202,7 @@ def match_context(
     left = neighbours_along(around.before, own[0], len(rule.left))
     if len(left) < len(rule.left) or any(kind_of(word[at]) != kind for at, kind in zip(left, rule.left, strict=True)):
         return None
-    right = _followed(rule.right, word, symbols, around, own[-1])
+    right = _followed(rule.right, word, around, own[-1])
     return None if right is None else (*reversed(left), *own, *right)
 
 
@@ -210,45 +212,30 @@ def values_at(word: Sequence[Module], positions: Sequence[int]) -> tuple[Value, 
 
 
 def _followed(
-    row: Branch, word: Sequence[Module], symbols: Sequence[str], around: Neighbours, position: int
+    row: Branch, word: Sequence[Module], around: Neighbours, position: int, there: Iterator[int] | None = None
 ) -> tuple[int, ...] | None:
-    """The positions of a row of modules and branches that begins behind a position, or None."""
+    """The positions of a row of modules and branches behind a position, or None; its branches are some of those there."""
     if not row:
         return ()
     first, rest = row[0], row[1:]
     if is_branch(first):
-        return _branched(row, word, symbols, around, position)
-    at = around.inside[position] if symbols[position] in OPENING else around.after[position]
+        there = iter(() if around.passing.flat else branches(around, position)) if there is None else there
+        inside = _first_match(first, word, around, there)
+        behind = None if inside is None else _followed(rest, word, around, position, there)
+        return None if inside is None or behind is None else (*inside, *behind)
+    at = around.inside[position] if around.symbols[position] in OPENING else around.after[position]
     if first[0] == END:
         return () if at == NO_NEIGHBOUR else None
     if at == NO_NEIGHBOUR or kind_of(word[at]) != first:
         return None
-    found = _followed(rest, word, symbols, around, at)
+    found = _followed(rest, word, around, at)
     return None if found is None else (at, *found)
 
 
-def _branched(
-    row: Branch, word: Sequence[Module], symbols: Sequence[str], around: Neighbours, position: int
-) -> tuple[int, ...] | None:
-    """The positions of a row that begins with branches, which stand behind a position."""
-    first = next((index for index, item in enumerate(row) if not is_branch(item)), len(row))
-    there = iter(() if around.passing.flat else branches(symbols, around, position))
-    found: list[int] = []
-    for branch in row[:first]:
-        inside = _first_match(branch, word, symbols, around, there)  # type: ignore[arg-type]
-        if inside is None:
-            return None
-        found += inside
-    rest = _followed(row[first:], word, symbols, around, position)
-    return None if rest is None else (*found, *rest)
-
-
-def _first_match(
-    branch: Branch, word: Sequence[Module], symbols: Sequence[str], around: Neighbours, there: Iterator[int]
-) -> tuple[int, ...] | None:
+def _first_match(branch: Branch, word: Sequence[Module], around: Neighbours, there: Iterator[int]) -> tuple[int, ...] | None:
     """The positions of a branch that is named, in the first of some branches that it may be; those before are used up."""
     for opened in there:
-        inside = _followed(branch, word, symbols, around, opened)
+        inside = _followed(branch, word, around, opened)
         if inside is not None or around.passing.branches == NEXT_BRANCH:
             return inside
     return None

@@ -8,6 +8,7 @@ from itertools import chain
 from typing import Any, overload
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lsys_kit.budget import INTERVAL, Task, check_bytes, counted
 from lsys_kit.derivation.core.states import States
@@ -42,7 +43,7 @@ class Word(Sequence[Module]):
 
     __slots__ = ("codes", "states")
 
-    def __init__(self, states: States, codes: Sequence[int] | np.ndarray[Any, Any]) -> None:
+    def __init__(self, states: States, codes: Sequence[int] | NDArray[Any]) -> None:
         self.states, self.codes = states, codes
 
     def __len__(self) -> int:
@@ -134,7 +135,7 @@ def blocks(numbers: Sequence[int], size: int = INTERVAL) -> Iterator[Sequence[in
     return (numbers[first : first + size] for first in counted(range(0, len(numbers), size), 1))
 
 
-def text_of(states: States, codes: Sequence[int] | np.ndarray[Any, Any], shown: bool = False) -> str:
+def text_of(states: States, codes: Sequence[int] | NDArray[Any], shown: bool = False) -> str:
     """The text of a row of states, in their system's notation; if it is only shown, with rounded values."""
     numbers = codes.tolist() if isinstance(codes, np.ndarray) else codes
     notation = dialect_named(states.system.notation)

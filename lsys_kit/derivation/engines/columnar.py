@@ -20,6 +20,7 @@ from fractions import Fraction
 from typing import Any, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lsys_kit.budget import Task, counted, current
 from lsys_kit.derivation.core.rules import ModuleKind, Rule, kind_of
@@ -30,7 +31,7 @@ from lsys_kit.notation.model.arithmetic import Value, normalised
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
 from lsys_kit.notation.model.modules import Module, flat
 
-Array: TypeAlias = np.ndarray[Any, Any]
+Array: TypeAlias = NDArray[Any]
 ColumnFunction: TypeAlias = Callable[..., Any]
 """From the columns of the names to the column of an expression, which is written to `out` where that is given and there is
 something to compute."""

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lsys_kit.budget import counted
 from lsys_kit.derivation.core.chance import stretches, units
@@ -23,7 +24,7 @@ from lsys_kit.derivation.engines.stepwise import Replacement, Stepper
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.modules import CLOSING, OPENING
 
-IntegerArray: TypeAlias = np.ndarray[Any, np.dtype[Any]]
+IntegerArray: TypeAlias = NDArray[Any]
 Sides: TypeAlias = tuple[IntegerArray, IntegerArray]
 ORDINARY, OPENS, CLOSES, PASSED, SKIPPED = range(5)
 """The role of a module in contexts: `PASSED` is ignored but has contexts of its own, `SKIPPED` is ignored and has none."""

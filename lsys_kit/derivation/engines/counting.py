@@ -12,7 +12,7 @@ from functools import cached_property, partial
 from itertools import chain
 from typing import Any
 
-import numpy as np
+from numpy.typing import NDArray
 
 from lsys_kit.budget import INTERVAL, Task, check_budget, counted
 from lsys_kit.cache import Cache
@@ -119,7 +119,7 @@ class CountingEngine:
             array = expand(self.states, [counts for counts, _ in self._steps[: step + 1]])
         return Word(self.states, array.tolist() if small else array)
 
-    def _replaced(self, word: Word, present: dict[int, int]) -> Sequence[int] | np.ndarray[Any, Any]:
+    def _replaced(self, word: Word, present: dict[int, int]) -> Sequence[int] | NDArray[Any]:
         """The successor of a short word, given the states that occur in it."""
         successors, table = self.states.successors, self._bytes
         if present.keys() <= table.known or all(table.add(state, successors[state]) for state in present):

@@ -14,11 +14,11 @@ from functools import lru_cache
 from typing import Any, Protocol, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
-from lsys_kit.budget import check_budget, counted, current
+from lsys_kit.budget import check_budget, check_limit, counted
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
-from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.model.arithmetic import Value
 
 BYTES = 256
@@ -39,7 +39,7 @@ def code_type(states: int) -> np.dtype[Any]:
     return np.min_scalar_type(max(states - 1, 0))
 
 
-def compact(codes: Sequence[int], states: int) -> Sequence[int] | np.ndarray[Any, Any]:
+def compact(codes: Sequence[int], states: int) -> Sequence[int] | NDArray[Any]:
     """A word of a table of so many states: a list where it is short, else an array of the smallest type."""
     return codes if len(codes) <= MOST_LISTED else np.array(codes, code_type(states))
 
@@ -88,7 +88,7 @@ class ByteTable:
         self.known.add(number)
         return True
 
-    def replaced(self, word: bytes) -> np.ndarray[Any, np.dtype[np.uint8]]:
+    def replaced(self, word: bytes) -> NDArray[np.uint8]:
         """The rows of some numbers, one after another."""
         word = word.translate(self._table)
         for free, row in self._several:
@@ -96,7 +96,7 @@ class ByteTable:
         return np.frombuffer(word, np.uint8)
 
 
-def expand(states: States, present: Sequence[Collection[int]]) -> np.ndarray[Any, Any]:
+def expand(states: States, present: Sequence[Collection[int]]) -> NDArray[Any]:
     """The word of the last step, as an array of states."""
     sizes = _sizes(states, present)
     pieces = _pieces(states, present, sizes)
@@ -233,22 +233,9 @@ def check_size(states: States, step: int, size: int, word: int | None = None, he
     held
         How many bytes the words of other steps take, and what else is kept of them.
     """
-    most = current()
-    if size > most.modules:
-        raise ModelLimitError(
-            f"Step {step} would have {grouped(size)} modules; the limit is {grouped(most.modules)}",
-            limit=most.modules,
-            needed=size,
-            hint="Take fewer steps, or set limits(modules=...).",
-        )
+    check_limit("modules", size, lambda: f"Step {step} would have {grouped(size)} modules")
     needed = (size * code_type(len(states)).itemsize if word is None else word) + len(states) * STATE_BYTES + held
-    if needed > most.bytes:
-        raise ModelLimitError(
-            f"Step {step} would take {grouped(needed)} bytes; the limit is {grouped(most.bytes)}",
-            limit=most.bytes,
-            needed=needed,
-            hint="Take fewer steps, or set limits(bytes=...).",
-        )
+    check_limit("bytes", needed, lambda: f"Step {step} would take {grouped(needed)} bytes")
 
 
 def check_step(states: States, step: int, size: int = 0) -> None:

@@ -162,7 +162,7 @@ class Stepper:
         own = match_predecessor(rule, old.modules, position) if self.together else (position,)
         if own is None or (len(own) > 1 and CUT in old.symbols[own[1] : own[-1] + 1]):  # no rule replaces what is cut off
             return None
-        return own if old.around is None else match_context(rule, old.modules, old.symbols, old.around, own)
+        return own if old.around is None else match_context(rule, old.modules, old.around, own)
 
     def _matching(self, rules: Sequence[Rule], old: ParentWord, position: int, chance: Chance | None) -> list[Match]:
         found: list[Match] = []

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from lsys_kit.budget import check_bytes, counted, current
+from lsys_kit.budget import check_bytes, check_limit, counted
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.geometry.meshes.solids import SIDES, THIN_SIDES, Numbers, Singles, Solid, ball, disc
 from lsys_kit.geometry.meshes.tubes import Rings, blocks, by_width, connected, rings, triangles
@@ -115,13 +115,7 @@ def mesh_of(scene: Scene, own_widths: Sequence[float] = OWN_WIDTHS) -> Mesh:
 
 def _check_triangles(scene: Scene) -> None:
     vertices, needed = _size(scene)
-    if needed > current().triangles:
-        raise ModelLimitError(
-            f"The drawing would have up to {needed:,} triangles; the limit is {current().triangles:,}",
-            limit=current().triangles,
-            needed=needed,
-            hint="Take fewer steps, or set limits(triangles=...).",
-        )
+    check_limit("triangles", needed, lambda: f"The drawing would have up to {needed:,} triangles")
     check_bytes(vertices * VERTEX_BYTES + needed * TRIANGLE_BYTES, lambda: "The mesh was not made")
     most = int(np.diff(scene.polygons.starts).max(initial=0))
     if most > MOST_CORNERS:

@@ -15,6 +15,7 @@ from operator import attrgetter
 from typing import Any, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lsys_kit.budget import check_budget
 from lsys_kit.derivation.core.interpretation import interpretations
@@ -37,7 +38,7 @@ from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 
 Key: TypeAlias = tuple[int, int, tuple[Any, ...]]
 """What a prototype depends on: the state, the number of steps that remain, and what the turtle carries."""
-AttributeColumns: TypeAlias = tuple[np.ndarray[Any, Any], ...]
+AttributeColumns: TypeAlias = tuple[NDArray[Any], ...]
 _CARRIED_ATTRIBUTES = ("length", "width", "colour", "gravitropism", "restored", "mirror", "scale")
 _carried_by = attrgetter(*_CARRIED_ATTRIBUTES)
 LEAST_REPETITION = 30
@@ -233,11 +234,11 @@ def _merged_instances(instances: Sequence[Instance], end: Floats, rotation: Floa
     )
 
 
-def _concatenated(columns: Sequence[np.ndarray[Any, Any]], kind: Any) -> np.ndarray[Any, Any]:
+def _concatenated(columns: Sequence[NDArray[Any]], kind: Any) -> NDArray[Any]:
     return np.concatenate(columns, dtype=kind) if columns else np.empty(0, kind)
 
 
-def _constant_or_all(columns: Sequence[np.ndarray[Any, Any]], sizes: Sequence[int], kind: Any) -> np.ndarray[Any, Any]:
+def _constant_or_all(columns: Sequence[NDArray[Any]], sizes: Sequence[int], kind: Any) -> NDArray[Any]:
     """The columns as one; a single value, where each column has only that value."""
     if columns and all(len(column) == 1 for column in columns) and len({column[0] for column in columns}) == 1:
         return columns[0]

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.geometry.scene import Floats, Integers, Scene, Segments
@@ -53,7 +54,7 @@ class Path:
     offsets: Floats
     lengths: Floats
     parents: Integers
-    drawn: np.ndarray[tuple[int], np.dtype[np.bool_]]
+    drawn: NDArray[np.bool_]
     orders: Integers
     states: Integers
     widths: Floats

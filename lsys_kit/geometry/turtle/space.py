@@ -28,7 +28,7 @@ from lsys_kit.derivation.core.words import Word
 from lsys_kit.geometry.scene import OWN, Floats, Scene, Segments
 from lsys_kit.geometry.turtle.commands import WIDTH, Instruction, in_plane, initial_step
 from lsys_kit.geometry.turtle.interpreter import COMMON_HANDLERS, FRACTINT_HANDLERS, Handler, run_turtle
-from lsys_kit.geometry.turtle.surfaces import Surface, patch_grid
+from lsys_kit.geometry.turtle.surfaces import PATCH_FACES, Surface, patch_grid
 from lsys_kit.geometry.turtle.turtle import Outline, Turtle, collected_labels, collected_shapes
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 
@@ -112,20 +112,20 @@ _ROWS = 4
 class AxisPoint(NamedTuple):
     """A control point of the axis of a generalised cylinder: where the turtle is, its heading, and the width of its strokes."""
 
-    place: tuple[float, float, float]
-    heading: tuple[float, float, float]
+    place: Vector
+    heading: Vector
     width: float
 
 
-def _here(turtle: Any) -> AxisPoint:
+def _here(turtle: SpaceTurtle) -> AxisPoint:
     return AxisPoint(turtle.position, turtle.orientation[0], turtle.stroke_width)
 
 
-def _begin_cylinder(turtle: Any, _: Instruction) -> None:
+def _begin_cylinder(turtle: SpaceTurtle, _: Instruction) -> None:
     turtle.axis = _here(turtle)
 
 
-def _continue_cylinder(turtle: Any, instruction: Instruction) -> None:
+def _continue_cylinder(turtle: SpaceTurtle, instruction: Instruction) -> None:
     """Draw the cylinder from its last control point to the turtle."""
     if turtle.axis is None:
         return
@@ -138,7 +138,7 @@ def _continue_cylinder(turtle: Any, instruction: Instruction) -> None:
         turtle.stroke(start, end, OWN if bare else (1 - share) * before.width + share * turtle.axis.width)
 
 
-def _end_cylinder(turtle: Any, instruction: Instruction) -> None:
+def _end_cylinder(turtle: SpaceTurtle, instruction: Instruction) -> None:
     _continue_cylinder(turtle, instruction)
     turtle.axis = None
 
@@ -165,18 +165,18 @@ def _bounded_number(value: float) -> int:
     return max(1, min(MOST_PARTS, math.floor(value + 0.5)))
 
 
-def _begin_patch(turtle: Any, instruction: Instruction) -> None:
+def _begin_patch(turtle: SpaceTurtle, instruction: Instruction) -> None:
     turtle.patches[_number_of(instruction)] = {}
 
 
-def _set_control_point(turtle: Any, instruction: Instruction) -> None:
+def _set_control_point(turtle: SpaceTurtle, instruction: Instruction) -> None:
     """Take the position of the turtle as the control point of a row and a column."""
     number, row, column, *_ = (*instruction.values, 0.0, 0.0, 0.0)
     if number in turtle.patches:
         turtle.patches[number][row, column] = turtle.position
 
 
-def _draw_patch(turtle: Any, instruction: Instruction) -> None:
+def _draw_patch(turtle: SpaceTurtle, instruction: Instruction) -> None:
     """Draw a patch whose sixteen control points are known; rows and columns count from 0 or from 1."""
     points = turtle.patches.get(_number_of(instruction), {})
     rows, columns = (sorted({place[which] for place in points}) for which in (0, 1))
@@ -192,10 +192,6 @@ def _draw_patch(turtle: Any, instruction: Instruction) -> None:
         places = ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1))
         corners, normals = ([tuple(grid[a][b]) for a, b in places] for grid in grids)
         turtle.outlines.append(Outline(corners, turtle.state, turtle.colour, normals))
-
-
-PATCH_FACES = 5
-"""A patch has so many rows and columns of faces, where no number says otherwise."""
 
 
 def _number_of(instruction: Instruction) -> float:

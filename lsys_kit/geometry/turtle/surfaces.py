@@ -237,7 +237,7 @@ def _along(profile: Floats, basis: Callable[[Floats], Floats], pieces: int) -> F
 
 
 PATCH_FACES = 5
-"""A patch that a model declares is drawn as so many rows and columns of faces."""
+"""A patch has so many rows and columns of faces, where no number says otherwise."""
 
 
 @dataclass(frozen=True)
