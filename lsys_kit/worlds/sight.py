@@ -28,9 +28,8 @@ from lsys_kit.derivation.core.words import Word
 from lsys_kit.errors import ModelValueError
 from lsys_kit.geometry.scene import SPHERE, Integers, Segments
 from lsys_kit.geometry.turtle.commands import initial_step
-from lsys_kit.geometry.turtle.interpreter import compile_word
 from lsys_kit.geometry.turtle.space import SPACE_HANDLERS, SpaceTurtle, TurtleFrame, Vector, initial_frame, operand, strokes_of
-from lsys_kit.geometry.turtle.turtle import collected_shapes
+from lsys_kit.geometry.turtle.turtle import collected_shapes, compile_word
 from lsys_kit.notation.model.arithmetic import Value, short_text
 from lsys_kit.worlds.fields import Field, Question, answered, named_field, rounded
 from lsys_kit.worlds.neighbours import Surroundings

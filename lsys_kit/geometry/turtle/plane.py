@@ -9,7 +9,6 @@ the word and its rules.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -19,8 +18,16 @@ from numpy.typing import NDArray
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.geometry.scene import Floats, Integers, Scene, Segments
 from lsys_kit.geometry.turtle.commands import Instruction, initial_step
-from lsys_kit.geometry.turtle.interpreter import COMMON_HANDLERS, FRACTINT_HANDLERS, Handler, run_turtle
-from lsys_kit.geometry.turtle.turtle import Outline, RoundShape, Turtle, Writing, collected_labels, collected_shapes
+from lsys_kit.geometry.turtle.turtle import (
+    Outline,
+    RoundShape,
+    Turtle,
+    Writing,
+    collected_labels,
+    collected_shapes,
+    handlers_of,
+    run_turtle,
+)
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 
 
@@ -99,27 +106,25 @@ class PlaneTurtle(Turtle):
         self.steps.append((turns, offset, length, parent, drawn, len(self.stack), self.state, self.stroke_width, self.colour))
         return len(self.steps) - 1
 
+    def do_turn(self, instruction: Instruction) -> None:
+        turns, offset, side = self.orientation
+        self.orientation = turns + side * instruction.factor, offset + side * instruction.addend, side
 
-def _turn(turtle: PlaneTurtle, instruction: Instruction) -> None:
-    turns, offset, side = turtle.orientation
-    turtle.orientation = turns + side * instruction.factor, offset + side * instruction.addend, side
+    do_turn_back = do_turn
 
+    def do_turn_by_mirrored_angle(self, instruction: Instruction) -> None:
+        turns, offset, side = self.orientation
+        self.orientation = turns + self.mirror * instruction.factor, offset, side
 
-def _turn_by_mirrored_angle(turtle: PlaneTurtle, instruction: Instruction) -> None:
-    turns, offset, side = turtle.orientation
-    turtle.orientation = turns + turtle.mirror * instruction.factor, offset, side
+    def do_roll(self, instruction: Instruction) -> None:
+        if instruction.factor == 0 and instruction.addend % 360 == 180:
+            turns, offset, side = self.orientation
+            self.orientation = turns, offset, -side
 
-
-def _roll(turtle: PlaneTurtle, instruction: Instruction) -> None:
-    if instruction.factor == 0 and instruction.addend % 360 == 180:
-        turns, offset, side = turtle.orientation
-        turtle.orientation = turns, offset, -side
-
-
-def _return_to_stroke(turtle: PlaneTurtle, instruction: Instruction) -> None:
-    if turtle.last is not None:
-        turns, offset, length, parent, *_ = turtle.steps[turtle.last]
-        turtle.position = turtle.step(turns, offset, length * (instruction.factor + instruction.addend), parent)
+    def do_return_to_stroke(self, instruction: Instruction) -> None:
+        if self.last is not None:
+            turns, offset, length, parent, *_ = self.steps[self.last]
+            self.position = self.step(turns, offset, length * (instruction.factor + instruction.addend), parent)
 
 
 LARGEST_EXACT = 2.0**40
@@ -135,16 +140,8 @@ _COLUMN_TYPES = {
     "widths": np.float64,
     "colours": np.int64,
 }
-PLANE_HANDLERS: Mapping[str, Handler] = {
-    **COMMON_HANDLERS,
-    **FRACTINT_HANDLERS,
-    "turn": _turn,
-    "turn by mirrored angle": _turn_by_mirrored_angle,
-    "turn back": _turn,
-    "roll": _roll,
-    "return to stroke": _return_to_stroke,
-}
-"""The handlers of the turtle in the plane, by action."""
+PLANE_HANDLERS = handlers_of(PlaneTurtle)
+"""What carries out the actions that stay in the plane."""
 
 
 def trace(word: Word) -> Path:

@@ -18,7 +18,6 @@ from __future__ import annotations
 
 import math
 from array import array
-from collections.abc import Mapping
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -27,9 +26,8 @@ from lsys_kit.budget import check_budget, check_bytes
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.geometry.scene import OWN, Floats, Scene, Segments
 from lsys_kit.geometry.turtle.commands import WIDTH, Instruction, in_plane, initial_step
-from lsys_kit.geometry.turtle.interpreter import COMMON_HANDLERS, FRACTINT_HANDLERS, Handler, run_turtle
 from lsys_kit.geometry.turtle.surfaces import PATCH_FACES, Surface, patch_grid
-from lsys_kit.geometry.turtle.turtle import Outline, Turtle, collected_labels, collected_shapes
+from lsys_kit.geometry.turtle.turtle import Outline, Turtle, collected_labels, collected_shapes, handlers_of, run_turtle
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 
 Vector: TypeAlias = tuple[float, float, float]
@@ -107,6 +105,10 @@ MOST_PARTS = 100
 FACE_BYTES = 1_400
 """About what a face of a patch takes in memory."""
 _ROWS = 4
+_NEGLIGIBLE = 1e-12
+"""Smaller sines are taken for 0."""
+_STROKE_COLUMNS = 10
+"""How many numbers describe a stroke: both ends, branch order, state, width and colour."""
 
 
 class AxisPoint(NamedTuple):
@@ -119,28 +121,6 @@ class AxisPoint(NamedTuple):
 
 def _here(turtle: SpaceTurtle) -> AxisPoint:
     return AxisPoint(turtle.position, turtle.orientation[0], turtle.stroke_width)
-
-
-def _begin_cylinder(turtle: SpaceTurtle, _: Instruction) -> None:
-    turtle.axis = _here(turtle)
-
-
-def _continue_cylinder(turtle: SpaceTurtle, instruction: Instruction) -> None:
-    """Draw the cylinder from its last control point to the turtle."""
-    if turtle.axis is None:
-        return
-    before, turtle.axis = turtle.axis, _here(turtle)
-    parts = _bounded_number(instruction.addend)
-    places = [*map(tuple, hermite(before, turtle.axis, parts).tolist()), turtle.position]
-    bare = OWN in (before.width, turtle.axis.width)
-    for number, (start, end) in enumerate(zip([before.place, *places[:-1]], places, strict=True), 1):
-        share = number / parts
-        turtle.stroke(start, end, OWN if bare else (1 - share) * before.width + share * turtle.axis.width)
-
-
-def _end_cylinder(turtle: SpaceTurtle, instruction: Instruction) -> None:
-    _continue_cylinder(turtle, instruction)
-    turtle.axis = None
 
 
 def hermite(start: AxisPoint, end: AxisPoint, parts: int) -> Floats:
@@ -165,54 +145,8 @@ def _bounded_number(value: float) -> int:
     return max(1, min(MOST_PARTS, math.floor(value + 0.5)))
 
 
-def _begin_patch(turtle: SpaceTurtle, instruction: Instruction) -> None:
-    turtle.patches[_number_of(instruction)] = {}
-
-
-def _set_control_point(turtle: SpaceTurtle, instruction: Instruction) -> None:
-    """Take the position of the turtle as the control point of a row and a column."""
-    number, row, column, *_ = (*instruction.values, 0.0, 0.0, 0.0)
-    if number in turtle.patches:
-        turtle.patches[number][row, column] = turtle.position
-
-
-def _draw_patch(turtle: SpaceTurtle, instruction: Instruction) -> None:
-    """Draw a patch whose sixteen control points are known; rows and columns count from 0 or from 1."""
-    points = turtle.patches.get(_number_of(instruction), {})
-    rows, columns = (sorted({place[which] for place in points}) for which in (0, 1))
-    if len(points) != _ROWS**2 or len(rows) != _ROWS or len(columns) != _ROWS:
-        turtle.unknown[instruction.symbol] = None
-        return
-    check_bytes(FACE_BYTES * len(turtle.outlines), lambda: "The patches were not drawn")
-    check_budget()
-    control = np.array([[points[row, column] for column in columns] for row in rows])
-    along, across = (_bounded_number(value) for value in (*instruction.values[1:3], *[PATCH_FACES] * 2)[:2])
-    grids = [grid.tolist() for grid in patch_grid(control, along, across)]
-    for i, j in np.ndindex(along, across):
-        places = ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1))
-        corners, normals = ([tuple(grid[a][b]) for a, b in places] for grid in grids)
-        turtle.outlines.append(Outline(corners, turtle.state, turtle.colour, normals))
-
-
 def _number_of(instruction: Instruction) -> float:
     return instruction.values[0] if instruction.values else 0.0
-
-
-CURVE_HANDLERS: Mapping[str, Handler] = {
-    "begin cylinder": _begin_cylinder,
-    "continue cylinder": _continue_cylinder,
-    "end cylinder": _end_cylinder,
-    "begin patch": _begin_patch,
-    "set control point": _set_control_point,
-    "draw patch": _draw_patch,
-}
-"""The handlers, by action."""
-
-
-_NEGLIGIBLE = 1e-12
-"""Smaller sines are taken for 0."""
-_STROKE_COLUMNS = 10
-"""How many numbers describe a stroke: both ends, branch order, state, width and colour."""
 
 
 class SpaceTurtle(Turtle):
@@ -265,48 +199,118 @@ class SpaceTurtle(Turtle):
         (x, y, z), (u, v, w) = self.position, combined(self.orientation, (ahead, left, up))
         return x + u, y + v, z + w
 
+    def do_begin_cylinder(self, _: Instruction) -> None:
+        self.axis = _here(self)
 
-def _turn(turtle: SpaceTurtle, angle: tuple[float, float]) -> None:
-    head, left, up, rotations = turtle.orientation
-    head, left = rotated_towards(head, left, *angle)
-    turtle.orientation = next_frame(head, left, up, rotations)
+    def do_continue_cylinder(self, instruction: Instruction) -> None:
+        """Draw the cylinder from its last control point to the self."""
+        if self.axis is None:
+            return
+        before, self.axis = self.axis, _here(self)
+        parts = _bounded_number(instruction.addend)
+        places = [*map(tuple, hermite(before, self.axis, parts).tolist()), self.position]
+        bare = OWN in (before.width, self.axis.width)
+        for number, (start, end) in enumerate(zip([before.place, *places[:-1]], places, strict=True), 1):
+            share = number / parts
+            self.stroke(start, end, OWN if bare else (1 - share) * before.width + share * self.axis.width)
 
+    def do_end_cylinder(self, instruction: Instruction) -> None:
+        self.do_continue_cylinder(instruction)
+        self.axis = None
 
-def _turn_by_mirrored_angle(turtle: SpaceTurtle, angle: tuple[float, float]) -> None:
-    cos, sin = angle
-    _turn(turtle, (cos, turtle.mirror * sin))
+    def do_begin_patch(self, instruction: Instruction) -> None:
+        self.patches[_number_of(instruction)] = {}
 
+    def do_set_control_point(self, instruction: Instruction) -> None:
+        """Take the position of the self as the control point of a row and a column."""
+        number, row, column, *_ = (*instruction.values, 0.0, 0.0, 0.0)
+        if number in self.patches:
+            self.patches[number][row, column] = self.position
 
-def _pitch(turtle: SpaceTurtle, angle: tuple[float, float]) -> None:
-    head, left, up, rotations = turtle.orientation
-    up, head = rotated_towards(up, head, *angle)
-    turtle.orientation = next_frame(head, left, up, rotations)
+    def do_draw_patch(self, instruction: Instruction) -> None:
+        """Draw a patch whose sixteen control points are known; rows and columns count from 0 or from 1."""
+        points = self.patches.get(_number_of(instruction), {})
+        rows, columns = (sorted({place[which] for place in points}) for which in (0, 1))
+        if len(points) != _ROWS**2 or len(rows) != _ROWS or len(columns) != _ROWS:
+            self.unknown[instruction.symbol] = None
+            return
+        check_bytes(FACE_BYTES * len(self.outlines), lambda: "The patches were not drawn")
+        check_budget()
+        control = np.array([[points[row, column] for column in columns] for row in rows])
+        along, across = (_bounded_number(value) for value in (*instruction.values[1:3], *[PATCH_FACES] * 2)[:2])
+        grids = [grid.tolist() for grid in patch_grid(control, along, across)]
+        for i, j in np.ndindex(along, across):
+            places = ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1))
+            corners, normals = ([tuple(grid[a][b]) for a, b in places] for grid in grids)
+            self.outlines.append(Outline(corners, self.state, self.colour, normals))
 
+    def do_turn(self, angle: tuple[float, float]) -> None:
+        head, left, up, rotations = self.orientation
+        head, left = rotated_towards(head, left, *angle)
+        self.orientation = next_frame(head, left, up, rotations)
 
-def _roll(turtle: SpaceTurtle, angle: tuple[float, float]) -> None:
-    head, left, up, rotations = turtle.orientation
-    up, left = rotated_towards(up, left, *angle)
-    turtle.orientation = next_frame(head, left, up, rotations)
+    do_turn_back = do_turn
 
+    def do_turn_by_mirrored_angle(self, angle: tuple[float, float]) -> None:
+        cos, sin = angle
+        self.do_turn((cos, self.mirror * sin))
 
-def _level(turtle: SpaceTurtle, _: Instruction) -> None:
-    """Roll until L is level: it becomes that of vertical x H, unless H is vertical (ABOP, page 57)."""
-    head, _left, _up, rotations = turtle.orientation
-    across = math.hypot(head[0], head[1])
-    if across > _NEGLIGIBLE:
-        left = -head[1] / across, head[0] / across, 0.0
-        turtle.orientation = head, left, cross(head, left), rotations
+    def do_pitch(self, angle: tuple[float, float]) -> None:
+        head, left, up, rotations = self.orientation
+        up, head = rotated_towards(up, head, *angle)
+        self.orientation = next_frame(head, left, up, rotations)
 
+    def do_roll(self, angle: tuple[float, float]) -> None:
+        head, left, up, rotations = self.orientation
+        up, left = rotated_towards(up, left, *angle)
+        self.orientation = next_frame(head, left, up, rotations)
 
-def _bend_by_gravitropism(turtle: SpaceTurtle, instruction: Instruction) -> None:
-    """Bend as GROGRA's RV: H takes the direction of H - strength * vertical; a vertical H can only be reversed."""
-    (hx, hy, hz), *_ = turtle.orientation
-    strength = instruction.factor * turtle.gravitropism + instruction.addend
-    across = math.hypot(hx, hy)
-    if across > _NEGLIGIBLE:
-        _rotate(turtle, (-hy / across, hx / across, 0.0), math.atan2(across, hz - strength) - math.atan2(across, hz))
-    elif hz > 0 and strength > 1:
-        _pitch(turtle, (-1.0, 0.0))
+    def do_level(self, _: Instruction) -> None:
+        """Roll until L is level: it becomes that of vertical x H, unless H is vertical (ABOP, page 57)."""
+        head, _left, _up, rotations = self.orientation
+        across = math.hypot(head[0], head[1])
+        if across > _NEGLIGIBLE:
+            left = -head[1] / across, head[0] / across, 0.0
+            self.orientation = head, left, cross(head, left), rotations
+
+    def do_gravitropism(self, instruction: Instruction) -> None:
+        """Bend as GROGRA's RV: H takes the direction of H - strength * vertical; a vertical H can only be reversed."""
+        (hx, hy, hz), *_ = self.orientation
+        strength = instruction.factor * self.gravitropism + instruction.addend
+        across = math.hypot(hx, hy)
+        if across > _NEGLIGIBLE:
+            _rotate(self, (-hy / across, hx / across, 0.0), math.atan2(across, hz - strength) - math.atan2(across, hz))
+        elif hz > 0 and strength > 1:
+            self.do_pitch((-1.0, 0.0))
+
+    def do_set_tropism(self, instruction: Instruction) -> None:
+        """Set a tropism: `@Ts(e)`, or as in cpfg `@Ts(number, e)`, or with a direction `@Ts(number, e, x, y, z)`."""
+        number, elasticity, *direction = instruction.values if len(instruction.values) > 1 else (1.0, *instruction.values, 0.0)
+        x, y, z = direction if len(direction) == 3 else (0.0, -1.0, 0.0)
+        self.tropisms = {**self.tropisms, number: _from_cpfg((elasticity * x, elasticity * y, elasticity * z))}
+
+    def do_set_position(self, instruction: Instruction) -> None:
+        x, y, z, *_ = (*instruction.values, 0.0, 0.0, 0.0)
+        self.position = _from_cpfg((x, y, z))
+
+    def do_set_heading(self, instruction: Instruction) -> None:
+        """Take a heading H, and an up U as far as H lets it: `@R(x, y, z)`, or `@R(x, y, z, x, y, z)` with both."""
+        x, y, z, *others = (*instruction.values, 0.0, 0.0, 0.0)
+        head = _from_cpfg((x, y, z))
+        if math.hypot(*head) <= _NEGLIGIBLE:
+            return
+        head, (_, left, up, _) = unit(head), self.orientation
+        wanted = _from_cpfg((others[0], others[1], others[2])) if len(instruction.values) > 5 else up
+        across = next(side for side in (cross(wanted, head), cross(up, head), left) if math.hypot(*side) > _NEGLIGIBLE)
+        left = unit(across)
+        self.orientation = head, left, cross(head, left), 0
+
+    def do_return_to_stroke(self, instruction: Instruction) -> None:
+        if self.last is not None:
+            first = self.last * _STROKE_COLUMNS
+            x, y, z, u, v, w = self.strokes[first : first + 6]
+            part = instruction.factor + instruction.addend
+            self.position = x + part * (u - x), y + part * (v - y), z + part * (w - z)
 
 
 def _bend_by_tropism(turtle: SpaceTurtle, pull: Vector) -> None:
@@ -330,65 +334,15 @@ def _rotate(turtle: SpaceTurtle, axis: Vector, radians: float) -> None:
     turtle.orientation = next_frame(rotated(head), rotated(left), rotated(up), rotations)
 
 
-def _set_tropism(turtle: SpaceTurtle, instruction: Instruction) -> None:
-    """Set a tropism: `@Ts(e)`, or as in cpfg `@Ts(number, e)`, or with a direction `@Ts(number, e, x, y, z)`."""
-    number, elasticity, *direction = instruction.values if len(instruction.values) > 1 else (1.0, *instruction.values, 0.0)
-    x, y, z = direction if len(direction) == 3 else (0.0, -1.0, 0.0)
-    turtle.tropisms = {**turtle.tropisms, number: _from_cpfg((elasticity * x, elasticity * y, elasticity * z))}
-
-
-def _set_position(turtle: SpaceTurtle, instruction: Instruction) -> None:
-    x, y, z, *_ = (*instruction.values, 0.0, 0.0, 0.0)
-    turtle.position = _from_cpfg((x, y, z))
-
-
-def _set_heading(turtle: SpaceTurtle, instruction: Instruction) -> None:
-    """Take a heading H, and an up U as far as H lets it: `@R(x, y, z)`, or `@R(x, y, z, x, y, z)` with both."""
-    x, y, z, *others = (*instruction.values, 0.0, 0.0, 0.0)
-    head = _from_cpfg((x, y, z))
-    if math.hypot(*head) <= _NEGLIGIBLE:
-        return
-    head, (_, left, up, _) = unit(head), turtle.orientation
-    wanted = _from_cpfg((others[0], others[1], others[2])) if len(instruction.values) > 5 else up
-    across = next(side for side in (cross(wanted, head), cross(up, head), left) if math.hypot(*side) > _NEGLIGIBLE)
-    left = unit(across)
-    turtle.orientation = head, left, cross(head, left), 0
-
-
 def _from_cpfg(point: Vector) -> Vector:
     """A point or direction in the axes used here, given in cpfg's, where y grows upwards and z towards the viewer."""
     x, y, z = point
     return x, -z, y
 
 
-def _return_to_stroke(turtle: SpaceTurtle, instruction: Instruction) -> None:
-    if turtle.last is not None:
-        first = turtle.last * _STROKE_COLUMNS
-        x, y, z, u, v, w = turtle.strokes[first : first + 6]
-        part = instruction.factor + instruction.addend
-        turtle.position = x + part * (u - x), y + part * (v - y), z + part * (w - z)
-
-
-_ROTATIONS: Mapping[str, Handler] = {
-    "turn": _turn,
-    "turn by mirrored angle": _turn_by_mirrored_angle,
-    "turn back": _turn,
-    "pitch": _pitch,
-    "roll": _roll,
-}
-SPACE_HANDLERS: Mapping[str, Handler] = {
-    **COMMON_HANDLERS,
-    **FRACTINT_HANDLERS,
-    **CURVE_HANDLERS,
-    **_ROTATIONS,
-    "level": _level,
-    "set heading": _set_heading,
-    "gravitropism": _bend_by_gravitropism,
-    "set tropism": _set_tropism,
-    "set position": _set_position,
-    "return to stroke": _return_to_stroke,
-}
-"""The handlers of the turtle in space, by action."""
+_ROTATIONS = frozenset(("turn", "turn by mirrored angle", "turn back", "pitch", "roll"))
+SPACE_HANDLERS = handlers_of(SpaceTurtle)
+"""What carries out all actions."""
 
 
 def trace_in_space(word: Word, angle: float | None = None) -> Scene:
