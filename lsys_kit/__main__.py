@@ -20,7 +20,6 @@ from lsys_kit.errors import LSystemError, printable
 BAD_INPUT, INTERRUPTED, BROKEN_PIPE = 2, 130, 141
 """Exit statuses: a mistake in the input; interrupted; the reader of the output has gone (the last two as in shells)."""
 MOST_STEPS = 10**9
-"""The greatest number of steps."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

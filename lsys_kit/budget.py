@@ -79,7 +79,6 @@ class Limits:
 
 
 DEFAULT = Limits()
-"""The limits where none are set."""
 
 
 class Block:

@@ -86,7 +86,6 @@ class Entry:
 
 
 SYSTEMS, BOOK, MAPS, CELLWORKS = "systems", "book", "maps", "cellworks"
-"""The folders."""
 _KINDS = {
     SYSTEMS: ("an L-system", "system"),
     BOOK: ("an L-system", "system"),
@@ -95,7 +94,6 @@ _KINDS = {
 }
 """What each folder holds, and the function that returns it."""
 MOST_LISTED = 40
-"""A message names so many systems at most."""
 _NAME_PATTERN = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
 
 

@@ -29,7 +29,6 @@ COURSE_PARTS = ("notebooks", "exercises", "notebooks/reference")
 """The folders of the course: lessons with the gallery, exercises, and the live references of notations and turtle commands. The
 teacher's pages, in `notebooks/teacher`, are not for students and never copied."""
 FOLDER = "lsys_kit_course"
-"""The default folder of the user."""
 MANIFEST = ".lsys_kit_course.json"
 MOST_MANIFEST = 1_000_000
 """The greatest size of a manifest that is read; those written here are far smaller."""

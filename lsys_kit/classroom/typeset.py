@@ -43,14 +43,12 @@ _MATHEMATICAL_SIGNS: Mapping[str, str] = {
     "-": "−",
     "-x": "−",
 }
-"""Operators as mathematics writes them."""
 _RULE_SECTIONS = (
     ("productions", "p", "productions"),
     ("meta", "m", "what shortens a word (meta-rules)"),
     ("decomposition", "d", "what a module consists of (decomposition)"),
     ("interpretation", "i", "what a module is drawn as (interpretation)"),
 )
-"""For each section of rules its field, its letter and its heading."""
 _QUIET = f'style="color:{QUIET}"'
 _ASIDE = f"color:{QUIET};font:14px sans-serif"
 _CELL = "text-align:left;vertical-align:baseline;padding:1px 10px 1px 0;border:none;max-width:none"

@@ -37,7 +37,6 @@ from lsys_kit.pictures.draw import draw
 from lsys_kit.pictures.style.labels import escaped
 
 MOST_TILES = 1_000
-"""So many plants a page shows."""
 MOST_CHARACTERS = 50_000_000
 """So many characters of models are taken together."""
 BUDGET = {"modules": 300_000, "bytes": 2**27, "segments": 2_000}

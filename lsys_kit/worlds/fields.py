@@ -321,7 +321,6 @@ _NAMED: Mapping[str, Callable[..., Field]] = {
     "space": Space,
     "water": Water,
 }
-"""The fields that are shaped by numbers, by name."""
 
 
 def named_field(states: States) -> Field | None:

@@ -20,7 +20,6 @@ from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.worlds.neighbours import NEARNESS, Boxes, Cones, counts_in_cones, lengths_of, nearest_in_cones, steepest_lines
 
 NO_SHOOT = -1
-"""The number of the shoot before the first one."""
 FIRST_LOOK = 64
 """Among so many of the nearest points one in a cone is looked for first."""
 _NEAR = 4
@@ -239,4 +238,3 @@ SENSITIVE_FUNCTIONS: Mapping[Value, SensitiveFunction] = {
     7: SensitiveFunction("the inclination", 0, 0, inclination),
     9: SensitiveFunction("the distance to the nearest shoot ahead", 2, 3, nearest_ahead),
 }
-"""The sensitive functions, by number."""

@@ -22,7 +22,6 @@ from lsys_kit.notation.dialects.map.dialect import read_map
 from lsys_kit.notation.read import read
 
 HINTS = 3
-"""How many hints an exercise has."""
 _NEEDS_OTHERWISE = ("number", "choice", "symbol", "line")
 
 

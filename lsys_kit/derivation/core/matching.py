@@ -25,7 +25,6 @@ from lsys_kit.notation.model.modules import CLOSING, END, OPENING, Module
 from lsys_kit.notation.model.system import ANY_BRANCH, FLAT, NEXT_BRANCH, LSystem
 
 NO_NEIGHBOUR = -1
-"""The position of a neighbour that is not there."""
 
 
 @dataclass(frozen=True)

@@ -35,7 +35,6 @@ from lsys_kit.notation.write import as_written
 AXIOM = Module("axiom")
 """The module from which the axiom is made as a successor."""
 UNKNOWN = "it depends on an unknown constant"
-"""Why a value that depends on a constant without a value cannot be computed."""
 
 
 def rule_error(system: LSystem, module: Module | Pattern, rule: Rule, fault: Exception) -> LSystemError:

@@ -97,7 +97,6 @@ class Traits(NamedTuple):
 D0L = Traits(decomposition=True, repetition=True, scalar=True, unknown=True)
 """The most that a deterministic system without interactions has."""
 S0L = D0L._replace(stochastic=True)
-"""The most that a stochastic system without interactions has."""
 ANY = Traits(
     **{name: True for name, usual in Traits._field_defaults.items() if usual is False}, context=10**9, predecessor=10**9
 )

@@ -179,7 +179,6 @@ OPERATIONS: Mapping[str, Mapping[str, Callable[..., Any]]] = {
         "ceil": _exact(math.ceil),
     },
 }
-"""For each arithmetic what computes an operator for whole columns, with the results that numbers have one by one."""
 
 
 def column_function(expression: Expression, arithmetic: str) -> ColumnFunction:

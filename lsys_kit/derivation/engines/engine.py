@@ -22,7 +22,6 @@ from lsys_kit.derivation.core.words import Word
 from lsys_kit.notation.model.arithmetic import Value
 
 BYTES = 256
-"""How many different bytes there are."""
 MOST_LISTED = 4_096
 """Words up to this length are lists, which are quicker than arrays at that size."""
 MODULES_BETWEEN_CHECKS = 2**16

@@ -20,7 +20,6 @@ from lsys_kit.geometry.inference.strokes import NEAR, Points, Strokes, Turning
 from lsys_kit.geometry.inference.traversals import START, Apex, Traversal, branching, word_with
 
 Places = Counter[int]
-"""How many strokes are at each place of a drawing."""
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,6 @@ from lsys_kit.budget import check_budget
 from lsys_kit.geometry.inference.strokes import Strokes, Turning
 
 START = -1
-"""Stands for the place where a turtle begins."""
 
 
 @dataclass(frozen=True)

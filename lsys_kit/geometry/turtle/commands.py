@@ -68,7 +68,6 @@ _DECLARED = tomllib.loads((Path(__file__).parent / "commands.toml").read_text(en
 ACTIONS: Mapping[str, Effect] = {
     action: reduce(or_, map(Effect.__getitem__, effects.split()), Effect(0)) for action, effects in _DECLARED["actions"].items()
 }
-"""What each action does."""
 
 
 @dataclass(frozen=True)

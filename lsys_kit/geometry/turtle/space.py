@@ -342,7 +342,6 @@ def _from_cpfg(point: Vector) -> Vector:
 
 _ROTATIONS = frozenset(("turn", "turn by mirrored angle", "turn back", "pitch", "roll"))
 SPACE_HANDLERS = handlers_of(SpaceTurtle)
-"""What carries out all actions."""
 
 
 def trace_in_space(word: Word, angle: float | None = None) -> Scene:

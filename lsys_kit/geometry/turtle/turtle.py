@@ -140,7 +140,6 @@ def collected_shapes(
 
 
 LAST_COLOUR = 2**31 - 1
-"""The greatest number of a colour."""
 
 Handler: TypeAlias = Callable[[Any, Any], None]
 """Carries out an instruction, given a turtle and the operand of the instruction."""

@@ -25,7 +25,6 @@ from lsys_kit.files import file_errors
 from lsys_kit.notation.analysis.checks import suggestion
 
 QUESTIONS = Path(__file__).parent.parent / "questions"
-"""The kit's own files."""
 MOST_STEPS = 10_000
 """The last step that a question may ask for."""
 _TABLE_LINE = re.compile(r"^\s*\[\[\s*exercise(?:\.(slips|options))?\s*\]\]")
@@ -157,10 +156,8 @@ KEYS: Mapping[str, Form] = {
     **_forms(Exercise),
     "objective": Form(lambda value: isinstance(value, int) and not isinstance(value, bool) and value >= 0, "a whole number"),
 }
-"""For each key of an exercise what it may be."""
 _TOP = {key: form for key, form in _forms(Lesson).items() if key != "name"}
 _NAMED: Mapping[str, tuple[str, ...]] = {"kind": tuple(ANSWER_KINDS), "names": ("new", "any", "fixed")}
-"""Keys whose values are names."""
 _OF_MISCONCEPTIONS = ("expects", "unlikely", "misconception")
 
 
