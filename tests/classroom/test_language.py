@@ -17,8 +17,7 @@ from babel.messages.mofile import read_mo
 import lsys_kit
 from lsys_kit import ModelNameError, check, exercises, explore, language, practice, predict, system, vote, worksheet
 from lsys_kit.classroom.exercises.check import checked
-from lsys_kit.classroom.exercises.declared.declarations import QUESTIONS, questions_in
-from lsys_kit.classroom.exercises.declared.registry import lessons
+from lsys_kit.classroom.exercises.declared import QUESTIONS, lessons, questions_in
 from lsys_kit.classroom.exercises.kinds.choices import letters
 from lsys_kit.classroom.exercises.kinds.numbers import FORMULA
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from lsys_kit import check, score
-from lsys_kit.classroom.exercises.declared.registry import lessons
+from lsys_kit.classroom.exercises.declared import lessons
 from lsys_kit.classroom.exercises.notebooks import exercise_notebook
 from lsys_kit.classroom.exercises.progress import scores
 

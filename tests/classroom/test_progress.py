@@ -10,10 +10,10 @@ from pathlib import Path
 
 import pytest
 
+import lsys_kit.classroom.exercises.declared as registry
 from lsys_kit import LSystemError, ModelNameError, ModelValueError, check, files, progress
 from lsys_kit.classroom.course import copy_course
-from lsys_kit.classroom.exercises.declared import registry
-from lsys_kit.classroom.exercises.declared.registry import lessons
+from lsys_kit.classroom.exercises.declared import lessons
 from lsys_kit.classroom.exercises.progress import record
 from lsys_kit.classroom.exercises.progress.progress import progress_of
 from lsys_kit.classroom.exercises.progress.record import FILE, HEAD, MOST_BYTES, Record, Try, record_so_far

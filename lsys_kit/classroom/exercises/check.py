@@ -12,7 +12,7 @@ import os
 from collections.abc import Mapping
 
 from lsys_kit.budget import Task, current, limits
-from lsys_kit.classroom.exercises.declared.registry import exercise_of
+from lsys_kit.classroom.exercises.declared import exercise_of
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.judging import judged, wrong_answers
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS

@@ -9,8 +9,7 @@ from pathlib import Path
 from lsys_kit.budget import Task, limits
 from lsys_kit.classroom.exercises.asked import answer_by, asked_system, right_history, what_is_asked
 from lsys_kit.classroom.exercises.check import BUDGET
-from lsys_kit.classroom.exercises.declared.declarations import QUESTIONS, MakeProblem, Problem, Questions, questions_in
-from lsys_kit.classroom.exercises.declared.registry import kit_questions
+from lsys_kit.classroom.exercises.declared import QUESTIONS, MakeProblem, Problem, Questions, kit_questions, questions_in
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.judging import judged, wrong_answers
 from lsys_kit.classroom.exercises.kinds.choices import letters
