@@ -13,9 +13,10 @@ import json
 import os
 import signal
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 from itertools import islice
 from pathlib import Path
 from types import FrameType
@@ -39,18 +40,9 @@ MOST_NEIGHBOURS = 1_000
 
 
 def system_with_constants(options: argparse.Namespace) -> LSystem:
-    from lsys_kit.derivation.core.rules import constants_of, number_from
-    from lsys_kit.notation.model.expressions import Number
+    from lsys_kit.derivation.core.rules import with_constants
 
-    system, values = named_system(options.system, options.notation, options.name), dict(options.settings)
-    constants_of(system, values)
-    return replace(
-        system,
-        constants=tuple(
-            replace(constant, value=Number(number_from(values[constant.name]))) if constant.name in values else constant
-            for constant in system.constants
-        ),
-    )
+    return with_constants(named_system(options.system, options.notation, options.name), dict(options.settings))
 
 
 def system_or_cells(options: argparse.Namespace) -> LSystem | MapSystem | CellworkSystem:
@@ -211,29 +203,17 @@ def draw_word(options: argparse.Namespace) -> None:
     from lsys_kit.pictures.draw import draw
     from lsys_kit.pictures.films import animate
 
-    film = _film(options)
+    film, seen = _film(options), _seen(options)
+    make: Callable[..., AnyPicture | Film] = partial(animate, **film) if film else draw
     if is_map_system(options.system) or is_cellwork_system(options.system):
         cells = map_system(options.system) if is_map_system(options.system) else cellwork_system(options.system)
-        shown: AnyPicture | Film = (
-            animate(cells, options.steps, **film, **_seen(options)) if film else draw(cells, options.steps, **_seen(options))
-        )
+        shown = make(cells, options.steps, **seen)
     elif options.seeds or isinstance(options.steps, list):
-        shown = draw(
-            system_with_constants(options),
-            seed=options.seed,
-            arithmetic=options.arithmetic,
-            angle=options.angle,
-            seeds=options.seeds or (),
-            **_steps(options),
-            **_seen(options),
-        )
+        steps = {"steps": options.steps} if isinstance(options.steps, list) else {"n": options.steps}
+        chosen = {"seed": options.seed, "arithmetic": options.arithmetic, "angle": options.angle, "seeds": options.seeds or ()}
+        shown = draw(system_with_constants(options), **chosen, **steps, **seen)
     else:
-        words = _derivation(system_with_constants(options), options)
-        shown = (
-            animate(words, angle=options.angle, **film, **_seen(options))
-            if film
-            else draw(words, angle=options.angle, **_seen(options))
-        )
+        shown = make(_derivation(system_with_constants(options), options), angle=options.angle, **seen)
     _save(shown, options)
 
 
@@ -264,10 +244,6 @@ def _looks(options: argparse.Namespace) -> dict[str, Any]:
     from lsys_kit.pictures.options import OPTIONS
 
     return {name: getattr(options, name) for name in OPTIONS}
-
-
-def _steps(options: argparse.Namespace) -> dict[str, Any]:
-    return {"steps": options.steps} if isinstance(options.steps, list) else {"n": options.steps}
 
 
 def draw_stages(options: argparse.Namespace) -> None:

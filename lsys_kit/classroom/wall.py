@@ -12,7 +12,7 @@ import base64
 import re
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from math import ceil
 from pathlib import Path
@@ -25,10 +25,10 @@ from lsys_kit.classroom.handed_in import HandedIn, content_of, handed_in
 from lsys_kit.classroom.link import ANGLE, SEED, STEP, Linked, linked
 from lsys_kit.classroom.panel.document import document
 from lsys_kit.classroom.panel.opened.opened import read_any
+from lsys_kit.derivation.core.rules import with_constants
 from lsys_kit.errors import LSystemError, ModelFileError, ModelLimitError, quotable
 from lsys_kit.files import decoded
 from lsys_kit.notation.fragments import MARK, is_link
-from lsys_kit.notation.model.expressions import Number
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read_word
 from lsys_kit.notation.registry import DIALECTS
@@ -187,13 +187,8 @@ def _steps(model: Linked) -> int | None:
 def _with_constants(model: Linked) -> Any:
     if not isinstance(model.system, LSystem):
         return model.system
-    return replace(
-        model.system,
-        constants=tuple(
-            replace(each, value=Number(model.settings[each.name])) if each.name in model.settings else each
-            for each in model.system.constants
-        ),
-    )
+    names = {constant.name for constant in model.system.constants}
+    return with_constants(model.system, {name: value for name, value in model.settings.items() if name in names})
 
 
 def _choices(model: Linked) -> dict[str, Any]:

@@ -22,7 +22,7 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 
 from lsys_kit.budget import check_budget, counted
-from lsys_kit.derivation.core.rules import number_from
+from lsys_kit.derivation.core.rules import Values, number_from
 from lsys_kit.derivation.core.states import States
 from lsys_kit.errors import LSystemError, ModelValueError, shown
 from lsys_kit.geometry.scene import Floats
@@ -78,7 +78,7 @@ class Question(NamedTuple):
 
     place: Vector
     head: Vector
-    values: tuple[Value, ...]
+    values: Values
     before: Module | None = None
     after: Module | None = None
 
@@ -90,9 +90,7 @@ class Field(Protocol):
         """A value for each question, or as many values as the query module has."""
 
 
-def answered(
-    field: Field, questions: Sequence[Question], scene: Surroundings, arithmetic: str = "exact"
-) -> list[tuple[Value, ...]]:
+def answered(field: Field, questions: Sequence[Question], scene: Surroundings, arithmetic: str = "exact") -> list[Values]:
     """The values that the query modules have after a field has answered; a single number takes the place of the first.
 
     >>> import numpy as np
@@ -131,7 +129,7 @@ def answered(
     return [_taken(name, question, answer, arithmetic) for question, answer in zip(questions, answers, strict=True)]
 
 
-def _taken(name: str, question: Question, answer: Any, arithmetic: str) -> tuple[Value, ...]:
+def _taken(name: str, question: Question, answer: Any, arithmetic: str) -> Values:
     if isinstance(answer, Real):
         return _number(name, question, answer, arithmetic), *question.values[1:]
     if not isinstance(answer, Sequence | np.ndarray) or isinstance(answer, str):

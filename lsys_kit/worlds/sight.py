@@ -21,7 +21,7 @@ from typing import NamedTuple
 import numpy as np
 
 from lsys_kit.budget import check_budget, counted
-from lsys_kit.derivation.core.rules import kind_of
+from lsys_kit.derivation.core.rules import Values, kind_of
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.traits import QUERIES
 from lsys_kit.derivation.core.words import Word
@@ -117,7 +117,7 @@ class TurtleObservation:
         return rounded(self._answers[key].to(self._numbers[position]), self.word.states.arithmetic)
 
     @cached_property
-    def _answers(self) -> dict[tuple[Value, ...], Answers]:
+    def _answers(self) -> dict[Values, Answers]:
         return {}
 
     @cached_property
@@ -193,9 +193,7 @@ def _observing_states(states: States, present: Iterable[int]) -> frozenset[int]:
     )
 
 
-def _query_values(
-    states: States, numbers: Sequence[int], places: Mapping[int, Standpoint]
-) -> Iterator[tuple[int, tuple[Value, ...]]]:
+def _query_values(states: States, numbers: Sequence[int], places: Mapping[int, Standpoint]) -> Iterator[tuple[int, Values]]:
     """The positions of the query modules that ask the turtle, with the values that they receive."""
     for position, place in places.items():
         module = states.modules[numbers[position]]
@@ -213,7 +211,7 @@ def _field_values(
     places: Mapping[int, Standpoint],
     field: Field | None,
     scene: Callable[[], Surroundings],
-) -> Iterator[tuple[int, tuple[Value, ...]]]:
+) -> Iterator[tuple[int, Values]]:
     """The positions of the query modules that ask a field, with the values that they receive."""
     modules = [states.modules[number] for number in numbers]
     asking = [at for at in places if modules[at].symbol == "?E" and modules[at].arguments]

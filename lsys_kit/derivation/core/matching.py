@@ -19,8 +19,7 @@ from __future__ import annotations
 from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass
 
-from lsys_kit.derivation.core.rules import Branch, Rule, is_branch, kind_of
-from lsys_kit.notation.model.arithmetic import Value
+from lsys_kit.derivation.core.rules import Branch, Rule, Values, is_branch, kind_of
 from lsys_kit.notation.model.modules import CLOSING, END, OPENING, Module
 from lsys_kit.notation.model.system import ANY_BRANCH, FLAT, NEXT_BRANCH, LSystem
 
@@ -205,7 +204,7 @@ def match_context(rule: Rule, word: Sequence[Module], around: Neighbours, own: t
     return None if right is None else (*reversed(left), *own, *right)
 
 
-def values_at(word: Sequence[Module], positions: Sequence[int]) -> tuple[Value, ...]:
+def values_at(word: Sequence[Module], positions: Sequence[int]) -> Values:
     """The values of the modules at some positions, one after another."""
     return tuple(value for at in positions for value in word[at].arguments)
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import numbers
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache
 from typing import Any, TypeAlias, TypeGuard
@@ -17,11 +17,12 @@ from typing import Any, TypeAlias, TypeGuard
 from lsys_kit.errors import ModelNameError, ModelValueError, quotable, shown
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.arithmetic import Value, expanded_value, finite, is_symbolic, normalised, reason_of
-from lsys_kit.notation.model.expressions import Apply, Expression, Function, Name, function_of, is_random, sensed_in
+from lsys_kit.notation.model.expressions import Apply, Expression, Function, Name, Number, function_of, is_random, sensed_in
 from lsys_kit.notation.model.modules import CLOSING, OPENING, Item, Module, Pattern, Repeat, expressions_of
 from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.read import read_number
 
+Values: TypeAlias = tuple[Value, ...]
 ModuleKind: TypeAlias = tuple[str, int]
 """What a rule asks of a module first: its symbol and the number of its parameters."""
 Branch: TypeAlias = tuple["ModuleKind | Branch", ...]
@@ -194,7 +195,7 @@ def _branched_context(modules: Sequence[Pattern]) -> Branch:
     return tuple(rows[0])
 
 
-def constants_of(system: LSystem, changes: Mapping[str, object], arithmetic: str = "exact") -> tuple[Value, ...]:
+def constants_of(system: LSystem, changes: Mapping[str, object], arithmetic: str = "exact") -> Values:
     """The values of the declared constants, in their order, with some of them changed.
 
     >>> from lsys_kit import read
@@ -223,6 +224,19 @@ def constants_of(system: LSystem, changes: Mapping[str, object], arithmetic: str
             raise ModelValueError(said, system.source or None, *(constant.at or (None, None))) from None
         values.append(float(value) if arithmetic == "float" and not is_symbolic(value) else value)
     return tuple(values)
+
+
+def with_constants(system: LSystem, values: Mapping[str, object]) -> LSystem:
+    """A system with other values of some of its constants.
+
+    >>> from lsys_kit import read
+    >>> print(with_constants(read("dt = 7/10\\naxiom: A(dt)"), {"dt": "1.4"}))
+    dt = 1.4
+    axiom: A(dt)
+    """
+    constants_of(system, values)
+    changed = {name: Number(number_from(value)) for name, value in values.items()}
+    return replace(system, constants=tuple(replace(c, value=changed.get(c.name, c.value)) for c in system.constants))
 
 
 def number_from(given: object, name: str = "value") -> Value:

@@ -18,6 +18,7 @@ from lsys_kit.derivation.core.rules import (
     RepeatTemplate,
     Rule,
     Rules,
+    Values,
     constants_of,
     kind_of,
     rule_for,
@@ -66,7 +67,9 @@ def undecided_condition(system: LSystem, constants: Sequence[Value], module: Mod
     return ModelValueError(said, hint=hint, **_place(system, rule))
 
 
-Match: TypeAlias = tuple[Rule, tuple[Value, ...]]
+Row: TypeAlias = tuple[int, ...]
+"""A row of states."""
+Match: TypeAlias = tuple[Rule, Values]
 """A rule that matches, with the values of all parameters that it names."""
 EXACT_BITS = 128
 """A rational value with more bits than this becomes a double."""
@@ -88,13 +91,13 @@ MODULES_BETWEEN_CHECKS = 100
 """The budget is checked after so many modules have been decomposed."""
 
 
-class Successors(dict[int, tuple[int, ...]]):
+class Successors(dict[int, Row]):
     """What replaces each state that alone decides it in one step, found when it is first asked for."""
 
     def __init__(self, states: States) -> None:
         self.states = states
 
-    def __missing__(self, state: int) -> tuple[int, ...]:
+    def __missing__(self, state: int) -> Row:
         states, module = self.states, self.states.modules[state]
         rule = states.rule(state)
         found = states.keep(states.decompose(module) if rule is None else states.replacement(rule, module))
@@ -151,7 +154,7 @@ class States:
         self._row_states = 0
         self.successors = Successors(self)
         self._applied: dict[int, Rule | None] = {}
-        self._decompositions: dict[tuple[object, ...], tuple[int, ...]] = {}
+        self._decompositions: dict[tuple[object, ...], Row] = {}
         self.rules = rules_of(system, arithmetic)
         self.decomposition = rules_of(system, arithmetic, "decomposition")
         self._joined = frozenset(kind for rules in self.rules.values() for rule in rules for kind in rule.predecessors[1:])
@@ -171,7 +174,7 @@ class States:
         self.rules = rules_of(self.system, self.arithmetic)
         self.decomposition = rules_of(self.system, self.arithmetic, "decomposition")
 
-    def number(self, symbol: str, values: tuple[Value, ...] = ()) -> int:
+    def number(self, symbol: str, values: Values = ()) -> int:
         """The state of a module, a new one where it has not been met."""
         key = (symbol, values, *map(type, values))
         found = self._numbers.get(key)
@@ -181,7 +184,7 @@ class States:
             self._numbers[key] = found  # last, so that an interrupt leaves no number without its module
         return found
 
-    def keep(self, row: tuple[int, ...]) -> tuple[int, ...]:
+    def keep(self, row: Row) -> Row:
         """A row of states that is going to be kept, if there is room for it."""
         self._row_states += len(row)
         check_bytes(self._row_states * ROW_BYTES, lambda: "What becomes of each module is not known")
@@ -199,7 +202,7 @@ class States:
             and not (self._joined and kind_of(self.modules[state]) in self._joined)
         )
 
-    def successor(self, state: int) -> tuple[int, ...]:
+    def successor(self, state: int) -> Row:
         """The states that replace a state in one step: itself, where no production matches."""
         return self.successors[state]
 
@@ -230,7 +233,7 @@ class States:
 
     def matching_rules(self, module: Module, rules: Rules, chance: Chance | None = None) -> list[Match]:
         """The rules that match a module, up to the first that has no probability."""
-        values: tuple[Value, ...] = module.arguments
+        values: Values = module.arguments
         found: list[Match] = []
         for rule in rules.get(kind_of(module), ()):
             if self.matches(rule, values, module, chance):
@@ -239,7 +242,7 @@ class States:
                     break
         return found
 
-    def matches(self, rule: Rule, values: tuple[Value, ...], module: Module, chance: Chance | None = None) -> bool:
+    def matches(self, rule: Rule, values: Values, module: Module, chance: Chance | None = None) -> bool:
         """Whether a rule accepts some values: they are equal to those it asks for, and its condition is true."""
         given = (*values, *self.constants, chance)
         try:
@@ -266,7 +269,7 @@ class States:
         """The rules with a probability, of those that match, each with its weight."""
         return [(rule, self.weight(rule, values, chance)) for rule, values in matched if rule.probability]
 
-    def weight(self, rule: Rule, values: tuple[Value, ...], chance: Chance | None = None) -> Value:
+    def weight(self, rule: Rule, values: Values, chance: Chance | None = None) -> Value:
         """The weight with which a rule is chosen at random."""
         assert rule.probability
         try:
@@ -275,8 +278,8 @@ class States:
             raise rule_error(self.system, rule.production.predecessor, rule, fault) from None
 
     def apply(
-        self, rule: Rule, module: Module, values: tuple[Value, ...] | None = None, chance: Chance | None = None
-    ) -> Iterator[tuple[str, tuple[Value, ...]]]:
+        self, rule: Rule, module: Module, values: Values | None = None, chance: Chance | None = None
+    ) -> Iterator[tuple[str, Values]]:
         """The symbols and values that a rule makes of a module, given the values of all parameters that it names."""
         given = (*(module.arguments if values is None else values), *self.constants)
         try:
@@ -290,7 +293,7 @@ class States:
 
     def _written(
         self, parts: Iterable[ModuleTemplate | RepeatTemplate], given: tuple[object, ...], chance: Chance | None
-    ) -> Iterator[tuple[str, tuple[Value, ...]]]:
+    ) -> Iterator[tuple[str, Values]]:
         values: tuple[object, ...] = (*given, chance)
         for part in parts:
             if isinstance(part, ModuleTemplate):
@@ -314,15 +317,11 @@ class States:
         self._outgrown = True
         return float(value)
 
-    def applied_states(
-        self, rule: Rule, module: Module, values: tuple[Value, ...] | None = None, chance: Chance | None = None
-    ) -> tuple[int, ...]:
+    def applied_states(self, rule: Rule, module: Module, values: Values | None = None, chance: Chance | None = None) -> Row:
         """The states that a rule makes of a module, before any decomposition."""
         return tuple(self.number(*made) for made in self._made(rule, module, values, chance))
 
-    def replacement(
-        self, rule: Rule, module: Module, values: tuple[Value, ...] | None = None, chance: Chance | None = None
-    ) -> tuple[int, ...]:
+    def replacement(self, rule: Rule, module: Module, values: Values | None = None, chance: Chance | None = None) -> Row:
         """The states that replace a module by a rule, after decomposition."""
         if not self.decomposition:
             return self.applied_states(rule, module, values, chance)
@@ -333,9 +332,7 @@ class States:
                 raise self._too_many(rule, module)
         return tuple(found)
 
-    def _made(
-        self, rule: Rule, module: Module, values: tuple[Value, ...] | None, chance: Chance | None
-    ) -> Iterator[tuple[str, tuple[Value, ...]]]:
+    def _made(self, rule: Rule, module: Module, values: Values | None, chance: Chance | None) -> Iterator[tuple[str, Values]]:
         """The symbols and values of the modules that a rule makes; no more of them than a word may have."""
         most = current().modules
         self._outgrown = False
@@ -351,7 +348,7 @@ class States:
         said = f"{module} becomes more than {most:,} modules in one step"
         return ModelLimitError(said, limit=most, **_place(self.system, rule))
 
-    def decompose(self, module: Module, chance: Chance | None = None) -> tuple[int, ...]:
+    def decompose(self, module: Module, chance: Chance | None = None) -> Row:
         """The states of a module's parts, and of their parts, until nothing is left to replace or the depth is reached."""
         if self.traits.varying_decomposition:
             return self._decomposed(module, chance)
@@ -360,7 +357,7 @@ class States:
             self._decompositions[key] = self.keep(self._decomposed(module, chance))
         return self._decompositions[key]
 
-    def _decomposed(self, module: Module, chance: Chance | None) -> tuple[int, ...]:
+    def _decomposed(self, module: Module, chance: Chance | None) -> Row:
         found: list[int] = []
         most, asked = current().modules, self.system.decomposition_depth
         deepest = current().decomposition if asked is None else current().repetitions

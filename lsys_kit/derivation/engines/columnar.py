@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lsys_kit.budget import Task, counted, current
-from lsys_kit.derivation.core.rules import ModuleKind, Rule, kind_of
+from lsys_kit.derivation.core.rules import ModuleKind, Rule, Values, kind_of
 from lsys_kit.derivation.core.states import EXACT_BITS, States
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.engines.engine import code_type
@@ -230,7 +230,7 @@ class FloatColumns:
         there = self._array[rows]
         return (there[:, parameter] for parameter in range(parameters))
 
-    def rows(self) -> Iterable[tuple[Value, ...]]:
+    def rows(self) -> Iterable[Values]:
         """The values of each module, as numbers."""
         return map(tuple, _listed(self._array))
 
@@ -279,7 +279,7 @@ class ExactColumns:
         there = self._numerators[rows]
         return (ExactColumn(there[:, parameter], self._denominator, self._bits) for parameter in range(parameters))
 
-    def rows(self) -> Iterable[tuple[Value, ...]]:
+    def rows(self) -> Iterable[Values]:
         return (tuple(normalised(Fraction(number, self._denominator)) for number in row) for row in _listed(self._numerators))
 
 

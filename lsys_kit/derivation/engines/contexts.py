@@ -17,11 +17,10 @@ from numpy.typing import NDArray
 from lsys_kit.budget import counted
 from lsys_kit.derivation.core.chance import stretches, units
 from lsys_kit.derivation.core.matching import NO_NEIGHBOUR
-from lsys_kit.derivation.core.rules import Rule
+from lsys_kit.derivation.core.rules import Rule, Values
 from lsys_kit.derivation.core.states import Match, States
 from lsys_kit.derivation.engines.engine import ByteTable, code_type
 from lsys_kit.derivation.engines.stepwise import Replacement, Stepper
-from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.modules import CLOSING, OPENING
 
 IntegerArray: TypeAlias = NDArray[Any]
@@ -211,7 +210,7 @@ class ContextEngine:
         marks, total = stretches([states.weight(*match) for match in likely])
         return RuleChoice(code, likely, np.array(marks), total)
 
-    def _applied(self, code: int, rule: Rule, values: tuple[Value, ...]) -> Replacement:
+    def _applied(self, code: int, rule: Rule, values: Values) -> Replacement:
         states = self.stepper.states
         return Replacement(states.replacement(rule, states.modules[code], values), rule.number)
 

@@ -14,13 +14,12 @@ from functools import lru_cache, partial
 import numpy as np
 
 from lsys_kit.budget import INTERVAL, check_budget
-from lsys_kit.derivation.core.rules import ModuleKind, Rule, kind_of, rule_for
+from lsys_kit.derivation.core.rules import ModuleKind, Rule, Values, kind_of, rule_for
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word, state_counts, word_bytes
 from lsys_kit.derivation.engines.contexts import ContextEngine
 from lsys_kit.derivation.engines.engine import Observation, Observer, Origins, check_size, check_step, code_type, compact
 from lsys_kit.derivation.engines.stepwise import SensingFunction, Stepper
-from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.system import LSystem, Production
 
 
@@ -73,7 +72,7 @@ def _applied(
         last = [states.modules[code] for code in done[-len(kinds) :]]
         if tuple(map(kind_of, last)) != kinds:
             continue
-        values: tuple[Value, ...] = tuple(value for module in last for value in module.arguments)
+        values: Values = tuple(value for module in last for value in module.arguments)
         if states.matches(rule, values, last[-1]):
             return len(kinds), states.applied_states(rule, last[-1], values)
     return None
@@ -113,6 +112,8 @@ class SteppingEngine:
             sight = self._world(before)
             before, sees = sight.word, sight.sees
         made = self._by_arrays(self._arrays, before, step) if self._arrays else self._one_by_one(before.numbers(), step, sees)
+        if self.states.system.meta:
+            made = self._shortened(*made)
         check_budget()
         self._held += word_bytes(made[0]) + len(before) * ORIGIN_BYTES
         self._steps.append(made)
@@ -132,7 +133,7 @@ class SteppingEngine:
                 [productions[outcome] for outcome in np.repeat(chosen, sizes).tolist()],
             )
 
-        return self._shortened(word.numbers(), origins) if self.states.system.meta else (word, origins)
+        return word, origins
 
     def _one_by_one(self, codes: Sequence[int], step: int, sees: SensingFunction | None) -> tuple[Word, Callable[[], Origins]]:
         """The next word and its origins, module by module."""
@@ -153,11 +154,11 @@ class SteppingEngine:
                 replaced if self.states.traits.predecessor > 1 else (),
             )
 
-        return self._shortened(word, origins) if self.states.system.meta else (self._word(word), origins)
+        return self._word(word), origins
 
-    def _shortened(self, codes: Sequence[int], origins: Callable[[], Origins]) -> tuple[Word, Callable[[], Origins]]:
+    def _shortened(self, word: Word, origins: Callable[[], Origins]) -> tuple[Word, Callable[[], Origins]]:
         """A word after its meta-rules, with its origins."""
-        short, first = apply_meta_rules(self.states, codes)
+        short, first = apply_meta_rules(self.states, word.numbers())
 
         def after() -> Origins:
             old = origins()

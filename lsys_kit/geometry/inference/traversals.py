@@ -9,11 +9,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
+from typing import TypeAlias
 
 from lsys_kit.budget import check_budget
 from lsys_kit.geometry.inference.strokes import Strokes, Turning
 
 START = -1
+Numbers: TypeAlias = tuple[int, ...]
 
 
 @dataclass(frozen=True)
@@ -32,9 +34,9 @@ class Traversal:
         The stroke at whose end the turtle stands in the end, or `START`.
     """
 
-    before: tuple[int, ...]
-    turns: tuple[int, ...]
-    points: tuple[int, ...]
+    before: Numbers
+    turns: Numbers
+    points: Numbers
     last: int
 
     def __len__(self) -> int:
@@ -54,10 +56,10 @@ class _Place:
 class _Drawn:
     """What has been drawn of a traversal, and which strokes of the drawing that were."""
 
-    before: tuple[int, ...]
-    turns: tuple[int, ...]
-    points: tuple[int, ...]
-    numbers: tuple[int, ...]
+    before: Numbers
+    turns: Numbers
+    points: Numbers
+    numbers: Numbers
 
 
 def in_one_go(strokes: Strokes, turning: Turning, size: int) -> Iterator[Traversal]:
