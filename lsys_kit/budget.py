@@ -257,13 +257,9 @@ class Task:
 
     It can be taken up again where there is more to do; what passes in between is not counted.
 
-    Parameters
-    ----------
     failed
         What to say if the budget does not suffice, as in "Step 5 was not reached", or a function that knows.
 
-    Examples
-    --------
     >>> with limits(seconds=0.01), Task("The sum was not found"):
     ...     sum(counted(range(10**9)))
     Traceback (most recent call last):

@@ -14,15 +14,11 @@ _V = TypeVar("_V")
 class Cache(Generic[_K, _V]):
     """Results that can be computed again: those used last are kept, as many as the limit of bytes has room for (LRU).
 
-    Parameters
-    ----------
     size
         How many bytes a result takes.
     share
         What part of the limit there is room for.
 
-    Examples
-    --------
     >>> from lsys_kit import limits
     >>> with limits(bytes=10):
     ...     cache = Cache(len)

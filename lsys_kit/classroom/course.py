@@ -40,8 +40,6 @@ _FILE_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,80}\.(ipynb|md)")
 class Copied:
     """What became of one file of the course.
 
-    Attributes
-    ----------
     name
         The file, relative to the folder of the course.
     what
@@ -92,8 +90,6 @@ def _home() -> Path:
 def copy_course(folder: str | Path = FOLDER, source: Path | None = None) -> tuple[Copied, ...]:
     """Copy the course into a folder.
 
-    Parameters
-    ----------
     folder
         The user's folder; it is made if necessary.
     source

@@ -25,8 +25,6 @@ _PASSED_OVER = ("__MACOSX",)
 class HandedIn:
     """A file that somebody has handed in.
 
-    Attributes
-    ----------
     student
         The name of the folder in which it stands, or its own name without its ending.
     name

@@ -67,8 +67,6 @@ class Given:
 class Tile:
     """A plant on the wall.
 
-    Attributes
-    ----------
     name
         Whose it is.
     picture, description, rules

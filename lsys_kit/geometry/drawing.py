@@ -100,8 +100,6 @@ ANGLE_HINT = "An angle is in degrees, as in angle=25.7."
 def scene_of(what: Derivation | Word, angle: float | None = None, colours: str = "") -> Scene:
     """The scene of a word, or of the last word of a derivation.
 
-    Parameters
-    ----------
     what
         A word; or a derivation, whose last word is often not even built.
     angle
@@ -109,8 +107,6 @@ def scene_of(what: Derivation | Word, angle: float | None = None, colours: str =
     colours
         Whether strokes without a chosen colour have "natural" ones; by default as the system says.
 
-    Examples
-    --------
     >>> from lsys_kit import derive, read
     >>> plant = derive(read("angle: 25.7\\naxiom: F\\nF -> F[+F]F[-F]F"), 7)
     >>> print(scene_of(plant))

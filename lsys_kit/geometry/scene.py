@@ -18,8 +18,6 @@ from numpy.typing import NDArray
 class Labels:
     """Short texts at points.
 
-    Attributes
-    ----------
     points
         Shape (n, 2) or (n, 3): where the turtle wrote each.
     texts
@@ -51,8 +49,6 @@ OWN = -1
 class Segments:
     """Straight strokes.
 
-    Attributes
-    ----------
     ends
         Shape (n, 4) in the plane: x and y of the start, x and y of the end; (n, 6) in space.
     orders
@@ -84,8 +80,6 @@ class Segments:
 class Cells:
     """Cells of a filament: ellipses in a row.
 
-    Attributes
-    ----------
     centres
         Shape (n, 2).
     sizes
@@ -117,8 +111,6 @@ class Cells:
 class Walls:
     """Walls between the cells of a filament.
 
-    Attributes
-    ----------
     places
         Shape (n,): the position of each along the filament.
     heights
@@ -148,8 +140,6 @@ class Walls:
 class Polygons:
     """Filled outlines: leaves, petals, and what stands in `{ }`.
 
-    Attributes
-    ----------
     points
         Shape (m, 2) or (m, 3): the corners of all, one polygon after another.
     starts
@@ -186,8 +176,6 @@ class Polygons:
 class Discs:
     """Circles, discs and spheres.
 
-    Attributes
-    ----------
     centres
         Shape (n, 2) or (n, 3).
     radii
@@ -241,8 +229,6 @@ def no_discs(dimension: int = 2) -> Discs:
 class Scene:
     """The shapes of a word, in the plane or in space.
 
-    Attributes
-    ----------
     segments, cells, walls, polygons, discs, labels
         The shapes, and what is written.
     unknown

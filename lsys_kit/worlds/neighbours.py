@@ -220,8 +220,6 @@ class Boxes:
 class Cones:
     """Cones with one half-angle.
 
-    Attributes
-    ----------
     tips, axes
         Shape (n, 3): where they begin, and where they point.
     angle
@@ -267,8 +265,6 @@ def counts_in_cones(boxes: Boxes, cones: Cones) -> Integers:
 def nearest_in_cones(boxes: Boxes, cones: Cones, counts: Callable[[Integers, Integers], Any], others: int) -> Floats:
     """How far the nearest point in each cone is; infinite if there is none.
 
-    Parameters
-    ----------
     boxes, cones
         The points, and the cones.
     counts
@@ -296,8 +292,6 @@ def nearest_in_cones(boxes: Boxes, cones: Cones, counts: Callable[[Integers, Int
 def steepest_lines(boxes: Boxes, tips: Floats, angles: Callable[[Integers, Integers], Floats], others: int) -> Floats:
     """The least angle from the vertical, in degrees, of a line from each tip up to a thing in the plane; infinite without one.
 
-    Parameters
-    ----------
     boxes, tips
         The things, and where is asked from: across and upwards.
     angles

@@ -30,8 +30,6 @@ _NEAR = 4
 class Things:
     """The start and end points of some shoots, their start points, or the shoots themselves seen from the front.
 
-    Attributes
-    ----------
     lows, highs
         Shape (n, 2) or (n, 3): the least and the greatest coordinates of each.
     owners
@@ -101,8 +99,6 @@ class Shoots:
 class Standpoints:
     """Where modules ask from.
 
-    Attributes
-    ----------
     shoots
         All shoots.
     own, mothers

@@ -95,8 +95,6 @@ class Answers:
 class TurtleObservation:
     """What the modules of a word see.
 
-    Attributes
-    ----------
     word
         The word, with the values of its query modules filled in.
     shoots

@@ -64,8 +64,6 @@ def _stem(seed: int, step: int) -> int:
 class Chance:
     """The random numbers of one module at one step.
 
-    Parameters
-    ----------
     seed
         Any whole number.
     step, position
@@ -73,8 +71,6 @@ class Chance:
     sees
         Answers what the module asks of the turtle, given a function's number and values; None without an observer.
 
-    Examples
-    --------
     >>> one, again = Chance(7, 3, 12), Chance(7, 3, 12)
     >>> one.unit() == again.unit(), 0 <= one.uniform(0, 360) < 360
     (True, True)

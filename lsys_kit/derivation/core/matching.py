@@ -38,8 +38,6 @@ class _AllBut:
 class Passing:
     """What contexts pass over: symbols that are ignored, and branches.
 
-    Attributes
-    ----------
     ignored
         The symbols.
     branches
@@ -69,8 +67,6 @@ def passing_of(system: LSystem) -> Passing:
 class Neighbours:
     """For each position of a word its neighbours' positions, or `NO_NEIGHBOUR`.
 
-    Attributes
-    ----------
     symbols
         Those of the word.
     passing
@@ -85,8 +81,6 @@ class Neighbours:
     closing
         For an opening bracket the position of its closing one.
 
-    Examples
-    --------
     >>> found = neighbours("ABC[DE][SG[HI]M]", Passing())
     >>> "ABC[DE][SG[HI]M]"[found.before[8]], "ABC[DE][SG[HI]M]"[found.after[9]]
     ('C', 'M')

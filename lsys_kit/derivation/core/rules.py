@@ -49,8 +49,6 @@ class RepeatTemplate:
 class Rule:
     """One production, ready to run.
 
-    Attributes
-    ----------
     number
         The production's place in the order written, from 0.
     predecessors

@@ -28,8 +28,6 @@ QUERIES = frozenset(("?P", "?H", "?U", "?L", "?E"))
 class Traits(NamedTuple):
     """What a system has.
 
-    Attributes
-    ----------
     context
         How many neighbours on one side a production names at most.
     predecessor
@@ -57,8 +55,6 @@ class Traits(NamedTuple):
     unknown
         Whether a constant is unknown.
 
-    Examples
-    --------
     >>> from lsys_kit import read
     >>> signal = traits_of(read("axiom: b a a\\nb < a -> b"))
     >>> signal.context, signal.stochastic, signal.d0l

@@ -45,8 +45,6 @@ ROWS_AT_A_TIME = 2**12
 class ExactColumn:
     """Rational numbers with a common denominator.
 
-    Attributes
-    ----------
     numerators
         An array of integers, or one integer for all rows.
     denominator
@@ -54,8 +52,6 @@ class ExactColumn:
     bits
         As many bits as are enough for the absolute value of each numerator.
 
-    Examples
-    --------
     >>> tenths = ExactColumn(np.array([1, 25]), 10, 5)
     >>> found = tenths * exact_number(Fraction(1, 2)) + exact_number(1)
     >>> found.numerators.tolist(), found.denominator
@@ -238,8 +234,6 @@ class FloatColumns:
 class ExactColumns:
     """The exact values of a word: a row of numerators for each module, and one denominator; they are put together in the end.
 
-    Examples
-    --------
     >>> columns = ExactColumns((2, 1))
     >>> for row, value in enumerate((Fraction(1, 2), Fraction(2, 3))):
     ...     columns.write(column_function(Number(value), "exact"), {}, row, 0)
@@ -291,8 +285,6 @@ BLOCK_ROWS = 2**15
 class ColumnRule:
     """One production for whole columns.
 
-    Attributes
-    ----------
     names
         The names of its parameters; `#0`, `#1`, ... where the predecessor asks for a value.
     tests
@@ -309,8 +301,6 @@ class ColumnRule:
 class ColumnWord(Word):
     """A word as columns; it becomes a row of states when single modules are asked for.
 
-    Attributes
-    ----------
     kinds
         For each module the number of its kind.
     values
@@ -351,8 +341,6 @@ class ColumnWord(Word):
 class ColumnarSteps:
     """The steps of a system in columns.
 
-    Examples
-    --------
     >>> from lsys_kit import read
     >>> states = States(read("axiom: A(1) B\\nA(x) : x < 3 -> A(x+1) A(x/2)"))
     >>> columns = ColumnarSteps(states)

@@ -79,8 +79,6 @@ class Replacements:
 class RuleChoice:
     """A case in which chance decides between several rules.
 
-    Attributes
-    ----------
     state
         The module.
     rules
@@ -104,8 +102,6 @@ class RuleChoice:
 class ContextEngine:
     """The steps of one system under one seed, all modules of a word at once.
 
-    Examples
-    --------
     >>> from lsys_kit import read
     >>> from lsys_kit.derivation.core.states import States
     >>> stepper = Stepper(States(read("axiom: b a a\\nb < a -> b")), 0)
@@ -240,8 +236,6 @@ class ContextEngine:
 def context_neighbours(codes: IntegerArray, roles: IntegerArray, none: int, flat: bool = False) -> Sides:
     """The neighbours of each module of a word in the sense of contexts, to its left and to its right.
 
-    Parameters
-    ----------
     codes
         The word's states, of a type that holds `none` too.
     roles
@@ -251,8 +245,6 @@ def context_neighbours(codes: IntegerArray, roles: IntegerArray, none: int, flat
     flat
         Whether those to the right are found as if there were no brackets.
 
-    Examples
-    --------
     >>> word, roles = np.array([10, 1, 11, 2, 1, 12, 2, 13]), np.array([0, 1, 0, 2, 1, 0, 2, 0])  # A[B][C]D
     >>> left, right = context_neighbours(word, roles, 99)
     >>> left[[0, 2, 5, 7]].tolist(), right[[0, 2, 5, 7]].tolist()

@@ -171,8 +171,6 @@ Observer: TypeAlias = Callable[[Word], Observation]
 class Origins:
     """Where the modules of a word come from.
 
-    Attributes
-    ----------
     parents
         For each module the position, in the word before, of the module that it comes from; of several that were replaced
         together, of the first.
@@ -221,8 +219,6 @@ class Engine(Protocol):
 def check_size(states: States, step: int, size: int, word: int | None = None, held: int = 0) -> None:
     """Refuse a step whose word would be past a limit.
 
-    Parameters
-    ----------
     states
         The table of states.
     step, size

@@ -40,8 +40,6 @@ SensingFunction: TypeAlias = Callable[..., Value]
 class Replacement:
     """What one module becomes, or several that are replaced together.
 
-    Attributes
-    ----------
     states
         The states that replace it.
     production

@@ -39,8 +39,6 @@ PARTS = 3
 class Strokes:
     """The strokes of one drawing, each of length 1, as a graph.
 
-    Attributes
-    ----------
     ends
         Shape (n, 2): the ends of each, in no order.
     """
@@ -189,8 +187,6 @@ def _rounded(angle: float) -> float:
 class Turning:
     """The turns that + and - make.
 
-    Attributes
-    ----------
     degrees
         The angle of one of them.
     """

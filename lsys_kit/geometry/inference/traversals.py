@@ -22,8 +22,6 @@ Numbers: TypeAlias = tuple[int, ...]
 class Traversal:
     """A way to draw strokes.
 
-    Attributes
-    ----------
     before
         For each stroke the number of that at whose end it begins, an earlier one; or `START`.
     turns
@@ -161,8 +159,6 @@ def _all_reached(strokes: Strokes, places: Sequence[_Place], drawn: Sequence[int
 class Apex:
     """A letter that draws nothing.
 
-    Attributes
-    ----------
     turns
         The number of turns to the left before it.
     symbol

@@ -39,8 +39,6 @@ class _Item:
 class _Walk:
     """A turtle on its way.
 
-    Attributes
-    ----------
     rules
         What is known, or was tried.
     item

@@ -42,8 +42,6 @@ _SIDE, _CAPS = 2 * SIDES, 2 * (SIDES - 2)
 class Mesh:
     """Triangles in space: x grows to the right, z upwards, and y away from the viewer.
 
-    Attributes
-    ----------
     vertices, normals
         Shape (n, 3): each vertex, in the units of the model, and the normal there.
     triangles

@@ -34,8 +34,6 @@ SHAPES_AT_A_TIME = 2**12
 class Strokes(NamedTuple):
     """Strokes of some length, in an order in which each that continues another comes right behind it.
 
-    Attributes
-    ----------
     ends
         Shape (n, 2, 3): start and end of each.
     radii
@@ -69,8 +67,6 @@ class Strokes(NamedTuple):
 class Rings(NamedTuple):
     """The rings of tubes, and between which of them there are sides.
 
-    Attributes
-    ----------
     vertices, normals
         Shape (m, sides, 3).
     looks
@@ -98,8 +94,6 @@ def connected(ends: Floats, radii: Floats, orders: Integers, looks: Integers, ne
 
     A stroke continues the last one of its branch order, if that ends where it starts.
 
-    Parameters
-    ----------
     ends, radii, looks
         As of `Strokes`; all strokes have a length.
     orders
@@ -107,8 +101,6 @@ def connected(ends: Floats, radii: Floats, orders: Integers, looks: Integers, ne
     near
         Points that are closer are one.
 
-    Examples
-    --------
     >>> points = np.array([[0, 0, 0], [0, 0, 1], [0, 0, 2], [1, 0, 2]], float)
     >>> ends = np.stack([points[:-1], points[1:]], axis=1)
     >>> found = connected(ends, np.full((3, 2), 0.1), np.zeros(3, int), np.zeros((3, 2), int), 1e-9)

@@ -38,8 +38,6 @@ from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS, TurtleDiale
 class Effect(Flag):
     """What an action does.
 
-    Attributes
-    ----------
     VISIBLE
         It leaves something to be seen: a stroke, a shape, or the gap of a step forward.
     MOVES
@@ -77,8 +75,6 @@ class Command:
     Most actions concern one quantity of the turtle: a stroke its step, a turn the angle, `D` its width. The amount is
     factor * quantity + addend, unless an argument changes it.
 
-    Attributes
-    ----------
     action
         What to do, by its name in `ACTIONS`.
     factor, addend
@@ -200,8 +196,6 @@ LARGEST = 1e50
 class Instruction(NamedTuple):
     """A command with its numbers: the amount is factor * quantity + addend.
 
-    Attributes
-    ----------
     action, factor, addend
         As of `Command`, with the argument taken in.
     values
@@ -320,8 +314,6 @@ def _looks_like_a_command(symbol: str, dialect: TurtleDialect) -> bool:
 class DrawingMode(Enum):
     """How the words of a system are drawn.
 
-    Attributes
-    ----------
     FILAMENT
         As cells in a row; the words of a derivation form a developmental sequence.
     PLANE

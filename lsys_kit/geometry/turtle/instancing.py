@@ -51,8 +51,6 @@ POINTS_AT_A_TIME = 2**13
 class Prototype:
     """The drawing of a module, or of what becomes of it, by a turtle that starts at the origin in its initial frame.
 
-    Attributes
-    ----------
     strokes, corners, centres
         Points, a row for each: the starts and ends of strokes in turn, the corners of polygons, the centres of discs.
     of_strokes, of_polygons, of_discs
@@ -86,8 +84,6 @@ class Instance:
 def draw_instanced(derivation: Derivation, step: int, angle: float) -> Scene | None:
     """The scene of a step of a derivation; None if it cannot be instanced, or if that does not pay.
 
-    Examples
-    --------
     >>> from lsys_kit import derive, read
     >>> print(draw_instanced(derive(read("axiom: F\\nF -> F[+F]F[-F]F"), 7), 7, 25.7))
     78,125 segments, width 732.47, height 2187

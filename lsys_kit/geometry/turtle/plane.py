@@ -35,8 +35,6 @@ from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 class Path:
     """The steps forward of a turtle, before the angle is known.
 
-    Attributes
-    ----------
     turns, offsets
         Shape (n,): the heading is turns * angle + offset, in degrees from the turtle's first heading, to the left.
     lengths

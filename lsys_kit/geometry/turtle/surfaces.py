@@ -68,15 +68,11 @@ def polygon_facets(corners: Sequence[Corner]) -> Facets:
 def patch_facets(control: Floats, along: int, across: int) -> Facets:
     """A bicubic Bezier patch as so many rows and columns of faces.
 
-    Parameters
-    ----------
     control
         Shape (4, 4, 3): its control points, row after row.
     along, across
         The numbers of rows and of columns.
 
-    Examples
-    --------
     >>> square = np.array([[[row / 3, column / 3, 0.0] for column in range(4)] for row in range(4)])
     >>> found = patch_facets(square, 1, 1)
     >>> found.faces
@@ -172,8 +168,6 @@ def rolled(degrees: float) -> Callable[[Corner], Corner]:
 def blade_control(midrib: Sequence[Sequence[float]], margin: Sequence[Sequence[float]], bulge: float) -> Floats:
     """The control points of the left half of a blade, from its midrib to its margin.
 
-    Parameters
-    ----------
     midrib
         Four control points of a curve: ahead and up.
     margin
@@ -198,16 +192,12 @@ def mirrored_control(control: Floats) -> Floats:
 def revolved_facets(profile: Sequence[Sequence[float]], sides: int, pieces: int) -> Facets:
     """The faces of a solid whose profile turns about the direction ahead.
 
-    Parameters
-    ----------
     profile
         The control points of cubic Bezier curves, each of which begins where the one before ends: how far ahead, and how far
         from the axis.
     sides, pieces
         The number of sides, and of pieces of each curve.
 
-    Examples
-    --------
     >>> ball = revolved_facets([(-1, 0), (-1, 1.33), (1, 1.33), (1, 0)], 4, 3)
     >>> len(ball.faces), len(ball.outlines[0])
     (12, 6)
@@ -244,8 +234,6 @@ PATCH_FACES = 5
 class Surface:
     """A surface composed of faces.
 
-    Attributes
-    ----------
     name
         Its name.
     symbols

@@ -235,8 +235,6 @@ def _check_depth(turtle: Turtle, opened: Sequence[object]) -> None:
 class Turtle(ABC):
     """A turtle, with what it carries and what it has drawn.
 
-    Attributes
-    ----------
     position, orientation
         In the plane the number of the path step at whose end the turtle is, and its turns so far; in space a point and a
         frame.
@@ -520,8 +518,6 @@ def _without_garbage_collection() -> Iterator[None]:
 class CompiledWord(NamedTuple):
     """A word compiled for a turtle.
 
-    Attributes
-    ----------
     calls
         For each state the handlers to be called, each with its operand.
     unknown
