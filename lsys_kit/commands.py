@@ -370,7 +370,7 @@ def _exists(name: str) -> ModelFileError:
 
 
 def check_exercises(options: argparse.Namespace) -> None:
-    from lsys_kit.classroom.exercises.declared import QUESTIONS
+    from lsys_kit.classroom.exercises.declarations import QUESTIONS
     from lsys_kit.classroom.exercises.lint import problems_in
 
     problems = problems_in(options.folder or QUESTIONS)

@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 import sympy
 
-import lsys_kit.classroom.exercises.declared as registry
 from lsys_kit import check, derive, exercises, read
+from lsys_kit.classroom.exercises import registry
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.judging import wrong_answers
 from lsys_kit.classroom.exercises.kinds.numbers import FORMULA

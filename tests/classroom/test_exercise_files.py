@@ -4,10 +4,10 @@ import re
 
 import pytest
 
-import lsys_kit.classroom.exercises.declared as registry
 from lsys_kit import ModelFileError, check, exercises
 from lsys_kit.__main__ import main
-from lsys_kit.classroom.exercises.declared import KEYS, QUESTIONS, questions_in
+from lsys_kit.classroom.exercises import registry
+from lsys_kit.classroom.exercises.declarations import KEYS, QUESTIONS, questions_in
 from lsys_kit.classroom.exercises.lint import problems_in
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
 from tests.exercise_guide import GUIDE, with_table

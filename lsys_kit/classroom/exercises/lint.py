@@ -9,13 +9,14 @@ from pathlib import Path
 from lsys_kit.budget import Task, limits
 from lsys_kit.classroom.exercises.asked import answer_by, asked_system, right_history, what_is_asked
 from lsys_kit.classroom.exercises.check import BUDGET
-from lsys_kit.classroom.exercises.declared import QUESTIONS, MakeProblem, Problem, Questions, kit_questions, questions_in
+from lsys_kit.classroom.exercises.declarations import QUESTIONS, MakeProblem, Problem, Questions, questions_in
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.judging import judged, wrong_answers
 from lsys_kit.classroom.exercises.kinds.choices import letters
 from lsys_kit.classroom.exercises.kinds.numbers import FORMULA, formula_in_reply
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS, solution_of
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
+from lsys_kit.classroom.exercises.registry import kit_questions
 from lsys_kit.errors import LSystemError
 from lsys_kit.notation.dialects.map.dialect import read_map
 from lsys_kit.notation.read import read
