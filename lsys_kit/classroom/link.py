@@ -46,7 +46,6 @@ class Linked:
         return "\n".join((repr(self.system), *(f"{name} = {number_text(value)}" for name, value in self.settings.items())))
 
     def _repr_mimebundle_(self, **options: object) -> Any:
-        """The panel that the link leads to."""
         explore = import_module("lsys_kit").explore  # imported late: panels make links
         return explore(self.system, **self.settings)._repr_mimebundle_(**options)
 
@@ -83,7 +82,7 @@ def link(
 
     Examples
     --------
-    >>> from lsys_kit.classroom.catalogue import system
+    >>> from lsys_kit import system
     >>> there = link(system("T2"), {"step": 4}, "https://example.org/panel.html")
     >>> there.partition("=")[0], len(there) < 150, read(there) == system("T2"), dict(linked(there).settings)
     ('https://example.org/panel.html#lsys', True, True, {'step': 4})

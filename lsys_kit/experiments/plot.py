@@ -19,7 +19,7 @@ from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError, re
 from lsys_kit.experiments.charts import column_label, measured_label
 from lsys_kit.experiments.measures import Asked, Measure, measures_of
 from lsys_kit.experiments.table import Table
-from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
+from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
 from lsys_kit.notation.model.arithmetic import is_symbolic
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.modules import Module

@@ -18,7 +18,7 @@ from lsys_kit.derivation.timed.lineage import Lineage
 from lsys_kit.errors import ModelNameError, ModelValueError, require, shown, whole_number
 from lsys_kit.geometry.drawing import turning_angle
 from lsys_kit.geometry.filament import filament
-from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
+from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem

@@ -11,7 +11,7 @@ import numpy as np
 
 from lsys_kit.derivation.core.states import States
 from lsys_kit.geometry.scene import OWN, Scene
-from lsys_kit.geometry.turtle.commands.table import RAMP_END, RAMP_START
+from lsys_kit.geometry.turtle.commands import RAMP_END, RAMP_START
 from lsys_kit.geometry.turtle.surfaces import passed_over
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.formats.painting import painted

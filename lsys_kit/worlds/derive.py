@@ -69,7 +69,7 @@ def derive(system: Any, steps: int, **choices: Any) -> Derivation | Development 
 
     Examples
     --------
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> fibonacci = read("axiom: a\\na -> ab\\nb -> a")
     >>> [str(word) for word in derive(fibonacci, 3)]
     ['a', 'a b', 'a b a', 'a b a a b']

@@ -20,8 +20,7 @@ import pytest
 from lsys_kit import ModelLimitError, derive, growth, limits, read, system
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import lengths
-from lsys_kit.derivation.engines.columnar import ColumnWord
-from lsys_kit.derivation.engines.columns import FloatValues
+from lsys_kit.derivation.engines.columnar import ColumnWord, FloatValues
 from tests.benchmarks.test_engine import FIBONACCI, PLANT, TEN_RULES
 
 P4, CHANCE = system("P4"), system("K7")

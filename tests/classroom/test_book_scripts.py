@@ -18,7 +18,7 @@ from lsys_kit.classroom.panel.books.book import book
 from lsys_kit.classroom.panel.bundle import bundled
 from lsys_kit.derivation.timed.ages import age_model
 from lsys_kit.geometry.filament import filament
-from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
+from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
 from lsys_kit.notation.registry import dialect_named
 from lsys_kit.pictures.draw import MOST_ROWS
 from lsys_kit.pictures.filaments.folding import MOST_CELLS

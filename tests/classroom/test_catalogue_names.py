@@ -9,8 +9,7 @@ import sys
 import pytest
 
 from lsys_kit import ModelNameError, ModelValueError, book_systems, explore, map_system, map_systems, system, systems
-from lsys_kit.classroom.catalogue import entry, is_map_system
-from lsys_kit.classroom.catalogue_entry import WORKS
+from lsys_kit.classroom.catalogue import WORKS, entry, is_map_system
 
 
 def test_the_list_names_every_system_under_the_work_it_comes_from():

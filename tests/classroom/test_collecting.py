@@ -22,7 +22,7 @@ from lsys_kit.classroom import child_processes
 from lsys_kit.classroom.exercises.collecting import collect as collecting
 from lsys_kit.classroom.exercises.collecting.collect import collect, marks_table, scores_in
 from lsys_kit.classroom.exercises.collecting.submissions import COMPUTED, answers_in
-from lsys_kit.classroom.exercises.declared.registry import exercise_of
+from lsys_kit.classroom.exercises.registry import exercise_of
 from lsys_kit.classroom.handed_in import handed_in
 from lsys_kit.errors import ModelFileError
 

@@ -14,10 +14,8 @@ from playwright.sync_api import Error
 from lsys_kit import derive, read
 from lsys_kit.classroom.catalogue import system, systems
 from lsys_kit.errors import ModelValueError
-from lsys_kit.geometry.natural_colours import coloured
-from lsys_kit.geometry.turtle.commands.actions import Effect
-from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
-from lsys_kit.geometry.turtle.commands.table import COMMANDS
+from lsys_kit.geometry.drawing import coloured
+from lsys_kit.geometry.turtle.commands import COMMANDS, DrawingMode, Effect, drawing_mode
 from lsys_kit.geometry.turtle.plane import place_path, trace
 from lsys_kit.geometry.turtle.space import trace_in_space
 from lsys_kit.notation.model.expressions import Number

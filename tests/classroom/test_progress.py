@@ -12,11 +12,11 @@ import pytest
 
 from lsys_kit import LSystemError, ModelNameError, ModelValueError, check, files, progress
 from lsys_kit.classroom.course import copy_course
-from lsys_kit.classroom.exercises.declared import registry
-from lsys_kit.classroom.exercises.declared.registry import lessons
+from lsys_kit.classroom.exercises import registry
 from lsys_kit.classroom.exercises.progress import record
 from lsys_kit.classroom.exercises.progress.progress import progress_of
 from lsys_kit.classroom.exercises.progress.record import FILE, HEAD, MOST_BYTES, Record, Try, record_so_far
+from lsys_kit.classroom.exercises.registry import lessons
 from lsys_kit.files import append_line
 
 RIGHT, NEAR, UNREADABLE = "bl ar bl ar ar", "al al br", "al al bx"

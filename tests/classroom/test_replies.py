@@ -7,7 +7,7 @@ import pytest
 import sympy
 
 from lsys_kit import check, derive, read, stages, system
-from lsys_kit.classroom.exercises.declared.declarations import questions_in
+from lsys_kit.classroom.exercises.declarations import questions_in
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.judging import judged
 from lsys_kit.classroom.exercises.kinds.proofs import differing_values, proved_equal

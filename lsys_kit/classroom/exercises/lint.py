@@ -5,27 +5,23 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import TypeAlias
 
 from lsys_kit.budget import Task, limits
 from lsys_kit.classroom.exercises.asked import answer_by, asked_system, right_history, what_is_asked
 from lsys_kit.classroom.exercises.check import BUDGET
-from lsys_kit.classroom.exercises.declared.declarations import QUESTIONS, Questions, questions_in
-from lsys_kit.classroom.exercises.declared.keys import Problem, Source
-from lsys_kit.classroom.exercises.declared.registry import kit_questions
-from lsys_kit.classroom.exercises.exercise import Exercise, Lesson
+from lsys_kit.classroom.exercises.declarations import QUESTIONS, MakeProblem, Problem, Questions, questions_in
+from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.judging import judged, wrong_answers
 from lsys_kit.classroom.exercises.kinds.choices import letters
 from lsys_kit.classroom.exercises.kinds.numbers import FORMULA, formula_in_reply
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS, solution_of
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
+from lsys_kit.classroom.exercises.registry import kit_questions
 from lsys_kit.errors import LSystemError
 from lsys_kit.notation.dialects.map.dialect import read_map
 from lsys_kit.notation.read import read
 
-MakeProblem: TypeAlias = Callable[..., Problem]
 HINTS = 3
-"""How many hints an exercise has."""
 _NEEDS_OTHERWISE = ("number", "choice", "symbol", "line")
 
 
@@ -40,55 +36,32 @@ def problems_in(folder: str | Path = QUESTIONS) -> list[Problem]:
     problems = [*found.problems, *_lesson_problems(found)]
     taken = {} if path == QUESTIONS else {exercise.id: source.file for source, _, exercise in kit_questions().exercises}
     for source, number, exercise in found.exercises:
-        problems += list(_exercise_problems(source, number, exercise))
+        problems += _exercise_problems(source.of(number, exercise.id), exercise)
         if exercise.id in taken:
-            problems.append(
-                Problem(
-                    source.file,
-                    source.line_of(number, "id"),
-                    exercise.id,
-                    "The kit has an exercise with this id",
-                    "Take another, such as my.1.",
-                )
-            )
+            what = "The kit has an exercise with this id"
+            problems.append(source.of(number, exercise.id)("id", what, "Take another, such as my.1."))
     return sorted(problems, key=lambda problem: (problem.file, problem.line))
 
 
 def _lesson_problems(found: Questions) -> Iterator[Problem]:
     """The objectives that no exercise tests, and those that do not exist."""
-    for lesson, (source, exercises) in _lessons_and_sources(found):
-        tested = {exercise.objective for _, exercise in exercises}
-        for number, exercise in exercises:
-            if exercise.objective > len(lesson.objectives):
-                yield Problem(
-                    source.file,
-                    source.line_of(number, "objective"),
-                    exercise.id,
-                    f"There is no objective {exercise.objective}",
-                    f"The lesson has {len(lesson.objectives)}.",
-                )
+    for source, lesson, numbers in found.files:
+        if lesson is None:
+            continue
+        many = len(lesson.objectives)
+        for number, exercise in zip(numbers, lesson.exercises, strict=True):
+            if exercise.objective > many:
+                what = f"There is no objective {exercise.objective}"
+                yield source.of(number, exercise.id)("objective", what, f"The lesson has {many}.")
+        tested = {exercise.objective for exercise in lesson.exercises}
         unread = any(problem.file == source.file for problem in found.problems)
         for number, objective in enumerate(() if unread else lesson.objectives, 1):
             if number not in tested:
-                yield Problem(
-                    source.file,
-                    1,
-                    "",
-                    f'No exercise tests objective {number}, "{objective}"',
-                    f"Write objective = {number} in one that does.",
-                )
+                what = f'No exercise tests objective {number}, "{objective}"'
+                yield source.at_top(what, f"Write objective = {number} in one that does.")
 
 
-def _lessons_and_sources(found: Questions) -> Iterator[tuple[Lesson, tuple[Source, tuple[tuple[int, Exercise], ...]]]]:
-    sources = {source.file.removesuffix(".toml"): (source, exercises) for source, exercises in found.sources}
-    for lesson in found.lessons:
-        yield lesson, sources[lesson.name]
-
-
-def _exercise_problems(source: Source, number: int, exercise: Exercise) -> Iterator[Problem]:
-    def problem(key: str, what: str, hint: str = "", part: str = "", at: int = 0) -> Problem:
-        return Problem(source.file, source.line_of(number, key, part, at), exercise.id, what, hint)
-
+def _exercise_problems(problem: MakeProblem, exercise: Exercise) -> Iterator[Problem]:
     unread = next(_unread(exercise), None)
     if unread is not None:
         key, mistake = unread
@@ -163,7 +136,6 @@ def _text_problems(problem: MakeProblem, exercise: Exercise) -> Iterator[Problem
 
 
 def _unread_formulas(exercise: Exercise) -> Iterator[LSystemError]:
-    """What is wrong with the formulas in a reply."""
     for found in FORMULA.finditer(exercise.otherwise):
         try:
             formula_in_reply(found[1])
@@ -172,7 +144,6 @@ def _unread_formulas(exercise: Exercise) -> Iterator[LSystemError]:
 
 
 def _slip_problems(problem: MakeProblem, exercise: Exercise) -> Iterator[Problem]:
-    """Slips that cannot be read, that are right, or that say what others say."""
     kind, solution = ANSWER_KINDS[exercise.kind], solution_of(exercise)
     said: dict[str, int] = {}
     for at, slip in enumerate(exercise.slips):

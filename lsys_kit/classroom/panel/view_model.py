@@ -15,11 +15,10 @@ from lsys_kit.classroom.panel.books.net import Unfolding, net_of
 from lsys_kit.derivation.core.words import Word, abridged
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.petri.stages import Stages
-from lsys_kit.geometry.drawing import scene_of
+from lsys_kit.geometry.drawing import coloured, scene_of
 from lsys_kit.geometry.filament import filament
-from lsys_kit.geometry.natural_colours import coloured
 from lsys_kit.geometry.scene import Scene
-from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
+from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
 from lsys_kit.geometry.turtle.plane import Path, place_path, trace
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.system import LSystem

@@ -16,8 +16,7 @@ from itertools import islice
 from typing import TYPE_CHECKING
 
 from lsys_kit.budget import Task, current
-from lsys_kit.derivation.core.closure import check_d0l, closure
-from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.core.states import States, check_d0l, closure
 from lsys_kit.derivation.growth.counts import counts_of_steps, held, orbit, row_of
 from lsys_kit.derivation.growth.recurrences import (
     closed_form,

@@ -10,8 +10,7 @@ from dataclasses import dataclass
 
 from lsys_kit.budget import check_budget
 from lsys_kit.derivation.core.chance import shares
-from lsys_kit.derivation.core.rule_errors import UNKNOWN, rule_error
-from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.core.states import UNKNOWN, States, rule_error
 from lsys_kit.notation.model.arithmetic import Value
 
 

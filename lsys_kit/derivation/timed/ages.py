@@ -21,9 +21,8 @@ from functools import cached_property
 from itertools import pairwise
 from typing import Any, NoReturn, TypeAlias
 
-from lsys_kit.derivation.core.rule_errors import rule_error
 from lsys_kit.derivation.core.rules import ModuleKind, Rule, kind_of
-from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.core.states import States, rule_error
 from lsys_kit.derivation.timed.lives import AgelessModule as AgelessModule
 from lsys_kit.derivation.timed.lives import AgeModel as AgeModel
 from lsys_kit.derivation.timed.lives import End as End

@@ -9,9 +9,8 @@ from itertools import islice
 from typing import NamedTuple, TypeAlias
 
 from lsys_kit.budget import check_budget, current
-from lsys_kit.derivation.core.rule_errors import rule_error
 from lsys_kit.derivation.core.rules import ModuleKind, Rule, kind_of
-from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.core.states import States, rule_error
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.model.arithmetic import Value, number_text
 from lsys_kit.notation.model.modules import Module

@@ -18,9 +18,8 @@ from heapq import heappop, heappush
 from itertools import count, repeat
 
 from lsys_kit.budget import Task, check_budget, current
-from lsys_kit.derivation.core.closure import check_d0l
 from lsys_kit.derivation.core.rules import number_from
-from lsys_kit.derivation.core.states import MODULES_BETWEEN_CHECKS, States
+from lsys_kit.derivation.core.states import MODULES_BETWEEN_CHECKS, States, check_d0l
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.timed.ages import AgeModel, age_model, timed_age_model
 from lsys_kit.derivation.timed.lives import undecided_age

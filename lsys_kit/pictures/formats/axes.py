@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from lsys_kit.geometry.labels import Labels
-from lsys_kit.geometry.scene import Floats, Scene
+from lsys_kit.geometry.scene import Floats, Labels, Scene
 from lsys_kit.pictures.rendering.display_list import AreaRun, DisplayList, LineRun
 from lsys_kit.pictures.rendering.frames import LABEL, LABEL_GAP, MARGIN, ViewFrame, frame_around
 from lsys_kit.pictures.rendering.painters_order import display_list

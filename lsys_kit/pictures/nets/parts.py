@@ -9,8 +9,7 @@ from functools import lru_cache
 from string import punctuation
 
 from lsys_kit.derivation.petri.net import Place, Stages
-from lsys_kit.geometry.turtle.commands.actions import Effect
-from lsys_kit.geometry.turtle.commands.table import COMMANDS, symbols_with
+from lsys_kit.geometry.turtle.commands import COMMANDS, Effect, symbols_with
 from lsys_kit.notation.model.arithmetic import is_symbolic
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.nets.captions import captions_of, notes_of, readable, terms_of, width_of

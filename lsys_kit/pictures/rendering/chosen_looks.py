@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from lsys_kit.geometry.scene import OWN, Discs, Integers, Polygons, Scene, Segments
-from lsys_kit.geometry.turtle.frames import initial_frame
+from lsys_kit.geometry.turtle.space import initial_frame
 from lsys_kit.notation.model.system import LSystem
 
 START, START_COLOUR = 0.12, 4

@@ -8,8 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lsys_kit.geometry.labels import Labels
-from lsys_kit.geometry.scene import Floats, Integers, Scene
+from lsys_kit.geometry.scene import Floats, Integers, Labels, Scene
 from lsys_kit.pictures.rendering.looks import median_length
 from lsys_kit.pictures.rendering.view import ProjectedScene
 

@@ -14,9 +14,8 @@ import numpy as np
 
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.errors import ModelValueError, shown
-from lsys_kit.geometry.labels import Labels, no_labels
 from lsys_kit.geometry.meshes.mesh import normals_of, start_widths
-from lsys_kit.geometry.scene import OWN, Floats, Integers, Polygons, Scene, Segments
+from lsys_kit.geometry.scene import OWN, Floats, Integers, Labels, Polygons, Scene, Segments, no_labels
 from lsys_kit.geometry.smoothing import smoothed
 from lsys_kit.pictures.rendering.polygon_edges import are_edges
 

@@ -21,8 +21,8 @@ from lsys_kit.budget import limits
 from lsys_kit.classroom.child_processes import Failed, in_child_processes
 from lsys_kit.classroom.exercises.check import checked
 from lsys_kit.classroom.exercises.collecting.submissions import COMPUTED, answers_in
-from lsys_kit.classroom.exercises.declared.registry import exercise_of, exercises
 from lsys_kit.classroom.exercises.judging import wrong_answers
+from lsys_kit.classroom.exercises.registry import exercise_of, exercises
 from lsys_kit.classroom.handed_in import HandedIn, content_of, handed_in
 from lsys_kit.errors import LSystemError, ModelFileError, quotable
 from lsys_kit.notation.read import read_word

@@ -6,9 +6,9 @@ import os
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from lsys_kit.classroom.exercises.declared.registry import all_lessons
 from lsys_kit.classroom.exercises.exercise import Exercise, Lesson
 from lsys_kit.classroom.exercises.progress.record import FILE, Record, record_so_far
+from lsys_kit.classroom.exercises.registry import all_lessons
 from lsys_kit.classroom.exercises.verdict import PLAIN_TEXT
 from lsys_kit.errors import ModelNameError, ModelValueError, every, quotable, require, shown
 from lsys_kit.notation.analysis.checks import suggestion

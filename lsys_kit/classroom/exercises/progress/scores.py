@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from lsys_kit.classroom.exercises.declared.registry import exercise_of
+from lsys_kit.classroom.exercises.registry import exercise_of
 from lsys_kit.classroom.exercises.verdict import Verdict
 
 _last: dict[str, float] = {}

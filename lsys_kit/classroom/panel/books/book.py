@@ -29,7 +29,7 @@ from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.errors import LSystemError, ModelLimitError
 from lsys_kit.files import file_stem
-from lsys_kit.geometry.turtle.commands.mode import drawing_mode
+from lsys_kit.geometry.turtle.commands import drawing_mode
 from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.system import USUAL_STEPS, LSystem
 from lsys_kit.notation.registry import dialect_named

@@ -10,15 +10,21 @@ from typing import Any
 from lsys_kit.derivation.core.interpretation import interpretations
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.timed.ages import age_model
+from lsys_kit.geometry.drawing import has_natural_colours
 from lsys_kit.geometry.filament import shapes_of
-from lsys_kit.geometry.natural_colours import has_natural_colours
-from lsys_kit.geometry.turtle.commands.instructions import Instruction, instructions, unknown_commands
-from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
-from lsys_kit.geometry.turtle.commands.table import initial_colour, initial_step
+from lsys_kit.geometry.turtle.commands import (
+    DrawingMode,
+    Instruction,
+    drawing_mode,
+    initial_colour,
+    initial_step,
+    instructions,
+    unknown_commands,
+)
 from lsys_kit.geometry.turtle.plane import PLANE_HANDLERS
-from lsys_kit.geometry.turtle.shapes import label_text
 from lsys_kit.geometry.turtle.space import SPACE_HANDLERS
 from lsys_kit.geometry.turtle.surfaces import Surface, passed_over, surfaces_by_symbol
+from lsys_kit.geometry.turtle.turtle import label_text
 from lsys_kit.notation.model.modules import Module, flat
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS

@@ -20,7 +20,7 @@ from lsys_kit.classroom.variants import variants
 from lsys_kit.derivation.core.rules import constants_of
 from lsys_kit.errors import LSystemError, ModelValueError
 from lsys_kit.geometry.drawing import turning_angle
-from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
+from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
 from lsys_kit.notation.model.arithmetic import Value, number_text
 from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem

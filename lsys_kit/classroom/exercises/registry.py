@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
-from lsys_kit.classroom.exercises.declared.declarations import QUESTIONS, Questions, questions_in
+from lsys_kit.classroom.exercises.declarations import QUESTIONS, Questions, questions_in
 from lsys_kit.classroom.exercises.exercise import Exercise, Lesson
 from lsys_kit.classroom.exercises.translated import translated, translated_lesson
 from lsys_kit.errors import ModelFileError, ModelNameError, ModelValueError, quotable, require
