@@ -16,17 +16,14 @@ from lsys_kit.derivation.maps.development import Development
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.derivation.timed.timed import Timed
 from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError, require, shown, whole_number
-from lsys_kit.experiments.charts import column_label, measured_label
 from lsys_kit.experiments.measures import Asked, Measure, measures_of
-from lsys_kit.experiments.table import Table
+from lsys_kit.experiments.table import Table, column_label, measured_label
 from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
 from lsys_kit.notation.model.arithmetic import is_symbolic
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem, symbols
-from lsys_kit.pictures.plots.bars import Share, ShareChart
-from lsys_kit.pictures.plots.chart import Axis, Plot, finite, name_label
-from lsys_kit.pictures.plots.curves import Curve, CurveChart
+from lsys_kit.pictures.plots.chart import Axis, Curve, CurveChart, Plot, Share, ShareChart, finite, name_label
 from lsys_kit.pictures.plots.lettering import literal, mathematics
 from lsys_kit.pictures.style.labels import label_parts, place_parts, polar_symbols, values_text
 from lsys_kit.pictures.style.palette import BLUE, SERIES, colour_of

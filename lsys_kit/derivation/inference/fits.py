@@ -9,10 +9,8 @@ from typing import overload
 
 from lsys_kit.budget import Task, check_budget
 from lsys_kit.derivation.derive import Derivation, derive
-from lsys_kit.derivation.inference.problem import Conditions
-from lsys_kit.derivation.inference.refusals import Contradiction
-from lsys_kit.derivation.inference.slips import Slip
-from lsys_kit.derivation.inference.words import Row
+from lsys_kit.derivation.inference.problem import Conditions, Row
+from lsys_kit.derivation.inference.refusals import Contradiction, Slip
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.model.system import LSystem, Production
 

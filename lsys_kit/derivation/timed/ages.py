@@ -10,32 +10,358 @@ In a system of steps a life ends in one of two ways. Where the daughters' ages t
 the beginning of a step, and its daughters are there at the end; a decomposition rule applies at the end. Where the daughters'
 ages do not tell that, as in `A(3) -> A(1) B(1)`, a life lasts whole steps: it ends with the first step in which a rule replaces
 the module. If one rule is of the second kind, all lives are measured in steps, which is right for rules of both kinds.
+
+A condition that compares sums and multiples of the age with values that do not change, as `t + dt >= t_div && p == LEFT`, is
+true or false on whole stretches of age. Its thresholds are where these meet.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
-from itertools import pairwise
-from typing import Any, NoReturn, TypeAlias
+from itertools import islice, pairwise
+from typing import Any, NamedTuple, NoReturn, TypeAlias
 
+from lsys_kit.budget import check_budget, current
 from lsys_kit.derivation.core.rule_errors import rule_error
 from lsys_kit.derivation.core.rules import ModuleKind, Rule, kind_of
 from lsys_kit.derivation.core.states import States
-from lsys_kit.derivation.timed.lives import AgelessModule as AgelessModule
-from lsys_kit.derivation.timed.lives import AgeModel as AgeModel
-from lsys_kit.derivation.timed.lives import End as End
-from lsys_kit.derivation.timed.lives import TimedAges, undecided_age
-from lsys_kit.derivation.timed.lives import births as births
-from lsys_kit.derivation.timed.thresholds import AgeTerms, is_pointwise, unit_slope
-from lsys_kit.errors import ModelValueError
-from lsys_kit.notation.model.arithmetic import Value, is_symbolic, normalised
+from lsys_kit.errors import ModelLimitError, ModelValueError
+from lsys_kit.notation.model.arithmetic import Value, divide, is_symbolic, normalised, number_text
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number, function_of, names_in
 from lsys_kit.notation.model.modules import Module, Pattern, Repeat, flat
 from lsys_kit.notation.model.system import Production
 from lsys_kit.notation.write import as_written
+
+AgelessModule: TypeAlias = tuple[str, tuple[object, ...]]
+"""A symbol with all values but the age."""
+
+
+class End(NamedTuple):
+    """How a module's life ends.
+
+    Attributes
+    ----------
+    rule
+        The rule that replaces it; None where it stays as it is from then on.
+    age
+        At which age.
+    mother
+        The module that the rule replaces, as it is when the rule applies.
+    already
+        Whether it is replaced at just that age, and not only beyond it.
+    """
+
+    rule: Rule | None
+    age: Value
+    mother: Module
+    already: bool
+
+
+@dataclass(frozen=True)
+class AgeModel(ABC):
+    """How the modules of a system grow older, and how their lives end.
+
+    Attributes
+    ----------
+    states
+        The table of its modules.
+    parameter
+        From a symbol and a number of parameters to the parameter that is the age, from 0; None where there is none.
+    step
+        How long a step takes; None where nothing says so, and in a timed system.
+    """
+
+    states: States
+    parameter: Callable[[ModuleKind], int | None]
+    step: Value | None
+    _ends: dict[tuple[object, ...], End | None] = field(default_factory=dict, compare=False, repr=False)
+
+    def age(self, module: Module) -> Value | None:
+        """A module's age; None where it has none."""
+        at = self.parameter(kind_of(module))
+        return None if at is None else module.arguments[at]
+
+    def aged(self, module: Module, age: Value) -> Module:
+        """A module at another age; itself, where it has none."""
+        at, values = self.parameter(kind_of(module)), module.arguments
+        return module if at is None else Module(module.symbol, (*values[:at], age, *values[at + 1 :]))
+
+    def ageless(self, module: Module) -> AgelessModule:
+        """A module without its age."""
+        at, values = self.parameter(kind_of(module)), module.arguments
+        return module.symbol, values if at is None else values[:at] + values[at + 1 :]
+
+    def phase(self, _age: Value) -> Value:
+        """What distinguishes modules of different ages that never reach the same age; 0 where time passes evenly."""
+        return 0
+
+    def is_late(self, _module: Module) -> bool:
+        """Whether deriving in steps ends a module's life later than that."""
+        return False
+
+    def end(self, module: Module) -> End | None:
+        """How a module's life ends as it grows older; None where it lives for ever.
+
+        >>> from lsys_kit.derivation.timed.ages import age_model
+        >>> from lsys_kit.notation.read import read
+        >>> cells = States(read("axiom: M(0)\\nM(t) -> M(t+1)\\ndecomposition:\\nM(t) : t >= 3 -> M(t-3) M(t-2)"))
+        >>> age_model(cells).end(Module("M", (0,))).age
+        3
+        """
+        key = (module.symbol, module.arguments, *map(type, module.arguments))
+        if key not in self._ends:
+            self._ends[key] = self._found_end(module)
+        return self._ends[key]
+
+    @abstractmethod
+    def _found_end(self, module: Module) -> End | None:
+        """How a module's life ends."""
+
+    def daughters(self, module: Module) -> list[Module]:
+        """What a module becomes at the end of its life: its daughters at their first ages; none, where it lives for ever."""
+        end = self.end(module)
+        return [] if end is None or end.rule is None else self.made(end.rule, end.mother)
+
+    def made(self, rule: Rule, module: Module) -> list[Module]:
+        """What a rule makes of a module, before any of that is decomposed.
+
+        Raises
+        ------
+        ModelLimitError
+            That is more than anything may be repeated.
+        """
+        most = current().repetitions
+        found = [Module(*part) for part in islice(self.states.apply(rule, module), most + 1)]
+        if len(found) > most:
+            start, end = rule.production.at or (None, None)
+            raise ModelLimitError(
+                f"{module} becomes more than {most:,} modules at once",
+                limit=most,
+                source=self.states.system.source or None,
+                start=start,
+                end=end,
+                hint="Use smaller numbers of repetitions.",
+            )
+        return found
+
+    def check_birth(self, module: Module) -> None:
+        """Refuse a module that is born older than it can become."""
+        end, age = self.end(module), self.age(module) or 0
+        if end is None or end.rule is None:
+            return
+        try:
+            older = bool(end.age < age)
+        except TypeError:
+            raise undecided_age(self.states, module, end.rule.production) from None
+        if older:
+            raise ModelValueError(f"{module} is born older than it divides, at the age {number_text(end.age)}")
+
+
+@dataclass(frozen=True)
+class TimedAges(AgeModel):
+    """The ages of a timed system: the first parameter is the age, and productions end lives beyond the ages that they name."""
+
+    def _found_end(self, module: Module) -> End | None:
+        found: list[tuple[Value, int, Rule]] = []
+        for rule in self.states.rules.get(kind_of(module), ()):
+            ((_, asked),) = rule.equalities
+            try:
+                found.append((asked((*module.arguments, *self.states.constants)), rule.number, rule))
+            except (ArithmeticError, ValueError) as fault:
+                raise rule_error(self.states.system, module, rule, fault) from None
+            except TypeError:
+                raise undecided_age(self.states, module, rule.production) from None
+        if not found:
+            return None
+        try:
+            age, _, rule = min(found)
+        except TypeError:
+            raise undecided_age(self.states, module, found[0][2].production) from None
+        return End(rule, age, self.aged(module, age), False)
+
+
+def births(ages: AgeModel, limit: int) -> dict[AgelessModule, dict[Value, dict[Value, Module]]]:
+    """For each kind of module, and each phase, those that are born, by their age."""
+    found: dict[AgelessModule, dict[Value, dict[Value, Module]]] = {}
+    todo = [ages.states.modules[state] for state in ages.states.axiom][::-1]
+    while todo:
+        check_budget()
+        module = todo.pop()
+        age = ages.age(module) or 0
+        born = found.setdefault(ages.ageless(module), {}).setdefault(ages.phase(age), {})
+        if age in born:
+            continue
+        born[age] = module
+        if sum(len(others) for phases in found.values() for others in phases.values()) > limit:
+            raise ModelLimitError(
+                f"Modules are born at more than {limit} different ages",
+                limit=limit,
+                hint="Let the ages of daughters at birth not depend on the age of their mother.",
+            )
+        todo += dict.fromkeys(ages.daughters(module)[::-1])
+    return found
+
+
+def undecided_age(states: States, module: Module, production: Production) -> ModelValueError:
+    """The age at which a module divides depends on a constant that is not known."""
+    values = (*states.constants, *module.arguments)
+    names = sorted({str(name) for value in values for name in getattr(value, "free_symbols", ())})
+    start, end = production.at or (None, None)
+    return ModelValueError(
+        f"The age at which {module} becomes what {production} says cannot be decided",
+        states.system.source or None,
+        start,
+        end,
+        f"It depends on {', '.join(names)}: choose a value for {names[0]}." if names else None,
+    )
+
+
+_LINEAR: Mapping[str, Callable[[Sequence[Any], Sequence[Value]], Value]] = {
+    "+": lambda slopes, _: slopes[0] + slopes[1],
+    "-": lambda slopes, _: slopes[0] - slopes[1],
+    "-x": lambda slopes, _: -slopes[0],
+    "*": lambda slopes, factors: slopes[0] * factors[1] + slopes[1] * factors[0],
+    "/": lambda slopes, factors: divide(slopes[0], factors[1]),
+}
+"""For each operator that may keep a slope the same at all ages how it does, given slopes and fixed values of its operands."""
+_CONNECTIVES = frozenset(("&&", "||", "!"))
+_COMPARISONS = frozenset(("<", "<=", ">", ">=", "==", "!="))
+
+
+@dataclass(frozen=True)
+class AgeTerms:
+    """The expressions of a rule as functions of the age of the module that it replaces.
+
+    Attributes
+    ----------
+    states
+        The table of modules.
+    rule
+        The rule.
+    parameter
+        Which parameter of its predecessor is the age.
+    """
+
+    states: States
+    rule: Rule
+    parameter: int
+
+    @cached_property
+    def age(self) -> str | None:
+        """What the rule calls the age; None where it has no name for it."""
+        asked = self.rule.production.predecessor.arguments[self.parameter]
+        return asked.name if isinstance(asked, Name) and asked.name not in self._constants else None
+
+    @cached_property
+    def _constants(self) -> Mapping[str, int]:
+        """The place of each declared constant among their values."""
+        return {constant.name: at for at, constant in enumerate(self.states.system.constants)}
+
+    @cached_property
+    def _order(self) -> Mapping[str, int]:
+        """The place of each name among the values of a module and of the constants."""
+        asked = self.rule.production.predecessor.arguments
+        order = {name: len(asked) + at for name, at in self._constants.items()}
+        named = {argument.name: at for at, argument in enumerate(asked) if isinstance(argument, Name)}
+        return {**named, **order}
+
+    def depends(self, expression: Expression) -> bool:
+        """Whether an expression depends on the age."""
+        return self.age is not None and self.age in names_in(expression)
+
+    def value(self, expression: Expression, module: Module) -> Value:
+        """The value of an expression for a module."""
+        found: Value = function_of(expression, self._order, self.states.arithmetic)((*module.arguments, *self.states.constants))
+        return found
+
+    def slope(self, expression: Expression, module: Module) -> Value | None:
+        """By how much an expression grows while the age grows by 1; None where that is not the same at all ages.
+
+        >>> from lsys_kit.notation.read import read
+        >>> states = States(read("axiom: M(0,3)\\nM(t,p) -> M(2*t-p,p)"))
+        >>> rule, = states.rules["M", 2]
+        >>> AgeTerms(states, rule, 0).slope(rule.production.successor[0].arguments[0], states.modules[0])
+        2
+        """
+        if not self.depends(expression):
+            return 0
+        if not isinstance(expression, Apply):
+            return 1
+        parts = expression.operands
+        slopes = [self.slope(part, module) for part in parts]
+        if None in slopes or expression.operator not in _LINEAR:
+            return None
+        if expression.operator == "*" and all(map(self.depends, parts)):
+            return None
+        if expression.operator == "/" and self.depends(parts[1]):
+            return None
+        factors = [0 if self.depends(part) else self.value(part, module) for part in parts]
+        return _LINEAR[expression.operator](slopes, factors)
+
+    def thresholds(self, module: Module) -> list[Value] | None:
+        """The ages at which the rule may begin or cease to match a module; None where its condition asks otherwise for the age.
+
+        >>> from lsys_kit.notation.read import read
+        >>> states = States(read("dt = 0.7\\naxiom: M(0.4)\\nM(t) : t+dt < 1 || t > 5 -> M(t+dt)"))
+        >>> print(*AgeTerms(states, states.rules["M", 1][0], 0).thresholds(states.modules[0]))
+        3/10 5
+        """
+        found: list[Value] = []
+        for difference in self._compared():
+            slope = None if difference is None else self.slope(difference, module)
+            if difference is None or slope is None:
+                return None
+            if slope != 0:
+                young = Module(
+                    module.symbol, tuple(0 if at == self.parameter else value for at, value in enumerate(module.arguments))
+                )
+                found.append(divide(-self.value(difference, young), slope))
+        asked = self.rule.production.predecessor.arguments[self.parameter]
+        return found if self.age is not None else [*found, self.value(asked, module)]
+
+    def _compared(self) -> Iterator[Expression | None]:
+        """What is compared with 0 wherever the age is asked for; None for a question of another kind."""
+        arguments = self.rule.production.predecessor.arguments
+        for at, _ in self.rule.equalities:
+            if self.depends(arguments[at]):
+                yield None
+        todo = [] if self.rule.production.condition is None else [self.rule.production.condition]
+        while todo:
+            part = todo.pop()
+            if not self.depends(part):
+                continue
+            if isinstance(part, Apply) and part.operator in _CONNECTIVES:
+                todo += part.operands[::-1]
+            else:
+                compared = isinstance(part, Apply) and part.operator in _COMPARISONS
+                yield Apply("-", part.operands) if compared else None  # type: ignore[union-attr]
+
+
+def unit_slope(expression: Expression, age: str) -> bool:
+    """Whether an expression is the age plus or minus something that does not depend on it.
+
+    >>> from lsys_kit.notation.read import read_expression
+    >>> [unit_slope(read_expression(text), "t") for text in ("t + dt - 1", "1 - t", "2*t", "3")]
+    [True, False, False, False]
+    """
+    if not isinstance(expression, Apply):
+        return expression == Name(age)
+    if expression.operator not in ("+", "-") or sum(age in names_in(part) for part in expression.operands) != 1:
+        return False
+    part = next(part for part in expression.operands if age in names_in(part))
+    return unit_slope(part, age) and (expression.operator == "+" or part is expression.operands[0])
+
+
+def is_pointwise(condition: Expression | None, age: str) -> bool:
+    """Whether a condition asks somewhere whether the age has just a certain value."""
+    if not isinstance(condition, Apply) or age not in names_in(condition):
+        return False
+    return condition.operator in ("==", "!=") or any(is_pointwise(part, age) for part in condition.operands)
+
 
 Fate: TypeAlias = tuple[Rule | None, Value]
 """What becomes of a module that does not grow older: the rule that replaces it, and how long that takes."""

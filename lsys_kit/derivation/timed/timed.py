@@ -22,8 +22,7 @@ from lsys_kit.derivation.core.closure import check_d0l
 from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.derivation.core.states import MODULES_BETWEEN_CHECKS, States
 from lsys_kit.derivation.core.words import Word
-from lsys_kit.derivation.timed.ages import AgeModel, age_model, timed_age_model
-from lsys_kit.derivation.timed.lives import undecided_age
+from lsys_kit.derivation.timed.ages import AgeModel, age_model, timed_age_model, undecided_age
 from lsys_kit.errors import ModelLimitError, ModelValueError, every, require
 from lsys_kit.notation.model.arithmetic import Value, is_symbolic, normalised, number_text
 from lsys_kit.notation.model.modules import Module
