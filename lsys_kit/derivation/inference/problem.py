@@ -15,7 +15,7 @@ from math import inf
 from typing import TypeAlias
 
 from lsys_kit.budget import INTERVAL, counted
-from lsys_kit.derivation.core.matching import Neighbours, Passing, neighbours, neighbours_along
+from lsys_kit.derivation.core.matching import Passing, neighbours, neighbours_along
 from lsys_kit.derivation.core.traits import CUT
 from lsys_kit.derivation.inference.word_equations import (
     Bounds,
@@ -57,17 +57,13 @@ def read_words(given: object) -> tuple[Row, ...]:
     ModelValueError
         There are not two words at least, or one of them is none.
     """
+    hint = 'Give the words of steps 0, 1, 2, ... in a list, as in infer(["a", "ab", "aba"]).'
     if isinstance(given, str) or not isinstance(given, Iterable):
-        raise ModelValueError(
-            f"A sequence of words is needed, not {type(given).__name__}",
-            hint='Give the words of steps 0, 1, 2, ... in a list, as in infer(["a", "ab", "aba"]).',
-        )
+        raise ModelValueError(f"A sequence of words is needed, not {type(given).__name__}", hint=hint)
     words = [*counted(given, 1)]
     if len(words) < 2:
-        raise ModelValueError(
-            f"Rules are found from two words at least; there {'is one' if words else 'are none'}",
-            hint='Give the words of steps 0, 1, 2, ... in a list, as in infer(["a", "ab", "aba"]).',
-        )
+        there = "is one" if words else "are none"
+        raise ModelValueError(f"Rules are found from two words at least; there {there}", hint=hint)
     texts = [word for word in words if isinstance(word, str)]
     valued = any(map(VALUE.search, texts))
     printed = valued or any(len(text.split()) > 1 for text in texts)
@@ -86,8 +82,11 @@ def read_words(given: object) -> tuple[Row, ...]:
 
 def _row(word: object, step: int, printed: bool, valued: bool) -> Row:
     if isinstance(word, str):
-        if valued:
-            _require_values(word, step)
+        if valued and (stray := re.search(r"\([^()]*\)?|\)", VALUE.sub(" ", word))):  # no symbol, where symbols have values
+            raise ModelValueError(
+                f'The word of step {step} has "{quotable(stray[0])}", which are no values',
+                hint="Values are numbers with commas between them, as in A(1,2.5).",
+            )
         row = tuple(_printed_modules(word) if printed else (Module(letter) for letter in word.strip()))
     elif isinstance(word, Sequence) and not isinstance(word, bytes | bytearray):
         row = tuple(_module(each, step) for each in counted(word))
@@ -101,16 +100,6 @@ def _row(word: object, step: int, printed: bool, valued: bool) -> Row:
                 hint="Such a module cuts a branch, or asks what the turtle sees.",
             )
     return row
-
-
-def _require_values(text: str, step: int) -> None:
-    """Refuse parentheses without numbers in words whose symbols have values: there they are no symbols themselves."""
-    found = re.search(r"\([^()]*\)?|\)", VALUE.sub(" ", text))
-    if found:
-        raise ModelValueError(
-            f'The word of step {step} has "{quotable(found[0])}", which are no values',
-            hint="Values are numbers with commas between them, as in A(1,2.5).",
-        )
 
 
 def _printed_modules(text: str) -> Iterable[Module]:
@@ -172,17 +161,8 @@ Table: TypeAlias = dict[Letter, Row]
 
 @dataclass(frozen=True)
 class Conditions:
-    """What systems are looked for.
-
-    Attributes
-    ----------
-    constants
-        Symbols that stay as they are.
-    erasing
-        Whether a letter may become nothing.
-    context
-        How many neighbours to the left and to the right a production may look at.
-    """
+    """What systems are looked for: symbols that stay as they are, whether a letter may become nothing, and how many neighbours
+    to the left and to the right a production may look at."""
 
     constants: frozenset[str] = frozenset("+-")
     erasing: bool = False
@@ -198,20 +178,9 @@ class Conditions:
 class Problem:
     """Equations for the successors of letters.
 
-    Attributes
-    ----------
-    letters
-        The letters whose successors are unknown; a number in an equation is a place here.
-    modules
-        The modules that a character of a known word stands for.
-    equations
-        One for each step that has an unknown letter.
-    bounds
-        How many letters the successors can have.
-    possible
-        False where the known letters alone contradict the words.
-    nested
-        Whether the brackets of a successor must be well nested, since contexts follow branches.
+    A number in an equation is a place in `letters`, a character of a known word stands for one of the `modules`. The question
+    is not `possible` where the known letters alone contradict the words; it is `nested` where the brackets of a successor must
+    be, since contexts follow branches.
     """
 
     letters: tuple[Letter, ...]
@@ -256,14 +225,9 @@ def letters_of(word: Row, conditions: Conditions) -> Iterator[Letter]:
         return
     around = neighbours([module.symbol for module in word], Passing(conditions.constants))
     for place in counted(range(len(word)), max(1, INTERVAL // max(1, sum(conditions.context)))):
-        yield letter_at(word, around, place, conditions.context)
-
-
-def letter_at(word: Row, around: Neighbours, place: int, context: tuple[int, int]) -> Letter:
-    """The letter at a place of a word."""
-    left = neighbours_along(around.before, place, context[0])
-    right = neighbours_along(around.after, place, context[1])
-    return Letter(tuple(word[at] for at in reversed(left)), word[place], tuple(word[at] for at in right))
+        left = neighbours_along(around.before, place, conditions.context[0])
+        right = neighbours_along(around.after, place, conditions.context[1])
+        yield Letter(tuple(word[at] for at in reversed(left)), word[place], tuple(word[at] for at in right))
 
 
 def tables(problem: Problem, trials: float = inf) -> Iterator[Table]:

@@ -13,10 +13,10 @@ always the same.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 from functools import reduce
-from itertools import count
+from itertools import count, product
 from typing import Any, TypeAlias
 
 from lsys_kit.budget import check_budget
@@ -30,7 +30,6 @@ from lsys_kit.notation.model.system import LSystem, Production
 def system_of(axiom: Row, productions: Iterable[Production], conditions: Conditions) -> LSystem:
     """The system with an axiom and productions; in its contexts constants are passed over.
 
-    >>> from lsys_kit.notation.model.modules import Module
     >>> print(system_of((Module("a"),), [], Conditions()))
     axiom: a
     """
@@ -57,7 +56,8 @@ def productions_of(table: Table) -> Iterator[Production]:
 
 
 def _productions_of_one(module: Module, table: Table) -> Iterator[Production]:
-    usual = _usual(module, table)
+    found = Counter(table.values())
+    usual = (module,) if (module,) in found else found.most_common(1)[0][0]  # where no context says otherwise
     open_letters = _explicit(table, usual)
     while open_letters:
         check_budget()
@@ -68,12 +68,6 @@ def _productions_of_one(module: Module, table: Table) -> Iterator[Production]:
         open_letters = [other for other in open_letters if other in table]
     if usual != (module,):
         yield Production(row_of((module,)), row_of(usual))
-
-
-def _usual(module: Module, table: Table) -> Row:
-    """What a module becomes where no context says otherwise: itself, if it ever does, else what most of its letters become."""
-    found = Counter(table.values())
-    return (module,) if (module,) in found else found.most_common(1)[0][0]
 
 
 def _explicit(table: Table, usual: Row) -> list[Letter]:
@@ -106,8 +100,6 @@ def _extends(letter: Letter, context: Letter) -> bool:
 
 Values: TypeAlias = tuple[Value, ...]
 """The values of a module's parameters."""
-Law: TypeAlias = Callable[[Sequence[Values], Sequence[Value], Sequence[str], int], Iterator[Expression]]
-"""From the values of some modules, what became of a value, the parameters' names and the place of the value: the expression."""
 POINTS_FOR_TWO_NUMBERS = 3
 """Through two points there is always a straight line; so many different ones must lie on it."""
 
@@ -120,61 +112,35 @@ def law_of(given: Sequence[Values], made: Sequence[Value], names: Sequence[str],
     >>> print(law_of([(1,), (3,), (4,)], [3, 7, 9], ["x"], 0))
     2 * x + 1
     """
-    return next((found for law in LAWS for found in law(given, made, names, place)), None)
+    return next(_laws(given, made, names, place), None)
 
 
-def _fixed(given: Sequence[Values], made: Sequence[Value], names: Sequence[str], place: int) -> Iterator[Expression]:
+def _laws(given: Sequence[Values], made: Sequence[Value], names: Sequence[str], place: int) -> Iterator[Expression]:
+    """The laws that a value obeys, the simplest first; of a kind that of the parameter at its own place first."""
     if len({*made}) == 1:
         yield Number(made[0])
-
-
-def _kept(given: Sequence[Values], made: Sequence[Value], names: Sequence[str], place: int) -> Iterator[Expression]:
-    for axis in _axes(names, place):
-        if all(values[axis] == value for values, value in zip(given, made, strict=True)):
+    axes = sorted(range(len(names)), key=lambda axis: axis != place)
+    points = {axis: [(values[axis], value) for values, value in zip(given, made, strict=True)] for axis in axes}
+    for axis in axes:
+        if all(before == after for before, after in points[axis]):
             yield Name(names[axis])
-
-
-def _moved(given: Sequence[Values], made: Sequence[Value], names: Sequence[str], place: int) -> Iterator[Expression]:
-    for axis in _axes(names, place):
-        amounts = {value - values[axis] for values, value in zip(given, made, strict=True)}
+    for axis in axes:
+        amounts = {after - before for before, after in points[axis]}
         if len(amounts) == 1:
             yield plus(Name(names[axis]), amounts.pop())
-
-
-def _scaled(given: Sequence[Values], made: Sequence[Value], names: Sequence[str], place: int) -> Iterator[Expression]:
-    for axis in _axes(names, place):
-        factors = {_quotient(value, values[axis]) if values[axis] else None for values, value in zip(given, made, strict=True)}
-        if len(factors) == 1 and None not in factors:
-            yield Apply("*", (Number(factors.pop()), Name(names[axis])))  # type: ignore[arg-type]
-
-
-def _affine(given: Sequence[Values], made: Sequence[Value], names: Sequence[str], place: int) -> Iterator[Expression]:
-    for axis in _axes(names, place):
-        points = sorted({(values[axis], value) for values, value in zip(given, made, strict=True)})
-        if len({x for x, _ in points}) >= POINTS_FOR_TWO_NUMBERS:
-            (x0, y0), (x1, y1) = points[0], points[-1]
+    for axis in axes:
+        factors = {_quotient(after, before) if before else None for before, after in points[axis]}
+        if len(factors) == 1 and (factor := factors.pop()) is not None:
+            yield Apply("*", (Number(factor), Name(names[axis])))
+    for one, other, (operator, sign) in product(axes, range(len(names)), (("+", 1), ("-", -1))):
+        if one != other and all(values[one] + sign * values[other] == value for values, value in zip(given, made, strict=True)):
+            yield Apply(operator, (Name(names[one]), Name(names[other])))
+    for axis in axes:
+        if len({x for x, _ in points[axis]}) >= POINTS_FOR_TWO_NUMBERS:
+            (x0, y0), (x1, y1) = min(points[axis]), max(points[axis])
             factor = _quotient(y1 - y0, x1 - x0)
-            if all(y - y0 == factor * (x - x0) for x, y in points):
+            if all(y - y0 == factor * (x - x0) for x, y in points[axis]):
                 yield plus(Apply("*", (Number(factor), Name(names[axis]))), y0 - factor * x0)
-
-
-def _combined(given: Sequence[Values], made: Sequence[Value], names: Sequence[str], place: int) -> Iterator[Expression]:
-    for first in _axes(names, place):
-        for second in range(len(names)):
-            for operator, sign in (("+", 1), ("-", -1)):
-                if first != second and all(
-                    values[first] + sign * values[second] == value for values, value in zip(given, made, strict=True)
-                ):
-                    yield Apply(operator, (Name(names[first]), Name(names[second])))
-
-
-LAWS: tuple[Law, ...] = (_fixed, _kept, _moved, _scaled, _combined, _affine)
-"""The kinds of laws, the simplest first."""
-
-
-def _axes(names: Sequence[str], place: int) -> Iterable[int]:
-    """The parameters, beginning with that at the place of the value."""
-    return sorted(range(len(names)), key=lambda axis: axis != place)
 
 
 def _quotient(above: Value, below: Value) -> Value:
@@ -202,7 +168,6 @@ def general_productions(table: Table) -> Iterator[Production]:
     """Productions with parameters for a table, as few as possible; modules that stay as they are need none.
 
     >>> from lsys_kit.derivation.inference.problem import Letter
-    >>> from lsys_kit.notation.model.modules import Module
     >>> a = [Letter((), Module("a", (age,))) for age in range(4)]
     >>> table = {a[0]: (a[1].module,), a[1]: (a[2].module,), a[2]: (a[3].module,), a[3]: (a[0].module,) * 2}
     >>> [str(production) for production in general_productions(table)]
@@ -215,13 +180,12 @@ def general_productions(table: Table) -> Iterator[Production]:
     for kind, successors in kinds.items():
         cases = fewest_cases(kind, successors)
         for case in cases:
-            if not _stays(kind, case):
-                yield _production(kind, case, [other for other in cases if other is not case])
-
-
-def _stays(kind: Kind, case: Case) -> bool:
-    """Whether the modules of a case remain as they are."""
-    return all(len(word) == 1 and (word[0].symbol, word[0].arguments) == (kind[0], values) for values, word in case)
+            if any(word != (Module(kind[0], values),) for values, word in case):
+                others = [other for other in cases if other is not case]
+                own = Pattern(kind[0], tuple(map(Name, names_of(kind))))
+                made = _successor(kind, case, keeps=not others)
+                assert made is not None
+                yield Production((own,), made, condition=_condition(kind, case, others))
 
 
 def fewest_cases(kind: Kind, successors: dict[Values, Row]) -> list[Case]:
@@ -280,16 +244,15 @@ def _successor(kind: Kind, case: Case, keeps: bool) -> tuple[Pattern, ...] | Non
     given, words = [values for values, _ in case], [word for _, word in case]
     found = []
     for index, module in enumerate(words[0]):
-        made = [[word[index].arguments[place] for word in words] for place in range(len(module.arguments))]
-        laws = [
-            Name(names[place])
-            if keeps and place < len(names) and values == [each[place] for each in given]
-            else law_of(given, values, names, place)
-            for place, values in enumerate(made)
-        ]
-        if None in laws:
-            return None
-        found.append(Pattern(module.symbol, tuple(law for law in laws if law is not None)))
+        laws: list[Expression] = []
+        for place in range(len(module.arguments)):
+            values = [word[index].arguments[place] for word in words]
+            kept = keeps and place < len(names) and values == [each[place] for each in given]
+            law = Name(names[place]) if kept else law_of(given, values, names, place)
+            if law is None:
+                return None
+            laws.append(law)
+        found.append(Pattern(module.symbol, tuple(laws)))
     return tuple(found)
 
 
@@ -300,13 +263,6 @@ def names_of(kind: Kind) -> list[str]:
     (['x', 'y'], ['x1', 'x2', 'x3', 'x4'])
     """
     return [*NAMES[: kind[1]]] if kind[1] <= len(NAMES) else [f"x{number}" for number in range(1, kind[1] + 1)]
-
-
-def _production(kind: Kind, case: Case, others: Sequence[Case]) -> Production:
-    own = Pattern(kind[0], tuple(map(Name, names_of(kind))))
-    made = _successor(kind, case, keeps=not others)
-    assert made is not None
-    return Production((own,), made, condition=_condition(kind, case, others))
 
 
 def _condition(kind: Kind, case: Case, others: Sequence[Case]) -> Expression | None:

@@ -50,18 +50,9 @@ SOLUTIONS_COMPARED = 20
 class Contradiction:
     """A step that cannot come from the one before.
 
-    Attributes
-    ----------
-    step
-        The number of the later word.
-    place
-        The first letter of the earlier word for which there is no successor, from 1, as a reader counts; 0 where it has none.
-    module
-        That letter.
-    needed, there
-        What it must become as elsewhere, and what stands in its place; None where no successor has the right length.
-    begin
-        Where that stands in the later word, from 0.
+    The letter of the earlier word at a `place`, from 1, is the first for which there is no successor (0 and None where that
+    word has no letter). What is `needed` is what it must become as elsewhere, and what is `there` stands in its place, at the
+    `begin` in the later word; None where no successor has the right length.
     """
 
     step: int
@@ -85,46 +76,34 @@ def contradiction(words: Sequence[Row], conditions: Conditions) -> Contradiction
     """Where words contradict one another, which no system fits: the first letter that has no successor; None where that is not
     soon found."""
     with suppress(GivenUp):
-        return _contradiction(words, conditions)
+        step = 1 + bisect_left(range(1, len(words)), True, key=lambda step: _contradict(words[: step + 1], conditions))
+        words = words[: step + 1]
+        letters = [*letters_of(words[step - 1], conditions)]
+        place = bisect_left(range(1, len(letters)), True, key=lambda count: _contradict(words, conditions, count))
+        if not letters:
+            return Contradiction(step, 0, None)
+        some = islice(tables(problem_of(words, conditions, place), MOST_SUCCESSORS_TRIED), SOLUTIONS_COMPARED)
+        asked = {_asked(words[step], letters[: place + 1], table, conditions) for table in some}
+        needed, there, begin = asked.pop() if len(asked) == 1 else (None, (), place)
+        if needed == there:
+            needed, there = None, ()
+        return Contradiction(step, place + 1, letters[place].module, needed, there, begin)
     return None
-
-
-def _contradiction(words: Sequence[Row], conditions: Conditions) -> Contradiction:
-    step = first_impossible_step(words, conditions)
-    words = words[: step + 1]
-    letters = [*letters_of(words[step - 1], conditions)]
-    place = bisect_left(range(1, len(letters)), True, key=lambda count: first_table(words, conditions, count) is None)
-    if not letters:
-        return Contradiction(step, 0, None)
-    some = islice(tables(problem_of(words, conditions, place), MOST_SUCCESSORS_TRIED), SOLUTIONS_COMPARED)
-    asked = {_asked(words[step], letters[: place + 1], table, conditions) for table in some}
-    needed, there, begin = asked.pop() if len(asked) == 1 else (None, (), place)
-    if needed == there:
-        needed, there = None, ()
-    return Contradiction(step, place + 1, letters[place].module, needed, there, begin)
 
 
 def _asked(word: Row, letters: Sequence[Letter], table: Table, conditions: Conditions) -> tuple[Row | None, Row, int]:
     """What the last of some letters would become, what stands in its place, and where."""
-    *before, needed = (successor(letter, table, conditions) for letter in letters)
+    *before, needed = (
+        (letter.module,) if letter.module.symbol in conditions.unchanged else table.get(letter) for letter in letters
+    )
     begin = sum(len(each or ()) for each in before)
     return needed, word[begin : begin + len(needed or ())], begin
 
 
-def first_impossible_step(words: Sequence[Row], conditions: Conditions) -> int:
-    """The first step that cannot come from the one before, if those before it did."""
-    return 1 + bisect_left(range(1, len(words)), True, key=lambda step: first_table(words[: step + 1], conditions) is None)
-
-
-def first_table(words: Sequence[Row], conditions: Conditions, last: int | None = None) -> Table | None:
-    """What a first system makes of each letter; None where there is no system."""
+def _contradict(words: Sequence[Row], conditions: Conditions, last: int | None = None) -> bool:
+    """Whether no system fits words, or the first letters of their last step."""
     check_budget()
-    return next(tables(problem_of(words, conditions, last), MOST_SUCCESSORS_TRIED), None)
-
-
-def successor(letter: Letter, table: Table, conditions: Conditions) -> Row | None:
-    """What becomes of a letter; None where that is not known."""
-    return (letter.module,) if letter.module.symbol in conditions.unchanged else table.get(letter)
+    return next(tables(problem_of(words, conditions, last), MOST_SUCCESSORS_TRIED), None) is None
 
 
 MOST_LETTERS_READ, LETTERS_A_TRIAL = 2_000_000, 500
@@ -136,15 +115,8 @@ MOST_TRIED_FOR_A_SLIP = 200
 
 @dataclass(frozen=True)
 class Slip:
-    """Some letters of a word with others in whose place some system fits.
-
-    Attributes
-    ----------
-    step, place
-        Where they stand; the place of the first is counted from 1.
-    found, instead
-        The letters, and those that should be there: one, none where a letter is missing or too many, or two.
-    """
+    """Some letters of a word, the first at a place counted from 1, and those in whose place some system fits: one, none where a
+    letter is missing or too many, or two."""
 
     step: int
     place: int
@@ -195,7 +167,6 @@ class _Texts:
 def slips(words: Sequence[Row], found: Contradiction, conditions: Conditions) -> Iterator[Slip]:
     """The slips that there may be where words contradict one another; those near that place are tried first.
 
-    >>> from lsys_kit.derivation.inference.refusals import contradiction
     >>> from lsys_kit.derivation.inference.problem import read_words
     >>> words = read_words(["a", "ab", "aba", "abbab"])
     >>> [str(slip) for slip in slips(words, contradiction(words, Conditions()), Conditions())]
@@ -216,7 +187,6 @@ def slips(words: Sequence[Row], found: Contradiction, conditions: Conditions) ->
 def doubtful_words(words: Sequence[Row], found: Contradiction, conditions: Conditions) -> Iterator[int]:
     """The steps without whose word all others agree, where words contradict one another.
 
-    >>> from lsys_kit.derivation.inference.refusals import contradiction
     >>> from lsys_kit.derivation.inference.problem import read_words
     >>> words = read_words(["a", "ab", "aba", "ab", "abaababa", "abaababaabaab"])
     >>> [*doubtful_words(words, contradiction(words, Conditions()), Conditions())]
@@ -248,7 +218,6 @@ def _known_without(texts: _Texts, suspect: int) -> Known | None:
 
 
 def _slips_of(texts: _Texts, suspect: int, near: int) -> Iterator[_Change]:
-    """The slips that there may be in a word."""
     known = _known_without(texts, suspect)
     if known is None:
         return
@@ -315,7 +284,6 @@ def _same(one: str, other: str) -> int:
 
 
 def _solvable(equations: Sequence[Equation], bounds: Bounds) -> bool:
-    """Whether a solution is soon found."""
     with suppress(GivenUp):
         return next(solutions(equations, bounds, MOST_TRIED_FOR_A_SLIP), None) is not None
     return False

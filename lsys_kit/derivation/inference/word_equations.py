@@ -16,13 +16,15 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, field
 from functools import lru_cache
-from itertools import groupby
+from itertools import groupby, tee
 from math import inf
-from typing import Any, Protocol, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lsys_kit.budget import check_budget, counted
 
@@ -75,7 +77,7 @@ def merged(items: Iterable[Item]) -> list[Item]:
     for known, group in groupby(items, lambda item: isinstance(item, str)):
         if not known:
             found += group
-        elif text := "".join(group):  # type: ignore[arg-type]
+        elif text := "".join(map(str, group)):
             found.append(text)
     return found
 
@@ -99,21 +101,13 @@ def linked(equations: Iterable[Equation]) -> list[list[Equation]]:
     return [group for letters, group in sorted(groups, key=lambda found: len(found[0]))]
 
 
-Counts: TypeAlias = np.ndarray[Any, np.dtype[np.int64]]
+Counts: TypeAlias = NDArray[np.int64]
 """A row for each letter: how often its successor has each kind of letter, and in the last column its length."""
 
 
 @dataclass(frozen=True)
 class Bounds:
-    """The least and the greatest counts.
-
-    Attributes
-    ----------
-    alphabet
-        For each kind of letter its column.
-    least, greatest
-        The counts.
-    """
+    """The least and the greatest counts, and for each kind of letter its column."""
 
     alphabet: dict[str, int]
     least: Counts
@@ -124,7 +118,6 @@ class Bounds:
         return int(self.least[letter, -1])
 
     def longest(self, letter: int) -> int:
-        """The length of the longest."""
         return int(self.greatest[letter, -1])
 
 
@@ -157,7 +150,10 @@ def narrowed(bounds: Bounds, equations: Iterable[Equation]) -> Bounds | None:
     """
     least, greatest = bounds.least.copy(), bounds.greatest.copy()
     for equation in equations:
-        letters, times, rest = _summed(equation, bounds.alphabet)
+        occurring = Counter(equation.unknowns)
+        letters, times = [*occurring], np.array([*occurring.values()], np.int64)
+        known = "".join(item for item in equation.items if isinstance(item, str))
+        rest = counts_of(equation.target, bounds.alphabet) - counts_of(known, bounds.alphabet)
         lower, upper = least[letters], greatest[letters]
         above, below = rest - times @ lower, times @ upper - rest
         if (above < 0).any() or (below < 0).any():
@@ -168,16 +164,8 @@ def narrowed(bounds: Bounds, equations: Iterable[Equation]) -> Bounds | None:
     return Bounds(bounds.alphabet, least, greatest) if (least <= greatest).all() else None
 
 
-def _summed(equation: Equation, alphabet: dict[str, int]) -> tuple[list[int], Counts, Counts]:
-    """The unknown letters of an equation, how often each occurs, and the counts that all of them together have."""
-    times = Counter(equation.unknowns)
-    known = "".join(item for item in equation.items if isinstance(item, str))
-    rest = counts_of(equation.target, alphabet) - counts_of(known, alphabet)
-    return [*times], np.array([*times.values()], np.int64), rest
-
-
 def _add_up(least: Counts, greatest: Counts) -> None:
-    """A length is the sum of the counts."""
+    """Narrow the bounds, since a length is the sum of the counts."""
     fewest, most = least[:, :-1].sum(axis=1), greatest[:, :-1].sum(axis=1)
     np.maximum(least[:, -1], fewest, out=least[:, -1])
     np.minimum(greatest[:, -1], most, out=greatest[:, -1])
@@ -186,21 +174,13 @@ def _add_up(least: Counts, greatest: Counts) -> None:
     np.maximum(least[:, :-1], greatest[:, :-1] - spare[:, None], out=least[:, :-1])
 
 
-class Lengths(Protocol):
-    """The shortest and the longest successor that each letter can have."""
-
-    def shortest(self, letter: int) -> int: ...
-    def longest(self, letter: int) -> int: ...
-
-
-def cuts(equation: Equation, lengths: Lengths) -> list[int] | None:
+def cuts(equation: Equation, bounds: Bounds) -> list[int] | None:
     """For each gap between the items the positions where it can be; None where the equation has no solution.
 
     It is known from the left where the successors up to a gap can end, from the right where those behind it can begin.
 
-    >>> class OneOrTwo:
-    ...     shortest, longest = (lambda self, letter: 1), (lambda self, letter: 2)
-    >>> [list(bits(gap)) for gap in cuts(Equation((0, "b", 1), "abbb"), OneOrTwo())]
+    >>> equation = Equation((0, "b", 1), "abbb")
+    >>> [list(bits(gap)) for gap in cuts(equation, first_bounds([equation], 2, erasing=False))]
     [[0], [1, 2], [2, 3], [4]]
     """
     size = len(equation.target)
@@ -210,18 +190,16 @@ def cuts(equation: Equation, lengths: Lengths) -> list[int] | None:
         if isinstance(item, str):
             ends.append((ends[-1] & occurrences(item, equation.target)) << len(item))
         else:
-            ends.append(smeared(ends[-1], lengths.shortest(item), min(lengths.longest(item), size)) & (2 * last - 1))
-    here = ends[-1] & last
-    found = [here]
-    for item, end in zip(reversed(equation.items), reversed(ends[:-1]), strict=True):
+            ends.append(smeared(ends[-1], bounds.shortest(item), min(bounds.longest(item), size)) & (2 * last - 1))
+    found = [ends.pop() & last]
+    for item, end in zip(reversed(equation.items), reversed(ends), strict=True):
         if isinstance(item, str):
-            here = here >> len(item)
+            here = found[-1] >> len(item)
         else:
-            longest = min(lengths.longest(item), size)
-            here = smeared(here, 0, longest - lengths.shortest(item)) >> longest
-        here &= end
-        found.append(here)
-    return found[::-1] if here else None
+            longest = min(bounds.longest(item), size)
+            here = smeared(found[-1], 0, longest - bounds.shortest(item)) >> longest
+        found.append(here & end)
+    return found[::-1] if found[-1] else None
 
 
 def smeared(positions: int, shortest: int, longest: int) -> int:
@@ -255,18 +233,15 @@ def occurrences(word: str, text: str) -> int:
 def bits(positions: int) -> Iterator[int]:
     """The positions of a set, in their order."""
     while positions:
-        least = positions & -positions
-        yield least.bit_length() - 1
-        positions ^= least
+        yield _first(positions)
+        positions &= positions - 1
 
 
-def least(positions: int) -> int:
-    """The first position of a set."""
+def _first(positions: int) -> int:
     return (positions & -positions).bit_length() - 1
 
 
-def greatest(positions: int) -> int:
-    """The last position of a set."""
+def _last(positions: int) -> int:
     return positions.bit_length() - 1
 
 
@@ -279,7 +254,7 @@ def parts(equation: Equation, gaps: Sequence[int]) -> Iterator[Equation]:
     begin = 0
     for end in range(1, len(gaps)):
         if gaps[end] & (gaps[end] - 1) == 0:
-            yield Equation(equation.items[begin:end], equation.target[least(gaps[begin]) : least(gaps[end])])
+            yield Equation(equation.items[begin:end], equation.target[_first(gaps[begin]) : _first(gaps[end])])
             begin = end
 
 
@@ -289,60 +264,22 @@ Question: TypeAlias = tuple[tuple[Equation, ...], bytes]
 """A group of equations, and the bounds of its letters."""
 
 
-class Kept:
-    """What a search has found so far, and the search, which goes on when more is asked for."""
-
-    def __init__(self, found: Iterator[Solution]) -> None:
-        self._found, self._rest = list[Solution](), found
-
-    def __iter__(self) -> Iterator[Solution]:
-        place = 0
-        while place < len(self._found) or self._extend():
-            yield self._found[place]
-            place += 1
-
-    def _extend(self) -> bool:
-        following = next(self._rest, None)
-        if following is not None:
-            self._found.append(following)
-        return following is not None
-
-
 class GivenUp(Exception):
     """So many successors were tried that the search was given up."""
 
 
 @dataclass
 class Effort:
-    """What a search has done, and may do.
-
-    Attributes
-    ----------
-    kept
-        For groups of equations, with the bounds of their letters, what was found.
-    left
-        How many more successors may be tried.
-    """
+    """How many more successors a search may try, and what it finds for questions: an iterator that is copied, never used up."""
 
     left: float
-    kept: dict[Question, Kept] = field(default_factory=dict)
+    kept: dict[Question, Iterator[Solution]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
 class Known:
-    """What follows from some equations without trying.
-
-    Attributes
-    ----------
-    successors
-        What is known of the letters.
-    equations
-        What is left of the equations.
-    bounds
-        How many letters the successors have.
-    choices
-        For letters at the ends of equations the successors that are possible there.
-    """
+    """What follows from some equations without trying: successors, what is left of the equations, how many letters successors
+    have, and for letters at the ends of equations the successors that are possible there."""
 
     successors: Solution
     equations: tuple[Equation, ...]
@@ -353,7 +290,6 @@ class Known:
 def solutions(equations: Sequence[Equation], bounds: Bounds, trials: float = inf) -> Iterator[Solution]:
     """All solutions, one after another; `GivenUp` where so many trials do not suffice.
 
-    >>> from lsys_kit.derivation.inference.word_equations import first_bounds
     >>> equations = [Equation((0, 1), "abb"), Equation((0, 1, 1), "abbbb")]
     >>> [*solutions(equations, first_bounds(equations, 2, erasing=False))]
     [{0: 'a', 1: 'bb'}]
@@ -366,8 +302,12 @@ def _solutions(equations: tuple[Equation, ...], bounds: Bounds, effort: Effort) 
     known = deduced(equations, bounds)
     if known is None:
         return
-    for found in _products([_kept(group, known, effort) for group in groups_of(known)]):
-        yield known.successors | found
+    for group in (groups := groups_of(known)):
+        if (key := question(group, known)) not in effort.kept:
+            (effort.kept[key],) = tee(_tried(group, known, effort), 1)
+    found = [effort.kept[question(group, known)] for group in groups]
+    if all(next(copy(each), None) is not None for each in found):  # else nothing needs to be combined
+        yield from (known.successors | others for others in _combined(found))
 
 
 def groups_of(known: Known) -> list[tuple[Equation, ...]]:
@@ -386,30 +326,17 @@ def question(group: tuple[Equation, ...], known: Known) -> Question:
     return group, known.bounds.least[letters].tobytes() + known.bounds.greatest[letters].tobytes()
 
 
-def _products(groups: Sequence[Kept]) -> Iterator[Solution]:
-    """Every solution of the first group with every one of the others; nothing is combined where a group has none."""
-    if all(next(iter(group), None) is not None for group in groups):
-        yield from _combined(groups)
-
-
-def _combined(groups: Sequence[Kept]) -> Iterator[Solution]:
+def _combined(groups: Sequence[Iterator[Solution]]) -> Iterator[Solution]:
+    """Every solution of the first group with every one of the others."""
     if not groups:
         yield {}
         return
-    for first in groups[0]:
+    for first in copy(groups[0]):
         for others in _combined(groups[1:]):
             yield first | others
 
 
-def _kept(group: tuple[Equation, ...], known: Known, effort: Effort) -> Kept:
-    key = question(group, known)
-    if key not in effort.kept:
-        effort.kept[key] = Kept(_tried(group, known, effort))
-    return effort.kept[key]
-
-
 def _tried(group: tuple[Equation, ...], known: Known, effort: Effort) -> Iterator[Solution]:
-    """The solutions of a group."""
     for letter, word, rest in trials_of(group, known, effort):
         for found in _solutions(rest, known.bounds, effort):
             yield {letter: word} | found
@@ -470,7 +397,7 @@ def _lengths_fit(equation: Equation, gaps: Sequence[int], bounds: Bounds) -> boo
     """Narrow the lengths to what the positions allow; whether any is left."""
     for item, begin, end in zip(equation.items, gaps, gaps[1:], strict=False):
         if isinstance(item, int):
-            shortest, longest = least(end) - greatest(begin), greatest(end) - least(begin)
+            shortest, longest = _first(end) - _last(begin), _last(end) - _first(begin)
             bounds.least[item, -1] = max(bounds.least[item, -1], shortest)
             bounds.greatest[item, -1] = min(bounds.greatest[item, -1], longest)
             if bounds.least[item, -1] > bounds.greatest[item, -1]:
@@ -497,15 +424,7 @@ def _possible(letter: int, word: str, bounds: Bounds) -> bool:
 
 @dataclass(frozen=True)
 class Count:
-    """How many solutions there are.
-
-    Attributes
-    ----------
-    solutions
-        Their number.
-    successors
-        For each letter the words that it becomes in any of them.
-    """
+    """How many solutions there are, and for each letter the words that it becomes in any of them."""
 
     solutions: int
     successors: Mapping[int, frozenset[str]] = field(default_factory=dict)
@@ -523,7 +442,7 @@ class Count:
 
 @dataclass(frozen=True)
 class _Counting:
-    """Which words may be successors, what was done, and what was counted of groups."""
+    """Which words may be successors, and what was counted of groups."""
 
     usable: Callable[[str], bool]
     effort: Effort
@@ -535,7 +454,6 @@ def count_of(
 ) -> Count:
     """How many solutions there are with usable successors; `GivenUp` where so many trials do not suffice.
 
-    >>> from lsys_kit.derivation.inference.word_equations import first_bounds
     >>> equations = [Equation((0, 1), "abb"), Equation((2, 3), "abba")]
     >>> found = count_of(equations, first_bounds(equations, 4, erasing=False))
     >>> found.solutions, sorted(found.successors[0])
