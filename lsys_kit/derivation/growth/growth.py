@@ -47,7 +47,7 @@ OBJECT_BYTES = 36
 def counts_of_steps(table: States) -> Iterator[Mapping[int, int]]:
     """How often each state occurs at step 0, 1, 2, ...
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> [dict(counts) for counts in islice(counts_of_steps(States(read("axiom: a\\na -> ab\\nb -> a"))), 3)]
     [{0: 1}, {0: 1, 1: 1}, {0: 2, 1: 1}]
     """
@@ -77,7 +77,7 @@ def orbit(table: States) -> tuple[tuple[int, ...], list[tuple[int, ...]]]:
 
     It is the rule of a weighted sum of the counts, unless the weights are unlucky; so it is checked against the counts.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> states = States(read("axiom: a\\na -> ab\\nb -> a"))
     >>> [len(states.successor(state)) for state in (0, 1)], orbit(states)
     ([2, 1], ((1, 1), [(1, 0), (1, 1)]))
@@ -126,7 +126,7 @@ class Growth:
     def matrix(self) -> sympy.Matrix:
         """The growth matrix: entry (i, j) is how many j the successor of i holds.
 
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> growth(read("axiom: a\\na -> ab\\nb -> a")).matrix
         Matrix([
         [1, 1],
@@ -141,7 +141,7 @@ class Growth:
     def counts(self, step: int) -> tuple[int, ...]:
         """How often each state occurs at a step, exactly, however late the step is.
 
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> found = growth(read("axiom: a\\na -> ab\\nb -> a"))
         >>> found.counts(10), found.counts(1_000_000)[0].bit_length()
         ((89, 55), 694242)
@@ -157,7 +157,7 @@ class Growth:
     def lengths(self, steps: int) -> list[int]:
         """The number of modules at steps 0 to `steps`, exactly, however large.
 
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> growth(read("axiom: a\\na -> ab\\nb -> a")).lengths(10)
         [1, 2, 3, 5, 8, 13, 21, 34, 55, 89, 144]
         """
@@ -166,7 +166,7 @@ class Growth:
     def counts_of(self, symbol: str, steps: int) -> list[int]:
         """The number of modules with a symbol at steps 0 to `steps`.
 
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> growth(read("axiom: a\\na -> ab\\nb -> a")).counts_of("b", 6)
         [0, 1, 1, 2, 3, 5, 8]
         """
@@ -195,7 +195,7 @@ class Growth:
     def length(self, step: int) -> int:
         """The number of modules at a step, exactly, without the steps before.
 
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> growth(read("axiom: a\\na -> ab\\nb -> a")).length(100)
         927372692193078999176
         """
@@ -207,7 +207,7 @@ class Growth:
     def recurrence_of(self, symbol: str) -> tuple[int, ...]:
         """The shortest rule for the number of modules with a symbol, in the long run.
 
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> growth(read("axiom: A\\nA -> A B\\nB -> B C")).recurrence_of("B")
         (2, -1)
         """
@@ -218,7 +218,7 @@ class Growth:
     def recurrence(self) -> tuple[int, ...]:
         """The shortest rule for the lengths in the long run: coefficients c of N(t) = c1 N(t-1) + c2 N(t-2) + ...
 
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> growth(read("axiom: a\\na -> ab\\nb -> a")).recurrence
         (1, 1)
         """
@@ -244,7 +244,7 @@ class Growth:
     def characteristic(self) -> sympy.Poly:
         """The characteristic polynomial of the growth matrix: a multiple of `polynomial`.
 
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> growth(read("axiom: a\\na -> ab\\nb -> a")).characteristic.as_expr()
         x**2 - x - 1
         """
@@ -262,7 +262,7 @@ class Growth:
     def generating_function(self) -> sympy.Expr:
         """The function whose power series in x has the lengths as coefficients.
 
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> growth(read("axiom: a\\na -> ab\\nb -> a")).generating_function
         (x + 1)/(-x**2 - x + 1)
         """
@@ -272,7 +272,7 @@ class Growth:
     def closed_form(self) -> sympy.Expr | None:
         """A formula for the length at step t; None where it would need a multiple root of a polynomial of degree three or more.
 
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> growth(read("axiom: b\\na -> ab\\nb -> a")).closed_form
         (1/2 - sqrt(5)/2)**t*(1/2 - sqrt(5)/10) + (1/2 + sqrt(5)/2)**t*(sqrt(5)/10 + 1/2)
         >>> growth(read("axiom: F\\nF -> F+F")).closed_form
@@ -287,7 +287,7 @@ class Growth:
 
         Where the lengths oscillate, as those of A -> BB, B -> A do, it is the factor of a whole period, spread over its steps.
 
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> round(growth(read("axiom: A\\nA -> BB\\nB -> A")).rate**2, 9)
         2.0
         """
@@ -298,7 +298,7 @@ class Growth:
     def frequencies(self) -> tuple[float, ...] | None:
         """What share of the word each state has in the long run; None where they do not converge, or the word vanishes.
 
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> [round(share, 6) for share in growth(read("axiom: a\\na -> ab\\nb -> a")).frequencies]
         [0.618034, 0.381966]
         >>> growth(read("axiom: A\\nA -> BB\\nB -> A")).frequencies is None
@@ -342,7 +342,7 @@ def growth(system: LSystem, **constants: object) -> Growth:
 
     Examples
     --------
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> growth(read("axiom: a\\na -> ab\\nb -> a"))
     2 states; lengths 1, 2, 3, 5, 8, 13, 21, 34, 55, 89, ...; N(t) = N(t-1) + N(t-2); growth per step 1.6180
     """

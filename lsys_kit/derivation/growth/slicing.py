@@ -28,7 +28,7 @@ def slice_system(system: LSystem) -> LSystem:
 
     Examples
     --------
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> print(slice_system(read("axiom: A(0,9)\\nA(t,x) : t < 7 -> A(t+1,x+t)\\nA(t,x) -> A(0,1) L(x)\\nL(x) -> L(x+1)")))
     axiom: A(0)
     A(t) : t < 7 -> A(t + 1)
@@ -51,7 +51,7 @@ def deciding_positions(system: LSystem) -> frozenset[ArgumentPosition]:
 
     Where two kinds of modules with the same symbol would become one, they keep all their parameters.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> sorted(deciding_positions(read("axiom: A(0,9)\\nA(t,x) : t < 7 -> A(x,x)")))
     [('A', 2, 0), ('A', 2, 1)]
     """
@@ -73,7 +73,7 @@ def deciding_positions(system: LSystem) -> frozenset[ArgumentPosition]:
 def _deciding(rule: Production, constants: Set[str]) -> Iterator[ArgumentPosition]:
     """The parameters in a rule's condition, its probability and its counts of repetition, and those of a given value."""
     asked = [expression for expression in (rule.condition, rule.probability) if expression is not None]
-    yield from _positions_of_names(rule, (*asked, *_repetitions(rule.successor)))
+    yield from _positions_of_names(rule, (*asked, *repetitions(rule.successor)))
     for module in rule.parameters:
         for i, argument in enumerate(module.arguments):
             if not isinstance(argument, Name) or argument.name in constants:
@@ -96,11 +96,12 @@ def _positions_of_names(rule: Production, expressions: Iterable[Expression]) -> 
                 yield module.symbol, len(module.arguments), i
 
 
-def _repetitions(items: Iterable[Item]) -> Iterator[Expression]:
+def repetitions(items: Iterable[Item]) -> Iterator[Expression]:
+    """How often the repeated parts of a successor are written."""
     for item in items:
         if isinstance(item, Repeat):
             yield item.count
-            yield from _repetitions(item.body)
+            yield from repetitions(item.body)
 
 
 def _clashes(system: LSystem, found: Set[ArgumentPosition]) -> set[ArgumentPosition]:

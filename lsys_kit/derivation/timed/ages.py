@@ -20,7 +20,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import islice, pairwise
 from typing import Any, NamedTuple, NoReturn, TypeAlias
@@ -29,10 +29,11 @@ from lsys_kit.budget import check_budget, current
 from lsys_kit.derivation.core.rule_errors import rule_error
 from lsys_kit.derivation.core.rules import ModuleKind, Rule, kind_of
 from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.growth.slicing import repetitions
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.model.arithmetic import Value, divide, is_symbolic, normalised, number_text
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number, function_of, names_in
-from lsys_kit.notation.model.modules import Module, Pattern, Repeat, flat
+from lsys_kit.notation.model.modules import Module, Pattern, flat
 from lsys_kit.notation.model.system import Production
 from lsys_kit.notation.write import as_written
 
@@ -41,19 +42,8 @@ AgelessModule: TypeAlias = tuple[str, tuple[object, ...]]
 
 
 class End(NamedTuple):
-    """How a module's life ends.
-
-    Attributes
-    ----------
-    rule
-        The rule that replaces it; None where it stays as it is from then on.
-    age
-        At which age.
-    mother
-        The module that the rule replaces, as it is when the rule applies.
-    already
-        Whether it is replaced at just that age, and not only beyond it.
-    """
+    """How a module's life ends: the rule that replaces it (None where it stays as it is from then on); at which age; the module
+    as it is when the rule applies; and whether it is replaced at just that age, and not only beyond it."""
 
     rule: Rule | None
     age: Value
@@ -65,14 +55,8 @@ class End(NamedTuple):
 class AgeModel(ABC):
     """How the modules of a system grow older, and how their lives end.
 
-    Attributes
-    ----------
-    states
-        The table of its modules.
-    parameter
-        From a symbol and a number of parameters to the parameter that is the age, from 0; None where there is none.
-    step
-        How long a step takes; None where nothing says so, and in a timed system.
+    From a symbol and a number of parameters `parameter` gives that which is the age, from 0; None where there is none. How long
+    a `step` takes is None where nothing says so, and in a timed system.
     """
 
     states: States
@@ -100,14 +84,13 @@ class AgeModel(ABC):
         return 0
 
     def is_late(self, _module: Module) -> bool:
-        """Whether deriving in steps ends a module's life later than that."""
+        """Whether deriving in steps ends a module's life later than it ends."""
         return False
 
     def end(self, module: Module) -> End | None:
         """How a module's life ends as it grows older; None where it lives for ever.
 
-        >>> from lsys_kit.derivation.timed.ages import age_model
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> cells = States(read("axiom: M(0)\\nM(t) -> M(t+1)\\ndecomposition:\\nM(t) : t >= 3 -> M(t-3) M(t-2)"))
         >>> age_model(cells).end(Module("M", (0,))).age
         3
@@ -127,25 +110,13 @@ class AgeModel(ABC):
         return [] if end is None or end.rule is None else self.made(end.rule, end.mother)
 
     def made(self, rule: Rule, module: Module) -> list[Module]:
-        """What a rule makes of a module, before any of that is decomposed.
-
-        Raises
-        ------
-        ModelLimitError
-            That is more than anything may be repeated.
-        """
+        """What a rule makes of a module, before any of that is decomposed; no more than anything may be repeated."""
         most = current().repetitions
         found = [Module(*part) for part in islice(self.states.apply(rule, module), most + 1)]
         if len(found) > most:
-            start, end = rule.production.at or (None, None)
-            raise ModelLimitError(
-                f"{module} becomes more than {most:,} modules at once",
-                limit=most,
-                source=self.states.system.source or None,
-                start=start,
-                end=end,
-                hint="Use smaller numbers of repetitions.",
-            )
+            hint, (source, start, end) = "Use smaller numbers of repetitions.", place_of(self.states, rule.production)
+            message = f"{module} becomes more than {most:,} modules at once"
+            raise ModelLimitError(message, limit=most, source=source, start=start, end=end, hint=hint)
         return found
 
     def check_birth(self, module: Module) -> None:
@@ -210,14 +181,16 @@ def undecided_age(states: States, module: Module, production: Production) -> Mod
     """The age at which a module divides depends on a constant that is not known."""
     values = (*states.constants, *module.arguments)
     names = sorted({str(name) for value in values for name in getattr(value, "free_symbols", ())})
-    start, end = production.at or (None, None)
     return ModelValueError(
         f"The age at which {module} becomes what {production} says cannot be decided",
-        states.system.source or None,
-        start,
-        end,
+        *place_of(states, production),
         f"It depends on {', '.join(names)}: choose a value for {names[0]}." if names else None,
     )
+
+
+def place_of(states: States, production: Production) -> tuple[str | None, int | None, int | None]:
+    """The text in which a production stands, and where."""
+    return states.system.source or None, *(production.at or (None, None))
 
 
 _LINEAR: Mapping[str, Callable[[Sequence[Any], Sequence[Value]], Value]] = {
@@ -234,17 +207,7 @@ _COMPARISONS = frozenset(("<", "<=", ">", ">=", "==", "!="))
 
 @dataclass(frozen=True)
 class AgeTerms:
-    """The expressions of a rule as functions of the age of the module that it replaces.
-
-    Attributes
-    ----------
-    states
-        The table of modules.
-    rule
-        The rule.
-    parameter
-        Which parameter of its predecessor is the age.
-    """
+    """The expressions of a rule as functions of the age of the module that it replaces, a parameter of its predecessor."""
 
     states: States
     rule: Rule
@@ -258,16 +221,15 @@ class AgeTerms:
 
     @cached_property
     def _constants(self) -> Mapping[str, int]:
-        """The place of each declared constant among their values."""
-        return {constant.name: at for at, constant in enumerate(self.states.system.constants)}
+        """The place of each declared constant among the values of a module and of the constants."""
+        first = len(self.rule.production.predecessor.arguments)
+        return {constant.name: at for at, constant in enumerate(self.states.system.constants, first)}
 
     @cached_property
     def _order(self) -> Mapping[str, int]:
-        """The place of each name among the values of a module and of the constants."""
-        asked = self.rule.production.predecessor.arguments
-        order = {name: len(asked) + at for name, at in self._constants.items()}
-        named = {argument.name: at for at, argument in enumerate(asked) if isinstance(argument, Name)}
-        return {**named, **order}
+        """The place of each name there."""
+        asked = enumerate(self.rule.production.predecessor.arguments)
+        return {**{argument.name: at for at, argument in asked if isinstance(argument, Name)}, **self._constants}
 
     def depends(self, expression: Expression) -> bool:
         """Whether an expression depends on the age."""
@@ -281,7 +243,7 @@ class AgeTerms:
     def slope(self, expression: Expression, module: Module) -> Value | None:
         """By how much an expression grows while the age grows by 1; None where that is not the same at all ages.
 
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> states = States(read("axiom: M(0,3)\\nM(t,p) -> M(2*t-p,p)"))
         >>> rule, = states.rules["M", 2]
         >>> AgeTerms(states, rule, 0).slope(rule.production.successor[0].arguments[0], states.modules[0])
@@ -305,7 +267,7 @@ class AgeTerms:
     def thresholds(self, module: Module) -> list[Value] | None:
         """The ages at which the rule may begin or cease to match a module; None where its condition asks otherwise for the age.
 
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> states = States(read("dt = 0.7\\naxiom: M(0.4)\\nM(t) : t+dt < 1 || t > 5 -> M(t+dt)"))
         >>> print(*AgeTerms(states, states.rules["M", 1][0], 0).thresholds(states.modules[0]))
         3/10 5
@@ -316,10 +278,8 @@ class AgeTerms:
             if difference is None or slope is None:
                 return None
             if slope != 0:
-                young = Module(
-                    module.symbol, tuple(0 if at == self.parameter else value for at, value in enumerate(module.arguments))
-                )
-                found.append(divide(-self.value(difference, young), slope))
+                young = tuple(0 if at == self.parameter else value for at, value in enumerate(module.arguments))
+                found.append(divide(-self.value(difference, replace(module, arguments=young)), slope))
         asked = self.rule.production.predecessor.arguments[self.parameter]
         return found if self.age is not None else [*found, self.value(asked, module)]
 
@@ -336,9 +296,10 @@ class AgeTerms:
                 continue
             if isinstance(part, Apply) and part.operator in _CONNECTIVES:
                 todo += part.operands[::-1]
+            elif isinstance(part, Apply) and part.operator in _COMPARISONS:
+                yield Apply("-", part.operands)
             else:
-                compared = isinstance(part, Apply) and part.operator in _COMPARISONS
-                yield Apply("-", part.operands) if compared else None  # type: ignore[union-attr]
+                yield None
 
 
 def unit_slope(expression: Expression, age: str) -> bool:
@@ -371,14 +332,14 @@ Fate: TypeAlias = tuple[Rule | None, Value]
 class StepAges(AgeModel):
     """The ages of a system of steps."""
 
+    _carried: dict[int, bool] = field(default_factory=dict, compare=False, repr=False)
+
     @cached_property
     def growing(self) -> frozenset[int]:
         """The numbers of the productions that do nothing but let time pass."""
+        productions = [rule for rules in self.states.rules.values() for rule in rules]
         return frozenset(
-            rule.number
-            for rules in self.states.rules.values()
-            for rule in rules
-            if _grows(rule.production, self.parameter(kind_of(rule.production.predecessor)))
+            rule.number for rule in productions if _grows(rule.production, self.parameter(kind_of(rule.production.predecessor)))
         )
 
     @property
@@ -403,10 +364,6 @@ class StepAges(AgeModel):
             self._carried[id(rule)] = self._carries(rule)
         return self._carried[id(rule)]
 
-    @cached_property
-    def _carried(self) -> dict[int, bool]:
-        return {}
-
     def _carries(self, rule: Rule) -> bool:
         made = list(flat(rule.production.successor))
         ages = [self.parameter(kind_of(module)) for module in made]
@@ -422,8 +379,7 @@ class StepAges(AgeModel):
             for place, argument in enumerate(module.arguments)
             if place != age
         ]
-        counts = [item.count for item in _repeats(rule.production.successor)]
-        return not any(map(terms.depends, [*others, *counts])) and all(
+        return not any(map(terms.depends, [*others, *repetitions(rule.production.successor)])) and all(
             unit_slope(module.arguments[age], terms.age) for module, age in zip(made, ages, strict=True) if age is not None
         )
 
@@ -433,7 +389,7 @@ class StepAges(AgeModel):
     def applies_from(self, rule: Rule, module: Module) -> Value | None:
         """The age from which on a rule has applied to a module to which it applies; None where nothing says so.
 
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> states = States(read("dt = 0.7\\naxiom: M(0.4)\\nM(t) : t+dt < 1 -> M(t+dt)\\nM(t) : t+dt >= 1 -> M(t+dt-1) M(t)"))
         >>> age_model(states).applies_from(states.rules["M", 1][1], states.modules[0])
         Fraction(3, 10)
@@ -460,7 +416,7 @@ class StepAges(AgeModel):
 
     def _found_end(self, module: Module) -> End | None:
         if self.step is None:
-            raise _untold("no production such as M(t) -> M(t+1) lets time pass")
+            self._untold("no production such as M(t) -> M(t+1) lets time pass")
         kind = kind_of(module)
         rules = (*self.states.rules.get(kind, ()), *self.states.decomposition.get(kind, ()))
         for rule in rules:
@@ -538,26 +494,23 @@ class StepAges(AgeModel):
         return found
 
     def _refuse(self, rule: Rule, why: str) -> NoReturn:
-        production, system = rule.production, self.states.system
-        raise _untold(f"{as_written(system, production)} {why}", system.source or None, *(production.at or (None, None)))
+        self._untold(f"{as_written(self.states.system, rule.production)} {why}", *place_of(self.states, rule.production))
 
-
-def _untold(why: str, source: str | None = None, start: int | None = None, end: int | None = None) -> ModelValueError:
-    """How long modules live is not known."""
-    return ModelValueError(
-        f"How long a module lives cannot be told, since {why}",
-        source,
-        start,
-        end,
-        'Productions such as "a(t) -> a(t+dt)" with rules such as "a(t) : t > 1 -> b(t-1)" tell it; so do '
-        "the productions of timed(system).",
-    )
+    def _untold(self, why: str, source: str | None = None, start: int | None = None, end: int | None = None) -> NoReturn:
+        raise ModelValueError(
+            f"How long a module lives cannot be told, since {why}",
+            source,
+            start,
+            end,
+            'Productions such as "a(t) -> a(t+dt)" with rules such as "a(t) : t > 1 -> b(t-1)" tell it; so do '
+            "the productions of timed(system).",
+        )
 
 
 def age_model(states: States) -> StepAges:
     """How the modules of a system of steps grow older, as its productions say.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> age_model(States(read("dt = 0.7\\naxiom: M(1,0)\\nM(p,t) -> M(p,t+dt)"))).step
     Fraction(7, 10)
     """
@@ -572,20 +525,10 @@ def age_model(states: States) -> StepAges:
     return StepAges(states, parameters.get, steps.pop())
 
 
-def timed_age_model(states: States) -> AgeModel:
-    """How the modules of a timed system grow older: the first parameter is the age, and productions end their lives."""
-    return TimedAges(states, lambda kind: 0 if kind[1] else None, None)
-
-
 def _grown(states: States, production: Production) -> Iterator[tuple[int, Value]]:
     """The first parameter to which a production adds a declared constant or 1, and how much that is."""
-    before, after = production.predecessor, production.successor
-    if not len(production.predecessors) == len(after) == 1:
-        return
-    if not isinstance(after[0], Pattern) or kind_of(after[0]) != kind_of(before):
-        return
     order = {constant.name: at for at, constant in enumerate(states.system.constants)}
-    for at, (old, new) in enumerate(zip(before.arguments, after[0].arguments, strict=True)):
+    for at, (old, new) in enumerate(_continued(production)):
         added = _added(old, new)
         if added is not None and names_in(added) <= order.keys():
             value = function_of(added, order, states.arithmetic)(states.constants)
@@ -596,28 +539,25 @@ def _grown(states: States, production: Production) -> Iterator[tuple[int, Value]
 
 def _grows(production: Production, age: int | None) -> bool:
     """Whether a production makes a module older and changes nothing else."""
+    pairs = [] if age is None else _continued(production)
+    return bool(pairs) and all(_added(old, new) is not None if at == age else old == new for at, (old, new) in enumerate(pairs))
+
+
+def _continued(production: Production) -> list[tuple[Expression, Expression]]:
+    """The parameters of a module before and after a production that makes it a module of the same kind; else none."""
     before, after = production.predecessor, production.successor
-    if age is None or not len(production.predecessors) == len(after) == 1:
-        return False
-    if not isinstance(after[0], Pattern) or kind_of(after[0]) != kind_of(before):
-        return False
-    return all(
-        _added(old, new) is not None if at == age else old == new
-        for at, (old, new) in enumerate(zip(before.arguments, after[0].arguments, strict=True))
-    )
+    if (
+        len(production.predecessors) == len(after) == 1
+        and isinstance(after[0], Pattern)
+        and kind_of(after[0]) == kind_of(before)
+    ):
+        return list(zip(before.arguments, after[0].arguments, strict=True))
+    return []
 
 
-def _added(old: Any, new: Any) -> Expression | None:
+def _added(old: Expression, new: Expression) -> Expression | None:
     """What is added to a parameter, if that is a name or 1."""
     if not (isinstance(old, Name) and isinstance(new, Apply) and new.operator == "+" and old in new.operands):
         return None
     added = new.operands[1 - new.operands.index(old)]
     return added if isinstance(added, Name) or (isinstance(added, Number) and added.value == 1) else None
-
-
-def _repeats(items: Iterable[Any]) -> Iterator[Repeat]:
-    """The repeated parts of a successor."""
-    for item in items:
-        if isinstance(item, Repeat):
-            yield item
-            yield from _repeats(item.body)

@@ -94,7 +94,6 @@ def length_functions(
 
 
 def _read(text: object) -> Expression:
-    """A growth function as it is written."""
     if not isinstance(text, str):
         raise ModelValueError(f'A growth function is a text, such as "1 + t", not {type(text).__name__}')
     if len(text) > MOST_TEXT:
@@ -348,7 +347,7 @@ class Continuity:
 
         Examples
         --------
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> anabaena = read("axiom: a(0)\\na(1) -> a(0) b(0)\\nb(1) -> a(0)")
         >>> continuity(anabaena, {"a": "A * exp(B*(t+1))", "b": "A * exp(B*t)"}).solve("B")
         log(1/2 + sqrt(5)/2)
@@ -442,7 +441,7 @@ def continuity(system: LSystem | Timed, lengths: Mapping[str, str], order: int =
 
     Examples
     --------
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> cells = read("axiom: L(0)\\nL(1) -> L(0) R(1/5)\\nR(1) -> L(1/5) R(0)")
     >>> found = continuity(cells, {"L R": "a^t"})
     >>> found

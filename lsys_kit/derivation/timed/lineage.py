@@ -301,7 +301,7 @@ def lineage(
 
     Examples
     --------
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> ageing = read("dt = 1.4\\naxiom: M(0)\\nM(t) -> M(t+dt)\\ndecomposition:\\nM(t) : t >= 1 -> M(t-1) M(t-0.8)")
     >>> tree = lineage(ageing, 2)
     >>> tree, [float(time) for time in tree.divisions]
@@ -340,7 +340,6 @@ def _lineage(
 
 
 def _derived_lineage(derivation: Derivation) -> Lineage:
-    """The lineage of a derivation."""
     states = derivation.states
     if states.traits.predecessor > 1:
         raise ModelValueError(
@@ -385,7 +384,6 @@ def _flat_parts(derivation: Derivation, step: int) -> list[CellPart]:
 
 
 def _timed_lineage(system: Timed, end: Value) -> Lineage:
-    """The lineage of a timed system up to a time."""
     word, growth = system.word(end), CellGrowth(system.states)
     if len(word) > MOST_CELLS:
         raise ModelLimitError(
