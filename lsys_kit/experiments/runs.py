@@ -15,7 +15,7 @@ from concurrent.futures import BrokenExecutor, Executor, Future, as_completed
 from contextlib import closing
 from dataclasses import asdict, dataclass
 from itertools import islice, product
-from math import ceil
+from math import ceil, prod
 from typing import Any, NamedTuple, TypeAlias
 
 from lsys_kit.budget import Limits, Task, check_bytes, current, limits
@@ -54,19 +54,8 @@ Outcome: TypeAlias = Rows | Failure
 
 @dataclass(frozen=True)
 class Experiment:
-    """What is done in each run.
-
-    Attributes
-    ----------
-    system
-        The system that is derived.
-    steps
-        The steps that are measured, in ascending order.
-    measure
-        What is measured, as a person gives it.
-    limits
-        The limits of each run.
-    """
+    """What is done in each run: the system that is derived, the steps that are measured, in ascending order, what is measured,
+    as a person gives it, and the limits."""
 
     system: LSystem
     steps: tuple[int, ...]
@@ -86,10 +75,8 @@ def outcome_of(experiment: Experiment, measures: Sequence[Measure], run: Run) ->
             whole = derive(experiment.system, experiment.steps[-1], **choices)
             parts = [whole.to(step) for step in experiment.steps]
             return tuple((part.steps, *(measure.value(part) for measure in measures)) for part in parts)
-        except ModelLimitError as error:
-            return Failure(error.message, error.limit)
-        except ModelValueError as error:
-            return Failure(error.message)
+        except (ModelLimitError, ModelValueError) as error:
+            return Failure(error.message, getattr(error, "limit", None))
 
 
 def batch(experiment: Experiment, runs: Sequence[Run]) -> list[Outcome]:
@@ -195,7 +182,7 @@ def ensemble(
 
     Examples
     --------
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> plant = read("axiom: F\\nF -> F[+F]F : 1/2\\nF -> F[-F]F[+F]F : 1/2")
     >>> ensemble(plant, 3, "F", steps=2)
     seed  step   F
@@ -245,7 +232,7 @@ def sweep(
 
     Examples
     --------
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> alga = read("d = 2 in 1 .. 3\\naxiom: A(1)\\nA(t) : t < d -> A(t+1)\\nA(t) -> A(1) A(1)")
     >>> sweep(alga, "d", "rate")
     d  step     rate
@@ -256,10 +243,7 @@ def sweep(
     """
     require(system, LSystem, "An L-system")
     values = _swept(system, over)
-    many = 1
-    for each in values.values():
-        many *= len(each)
-    _check_room(many)
+    _check_room(prod(map(len, values.values())))
     named = [dict(zip(values, chosen, strict=True)) for chosen in product(*values.values())]
     return _table(system, [*values], named, measure, steps, executor, progress, choices)
 
@@ -274,7 +258,6 @@ def _table(
     progress: bool,
     choices: Mapping[str, object],
 ) -> Table:
-    """The table of some runs, as far as they can be finished."""
     require(progress, bool, 'True or False for "progress"')
     if executor is not None and not callable(getattr(executor, "submit", None)):
         raise ModelValueError(f"An executor of concurrent.futures is needed, not {shown(executor)}")
@@ -287,12 +270,7 @@ def _table(
         raise ModelValueError("There is nothing to run", hint="Give at least one seed, or a value for each constant.")
     experiment = Experiment(system, _steps(system, steps), measure, current())
     _check_room(len(runs) * len(experiment.steps) * len(columns))
-    return _collected(experiment, columns, [{**choices, **run} for run in runs], executor, progress)
-
-
-def _collected(
-    experiment: Experiment, columns: tuple[str, ...], runs: Sequence[Run], executor: Executor | None, progress: bool
-) -> Table:
+    runs = [{**choices, **run} for run in runs]
     found: dict[int, Outcome] = {}
     stopped = ""
     with closing(outcomes(experiment, runs, executor)) as finished, _bar(len(runs), progress) as bar:
@@ -308,7 +286,6 @@ def _collected(
 
 
 def _bar(runs: int, shown: bool) -> Any:
-    """A progress bar, which vanishes when all is done."""
     from tqdm.auto import tqdm
 
     hidden = not shown or os.environ.get("TQDM_DISABLE", "0") not in ("", "0")  # tqdm's bar in notebooks does not look there
@@ -316,7 +293,6 @@ def _bar(runs: int, shown: bool) -> Any:
 
 
 def _tidy(columns: tuple[str, ...], runs: Sequence[Run], found: Mapping[int, Outcome], stopped: str) -> Table:
-    """The finished runs as a table."""
     keys = columns[: columns.index("step")]
     rows, failures = [], []
     for place, outcome in sorted(found.items()):
@@ -326,19 +302,13 @@ def _tidy(columns: tuple[str, ...], runs: Sequence[Run], found: Mapping[int, Out
             rows += [(*(runs[place][key] for key in keys), *row) for row in outcome]
     if failures and not rows:
         raise failures[0][1].error()
-    remarks = [*_failed(keys, failures, len(runs))]
+    remarks = [f"{len(failures):,} of {len(runs):,} runs are left out:"] if failures else []
+    for run, failure in failures[:MOST_FAILURES_TOLD]:
+        setting = ", ".join(f"{key} = {value_text(run[key])}" for key in keys)
+        remarks.append(f"{setting}: {failure.message}.")
     if stopped:
         remarks.append(f"{stopped}: {len(found):,} of {len(runs):,} runs are finished.")
     return Table(columns, tuple(rows), len(keys) + 1, tuple(remarks))
-
-
-def _failed(keys: Sequence[str], failures: Sequence[tuple[Run, Failure]], runs: int) -> Iterator[str]:
-    """What there is to say of runs that failed."""
-    if failures:
-        yield f"{len(failures):,} of {runs:,} runs are left out:"
-    for run, failure in failures[:MOST_FAILURES_TOLD]:
-        setting = ", ".join(f"{key} = {value_text(run[key])}" for key in keys)
-        yield f"{setting}: {failure.message}."
 
 
 def _check_names(system: LSystem, keys: Sequence[str], choices: Mapping[str, object]) -> None:
@@ -357,8 +327,7 @@ def _check_room(values: int) -> None:
     check_bytes(values * BYTES_A_VALUE, lambda: "The table was not made")
 
 
-def _seeds(seeds: Any) -> Sequence[int]:
-    """The seeds of the runs."""
+def _seeds(seeds: object) -> Sequence[int]:
     if isinstance(seeds, bool) or not isinstance(seeds, Iterable):
         many = whole_number(seeds, "The number of seeds")
         _check_room(many)
@@ -380,8 +349,7 @@ def _all_of(values: Iterable[object]) -> list[object]:
     return found
 
 
-def _steps(system: LSystem, steps: Any) -> tuple[int, ...]:
-    """The steps at which is measured, in ascending order."""
+def _steps(system: LSystem, steps: object) -> tuple[int, ...]:
     if steps is None:
         return (USUAL_STEPS if system.steps is None else system.steps,)
     if isinstance(steps, str) or not isinstance(steps, Iterable):
@@ -392,21 +360,18 @@ def _steps(system: LSystem, steps: Any) -> tuple[int, ...]:
     return tuple(found)
 
 
-def _swept(system: LSystem, over: Any) -> dict[str, list[Any]]:
+def _swept(system: LSystem, over: object) -> dict[str, list[Value]]:
     """For each name that varies its values, as exact numbers."""
-    if isinstance(over, Mapping):
-        return {_name(name): _values(_name(name), values) for name, values in over.items()}
-    if isinstance(over, Iterable):
-        return {_name(name): declared_values(system, _name(name)) for name in ([over] if isinstance(over, str) else over)}
-    raise ModelValueError(f'Constants to vary are needed, as in {{"p": [1, 2]}}, not {shown(over)}')
+    if not isinstance(over, Iterable):
+        raise ModelValueError(f'Constants to vary are needed, as in {{"p": [1, 2]}}, not {shown(over)}')
+    found: dict[str, list[Value]] = {}
+    for name in [over] if isinstance(over, str) else over:
+        require(name, str, "The name of a constant")
+        found[name] = _values(name, over[name]) if isinstance(over, Mapping) else declared_values(system, name)
+    return found
 
 
-def _name(given: object) -> str:
-    require(given, str, "The name of a constant")
-    return str(given)
-
-
-def _values(name: str, values: object) -> list[Any]:
+def _values(name: str, values: object) -> list[Value]:
     if isinstance(values, str) or not isinstance(values, Iterable):
         raise ModelValueError(f'The values of "{name}" are needed, as in {{"{name}": [1, 2]}}, not {shown(values)}')
     return [_seed(value) if name == "seed" else number_from(value, name) for value in _all_of(values)]
@@ -415,7 +380,7 @@ def _values(name: str, values: object) -> list[Any]:
 def declared_values(system: LSystem, name: str) -> list[Value]:
     """The values of the range that a model declares for a constant.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> [str(value) for value in declared_values(read("p = 1 in 0 .. 1 by 0.5\\naxiom: A"), "p")]
     ['0', '1/2', '1']
     """

@@ -11,7 +11,7 @@ import statistics
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from itertools import groupby
+from itertools import groupby, islice
 from statistics import fmean
 from typing import TYPE_CHECKING, Any
 
@@ -69,29 +69,12 @@ Rows = Sequence[tuple[dict[str, Any], float]]
 """For each row its settings and the measured value."""
 
 
-def chart_of(keys: Sequence[str], rows: Sequence[tuple[Any, ...]], column: str, values: Sequence[Any], log: bool) -> Chart:
-    """The chart of a measured column.
-
-    Parameters
-    ----------
-    keys
-        What varied and has more than one value.
-    rows
-        The values of these, for each run and step.
-    column, values
-        What was measured, and its values.
-    log
-        Whether curves have a logarithmic scale.
-
-    Raises
-    ------
-    ModelValueError
-        Too much varied at once, or nothing.
-    """
-    found = [
-        (dict(zip(keys, row, strict=True)), value)
-        for row, value in zip(rows, finite(values, f'The column "{column}"'), strict=True)
-    ]
+def chart_of(table: Table, column: str, log: bool) -> Chart:
+    """The chart of a measured column, refused where too much varied at once, or nothing."""
+    keys, values = table.varied, table[column]
+    places = {key: table.columns.index(key) for key in keys}
+    settings = [{key: row[place] for key, place in places.items()} for row in table.rows]
+    found = list(zip(settings, finite(values, f'The column "{column}"'), strict=True))
     up = Axis(measured_label(column), all(isinstance(value, int) for value in values), log)
     over = [key for key in keys if key != SEED]
     if not keys:
@@ -116,11 +99,13 @@ def chart_of(keys: Sequence[str], rows: Sequence[tuple[Any, ...]], column: str, 
 def _one_variable(rows: Rows, name: str, up: Axis) -> Chart:
     """A curve over a variable; over seeds besides the mean, with the runs behind it."""
     across = Axis(column_label(name), all(isinstance(setting[name], int) for setting, _ in rows))
-    if any(SEED in setting for setting, _ in rows):
-        seeds = [*dict.fromkeys(setting[SEED] for setting, _ in rows)]
-        runs = [Curve(_points(rows, name, SEED, seed), BLUE, quiet=True) for seed in seeds[:MOST_RUNS]]
-        return CurveChart((*runs, Curve(_means(rows, name), BLUE, "mean")), across, up)
-    return CurveChart((Curve(_means(rows, name), BLUE),), across, up)
+    if not any(SEED in setting for setting, _ in rows):
+        return CurveChart((Curve(_means(rows, name), BLUE),), across, up)
+    runs: dict[object, list[tuple[float, float]]] = {}
+    for setting, value in rows:
+        runs.setdefault(setting[SEED], []).append((float(setting[name]), value))
+    quiet = (Curve(tuple(sorted(points)), BLUE, quiet=True) for points in islice(runs.values(), MOST_RUNS))
+    return CurveChart((*quiet, Curve(_means(rows, name), BLUE, "mean")), across, up)
 
 
 def _families(rows: Rows, name: str, up: Axis) -> Chart:
@@ -151,10 +136,6 @@ def _grid(rows: Rows, names: Sequence[str], up: Axis) -> Chart:
     across, upwards = map(column_label, names)
     means = {place: fmean(values) for place, values in cells.items()}
     return GridChart(across, upwards, tuple(map(number_text, columns)), tuple(map(number_text, lines)), means, up.label)
-
-
-def _points(rows: Rows, name: str, key: str, value: object) -> tuple[tuple[float, float], ...]:
-    return tuple(sorted((float(setting[name]), number) for setting, number in rows if setting[key] == value))
 
 
 def _means(rows: Rows, name: str) -> tuple[tuple[float, float], ...]:
@@ -302,10 +283,9 @@ class Table:
         1 curve of cells, d from 1 to 3, largest 32
         """
         require(log, bool, 'True or False for "log"')
-        name, keys = self.measured(column), self.varied
-        places = [self._place(key) for key in keys]
+        name = self.measured(column)
         with Task("The plot was not made"):
-            return Plot(chart_of(keys, [tuple(row[place] for place in places) for row in self.rows], name, self[name], log))
+            return Plot(chart_of(self, name, log))
 
     def to_pandas(self) -> pandas.DataFrame:
         """The table as a data frame of pandas, which has to be installed; fractions become doubles."""
@@ -340,12 +320,11 @@ class Table:
     def _shown_rows(self) -> Iterator[tuple[str, ...]]:
         """The texts of the rows; of a long table the middle is left out."""
         half = MOST_SHOWN // 2
-        if len(self.rows) <= MOST_SHOWN:
-            yield from (tuple(map(value_text, row)) for row in self.rows)
-            return
-        yield from (tuple(map(value_text, row)) for row in self.rows[:half])
-        yield ("...",) * len(self.columns)
-        yield from (tuple(map(value_text, row)) for row in self.rows[-half:])
+        for number, row in enumerate(self.rows):
+            if len(self) <= MOST_SHOWN or not half <= number < len(self) - half:
+                yield tuple(map(value_text, row))
+            elif number == half:
+                yield ("...",) * len(self.columns)
 
 
 def value_text(value: Any) -> str:
@@ -362,7 +341,6 @@ def _plain(value: Any) -> Any:
 
 
 def _described(values: Sequence[Any]) -> tuple[Any, ...]:
-    """The columns of a summary."""
     spread = statistics.stdev(map(float, values)) if len(values) > 1 else 0.0
     mean = statistics.fmean(values)
     return len(values), mean, spread, min(values), statistics.median(values), max(values)

@@ -8,7 +8,9 @@ from dataclasses import dataclass
 from functools import cached_property, partial
 from math import ceil, floor, isfinite, log10
 from statistics import fmean
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+
+import numpy as np
 
 from lsys_kit.budget import Task
 from lsys_kit.errors import ModelValueError
@@ -22,6 +24,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
+Point: TypeAlias = tuple[float, float]
 WIDTH, HEIGHT = 600, 360
 """The size of a plot in pixels."""
 SIZE = 14
@@ -35,17 +38,8 @@ GREATEST = 1e300
 
 
 class Axis(NamedTuple):
-    """An axis.
-
-    Attributes
-    ----------
-    label
-        What it measures, perhaps with mathematics (see `lettering`).
-    whole
-        Whether only whole numbers stand along it.
-    log
-        Whether it is logarithmic: equal distances are equal factors.
-    """
+    """An axis: what it measures, perhaps with mathematics (see `lettering`); whether only whole numbers stand along it; whether
+    it is logarithmic, so that equal distances are equal factors."""
 
     label: str
     whole: bool = False
@@ -77,19 +71,12 @@ class Chart(ABC):
 
 @dataclass(frozen=True)
 class Plot(SVGPicture):
-    """A plot.
-
-    Attributes
-    ----------
-    chart
-        What it shows.
-    """
+    """A plot of a chart."""
 
     chart: Chart
 
     @property
     def text(self) -> str:
-        """What the plot shows, in words."""
         return self.chart.text
 
     @cached_property
@@ -126,50 +113,26 @@ def _figure(chart: Chart) -> Figure:
 
 def set_paper(ax: Axes, across: Axis, up: Axis) -> None:
     """Axes without a frame, on paper with quiet lines; the label of the vertical one stands above it, to be read level."""
+    from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
+
     for side in ("top", "right", "left"):
         ax.spines[side].set_visible(False)
     ax.spines["bottom"].set(color=QUIET, linewidth=1)
     ax.grid(axis="y", color=RULE, linewidth=1, clip_on=False)
     ax.set_axisbelow(True)
     ax.tick_params(length=0, labelsize=SIZE - 1, labelcolor=INK, pad=6)
-    ax.annotate(
-        across.label,
-        (0.5, 0),
-        (0, -26),
-        xycoords="axes fraction",
-        textcoords="offset points",
-        ha="center",
-        va="top",
-        color=INK,
-        fontsize=SIZE,
-    )
-    ax.annotate(
-        up.label,
-        (0, 1),
-        (0, 14),
-        xycoords="axes fraction",
-        textcoords="offset points",
-        ha="left",
-        va="bottom",
-        color=INK,
-        fontsize=SIZE,
-    )
+    _write(ax, across.label, (0.5, 0), (0, -26), "center", "top", xycoords="axes fraction")
+    _write(ax, up.label, (0, 1), (0, 14), "left", "bottom", xycoords="axes fraction")
     for axis, one in ((ax.xaxis, across), (ax.yaxis, up)):
-        _set_ticks(axis, one)
+        ticks = MaxNLocator(MOST_TICKS, steps=[1, 2, 5, 10], integer=one.whole, min_n_ticks=1)
+        axis.set_major_locator(LogLocator(numticks=MOST_TICKS) if one.log else ticks)
+        axis.set_minor_locator(NullLocator())
+        axis.set_major_formatter(FuncFormatter(lambda value, _: tick_text(value)))
 
 
-def _set_ticks(axis: object, one: Axis) -> None:
-    """Round numbers along an axis, written as in a text."""
-    from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
-
-    locator = (
-        LogLocator(numticks=MOST_TICKS)
-        if one.log
-        else MaxNLocator(MOST_TICKS, steps=[1, 2, 5, 10], integer=one.whole, min_n_ticks=1)
-    )
-    axis.set_major_locator(locator)  # type: ignore[attr-defined]
-    axis.set_minor_locator(NullLocator())  # type: ignore[attr-defined]
-    axis.set_major_formatter(FuncFormatter(lambda value, _: tick_text(value)))  # type: ignore[attr-defined]
+def _write(ax: Axes, text: str, at: Point, away: Point, ha: str, va: str, color: str = INK, **choices: object) -> None:
+    """Write a text some pixels away from a point."""
+    ax.annotate(text, at, away, textcoords="offset points", ha=ha, va=va, color=color, fontsize=SIZE, **choices)
 
 
 def tick_text(value: float) -> str:
@@ -185,7 +148,7 @@ def tick_text(value: float) -> str:
     return f"{value:,.6g}".replace("-", "\u2212") if abs(value) < 1e6 else f"{value:,.0f}".replace("-", "\u2212")
 
 
-def finite(values: Sequence[object], what: str) -> tuple[float, ...]:
+def finite(values: Sequence[Any], what: str) -> tuple[float, ...]:
     """Numbers as doubles.
 
     Raises
@@ -194,7 +157,7 @@ def finite(values: Sequence[object], what: str) -> tuple[float, ...]:
         One is too great, or no number.
     """
     try:
-        found = tuple(map(float, values))  # type: ignore[arg-type]
+        found = tuple(map(float, values))
     except OverflowError:
         found = (float("inf"),)
     if not all(isfinite(value) and abs(value) < GREATEST for value in found):
@@ -224,21 +187,10 @@ DASHES = ("solid", (0, (6, 4)), (0, (2, 4)), (0, (10, 4)), (0, (8, 3, 2, 3)), (0
 
 @dataclass(frozen=True)
 class Curve:
-    """A curve.
+    """A curve: its points, from left to right; its colour; its name, perhaps with mathematics, if it needs one; whether it is
+    drawn thin and pale, as one of many."""
 
-    Attributes
-    ----------
-    points
-        Its points, from left to right.
-    colour
-        Its colour.
-    label
-        Its name, perhaps with mathematics; empty where it needs none.
-    quiet
-        Whether it is drawn thin and pale, as one of many.
-    """
-
-    points: tuple[tuple[float, float], ...]
+    points: tuple[Point, ...]
     colour: str
     label: str = ""
     quiet: bool = False
@@ -246,17 +198,7 @@ class Curve:
 
 @dataclass(frozen=True)
 class CurveChart(Chart):
-    """Curves over one axis.
-
-    Attributes
-    ----------
-    curves
-        The curves.
-    across, up
-        The axes.
-    unbroken
-        Whether all lines are solid, so that their jumps can be seen.
-    """
+    """Curves over one axis, perhaps with all lines solid, so that their jumps can be seen."""
 
     curves: tuple[Curve, ...]
     across: Axis
@@ -265,7 +207,6 @@ class CurveChart(Chart):
 
     @cached_property
     def text(self) -> str:
-        """The curves, from where to where they go, and the greatest value."""
         (left, right), (_, most) = self._span(0), self._span(1)
         named = [plain(curve.label) for curve in self.curves if curve.label]
         names = f" ({', '.join(named)})" if named else ""
@@ -281,7 +222,6 @@ class CurveChart(Chart):
 
     @property
     def margins(self) -> tuple[float, float, float, float]:
-        """The room to the right is that of the longest name."""
         return LEFT, 24 + max((width(curve.label, SIZE) for curve in self.curves), default=0), ABOVE, BELOW
 
     def paint(self, ax: Axes) -> None:
@@ -301,18 +241,9 @@ class CurveChart(Chart):
         if curve.quiet:
             ax.plot(*zip(*points, strict=True), color=curve.colour, alpha=0.3, linewidth=1, clip_on=False) if points else None
             return
-        dots = "o" if len(points) <= MOST_DOTS else None
-        ax.plot(
-            [x for x, _ in points],
-            [y for _, y in points],
-            color=curve.colour,
-            linewidth=2,
-            linestyle=dashes,
-            marker=dots,
-            markersize=5,
-            markeredgewidth=0,
-            clip_on=False,
-        )
+        dots = {"marker": "o" if len(points) <= MOST_DOTS else None, "markersize": 5, "markeredgewidth": 0}
+        xs, ys = [x for x, _ in points], [y for _, y in points]
+        ax.plot(xs, ys, color=curve.colour, linewidth=2, linestyle=dashes, clip_on=False, **dots)
 
     def _set_limits(self, ax: Axes) -> None:
         """From the first to the last point, and from 0 where that is near."""
@@ -332,17 +263,8 @@ class CurveChart(Chart):
         to_axes = ax.transData + ax.transAxes.inverted()
         ends = [float(to_axes.transform(curve.points[-1])[1]) * room for curve in named]
         for curve, place in zip(named, spread(ends, LABEL_DISTANCE), strict=True):
-            ax.annotate(
-                curve.label,
-                (1, place / room),
-                (10, 0),
-                xycoords="axes fraction",
-                textcoords="offset points",
-                ha="left",
-                va="center",
-                color=shaded(curve.colour, 0.7),
-                fontsize=SIZE,
-            )
+            ink = shaded(curve.colour, 0.7)
+            _write(ax, curve.label, (1, place / room), (10, 0), "left", "center", ink, xycoords="axes fraction")
 
 
 def spread(places: Sequence[float], distance: float) -> list[float]:
@@ -351,15 +273,13 @@ def spread(places: Sequence[float], distance: float) -> list[float]:
     >>> spread([0, 3, 50], 10)
     [-3.5, 6.5, 50.0]
     """
-    groups: list[tuple[float, int]] = []
-    for place in sorted(places):
-        groups.append((float(place), 1))
-        while len(groups) > 1 and groups[-1][0] - groups[-2][0] < distance * (groups[-1][1] + groups[-2][1]) / 2:
-            (first, some), (second, more) = groups[-2:]
-            groups[-2:] = [((first * some + second * more) / (some + more), some + more)]
-    found = [middle + distance * (number - (many - 1) / 2) for middle, many in groups for number in range(many)]
-    order = sorted(range(len(places)), key=places.__getitem__)
-    return [found[order.index(place)] for place in range(len(places))]
+    from scipy.optimize import isotonic_regression
+
+    order, apart = np.argsort(places, kind="stable"), distance * np.arange(len(places))
+    found = np.zeros(len(places))
+    if len(places):
+        found[order] = isotonic_regression(np.asarray(places, float)[order] - apart).x + apart
+    return list(map(float, found))
 
 
 MOST_BARS = 24
@@ -392,22 +312,13 @@ def _round_step(step: float) -> float:
 
 @dataclass(frozen=True)
 class HistogramChart(Chart):
-    """A histogram, with the mean.
-
-    Attributes
-    ----------
-    values
-        The values, one for each run.
-    across
-        What they measure.
-    """
+    """A histogram of values, one for each run, with the mean."""
 
     values: tuple[float, ...]
     across: Axis
 
     @cached_property
     def text(self) -> str:
-        """How many runs there are, the least, the mean and the greatest value."""
         return (
             f"{len(self.values):,} runs, {plain(self.across.label)}: least {tick_text(min(self.values))}, mean "
             f"{tick_text(float(f'{self._mean:.6g}'))}, greatest {tick_text(max(self.values))}"
@@ -419,7 +330,6 @@ class HistogramChart(Chart):
 
     @property
     def margins(self) -> tuple[float, float, float, float]:
-        """The room around the axes."""
         return 62, 30, 44, 56
 
     def paint(self, ax: Axes) -> None:
@@ -436,16 +346,8 @@ class HistogramChart(Chart):
         ax.set_ylim(0, top)
         ax.plot([self._mean] * 2, [0, top], color=VERMILION, linewidth=2, clip_on=False)
         left = self._mean > edges[0] + 0.7 * (edges[-1] - edges[0])
-        ax.annotate(
-            f"mean {tick_text(float(f'{self._mean:.4g}'))}",
-            (self._mean, top),
-            (-6 if left else 6, 0),
-            textcoords="offset points",
-            ha="right" if left else "left",
-            va="top",
-            color=shaded(VERMILION, 0.8),
-            fontsize=SIZE,
-        )
+        text, away = f"mean {tick_text(float(f'{self._mean:.4g}'))}", (-6 if left else 6, 0)
+        _write(ax, text, (self._mean, top), away, "right" if left else "left", "top", shaded(VERMILION, 0.8))
 
 
 class Share(NamedTuple):
@@ -458,17 +360,7 @@ class Share(NamedTuple):
 
 @dataclass(frozen=True)
 class ShareChart(Chart):
-    """The shares of kinds, which are 1 together: a bar for each, one below another.
-
-    Attributes
-    ----------
-    shares
-        The kinds.
-    when
-        When that is: "at step 12".
-    kinds
-        What the kinds are called: "stages".
-    """
+    """The shares of kinds, which are 1 together, "at step 12" or when that is: a bar for each, one below another."""
 
     shares: tuple[Share, ...]
     when: str
@@ -476,18 +368,15 @@ class ShareChart(Chart):
 
     @cached_property
     def text(self) -> str:
-        """The kinds with their shares."""
         listed = ", ".join(f"{plain(each.label)} {each.share:.1%}" for each in self.shares)
         return f"frequencies of {len(self.shares)} {self.kinds} {self.when}: {listed}"
 
     @property
     def height(self) -> int:
-        """A row of the same height for each kind."""
         return 60 + 30 * len(self.shares)
 
     @property
     def margins(self) -> tuple[float, float, float, float]:
-        """The labels of the kinds stand to the left."""
         return 24 + max(width(each.label, SIZE) for each in self.shares), 64, 44, 16
 
     def paint(self, ax: Axes) -> None:
@@ -496,26 +385,13 @@ class ShareChart(Chart):
         ax.grid(visible=False)
         ax.spines["bottom"].set_visible(False)
         places = range(len(self.shares))
-        ax.barh(
-            places,
-            [each.share for each in self.shares],
-            height=0.66,
-            color=[tinted(each.colour, 0.7) for each in self.shares],
-            clip_on=False,
-        )
-        for place, each in zip(places, self.shares, strict=True):
-            ax.annotate(
-                f"{each.share:.1%}",
-                (each.share, place),
-                (6, 0),
-                textcoords="offset points",
-                va="center",
-                color=INK,
-                fontsize=SIZE,
-            )
+        amounts, fills = [each.share for each in self.shares], [tinted(each.colour, 0.7) for each in self.shares]
+        ax.barh(places, amounts, height=0.66, color=fills, clip_on=False)
+        for place, amount in zip(places, amounts, strict=True):
+            _write(ax, f"{amount:.1%}", (amount, place), (6, 0), "left", "center")
         ax.set_yticks(places, [each.label for each in self.shares], fontsize=SIZE)
         ax.set_xticks([])
-        ax.set_xlim(0, max(each.share for each in self.shares) or 1)
+        ax.set_xlim(0, max(amounts) or 1)
         ax.set_ylim(len(self.shares) - 0.5, -0.5)
 
 
@@ -527,19 +403,8 @@ DARK = 0.68
 
 @dataclass(frozen=True)
 class GridChart(Chart):
-    """A value for each pair of two variables.
-
-    Attributes
-    ----------
-    across, up
-        The names of the variables, perhaps with mathematics.
-    columns, rows
-        Their values as text, in ascending order.
-    values
-        The value in each column and row; where there is none, the cell is empty.
-    label
-        What the values are.
-    """
+    """A value for each pair of two variables, whose names may have mathematics and whose own values are texts in ascending
+    order; the label says what the values are. Where there is none, the cell is empty."""
 
     across: str
     up: str
@@ -550,7 +415,6 @@ class GridChart(Chart):
 
     @cached_property
     def text(self) -> str:
-        """What the grid holds."""
         values = self.values.values()
         least, most = map(number_texts(values), (min(values), max(values)))
         return (
@@ -560,12 +424,10 @@ class GridChart(Chart):
 
     @property
     def height(self) -> int:
-        """Rows of the same height."""
         return 110 + min(400, max(20, 40 if len(self.rows) <= 10 else 0) * len(self.rows))
 
     @property
     def margins(self) -> tuple[float, float, float, float]:
-        """The values of the vertical variable stand to the left."""
         return 24 + max(max(width(text, SIZE) for text in self.rows), 40), 24, 54, 56
 
     def paint(self, ax: Axes) -> None:
@@ -579,26 +441,11 @@ class GridChart(Chart):
         room = (WIDTH - left - right) / len(self.columns)
         for (column, row), value in self.values.items():
             strength = 0.12 + 0.88 * ((value - low) / (high - low) if high > low else 0.5)
-            ax.add_patch(
-                Rectangle(
-                    (column - 0.5, row - 0.5),
-                    1,
-                    1,
-                    facecolor=tinted(BLUE, strength),
-                    edgecolor=PAPER,
-                    linewidth=2,
-                    clip_on=False,
-                )
-            )
+            look = {"facecolor": tinted(BLUE, strength), "edgecolor": PAPER, "linewidth": 2, "clip_on": False}
+            ax.add_patch(Rectangle((column - 0.5, row - 0.5), 1, 1, **look))
             if room >= max(LEAST_ROOM, width(write(value), SIZE - 1) + 4) and high_enough:
-                ax.annotate(
-                    write(value),
-                    (column, row),
-                    ha="center",
-                    va="center",
-                    fontsize=SIZE - 1,
-                    color=PAPER if strength > DARK else INK,
-                )
+                ink = PAPER if strength > DARK else INK
+                ax.annotate(write(value), (column, row), ha="center", va="center", fontsize=SIZE - 1, color=ink)
         self._set_paper(ax, ceil_ratio(max(width(text, SIZE - 1) for text in self.columns) + 8, room))
 
     def _set_paper(self, ax: Axes, every: int) -> None:
@@ -611,10 +458,10 @@ class GridChart(Chart):
         rows_every = ceil_ratio(LEAST_HEIGHT * len(self.rows), self.height - sum(self.margins[2:]))
         ax.set_yticks(range(0, len(self.rows), rows_every), self.rows[::rows_every])
         ax.tick_params(length=0, labelsize=SIZE - 1, labelcolor=INK, pad=6)
-        write = partial(ax.annotate, xycoords="axes fraction", textcoords="offset points", color=INK, fontsize=SIZE)
-        write(self.across, (0.5, 0), (0, -26), ha="center", va="top")
-        write(self.up, (0, 1), (24 - self.margins[0], 12), ha="left", va="bottom")
-        write(self.label, (1, 1), (0, 12), ha="right", va="bottom")
+        write = partial(_write, ax, xycoords="axes fraction")
+        write(self.across, (0.5, 0), (0, -26), "center", "top")
+        write(self.up, (0, 1), (24 - self.margins[0], 12), "left", "bottom")
+        write(self.label, (1, 1), (0, 12), "right", "bottom")
 
 
 def number_texts(values: Iterable[float]) -> Callable[[float], str]:
