@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from html import escape
 from itertools import pairwise
 from types import MappingProxyType
@@ -38,9 +38,9 @@ MOST_LINES = 60
 def folded(rows: Sequence[FilamentRow]) -> Sequence[FilamentRow]:
     """Some rows, each in as many lines as it needs, which are equally long.
 
-    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit import derive
     >>> from lsys_kit.geometry.filament import filament
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> growing = derive(read("axiom: a\\na -> a b\\nb -> a\\ninterpretation:\\na -> R(2,1)\\nb -> L(1,1)"), 10)
     >>> lines = folded([FilamentRow(step, filament(growing[step])) for step in (0, 10)])
     >>> [(line.step, line.part, len(line.scene.cells)) for line in lines]
@@ -70,22 +70,10 @@ def _piece(scene: Scene, in_line: NDArray[np.bool_], wall_in_line: NDArray[np.bo
     """Some cells and walls of a filament, from 0 on."""
     cells, walls = scene.cells, scene.walls
     start = float(cells.centres[in_line, 0][0] - cells.sizes[in_line, 0][0] / 2)
+    some = Cells(*(getattr(cells, each.name)[in_line] for each in fields(cells)))
+    few = Walls(*(getattr(walls, each.name)[wall_in_line] for each in fields(walls)))
     return replace(
-        scene,
-        cells=Cells(
-            cells.centres[in_line] - [start, 0.0],
-            cells.sizes[in_line],
-            cells.polarities[in_line],
-            cells.shades[in_line],
-            cells.states[in_line],
-        ),
-        walls=Walls(
-            walls.places[wall_in_line] - start,
-            walls.heights[wall_in_line],
-            walls.ages[wall_in_line],
-            walls.shades[wall_in_line],
-            walls.states[wall_in_line],
-        ),
+        scene, cells=replace(some, centres=some.centres - [start, 0.0]), walls=replace(few, places=few.places - start)
     )
 
 
@@ -118,27 +106,18 @@ class DrawnWall(NamedTuple):
     state: int
 
 
+def drawn_cells(cells: Cells, scale: float, some: Any = slice(None)) -> Iterator[DrawnCell]:
+    """Some cells of a filament in a picture of a scale, whose left end is at 0."""
+    columns = (cells.centres[some, 0] * scale, *(cells.sizes[some] * scale / 2).T)
+    rest = cells.polarities[some], cells.shades[some], cells.states[some]
+    return map(DrawnCell, *(column.tolist() for column in (*columns, *rest)))
+
+
 @dataclass(frozen=True)
 class FilamentLayout:
-    """The layout of the rows of a picture, in pixels.
-
-    Attributes
-    ----------
-    rows
-        The rows.
-    numbered
-        Whether the rows are labelled with their steps.
-    time
-        The duration of a step; None if rows are not labelled with times.
-    scale
-        Pixels per unit of length.
-    gutter, head, above
-        Room to the left of all rows, above them all, and above each row's cells.
-    pitch
-        The distance of rows.
-    longest
-        The length of the longest row.
-    """
+    """The layout of the rows of a picture, in pixels: whether they are labelled with their steps, and with times (then the
+    duration of a step); pixels per unit of length; room to the left of all rows, above them all, and above each row's cells;
+    the distance of rows, and the length of the longest."""
 
     rows: Sequence[FilamentRow]
     numbered: bool
@@ -161,19 +140,8 @@ class FilamentLayout:
 
     def cells(self, row: FilamentRow, most: float = math.inf) -> Iterator[DrawnCell]:
         """The cells of a row; no more than so many in a pixel."""
-        cells, left = row.scene.cells, self._left(row)
-        some = self._seen(cells.centres[:, 0], most)
-        return (
-            DrawnCell(left + x, length / 2, width / 2, way, shade, state)
-            for x, (length, width), way, shade, state in zip(
-                (cells.centres[some, 0] * self.scale).tolist(),
-                (cells.sizes[some] * self.scale).tolist(),
-                cells.polarities[some].tolist(),
-                cells.shades[some].tolist(),
-                cells.states[some].tolist(),
-                strict=True,
-            )
-        )
+        some, left = self._seen(row.scene.cells.centres[:, 0], most), self._left(row)
+        return (cell._replace(x=left + cell.x) for cell in drawn_cells(row.scene.cells, self.scale, some))
 
     def walls(self, row: FilamentRow, most: float = math.inf) -> Iterator[DrawnWall]:
         """The walls of a row; no more than so many in a pixel."""
@@ -206,19 +174,8 @@ class FilamentLayout:
 def filament_layout(
     rows: Sequence[FilamentRow], numbered: bool = False, time: Value | None = None, written: bool = True
 ) -> FilamentLayout:
-    """The layout of some rows.
-
-    Parameters
-    ----------
-    rows
-        The rows; long ones are folded.
-    numbered
-        Whether the rows are labelled with their steps.
-    time
-        The duration of a step; rows are labelled with times too, if that is not 1.
-    written
-        Whether there is any text.
-    """
+    """The layout of some rows, the long ones folded; labelled with their steps, and with times if that of a step is not 1;
+    without room for any text unless it is written."""
     time, rows = time if numbered and time != 1 else None, folded(rows)
     gutter, head = MARGIN + STEPS * numbered + TIMES * (time is not None), HEAD * numbered
     longest = max(max(row.scene.width for row in rows), 1e-9)
@@ -266,7 +223,6 @@ def rows_svg(
 
 
 def _heading(sheet: FilamentLayout) -> str:
-    """The headings of the columns."""
     y, texts = tenths(MARGIN + sheet.head - 7), [(MARGIN + STEPS - 8, "step")]
     if sheet.time is not None:
         texts.append((MARGIN + STEPS + TIMES - 8, '<tspan font-style="italic">t</tspan>'))
@@ -324,16 +280,12 @@ def filament_svg(
     y, shapes, arrows = tenths(middle), [], []
     for cell in cells:
         x, rx, ry = tenths(cell.x), tenths(cell.length), tenths(cell.width)
-        outline = (
-            f'{theme().mark_edge}" stroke-width="{10 * MARKED:.0f}'
-            if cell.state in marked
-            else edge_colour(colour_of.get(cell.state, GREEN))
-        )
-        shape = (
-            f'<ellipse cx="{x}" cy="{y}" rx="{rx}" ry="{ry}"'
-            if look == "ellipses"
-            else f'<rect x="{x - rx}" y="{y - ry}" width="{2 * rx}" height="{2 * ry}" rx="{min(rx, ry)}"'
-        )
+        outline = edge_colour(colour_of.get(cell.state, GREEN))
+        if cell.state in marked:
+            outline = f'{theme().mark_edge}" stroke-width="{10 * MARKED:.0f}'
+        shape = f'<rect x="{x - rx}" y="{y - ry}" width="{2 * rx}" height="{2 * ry}" rx="{min(rx, ry)}"'
+        if look == "ellipses":
+            shape = f'<ellipse cx="{x}" cy="{y}" rx="{rx}" ry="{ry}"'
         shapes.append(f'{shape} fill="{fills[cell.state, cell.shade]}" stroke="{outline}"/>')
         if cell.way and rx > 25:
             arrows.append(arrow(x, y, rx, ry, cell.way))
@@ -358,14 +310,8 @@ def _letters_svg(cells: Sequence[DrawnCell], middle: float, colour_of: Mapping[i
         for cell in cells
         if letters.get(cell.state) and _fits(cell, letters)
     ]
-    return (
-        (
-            f'<g font-size="{10 * LETTER}" font-family="sans-serif" font-style="italic" text-anchor="middle" '
-            f'fill="{theme().ink}" stroke-width="40" paint-order="stroke">{"".join(texts)}</g>'
-        )
-        if texts
-        else ""
-    )
+    look = f'font-size="{10 * LETTER}" font-family="sans-serif" font-style="italic" text-anchor="middle" fill="{theme().ink}"'
+    return f'<g {look} stroke-width="40" paint-order="stroke">{"".join(texts)}</g>' if texts else ""
 
 
 def _fits(cell: DrawnCell, letters: Mapping[int, str]) -> bool:
@@ -409,7 +355,6 @@ def _walls_svg(
 
 
 def _ages_fit(walls: Sequence[DrawnWall]) -> bool:
-    """Whether the ages of walls fit side by side."""
     return all(_age_place(left) + _age_reach(left) < _age_place(right) - _age_reach(right) for left, right in pairwise(walls))
 
 
@@ -419,7 +364,6 @@ def _age_place(wall: DrawnWall) -> float:
 
 
 def _age_reach(wall: DrawnWall) -> float:
-    """Half the width of the age of a wall."""
     return 3.2 * len(wall.age)
 
 

@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise
+from itertools import cycle, pairwise
 from typing import TYPE_CHECKING
 
 from lsys_kit.budget import Task, current
@@ -26,7 +26,7 @@ from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown
 from lsys_kit.geometry.filament import filament
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.modules import CELLS, Module
-from lsys_kit.pictures.filaments import DrawnCell, filament_svg, tenths, time_text
+from lsys_kit.pictures.filaments import DrawnCell, drawn_cells, filament_svg, tenths, time_text
 from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.rendering.frames import MARGIN, WIDTH
 from lsys_kit.pictures.style.labels import place_parts, polar_symbols, svg_label, values_text
@@ -50,17 +50,7 @@ DASHES = ("", "80 45", "1 45", "120 40 1 40")
 
 @dataclass(frozen=True)
 class CellKind:
-    """Cells that were alike at birth.
-
-    Attributes
-    ----------
-    label
-        What they were, as SVG text.
-    characters
-        The number of characters of the label.
-    colour, dash
-        The colour and the dash pattern of their lines.
-    """
+    """Cells that were alike at birth: what they were, as SVG text of so many characters; the look of their lines."""
 
     label: str
     characters: int
@@ -75,23 +65,9 @@ class CellKind:
 
 @dataclass(frozen=True)
 class Tree:
-    """The layout of a lineage, in pixels.
-
-    Attributes
-    ----------
-    lineage
-        The lineage.
-    x
-        The horizontal position of the line of each cell.
-    row
-        The cells of the filament below, or none.
-    kinds, kind_of
-        The kinds of cells, and for each cell the number of its kind.
-    colours
-        For each cell of the last word its colour.
-    right
-        Where the tree ends.
-    """
+    """The layout of a lineage, in pixels: the horizontal position of the line of each cell; the cells of the filament below, or
+    none; the kinds of cells, and for each cell the number of its kind; for each cell of the last word its colour; and where the
+    tree ends to the right."""
 
     lineage: Lineage
     x: Mapping[int, float]
@@ -109,9 +85,8 @@ class Tree:
 
 def tree_of(lineage: Lineage, right: int = 0) -> Tree:
     """The tree of a lineage, with some room left free to its right."""
-    x, row = _line_positions(lineage, WIDTH - MARGIN - right)
-    kinds, kind_of, colour_of = _kinds(lineage)
-    return Tree(lineage, x, row, kinds, kind_of, colour_of, WIDTH - MARGIN - right)
+    right = WIDTH - MARGIN - right
+    return Tree(lineage, *_line_positions(lineage, right), *_kinds(lineage), right)
 
 
 def _line_positions(lineage: Lineage, right: int) -> tuple[dict[int, float], list[DrawnCell]]:
@@ -148,17 +123,9 @@ def _filament(lineage: Lineage, right: int) -> list[DrawnCell]:
         return []
     scale = min((right - AXIS - MARGIN) / scene.width, BROADEST / scene.height) if len(scene.cells) else 1.0
     left = (right + AXIS - scene.width * scale) / 2
-    cells = scene.cells
     return [
-        DrawnCell(left + x * scale, length * scale / 2, width * scale / 2, way, shade, number)
-        for number, (x, _), (length, width), way, shade in zip(
-            lineage.words[-1],
-            cells.centres.tolist(),
-            cells.sizes.tolist(),
-            cells.polarities.tolist(),
-            cells.shades.tolist(),
-            strict=True,
-        )
+        cell._replace(x=left + cell.x, state=number)
+        for number, cell in zip(lineage.words[-1], drawn_cells(scene.cells, scale), strict=True)
     ]
 
 
@@ -176,22 +143,14 @@ def _kinds(lineage: Lineage) -> tuple[list[CellKind], list[int], dict[int, str]]
     members: list[dict[Module, None]] = [{} for _ in numbers]
     for key, module in zip(keys, births, strict=True):
         members[numbers[key]][module] = None
-    kinds = [_cell_kind(lineage, list(modules), number) for number, modules in enumerate(members)]
-    system = lineage.states.system
-    return (
-        kinds,
-        [numbers[key] for key in keys],
-        {cell: colour_of(lineage.cells[cell].modules[-1][1].symbol, system) for cell in lineage.words[-1]},
-    )
-
-
-def _cell_kind(lineage: Lineage, modules: Sequence[Module], number: int) -> CellKind:
-    system, symbol = lineage.states.system, modules[0].symbol
-    letter, subscript, values = place_parts(Place(symbol, tuple(modules)), system)
-    name = f"{letter}_{subscript}" if subscript else letter
-    return CellKind(
-        svg_label(name, system, values), len(name + values), colour_of(symbol, system), DASHES[number % len(DASHES)]
-    )
+    system, kinds = lineage.states.system, []
+    for modules, dash in zip(members, cycle(DASHES), strict=False):
+        symbol = next(iter(modules)).symbol
+        letter, subscript, values = place_parts(Place(symbol, tuple(modules)), system)
+        name = f"{letter}_{subscript}" if subscript else letter
+        kinds.append(CellKind(svg_label(name, system, values), len(name + values), colour_of(symbol, system), dash))
+    colours = {cell: colour_of(lineage.cells[cell].modules[-1][1].symbol, system) for cell in lineage.words[-1]}
+    return kinds, [numbers[key] for key in keys], colours
 
 
 def _base(lineage: Lineage, module: Module) -> str:
@@ -224,19 +183,8 @@ MOST_LINES, MOST_TICKS = 400, 14
 
 @dataclass(frozen=True)
 class LineagePicture(SVGPicture):
-    """A picture of a lineage.
-
-    Attributes
-    ----------
-    lineage
-        The lineage.
-    intervals
-        Intervals of time that are marked beside the tree.
-    labels
-        Whether times and the modules of the last word are written.
-    legend
-        Whether it is said what lines mean.
-    """
+    """A picture of a lineage, perhaps with intervals of time marked beside the tree, with times and the modules of the last
+    word written, and with a legend."""
 
     lineage: Lineage
     intervals: tuple[tuple[Value, Value], ...] = ()
@@ -274,29 +222,14 @@ def _interval(given: object) -> tuple[Value, Value]:
 def lineage_picture(
     lineage: Lineage, intervals: Iterable[tuple[object, object]] = (), *, labels: bool = True, legend: bool = True
 ) -> LineagePicture:
-    """The picture of a lineage, with some intervals of time marked.
-
-    Raises
-    ------
-    ModelLimitError
-        The cells, or those that are alive at the end, are more than fit into a picture.
-    ModelValueError
-        An interval does not lie within the time of the lineage.
-    """
-    if len(lineage.words[-1]) > MOST_LINES:
-        raise ModelLimitError(
-            f"{len(lineage.words[-1]):,} cells are too many for a picture of their lineage; it can have {MOST_LINES}",
-            limit=MOST_LINES,
-            needed=len(lineage.words[-1]),
-            hint="Take fewer steps.",
-        )
-    if len(lineage.cells) > current().segments:
-        raise ModelLimitError(
-            f"The tree of this lineage would have {len(lineage.cells):,} lines; a picture may have {current().segments:,}",
-            limit=current().segments,
-            needed=len(lineage.cells),
-            hint="Take fewer steps, or set limits(segments=...).",
-        )
+    """The picture of a lineage, with some intervals of time marked that lie within its time."""
+    last, cells, most = len(lineage.words[-1]), len(lineage.cells), current().segments
+    if last > MOST_LINES:
+        message = f"{last:,} cells are too many for a picture of their lineage; it can have {MOST_LINES}"
+        raise ModelLimitError(message, limit=MOST_LINES, needed=last, hint="Take fewer steps.")
+    if cells > most:
+        message = f"The tree of this lineage would have {cells:,} lines; a picture may have {most:,}"
+        raise ModelLimitError(message, limit=most, needed=cells, hint="Take fewer steps, or set limits(segments=...).")
     require(intervals, Iterable, "A list of intervals, each a pair of times,")
     found = tuple(map(_interval, intervals))
     for first, last in found:
@@ -367,25 +300,20 @@ def _line(tree: Tree, number: int) -> str:
     cell, kind, x = tree.lineage.cells[number], tree.kinds[tree.kind_of[number]], tree.x[number]
     bottom = tree.y(tree.lineage.times[-1]) + TAIL if cell.ended is None else tree.y(cell.ended)
     seen = tree.y(tree.lineage.times[cell.modules[0][0]]) if cell.modules else bottom
-    late = (
-        ""
-        if cell.due is None
-        else (
-            f'<path d="M{tenths(x)} {tenths(tree.y(max(cell.due, cell.born)))}V{tenths(bottom)}" {_late_look()} fill="none"/>'
-        )
-    )
+    late = ""
+    if cell.due is not None:
+        due = tree.y(max(cell.due, cell.born))
+        late = f'<path d="M{tenths(x)} {tenths(due)}V{tenths(bottom)}" {_late_look()} fill="none"/>'
     start, turned = _branch_path(tree, number, bottom)
     look = f'fill="none" stroke="{line(kind.colour)}" stroke-linecap="round"{kind.broken}'
     if seen <= turned or not tree.lineage.stepwise:
         return f'{late}<path d="{start}V{tenths(bottom)}" {look} stroke-width="{THICK}"/>'
     thin = f'{late}<path d="{start}V{tenths(seen)}" {look} stroke-width="{THIN}"/>'
-    return thin + (
-        f'<path d="M{tenths(x)} {tenths(seen)}V{tenths(bottom)}" {look} stroke-width="{THICK}"/>' if bottom > seen else ""
-    )
+    thick = f'<path d="M{tenths(x)} {tenths(seen)}V{tenths(bottom)}" {look} stroke-width="{THICK}"/>'
+    return thin + (thick if bottom > seen else "")
 
 
 def _late_look() -> str:
-    """How the time is shown by which a cell divides late."""
     return f'stroke="{line(VERMILION)}" stroke-width="{LATE}" stroke-opacity="0.35"'
 
 
@@ -436,24 +364,16 @@ def _last_word(tree: Tree, middle: float, labels: bool) -> str:
 def _legend(tree: Tree) -> str:
     """What the lines mean: kinds of cells by what they are at birth; what is not in a word yet, what is late."""
     cells, entries = tree.lineage.cells, []
-    if len(tree.kinds) > 1:
-        entries += [
-            (
-                f'stroke="{line(kind.colour)}" stroke-width="{THICK}" stroke-linecap="round"{kind.broken}',
-                kind.label,
-                kind.characters,
-            )
-            for kind in tree.kinds
-        ]
+    for kind in tree.kinds if len(tree.kinds) > 1 else ():
+        look = f'stroke="{line(kind.colour)}" stroke-width="{THICK}" stroke-linecap="round"{kind.broken}'
+        entries.append((look, kind.label, kind.characters))
     if tree.lineage.stepwise and any(not cell.modules or tree.lineage.times[cell.modules[0][0]] > cell.born for cell in cells):
         entries.append((f'stroke="{theme().quiet}" stroke-width="{THIN}"', "within a step", 13))
     if any(cell.due is not None for cell in cells):
         entries.append((_late_look(), "should have divided", 19))
     parts, x = [], 0
     for look, label, characters in entries:
-        parts.append(
-            f'<path d="M{x} 0h280" {look}/><text transform="translate({x + 360} 45) scale(10)" fill="{theme().ink}">'
-            f"{label}</text>"
-        )
+        text = f'<text transform="translate({x + 360} 45) scale(10)" fill="{theme().ink}">{label}</text>'
+        parts.append(f'<path d="M{x} 0h280" {look}/>{text}')
         x += 360 + 65 * characters + 280
     return "".join(parts)

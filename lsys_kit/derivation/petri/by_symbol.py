@@ -339,7 +339,6 @@ def _symbol(place: ModuleKind | Module) -> str:
 
 
 def _number(found: _Unfolding, numbers: Mapping[ModuleKind | Module, int], module: Module) -> int | None:
-    """The number of the place of a module."""
     return numbers.get(found.sliced(module) if module.symbol in found.symbols else kind_of(module))
 
 
@@ -369,7 +368,6 @@ def _stages_in(ways: Iterator[Way] | Sequence[Way]) -> Iterator[Module]:
 
 
 def _ways_of_stage(found: _Unfolding, kind: Mapping[ModuleKind, ModuleKind], module: Module) -> Iterator[Way]:
-    """The ways out of the place of one module."""
     table = found.table
     for outcome in outcomes_of(table, table.number(module.symbol, module.arguments)):
         made = (table.modules[state] for state in outcome.successor)

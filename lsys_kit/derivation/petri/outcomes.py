@@ -40,7 +40,7 @@ class Outcome:
 def outcomes_of(states: States, state: int) -> tuple[Outcome, ...]:
     """What may become of a state of a system without contexts; nothing where no production matches.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> for outcome in outcomes_of(States(read("axiom: F\\nF -> F F : 0.33\\nF -> F : 0.66")), 0):
     ...     print(outcome.production, outcome.successor, outcome.chance)
     0 (0, 0) 1/3

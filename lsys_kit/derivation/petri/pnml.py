@@ -52,8 +52,7 @@ def pnml(net: Stages, tokens: Sequence[int] | None = None) -> str:
 
     Examples
     --------
-    >>> from lsys_kit.derivation.petri.stages import stages
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read, stages
     >>> print(pnml(stages(read("axiom: a\\na -> a a"))))
     <?xml version="1.0" encoding="UTF-8"?>
     <pnml xmlns="http://www.pnml.org/version-2009/grammar/pnml">
@@ -91,8 +90,7 @@ def pnml(net: Stages, tokens: Sequence[int] | None = None) -> str:
 def played_otherwise(net: Stages) -> str:
     """Why other programs play a diagram otherwise than the system grows, in a sentence; empty where they play it alike.
 
-    >>> from lsys_kit.derivation.petri.stages import stages
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read, stages
     >>> played_otherwise(stages(read("axiom: s a a\\ns < a -> a s\\ns -> ε")))
     'Programs for Petri nets play this net otherwise than the system grows: they know no condition such as "s < a".'
     >>> played_otherwise(stages(read("axiom: a\\na -> a a")))

@@ -91,8 +91,7 @@ def life_stages(ages: AgeModel, limit: int, look: Callable[[Module], Hashable] =
 
     Examples
     --------
-    >>> from lsys_kit.derivation.timed.timed import timed
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read, timed
     >>> found = life_stages(timed(read("axiom: M(0)\\nM(1) -> M(0) M(1/5)")).ages, 9)
     >>> for module, (outcome,) in zip(found.modules, found.outcomes):
     ...     print(module, outcome.span, *(found.modules[state] for state in outcome.successor))
@@ -238,8 +237,7 @@ def stages(
 
     Examples
     --------
-    >>> from lsys_kit.derivation.timed.timed import timed
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read, timed
     >>> stages(read("axiom: A(1)\\nA(t) : t < 3 -> A(t+1)\\nA(t) -> A(1) A(2)"))
     A(1) -> A(2)
     A(2) -> A(3)
@@ -380,7 +378,6 @@ def _net(table: _Table, states: States, polarity: bool) -> Stages:
 
 
 def _place_of(classes: Sequence[int], row_of: Callable[[Module], int | None], module: Module) -> int | None:
-    """The class of a module's row."""
     row = row_of(module)
     return None if row is None else classes[row]
 
@@ -417,7 +414,6 @@ def _merged(table: _Table) -> list[int]:
 
 
 def _likeness(outcome: Outcome, classes: Sequence[int]) -> tuple[Value, Value, tuple[int, ...]]:
-    """What makes two outcomes alike."""
     span = -1 if outcome.span is None else outcome.span
     return outcome.chance, span, tuple(sorted(classes[row] for row in outcome.successor))
 

@@ -88,8 +88,7 @@ def width_of(text: str, size: float) -> float:
 def captions_of(net: Stages, places: Collection[int]) -> tuple[dict[int, str], tuple[str, ...]]:
     """The text at each bar of some places that has any, and the numbered footnotes in which long ones stand.
 
-    >>> from lsys_kit.derivation.petri.stages import stages
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read, stages
     >>> captions_of(stages(read("axiom: a(0)\\na(t) : t != 50 && t != 60 || t > 100 -> a(t+1)")), {0})
     ({0: '(1)'}, ('(1) t ≠ 50 and t ≠ 60 or t > 100',))
     """

@@ -124,7 +124,7 @@ class Parts:
 def steering_of(system: LSystem) -> frozenset[str]:
     """The symbols that only steer the turtle, and so are no stages.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> sorted(steering_of(read("axiom: F [+ &(60) f] A")) & set("F[+&]fA"))
     ['&', '+', '[', ']']
     """

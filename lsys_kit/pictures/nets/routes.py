@@ -93,8 +93,7 @@ def shown_places(net: Stages, steering: Collection[str]) -> tuple[int, ...]:
 def rows_of(net: Stages, shown: Collection[int], longest: int = LONGEST_ROW) -> tuple[tuple[int, ...], ...]:
     """The rows of places: one for each symbol with several stages, one for all others; longer rows than allowed are wrapped.
 
-    >>> from lsys_kit.derivation.petri.stages import stages
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read, stages
     >>> rows_of(stages(read("axiom: L\\nS -> L\\nL -> A\\nA -> LS")), {0, 1, 2})
     ((2, 0, 1),)
     """
