@@ -17,7 +17,7 @@ from lsys_kit.notation.model.system import LSystem, Production
 
 ArgumentPosition: TypeAlias = tuple[str, int, int]
 """A parameter: the symbol of its module, how many parameters that has, and which of them it is, from 0."""
-_UnitT = TypeVar("_UnitT", Module, Pattern)
+UnitT = TypeVar("UnitT", Module, Pattern)
 
 
 def slice_system(system: LSystem) -> LSystem:
@@ -26,8 +26,6 @@ def slice_system(system: LSystem) -> LSystem:
     How many modules of each symbol a word holds is the same in both, at every step of the first that has values.
     Interpretation rules, which only draw, are left out.
 
-    Examples
-    --------
     >>> from lsys_kit import read
     >>> print(slice_system(read("axiom: A(0,9)\\nA(t,x) : t < 7 -> A(t+1,x+t)\\nA(t,x) -> A(0,1) L(x)\\nL(x) -> L(x+1)")))
     axiom: A(0)
@@ -132,7 +130,7 @@ def _sliced_items(items: Iterable[Item], kept: Set[ArgumentPosition]) -> tuple[I
     )
 
 
-def without_arguments(module: _UnitT, kept: Set[ArgumentPosition]) -> _UnitT:
+def without_arguments(module: UnitT, kept: Set[ArgumentPosition]) -> UnitT:
     """A module without those of its parameters that decide nothing.
 
     >>> print(without_arguments(Module("A", (1, 2)), {("A", 2, 0)}))

@@ -15,11 +15,12 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections import Counter
-from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Mapping, Sequence, Set
+from collections.abc import Callable, Collection, Hashable, Iterator, Mapping, Sequence, Set
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import lru_cache, partial
 from graphlib import CycleError, TopologicalSorter
+from itertools import pairwise
 
 from lsys_kit.budget import Task, counted
 from lsys_kit.derivation.core.interpretation import interpretations
@@ -41,17 +42,8 @@ from lsys_kit.notation.model.system import LSystem
 
 @dataclass(frozen=True)
 class LifeStages:
-    """The stages of all lives.
-
-    Attributes
-    ----------
-    ages
-        How the modules grow older.
-    modules
-        The module of each stage at its first age.
-    outcomes
-        For each stage what it becomes, and after how long: the next stage, or the daughters.
-    """
+    """The stages of all lives: the module of each at its first age, and what it becomes, and after how long: the next stage, or
+    the daughters."""
 
     ages: AgeModel
     modules: tuple[Module, ...]
@@ -71,26 +63,8 @@ class LifeStages:
 
 
 def life_stages(ages: AgeModel, limit: int, look: Callable[[Module], Hashable] = lambda module: module) -> LifeStages:
-    """The stages of all lives.
+    """The stages of all lives, as many as there may be; those of modules that look alike are divided at the same ages.
 
-    Parameters
-    ----------
-    ages
-        How the modules grow older.
-    limit
-        How many stages there may be.
-    look
-        What a module looks like: lives of modules that look alike are divided at the same ages.
-
-    Raises
-    ------
-    ModelLimitError
-        They are more than `limit`.
-    ModelValueError
-        An age is not known, or a module is born older than it divides.
-
-    Examples
-    --------
     >>> from lsys_kit import read, timed
     >>> found = life_stages(timed(read("axiom: M(0)\\nM(1) -> M(0) M(1/5)")).ages, 9)
     >>> for module, (outcome,) in zip(found.modules, found.outcomes):
@@ -136,37 +110,25 @@ def _divided_lives(ages: AgeModel, first: Mapping[AgelessModule, Mapping[Value, 
     modules: list[Module] = []
     for kind, phases in first.items():
         for phase, born in phases.items():
-            mortal = any(_is_mortal(ages, module) for module in born.values())
+            mortal = any((end := ages.end(module)) is not None and end.rule is not None for module in born.values())
             rows.setdefault(kind, {})[phase] = len(modules), sorted(born)[: None if mortal else 1]
             modules += [born[age] for age in rows[kind][phase][1]]
     found = LifeStages(ages, tuple(modules), (), rows)
     outcomes: list[tuple[Outcome, ...]] = []
     for number, row in (part for phases in rows.values() for part in phases.values()):
-        outcomes += [
-            _outcomes(found, number + at, age, row[at + 1] if at + 1 < len(row) else None) for at, age in enumerate(row)
-        ]
-    _check_time_passes(modules, outcomes)
-    return LifeStages(ages, found.modules, tuple(outcomes), rows)
-
-
-def _check_time_passes(modules: Sequence[Module], outcomes: Sequence[Sequence[Outcome]]) -> None:
-    """Refuse modules that lead back to themselves in no time."""
+        outcomes += [_outcomes(found, number + at, age, later) for at, (age, later) in enumerate(pairwise([*row, None]))]
     at_once = {
         number: [state for outcome in ways if outcome.span == 0 for state in outcome.successor]
         for number, ways in enumerate(outcomes)
     }
     try:
         TopologicalSorter(at_once).prepare()
-    except CycleError as found:
+    except CycleError as cycle:
         raise ModelValueError(
-            f"{modules[found.args[1][0]]} divides endlessly within one instant",
+            f"{modules[cycle.args[1][0]]} divides endlessly within one instant",
             hint="Let a daughter begin younger than the age at which she divides.",
         ) from None
-
-
-def _is_mortal(ages: AgeModel, module: Module) -> bool:
-    end = ages.end(module)
-    return end is not None and end.rule is not None
+    return LifeStages(ages, found.modules, tuple(outcomes), rows)
 
 
 def _outcomes(found: LifeStages, number: int, age: Value, later: Value | None) -> tuple[Outcome, ...]:
@@ -257,7 +219,9 @@ def stages(
         return _stages(system, polarity, durations, unfold, constants)
 
 
-def _stages(system: LSystem | Timed, polarity: bool, durations: bool, unfold: object, constants: dict[str, object]) -> Stages:
+def _stages(
+    system: LSystem | Timed, polarity: bool, durations: bool, unfold: bool | str | Collection[str], constants: dict[str, object]
+) -> Stages:
     require(polarity, bool, 'True or False for "polarity"')
     require(durations, bool, 'True or False for "durations"')
     symbols = _symbols_from(unfold)
@@ -279,40 +243,27 @@ def _stages(system: LSystem | Timed, polarity: bool, durations: bool, unfold: ob
     nets = ((_net(table, states, polarity), table.most) for table in _tables(states, constants, 4 * most))
     if symbols is not None:
         return unfolded_symbols(states, constants, symbols, MOST_UNFOLDED)
+    for net, legible in nets:
+        if len(net.places) <= most and (unfold or (len(net.transitions) <= legible and len(net.arcs) <= MOST_ARCS)):
+            return net
     if unfold:
-        return _unfolded(net for net, _ in nets)
-    return next(
-        (
-            net
-            for net, legible in nets
-            if len(net.places) <= most and len(net.transitions) <= legible and len(net.arcs) <= MOST_ARCS
-        ),
-        None,
-    ) or by_symbol(states)
-
-
-def _symbols_from(unfold: object) -> tuple[str, ...] | None:
-    """The symbols that are to be unfolded; None if that is all or none."""
-    require(unfold, (bool, str, Collection), 'True, False, a symbol or several for "unfold"')
-    if isinstance(unfold, bool):
-        return None
-    symbols, given = list[str](), (unfold,) if isinstance(unfold, str) else unfold
-    assert isinstance(given, Collection)
-    for symbol in counted(given):
-        require(symbol, str, 'A symbol for "unfold"')
-        symbols.append(symbol)
-    return tuple(symbols)
-
-
-def _unfolded(nets: Iterable[Stages]) -> Stages:
-    """The first net whose places can be shown."""
-    net = next((net for net in nets if len(net.places) <= MOST_UNFOLDED), None)
-    if net is None:
         raise ModelValueError(
             "The stages of this system cannot be unfolded",
             hint=f"They are more than {MOST_UNFOLDED}, or the neighbours of a module decide what it becomes.",
         )
-    return net
+    return by_symbol(states)
+
+
+def _symbols_from(unfold: bool | str | Collection[str]) -> list[str] | None:
+    """The symbols that are to be unfolded; None if that is all or none."""
+    require(unfold, (bool, str, Collection), 'True, False, a symbol or several for "unfold"')
+    if isinstance(unfold, bool):
+        return None
+    symbols = []
+    for symbol in counted((unfold,) if isinstance(unfold, str) else unfold):
+        require(symbol, str, 'A symbol for "unfold"')
+        symbols.append(symbol)
+    return symbols
 
 
 def _timed_net(ages: AgeModel, polarity: bool, most: int) -> Stages:

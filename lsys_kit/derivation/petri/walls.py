@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from lsys_kit.derivation.petri.net import Arc, Place, Stages, Transition
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.model.cellworks import CellworkProduction, CellworkSystem, EdgeMarker, EdgePart
-from lsys_kit.notation.model.maps import Edge, EdgeProduction, MapSystem, Marker, SuccessorPart
+from lsys_kit.notation.model.maps import Edge, EdgeProduction, MapSystem, SuccessorPart
 from lsys_kit.notation.model.modules import Module, Pattern
 from lsys_kit.notation.model.system import LSystem, Production
 
@@ -71,15 +71,8 @@ def letters_of_walls(system: MapSystem | CellworkSystem) -> LSystem:
 
 
 def wall_stages(system: MapSystem | CellworkSystem) -> Stages:
-    """The stage diagram of the walls of a map system, or of the edges of a cellwork system.
+    """The stage diagram of the walls of a map system, or of the edges of a cellwork system, if it is legible.
 
-    Raises
-    ------
-    ModelLimitError
-        It would have too many places or arcs to be legible.
-
-    Examples
-    --------
     >>> from lsys_kit import read_map
     >>> wall_stages(read_map("map: ABAB\\nA -> B[-A][+A]B\\nB -> A"))
     A -> 2 B + [-A][+A] A
@@ -128,11 +121,7 @@ def _arcs(transition: int, production: EdgeProduction | CellworkProduction, numb
     markers: dict[Edge, str] = {}
     for marker in production.markers:
         kind = kind_of(marker.edge)
-        markers[kind] = markers.get(kind, "") + _short(marker)
+        text = f"[{marker.wall}: {marker.edge}]" if isinstance(marker, EdgeMarker) else str(marker)  # without the walls to come
+        markers[kind] = markers.get(kind, "") + text
     for kind, text in markers.items():
         yield Arc(transition, numbers[kind], 1, factor=text)
-
-
-def _short(marker: Marker | EdgeMarker) -> str:
-    """A marker; of a cellwork without the walls to come."""
-    return f"[{marker.wall}: {marker.edge}]" if isinstance(marker, EdgeMarker) else str(marker)
