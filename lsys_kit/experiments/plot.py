@@ -156,7 +156,7 @@ def _chart_of_runs(runs: Sequence[tuple[str, Derivation | _Course]], measure: An
     if measure is None:
         asked = "width" if isinstance(first, _Course) else "length" if several else _kinds(first)
     curves: list[Curve] = []
-    names: list[str] = []
+    names = []
     for name, run in runs:
         measures = measures_of(asked, run.states.system)
         names = [each.name for each in measures]

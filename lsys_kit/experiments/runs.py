@@ -106,7 +106,7 @@ def _handed_out(
 ) -> Iterator[tuple[int, Outcome]]:
     """The outcomes of all runs from one on, by an executor."""
     size = batch_size(len(runs) - first, seconds)
-    futures: dict[Future[list[Outcome]], int] = {}
+    futures = {}
     try:
         for place in range(first, len(runs), size):
             futures[submit(batch, experiment, runs[place : place + size])] = place
@@ -271,7 +271,7 @@ def _table(
     experiment = Experiment(system, _steps(system, steps), measure, current())
     _check_room(len(runs) * len(experiment.steps) * len(columns))
     runs = [{**choices, **run} for run in runs]
-    found: dict[int, Outcome] = {}
+    found = {}
     stopped = ""
     with closing(outcomes(experiment, runs, executor)) as finished, _bar(len(runs), progress) as bar:
         try:
@@ -364,7 +364,7 @@ def _swept(system: LSystem, over: object) -> dict[str, list[Value]]:
     """For each name that varies its values, as exact numbers."""
     if not isinstance(over, Iterable):
         raise ModelValueError(f'Constants to vary are needed, as in {{"p": [1, 2]}}, not {shown(over)}')
-    found: dict[str, list[Value]] = {}
+    found = {}
     for name in [over] if isinstance(over, str) else over:
         require(name, str, "The name of a constant")
         found[name] = _values(name, over[name]) if isinstance(over, Mapping) else declared_values(system, name)

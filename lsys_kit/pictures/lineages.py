@@ -86,7 +86,8 @@ class Tree:
 def tree_of(lineage: Lineage, right: int = 0) -> Tree:
     """The tree of a lineage, with some room left free to its right."""
     right = WIDTH - MARGIN - right
-    return Tree(lineage, *_line_positions(lineage, right), *_kinds(lineage), right)
+    x, row = _line_positions(lineage, right)
+    return Tree(lineage, x, row, *_kinds(lineage), right)
 
 
 def _line_positions(lineage: Lineage, right: int) -> tuple[dict[int, float], list[DrawnCell]]:
@@ -223,10 +224,10 @@ def lineage_picture(
     lineage: Lineage, intervals: Iterable[tuple[object, object]] = (), *, labels: bool = True, legend: bool = True
 ) -> LineagePicture:
     """The picture of a lineage, with some intervals of time marked that lie within its time."""
-    last, cells, most = len(lineage.words[-1]), len(lineage.cells), current().segments
-    if last > MOST_LINES:
-        message = f"{last:,} cells are too many for a picture of their lineage; it can have {MOST_LINES}"
-        raise ModelLimitError(message, limit=MOST_LINES, needed=last, hint="Take fewer steps.")
+    living, cells, most = len(lineage.words[-1]), len(lineage.cells), current().segments
+    if living > MOST_LINES:
+        message = f"{living:,} cells are too many for a picture of their lineage; it can have {MOST_LINES}"
+        raise ModelLimitError(message, limit=MOST_LINES, needed=living, hint="Take fewer steps.")
     if cells > most:
         message = f"The tree of this lineage would have {cells:,} lines; a picture may have {most:,}"
         raise ModelLimitError(message, limit=most, needed=cells, hint="Take fewer steps, or set limits(segments=...).")

@@ -244,7 +244,7 @@ def _successor(kind: Kind, case: Case, keeps: bool) -> tuple[Pattern, ...] | Non
     given, words = [values for values, _ in case], [word for _, word in case]
     found = []
     for index, module in enumerate(words[0]):
-        laws: list[Expression] = []
+        laws = []
         for place in range(len(module.arguments)):
             values = [word[index].arguments[place] for word in words]
             kept = keeps and place < len(names) and values == [each[place] for each in given]

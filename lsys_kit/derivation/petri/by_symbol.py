@@ -66,7 +66,7 @@ def net_of(states: States, ways: Mapping[Any, Sequence[Way]], grouped: bool, whe
     """The net of some places, given the ways out of each."""
     numbers = {place: number for number, place in enumerate(ways)}
     transitions: list[Transition] = []
-    arcs: list[Arc] = []
+    arcs = []
     for at_once, place in product((False, True), ways):
         for way in (way for way in ways[place] if way.transition.at_once is at_once):
             arcs += [
@@ -322,7 +322,7 @@ class _Unfolding:
         """The place of a module that a production of a symbol makes which is not unfolded."""
         if pattern.symbol not in self.symbols:
             return kind_of(pattern)
-        values: list[Value] = []
+        values = []
         for argument in self._sliced(pattern).arguments:
             value = _value(self.states, argument)
             if value is None:

@@ -20,7 +20,6 @@ from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import lru_cache, partial
 from graphlib import CycleError, TopologicalSorter
-from itertools import pairwise
 
 from lsys_kit.budget import Task, counted
 from lsys_kit.derivation.core.interpretation import interpretations
@@ -114,9 +113,10 @@ def _divided_lives(ages: AgeModel, first: Mapping[AgelessModule, Mapping[Value, 
             rows.setdefault(kind, {})[phase] = len(modules), sorted(born)[: None if mortal else 1]
             modules += [born[age] for age in rows[kind][phase][1]]
     found = LifeStages(ages, tuple(modules), (), rows)
-    outcomes: list[tuple[Outcome, ...]] = []
+    outcomes = []
     for number, row in (part for phases in rows.values() for part in phases.values()):
-        outcomes += [_outcomes(found, number + at, age, later) for at, (age, later) in enumerate(pairwise([*row, None]))]
+        later = [*row[1:], None]
+        outcomes += [_outcomes(found, number + at, *both) for at, both in enumerate(zip(row, later, strict=True))]
     at_once = {
         number: [state for outcome in ways if outcome.span == 0 for state in outcome.successor]
         for number, ways in enumerate(outcomes)
@@ -307,7 +307,7 @@ def _net(table: _Table, states: States, polarity: bool) -> Stages:
     classes = list(range(len(table.modules))) if polarity else _merged(table)
     members = [[row for row, found in enumerate(classes) if found == number] for number in range(max(classes, default=-1) + 1)]
     transitions: list[Transition] = []
-    arcs: list[Arc] = []
+    arcs = []
     for number, group in enumerate(members):
         for ways in _side_by_side(table, group, classes):
             arcs += [

@@ -137,7 +137,7 @@ class TimedAges(AgeModel):
     """The ages of a timed system: the first parameter is the age, and productions end lives beyond the ages that they name."""
 
     def _found_end(self, module: Module) -> End | None:
-        found: list[tuple[Value, int, Rule]] = []
+        found = []
         for rule in self.states.rules.get(kind_of(module), ()):
             ((_, asked),) = rule.equalities
             try:
@@ -272,7 +272,7 @@ class AgeTerms:
         >>> print(*AgeTerms(states, states.rules["M", 1][0], 0).thresholds(states.modules[0]))
         3/10 5
         """
-        found: list[Value] = []
+        found = []
         for difference in self._compared():
             slope = None if difference is None else self.slope(difference, module)
             if difference is None or slope is None:
@@ -485,7 +485,7 @@ class StepAges(AgeModel):
 
     def _cuts(self, module: Module, rules: Iterable[Rule]) -> list[Value]:
         """The ages at which something else becomes of a module."""
-        found: list[Value] = []
+        found = []
         for rule in rules:
             cuts = AgeTerms(self.states, rule, self.parameter(kind_of(module)) or 0).thresholds(module)
             if cuts is None:
@@ -515,7 +515,7 @@ def age_model(states: States) -> StepAges:
     Fraction(7, 10)
     """
     parameters: dict[ModuleKind, int] = {}
-    steps: set[Value] = set()
+    steps = set()
     for production in states.system.productions:
         for at, step in _grown(states, production):
             parameters.setdefault(kind_of(production.predecessor), at)

@@ -375,7 +375,7 @@ class Continuity:
         """What is 0 where the length is continuous, with no other unknown name in it."""
         import sympy
 
-        others: set[str] = set()
+        others = set()
         for division in self.divisions:
             above, _ = sympy.fraction(sympy.together(division.defect))
             factors = [part for part in sympy.Mul.make_args(sympy.factor_terms(above)) if name in unknown_names(part)]

@@ -113,7 +113,7 @@ class Timed:
 
     def later(self, word: list[Module], passed: Value, already: bool | None = None) -> Word:
         """What a row of modules becomes in a time: D(word, passed); `already` as for `division`."""
-        found: list[int] = []
+        found = []
         most, deepest, passed = current().modules, current().brackets, number_from(passed, "time")
         every(word, Module, "A module")
         todo = [(module, passed, 0) for module in reversed(word)]

@@ -135,8 +135,8 @@ def _tokens(x: float, y: float, count: int) -> str:
     if count < 5:
         return "".join(element("circle", class_="token", cx=x + dx, cy=y + dy, r="3.6") for dx, dy in DOTS[count])
     text = short(count)
-    size, look = token_size(text), {"font_weight": "bold", "text_anchor": "middle"}
-    return element("text", text, class_="token", x=x, y=y + 0.36 * size, font_size=size, **look)
+    size, down = token_size(text), y + 0.36 * token_size(text)
+    return element("text", text, class_="token", x=x, y=down, font_size=size, font_weight="bold", text_anchor="middle")
 
 
 def token_size(text: str) -> int:
@@ -149,7 +149,7 @@ def token_size(text: str) -> int:
 
 
 def _line_svg(d: str, **look: object) -> str:
-    return element("path", **look, d=d, fill="none", stroke=theme().ink, stroke_width="1.3")
+    return element("path", None, **look, d=d, fill="none", stroke=theme().ink, stroke_width="1.3")
 
 
 def _bar_svg(bar: BarPart) -> str:
@@ -169,5 +169,5 @@ def _arc_svg(arc: ArcPart) -> str:
 def _note_svg(note: NotePart) -> str:
     x, y, width, paper = note.x, note.y, note.width, theme().ground
     box = element("rect", x=x - width / 2, y=y - 6, width=width, height=12, fill=paper)
-    look = {"font_size": SMALL, "text_anchor": "middle"}
-    return box + element("text", escaped(note.text), class_="note", x=x, y=y + 0.36 * SMALL, **look)
+    down = y + 0.36 * SMALL
+    return box + element("text", escaped(note.text), class_="note", x=x, y=down, font_size=SMALL, text_anchor="middle")

@@ -115,7 +115,7 @@ def _ranks(count: int, edges: Sequence[tuple[int, int]], weights: Sequence[int])
         costs[target] += weight
         costs[source] -= weight
         entries += [(number, source, 1.0), (number, target, -1.0)]
-    return np.rint(_least(costs, entries, [-1.0] * len(edges))).astype(int).tolist()
+    return [round(rank) for rank in _least(costs, entries, [-1.0] * len(edges))]
 
 
 def _least(costs: Sequence[float], entries: Sequence[tuple[int, int, float]], bounds: Sequence[float]) -> Sequence[float]:
@@ -246,7 +246,7 @@ class _InLayers:
         """The layers with the fewest crossings, then with the fewest arcs that lead back, over the places that may come
         first."""
         weights = [FEED if i < len(self.bars) else ARC for i in range(len(self.edges))]
-        tried: list[Layers] = []
+        tried = []
         pieces = 0
         for start in range(len(self.places)):
             tried.append(layered(self.vertices, self.edges, weights, [start]))
@@ -273,7 +273,7 @@ class _InLayers:
         return found
 
     def _boxes(self) -> defaultdict[int, _Box]:
-        boxes = defaultdict(lambda: _LINE)
+        boxes: defaultdict[int, _Box] = defaultdict(lambda: _LINE)
         for i, place in enumerate(self.places):
             across = max(RADIUS + ARROW_LENGTH, self.texts.labels[place] / 2 + 4)
             boxes[i] = _Box(across, across, RADIUS + 2, RADIUS + LABEL)
@@ -289,7 +289,7 @@ class _InLayers:
     def _rows(self) -> dict[int, float]:
         """The vertical position of each vertex, such that lines are as straight as the order of the columns allows."""
         count, costs = sum(map(len, self.layers.layers)), list[float]()
-        entries: list[tuple[int, int, float]] = []
+        entries = []
         bounds: list[float] = []
         for edge, chain in enumerate(self.layers.chains):
             for a, b in pairwise(chain):  # |a + shift - b| is at most the piece's own variable
@@ -360,7 +360,7 @@ def _notes(
     arcs: Mapping[int, tuple[Point, ...]], lines: Sequence[tuple[Point, ...]], texts: Texts, taken: list[_Patch]
 ) -> dict[int, Point]:
     """The positions of the notes of arcs: each on its line, as far from other lines and texts as it can be, within reason."""
-    found: dict[int, Point] = {}
+    found = {}
     for arc in (arc for arc in texts.notes if arc in arcs):
         others = np.array([point for line in lines if line is not arcs[arc] for point in _sampled(line)] or [(-1e6, -1e6)])
         reach = np.array([texts.notes[arc] / 2, NOTE / 2])

@@ -100,7 +100,7 @@ def captions_of(net: Stages, places: Collection[int]) -> tuple[dict[int, str], t
     >>> captions_of(stages(read("axiom: a(0)\\na(t) : t != 50 && t != 60 || t > 100 -> a(t+1)")), {0})
     ({0: '(1)'}, ('(1) t ≠ 50 and t ≠ 60 or t > 100',))
     """
-    captions: dict[int, str] = {}
+    captions = {}
     footnotes: list[str] = []
     for number, transition in enumerate(net.transitions):
         text = terms_of(transition)

@@ -98,7 +98,7 @@ def _chained(net: Stages, group: Sequence[int]) -> list[int]:
             sole[place] += [arc.place] * (made[arc.transition] <= 1)
     led = {target for place, targets in sole.items() for target in targets if target != place}
     left = sorted(group, key=lambda place: (place in led, not leads[place], place))
-    chain: list[int] = []
+    chain = []
     while left:
         following: int | None = left[0]
         while following is not None:

@@ -130,7 +130,7 @@ def set_paper(ax: Axes, across: Axis, up: Axis) -> None:
         axis.set_major_formatter(FuncFormatter(lambda value, _: tick_text(value)))
 
 
-def _write(ax: Axes, text: str, at: Point, away: Point, ha: str, va: str, color: str = INK, **choices: object) -> None:
+def _write(ax: Axes, text: str, at: Point, away: Point, ha: str, va: str, color: str = INK, **choices: Any) -> None:
     """Write a text some pixels away from a point."""
     ax.annotate(text, at, away, textcoords="offset points", ha=ha, va=va, color=color, fontsize=SIZE, **choices)
 
@@ -241,7 +241,7 @@ class CurveChart(Chart):
         if curve.quiet:
             ax.plot(*zip(*points, strict=True), color=curve.colour, alpha=0.3, linewidth=1, clip_on=False) if points else None
             return
-        dots = {"marker": "o" if len(points) <= MOST_DOTS else None, "markersize": 5, "markeredgewidth": 0}
+        dots: Any = {"marker": "o" if len(points) <= MOST_DOTS else None, "markersize": 5, "markeredgewidth": 0}
         xs, ys = [x for x, _ in points], [y for _, y in points]
         ax.plot(xs, ys, color=curve.colour, linewidth=2, linestyle=dashes, clip_on=False, **dots)
 
@@ -441,8 +441,8 @@ class GridChart(Chart):
         room = (WIDTH - left - right) / len(self.columns)
         for (column, row), value in self.values.items():
             strength = 0.12 + 0.88 * ((value - low) / (high - low) if high > low else 0.5)
-            look = {"facecolor": tinted(BLUE, strength), "edgecolor": PAPER, "linewidth": 2, "clip_on": False}
-            ax.add_patch(Rectangle((column - 0.5, row - 0.5), 1, 1, **look))
+            corner, fill = (column - 0.5, row - 0.5), tinted(BLUE, strength)
+            ax.add_patch(Rectangle(corner, 1, 1, facecolor=fill, edgecolor=PAPER, linewidth=2, clip_on=False))
             if room >= max(LEAST_ROOM, width(write(value), SIZE - 1) + 4) and high_enough:
                 ink = PAPER if strength > DARK else INK
                 ax.annotate(write(value), (column, row), ha="center", va="center", fontsize=SIZE - 1, color=ink)
