@@ -17,7 +17,6 @@ from lsys_kit.derivation.growth.growth import growth
 from lsys_kit.errors import LSystemError, ModelNameError, ModelValueError, shown
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.notation.analysis.checks import suggestion
-from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.system import LSystem, symbols
 from lsys_kit.pictures.style.labels import polar_symbols
 
@@ -44,7 +43,7 @@ def measures_of(asked: Asked, system: LSystem) -> tuple[Measure, ...]:
 
     Examples
     --------
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> [each.name for each in measures_of(["height", "F"], read("axiom: F"))]
     ['height', 'F']
     """
@@ -102,7 +101,7 @@ def _function(name: str, asked: object, system: LSystem) -> Callable[[Any], obje
 def symbols_named(name: str, system: LSystem) -> frozenset[str]:
     """The symbol with a name, or both polarities of a cell.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> sorted(symbols_named("a", read("axiom: ar\\nar -> al b\\nal -> b ar")))
     ['al', 'ar']
     """
@@ -123,36 +122,20 @@ def _modules(what: Measurable) -> int:
     return len(what) if isinstance(what, Word) else sum(what.counts(what.steps).values())
 
 
-def _cells(what: Measurable) -> int:
-    return len(scene_of(what).cells)
-
-
-def _strokes(what: Measurable) -> int:
-    return len(scene_of(what).segments)
-
-
-def _height(what: Measurable) -> float:
-    return scene_of(what).height
-
-
-def _width(what: Measurable) -> float:
-    return scene_of(what).width
-
-
 def _rate(what: Measurable) -> float:
-    states = what.states
-    names = [constant.name for constant in states.system.constants]
-    values: Mapping[str, Value] = dict(zip(names, states.constants, strict=True))
-    return growth(states.system, **values).rate
+    system = what.states.system
+    return growth(
+        system, **{each.name: value for each, value in zip(system.constants, what.states.constants, strict=True)}
+    ).rate
 
 
 MEASURES: Mapping[str, Callable[[Measurable], float]] = {
     "modules": _modules,
     "length": _modules,
-    "cells": _cells,
-    "strokes": _strokes,
-    "height": _height,
-    "width": _width,
+    "cells": lambda what: len(scene_of(what).cells),
+    "strokes": lambda what: len(scene_of(what).segments),
+    "height": lambda what: scene_of(what).height,
+    "width": lambda what: scene_of(what).width,
     "rate": _rate,
 }
 """The quantities that have names: the number of modules, which is the length of the word; the cells of a filament and the

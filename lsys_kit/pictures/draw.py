@@ -24,12 +24,12 @@ from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.chosen_words import ChosenWord, chosen_words, numbers_from
-from lsys_kit.pictures.filaments.painting import LOOKS
+from lsys_kit.pictures.filaments import LOOKS
 from lsys_kit.pictures.formats.axes import new_axes, set_ground
 from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.kinds import check_drawable, coloured_symbols, kind_of
 from lsys_kit.pictures.legends import legend_of, letters_of
-from lsys_kit.pictures.lineages.picture import LineagePicture, lineage_picture
+from lsys_kit.pictures.lineages import LineagePicture, lineage_picture
 from lsys_kit.pictures.multiples import SmallMultiples
 from lsys_kit.pictures.options import KINDS, LINEAGE, SPHERE, STAGES, Options, options_from, seen_as, split_options
 from lsys_kit.pictures.picture import NetPicture, Picture

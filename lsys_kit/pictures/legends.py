@@ -16,7 +16,7 @@ from lsys_kit.geometry.turtle.surfaces import passed_over
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.formats.painting import painted
 from lsys_kit.pictures.formats.vector.reading import drawing_of
-from lsys_kit.pictures.nets.captions import width_of
+from lsys_kit.pictures.nets.parts import width_of
 from lsys_kit.pictures.rendering.frames import MARGIN
 from lsys_kit.pictures.style.labels import escaped, label_parts, letter_svg, polar_symbols
 from lsys_kit.pictures.style.palette import CHOSEN, RAMP, colour_of

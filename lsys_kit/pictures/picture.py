@@ -18,8 +18,7 @@ from lsys_kit.geometry.meshes.mesh import OWN_WIDTHS, Mesh, mesh_of
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.geometry.turtle.surfaces import passed_over
 from lsys_kit.notation.model.arithmetic import Value
-from lsys_kit.pictures.filaments.layout import filament_layout
-from lsys_kit.pictures.filaments.painting import LOOKS, letters_fit, rows_svg
+from lsys_kit.pictures.filaments import LOOKS, filament_layout, letters_fit, rows_svg
 from lsys_kit.pictures.formats.axes import plot_turtle
 from lsys_kit.pictures.formats.filament_raster import rows_image
 from lsys_kit.pictures.formats.files import FILMS, listed, save_as

@@ -40,6 +40,17 @@ def document(body: str, width: int, height: int, description: str, parts: int = 
     )
 
 
+def element(tag: str, body: str | None = None, **look: object) -> str:
+    """An element: of a name with an underscore instead of each hyphen, and of numbers with one digit behind the point.
+
+    >>> element("text", "a", class_="token", x=1.25, font_size=11)
+    '<text class="token" x="1.2" font-size="11">a</text>'
+    """
+    given = ((name.rstrip("_").replace("_", "-"), value) for name, value in look.items())
+    written = "".join(f' {name}="{value:.1f}"' if isinstance(value, float) else f' {name}="{value}"' for name, value in given)
+    return f"<{tag}{written}/>" if body is None else f"<{tag}{written}>{body}</{tag}>"
+
+
 _HEAD = re.compile(r'viewBox="0 0 (\d+) (\d+)" width="(\d+)" height="(\d+)"')
 
 

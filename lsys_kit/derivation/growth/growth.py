@@ -8,16 +8,17 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import cached_property
-from itertools import islice
+from functools import cached_property, partial
+from itertools import count, islice
 from typing import TYPE_CHECKING
 
-from lsys_kit.budget import Task, current
+from lsys_kit.budget import Task, check_budget, check_bytes, current
+from lsys_kit.derivation.core.chance import splitmix64
 from lsys_kit.derivation.core.states import States, check_d0l, closure
-from lsys_kit.derivation.growth.counts import counts_of_steps, held, orbit, row_of
+from lsys_kit.derivation.engines.counting import next_counts
 from lsys_kit.derivation.growth.recurrences import (
     closed_form,
     generating_function,
@@ -36,6 +37,68 @@ from lsys_kit.supervision import supervised
 
 if TYPE_CHECKING:
     import sympy
+
+
+OBJECT_BYTES = 36
+"""What an integer and its place in a row take, besides its digits."""
+
+
+def counts_of_steps(table: States) -> Iterator[Mapping[int, int]]:
+    """How often each state occurs at step 0, 1, 2, ...
+
+    >>> from lsys_kit import read
+    >>> [dict(counts) for counts in islice(counts_of_steps(States(read("axiom: a\\na -> ab\\nb -> a"))), 3)]
+    [{0: 1}, {0: 1, 1: 1}, {0: 2, 1: 1}]
+    """
+    counts: Mapping[int, int] = Counter(table.axiom)
+    while True:
+        yield counts
+        check_budget()
+        counts = next_counts(table, counts)
+
+
+def row_of(table: States, counts: Mapping[int, int]) -> tuple[int, ...]:
+    """The count of each state."""
+    return tuple(counts.get(state, 0) for state in range(len(table)))
+
+
+def held(rows: Iterator[tuple[int, ...]]) -> Iterator[tuple[int, ...]]:
+    """The same rows of counts, as long as there is room for all of them."""
+    size = 0
+    for row in rows:
+        size += sum(OBJECT_BYTES + number.bit_length() // 8 for number in row)
+        check_bytes(size, lambda: "The counts of so many steps were not found")
+        yield row
+
+
+def orbit(table: States) -> tuple[tuple[int, ...], list[tuple[int, ...]]]:
+    """The shortest rule that the counts of all states obey together, and as many rows of counts.
+
+    It is the rule of a weighted sum of the counts, unless the weights are unlucky; so it is checked against the counts.
+
+    >>> from lsys_kit import read
+    >>> states = States(read("axiom: a\\na -> ab\\nb -> a"))
+    >>> [len(states.successor(state)) for state in (0, 1)], orbit(states)
+    ([2, 1], ((1, 1), [(1, 0), (1, 1)]))
+    """
+    rows = list(held(row_of(table, counts) for counts in islice(counts_of_steps(table), 2 * len(table) + 2)))
+    rule = next(rule for rule in map(partial(_rule_of_weighted_sum, rows), count()) if _continued(rule, rows))
+    return rule, rows[: len(rule)]
+
+
+def _rule_of_weighted_sum(rows: Sequence[Sequence[int]], trial: int) -> tuple[int, ...]:
+    """The shortest rule of a sum of the counts, with other weights at each trial."""
+    weights = [splitmix64(splitmix64(trial) ^ state) % 2**20 for state in range(len(rows[0]))]
+    return tuple(map(int, shortest_rule([sum(map(int.__mul__, weights, row)) for row in rows])))
+
+
+def _continued(rule: Sequence[int], rows: Sequence[Sequence[int]]) -> bool:
+    """Whether a rule gives each count of the row behind the first ones."""
+    size = len(rule)
+    return all(
+        column[size] == sum(c * column[size - k] for k, c in enumerate(rule, 1) if c) for column in zip(*rows, strict=True)
+    )
+
 
 DIGITS, RECURRENCE_MISSING = 3_000_000, "The recurrence of the lengths was not found"
 """The most digits of a count."""
@@ -62,7 +125,7 @@ class Growth:
     def matrix(self) -> sympy.Matrix:
         """The growth matrix: entry (i, j) is how many j the successor of i holds.
 
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> growth(read("axiom: a\\na -> ab\\nb -> a")).matrix
         Matrix([
         [1, 1],
@@ -77,7 +140,7 @@ class Growth:
     def counts(self, step: int) -> tuple[int, ...]:
         """How often each state occurs at a step, exactly, however late the step is.
 
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> found = growth(read("axiom: a\\na -> ab\\nb -> a"))
         >>> found.counts(10), found.counts(1_000_000)[0].bit_length()
         ((89, 55), 694242)
@@ -93,7 +156,7 @@ class Growth:
     def lengths(self, steps: int) -> list[int]:
         """The number of modules at steps 0 to `steps`, exactly, however large.
 
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> growth(read("axiom: a\\na -> ab\\nb -> a")).lengths(10)
         [1, 2, 3, 5, 8, 13, 21, 34, 55, 89, 144]
         """
@@ -102,7 +165,7 @@ class Growth:
     def counts_of(self, symbol: str, steps: int) -> list[int]:
         """The number of modules with a symbol at steps 0 to `steps`.
 
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> growth(read("axiom: a\\na -> ab\\nb -> a")).counts_of("b", 6)
         [0, 1, 1, 2, 3, 5, 8]
         """
@@ -131,7 +194,7 @@ class Growth:
     def length(self, step: int) -> int:
         """The number of modules at a step, exactly, without the steps before.
 
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> growth(read("axiom: a\\na -> ab\\nb -> a")).length(100)
         927372692193078999176
         """
@@ -143,7 +206,7 @@ class Growth:
     def recurrence_of(self, symbol: str) -> tuple[int, ...]:
         """The shortest rule for the number of modules with a symbol, in the long run.
 
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> growth(read("axiom: A\\nA -> A B\\nB -> B C")).recurrence_of("B")
         (2, -1)
         """
@@ -154,7 +217,7 @@ class Growth:
     def recurrence(self) -> tuple[int, ...]:
         """The shortest rule for the lengths in the long run: coefficients c of N(t) = c1 N(t-1) + c2 N(t-2) + ...
 
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> growth(read("axiom: a\\na -> ab\\nb -> a")).recurrence
         (1, 1)
         """
@@ -180,7 +243,7 @@ class Growth:
     def characteristic(self) -> sympy.Poly:
         """The characteristic polynomial of the growth matrix: a multiple of `polynomial`.
 
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> growth(read("axiom: a\\na -> ab\\nb -> a")).characteristic.as_expr()
         x**2 - x - 1
         """
@@ -198,7 +261,7 @@ class Growth:
     def generating_function(self) -> sympy.Expr:
         """The function whose power series in x has the lengths as coefficients.
 
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> growth(read("axiom: a\\na -> ab\\nb -> a")).generating_function
         (x + 1)/(-x**2 - x + 1)
         """
@@ -208,7 +271,7 @@ class Growth:
     def closed_form(self) -> sympy.Expr | None:
         """A formula for the length at step t; None where it would need a multiple root of a polynomial of degree three or more.
 
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> growth(read("axiom: b\\na -> ab\\nb -> a")).closed_form
         (1/2 - sqrt(5)/2)**t*(1/2 - sqrt(5)/10) + (1/2 + sqrt(5)/2)**t*(sqrt(5)/10 + 1/2)
         >>> growth(read("axiom: F\\nF -> F+F")).closed_form
@@ -223,7 +286,7 @@ class Growth:
 
         Where the lengths oscillate, as those of A -> BB, B -> A do, it is the factor of a whole period, spread over its steps.
 
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> round(growth(read("axiom: A\\nA -> BB\\nB -> A")).rate**2, 9)
         2.0
         """
@@ -234,7 +297,7 @@ class Growth:
     def frequencies(self) -> tuple[float, ...] | None:
         """What share of the word each state has in the long run; None where they do not converge, or the word vanishes.
 
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> [round(share, 6) for share in growth(read("axiom: a\\na -> ab\\nb -> a")).frequencies]
         [0.618034, 0.381966]
         >>> growth(read("axiom: A\\nA -> BB\\nB -> A")).frequencies is None
@@ -278,7 +341,7 @@ def growth(system: LSystem, **constants: object) -> Growth:
 
     Examples
     --------
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> growth(read("axiom: a\\na -> ab\\nb -> a"))
     2 states; lengths 1, 2, 3, 5, 8, 13, 21, 34, 55, 89, ...; N(t) = N(t-1) + N(t-2); growth per step 1.6180
     """

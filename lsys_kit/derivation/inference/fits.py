@@ -9,10 +9,8 @@ from typing import overload
 
 from lsys_kit.budget import Task, check_budget
 from lsys_kit.derivation.derive import Derivation, derive
-from lsys_kit.derivation.inference.problem import Conditions
-from lsys_kit.derivation.inference.refusals import Contradiction
-from lsys_kit.derivation.inference.slips import Slip
-from lsys_kit.derivation.inference.words import Row
+from lsys_kit.derivation.inference.problem import Conditions, Row
+from lsys_kit.derivation.inference.refusals import Contradiction, Slip
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.model.system import LSystem, Production
 
@@ -26,17 +24,8 @@ MOST_COMPARED, STEPS_AHEAD, MODULES_AHEAD = 100, 10, 100_000
 
 @dataclass(frozen=True)
 class Wider:
-    """Wider conditions under which systems fit.
-
-    Attributes
-    ----------
-    conditions
-        The conditions.
-    systems
-        How many systems fit; None where they were not counted.
-    letters, left_open
-        How many letters there are, each with its neighbours, and how many of them become different words in these systems.
-    """
+    """Wider conditions under which systems fit: how many do (None where they were not counted), how many letters there are,
+    each with its neighbours, and how many of them become different words in these systems."""
 
     conditions: Conditions
     systems: int | None
@@ -62,19 +51,9 @@ class Wider:
 
 @dataclass(frozen=True)
 class Refusal:
-    """Why no system fits.
-
-    Attributes
-    ----------
-    contradiction
-        The first step that cannot come from the one before; None where that was not found.
-    slips
-        Single letters that may be wrong, missing or too many, and neighbours that may have changed places.
-    doubtful
-        Where there is no slip, the steps whose words alone contradict the others.
-    wider
-        Contexts with which some system fits, or None.
-    """
+    """Why no system fits: the first step that cannot come from the one before, if it was found; single letters that may be
+    wrong, missing or too many, and neighbours that may have changed places; where there are none, the steps whose words alone
+    contradict the others; and contexts with which some system fits."""
 
     contradiction: Contradiction | None
     slips: tuple[Slip, ...] = ()
@@ -97,13 +76,7 @@ class Refusal:
 
 
 class SystemsFound(Sequence[LSystem]):
-    """Systems in a sequence that prints as an explanation.
-
-    Attributes
-    ----------
-    systems
-        The systems.
-    """
+    """Systems in a sequence that prints as an explanation."""
 
     systems: tuple[LSystem, ...]
 
@@ -154,23 +127,9 @@ class Fits(SystemsFound):
 
 @dataclass(frozen=True)
 class Explanation:
-    """What is said of the systems that fit.
-
-    Attributes
-    ----------
-    heading
-        How many fit, or why none does.
-    common
-        The productions that all of them have.
-    own
-        The other productions of each of the first systems; empty where one system fits, or none.
-    more
-        How many systems are not shown.
-    parting
-        The first step at which the systems have different words; None where that was not found.
-    notes
-        What the words leave open.
-    """
+    """What is said of the systems that fit: how many do, or why none does; the productions that all of them have, and the other
+    ones of each of the first systems; how many are not shown; the first step at which they have different words, if it was
+    found; and what the words leave open."""
 
     heading: str
     common: tuple[Production, ...] = ()
@@ -238,7 +197,7 @@ def _unknown(fits: Fits) -> Iterator[str]:
 def parting_step(fits: Sequence[LSystem], start: int) -> int | None:
     """The first step from `start` on at which some systems have different words; None where there is none as far as is looked.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> parting_step([read("axiom: a\\na -> a b"), read("axiom: a\\na -> a b\\nb -> a")], 1)
     2
     """

@@ -9,19 +9,84 @@ L-systems, 2018.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from itertools import islice
 
 from lsys_kit.budget import Task, counted
-from lsys_kit.derivation.inference.cases import general_productions
 from lsys_kit.derivation.inference.fits import Fits, Refusal, Wider
-from lsys_kit.derivation.inference.problem import Conditions, Table, problem_of, tables, well_nested
-from lsys_kit.derivation.inference.productions import productions_of, system_of
-from lsys_kit.derivation.inference.refusals import contradiction
-from lsys_kit.derivation.inference.slips import doubtful_words, slips
-from lsys_kit.derivation.inference.too_many import one_soon_found, soon_counted, too_many
-from lsys_kit.derivation.inference.words import Row, read_words
+from lsys_kit.derivation.inference.problem import (
+    Conditions,
+    Problem,
+    Row,
+    Table,
+    counted_tables,
+    problem_of,
+    read_words,
+    table_of,
+    tables,
+    well_nested,
+)
+from lsys_kit.derivation.inference.productions import general_productions, productions_of, system_of
+from lsys_kit.derivation.inference.refusals import contradiction, doubtful_words, slips
+from lsys_kit.derivation.inference.word_equations import Count, GivenUp
 from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown, whole_number
+
+MOST_TRIED_FOR_ONE = 100
+"""So many successors are tried to see whether any system fits."""
+MOST_TRIED_TO_COUNT = 8_000
+"""So many successors are tried to count those that fit."""
+MOST_NAMED = 20
+"""So many productions and letters are named."""
+_OTHER_LETTERS = (
+    "With contexts, a module with other values, or other neighbours, is another letter: laws of values are looked "
+    "for without contexts only."
+)
+"""Why more steps tell nothing where each brings modules with new values."""
+
+
+def one_soon_found(problem: Problem) -> bool:
+    """Whether some system fits, as far as is soon found."""
+    with suppress(GivenUp):
+        return next(tables(problem, MOST_TRIED_FOR_ONE), None) is not None
+    return False
+
+
+def soon_counted(problem: Problem, trials: int) -> Count | None:
+    """How many systems fit; None where so many trials do not suffice."""
+    with suppress(GivenUp, ModelLimitError):
+        return counted_tables(problem, trials)
+    return None
+
+
+def too_many(problem: Problem, listed: Fits, found: Sequence[Table]) -> ModelLimitError:
+    """The error where more systems fit than are listed."""
+    count, most = soon_counted(problem, MOST_TRIED_TO_COUNT), len(listed)
+    if count is None:
+        said, all_of_them = f"More than {most:,} systems fit", "All that were found"
+        left = [str(letter) for letter, word in found[0].items() if any(other[letter] != word for other in found)]
+        certain = {letter: word for letter, word in found[0].items() if str(letter) not in left}
+    else:
+        said, all_of_them = f"{count.solutions:,} systems fit", "All"
+        certain = table_of(problem, count.certain)
+        left = [f"{problem.letters[letter]} ({ways} ways)" for letter, ways in count.ways.items()]
+    rules = [str(production) for production in productions_of(certain)]
+    has = f" {all_of_them} have {_some(rules)}." if rules else ""
+    parametric = any(letter.module.arguments and (letter.left or letter.right) for letter in problem.letters)
+    hint = f"{_OTHER_LETTERS if parametric else 'Give more steps.'}{has} They differ in what becomes of {_some(left)}."
+    return ModelLimitError(
+        f"{said} these {len(listed.words)} words",
+        limit=most,
+        needed=count.solutions if count else None,
+        partial=listed,
+        hint=hint,
+    )
+
+
+def _some(texts: Sequence[str]) -> str:
+    """Texts in a row; of very many only the first, and how many more there are."""
+    return ", ".join(texts[:MOST_NAMED]) + (f" and {len(texts) - MOST_NAMED} more" if len(texts) > MOST_NAMED else "")
+
 
 MOST_FITS = 1_000
 """So many systems are listed; more are refused."""
@@ -49,8 +114,12 @@ def infer(
     with Task(lambda: f"The search for systems was not finished, with {len(found)} found,"):
         asked = conditions_of(constants, erasing, context)
         rows = read_words(words)
-        if asked.context != (0, 0):
-            _check_brackets(rows)
+        for step, row in enumerate(rows if asked.context != (0, 0) else ()):  # contexts follow branches
+            if not well_nested(row):
+                raise ModelValueError(
+                    f"The word of step {step} has a bracket without its partner, so that it has no contexts",
+                    hint="Look for systems without contexts, or mend the word.",
+                )
         try:
             problem = problem_of(rows, asked)
             found += islice(tables(problem), MOST_FITS + 1)
@@ -88,16 +157,6 @@ def conditions_of(constants: object, erasing: object, context: object) -> Condit
     return Conditions(frozenset(symbols), bool(erasing), (left, right))
 
 
-def _check_brackets(rows: tuple[Row, ...]) -> None:
-    """Contexts follow branches: they need words whose brackets are well nested."""
-    for step, row in enumerate(rows):
-        if not well_nested(row):
-            raise ModelValueError(
-                f"The word of step {step} has a bracket without its partner, so that it has no contexts",
-                hint="Look for systems without contexts, or mend the word.",
-            )
-
-
 def _fits(rows: tuple[Row, ...], found: Sequence[Table], conditions: Conditions) -> Fits:
     """The systems for tables; where modules have parameters, those with the fewest productions."""
     rules = [tuple(productions_of(table)) for table in found]
@@ -109,7 +168,6 @@ def _fits(rows: tuple[Row, ...], found: Sequence[Table], conditions: Conditions)
 
 
 def _refusal(rows: tuple[Row, ...], conditions: Conditions) -> Refusal:
-    """Why no system fits."""
     where = contradiction(rows, conditions)
     if where is None or conditions.context != (0, 0):
         return Refusal(where, wider=next(_wider(rows, conditions, MOST_SUCCESSORS_TRIED), None))

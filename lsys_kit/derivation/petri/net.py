@@ -126,8 +126,7 @@ class Stages:
     def tokens(self, word: Iterable[Module]) -> tuple[int, ...]:
         """How many modules of a word lie in each place.
 
-        >>> from lsys_kit.derivation.petri.stages import stages
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read, stages
         >>> stages(read("axiom: a\\na -> ab\\nb -> a")).tokens([Module("a"), Module("b"), Module("a")])
         (2, 1)
         """
@@ -167,8 +166,7 @@ class Stages:
 
         Examples
         --------
-        >>> from lsys_kit.derivation.petri.stages import stages
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read, stages
         >>> stages(read("axiom: a\\na -> ab\\nb -> a")).fired((2, 1))
         (3, 2)
         >>> net = stages(read("axiom: A\\nA -> A A : 1/2\\nA -> ε : 1/2"))
@@ -196,8 +194,7 @@ class Stages:
 
         Examples
         --------
-        >>> from lsys_kit.derivation.petri.stages import stages
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read, stages
         >>> stages(read("axiom: F\\nF -> F F F : 2\\nF -> F : 1")).expected(2)
         (Fraction(49, 9),)
         """

@@ -16,19 +16,8 @@ from lsys_kit.notation.model.arithmetic import Value
 
 @dataclass(frozen=True)
 class Outcome:
-    """What may become of a state.
-
-    Attributes
-    ----------
-    production
-        The place of the production in the order written, from 0; None where a module only grows older.
-    successor
-        The states that replace it.
-    chance
-        How likely that is: 1 where it is certain.
-    span
-        How long it takes; None where it takes a step.
-    """
+    """What may become of a state: the place of the production in the order written, from 0 (None where a module only grows
+    older), the states that replace it, how likely that is, and how long it takes (None: a step)."""
 
     production: int | None
     successor: tuple[int, ...]
@@ -39,7 +28,7 @@ class Outcome:
 def outcomes_of(states: States, state: int) -> tuple[Outcome, ...]:
     """What may become of a state of a system without contexts; nothing where no production matches.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> for outcome in outcomes_of(States(read("axiom: F\\nF -> F F : 0.33\\nF -> F : 0.66")), 0):
     ...     print(outcome.production, outcome.successor, outcome.chance)
     0 (0, 0) 1/3

@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from lsys_kit.derivation.petri.net import Arc, Place, Stages, Transition
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.model.cellworks import CellworkProduction, CellworkSystem, EdgeMarker, EdgePart
-from lsys_kit.notation.model.maps import Edge, EdgeProduction, MapSystem, Marker, SuccessorPart
+from lsys_kit.notation.model.maps import Edge, EdgeProduction, MapSystem, SuccessorPart
 from lsys_kit.notation.model.modules import Module, Pattern
 from lsys_kit.notation.model.system import LSystem, Production
 
@@ -26,7 +26,7 @@ def kinds_of_walls(system: MapSystem | CellworkSystem) -> Mapping[Edge, str]:
     """The walls, or edges of a cellwork, that the rules name, in the order in which they are first read, each with the symbol
     that stands for it: its letter, and its arrow where the same letter names a neutral wall too.
 
-    >>> from lsys_kit.notation.dialects.map.dialect import read_map
+    >>> from lsys_kit import read_map
     >>> [*kinds_of_walls(read_map("map: A>B>C<\\nB> -> C>[-D]C")).values()]
     ['A', 'B', 'C>', 'D', 'C']
     """
@@ -54,7 +54,7 @@ def kind_of(edge: Edge) -> Edge:
 def letters_of_walls(system: MapSystem | CellworkSystem) -> LSystem:
     """The L-system of the letters of a map's walls or a cellwork's edges, which knows nothing of cells: for labels and colours.
 
-    >>> from lsys_kit.notation.dialects.map.dialect import read_map
+    >>> from lsys_kit import read_map
     >>> print(letters_of_walls(read_map("map: ABAB\\nA -> B[-A][+A]B")))
     axiom: A B A B
     A -> B A A B
@@ -71,16 +71,9 @@ def letters_of_walls(system: MapSystem | CellworkSystem) -> LSystem:
 
 
 def wall_stages(system: MapSystem | CellworkSystem) -> Stages:
-    """The stage diagram of the walls of a map system, or of the edges of a cellwork system.
+    """The stage diagram of the walls of a map system, or of the edges of a cellwork system, if it is legible.
 
-    Raises
-    ------
-    ModelLimitError
-        It would have too many places or arcs to be legible.
-
-    Examples
-    --------
-    >>> from lsys_kit.notation.dialects.map.dialect import read_map
+    >>> from lsys_kit import read_map
     >>> wall_stages(read_map("map: ABAB\\nA -> B[-A][+A]B\\nB -> A"))
     A -> 2 B + [-A][+A] A
     B -> A
@@ -128,11 +121,7 @@ def _arcs(transition: int, production: EdgeProduction | CellworkProduction, numb
     markers: dict[Edge, str] = {}
     for marker in production.markers:
         kind = kind_of(marker.edge)
-        markers[kind] = markers.get(kind, "") + _short(marker)
+        text = f"[{marker.wall}: {marker.edge}]" if isinstance(marker, EdgeMarker) else str(marker)  # without the walls to come
+        markers[kind] = markers.get(kind, "") + text
     for kind, text in markers.items():
         yield Arc(transition, numbers[kind], 1, factor=text)
-
-
-def _short(marker: Marker | EdgeMarker) -> str:
-    """A marker; of a cellwork without the walls to come."""
-    return f"[{marker.wall}: {marker.edge}]" if isinstance(marker, EdgeMarker) else str(marker)

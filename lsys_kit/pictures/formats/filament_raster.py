@@ -6,8 +6,7 @@ from collections.abc import Collection, Mapping
 from typing import TYPE_CHECKING
 
 from lsys_kit.budget import counted
-from lsys_kit.pictures.filaments.layout import DrawnCell, FilamentLayout
-from lsys_kit.pictures.filaments.painting import MARKED, band_of, wall_colour, wall_width
+from lsys_kit.pictures.filaments import MARKED, DrawnCell, FilamentLayout, band_of, wall_colour, wall_width
 from lsys_kit.pictures.formats.raster import FINE, samples_for
 from lsys_kit.pictures.rendering.frames import WIDTH
 from lsys_kit.pictures.style.palette import GREEN, cell_fill

@@ -109,7 +109,6 @@ def _label(text: str, mathematical: object) -> str:
 
 
 def _path_data(path: Path, transform: Any) -> str:
-    """A path as SVG writes it."""
     return "".join(
         _COMMANDS[code] + ("" if code == Path.CLOSEPOLY else _numbers(corners))
         for corners, code in path.iter_segments(transform, simplify=False)

@@ -28,7 +28,7 @@ from lsys_kit.geometry.turtle.turtle import label_text
 from lsys_kit.notation.model.modules import Module, flat
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
-from lsys_kit.pictures.filaments.painting import time_text
+from lsys_kit.pictures.filaments import time_text
 from lsys_kit.pictures.style.labels import visible
 from lsys_kit.pictures.style.palette import CHOSEN
 

@@ -5,32 +5,172 @@ Time runs down. A line is a cell from its birth to its division, thin until the 
 within a step is told from what the words show. Cells have the colour of their symbol, as in the filament; those that began
 alike have the same dashes. A flag shows where a cell points. Where a cell divides late, a broad band begins at the time at
 which it should have divided. Below the tree stands the last word, each cell at the end of its line.
+
+A line stands above its cell in the filament of the last word; that of a mother half-way between her first and last daughter.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise
+from itertools import cycle, pairwise
 from typing import TYPE_CHECKING
 
 from lsys_kit.budget import Task, current
+from lsys_kit.derivation.core.interpretation import interpretation_of, is_cell
 from lsys_kit.derivation.core.rules import number_from
+from lsys_kit.derivation.petri.net import Place
 from lsys_kit.derivation.timed.lineage import Lineage
 from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown
+from lsys_kit.geometry.filament import filament
 from lsys_kit.notation.model.arithmetic import Value
-from lsys_kit.pictures.filaments.painting import filament_svg, tenths, time_text
+from lsys_kit.notation.model.modules import CELLS, Module
+from lsys_kit.pictures.filaments import DrawnCell, drawn_cells, filament_svg, tenths, time_text
 from lsys_kit.pictures.formats.notebook import SVGPicture
-from lsys_kit.pictures.lineages.tree import AXIS, HEAD, Tree, polarity_of, tree_of
 from lsys_kit.pictures.rendering.frames import MARGIN, WIDTH
-from lsys_kit.pictures.style.labels import svg_label, values_text
-from lsys_kit.pictures.style.palette import VERMILION, tinted
+from lsys_kit.pictures.style.labels import place_parts, polar_symbols, svg_label, values_text
+from lsys_kit.pictures.style.palette import VERMILION, colour_of, tinted
 from lsys_kit.pictures.style.themes import drawn_on, line, theme
 from lsys_kit.pictures.svg import background, document, resized
 
 if TYPE_CHECKING:
     from PIL.Image import Image
+
+
+AXIS, HEAD, TREE = 54, 22, 300
+"""Room for the axis of time, its heading and the tree, in pixels."""
+BROADEST, APART = 30.0, 60.0
+"""The most pixels for a unit of length of the filament below the tree; between lines where there is no filament."""
+MOST_KINDS = 4
+"""The greatest number of kinds of cells that are distinguished."""
+DASHES = ("", "80 45", "1 45", "120 40 1 40")
+"""The dash pattern of each kind of cells, in tenths of a pixel."""
+
+
+@dataclass(frozen=True)
+class CellKind:
+    """Cells that were alike at birth: what they were, as SVG text of so many characters; the look of their lines."""
+
+    label: str
+    characters: int
+    colour: str
+    dash: str
+
+    @property
+    def broken(self) -> str:
+        """The SVG attribute for the dash pattern."""
+        return f' stroke-dasharray="{self.dash}"' if self.dash else ""
+
+
+@dataclass(frozen=True)
+class Tree:
+    """The layout of a lineage, in pixels: the horizontal position of the line of each cell; the cells of the filament below, or
+    none; the kinds of cells, and for each cell the number of its kind; for each cell of the last word its colour; and where the
+    tree ends to the right."""
+
+    lineage: Lineage
+    x: Mapping[int, float]
+    row: Sequence[DrawnCell]
+    kinds: Sequence[CellKind]
+    kind_of: Sequence[int]
+    colours: Mapping[int, str]
+    right: float
+
+    def y(self, time: Value) -> float:
+        """The vertical position of a time."""
+        end = float(self.lineage.times[-1])
+        return MARGIN + HEAD + (TREE * float(time) / end if end else 0.0)
+
+
+def tree_of(lineage: Lineage, right: int = 0) -> Tree:
+    """The tree of a lineage, with some room left free to its right."""
+    right = WIDTH - MARGIN - right
+    x, row = _line_positions(lineage, right)
+    return Tree(lineage, x, row, *_kinds(lineage), right)
+
+
+def _line_positions(lineage: Lineage, right: int) -> tuple[dict[int, float], list[DrawnCell]]:
+    """The horizontal position of the line of each cell, and the filament below."""
+    ends = list(_leaves(lineage))
+    row = _filament(lineage, right) if ends == list(lineage.words[-1]) else []
+    if row:
+        x = {cell.state: cell.x for cell in row}
+    else:
+        apart = min(APART, (right - AXIS - 2 * MARGIN) / max(1, len(ends) - 1))
+        left = (right + AXIS - apart * (len(ends) - 1)) / 2
+        x = {cell: left + apart * place for place, cell in enumerate(ends)}
+    for cell in range(len(lineage.cells) - 1, -1, -1):  # daughters stand behind their mothers
+        if daughters := lineage.daughters(cell):
+            x[cell] = (x[daughters[0]] + x[daughters[-1]]) / 2
+    return x, row
+
+
+def _leaves(lineage: Lineage) -> Iterator[int]:
+    """The cells without daughters, from left to right."""
+    todo = [cell for cell in range(len(lineage.cells) - 1, -1, -1) if lineage.cells[cell].mother is None]
+    while todo:
+        cell = todo.pop()
+        daughters = lineage.daughters(cell)
+        todo += reversed(daughters)
+        if not daughters:
+            yield cell
+
+
+def _filament(lineage: Lineage, right: int) -> list[DrawnCell]:
+    """The cells of the last word as they are drawn, each with the number of its cell; none where it is no filament."""
+    scene = filament(lineage.last)
+    if len(scene.cells) != len(lineage.words[-1]):
+        return []
+    scale = min((right - AXIS - MARGIN) / scene.width, BROADEST / scene.height) if len(scene.cells) else 1.0
+    left = (right + AXIS - scene.width * scale) / 2
+    return [
+        cell._replace(x=left + cell.x, state=number)
+        for number, cell in zip(lineage.words[-1], drawn_cells(scene.cells, scale), strict=True)
+    ]
+
+
+def _kinds(lineage: Lineage) -> tuple[list[CellKind], list[int], dict[int, str]]:
+    """The kinds of cells, for each cell the number of its kind, and the colours of the cells in the last word.
+
+    Cells that look alike at birth are of one kind; if there are too many kinds, cells of one symbol are. The colour of a kind
+    is that of its symbol, as in every other picture; dashes distinguish the kinds of one symbol.
+    """
+    births = [cell.at_birth for cell in lineage.cells]
+    keys = [(_base(lineage, module), _drawn_shape(lineage, module)) for module in births]
+    if len(set(keys)) > MOST_KINDS:
+        keys = [(base, None) for base, _ in keys]
+    numbers = {key: number for number, key in enumerate(dict.fromkeys(keys))}
+    members: list[dict[Module, None]] = [{} for _ in numbers]
+    for key, module in zip(keys, births, strict=True):
+        members[numbers[key]][module] = None
+    system, kinds = lineage.states.system, []
+    for modules, dash in zip(members, cycle(DASHES), strict=False):
+        symbol = next(iter(modules)).symbol
+        letter, subscript, values = place_parts(Place(symbol, tuple(modules)), system)
+        name = f"{letter}_{subscript}" if subscript else letter
+        kinds.append(CellKind(svg_label(name, system, values), len(name + values), colour_of(symbol, system), dash))
+    colours = {cell: colour_of(lineage.cells[cell].modules[-1][1].symbol, system) for cell in lineage.words[-1]}
+    return kinds, [numbers[key] for key in keys], colours
+
+
+def _base(lineage: Lineage, module: Module) -> str:
+    """The symbol of a module without its polarity."""
+    return polar_symbols(lineage.states.system).get(module.symbol, (module.symbol, ""))[0]
+
+
+def _drawn_shape(lineage: Lineage, module: Module) -> object:
+    """The drawn shape of a module without its polarity; its arguments, if it is not drawn as a cell."""
+    return tuple(made.arguments for made in interpretation_of(lineage.states, module) if is_cell(made)) or module.arguments
+
+
+def polarity_of(lineage: Lineage, module: Module) -> int:
+    """The polarity of a cell: -1 to the left, 1 to the right, 0 for none."""
+    drawn = [made for made in interpretation_of(lineage.states, module) if is_cell(made)]
+    if drawn:
+        return CELLS[drawn[0].symbol]
+    return {"l": -1, "r": 1}.get(polar_symbols(lineage.states.system).get(module.symbol, ("", ""))[1], 0)
+
 
 TAIL, BEND, BRACKET = 14.0, 6.0, 46
 """The length of lines below the last time, the radius of corners, and the width of an interval, in pixels."""
@@ -44,19 +184,8 @@ MOST_LINES, MOST_TICKS = 400, 14
 
 @dataclass(frozen=True)
 class LineagePicture(SVGPicture):
-    """A picture of a lineage.
-
-    Attributes
-    ----------
-    lineage
-        The lineage.
-    intervals
-        Intervals of time that are marked beside the tree.
-    labels
-        Whether times and the modules of the last word are written.
-    legend
-        Whether it is said what lines mean.
-    """
+    """A picture of a lineage, perhaps with intervals of time marked beside the tree, with times and the modules of the last
+    word written, and with a legend."""
 
     lineage: Lineage
     intervals: tuple[tuple[Value, Value], ...] = ()
@@ -94,29 +223,14 @@ def _interval(given: object) -> tuple[Value, Value]:
 def lineage_picture(
     lineage: Lineage, intervals: Iterable[tuple[object, object]] = (), *, labels: bool = True, legend: bool = True
 ) -> LineagePicture:
-    """The picture of a lineage, with some intervals of time marked.
-
-    Raises
-    ------
-    ModelLimitError
-        The cells, or those that are alive at the end, are more than fit into a picture.
-    ModelValueError
-        An interval does not lie within the time of the lineage.
-    """
-    if len(lineage.words[-1]) > MOST_LINES:
-        raise ModelLimitError(
-            f"{len(lineage.words[-1]):,} cells are too many for a picture of their lineage; it can have {MOST_LINES}",
-            limit=MOST_LINES,
-            needed=len(lineage.words[-1]),
-            hint="Take fewer steps.",
-        )
-    if len(lineage.cells) > current().segments:
-        raise ModelLimitError(
-            f"The tree of this lineage would have {len(lineage.cells):,} lines; a picture may have {current().segments:,}",
-            limit=current().segments,
-            needed=len(lineage.cells),
-            hint="Take fewer steps, or set limits(segments=...).",
-        )
+    """The picture of a lineage, with some intervals of time marked that lie within its time."""
+    living, cells, most = len(lineage.words[-1]), len(lineage.cells), current().segments
+    if living > MOST_LINES:
+        message = f"{living:,} cells are too many for a picture of their lineage; it can have {MOST_LINES}"
+        raise ModelLimitError(message, limit=MOST_LINES, needed=living, hint="Take fewer steps.")
+    if cells > most:
+        message = f"The tree of this lineage would have {cells:,} lines; a picture may have {most:,}"
+        raise ModelLimitError(message, limit=most, needed=cells, hint="Take fewer steps, or set limits(segments=...).")
     require(intervals, Iterable, "A list of intervals, each a pair of times,")
     found = tuple(map(_interval, intervals))
     for first, last in found:
@@ -187,25 +301,20 @@ def _line(tree: Tree, number: int) -> str:
     cell, kind, x = tree.lineage.cells[number], tree.kinds[tree.kind_of[number]], tree.x[number]
     bottom = tree.y(tree.lineage.times[-1]) + TAIL if cell.ended is None else tree.y(cell.ended)
     seen = tree.y(tree.lineage.times[cell.modules[0][0]]) if cell.modules else bottom
-    late = (
-        ""
-        if cell.due is None
-        else (
-            f'<path d="M{tenths(x)} {tenths(tree.y(max(cell.due, cell.born)))}V{tenths(bottom)}" {_late_look()} fill="none"/>'
-        )
-    )
+    late = ""
+    if cell.due is not None:
+        due = tree.y(max(cell.due, cell.born))
+        late = f'<path d="M{tenths(x)} {tenths(due)}V{tenths(bottom)}" {_late_look()} fill="none"/>'
     start, turned = _branch_path(tree, number, bottom)
     look = f'fill="none" stroke="{line(kind.colour)}" stroke-linecap="round"{kind.broken}'
     if seen <= turned or not tree.lineage.stepwise:
         return f'{late}<path d="{start}V{tenths(bottom)}" {look} stroke-width="{THICK}"/>'
     thin = f'{late}<path d="{start}V{tenths(seen)}" {look} stroke-width="{THIN}"/>'
-    return thin + (
-        f'<path d="M{tenths(x)} {tenths(seen)}V{tenths(bottom)}" {look} stroke-width="{THICK}"/>' if bottom > seen else ""
-    )
+    thick = f'<path d="M{tenths(x)} {tenths(seen)}V{tenths(bottom)}" {look} stroke-width="{THICK}"/>'
+    return thin + (thick if bottom > seen else "")
 
 
 def _late_look() -> str:
-    """How the time is shown by which a cell divides late."""
     return f'stroke="{line(VERMILION)}" stroke-width="{LATE}" stroke-opacity="0.35"'
 
 
@@ -256,24 +365,16 @@ def _last_word(tree: Tree, middle: float, labels: bool) -> str:
 def _legend(tree: Tree) -> str:
     """What the lines mean: kinds of cells by what they are at birth; what is not in a word yet, what is late."""
     cells, entries = tree.lineage.cells, []
-    if len(tree.kinds) > 1:
-        entries += [
-            (
-                f'stroke="{line(kind.colour)}" stroke-width="{THICK}" stroke-linecap="round"{kind.broken}',
-                kind.label,
-                kind.characters,
-            )
-            for kind in tree.kinds
-        ]
+    for kind in tree.kinds if len(tree.kinds) > 1 else ():
+        look = f'stroke="{line(kind.colour)}" stroke-width="{THICK}" stroke-linecap="round"{kind.broken}'
+        entries.append((look, kind.label, kind.characters))
     if tree.lineage.stepwise and any(not cell.modules or tree.lineage.times[cell.modules[0][0]] > cell.born for cell in cells):
         entries.append((f'stroke="{theme().quiet}" stroke-width="{THIN}"', "within a step", 13))
     if any(cell.due is not None for cell in cells):
         entries.append((_late_look(), "should have divided", 19))
     parts, x = [], 0
     for look, label, characters in entries:
-        parts.append(
-            f'<path d="M{x} 0h280" {look}/><text transform="translate({x + 360} 45) scale(10)" fill="{theme().ink}">'
-            f"{label}</text>"
-        )
+        text = f'<text transform="translate({x + 360} 45) scale(10)" fill="{theme().ink}">{label}</text>'
+        parts.append(f'<path d="M{x} 0h280" {look}/>{text}')
         x += 360 + 65 * characters + 280
     return "".join(parts)
