@@ -14,8 +14,7 @@ from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS
 from lsys_kit.classroom.exercises.lint import problems_in
 from lsys_kit.classroom.exercises.verdict import Verdict
-from tests.classroom.test_language import EXERCISES
-from tests.classroom.answers import OF_EACH_KIND, as_typed, of_each_kind_added, right_answers, wrong_answers_to
+from tests.classroom.answers import EXERCISES, OF_EACH_KIND, as_typed, of_each_kind_added, right_answers, wrong_answers_to
 
 IDS = [exercise.id for exercise in EXERCISES]
 each_exercise = pytest.mark.parametrize("exercise", EXERCISES, ids=IDS)

@@ -27,8 +27,7 @@ from lsys_kit.classroom.exercises.registry import lessons
 from lsys_kit.classroom.scorm.answers import page_data, rounded_key
 from lsys_kit.classroom.scorm.package import ADL, CONTENT, MANIFEST, lessons_of, manifest, package, page_names, write_package
 from lsys_kit.classroom.scorm.page import exercise_page
-from tests.classroom.test_language import EXERCISES
-from tests.classroom.answers import as_typed, of_each_kind_added, right_answers, wrong_answers_to
+from tests.classroom.answers import EXERCISES, as_typed, of_each_kind_added, right_answers, wrong_answers_to
 from tests.classroom.front_end import joined
 
 AXE = Path(axe_playwright_python.__file__).parent / "axe.min.js"

@@ -119,7 +119,7 @@ def build_system(draft: Draft) -> LSystem:
         check_meta(rule, names)
     if "field" in draft.settings:
         check_field(draft.settings["field"], names)
-    sections = {section: tuple(productions) for section, productions in draft.sections.items()}
+    sections: dict[str, Any] = {section: tuple(productions) for section, productions in draft.sections.items()}
     return LSystem(
         draft.axiom,
         constants=tuple(draft.constants),
@@ -130,7 +130,7 @@ def build_system(draft: Draft) -> LSystem:
         surfaces=checked_surfaces(draft.surfaces),
         **sections,
         **_checked_settings(draft),
-    )  # type: ignore[arg-type]
+    )
 
 
 def _checked_settings(draft: Draft) -> dict[str, Any]:
