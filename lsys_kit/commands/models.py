@@ -101,13 +101,12 @@ def _derivation(system: LSystem, options: argparse.Namespace) -> Derivation:
 
 def draw_word(options: argparse.Namespace) -> None:
     """Write a picture of a word, of maps or of a cellwork, or a film of the steps, and print what it shows."""
-    from lsys_kit.classroom.catalogue import cellwork_system, is_cellwork_system, is_map_system, map_system
+    from lsys_kit.classroom.catalogue import cell_system
     from lsys_kit.pictures.draw import draw
     from lsys_kit.pictures.films import animate
 
     film = _film(options)
-    if is_map_system(options.system) or is_cellwork_system(options.system):
-        cells = map_system(options.system) if is_map_system(options.system) else cellwork_system(options.system)
+    if cells := cell_system(options.system):
         shown: AnyPicture | Film = (
             animate(cells, options.steps, **film, **_seen(options)) if film else draw(cells, options.steps, **_seen(options))
         )

@@ -14,9 +14,8 @@ from lsys_kit.decoding import decoded
 from lsys_kit.errors import LSystemError, ModelFileError, ModelNameError, ModelValueError, quotable
 
 if TYPE_CHECKING:
-    from lsys_kit.notation.model.cellworks import CellworkSystem
-    from lsys_kit.notation.model.maps import MapSystem
     from lsys_kit.notation.model.system import LSystem
+    from lsys_kit.notation.read import AnySystem
 
 MOST_NEIGHBOURS = 1_000
 """How many files beside a missing one are searched for a similar name."""
@@ -38,17 +37,11 @@ def system_with_constants(options: argparse.Namespace) -> LSystem:
     )
 
 
-def system_or_cells(options: argparse.Namespace) -> LSystem | MapSystem | CellworkSystem:
+def system_or_cells(options: argparse.Namespace) -> AnySystem:
     """The system that the command line names, or the map or cellwork system of the catalogue."""
-    from lsys_kit.classroom.catalogue import cellwork_system, is_cellwork_system, is_map_system, map_system
+    from lsys_kit.classroom.catalogue import cell_system
 
-    if is_cellwork_system(options.system):
-        return cellwork_system(options.system)
-    return (
-        map_system(options.system)
-        if is_map_system(options.system)
-        else named_system(options.system, options.notation, options.name)
-    )
+    return cell_system(options.system) or named_system(options.system, options.notation, options.name)
 
 
 def named_system(name: str, notation: str | None, entry: str | None) -> LSystem:

@@ -11,17 +11,15 @@ from operator import index as place
 from typing import Any, TypeAlias, overload
 
 from lsys_kit.budget import Task, check_budget, counted
-from lsys_kit.derivation.cellworks.development import CellworkDevelopment, develop_cellwork
 from lsys_kit.derivation.core.closure import check_d0l
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.engines.counting import next_counts
 from lsys_kit.derivation.engines.engine import Engine, Observation, Observer, Origins, check_size
 from lsys_kit.derivation.engines.table import engine_for
-from lsys_kit.derivation.maps.development import Development, develop
+from lsys_kit.derivation.tissues.development import CellDevelopment, CellworkDevelopment, Development, develop
 from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown, whole_number
-from lsys_kit.notation.model.cellworks import CellworkSystem
-from lsys_kit.notation.model.maps import MapSystem
+from lsys_kit.notation.model.cells import CellSystem, CellworkSystem, MapSystem
 from lsys_kit.notation.model.system import LSystem
 
 _Refusal: TypeAlias = ModelLimitError | ModelValueError
@@ -36,7 +34,7 @@ def derive(
 def derive(system: MapSystem, steps: int) -> Development: ...
 @overload
 def derive(system: CellworkSystem, steps: int) -> CellworkDevelopment: ...
-def derive(system: Any, steps: int, **choices: Any) -> Derivation | Development | CellworkDevelopment:
+def derive(system: Any, steps: int, **choices: Any) -> Derivation | CellDevelopment[Any, Any]:
     """Derive a system by its words alone; `lsys_kit.derive` does the same and also answers what modules ask of the turtle.
 
     Parameters
@@ -75,14 +73,13 @@ def derive(system: Any, steps: int, **choices: Any) -> Derivation | Development 
     >>> derive(fibonacci, 30).lengths[-1]
     2178309
     """
-    if not isinstance(system, MapSystem | CellworkSystem):
+    if not isinstance(system, CellSystem):
         return derive_observed(system, steps, None, **choices)
     if choices:
-        kind = "map" if isinstance(system, MapSystem) else "cellwork"
         raise ModelValueError(
-            f'A {kind} system has no "{next(iter(choices))}"', hint="It has neither chance nor declared constants."
+            f'A {system.notation} system has no "{next(iter(choices))}"', hint="It has neither chance nor declared constants."
         )
-    return develop(system, steps) if isinstance(system, MapSystem) else develop_cellwork(system, steps)
+    return develop(system, steps)
 
 
 def derive_observed(

@@ -9,8 +9,8 @@ import pytest
 import lsys_kit.notation
 from lsys_kit.errors import LSystemError
 from lsys_kit.notation.analysis.problems import Problem
-from lsys_kit.notation.dialects.cellwork.spelling import SPELLING as CELLWORK_SPELLING
-from lsys_kit.notation.dialects.map.spelling import SPELLING as MAP_SPELLING
+from lsys_kit.notation.dialects.cellwork.dialect import SPELLING as CELLWORK_SPELLING
+from lsys_kit.notation.dialects.map.dialect import SPELLING as MAP_SPELLING
 from lsys_kit.notation.read import read
 from lsys_kit.notation.registry import DIALECTS
 from lsys_kit.notation.syntax.spelling import Wording

@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
 
 from lsys_kit.derivation.petri.net import Arc, Place, Stages, Transition
 from lsys_kit.errors import ModelLimitError
-from lsys_kit.notation.model.cellworks import CellworkProduction, CellworkSystem, EdgeMarker, EdgePart
-from lsys_kit.notation.model.maps import Edge, EdgeProduction, MapSystem, Marker, SuccessorPart
+from lsys_kit.notation.model.cells import CellSystem, CellworkProduction, CellworkSystem, Edge, EdgeMarker, EdgeRule, Marker
 from lsys_kit.notation.model.modules import Module, Pattern
 from lsys_kit.notation.model.system import LSystem, Production
 
@@ -22,7 +22,7 @@ MOST_PLACES, MOST_ARCS = 60, 400
 MARKERS = "two markers [ ] that match make {what}"
 
 
-def kinds_of_walls(system: MapSystem | CellworkSystem) -> Mapping[Edge, str]:
+def kinds_of_walls(system: CellSystem) -> Mapping[Edge, str]:
     """The walls, or edges of a cellwork, that the rules name, in the order in which they are first read, each with the symbol
     that stands for it: its letter, and its arrow where the same letter names a neutral wall too.
 
@@ -35,14 +35,14 @@ def kinds_of_walls(system: MapSystem | CellworkSystem) -> Mapping[Edge, str]:
     return {edge: edge.label if letters[edge.label] == 1 else str(edge) for edge in edges}
 
 
-def _edges(system: MapSystem | CellworkSystem) -> Iterator[Edge]:
+def _edges(system: CellSystem) -> Iterator[Edge]:
     yield from system.axiom
     for production in system.productions:
         yield production.predecessor
         yield from map(_edge_of, production.successor)
 
 
-def _edge_of(part: SuccessorPart | EdgePart) -> Edge:
+def _edge_of(part: Edge | Marker | EdgeMarker) -> Edge:
     return part if isinstance(part, Edge) else part.edge
 
 
@@ -51,7 +51,7 @@ def kind_of(edge: Edge) -> Edge:
     return Edge(edge.label, ">" if edge.arrow else "")
 
 
-def letters_of_walls(system: MapSystem | CellworkSystem) -> LSystem:
+def letters_of_walls(system: CellSystem) -> LSystem:
     """The L-system of the letters of a map's walls or a cellwork's edges, which knows nothing of cells: for labels and colours.
 
     >>> from lsys_kit.notation.dialects.map.dialect import read_map
@@ -61,7 +61,7 @@ def letters_of_walls(system: MapSystem | CellworkSystem) -> LSystem:
     """
     symbols = kinds_of_walls(system)
 
-    def patterns(parts: Sequence[SuccessorPart | EdgePart]) -> tuple[Pattern, ...]:
+    def patterns(parts: Sequence[Edge | Marker | EdgeMarker]) -> tuple[Pattern, ...]:
         return tuple(Pattern(symbols[kind_of(_edge_of(part))]) for part in parts)
 
     return LSystem(
@@ -70,7 +70,7 @@ def letters_of_walls(system: MapSystem | CellworkSystem) -> LSystem:
     )
 
 
-def wall_stages(system: MapSystem | CellworkSystem) -> Stages:
+def wall_stages(system: CellSystem) -> Stages:
     """The stage diagram of the walls of a map system, or of the edges of a cellwork system.
 
     Raises
@@ -90,8 +90,7 @@ def wall_stages(system: MapSystem | CellworkSystem) -> Stages:
     numbers = {edge: number for number, edge in enumerate(symbols)}
     transitions, arcs = list[Transition](), list[Arc]()
     one, many = ("an edge", "edges") if isinstance(system, CellworkSystem) else ("a wall", "walls")
-    productions: Sequence[EdgeProduction | CellworkProduction] = system.productions
-    for rule, production in enumerate(productions):
+    for rule, production in enumerate(system.productions):
         transitions.append(Transition(numbers[production.predecessor], rule, _asked(production)))
         arcs += _arcs(rule, production, numbers)
     for what, size, most in ((many, len(symbols), MOST_PLACES), ("arrows", len(arcs), MOST_ARCS)):
@@ -115,15 +114,14 @@ def wall_stages(system: MapSystem | CellworkSystem) -> Stages:
     )
 
 
-def _asked(production: EdgeProduction | CellworkProduction) -> str:
+def _asked(production: EdgeRule[Any]) -> str:
     """The walls to which an edge of a cellwork must belong; nothing, if all edges of its label are replaced."""
     return f"in {' '.join(production.walls)}" if isinstance(production, CellworkProduction) and production.walls else ""
 
 
-def _arcs(transition: int, production: EdgeProduction | CellworkProduction, numbers: Mapping[Edge, int]) -> Iterator[Arc]:
+def _arcs(transition: int, production: EdgeRule[Any], numbers: Mapping[Edge, int]) -> Iterator[Arc]:
     """The arcs of a production: to the walls of its successor, then to those whose markers it has."""
-    made = production.edges if isinstance(production, CellworkProduction) else production.walls
-    for edge, copies in Counter(map(kind_of, made)).items():
+    for edge, copies in Counter(map(kind_of, production.edges)).items():
         yield Arc(transition, numbers[edge], copies)
     markers: dict[Edge, str] = {}
     for marker in production.markers:

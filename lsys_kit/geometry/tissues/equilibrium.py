@@ -125,43 +125,30 @@ def _newton_step(points: Floats, push: Floats, room: Floats, tissue: Tissue, for
 
 def wall_hessian(points: Floats, tissue: Tissue, forces: Forces) -> csr_array:
     """The second derivatives of the energy of walls; x and y of each vertex in turn."""
-    from scipy.sparse import coo_array
+    from scipy.sparse import bsr_array, coo_array, kron
 
-    first, second = tissue.ends.T
-    along = points[second] - points[first]
-    lengths = np.maximum(np.hypot(*along.T), LEAST_LENGTH)
+    along = points[tissue.ends[:, 1]] - points[tissue.ends[:, 0]]
+    lengths, walls = np.maximum(np.hypot(*along.T), LEAST_LENGTH), np.arange(len(along))
     slack = (forces.rest / lengths)[:, None, None]
     ways = along / lengths[:, None]
-    block = forces.stiffness * ((1 - slack) * np.eye(2) + slack * ways[:, :, None] * ways[:, None, :])
-    one, other = _axes(first), _axes(second)
-    rows, columns, values = zip(
-        *((a, b, sign * block) for a, b, sign in ((one, one, 1), (other, other, 1), (one, other, -1), (other, one, -1))),
-        strict=True,
-    )
-    shape = points.size, points.size
-    row = np.concatenate([np.repeat(each, 2) for each in rows])
-    column = np.concatenate([np.tile(each.reshape(-1, 2), 2).ravel() for each in columns])
-    return coo_array((np.concatenate([each.ravel() for each in values]), (row, column)), shape=shape).tocsr()
-
-
-def _axes(vertices: np.ndarray) -> np.ndarray:
-    """The places of x and y of vertices."""
-    return (2 * vertices[:, None] + np.arange(2)).ravel()
+    blocks = forces.stiffness * ((1 - slack) * np.eye(2) + slack * ways[:, :, None] * ways[:, None, :])
+    signs = np.repeat([-1.0, 1.0], len(walls))
+    apart = coo_array((signs, (np.tile(walls, 2), tissue.ends.T.ravel())), shape=(len(walls), len(points)))
+    across = kron(apart, np.eye(2), "csr")
+    return across.T @ bsr_array((blocks, walls, np.arange(len(walls) + 1))) @ across
 
 
 def cell_hessian(points: Floats, room: Floats, tissue: Tissue, forces: Forces) -> csr_array:
     """The second derivatives of the energy of cells, minus the pressure at area 1 times the logarithm of the area."""
-    from scipy.sparse import coo_array
+    from scipy.sparse import coo_array, kron
 
     cell = np.repeat(np.arange(len(room)), tissue.sizes)
     here, there, before = tissue.corners, tissue.following, tissue.preceding
-    (x, y), size = points.T, points.size
+    (x, y), many = points.T, len(points)
     slopes = np.concatenate([y[before] - y[there], x[there] - x[before]]) / 2
     axes = np.concatenate([2 * here, 2 * here + 1])
-    gradient = coo_array((slopes, (np.tile(cell, 2), axes)), shape=(len(room), size)).tocsr()
+    gradient = coo_array((slopes, (np.tile(cell, 2), axes)), shape=(len(room), 2 * many)).tocsr()
     pressures = forces.pressure / room
-    half = pressures[cell] / 2
-    rows = np.concatenate([2 * there, 2 * here + 1, 2 * here, 2 * there + 1])
-    columns = np.concatenate([2 * here + 1, 2 * there, 2 * there + 1, 2 * here])
-    mixed = coo_array((np.concatenate([half, half, -half, -half]), (rows, columns)), shape=(size, size)).tocsr()
+    half = coo_array((pressures[cell] / 2, (there, here)), shape=(many, many)).tocsr()
+    mixed = kron(half - half.T, np.array([[0, 1], [-1, 0]]))
     return gradient.T @ gradient.multiply((pressures / room)[:, None]) - mixed

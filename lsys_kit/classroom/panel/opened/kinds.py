@@ -5,17 +5,15 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 
 from lsys_kit.classroom.panel.books.net import Unfolding
-from lsys_kit.classroom.panel.opened.maps import OpenedMap
+from lsys_kit.classroom.panel.opened.cells import OpenedCells
 from lsys_kit.classroom.panel.opened.opened import Opened
 from lsys_kit.classroom.panel.opened.systems import OpenedSystem
-from lsys_kit.classroom.panel.opened.tissues import OpenedTissue
-from lsys_kit.notation.model.cellworks import CellworkSystem
-from lsys_kit.notation.model.maps import MapSystem
-from lsys_kit.notation.model.system import LSystem
+from lsys_kit.notation.model.cells import CellSystem
+from lsys_kit.notation.read import AnySystem
 
 
 def opened(
-    system: LSystem | MapSystem | CellworkSystem,
+    system: AnySystem,
     title: str = "",
     changes: Mapping[str, object] | None = None,
     without: Collection[str] = (),
@@ -41,8 +39,6 @@ def opened(
     LSystemError
         A value makes no sense.
     """
-    if isinstance(system, CellworkSystem) or (isinstance(system, MapSystem) and system.sphere):
-        return OpenedTissue(system, title, changes, without)
-    if isinstance(system, MapSystem):
-        return OpenedMap(system, title, changes, without)
+    if isinstance(system, CellSystem):
+        return OpenedCells(system, title, changes, without)
     return OpenedSystem(system, title, changes, without, unfold)

@@ -5,6 +5,8 @@ As the kit writes them, cellworks begin with `cellwork:`, and `read` refers such
 
 from __future__ import annotations
 
+import re
+from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 from typing import Any
@@ -12,30 +14,102 @@ from typing import Any
 from lark import Token, Transformer, v_args
 
 from lsys_kit.budget import current
-from lsys_kit.errors import ModelValueError
-from lsys_kit.notation.analysis.cellwork_checks import check_cellwork, unused_parts
+from lsys_kit.errors import ModelSyntaxError, ModelValueError
+from lsys_kit.notation.analysis.cell_checks import check_cellwork, unused_parts
 from lsys_kit.notation.analysis.problems import problem
-from lsys_kit.notation.dialects.cellwork.diagnostics import DIAGNOSTICS
-from lsys_kit.notation.dialects.cellwork.spelling import SPELLING
 from lsys_kit.notation.fragments import is_link, unpacked
-from lsys_kit.notation.model.cellworks import (
+from lsys_kit.notation.model.cells import (
     ANY,
     CellworkProduction,
     CellworkSystem,
     Corner,
+    Edge,
     EdgeMarker,
-    EdgePart,
     FirstWall,
     WallProduction,
 )
-from lsys_kit.notation.model.maps import Edge
-from lsys_kit.notation.syntax.dialect import Grammar
+from lsys_kit.notation.syntax.common_diagnostics import foreign_comment, second_arrow, unreadable_character
+from lsys_kit.notation.syntax.dialect import Diagnostic, Grammar
+from lsys_kit.notation.syntax.failure import ParseFailure, quoted, unclosed_bracket
 from lsys_kit.notation.syntax.parser import parse
-from lsys_kit.notation.syntax.text.statements import bounded, check_text, statements
+from lsys_kit.notation.syntax.spelling import Spelling, Wording
+from lsys_kit.notation.syntax.text.statements import ARROW, bounded, check_text, statements
 from lsys_kit.notation.syntax.wording import notes, reporting
 
 LONGEST_NUMBER = 30
 """The greatest number of digits of a corner or of its place."""
+
+_MARKER = (
+    'A marker reads "[PQ: PR|P|PR, PQ]": the wall that is divided, its daughters on both sides of the new edge, the new wall.'
+)
+SPELLING = Spelling(
+    rule_example='A production reads "P: * -> R [PQ: PR|P|PR, PQ] R": an edge, walls, an arrow, edges with markers between.',
+    name_rule="Edges are letters from A to Z, walls names of such letters.",
+    readable=frozenset("→⟶"),
+    wordings={
+        "number too large": Wording("This number is too large"),
+        "no first cell": Wording("There is no first cell", 'Give its corners, as in "cellwork: 1(0,0,0) 2(1,0,0) ...".'),
+        "corner twice": Wording("The corner {corner} is given twice", "Give each corner a number of its own.", ModelValueError),
+        "unknown corner": Wording(
+            "The wall {wall} has a corner {corner}, which is not given", 'Give it a place behind "cellwork:".', ModelValueError
+        ),
+        "wall without inside": Wording(
+            "This wall has only {corners} corners", "A wall has three corners or more.", ModelValueError
+        ),
+        "corner twice in wall": Wording(
+            "The wall {wall} comes to corner {corner} twice",
+            "Its corners are met once each on the way around it.",
+            ModelValueError,
+        ),
+        "first cell not closed": Wording(
+            "The first cell is not closed: the edge {edge} belongs to {count}",
+            "Each edge of a closed cell belongs to two of its walls.",
+            ModelValueError,
+        ),
+        "edge of two kinds": Wording(
+            "The edge {edge} is {one} in one wall and {other} in another",
+            "Give it the same letter and direction in both.",
+            ModelValueError,
+        ),
+        "first cell in parts": Wording(
+            "The walls of the first cell are no single closed surface: vertices less edges and walls are {euler}, not 2",
+            "A cell is one piece without holes, and each corner belongs to it.",
+            ModelValueError,
+        ),
+        "setting twice": Wording('"{keyword}:" is set a second time', "Keep one of the two lines."),
+        "edge against its direction": Wording(
+            "A production is written in the direction of its edge",
+            'Write "{turned}: ...": what becomes of the edge, from its beginning to its end.',
+            ModelValueError,
+        ),
+        "second production of edge": Wording(
+            "This is a second production for {edge} in the same walls",
+            "The first one would always be applied.",
+            ModelValueError,
+        ),
+        "second production of wall": Wording(
+            "This is a second production for the wall {wall}", "A wall that is not divided becomes one wall.", ModelValueError
+        ),
+        "edge erased": Wording(
+            "Nothing is left of the edge {edge}", "Edges are never erased: write the letter of an edge too.", ModelValueError
+        ),
+        "marker at end": Wording(
+            "This marker is at the end of the edge",
+            "Markers belong between two edges, where there is a new vertex.",
+            ModelValueError,
+        ),
+        "neutral edge not symmetric": Wording(
+            "The neutral edge {edge} would become something else from its other end",
+            'Read backwards, this is "{backwards}", and an edge without an arrow has no beginning. '
+            'Make both the same, or give the edge an arrow: "{edge}>: ...".',
+            ModelValueError,
+        ),
+        "edge never occurs": Wording("The production {production} is never used: no edge {edge} occurs."),
+        "wall never occurs": Wording("The marker {marker} divides no wall: no wall {wall} occurs."),
+        "marker without partner": Wording("Markers {marker} divide no wall: they need markers {partner}, and there are none."),
+    },
+)
+"""Edges and walls in place of modules: how messages spell what they quote of a cellwork, and what is wrong with one."""
 
 
 def read_cellwork(text: str) -> CellworkSystem:
@@ -134,8 +208,8 @@ class _CellworkStatements(Transformer[Any, Any]):
     def production(self, predecessor: Edge, *parts: Any) -> tuple[str, CellworkProduction]:
         arrow = next(place for place, part in enumerate(parts) if isinstance(part, Token) and part.type == "ARROW")
         walls = tuple(dict.fromkeys(_name(wall) for wall in parts[:arrow] if wall != ANY))
-        successor: tuple[EdgePart, ...] = parts[arrow + 1 :]
-        return "production", CellworkProduction(predecessor, walls, successor, predecessor.at)
+        successor: tuple[Edge | EdgeMarker, ...] = parts[arrow + 1 :]
+        return "production", CellworkProduction(predecessor, successor, walls, predecessor.at)
 
     def steps(self, _: Token, number: Token) -> tuple[str, int]:
         if len(number) > 9:
@@ -162,6 +236,73 @@ def _number(token: Token) -> str:
     return str(token)
 
 
+# What may be wrong where the parser fails
+
+_CORNERS = 'Corners are written as in "cellwork: 1(0,0,0) 2(1,0,0)": a number, and its place in space.'
+_WALL = 'A wall is written as in "wall PQ: 1 P 2 Q 3 P 4 Q": corners and edges in turn, once around it.'
+_SETTING = re.compile(r"([A-Za-z]{2,})[ \t]*:")
+
+
+def _settings(failure: ParseFailure) -> ModelSyntaxError | None:
+    """A setting that cellworks do not have, or whose value is missing."""
+    setting = _SETTING.match(failure.statement)
+    if setting is None or ARROW.search(failure.statement):
+        return None
+    name = setting[1].lower()
+    if name == "steps":
+        return failure.error('After "steps:" a whole number is needed', 'Type "steps: 4".', failure.start, 5)
+    if name == "cellwork":
+        return failure.error("This is no corner", _CORNERS)
+    return failure.error(
+        f'A cellwork has no "{setting[1]}:"',
+        'It has "cellwork:", "wall ...:", "steps:" and productions.',
+        failure.start,
+        len(setting[1]),
+    )
+
+
+def _wall(failure: ParseFailure) -> ModelSyntaxError | None:
+    """A wall of the first cell whose corners and edges are not in turn."""
+    if not re.match(r"wall\b", failure.statement, re.IGNORECASE) or ARROW.search(failure.statement):
+        return None
+    return failure.error("Corners and edges do not stand here in turn", _WALL)
+
+
+def _marker(failure: ParseFailure) -> ModelSyntaxError | None:
+    """A marker that lacks something, or its bracket."""
+    opened = unclosed_bracket(failure.before, "[]")
+    if failure.found == "]" and opened is None:
+        return failure.error('This "]" closes nothing', _MARKER)
+    if opened is None:
+        return None
+    if not failure.found:
+        return failure.error('This "[" is never closed', _MARKER, failure.start + opened, 1)
+    return failure.error("This marker cannot be read", _MARKER)
+
+
+def _production(failure: ParseFailure) -> ModelSyntaxError | None:
+    """A production whose walls, arrow or successor are missing."""
+    if not failure.found and ARROW.search(failure.before):
+        return failure.error("There is nothing after the arrow", "Edges are never erased: write what this one becomes.")
+    if ARROW.match(failure.found):
+        return failure.error("The walls of the edge are missing here", 'Write "P: * -> ..." for an edge P in any walls.')
+    if "ARROW" in failure.accepted:
+        return failure.error("An arrow is missing here", SPELLING.rule_example)
+    return failure.error(
+        f"I did not expect {quoted(failure.found)}" if failure.found else "Something is missing here", SPELLING.rule_example
+    )
+
+
+DIAGNOSTICS: Sequence[Diagnostic] = (
+    foreign_comment,
+    unreadable_character,
+    _settings,
+    _wall,
+    second_arrow,
+    _marker,
+    _production,
+)
+"""The diagnostics of a cellwork system, the most specific first."""
 CELLWORK = Grammar(
     name="cellwork", transformer=_CellworkStatements, diagnostics=DIAGNOSTICS, starts=("statement",), spelling=SPELLING
 )
