@@ -8,12 +8,12 @@ of which tokens know nothing; so an arc that stands for markers names them, inst
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from lsys_kit.derivation.petri.net import Arc, Place, Stages, Transition
 from lsys_kit.errors import ModelLimitError
-from lsys_kit.notation.model.cells import CellSystem, CellworkProduction, CellworkSystem, Edge, EdgeMarker, EdgeRule, Marker
+from lsys_kit.notation.model.cells import CellSystem, CellworkSystem, Edge, EdgeRule
 from lsys_kit.notation.model.modules import Module, Pattern
 from lsys_kit.notation.model.system import LSystem, Production
 
@@ -30,20 +30,10 @@ def kinds_of_walls(system: CellSystem) -> Mapping[Edge, str]:
     >>> [*kinds_of_walls(read_map("map: A>B>C<\\nB> -> C>[-D]C")).values()]
     ['A', 'B', 'C>', 'D', 'C']
     """
-    edges = dict.fromkeys(map(kind_of, _edges(system)))
+    read = (edge for rule in system.productions for edge in (rule.predecessor, *rule.named))
+    edges = dict.fromkeys(map(kind_of, (*system.axiom, *read)))
     letters = Counter(edge.label for edge in edges)
     return {edge: edge.label if letters[edge.label] == 1 else str(edge) for edge in edges}
-
-
-def _edges(system: CellSystem) -> Iterator[Edge]:
-    yield from system.axiom
-    for production in system.productions:
-        yield production.predecessor
-        yield from map(_edge_of, production.successor)
-
-
-def _edge_of(part: Edge | Marker | EdgeMarker) -> Edge:
-    return part if isinstance(part, Edge) else part.edge
 
 
 def kind_of(edge: Edge) -> Edge:
@@ -61,13 +51,11 @@ def letters_of_walls(system: CellSystem) -> LSystem:
     """
     symbols = kinds_of_walls(system)
 
-    def patterns(parts: Sequence[Edge | Marker | EdgeMarker]) -> tuple[Pattern, ...]:
-        return tuple(Pattern(symbols[kind_of(_edge_of(part))]) for part in parts)
+    def patterns(edges: Iterable[Edge]) -> tuple[Pattern, ...]:
+        return tuple(Pattern(symbols[kind_of(edge)]) for edge in edges)
 
-    return LSystem(
-        patterns(system.axiom),
-        tuple(Production(patterns([made.predecessor]), patterns(made.successor)) for made in system.productions),
-    )
+    rules = (Production(patterns([made.predecessor]), patterns(made.named)) for made in system.productions)
+    return LSystem(patterns(system.axiom), tuple(rules))
 
 
 def wall_stages(system: CellSystem) -> Stages:
@@ -91,7 +79,8 @@ def wall_stages(system: CellSystem) -> Stages:
     transitions, arcs = list[Transition](), list[Arc]()
     one, many = ("an edge", "edges") if isinstance(system, CellworkSystem) else ("a wall", "walls")
     for rule, production in enumerate(system.productions):
-        transitions.append(Transition(numbers[production.predecessor], rule, _asked(production)))
+        walls = getattr(production, "walls", ())  # to which an edge of a cellwork must belong
+        transitions.append(Transition(numbers[production.predecessor], rule, f"in {' '.join(walls)}" if walls else ""))
         arcs += _arcs(rule, production, numbers)
     for what, size, most in ((many, len(symbols), MOST_PLACES), ("arrows", len(arcs), MOST_ARCS)):
         if size > most:
@@ -114,11 +103,6 @@ def wall_stages(system: CellSystem) -> Stages:
     )
 
 
-def _asked(production: EdgeRule[Any]) -> str:
-    """The walls to which an edge of a cellwork must belong; nothing, if all edges of its label are replaced."""
-    return f"in {' '.join(production.walls)}" if isinstance(production, CellworkProduction) and production.walls else ""
-
-
 def _arcs(transition: int, production: EdgeRule[Any], numbers: Mapping[Edge, int]) -> Iterator[Arc]:
     """The arcs of a production: to the walls of its successor, then to those whose markers it has."""
     for edge, copies in Counter(map(kind_of, production.edges)).items():
@@ -126,11 +110,6 @@ def _arcs(transition: int, production: EdgeRule[Any], numbers: Mapping[Edge, int
     markers: dict[Edge, str] = {}
     for marker in production.markers:
         kind = kind_of(marker.edge)
-        markers[kind] = markers.get(kind, "") + _short(marker)
+        markers[kind] = markers.get(kind, "") + marker.short
     for kind, text in markers.items():
         yield Arc(transition, numbers[kind], 1, factor=text)
-
-
-def _short(marker: Marker | EdgeMarker) -> str:
-    """A marker; of a cellwork without the walls to come."""
-    return f"[{marker.wall}: {marker.edge}]" if isinstance(marker, EdgeMarker) else str(marker)

@@ -14,8 +14,8 @@ from lsys_kit.budget import counted
 from lsys_kit.geometry.scene import Floats
 from lsys_kit.geometry.tissues.relaxation import (
     DEFAULT_FORCES,
-    LEAST_AREA,
     LEAST_LENGTH,
+    LEAST_ROOM,
     MOST_ITERATIONS,
     Forces,
     Tissue,
@@ -97,7 +97,7 @@ def _balanced(points: Floats, tissue: Tissue, forces: Forces) -> Floats | None:
         size = np.abs(push).max()
         if size < BALANCED:
             return points
-        if room.min() < LEAST_AREA:
+        if room.min() < LEAST_ROOM:
             return None
         step = _newton_step(points, push, room, tissue, forces)
         if not np.abs(step).max() < FARTHEST_STEP:  # which NaN is not

@@ -17,9 +17,10 @@ import numpy as np
 from lsys_kit.budget import Task, counted
 from lsys_kit.derivation.tissues.cellworks import Cellwork
 from lsys_kit.derivation.tissues.development import CellworkDevelopment, Development
+from lsys_kit.derivation.tissues.edges import CellEdge
 from lsys_kit.derivation.tissues.maps import Map, kinds_of_cells
 from lsys_kit.errors import ModelValueError
-from lsys_kit.geometry.scene import OWN, Floats, Polygons, Scene, Segments, no_discs
+from lsys_kit.geometry.scene import OWN, Floats, Integers, Polygons, Scene, Segments, no_discs
 from lsys_kit.geometry.tissues.equilibrium import Equilibrium, equilibrium
 from lsys_kit.geometry.tissues.relaxation import (
     DEFAULT_FORCES,
@@ -27,10 +28,9 @@ from lsys_kit.geometry.tissues.relaxation import (
     SPHERE_FORCES,
     Forces,
     SolidTissue,
+    SphereTissue,
     Tissue,
     relax,
-    relax_in_space,
-    relax_on_sphere,
 )
 
 FIRST_WALL, FIRST_EDGE = 0.28, 2.0
@@ -166,11 +166,17 @@ def insert_vertices(found: Map | Cellwork, points: Floats) -> Floats:
     return np.concatenate([points, points[ends[:, 0]] * (1 - shares) + points[ends[:, 1]] * shares])
 
 
-def tissue(found: Map) -> Tissue:
+def tissue(found: Map, kind: type[Tissue] = Tissue) -> Tissue:
     """The topology of a map."""
-    ends = np.array([(wall.start, wall.end) for wall in found.walls], dtype=np.int64)
-    corners = [corner for cell in counted(found.cells) for corner in found.corners(cell)]
-    return Tissue(ends, np.array(corners, dtype=np.int64), np.cumsum([0, *map(len, found.cells)]))
+    return kind(*_topology(found.walls, map(found.corners, counted(found.cells))))
+
+
+def _topology(edges: Iterable[CellEdge], rings: Iterable[list[int]]) -> tuple[Integers, Integers, Integers]:
+    """The vertices at the ends of edges, those around rings, one ring after another, and where each ring starts and ends."""
+    rings = [*rings]
+    ends = np.array([(edge.start, edge.end) for edge in edges], dtype=np.int64)
+    corners = np.array([corner for ring in rings for corner in ring], dtype=np.int64)
+    return ends, corners, np.cumsum([0, *map(len, rings)])
 
 
 def scenes(maps: Sequence[Map], places: Iterable[Floats]) -> Iterator[Scene]:
@@ -224,7 +230,7 @@ def place_on_sphere(maps: Development, forces: Forces = SPHERE_FORCES) -> Iterat
         return points
 
     def at_rest(found: Map, points: Floats) -> Placed:
-        return points if longitudes else _last(relax_on_sphere(points, tissue(found), forces)), longitudes
+        return points if longitudes else _last(relax(points, tissue(found, SphereTissue), forces)), longitudes
 
     return _step_by_step(maps, start, at_rest)
 
@@ -293,9 +299,7 @@ def place_cellworks(development: CellworkDevelopment, forces: Forces = SPACE_FOR
     def start(found: Cellwork, before: Floats | None) -> Floats:
         return _first_places(development) if before is None else insert_vertices(found, before)
 
-    placed = _step_by_step(
-        development, start, lambda found, points: (_last(relax_in_space(points, solid_tissue(found), forces)),)
-    )
+    placed = _step_by_step(development, start, lambda found, points: (_last(relax(points, solid_tissue(found), forces)),))
     return (points for (points,) in placed)
 
 
@@ -312,11 +316,8 @@ def _first_places(development: CellworkDevelopment) -> Floats:
 
 def solid_tissue(found: Cellwork) -> SolidTissue:
     """The topology of a cellwork."""
-    ends = np.array([(edge.start, edge.end) for edge in found.edges], dtype=np.int64)
-    corners = np.array([corner for wall in counted(found.walls) for corner in found.corners(wall)], dtype=np.int64)
     cells, walls, forward = np.array([*found.cells_at()], dtype=np.int64).T
-    starts = np.cumsum([0, *(len(wall.sides) for wall in found.walls)])
-    return SolidTissue(ends, corners, starts, cells, walls, 2 * forward - 1)
+    return SolidTissue(*_topology(found.edges, map(found.corners, counted(found.walls))), cells, walls, 2 * forward - 1)
 
 
 def cellwork_scene(found: Cellwork, points: Floats, numbers: Mapping[str, int], lit: Collection[int], dim: int) -> Scene:

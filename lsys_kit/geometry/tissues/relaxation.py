@@ -10,7 +10,7 @@ where two cells meet, the difference of their pressures acts.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -31,11 +31,9 @@ FARTHEST = 1e6
 """Vertices that are farther away than this fly apart: edges are some tenths to some units long."""
 LEAST_LENGTH = 1e-9
 """The least length of a wall that has a direction."""
-LEAST_AREA = 1e-3
-"""The least area from which a pressure is computed, so that pressures are finite. A concave cell whose new wall lies outside of
-it may stay turned inside out."""
-LEAST_VOLUME = 1e-3
-"""The same for volumes."""
+LEAST_ROOM = 1e-3
+"""The least area or volume from which a pressure is computed, so that pressures are finite. A concave cell whose new wall lies
+outside of it may stay turned inside out."""
 
 
 @dataclass(frozen=True)
@@ -114,6 +112,11 @@ class Tissue:
 
 
 @dataclass(frozen=True)
+class SphereTissue(Tissue):
+    """The topology of a map on a sphere, of radius 1 around the origin."""
+
+
+@dataclass(frozen=True)
 class SolidTissue(Tissue):
     """The topology of a cellwork: which vertices bound its edges and walls, which walls bound its cells.
 
@@ -135,9 +138,9 @@ def relax(points: Floats, tissue: Tissue, forces: Forces = DEFAULT_FORCES) -> It
     Parameters
     ----------
     points
-        Shape (n, 2): the initial positions of the vertices.
+        Shape (n, 2), of a map on a sphere and of a cellwork (n, 3): the initial positions of the vertices.
     tissue, forces
-        The topology of the map, and the forces of its cells and walls.
+        The topology of the map or cellwork, and the forces of its cells and edges.
 
     Raises
     ------
@@ -151,74 +154,21 @@ def relax(points: Floats, tissue: Tissue, forces: Forces = DEFAULT_FORCES) -> It
     >>> print(np.ptp(at_rest, axis=0).round(3), areas(at_rest, square).round(3))
     [0.279 0.279] [0.078]
     """
-    return until_rest(
-        points, forces.damping, lambda at: areas(at, tissue), LEAST_AREA, lambda at, room: force(at, tissue, room, forces)
-    )
-
-
-def relax_on_sphere(points: Floats, tissue: Tissue, forces: Forces = SPHERE_FORCES) -> Iterator[Floats]:
-    """The same on a sphere, of radius 1 around the origin: x, y and z of the vertices of a map, whose walls are arcs."""
-
-    def room_at(at: Floats) -> Floats:
-        return np.linalg.norm(area_vectors(at, tissue), axis=1)  # type: ignore[no-any-return]
-
-    return until_rest(
-        points, forces.damping, room_at, LEAST_AREA, lambda at, room: _force_on_sphere(at, tissue, room, forces), True
-    )
-
-
-def relax_in_space(points: Floats, tissue: SolidTissue, forces: Forces = SPACE_FORCES) -> Iterator[Floats]:
-    """The same in space: x, y and z of the vertices of a cellwork."""
-    return until_rest(
-        points,
-        forces.damping,
-        lambda at: volumes(at, tissue),
-        LEAST_VOLUME,
-        lambda at, room: _force_in_space(at, tissue, room, forces),
-    )
-
-
-def until_rest(
-    points: Floats,
-    damping: float,
-    room_at: Callable[[Floats], Floats],
-    least: float,
-    force_at: Callable[[Floats, Floats], Floats],
-    on_sphere: bool = False,
-) -> Iterator[Floats]:
-    """The positions of vertices at first, and after each iteration until they are at rest.
-
-    Parameters
-    ----------
-    points
-        The initial positions.
-    damping
-        By what share of its speed each vertex is braked.
-    room_at
-        The areas or volumes of the cells for some positions.
-    least
-        The room below which a cell may be turned inside out.
-    force_at
-        The forces on the vertices for some positions, and the room that the cells have there.
-    on_sphere
-        Whether vertices stay on the sphere of radius 1.
-    """
-
-    def moved_by(way: Floats) -> Floats:
-        moved = points + way
-        return moved / np.linalg.norm(check_bounds(moved), axis=1)[:, None] if on_sphere else moved
-
-    speeds, room = np.zeros_like(points), room_at(points)
+    room_of, force_of = _GEOMETRIES[type(tissue)]
+    on_sphere = isinstance(tissue, SphereTissue)
+    speeds, room = np.zeros_like(points), room_of(points, tissue)
     yield points
     for _ in range(MOST_ITERATIONS):
-        push = force_at(points, room) - damping * speeds
+        push = force_of(points, tissue, room, forces) - forces.damping * speeds
         if on_sphere:
             push -= (push * points).sum(axis=1)[:, None] * points
         pace = TIME_STEP
-        while True:  # a time step is so short that no cell loses more than half of its room
-            moved = moved_by((speeds + push * pace) * pace)
-            left = room_at(moved)
-            if pace < SHORTEST_TIME_STEP or ((left > room / 2) | (room < least)).all():
+        while True:
+            moved = points + (speeds + push * pace) * pace
+            if on_sphere:
+                moved = check_bounds(moved) / np.linalg.norm(moved, axis=1)[:, None]
+            left = room_of(moved, tissue)
+            if pace < SHORTEST_TIME_STEP or ((left > room / 2) | (room < LEAST_ROOM)).all():
                 break
             pace /= 2
         speeds = speeds + push * pace
@@ -248,7 +198,7 @@ def force(points: Floats, tissue: Tissue, room: Floats, forces: Forces) -> Float
     first, second = tissue.ends.T
     across, up = x[second] - x[first], y[second] - y[first]
     pull = forces.stiffness * (1 - forces.rest / np.maximum(np.sqrt(across**2 + up**2), LEAST_LENGTH))
-    push = np.repeat(forces.pressure / np.maximum(room, LEAST_AREA) / 2, tissue.sizes)
+    push = np.repeat(forces.pressure / np.maximum(room, LEAST_ROOM) / 2, tissue.sizes)
     rising, running = y[tissue.preceding] - y[tissue.following], x[tissue.following] - x[tissue.preceding]
     parts = ((pull * across, push * rising), (pull * up, push * running))
     return np.column_stack(
@@ -262,7 +212,7 @@ def force(points: Floats, tissue: Tissue, room: Floats, forces: Forces) -> Float
 def _force_on_sphere(points: Floats, tissue: Tissue, room: Floats, forces: Forces) -> Floats:
     """The force on each vertex of a map on a sphere, of the walls that end there and the cells around it."""
     here, following = points[tissue.corners], points[tissue.following]
-    pressures = np.repeat(forces.pressure / np.maximum(room, LEAST_AREA), tissue.sizes)
+    pressures = np.repeat(forces.pressure / np.maximum(room, LEAST_ROOM), tissue.sizes)
     outward = cross((here + following) / 2, following - here) * (pressures / 2)[:, None]
     pushed = np.concatenate([tissue.pushed, tissue.following])
     return _summed(pushed, len(points), *_pulls(points, tissue, forces), outward, outward)
@@ -270,7 +220,7 @@ def _force_on_sphere(points: Floats, tissue: Tissue, room: Floats, forces: Force
 
 def _force_in_space(points: Floats, tissue: SolidTissue, room: Floats, forces: Forces) -> Floats:
     """The force on each vertex of a cellwork, of the edges that end there and of the walls around it."""
-    pressures = forces.pressure / np.maximum(room, LEAST_VOLUME)
+    pressures = forces.pressure / np.maximum(room, LEAST_ROOM)
     net = np.bincount(tissue.walls, weights=tissue.signs * pressures[tissue.cells], minlength=len(tissue.sizes))
     push = np.repeat(area_vectors(points, tissue) * (net / tissue.sizes)[:, None], tissue.sizes, axis=0)
     return _summed(tissue.pushed, len(points), *_pulls(points, tissue, forces), push)
@@ -306,6 +256,11 @@ def area_vectors(points: Floats, tissue: Tissue) -> Floats:
     return found
 
 
+def _sphere_areas(points: Floats, tissue: Tissue) -> Floats:
+    found: Floats = np.linalg.norm(area_vectors(points, tissue), axis=1)
+    return found
+
+
 def cross(a: Floats, b: Floats) -> Floats:
     """The cross products of rows, many times as fast as those of numpy."""
     (ax, ay, az), (bx, by, bz) = a.T, b.T
@@ -317,3 +272,11 @@ def volumes(points: Floats, tissue: SolidTissue) -> Floats:
     middles = np.add.reduceat(points[tissue.corners], tissue.starts[:-1]) / tissue.sizes[:, None]
     cones = (middles * area_vectors(points, tissue)).sum(axis=1) / 3
     return np.bincount(tissue.cells, weights=tissue.signs * cones[tissue.walls]).astype(np.float64, copy=False)
+
+
+_GEOMETRIES: Mapping[type[Tissue], tuple[Callable[..., Floats], Callable[..., Floats]]] = {
+    Tissue: (areas, force),
+    SphereTissue: (_sphere_areas, _force_on_sphere),
+    SolidTissue: (volumes, _force_in_space),
+}
+"""What room cells have, and which forces act on vertices, in the plane, on a sphere and in space."""

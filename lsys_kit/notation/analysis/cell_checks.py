@@ -193,7 +193,7 @@ def _occurring_edges(system: CellSystem) -> set[Edge]:
     """The edges that can occur, each in its own direction."""
     made = defaultdict[Edge, list[Edge]](list)
     for production in system.productions:
-        made[production.predecessor] += (part if isinstance(part, Edge) else part.edge for part in production.successor)
+        made[production.predecessor] += production.named
     occurring: set[Edge] = set()
     waiting: list[Edge] = [*system.axiom]
     while waiting:

@@ -78,6 +78,11 @@ class Marker:
         return f"[{self.side}{self.edge}]"
 
     @property
+    def short(self) -> str:
+        """Its text."""
+        return str(self)
+
+    @property
     def turned(self) -> Marker:
         """The same, where the wall that is replaced is read from its other end."""
         return replace(self, side=OTHER_SIDE[self.side])
@@ -119,6 +124,11 @@ class EdgeMarker:
         return f"[{self.wall}: {before}|{self.edge}|{after}, {self.new_wall}]"
 
     @property
+    def short(self) -> str:
+        """Its text without the walls to come."""
+        return f"[{self.wall}: {self.edge}]"
+
+    @property
     def turned(self) -> EdgeMarker:
         """The same, where the edge that is replaced is read from its other end."""
         return replace(self, daughters=self.daughters[::-1])
@@ -150,6 +160,11 @@ class EdgeRule(Generic[M]):
     def markers(self) -> tuple[M, ...]:
         """The markers of the successor."""
         return tuple(part for part in self.successor if not isinstance(part, Edge))
+
+    @property
+    def named(self) -> tuple[Edge, ...]:
+        """The edges of the successor and of its markers, in order."""
+        return tuple(part if isinstance(part, Edge) else part.edge for part in self.successor)
 
     @property
     def marked(self) -> list[tuple[M, ...]]:
