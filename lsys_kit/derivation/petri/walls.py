@@ -59,15 +59,8 @@ def letters_of_walls(system: CellSystem) -> LSystem:
 
 
 def wall_stages(system: CellSystem) -> Stages:
-    """The stage diagram of the walls of a map system, or of the edges of a cellwork system.
+    """The stage diagram of the walls of a map system, or of the edges of a cellwork system; an error, if it is not legible.
 
-    Raises
-    ------
-    ModelLimitError
-        It would have too many places or arcs to be legible.
-
-    Examples
-    --------
     >>> from lsys_kit.notation.dialects.map.dialect import read_map
     >>> wall_stages(read_map("map: ABAB\\nA -> B[-A][+A]B\\nB -> A"))
     A -> 2 B + [-A][+A] A

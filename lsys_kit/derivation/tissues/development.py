@@ -18,13 +18,7 @@ F = TypeVar("F", Map, Cellwork)
 
 
 class CellDevelopment(Sequence[F], Generic[S, F]):
-    """The maps or cellworks of steps 0, 1, 2, ...
-
-    Attributes
-    ----------
-    system
-        The map system or the cellwork system.
-    """
+    """The maps or cellworks of steps 0, 1, 2, ... of a system."""
 
     def __init__(self, system: S, found: Sequence[F]) -> None:
         self.system = system
@@ -104,22 +98,8 @@ def develop(system: CellSystem, steps: int) -> CellDevelopment[Any, Any]: ...
 def develop(system: Any, steps: int) -> Any:
     """The cells of a map system or a cellwork system, from the first one on; `derive` does the same for every kind of system.
 
-    Parameters
-    ----------
-    system
-        A map system or a cellwork system.
-    steps
-        How many steps.
+    An error has the step and, in `partial`, the steps before.
 
-    Raises
-    ------
-    ModelLimitError
-        A step would be too large; the error has the step and, in `partial`, the steps before.
-    ModelValueError
-        New edges go around a cell of a cellwork, and do not lie in one new wall; the error has the steps before, too.
-
-    Examples
-    --------
     >>> from lsys_kit.notation.dialects.map.dialect import read_map
     >>> develop(read_map("map: A>B>C>D>\\nA> -> D>[-A>]B>\\nC> -> B>[-A<]B>\\nD> -> C>"), 2)
     0 A>B>C>D>

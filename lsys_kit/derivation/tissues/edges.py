@@ -86,14 +86,8 @@ def corners_of(sides: Iterable[Side], edges: Sequence[CellEdge]) -> list[int]:
 def replaced_edges(
     rules: Iterable[tuple[CellEdge, EdgeRule[Any] | None]], vertices: list[Vertex]
 ) -> tuple[list[CellEdge], list[Replaced]]:
-    """The edges of the next step, before rings are divided, and what has become of each edge; new vertices come behind others.
-
-    Parameters
-    ----------
-    rules
-        Each edge with its production, or None for an edge that stays as it is.
-    vertices
-        The vertices that there are.
+    """The edges of the next step before rings are divided, given those that there are with their productions, or None; and what
+    has become of each. New vertices come behind the others.
     """
     edges: list[CellEdge] = []
     partings = []
@@ -113,14 +107,8 @@ def replaced_edges(
 def around(
     sides: Iterable[Side], partings: Sequence[Replaced], seen: Callable[[Any, bool], Any]
 ) -> tuple[tuple[Side, ...], list[Mark]]:
-    """The sides of a ring after the replacement of its edges, and the markers that divide it.
-
-    Parameters
-    ----------
-    sides, partings
-        The sides before, and what has become of the edges.
-    seen
-        A marker as the ring sees it, given whether one follows the direction of its edge; None, if it divides another ring.
+    """The sides of a ring after the replacement of its edges, and the markers that divide it, as the ring sees them: given a
+    marker, and whether one follows the direction of its edge; None, if it divides another ring.
     """
     made: list[Side] = []
     marks: list[Mark] = []

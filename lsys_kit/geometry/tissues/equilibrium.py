@@ -40,16 +40,8 @@ STEADYING = 1e-9
 
 
 class Equilibrium(NamedTuple):
-    """Where a relaxation ends.
-
-    Attributes
-    ----------
-    points
-        The positions of the vertices, shape (n, 2).
-    iterations
-        The number of iterations of the relaxation.
-    settled
-        Whether the vertices are at rest there. If not, they still moved after the last iteration.
+    """Where a relaxation ends: the positions of the vertices, shape (n, 2); the number of iterations; and whether the vertices
+    are at rest there. If not, they still moved after the last iteration.
     """
 
     points: Floats
@@ -58,22 +50,8 @@ class Equilibrium(NamedTuple):
 
 
 def equilibrium(points: Floats, tissue: Tissue, forces: Forces = DEFAULT_FORCES) -> Equilibrium:
-    """Where vertices come to rest.
+    """Where vertices come to rest; an error, if they never do and fly apart.
 
-    Parameters
-    ----------
-    points
-        Shape (n, 2): the initial positions of the vertices.
-    tissue, forces
-        The topology of the map, and the forces of its cells and walls.
-
-    Raises
-    ------
-    ModelValueError
-        The positions grow beyond all bounds.
-
-    Examples
-    --------
     >>> square = Tissue(np.array([[0, 1], [1, 2], [2, 3], [3, 0]]), np.arange(4), np.array([0, 4]))
     >>> points, iterations, settled = equilibrium(np.array([[0, 1], [1, 1], [1, 0], [0, 0.0]]), square)
     >>> print(iterations, settled, areas(points, square)[0].round(9), round(((0.1 + 0.21**0.5) / 2)**2, 9))

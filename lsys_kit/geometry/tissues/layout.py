@@ -46,16 +46,8 @@ R = TypeVar("R", bound=tuple[object, ...])
 def _step_by_step(
     steps: Iterable[C], start: Callable[[C, Floats | None], Floats], at_rest: Callable[[C, Floats], R]
 ) -> Iterator[R]:
-    """For each step its cells at rest.
-
-    Parameters
-    ----------
-    steps
-        The cells of steps 0, 1, 2, ...
-    start
-        The initial positions of the vertices of a step, given those of the step before at rest, if there is one.
-    at_rest
-        The positions at rest, and what else is known then.
+    """For each step its cells at rest, given the initial positions of its vertices, which follow from those of the step before
+    at rest, if there is one. An error has the positions of the steps before in `partial`.
     """
     layout = Task()
     finished: list[Floats] = []
@@ -81,10 +73,8 @@ def _last(way: Iterator[Floats]) -> Floats:
 
 
 def place_maps(maps: Iterable[Map], forces: Forces = DEFAULT_FORCES) -> Iterator[Floats]:
-    """The positions of the vertices of each map at equilibrium, as `equilibria` finds them.
+    """The positions of the vertices of each map at equilibrium.
 
-    Examples
-    --------
     >>> from lsys_kit.derivation.tissues.development import develop
     >>> from lsys_kit.notation.dialects.map.dialect import read_map
     >>> square, divided = place_maps(develop(read_map("map: ABAB\\nA -> B[-A][+A]B\\nB -> A"), 1))
@@ -95,30 +85,9 @@ def place_maps(maps: Iterable[Map], forces: Forces = DEFAULT_FORCES) -> Iterator
 
 
 def equilibria(maps: Iterable[Map], forces: Forces = DEFAULT_FORCES) -> Iterator[Equilibrium]:
-    """Where the relaxation of each map ends, whose vertices start from the map before it.
+    """Where the relaxation of each map ends, whose vertices start from the map before it. The first wall of the first cell lies
+    on top and leads to the right.
 
-    Parameters
-    ----------
-    maps
-        The maps of steps 0, 1, 2, ...
-    forces
-        The forces of cells and walls.
-
-    Returns
-    -------
-    iterator of records
-        For each map x and y of its vertices, shape (vertices, 2), after how many iterations it was there, and whether it is at
-        rest. The first wall of the first cell lies on top and leads to the right.
-
-    Raises
-    ------
-    ModelLimitError
-        The relaxation takes too long.
-    ModelValueError
-        It blows up; the positions of the steps before are in `partial`.
-
-    Examples
-    --------
     >>> from lsys_kit.derivation.tissues.development import develop
     >>> from lsys_kit.notation.dialects.map.dialect import read_map
     >>> maps = develop(read_map("map: ABAB\\nA -> B[-A][+A]B\\nB -> A"), 1)
@@ -199,25 +168,8 @@ def scenes(maps: Sequence[Map], places: Iterable[Floats]) -> Iterator[Scene]:
 
 
 def place_on_sphere(maps: Development, forces: Forces = SPHERE_FORCES) -> Iterator[Placed]:
-    """For each map the positions of its vertices at equilibrium, and the longitudes of the walls from pole to pole.
-
-    Parameters
-    ----------
-    maps
-        The maps of steps 0, 1, 2, ...
-    forces
-        The forces of cells and walls.
-
-    Returns
-    -------
-    iterator of pairs
-        x, y and z of the vertices, shape (vertices, 3), with z towards the upper pole; and for each wall from pole to pole its
-        number and its longitude, which no position of a vertex tells.
-
-    Raises
-    ------
-    ModelValueError
-        The relaxation blows up; the positions of the steps before are in `partial`.
+    """For each map the positions of its vertices at equilibrium, with z towards the upper pole; and the longitudes of the walls
+    from pole to pole, which no position of a vertex tells.
     """
     longitudes = {wall: 2 * np.pi * wall / len(maps[0].walls) for wall in range(len(maps[0].walls))}
 
@@ -274,27 +226,7 @@ def arc(start: Floats, end: Floats, shares: Floats) -> Floats:
 
 
 def place_cellworks(development: CellworkDevelopment, forces: Forces = SPACE_FORCES) -> Iterator[Floats]:
-    """The positions of the vertices of each cellwork at equilibrium.
-
-    Parameters
-    ----------
-    development
-        The cellworks of steps 0, 1, 2, ...
-    forces
-        The forces of cells and edges.
-
-    Returns
-    -------
-    iterator of arrays
-        For each cellwork x, y and z of its vertices, shape (vertices, 3), with z upwards.
-
-    Raises
-    ------
-    ModelLimitError
-        The relaxation takes too long.
-    ModelValueError
-        It does not come to rest: the positions grow beyond all bounds. The positions of the steps before are in `partial`.
-    """
+    """The positions of the vertices of each cellwork at equilibrium, with z upwards."""
 
     def start(found: Cellwork, before: Floats | None) -> Floats:
         return _first_places(development) if before is None else insert_vertices(found, before)
@@ -321,18 +253,8 @@ def solid_tissue(found: Cellwork) -> SolidTissue:
 
 
 def cellwork_scene(found: Cellwork, points: Floats, numbers: Mapping[str, int], lit: Collection[int], dim: int) -> Scene:
-    """The outer walls of some cells as polygons, and the edges of all others as segments.
-
-    Parameters
-    ----------
-    found, points
-        The cellwork, and the positions of its vertices.
-    numbers
-        For each label of a wall the state of its polygons.
-    lit
-        The numbers of the cells whose walls are shown.
-    dim
-        The state of the segments.
+    """The outer walls of the cells that are lit as polygons, whose states are the numbers of their labels, and the edges of all
+    others as segments, whose state is `dim`.
     """
     around: dict[int, list[bool]] = {}
     for cell, wall, forward in found.cells_at():

@@ -133,22 +133,11 @@ class SolidTissue(Tissue):
 
 
 def relax(points: Floats, tissue: Tissue, forces: Forces = DEFAULT_FORCES) -> Iterator[Floats]:
-    """The positions of the vertices at first, and after each iteration until they are nearly at rest.
+    """The positions of the vertices at first, and after each iteration until they are nearly at rest; an error, if they fly
+    apart.
 
-    Parameters
-    ----------
-    points
-        Shape (n, 2), of a map on a sphere and of a cellwork (n, 3): the initial positions of the vertices.
-    tissue, forces
-        The topology of the map or cellwork, and the forces of its cells and edges.
+    Their shape is (n, 2), of a map on a sphere and of a cellwork (n, 3).
 
-    Raises
-    ------
-    ModelValueError
-        The positions grow beyond all bounds.
-
-    Examples
-    --------
     >>> square = Tissue(np.array([[0, 1], [1, 2], [2, 3], [3, 0]]), np.arange(4), np.array([0, 4]))
     >>> *_, at_rest = relax(np.array([[0, 1], [1, 1], [1, 0], [0, 0.0]]), square)
     >>> print(np.ptp(at_rest, axis=0).round(3), areas(at_rest, square).round(3))

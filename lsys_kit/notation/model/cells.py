@@ -277,6 +277,10 @@ class CellSystem:
     ----------
     notation
         The name of the notation in which it is written.
+    steps
+        The number of steps that the model sets, or None.
+    source, notes
+        The text it was read from, and notes on how it was read. Equality ignores them.
     """
 
     notation: ClassVar[str]
@@ -315,12 +319,8 @@ class MapSystem(CellSystem):
         lower one, from left to right as seen from outside; between any two that follow one another is a cell.
     productions
         At most one per wall; a wall without one stays as it is.
-    steps
-        The number of steps that the model sets, or None.
     sphere
         Whether the map covers a sphere.
-    source, notes
-        The text it was read from, and notes on how it was read. Equality ignores them.
     """
 
     notation = "map"
@@ -355,10 +355,6 @@ class CellworkSystem(CellSystem):
         What edges become: of those that fit an edge the first is applied; an edge without one stays as it is.
     wall_productions
         What undivided walls become, at most one for a label; a wall without one keeps its label.
-    steps
-        The number of steps that the model sets, or None.
-    source, notes
-        The text it was read from, and notes on how it was read. Equality ignores them.
     """
 
     notation = "cellwork"

@@ -18,21 +18,12 @@ from lsys_kit.pictures.tissues.chosen import steps_of
 
 
 class Room(NamedTuple):
-    """What a book has room for, of one kind of system.
+    """What a book has room for, of one kind of system, whose cells come to rest by a layout.
 
-    Attributes
-    ----------
-    layout
-        Where the cells of all steps come to rest.
-    most
-        A book holds no step of more edges, which are the walls of a map, since nobody could see more of them.
-    unasked
-        Steps beyond the last one that the system asks for are held while all together have no more edges, since larger ones
-        take long to come to rest.
-    bytes_each
-        About what an edge takes in a book, with its share of points and cells, where that matters.
-    called
-        What steps are called.
+    A book holds no step of more edges, which are the walls of a map, than `most`, since nobody could see more of them. Steps
+    beyond the last one that the system asks for are held while all together have no more edges than `unasked`, since larger
+    ones take long to come to rest. An edge takes about `bytes_each` in a book, where that matters. Steps have a name of their
+    own.
     """
 
     layout: Callable[[Any, Forces], Iterable[Any]]
@@ -52,17 +43,8 @@ ROOMS: Mapping[str, Room] = {
 
 @dataclass(frozen=True)
 class CellsAtRest:
-    """The cells that a book holds.
-
-    Attributes
-    ----------
-    forces
-        The forces under which they are at rest.
-    steps, reached
-        The maps or cellworks of all steps, and where each comes to rest: of a map in the plane its `Equilibrium`, on a sphere
-        `Placed`, of a cellwork the positions of its vertices.
-    end
-        Why there are no more steps; "" if nothing is in the way.
+    """The cells that a book holds, under some forces: the maps or cellworks of all steps, and where each comes to rest, as its
+    layout says it; and why there are no more steps, "" if nothing is in the way.
     """
 
     forces: Forces
@@ -77,12 +59,8 @@ class CellsAtRest:
 
 
 def cells_at_rest(system: CellSystem, forces: Forces, least: int = 0) -> CellsAtRest:
-    """The steps of a system at rest, up to twice the step that it asks for, or to a later one.
-
-    Raises
-    ------
-    LSystemError
-        Not even the first cell comes to rest.
+    """The steps of a system at rest, up to twice the step that it asks for, or to a later one; an error, if not even the first
+    cell comes to rest.
     """
     room, asked, end = ROOMS[system.kind], max(steps_of(system), least), ""
     with limits(modules=min(room.most, current().modules), seconds=TIME_FOR_ASKED * current().seconds):
@@ -112,19 +90,8 @@ def cells_at_rest(system: CellSystem, forces: Forces, least: int = 0) -> CellsAt
 def last_held(sizes: Iterable[int], asked: int, most: int, called: str) -> tuple[int, str]:
     """The last step that a book holds, and why it ends there: "" if there are no further steps.
 
-    Parameters
-    ----------
-    sizes
-        The number of walls of each step.
-    asked
-        The step that must be held, if there is one.
-    most
-        Later steps are held while all together have no more walls than this.
-    called
-        What later steps are called.
+    That which is asked for must be held, if there is one; later ones are while all together have no more edges than `most`.
 
-    Examples
-    --------
     >>> last_held([4, 7, 12, 24], 1, 20, "maps")[0], last_held([4, 7, 12, 24], 3, 20, "maps")
     (1, (3, ''))
     """

@@ -49,19 +49,8 @@ Written: TypeAlias = tuple[tuple[str, str], ...]
 
 
 def cell_book(found: CellsAtRest, settings: Mapping[str, Value], title: str = "") -> dict[str, Any]:
-    """The book of a system of cells, ready to be written as JSON.
+    """The book of a system of cells, ready to be written as JSON, given its forces and what it is called.
 
-    Parameters
-    ----------
-    found
-        The cells at rest.
-    settings
-        The forces.
-    title
-        What the system is called.
-
-    Examples
-    --------
     >>> from lsys_kit.classroom.panel.books.at_rest import cells_at_rest
     >>> from lsys_kit.notation.dialects.map.dialect import read_map
     >>> from lsys_kit.pictures.tissues.chosen import USUAL
@@ -107,7 +96,6 @@ def span(rule: EdgeProduction | CellworkProduction) -> list[int] | None:
 
 
 def _of_map(found: CellsAtRest, edges: list[list[Any]], numbers: Mapping[Edge, int], staged: bool) -> dict[str, Any]:
-    """What the book of a map has besides."""
     system = found.steps.system
     return {
         "noun": "wall",
@@ -161,7 +149,6 @@ def _map_pages(found: CellsAtRest) -> Iterator[dict[str, Any]]:
 
 
 def _of_tissue(found: CellsAtRest, edges: list[list[Any]], numbers: Mapping[Edge, int]) -> dict[str, Any]:
-    """What the book of a cellwork, or of a map on a sphere, has besides."""
     divided = any(len(after.cells) > len(before.cells) for before, after in pairwise(found.steps))
     return {
         "noun": "cell",
@@ -251,7 +238,6 @@ def text_of(written: Iterable[tuple[str, str]]) -> str:
 
 
 def _kinds_counted(found: Cellwork | Map) -> Counter[Edge]:
-    """How many edges of each kind there are."""
     return Counter(edge.kind for edge in found.edges)
 
 

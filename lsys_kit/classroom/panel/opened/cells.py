@@ -55,7 +55,7 @@ LONGEST = 160
 
 
 class Drawn(Protocol):
-    """A picture of cells; `text` says what it shows."""
+    """A picture of cells, and what it shows in words."""
 
     @property
     def svg(self) -> str: ...
@@ -64,22 +64,9 @@ class Drawn(Protocol):
 
 
 class Kind(NamedTuple):
-    """What the kinds of systems of cells differ in.
-
-    Attributes
-    ----------
-    sides
-        What its cells are bounded by.
-    picture
-        The picture of a step, seen from a side.
-    size
-        About what the cells of a step at rest take in memory, in bytes.
-    view
-        The side from which it is seen first.
-    values
-        The values of the sliders of its forces.
-    flat
-        Whether it lies in the plane. Then its cells come to rest in the browser, too, so that a page has sliders.
+    """What the kinds of systems of cells differ in: what their cells are bounded by; the picture of a step, seen from a side;
+    about how many bytes a step at rest takes in memory; the side from which it is seen first; the values of the sliders of its
+    forces; and whether it lies in the plane. There its cells come to rest in the browser, too, so that a page has sliders.
     """
 
     sides: str
@@ -124,13 +111,7 @@ KINDS: Mapping[str, Kind] = {
 
 @dataclass(frozen=True)
 class CellSight:
-    """What there is to see of cells at a step.
-
-    Attributes
-    ----------
-    step, size, found, picture
-        The step, how many vertices, walls and cells there are, in words, the map or cellwork, and the picture of it.
-    """
+    """What there is to see of cells at a step: how many there are, in words, the map or cellwork, and the picture of it."""
 
     step: int
     size: str
@@ -147,13 +128,7 @@ class CellSight:
 
 
 class OpenedCells:
-    """A system of cells that the panel shows, with the sliders of its forces.
-
-    Raises
-    ------
-    LSystemError
-        There is no such force, or it is too small or too great.
-    """
+    """A system of cells that the panel shows, with the sliders of its forces."""
 
     def __init__(
         self,
