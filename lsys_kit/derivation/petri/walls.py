@@ -26,7 +26,7 @@ def kinds_of_walls(system: CellSystem) -> Mapping[Edge, str]:
     """The walls, or edges of a cellwork, that the rules name, in the order in which they are first read, each with the symbol
     that stands for it: its letter, and its arrow where the same letter names a neutral wall too.
 
-    >>> from lsys_kit.notation.dialects.map.dialect import read_map
+    >>> from lsys_kit import read_map
     >>> [*kinds_of_walls(read_map("map: A>B>C<\\nB> -> C>[-D]C")).values()]
     ['A', 'B', 'C>', 'D', 'C']
     """
@@ -44,7 +44,7 @@ def kind_of(edge: Edge) -> Edge:
 def letters_of_walls(system: CellSystem) -> LSystem:
     """The L-system of the letters of a map's walls or a cellwork's edges, which knows nothing of cells: for labels and colours.
 
-    >>> from lsys_kit.notation.dialects.map.dialect import read_map
+    >>> from lsys_kit import read_map
     >>> print(letters_of_walls(read_map("map: ABAB\\nA -> B[-A][+A]B")))
     axiom: A B A B
     A -> B A A B
@@ -61,7 +61,7 @@ def letters_of_walls(system: CellSystem) -> LSystem:
 def wall_stages(system: CellSystem) -> Stages:
     """The stage diagram of the walls of a map system, or of the edges of a cellwork system; an error, if it is not legible.
 
-    >>> from lsys_kit.notation.dialects.map.dialect import read_map
+    >>> from lsys_kit import read_map
     >>> wall_stages(read_map("map: ABAB\\nA -> B[-A][+A]B\\nB -> A"))
     A -> 2 B + [-A][+A] A
     B -> A

@@ -62,8 +62,7 @@ class Cellwork:
 
     Examples
     --------
-    >>> from lsys_kit.derivation.tissues.development import develop
-    >>> from lsys_kit.notation.dialects.cellwork.dialect import read_cellwork
+    >>> from lsys_kit import derive, read_cellwork
     >>> prism = read_cellwork('''
     ... cellwork: 1(0,0,0) 2(1,0,0) 3(0,1,0) 4(0,0,1) 5(1,0,1) 6(0,1,1)
     ... wall T: 1 A 2 A 3 A
@@ -72,7 +71,7 @@ class Cellwork:
     ... wall S: 2 A 3 B 6 A 5 B
     ... wall S: 3 A 1 B 4 A 6 B
     ... B: * -> B [S: S|A|S, T] B''')
-    >>> divided = develop(prism, 1)[-1]
+    >>> divided = derive(prism, 1)[-1]
     >>> print(divided)
     T S S S T | T S S S T
     >>> divided.counts, divided.euler

@@ -61,7 +61,7 @@ class Development(CellDevelopment[MapSystem, Map]):
     def notes(self) -> tuple[str, ...]:
         """Remarks: on the rules, and on markers that find no other half.
 
-        >>> from lsys_kit.notation.dialects.map.dialect import read_map
+        >>> from lsys_kit import read_map
         >>> develop(read_map("map: A>B>C>\\nA> -> D>[+A>]B>\\nC> -> B>[+A<]B>"), 1).notes
         ('Markers of A never match up to step 1: no cell has two on its sides that fit.',)
         """
@@ -100,7 +100,7 @@ def develop(system: Any, steps: int) -> Any:
 
     An error has the step and, in `partial`, the steps before.
 
-    >>> from lsys_kit.notation.dialects.map.dialect import read_map
+    >>> from lsys_kit import read_map
     >>> develop(read_map("map: A>B>C>D>\\nA> -> D>[-A>]B>\\nC> -> B>[-A<]B>\\nD> -> C>"), 2)
     0 A>B>C>D>
     1 D>A>B>C> | B>B>B>A<

@@ -51,9 +51,8 @@ class Map:
 
     Examples
     --------
-    >>> from lsys_kit.derivation.tissues.development import develop
-    >>> from lsys_kit.notation.dialects.map.dialect import read_map
-    >>> divided = develop(read_map("map: ABAB\\nA -> B[-A][+A]B\\nB -> A"), 1)[-1]
+    >>> from lsys_kit import derive, read_map
+    >>> divided = derive(read_map("map: ABAB\\nA -> B[-A][+A]B\\nB -> A"), 1)[-1]
     >>> print(divided)
     BABA | BABA
     >>> divided.counts
@@ -182,12 +181,10 @@ def unmatched_markers(system: MapSystem, maps: Sequence[Map]) -> Iterator[str]:
 
 
 def _productions_of(system: MapSystem) -> Mapping[Edge, EdgeProduction]:
-    """The production of each wall that has one."""
     return {production.predecessor: production for production in system.productions}
 
 
 def _many_made(found: Map, system: MapSystem) -> Iterator[int]:
-    """How many walls each wall becomes."""
     productions = _productions_of(system)
     return (len(productions[wall.kind].edges) if wall.kind in productions else 1 for wall in counted(found.walls))
 

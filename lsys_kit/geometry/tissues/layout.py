@@ -65,7 +65,6 @@ def _step_by_step(
 
 
 def _last(way: Iterator[Floats]) -> Floats:
-    """The positions with which a relaxation ends."""
     return deque(counted(way, 1), maxlen=1)[0]
 
 
@@ -75,9 +74,8 @@ def _last(way: Iterator[Floats]) -> Floats:
 def place_maps(maps: Iterable[Map], forces: Forces = DEFAULT_FORCES) -> Iterator[Floats]:
     """The positions of the vertices of each map at equilibrium.
 
-    >>> from lsys_kit.derivation.tissues.development import develop
-    >>> from lsys_kit.notation.dialects.map.dialect import read_map
-    >>> square, divided = place_maps(develop(read_map("map: ABAB\\nA -> B[-A][+A]B\\nB -> A"), 1))
+    >>> from lsys_kit import derive, read_map
+    >>> square, divided = place_maps(derive(read_map("map: ABAB\\nA -> B[-A][+A]B\\nB -> A"), 1))
     >>> print(np.ptp(square, axis=0).round(2), np.ptp(divided, axis=0).round(2))
     [0.28 0.28] [0.56 0.36]
     """
@@ -88,9 +86,8 @@ def equilibria(maps: Iterable[Map], forces: Forces = DEFAULT_FORCES) -> Iterator
     """Where the relaxation of each map ends, whose vertices start from the map before it. The first wall of the first cell lies
     on top and leads to the right.
 
-    >>> from lsys_kit.derivation.tissues.development import develop
-    >>> from lsys_kit.notation.dialects.map.dialect import read_map
-    >>> maps = develop(read_map("map: ABAB\\nA -> B[-A][+A]B\\nB -> A"), 1)
+    >>> from lsys_kit import derive, read_map
+    >>> maps = derive(read_map("map: ABAB\\nA -> B[-A][+A]B\\nB -> A"), 1)
     >>> [(found.iterations, found.settled) for found in equilibria(maps)]
     [(70, True), (309, True)]
     """
@@ -100,9 +97,8 @@ def equilibria(maps: Iterable[Map], forces: Forces = DEFAULT_FORCES) -> Iterator
 def relaxation_steps(maps: Sequence[Map], iterations: Sequence[int], forces: Forces = DEFAULT_FORCES) -> Iterator[Floats]:
     """The positions of the vertices of the last map after increasing numbers of iterations from the map before at equilibrium.
 
-    >>> from lsys_kit.derivation.tissues.development import develop
-    >>> from lsys_kit.notation.dialects.map.dialect import read_map
-    >>> maps = develop(read_map("map: ABAB\\nA -> B[-A][+A]B\\nB -> A"), 1)
+    >>> from lsys_kit import derive, read_map
+    >>> maps = derive(read_map("map: ABAB\\nA -> B[-A][+A]B\\nB -> A"), 1)
     >>> [float(np.ptp(points[:, 0]).round(2)) for points in relaxation_steps(maps, [0, 50, 5_000])]
     [0.28, 0.64, 0.56]
     """

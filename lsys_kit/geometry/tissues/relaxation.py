@@ -199,7 +199,6 @@ def force(points: Floats, tissue: Tissue, room: Floats, forces: Forces) -> Float
 
 
 def _force_on_sphere(points: Floats, tissue: Tissue, room: Floats, forces: Forces) -> Floats:
-    """The force on each vertex of a map on a sphere, of the walls that end there and the cells around it."""
     here, following = points[tissue.corners], points[tissue.following]
     pressures = np.repeat(forces.pressure / np.maximum(room, LEAST_ROOM), tissue.sizes)
     outward = cross((here + following) / 2, following - here) * (pressures / 2)[:, None]
@@ -208,7 +207,6 @@ def _force_on_sphere(points: Floats, tissue: Tissue, room: Floats, forces: Force
 
 
 def _force_in_space(points: Floats, tissue: SolidTissue, room: Floats, forces: Forces) -> Floats:
-    """The force on each vertex of a cellwork, of the edges that end there and of the walls around it."""
     pressures = forces.pressure / np.maximum(room, LEAST_ROOM)
     net = np.bincount(tissue.walls, weights=tissue.signs * pressures[tissue.cells], minlength=len(tissue.sizes))
     push = np.repeat(area_vectors(points, tissue) * (net / tissue.sizes)[:, None], tissue.sizes, axis=0)
@@ -225,7 +223,6 @@ def _pulls(points: Floats, tissue: Tissue, forces: Forces) -> tuple[Floats, Floa
 
 
 def _summed(at: Integers, size: int, *pushes: Floats) -> Floats:
-    """The sum of the forces at each vertex."""
     return np.column_stack([np.bincount(at, weights=part, minlength=size) for part in np.concatenate(pushes).T])
 
 

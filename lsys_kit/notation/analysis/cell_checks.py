@@ -87,7 +87,6 @@ def _by_sides(markers: Collection[Marker]) -> list[list[Edge]]:
 
 
 def _by_walls(markers: Collection[EdgeMarker]) -> dict[str, list[EdgeMarker]]:
-    """The markers by the walls that they divide."""
     found: dict[str, list[EdgeMarker]] = {}
     for marker in markers:
         found.setdefault(marker.wall, []).append(marker)
@@ -95,7 +94,6 @@ def _by_walls(markers: Collection[EdgeMarker]) -> dict[str, list[EdgeMarker]]:
 
 
 def _row_span(parts: tuple[Edge | Marker, ...]) -> TextSpan:
-    """The offsets of a row of parts."""
     first, last = parts[0].at, parts[-1].at
     return (first[0], last[1]) if first and last else None
 
@@ -144,7 +142,6 @@ def _check_surface(system: CellworkSystem) -> None:
 
 
 def _reached(walls_of: dict[frozenset[str], list[int]]) -> set[int]:
-    """The walls that are reached from the first one across edges."""
     neighbours: dict[int, list[int]] = defaultdict(list)
     for one, other in walls_of.values():
         neighbours[one].append(other)

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import re
+import tomllib
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TypeAlias
 
 from lsys_kit.errors import ModelNameError, ModelSyntaxError, ModelValueError
@@ -133,3 +135,14 @@ class Spelling:
 
 KIT_SPELLING = Spelling()
 """The kit's own notation."""
+
+
+def spelling_in(folder: Path) -> Spelling:
+    """The spelling of a dialect whose words and problems stand in the file `mistakes.toml` of its folder."""
+    tables = tomllib.loads((folder / "mistakes.toml").read_text(encoding="utf-8"))
+    kinds: Mapping[str, type[ModelError]] = {"syntax": ModelSyntaxError, "value": ModelValueError}
+    wordings = {
+        code: Wording(row["says"], row.get("hint"), kinds[row.get("kind", "syntax")])
+        for code, row in tables["problems"].items()
+    }
+    return Spelling(**tables["words"], readable=frozenset(tables["patterns"]["READABLE"]), wordings=wordings)

@@ -168,7 +168,7 @@ class PhasesPicture(SVGPicture):
 def phases_picture(what: MapSystem | Development, n: int | None = None, labels: bool = True, **forces: object) -> PhasesPicture:
     """The phases of the last step of a map system, or of a development.
 
-    >>> from lsys_kit.notation.dialects.map.dialect import read_map
+    >>> from lsys_kit import read_map
     >>> phases_picture(read_map("map: ABAB\\nA -> B[-A][+A]B\\nB -> A"), 1)
     step 1 in 4 pictures: 2 of 4 markers match; at the end 2 cells
     """

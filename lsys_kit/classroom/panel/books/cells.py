@@ -52,7 +52,7 @@ def cell_book(found: CellsAtRest, settings: Mapping[str, Value], title: str = ""
     """The book of a system of cells, ready to be written as JSON, given its forces and what it is called.
 
     >>> from lsys_kit.classroom.panel.books.at_rest import cells_at_rest
-    >>> from lsys_kit.notation.dialects.map.dialect import read_map
+    >>> from lsys_kit import read_map
     >>> from lsys_kit.pictures.tissues.chosen import USUAL
     >>> halves = read_map("map: ABAB\\nsteps: 1\\nA -> B[-A][+A]B\\nB -> A")
     >>> made = cell_book(cells_at_rest(halves, USUAL["map"]), {})
@@ -211,7 +211,6 @@ def _looks(found: CellsAtRest) -> list[list[int]]:
 
 
 def _written(found: Cellwork | Map) -> Iterator[Written]:
-    """Each cell as it is written."""
     if isinstance(found, Map):
         yield from ((("", "".join(map(str, found.word(cell)))),) for cell in found.cells)
     else:

@@ -170,7 +170,6 @@ class OpenedCells:
         return link(self.system, {STEP: chosen.step, **self.fixed, **chosen.values})
 
     def _at_rest(self, values: Mapping[str, Value], least: int) -> CellsAtRest:
-        """The cells under some forces, up to the usual step or to a later one."""
         forces = Forces(**{name: float(value) for name, value in {**self.fixed, **values}.items()})
         found = self._kept.found((forces, self.steps), lambda: cells_at_rest(self.system, forces))
         if found.last >= least:

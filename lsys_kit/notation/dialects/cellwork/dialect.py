@@ -9,6 +9,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
+from pathlib import Path
 from typing import Any
 
 from lark import Token, Transformer, v_args
@@ -32,7 +33,7 @@ from lsys_kit.notation.syntax.common_diagnostics import foreign_comment, second_
 from lsys_kit.notation.syntax.dialect import Diagnostic, Grammar
 from lsys_kit.notation.syntax.failure import ParseFailure, quoted, unclosed_bracket
 from lsys_kit.notation.syntax.parser import parse
-from lsys_kit.notation.syntax.spelling import Spelling, Wording
+from lsys_kit.notation.syntax.spelling import spelling_in
 from lsys_kit.notation.syntax.text.statements import ARROW, bounded, check_text, statements
 from lsys_kit.notation.syntax.wording import notes, reporting
 
@@ -42,74 +43,7 @@ LONGEST_NUMBER = 30
 _MARKER = (
     'A marker reads "[PQ: PR|P|PR, PQ]": the wall that is divided, its daughters on both sides of the new edge, the new wall.'
 )
-SPELLING = Spelling(
-    rule_example='A production reads "P: * -> R [PQ: PR|P|PR, PQ] R": an edge, walls, an arrow, edges with markers between.',
-    name_rule="Edges are letters from A to Z, walls names of such letters.",
-    readable=frozenset("→⟶"),
-    wordings={
-        "number too large": Wording("This number is too large"),
-        "no first cell": Wording("There is no first cell", 'Give its corners, as in "cellwork: 1(0,0,0) 2(1,0,0) ...".'),
-        "corner twice": Wording("The corner {corner} is given twice", "Give each corner a number of its own.", ModelValueError),
-        "unknown corner": Wording(
-            "The wall {wall} has a corner {corner}, which is not given", 'Give it a place behind "cellwork:".', ModelValueError
-        ),
-        "wall without inside": Wording(
-            "This wall has only {corners} corners", "A wall has three corners or more.", ModelValueError
-        ),
-        "corner twice in wall": Wording(
-            "The wall {wall} comes to corner {corner} twice",
-            "Its corners are met once each on the way around it.",
-            ModelValueError,
-        ),
-        "first cell not closed": Wording(
-            "The first cell is not closed: the edge {edge} belongs to {count}",
-            "Each edge of a closed cell belongs to two of its walls.",
-            ModelValueError,
-        ),
-        "edge of two kinds": Wording(
-            "The edge {edge} is {one} in one wall and {other} in another",
-            "Give it the same letter and direction in both.",
-            ModelValueError,
-        ),
-        "first cell in parts": Wording(
-            "The walls of the first cell are no single closed surface: vertices less edges and walls are {euler}, not 2",
-            "A cell is one piece without holes, and each corner belongs to it.",
-            ModelValueError,
-        ),
-        "setting twice": Wording('"{keyword}:" is set a second time', "Keep one of the two lines."),
-        "edge against its direction": Wording(
-            "A production is written in the direction of its edge",
-            'Write "{turned}: ...": what becomes of the edge, from its beginning to its end.',
-            ModelValueError,
-        ),
-        "second production of edge": Wording(
-            "This is a second production for {edge} in the same walls",
-            "The first one would always be applied.",
-            ModelValueError,
-        ),
-        "second production of wall": Wording(
-            "This is a second production for the wall {wall}", "A wall that is not divided becomes one wall.", ModelValueError
-        ),
-        "edge erased": Wording(
-            "Nothing is left of the edge {edge}", "Edges are never erased: write the letter of an edge too.", ModelValueError
-        ),
-        "marker at end": Wording(
-            "This marker is at the end of the edge",
-            "Markers belong between two edges, where there is a new vertex.",
-            ModelValueError,
-        ),
-        "neutral edge not symmetric": Wording(
-            "The neutral edge {edge} would become something else from its other end",
-            'Read backwards, this is "{backwards}", and an edge without an arrow has no beginning. '
-            'Make both the same, or give the edge an arrow: "{edge}>: ...".',
-            ModelValueError,
-        ),
-        "edge never occurs": Wording("The production {production} is never used: no edge {edge} occurs."),
-        "wall never occurs": Wording("The marker {marker} divides no wall: no wall {wall} occurs."),
-        "marker without partner": Wording("Markers {marker} divide no wall: they need markers {partner}, and there are none."),
-    },
-)
-"""Edges and walls in place of modules: how messages spell what they quote of a cellwork, and what is wrong with one."""
+SPELLING = spelling_in(Path(__file__).parent)
 
 
 def read_cellwork(text: str) -> CellworkSystem:
@@ -163,7 +97,6 @@ def read_cellwork(text: str) -> CellworkSystem:
 
 
 def _system(text: str) -> CellworkSystem:
-    """The system that the statements of a text make."""
     made: dict[str, list[Any]] = {kind: [] for kind in ("cellwork", "steps", "wall", "production", "wall_production")}
     for start, end in bounded(statements(text), text):
         kind, record = parse(CELLWORK, "statement", text, start, end)
@@ -218,7 +151,6 @@ class _CellworkStatements(Transformer[Any, Any]):
 
 
 def _span(*tokens: Token) -> tuple[int, int]:
-    """From the beginning of the first token to the end of the last one."""
     return tokens[0].start_pos or 0, tokens[-1].end_pos or 0
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 from lark import Token, Transformer, v_args
@@ -24,7 +25,7 @@ from lsys_kit.notation.syntax.common_diagnostics import foreign_comment, second_
 from lsys_kit.notation.syntax.dialect import Diagnostic, Grammar
 from lsys_kit.notation.syntax.failure import ParseFailure, excerpt, quoted, unclosed_bracket
 from lsys_kit.notation.syntax.parser import parse
-from lsys_kit.notation.syntax.spelling import Spelling, Wording
+from lsys_kit.notation.syntax.spelling import spelling_in
 from lsys_kit.notation.syntax.text.printed import printed_statements
 from lsys_kit.notation.syntax.text.statements import ARROW, bounded, check_text, without_comments
 from lsys_kit.notation.syntax.text.transcript import edited
@@ -32,53 +33,7 @@ from lsys_kit.notation.syntax.text.typesetting import typesetting
 from lsys_kit.notation.syntax.wording import notes, reporting
 
 _LEFTWARD = re.compile("\\\\overleftarrow|.\u20d6")
-SPELLING = Spelling(
-    rule_example='A production reads "A -> B[-A][+A]B": a wall, an arrow, the walls that it becomes, with markers between.',
-    name_rule="Walls are letters from A to Z.",
-    readable=frozenset("→⟶ω−"),
-    wordings={
-        "number too large": Wording("This number is too large"),
-        "no first cell": Wording("There is no first cell", 'Give its walls, one after another, clockwise, as in "map: ABAB".'),
-        "second cell": Wording("This is a second first cell", "A map begins with one cell."),
-        "cell without inside": Wording(
-            "The first cell has only {walls}", 'A cell has three walls or more, as in "map: AAA".', ModelValueError
-        ),
-        "undivided sphere": Wording(
-            "The sphere has only {walls} from pole to pole",
-            'Two walls or more divide it into cells, as in "sphere: D>D>D>D>".',
-            ModelValueError,
-        ),
-        "edge against its direction": Wording(
-            "A production is written in the direction of its wall",
-            'Write "{turned} -> ...": what becomes of the wall, from its beginning to its end.',
-            ModelValueError,
-        ),
-        "second production of edge": Wording(
-            "This is a second production for {edge}",
-            "A wall has at most one production. With an arrow and without, walls are different ones.",
-            ModelValueError,
-        ),
-        "edge erased": Wording(
-            "Nothing is left of the wall {edge}", "Walls are never erased: write the letter of a wall too.", ModelValueError
-        ),
-        "marker at end": Wording(
-            "This marker is at the end of the wall",
-            'Markers belong between two parts of a wall, as in "A -> B[-A]B".',
-            ModelValueError,
-        ),
-        "neutral edge not symmetric": Wording(
-            "The neutral wall {edge} would become something else from its other end",
-            'Read backwards, where left is right, this is "{backwards}", and a wall without an arrow has no beginning. '
-            'Make both the same, or give the wall an arrow: "{edge}> -> ...".',
-            ModelValueError,
-        ),
-        "edge never occurs": Wording("The production {production} is never used: no wall {edge} occurs."),
-        "marker without partner": Wording(
-            "Markers of {marker} divide no cell: they need markers of {partner}, and there are none."
-        ),
-    },
-)
-"""Walls in place of modules: how messages spell what they quote of a map, and what is wrong with one."""
+SPELLING = spelling_in(Path(__file__).parent)
 
 
 def read_map(text: str) -> MapSystem:
@@ -131,7 +86,6 @@ def read_map(text: str) -> MapSystem:
 
 
 def _system(text: str) -> MapSystem:
-    """The system that the statements of a text make."""
     settings: dict[str, Any] = {}
     productions: list[EdgeProduction] = []
     for start, end in bounded(printed_statements(text), text):
