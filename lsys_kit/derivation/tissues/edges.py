@@ -37,10 +37,14 @@ class CellEdge(NamedTuple):
     end: int
     directed: bool
 
+    def met(self, forward: bool) -> Edge:
+        """The edge as one reads it who follows its direction, or goes against it."""
+        return Edge(self.label, (">" if forward else "<") if self.directed else "")
+
     @property
     def kind(self) -> Edge:
         """The edge as the predecessor of a production."""
-        return Edge(self.label, ">" if self.directed else "")
+        return self.met(True)
 
 
 class Side(NamedTuple):

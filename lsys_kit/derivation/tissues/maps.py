@@ -78,11 +78,7 @@ class Map:
     def word(self, sides: Sequence[Side]) -> tuple[Edge, ...]:
         """The letters of some sides, as one walks along them."""
         every(sides, Side, "The side of a wall")
-        return tuple(self._edge(side) for side in counted(sides))
-
-    def _edge(self, side: Side) -> Edge:
-        wall = self.walls[side.wall]
-        return Edge(wall.label, (">" if side.forward else "<") if wall.directed else "")
+        return tuple(self.walls[wall].met(forward) for wall, forward in counted(sides))
 
     def corners(self, sides: Sequence[Side]) -> list[int]:
         """The vertices at which some sides begin."""
@@ -202,10 +198,7 @@ def _inside(marker: Marker, forward: bool) -> Marker | None:
 
 def cell_words(found: Map) -> Iterator[tuple[Edge, ...]]:
     """For each cell the letters around it, rotated to the least word: the same for cells that are alike."""
-    for cell in found.cells:
-        word = found.word(cell)
-        first = least_rotation([(edge.label, edge.arrow) for edge in word])
-        yield word[first:] + word[:first]
+    return map(least_word, map(found.word, found.cells))
 
 
 def kinds_of_cells(maps: Iterable[Map]) -> Iterator[list[int]]:
@@ -214,8 +207,14 @@ def kinds_of_cells(maps: Iterable[Map]) -> Iterator[list[int]]:
     return ([known.setdefault(word, len(known)) for word in cell_words(found)] for found in maps)
 
 
+def least_word(word: Sequence[Edge]) -> tuple[Edge, ...]:
+    """A cyclic word, rotated to its least form (Booth 1980)."""
+    first = least_rotation([(edge.label, edge.arrow) for edge in word])
+    return (*word[first:], *word[:first])
+
+
 def least_rotation(row: Sequence[tuple[str, str]]) -> int:
-    """Where a cyclic word begins when it is rotated to its least form (Booth 1980).
+    """Where a cyclic word begins when it is rotated to its least form.
 
     >>> least_rotation([("B", ""), ("A", ""), ("B", ""), ("A", "")])
     1

@@ -68,37 +68,24 @@ def equilibrium(points: Floats, tissue: Tissue, forces: Forces = DEFAULT_FORCES)
 
 def _balanced(points: Floats, tissue: Tissue, forces: Forces) -> Floats | None:
     """The positions near some others where all forces balance (Newton's method), or None if they are not found."""
-    if np.sum((2 * tissue.sizes.astype(np.float64)) ** 2) > MOST_ENTRIES:
-        return None
-    push, room = _push(points, tissue, forces)
-    for _ in range(MOST_NEWTON_STEPS):
-        size = np.abs(push).max()
-        if size < BALANCED:
-            return points
-        if room.min() < LEAST_ROOM:
-            return None
-        step = _newton_step(points, push, room, tissue, forces)
-        if not np.abs(step).max() < FARTHEST_STEP:  # which NaN is not
-            return None
-        points = points + step
-        push, room = _push(points, tissue, forces)
-    return None
-
-
-def _push(points: Floats, tissue: Tissue, forces: Forces) -> tuple[Floats, Floats]:
-    room = areas(points, tissue)
-    return force(points, tissue, room, forces), room
-
-
-def _newton_step(points: Floats, push: Floats, room: Floats, tissue: Tissue, forces: Forces) -> Floats:
-    """How far each vertex is from rest, if forces grow in proportion to it."""
     from scipy.sparse import eye_array  # imported late: it takes longer to load than the kit
     from scipy.sparse.linalg import spsolve
 
-    hessian = wall_hessian(points, tissue, forces) + cell_hessian(points, room, tissue, forces)
-    steadied = hessian + STEADYING * eye_array(points.size)
-    found: Floats = spsolve(steadied.tocsc(), push.ravel()).reshape(-1, 2)
-    return found
+    if np.sum((2 * tissue.sizes.astype(np.float64)) ** 2) > MOST_ENTRIES:
+        return None
+    for _ in range(MOST_NEWTON_STEPS):
+        room = areas(points, tissue)
+        push = force(points, tissue, room, forces)
+        if np.abs(push).max() < BALANCED:
+            return points
+        if room.min() < LEAST_ROOM:
+            return None
+        hessian = wall_hessian(points, tissue, forces) + cell_hessian(points, room, tissue, forces)
+        step: Floats = spsolve((hessian + STEADYING * eye_array(points.size)).tocsc(), push.ravel()).reshape(-1, 2)
+        if not np.abs(step).max() < FARTHEST_STEP:  # which NaN is not
+            return None
+        points = points + step
+    return None
 
 
 def wall_hessian(points: Floats, tissue: Tissue, forces: Forces) -> csr_array:

@@ -27,7 +27,7 @@ from lsys_kit.classroom.panel.books.book import packed
 from lsys_kit.classroom.panel.books.net import net_entry
 from lsys_kit.derivation.petri.walls import kind_of, kinds_of_walls, letters_of_walls, wall_stages
 from lsys_kit.derivation.tissues.cellworks import Cellwork
-from lsys_kit.derivation.tissues.maps import Map, kinds_of_cells, least_rotation, unmatched_markers
+from lsys_kit.derivation.tissues.maps import Map, kinds_of_cells, least_word, unmatched_markers
 from lsys_kit.files import file_stem
 from lsys_kit.geometry.scene import Floats
 from lsys_kit.geometry.tissues.layout import Placed, polygon, solid_tissue, tissue
@@ -221,10 +221,8 @@ def _written(found: Cellwork | Map) -> Iterator[Written]:
 
 def cycle_text(found: Cellwork, wall: int, forward: bool) -> str:
     """The edges once around a wall, counter-clockwise as seen from outside of the cell, from where they are the least word."""
-    sides = [(found.edges[edge], along == forward) for edge, along in found.walls[wall].sides][:: 1 if forward else -1]
-    letters = [(edge.label, (">" if along else "<") if edge.directed else "") for edge, along in sides]
-    first = least_rotation(letters)
-    return "".join(str(Edge(*letter)) for letter in letters[first:] + letters[:first])
+    word = [found.edges[edge].met(along == forward) for edge, along in found.walls[wall].sides][:: 1 if forward else -1]
+    return "".join(map(str, least_word(word)))
 
 
 def text_of(written: Iterable[tuple[str, str]]) -> str:
