@@ -13,7 +13,15 @@ from hypothesis import strategies as st
 from lsys_kit.budget import limits
 from lsys_kit.derivation.derive import derive
 from lsys_kit.derivation.tissues.development import Development, develop
-from lsys_kit.derivation.tissues.maps import Map, cell_words, dividing_walls, least_rotation, map_step, replaced_map
+from lsys_kit.derivation.tissues.maps import (
+    Map,
+    cell_words,
+    dividing_walls,
+    kinds_of_cells,
+    least_rotation,
+    map_step,
+    replaced_map,
+)
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.dialects.map.dialect import read_map
 from lsys_kit.notation.model.cells import Edge, EdgeProduction, MapSystem
@@ -273,6 +281,14 @@ def test_a_cell_between_meridians_is_divided_from_one_to_the_other() -> None:
     maps = derive(read_map("sphere: D>D>D>D>\nD> -> L>[-e]x>[+e]L>\nL> -> D>[+e]x>[-e]D>"), 2)
     assert maps.counts == [(2, 4, 4), (10, 16, 8), (26, 40, 16)]
     assert str(maps[1]) == " | ".join(["L>ex<L< | x>L>L<e"] * 4)
+
+
+def test_cells_with_the_same_walls_are_of_one_kind_in_all_steps() -> None:
+    maps = derive(read_map(K30.format("A>B>C>D>")), 4)
+    kinds = [*kinds_of_cells(maps)]
+    assert kinds == [[0], [0, 1], [0, 1, 2], [1, 0, 2, 3], [2, 1, 0, 3, 4]]
+    assert [*kinds_of_cells(maps.up_to(2))] == kinds[:3]
+    assert maps[1].edges == maps[1].walls
 
 
 @pytest.mark.parametrize("text", [K28, K29, K30.format("A>B>C>D>")])

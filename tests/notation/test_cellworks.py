@@ -8,7 +8,7 @@ from fractions import Fraction
 import pytest
 from hypothesis import given
 
-from lsys_kit import ModelNameError, limits, read, read_cellwork
+from lsys_kit import ModelNameError, limits, read, read_cellwork, read_map
 from lsys_kit.classroom.catalogue import entry
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelSyntaxError, ModelValueError
 from lsys_kit.notation.fragments import LinkContent, packed
@@ -273,6 +273,12 @@ def test_parts_that_are_never_used_are_noted() -> None:
     assert read_cellwork(f"{TETRAHEDRON}\nA: * -> A [W: W|c|W, W] [W: W|d|W, W] A".replace("[W: W|d|W, W] A", "A")).notes == ()
     directed = f"{TETRAHEDRON}\nB>: * -> A".replace("1 A 2 A 3", "1 B> 2 A 3").replace("1 A 2 A 4", "1 B> 2 A 4")
     assert read_cellwork(directed).notes == ()
+
+
+def test_systems_of_cells_say_what_they_are_systems_of() -> None:
+    systems = read_map("map: AAA"), read_map("sphere: AA"), read_cellwork(TETRAHEDRON)
+    assert [system.kind for system in systems] == ["map", "map on a sphere", "cellwork"]
+    assert read_cellwork(TETRAHEDRON).labels == {"W"}
 
 
 def test_a_cellwork_is_no_l_system_and_is_referred_to_its_reader() -> None:
