@@ -13,10 +13,10 @@ from lsys_kit.notation.dialects.cellwork.spelling import SPELLING as CELLWORK_SP
 from lsys_kit.notation.dialects.map.spelling import SPELLING as MAP_SPELLING
 from lsys_kit.notation.read import read
 from lsys_kit.notation.registry import DIALECTS
-from lsys_kit.notation.syntax.spelling import Wording
-from lsys_kit.notation.syntax.wording import WORDINGS, worded
+from lsys_kit.notation.syntax.wording import KIT_SPELLING, Wording, worded
 
 ROOM = Path(lsys_kit.notation.__file__).parent
+WORDINGS = KIT_SPELLING.wordings
 DIALECT_WORDINGS = {
     code: wording
     for spelling in (MAP_SPELLING, CELLWORK_SPELLING, *(dialect.spelling for dialect in DIALECTS.values()))

@@ -6,8 +6,7 @@ import re
 from collections.abc import Sequence
 
 from lsys_kit.errors import ModelSyntaxError
-from lsys_kit.notation.dialects.cellwork.spelling import MARKER, SPELLING
-from lsys_kit.notation.syntax.common_diagnostics import foreign_comment, second_arrow, unreadable_character
+from lsys_kit.notation.dialects.cellwork.spelling import MARKER, RULE_EXAMPLE
 from lsys_kit.notation.syntax.dialect import Diagnostic
 from lsys_kit.notation.syntax.failure import ParseFailure, quoted, unclosed_bracket
 from lsys_kit.notation.syntax.text.statements import ARROW
@@ -61,18 +60,18 @@ def _production(failure: ParseFailure) -> ModelSyntaxError | None:
     if ARROW.match(failure.found):
         return failure.error("The walls of the edge are missing here", 'Write "P: * -> ..." for an edge P in any walls.')
     if "ARROW" in failure.accepted:
-        return failure.error("An arrow is missing here", SPELLING.rule_example)
+        return failure.error("An arrow is missing here", RULE_EXAMPLE)
     return failure.error(
-        f"I did not expect {quoted(failure.found)}" if failure.found else "Something is missing here", SPELLING.rule_example
+        f"I did not expect {quoted(failure.found)}" if failure.found else "Something is missing here", RULE_EXAMPLE
     )
 
 
 DIAGNOSTICS: Sequence[Diagnostic] = (
-    foreign_comment,
-    unreadable_character,
+    "foreign_comment",
+    "unreadable_character",
     _settings,
     _wall,
-    second_arrow,
+    "second_arrow",
     _marker,
     _production,
 )

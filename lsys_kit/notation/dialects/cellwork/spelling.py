@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from lsys_kit.errors import ModelValueError
-from lsys_kit.notation.syntax.spelling import Spelling, Wording
+from lsys_kit.notation.syntax.wording import Spelling, Wording
 
 MARKER = (
     'A marker reads "[PQ: PR|P|PR, PQ]": the wall that is divided, its daughters on both sides of the new edge, the new wall.'
 )
+RULE_EXAMPLE = 'A production reads "P: * -> R [PQ: PR|P|PR, PQ] R": an edge, walls, an arrow, edges with markers between.'
 SPELLING = Spelling(
-    rule_example='A production reads "P: * -> R [PQ: PR|P|PR, PQ] R": an edge, walls, an arrow, edges with markers between.',
-    name_rule="Edges are letters from A to Z, walls names of such letters.",
-    readable=frozenset("→⟶"),
+    words={"rule_example": RULE_EXAMPLE, "name_rule": "Edges are letters from A to Z, walls names of such letters."},
+    patterns={"READABLE": "[→⟶]"},
     wordings={
         "number too large": Wording("This number is too large"),
         "no first cell": Wording("There is no first cell", 'Give its corners, as in "cellwork: 1(0,0,0) 2(1,0,0) ...".'),

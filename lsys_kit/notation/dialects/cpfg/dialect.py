@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from itertools import chain
+from pathlib import Path
 from typing import Any
 
 from lsys_kit.errors import ModelNameError, ModelSyntaxError
@@ -12,21 +13,21 @@ from lsys_kit.notation.analysis.checks import SETTINGS, check_constants, check_e
 from lsys_kit.notation.dialects.cpfg.actions import SILENT, CpfgStatements
 from lsys_kit.notation.dialects.cpfg.blocks import Block, substitute
 from lsys_kit.notation.dialects.cpfg.counters import Counters, with_counters
-from lsys_kit.notation.dialects.cpfg.diagnostics import DIAGNOSTICS
+from lsys_kit.notation.dialects.cpfg.expressions import expression_text
 from lsys_kit.notation.dialects.cpfg.preprocessor import preprocessed
-from lsys_kit.notation.dialects.cpfg.spelling import SPELLING
 from lsys_kit.notation.dialects.cpfg.statements import statements
 from lsys_kit.notation.dialects.cpfg.variables import Variables, check_changing, variables_of
 from lsys_kit.notation.dialects.cpfg.writer import joined_word, missing_feature, module_text, system_text
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number
 from lsys_kit.notation.model.modules import Pattern, flat
 from lsys_kit.notation.model.system import FLAT, NEXT_BRANCH, LSystem, Production
-from lsys_kit.notation.syntax.builder import Draft, build_system, occurring_symbols
+from lsys_kit.notation.syntax.builder import Draft, build_system, check_colons
+from lsys_kit.notation.syntax.diagnostics import DIAGNOSTICS
 from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.parser import parse
-from lsys_kit.notation.syntax.predecessor_diagnostics import missing_colon
 from lsys_kit.notation.syntax.text.statements import ARROW, LABEL, blank_parentheses, without_comments
 from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, edited
+from lsys_kit.notation.syntax.wording import Spelling
 
 _MARKS = re.compile(
     r"^[ \t]*(#[ \t]*define\b|(lsystem|derivation[ \t]+length|maximum[ \t]+depth)[ \t]*:|endlsystem\b|homomorphism\b)",
@@ -46,7 +47,7 @@ def _finish(draft: Draft) -> LSystem:
     _check_macros(draft)
     _resolve_deferred(draft)
     draft.notes += _notes(draft)
-    missing_colon(draft.sections["productions"], occurring_symbols(draft))
+    check_colons(draft)
     return build_system(draft)
 
 
@@ -249,12 +250,22 @@ CPFG = Dialect(
     statements=statements,
     transformer=CpfgStatements,
     finish=_finish,
-    diagnostics=DIAGNOSTICS,
+    diagnostics=(
+        "feature",
+        "included",
+        "label",
+        "in_a_block",
+        "end_of_block",
+        "macro_definition",
+        "own_keyword",
+        *DIAGNOSTICS,
+        "constant",
+    ),
     module=module_text,
     joined=joined_word,
     write=system_text,
     missing_feature=missing_feature,
     likely=_likely,
-    spelling=SPELLING,
+    spelling=Spelling(Path(__file__).parent, expression=expression_text, module=module_text, joined=joined_word),
     transcribe=_transcribe,
 )

@@ -11,10 +11,10 @@ from __future__ import annotations
 import re
 from fractions import Fraction
 from itertools import chain, islice
+from pathlib import Path
 
 from lsys_kit.errors import ModelSyntaxError
 from lsys_kit.notation.dialects.fractint.actions import Records
-from lsys_kit.notation.dialects.fractint.diagnostics import DIAGNOSTICS
 from lsys_kit.notation.dialects.fractint.systems import entries_in, selected_entry, statement_lines, system_entries, uncommented
 from lsys_kit.notation.dialects.fractint.translation import NAME, translated
 from lsys_kit.notation.dialects.fractint.writer import lacking, merged_pair, module_text, system_text
@@ -23,6 +23,7 @@ from lsys_kit.notation.model.modules import flat
 from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.syntax.builder import Draft, build_system
 from lsys_kit.notation.syntax.dialect import Dialect
+from lsys_kit.notation.syntax.wording import Spelling
 
 _SAID = re.compile(r"angle(?:\s*=)?\s*\d|axiom(?:\s*=\s*|\s+)[^\s:=]", re.IGNORECASE)
 """A line that gives an angle or an axiom, without a colon."""
@@ -107,7 +108,7 @@ FRACTINT = Dialect(
     statements=statement_lines,
     transformer=Records,
     finish=_finish,
-    diagnostics=DIAGNOSTICS,
+    diagnostics=("colon", "angle", "axiom", "arrow", "beginning", "in_a_word"),
     module=module_text,
     joined="".join,
     write=system_text,
@@ -117,4 +118,6 @@ FRACTINT = Dialect(
     entry=selected_entry,
     starts=("statement", "word"),
     translated=translated,
+    spelling=Spelling(Path(__file__).parent),
+    bare=str,
 )

@@ -9,24 +9,32 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
+from pathlib import Path
 
 from lsys_kit.errors import ModelNameError, ModelSyntaxError
 from lsys_kit.notation.analysis.checks import span
 from lsys_kit.notation.dialects.grogra.actions import RELATIONS, statements, transformer
-from lsys_kit.notation.dialects.grogra.diagnostics import DIAGNOSTICS
 from lsys_kit.notation.dialects.grogra.probabilities import complete_probabilities
-from lsys_kit.notation.dialects.grogra.spelling import SPELLING
 from lsys_kit.notation.dialects.grogra.variables import Scope, Variable, check_variables, resolve, resolve_items, resolve_rule
-from lsys_kit.notation.dialects.grogra.writer import START, joined_word, missing_feature, module_text, system_text
+from lsys_kit.notation.dialects.grogra.writer import (
+    START,
+    expression_text,
+    joined_word,
+    missing_feature,
+    module_text,
+    system_text,
+)
 from lsys_kit.notation.model.expressions import Expression, Number, names_in
 from lsys_kit.notation.model.modules import Item, Pattern, Repeat
 from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.syntax.builder import Draft, build_system
+from lsys_kit.notation.syntax.diagnostics import compiled
 from lsys_kit.notation.syntax.dialect import Dialect
+from lsys_kit.notation.syntax.failure import ParseFailure, unclosed_bracket
 from lsys_kit.notation.syntax.text.statements import without_comments
 from lsys_kit.notation.syntax.text.transcript import edited
 from lsys_kit.notation.syntax.text.typesetting import formula_signs
-from lsys_kit.notation.syntax.wording import reporting
+from lsys_kit.notation.syntax.wording import Spelling, reporting
 
 _SLIDE_SPELLINGS = {
     "→": "#",
@@ -185,7 +193,7 @@ def _one(symbol: str) -> str:
 
 def _lacking(system: LSystem) -> str | None:
     """The first thing that a system has and the notation lacks, in words."""
-    with reporting(system.source, SPELLING):
+    with reporting(system.source, GROGRA.spelling):
         missing = missing_feature(system)
     if missing:
         return missing
@@ -193,18 +201,58 @@ def _lacking(system: LSystem) -> str | None:
     return f"such difference between 1 and l ({changed[0][:-1]})" if changed else None
 
 
+def _comma(failure: ParseFailure) -> ModelSyntaxError | None:
+    """Two statements, without a comma between them; a number with a comma in it."""
+    arrow = compiled("ARROW", failure.spelling)
+    if re.match(r"\d+$", failure.statement) and re.search(r"\d,$", failure.text[: failure.start]):
+        return failure.error("A number is typed with a point", 'Type "0.5", not "0,5".', failure.start - 1, 1)
+    line = failure.text.rfind("\n", failure.start, failure.at) + 1
+    begins = line + len(failure.text[line : failure.end]) - len(failure.text[line : failure.end].lstrip())
+    first = arrow.search(failure.before)
+    if line <= failure.start or unclosed_bracket(failure.text[failure.start : begins]) is not None:
+        return None
+    new = begins == failure.at and ("$END" in failure.accepted or failure.found.startswith("\\"))
+    later = failure.before.startswith("\\") or (first is not None and first.end() < line - failure.start)
+    if not (new or (later and arrow.match(failure.found))):
+        return None
+    end = failure.start + len(failure.text[failure.start : begins].rstrip())
+    if failure.text[end - 1] == ";":
+        return failure.error('This ";" does not separate rules', failure.spelling.words["apart"], end - 1, 1)
+    return failure.error('A "," is missing here', failure.spelling.words["apart"], end, 1)
+
+
 GROGRA = Dialect(
     name="grogra",
     statements=statements,
     transformer=transformer,
     finish=_finish,
-    diagnostics=DIAGNOSTICS,
+    diagnostics=(
+        "foreign_comment",
+        "no_predecessor",
+        _comma,
+        "directive",
+        "comparison",
+        "predecessor",
+        "repeat",
+        "repetition",
+        "own_misspelling",
+        "misspelling",
+        "other_notation",
+        "parentheses",
+        "arrow",
+        "second_arrow",
+        "unreadable_character",
+        "missing_value",
+        "missing_operator",
+        "stray_number",
+        "tex_macro",
+    ),
     module=module_text,
     joined=joined_word,
     write=system_text,
     missing_feature=_lacking,
     likely=lambda text: 2 * len(_MARKS.findall(text)),
     turtle="grogra",
-    spelling=SPELLING,
+    spelling=Spelling(Path(__file__).parent, expression=expression_text, module=module_text, joined=joined_word),
     transcribe=lambda source: edited(source, formula_signs(source)),
 )

@@ -33,6 +33,11 @@ def module_text(module: Module | Pattern) -> str:
     return f"{module.symbol}({', '.join(texts)})" if texts else module.symbol
 
 
+def expression_text(expression: Expression) -> str:
+    """An expression, with "=" for equality."""
+    return styled_text(expression, STYLE)
+
+
 def joined_word(texts: Iterable[str]) -> str:
     """The texts of modules as one word: blanks between them, none inside brackets.
 

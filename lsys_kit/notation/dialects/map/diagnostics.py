@@ -6,8 +6,7 @@ import re
 from collections.abc import Mapping, Sequence
 
 from lsys_kit.errors import ModelSyntaxError
-from lsys_kit.notation.dialects.map.spelling import SPELLING
-from lsys_kit.notation.syntax.common_diagnostics import foreign_comment, second_arrow, unreadable_character
+from lsys_kit.notation.dialects.map.spelling import RULE_EXAMPLE
 from lsys_kit.notation.syntax.dialect import Diagnostic
 from lsys_kit.notation.syntax.failure import ParseFailure, excerpt, quoted, unclosed_bracket
 from lsys_kit.notation.syntax.text.statements import ARROW
@@ -20,7 +19,7 @@ _FIRST_CELL = re.compile(r"(map|sphere|axiom|omega|ω)\b", re.IGNORECASE)
 _FOREIGN_SIGNS: Mapping[str, tuple[str, str]] = {
     "(": ("A wall has no values", "Walls are letters, perhaps with a digit and an arrow: A, A1, A>."),
     ")": ("A wall has no values", "Walls are letters, perhaps with a digit and an arrow: A, A1, A>."),
-    ":": ("A wall has no condition", SPELLING.rule_example),
+    ":": ("A wall has no condition", RULE_EXAMPLE),
     ";": ('A ";" is not needed here', "Write one production per line."),
     ",": ('A "," is not needed here', "Walls are written side by side, with or without blanks between them."),
     "ε": ("A wall cannot be erased", "A map is propagating: every wall becomes one wall or several."),
@@ -92,7 +91,7 @@ def _arrow(failure: ParseFailure) -> ModelSyntaxError | None:
     arrow = ARROW.search(failure.text, failure.start, failure.end)
     if ARROW.match(failure.found) and "ARROW" not in failure.accepted:
         return failure.error(
-            "An arrow is not possible here" if failure.before else "There is nothing before the arrow", SPELLING.rule_example
+            "An arrow is not possible here" if failure.before else "There is nothing before the arrow", RULE_EXAMPLE
         )
     if not failure.found and arrow and arrow.end() - failure.start >= len(failure.before):
         return failure.error(
@@ -105,7 +104,7 @@ def _arrow(failure: ParseFailure) -> ModelSyntaxError | None:
         spelt = _MISSPELT_ARROWS.match(failure.text, failure.at, failure.end)
         if spelt:
             return failure.error("This is not an arrow", 'An arrow is typed "->", in one piece.', length=len(spelt.group()))
-        return failure.error("An arrow is missing here", SPELLING.rule_example)
+        return failure.error("An arrow is missing here", RULE_EXAMPLE)
     return None
 
 
@@ -124,12 +123,12 @@ def _walls(failure: ParseFailure) -> ModelSyntaxError | None:
 
 
 DIAGNOSTICS: Sequence[Diagnostic] = (
-    foreign_comment,
+    "foreign_comment",
     _foreign_setting,
     _brackets,
-    second_arrow,
+    "second_arrow",
     _arrow,
     _walls,
-    unreadable_character,
+    "unreadable_character",
 )
 """The diagnostics of a map system, the most specific first."""

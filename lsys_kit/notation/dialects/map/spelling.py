@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from lsys_kit.errors import ModelValueError
-from lsys_kit.notation.syntax.spelling import Spelling, Wording
+from lsys_kit.notation.syntax.wording import Spelling, Wording
 
+RULE_EXAMPLE = 'A production reads "A -> B[-A][+A]B": a wall, an arrow, the walls that it becomes, with markers between.'
 SPELLING = Spelling(
-    rule_example='A production reads "A -> B[-A][+A]B": a wall, an arrow, the walls that it becomes, with markers between.',
-    name_rule="Walls are letters from A to Z.",
-    readable=frozenset("→⟶ω−"),
+    words={"rule_example": RULE_EXAMPLE, "name_rule": "Walls are letters from A to Z."},
+    patterns={"READABLE": "[→⟶ω−]"},
     wordings={
         "number too large": Wording("This number is too large"),
         "no first cell": Wording("There is no first cell", 'Give its walls, one after another, clockwise, as in "map: ABAB".'),

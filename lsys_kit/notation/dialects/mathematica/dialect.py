@@ -5,26 +5,32 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from pathlib import Path
 
+from lsys_kit.errors import ModelSyntaxError
 from lsys_kit.notation.dialects.mathematica.actions import transformer
 from lsys_kit.notation.dialects.mathematica.builder import finish
-from lsys_kit.notation.dialects.mathematica.diagnostics import DIAGNOSTICS
-from lsys_kit.notation.dialects.mathematica.expressions import KNOWN
-from lsys_kit.notation.dialects.mathematica.spelling import SPELLING
+from lsys_kit.notation.dialects.mathematica.expressions import HEADS, KNOWN, expression_text, spelling_hint
 from lsys_kit.notation.dialects.mathematica.statements import statements, without_nested_comments
 from lsys_kit.notation.dialects.mathematica.writer import module_text, system_text
 from lsys_kit.notation.model.expressions import Apply, Name
 from lsys_kit.notation.model.operators import OPERATORS
 from lsys_kit.notation.model.system import LSystem
+from lsys_kit.notation.syntax.diagnostics import innermost_bracket
 from lsys_kit.notation.syntax.dialect import Dialect
+from lsys_kit.notation.syntax.failure import ParseFailure
 from lsys_kit.notation.syntax.formatting import first_missing
 from lsys_kit.notation.syntax.text.subscripts import LINE_OF_SUBSCRIPTS, subscripts
 from lsys_kit.notation.syntax.text.transcript import Transcript, as_typed, edited
+from lsys_kit.notation.syntax.wording import Spelling
 
 _MARKS = re.compile(
     r"\b(?:LRule|LRULES|AXIOM|LSystem|run\w*System)\s*\[|\w_\s*/;|^[^\S\n]*+Rules\s*+:", re.IGNORECASE | re.MULTILINE
 )
 """What is found in texts of this notation, and in no others."""
+_RULE_PARTS = HEADS[:4]
+_HEAD = re.compile(rf"(?:{'|'.join(HEADS)})(?=\s*\[)", re.IGNORECASE)
+_STRING = re.compile(r'"(?:[^"\\\n]|\\.)*+(?:(?P<closed>")|\\?(?=\n|\Z))')
 _SETTING_NAMES = frozenset(("angle", "heading", "length", "seed", "steps", "turtle", "skippattern"))
 """What a definition sets, so that no constant can have that name."""
 
@@ -84,17 +90,73 @@ def _transcribe(source: str) -> Transcript:
     return edited(source, subscripts(without_nested_comments(source), "", "[]"))
 
 
+def _bare(source: str) -> str:
+    """A text with its comments blanked and its quoted symbols crossed out; a quotation that is never closed stays."""
+    return _STRING.sub(
+        lambda found: f'"{"x" * (len(found[0]) - 2)}"' if found["closed"] else found[0], without_nested_comments(source)
+    )
+
+
+def _rule_parts(failure: ParseFailure) -> ModelSyntaxError | None:
+    """A part of an LRule that is missing, or outside of it."""
+    (head, at), rule = innermost_bracket(failure), failure.spelling.words["whole_rule"]
+    part = _HEAD.match(failure.after)
+    name = part.group() if part else ""
+    if head == "LRULE" and at is not None:
+        there = re.findall(rf"\b({'|'.join(_RULE_PARTS)})\s*\[", failure.text[at : failure.at], re.IGNORECASE)
+        wanted = _RULE_PARTS[len(there)] if len(there) < len(_RULE_PARTS) else ""
+        if wanted and wanted == name.upper():
+            return failure.error(f'A "," is missing before {name}', rule)
+        if wanted:
+            return failure.error(f"{wanted}[...] is missing in this LRule", rule)
+    return failure.error(f"{name}[...] is outside of an LRule", rule) if name.upper() in _RULE_PARTS else None
+
+
+def _unknown_call(failure: ParseFailure) -> ModelSyntaxError | None:
+    """A call that is not known, in a statement of its own."""
+    call = re.fullmatch(r"([A-Za-z]\w*)\s*\[.*\]\s*", failure.statement, re.DOTALL)
+    if not call or failure.found:
+        return None
+    hint = spelling_hint(call[1]) or "What prints or draws can be left out; a rule has an arrow."
+    return failure.error(f'I do not know "{call[1]}[...]"', hint, failure.start, len(call[1]))
+
+
 MATHEMATICA = Dialect(
     name="mathematica",
     statements=statements,
     transformer=transformer,
     finish=finish,
-    diagnostics=DIAGNOSTICS,
+    diagnostics=(
+        "unclosed",
+        "random",
+        "steps",
+        "closed",
+        _rule_parts,
+        "condition",
+        "round_brackets",
+        "arrow_in_brackets",
+        _unknown_call,
+        "angles",
+        "unreadable",
+        "unreadable_character",
+        "misplaced_part",
+        "printed_arrow",
+        "second_arrow",
+        "printed_predecessor",
+        "definition",
+        "lists",
+        "quotation_marks",
+        "commas",
+        "misspelling",
+        "missing_value",
+        "operator",
+    ),
     module=module_text,
     joined=" ".join,
     write=system_text,
     missing_feature=_lacking,
     likely=lambda text: 3 * len(_MARKS.findall(text)),
-    spelling=SPELLING,
+    spelling=Spelling(Path(__file__).parent, expression=expression_text, module=module_text, joined=" ".join),
+    bare=_bare,
     transcribe=_transcribe,
 )
