@@ -14,8 +14,8 @@ from lsys_kit.notation.syntax.builder import Draft, build_system
 from lsys_kit.notation.syntax.diagnostics import DIAGNOSTICS
 from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.formatting import first_missing, settings
-from lsys_kit.notation.syntax.text.headings import HEADING, SENTENCE, without_headings
 from lsys_kit.notation.syntax.text.statements import blank_parentheses, statements, without_comments
+from lsys_kit.notation.syntax.text.typesetting import HEADING, SENTENCE, without_headings
 from lsys_kit.notation.syntax.wording import Spelling
 
 NAME = "plant-string"
