@@ -5,8 +5,6 @@ As the kit writes them, cellworks begin with `cellwork:`, and `read` refers such
 
 from __future__ import annotations
 
-import re
-from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
@@ -15,7 +13,7 @@ from typing import Any
 from lark import Token, Transformer, v_args
 
 from lsys_kit.budget import current
-from lsys_kit.errors import ModelSyntaxError, ModelValueError
+from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.analysis.cell_checks import check_cellwork, unused_parts
 from lsys_kit.notation.analysis.problems import problem
 from lsys_kit.notation.fragments import is_link, unpacked
@@ -29,21 +27,13 @@ from lsys_kit.notation.model.cells import (
     FirstWall,
     WallProduction,
 )
-from lsys_kit.notation.syntax.common_diagnostics import foreign_comment, second_arrow, unreadable_character
-from lsys_kit.notation.syntax.dialect import Diagnostic, Grammar
-from lsys_kit.notation.syntax.failure import ParseFailure, quoted, unclosed_bracket
+from lsys_kit.notation.syntax.dialect import Grammar
 from lsys_kit.notation.syntax.parser import parse
-from lsys_kit.notation.syntax.spelling import spelling_in
-from lsys_kit.notation.syntax.text.statements import ARROW, bounded, check_text, statements
-from lsys_kit.notation.syntax.wording import notes, reporting
+from lsys_kit.notation.syntax.text.statements import bounded, check_text, statements
+from lsys_kit.notation.syntax.wording import Spelling, notes, reporting
 
 LONGEST_NUMBER = 30
 """The greatest number of digits of a corner or of its place."""
-
-_MARKER = (
-    'A marker reads "[PQ: PR|P|PR, PQ]": the wall that is divided, its daughters on both sides of the new edge, the new wall.'
-)
-SPELLING = spelling_in(Path(__file__).parent)
 
 
 def read_cellwork(text: str) -> CellworkSystem:
@@ -90,10 +80,10 @@ def read_cellwork(text: str) -> CellworkSystem:
                 hint="L-systems are read by read(link), map systems by read_map(link).",
             )
         text = content.text
-    with reporting(text, SPELLING):
+    with reporting(text, CELLWORK.spelling):
         system = _system(text)
         check_cellwork(system)
-    return replace(system, notes=notes(unused_parts(system), SPELLING))
+    return replace(system, notes=notes(unused_parts(system), CELLWORK.spelling))
 
 
 def _system(text: str) -> CellworkSystem:
@@ -168,73 +158,10 @@ def _number(token: Token) -> str:
     return str(token)
 
 
-# What may be wrong where the parser fails
-
-_CORNERS = 'Corners are written as in "cellwork: 1(0,0,0) 2(1,0,0)": a number, and its place in space.'
-_WALL = 'A wall is written as in "wall PQ: 1 P 2 Q 3 P 4 Q": corners and edges in turn, once around it.'
-_SETTING = re.compile(r"([A-Za-z]{2,})[ \t]*:")
-
-
-def _settings(failure: ParseFailure) -> ModelSyntaxError | None:
-    """A setting that cellworks do not have, or whose value is missing."""
-    setting = _SETTING.match(failure.statement)
-    if setting is None or ARROW.search(failure.statement):
-        return None
-    name = setting[1].lower()
-    if name == "steps":
-        return failure.error('After "steps:" a whole number is needed', 'Type "steps: 4".', failure.start, 5)
-    if name == "cellwork":
-        return failure.error("This is no corner", _CORNERS)
-    return failure.error(
-        f'A cellwork has no "{setting[1]}:"',
-        'It has "cellwork:", "wall ...:", "steps:" and productions.',
-        failure.start,
-        len(setting[1]),
-    )
-
-
-def _wall(failure: ParseFailure) -> ModelSyntaxError | None:
-    """A wall of the first cell whose corners and edges are not in turn."""
-    if not re.match(r"wall\b", failure.statement, re.IGNORECASE) or ARROW.search(failure.statement):
-        return None
-    return failure.error("Corners and edges do not stand here in turn", _WALL)
-
-
-def _marker(failure: ParseFailure) -> ModelSyntaxError | None:
-    """A marker that lacks something, or its bracket."""
-    opened = unclosed_bracket(failure.before, "[]")
-    if failure.found == "]" and opened is None:
-        return failure.error('This "]" closes nothing', _MARKER)
-    if opened is None:
-        return None
-    if not failure.found:
-        return failure.error('This "[" is never closed', _MARKER, failure.start + opened, 1)
-    return failure.error("This marker cannot be read", _MARKER)
-
-
-def _production(failure: ParseFailure) -> ModelSyntaxError | None:
-    """A production whose walls, arrow or successor are missing."""
-    if not failure.found and ARROW.search(failure.before):
-        return failure.error("There is nothing after the arrow", "Edges are never erased: write what this one becomes.")
-    if ARROW.match(failure.found):
-        return failure.error("The walls of the edge are missing here", 'Write "P: * -> ..." for an edge P in any walls.')
-    if "ARROW" in failure.accepted:
-        return failure.error("An arrow is missing here", SPELLING.rule_example)
-    return failure.error(
-        f"I did not expect {quoted(failure.found)}" if failure.found else "Something is missing here", SPELLING.rule_example
-    )
-
-
-DIAGNOSTICS: Sequence[Diagnostic] = (
-    foreign_comment,
-    unreadable_character,
-    _settings,
-    _wall,
-    second_arrow,
-    _marker,
-    _production,
-)
-"""The diagnostics of a cellwork system, the most specific first."""
 CELLWORK = Grammar(
-    name="cellwork", transformer=_CellworkStatements, diagnostics=DIAGNOSTICS, starts=("statement",), spelling=SPELLING
+    name="cellwork",
+    transformer=_CellworkStatements,
+    diagnostics=("foreign_comment", "unreadable_character", "setting", "wall", "second_arrow", "own_marker", "production"),
+    starts=("statement",),
+    spelling=Spelling(Path(__file__).parent),
 )
