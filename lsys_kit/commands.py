@@ -28,9 +28,8 @@ from lsys_kit.files import create_file, decoded, file_errors, file_stem
 
 if TYPE_CHECKING:
     from lsys_kit.derivation.derive import Derivation
-    from lsys_kit.notation.model.cellworks import CellworkSystem
-    from lsys_kit.notation.model.maps import MapSystem
     from lsys_kit.notation.model.system import LSystem
+    from lsys_kit.notation.read import AnySystem
     from lsys_kit.pictures.draw import AnyPicture
     from lsys_kit.pictures.formats.film import Film
 
@@ -45,17 +44,11 @@ def system_with_constants(options: argparse.Namespace) -> LSystem:
     return with_constants(named_system(options.system, options.notation, options.name), dict(options.settings))
 
 
-def system_or_cells(options: argparse.Namespace) -> LSystem | MapSystem | CellworkSystem:
+def system_or_cells(options: argparse.Namespace) -> AnySystem:
     """The system that the command line names, or the map or cellwork system of the catalogue."""
-    from lsys_kit.classroom.catalogue import cellwork_system, is_cellwork_system, is_map_system, map_system
+    from lsys_kit.classroom.catalogue import cell_system
 
-    if is_cellwork_system(options.system):
-        return cellwork_system(options.system)
-    return (
-        map_system(options.system)
-        if is_map_system(options.system)
-        else named_system(options.system, options.notation, options.name)
-    )
+    return cell_system(options.system) or named_system(options.system, options.notation, options.name)
 
 
 def named_system(name: str, notation: str | None, entry: str | None) -> LSystem:
@@ -199,14 +192,13 @@ def _derivation(system: LSystem, options: argparse.Namespace) -> Derivation:
 
 def draw_word(options: argparse.Namespace) -> None:
     """Write a picture of a word, of maps or of a cellwork, or a film of the steps, and print what it shows."""
-    from lsys_kit.classroom.catalogue import cellwork_system, is_cellwork_system, is_map_system, map_system
+    from lsys_kit.classroom.catalogue import cell_system
     from lsys_kit.pictures.draw import draw
     from lsys_kit.pictures.films import animate
 
     film, seen = _film(options), _seen(options)
     make: Callable[..., AnyPicture | Film] = partial(animate, **film) if film else draw
-    if is_map_system(options.system) or is_cellwork_system(options.system):
-        cells = map_system(options.system) if is_map_system(options.system) else cellwork_system(options.system)
+    if cells := cell_system(options.system):
         shown = make(cells, options.steps, **seen)
     elif options.seeds or isinstance(options.steps, list):
         steps = {"steps": options.steps} if isinstance(options.steps, list) else {"n": options.steps}

@@ -24,8 +24,7 @@ from lsys_kit.errors import ModelNameError, ModelValueError
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.dialects.cellwork.dialect import read_cellwork
 from lsys_kit.notation.dialects.map.dialect import read_map
-from lsys_kit.notation.model.cellworks import CellworkSystem
-from lsys_kit.notation.model.maps import MapSystem
+from lsys_kit.notation.model.cells import CellworkSystem, MapSystem
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read
 
@@ -138,7 +137,8 @@ def system(id: str) -> LSystem:
     >>> print(system("ABOP-1.24a").productions[0])
     F -> F[+F]F[-F]F
     """
-    return _parsed_system(_known(id, SYSTEMS, BOOK))
+    found: LSystem = _parsed(_known(id, SYSTEMS, BOOK))
+    return found
 
 
 def map_system(id: str) -> MapSystem:
@@ -147,7 +147,8 @@ def map_system(id: str) -> MapSystem:
     >>> print(map_system("k28").productions[0])
     A -> B[-A][+A]B
     """
-    return _parsed_map(_known(id, MAPS))
+    found: MapSystem = _parsed(_known(id, MAPS))
+    return found
 
 
 def cellwork_system(id: str) -> CellworkSystem:
@@ -156,7 +157,8 @@ def cellwork_system(id: str) -> CellworkSystem:
     >>> print(cellwork_system("k33").productions[0])
     P: * -> R [PQ: PR|P|PR, PQ] [PR: QR|Q|QR, PQ] R
     """
-    return read_cellwork(_entry(_known(id, CELLWORKS)).rules)
+    found: CellworkSystem = _parsed(_known(id, CELLWORKS))
+    return found
 
 
 def systems() -> Catalogue:
@@ -216,18 +218,15 @@ def entry(id: str) -> Entry:
     return _entry(_known(id, next((folder for folder in _KINDS if _id_of(id, folder)), SYSTEMS)))
 
 
-def is_map_system(id: str) -> bool:
-    """Whether this is the id or the name of a map system.
+def cell_system(id: str) -> MapSystem | CellworkSystem | None:
+    """The map system or the cellwork system with an id or a name; None, if there is none.
 
-    >>> is_map_system("K28"), is_map_system("map-offset-walls"), is_map_system("P4")
-    (True, True, False)
+    >>> cell_system("K28") == map_system("map-crosswise-divisions"), cell_system("P4")
+    (True, None)
     """
-    return _id_of(id, MAPS) is not None
-
-
-def is_cellwork_system(id: str) -> bool:
-    """Whether this is the id or the name of a cellwork system."""
-    return _id_of(id, CELLWORKS) is not None
+    known = next(filter(None, (_id_of(id, folder) for folder in (MAPS, CELLWORKS))), None)
+    found: MapSystem | CellworkSystem | None = _parsed(known) if known else None
+    return found
 
 
 def likely_system(id: str, others: Iterable[str] = ()) -> str | None:
@@ -302,14 +301,12 @@ def _entry(id: str) -> Entry:
 
 
 @cache
-def _parsed_system(id: str) -> LSystem:
+def _parsed(id: str) -> Any:
     found = _entry(id)
+    for folder, reads in ((MAPS, read_map), (CELLWORKS, read_cellwork)):
+        if id.lower() in _ids(folder):
+            return reads(found.rules)
     return read(found.rules, found.notation)
-
-
-@cache
-def _parsed_map(id: str) -> MapSystem:
-    return read_map(_entry(id).rules)
 
 
 def _natural(id: str) -> list[str | int]:

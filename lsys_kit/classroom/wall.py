@@ -24,13 +24,12 @@ from lsys_kit.classroom.child_processes import Failed, in_child_processes
 from lsys_kit.classroom.handed_in import HandedIn, content_of, handed_in
 from lsys_kit.classroom.link import ANGLE, SEED, STEP, Linked, linked
 from lsys_kit.classroom.panel.document import document
-from lsys_kit.classroom.panel.opened.opened import read_any
 from lsys_kit.derivation.core.rules import with_constants
 from lsys_kit.errors import LSystemError, ModelFileError, ModelLimitError, quotable
 from lsys_kit.files import decoded
 from lsys_kit.notation.fragments import MARK, is_link
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.notation.read import read_word
+from lsys_kit.notation.read import read_any, read_word
 from lsys_kit.notation.registry import DIALECTS
 from lsys_kit.notation.write import write
 from lsys_kit.pictures.draw import draw

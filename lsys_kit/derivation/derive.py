@@ -15,7 +15,6 @@ from types import MappingProxyType
 from typing import Any, TypeAlias, overload
 
 from lsys_kit.budget import Task, check_budget, counted
-from lsys_kit.derivation.cellworks.development import CellworkDevelopment, develop_cellwork
 from lsys_kit.derivation.core.states import States, check_d0l
 from lsys_kit.derivation.core.traits import ANY, D0L, S0L, Traits
 from lsys_kit.derivation.core.words import Word
@@ -25,10 +24,9 @@ from lsys_kit.derivation.engines.counting import CountingEngine, next_counts
 from lsys_kit.derivation.engines.engine import Engine, Observation, Observer, Origins, check_size
 from lsys_kit.derivation.engines.stepping import SteppingEngine
 from lsys_kit.derivation.engines.stepwise import Stepper
-from lsys_kit.derivation.maps.development import Development, develop
+from lsys_kit.derivation.tissues.development import CellDevelopment, CellworkDevelopment, Development, develop
 from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown, whole_number
-from lsys_kit.notation.model.cellworks import CellworkSystem
-from lsys_kit.notation.model.maps import MapSystem
+from lsys_kit.notation.model.cells import CellSystem, CellworkSystem, MapSystem
 from lsys_kit.notation.model.system import LSystem
 
 ENGINES: Mapping[type, Traits] = MappingProxyType(
@@ -68,22 +66,21 @@ def derive(
 def derive(system: MapSystem, steps: int) -> Development: ...
 @overload
 def derive(system: CellworkSystem, steps: int) -> CellworkDevelopment: ...
-def derive(system: Any, steps: int, **choices: Any) -> Derivation | Development | CellworkDevelopment:
-    """Derive a system by its words alone; `lsys_kit.derive`, which says more, also answers what modules ask of the turtle.
+def derive(system: Any, steps: int, **choices: Any) -> Derivation | CellDevelopment[Any, Any]:
+    """Derive a system by its words alone; `lsys_kit.derive` does the same and also answers what modules ask of the turtle.
 
     >>> from lsys_kit import read
     >>> fibonacci = read("axiom: a\\na -> ab\\nb -> a")
     >>> [str(word) for word in derive(fibonacci, 3)]
     ['a', 'a b', 'a b a', 'a b a a b']
     """
-    if not isinstance(system, MapSystem | CellworkSystem):
+    if not isinstance(system, CellSystem):
         return derive_observed(system, steps, None, **choices)
     if choices:
-        kind = "map" if isinstance(system, MapSystem) else "cellwork"
         raise ModelValueError(
-            f'A {kind} system has no "{next(iter(choices))}"', hint="It has neither chance nor declared constants."
+            f'A {system.notation} system has no "{next(iter(choices))}"', hint="It has neither chance nor declared constants."
         )
-    return develop(system, steps) if isinstance(system, MapSystem) else develop_cellwork(system, steps)
+    return develop(system, steps)
 
 
 def derive_observed(

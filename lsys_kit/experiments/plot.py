@@ -13,15 +13,16 @@ from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.growth.growth import Growth
-from lsys_kit.derivation.maps.development import Development
-from lsys_kit.derivation.petri.net import Place, Stages
+from lsys_kit.derivation.petri.net import Place
+from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.derivation.timed.timed import Timed
+from lsys_kit.derivation.tissues.development import Development
 from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError, require, shown, whole_number
 from lsys_kit.experiments.measures import Asked, Measure, measures_of
 from lsys_kit.experiments.table import Table, column_label, measured_label
 from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
 from lsys_kit.notation.model.arithmetic import is_symbolic
-from lsys_kit.notation.model.maps import MapSystem
+from lsys_kit.notation.model.cells import MapSystem
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem, symbols
 from lsys_kit.pictures.plots.chart import Axis, Curve, CurveChart, Plot, Share, ShareChart, finite, name_label

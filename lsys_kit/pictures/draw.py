@@ -2,26 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias, overload
 
 from lsys_kit.budget import Task, counted
-from lsys_kit.derivation.cellworks.development import CellworkDevelopment
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
-from lsys_kit.derivation.maps.development import Development
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.derivation.timed.ages import age_model
 from lsys_kit.derivation.timed.lineage import Lineage
+from lsys_kit.derivation.tissues.development import CellDevelopment, CellworkDevelopment, Development
 from lsys_kit.errors import ModelNameError, ModelValueError, require, shown, whole_number
 from lsys_kit.geometry.drawing import turning_angle
 from lsys_kit.geometry.filament import filament
 from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
 from lsys_kit.notation.analysis.checks import suggestion
-from lsys_kit.notation.model.cellworks import CellworkSystem
-from lsys_kit.notation.model.maps import MapSystem
+from lsys_kit.notation.model.cells import CellSystem, CellworkSystem, MapSystem
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.chosen_words import ChosenWord, chosen_words, numbers_from
 from lsys_kit.pictures.filaments import LOOKS
@@ -31,7 +29,18 @@ from lsys_kit.pictures.kinds import check_drawable, coloured_symbols, kind_of
 from lsys_kit.pictures.legends import legend_of, letters_of
 from lsys_kit.pictures.lineages import LineagePicture, lineage_picture
 from lsys_kit.pictures.multiples import SmallMultiples
-from lsys_kit.pictures.options import KINDS, LINEAGE, SPHERE, STAGES, Options, options_from, seen_as, split_options
+from lsys_kit.pictures.options import (
+    CELLWORK,
+    KINDS,
+    LINEAGE,
+    MAP,
+    SPHERE,
+    STAGES,
+    Options,
+    options_from,
+    seen_as,
+    split_options,
+)
 from lsys_kit.pictures.picture import NetPicture, Picture
 from lsys_kit.pictures.plots.chart import Plot, painted
 from lsys_kit.pictures.rendering.line_widths import in_units
@@ -50,6 +59,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 AnyPicture: TypeAlias = "MapPicture | PhasesPicture | Picture | NetPicture | LineagePicture | SmallMultiples"
+_CELL_PICTURES: Mapping[str, Callable[..., AnyPicture]] = {MAP: map_picture, SPHERE: sphere_picture, CELLWORK: cellwork_picture}
+"""How the kinds of systems of cells are drawn."""
 MOST_ROWS = 24
 """The greatest number of rows of a developmental sequence, which shows the last steps."""
 
@@ -216,13 +227,10 @@ def _in_usual_size(what: Any, n: int | None, options: Options, **choices: Any) -
     if isinstance(what, Stages):
         check_choices(choices, ("tokens", "positions"), STAGES)
         return _net_picture(what, options.labels is not False, **choices)
-    if isinstance(what, MapSystem | Development):
-        if kind_of(what, choices) == SPHERE:
-            return sphere_picture(what, n, **choices)
-        draws = phases_picture if _yes(choices, "phases") else map_picture
-        return draws(what, n, labels=options.labels is not False, **choices)
-    if isinstance(what, CellworkSystem | CellworkDevelopment):
-        return cellwork_picture(what, n, legend=bool(options.legend), **choices)
+    if isinstance(what, CellSystem | CellDevelopment):
+        kind, looks = kind_of(what, choices), {"labels": options.labels is not False, "legend": bool(options.legend)}
+        draws: Callable[..., AnyPicture] = phases_picture if kind == MAP and _yes(choices, "phases") else _CELL_PICTURES[kind]
+        return draws(what, n, **{name: value for name, value in looks.items() if name in KINDS[kind]}, **choices)
     if isinstance(what, Lineage):
         check_choices(choices, ("intervals",), LINEAGE)
         return lineage_picture(what, labels=options.labels is not False, legend=options.legend is not False, **choices)

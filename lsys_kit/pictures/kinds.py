@@ -5,23 +5,20 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from lsys_kit.derivation.cellworks.development import CellworkDevelopment
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
-from lsys_kit.derivation.maps.development import Development
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.derivation.timed.lineage import Lineage
 from lsys_kit.derivation.timed.timed import Timed
+from lsys_kit.derivation.tissues.development import CellDevelopment
 from lsys_kit.errors import ModelValueError, shown
 from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
-from lsys_kit.notation.model.cellworks import CellworkSystem
-from lsys_kit.notation.model.maps import MapSystem
+from lsys_kit.notation.model.cells import CellSystem, CellworkSystem
 from lsys_kit.notation.model.system import LSystem, symbols
-from lsys_kit.pictures.options import CELLWORK, DRAWING, FILAMENT, LINEAGE, MAP, SPHERE, STAGES, STEPS, Symbols
+from lsys_kit.pictures.options import DRAWING, FILAMENT, LINEAGE, STAGES, STEPS, Symbols
 from lsys_kit.pictures.style.labels import polar_symbols
-from lsys_kit.pictures.tissues.cellworks import labels_of_walls
 
-DRAWABLE = (LSystem, Derivation, Word, MapSystem, Development, CellworkSystem, CellworkDevelopment, Stages, Lineage)
+DRAWABLE = (LSystem, Derivation, Word, CellSystem, CellDevelopment, Stages, Lineage)
 """What can be drawn."""
 
 
@@ -58,22 +55,21 @@ def check_drawable(what: object, n: int | None = None) -> None:
 
 def kind_of(what: object, choices: Mapping[str, Any]) -> str:
     """The kind of picture that is drawn of something."""
-    if isinstance(what, MapSystem | Development):
-        return SPHERE if (what if isinstance(what, MapSystem) else what.system).sphere else MAP
+    if isinstance(what, CellSystem | CellDevelopment):
+        return f"a {cell_system_of(what).kind}"
     if isinstance(what, LSystem | Derivation | Word):
         if drawing_mode(system_of(what)) is DrawingMode.FILAMENT:
             return FILAMENT
         several = any(isinstance(choices.get(name), Sequence) and len(choices[name]) for name in ("steps", "seeds"))
         return STEPS if several else DRAWING
-    kinds = {Stages: STAGES, Lineage: LINEAGE, CellworkSystem: CELLWORK, CellworkDevelopment: CELLWORK}
-    return kinds.get(type(what), DRAWING)
+    return {Stages: STAGES, Lineage: LINEAGE}.get(type(what), DRAWING)
 
 
 def coloured_symbols(what: object) -> Symbols:
     """The symbols in something whose colours can be chosen; both polarities of a cell are chosen by its letter."""
-    if isinstance(what, CellworkSystem | CellworkDevelopment):
-        system = what if isinstance(what, CellworkSystem) else what.system
-        return {label: (label,) for label in labels_of_walls(system)}
+    if isinstance(what, CellSystem | CellDevelopment):
+        cells = cell_system_of(what)
+        return {label: (label,) for label in cells.labels} if isinstance(cells, CellworkSystem) else {}
     if isinstance(what, LSystem | Derivation | Word):
         return named_symbols(system_of(what))
     if isinstance(what, Stages):
@@ -96,3 +92,8 @@ def named_symbols(system: LSystem) -> Symbols:
 
 def system_of(what: LSystem | Derivation | Word) -> LSystem:
     return what if isinstance(what, LSystem) else what.states.system
+
+
+def cell_system_of(what: CellSystem | CellDevelopment[Any, Any]) -> CellSystem:
+    system: CellSystem = what if isinstance(what, CellSystem) else what.system
+    return system

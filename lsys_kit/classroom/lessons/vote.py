@@ -14,16 +14,13 @@ from typing import Any
 import traitlets
 
 from lsys_kit.budget import current, limits
-from lsys_kit.classroom.catalogue import cellwork_system, is_cellwork_system, is_map_system, map_system, system
+from lsys_kit.classroom.catalogue import cell_system, system
 from lsys_kit.classroom.lessons.declared import lesson
 from lsys_kit.classroom.lessons.lesson import Vote
 from lsys_kit.classroom.lessons.widget import LessonWidget, boxed_html, prose_html, prose_text
 from lsys_kit.classroom.panel.bundle import bundled, style
 from lsys_kit.errors import require
-from lsys_kit.notation.model.cellworks import CellworkSystem
-from lsys_kit.notation.model.maps import MapSystem
-from lsys_kit.notation.model.system import LSystem
-from lsys_kit.notation.read import read
+from lsys_kit.notation.read import AnySystem, read
 from lsys_kit.pictures.draw import draw
 from lsys_kit.pictures.formats.notebook import svg_bundle
 from lsys_kit.translation import gettext
@@ -148,12 +145,11 @@ def _picture(choices: Mapping[str, Any]) -> dict[str, Any]:
         return svg_bundle(drawn.svg, repr(drawn))
 
 
-def _pictured(choices: Mapping[str, Any]) -> LSystem | MapSystem | CellworkSystem:
+def _pictured(choices: Mapping[str, Any]) -> AnySystem:
     """The system of a picture: from its rules, or from the catalogue."""
     if "rules" in choices:
         return read(choices["rules"])
-    id = choices["system"]
-    return map_system(id) if is_map_system(id) else cellwork_system(id) if is_cellwork_system(id) else system(id)
+    return cell_system(choices["system"]) or system(choices["system"])
 
 
 def _address(picture: Mapping[str, Any]) -> str:

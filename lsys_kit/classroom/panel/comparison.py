@@ -13,17 +13,17 @@ from lsys_kit.classroom.panel.explore import chosen_names, explore
 from lsys_kit.classroom.panel.explorer import Explorer
 from lsys_kit.classroom.widget import KitWidget
 from lsys_kit.errors import ModelValueError, quotable
-from lsys_kit.notation.model.cellworks import CellworkSystem
-from lsys_kit.notation.model.maps import MapSystem
+from lsys_kit.notation.model.cells import CellSystem
 from lsys_kit.notation.model.system import LSystem
+from lsys_kit.notation.read import AnySystem
 
 _COMMON = {"what": "The system", "step": "The step", "sliders": "The choice of sliders", "show": "The choice of views"}
 """What a side cannot have of its own, though `explore` takes it."""
 
 
 def compare(
-    what: LSystem | MapSystem | CellworkSystem | str,
-    *others: LSystem | MapSystem | CellworkSystem | str | Mapping[str, object],
+    what: AnySystem | str,
+    *others: AnySystem | str | Mapping[str, object],
     step: int | None = None,
     sliders: str | Collection[str] | None = None,
     show: str | Collection[str] | None = None,
@@ -80,7 +80,7 @@ def compare(
             sides = (what, first), (what, second)
         case (Mapping() as second,):
             sides = (what, {}), (what, second)
-        case (LSystem() | MapSystem() | CellworkSystem() | str() as other,):
+        case (LSystem() | CellSystem() | str() as other,):
             sides = (what, {}), (other, {})
         case _:
             raise ModelValueError(

@@ -6,26 +6,24 @@ import re
 from collections.abc import Collection
 from typing import Any
 
-from lsys_kit.classroom.catalogue import cellwork_system, entry, is_cellwork_system, is_map_system, map_system
+from lsys_kit.classroom.catalogue import cell_system, entry
 from lsys_kit.classroom.catalogue import system as catalogued
 from lsys_kit.classroom.link import ANGLE, SEED, STEP, linked, settings_given
 from lsys_kit.classroom.panel.books.net import Unfolding
 from lsys_kit.classroom.panel.explorer import VIEWS, Explorer
 from lsys_kit.classroom.panel.opened.kinds import opened
-from lsys_kit.classroom.panel.opened.opened import read_any
 from lsys_kit.derivation.petri.stages import stages
 from lsys_kit.errors import ModelNameError, ModelValueError, require, shown
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.fragments import is_link
-from lsys_kit.notation.model.cellworks import CellworkSystem
-from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
+from lsys_kit.notation.read import AnySystem, read_any
 
 _ID = re.compile(r"[\w-]+(\.[\w-]+)?")
 
 
 def explore(
-    what: LSystem | MapSystem | CellworkSystem | str,
+    what: AnySystem | str,
     step: int | None = None,
     *,
     angle: object = None,
@@ -86,20 +84,14 @@ def explore(
     title = ""
     if isinstance(what, str) and _ID.fullmatch(what.strip()):
         title = entry(what.strip()).id
-        what = (
-            map_system(title)
-            if is_map_system(title)
-            else cellwork_system(title)
-            if is_cellwork_system(title)
-            else catalogued(title)
-        )
+        what = cell_system(title) or catalogued(title)
     if isinstance(what, str) and is_link(what):
         there = linked(what)
         given: dict[str, Any] = {**there.settings, **settings_given(step, angle, seed), **constants}
         what, step, angle, seed = there.system, given.pop(STEP, None), given.pop(ANGLE, None), given.pop(SEED, 0)
         constants = given
     system = read_any(what) if isinstance(what, str) else what
-    if not isinstance(system, (LSystem, MapSystem, CellworkSystem)):
+    if not isinstance(system, AnySystem):
         raise ModelValueError(f"Only a system, its id or name, or its text can be explored, not {type(what).__name__}")
     check_unfolded(system, unfold, constants)
     unfold = unfold if isinstance(unfold, bool | str) else [*unfold]
@@ -110,7 +102,7 @@ def explore(
     return Explorer(chosen, step, angle, seed, without, unfold, None if show is None else chosen_names(show, "view", VIEWS))
 
 
-def check_unfolded(system: LSystem | MapSystem | CellworkSystem, unfold: Unfolding, constants: dict[str, Any]) -> None:
+def check_unfolded(system: AnySystem, unfold: Unfolding, constants: dict[str, Any]) -> None:
     """The stage diagram of a system can be unfolded as somebody asks for.
 
     Raises

@@ -27,9 +27,7 @@ from lsys_kit.classroom.panel.page import page, save_page
 from lsys_kit.classroom.widget import KitWidget
 from lsys_kit.errors import LSystemError, ModelValueError, every, shown, whole_number
 from lsys_kit.notation.model.arithmetic import Value, number_text
-from lsys_kit.notation.model.cellworks import CellworkSystem
-from lsys_kit.notation.model.maps import MapSystem
-from lsys_kit.notation.model.system import LSystem
+from lsys_kit.notation.read import AnySystem
 
 _BROKEN_OFF = LSystemError("The kernel was interrupted before this was finished", hint="Try it again.")
 
@@ -110,9 +108,9 @@ class Explorer(KitWidget):
     # -- what Python sees -----------------------------------------------------------------------------------------------
 
     @property
-    def system(self) -> LSystem | MapSystem | CellworkSystem:
+    def system(self) -> AnySystem:
         """The system that is shown: the one that was given, or the one that was typed."""
-        system: LSystem | MapSystem | CellworkSystem = self._opened.system
+        system: AnySystem = self._opened.system
         return system
 
     @property

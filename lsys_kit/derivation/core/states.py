@@ -30,7 +30,7 @@ from lsys_kit.notation.model.arithmetic import SMALL, Value, equal_values, expan
 from lsys_kit.notation.model.modules import Module, Pattern
 from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.registry import dialect_named
-from lsys_kit.notation.syntax.spelling import Wording
+from lsys_kit.notation.syntax.wording import Wording
 from lsys_kit.notation.write import as_written
 
 AXIOM = Module("axiom")

@@ -21,7 +21,7 @@ from lsys_kit.notation.model.arithmetic import PLAIN, literal_text, normalised
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number, TextSpan
 from lsys_kit.notation.model.modules import Pattern, Repeat
 from lsys_kit.notation.model.system import Constant, MetaRule, Production
-from lsys_kit.notation.syntax.spelling import ModelError
+from lsys_kit.notation.syntax.wording import ModelError
 
 _SPELLINGS = {
     "∨": "||",

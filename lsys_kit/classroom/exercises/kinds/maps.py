@@ -18,12 +18,12 @@ from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
 from lsys_kit.classroom.exercises.typed.systems import read_typed
 from lsys_kit.classroom.exercises.typed.text import text_answer
-from lsys_kit.derivation.maps.development import develop
-from lsys_kit.derivation.maps.map import Map, cell_words
+from lsys_kit.derivation.tissues.development import develop
+from lsys_kit.derivation.tissues.maps import Map, cell_words
 from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.dialects.map.dialect import read_map
-from lsys_kit.notation.model.maps import Edge, EdgeProduction, MapSystem
-from lsys_kit.notation.read import is_map
+from lsys_kit.notation.model.cells import Edge, EdgeProduction, MapSystem
+from lsys_kit.notation.read import cells_notation
 from lsys_kit.translation import gettext, ngettext
 
 _AXIOM = re.compile(r"\s*(axiom|\\?omega|ω)\s*[:=]", re.IGNORECASE)
@@ -62,7 +62,7 @@ def _read(exercise: Exercise, answer: object) -> MapAnswer:
 
 
 def _read_text(exercise: Exercise, text: str) -> MapAnswer:
-    if is_map(text) or _AXIOM.match(text) or not exercise.given:
+    if cells_notation(text) == "map" or _AXIOM.match(text) or not exercise.given:
         whole = read_map(text)
         return MapAnswer(whole, whole.productions)
     given = read_map(exercise.given).productions

@@ -11,7 +11,7 @@ from lsys_kit.classroom.exercises.kinds.maps import MapAnswer, with_given
 from lsys_kit.classroom.exercises.kinds.table import solution_of
 from lsys_kit.classroom.exercises.misconceptions.answers import WrongAnswers
 from lsys_kit.classroom.exercises.misconceptions.misconception import Misconception
-from lsys_kit.notation.model.maps import OTHER_SIDE, Edge, EdgeProduction, Marker, SuccessorPart
+from lsys_kit.notation.model.cells import Edge, EdgeProduction, Marker, SuccessorPart
 
 
 def _by_rules(change: Callable[[EdgeProduction], EdgeProduction]) -> WrongAnswers:
@@ -41,7 +41,7 @@ def _labels_exchanged(rule: EdgeProduction, part: SuccessorPart) -> SuccessorPar
     """The label of the first marker for that of the first wall, and the other way round."""
     if not rule.markers:
         return part
-    wall, marked = rule.walls[0].label, rule.markers[0].edge.label
+    wall, marked = rule.edges[0].label, rule.markers[0].edge.label
     other = {wall: marked, marked: wall}
     if isinstance(part, Edge):
         return replace(part, label=other.get(part.label, part.label))
@@ -70,7 +70,7 @@ def _all_leading_away(_: EdgeProduction, part: SuccessorPart) -> SuccessorPart:
 
 
 def _sides_exchanged(_: EdgeProduction, part: SuccessorPart) -> SuccessorPart:
-    return part if isinstance(part, Edge) else replace(part, side=OTHER_SIDE[part.side])
+    return part if isinstance(part, Edge) else part.turned
 
 
 _APPLIES = "kind map"

@@ -13,7 +13,7 @@ from lsys_kit.classroom.panel.books.book import book, first_step
 from lsys_kit.classroom.panel.books.net import Unfolding
 from lsys_kit.classroom.panel.composite import composite_png
 from lsys_kit.classroom.panel.controls import slider_ranges, slider_values
-from lsys_kit.classroom.panel.opened.opened import Viewing, read_any
+from lsys_kit.classroom.panel.opened.opened import Viewing
 from lsys_kit.classroom.panel.page import Made, page_data
 from lsys_kit.classroom.panel.view_model import StepView, ViewModel
 from lsys_kit.classroom.variants import variants
@@ -22,10 +22,8 @@ from lsys_kit.errors import LSystemError, ModelValueError
 from lsys_kit.geometry.drawing import turning_angle
 from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
 from lsys_kit.notation.model.arithmetic import Value, number_text
-from lsys_kit.notation.model.cellworks import CellworkSystem
-from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.notation.read import is_cellwork, is_map, read
+from lsys_kit.notation.read import AnySystem, cells_notation, read, read_any
 from lsys_kit.pictures.rendering.view import FROM_THE_RIGHT, FRONT, lies_flat
 from lsys_kit.pictures.style.labels import place_text
 
@@ -127,9 +125,9 @@ class OpenedSystem:
         seed = {SEED: chosen.seed} if chosen.seed else {}
         return link(self.system, {STEP: chosen.step, **turn, **seed, **self.given, **chosen.values})
 
-    def read(self, text: str) -> LSystem | MapSystem | CellworkSystem:
+    def read(self, text: str) -> AnySystem:
         """The text in the notation of the system before it, or in the one that it shows."""
-        if is_map(text) or is_cellwork(text):
+        if cells_notation(text):
             return read_any(text)
         try:
             return read(text, self.system.notation)

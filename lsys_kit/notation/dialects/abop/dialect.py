@@ -4,25 +4,27 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 from lark import Transformer
 from lark.visitors import merge_transformers
 
+from lsys_kit.errors import ModelSyntaxError
 from lsys_kit.notation.model.expressions import Name
 from lsys_kit.notation.model.modules import Pattern, joined
 from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.syntax.actions import Expressions, Statements
-from lsys_kit.notation.syntax.builder import Draft, build_system, occurring_symbols
-from lsys_kit.notation.syntax.diagnostics import DIAGNOSTICS, missing_keyword_colon
+from lsys_kit.notation.syntax.builder import Draft, build_system, check_colons
+from lsys_kit.notation.syntax.diagnostics import DIAGNOSTICS
 from lsys_kit.notation.syntax.dialect import Dialect
+from lsys_kit.notation.syntax.failure import excerpt
 from lsys_kit.notation.syntax.formatting import first_missing, sections, settings
-from lsys_kit.notation.syntax.predecessor_diagnostics import missing_colon
 from lsys_kit.notation.syntax.segmentation import check_digits, segment_system, segment_with_notes
-from lsys_kit.notation.syntax.surface_diagnostics import surface_declaration
 from lsys_kit.notation.syntax.text.printed import IN_A_SET, printed_statements
 from lsys_kit.notation.syntax.text.statements import without_comments
 from lsys_kit.notation.syntax.text.transcription import likely, transcribe
+from lsys_kit.notation.syntax.wording import Spelling
 
 _EDGE = re.compile(r"F_\w+")
 
@@ -36,7 +38,9 @@ def _resolve_deferred(draft: Draft) -> None:
     plain = without_comments(draft.source)
     for kind, record, at in draft.deferred:
         if kind == "axiom" and not IN_A_SET.search(plain):
-            raise missing_keyword_colon(draft.source, at[0], draft.source[at[0] : at[0] + 5], draft.source[at[0] + 5 : at[1]])
+            word, rest = draft.source[at[0] : at[0] + 5], draft.source[at[0] + 5 : at[1]]
+            hint = f'Type "{word.lower()}: {excerpt(rest.strip())}".'
+            raise ModelSyntaxError(f'A ":" is missing after "{word}"', draft.source, at[0], at[0] + 5, hint)
         draft.add(kind, record, at)
     length = next((constant for constant in draft.constants if constant.name == "d"), None)
     if length and re.search(r"(δ|\\delta)\s*=", plain) and len(re.findall(r"\bd\b", plain)) == 1:
@@ -48,7 +52,7 @@ def _resolve_deferred(draft: Draft) -> None:
 def _finish(draft: Draft) -> LSystem:
     """The system with names segmented into letters where they were written together, with a note on each."""
     _resolve_deferred(draft)
-    missing_colon(draft.sections["productions"], occurring_symbols(draft))
+    check_colons(draft)
     system = _with_edges(segment_with_notes(build_system(draft)))
     check_digits(system.modules, system.alphabet)
     return system
@@ -99,11 +103,12 @@ ABOP = Dialect(
     statements=printed_statements,
     transformer=_transformer,
     finish=_finish,
-    diagnostics=(surface_declaration, *DIAGNOSTICS),
+    diagnostics=("surface", *DIAGNOSTICS),
     module=str,
     joined=joined,
     write=_write,
     missing_feature=_lacking,
     likely=likely,
     transcribe=transcribe,
+    spelling=Spelling(Path(__file__).parent),
 )

@@ -11,9 +11,8 @@ from lark import Token, v_args
 
 from lsys_kit.budget import current
 from lsys_kit.errors import ModelSyntaxError
-from lsys_kit.notation.dialects.cpfg.blocks import Assignment, Block, Choice
 from lsys_kit.notation.dialects.cpfg.expressions import as_number, as_truth, resolve_call, simplified, wanted
-from lsys_kit.notation.dialects.cpfg.variables import SEED
+from lsys_kit.notation.dialects.cpfg.variables import SEED, Assignment, Block, Choice
 from lsys_kit.notation.model.expressions import Apply, Expression, Number
 from lsys_kit.notation.model.modules import END, Pattern
 from lsys_kit.notation.model.system import Constant
