@@ -322,7 +322,7 @@ def check_limit(name: str, needed: int, said: Callable[[], str]) -> None:
     most = getattr(current(), name)
     if needed > most:
         hint = f"Take fewer steps, or set limits({name}=...)."
-        raise ModelLimitError(f"{said()}; the limit is {most:,}", limit=most, needed=needed, hint=hint)
+        raise ModelLimitError(f"{said()}; the limit is {_written(most)}", limit=most, needed=needed, hint=hint)
 
 
 def check_step(step: int, size: int, parts: str, bytes_each: int) -> None:
@@ -337,13 +337,13 @@ Take fewer steps, or set limits(modules=...).
     check_limit("bytes", needed := size * bytes_each, lambda: f"Step {step} would take about {needed:,} bytes")
 
 
-def _written(size: int) -> str:
+def _written(size: float) -> str:
     """A size with its digits, or about how large it is.
 
     >>> _written(1234567), _written(10**5000)
     ('1,234,567', 'about 10^5000')
     """
-    return f"{size:,}" if size < 10**30 else f"about 10^{round((size.bit_length() - 1) * log10(2))}"
+    return f"{size:,}" if size < 10**30 else f"about 10^{round((int(size).bit_length() - 1) * log10(2))}"
 
 
 def counted(things: Iterable[_T], interval: int = INTERVAL) -> Iterator[_T]:

@@ -1,4 +1,4 @@
-"""Scenes: arrays of plain shapes, each with the state of the module that it comes from.
+"""Scenes: arrays of plain shapes, each with the state of the module that it comes from; an array has a row for each shape.
 
 Lengths are in the units of the model. In the plane x grows to the right and y upwards; in space x grows to the right, z
 upwards, and y away from the viewer. A scene knows no screen, no palette and no file.
@@ -23,7 +23,7 @@ class Labels:
     texts
         What it wrote.
     states
-        Shape (n,): the state of the module of each.
+        The state of the module of each.
     """
 
     points: NDArray[np.float64]
@@ -52,13 +52,13 @@ class Segments:
     ends
         Shape (n, 4) in the plane: x and y of the start, x and y of the end; (n, 6) in space.
     orders
-        Shape (n,): the branch order of each, the number of brackets around it.
+        The branch order of each, the number of brackets around it.
     states
-        Shape (n,): the state of the module that drew it.
+        The state of the module that drew it.
     widths
-        Shape (n,), in the model's units; or shape (1,) for all. `OWN` if the turtle has set none.
+        In the model's units; or a single one for all. `OWN` if the turtle has set none.
     colours
-        Shape (n,): numbers of colours; or shape (1,) for all. `OWN` if the turtle has set none.
+        Numbers of colours; or a single one for all. `OWN` if the turtle has set none.
     """
 
     ends: Floats
@@ -85,11 +85,11 @@ class Cells:
     sizes
         Shape (n, 2): length along the filament, and width.
     polarities
-        Shape (n,): -1 for a cell that points left, 1 for one that points right, 0 for one without polarity.
+        -1 for a cell that points left, 1 for one that points right, 0 for one without polarity.
     shades
-        Shape (n,): 0 for a young cell to 1 for an old one.
+        0 for a young cell to 1 for an old one.
     states
-        Shape (n,): the state of the module of each.
+        The state of the module of each.
     """
 
     centres: Floats
@@ -112,13 +112,13 @@ class Walls:
     """Walls between the cells of a filament.
 
     places
-        Shape (n,): the position of each along the filament.
+        The position of each along the filament.
     heights
-        Shape (n,): the width of the wider of the two neighbouring cells.
+        The width of the wider of the two neighbouring cells.
     ages
-        Shape (n,): NaN if a wall has no age.
+        NaN if a wall has no age.
     shades, states
-        Shape (n,), as of `Cells`.
+        As of `Cells`.
     """
 
     places: Floats
@@ -145,7 +145,7 @@ class Polygons:
     starts
         Shape (n + 1,): the index in `points` of the first corner of each; the last is m.
     states, colours
-        Shape (n,), as of `Segments`.
+        As of `Segments`.
     normals
         Shape (m, 3): at each corner of a face of a curved surface the unit normal of the surface, zeros at those of flat
         polygons; shape (0, 3) if all are flat.
@@ -181,9 +181,9 @@ class Discs:
     radii
         Shape (n,).
     kinds
-        Shape (n,): `CIRCLE`, `DISC` or `SPHERE`; in space a circle and a disc face the viewer.
+        `CIRCLE`, `DISC` or `SPHERE`; in space a circle and a disc face the viewer.
     states, colours
-        Shape (n,), as of `Segments`.
+        As of `Segments`.
     """
 
     centres: Floats

@@ -192,7 +192,7 @@ class Boxes:
     Attributes
     ----------
     order
-        Shape (n,): the numbers of the things, so that neighbours follow one another.
+        The numbers of the things, so that neighbours follow one another.
     """
 
     def __init__(self, lows: Floats, highs: Floats) -> None:

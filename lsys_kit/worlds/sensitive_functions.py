@@ -33,7 +33,7 @@ class Things:
     lows, highs
         Shape (n, 2) or (n, 3): the least and the greatest coordinates of each.
     owners
-        Shape (n,): the number of the shoot of each.
+        The number of the shoot of each.
     """
 
     lows: Floats
@@ -102,7 +102,7 @@ class Standpoints:
     shoots
         All shoots.
     own, mothers
-        Shape (n,): the numbers of the shoots of those who ask, and of the shoots from which these grow; neither counts as a
+        The numbers of the shoots of those who ask, and of the shoots from which these grow; neither counts as a
         neighbour. `NO_SHOOT` where there is none.
     tips, heads
         Shape (n, 3): the tips of their shoots, and the directions of the shoots.

@@ -108,7 +108,7 @@ def array_of(word: Word) -> np.ndarray:
     """What a copy of the word copies at least."""
     if not isinstance(word, ColumnWord):
         return np.asarray(word.codes)
-    return word.values._array if isinstance(word.values, FloatColumns) else word.values._numerators
+    return word.values.array if isinstance(word.values, FloatColumns) else word.values.numerators
 
 
 def compare(benchmark, score: Score, goal: Goal, work: Callable[[], Word], visits: int | None = None) -> None:

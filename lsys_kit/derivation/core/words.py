@@ -122,10 +122,6 @@ def state_counts(word: Word) -> Counter[int]:
     return Counter(word.codes)
 
 
-def word_bytes(word: Word) -> int:
-    return word.bytes
-
-
 def blocks(numbers: Sequence[int], size: int = INTERVAL) -> Iterator[Sequence[int]]:
     """A row of numbers in blocks, with a look at the budget after each.
 

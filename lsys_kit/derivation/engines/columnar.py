@@ -208,14 +208,14 @@ class FloatColumns:
     bytes = 8
 
     def __init__(self, shape: tuple[int, int]) -> None:
-        self._array = np.zeros(shape)
+        self.array = np.zeros(shape)
 
     def write(self, argument: ColumnFunction, named: Mapping[str, Any], places: Any, parameter: int) -> None:
         """Write what an argument comes to into some places of the column of a parameter."""
-        target = self._array[places, parameter] if isinstance(places, slice) else None
+        target = self.array[places, parameter] if isinstance(places, slice) else None
         found = argument(named, out=target)
         if target is None or found is not target:
-            self._array[places, parameter] = found
+            self.array[places, parameter] = found
 
     def whole(self) -> FloatColumns:
         """All that was written."""
@@ -223,12 +223,12 @@ class FloatColumns:
 
     def columns(self, rows: Any, parameters: int) -> Iterator[Array]:
         """The columns of the first parameters, of some rows."""
-        there = self._array[rows]
+        there = self.array[rows]
         return (there[:, parameter] for parameter in range(parameters))
 
     def rows(self) -> Iterable[Values]:
         """The values of each module, as numbers."""
-        return map(tuple, _listed(self._array))
+        return map(tuple, _listed(self.array))
 
 
 class ExactColumns:
@@ -260,21 +260,21 @@ class ExactColumns:
             found = found.astype(np.int64) if bits <= SHORT_BITS else found
         if max(bits, common.bit_length()) > EXACT_BITS:
             raise OverflowError
-        self._numerators, self._denominator, self._bits = found, common, bits
+        self.numerators, self.denominator, self.bits = found, common, bits
         self._written.clear()
         return self
 
     @property
     def bytes(self) -> int:
         """About how many bytes one value takes."""
-        return 8 if self._bits <= SHORT_BITS else 56
+        return 8 if self.bits <= SHORT_BITS else 56
 
     def columns(self, rows: Any, parameters: int) -> Iterator[ExactColumn]:
-        there = self._numerators[rows]
-        return (ExactColumn(there[:, parameter], self._denominator, self._bits) for parameter in range(parameters))
+        there = self.numerators[rows]
+        return (ExactColumn(there[:, parameter], self.denominator, self.bits) for parameter in range(parameters))
 
     def rows(self) -> Iterable[Values]:
-        return (tuple(normalised(Fraction(number, self._denominator)) for number in row) for row in _listed(self._numerators))
+        return (tuple(normalised(Fraction(number, self.denominator)) for number in row) for row in _listed(self.numerators))
 
 
 BLOCK_ROWS = 2**15

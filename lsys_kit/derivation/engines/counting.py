@@ -10,6 +10,7 @@ from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property, partial
 from itertools import chain
+from operator import attrgetter
 from typing import Any
 
 from numpy.typing import NDArray
@@ -17,7 +18,7 @@ from numpy.typing import NDArray
 from lsys_kit.budget import INTERVAL, Task, check_budget, counted
 from lsys_kit.cache import Cache
 from lsys_kit.derivation.core.states import States
-from lsys_kit.derivation.core.words import Word, state_counts, word_bytes
+from lsys_kit.derivation.core.words import Word, state_counts
 from lsys_kit.derivation.engines import engine
 from lsys_kit.derivation.engines.columnar import ColumnarSteps, ColumnWord
 from lsys_kit.derivation.engines.engine import ByteTable, Origins, check_size, check_step, compact, expand
@@ -34,7 +35,7 @@ class CountingEngine:
     def __init__(self, states: States, columnar: bool) -> None:
         self.states = states
         self._steps: list[tuple[dict[int, int], int]] = [(Counter(states.axiom), len(states.axiom))]
-        self._words = Cache[int, Word](word_bytes)
+        self._words = Cache[int, Word](attrgetter("bytes"))
         self._bytes = ByteTable(states)
         self._columnar = columnar
         self._new = 0  # so many states were met first at the last step
@@ -61,7 +62,7 @@ class CountingEngine:
         step, (before, _) = self.known + 1, self._steps[-1]
         if self._late or (self._columnar and self._many_new()):
             self._late.append(self._next_word(step))
-            self._late_bytes += word_bytes(self._late[-1])
+            self._late_bytes += self._late[-1].bytes
             return
         met = len(self.states)
         if len(self.states.successors) < met:  # some successors must be computed: not for a step that is refused

@@ -16,7 +16,7 @@ import numpy as np
 from lsys_kit.budget import INTERVAL, check_budget
 from lsys_kit.derivation.core.rules import ModuleKind, Rule, Values, kind_of, rule_for
 from lsys_kit.derivation.core.states import States
-from lsys_kit.derivation.core.words import Word, state_counts, word_bytes
+from lsys_kit.derivation.core.words import Word, state_counts
 from lsys_kit.derivation.engines.contexts import ContextEngine
 from lsys_kit.derivation.engines.engine import Observation, Observer, Origins, check_size, check_step, code_type, compact
 from lsys_kit.derivation.engines.stepwise import SensingFunction, Stepper
@@ -115,7 +115,7 @@ class SteppingEngine:
         if self.states.system.meta:
             made = self._shortened(*made)
         check_budget()
-        self._held += word_bytes(made[0]) + len(before) * ORIGIN_BYTES
+        self._held += made[0].bytes + len(before) * ORIGIN_BYTES
         self._steps.append(made)
 
     def _by_arrays(self, arrays: ContextEngine, before: Word, step: int) -> tuple[Word, Callable[[], Origins]]:

@@ -47,7 +47,7 @@ class Mesh:
     triangles
         Shape (m, 3): the numbers of its vertices, counter-clockwise as seen from outside.
     states, colours
-        Shape (n,): for each vertex the state of its module, and the number of its colour, or `OWN`.
+        For each vertex the state of its module, and the number of its colour, or `OWN`.
     """
 
     vertices: Singles

@@ -41,7 +41,7 @@ class Strokes(NamedTuple):
     looks
         Shape (n, 2): its state and the number of its colour.
     follows
-        Shape (n,): whether it continues the one before.
+        Whether it continues the one before.
     """
 
     ends: Floats
@@ -97,7 +97,7 @@ def connected(ends: Floats, radii: Floats, orders: Integers, looks: Integers, ne
     ends, radii, looks
         As of `Strokes`; all strokes have a length.
     orders
-        Shape (n,): the branch order of each.
+        The branch order of each.
     near
         Points that are closer are one.
 

@@ -36,19 +36,19 @@ class Path:
     """The steps forward of a turtle, before the angle is known.
 
     turns, offsets
-        Shape (n,): the heading is turns * angle + offset, in degrees from the turtle's first heading, to the left.
+        The heading is turns * angle + offset, in degrees from the turtle's first heading, to the left.
     lengths
-        Shape (n,): how far it goes.
+        How far it goes.
     parents
-        Shape (n,): the number of the earlier step at whose end it starts; -1 for the origin.
+        The number of the earlier step at whose end it starts; -1 for the origin.
     drawn
-        Shape (n,): whether it leaves a stroke; a step may also lead to the corner of a leaf.
+        Whether it leaves a stroke; a step may also lead to the corner of a leaf.
     orders
-        Shape (n,): in how many brackets it stands.
+        In how many brackets it stands.
     states
-        Shape (n,): the state of its module.
+        The state of its module.
     widths, colours
-        Shape (n,), as of `Segments`.
+        As of `Segments`.
     outlines, rounds, written
         Polygons, circles and discs, and labels; their places are numbers of steps, at whose ends they are.
     unknown
