@@ -32,7 +32,7 @@ from lsys_kit.pictures.rendering.frames import MARGIN, WIDTH
 from lsys_kit.pictures.style.labels import place_parts, polar_symbols, svg_label, values_text
 from lsys_kit.pictures.style.palette import VERMILION, colour_of, tinted
 from lsys_kit.pictures.style.themes import drawn_on, line, theme
-from lsys_kit.pictures.svg import background, document, resized
+from lsys_kit.pictures.svg import background, document, element, resized
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -268,14 +268,13 @@ def _axis(tree: Tree) -> str:
     whole = lineage.stepwise and lineage.times == tuple(range(len(lineage.times)))
     name = "step" if whole else '<tspan font-style="italic">t</tspan>'
     quiet, fine = theme().quiet, tinted(theme().quiet, 0.3)
-    parts = [f'<text x="{tenths(AXIS - 10)}" y="{tenths(MARGIN + HEAD - 16)}" font-size="110" fill="{quiet}">{name}</text>']
+    x = tenths(AXIS - 10)
+    parts = [element("text", name, x=x, y=tenths(MARGIN + HEAD - 16), font_size=110, fill=quiet)]
     for time in _ticks(lineage):
         y = tenths(tree.y(time))
-        parts.append(
-            f'<path d="M{tenths(AXIS)} {y}H{tenths(WIDTH - MARGIN)}" stroke="{fine}" stroke-width="8"/>'
-            f'<text x="{tenths(AXIS - 10)}" y="{y + 42}" font-size="120" fill="{quiet}">{time_text(time)}</text>'
-        )
-    return f'<g text-anchor="end" font-family="sans-serif">{"".join(parts)}</g>'
+        parts.append(element("path", d=f"M{tenths(AXIS)} {y}H{tenths(WIDTH - MARGIN)}", stroke=fine, stroke_width=8))
+        parts.append(element("text", time_text(time), x=x, y=y + 42, font_size=120, fill=quiet))
+    return element("g", "".join(parts), text_anchor="end", font_family="sans-serif")
 
 
 def _ticks(lineage: Lineage) -> Sequence[Value]:
@@ -301,17 +300,18 @@ def _line(tree: Tree, number: int) -> str:
     cell, kind, x = tree.lineage.cells[number], tree.kinds[tree.kind_of[number]], tree.x[number]
     bottom = tree.y(tree.lineage.times[-1]) + TAIL if cell.ended is None else tree.y(cell.ended)
     seen = tree.y(tree.lineage.times[cell.modules[0][0]]) if cell.modules else bottom
-    late = ""
+    parts = []
     if cell.due is not None:
         due = tree.y(max(cell.due, cell.born))
-        late = f'<path d="M{tenths(x)} {tenths(due)}V{tenths(bottom)}" {_late_look()} fill="none"/>'
+        parts.append(f'<path d="M{tenths(x)} {tenths(due)}V{tenths(bottom)}" {_late_look()} fill="none"/>')
     start, turned = _branch_path(tree, number, bottom)
+    if turned < seen and tree.lineage.stepwise:
+        pieces = [(start, seen, THIN)] + [(f"M{tenths(x)} {tenths(seen)}", bottom, THICK)] * (bottom > seen)
+    else:
+        pieces = [(start, bottom, THICK)]
     look = f'fill="none" stroke="{line(kind.colour)}" stroke-linecap="round"{kind.broken}'
-    if seen <= turned or not tree.lineage.stepwise:
-        return f'{late}<path d="{start}V{tenths(bottom)}" {look} stroke-width="{THICK}"/>'
-    thin = f'{late}<path d="{start}V{tenths(seen)}" {look} stroke-width="{THIN}"/>'
-    thick = f'<path d="M{tenths(x)} {tenths(seen)}V{tenths(bottom)}" {look} stroke-width="{THICK}"/>'
-    return thin + (thick if bottom > seen else "")
+    parts += [f'<path d="{begin}V{tenths(end)}" {look} stroke-width="{width}"/>' for begin, end, width in pieces]
+    return "".join(parts)
 
 
 def _late_look() -> str:
@@ -341,7 +341,7 @@ def _flags(tree: Tree) -> str:
         if way and end - top > 16:
             x, y = tenths(tree.x[number]), tenths(top + 7)
             parts.append(f"M{x} {y}L{x + way * 65} {y + 32}L{x} {y + 64}Z")
-    return f'<path d="{"".join(parts)}" fill="{theme().ink}"/>'
+    return element("path", d="".join(parts), fill=theme().ink)
 
 
 def _last_word(tree: Tree, middle: float, labels: bool) -> str:
