@@ -80,21 +80,17 @@ def plot(what: Any, n: Any = None, measure: Asked | None = None, *, log: bool = 
     """
     require(log, bool, 'True or False for "log"')
     with Task("The plot was not made"):
-        return _plot(what, n, measure, log, choices)
-
-
-def _plot(what: Any, n: Any, measure: Any, log: bool, choices: dict[str, Any]) -> Plot:
-    if isinstance(what, Table):
-        _refuse(choices, n, "A table has its steps and constants")
-        return what.plot(measure, log)
-    if isinstance(what, Stages | Growth):
-        _refuse(choices, None if isinstance(what, Stages) else n, "Its constants are those of the system it was made of")
-        if measure is not None or log:
-            raise ModelValueError("Of stages the frequencies are shown, and nothing else is measured")
-        return Plot(_stage_shares(what, n) if isinstance(what, Stages) else _long_run(what))
-    if isinstance(what, MapSystem | Development):
-        return Plot(_map_chart(what, n, measure, log, choices))
-    return Plot(_curve_chart(what, n, measure, log, choices))
+        if isinstance(what, Table):
+            _refuse(choices, n, "A table has its steps and constants")
+            return what.plot(measure, log)
+        if isinstance(what, Stages | Growth):
+            _refuse(choices, None if isinstance(what, Stages) else n, "Its constants are those of the system it was made of")
+            if measure is not None or log:
+                raise ModelValueError("Of stages the frequencies are shown, and nothing else is measured")
+            return Plot(_stage_shares(what, n) if isinstance(what, Stages) else _long_run(what))
+        if isinstance(what, MapSystem | Development):
+            return Plot(_map_chart(what, n, measure, log, choices))
+        return Plot(_curve_chart(what, n, measure, log, choices))
 
 
 def _refuse(choices: Mapping[str, Any], n: object, why: str) -> None:
@@ -104,7 +100,6 @@ def _refuse(choices: Mapping[str, Any], n: object, why: str) -> None:
 
 
 def _curve_chart(what: Any, n: Any, measure: Any, log: bool, choices: dict[str, Any]) -> CurveChart:
-    """Curves of one system, or of several."""
     if not isinstance(what, Mapping):
         return _chart_of_runs([("", _run(what, n, choices))], measure, log)
     if not what:
@@ -185,7 +180,6 @@ def _name_label(name: str) -> str:
 
 
 def _points(run: Derivation | _Course, measures: Sequence[Measure]) -> list[tuple[tuple[float, float], ...]]:
-    """For each measure its values at all steps or moments."""
     if isinstance(run, Derivation):
         places: list[Any] = [*range(len(run))]
         seen = [run.to(step) for step in counted(places, 1)]
@@ -208,7 +202,6 @@ def _kinds(run: Derivation) -> list[str]:
 
 
 def _measure_label(name: str, system: LSystem) -> str:
-    """The label of a curve among several of one system."""
     if name in symbols(system) or name[:1].isupper():
         return mathematics(*label_parts(name, system))
     return measured_label(name).removeprefix("number of ")

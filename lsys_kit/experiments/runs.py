@@ -104,7 +104,6 @@ def outcomes(
 def _handed_out(
     experiment: Experiment, runs: Sequence[Run], first: int, seconds: float, submit: Callable[..., Future[list[Outcome]]]
 ) -> Iterator[tuple[int, Outcome]]:
-    """The outcomes of all runs from one on, by an executor."""
     size = batch_size(len(runs) - first, seconds)
     futures = {}
     try:
@@ -342,7 +341,6 @@ def _seed(given: object) -> int:
 
 
 def _all_of(values: Iterable[object]) -> list[object]:
-    """All of some values, if there are not too many."""
     most = current().bytes // BYTES_A_VALUE
     found = list(islice(iter(values), most + 1))
     _check_room(len(found))

@@ -57,7 +57,6 @@ def folded(rows: Sequence[FilamentRow]) -> Sequence[FilamentRow]:
 
 
 def _lines(row: FilamentRow, many: int) -> Iterator[FilamentRow]:
-    """The lines of a row: a cell stands where its centre lies."""
     cells, walls, length = row.scene.cells, row.scene.walls, row.scene.width / many
     where = np.minimum(cells.centres[:, 0] // length, many - 1)
     ends = cells.centres[:, 0] + cells.sizes[:, 0] / 2
@@ -298,7 +297,6 @@ def letters_fit(sheet: FilamentLayout, letters: Mapping[int, str]) -> bool:
 
 
 def _letters_svg(cells: Sequence[DrawnCell], middle: float, colour_of: Mapping[int, str], letters: Mapping[int, str]) -> str:
-    """The letters in cells, where there is room, each on its cell's own colour."""
     y = tenths(middle + 0.36 * LETTER)
     texts = [
         f'<text x="{tenths(cell.x)}" y="{y}" stroke="{cell_fill(colour_of.get(cell.state, GREEN), cell.shade)}">'
@@ -311,7 +309,6 @@ def _letters_svg(cells: Sequence[DrawnCell], middle: float, colour_of: Mapping[i
 
 
 def _fits(cell: DrawnCell, letters: Mapping[int, str]) -> bool:
-    """Whether there is room for the letter of a cell, besides its arrow."""
     return cell.length > LETTER * (0.4 * len(letters.get(cell.state, "")) + 0.7 * (cell.way != 0)) and cell.width > 0.6 * LETTER
 
 
@@ -335,7 +332,6 @@ def wall_colour(colour: str, shade: float) -> str:
 def _walls_svg(
     walls: Sequence[DrawnWall], middle: float, aged: bool, colour_of: Mapping[int, str], marked: Collection[int]
 ) -> str:
-    """The walls of a filament, with their ages above."""
     parts = []
     for wall in walls:
         x, top, bottom = tenths(wall.x), tenths(middle - wall.height - 2), tenths(middle + wall.height + 2)

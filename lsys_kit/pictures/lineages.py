@@ -107,7 +107,6 @@ def _line_positions(lineage: Lineage, right: int) -> tuple[dict[int, float], lis
 
 
 def _leaves(lineage: Lineage) -> Iterator[int]:
-    """The cells without daughters, from left to right."""
     todo = [cell for cell in range(len(lineage.cells) - 1, -1, -1) if lineage.cells[cell].mother is None]
     while todo:
         cell = todo.pop()
@@ -155,7 +154,6 @@ def _kinds(lineage: Lineage) -> tuple[list[CellKind], list[int], dict[int, str]]
 
 
 def _base(lineage: Lineage, module: Module) -> str:
-    """The symbol of a module without its polarity."""
     return polar_symbols(lineage.states.system).get(module.symbol, (module.symbol, ""))[0]
 
 
@@ -286,7 +284,6 @@ def _ticks(lineage: Lineage) -> Sequence[Value]:
 
 
 def _bracket(tree: Tree, place: int, first: Value, last: Value) -> str:
-    """An interval beside the tree, with its length."""
     x, top, bottom = tree.right + BRACKET * place + 18, tree.y(first), tree.y(last)
     return (
         f'<path d="M{tenths(x - 5)} {tenths(top)}h100M{tenths(x)} {tenths(top)}V{tenths(bottom)}m-50 0h100" fill="none" '

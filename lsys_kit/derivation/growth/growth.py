@@ -348,22 +348,18 @@ def growth(system: LSystem, **constants: object) -> Growth:
     """
     require(system, LSystem, "An L-system")
     with Task("The growth was not found"):
-        return _growth(system, constants)
-
-
-def _growth(system: LSystem, constants: dict[str, object]) -> Growth:
-    with suppress(ModelValueError):  # what cannot be counted may not matter, and be sliced away
-        states = States(system, constants)
-        if states.traits.d0l and closure(states, current().states) is not None:
-            return Growth(states)
-    states = States(slice_system(system), constants)
-    check_d0l(states, "Growth")
-    if closure(states, current().states) is None:
-        raise ModelLimitError(
-            f"The system reaches too many distinct modules for a finite growth matrix: more than {current().states:,}",
-            limit=current().states,
-            needed=len(states),
-            hint=f"The last one was {states.modules[-1]}; where a condition depends on a parameter that "
-            "grows for ever, there is no growth matrix.",
-        )
-    return Growth(states)
+        with suppress(ModelValueError):  # what cannot be counted may not matter, and be sliced away
+            states = States(system, constants)
+            if states.traits.d0l and closure(states, current().states) is not None:
+                return Growth(states)
+        states = States(slice_system(system), constants)
+        check_d0l(states, "Growth")
+        if closure(states, current().states) is None:
+            raise ModelLimitError(
+                f"The system reaches too many distinct modules for a finite growth matrix: more than {current().states:,}",
+                limit=current().states,
+                needed=len(states),
+                hint=f"The last one was {states.modules[-1]}; where a condition depends on a parameter that "
+                "grows for ever, there is no growth matrix.",
+            )
+        return Growth(states)

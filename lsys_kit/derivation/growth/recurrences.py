@@ -142,15 +142,10 @@ def greatest_root(rule: Sequence[int], exact: bool = True) -> float:
 
     Newton's method comes down to it from above: beyond its largest root the polynomial and its derivatives are positive.
 
+    Where that is to be exact, multiple roots are made simple first: with them some five digits are right.
+
     >>> round(greatest_root((3, -3, 1)), 12)
     1.0
-
-    Parameters
-    ----------
-    rule
-        The shortest rule of a sequence that is nowhere negative.
-    exact
-        Whether to make multiple roots simple first: with them some five digits are right.
     """
     if not any(rule):
         return 0.0
@@ -180,15 +175,8 @@ def leading_weights(rule: Sequence[int], bits: int) -> list[int] | None:
     None where they die out, or where that swings for ever: where the largest root is not alone, counting as often as it is a
     root. The others are then its products with roots of unity (Perron and Frobenius).
 
-    Parameters
-    ----------
-    rule
-        The shortest rule of several sequences of counts together.
-    bits
-        How long the first terms are, for the precision.
+    The rule is the shortest of several sequences of counts together; so many bits the first terms have, for the precision.
 
-    Examples
-    --------
     >>> weights = leading_weights((1, 1), 2)
     >>> round(weights[0] / weights[1], 6)
     0.618034

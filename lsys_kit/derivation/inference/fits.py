@@ -215,7 +215,6 @@ def parting_step(fits: Sequence[LSystem], start: int) -> int | None:
 
 
 def _small(derivation: Derivation, step: int) -> bool:
-    """Whether the word of a step is not too large to be looked at."""
     try:
         return derivation.to(step).lengths[step] <= MODULES_AHEAD
     except ModelLimitError:

@@ -178,7 +178,6 @@ def _refusal(rows: tuple[Row, ...], conditions: Conditions) -> Refusal:
 
 
 def _wider(rows: tuple[Row, ...], conditions: Conditions, trials: int) -> Iterator[Wider]:
-    """Wider conditions under which systems fit, counted with so many trials."""
     nested = all(map(well_nested, rows))
     for erasing in dict.fromkeys((conditions.erasing, True)):
         alone = ((0, 0),) * (erasing is not conditions.erasing)

@@ -216,42 +216,37 @@ def stages(
     b(0) -> a(0) after 1
     """
     with Task("The stages were not found"):
-        return _stages(system, polarity, durations, unfold, constants)
-
-
-def _stages(
-    system: LSystem | Timed, polarity: bool, durations: bool, unfold: bool | str | Collection[str], constants: dict[str, object]
-) -> Stages:
-    require(polarity, bool, 'True or False for "polarity"')
-    require(durations, bool, 'True or False for "durations"')
-    symbols = _symbols_from(unfold)
-    if symbols is not None and (durations or isinstance(system, Timed)):
-        raise ModelValueError(
-            "Only all symbols of a timed net can be unfolded, because it is never grouped by symbol",
-            hint="Give unfold=True, or leave out the durations.",
-        )
-    most = MOST_UNFOLDED if unfold is True else MOST_PLACES
-    if isinstance(system, Timed):
-        if constants:
+        require(polarity, bool, 'True or False for "polarity"')
+        require(durations, bool, 'True or False for "durations"')
+        symbols = _symbols_from(unfold)
+        if symbols is not None and (durations or isinstance(system, Timed)):
             raise ModelValueError(
-                "The constants of a timed system are chosen when it is made", hint="Write stages(timed(system, name=value))."
+                "Only all symbols of a timed net can be unfolded, because it is never grouped by symbol",
+                hint="Give unfold=True, or leave out the durations.",
             )
-        return _timed_net(system.ages, polarity, most)
-    states = States(system, constants)
-    if durations:
-        return _timed_net(age_model(states), polarity, most)
-    nets = ((_net(table, states, polarity), table.most) for table in _tables(states, constants, 4 * most))
-    if symbols is not None:
-        return unfolded_symbols(states, constants, symbols, MOST_UNFOLDED)
-    for net, legible in nets:
-        if len(net.places) <= most and (unfold or (len(net.transitions) <= legible and len(net.arcs) <= MOST_ARCS)):
-            return net
-    if unfold:
-        raise ModelValueError(
-            "The stages of this system cannot be unfolded",
-            hint=f"They are more than {MOST_UNFOLDED}, or the neighbours of a module decide what it becomes.",
-        )
-    return by_symbol(states)
+        most = MOST_UNFOLDED if unfold is True else MOST_PLACES
+        if isinstance(system, Timed):
+            if constants:
+                raise ModelValueError(
+                    "The constants of a timed system are chosen when it is made",
+                    hint="Write stages(timed(system, name=value)).",
+                )
+            return _timed_net(system.ages, polarity, most)
+        states = States(system, constants)
+        if durations:
+            return _timed_net(age_model(states), polarity, most)
+        nets = ((_net(table, states, polarity), table.most) for table in _tables(states, constants, 4 * most))
+        if symbols is not None:
+            return unfolded_symbols(states, constants, symbols, MOST_UNFOLDED)
+        for net, legible in nets:
+            if len(net.places) <= most and (unfold or (len(net.transitions) <= legible and len(net.arcs) <= MOST_ARCS)):
+                return net
+        if unfold:
+            raise ModelValueError(
+                "The stages of this system cannot be unfolded",
+                hint=f"They are more than {MOST_UNFOLDED}, or the neighbours of a module decide what it becomes.",
+            )
+        return by_symbol(states)
 
 
 def _symbols_from(unfold: bool | str | Collection[str]) -> list[str] | None:

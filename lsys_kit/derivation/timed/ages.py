@@ -446,7 +446,6 @@ class StepAges(AgeModel):
         return None if stays else End(rule, span, module, True)
 
     def _end_in_steps(self, module: Module, rules: Iterable[Rule]) -> End | None:
-        """How a life ends that lasts whole steps."""
         age, step = self.age(module) or 0, self.step or 1
         near = {max(0, math.floor((cut - age) / step) + by) for cut in self._cuts(module, rules) for by in (-1, 0, 1, 2)}
         for steps in sorted({0} | near):

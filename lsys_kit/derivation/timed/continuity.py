@@ -221,17 +221,8 @@ TOLERANCE = 1e-9
 
 @dataclass(frozen=True)
 class Division:
-    """What a production does to the length of a filament, or to a derivative of that length.
-
-    Attributes
-    ----------
-    production
-        The production.
-    order
-        0 for the length itself, k for its k-th derivative.
-    mother, daughters
-        The length of the mother at her terminal age, and that of all daughters together at their first ages.
-    """
+    """What a production does to the length of a filament, or to its derivative of some order: the length of the mother at her
+    terminal age, and that of all daughters together at their first ages."""
 
     production: Production
     order: int
@@ -459,30 +450,25 @@ def continuity(system: LSystem | Timed, lengths: Mapping[str, str], order: int =
     require(lengths, Mapping, "A growth function for each letter, as a dictionary,")
     the_age()  # so that sympy is imported before it is supervised
     with Task("Whether the length is continuous was not decided"), supervised():
-        return _continuity(system, lengths, order, constants)
-
-
-def _continuity(system: LSystem | Timed, lengths: Mapping[str, str], order: int, constants: Mapping[str, object]) -> Continuity:
-    growing, given = _timed_with_values(system, constants)
-    productions = list(_divisions(growing))
-    lives = _life_spans(growing, productions)
-    texts = written_functions(lengths, lives)
-    functions = length_functions(growing, texts, given, lives)
-    undecided = tuple(
-        letter for letter, life in lives.items() if not is_decided(letter, texts[letter], functions[letter], life, order)
-    )
-    divisions = tuple(
-        Division(production, k, *(_total_length(growing.ages, modules, functions, k) for modules in ([mother], daughters)))
-        for k in range(order + 1)
-        for production, mother, daughters in productions
-    )
-    for division in divisions:
-        _ = division.defect  # found here, where the time that it takes counts
-    return Continuity(divisions, undecided, tuple((functions[letter], life) for letter, life in lives.items()))
+        growing, given = _timed_with_values(system, constants)
+        productions = list(_divisions(growing))
+        lives = _life_spans(growing, productions)
+        texts = written_functions(lengths, lives)
+        functions = length_functions(growing, texts, given, lives)
+        undecided = tuple(
+            letter for letter, life in lives.items() if not is_decided(letter, texts[letter], functions[letter], life, order)
+        )
+        divisions = tuple(
+            Division(production, k, *(_total_length(growing.ages, modules, functions, k) for modules in ([mother], daughters)))
+            for k in range(order + 1)
+            for production, mother, daughters in productions
+        )
+        for division in divisions:
+            _ = division.defect  # found here, where the time that it takes counts
+        return Continuity(divisions, undecided, tuple((functions[letter], life) for letter, life in lives.items()))
 
 
 def _timed_with_values(system: LSystem | Timed, constants: Mapping[str, object]) -> tuple[Timed, dict[str, object]]:
-    """The timed system with its constants set, and the values of other names."""
     model = system.states.system if isinstance(system, Timed) else system
     names = [constant.name for constant in model.constants]
     values: dict[str, object] = dict(zip(names, system.states.constants, strict=True)) if isinstance(system, Timed) else {}

@@ -48,17 +48,9 @@ def growth_base(t_div: float, t_s: float, t_l: float) -> float:
 
 
 def positive_root(powers: Sequence[tuple[float, float]]) -> float:
-    """The one z > 0 at which a sum of powers is 0, whose coefficients change their sign once.
+    """The one z > 0 at which a sum of powers is 0, each an exponent with a coefficient, whose coefficients change their sign
+    once: there is just one such z, by Descartes' rule of signs, which holds for all real exponents.
 
-    There is just one such z, by Descartes' rule of signs, which holds for all real exponents.
-
-    Parameters
-    ----------
-    powers
-        An exponent and a coefficient for each summand.
-
-    Examples
-    --------
     >>> round(positive_root([(2, 1), (1, -1), (0, -1)]), 9)
     1.618033989
     """
@@ -88,15 +80,9 @@ def bisected(function: Callable[[float], float], low: float, high: float) -> flo
 def roots(equation: sympy.Expr, low: float | None = None, high: float | None = None) -> list[sympy.Expr]:
     """The real values of the one name in an expression with which it is 0; exact where they are written with square roots.
 
-    Parameters
-    ----------
-    equation
-        The expression. All values are found where it is a sum of powers of the name, or of e^name.
-    low, high
-        Between which numbers the values lie. An expression of another kind must have opposite signs there.
+    All values are found where it is a sum of powers of the name, or of e^name; an expression of another kind must have opposite
+    signs at the two numbers between which the values lie.
 
-    Examples
-    --------
     >>> import sympy
     >>> rate = sympy.Symbol("B", real=True)
     >>> roots(sympy.exp(2*rate) - sympy.exp(rate) - 1)
