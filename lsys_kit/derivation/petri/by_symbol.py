@@ -26,8 +26,7 @@ from lsys_kit.derivation.core.rules import ModuleKind, Rule, kind_of
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.traits import CUT
 from lsys_kit.derivation.growth.slicing import ArgumentPosition, UnitT, deciding_positions, slice_system, without_arguments
-from lsys_kit.derivation.petri.net import Arc, Place, Stages, Transition
-from lsys_kit.derivation.petri.outcomes import outcomes_of
+from lsys_kit.derivation.petri.net import Arc, Place, Stages, Transition, outcomes_of
 from lsys_kit.errors import ModelNameError, ModelValueError, quotable
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.arithmetic import Value

@@ -27,10 +27,10 @@ from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.growth.slicing import ArgumentPosition, deciding_positions, slice_system, without_arguments
 from lsys_kit.derivation.petri.by_symbol import by_symbol, unfolded_symbols
 from lsys_kit.derivation.petri.net import Arc as Arc
+from lsys_kit.derivation.petri.net import Outcome, all_outcomes
 from lsys_kit.derivation.petri.net import Place as Place
 from lsys_kit.derivation.petri.net import Stages as Stages
 from lsys_kit.derivation.petri.net import Transition as Transition
-from lsys_kit.derivation.petri.outcomes import Outcome, all_outcomes
 from lsys_kit.derivation.timed.ages import AgelessModule, AgeModel, age_model, births
 from lsys_kit.derivation.timed.timed import Timed
 from lsys_kit.errors import ModelValueError, require

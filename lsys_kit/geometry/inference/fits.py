@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from lsys_kit.budget import check_budget
 from lsys_kit.derivation.derive import derive
-from lsys_kit.derivation.inference.fits import SystemsFound
+from lsys_kit.derivation.inference.infer import SystemsFound
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.inference.strokes import Strokes

@@ -12,8 +12,7 @@ from typing import Any, overload
 from lsys_kit.budget import Task, counted
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.inference import infer as words_alone
-from lsys_kit.derivation.inference.fits import Fits
-from lsys_kit.derivation.inference.infer import MOST_FITS
+from lsys_kit.derivation.inference.infer import MOST_FITS, Fits
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.geometry.drawing import ANGLE_HINT
 from lsys_kit.geometry.inference.edge_rewriting import edge_rules, factor_of
