@@ -36,7 +36,7 @@ from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown, wh
 from lsys_kit.notation.model.system import LSystem, Production
 
 MOST_SHOWN = 20
-"""So many systems are shown, and so many letters named."""
+"""So many systems are shown, and so many letters and productions named."""
 MOST_SLIPS_SHOWN = 6
 """So many slips are shown."""
 MOST_COMPARED, STEPS_AHEAD, MODULES_AHEAD = 100, 10, 100_000
@@ -211,8 +211,7 @@ def _unknown(fits: Fits) -> Iterator[str]:
     before = {module.symbol for word in fits.words[:-1] for module in word} | fits.conditions.unchanged
     unknown = [*dict.fromkeys(module.symbol for module in fits.words[-1] if module.symbol not in before)]
     if unknown:
-        more = f" and {len(unknown) - MOST_SHOWN} more" if len(unknown) > MOST_SHOWN else ""
-        yield f"Nothing is known of what becomes of {', '.join(unknown[:MOST_SHOWN])}{more}: only the last word has it."
+        yield f"Nothing is known of what becomes of {_some(unknown)}: only the last word has it."
 
 
 def parting_step(fits: Sequence[LSystem], start: int) -> int | None:
@@ -246,8 +245,6 @@ MOST_TRIED_FOR_ONE = 100
 """So many successors are tried to see whether any system fits."""
 MOST_TRIED_TO_COUNT = 8_000
 """So many successors are tried to count those that fit."""
-MOST_NAMED = 20
-"""So many productions and letters are named."""
 _OTHER_LETTERS = (
     "With contexts, a module with other values, or other neighbours, is another letter: laws of values are looked "
     "for without contexts only."
@@ -295,7 +292,7 @@ def too_many(problem: Problem, listed: Fits, found: Sequence[Table]) -> ModelLim
 
 def _some(texts: Sequence[str]) -> str:
     """Texts in a row; of very many only the first, and how many more there are."""
-    return ", ".join(texts[:MOST_NAMED]) + (f" and {len(texts) - MOST_NAMED} more" if len(texts) > MOST_NAMED else "")
+    return ", ".join(texts[:MOST_SHOWN]) + (f" and {len(texts) - MOST_SHOWN} more" if len(texts) > MOST_SHOWN else "")
 
 
 MOST_FITS = 1_000
