@@ -52,12 +52,12 @@ def measures_of(asked: Asked, system: LSystem) -> tuple[Measure, ...]:
     return found
 
 
-def _named(asked: Any) -> Iterator[tuple[str, object]]:
+def _named(asked: object) -> Iterator[tuple[str, object]]:
     for each in asked if isinstance(asked, list | tuple) else (asked,):
         yield from _with_names(each)
 
 
-def _with_names(asked: Any) -> Iterator[tuple[str, object]]:
+def _with_names(asked: object) -> Iterator[tuple[str, object]]:
     if isinstance(asked, Mapping):
         for name, each in asked.items():
             if not isinstance(name, str):

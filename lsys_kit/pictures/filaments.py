@@ -342,8 +342,8 @@ def _walls_svg(
     ends = [(x - _age_reach(wall), x + _age_reach(wall)) for x, wall in zip(places, walls, strict=True)]
     look = {"font_size": 105, "text_anchor": "middle", "font_family": "sans-serif", "fill": theme().ink}
     if aged and all(left[1] < right[0] for left, right in pairwise(ends)):
-        for x, wall in zip(places, walls, strict=True):
-            parts.append(element("text", wall.age, x=tenths(x), y=tenths(middle - wall.height - 4.5), **look))
+        for place, wall in zip(places, walls, strict=True):
+            parts.append(element("text", wall.age, x=tenths(place), y=tenths(middle - wall.height - 4.5), **look))
     return element("g", "".join(parts), stroke_linecap="round") if parts else ""
 
 

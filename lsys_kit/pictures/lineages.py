@@ -139,12 +139,12 @@ def _kinds(lineage: Lineage) -> tuple[list[CellKind], list[int], dict[int, str]]
     keys = [(_base(lineage, module), _drawn_shape(lineage, module)) for module in births]
     if len(set(keys)) > MOST_KINDS:
         keys = [(base, None) for base, _ in keys]
-    numbers = {key: number for number, key in enumerate(dict.fromkeys(keys))}
-    members: list[dict[Module, None]] = [{} for _ in numbers]
+    members: dict[tuple[str, object], dict[Module, None]] = {}
     for key, module in zip(keys, births, strict=True):
-        members[numbers[key]][module] = None
+        members.setdefault(key, {})[module] = None
+    numbers = {key: number for number, key in enumerate(members)}
     system, kinds = lineage.states.system, []
-    for modules, dash in zip(members, cycle(DASHES), strict=False):
+    for modules, dash in zip(members.values(), cycle(DASHES), strict=False):
         symbol = next(iter(modules)).symbol
         letter, subscript, values = place_parts(Place(symbol, tuple(modules)), system)
         name = f"{letter}_{subscript}" if subscript else letter
@@ -285,11 +285,10 @@ def _ticks(lineage: Lineage) -> Sequence[Value]:
 
 def _bracket(tree: Tree, place: int, first: Value, last: Value) -> str:
     x, top, bottom = tree.right + BRACKET * place + 18, tree.y(first), tree.y(last)
-    return (
-        f'<path d="M{tenths(x - 5)} {tenths(top)}h100M{tenths(x)} {tenths(top)}V{tenths(bottom)}m-50 0h100" fill="none" '
-        f'stroke="{theme().ink}" stroke-width="14"/><text x="{tenths(x + 8)}" y="{tenths((top + bottom) / 2 + 4.5)}" '
-        f'font-size="130" font-family="sans-serif" fill="{theme().ink}">{time_text(last - first)}</text>'
-    )
+    ink, y = theme().ink, tenths((top + bottom) / 2 + 4.5)
+    d = f"M{tenths(x - 5)} {tenths(top)}h100M{tenths(x)} {tenths(top)}V{tenths(bottom)}m-50 0h100"
+    text = element("text", time_text(last - first), x=tenths(x + 8), y=y, font_size=130, font_family="sans-serif", fill=ink)
+    return element("path", d=d, fill="none", stroke=ink, stroke_width=14) + text
 
 
 def _line(tree: Tree, number: int) -> str:
@@ -323,10 +322,8 @@ def _branch_path(tree: Tree, number: int, bottom: float) -> tuple[str, float]:
         return f"M{tenths(x)} {tenths(top)}", top
     away = x - tree.x[cell.mother]
     bend = min(BEND, abs(away), bottom - top)
-    return (
-        f"M{tenths(x - away)} {tenths(top)}H{tenths(x - (bend if away > 0 else -bend))}"
-        f"Q{tenths(x)} {tenths(top)} {tenths(x)} {tenths(top + bend)}"
-    ), top + bend
+    across, down, turn = tenths(x), tenths(top), tenths(x - (bend if away > 0 else -bend))
+    return f"M{tenths(x - away)} {down}H{turn}Q{across} {down} {across} {tenths(top + bend)}", top + bend
 
 
 def _flags(tree: Tree) -> str:

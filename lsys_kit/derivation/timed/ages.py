@@ -158,6 +158,7 @@ class TimedAges(AgeModel):
 def births(ages: AgeModel, limit: int) -> dict[AgelessModule, dict[Value, dict[Value, Module]]]:
     """For each kind of module, and each phase, those that are born, by their age."""
     found: dict[AgelessModule, dict[Value, dict[Value, Module]]] = {}
+    many = 0
     todo = [ages.states.modules[state] for state in ages.states.axiom][::-1]
     while todo:
         check_budget()
@@ -167,7 +168,8 @@ def births(ages: AgeModel, limit: int) -> dict[AgelessModule, dict[Value, dict[V
         if age in born:
             continue
         born[age] = module
-        if sum(len(others) for phases in found.values() for others in phases.values()) > limit:
+        many += 1
+        if many > limit:
             raise ModelLimitError(
                 f"Modules are born at more than {limit} different ages",
                 limit=limit,
