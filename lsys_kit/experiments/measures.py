@@ -34,15 +34,8 @@ class Measure(NamedTuple):
 
 
 def measures_of(asked: Asked, system: LSystem) -> tuple[Measure, ...]:
-    """The measures that a person asks for.
+    """The measures that a person asks for: names of measures or symbols of the system, or functions; no name stands twice.
 
-    Raises
-    ------
-    ModelNameError
-        A name is neither that of a measure nor a symbol of the system, or stands twice.
-
-    Examples
-    --------
     >>> from lsys_kit import read
     >>> [each.name for each in measures_of(["height", "F"], read("axiom: F"))]
     ['height', 'F']
@@ -59,14 +52,12 @@ def measures_of(asked: Asked, system: LSystem) -> tuple[Measure, ...]:
     return found
 
 
-def _named(asked: Any) -> Iterator[tuple[str, object]]:
-    """Measures with the names of their columns."""
+def _named(asked: object) -> Iterator[tuple[str, object]]:
     for each in asked if isinstance(asked, list | tuple) else (asked,):
         yield from _with_names(each)
 
 
-def _with_names(asked: Any) -> Iterator[tuple[str, object]]:
-    """One measure, or several by their names."""
+def _with_names(asked: object) -> Iterator[tuple[str, object]]:
     if isinstance(asked, Mapping):
         for name, each in asked.items():
             if not isinstance(name, str):
@@ -144,7 +135,6 @@ strokes of the turtle; the extent of the drawing in the units of the model; the 
 
 
 def _called(name: str, function: Callable[[Any], object], what: Measurable) -> object:
-    """What a person's function says of a derivation."""
     try:
         return number(function(what), name)
     except LSystemError:

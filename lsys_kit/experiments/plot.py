@@ -21,7 +21,7 @@ from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError, re
 from lsys_kit.experiments.measures import Asked, Measure, measures_of
 from lsys_kit.experiments.table import Table, column_label, measured_label
 from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
-from lsys_kit.notation.model.arithmetic import is_symbolic
+from lsys_kit.notation.model.arithmetic import Value, is_symbolic
 from lsys_kit.notation.model.cells import MapSystem
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem, symbols
@@ -81,31 +81,27 @@ def plot(what: Any, n: Any = None, measure: Asked | None = None, *, log: bool = 
     """
     require(log, bool, 'True or False for "log"')
     with Task("The plot was not made"):
-        return _plot(what, n, measure, log, choices)
+        if isinstance(what, Table):
+            _refuse(choices, n, "A table has its steps and constants")
+            column: Any = measure
+            return what.plot(column, log)
+        if isinstance(what, Stages | Growth):
+            _refuse(choices, None if isinstance(what, Stages) else n, "Its constants are those of the system it was made of")
+            if measure is not None or log:
+                raise ModelValueError("Of stages the frequencies are shown, and nothing else is measured")
+            return Plot(_stage_shares(what, n) if isinstance(what, Stages) else _long_run(what))
+        if isinstance(what, MapSystem | Development):
+            return Plot(_map_chart(what, n, measure, log, choices))
+        return Plot(_curve_chart(what, n, measure, log, choices))
 
 
-def _plot(what: Any, n: Any, measure: Any, log: bool, choices: dict[str, Any]) -> Plot:
-    if isinstance(what, Table):
-        _refuse(choices, n, "A table has its steps and constants")
-        return what.plot(measure, log)
-    if isinstance(what, Stages | Growth):
-        _refuse(choices, None if isinstance(what, Stages) else n, "Its constants are those of the system it was made of")
-        if measure is not None or log:
-            raise ModelValueError("Of stages the frequencies are shown, and nothing else is measured")
-        return Plot(_stage_shares(what, n) if isinstance(what, Stages) else _long_run(what))
-    if isinstance(what, MapSystem | Development):
-        return Plot(_map_chart(what, n, measure, log, choices))
-    return Plot(_curve_chart(what, n, measure, log, choices))
-
-
-def _refuse(choices: Mapping[str, Any], n: object, why: str) -> None:
+def _refuse(choices: Mapping[str, object], n: object, why: str) -> None:
     if choices or n is not None:
         name = next(iter(choices), "n")
         raise ModelNameError(f'{why}: there is no choice "{name}" here')
 
 
-def _curve_chart(what: Any, n: Any, measure: Any, log: bool, choices: dict[str, Any]) -> CurveChart:
-    """Curves of one system, or of several."""
+def _curve_chart(what: object, n: object, measure: Asked | None, log: bool, choices: dict[str, Any]) -> CurveChart:
     if not isinstance(what, Mapping):
         return _chart_of_runs([("", _run(what, n, choices))], measure, log)
     if not what:
@@ -122,14 +118,14 @@ class _Course(NamedTuple):
     """A timed system up to a time."""
 
     system: Timed
-    end: Any
+    end: Value
 
     @property
     def states(self) -> States:
         return self.system.states
 
 
-def _run(what: Any, n: Any, choices: dict[str, Any]) -> Derivation | _Course:
+def _run(what: object, n: object, choices: dict[str, Any]) -> Derivation | _Course:
     if isinstance(what, Timed):
         _refuse(choices, None, "The constants of a timed system are chosen when it is made")
         end = number_from(5 if n is None else n, "n")
@@ -149,12 +145,12 @@ def _run(what: Any, n: Any, choices: dict[str, Any]) -> Derivation | _Course:
     return derive(what, steps, **choices)
 
 
-def _chart_of_runs(runs: Sequence[tuple[str, Derivation | _Course]], measure: Any, log: bool) -> CurveChart:
+def _chart_of_runs(runs: Sequence[tuple[str, Derivation | _Course]], measure: Asked | None, log: bool) -> CurveChart:
     """The curves of some runs, of which one may be measured in several ways."""
     first, several = runs[0][1], len(runs) > 1
     course = isinstance(first, _Course)
     asked = measure
-    if measure is None:
+    if asked is None:
         asked = "width" if isinstance(first, _Course) else "length" if several else _kinds(first)
     curves: list[Curve] = []
     names = []
@@ -186,13 +182,12 @@ def _name_label(name: str) -> str:
 
 
 def _points(run: Derivation | _Course, measures: Sequence[Measure]) -> list[tuple[tuple[float, float], ...]]:
-    """For each measure its values at all steps or moments."""
     if isinstance(run, Derivation):
         places: list[Any] = [*range(len(run))]
         seen = [run.to(step) for step in counted(places, 1)]
     else:
         timed, grid = run.system, [run.end * Fraction(place, MOMENTS) for place in range(MOMENTS + 1)]
-        words: dict[Any, tuple[Word, ...]] = {place: (timed.word(place),) for place in counted(grid, 1)}
+        words: dict[Value, tuple[Word, ...]] = {place: (timed.word(place),) for place in counted(grid, 1)}
         words |= {moment: timed.around(moment) for moment in counted(islice(timed.divisions(run.end), MOMENTS), 1)}
         places, seen = map(list, zip(*((place, word) for place in sorted(words) for word in words[place]), strict=True))
     found = [finite([each.value(one) for one in counted(seen, 1)], f'The measure "{each.name}"') for each in measures]
@@ -209,7 +204,6 @@ def _kinds(run: Derivation) -> list[str]:
 
 
 def _measure_label(name: str, system: LSystem) -> str:
-    """The label of a curve among several of one system."""
     if name in symbols(system) or name[:1].isupper():
         return mathematics(*label_parts(name, system))
     return measured_label(name).removeprefix("number of ")
@@ -223,7 +217,7 @@ def _colour(name: str, system: LSystem, place: int, several: bool) -> str:
     return BLUE if not several and place == 0 else SERIES[place % len(SERIES)]
 
 
-def _map_chart(what: MapSystem | Development, n: Any, measure: Any, log: bool, choices: Mapping[str, Any]) -> CurveChart:
+def _map_chart(what: MapSystem | Development, n: Any, measure: object, log: bool, choices: Mapping[str, object]) -> CurveChart:
     _refuse(choices, n if isinstance(what, Development) else None, "A map system has no constants")
     if measure is not None:
         raise ModelValueError("Of a map system cells and walls are counted, and nothing else is measured")
@@ -234,7 +228,7 @@ def _map_chart(what: MapSystem | Development, n: Any, measure: Any, log: bool, c
     return CurveChart(curves, Axis(column_label("step"), True), Axis("number", True, log))
 
 
-def _stage_shares(net: Stages, n: Any) -> ShareChart:
+def _stage_shares(net: Stages, n: object) -> ShareChart:
     system = net.system
     steps = whole_number(n, "The step") if n is not None else DEFAULT_STEPS if system.steps is None else system.steps
     amounts = finite(net.expected(steps), "A stage")

@@ -104,7 +104,6 @@ def outcomes(
 def _handed_out(
     experiment: Experiment, runs: Sequence[Run], first: int, seconds: float, submit: Callable[..., Future[list[Outcome]]]
 ) -> Iterator[tuple[int, Outcome]]:
-    """The outcomes of all runs from one on, by an executor."""
     size = batch_size(len(runs) - first, seconds)
     futures = {}
     try:
@@ -282,18 +281,6 @@ def _table(
             stopped = "Stopped"
         except BrokenExecutor as fault:
             stopped = f"The executor broke ({type(fault).__name__})"
-    return _tidy(columns, runs, found, stopped)
-
-
-def _bar(runs: int, shown: bool) -> Any:
-    from tqdm.auto import tqdm
-
-    hidden = not shown or os.environ.get("TQDM_DISABLE", "0") not in ("", "0")  # tqdm's bar in notebooks does not look there
-    return tqdm(total=runs, unit="run", leave=False, delay=PROGRESS_DELAY, disable=hidden)
-
-
-def _tidy(columns: tuple[str, ...], runs: Sequence[Run], found: Mapping[int, Outcome], stopped: str) -> Table:
-    keys = columns[: columns.index("step")]
     rows, failures = [], []
     for place, outcome in sorted(found.items()):
         if isinstance(outcome, Failure):
@@ -309,6 +296,13 @@ def _tidy(columns: tuple[str, ...], runs: Sequence[Run], found: Mapping[int, Out
     if stopped:
         remarks.append(f"{stopped}: {len(found):,} of {len(runs):,} runs are finished.")
     return Table(columns, tuple(rows), len(keys) + 1, tuple(remarks))
+
+
+def _bar(runs: int, shown: bool) -> Any:
+    from tqdm.auto import tqdm
+
+    hidden = not shown or os.environ.get("TQDM_DISABLE", "0") not in ("", "0")  # tqdm's bar in notebooks does not look there
+    return tqdm(total=runs, unit="run", leave=False, delay=PROGRESS_DELAY, disable=hidden)
 
 
 def _check_names(system: LSystem, keys: Sequence[str], choices: Mapping[str, object]) -> None:
@@ -342,7 +336,6 @@ def _seed(given: object) -> int:
 
 
 def _all_of(values: Iterable[object]) -> list[object]:
-    """All of some values, if there are not too many."""
     most = current().bytes // BYTES_A_VALUE
     found = list(islice(iter(values), most + 1))
     _check_room(len(found))

@@ -109,7 +109,6 @@ def _one_variable(rows: Rows, name: str, up: Axis) -> Chart:
 
 
 def _families(rows: Rows, name: str, up: Axis) -> Chart:
-    """A curve over the steps for each value of a variable."""
     kinds = sorted({setting[name] for setting, _ in rows})
     if len(kinds) > MOST_CURVES:
         raise ModelValueError(
@@ -139,7 +138,6 @@ def _grid(rows: Rows, names: Sequence[str], up: Axis) -> Chart:
 
 
 def _means(rows: Rows, name: str) -> tuple[tuple[float, float], ...]:
-    """For each value of a variable the mean of what was measured."""
     groups: dict[float, list[float]] = {}
     for setting, value in rows:
         groups.setdefault(float(setting[name]), []).append(value)
@@ -198,13 +196,7 @@ class Table:
         return len(self.rows)
 
     def __getitem__(self, column: str) -> tuple[Any, ...]:
-        """The values of a column.
-
-        Raises
-        ------
-        ModelNameError
-            There is no such column.
-        """
+        """The values of a column."""
         place = self._place(column)
         return tuple(row[place] for row in self.rows)
 
@@ -347,7 +339,6 @@ def _described(values: Sequence[Any]) -> tuple[Any, ...]:
 
 
 def _library(name: str) -> Any:
-    """A library that need not be there."""
     from importlib import import_module
 
     try:

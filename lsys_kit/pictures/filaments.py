@@ -25,7 +25,7 @@ from lsys_kit.pictures.rendering.frames import HEIGHT, MARGIN, WIDTH
 from lsys_kit.pictures.style.colour_values import mixed
 from lsys_kit.pictures.style.palette import GREEN, OLDEST, cell_fill
 from lsys_kit.pictures.style.themes import edge_colour, line, theme
-from lsys_kit.pictures.svg import FilamentRow
+from lsys_kit.pictures.svg import FilamentRow, element
 
 MOST_CELLS, A_LINE = 100, 60
 """The greatest number of cells of a row that is not folded, and about how many stand in a line then."""
@@ -57,7 +57,6 @@ def folded(rows: Sequence[FilamentRow]) -> Sequence[FilamentRow]:
 
 
 def _lines(row: FilamentRow, many: int) -> Iterator[FilamentRow]:
-    """The lines of a row: a cell stands where its centre lies."""
     cells, walls, length = row.scene.cells, row.scene.walls, row.scene.width / many
     where = np.minimum(cells.centres[:, 0] // length, many - 1)
     ends = cells.centres[:, 0] + cells.sizes[:, 0] / 2
@@ -223,13 +222,17 @@ def rows_svg(
 
 
 def _heading(sheet: FilamentLayout) -> str:
-    y, texts = tenths(MARGIN + sheet.head - 7), [(MARGIN + STEPS - 8, "step")]
-    if sheet.time is not None:
-        texts.append((MARGIN + STEPS + TIMES - 8, '<tspan font-style="italic">t</tspan>'))
+    time = None if sheet.time is None else '<tspan font-style="italic">t</tspan>'
+    return _in_columns("step", time, tenths(MARGIN + sheet.head - 7), 110, fill=theme().quiet)
+
+
+def _in_columns(step: str, time: str | None, y: int, size: int, **look: object) -> str:
+    """A text in the column of steps, and one in that of times, if there is one."""
+    texts = [(MARGIN + STEPS - 8, step), (MARGIN + STEPS + TIMES - 8, time)]
     return "".join(
-        f'<text x="{tenths(x)}" y="{y}" font-size="110" text-anchor="end" font-family="sans-serif" '
-        f'fill="{theme().quiet}">{text}</text>'
+        element("text", text, x=tenths(x), y=y, font_size=size, text_anchor="end", font_family="sans-serif", **look)
         for x, text in texts
+        if text is not None
     )
 
 
@@ -241,25 +244,17 @@ def band_of(sheet: FilamentLayout, place: int) -> tuple[float, float, float, flo
 
 def _band(sheet: FilamentLayout, place: int) -> str:
     left, top, right, _, corner = band_of(sheet, place)
-    return (
-        f'<rect x="{tenths(left)}" y="{tenths(top)}" width="{tenths(right - left)}" height="{tenths(sheet.pitch)}" '
-        f'rx="{tenths(corner)}" fill="{theme().mark}"/>'
-    )
+    size = {"width": tenths(right - left), "height": tenths(sheet.pitch)}
+    return element("rect", None, x=tenths(left), y=tenths(top), **size, rx=tenths(corner), fill=theme().mark)
 
 
 def _row_labels(sheet: FilamentLayout, row: FilamentRow, middle: float, current: bool) -> str:
     """The step and time of a row, bold if it is the current one; a folded row has them at its first line."""
     if row.part:
         return ""
-    size, texts = tenths(min(14.0, 0.8 * sheet.pitch)), [(MARGIN + STEPS - 8, str(row.step))]
-    if sheet.time is not None:
-        texts.append((MARGIN + STEPS + TIMES - 8, time_text(row.step * sheet.time)))
-    weight = f'fill="{theme().ink}" font-weight="bold"' if current else f'fill="{theme().quiet}"'
-    return "".join(
-        f'<text x="{tenths(x)}" y="{tenths(middle) + round(0.35 * size)}" font-size="{size}" '
-        f'text-anchor="end" font-family="sans-serif" {weight}>{text}</text>'
-        for x, text in texts
-    )
+    size, time = tenths(min(14.0, 0.8 * sheet.pitch)), None if sheet.time is None else time_text(row.step * sheet.time)
+    look = {"fill": theme().ink, "font_weight": "bold"} if current else {"fill": theme().quiet}
+    return _in_columns(str(row.step), time, tenths(middle) + round(0.35 * size), size, **look)
 
 
 def time_text(time: Value) -> str:
@@ -302,7 +297,6 @@ def letters_fit(sheet: FilamentLayout, letters: Mapping[int, str]) -> bool:
 
 
 def _letters_svg(cells: Sequence[DrawnCell], middle: float, colour_of: Mapping[int, str], letters: Mapping[int, str]) -> str:
-    """The letters in cells, where there is room, each on its cell's own colour."""
     y = tenths(middle + 0.36 * LETTER)
     texts = [
         f'<text x="{tenths(cell.x)}" y="{y}" stroke="{cell_fill(colour_of.get(cell.state, GREEN), cell.shade)}">'
@@ -315,7 +309,6 @@ def _letters_svg(cells: Sequence[DrawnCell], middle: float, colour_of: Mapping[i
 
 
 def _fits(cell: DrawnCell, letters: Mapping[int, str]) -> bool:
-    """Whether there is room for the letter of a cell, besides its arrow."""
     return cell.length > LETTER * (0.4 * len(letters.get(cell.state, "")) + 0.7 * (cell.way != 0)) and cell.width > 0.6 * LETTER
 
 
@@ -339,23 +332,19 @@ def wall_colour(colour: str, shade: float) -> str:
 def _walls_svg(
     walls: Sequence[DrawnWall], middle: float, aged: bool, colour_of: Mapping[int, str], marked: Collection[int]
 ) -> str:
-    """The walls of a filament, with their ages above."""
     parts = []
     for wall in walls:
         x, top, bottom = tenths(wall.x), tenths(middle - wall.height - 2), tenths(middle + wall.height + 2)
         colour = theme().mark_edge if wall.state in marked else wall_colour(colour_of.get(wall.state, GREEN), wall.shade)
-        parts.append(f'<path d="M{x} {top}V{bottom}" stroke="{colour}" stroke-width="{tenths(wall_width(wall.shade))}"/>')
-    if aged and _ages_fit(walls):
-        parts += [
-            f'<text x="{tenths(_age_place(wall))}" y="{tenths(middle - wall.height - 4.5)}" font-size="105" '
-            f'text-anchor="middle" font-family="sans-serif" fill="{theme().ink}">{wall.age}</text>'
-            for wall in walls
-        ]
-    return f'<g stroke-linecap="round">{"".join(parts)}</g>' if parts else ""
-
-
-def _ages_fit(walls: Sequence[DrawnWall]) -> bool:
-    return all(_age_place(left) + _age_reach(left) < _age_place(right) - _age_reach(right) for left, right in pairwise(walls))
+        broad = tenths(wall_width(wall.shade))
+        parts.append(element("path", d=f"M{x} {top}V{bottom}", stroke=colour, stroke_width=broad))
+    places = [_age_place(wall) for wall in walls]
+    ends = [(x - _age_reach(wall), x + _age_reach(wall)) for x, wall in zip(places, walls, strict=True)]
+    look = {"font_size": 105, "text_anchor": "middle", "font_family": "sans-serif", "fill": theme().ink}
+    if aged and all(left[1] < right[0] for left, right in pairwise(ends)):
+        for place, wall in zip(places, walls, strict=True):
+            parts.append(element("text", wall.age, x=tenths(place), y=tenths(middle - wall.height - 4.5), **look))
+    return element("g", "".join(parts), stroke_linecap="round") if parts else ""
 
 
 def _age_place(wall: DrawnWall) -> float:

@@ -32,7 +32,7 @@ from lsys_kit.pictures.rendering.frames import MARGIN, WIDTH
 from lsys_kit.pictures.style.labels import place_parts, polar_symbols, svg_label, values_text
 from lsys_kit.pictures.style.palette import VERMILION, colour_of, tinted
 from lsys_kit.pictures.style.themes import drawn_on, line, theme
-from lsys_kit.pictures.svg import background, document, resized
+from lsys_kit.pictures.svg import background, document, element, resized
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -107,7 +107,6 @@ def _line_positions(lineage: Lineage, right: int) -> tuple[dict[int, float], lis
 
 
 def _leaves(lineage: Lineage) -> Iterator[int]:
-    """The cells without daughters, from left to right."""
     todo = [cell for cell in range(len(lineage.cells) - 1, -1, -1) if lineage.cells[cell].mother is None]
     while todo:
         cell = todo.pop()
@@ -140,12 +139,12 @@ def _kinds(lineage: Lineage) -> tuple[list[CellKind], list[int], dict[int, str]]
     keys = [(_base(lineage, module), _drawn_shape(lineage, module)) for module in births]
     if len(set(keys)) > MOST_KINDS:
         keys = [(base, None) for base, _ in keys]
-    numbers = {key: number for number, key in enumerate(dict.fromkeys(keys))}
-    members: list[dict[Module, None]] = [{} for _ in numbers]
+    members: dict[tuple[str, object], dict[Module, None]] = {}
     for key, module in zip(keys, births, strict=True):
-        members[numbers[key]][module] = None
+        members.setdefault(key, {})[module] = None
+    numbers = {key: number for number, key in enumerate(members)}
     system, kinds = lineage.states.system, []
-    for modules, dash in zip(members, cycle(DASHES), strict=False):
+    for modules, dash in zip(members.values(), cycle(DASHES), strict=False):
         symbol = next(iter(modules)).symbol
         letter, subscript, values = place_parts(Place(symbol, tuple(modules)), system)
         name = f"{letter}_{subscript}" if subscript else letter
@@ -155,7 +154,6 @@ def _kinds(lineage: Lineage) -> tuple[list[CellKind], list[int], dict[int, str]]
 
 
 def _base(lineage: Lineage, module: Module) -> str:
-    """The symbol of a module without its polarity."""
     return polar_symbols(lineage.states.system).get(module.symbol, (module.symbol, ""))[0]
 
 
@@ -268,14 +266,13 @@ def _axis(tree: Tree) -> str:
     whole = lineage.stepwise and lineage.times == tuple(range(len(lineage.times)))
     name = "step" if whole else '<tspan font-style="italic">t</tspan>'
     quiet, fine = theme().quiet, tinted(theme().quiet, 0.3)
-    parts = [f'<text x="{tenths(AXIS - 10)}" y="{tenths(MARGIN + HEAD - 16)}" font-size="110" fill="{quiet}">{name}</text>']
+    x = tenths(AXIS - 10)
+    parts = [element("text", name, x=x, y=tenths(MARGIN + HEAD - 16), font_size=110, fill=quiet)]
     for time in _ticks(lineage):
         y = tenths(tree.y(time))
-        parts.append(
-            f'<path d="M{tenths(AXIS)} {y}H{tenths(WIDTH - MARGIN)}" stroke="{fine}" stroke-width="8"/>'
-            f'<text x="{tenths(AXIS - 10)}" y="{y + 42}" font-size="120" fill="{quiet}">{time_text(time)}</text>'
-        )
-    return f'<g text-anchor="end" font-family="sans-serif">{"".join(parts)}</g>'
+        parts.append(element("path", d=f"M{tenths(AXIS)} {y}H{tenths(WIDTH - MARGIN)}", stroke=fine, stroke_width=8))
+        parts.append(element("text", time_text(time), x=x, y=y + 42, font_size=120, fill=quiet))
+    return element("g", "".join(parts), text_anchor="end", font_family="sans-serif")
 
 
 def _ticks(lineage: Lineage) -> Sequence[Value]:
@@ -287,13 +284,11 @@ def _ticks(lineage: Lineage) -> Sequence[Value]:
 
 
 def _bracket(tree: Tree, place: int, first: Value, last: Value) -> str:
-    """An interval beside the tree, with its length."""
     x, top, bottom = tree.right + BRACKET * place + 18, tree.y(first), tree.y(last)
-    return (
-        f'<path d="M{tenths(x - 5)} {tenths(top)}h100M{tenths(x)} {tenths(top)}V{tenths(bottom)}m-50 0h100" fill="none" '
-        f'stroke="{theme().ink}" stroke-width="14"/><text x="{tenths(x + 8)}" y="{tenths((top + bottom) / 2 + 4.5)}" '
-        f'font-size="130" font-family="sans-serif" fill="{theme().ink}">{time_text(last - first)}</text>'
-    )
+    ink, y = theme().ink, tenths((top + bottom) / 2 + 4.5)
+    d = f"M{tenths(x - 5)} {tenths(top)}h100M{tenths(x)} {tenths(top)}V{tenths(bottom)}m-50 0h100"
+    text = element("text", time_text(last - first), x=tenths(x + 8), y=y, font_size=130, font_family="sans-serif", fill=ink)
+    return element("path", d=d, fill="none", stroke=ink, stroke_width=14) + text
 
 
 def _line(tree: Tree, number: int) -> str:
@@ -301,17 +296,18 @@ def _line(tree: Tree, number: int) -> str:
     cell, kind, x = tree.lineage.cells[number], tree.kinds[tree.kind_of[number]], tree.x[number]
     bottom = tree.y(tree.lineage.times[-1]) + TAIL if cell.ended is None else tree.y(cell.ended)
     seen = tree.y(tree.lineage.times[cell.modules[0][0]]) if cell.modules else bottom
-    late = ""
+    parts = []
     if cell.due is not None:
         due = tree.y(max(cell.due, cell.born))
-        late = f'<path d="M{tenths(x)} {tenths(due)}V{tenths(bottom)}" {_late_look()} fill="none"/>'
+        parts.append(f'<path d="M{tenths(x)} {tenths(due)}V{tenths(bottom)}" {_late_look()} fill="none"/>')
     start, turned = _branch_path(tree, number, bottom)
+    if turned < seen and tree.lineage.stepwise:
+        pieces = [(start, seen, THIN)] + [(f"M{tenths(x)} {tenths(seen)}", bottom, THICK)] * (bottom > seen)
+    else:
+        pieces = [(start, bottom, THICK)]
     look = f'fill="none" stroke="{line(kind.colour)}" stroke-linecap="round"{kind.broken}'
-    if seen <= turned or not tree.lineage.stepwise:
-        return f'{late}<path d="{start}V{tenths(bottom)}" {look} stroke-width="{THICK}"/>'
-    thin = f'{late}<path d="{start}V{tenths(seen)}" {look} stroke-width="{THIN}"/>'
-    thick = f'<path d="M{tenths(x)} {tenths(seen)}V{tenths(bottom)}" {look} stroke-width="{THICK}"/>'
-    return thin + (thick if bottom > seen else "")
+    parts += [f'<path d="{begin}V{tenths(end)}" {look} stroke-width="{width}"/>' for begin, end, width in pieces]
+    return "".join(parts)
 
 
 def _late_look() -> str:
@@ -326,10 +322,8 @@ def _branch_path(tree: Tree, number: int, bottom: float) -> tuple[str, float]:
         return f"M{tenths(x)} {tenths(top)}", top
     away = x - tree.x[cell.mother]
     bend = min(BEND, abs(away), bottom - top)
-    return (
-        f"M{tenths(x - away)} {tenths(top)}H{tenths(x - (bend if away > 0 else -bend))}"
-        f"Q{tenths(x)} {tenths(top)} {tenths(x)} {tenths(top + bend)}"
-    ), top + bend
+    across, down, turn = tenths(x), tenths(top), tenths(x - (bend if away > 0 else -bend))
+    return f"M{tenths(x - away)} {down}H{turn}Q{across} {down} {across} {tenths(top + bend)}", top + bend
 
 
 def _flags(tree: Tree) -> str:
@@ -341,7 +335,7 @@ def _flags(tree: Tree) -> str:
         if way and end - top > 16:
             x, y = tenths(tree.x[number]), tenths(top + 7)
             parts.append(f"M{x} {y}L{x + way * 65} {y + 32}L{x} {y + 64}Z")
-    return f'<path d="{"".join(parts)}" fill="{theme().ink}"/>'
+    return element("path", d="".join(parts), fill=theme().ink)
 
 
 def _last_word(tree: Tree, middle: float, labels: bool) -> str:

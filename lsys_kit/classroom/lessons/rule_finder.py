@@ -13,8 +13,7 @@ from lsys_kit.budget import Task
 from lsys_kit.classroom.lessons.widget import LessonWidget, boxed_html
 from lsys_kit.classroom.panel.bundle import bundled, style
 from lsys_kit.derivation.derive import derive
-from lsys_kit.derivation.inference.fits import Explanation, explanation
-from lsys_kit.derivation.inference.infer import MOST_FITS, conditions_of, infer
+from lsys_kit.derivation.inference.infer import MOST_FITS, Explanation, conditions_of, explanation, infer
 from lsys_kit.derivation.inference.problem import Row, read_words
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.model.modules import joined

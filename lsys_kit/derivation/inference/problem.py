@@ -51,11 +51,6 @@ def read_words(given: object) -> tuple[Row, ...]:
     [2, 4]
     >>> [len(word) for word in read_words(["ar", "al br", "bl(1) ar ar"])]
     [1, 2, 3]
-
-    Raises
-    ------
-    ModelValueError
-        There are not two words at least, or one of them is none.
     """
     hint = 'Give the words of steps 0, 1, 2, ... in a list, as in infer(["a", "ab", "aba"]).'
     if isinstance(given, str) or not isinstance(given, Iterable):
@@ -103,7 +98,6 @@ def _row(word: object, step: int, printed: bool, valued: bool) -> Row:
 
 
 def _printed_modules(text: str) -> Iterable[Module]:
-    """The modules of a text as `derive` prints it."""
     for found in MODULE.finditer(text.rstrip()):
         yield Module(found[1], tuple(normalised(Fraction(value)) for value in found[2].split(",")) if found[2] else ())
 

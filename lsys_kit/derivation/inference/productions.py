@@ -17,7 +17,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 from functools import reduce
 from itertools import count, product
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 from lsys_kit.budget import check_budget
 from lsys_kit.derivation.inference.problem import Conditions, Letter, Row, Table
@@ -231,7 +231,7 @@ def _side(case: Case, other: Case, axis: int) -> int:
     return -1 if max(own) < min(others) else 1 if min(own) > max(others) else 0
 
 
-def _along(case: Case, axis: int) -> list[Any]:
+def _along(case: Case, axis: int) -> list[Value]:
     return [values[axis] for values, _ in case]
 
 

@@ -18,7 +18,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import product
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 from lsys_kit.budget import check_budget
 from lsys_kit.derivation.core.chance import shares
@@ -26,8 +26,7 @@ from lsys_kit.derivation.core.rules import ModuleKind, Rule, kind_of
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.traits import CUT
 from lsys_kit.derivation.growth.slicing import ArgumentPosition, UnitT, deciding_positions, slice_system, without_arguments
-from lsys_kit.derivation.petri.net import Arc, Place, Stages, Transition
-from lsys_kit.derivation.petri.outcomes import outcomes_of
+from lsys_kit.derivation.petri.net import Arc, Place, Stages, Transition, outcomes_of
 from lsys_kit.errors import ModelNameError, ModelValueError, quotable
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.arithmetic import Value
@@ -36,11 +35,14 @@ from lsys_kit.notation.model.modules import Item, Module, Pattern, flat, joined
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.write import as_written
 
+_PlaceT = TypeVar("_PlaceT")
+
 
 class Product(NamedTuple):
-    """What a transition puts into one place, as in `Arc`; the place is named by its kind of modules, or by its module."""
+    """What a transition puts into one place, as in `Arc`; the place is named by its kind of modules, its module or its
+    number."""
 
-    place: ModuleKind | Module
+    place: ModuleKind | Module | int
     copies: int
     positions: tuple[int, ...]
     factor: str = ""
@@ -59,32 +61,38 @@ def by_symbol(states: States) -> Stages:
     kinds = reachable_kinds(states, tables)
     ways = {kind: [*ways_of_kind(states, tables, kind)] for kind in kinds}
     where = {kind: number for number, kind in enumerate(kinds)}
-    return net_of(states, ways, True, lambda module: where.get(kind_of(module)))
+    return _symbols_net(states, ways, lambda module: where.get(kind_of(module)))
 
 
-def net_of(states: States, ways: Mapping[Any, Sequence[Way]], grouped: bool, where: Callable[[Module], int | None]) -> Stages:
-    """The net of some places, given the ways out of each."""
+def _symbols_net(states: States, ways: Mapping[Any, Sequence[Way]], where: Callable[[Module], int | None]) -> Stages:
+    """The net of kinds of modules, or single ones, given the ways out of each."""
+    places = [Place(place.symbol, (place,)) if isinstance(place, Module) else Place(place[0], ()) for place in ways]
+    return replace(net_of(states, places, ways, where), grouped=True, besides=tuple(_unshown(states)))
+
+
+def net_of(
+    states: States, places: Iterable[Place], ways: Mapping[Any, Sequence[Way]], where: Callable[[Module], int | None]
+) -> Stages:
+    """The net of some places, given the ways out of each, by what these name them, and the place of each module."""
     numbers = {place: number for number, place in enumerate(ways)}
     transitions: list[Transition] = []
     arcs = []
     for at_once, place in product((False, True), ways):
         for way in (way for way in ways[place] if way.transition.at_once is at_once):
-            arcs += [
-                Arc(len(transitions), numbers[made.place], made.copies, made.positions, made.factor) for made in way.products
-            ]
+            for made in way.products:
+                arcs.append(Arc(len(transitions), numbers[made.place], made.copies, made.positions, made.factor))
             transitions.append(replace(way.transition, place=numbers[place]))
     start = Counter(where(states.modules[state]) for state in states.axiom)
-    places = tuple(Place(place.symbol, (place,)) if isinstance(place, Module) else Place(place[0], ()) for place in ways)
-    return Stages(
-        states.system,
-        places,
-        tuple(transitions),
-        tuple(arcs),
-        tuple(start[number] for number in range(len(places))),
-        grouped,
-        tuple(_unshown(states)),
-        where,
-    )
+    begun = tuple(start[number] for number in range(len(ways)))
+    return Stages(states.system, tuple(places), tuple(transitions), tuple(arcs), begun, _where=where)
+
+
+def spots_of(places: Iterable[_PlaceT]) -> dict[_PlaceT, list[int]]:
+    """Where each place stands in a row of them, from 1."""
+    spots: dict[_PlaceT, list[int]] = {}
+    for spot, place in enumerate(places, 1):
+        spots.setdefault(place, []).append(spot)
+    return spots
 
 
 def ways_of_kind(
@@ -156,9 +164,7 @@ def _products(items: Iterable[Item], states: States, place_of: Callable[[Pattern
     """For each place of modules in a successor how many, where in it they stand, and with what their number is multiplied."""
     parts = list(_counted_modules(items, states))
     places = [place_of(pattern) for pattern, _, _ in parts]
-    spots: dict[ModuleKind | Module, list[int]] = {}
-    for position, place in enumerate(places, 1):
-        spots.setdefault(place, []).append(position)
+    spots = spots_of(places)
     repeated = any(times != 1 or factor for _, times, factor in parts)
     totals: Counter[tuple[ModuleKind | Module, str]] = Counter()
     for place, (_, times, factor) in zip(places, parts, strict=True):
@@ -275,7 +281,7 @@ class _Unfolding:
         ways.update(self._ways_of_stages(ways, most).items())
         order = [symbol for symbol, _ in self.kinds]
         ways = {place: ways[place] for place in sorted(ways, key=lambda place: order.index(_symbol(place)))}
-        net = net_of(self.states, ways, True, partial(self._number, {place: number for number, place in enumerate(ways)}))
+        net = _symbols_net(self.states, ways, partial(self._number, {place: number for number, place in enumerate(ways)}))
         return replace(net, grouped=bool(net.besides) or not exact)
 
     def _sliced(self, module: UnitT) -> UnitT:
@@ -310,12 +316,9 @@ class _Unfolding:
         for outcome in outcomes_of(table, table.number(module.symbol, module.arguments)):
             made = (table.modules[state] for state in outcome.successor)
             places = [each if each.symbol in self.symbols else kind[kind_of(each)] for each in made]
-            spots: dict[ModuleKind | Module, list[int]] = {}
-            for spot, place in enumerate(places, 1):
-                spots.setdefault(place, []).append(spot)
             yield Way(
                 Transition(0, outcome.production, "", None if outcome.chance == 1 else outcome.chance),
-                tuple(Product(place, len(found), tuple(found)) for place, found in spots.items()),
+                tuple(Product(place, len(found), tuple(found)) for place, found in spots_of(places).items()),
             )
 
     def _place_of_pattern(self, mother: ModuleKind, pattern: Pattern) -> ModuleKind | Module:

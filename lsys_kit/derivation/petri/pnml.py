@@ -145,19 +145,16 @@ def _terms(transition: Transition) -> Mapping[str, str]:
 
 
 def _labelled(node: Element, tag: str, text: str) -> None:
-    """Give an element a label: a child with a text."""
     SubElement(SubElement(node, tag), "text").text = _legal(text)
 
 
 def _placed(node: Element, position: tuple[float, float] | None) -> None:
-    """Say where an element stands in a picture, if that is known."""
     if position is not None:
         x, y = (f"{each:.1f}" for each in position)
         SubElement(SubElement(node, "graphics"), "position", x=x, y=y)
 
 
 def _tool_specific(node: Element, terms: Mapping[str, str]) -> None:
-    """Give an element what only this kit understands."""
     if any(terms.values()):
         own = SubElement(node, "toolspecific", TOOL)
         for tag, text in terms.items():

@@ -14,7 +14,6 @@ exactly one stage, whatever its age.
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections import Counter
 from collections.abc import Callable, Collection, Hashable, Iterator, Mapping, Sequence, Set
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
@@ -25,12 +24,12 @@ from lsys_kit.budget import Task, counted
 from lsys_kit.derivation.core.interpretation import interpretations
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.growth.slicing import ArgumentPosition, deciding_positions, slice_system, without_arguments
-from lsys_kit.derivation.petri.by_symbol import by_symbol, unfolded_symbols
+from lsys_kit.derivation.petri.by_symbol import Product, Way, by_symbol, net_of, spots_of, unfolded_symbols
 from lsys_kit.derivation.petri.net import Arc as Arc
+from lsys_kit.derivation.petri.net import Outcome, all_outcomes
 from lsys_kit.derivation.petri.net import Place as Place
 from lsys_kit.derivation.petri.net import Stages as Stages
 from lsys_kit.derivation.petri.net import Transition as Transition
-from lsys_kit.derivation.petri.outcomes import Outcome, all_outcomes
 from lsys_kit.derivation.timed.ages import AgelessModule, AgeModel, age_model, births
 from lsys_kit.derivation.timed.timed import Timed
 from lsys_kit.errors import ModelValueError, require
@@ -216,42 +215,37 @@ def stages(
     b(0) -> a(0) after 1
     """
     with Task("The stages were not found"):
-        return _stages(system, polarity, durations, unfold, constants)
-
-
-def _stages(
-    system: LSystem | Timed, polarity: bool, durations: bool, unfold: bool | str | Collection[str], constants: dict[str, object]
-) -> Stages:
-    require(polarity, bool, 'True or False for "polarity"')
-    require(durations, bool, 'True or False for "durations"')
-    symbols = _symbols_from(unfold)
-    if symbols is not None and (durations or isinstance(system, Timed)):
-        raise ModelValueError(
-            "Only all symbols of a timed net can be unfolded, because it is never grouped by symbol",
-            hint="Give unfold=True, or leave out the durations.",
-        )
-    most = MOST_UNFOLDED if unfold is True else MOST_PLACES
-    if isinstance(system, Timed):
-        if constants:
+        require(polarity, bool, 'True or False for "polarity"')
+        require(durations, bool, 'True or False for "durations"')
+        symbols = _symbols_from(unfold)
+        if symbols is not None and (durations or isinstance(system, Timed)):
             raise ModelValueError(
-                "The constants of a timed system are chosen when it is made", hint="Write stages(timed(system, name=value))."
+                "Only all symbols of a timed net can be unfolded, because it is never grouped by symbol",
+                hint="Give unfold=True, or leave out the durations.",
             )
-        return _timed_net(system.ages, polarity, most)
-    states = States(system, constants)
-    if durations:
-        return _timed_net(age_model(states), polarity, most)
-    nets = ((_net(table, states, polarity), table.most) for table in _tables(states, constants, 4 * most))
-    if symbols is not None:
-        return unfolded_symbols(states, constants, symbols, MOST_UNFOLDED)
-    for net, legible in nets:
-        if len(net.places) <= most and (unfold or (len(net.transitions) <= legible and len(net.arcs) <= MOST_ARCS)):
-            return net
-    if unfold:
-        raise ModelValueError(
-            "The stages of this system cannot be unfolded",
-            hint=f"They are more than {MOST_UNFOLDED}, or the neighbours of a module decide what it becomes.",
-        )
-    return by_symbol(states)
+        most = MOST_UNFOLDED if unfold is True else MOST_PLACES
+        if isinstance(system, Timed):
+            if constants:
+                raise ModelValueError(
+                    "The constants of a timed system are chosen when it is made",
+                    hint="Write stages(timed(system, name=value)).",
+                )
+            return _timed_net(system.ages, polarity, most)
+        states = States(system, constants)
+        if durations:
+            return _timed_net(age_model(states), polarity, most)
+        nets = ((_net(table, states, polarity), table.most) for table in _tables(states, constants, 4 * most))
+        if symbols is not None:
+            return unfolded_symbols(states, constants, symbols, MOST_UNFOLDED)
+        for net, legible in nets:
+            if len(net.places) <= most and (unfold or (len(net.transitions) <= legible and len(net.arcs) <= MOST_ARCS)):
+                return net
+        if unfold:
+            raise ModelValueError(
+                "The stages of this system cannot be unfolded",
+                hint=f"They are more than {MOST_UNFOLDED}, or the neighbours of a module decide what it becomes.",
+            )
+        return by_symbol(states)
 
 
 def _symbols_from(unfold: bool | str | Collection[str]) -> list[str] | None:
@@ -306,26 +300,19 @@ def _net(table: _Table, states: States, polarity: bool) -> Stages:
     """The net whose places are classes of a table's rows."""
     classes = list(range(len(table.modules))) if polarity else _merged(table)
     members = [[row for row, found in enumerate(classes) if found == number] for number in range(max(classes, default=-1) + 1)]
-    transitions: list[Transition] = []
-    arcs = []
+    ways: dict[int, list[Way]] = {}
     for number, group in enumerate(members):
-        for ways in _side_by_side(table, group, classes):
-            arcs += [
-                Arc(len(transitions), target, copies, spots)
-                for target, copies, spots in _targets([[classes[row] for row in way.successor] for way in ways])
-            ]
-            chance = None if ways[0].chance == 1 else ways[0].chance
-            transitions.append(Transition(number, ways[0].production, "", chance, ways[0].span))
-    start = Counter(_place_of(classes, table.row, states.modules[state]) for state in states.axiom)
-    places = tuple(Place(table.modules[group[0]].symbol, tuple(table.modules[row] for row in group)) for group in members)
-    return Stages(
-        states.system,
-        places,
-        tuple(transitions),
-        tuple(arcs),
-        tuple(start[number] for number in range(len(places))),
-        _where=partial(_place_of, classes, table.row),
-    )
+        ways[number] = []
+        for together in _side_by_side(table, group, classes):
+            outcome, rows = together[0], [spots_of(classes[row] for row in each.successor) for each in together]
+            chance = None if outcome.chance == 1 else outcome.chance
+            products = (
+                Product(target, len(spots), tuple(spots) if all(row[target] == spots for row in rows) else ())
+                for target, spots in rows[0].items()
+            )
+            ways[number].append(Way(Transition(number, outcome.production, "", chance, outcome.span), tuple(products)))
+    places = [Place(table.modules[group[0]].symbol, tuple(table.modules[row] for row in group)) for group in members]
+    return net_of(states, places, ways, partial(_place_of, classes, table.row))
 
 
 def _place_of(classes: Sequence[int], row_of: Callable[[Module], int | None], module: Module) -> int | None:
@@ -337,13 +324,6 @@ def _side_by_side(table: _Table, group: Sequence[int], classes: Sequence[int]) -
     """The outcomes of the rows of one class, those together that lead to the same classes, in the order of the productions."""
     ways = zip(*(sorted(table.outcomes[row], key=lambda outcome: _likeness(outcome, classes)) for row in group), strict=True)
     return iter(sorted(ways, key=lambda way: way[0].production or 0))
-
-
-def _targets(rows: Sequence[Sequence[int]]) -> Iterator[tuple[int, int, tuple[int, ...]]]:
-    """For each class that successors hold how many, and where they stand if that is the same in all of them."""
-    for target, copies in Counter(rows[0]).items():
-        spots = {tuple(i for i, place in enumerate(row, 1) if place == target) for row in rows}
-        yield target, copies, spots.pop() if len(spots) == 1 else ()
 
 
 def _merged(table: _Table) -> list[int]:

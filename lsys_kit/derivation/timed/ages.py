@@ -157,6 +157,7 @@ class TimedAges(AgeModel):
 def births(ages: AgeModel, limit: int) -> dict[AgelessModule, dict[Value, dict[Value, Module]]]:
     """For each kind of module, and each phase, those that are born, by their age."""
     found: dict[AgelessModule, dict[Value, dict[Value, Module]]] = {}
+    many = 0
     todo = [ages.states.modules[state] for state in ages.states.axiom][::-1]
     while todo:
         check_budget()
@@ -166,7 +167,8 @@ def births(ages: AgeModel, limit: int) -> dict[AgelessModule, dict[Value, dict[V
         if age in born:
             continue
         born[age] = module
-        if sum(len(others) for phases in found.values() for others in phases.values()) > limit:
+        many += 1
+        if many > limit:
             raise ModelLimitError(
                 f"Modules are born at more than {limit} different ages",
                 limit=limit,
@@ -445,7 +447,6 @@ class StepAges(AgeModel):
         return None if stays else End(rule, span, module, True)
 
     def _end_in_steps(self, module: Module, rules: Iterable[Rule]) -> End | None:
-        """How a life ends that lasts whole steps."""
         age, step = self.age(module) or 0, self.step or 1
         near = {max(0, math.floor((cut - age) / step) + by) for cut in self._cuts(module, rules) for by in (-1, 0, 1, 2)}
         for steps in sorted({0} | near):

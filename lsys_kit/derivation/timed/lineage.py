@@ -37,23 +37,9 @@ MOST_DEPTH = 200
 
 @dataclass(frozen=True)
 class LineageCell:
-    """One cell of a lineage, from its birth to its division.
-
-    Attributes
-    ----------
-    mother
-        The number of the cell that it comes from, or None.
-    born
-        When.
-    at_birth
-        The module that it was then.
-    ended
-        When it divided or died; None where it is alive at the end.
-    due
-        When it should have divided, where that is before `ended`, or before the end.
-    modules
-        What it is in the words that have it, by their steps.
-    """
+    """One cell of a lineage, from its birth to its division: the number of its mother, if it has one; when it was born, and the
+    module that it was then; when it divided or died, if it is not alive at the end; when it should have divided, where that is
+    before; and what it is in the words that have it, by their steps."""
 
     mother: int | None
     born: Value
@@ -65,17 +51,8 @@ class LineageCell:
 
 @dataclass(frozen=True)
 class CellPart:
-    """What becomes of a module within a step.
-
-    Attributes
-    ----------
-    module, at_birth
-        What it is at the step's end, and what it was when it came to be.
-    parts
-        What it is replaced by; None where it is there at the step's end.
-    ago
-        How long before the step's end it was replaced; None where nothing says so.
-    """
+    """What becomes of a module within a step: what it is at the step's end, and what it was when it came to be; what it is
+    replaced by (None where it is there at the step's end), and how long before the end that was, if anything says so."""
 
     module: Module
     at_birth: Module
@@ -111,7 +88,6 @@ class CellDivisions:
         return CellPart(module, at_birth, parts, age - threshold)
 
     def _decomposed(self, module: Module, at_birth: Module, depth: int) -> CellPart:
-        """A module with its parts, and theirs."""
         check_budget()
         self._parts += 1
         if self._parts > MOST_PARTS or depth > min(current().decomposition, MOST_DEPTH):
@@ -310,33 +286,27 @@ def lineage(
     See P. Prusinkiewicz, Introduction to Modeling with L-systems, sections 5 and 6, figures 5 and 6.
     """
     with Task("The lineage was not found"):
-        return _lineage(what, n, seed, arithmetic, constants)
-
-
-def _lineage(
-    what: LSystem | Derivation | Timed, n: object, seed: int | None, arithmetic: str, constants: dict[str, object]
-) -> Lineage:
-    if isinstance(what, LSystem):
-        steps: Any = n if n is not None else what.steps if what.steps is not None else 5
-        start = derive(what, 0, seed=seed, arithmetic=arithmetic, **constants)
-        if start.states.traits.sensitive:
+        if isinstance(what, LSystem):
+            steps: Any = n if n is not None else what.steps if what.steps is not None else 5
+            start = derive(what, 0, seed=seed, arithmetic=arithmetic, **constants)
+            if start.states.traits.sensitive:
+                raise ModelValueError(
+                    "The system asks what the turtle sees, which words alone do not say",
+                    hint="Derive it first, and ask for the lineage of the derivation.",
+                )
+            return _derived_lineage(start.to(steps))
+        if isinstance(what, Timed) and n is not None and not constants:
+            return _timed_lineage(what, number_from(n, "time"))
+        if isinstance(what, Timed):
             raise ModelValueError(
-                "The system asks what the turtle sees, which words alone do not say",
-                hint="Derive it first, and ask for the lineage of the derivation.",
+                "The lineage of a timed system needs the time at which it ends, and nothing else",
+                hint="Ask for lineage(timed(system), 5).",
             )
-        return _derived_lineage(start.to(steps))
-    if isinstance(what, Timed) and n is not None and not constants:
-        return _timed_lineage(what, number_from(n, "time"))
-    if isinstance(what, Timed):
-        raise ModelValueError(
-            "The lineage of a timed system needs the time at which it ends, and nothing else",
-            hint="Ask for lineage(timed(system), 5).",
-        )
-    if not isinstance(what, Derivation):
-        raise ModelValueError(f"Only systems, derivations and timed systems have a lineage, not {type(what).__name__}")
-    if n is not None or constants:
-        raise ModelValueError("Steps and constants are chosen when a system is derived, not when its lineage is asked for")
-    return _derived_lineage(what)
+        if not isinstance(what, Derivation):
+            raise ModelValueError(f"Only systems, derivations and timed systems have a lineage, not {type(what).__name__}")
+        if n is not None or constants:
+            raise ModelValueError("Steps and constants are chosen when a system is derived, not when its lineage is asked for")
+        return _derived_lineage(what)
 
 
 def _derived_lineage(derivation: Derivation) -> Lineage:

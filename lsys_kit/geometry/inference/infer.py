@@ -14,8 +14,7 @@ from lsys_kit.budget import Task, check_budget, counted
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.derive import derive
 from lsys_kit.derivation.inference import infer as words_alone
-from lsys_kit.derivation.inference.fits import Fits, SystemsFound
-from lsys_kit.derivation.inference.infer import MOST_FITS
+from lsys_kit.derivation.inference.infer import MOST_FITS, Fits, SystemsFound
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.geometry.drawing import ANGLE_HINT, scene_of
 from lsys_kit.geometry.inference.edge_rewriting import edge_rules, factor_of

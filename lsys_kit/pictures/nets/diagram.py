@@ -49,30 +49,11 @@ def drawn_stages(
     steering: Collection[str] | None = None,
     labels: bool = True,
 ) -> str:
-    """A stage diagram as SVG text.
+    """A stage diagram as SVG text, with numbers of tokens, one for each place, if they are given, and some places highlighted.
 
-    Parameters
-    ----------
-    net
-        The stages of a system.
-    tokens
-        The number of tokens in each place; by default none are drawn.
-    marked
-        The numbers of the places that are highlighted.
-    positions
-        Whether arcs are labelled with the positions of their modules in the successor, rather than with their number.
-    steering
-        Symbols whose places are omitted if they are never rewritten; by default those that only steer the turtle.
-    labels
-        Whether stages have their names.
+    Arcs may be labelled with the positions of their modules in the successor, rather than with their number. Places of symbols
+    that only steer the turtle, or of others that are given, are omitted if they are never rewritten.
 
-    Raises
-    ------
-    ModelValueError
-        The tokens are not one number for each place.
-
-    Examples
-    --------
     >>> from lsys_kit import read, stages
     >>> drawn_stages(stages(read("axiom: a\\na -> ab\\nb -> a")), (2, 1)).count('class="token"')
     3

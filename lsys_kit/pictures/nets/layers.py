@@ -82,29 +82,14 @@ def layered(count: int, edges: Sequence[tuple[int, int]], weights: Sequence[int]
 
 
 def _closing(count: int, edges: Sequence[tuple[int, int]], first: Sequence[int]) -> set[int]:
-    """The numbers of the edges that close a cycle of a search in depth."""
-    leaving: list[list[tuple[int, int]]] = [[] for _ in range(count)]
-    for number, (source, target) in enumerate(edges):
-        leaving[source].append((number, target))
-    found, finished, on_path = set(), set(), set()
-    for root in (*first, *range(count)):
-        if root in finished:
-            continue
-        on_path.add(root)
-        path = [(root, iter(leaving[root]))]
-        while path:
-            vertex, onward = path[-1]
-            step = next(onward, None)
-            if step is None:
-                path.pop()
-                on_path.discard(vertex)
-                finished.add(vertex)
-            elif step[1] in on_path:
-                found.add(step[0])
-            elif step[1] not in finished:
-                on_path.add(step[1])
-                path.append((step[1], iter(leaving[step[1]])))
-    return found
+    """The numbers of the edges that close a cycle of a search in depth: they lead to where it is not finished yet."""
+    import networkx
+
+    graph = networkx.DiGraph()
+    graph.add_nodes_from([*first, *range(count)])
+    graph.add_edges_from(edges)
+    finished = {vertex: moment for moment, vertex in enumerate(networkx.dfs_postorder_nodes(graph))}
+    return {number for number, (source, target) in enumerate(edges) if finished[target] >= finished[source]}
 
 
 def _ranks(count: int, edges: Sequence[tuple[int, int]], weights: Sequence[int]) -> list[int]:
@@ -194,7 +179,6 @@ def _gain(first: Sequence[int], second: Sequence[int]) -> int:
 
 
 def _crossings(order: Sequence[Sequence[int]], after: _Neighbours) -> int:
-    """The number of pieces that cross."""
     total = 0
     for layer, following in pairwise(order):
         seen: list[int] = []

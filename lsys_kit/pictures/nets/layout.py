@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping
 from itertools import combinations, pairwise
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 RADIUS = 17.0
 BAR = 13.0
@@ -22,8 +21,7 @@ EDGE = 14.0
 Point: TypeAlias = tuple[float, float]
 
 
-@dataclass(frozen=True)
-class Texts:
+class Texts(NamedTuple):
     """The widths of the texts of a diagram: labels by place, terms by transition, notes by arc."""
 
     labels: Mapping[int, float]
@@ -31,8 +29,7 @@ class Texts:
     notes: Mapping[int, float]
 
 
-@dataclass(frozen=True)
-class BarPosition:
+class BarPosition(NamedTuple):
     """The position of a bar: its centre, half its height, the line to it, and the left end of the baseline of its terms."""
 
     x: float
@@ -42,8 +39,7 @@ class BarPosition:
     terms: Point
 
 
-@dataclass(frozen=True)
-class Layout:
+class Layout(NamedTuple):
     """The positions of all parts of a diagram: for each place the centre of its circle, for each arc the vertices of its line,
     from the bar to the circle, and for each arc with a note the centre of that."""
 
@@ -57,7 +53,12 @@ class Layout:
 
 def crossings(layout: Layout) -> int:
     """The number of points in which two arcs of a layout cross."""
-    return sum(_crossings(a, b) for a, b in combinations(layout.arcs.values(), 2))
+    return sum(
+        _turn(p, q, r) * _turn(p, q, s) < 0 and _turn(r, s, p) * _turn(r, s, q) < 0
+        for first, second in combinations(layout.arcs.values(), 2)
+        for p, q in pairwise(first)
+        for r, s in pairwise(second)
+    )
 
 
 def crossed_notes(layout: Layout, widths: Mapping[int, float]) -> int:
@@ -72,15 +73,6 @@ def crossed_notes(layout: Layout, widths: Mapping[int, float]) -> int:
             for p, q in pairwise(line)
         )
         for arc in layout.notes
-    )
-
-
-def _crossings(first: Sequence[Point], second: Sequence[Point]) -> int:
-    """The number of points in which two lines cross, each a sequence of vertices."""
-    return sum(
-        _turn(p, q, r) * _turn(p, q, s) < 0 and _turn(r, s, p) * _turn(r, s, q) < 0
-        for p, q in pairwise(first)
-        for r, s in pairwise(second)
     )
 
 

@@ -14,7 +14,7 @@ from lsys_kit.geometry.turtle.commands import COMMANDS, Effect, symbols_with
 from lsys_kit.notation.model.arithmetic import is_symbolic, number_text
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.nets.layers import layered_layout
-from lsys_kit.pictures.nets.layout import EDGE, ROUND, BarPosition, Layout, Point, Texts, crossed_notes, crossings
+from lsys_kit.pictures.nets.layout import EDGE, ROUND, Layout, Point, Texts, crossed_notes, crossings
 from lsys_kit.pictures.nets.rows import layout_in_rows, rows_of, shown_places
 from lsys_kit.pictures.style.labels import label_parts, place_parts, place_text
 from lsys_kit.pictures.style.palette import LABELLED, PALEST, QUIET, colours
@@ -233,10 +233,13 @@ def parts_of(net: Stages, positions: bool, steering: frozenset[str], chosen: tup
     return Parts(
         math.ceil(max([layout.width, *(width_of(text, SMALL) + 2 * EDGE for text in footnotes)])),
         math.ceil(layout.height + LINE * len(footnotes)),
-        _description([*names.values()], besides),
+        "; ".join(
+            (f"Stage diagram: {len(names)} stage{'s' * (len(names) != 1)} {', '.join(names.values())}".rstrip(), *besides)
+        ),
         tuple(_place(net, place, names[place], layout, *fills[place]) for place in order),
         tuple(
-            _bar(number, bar, terms.get(number, ""), terms_of(net.transitions[number])) for number, bar in layout.bars.items()
+            BarPart(number, x, y, half, rounded_path(line), terms.get(number, ""), terms_of(net.transitions[number]), *place)
+            for number, (x, y, half, line, place) in layout.bars.items()
         ),
         tuple(_arc(arc, corners) for arc, corners in layout.arcs.items()),
         tuple(NotePart(*layout.notes[arc], width_of(text, SMALL), text) for arc, text in notes.items() if arc in layout.notes),
@@ -248,9 +251,8 @@ def parts_of(net: Stages, positions: bool, steering: frozenset[str], chosen: tup
 def positions_in(net: Stages) -> dict[str, Point]:
     """Where places and transitions stand in the picture of a net, by their names in PNML."""
     parts = parts_of(net, False, steering_of(net.system))
-    return {f"p{part.place}": (part.x, part.y) for part in parts.places} | {
-        f"t{part.transition}": (part.x, part.y) for part in parts.bars
-    }
+    places = {f"p{part.place}": (part.x, part.y) for part in parts.places}
+    return places | {f"t{part.transition}": (part.x, part.y) for part in parts.bars}
 
 
 def widest_legible(net: Stages, places: Iterable[int], texts: Texts) -> float:
@@ -267,11 +269,10 @@ def clearest_layout(net: Stages, rows: Sequence[tuple[int, ...]], texts: Texts, 
     What is too wide, in rows or in layers, stands in shorter rows.
     """
     in_rows, places = layout_in_rows(net, rows, texts), [place for row in rows for place in row]
-    if len(in_rows.arcs) <= MOST_LAYERED and (count := crossings(in_rows)) > MOST_CROSSINGS:
-        in_layers = layered_layout(net, places, texts)
-        if crossings(in_layers) < count:
-            return in_layers if in_layers.width <= widest else _in_shorter_rows(net, in_rows, places, texts, widest)
-    return in_rows if in_rows.width <= widest else _in_shorter_rows(net, in_rows, places, texts, widest)
+    clearest = in_rows
+    if len(in_rows.arcs) <= MOST_LAYERED and crossings(in_rows) > MOST_CROSSINGS:
+        clearest = min(in_rows, layered_layout(net, places, texts), key=crossings)
+    return clearest if clearest.width <= widest else _in_shorter_rows(net, in_rows, places, texts, widest)
 
 
 def _in_shorter_rows(net: Stages, in_rows: Layout, places: Sequence[int], texts: Texts, widest: float) -> Layout:
@@ -284,11 +285,6 @@ def _in_shorter_rows(net: Stages, in_rows: Layout, places: Sequence[int], texts:
     if len(in_rows.arcs) > MOST_LAYERED:
         return fitting[0]
     return min(fitting, key=lambda layout: (crossed_notes(layout, texts.notes), crossings(layout)))
-
-
-def _description(names: Sequence[str], besides: Sequence[str]) -> str:
-    told = f"Stage diagram: {len(names)} stage{'' if len(names) == 1 else 's'} {', '.join(names)}".rstrip()
-    return "; ".join((told, *besides))
 
 
 def _place(net: Stages, number: int, name: str, layout: Layout, colour: str, strength: float) -> PlacePart:
@@ -315,10 +311,6 @@ def _fills(net: Stages, order: Sequence[int], chosen: Mapping[str, str]) -> dict
 def _rank(place: Place) -> tuple[float, ...]:
     """By what a place comes before others of its symbol: its values; unknown ones say nothing."""
     return tuple(0.0 if is_symbolic(value) else float(value) for value in place.modules[0].arguments) if place.modules else ()
-
-
-def _bar(number: int, bar: BarPosition, terms: str, full: str) -> BarPart:
-    return BarPart(number, bar.x, bar.y, bar.half, rounded_path(bar.line), terms, full, *bar.terms)
 
 
 def _arc(number: int, corners: Sequence[Point]) -> ArcPart:

@@ -322,7 +322,6 @@ class _Rows:
         return max(bar + 10 + _widest(texts.terms, bars), texts.labels[place] / 2 + 6, _widest(texts.notes, loops) + 2 * ROUND)
 
     def _taken(self, column: int) -> float:
-        """The width of a channel's lanes and notes."""
         ours = [route for route in self.routes if route.source[1] == column]
         slots = [self.slots[route.arc] for route in ours if route.arc in self.slots]
         note = _widest(self.texts.notes, (route.arc for route in ours if route.direct))
@@ -341,7 +340,6 @@ class _Rows:
         return bottom + EDGE
 
     def _bar_height(self, place: int, number: int) -> float:
-        """The middle of a bar of a place."""
         return self.circles[place][1] + (number - (len(self.bars[place]) - 1) / 2) * STACKED
 
     def _heights(self) -> dict[int, float]:

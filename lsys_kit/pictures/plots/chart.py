@@ -101,7 +101,6 @@ def painted(plot: Plot, ax: Axes) -> Axes:
 
 
 def _figure(chart: Chart) -> Figure:
-    """A figure with a chart, in which a point is a pixel."""
     from matplotlib.figure import Figure
 
     left, right, above, below = chart.margins
@@ -149,13 +148,7 @@ def tick_text(value: float) -> str:
 
 
 def finite(values: Sequence[Any], what: str) -> tuple[float, ...]:
-    """Numbers as doubles.
-
-    Raises
-    ------
-    ModelValueError
-        One is too great, or no number.
-    """
+    """Numbers as doubles, none of them too great."""
     try:
         found = tuple(map(float, values))
     except OverflowError:
@@ -257,7 +250,6 @@ class CurveChart(Chart):
         ax.set_ylim(bottom, most + 0.03 * (most - bottom) if most > bottom else bottom + 1)
 
     def _paint_labels(self, ax: Axes) -> None:
-        """The names of the curves at their ends, none over another."""
         named = [curve for curve in self.curves if curve.label and curve.points]
         room = HEIGHT - ABOVE - BELOW
         to_axes = ax.transData + ax.transAxes.inverted()

@@ -30,13 +30,8 @@ _COMMANDS = {Path.MOVETO: "M", Path.LINETO: "L", Path.CURVE3: "Q", Path.CURVE4: 
 
 
 class SVGRenderer(RendererBase):
-    """A renderer that collects elements of SVG; lengths are tenths of a pixel, which is a point of matplotlib's.
-
-    Parameters
-    ----------
-    width, height
-        The size of the picture in pixels.
-    """
+    """A renderer that collects elements of SVG for a picture of so many pixels; lengths are tenths of a pixel, which is a point
+    of matplotlib's."""
 
     def __init__(self, width: int, height: int) -> None:
         super().__init__()

@@ -12,7 +12,7 @@ from lsys_kit.classroom.exercises.asked import beginning_with, with_constants
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.renaming import Renaming
 from lsys_kit.derivation.core.states import States
-from lsys_kit.derivation.petri.outcomes import all_outcomes, outcomes_of
+from lsys_kit.derivation.petri.net import all_outcomes, outcomes_of
 from lsys_kit.errors import LSystemError, ModelLimitError
 from lsys_kit.notation.analysis.lint import warnings
 from lsys_kit.notation.model.arithmetic import Value

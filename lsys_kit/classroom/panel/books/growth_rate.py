@@ -9,8 +9,7 @@ from typing import Any
 
 from lsys_kit.budget import limits
 from lsys_kit.derivation.core.traits import traits_of
-from lsys_kit.derivation.growth.growth import growth
-from lsys_kit.derivation.growth.recurrences import greatest_root
+from lsys_kit.derivation.growth.growth import greatest_root, growth
 from lsys_kit.errors import LSystemError
 from lsys_kit.notation.model.system import LSystem
 
