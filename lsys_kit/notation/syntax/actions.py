@@ -21,7 +21,6 @@ from lsys_kit.notation.model.arithmetic import PLAIN, literal_text, normalised
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number, TextSpan
 from lsys_kit.notation.model.modules import Pattern, Repeat
 from lsys_kit.notation.model.system import Constant, MetaRule, Production
-from lsys_kit.notation.syntax.wording import ModelError
 
 _SPELLINGS = {
     "∨": "||",
@@ -44,14 +43,6 @@ _LEFT = "\u20d6"
 """An arrow to the left, over the letter before it."""
 _LONGEST_NUMBER = 1_000
 """So many characters a number may have."""
-
-
-class ActionError(Exception):
-    """A mistake that only one dialect knows and words itself, before the text it was made in is known."""
-
-    def __init__(self, kind: type[ModelError], message: str, at: TextSpan, hint: str | None = None) -> None:
-        self.kind, self.message, self.at, self.hint = kind, message, at, hint
-        super().__init__(message)
 
 
 def place_of(*parts: Any) -> TextSpan:

@@ -10,7 +10,7 @@ from typing import Any
 from lark import Transformer
 from lark.visitors import merge_transformers
 
-from lsys_kit.errors import ModelSyntaxError
+from lsys_kit.notation.analysis.problems import problem
 from lsys_kit.notation.model.expressions import Name
 from lsys_kit.notation.model.modules import Pattern, joined
 from lsys_kit.notation.model.system import LSystem, Production
@@ -39,8 +39,7 @@ def _resolve_deferred(draft: Draft) -> None:
     for kind, record, at in draft.deferred:
         if kind == "axiom" and not IN_A_SET.search(plain):
             word, rest = draft.source[at[0] : at[0] + 5], draft.source[at[0] + 5 : at[1]]
-            hint = f'Type "{word.lower()}: {excerpt(rest.strip())}".'
-            raise ModelSyntaxError(f'A ":" is missing after "{word}"', draft.source, at[0], at[0] + 5, hint)
+            raise problem("no colon", (at[0], at[0] + 5), word=word, keyword=word.lower(), rest=excerpt(rest.strip()))
         draft.add(kind, record, at)
     length = next((constant for constant in draft.constants if constant.name == "d"), None)
     if length and re.search(r"(δ|\\delta)\s*=", plain) and len(re.findall(r"\bd\b", plain)) == 1:
