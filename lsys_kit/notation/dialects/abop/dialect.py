@@ -5,16 +5,12 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
-
-from lark import Transformer
-from lark.visitors import merge_transformers
 
 from lsys_kit.notation.analysis.problems import problem
 from lsys_kit.notation.model.expressions import Name
 from lsys_kit.notation.model.modules import Pattern, joined
 from lsys_kit.notation.model.system import LSystem, Production
-from lsys_kit.notation.syntax.actions import Expressions, Statements
+from lsys_kit.notation.syntax.actions import Statements, transformer
 from lsys_kit.notation.syntax.builder import Draft, build_system, check_colons
 from lsys_kit.notation.syntax.diagnostics import DIAGNOSTICS
 from lsys_kit.notation.syntax.dialect import Dialect
@@ -27,10 +23,6 @@ from lsys_kit.notation.syntax.text.transcription import likely, transcribe
 from lsys_kit.notation.syntax.wording import Spelling
 
 _EDGE = re.compile(r"F_\w+")
-
-
-def _transformer() -> Transformer[Any, Any]:
-    return merge_transformers(Statements(), expressions=Expressions())  # type: ignore[no-untyped-call,no-any-return]
 
 
 def _resolve_deferred(draft: Draft) -> None:
@@ -100,7 +92,7 @@ def _lacking(system: LSystem) -> str | None:
 ABOP = Dialect(
     name="abop",
     statements=printed_statements,
-    transformer=_transformer,
+    transformer=transformer(Statements),
     finish=_finish,
     diagnostics=("surface", *DIAGNOSTICS),
     module=str,

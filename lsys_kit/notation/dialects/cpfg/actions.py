@@ -16,7 +16,7 @@ from lsys_kit.notation.dialects.cpfg.variables import SEED, Assignment, Block, C
 from lsys_kit.notation.model.expressions import Apply, Expression, Number
 from lsys_kit.notation.model.modules import END, Pattern
 from lsys_kit.notation.model.system import Constant
-from lsys_kit.notation.syntax.actions import Expressions, Statements, place_of
+from lsys_kit.notation.syntax.actions import Expressions, Statement, Statements, place_of
 
 _SPELLINGS = {"<>": "!=", "%": "rem"}
 """Operators, and how the kit spells them."""
@@ -106,31 +106,31 @@ class CpfgStatements(_CpfgExpressions, Statements):
     def setting(self, keyword: Token, value: Expression) -> tuple[str, Expression]:
         return super().setting(keyword, as_number(value))
 
-    def count(self, keyword: Token, value: Expression) -> tuple[str, Any]:
+    def count(self, keyword: Token, value: Expression) -> Statement:
         return "deferred", ("count", (" ".join(keyword.rstrip(": \t").lower().split()), as_number(value)))
 
-    def view_surface(self, token: Token) -> tuple[str, Any]:
+    def view_surface(self, token: Token) -> Statement:
         """A line of a view file: a symbol, a file, and how large it is."""
         words = token.split(":", 1)[1].split()
         if len(words) < 2:
             raise problem("surface without file", place_of(token))
         return "deferred", ("view surface", (words[0], words[1]))
 
-    def mark(self, *_: Token) -> tuple[str, Any]:
+    def mark(self, *_: Token) -> Statement:
         return "deferred", ("mark", None)
 
-    def section(self, keyword: Token) -> tuple[str, Any]:
+    def section(self, keyword: Token) -> Statement:
         name = keyword.split()[0].rstrip(":").lower()
         return "deferred", ("section", _SECTION_NAMES.get(name, name))
 
-    def symbols(self, keyword: Token, *names: Token) -> tuple[str, Any]:
+    def symbols(self, keyword: Token, *names: Token) -> Statement:
         """Brackets are symbols like others; one without the other is refused."""
         others = [name for name in names if name not in "[]"]
         both = {"[", "]"} <= set(names) and (others or keyword.lower().startswith("ignore"))
         kind, symbols = super().symbols(keyword, *(others if both else names))
         return "deferred", ("passed", (kind, symbols, len(others) < len(names)))
 
-    def condition(self, expression: Expression) -> tuple[str, Any]:
+    def condition(self, expression: Expression) -> Statement:
         """A number other than 0 is a condition that always holds."""
         always = isinstance(expression, Number) and expression.value != 0
         return "condition", None if always else as_truth(expression)
@@ -158,7 +158,7 @@ class CpfgStatements(_CpfgExpressions, Statements):
     def block(self, *instructions: Any) -> Block:
         return tuple(instruction for instruction in instructions if instruction != ())
 
-    def phase(self, keyword: Token, *instructions: Any) -> tuple[str, Any]:
+    def phase(self, keyword: Token, *instructions: Any) -> Statement:
         return "deferred", ("phase", ("".join(keyword.rstrip(": \t").lower().split()), self.block(*instructions)))
 
     def procedure(self, name: Token, *values: Expression | Token) -> Any:
@@ -178,7 +178,7 @@ class CpfgStatements(_CpfgExpressions, Statements):
             raise problem("choices too deep", _expression_span(condition), most=current().depth)
         return choice
 
-    def production(self, *parts: Any) -> tuple[str, Any]:
+    def production(self, *parts: Any) -> Statement:
         blocks = dict(filter(_is_block, parts))
         _, production = super().production(*(part for part in parts if not _is_block(part)))
         return "deferred", ("rule", (production, blocks.get("before", ()), blocks.get("after", ())))

@@ -19,6 +19,7 @@ from lsys_kit.notation.model.expressions import (
     Number,
     Style,
     TextSpan,
+    calls_in,
     expression_type,
     is_random,
     styled_text,
@@ -215,8 +216,10 @@ def missing_function(expression: Expression) -> str | None:
     >>> missing_function(Apply("poisson", (Name("t"),)))
     'function "poisson"'
     """
-    if not isinstance(expression, Apply):
-        return None
+    return next(filter(None, map(_missing_call, calls_in(expression))), None)
+
+
+def _missing_call(expression: Apply) -> str | None:
     if OPERATORS[expression.operator].precedence is None and expression.operator not in _KNOWN:
         return f'function "{expression.operator}"'
     if expression.operator in _LESS.values() and (len(expression.operands) > 2 or is_random(expression)):
@@ -227,4 +230,4 @@ def missing_function(expression: Expression) -> str | None:
         return "random numbers from a random number on"
     if simplified(expression) != expression:
         return f'other words for "{simplified(expression).operator}"'
-    return next(filter(None, map(missing_function, expression.operands)), None)
+    return None

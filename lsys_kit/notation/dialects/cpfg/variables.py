@@ -17,8 +17,18 @@ from typing import TypeAlias
 
 from lsys_kit.budget import current
 from lsys_kit.notation.analysis.problems import ProblemFound, problem
-from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number, is_random, names_in
-from lsys_kit.notation.model.modules import Pattern, expressions_of, flat
+from lsys_kit.notation.model.expressions import (
+    OPERATORS,
+    Apply,
+    Expression,
+    Name,
+    Number,
+    calls_in,
+    is_random,
+    names_in,
+    substituted,
+)
+from lsys_kit.notation.model.modules import Pattern, expressions_of, flat, with_expressions
 from lsys_kit.notation.model.system import Constant, Production
 
 Bindings: TypeAlias = Mapping[str, Expression]
@@ -71,7 +81,7 @@ def substitute(production: Production, before: Block, after: Block, constants: C
     done = replace(
         production,
         condition=None if condition is None else rule.replaced(condition, first),
-        successor=tuple(_substituted_module(rule, module, last) for module in flat(production.successor)),
+        successor=with_expressions(production.successor, lambda expression: rule.replaced(expression, last)),
         probability=None if probability is None else rule.replaced(probability, last),
     )
     _check_draws(done, (*before, *after))
@@ -90,10 +100,6 @@ def computed(block: Block, constants: Iterable[str], before: Iterable[str] = ())
 def assigned_names(block: Block) -> set[str]:
     """The names to which the statements of a block give values."""
     return {assignment.name.name for assignment in _assignments(block)}
-
-
-def _substituted_module(rule: _Rule, module: Pattern, values: Bindings) -> Pattern:
-    return replace(module, arguments=tuple(rule.replaced(a, values) for a in module.arguments))
 
 
 @dataclass(frozen=True)
@@ -137,32 +143,14 @@ class _Rule:
 
     def replaced(self, expression: Expression, values: Bindings) -> Expression:
         """An expression with its names replaced."""
-        result = _with_values(expression, values)
+        result = substituted(expression, values)
         if getattr(result, "depth", 0) > current().depth or _long(result):
             raise problem("computed too long", expression.at)
         return result
 
 
-def _with_values(expression: Expression, values: Bindings) -> Expression:
-    if isinstance(expression, Name):
-        return values.get(expression.name, expression)
-    if not isinstance(expression, Apply):
-        return expression
-    operands = tuple(_with_values(operand, values) for operand in expression.operands)
-    same = all(new is old for new, old in zip(operands, expression.operands, strict=True))
-    return expression if same else replace(expression, operands=operands)
-
-
-def _operators(expression: Expression | None) -> Iterator[Apply]:
-    """The operators of an expression with their operands; what occurs twice comes twice."""
-    if isinstance(expression, Apply):
-        yield expression
-        for operand in expression.operands:
-            yield from _operators(operand)
-
-
 def _long(expression: Expression) -> bool:
-    return any(number == MOST_OPERATORS for number, _ in enumerate(_operators(expression)))
+    return any(number == MOST_OPERATORS for number, _ in enumerate(calls_in(expression)))
 
 
 def _assignments(block: Block) -> Iterator[Assignment]:
@@ -175,10 +163,9 @@ def _assignments(block: Block) -> Iterator[Assignment]:
 
 def _check_draws(production: Production, block: Block) -> None:
     """No random number that was drawn once in a block is drawn twice in what became of the rule."""
-    arguments = [argument for module in flat(production.successor) for argument in module.arguments]
     drawn: set[int] = set()
-    for expression in (production.condition, production.probability, *arguments):
-        for applied in _operators(expression):
+    for expression in used_expressions(production):
+        for applied in calls_in(expression):
             if OPERATORS[applied.operator].random and id(applied) in drawn:
                 raise _drawn_twice(applied, block)
             drawn.add(id(applied))
@@ -186,7 +173,7 @@ def _check_draws(production: Production, block: Block) -> None:
 
 def _drawn_twice(draw: Apply, block: Block) -> ProblemFound:
     """The error for a random number that is used twice, with its name, if it has one."""
-    owner = next((a for a in _assignments(block) if any(applied is draw for applied in _operators(a.value))), None)
+    owner = next((a for a in _assignments(block) if any(applied is draw for applied in calls_in(a.value))), None)
     what = f'The random number "{owner.name}"' if owner else "This random number"
     return problem("drawn twice", (owner.name if owner else draw).at, what=what)
 

@@ -34,6 +34,7 @@ from lsys_kit.notation.model.arithmetic import normalised
 from lsys_kit.notation.model.expressions import Number
 from lsys_kit.notation.model.modules import Pattern, flat
 from lsys_kit.notation.model.system import LSystem, Production
+from lsys_kit.notation.syntax.actions import Statement, place_of
 from lsys_kit.notation.syntax.builder import Draft, build_system
 from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.wording import Spelling
@@ -46,51 +47,48 @@ class Records(Transformer[Any, Any]):
     """What `grammar.lark` names: letters are capitals, whatever was typed."""
 
     def symbol(self, token: Token) -> Pattern:
-        return Pattern(token.upper(), at=_at(token))
+        return Pattern(token.upper(), at=place_of(token))
 
     def command(self, token: Token) -> Pattern:
-        sign, inverse_or_root, digits = _COMMAND.fullmatch(token).groups()  # type: ignore[union-attr]
-        return Pattern((sign + inverse_or_root).upper(), (_number(token, digits),) if digits else (), _at(token))
+        [(sign, inverse_or_root, digits)] = _COMMAND.findall(token)
+        return Pattern((sign + inverse_or_root).upper(), (_number(token, digits),) if digits else (), place_of(token))
 
     def word(self, *modules: Pattern) -> tuple[Pattern, ...]:
         return modules
 
-    def angle(self, _: Token, count: Token) -> tuple[str, Any]:
+    def angle(self, _: Token, count: Token) -> Statement:
         """Fractint passes over what stands behind the point."""
         whole = count.split(".")[0]
         if len(whole) > len(str(MOST)) or not LEAST <= int(whole) <= MOST:
-            raise problem("parts of a turn", _at(count), parts=whole[:10], least=LEAST, most=MOST)
-        return "deferred", ("angle", Number(normalised(Fraction(360, int(whole))), _at(count)))
+            raise problem("parts of a turn", place_of(count), parts=whole[:10], least=LEAST, most=MOST)
+        return "deferred", ("angle", Number(normalised(Fraction(360, int(whole))), place_of(count)))
 
     def steps(self, _: Token, count: Token) -> tuple[str, Number]:
-        return "steps", Number(int(count), _at(count))
+        return "steps", Number(int(count), place_of(count))
 
-    def axiom(self, _: Token, word: tuple[Pattern, ...]) -> tuple[str, Any]:
+    def axiom(self, _: Token, word: tuple[Pattern, ...]) -> Statement:
         return "deferred", ("axiom", word)
 
-    def production(self, predecessor: Token, word: tuple[Pattern, ...]) -> tuple[str, Any]:
+    def production(self, predecessor: Token, word: tuple[Pattern, ...]) -> Statement:
         symbol = predecessor[0].upper()
-        at = predecessor.start_pos, (predecessor.start_pos or 0) + 1
+        start = predecessor.start_pos or 0
+        at = start, start + 1
         if "=" not in predecessor and re.match("--?>", "".join(module.symbol for module in word[:3])):
             raise problem("arrow in rule", word[0].at, symbol=predecessor[0])
         if symbol in RESERVED:
             raise problem("command rewritten", at, symbol=predecessor[0])
-        return "deferred", ("rule", Production((Pattern(symbol, at=at),), word))  # type: ignore[arg-type]
+        return "deferred", ("rule", Production((Pattern(symbol, at=at),), word))
 
-    def erasing(self, predecessor: Token) -> tuple[str, Any]:
+    def erasing(self, predecessor: Token) -> Statement:
         if "=" not in predecessor:
-            raise problem("no successor", _at(predecessor), symbol=predecessor[0])
+            raise problem("no successor", place_of(predecessor), symbol=predecessor[0])
         return self.production(predecessor, ())
-
-
-def _at(token: Token) -> tuple[int, int]:
-    return token.start_pos, token.end_pos  # type: ignore[return-value]
 
 
 def _number(token: Token, digits: str) -> Number:
     if not re.fullmatch(r"\d++\.?\d*+|\.\d++", digits) or len(digits) > LONGEST:
-        raise problem("number of command", _at(token))
-    return Number(normalised(Fraction(f"0{digits}" if digits[0] == "." else digits.rstrip("."))), _at(token))
+        raise problem("number of command", place_of(token))
+    return Number(normalised(Fraction(f"0{digits}" if digits[0] == "." else digits.rstrip("."))), place_of(token))
 
 
 _SAID = re.compile(r"angle(?:\s*=)?\s*\d|axiom(?:\s*=\s*|\s+)[^\s:=]", re.IGNORECASE)

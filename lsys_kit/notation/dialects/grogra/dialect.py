@@ -12,8 +12,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from lark import Token, Transformer, v_args
-from lark.visitors import merge_transformers
+from lark import Token, v_args
 
 from lsys_kit.errors import ModelSyntaxError
 from lsys_kit.notation.analysis.problems import problem
@@ -28,9 +27,9 @@ from lsys_kit.notation.dialects.grogra.writer import (
     system_text,
 )
 from lsys_kit.notation.model.expressions import OPERATORS, Expression, Name, Number, names_in
-from lsys_kit.notation.model.modules import Item, Pattern, Repeat
+from lsys_kit.notation.model.modules import Item, Pattern, flat, rewritten
 from lsys_kit.notation.model.system import Constant, LSystem, Production
-from lsys_kit.notation.syntax.actions import Expressions, Statements, place_of
+from lsys_kit.notation.syntax.actions import Expressions, Statement, Statements, place_of, transformer
 from lsys_kit.notation.syntax.builder import Draft, build_system
 from lsys_kit.notation.syntax.diagnostics import compiled
 from lsys_kit.notation.syntax.dialect import Dialect
@@ -102,35 +101,35 @@ class _GrograStatements(_GrograExpressions, Statements):
         value = self.number(number)
         return self.module(symbol, self.unary(sign, value) if sign else value)
 
-    def axiom(self, _: Token, word: tuple[Pattern, ...], *steps: Token) -> tuple[str, Any]:
+    def axiom(self, _: Token, word: tuple[Pattern, ...], *steps: Token) -> Statement:
         ends = [int(end) for end in steps[0].split("-")] if steps else []
         if ends and ends[0] > ends[-1]:
             raise problem("steps backwards", place_of(steps[0]), steps=steps[0])
         return "deferred", ("axiom", (word, ends[-1] if ends else None))
 
-    def setting(self, keyword: Token, value: Expression) -> tuple[str, Any]:
+    def setting(self, keyword: Token, value: Expression) -> Statement:
         return "deferred", ("setting", (keyword.split()[-1].lstrip("\\"), value))
 
-    def turtle(self, _: Token, tradition: Token) -> tuple[str, Any]:
+    def turtle(self, _: Token, tradition: Token) -> Statement:
         return "deferred", ("setting", ("turtle", str(tradition)))
 
-    def look(self, token: Token) -> tuple[str, Any]:
+    def look(self, token: Token) -> Statement:
         return "deferred", ("setting", super().look(token))
 
-    def unused(self, token: Token) -> tuple[str, Any]:
+    def unused(self, token: Token) -> Statement:
         return "deferred", ("note", f'"{" ".join(token.split())}" has no meaning here.')
 
     def constant(self, name: Token, *rest: Any) -> tuple[str, Constant]:
         return super().constant(*rest)  # the first token is "\\const"
 
-    def variable(self, _: Token, name: Token, kind: Token, *values: Expression) -> tuple[str, Any]:
+    def variable(self, _: Token, name: Token, kind: Token, *values: Expression) -> Statement:
         self.name(name)
         return "deferred", ("variable", Variable(str(name), str(kind), values, (kind.start_pos or 0, kind.end_pos or 0)))
 
-    def production(self, *parts: Any) -> tuple[str, Any]:
+    def production(self, *parts: Any) -> Statement:
         return "production", _production_of(parts)
 
-    def interpretation(self, *parts: Any) -> tuple[str, Any]:
+    def interpretation(self, *parts: Any) -> Statement:
         return "deferred", ("interpretation", _production_of(parts))
 
 
@@ -151,11 +150,6 @@ def _production_of(parts: tuple[Any, ...]) -> Production:
     named = {part[0]: part[1] for part in parts if isinstance(part, tuple) and part and isinstance(part[0], str)}
     successor = next((part for part in parts if isinstance(part, tuple) and not (part and isinstance(part[0], str))), ())
     return Production((predecessor,), successor, **named)
-
-
-def transformer() -> Transformer[Any, Any]:
-    """What makes the records."""
-    return merge_transformers(_GrograStatements(), expressions=_GrograExpressions())  # type: ignore[no-untyped-call,no-any-return]
 
 
 _SLIDE_SPELLINGS = {
@@ -251,7 +245,7 @@ def _replace_variables(draft: Draft, variables: list[Variable]) -> None:
     constants = [constant.name for constant in draft.constants]
     check_variables(variables, constants)
     scope = Scope(frozenset(constants), {variable.name: variable for variable in variables})
-    draft.axiom = resolve_items(draft.axiom or (), scope)  # type: ignore[assignment]
+    draft.axiom = tuple(flat(resolve_items(draft.axiom or (), scope)))
     for section, rules in draft.sections.items():
         draft.sections[section] = [resolve_rule(rule, scope, section == "productions") for rule in rules]
 
@@ -271,28 +265,23 @@ def with_ones(system: LSystem) -> tuple[LSystem, list[str]]:
 
     Print does not distinguish the two: Kurth's slides have `ul` where `u1` is meant.
     """
-    rewritten = {rule.predecessor.symbol for rule in system.rules}
+    heads = {rule.predecessor.symbol for rule in system.rules}
     symbols = dict.fromkeys(module.symbol for module in system.modules)
     ones = {
-        symbol: _one(symbol)
-        for symbol in symbols
-        if symbol not in rewritten and _one(symbol) in symbols and _one(symbol) != symbol
+        symbol: _one(symbol) for symbol in symbols if symbol not in heads and _one(symbol) in symbols and _one(symbol) != symbol
     }
     if not ones:
         return system, []
 
-    def module(m: Pattern) -> Pattern:
-        return replace(m, symbol=ones.get(m.symbol, m.symbol))
-
-    def word(items: Iterable[Item]) -> tuple[Item, ...]:
-        return tuple(replace(i, body=word(i.body)) if isinstance(i, Repeat) else module(i) for i in items)
+    def word(items: Iterable[Item]) -> tuple[Any, ...]:
+        return rewritten(items, lambda m: (replace(m, symbol=ones.get(m.symbol, m.symbol)),), lambda count: count)
 
     def rule(r: Production) -> Production:
-        return replace(r, left=tuple(map(module, r.left)), right=tuple(map(module, r.right)), successor=word(r.successor))
+        return replace(r, left=word(r.left), right=word(r.right), successor=word(r.successor))
 
     read = replace(
         system,
-        axiom=tuple(map(module, system.axiom)),
+        axiom=word(system.axiom),
         productions=tuple(map(rule, system.productions)),
         interpretation=tuple(map(rule, system.interpretation)),
     )
@@ -337,7 +326,7 @@ def _comma(failure: ParseFailure) -> ModelSyntaxError | None:
 GROGRA = Dialect(
     name="grogra",
     statements=statements,
-    transformer=transformer,
+    transformer=transformer(_GrograStatements, _GrograExpressions),
     finish=_finish,
     diagnostics=(
         "foreign_comment",

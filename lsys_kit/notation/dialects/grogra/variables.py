@@ -15,7 +15,7 @@ from math import isqrt
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.analysis.problems import problem
 from lsys_kit.notation.model.arithmetic import normalised
-from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number, TextSpan, names_in
+from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number, TextSpan, names_in, transform
 from lsys_kit.notation.model.modules import Item, Repeat, expressions_of
 from lsys_kit.notation.model.system import Production
 
@@ -127,14 +127,15 @@ def _check_kind(variable: Variable) -> None:
 
 def resolve(expression: Expression, scope: Scope) -> Expression:
     """An expression with the variables replaced by what they mean."""
-    if isinstance(expression, Name):
-        return _resolve_name(expression, scope)
-    if not isinstance(expression, Apply):
-        return expression
-    first, *rest = expression.operands
-    if expression.operator == "sensed" and isinstance(first, Name):
-        return _sensed_call(expression, first, [resolve(operand, scope) for operand in rest], scope)
-    return Apply(expression.operator, tuple(resolve(operand, scope) for operand in expression.operands), expression.at)
+
+    def change(part: Expression) -> Expression | None:
+        if isinstance(part, Name):
+            return _resolve_name(part, scope)
+        if isinstance(part, Apply) and part.operator == "sensed" and isinstance(part.operands[0], Name):
+            return _sensed_call(part, part.operands[0], [resolve(value, scope) for value in part.operands[1:]], scope)
+        return None
+
+    return transform(expression, change)
 
 
 def _resolve_name(name: Name, scope: Scope) -> Expression:

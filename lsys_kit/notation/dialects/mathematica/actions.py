@@ -8,8 +8,7 @@ from dataclasses import dataclass, replace
 from itertools import count
 from typing import Any, TypeAlias
 
-from lark import Token, Transformer, v_args
-from lark.visitors import merge_transformers
+from lark import Token, v_args
 
 from lsys_kit.budget import current
 from lsys_kit.notation.analysis.checks import suggestion
@@ -27,7 +26,7 @@ from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
 from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.notation.model.system import Constant, Production
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS, quoted_dialects
-from lsys_kit.notation.syntax.actions import Expressions, check_arity, check_name, place_of
+from lsys_kit.notation.syntax.actions import Expressions, Statement, check_arity, check_name, place_of
 
 
 @v_args(inline=True)
@@ -181,7 +180,7 @@ def condition_of(conditions: Iterable[Expression]) -> Expression | None:
 
 
 @v_args(inline=True)
-class _MathematicaStatements(MathematicaExpressions):
+class MathematicaStatements(MathematicaExpressions):
     """What the definitions name."""
 
     def word(self, *modules: Pattern) -> WordDefinition:
@@ -245,7 +244,7 @@ class _MathematicaStatements(MathematicaExpressions):
     def successor(self, *word: WordDefinition) -> WordDefinition:
         return word[0] if word else ()
 
-    def printed_rule(self, *parts: Any) -> tuple[str, Any]:
+    def printed_rule(self, *parts: Any) -> Statement:
         sides: dict[str, tuple[PatternDefinition, ...]] = dict(part for part in parts[:-1] if isinstance(part, tuple))
         pattern = next(part for part in parts if isinstance(part, PatternDefinition))
         at = pattern.symbol.start_pos or 0, parts[-2].end_pos or 0
@@ -266,46 +265,46 @@ class _MathematicaStatements(MathematicaExpressions):
     def run(self, _: Token, system: SystemDefinition | Token, steps: Expression) -> Run:
         return Run(system, steps)
 
-    def definition(self, *parts: Any) -> tuple[str, Any]:
+    def definition(self, *parts: Any) -> Statement:
         things = [part for part in parts if not isinstance(part, Token)]
         return "deferred", ("definition", (str(parts[0]) if isinstance(parts[0], Token) else "", things[0]))
 
-    def unknown(self, _: Token, __: Token, call: Token) -> tuple[str, Any]:
+    def unknown(self, _: Token, __: Token, call: Token) -> Statement:
         name = call.split("[")[0].rstrip()
         at = call.start_pos or 0
         hint = INSTEAD.get(name) or spelling_hint(name) or "What prints or draws can be left out."
         raise problem("unknown call", (at, at + len(name)), name=name, hint=hint)
 
-    def constant(self, name: Token, _: Token, value: Expression, *slider: Any) -> tuple[str, Any]:
+    def constant(self, name: Token, _: Token, value: Expression, *slider: Any) -> Statement:
         check_name(_check_plain_name(name, "A constant"))
         return "deferred", ("constant", Constant(str(name), value, slider[1:] or None))
 
-    def setting(self, keyword: Token, _: Token, value: Expression) -> tuple[str, Any]:
+    def setting(self, keyword: Token, _: Token, value: Expression) -> Statement:
         return "deferred", ("setting", (str(keyword), value))
 
-    def turtle(self, keyword: Token, _: Token, tradition: Token) -> tuple[str, Any]:
+    def turtle(self, keyword: Token, _: Token, tradition: Token) -> Statement:
         if tradition[1:-1] not in TURTLE_DIALECTS:
             raise problem("unknown turtle", place_of(tradition), tradition=tradition, turtles=quoted_dialects("or"))
         return "deferred", ("setting", ("turtle", str(tradition[1:-1])))
 
-    def look(self, token: Token) -> tuple[str, Any]:
+    def look(self, token: Token) -> Statement:
         name, said = re.findall("[a-z]+", token)
         return "deferred", ("setting", (name, said))
 
-    def row(self, _keyword: Token, _: Token, *symbols: Token) -> tuple[str, Any]:
+    def row(self, _keyword: Token, _: Token, *symbols: Token) -> Statement:
         bracket = next((symbol for symbol in symbols if symbol in "[]"), None)
         if bracket is not None:
             raise problem("bracket in list", place_of(bracket))
         kept = tuple(dict.fromkeys(str(symbol) for symbol in symbols if (symbol.type, symbol) != ("NAME", "Null")))
         return "deferred", ("setting", ("ignore", kept))
 
-    def alone(self, name: Token) -> tuple[str, Any]:
+    def alone(self, name: Token) -> Statement:
         return "deferred", ("alone", name)
 
-    def printed_axiom(self, _: Token, word: WordDefinition) -> tuple[str, Any]:
+    def printed_axiom(self, _: Token, word: WordDefinition) -> Statement:
         return "deferred", ("printed_axiom", word)
 
-    def other(self, *parts: Token) -> tuple[str, Any]:
+    def other(self, *parts: Token) -> Statement:
         named = re.search(r"\b\w++(?=\s*+\[)", parts[0]) or re.search(r"\w+", parts[0])
         return "deferred", ("other", named.group() if named else str(parts[0]).strip())
 
@@ -345,8 +344,3 @@ def _module_of(pattern: PatternDefinition, numbers: Iterator[int]) -> Pattern:
         for required in pattern.arguments
     )
     return Pattern(str(pattern.symbol), arguments, place_of(pattern.symbol, *arguments))
-
-
-def transformer() -> Transformer[Any, Any]:
-    """What makes records of all that the grammar names."""
-    return merge_transformers(_MathematicaStatements(), expressions=Expressions())  # type: ignore[no-untyped-call,no-any-return]
