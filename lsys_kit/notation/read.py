@@ -196,7 +196,8 @@ def read_expression(text: str) -> Expression:
     >>> print(read_expression("2*(t+1)"))
     2 * (t + 1)
     """
-    return parse(ABOP, "expression", text, 0, len(text))  # type: ignore[no-any-return]
+    expression: Expression = parse(ABOP, "expression", text, 0, len(text))
+    return expression
 
 
 def checked_expression(text: str, names: Collection[str], wanted: str = "number") -> Expression:

@@ -8,13 +8,14 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from lsys_kit.errors import ModelSyntaxError
-from lsys_kit.notation.dialects.mathematica.actions import transformer
+from lsys_kit.notation.dialects.mathematica.actions import MathematicaStatements
 from lsys_kit.notation.dialects.mathematica.builder import finish
 from lsys_kit.notation.dialects.mathematica.expressions import HEADS, KNOWN, expression_text, spelling_hint
 from lsys_kit.notation.dialects.mathematica.writer import module_text, system_text
-from lsys_kit.notation.model.expressions import Apply, Name
+from lsys_kit.notation.model.expressions import Apply, Name, walk
 from lsys_kit.notation.model.operators import OPERATORS
 from lsys_kit.notation.model.system import LSystem
+from lsys_kit.notation.syntax.actions import transformer
 from lsys_kit.notation.syntax.diagnostics import innermost_bracket
 from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.failure import ParseFailure
@@ -161,13 +162,11 @@ def _names_and_functions(system: LSystem) -> tuple[set[str], set[str]]:
         *(rule.condition for rule in system.rules),
         *(argument for module in system.modules for argument in module.arguments),
     ]
-    while parts:
-        part = parts.pop()
+    for part in (inner for each in parts if each is not None for inner in walk(each)):
         if isinstance(part, Name):
             names.add(part.name)
-        elif isinstance(part, Apply):
-            parts.extend(part.operands)
-            functions |= {part.operator} if OPERATORS[part.operator].precedence is None else set()
+        elif isinstance(part, Apply) and OPERATORS[part.operator].precedence is None:
+            functions.add(part.operator)
     return names, functions
 
 
@@ -214,7 +213,7 @@ def _unknown_call(failure: ParseFailure) -> ModelSyntaxError | None:
 MATHEMATICA = Dialect(
     name="mathematica",
     statements=statements,
-    transformer=transformer,
+    transformer=transformer(MathematicaStatements),
     finish=finish,
     diagnostics=(
         "unclosed",
