@@ -29,10 +29,9 @@ if TYPE_CHECKING:
         systems,
     )
     from lsys_kit.classroom.exercises.check import check
-    from lsys_kit.classroom.exercises.declared.registry import exercises
     from lsys_kit.classroom.exercises.practice.practice import practice
-    from lsys_kit.classroom.exercises.progress.progress import progress
-    from lsys_kit.classroom.exercises.progress.scores import score
+    from lsys_kit.classroom.exercises.progress import progress, score
+    from lsys_kit.classroom.exercises.registry import exercises
     from lsys_kit.classroom.lessons.predict import predict
     from lsys_kit.classroom.lessons.rule_finder import rule_finder
     from lsys_kit.classroom.lessons.vote import vote
@@ -86,7 +85,7 @@ _HOMES = {
     "ensemble": "experiments.runs",
     "plot": "experiments.plot",
     "sweep": "experiments.runs",
-    "exercises": "classroom.exercises.declared.registry",
+    "exercises": "classroom.exercises.registry",
     "explain": "derivation.explain",
     "explore": "classroom.panel.explore",
     "figure": "pictures.draw",
@@ -102,13 +101,13 @@ _HOMES = {
     "pnml": "derivation.petri.pnml",
     "practice": "classroom.exercises.practice.practice",
     "predict": "classroom.lessons.predict",
-    "progress": "classroom.exercises.progress.progress",
+    "progress": "classroom.exercises.progress",
     "qr_code": "pictures.qr_codes",
     "read": "notation.read",
     "read_cellwork": "notation.dialects.cellwork.dialect",
     "read_map": "notation.dialects.map.dialect",
     "rule_finder": "classroom.lessons.rule_finder",
-    "score": "classroom.exercises.progress.scores",
+    "score": "classroom.exercises.progress",
     "stages": "derivation.petri.stages",
     "system": "classroom.catalogue",
     "systems": "classroom.catalogue",

@@ -23,13 +23,13 @@ from babel.messages.catalog import Catalog, Message
 from babel.messages.mofile import write_mo
 from babel.messages.pofile import read_po, write_po
 
-from lsys_kit.classroom.exercises.declared.declarations import QUESTIONS, questions_in
+from lsys_kit.classroom.exercises.declarations import QUESTIONS, questions_in
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
 from lsys_kit.classroom.exercises.practice import of_languages, of_space
 from lsys_kit.classroom.exercises.practice.practice import TOPICS
-from lsys_kit.classroom.exercises.progress.progress import SIGNS
-from lsys_kit.classroom.exercises.translated import texts
+from lsys_kit.classroom.exercises.progress import SIGNS
+from lsys_kit.classroom.exercises.registry import texts
 from lsys_kit.classroom.exercises.verdict import SIGNS_AND_COLOURS
 from lsys_kit.classroom.lessons.widget import LABELS
 from lsys_kit.classroom.panel.labels import LABELS as PANEL_LABELS

@@ -22,7 +22,7 @@ from matplotlib.figure import Figure
 from lsys_kit import LSystemError, animate, check, derive, draw, explain, explore, figure, growth, read, stages, system, write
 from lsys_kit.__main__ import main
 from lsys_kit.classroom import magic, typeset
-from lsys_kit.classroom.exercises.declared.registry import kit_questions
+from lsys_kit.classroom.exercises.registry import kit_questions
 from lsys_kit.classroom.exercises.verdict import Verdict
 from lsys_kit.classroom.magic import underlined
 from lsys_kit.classroom.panel.word_view import word_html

@@ -12,7 +12,7 @@ from lsys_kit.files import create_file
 
 def collect_marks(options: argparse.Namespace) -> None:
     """Write the marks of a class as a table."""
-    from lsys_kit.classroom.exercises.collecting.collect import collect, marks_table
+    from lsys_kit.classroom.exercises.collecting import collect, marks_table
 
     if os.path.lexists(options.output):
         raise _exists(options.output)

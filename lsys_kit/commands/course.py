@@ -11,7 +11,7 @@ from lsys_kit.errors import LSystemError, ModelFileError, quotable
 
 def check_exercises(options: argparse.Namespace) -> None:
     """Print what is wrong with the exercises in a folder."""
-    from lsys_kit.classroom.exercises.declared.declarations import QUESTIONS
+    from lsys_kit.classroom.exercises.declarations import QUESTIONS
     from lsys_kit.classroom.exercises.lint import problems_in
 
     problems = problems_in(options.folder or QUESTIONS)

@@ -17,16 +17,14 @@ from babel.messages.mofile import read_mo
 import lsys_kit
 from lsys_kit import ModelNameError, check, exercises, explore, language, practice, predict, system, vote, worksheet
 from lsys_kit.classroom.exercises.check import checked
-from lsys_kit.classroom.exercises.declared.declarations import QUESTIONS, questions_in
-from lsys_kit.classroom.exercises.declared.registry import lessons
+from lsys_kit.classroom.exercises.declarations import QUESTIONS, questions_in
 from lsys_kit.classroom.exercises.kinds.choices import letters
 from lsys_kit.classroom.exercises.kinds.numbers import FORMULA
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
 from lsys_kit.classroom.exercises.notebooks import exercise_notebook
 from lsys_kit.classroom.exercises.practice.practice import TOPICS
-from lsys_kit.classroom.exercises.progress.progress import progress_of
-from lsys_kit.classroom.exercises.progress.record import Record, Try
-from lsys_kit.classroom.exercises.translated import texts, translated, translated_lesson
+from lsys_kit.classroom.exercises.progress import Record, Try, progress_of
+from lsys_kit.classroom.exercises.registry import lessons, texts, translated, translated_lesson
 from lsys_kit.classroom.lessons.declared import table
 from lsys_kit.classroom.lessons.widget import LABELS
 from lsys_kit.classroom.lessons.worksheet import marked, summary

@@ -8,8 +8,8 @@ from dataclasses import replace
 import pytest
 
 from lsys_kit import check, map_system
-from lsys_kit.classroom.exercises.declared.registry import exercise_of
 from lsys_kit.classroom.exercises.kinds.maps import same_maps
+from lsys_kit.classroom.exercises.registry import exercise_of
 from lsys_kit.derivation.maps.development import develop
 from lsys_kit.derivation.maps.map import Map, Side
 

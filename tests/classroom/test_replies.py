@@ -7,10 +7,10 @@ import pytest
 import sympy
 
 from lsys_kit import check, derive, read, stages, system
-from lsys_kit.classroom.exercises.declared.declarations import questions_in
+from lsys_kit.classroom.exercises.declarations import questions_in
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.judging import judged
-from lsys_kit.classroom.exercises.kinds.proofs import differing_values, proved_equal
+from lsys_kit.classroom.exercises.kinds.expressions import differing_values, proved_equal
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS
 from lsys_kit.classroom.exercises.misconceptions.rewriting import leftmost_only, sequential, words_by
 from lsys_kit.notation.read import read_expression

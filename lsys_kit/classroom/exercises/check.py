@@ -12,12 +12,11 @@ import os
 from collections.abc import Mapping
 
 from lsys_kit.budget import Task, current, limits
-from lsys_kit.classroom.exercises.declared.registry import exercise_of
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.judging import judged, wrong_answers
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS
-from lsys_kit.classroom.exercises.progress.record import keep_try
-from lsys_kit.classroom.exercises.progress.scores import keep_score
+from lsys_kit.classroom.exercises.progress import keep_score, keep_try
+from lsys_kit.classroom.exercises.registry import exercise_of
 from lsys_kit.classroom.exercises.verdict import Verdict
 from lsys_kit.errors import LSystemError, ModelFileError, ModelLimitError, ModelValueError, require
 from lsys_kit.translation import gettext

@@ -10,15 +10,14 @@ from typing import TypeAlias
 from lsys_kit.budget import Task, limits
 from lsys_kit.classroom.exercises.asked import answer_by, asked_system, right_history, what_is_asked
 from lsys_kit.classroom.exercises.check import BUDGET
-from lsys_kit.classroom.exercises.declared.declarations import QUESTIONS, Questions, questions_in
-from lsys_kit.classroom.exercises.declared.keys import Problem, Source
-from lsys_kit.classroom.exercises.declared.registry import kit_questions
+from lsys_kit.classroom.exercises.declarations import QUESTIONS, Problem, Questions, Source, questions_in
 from lsys_kit.classroom.exercises.exercise import Exercise, Lesson
 from lsys_kit.classroom.exercises.judging import judged, wrong_answers
 from lsys_kit.classroom.exercises.kinds.choices import letters
 from lsys_kit.classroom.exercises.kinds.numbers import FORMULA, formula_in_reply
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS, solution_of
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
+from lsys_kit.classroom.exercises.registry import kit_questions
 from lsys_kit.errors import LSystemError
 from lsys_kit.notation.dialects.map.dialect import read_map
 from lsys_kit.notation.read import read

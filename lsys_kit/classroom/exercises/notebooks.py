@@ -14,13 +14,11 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from lsys_kit.classroom.exercises.check import check
-from lsys_kit.classroom.exercises.declared.declarations import QUESTIONS, questions_in
-from lsys_kit.classroom.exercises.declared.registry import exercises
+from lsys_kit.classroom.exercises.declarations import QUESTIONS, questions_in
 from lsys_kit.classroom.exercises.exercise import Exercise, Lesson
 from lsys_kit.classroom.exercises.kinds.choices import listing
-from lsys_kit.classroom.exercises.progress.progress import Progress, progress_of
-from lsys_kit.classroom.exercises.progress.record import Record
-from lsys_kit.classroom.exercises.translated import translated_lesson
+from lsys_kit.classroom.exercises.progress import Progress, Record, progress_of
+from lsys_kit.classroom.exercises.registry import exercises, translated_lesson
 from lsys_kit.classroom.exercises.verdict import Verdict
 from lsys_kit.files import replace_file
 from lsys_kit.translation import ENGLISH, gettext, language
@@ -45,7 +43,7 @@ not need them."""
 def exercise_notebook(lesson: Lesson, folder: str = "") -> str:
     """The notebook of a lesson's exercises, as the text of its file; `folder` has their questions, if these are not the kit's.
 
-    >>> from lsys_kit.classroom.exercises.declared.registry import lessons
+    >>> from lsys_kit.classroom.exercises.registry import lessons
     >>> json.loads(exercise_notebook(lessons()[0]))["cells"][1]["source"]
     ['from lsys_kit import check, progress']
     """

@@ -7,7 +7,7 @@ from typing import Any
 
 from lsys_kit.classroom.exercises.exercise import Exercise, Lesson
 from lsys_kit.classroom.exercises.kinds.choices import letters
-from lsys_kit.classroom.exercises.translated import translated_lesson
+from lsys_kit.classroom.exercises.registry import translated_lesson
 from lsys_kit.classroom.panel.bundle import compact, style
 from lsys_kit.classroom.panel.document import Program, document
 from lsys_kit.classroom.scorm.answers import page_data
@@ -51,7 +51,7 @@ ASKED = {"number": "Your answer, a number", "table": "Your answer, numbers in or
 def exercise_page(lesson: Lesson) -> str | None:
     """The page of a lesson as HTML; None if none of its exercises can be checked without Python.
 
-    >>> from lsys_kit.classroom.exercises.declared.registry import lessons
+    >>> from lsys_kit.classroom.exercises.registry import lessons
     >>> exercise_page(lessons()[1]).count("data-exercise")
     3
     """

@@ -8,8 +8,7 @@ from string import ascii_uppercase
 
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
-from lsys_kit.classroom.exercises.typed.number_words import with_digits
-from lsys_kit.classroom.exercises.typed.text import keyboard_text, quoted, text_answer, unquoted
+from lsys_kit.classroom.exercises.typed import keyboard_text, quoted, text_answer, unquoted, with_digits
 from lsys_kit.errors import ModelNameError, ModelValueError, whole_number
 from lsys_kit.translation import gettext
 

@@ -16,8 +16,7 @@ import networkx as nx
 from lsys_kit.budget import counted
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
-from lsys_kit.classroom.exercises.typed.systems import read_typed
-from lsys_kit.classroom.exercises.typed.text import text_answer
+from lsys_kit.classroom.exercises.typed import read_typed, text_answer
 from lsys_kit.derivation.maps.development import develop
 from lsys_kit.derivation.maps.map import Map, cell_words
 from lsys_kit.errors import ModelValueError

@@ -10,7 +10,7 @@ from itertools import pairwise
 
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
-from lsys_kit.classroom.exercises.typed.text import ARROW, quoted, text_answer
+from lsys_kit.classroom.exercises.typed import ARROW, quoted, text_answer
 from lsys_kit.derivation.petri.net import Stages
 from lsys_kit.derivation.petri.stages import stages
 from lsys_kit.errors import ModelLimitError, ModelSyntaxError

@@ -10,9 +10,7 @@ from typing import Any
 from lsys_kit.classroom.exercises.asked import asked_steps, right_history, what_is_asked
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference, first_difference, one_apart
-from lsys_kit.classroom.exercises.typed.numbers import parts, typed_number
-from lsys_kit.classroom.exercises.typed.text import quoted
-from lsys_kit.classroom.exercises.typed.units import UNITS, converted, means_the_same, names_of
+from lsys_kit.classroom.exercises.typed import UNITS, converted, means_the_same, names_of, parts, quoted, typed_number
 from lsys_kit.errors import LSystemError, ModelNameError, ModelValueError, quotable
 from lsys_kit.notation.model.arithmetic import Value, number_text
 from lsys_kit.notation.model.expressions import Function, function_of

@@ -9,7 +9,7 @@ from contextlib import suppress
 from lsys_kit.classroom.exercises.asked import Derived, asked_steps, asked_system, right_history
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference, first_difference, one_apart
-from lsys_kit.classroom.exercises.typed.text import ARROW, keyboard_text, text_answer, unlabelled, unquoted, without_commas
+from lsys_kit.classroom.exercises.typed import ARROW, keyboard_text, text_answer, unlabelled, unquoted, without_commas
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.errors import LSystemError, ModelNameError

@@ -27,7 +27,7 @@ from lsys_kit.classroom.exercises.asked import (
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.drawings import Drawn
 from lsys_kit.classroom.exercises.kinds.nets import Firing, Net
-from lsys_kit.classroom.exercises.kinds.system_comparison import completed
+from lsys_kit.classroom.exercises.kinds.systems import completed
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS, solution_of
 from lsys_kit.classroom.exercises.misconceptions.rewriting import WrongStep, words_by
 from lsys_kit.classroom.exercises.misconceptions.systems import is_sensible
