@@ -26,8 +26,9 @@ from babel.messages.pofile import read_po, write_po
 from lsys_kit.classroom.exercises.declarations import QUESTIONS, questions_in
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
-from lsys_kit.classroom.exercises.practice import of_languages, of_space
-from lsys_kit.classroom.exercises.practice.practice import TOPICS
+from lsys_kit.classroom.exercises.practice.drafts import SAID
+from lsys_kit.classroom.exercises.practice.of_numbers import TYPES
+from lsys_kit.classroom.exercises.practice.of_turtles import DIRECTIONS
 from lsys_kit.classroom.exercises.progress import SIGNS
 from lsys_kit.classroom.exercises.registry import texts
 from lsys_kit.classroom.exercises.verdict import SIGNS_AND_COLOURS
@@ -85,10 +86,18 @@ def _in_tables() -> Iterator[tuple[str, str]]:
     yield from (("panel", label) for label in PANEL_LABELS)
     yield from (("pages of learning platforms", text) for text in (*WORDS, *ASKED.values(), DIFFERENT))
     yield from (("progress", state) for state in SIGNS)
-    yield from (("practice", topic.title) for topic in TOPICS.values())
-    yield from (("practice", text) for text in (*of_languages.TYPES, *of_languages.REPLIES.values()))
-    yield from (("practice", text) for text in (*of_space.DIRECTIONS.values(), of_space.AGAIN))
-    yield from (("practice", unit) for unit in ("letters", "cells", "strokes", "internodes", "shoots", "walls"))
+    yield from (("practice", text) for text in (*TYPES, *DIRECTIONS.values(), *_texts_in(SAID)))
+
+
+def _texts_in(said: object) -> Iterator[str]:
+    """The texts for people in what the exercises of all topics say."""
+    if isinstance(said, str):
+        yield said
+    elif isinstance(said, list):
+        yield from (text for each in said for text in _texts_in(each))
+    elif isinstance(said, dict):
+        for key, value in said.items():
+            yield from () if key in ("kind", "asks", "expects", "unlikely") else _texts_in(value)
 
 
 def template() -> Catalog:

@@ -12,7 +12,7 @@ from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.judging import judged
 from lsys_kit.classroom.exercises.kinds.expressions import differing_values, proved_equal
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS
-from lsys_kit.classroom.exercises.misconceptions.rewriting import leftmost_only, sequential, words_by
+from lsys_kit.classroom.exercises.misconceptions.of_steps import leftmost_only, sequential, words_by
 from lsys_kit.notation.read import read_expression
 from tests.classroom.answers import OF_EACH_KIND, of_each_kind_added
 

@@ -1,169 +1,87 @@
-"""Practice exercises whose answer is a number, a row of numbers, or a stage diagram."""
+"""Practice exercises about numbers: how many, how long, how fast, how likely, and as stage diagrams."""
 
 from __future__ import annotations
 
 from collections import Counter
-from itertools import pairwise
+from collections.abc import Sequence
+from fractions import Fraction
+from itertools import accumulate, pairwise, product
+from math import ceil, prod
 from random import Random
 
 from lsys_kit.classroom.exercises.asked import system_of
 from lsys_kit.classroom.exercises.exercise import Exercise
-from lsys_kit.classroom.exercises.practice.drafts import (
-    OF_BRANCHES,
-    OF_ORDER,
-    OF_OVERLAPS,
-    OF_PICTURES,
-    OF_SILENT_LETTERS,
-    Rules,
-    Topic,
-    quoted_lines,
-    random_rules,
-    system_text,
-)
+from lsys_kit.classroom.exercises.practice.drafts import Draft, Maker, random_rules, system_text
 from lsys_kit.derivation.growth.growth import growth
-from lsys_kit.translation import gettext
-
-_NOT_COUNTED = (*OF_OVERLAPS, *OF_ORDER, *OF_PICTURES, *OF_SILENT_LETTERS, *OF_BRANCHES, "one production a step")
+from lsys_kit.translation import gettext, ngettext
 
 
-def _counting() -> tuple[str, str, str]:
-    """The hints where modules are counted."""
-    return (
-        gettext("Write the first words, and count."),
-        gettext("Order does not matter: of a production keep how many of each letter it makes."),
-        gettext("How many of each kind come from how many of each kind in the step before?"),
-    )
+def _listed(numbers: Sequence[int]) -> str:
+    return ", ".join(map(str, numbers))
 
 
-def _counts_text(system: str, steps: int) -> str:
-    return gettext("Modules at each step: ") + ", ".join(map(str, growth(system_of(system)).lengths(steps)))
+# Modules of a word
 
 
-# How many
-
-
-def _counts(chance: Random, level: int) -> Exercise | None:
+def _counts(chance: Random, level: int, draft: Draft) -> Exercise | None:
     letters = "abc"[: 2 + (level > 1)]
     system, steps = system_text("a", random_rules(chance, letters, 2 + (level > 1))), 3 + level
-    found = [growth(system_of(system)).counts_of(letter, steps)[steps] for letter in letters if f"\n{letter} ->" in system]
+    growing = growth(system_of(system))
+    found = [growing.counts_of(letter, steps)[steps] for letter in letters if f"\n{letter} ->" in system]
     if not 6 < sum(found) < 200 or 0 in found or len(set(found)) < len(found):
         return None
-    return Exercise(
-        "",
-        "",
-        "table",
-        gettext(
-            "How often does each letter stand in the word of step {steps}?{listing}Give the numbers of "
-            "{letters}, in this order.",
-            steps=steps,
-            listing=quoted_lines(system),
-            letters=", ".join(letters),
-        ),
-        ", ".join(map(str, found)),
-        _counts_text(system, steps),
-        _counting(),
-        system=system,
-        asks="counts",
-        steps=steps,
-        symbols=tuple(letters),
-        expects=("one step too few", "sequential"),
-        unlikely=_NOT_COUNTED,
-    )
+    keys = {"system": system, "steps": steps, "symbols": tuple(letters)}
+    return draft.exercise(_listed(found), keys, _listed(growing.lengths(steps)), letters=", ".join(letters))
 
 
-def _matrix(chance: Random, level: int) -> Exercise | None:
+def _matrix(chance: Random, level: int, draft: Draft) -> Exercise | None:
     letters = "abc"[: 2 + (level > 1)]
     system = system_text("a", random_rules(chance, letters, 2 + level))
-    model = system_of(system)
-    entries = list(map(int, growth(model).matrix))
+    entries = list(map(int, growth(system_of(system)).matrix))
     size = len(letters)
     if len(entries) != size * size or len(set(entries)) < 2:
         return None
-    order = ", ".join(letters)
     rows = "\n".join(" ".join(map(str, entries[at : at + size])) for at in range(0, len(entries), size))
-    return Exercise(
-        "",
-        "",
-        "table",
-        gettext(
-            "Write the growth matrix, with rows and columns in the order {order}: the entry in row i "
-            "and column j says how many j one i becomes.{listing}",
-            order=order,
-            listing=quoted_lines(system),
-        ),
-        rows,
-        gettext("Each row counts the letters of one successor."),
-        (
-            gettext("The matrix has a row for each letter."),
-            gettext("Take one production: how often does each letter stand behind its arrow?"),
-            gettext("Write these numbers in the row of the letter before the arrow."),
-        ),
-        system=system,
-        asks="matrix",
-        expects=("rows and columns",),
-        unlikely=_NOT_COUNTED,
-    )
+    return draft.exercise(rows, {"system": system}, order=", ".join(letters))
 
 
-def _length(chance: Random, level: int) -> Exercise | None:
+def _length(chance: Random, level: int, draft: Draft) -> Exercise | None:
     system = system_text("a", random_rules(chance, "abc"[: 2 + (level > 1)], 2))
     steps = 6 + 2 * level + chance.randint(0, 3)
     found = growth(system_of(system)).lengths(steps)
     if found[3] < 3 or not 12 < found[-1] < 100 * 3**level:
         return None
-    return Exercise(
-        "",
-        "",
-        "number",
-        gettext(
-            "How many letters has the word of step {steps}?{listing}Count without writing the words.",
-            steps=steps,
-            listing=quoted_lines(system),
-        ),
-        str(found[-1]),
-        _counts_text(system, steps),
-        _counting(),
-        system=system,
-        asks="length",
-        steps=steps,
-        unit="letters",
-        expects=("one step too few", "Fibonacci by reflex"),
-        unlikely=_NOT_COUNTED,
-    )
+    return draft.exercise(found[-1], {"system": system, "steps": steps}, _listed(found))
 
 
-def _first_past(chance: Random, level: int) -> Exercise | None:
+def _first_past(chance: Random, level: int, draft: Draft) -> Exercise | None:
     system = system_text("a", random_rules(chance, "abc"[: 2 + (level > 1)], 3))
     bound = 10 ** (1 + level)
     lengths = growth(system_of(system)).lengths(40)
     first = next((step for step, length in enumerate(lengths) if length > bound), 0)
     if first < 4 or first > 30:
         return None
-    return Exercise(
-        "",
-        "",
-        "number",
-        gettext(
-            "Which is the first step whose word has more than {bound} letters?{listing}",
-            bound=f"{bound:,}",
-            listing=quoted_lines(system),
-        ),
-        str(first),
-        _counts_text(system, first),
-        _counting(),
-        system=system,
-        asks=f"first step past {bound}",
-        steps=40,
-        expects=("linear growth", "axiom as step 1"),
-        unlikely=_NOT_COUNTED,
-        otherwise=gettext("Count the letters of the first steps, and go on from them."),
-    )
+    keys = {"system": system, "steps": 40, "asks": f"first step past {bound}"}
+    return draft.exercise(first, keys, _listed(lengths[: first + 1]), bound=f"{bound:,}")
+
+
+def _strokes(chance: Random, level: int, draft: Draft) -> Exercise | None:
+    stem = ["F"] * chance.randint(1, 2)
+    for _ in range(chance.randint(1, 2)):
+        stem += ["[", chance.choice("+-"), "F" if level < 3 else chance.choice("FX"), "]", *["F"] * chance.randint(0, 1)]
+    rules = {"F": stem} if level < 3 else {"X": [*stem, "X"], "F": ["F", "F"]}
+    axiom = {1: "F", 2: chance.choice(["F F", "F [ + F ] F", "F + F + F"]), 3: "X"}[level]
+    system, steps = system_text(axiom, rules), 2 + chance.randint(0, 1)
+    found = growth(system_of(system)).counts_of("F", steps)
+    if not 6 < found[steps] < 700:
+        return None
+    return draft.exercise(found[steps], {"system": system, "steps": steps}, _listed(found))
 
 
 # Life spans
 
 
-def _life_spans(chance: Random, level: int) -> Exercise | None:
+def _life_spans(chance: Random, level: int, draft: Draft) -> Exercise | None:
     life_a, life_b = chance.sample(range(2, 5 + level), 2)
     daughters_a = chance.choice([("A", "B"), ("B", "A"), ("B", "B")])
     daughters_b = chance.choice([("A", "B"), ("B", "A"), ("A",)])
@@ -172,99 +90,300 @@ def _life_spans(chance: Random, level: int) -> Exercise | None:
     found = growth(system_of(system)).lengths(steps)
     if not 4 < found[-1] < 500:
         return None
-    return Exercise(
-        "",
-        "",
-        "number",
-        gettext(
-            "A cell A lives {life_a} steps and then becomes {daughters_a}; a cell B lives {life_b} "
-            "steps and then becomes {daughters_b}. The filament begins with one newborn A.{listing}How "
-            "many cells has it after step {steps}?",
-            life_a=life_a,
-            daughters_a=_and(daughters_a),
-            life_b=life_b,
-            daughters_b=_and(daughters_b),
-            listing=quoted_lines(system),
-            steps=steps,
-        ),
-        str(found[-1]),
-        _counts_text(system, steps),
-        (
-            gettext("A cell that waits is one cell, whatever its age."),
-            gettext("In which step did the cells divide that make those of now?"),
-            gettext("Write the number of cells for each age, step by step: all of them move on by one, the oldest divide."),
-        ),
-        system=system,
-        asks="length",
-        steps=steps,
-        unit="cells",
-        expects=("Fibonacci by reflex", "one step too few", "doubling by reflex"),
-        unlikely=_NOT_COUNTED,
+
+    def named(cells: Sequence[str]) -> str:
+        part = "one" if len(cells) == 1 else "two" if len({*cells}) == 1 else "both"
+        return draft.text(part, cell=cells[0], other=cells[-1])
+
+    named_a, named_b = named(daughters_a), named(daughters_b)
+    return draft.exercise(
+        found[-1],
+        {"system": system, "steps": steps},
+        _listed(found),
+        life_a=life_a,
+        daughters_a=named_a,
+        life_b=life_b,
+        daughters_b=named_b,
     )
 
 
-def _ageing(cell: str, life: int, daughters: tuple[str, ...]) -> list[str]:
+def _ageing(cell: str, life: int, daughters: Sequence[str]) -> list[str]:
     newborn = " ".join(f"{each}(1)" for each in daughters)
     return [f"{cell}(t) : t < {life} -> {cell}(t+1)", f"{cell}(t) : t == {life} -> {newborn}"]
-
-
-def _and(cells: tuple[str, ...]) -> str:
-    if len(cells) == 1:
-        return gettext("one {cell}", cell=cells[0])
-    if len(set(cells)) == 1:
-        return gettext("two {cell}", cell=cells[0])
-    return gettext("one {cell} and one {other}", cell=cells[0], other=cells[1])
 
 
 # Stage diagrams
 
 
-def _net(chance: Random, level: int) -> Exercise | None:
+def _stages(chance: Random, level: int, draft: Draft) -> Exercise | None:
     letters = "abcde"[: 2 + level]
-    rules: Rules = {letter: [following] for letter, following in pairwise(letters)}
-    last = [chance.choice(letters) for _ in range(3)]
-    system = system_text(letters[0], {**rules, letters[-1]: last})
+    rules = {letter: [following] for letter, following in pairwise(letters)}
+    rules[letters[-1]] = last = [chance.choice(letters) for _ in range(3)]
     if level > 2:
-        system = system_text(letters[0], {**rules, letters[1]: [letters[2], chance.choice(letters)], letters[-1]: last})
-    lines = [f"{place} -> {_sum(made)}" for place, made in _successors(system)]
+        rules[letters[1]] = [letters[2], chance.choice(letters)]
     if len(set(last)) != 2:  # two daughters of one kind, and another
         return None
-    return Exercise(
-        "",
-        "",
-        "net",
-        gettext(
-            "Write the stage diagram of these rules: a line for each stage, such as C -> L + 2 S for a "
-            "stage C whose cells become one L and two S.{listing}",
-            listing=quoted_lines(system),
-        ),
-        "\n".join(lines),
-        gettext("A line for each production, with its daughters counted."),
-        (
-            gettext("Each letter is a stage, a place of the diagram."),
-            gettext("Each production is a transition: it takes one token from its stage."),
-            gettext("Daughters of one kind are counted, and put into one place."),
-        ),
-        system=system,
-        expects=("arcs reversed", "copies not counted"),
-        unlikely=(*_NOT_COUNTED, "sequential", "leftmost only", "old word kept"),
-    )
+    lines = [f"{place} -> {_sum(made)}" for place, made in rules.items()]
+    return draft.exercise("\n".join(lines), {"system": system_text(letters[0], rules)})
 
 
-def _successors(system: str) -> list[tuple[str, list[str]]]:
-    return [(line.split(" -> ")[0], line.split(" -> ")[1].split()) for line in system.splitlines()[1:]]
-
-
-def _sum(letters: list[str]) -> str:
+def _sum(letters: Sequence[str]) -> str:
     return " + ".join(f"{copies} {letter}" if copies > 1 else letter for letter, copies in Counter(letters).items())
 
 
-OF_NUMBERS = {
-    "counts": Topic("How many of each", 2, _counts),
-    "matrix": Topic("The growth matrix", 2, _matrix),
-    "length": Topic("How long a word", 2, _length),
-    "first": Topic("When it is long", 2, _first_past),
-    "stages": Topic("A stage diagram", 5, _net),
-    "life spans": Topic("Life spans", 7, _life_spans),
+# Chance
+
+
+def _chance(chance: Random, level: int, draft: Draft) -> Exercise | None:
+    weight = Fraction(chance.randint(1, 6), chance.randint(7, 10))
+    rules = {"A": [(["A", "B"], weight), (["B"] if level > 1 else ["A"], 1 - weight)]}
+    if level > 2:
+        rules["B"] = [(["A"], Fraction(1, 3)), (["B"], Fraction(2, 3))]
+    axiom, steps = (["A", "A"], 1) if level == 1 else (["A"], 2)
+    if level == 1 and chance.random() < 0.5:
+        axiom = ["A", "B", "A", "A"]
+    outcomes = _after(rules, axiom, steps)
+    word = chance.choice(sorted(outcomes))
+    share = outcomes[word]
+    if share in (weight, 1 - weight, Fraction(1, 2)) or weight == Fraction(1, 2):  # a half is its own contrary
+        return None
+    lines = [
+        f"{letter} -> {' '.join(made)}   {draft.text('odds', odds=odds)}"
+        for letter, choices in rules.items()
+        for made, odds in choices
+    ]
+    return draft.number(
+        share,
+        [weight, 1 - weight],
+        keys={"tolerance": Fraction(1, 1000)},
+        after=", ".join(f"{each}: {odds}" for each, odds in sorted(outcomes.items())) + ".",
+        listing="\n".join(lines),
+        axiom=" ".join(axiom),
+        stays="" if level > 2 else draft.text("stays"),
+        steps=steps,
+        word=word,
+    )
+
+
+def _after(rules: dict[str, list[tuple[list[str], Fraction]]], word: list[str], steps: int) -> dict[str, Fraction]:
+    """The probability of each word after some steps."""
+    found = {" ".join(word): Fraction(1)}
+    for _ in range(steps):
+        after: dict[str, Fraction] = {}
+        for before, odds in found.items():
+            for choices in product(*(rules.get(letter, [([letter], Fraction(1))]) for letter in before.split())):
+                made = " ".join(letter for successor, _ in choices for letter in successor)
+                after[made] = after.get(made, Fraction(0)) + odds * prod(each for _, each in choices)
+        found = after
+    return found
+
+
+# Plants
+
+
+def _flowering(chance: Random, level: int, draft: Draft) -> Exercise | None:
+    every, through = chance.randint(3, 6), chance.randint(1, 2 + (level > 1))
+    starts = every * chance.randint(2, 4 + level) + chance.randint(1, every - 1)
+    passed = next((passed for passed in range(60) if (starts + passed * through) // every <= passed), 0)
+    day, there = starts + passed * through, starts // every
+    if not passed or through >= every:
+        return None
+    right, wrong = day, [starts + there * through, day - starts, starts + through]
+    if level > 2:
+        right, wrong = passed, [there, day, passed + 1]
+    return draft.number(
+        right,
+        wrong,
+        every=every,
+        starts=starts,
+        through=ngettext("one day", "{number} days", through),
+        asked=draft.text("asked"),
+        there=there,
+        passed=passed,
+        day=day,
+    )
+
+
+def _looking(chance: Random, level: int, draft: Draft) -> Exercise | None:
+    shrinks, steps = (level > 1) * chance.randint(1, 2), chance.randint(4, 5) + 3 * (level == 1)
+    first = chance.randint(3, 7) if level == 1 else chance.randint(9, 13)
+    lengths = [first - shrinks * step for step in range(steps)]
+    limit = chance.randint(first + 1, sum(lengths) - 1)
+    looks_first = level < 3 or chance.random() < 0.5
+    heights, others = _heights(lengths, limit, looks_first), _heights(lengths, limit, not looks_first)
+    return draft.number(
+        heights[-1],
+        [sum(lengths), limit, others[-1]],
+        after=f"Its heights: {_listed(heights)}.",
+        first=first,
+        shorter=draft.text("shorter" if shrinks else "equal", shrinks=shrinks),
+        looks=draft.text("looks_first" if looks_first else "looks_ahead", limit=limit),
+        steps=steps,
+    )
+
+
+def _heights(lengths: Sequence[int], limit: int, looks_first: bool) -> list[int]:
+    """The heights of a bud that looks where it is, or where it would be."""
+
+    def grown(height: int, length: int) -> int:
+        return height + length * (height < limit if looks_first else height + length <= limit)
+
+    return [*accumulate(lengths, grown, initial=0)]
+
+
+def _hedge(chance: Random, level: int, draft: Draft) -> Exercise | None:
+    height, lost, buds = chance.randint(5, 9), chance.randint(2, 4), 2 + (level > 1) * chance.randint(0, 1)
+    steps = chance.randint(height + lost, height + 5 * lost)
+    cuts = sum(1 for step in range(1, steps + 1) if step >= height and (step - height) % lost == 0)
+    start = chance.randint(2, 4) if level > 2 else 1
+    return draft.number(
+        start * buds**cuts,
+        [start + (buds - 1) * cuts * start, start * buds ** (steps // height), start * buds ** (cuts - 1)],
+        of=ngettext("one shoot", "{number} shoots", start),
+        height=height,
+        lost=lost,
+        buds=buds,
+        steps=steps,
+        cuts=cuts,
+    )
+
+
+def _walls(chance: Random, level: int, draft: Draft) -> Exercise | None:
+    sides, steps = chance.randint(3, 12), level + chance.randint(1, 2)
+    neighbours = chance.choice([0, 0, 1]) if level > 1 else 0
+    cells, walls = 1 + neighbours, sides + neighbours * (sides - 1)
+    made = cells * (2**steps - 1)
+    wanted = walls + 3 * made
+    return draft.number(
+        wanted,
+        [walls + made, walls + 3 * cells * steps, walls * 2**steps],
+        begin=draft.text("two_cells" if neighbours else "one_cell", sides=sides),
+        steps=steps,
+        made=made,
+        walls=walls,
+        wanted=wanted,
+    )
+
+
+# Time
+
+
+def _slices(chance: Random, level: int, draft: Draft) -> Exercise | None:
+    slice_ = Fraction(chance.choice([3, 4, 6, 7, 8, 9, 11, 12, 13, 14]), 10)
+    life = 1 if level == 1 else chance.choice([1, 2, 3])
+    newborn = Fraction(chance.randint(1, 4), 10) if level > 1 else Fraction(0)
+    slices = ceil(life / slice_)
+    left = slices * slice_ - life
+    if left + newborn >= life or not left or (level > 1 and slices < 2):
+        return None
+    passed, total, each = slices * slice_, ceil((2 * life - newborn) / slice_), ceil((life - newborn) / slice_)
+    right, late = passed - life + newborn, passed - life
+    if level == 1:
+        wrong, after = [slice_, passed, life - (slices - 1) * slice_], "."
+    elif level == 2:
+        wrong, after = [newborn, passed, slice_ + newborn], draft.text("from_the_start", newborn=_decimal(newborn))
+    else:
+        right, passed, after = Fraction(total), 2 * life - newborn, ""
+        wrong = [Fraction(slices), Fraction(slices + each), Fraction(each)]
+    return draft.number(
+        right,
+        wrong,
+        after=after,
+        life=life,
+        begins=draft.text("begins", newborn=_decimal(newborn)),
+        slice=_decimal(slice_),
+        slices=slices,
+        passed=_decimal(passed),
+        late=_decimal(late),
+        total=total,
+    )
+
+
+def _decimal(value: Fraction | int) -> str:
+    """A value with few decimals, as one writes it."""
+    return f"{float(value):g}"
+
+
+def _lengths(chance: Random, level: int, draft: Draft) -> Exercise | None:
+    return (_shares, _other_daughter, _filament)[level - 1](chance, draft)
+
+
+def _shares(chance: Random, draft: Draft) -> Exercise | None:
+    short, long = sorted(chance.sample(range(1, 8), 2))
+    length, parts = (short + long) * chance.randint(2, 15), short + long
+    wrong = [Fraction(length, 2), length * Fraction(short, long), length * Fraction(long, parts)]
+    return draft.number(length * Fraction(short, parts), wrong, length=length, short=short, long=long, parts=parts)
+
+
+def _other_daughter(chance: Random, draft: Draft) -> Exercise | None:
+    base, life = chance.choice([2, 3, 4, 5]), chance.randint(2, 6)
+    age = chance.randint(0, life - 1)
+    mother, daughter = base**life, base**age
+    wrong = [base ** (life - age), base * life - base * age, mother]
+    return draft.number(mother - daughter, wrong, base=base, life=life, age=age, mother=mother, daughter=daughter)
+
+
+def _filament(chance: Random, draft: Draft) -> Exercise | None:
+    factor, units, first, cells = chance.randint(2, 4), chance.randint(2, 4), chance.randint(2, 9), chance.randint(3, 12)
+    right = first * factor**units
+    wrong = [first * factor * units, first * cells, right * cells]
+    return draft.number(right, wrong, first=first, factor=factor, units=units, cells=cells)
+
+
+# Types of growth
+
+
+TYPES = ("bounded", "linear", "quadratic", "exponential")
+"""The types of growth that are told apart."""
+
+
+def growth_type(lengths: Sequence[int]) -> str:
+    """The type of growth of a long row of lengths; empty where it is none of those that are told apart.
+
+    >>> growth_type([2 * n + 3 for n in range(40)]), growth_type([1, 2] * 20), growth_type([2**n for n in range(40)])
+    ('linear', 'bounded', 'exponential')
+    """
+    late = lengths[len(lengths) // 2 :]
+    if max(late) <= max(lengths[: len(lengths) // 2]):
+        return "bounded"
+    ratio = late[-1] / late[0]
+    if ratio > len(lengths):
+        return "exponential"
+    differences = [after - before for before, after in zip(late, late[6:], strict=False)]
+    second = {after - before for before, after in zip(differences, differences[6:], strict=False)}
+    return "" if len(second) > 1 else "linear" if second == {0} else "quadratic"
+
+
+def _growth_type(chance: Random, level: int, draft: Draft) -> Exercise | None:
+    letters = "abcd"[: 2 + (level > 1)]
+    wanted = chance.choice(TYPES[: 3 + (level > 1)] if level > 1 else ("bounded", "linear", "exponential"))
+    rules = {
+        letter: [chance.choice(letters[max(0, at - (level > 2)) :]) for _ in range(chance.randint(1, 2 + (level > 1)))]
+        for at, letter in enumerate(letters)
+    }
+    rules["a"] = ["a", *rules["a"]] if wanted == "quadratic" else rules["a"]
+    system = system_text("a", rules)
+    lengths = growth(system_of(system)).lengths(48)
+    if growth_type(lengths) != wanted or (wanted == "bounded" and lengths[1] == 1):
+        return None
+    wrong = [(gettext(each), draft.text(each)) for each in TYPES if each != wanted]
+    return draft.choice(chance, gettext(wanted), wrong, after=f"{_listed(lengths[:9])}, ...", listing=system)
+
+
+OF_NUMBERS: dict[str, Maker] = {
+    "counts": _counts,
+    "matrix": _matrix,
+    "length": _length,
+    "first": _first_past,
+    "stages": _stages,
+    "life spans": _life_spans,
+    "chance": _chance,
+    "strokes": _strokes,
+    "flowering": _flowering,
+    "looking": _looking,
+    "hedge": _hedge,
+    "walls": _walls,
+    "slices": _slices,
+    "lengths": _lengths,
+    "growth type": _growth_type,
 }
-"""In the order of the lessons."""
