@@ -7,11 +7,13 @@ from __future__ import annotations
 
 import re
 import tomllib
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import MISSING, dataclass, fields
+from dataclasses import MISSING, dataclass, fields, replace
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple, TypeAlias
 
 from lsys_kit.budget import Task, counted
 from lsys_kit.classroom.exercises.asked import ASKED_OF_KIND, MORE_ASKED, is_asked_in_full
@@ -59,7 +61,8 @@ class Source:
         >>> Source("a.toml", '[[exercise]]\\nid = "1"\\n[[exercise.slips]]\\nanswer = "2"').line_of(0, "answer", "slips", 0)
         4
         """
-        at, inside, counts, first = -1, "", {"slips": -1, "options": -1}, 1
+        at, inside, first = -1, "", 1
+        counts = Counter[str]()
         for line_number, line in enumerate(self.text.splitlines(), 1):
             found = _TABLE_LINE.match(line)
             if found:
@@ -67,26 +70,30 @@ class Source:
                 if inside:
                     counts[inside] += 1
                 else:
-                    at, counts = at + 1, {"slips": -1, "options": -1}
-                if at == exercise and inside == part and (not part or counts[part] == number):
+                    at, counts = at + 1, Counter()
+            if at == exercise and inside == part and counts[part] == number + bool(part):
+                if found:
                     first = line_number
-            elif (
-                at == exercise
-                and inside == part
-                and (not part or counts[part] == number)
-                and key
-                and re.match(rf"\s*{re.escape(key)}\s*=", line)
-            ):
-                return line_number
+                elif key and re.match(rf"\s*{re.escape(key)}\s*=", line):
+                    return line_number
         return first
+
+    def problem(
+        self, number: int, exercise: str, key: str, what: str, hint: str | None = "", part: str = "", at: int = 0
+    ) -> Problem:
+        """What is wrong with a key of an exercise, which has a number in the file."""
+        return Problem(self.file, self.line_of(number, key, part, at), exercise, what, hint or "")
+
+    def at_the_top(self, what: str, hint: str | None = "") -> Problem:
+        """What is wrong with a file as a whole."""
+        return Problem(self.file, 1, "", what, hint or "")
+
+
+MakeProblem: TypeAlias = Callable[..., Problem]
 
 
 def _is_text(value: object) -> bool:
     return isinstance(value, str)
-
-
-def _is_texts(value: object) -> bool:
-    return isinstance(value, list) and all(map(_is_text, value))
 
 
 def _is_count(value: object) -> bool:
@@ -103,114 +110,112 @@ def _is_number(value: object) -> bool:
     return False
 
 
-def _is_values(value: object) -> bool:
-    return isinstance(value, dict) and all(map(_is_number, value.values()))
+Fits: TypeAlias = Callable[[object], bool]
 
 
-KEYS: Mapping[str, tuple[Callable[[object], bool], str]] = {
-    **dict.fromkeys(
-        (
-            "id",
-            "title",
-            "kind",
-            "question",
-            "solution",
-            "explanation",
-            "otherwise",
-            "template",
-            "system",
-            "asks",
-            "text",
-            "unit",
-            "given",
-            "names",
-        ),
-        (_is_text, 'a text, as "..."'),
+def _list_of(fits: Fits) -> Fits:
+    return lambda value: isinstance(value, list) and all(map(fits, value))
+
+
+def _table_of(fits: Fits) -> Fits:
+    return lambda value: isinstance(value, dict) and all(map(fits, value.values()))
+
+
+def _numbers(values: Mapping[str, object]) -> dict[str, Any]:
+    return {name: number_from(value) for name, value in values.items()}
+
+
+class Form(NamedTuple):
+    """What a key may be, in words, too, and how it is read."""
+
+    fits: Fits
+    what: str
+    read: Callable[[Any], Any] = lambda value: value
+
+
+_FORMS: Mapping[str, Form] = {
+    "str": Form(_is_text, 'a text, as "..."'),
+    "bool": Form(lambda value: isinstance(value, bool), "true or false"),
+    "int": Form(_is_step, f"a whole number up to {MOST_STEPS:,}"),
+    "Value": Form(_is_number, "a number", number_from),
+    "tuple[str, ...]": Form(_list_of(_is_text), 'a list of texts, as ["...", "..."]', tuple),
+    "tuple[int, ...]": Form(_list_of(_is_step), f"a list of whole numbers up to {MOST_STEPS:,}", tuple),
+    "Mapping[str, Value]": Form(_table_of(_is_number), "a table, as { name = 1 }", _numbers),
+    "tuple[Mapping[str, Value], ...]": Form(
+        _list_of(_table_of(_is_number)), "a list of tables, as [{ name = 1 }]", lambda values: tuple(map(_numbers, values))
     ),
-    **dict.fromkeys(("hints", "expects", "unlikely", "symbols", "probes"), (_is_texts, 'a list of texts, as ["...", "..."]')),
-    "objective": (_is_count, "a whole number"),
-    "steps": (_is_step, f"a whole number up to {MOST_STEPS:,}"),
-    "at": (
-        lambda value: isinstance(value, list) and all(map(_is_step, value)),
-        f"a list of whole numbers up to {MOST_STEPS:,}",
-    ),
-    "tolerance": (_is_number, "a number"),
-    "drawn": (lambda value: isinstance(value, bool), "true or false"),
-    "constants": (_is_values, "a table, as { name = 1 }"),
-    "settings": (lambda value: isinstance(value, list) and all(map(_is_values, value)), "a list of tables, as [{ name = 1 }]"),
-    "values": (
-        lambda value: (
-            isinstance(value, dict)
-            and all(isinstance(given, list) and given and all(map(_is_number, given)) for given in value.values())
-        ),
+    "Mapping[str, Sequence[Value]]": Form(
+        _table_of(lambda value: bool(value) and _list_of(_is_number)(value)),
         "a table, as { s = [1, 2, 3] }",
+        lambda values: {name: tuple(map(number_from, given)) for name, given in values.items()},
     ),
-    "slips": (lambda value: isinstance(value, list), "tables [[exercise.slips]]"),
-    "options": (lambda value: isinstance(value, list), "tables [[exercise.options]]"),
+    "tuple[Slip, ...]": Form(
+        lambda value: isinstance(value, list), "tables [[exercise.slips]]", lambda slips: tuple(Slip(**each) for each in slips)
+    ),
+    "tuple[Option, ...]": Form(
+        lambda value: isinstance(value, list),
+        "tables [[exercise.options]]",
+        lambda options: tuple(Option(**each) for each in options),
+    ),
+}
+"""For each type of a key its form."""
+KEYS: Mapping[str, Form] = {
+    **{key.name: _FORMS[str(key.type)] for key in fields(Exercise)},
+    "objective": Form(_is_count, "a whole number"),
 }
 """For each key of an exercise what it may be."""
-_REQUIRED = tuple(part.name for part in fields(Exercise) if part.default is MISSING and part.default_factory is MISSING)
+_REQUIRED = tuple(key.name for key in fields(Exercise) if key.default is MISSING and key.default_factory is MISSING)
 _NAMED: Mapping[str, Sequence[str]] = {"kind": tuple(ANSWER_KINDS), "names": ("new", "any", "fixed")}
 """Keys whose values are names."""
+_TOP: Mapping[str, Form] = {
+    "title": Form(_is_text, "a text"),
+    "objectives": Form(_list_of(_is_text), "a list of texts"),
+    "introduction": Form(_is_text, "a text"),
+    "summary": Form(_is_text, "a text"),
+}
+"""What stands before the exercises."""
 
 
 def lesson_problems(source: Source, declared: Mapping[str, Any]) -> Iterator[Problem]:
     """What is wrong with the top of a file."""
-    for key, fits, what in (
-        ("title", _is_text, "a text"),
-        ("objectives", _is_texts, "a list of texts"),
-        ("introduction", _is_text, "a text"),
-        ("summary", _is_text, "a text"),
-    ):
-        if not fits(declared.get(key)):
-            yield Problem(
-                source.file, 1, "", f'The file needs "{key}", {what}', "It stands at the top, before the first exercise."
-            )
-    for key in declared.keys() - {"title", "objectives", "introduction", "summary", "exercise"}:
-        yield Problem(
-            source.file,
-            1,
-            "",
-            f'There is no key "{quotable(key)}" at the top',
-            suggestion(key, ["title", "objectives", "introduction", "summary", "exercise"]) or "",
-        )
+    for key, form in _TOP.items():
+        if not form.fits(declared.get(key)):
+            yield source.at_the_top(f'The file needs "{key}", {form.what}', "It stands at the top, before the first exercise.")
+    for key in declared.keys() - {*_TOP, "exercise"}:
+        yield source.at_the_top(f'There is no key "{quotable(key)}" at the top', suggestion(key, [*_TOP, "exercise"]))
     if not isinstance(declared.get("exercise"), list):
-        yield Problem(source.file, 1, "", "There are no exercises", "Each begins with a line [[exercise]].")
+        yield source.at_the_top("There are no exercises", "Each begins with a line [[exercise]].")
 
 
 def exercise_problems(source: Source, number: int, declared: object) -> Iterator[Problem]:
     """What keeps an exercise from being read."""
     if not isinstance(declared, dict):
-        yield Problem(source.file, 1, "", "An exercise is a table", "Begin it with a line [[exercise]].")
+        yield source.at_the_top("An exercise is a table", "Begin it with a line [[exercise]].")
         return
-    name = str(declared.get("id", f"number {number + 1}"))
-
-    def problem(key: str, what: str, hint: str | None = "", part: str = "", at: int = 0) -> Problem:
-        return Problem(source.file, source.line_of(number, key, part, at), name, what, hint or "")
-
+    problem = partial(source.problem, number, str(declared.get("id", f"number {number + 1}")))
     for key in _REQUIRED:
         if key not in declared:
             yield problem(key, f'"{key}" is missing', f"Write {key} = ...")
     for key, value in declared.items():
         if key not in KEYS:
             yield problem(key, f'There is no key "{quotable(key)}"', suggestion(key, KEYS))
-        elif not KEYS[key][0](value):
-            yield problem(key, f'"{key}" must be {KEYS[key][1]}')
+        elif not KEYS[key].fits(value):
+            yield problem(key, f'"{key}" must be {KEYS[key].what}')
         elif key in _NAMED and value not in _NAMED[key]:
-            yield problem(
-                key,
-                f'There is no {key} "{quotable(value)}"',
-                suggestion(value, _NAMED[key]) or f"Choose: {', '.join(_NAMED[key])}.",
-            )
+            hint = suggestion(value, _NAMED[key]) or f"Choose: {', '.join(_NAMED[key])}."
+            yield problem(key, f'There is no {key} "{quotable(value)}"', hint)
         elif key in ("expects", "unlikely"):
-            for unknown in (each for each in value if each not in MISCONCEPTIONS):
-                yield problem(key, f'There is no misconception "{quotable(unknown)}"', suggestion(unknown, MISCONCEPTIONS))
-    yield from _part_problems(problem, declared, "slips", Slip, ("answer",))
-    yield from _part_problems(problem, declared, "options", Option, ("text",))
+            yield from (_unknown(problem, key, each) for each in value if each not in MISCONCEPTIONS)
+    yield from _part_problems(problem, declared, "slips", Slip, "answer")
+    yield from _part_problems(problem, declared, "options", Option, "text")
     yield from _asked_problems(problem, declared)
 
 
-def _asked_problems(problem: Callable[..., Problem], declared: Mapping[str, Any]) -> Iterator[Problem]:
+def _unknown(problem: MakeProblem, key: str, name: str, *place: object) -> Problem:
+    return problem(key, f'There is no misconception "{quotable(name)}"', suggestion(name, MISCONCEPTIONS), *place)
+
+
+def _asked_problems(problem: MakeProblem, declared: Mapping[str, Any]) -> Iterator[Problem]:
     kind, asks = str(declared.get("kind")), str(declared.get("asks", ""))
     asked = ASKED_OF_KIND.get(kind, ())
     if "asks" in declared and (asks.partition(" ")[0] not in asked or not is_asked_in_full(asks)):
@@ -223,46 +228,32 @@ def _asked_problems(problem: Callable[..., Problem], declared: Mapping[str, Any]
 
 
 def _part_problems(
-    problem: Callable[..., Problem], declared: Mapping[str, Any], part: str, record: type, needed: Sequence[str]
+    problem: MakeProblem, declared: Mapping[str, Any], part: str, record: type, needed: str
 ) -> Iterator[Problem]:
+    """What is wrong with the slips or the options."""
     known = [each.name for each in fields(record)]
     parts = declared.get(part, ())
     for at, each in enumerate(parts if isinstance(parts, list) else ()):
         if not isinstance(each, dict):
-            yield problem("", f'"{part}" must be tables', f"Write [[exercise.{part}]].", "", 0)
+            yield problem("", f'"{part}" must be tables', f"Write [[exercise.{part}]].")
             continue
-        for key in needed:
-            if key not in each:
-                yield problem(key, f'"{key}" is missing', f"Write {key} = ...", part, at)
+        if needed not in each:
+            yield problem(needed, f'"{needed}" is missing', f"Write {needed} = ...", part, at)
         for key, value in each.items():
+            fits, what = (isinstance(value, bool), "true or false") if key == "near" else (_is_text(value), "a text")
             if key not in known:
                 yield problem(key, f'There is no key "{quotable(key)}" here', suggestion(key, known), part, at)
-            elif not (isinstance(value, bool) if key == "near" else _is_text(value)):
-                yield problem(key, f'"{key}" must be {"true or false" if key == "near" else "a text"}', "", part, at)
+            elif not fits:
+                yield problem(key, f'"{key}" must be {what}', "", part, at)
             elif key == "misconception" and value not in MISCONCEPTIONS:
-                yield problem(
-                    key, f'There is no misconception "{quotable(value)}"', suggestion(value, MISCONCEPTIONS), part, at
-                )
+                yield _unknown(problem, key, value, part, at)
         if part == "slips" and not (each.get("says") or each.get("misconception")):
             yield problem("answer", "A slip needs a reply", 'Write says = "...", or misconception = "...".', part, at)
 
 
 def read_exercise(declared: Mapping[str, Any]) -> Exercise:
     """The exercise that is declared, without mistakes."""
-    changes: dict[str, Any] = {
-        key: tuple(declared[key]) for key in ("hints", "expects", "unlikely", "symbols", "probes", "at") if key in declared
-    }
-    changes["slips"] = tuple(Slip(**slip) for slip in declared.get("slips", ()))
-    changes["options"] = tuple(Option(**option) for option in declared.get("options", ()))
-    changes["values"] = {name: tuple(map(number_from, given)) for name, given in declared.get("values", {}).items()}
-    changes["constants"] = _numbers(declared.get("constants", {}))
-    changes["settings"] = tuple(map(_numbers, declared.get("settings", ())))
-    changes["tolerance"] = number_from(declared.get("tolerance", 0))
-    return Exercise(**{**declared, **changes})
-
-
-def _numbers(values: Mapping[str, object]) -> dict[str, Any]:
-    return {name: number_from(value) for name, value in values.items()}
+    return Exercise(**{key: KEYS[key].read(value) for key, value in declared.items()})
 
 
 QUESTIONS = Path(__file__).parent / "questions"
@@ -306,51 +297,34 @@ def questions_in(folder: Path) -> Questions:
         sources.append((source, exercises))
         problems += wrong
     found = Questions(tuple(lessons), tuple(problems), tuple(sources))
-    return Questions(found.lessons, (*found.problems, *_duplicates(found)), found.sources)
+    return replace(found, problems=(*problems, *_duplicates(found)))
 
 
 def _duplicates(found: Questions) -> Iterator[Problem]:
-    first: dict[str, tuple[str, int]] = {}
+    first: dict[str, str] = {}
     for source, number, exercise in found.exercises:
-        line = source.line_of(number, "id")
-        if exercise.id in first:
-            file, before = first[exercise.id]
-            yield Problem(
-                source.file,
-                line,
-                exercise.id,
-                f'The id "{exercise.id}" stands in {file}, line {before} too',
-                "Give one of them another.",
-            )
-        else:
-            first[exercise.id] = source.file, line
+        where = f"{source.file}, line {source.line_of(number, 'id')}"
+        before = first.setdefault(exercise.id, where)
+        if before != where:
+            what = f'The id "{exercise.id}" stands in {before} too'
+            yield source.problem(number, exercise.id, "id", what, "Give one of them another.")
 
 
 def _file(path: Path) -> tuple[Lesson | None, tuple[tuple[int, Exercise], ...], Source, list[Problem]]:
+    source = Source(path.name, "")
     try:
         source = Source(path.name, path.read_text(encoding="utf-8"))
         declared = tomllib.loads(source.text)
     except tomllib.TOMLDecodeError as fault:
         line = re.search(r"line (\d+)", str(fault))
-        return (
-            None,
-            (),
-            source,
-            [
-                Problem(
-                    path.name,
-                    int(line[1]) if line else 1,
-                    "",
-                    quotable(str(fault)),
-                    "Is a quotation mark or a bracket missing?",
-                )
-            ],
-        )
+        problem = source.at_the_top(quotable(str(fault)), "Is a quotation mark or a bracket missing?")
+        return None, (), source, [replace(problem, line=int(line[1]) if line else 1)]
     except (OSError, UnicodeDecodeError) as fault:
-        return None, (), Source(path.name, ""), [Problem(path.name, 1, "", f"It cannot be read: {fault}", "Save it as UTF-8.")]
+        return None, (), source, [source.at_the_top(f"It cannot be read: {fault}", "Save it as UTF-8.")]
     problems = [*counted(lesson_problems(source, declared), 1)]
     exercises: list[tuple[int, Exercise]] = []
-    for number, each in enumerate(declared.get("exercise", ()) if isinstance(declared.get("exercise", ()), list) else ()):
+    each_declared = declared.get("exercise", ())
+    for number, each in enumerate(each_declared if isinstance(each_declared, list) else ()):
         found = [*counted(exercise_problems(source, number, each), 1)]
         problems += found
         if not found:
