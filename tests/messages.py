@@ -31,6 +31,7 @@ from lsys_kit.classroom.exercises.practice.of_numbers import TYPES
 from lsys_kit.classroom.exercises.practice.of_turtles import DIRECTIONS
 from lsys_kit.classroom.exercises.progress import SIGNS
 from lsys_kit.classroom.exercises.registry import texts
+from lsys_kit.classroom.exercises.replies import REPLIES
 from lsys_kit.classroom.exercises.verdict import SIGNS_AND_COLOURS
 from lsys_kit.classroom.lessons.widget import LABELS
 from lsys_kit.classroom.panel.labels import LABELS as PANEL_LABELS
@@ -78,7 +79,7 @@ def _in_calls(module: ast.Module) -> Iterator[str | tuple[str, str]]:
                 yield found[0] if count == 1 else (found[0], found[1])
 
 
-def _in_tables() -> Iterator[tuple[str, str]]:
+def _in_tables() -> Iterator[tuple[str, str | tuple[str, str]]]:
     yield from (("verdict", word) for word in SIGNS_AND_COLOURS)
     yield from (("kinds", text) for kind in ANSWER_KINDS.values() for text in (kind.what, kind.parts_said) if text)
     yield from (("misconceptions", text) for each in MISCONCEPTIONS.values() for text in (each.do, each.but) if text)
@@ -87,6 +88,11 @@ def _in_tables() -> Iterator[tuple[str, str]]:
     yield from (("pages of learning platforms", text) for text in (*WORDS, *ASKED.values(), DIFFERENT))
     yield from (("progress", state) for state in SIGNS)
     yield from (("practice", text) for text in (*TYPES, *DIRECTIONS.values(), *_texts_in(SAID)))
+    yield from (("replies", _one_text(text)) for place in REPLIES.values() for text in place.values())
+
+
+def _one_text(text: str | list[str]) -> str | tuple[str, str]:
+    return text if isinstance(text, str) else (text[0], text[1])
 
 
 def _texts_in(said: object) -> Iterator[str]:

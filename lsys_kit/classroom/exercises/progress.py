@@ -20,13 +20,14 @@ from pathlib import Path
 from lsys_kit.classroom.course import MANIFEST
 from lsys_kit.classroom.exercises.exercise import Exercise, Lesson
 from lsys_kit.classroom.exercises.registry import all_lessons, exercise_of
+from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.classroom.exercises.verdict import PLAIN_TEXT, Verdict
 from lsys_kit.errors import ModelNameError, ModelValueError, every, quotable, require, shown
 from lsys_kit.files import append_line
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.pictures.style.labels import escaped
 from lsys_kit.pictures.style.palette import BLUE, GREEN, INK, ORANGE, PAPER, QUIET
-from lsys_kit.translation import gettext, ngettext
+from lsys_kit.translation import gettext
 
 FILE = "progress.csv"
 """The record, in the folder of the course."""
@@ -177,7 +178,6 @@ SIGNS = {"solved": ("✓", GREEN), "tried": ("◐", ORANGE), "not tried": ("○"
 """For each state of an exercise its sign and its colour; the meaning never depends on the colour alone."""
 _BOX = f"border-left:6px solid {BLUE};background:{PAPER};color:{INK};padding:6px 12px;overflow-wrap:break-word"
 _COLUMNS = "display:grid;grid-template-columns:repeat(auto-fill,minmax(min(270px,100%),1fr));gap:6px 24px;margin:6px 0"
-FOR_YOU = "This is for your own practice: the answers are in the kit, and a check is not an examination."
 
 
 @dataclass(frozen=True)
@@ -216,7 +216,7 @@ class Progress:
     def _repr_html_(self) -> str:
         """The page: all text escaped, and a column for as many lessons as there is room for."""
         rows = "".join(_html_rows(self))
-        label = gettext("progress")
+        label = reply("progress.progress")
         notes = "".join(f'<p style="margin:6px 0 0">{_linked(self, note)}</p>' for note in _notes(self))
         return (
             f'<div class="{PLAIN_TEXT}" role="region" aria-label="{label}" style="{_BOX}"><b>{escaped(_heading(self))}</b>'
@@ -292,11 +292,11 @@ def _next(lessons: Sequence[Lesson], record: Record, lesson: Lesson | None) -> t
 def _heading(page: Progress) -> str:
     """How many exercises are solved."""
     total = sum(len(lesson.exercises) for lesson in page.lessons)
-    name = page.lessons[0].title if len(page.lessons) == 1 else gettext("Exercises")
+    name = page.lessons[0].title if len(page.lessons) == 1 else reply("progress.exercises")
     numbers = {"name": name, "solved": page.count("solved"), "total": total, "tried": page.count("tried")}
     if numbers["tried"]:
-        return gettext("{name}: {solved} of {total} solved, {tried} more tried.", **numbers)
-    return gettext("{name}: {solved} of {total} solved.", name=name, solved=numbers["solved"], total=total)
+        return reply("progress.tried_too", **numbers)
+    return reply("progress.solved", name=name, solved=numbers["solved"], total=total)
 
 
 def _text_rows(page: Progress) -> Iterator[str]:
@@ -312,26 +312,22 @@ def _text_rows(page: Progress) -> Iterator[str]:
 def _titled(page: Progress, exercise: Exercise) -> str:
     """An exercise with its sign, its title and how often it was tried."""
     tries = page.record.tried(exercise.id)
-    often = " " + ngettext("({number} try)", "({number} tries)", tries) if tries > 1 else ""
+    often = " " + reply("progress.tries", number=tries) if tries > 1 else ""
     return f"{SIGNS[page.state(exercise)][0]} {exercise.id}  {exercise.title}{often}"
 
 
 def _count(page: Progress, lesson: Lesson) -> str:
-    return gettext("{solved} of {total}", solved=page.count("solved", lesson), total=len(lesson.exercises))
+    return reply("progress.count", solved=page.count("solved", lesson), total=len(lesson.exercises))
 
 
 def _notes(page: Progress) -> Iterator[str]:
     """What to do next, what is wrong, and, where all lessons are shown, what becomes of it."""
-    yield f"{gettext('Next:')} {_named_next(page)}." if page.next else gettext("All exercises are solved.")
+    yield f"{reply('progress.next')} {_named_next(page)}." if page.next else reply("progress.all_solved")
     if page.record.problem:
         yield page.record.problem
     if len(page.lessons) > 1:
-        kept = (
-            gettext("Tries are kept in {file}, in the folder of the course.", file=FILE)
-            if page.record.folder
-            else gettext("Tries are forgotten when Python ends. To keep them, work in a copy of the course: lsys-kit lab.")
-        )
-        yield f"{kept} {gettext(FOR_YOU)}"
+        kept = reply("progress.kept", file=FILE) if page.record.folder else reply("progress.forgotten")
+        yield f"{kept} {reply('progress.for_you')}"
 
 
 def _named_next(page: Progress) -> str:
@@ -340,7 +336,7 @@ def _named_next(page: Progress) -> str:
     named = f"{exercise.id} {exercise.title}"
     if page.lessons == (lesson,):
         return named
-    return gettext("{exercise}, in the exercises of {lesson}", exercise=named, lesson=lesson.name)
+    return reply("progress.next_in", exercise=named, lesson=lesson.name)
 
 
 # Markup
@@ -374,7 +370,7 @@ def _link(page: Progress, lesson: Lesson, text: str) -> str:
 
 def _linked(page: Progress, note: str) -> str:
     """A note, with a link to what is to do next."""
-    begin = f"{gettext('Next:')} "
+    begin = f"{reply('progress.next')} "
     if page.next is None or not note.startswith(begin):
         return escaped(note)
     lesson, _ = page.next

@@ -4,18 +4,22 @@ from __future__ import annotations
 
 import math
 import re
+import tomllib
 import unicodedata
 from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
-from typing import TypeVar
+from importlib.resources import files
+from typing import Any, TypeVar
 
+from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError, ModelValueError, quotable, shown
 from lsys_kit.notation.model.arithmetic import Value, is_symbolic, normalised
-from lsys_kit.translation import gettext
 
+WORDS: Mapping[str, Any] = tomllib.loads((files(__package__) / "typed.toml").read_text("utf-8"))
+"""Words and signs that people type, in English and German."""
 _ASSIGNED = re.compile(r"^\s*+[A-Za-z_]\w*+\s*+(?:\([^()=]*\)\s*+)?=(?!=)\s*")
 """The beginning of `N(12) = 21` or `t = d - s`."""
 ARROW = r"(?<![-=])[-=]++>|→"
@@ -26,36 +30,13 @@ _RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹"
 _RAISED_NUMBER = re.compile(rf"([⁺⁻]?)([{_RAISED}]+)")
 _DIGITS = str.maketrans(_RAISED, "0123456789")
 _ROOT_SIGN = re.compile(r"√\s*(?=\()|√\s*(\d+(?:\.\d+)?|[A-Za-z]\w*)")
-_SIGNS = str.maketrans(
-    {
-        "−": "-",
-        "–": "-",
-        "·": "*",
-        "⋅": "*",
-        "×": "*",
-        "÷": "/",
-        "º": "°",
-        "≤": "<=",
-        "≥": ">=",
-        "≠": "!=",
-        "∧": "&&",
-        "∨": "||",
-        "¬": "!",
-        "⟶": "->",
-        "⇒": "->",
-        "π": "pi",
-    }
-)
+_SIGNS = str.maketrans(WORDS["signs"])
 
 
 def text_answer(answer: object, what: str, example: str) -> str:
     """An answer that must be a text."""
     if not isinstance(answer, str):
-        raise ModelValueError(
-            gettext(
-                "{what} must be a text such as {example}, not {kind}", what=what, example=example, kind=type(answer).__name__
-            )
-        )
+        raise ModelValueError(reply("typed.must_be_text", what=what, example=example, kind=type(answer).__name__))
     return answer
 
 
@@ -138,45 +119,11 @@ def quoted(answer: object) -> str:
     return quotable(" ".join(answer.split())) if isinstance(answer, str) else shown(answer)
 
 
-_NAMES: Mapping[str, tuple[str, Value]] = {
-    "° deg degree degrees grad": ("angle", 1),
-    "rad radian radians radiant": ("angle", 180 / math.pi),
-    "turn turns revolution revolutions umdrehung umdrehungen": ("angle", 360),
-    "% percent prozent": ("share", 1),
-    "mm millimetre millimetres millimeter millimeters": ("length", 1),
-    "cm centimetre centimetres centimeter centimeters zentimeter": ("length", 10),
-    "dm decimetre decimetres decimeter decimeters dezimeter": ("length", 100),
-    "m metre metres meter meters": ("length", 1000),
-    "km kilometre kilometres kilometer kilometers": ("length", 1_000_000),
-}
-UNITS: Mapping[str, tuple[str, Value]] = {name: unit for names, unit in _NAMES.items() for name in names.split()}
+# Units
+
+
+UNITS: Mapping[str, tuple[str, Value]] = {name: tuple(unit) for names, unit in WORDS["units"].items() for name in names.split()}
 """For each name of a unit what it measures, and how much of the first unit of that it is."""
-SAME_THING = (
-    frozenset(
-        (
-            "cell",
-            "letter",
-            "module",
-            "symbol",
-            "character",
-            "char",
-            "element",
-            "piece",
-            "zelle",
-            "zellen",
-            "buchstabe",
-            "buchstaben",
-            "modul",
-            "symbole",
-            "zeichen",
-            "elemente",
-            "stück",
-            "stücke",
-        )
-    ),
-    frozenset(("wall", "edge", "wand", "wände", "kante", "kanten")),
-)
-"""Words for one thing that is counted: what a word is made of, what a map is made of."""
 
 
 def converted(number: Value, given: str, wanted: str) -> Value | None:
@@ -197,7 +144,9 @@ def converted(number: Value, given: str, wanted: str) -> Value | None:
 
 def names_of(unit: str) -> frozenset[str]:
     """All names of a unit."""
-    return next((frozenset(names.split()) for names in _NAMES if unit.lower() in names.split()), frozenset((unit.lower(),)))
+    return next(
+        (frozenset(names.split()) for names in WORDS["units"] if unit.lower() in names.split()), frozenset((unit.lower(),))
+    )
 
 
 def means_the_same(one: str, other: str) -> bool:
@@ -207,20 +156,18 @@ def means_the_same(one: str, other: str) -> bool:
     (True, False)
     """
     both = {one.lower().rstrip("s"), other.lower().rstrip("s")}
-    return len(both) == 1 or any(both <= group for group in SAME_THING)
+    return len(both) == 1 or any(both <= {*group.split()} for group in WORDS["same_thing"])
 
 
-_SMALL = ["zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve", "thirteen"]
-_SMALL += ["fourteen", "fifteen", "sixteen", "seventeen", "eighteen", "nineteen"]
-_TENS = ["twenty", "thirty", "forty", "fifty", "sixty", "seventy", "eighty", "ninety"]
-_VALUES = {
-    **{word: number for number, word in enumerate(_SMALL)},
-    **{word: 10 * number for number, word in enumerate(_TENS, 2)},
-}
-_FACTORS = {"hundred": 100, "thousand": 1_000, "million": 1_000_000}
-_FIRST = ["first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth", "eleventh", "twelfth"]
-_ORDINALS = {word: number for number, word in enumerate(_FIRST, 1)}
-_PARTS = {"half": 2, "halve": 2, "third": 3, "quarter": 4, "fourth": 4, "fifth": 5, "sixth": 6, "eighth": 8, "tenth": 10}
+# Numbers in words
+
+
+_NUMBERS = WORDS["numbers"]
+_VALUES = {word: number for number, word in enumerate(_NUMBERS["small"].split())}
+_VALUES |= {word: 10 * number for number, word in enumerate(_NUMBERS["tens"].split(), 2)}
+_FACTORS: Mapping[str, int] = _NUMBERS["factors"]
+_ORDINALS = {word: number for number, word in enumerate(_NUMBERS["ordinals"].split(), 1)}
+_PARTS: Mapping[str, int] = _NUMBERS["parts"]
 _ANY = "|".join([*_VALUES, *_FACTORS])
 _RUN = re.compile(rf"\b(?:{_ANY})(?:(?:[\s-]+(?:and\s+)?)(?:{_ANY}))*\b", re.IGNORECASE)
 _PART = re.compile(rf"\b(\d+|a)\s+({'|'.join(_PARTS)})s?\b", re.IGNORECASE)
@@ -257,37 +204,12 @@ def _digits(found: re.Match[str]) -> str:
     return str(total + group)
 
 
+# Formulas
+
+
 _FRACTION = re.compile(r"\\[dt]?frac\s*\{([^{}]*)\}\s*\{([^{}]*)\}")
 _ROOT = re.compile(r"\\sqrt\s*\{([^{}]*)\}")
 _POWER = re.compile(r"\^\s*\{([^{}]*)\}")
-_LATEX = (
-    (r"\left", ""),
-    (r"\right", ""),
-    (r"\cdot", "*"),
-    (r"\times", "*"),
-    (r"\,", " "),
-    (r"\;", " "),
-    (r"\leq", "<="),
-    (r"\le", "<="),
-    (r"\geq", ">="),
-    (r"\ge", ">="),
-    (r"\neq", "!="),
-    (r"\land", "&&"),
-    (r"\lor", "||"),
-    (r"\lfloor", "floor("),
-    (r"\rfloor", ")"),
-    (r"\ln", "log"),
-    (r"\log", "log"),
-    (r"\exp", "exp"),
-    (r"\min", "min"),
-    (r"\max", "max"),
-    (r"\sin", "sin"),
-    (r"\cos", "cos"),
-    (r"\tan", "tan"),
-    (r"\pi", "pi"),
-    (r"\(", ""),
-    (r"\)", ""),
-)
 _JOINED = (("and", "&&"), ("or", "||"), ("not", "!"))
 _IMPLICIT = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?)\s*(?=[A-Za-z_(])|(?<=\))\s*(?=[\w(])")
 _WORD = re.compile(r"[A-Za-z_]\w*")
@@ -310,7 +232,7 @@ def formula_text(text: str, names: Collection[str] = ()) -> str:
             text = pattern.sub(form, text)
         if text == before:
             break
-    for latex, plain in _LATEX:
+    for latex, plain in WORDS["latex"].items():
         text = text.replace(latex, plain)
     text = with_operators(text.replace("**", "^"), names)
     return _IMPLICIT.sub(lambda found: f"{found[1] or ''}*", _products_of(text, names)).strip()
@@ -335,6 +257,9 @@ def _products_of(text: str, names: Collection[str]) -> str:
     spread = _WORD.sub(lambda found: "*".join(found[0]) if set(found[0]) <= set(names) else found[0], text)
     letters = "".join(map(re.escape, names))
     return re.sub(rf"(?<![A-Za-z_])([{letters}]|\d)\s+(?=[{letters}](?!\w))", r"\1*", spread)
+
+
+# Numbers
 
 
 _EQUALS = re.compile(r"(?<![<>=!])=(?!=)|≈")
@@ -402,13 +327,13 @@ def typed_number(answer: object, decimal_comma: bool = False) -> TypedNumber:
             return _in_sentence(part.strip(" \t\n!~$").rstrip(" ."), answer, decimal_comma)
         except (ModelSyntaxError, ModelNameError, ModelValueError) as mistake:
             fault = fault or mistake
-    raise fault or ModelValueError(gettext("A number is needed"))
+    raise fault or ModelValueError(reply("typed.number_needed"))
 
 
 def _in_sentence(text: str, answer: str, decimal_comma: bool) -> TypedNumber:
     found = _SENTENCE.match(text)
     if not found:
-        raise ModelValueError(gettext('"{answer}" is no number', answer=quoted(answer)), hint=gettext("Write it in digits."))
+        raise ModelValueError(reply("typed.no_number", answer=quoted(answer)), hint=reply("typed.digits"))
     number = formula_text(_plain(found["number"].strip(), decimal_comma))
     value = _value(re.sub(r"\bpi\b", f"({math.pi!r})", number), answer)
     before, after = (tuple(re.findall(r"[^\W\d_]+|[°%]", found[part] or "")) for part in ("before", "after"))
@@ -419,10 +344,7 @@ def _value(number: str, answer: str) -> Value:
     try:
         return _known(number_from(number, "answer"))
     except (ModelSyntaxError, ModelNameError):
-        raise ModelValueError(
-            gettext('"{answer}" cannot be read as a number', answer=quoted(answer)),
-            hint=gettext('Write it alone, as in "21", "0.75" or "3/4".'),
-        ) from None
+        raise ModelValueError(reply("typed.unreadable", answer=quoted(answer)), hint=reply("typed.alone")) from None
 
 
 def _plain(text: str, decimal_comma: bool) -> str:
@@ -435,7 +357,7 @@ def _plain(text: str, decimal_comma: bool) -> str:
 
 def _known(number: Value) -> Value:
     if is_symbolic(number):
-        raise ModelValueError(gettext('A number is needed, and "{text}" is none', text=quotable(str(number))))
+        raise ModelValueError(reply("typed.no_value", text=quotable(str(number))))
     return number
 
 
@@ -466,13 +388,16 @@ def _flat(answer: object, what: str, depth: int = 0) -> Iterable[object]:
         answer = list(answer.values())
     if depth > 3 or isinstance(answer, str | bytes) or not isinstance(answer, Iterable):
         if depth == 0:
-            raise ModelValueError(gettext("{what} are needed, not {kind}", what=what, kind=type(answer).__name__))
+            raise ModelValueError(reply("typed.parts_needed", what=what, kind=type(answer).__name__))
         yield answer
         return
     for number, part in enumerate(answer):
         if number > 10_000:
-            raise ModelValueError(gettext("{what} are needed, at most 10,000 of them", what=what))
+            raise ModelValueError(reply("typed.too_many_parts", what=what))
         yield from _flat(part, what, depth + 1)
+
+
+# Systems
 
 
 Read = TypeVar("Read")

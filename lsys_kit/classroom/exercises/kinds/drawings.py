@@ -14,6 +14,7 @@ from lsys_kit.classroom.exercises.asked import asked_system, written
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
 from lsys_kit.classroom.exercises.kinds.words import read_modules, unnamed_word
+from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.classroom.exercises.typed import read_typed
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.errors import ModelValueError
@@ -22,7 +23,6 @@ from lsys_kit.geometry.sameness import normalised, same_strokes
 from lsys_kit.geometry.scene import Floats
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read
-from lsys_kit.translation import gettext
 from lsys_kit.worlds.derive import derive
 
 NEAR = 1e-4
@@ -93,13 +93,7 @@ class Drawn:
         """The strokes as they are drawn, in order: shape (n, 4) or (n, 6)."""
         ends = scene_of(self.derivation).segments.ends
         if len(ends) > MOST_STROKES:
-            raise ModelValueError(
-                gettext(
-                    "The drawing has {number} strokes; up to {most} are compared",
-                    number=f"{len(ends):,}",
-                    most=f"{MOST_STROKES:,}",
-                )
-            )
+            raise ModelValueError(reply("drawing.too_many_strokes", number=f"{len(ends):,}", most=f"{MOST_STROKES:,}"))
         return ends
 
 
@@ -165,33 +159,21 @@ def _same(_: Exercise, mine: Drawn, wanted: Drawn) -> bool:
 def _difference(_: Exercise, mine: Drawn, wanted: Drawn) -> Difference:
     own, other = len(mine.strokes), len(wanted.strokes)
     if not own:
-        return Difference(gettext("Nothing is drawn. Which symbols draw a stroke?"))
+        return Difference(reply("drawing.nothing"))
     likeness = min(own, other) / max(own, other) / 2 if own != other else 0.6
     if mine.ends.shape[1] == 4 and wanted.ends.shape[1] == 4 and max(len(mine.ends), len(wanted.ends)) <= MOST_FOLLOWED:
         return Difference(_stroke_by_stroke(mine, wanted), likeness)
-    return Difference(gettext("Draw it beside the picture: at which stroke does the turtle turn otherwise?"), likeness)
+    return Difference(reply("drawing.beside_the_picture"), likeness)
 
 
 def _stroke_by_stroke(mine: Drawn, wanted: Drawn) -> str:
     """Where a drawing first leaves the right one, if both begin with the same stroke."""
     fitting = strokes_that_fit(mine.ends, wanted.ends)
     if fitting < len(mine.ends):
-        if fitting < 2:
-            return gettext(
-                "If your first stroke is right, stroke {number} is where none should be: look at the signs and brackets "
-                "before it.",
-                number=fitting + 1,
-            )
-        return gettext(
-            "Your first {fitting} strokes are right, if you begin at the same place. Stroke {number} is where none should be: "
-            "look at the signs and brackets before it.",
-            fitting=fitting,
-            number=fitting + 1,
-        )
-    missing = strokes_that_fit(wanted.ends, mine.ends)
-    if missing < len(wanted.ends):
-        return gettext("All strokes that you draw lie in the picture, but it has more of them. Which part is missing?")
-    return gettext("Drawn from the same place it covers the picture, but with other strokes.")
+        where = "drawing.wrong_from_the_start" if fitting < 2 else "drawing.wrong_stroke"
+        return reply(where, fitting=fitting, number=fitting + 1)
+    missing = strokes_that_fit(wanted.ends, mine.ends) < len(wanted.ends)
+    return reply("drawing.missing_strokes" if missing else "drawing.other_strokes")
 
 
 DRAWING = AnswerKind(

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
-from typing import Any, TypeAlias
+from functools import reduce
+from typing import TypeAlias
 
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
+from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.classroom.exercises.typed import assigned_name, formula_text, text_answer
 from lsys_kit.errors import LSystemError, ModelValueError
 from lsys_kit.notation.analysis.checks import check_expression
@@ -26,7 +28,6 @@ from lsys_kit.notation.model.expressions import (
 )
 from lsys_kit.notation.read import checked_expression, read_expression
 from lsys_kit.notation.syntax.wording import reporting
-from lsys_kit.translation import gettext
 
 Valuations: TypeAlias = Mapping[str, Value]
 """A value for each name."""
@@ -46,20 +47,10 @@ def differing_values(mine: Expression, wanted: Expression, cases: Iterable[Valua
     for case in cases:
         own, right = _value_or_reason(mine, case), _value_or_reason(wanted, case)
         if not _equal_values(own, right):
-            where = gettext(" and ").join(f"{name} = {number_text(value)}" for name, value in case.items())
+            where = reply("expression.and").join(f"{name} = {number_text(value)}" for name, value in case.items())
             if isinstance(own, str):
-                return gettext(
-                    "With {values} your expression has no value ({reason}), and it should give {right}.",
-                    values=where,
-                    reason=own,
-                    right=_value_text(right),
-                )
-            return gettext(
-                "With {values} your expression gives {own}, and it should give {right}.",
-                values=where,
-                own=_value_text(own),
-                right=_value_text(right),
-            )
+                return reply("expression.no_value", values=where, reason=own, right=_value_text(right))
+            return reply("expression.value", values=where, own=_value_text(own), right=_value_text(right))
     return None
 
 
@@ -158,7 +149,7 @@ def _read(exercise: Exercise, answer: object) -> Expression:
             answer = str(answer)
         else:
             return _checked(exercise, from_sympy(answer), wanted)
-    text = text_answer(answer, gettext("An expression"), '"t + 1"')
+    text = text_answer(answer, reply("expression.what"), '"t + 1"')
     try:
         return checked_expression(text, exercise.values, wanted)
     except LSystemError:
@@ -178,6 +169,24 @@ def _checked(exercise: Exercise, expression: Expression, wanted: str) -> Express
     return expression
 
 
+_OPERATORS = {
+    "Add": "+",
+    "Mul": "*",
+    "Pow": "^",
+    "Min": "min",
+    "Max": "max",
+    "Mod": "mod",
+    "Abs": "abs",
+    "exp": "exp",
+    "log": "log",
+}
+_OPERATORS |= {"floor": "floor", "ceiling": "ceil", "And": "&&", "Or": "||", "Not": "!"}
+_OPERATORS |= {"Eq": "==", "Ne": "!=", "Lt": "<", "Le": "<=", "Gt": ">", "Ge": ">="}
+"""For each class of sympy how the kit writes it."""
+_OF_TWO = ("+", "*", "min", "max", "&&", "||")
+"""What sympy has of any number of operands, and the kit of two."""
+
+
 def from_sympy(formula: object, depth: int = 0) -> Expression:
     """An expression of the kit, from one that was made with sympy: by its tree, never by its text.
 
@@ -189,7 +198,7 @@ def from_sympy(formula: object, depth: int = 0) -> Expression:
     import sympy
 
     if not isinstance(formula, sympy.Basic) or depth > 50:
-        raise ModelValueError(gettext('An expression must be a text such as "t + 1", not {kind}', kind=type(formula).__name__))
+        raise ModelValueError(reply("expression.must_be_text", kind=type(formula).__name__))
     if isinstance(formula, sympy.Symbol):
         return Name(str(formula.name))
     if isinstance(formula, sympy.Rational):
@@ -197,51 +206,13 @@ def from_sympy(formula: object, depth: int = 0) -> Expression:
         return Number(int(value) if value.denominator == 1 else value)
     if isinstance(formula, sympy.Float):
         return Number(shortest_decimal(float(formula)))
-    operator = _operators().get(type(formula))
+    operator = {getattr(sympy, name): sign for name, sign in _OPERATORS.items()}.get(type(formula))
     if operator is None or not formula.args:
-        raise ModelValueError(gettext("The kit's expressions have no {name}", name=type(formula).__name__))
+        raise ModelValueError(reply("expression.unknown_function", name=type(formula).__name__))
     operands = [from_sympy(argument, depth + 1) for argument in formula.args]
-    return operator(operands)
-
-
-def _operators() -> Mapping[Any, Callable[[list[Expression]], Expression]]:
-    """For each class of sympy how the kit writes it."""
-    import sympy
-
-    def chain(operator: str) -> Callable[[list[Expression]], Expression]:
-        def build(operands: list[Expression]) -> Expression:
-            found = operands[0]
-            for operand in operands[1:]:
-                found = Apply(operator, (found, operand))
-            return found
-
-        return build
-
-    def call(operator: str) -> Callable[[list[Expression]], Expression]:
-        return lambda operands: Apply(operator, tuple(operands))
-
-    return {
-        sympy.Add: chain("+"),
-        sympy.Mul: chain("*"),
-        sympy.Pow: call("^"),
-        sympy.floor: call("floor"),
-        sympy.ceiling: call("ceil"),
-        sympy.Abs: call("abs"),
-        sympy.exp: call("exp"),
-        sympy.log: call("log"),
-        sympy.Min: chain("min"),
-        sympy.Max: chain("max"),
-        sympy.Mod: call("mod"),
-        sympy.And: chain("&&"),
-        sympy.Or: chain("||"),
-        sympy.Not: call("!"),
-        sympy.Eq: call("=="),
-        sympy.Ne: call("!="),
-        sympy.Lt: call("<"),
-        sympy.Le: call("<="),
-        sympy.Gt: call(">"),
-        sympy.Ge: call(">="),
-    }
+    if operator in _OF_TWO:
+        return reduce(lambda one, other: Apply(operator, (one, other)), operands)
+    return Apply(operator, tuple(operands))
 
 
 def _cases(exercise: Exercise) -> Iterator[Valuations]:
@@ -262,16 +233,12 @@ def _difference(exercise: Exercise, own: Expression, solution: Expression) -> Di
     right = sum(differing_values(own, solution, [case]) is None for case in cases)
     message = differing_values(own, solution, cases)
     if message is None:
-        return Difference(
-            gettext("For the numbers of the question it is right, but not for all others: it is another formula."), 1
-        )
+        return Difference(reply("expression.another_formula"), 1)
     return Difference(message, right / len(cases))
 
 
 def _praise(_: Exercise, own: Expression, solution: Expression) -> str:
-    if proved_equal(own, solution):
-        return gettext("It is so whatever the values.")
-    return gettext("It is so for all the values in question.")
+    return reply("expression.proved" if proved_equal(own, solution) else "expression.right_here")
 
 
 EXPRESSION = AnswerKind(

@@ -18,6 +18,7 @@ from lsys_kit.budget import counted
 from lsys_kit.classroom.exercises.asked import beginning_with, with_constants
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
+from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.classroom.exercises.typed import read_typed, text_answer
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.petri.outcomes import all_outcomes, outcomes_of
@@ -28,7 +29,6 @@ from lsys_kit.notation.model.expressions import Apply, Number
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem, Production, symbols
 from lsys_kit.notation.read import read, read_word
-from lsys_kit.translation import gettext
 from lsys_kit.worlds.derive import derive
 
 
@@ -116,7 +116,7 @@ class SystemAnswer:
 def completed(exercise: Exercise, own: LSystem) -> SystemAnswer:
     """A part of a system with what the question gives."""
     if not exercise.given:
-        return SystemAnswer(own, own, own)
+        return _whole(own)
     given = read(exercise.given)
     rest = tuple(rule for rule in given.productions if rule not in own.productions)
     return SystemAnswer(replace(own, productions=own.productions + rest), replace(own, productions=rest + own.productions), own)
@@ -162,7 +162,7 @@ def _parting(exercise: Exercise, mine: LSystem, wanted: LSystem) -> Parting | No
         own_word = [names.own(module) for module in word]
         found = _words_parting(beginning_with(mine, own_word), beginning_with(wanted, word), names, min(exercise.steps, 5))
         if found is not None:
-            return Parting(found.step, found.position, setting=gettext("the axiom {word}", word=probe))
+            return Parting(found.step, found.position, setting=reply("system.axiom_is", word=probe))
     return None
 
 
@@ -208,25 +208,13 @@ def _fates(states: States, module: Module, names: Renaming | None) -> Counter[tu
 
 def unused(own: LSystem) -> Production | None:
     """A production before which another always applies."""
-    return next(
-        (
-            rule
-            for problem in warnings(own)
-            if problem.code.startswith("production never applied")
-            for rule in [problem.subject["rule"]]
-            if isinstance(rule, Production)
-        ),
-        None,
-    )
-
-
-def _same_settings(exercise: Exercise, mine: LSystem, wanted: LSystem) -> bool:
-    return not exercise.drawn or mine.angle == wanted.angle
+    found = (each.subject["rule"] for each in warnings(own) if each.code.startswith("production never applied"))
+    return next((rule for rule in found if isinstance(rule, Production)), None)
 
 
 def same(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) -> bool:
     return (
-        _same_settings(exercise, mine.front, wanted.front)
+        (not exercise.drawn or mine.front.angle == wanted.front.angle)
         and unused(mine.own) == unused(wanted.own)
         and parting(exercise, mine.front, wanted.behind) is None
         and (mine.front is mine.behind or parting(exercise, mine.behind, wanted.behind) is None)
@@ -331,10 +319,9 @@ MOST_QUOTED = 200
 
 def _read(exercise: Exercise, answer: object) -> SystemAnswer:
     if isinstance(answer, LSystem):
-        return SystemAnswer(answer, answer, answer)
-    text = text_answer(answer, gettext("A system"), '"axiom: a"')
-    known = f"{exercise.given}\n{exercise.solution}"
-    return read_typed(text, lambda typed: _read_text(exercise, typed), known)
+        return _whole(answer)
+    text = text_answer(answer, reply("system.what"), '"axiom: a"')
+    return read_typed(text, lambda typed: _read_text(exercise, typed), f"{exercise.given}\n{exercise.solution}")
 
 
 def _read_text(exercise: Exercise, text: str) -> SystemAnswer:
@@ -349,9 +336,7 @@ def _read_text(exercise: Exercise, text: str) -> SystemAnswer:
     together = read(f"{text}\n{exercise.given}")
     own = [rule for rule in together.productions if rule.at and rule.at[1] <= len(text) and rule not in given.productions]
     if not own:
-        raise ModelValueError(
-            gettext("There is no production here that the question does not give"), hint=gettext("Write it as: A -> B.")
-        )
+        raise ModelValueError(reply("system.not_given"), hint=reply("system.form"))
     return completed(exercise, replace(together, productions=tuple(own)))
 
 
@@ -367,87 +352,52 @@ def _difference(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) ->
     front = parting(exercise, mine.front, wanted.behind) if mine.front is not mine.behind else behind
     likeness, near = _likeness(exercise, mine, wanted)
     if front is None and behind is None:
-        return _difference_in_writing(exercise, mine, wanted)
+        return _difference_in_writing(mine)
     if behind is None and front is not None:
-        return Difference(_hijacking(front, mine), likeness * 0.9, near)
+        said = reply("system.not_by_itself", module=_applied_too(front, mine.front))
+        return Difference(said, likeness * 0.9, near)
     found = behind or front
     assert found is not None
     return Difference(_in_words(found, mine, mine.behind if behind else mine.front, wanted.behind), likeness, near)
 
 
-def _difference_in_writing(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) -> Difference:
+def _difference_in_writing(mine: SystemAnswer) -> Difference:
     never = unused(mine.own)
-    if never is not None:
-        return Difference(
-            gettext("One of your productions is never used, because one before it always applies:") + _typed(never, mine),
-            1,
-            True,
-        )
-    return Difference(gettext("The words are right, but not the angle, by which the drawing changes."), 1, True)
+    return Difference(reply("system.angle") if never is None else reply("system.never_used") + _typed(never, mine), 1, True)
 
 
-def _hijacking(found: Parting, mine: SystemAnswer) -> str:
-    return gettext(
-        "Your production works only where it stands behind those that are given: by itself it applies to other modules too, "
-        "such as {module}. To which ones should it apply? Let its condition say so.",
-        module=_named(found.module) if found.module is not None else _module_before(found, mine.front),
-    )
-
-
-def _named(module: Module) -> str:
-    return gettext("the {module}", module=module)
-
-
-def _module_before(found: Parting, system: LSystem) -> str:
-    if found.step == 0:
-        return gettext("the axiom")
-    derivation = derive(system, found.step)
-    parents = derivation.origins(found.step).parents
-    before = derivation[found.step - 1]
-    return _named(before[parents[found.position]] if found.position < len(parents) else before[len(before) - 1])
+def _applied_too(found: Parting, system: LSystem) -> str:
+    """A module to which a production applies that should not, or the axiom."""
+    module = found.module
+    if module is None and found.step == 0:
+        return reply("system.the_axiom")
+    if module is None:
+        derivation = derive(system, found.step)
+        parents, before = derivation.origins(found.step).parents, derivation[found.step - 1]
+        module = before[parents[found.position] if found.position < len(parents) else len(before) - 1]
+    return reply("system.module", module=module)
 
 
 def _in_words(found: Parting, mine: SystemAnswer, system: LSystem, wanted: LSystem) -> str:
-    besides = " " + gettext("(with {setting})", setting=found.setting) if found.setting else ""
-    so_far = ""
-    if found.step > 1 and not besides:
-        so_far = gettext("Up to step {step} your words are right.", step=found.step - 1) + " "
+    besides = " " + reply("system.with", setting=found.setting) if found.setting else ""
+    so_far = reply("system.up_to_step", step=found.step - 1) + " " if found.step > 1 and not besides else ""
     if found.module is not None:
         cause = _decomposition_for(found.module, mine, system, wanted) or _production_for(found.module, mine, system)
-        said = gettext("Of {module} something else should become{besides}.", module=found.module, besides=besides)
-        return f"{so_far}{said} {cause}".strip()
+        return f"{so_far}{reply('system.becomes', module=found.module, besides=besides)} {cause}".strip()
     if found.step == 0:
-        return gettext("Look at your axiom: it is not yet the word with which the development begins.")
-    derivation = derive(system, found.step)
+        return reply("system.axiom")
     if besides:
-        return gettext(
-            "From another start it goes wrong at step {step}, position {position}{besides}.",
-            step=found.step,
-            position=found.position + 1,
-            besides=besides,
-        )
-    parents, before = derivation.origins(found.step).parents, derivation[found.step - 1]
-    if found.position >= len(parents):
-        return so_far + gettext(
-            "At step {step} your word ends after position {position}, which is too early.",
-            step=found.step,
-            position=found.position,
-        )
-    mother = before[parents[found.position]]
-    production = derivation.origins(found.step).productions[found.position]
-    have = derivation[found.step][found.position]
+        return reply("system.another_start", step=found.step, position=found.position + 1, besides=besides)
+    derivation = derive(system, found.step)
+    origins = derivation.origins(found.step)
+    if found.position >= len(origins.parents):
+        return so_far + reply("system.ends", step=found.step, position=found.position)
+    production = origins.productions[found.position]
+    have, mother = derivation[found.step][found.position], derivation[found.step - 1][origins.parents[found.position]]
     where = {"step": found.step, "position": found.position + 1, "module": have, "mother": mother}
     if production is None:
-        return so_far + gettext(
-            "At step {step} look at position {position}, where you have {module}: you have no production for {mother}, so that "
-            "it stays as it is.",
-            **where,
-        )
-    said = gettext(
-        "At step {step} look at position {position}, where you have {module}. It comes from {mother}, by this production:",
-        **where,
-    )
-    return f"{so_far}{said}{_typed(system.productions[production], mine)}"
+        return so_far + reply("system.stays", **where)
+    return so_far + reply("system.production", **where) + _typed(system.productions[production], mine)
 
 
 def _decomposition_for(module: Module, mine: SystemAnswer, system: LSystem, wanted: LSystem) -> str:
@@ -458,11 +408,10 @@ def _decomposition_for(module: Module, mine: SystemAnswer, system: LSystem, want
     if tuple(one) != tuple(other):
         return ""
     if not system.decomposition:
-        return gettext("Its production is right. Is there a rule by which what it makes is decomposed?")
+        return reply("system.no_decomposition")
     if len(system.decomposition) > 1:
-        return gettext("Its production is right. Look at the rules by which what it makes is decomposed.")
-    said = gettext("Its production is right. Look at this rule by which what it makes is decomposed:")
-    return said + _typed(system.decomposition[0], mine)
+        return reply("system.decompositions")
+    return reply("system.decomposition") + _typed(system.decomposition[0], mine)
 
 
 def _production_for(module: Module, mine: SystemAnswer, system: LSystem) -> str:
@@ -470,8 +419,8 @@ def _production_for(module: Module, mine: SystemAnswer, system: LSystem) -> str:
     state = states.number(module.symbol, module.arguments)
     number = states.production(state) if states.is_d0l(state) else None
     if number is None:
-        return gettext("You have no production that applies to it.") if states.is_d0l(state) else ""
-    return gettext("Look at this production:") + _typed(system.productions[number], mine)
+        return reply("system.no_production") if states.is_d0l(state) else ""
+    return reply("system.this_production") + _typed(system.productions[number], mine)
 
 
 def _typed(rule: Production, mine: SystemAnswer) -> str:
@@ -488,20 +437,14 @@ def _likeness(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) -> t
     names = renaming(exercise, wanted.behind)
     try:
         axiom = names.first_difference(derive(mine.behind, 0)[0], derive(wanted.behind, 0)[0]) is None
-        modules = [module for module in asked_modules(exercise, wanted.behind) if _rewritten_by(wanted.own, module)]
+        own = {rule.predecessor.symbol for rule in wanted.own.productions}
+        modules = [module for module in asked_modules(exercise, wanted.behind) if module.symbol in own]
         wrong = set(wrongly_replaced(exercise, mine.behind, wanted.behind, names))
     except LSystemError:
         return 0, False
-    wrong_ones = sum(names.own(module) in wrong for module in modules)
-    kinds = {module.symbol for module in modules if names.own(module) in wrong}
-    all_kinds = {module.symbol for module in modules}
-    total = len(modules) + 1
-    near = len(all_kinds) > 2 and (len(kinds) + (not axiom)) == 1
-    return (total - wrong_ones - (not axiom)) / total, near
-
-
-def _rewritten_by(own: LSystem, module: Module) -> bool:
-    return any(rule.predecessor.symbol == module.symbol for rule in own.productions)
+    wrong_ones = [module.symbol for module in modules if names.own(module) in wrong]
+    near = len({module.symbol for module in modules}) > 2 and len({*wrong_ones}) + (not axiom) == 1
+    return (len(modules) + axiom - len(wrong_ones)) / (len(modules) + 1), near
 
 
 def _honest(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) -> bool:
@@ -512,11 +455,7 @@ def _honest(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) -> boo
 
 
 def _praise(exercise: Exercise, _: SystemAnswer, wanted: SystemAnswer) -> str:
-    return (
-        gettext("The words of all steps from 0 to {last} agree, and so does what becomes of each module.", last=exercise.steps)
-        if not States(wanted.front).traits.stochastic
-        else gettext("Each module becomes what it should, as often as it should.")
-    )
+    return reply("system.agree", last=exercise.steps) if not States(wanted.front).traits.stochastic else reply("system.chance")
 
 
 SYSTEM = AnswerKind(

@@ -14,6 +14,7 @@ from typing import Any, TypeAlias
 
 from lsys_kit.classroom.exercises.asked import system_of
 from lsys_kit.classroom.exercises.exercise import Exercise, Option, Slip
+from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.translation import gettext
 from lsys_kit.worlds.derive import derive
 
@@ -129,4 +130,4 @@ def size_of(word: str) -> int:
 
 def derivation_text(words: Sequence[str]) -> str:
     """Words with their steps, for an explanation."""
-    return gettext("Step by step:") + "\n" + "\n".join(f"  {step}  {word}" for step, word in enumerate(words))
+    return reply("practice.derivation") + "\n" + "\n".join(f"  {step}  {word}" for step, word in enumerate(words))

@@ -12,8 +12,9 @@ from random import Random
 from lsys_kit.classroom.exercises.asked import system_of
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.practice.drafts import Draft, Maker, random_rules, system_text
+from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.derivation.growth.growth import growth
-from lsys_kit.translation import gettext, ngettext
+from lsys_kit.translation import gettext
 
 
 def _listed(numbers: Sequence[int]) -> str:
@@ -196,7 +197,7 @@ def _flowering(chance: Random, level: int, draft: Draft) -> Exercise | None:
         wrong,
         every=every,
         starts=starts,
-        through=ngettext("one day", "{number} days", through),
+        through=reply("practice.days", number=through),
         asked=draft.text("asked"),
         there=there,
         passed=passed,
@@ -239,7 +240,7 @@ def _hedge(chance: Random, level: int, draft: Draft) -> Exercise | None:
     return draft.number(
         start * buds**cuts,
         [start + (buds - 1) * cuts * start, start * buds ** (steps // height), start * buds ** (cuts - 1)],
-        of=ngettext("one shoot", "{number} shoots", start),
+        of=reply("practice.shoots", number=start),
         height=height,
         lost=lost,
         buds=buds,
