@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import MISSING, dataclass, fields, replace
 from functools import partial
+from importlib.resources import files
 from pathlib import Path
 from typing import Any, NamedTuple, TypeAlias
 
@@ -24,6 +25,8 @@ from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.errors import LSystemError, ModelFileError, quotable
 from lsys_kit.notation.analysis.checks import suggestion
 
+PROBLEMS: Mapping[str, Mapping[str, Sequence[str]]] = tomllib.loads((files(__package__) / "problems.toml").read_text("utf-8"))
+"""Each mistake in words, and what to try."""
 MOST_STEPS = 10_000
 """The last step that a question may ask for."""
 _TABLE_LINE = re.compile(r"^\s*\[\[\s*exercise(?:\.(slips|options))?\s*\]\]")
@@ -78,15 +81,18 @@ class Source:
                     return line_number
         return first
 
-    def problem(
-        self, number: int, exercise: str, key: str, what: str, hint: str | None = "", part: str = "", at: int = 0
-    ) -> Problem:
-        """What is wrong with a key of an exercise, which has a number in the file."""
-        return Problem(self.file, self.line_of(number, key, part, at), exercise, what, hint or "")
+    def problem(self, name: str, line: int = 1, exercise: str = "", /, **values: object) -> Problem:
+        """A mistake that `problems.toml` puts into words."""
+        place, _, part = name.partition(".")
+        what, hint = PROBLEMS[place][part]
+        values["hint"] = values.get("hint") or ""
+        return Problem(self.file, line, exercise, what.format(**values), hint.format(**values))
 
-    def at_the_top(self, what: str, hint: str | None = "") -> Problem:
-        """What is wrong with a file as a whole."""
-        return Problem(self.file, 1, "", what, hint or "")
+    def problem_of(
+        self, number: int, exercise: str, key: str, name: str, part: str = "", at: int = 0, /, **values: object
+    ) -> Problem:
+        """A mistake at a key of an exercise, which has a number in the file."""
+        return self.problem(name, self.line_of(number, key, part, at), exercise, **{"key": key, **values})
 
 
 MakeProblem: TypeAlias = Callable[..., Problem]
@@ -180,30 +186,30 @@ def lesson_problems(source: Source, declared: Mapping[str, Any]) -> Iterator[Pro
     """What is wrong with the top of a file."""
     for key, form in _TOP.items():
         if not form.fits(declared.get(key)):
-            yield source.at_the_top(f'The file needs "{key}", {form.what}', "It stands at the top, before the first exercise.")
+            yield source.problem("file.top_missing", key=key, what=form.what)
     for key in declared.keys() - {*_TOP, "exercise"}:
-        yield source.at_the_top(f'There is no key "{quotable(key)}" at the top', suggestion(key, [*_TOP, "exercise"]))
+        yield source.problem("file.top_unknown", key=quotable(key), hint=suggestion(key, [*_TOP, "exercise"]) or "")
     if not isinstance(declared.get("exercise"), list):
-        yield source.at_the_top("There are no exercises", "Each begins with a line [[exercise]].")
+        yield source.problem("file.no_exercises")
 
 
 def exercise_problems(source: Source, number: int, declared: object) -> Iterator[Problem]:
     """What keeps an exercise from being read."""
     if not isinstance(declared, dict):
-        yield source.at_the_top("An exercise is a table", "Begin it with a line [[exercise]].")
+        yield source.problem("file.no_table")
         return
-    problem = partial(source.problem, number, str(declared.get("id", f"number {number + 1}")))
+    problem = partial(source.problem_of, number, str(declared.get("id", f"number {number + 1}")))
     for key in _REQUIRED:
         if key not in declared:
-            yield problem(key, f'"{key}" is missing', f"Write {key} = ...")
+            yield problem(key, "keys.missing")
     for key, value in declared.items():
         if key not in KEYS:
-            yield problem(key, f'There is no key "{quotable(key)}"', suggestion(key, KEYS))
+            yield problem(key, "keys.unknown", key=quotable(key), hint=suggestion(key, KEYS))
         elif not KEYS[key].fits(value):
-            yield problem(key, f'"{key}" must be {KEYS[key].what}')
+            yield problem(key, "keys.form", what=KEYS[key].what)
         elif key in _NAMED and value not in _NAMED[key]:
             hint = suggestion(value, _NAMED[key]) or f"Choose: {', '.join(_NAMED[key])}."
-            yield problem(key, f'There is no {key} "{quotable(value)}"', hint)
+            yield problem(key, "keys.unknown_name", name=quotable(value), hint=hint)
         elif key in ("expects", "unlikely"):
             yield from (_unknown(problem, key, each) for each in value if each not in MISCONCEPTIONS)
     yield from _part_problems(problem, declared, "slips", Slip, "answer")
@@ -212,7 +218,8 @@ def exercise_problems(source: Source, number: int, declared: object) -> Iterator
 
 
 def _unknown(problem: MakeProblem, key: str, name: str, *place: object) -> Problem:
-    return problem(key, f'There is no misconception "{quotable(name)}"', suggestion(name, MISCONCEPTIONS), *place)
+    hint = suggestion(name, MISCONCEPTIONS)
+    return problem(key, "keys.unknown_misconception", *place, name=quotable(name), hint=hint)
 
 
 def _asked_problems(problem: MakeProblem, declared: Mapping[str, Any]) -> Iterator[Problem]:
@@ -220,35 +227,34 @@ def _asked_problems(problem: MakeProblem, declared: Mapping[str, Any]) -> Iterat
     asked = ASKED_OF_KIND.get(kind, ())
     if "asks" in declared and (asks.partition(" ")[0] not in asked or not is_asked_in_full(asks)):
         forms = (f'"{MORE_ASKED[each][1]}"' if each in MORE_ASKED else each for each in asked)
-        yield problem("asks", f'This kind cannot ask "{quotable(asks)}"', f"It can ask: {', '.join(forms) or 'nothing'}.")
+        yield problem("asks", "keys.not_asked", asks=quotable(asks), forms=", ".join(forms) or "nothing")
     if "asks" in declared and "system" not in declared:
-        yield problem("asks", '"asks" needs a "system"')
+        yield problem("asks", "keys.asks_what")
     if "at" in declared and kind not in ("table", "words"):
-        yield problem("at", f'The kind "{quotable(kind)}" has no "at"', "Write steps = ..., the step that is asked for.")
+        yield problem("at", "keys.no_at", kind=quotable(kind))
 
 
 def _part_problems(
     problem: MakeProblem, declared: Mapping[str, Any], part: str, record: type, needed: str
 ) -> Iterator[Problem]:
-    """What is wrong with the slips or the options."""
     known = [each.name for each in fields(record)]
     parts = declared.get(part, ())
     for at, each in enumerate(parts if isinstance(parts, list) else ()):
         if not isinstance(each, dict):
-            yield problem("", f'"{part}" must be tables', f"Write [[exercise.{part}]].")
+            yield problem("", "keys.tables", key=part)
             continue
         if needed not in each:
-            yield problem(needed, f'"{needed}" is missing', f"Write {needed} = ...", part, at)
+            yield problem(needed, "keys.missing", part, at)
         for key, value in each.items():
             fits, what = (isinstance(value, bool), "true or false") if key == "near" else (_is_text(value), "a text")
             if key not in known:
-                yield problem(key, f'There is no key "{quotable(key)}" here', suggestion(key, known), part, at)
+                yield problem(key, "keys.unknown_here", part, at, key=quotable(key), hint=suggestion(key, known))
             elif not fits:
-                yield problem(key, f'"{key}" must be {what}', "", part, at)
+                yield problem(key, "keys.form", part, at, what=what)
             elif key == "misconception" and value not in MISCONCEPTIONS:
                 yield _unknown(problem, key, value, part, at)
         if part == "slips" and not (each.get("says") or each.get("misconception")):
-            yield problem("answer", "A slip needs a reply", 'Write says = "...", or misconception = "...".', part, at)
+            yield problem("answer", "keys.no_reply", part, at)
 
 
 def read_exercise(declared: Mapping[str, Any]) -> Exercise:
@@ -284,13 +290,13 @@ def questions_in(folder: Path) -> Questions:
         There is no such folder, or no file of exercises in it.
     """
     try:
-        files = sorted(path for path in folder.iterdir() if path.suffix == ".toml")
+        paths = sorted(path for path in folder.iterdir() if path.suffix == ".toml")
     except (OSError, ValueError) as fault:
         raise ModelFileError(f'"{quotable(str(folder))}" cannot be read: {getattr(fault, "strerror", None) or fault}') from None
-    if not files:
+    if not paths:
         raise ModelFileError(f'There are no files of exercises in "{quotable(str(folder))}"', hint="Their names end in .toml.")
     lessons, problems, sources = [], [], []
-    for path in files:
+    for path in paths:
         with Task("The exercises were not read"):
             lesson, exercises, source, wrong = _file(path)
         lessons += [lesson] if lesson else []
@@ -306,8 +312,7 @@ def _duplicates(found: Questions) -> Iterator[Problem]:
         where = f"{source.file}, line {source.line_of(number, 'id')}"
         before = first.setdefault(exercise.id, where)
         if before != where:
-            what = f'The id "{exercise.id}" stands in {before} too'
-            yield source.problem(number, exercise.id, "id", what, "Give one of them another.")
+            yield source.problem_of(number, exercise.id, "id", "keys.twice", id=exercise.id, where=before)
 
 
 def _file(path: Path) -> tuple[Lesson | None, tuple[tuple[int, Exercise], ...], Source, list[Problem]]:
@@ -317,10 +322,9 @@ def _file(path: Path) -> tuple[Lesson | None, tuple[tuple[int, Exercise], ...], 
         declared = tomllib.loads(source.text)
     except tomllib.TOMLDecodeError as fault:
         line = re.search(r"line (\d+)", str(fault))
-        problem = source.at_the_top(quotable(str(fault)), "Is a quotation mark or a bracket missing?")
-        return None, (), source, [replace(problem, line=int(line[1]) if line else 1)]
+        return None, (), source, [source.problem("file.no_toml", int(line[1]) if line else 1, fault=quotable(str(fault)))]
     except (OSError, UnicodeDecodeError) as fault:
-        return None, (), source, [source.at_the_top(f"It cannot be read: {fault}", "Save it as UTF-8.")]
+        return None, (), source, [source.problem("file.unreadable", fault=fault)]
     problems = [*counted(lesson_problems(source, declared), 1)]
     exercises: list[tuple[int, Exercise]] = []
     each_declared = declared.get("exercise", ())

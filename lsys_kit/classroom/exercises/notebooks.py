@@ -127,14 +127,7 @@ def _markdown(name: str, text: str) -> NotebookCell:
 
 def _code(name: str, text: str, data: Mapping[str, list[str]] | None = None) -> NotebookCell:
     output = {"data": data, "execution_count": None, "metadata": {}, "output_type": "execute_result"}
-    cell: NotebookCell = {
-        "cell_type": "code",
-        "execution_count": None,
-        "id": name,
-        "metadata": {},
-        "source": _source_lines(text),
-    }
-    return {**cell, "outputs": [output] if data else []}
+    return {**_markdown(name, text), "cell_type": "code", "execution_count": None, "outputs": [output] if data else []}
 
 
 def _shown(value: Verdict | Progress) -> dict[str, list[str]]:

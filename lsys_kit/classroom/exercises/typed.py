@@ -144,9 +144,8 @@ def converted(number: Value, given: str, wanted: str) -> Value | None:
 
 def names_of(unit: str) -> frozenset[str]:
     """All names of a unit."""
-    return next(
-        (frozenset(names.split()) for names in WORDS["units"] if unit.lower() in names.split()), frozenset((unit.lower(),))
-    )
+    known = (frozenset(names.split()) for names in WORDS["units"])
+    return next((names for names in known if unit.lower() in names), frozenset([unit.lower()]))
 
 
 def means_the_same(one: str, other: str) -> bool:
