@@ -27,8 +27,7 @@ from lsys_kit.classroom.exercises.declarations import QUESTIONS, questions_in
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
 from lsys_kit.classroom.exercises.practice.drafts import SAID
-from lsys_kit.classroom.exercises.practice.of_numbers import TYPES
-from lsys_kit.classroom.exercises.practice.of_turtles import DIRECTIONS
+from lsys_kit.classroom.exercises.practice.makers import DIRECTIONS, TYPES
 from lsys_kit.classroom.exercises.progress import SIGNS
 from lsys_kit.classroom.exercises.registry import texts
 from lsys_kit.classroom.exercises.replies import REPLIES

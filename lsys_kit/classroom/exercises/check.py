@@ -134,7 +134,6 @@ def _judged(exercise: Exercise, answer: object) -> tuple[Verdict, bool]:
 
 
 def _hints(exercise: Exercise, number: object, call: str) -> list[str]:
-    """The hints up to one, as lines."""
     most = len(exercise.hints)
     if isinstance(number, bool) or not isinstance(number, int) or not 0 <= number <= most:
         raise ModelValueError(reply("check.no_such_hint", id=exercise.id, most=most))

@@ -98,7 +98,6 @@ def answers_in(notebook: str) -> Answers:
 
 
 def _is_answer(statement: ast.stmt) -> bool:
-    """Whether a statement is `answer = ...`."""
     return isinstance(statement, ast.Assign) and [ast.unparse(target) for target in statement.targets] == ["answer"]
 
 
@@ -131,7 +130,6 @@ def _exercise_in(id: object, source: str) -> str:
 
 
 def _python(source: str) -> str:
-    """A cell without the lines that Jupyter alone understands."""
     return "\n".join("" if line.startswith(("%", "!", "?")) else line for line in source.split("\n"))
 
 
@@ -354,7 +352,6 @@ def marks_table(marks: Sequence[Marks]) -> str:
 
 
 def _columns(marks: Sequence[Marks]) -> list[str]:
-    """The exercises that somebody has answered, in their order."""
     answered = {id for each in marks for id in each.scores}
     order = {exercise.id: number for number, exercise in enumerate(exercises())}
     return sorted(answered, key=lambda id: order.get(id, len(order)))

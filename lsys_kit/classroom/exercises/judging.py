@@ -115,7 +115,6 @@ class _Yields:
 
 @lru_cache(maxsize=512)
 def _yielded(exercise: Exercise) -> _Yields:
-    """The answers that misconceptions yield, and whether they are right."""
     return _Yields(exercise)
 
 
@@ -154,7 +153,6 @@ def _is_looked_for(exercise: Exercise, misconception: Misconception) -> bool:
 
 
 def _alike(exercise: Exercise, own: Any, other: Any) -> bool:
-    """Whether an answer is that which is understood."""
     return (ANSWER_KINDS[exercise.kind].alike or ANSWER_KINDS[exercise.kind].same)(exercise, own, other)
 
 
@@ -209,7 +207,6 @@ def _asked(several: Sequence[Misconception]) -> str:
 
 
 def _any_of(several: Sequence[Misconception]) -> str:
-    """What several misconceptions do, as a sentence goes on with it."""
     return reduce(
         lambda one, other: reply("reply.or", one=one, other=other),
         (gettext(misconception.do) for misconception in several[:MOST_ASKED]),

@@ -86,7 +86,6 @@ def _exercise_problems(problem: MakeProblem, exercise: Exercise) -> Iterator[Pro
 
 
 def _unread(exercise: Exercise) -> Iterator[tuple[str, LSystemError]]:
-    """The keys whose texts make no sense, with the errors."""
     readers: dict[str, Callable[[], object]] = {
         "system": lambda: exercise.system and asked_system(exercise),
         "given": lambda: exercise.given and (read_map if exercise.kind == "map" else read)(exercise.given),
@@ -135,7 +134,6 @@ def _text_problems(problem: MakeProblem, exercise: Exercise) -> Iterator[Problem
 
 
 def _slip_problems(problem: MakeProblem, exercise: Exercise) -> Iterator[Problem]:
-    """Slips that cannot be read, that are right, or that say what others say."""
     kind, solution = ANSWER_KINDS[exercise.kind], solution_of(exercise)
     said: dict[str, int] = {}
     for at, slip in enumerate(exercise.slips):
@@ -159,7 +157,6 @@ def _slip_problems(problem: MakeProblem, exercise: Exercise) -> Iterator[Problem
 
 
 def _expected_problems(problem: MakeProblem, exercise: Exercise) -> Iterator[Problem]:
-    """Misconceptions that an exercise expects and that yield nothing, or the right answer."""
     reached = {wrong.misconception.name for wrong in wrong_answers(exercise) if wrong.misconception}
     for name in exercise.expects:
         if name not in reached:

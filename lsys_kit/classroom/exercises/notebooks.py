@@ -116,7 +116,6 @@ def _score_cell(exercise: Exercise) -> NotebookCell:
 
 
 def _template(exercise: Exercise) -> str:
-    """What stands in the cell before an answer."""
     text = exercise.template.strip("\n")
     return text if text == "..." else f'"""\n{text}\n"""' if "\n" in text else f'"{text}"'
 

@@ -107,7 +107,6 @@ def keep_try(exercise: str, answer: object, verdict: Verdict) -> str:
 
 
 def _was_seen(exercise: str, answer: object) -> bool:
-    """Whether the same text or number was an answer to the exercise before."""
     if not isinstance(answer, str | Number):
         return False
     key = exercise, " ".join(answer.split()) if isinstance(answer, str) else answer
@@ -140,7 +139,6 @@ def course_folder() -> Path | None:
 
 
 def _append(folder: Path, own: Try) -> str:
-    """Add a line to the record; what is wrong if that fails."""
     path, line = folder / FILE, io.StringIO()
     when = datetime.now().strftime("%Y-%m-%d %H:%M")
     csv.writer(line, lineterminator="").writerow((when, own.exercise, SOLVED if own.solved else TRIED))
@@ -290,7 +288,6 @@ def _next(lessons: Sequence[Lesson], record: Record, lesson: Lesson | None) -> t
 
 
 def _heading(page: Progress) -> str:
-    """How many exercises are solved."""
     total = sum(len(lesson.exercises) for lesson in page.lessons)
     name = page.lessons[0].title if len(page.lessons) == 1 else reply("progress.exercises")
     numbers = {"name": name, "solved": page.count("solved"), "total": total, "tried": page.count("tried")}
@@ -310,7 +307,6 @@ def _text_rows(page: Progress) -> Iterator[str]:
 
 
 def _titled(page: Progress, exercise: Exercise) -> str:
-    """An exercise with its sign, its title and how often it was tried."""
     tries = page.record.tried(exercise.id)
     often = " " + reply("progress.tries", number=tries) if tries > 1 else ""
     return f"{SIGNS[page.state(exercise)][0]} {exercise.id}  {exercise.title}{often}"
@@ -369,7 +365,6 @@ def _link(page: Progress, lesson: Lesson, text: str) -> str:
 
 
 def _linked(page: Progress, note: str) -> str:
-    """A note, with a link to what is to do next."""
     begin = f"{reply('progress.next')} "
     if page.next is None or not note.startswith(begin):
         return escaped(note)

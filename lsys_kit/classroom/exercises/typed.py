@@ -347,7 +347,6 @@ def _value(number: str, answer: str) -> Value:
 
 
 def _plain(text: str, decimal_comma: bool) -> str:
-    """A number with a point, and nothing between its thousands."""
     text = _SCIENTIFIC.sub(r"\1*10^(\2)", text)
     if _DECIMAL_COMMA.fullmatch(text) or (decimal_comma and text.count(",") == 1 and _COMMAS.fullmatch(text)):
         return text.replace(",", ".")

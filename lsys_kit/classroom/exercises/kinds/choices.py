@@ -74,7 +74,6 @@ def _read_choice(exercise: Exercise, answer: object) -> str:
 
 
 def _with_part(texts: Mapping[str, str], part: str) -> list[str]:
-    """The options whose text has a part, as whole words."""
     before = r"(?<!\w)" if part[:1].isalnum() else ""
     whole = rf"{before}{re.escape(part)}(?!\w)"
     enough = len(part) >= _SHORTEST_PART or part.isdigit()
@@ -107,7 +106,6 @@ CHOICE = AnswerKind(
 
 
 def _units(text: str) -> list[str]:
-    """The symbols of a text: what stands between its blanks, or its characters."""
     return text.split() if " " in text.strip() else [*text.strip()]
 
 

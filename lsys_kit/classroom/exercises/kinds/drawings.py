@@ -54,7 +54,6 @@ def _from_the_first(ends: Floats) -> Floats:
 
 
 def _lies_on(stroke: Floats, others: Floats) -> bool:
-    """Whether a stroke is covered by others, from its beginning to its end."""
     start, end = stroke
     length = abs(end - start)
     if length < NEAR:
@@ -122,7 +121,6 @@ def joined_strokes(ends: Floats) -> Floats:
 
 
 def _direction(across: float, up: float) -> tuple[float, float]:
-    """One direction for both ways along a line."""
     return (-across, -up) if up < -1e-7 or (abs(up) <= 1e-7 and across < 0) else (across, up)
 
 

@@ -55,7 +55,6 @@ def differing_values(mine: Expression, wanted: Expression, cases: Iterable[Valua
 
 
 def _value_or_reason(expression: Expression, case: Valuations) -> Value | str:
-    """The value, or in words the reason why there is none."""
     try:
         run = function_of(expression, {name: i for i, name in enumerate(case)})
         return run(tuple(case.values()))  # type: ignore[no-any-return]
@@ -64,7 +63,6 @@ def _value_or_reason(expression: Expression, case: Valuations) -> Value | str:
 
 
 def _equal_values(own: Value | str, right: Value | str) -> bool:
-    """Whether two values are equal: exactly where they are exact, up to rounding where one is a double."""
     if isinstance(own, str) or isinstance(right, str):
         return False
     return math.isclose(own, right, rel_tol=1e-9) if isinstance(own, float) or isinstance(right, float) else own == right
@@ -216,7 +214,6 @@ def from_sympy(formula: object, depth: int = 0) -> Expression:
 
 
 def _cases(exercise: Exercise) -> Iterator[Valuations]:
-    """All combinations of the values for which the expression is asked."""
     for combination in itertools.product(*exercise.values.values()):
         yield dict(zip(exercise.values, combination, strict=True))
 

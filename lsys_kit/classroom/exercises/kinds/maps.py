@@ -96,7 +96,6 @@ def _walls_of(found: Map) -> Counter[tuple[str, bool]]:
 
 
 def _graph(found: Map) -> nx.Graph[tuple[str, int]]:
-    """Walls, vertices and cells, each joined to those that it touches."""
     graph: nx.Graph[tuple[str, int]] = nx.Graph()
     for number, wall in enumerate(counted(found.walls)):
         graph.add_node(("wall", number), kind=(wall.label, wall.directed))
@@ -135,7 +134,6 @@ def _steps_right(exercise: Exercise, mine: MapAnswer, wanted: MapAnswer) -> tupl
 
 
 def _agreeing_steps(exercise: Exercise, mine: MapAnswer, wanted: MapAnswer) -> int:
-    """Up to which step maps are the same."""
     apart = _first_step_apart(exercise, mine, wanted)
     return exercise.steps if apart is None else max(apart - 1, 0)
 
@@ -156,7 +154,6 @@ def _difference(exercise: Exercise, mine: MapAnswer, wanted: MapAnswer) -> Diffe
 
 
 def _has_rule(system: MapSystem) -> bool:
-    """Whether any wall of the first cell is replaced."""
     replaced = {(rule.predecessor.label, bool(rule.predecessor.arrow)) for rule in system.productions}
     return any((edge.label, bool(edge.arrow)) in replaced for edge in system.axiom)
 

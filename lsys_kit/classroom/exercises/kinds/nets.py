@@ -100,7 +100,6 @@ def _single(line: str) -> Iterator[str]:
 
 
 def _counted(made: str, text: str) -> Counter[str]:
-    """How many tokens are put into each place."""
     found: Counter[str] = Counter()
     for part in re.split(r"[+,]", _JOINED.sub("+", made)) if made.strip() not in ("", "ε", "*", "nothing") else ():
         part = part.strip()

@@ -27,7 +27,6 @@ _FILLING, _DOUBTFUL = (frozenset(WORDS[kind].split()) for kind in ("filling", "d
 
 
 def _words_of(exercise: Exercise) -> frozenset[str]:
-    """The words of a question, without the s of several."""
     text = f"{exercise.question} {exercise.unit} {gettext(exercise.unit)} {' '.join(exercise.symbols)}".lower()
     return frozenset(word.removesuffix("s") for word in re.findall(r"[^\W\d_]+|[°%]", text))
 
@@ -58,7 +57,6 @@ def _read_number(exercise: Exercise, answer: object) -> Value:
 
 
 def _in_the_unit(exercise: Exercise, number: Value, unit: str) -> Value:
-    """A number in the unit that the question asks for."""
     in_the_text = exercise.kind == "table" and bool(names_of(unit) & {*_words_of(exercise), *exercise.question.lower().split()})
     if exercise.unit.lower() in names_of(unit) or (in_the_text and not exercise.unit):
         return number
@@ -188,7 +186,6 @@ def _same_table(exercise: Exercise, own: tuple[Value, ...], wanted: tuple[Value,
 
 
 def _numbers_right(exercise: Exercise, own: tuple[Value, ...], wanted: tuple[Value, ...]) -> tuple[int, int]:
-    """How many numbers are right in their places."""
     return sum(same_number(exercise, a, b) for a, b in zip(own, wanted, strict=False)), max(len(own), len(wanted))
 
 

@@ -241,7 +241,6 @@ def tests_passed(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) -
 
 
 def _agreeing_steps(exercise: Exercise, mine: LSystem, wanted: LSystem, setting: Mapping[str, Value]) -> int:
-    """Up to which step words are the same."""
     try:
         names, each = renaming(exercise, wanted), [with_constants(system, setting) for system in (mine, wanted)]
         found = _words_parting(each[0], each[1], names, exercise.steps)
@@ -266,7 +265,6 @@ def alike(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) -> bool:
 
 
 def _replaced(system: LSystem) -> set[tuple[str, ...]]:
-    """The symbols for which a system has productions."""
     return {tuple(module.symbol for module in rule.predecessors) for rule in system.productions}
 
 
@@ -300,7 +298,6 @@ def _alone(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) -> bool
 
 
 def _numbers_compared(*systems: LSystem) -> set[Value]:
-    """The numbers in the conditions of systems, at which they may differ."""
     found: set[Value] = set()
     waiting = [rule.condition for system in systems for rule in system.productions if rule.condition is not None]
     while waiting:

@@ -124,7 +124,6 @@ def _parting(word: Modules, at: int) -> str:
 
 
 def _mother(exercise: Exercise, at: int) -> str:
-    """Which module of the word before made the module at a position."""
     if not exercise.system or not exercise.steps:
         return ""
     words = right_history(exercise).words

@@ -53,7 +53,6 @@ def substituted(formula: Expression, values: Mapping[str, Expression]) -> Expres
 
 
 def with_operator(others: Mapping[str, str], found: Expression) -> Expression:
-    """An expression with another operator, where there is one for its own."""
     return replace(found, operator=others.get(found.operator, found.operator)) if isinstance(found, Apply) else found
 
 
@@ -85,13 +84,11 @@ misconception("power as product", in_formulas)(partial(multiplied_for_raised, Fa
 
 @misconception("power left out", in_formulas)
 def power_left_out(found: Expression) -> Expression:
-    """A number in place of its power."""
     return found.operands[0] if isinstance(found, Apply) and _is_power(found, of_names=False) else found
 
 
 @misconception("ratio inverted", in_formulas)
 def ratio_inverted(found: Expression) -> Expression:
-    """Dividend and divisor exchanged."""
     return replace(found, operands=found.operands[::-1]) if isinstance(found, Apply) and found.operator == "/" else found
 
 
@@ -116,7 +113,6 @@ def names_exchanged(formula: Expression) -> Iterator[Expression]:
 
 
 def _as_a_whole(operator: str, others: tuple[Expression, ...], formula: Expression) -> list[Expression]:
-    """An operator applied to a formula, if that gives a number."""
     return [Apply(operator, (formula, *others))] if expression_type(formula) == "number" else []
 
 
@@ -137,31 +133,26 @@ def of_angles(change: Callable[[Value], Iterable[Value]], exercise: Exercise) ->
 @misconception("fence post", of_kind, "number")
 @misconception("walls for cells", of_kind, "number")
 def next_number(number: Value) -> list[Value]:
-    """The number one greater, and one smaller."""
     return [number + 1, number - 1]
 
 
 @misconception("degrees and radians", of_angles)
 def other_angle_unit(number: Value) -> list[Value]:
-    """Degrees for radians, or the other way round."""
     return [math.degrees(number), math.radians(number)]
 
 
 @misconception("angle between strokes", of_angles)
 def supplement(number: Value) -> list[Value]:
-    """The angle between two strokes for that by which the turtle turns, or the other way round."""
     return [180 - number]
 
 
 @misconception("sign reversed", of_kind, "number")
 def opposite(number: Value) -> list[Value]:
-    """The other sign."""
     return [-number] if number else []
 
 
 @misconception("number inverted", of_kind, "number")
 def inverse(number: Value) -> list[Value]:
-    """One divided by it."""
     return [] if number in (0, 1, -1) else [1 / number if isinstance(number, float) else Fraction(1) / number]
 
 
@@ -173,7 +164,6 @@ def complement(number: Value) -> list[Value]:
 
 @misconception("percent", of_kind, "number")
 def percent(number: Value) -> list[Value]:
-    """The number of percent for the number itself."""
     return [100 * number] if number else []
 
 
@@ -190,7 +180,6 @@ def backwards(solution: Sequence[Any]) -> list[tuple[Any, ...]]:
 
 @misconception("arcs reversed", of_kind, "net")
 def arcs_reversed(net: Net) -> Iterator[Net]:
-    """Every arrow the other way round."""
     yield replace(
         net, firings=tuple(Firing(place, ((firing.place, copies),)) for firing in net.firings for place, copies in firing.made)
     )
@@ -198,13 +187,11 @@ def arcs_reversed(net: Net) -> Iterator[Net]:
 
 @misconception("copies not counted", of_kind, "net")
 def copies_not_counted(net: Net) -> Iterator[Net]:
-    """One token wherever there are several."""
     yield replace(net, firings=tuple(replace(f, made=tuple((place, 1) for place, _ in f.made)) for f in net.firings))
 
 
 @misconception("one daughter", of_kind, "net")
 def one_daughter(net: Net) -> Iterator[Net]:
-    """A token that moves to one place only, where it should be copied into several."""
     for at in (0, -1):
         yield replace(net, firings=tuple(replace(f, made=f.made[at:][:1]) for f in net.firings))
 
@@ -219,7 +206,6 @@ def last_stage_skipped(net: Net) -> Iterator[Net]:
 
 
 def _led_to(firing: Firing, place: str, target: str) -> Firing:
-    """A transition whose arcs into one place lead to another."""
     copies: Counter[str] = Counter()
     for each, count in firing.made:
         copies[target if each == place else each] += count
@@ -266,7 +252,6 @@ def wall_labels_exchanged(rule: EdgeProduction) -> EdgeProduction:
 
 @misconception("new wall like the old one", in_markers)
 def label_of_the_old_wall(rule: EdgeProduction, marker: Marker) -> Marker:
-    """A marker with the label of the wall in which it stands."""
     return replace(marker, edge=replace(marker.edge, label=rule.predecessor.label))
 
 
@@ -282,17 +267,14 @@ def new_wall_between(rule: EdgeProduction) -> EdgeProduction:
 
 @misconception("markers left out", in_wall_rules)
 def markers_left_out(rule: EdgeProduction) -> EdgeProduction:
-    """The walls of a rule alone."""
     return replace(rule, successor=tuple(part for part in rule.successor if isinstance(part, Edge)))
 
 
 @misconception("markers all lead away", in_markers)
 def all_leading_away(_: EdgeProduction, marker: Marker) -> Marker:
-    """A marker that leads away from its wall."""
     return replace(marker, edge=replace(marker.edge, arrow=">"))
 
 
 @misconception("marker sides exchanged", in_markers)
 def sides_exchanged(_: EdgeProduction, marker: Marker) -> Marker:
-    """A marker on the other side of its wall."""
     return replace(marker, side=OTHER_SIDE[marker.side])

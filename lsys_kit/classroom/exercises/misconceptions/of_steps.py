@@ -116,13 +116,11 @@ def _one_rewritten(states: States, word: list[int], order: Iterable[int]) -> lis
 
 @misconception("old word kept", by_steps)
 def old_word_kept(states: States, word: list[int]) -> list[int]:
-    """What has been made is written behind what was there."""
     return [*word, *_each_by(lambda state: () if states.production(state) is None else states.successor(state), word)]
 
 
 @misconception("branches kept", by_steps)
 def branches_kept(states: States, word: list[int]) -> list[int]:
-    """What stands in brackets is not rewritten."""
     found: list[int] = []
     depth = 0
     for state in word:
@@ -135,8 +133,6 @@ def branches_kept(states: States, word: list[int]) -> list[int]:
 
 @misconception("letters vanish", by_steps)
 def vanishing(states: States, word: list[int]) -> list[int]:
-    """A letter without a production vanishes."""
-
     def successor(state: int) -> Sequence[int]:
         vanishes = states.production(state) is None and states.modules[state].symbol[:1].isalpha()
         return () if vanishes else states.successor(state)
@@ -146,7 +142,6 @@ def vanishing(states: States, word: list[int]) -> list[int]:
 
 @misconception("all matches applied", by_steps)
 def all_that_match(states: States, word: list[int]) -> list[int]:
-    """Every production that matches a module makes its successor, one beside the other."""
     found: list[int] = []
     for state in word:
         module = states.modules[state]
@@ -310,7 +305,6 @@ def added_up(values: Sequence[int]) -> list[int]:
 
 @misconception("rows and columns")
 def transposed(exercise: Exercise) -> Iterator[tuple[object, ...]]:
-    """A square matrix with its rows for columns."""
     if what_is_asked(exercise) == "matrix":
         values = solution_of(exercise)
         size = round(len(values) ** 0.5)

@@ -186,7 +186,6 @@ misconception("daughters reversed", in_each_rule)(partial(_with_items, _reversed
 
 @misconception("production missing", by_systems)
 def production_missing(system: LSystem) -> Iterator[LSystem]:
-    """One production left out: its modules stay as they are."""
     rules = system.productions
     if len(rules) > 1:
         for number in range(len(rules)):
@@ -195,7 +194,6 @@ def production_missing(system: LSystem) -> Iterator[LSystem]:
 
 @misconception("productions swapped", by_systems)
 def productions_swapped(system: LSystem) -> Iterator[LSystem]:
-    """The successors of two productions exchanged."""
     rules = list(system.productions)
     for one, other in combinations(range(len(rules)), 2) if len(rules) <= MOST_PRODUCTIONS else ():
         if rules[one].successor != rules[other].successor:
@@ -206,7 +204,6 @@ def productions_swapped(system: LSystem) -> Iterator[LSystem]:
 
 
 def _in_names_of(rule: Production, other: Production) -> tuple[Item, ...]:
-    """The successor of another production, with the names of the first one's parameters."""
     pairs = zip(other.predecessor.arguments, rule.predecessor.arguments, strict=False)
     values = {theirs.name: own for theirs, own in pairs if isinstance(theirs, Name)}
     return _with_arguments(lambda argument: substituted(argument, values), other.successor)
@@ -220,7 +217,6 @@ def _with_arguments(change: Callable[[Expression], Expression], items: Items) ->
 
 @misconception("first match overlooked", by_systems)
 def last_match_first(system: LSystem) -> Iterator[LSystem]:
-    """Productions tried from the last to the first."""
     if any(a.predecessor.symbol == b.predecessor.symbol for a, b in combinations(system.productions, 2)):
         yield _with(system, system.productions[::-1])
 
@@ -245,13 +241,11 @@ misconception("strictness confused", in_comparisons)(partial(with_operator, OTHE
 
 @misconception("condition dropped", in_each_rule)
 def condition_dropped(rule: Production) -> Production:
-    """A production without its condition."""
     return replace(rule, condition=None)
 
 
 @misconception("condition after the step", in_mind)
 def condition_after_the_step(system: LSystem) -> Iterator[LSystem]:
-    """Conditions that are asked of the values after the step."""
     return rewritten(_asked_late, system)
 
 
@@ -283,13 +277,11 @@ def stages_from_zero(rule: Production) -> Production:
 
 @misconception("context overlooked", in_all_rules)
 def context_overlooked(rule: Production) -> Production:
-    """A production that asks for no neighbours."""
     return replace(rule, left=(), right=())
 
 
 @misconception("context sides swapped", in_all_rules)
 def context_sides_swapped(rule: Production) -> Production:
-    """The left context read to the right, and the right one to the left."""
     return replace(rule, left=rule.right, right=rule.left)
 
 
@@ -323,12 +315,10 @@ def brackets_dropped(items: Items) -> tuple[Item, ...]:
 
 @misconception("angle between strokes", by_turns)
 def angle_supplement(system: LSystem) -> Iterator[LSystem]:
-    """The angle between two strokes in place of that by which the turtle turns."""
     yield replace(system, angle=180 - system.angle, source="")
 
 
 @misconception("angle of the whole fork", by_turns)
 def angle_halved_or_doubled(system: LSystem) -> Iterator[LSystem]:
-    """The angle of the whole fork in place of that of one side, or half of it."""
     yield replace(system, angle=2 * system.angle, source="")
     yield replace(system, angle=system.angle / 2, source="")

@@ -13,16 +13,13 @@ from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.judging import is_right_by_mistake, wrong_answers
 from lsys_kit.classroom.exercises.kinds.choices import listing
 from lsys_kit.classroom.exercises.practice.drafts import SAID, Draft, Topic
-from lsys_kit.classroom.exercises.practice.of_numbers import OF_NUMBERS
-from lsys_kit.classroom.exercises.practice.of_turtles import OF_TURTLES
-from lsys_kit.classroom.exercises.practice.of_words import OF_WORDS
+from lsys_kit.classroom.exercises.practice.makers import MAKERS
 from lsys_kit.classroom.exercises.verdict import Verdict
 from lsys_kit.errors import ModelNameError, ModelValueError, quotable, require, whole_number
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.translation import language
 
-_MAKERS = {**OF_WORDS, **OF_NUMBERS, **OF_TURTLES}
-TOPICS: Mapping[str, Topic] = {name: Topic(said["title"], said["lesson"], _MAKERS[name]) for name, said in SAID.items()}
+TOPICS: Mapping[str, Topic] = {name: Topic(said["title"], said["lesson"], MAKERS[name]) for name, said in SAID.items()}
 """What can be practised."""
 LEVELS = 3
 """How many levels there are."""
