@@ -24,7 +24,6 @@ from babel.messages.mofile import write_mo
 from babel.messages.pofile import read_po, write_po
 
 from lsys_kit.classroom.exercises.declarations import QUESTIONS, questions_in
-from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
 from lsys_kit.classroom.exercises.practice.drafts import SAID
 from lsys_kit.classroom.exercises.practice.makers import DIRECTIONS, TYPES
@@ -80,7 +79,6 @@ def _in_calls(module: ast.Module) -> Iterator[str | tuple[str, str]]:
 
 def _in_tables() -> Iterator[tuple[str, str | tuple[str, str]]]:
     yield from (("verdict", word) for word in SIGNS_AND_COLOURS)
-    yield from (("kinds", text) for kind in ANSWER_KINDS.values() for text in (kind.what, kind.parts_said) if text)
     yield from (("misconceptions", text) for each in MISCONCEPTIONS.values() for text in (each.do, each.but) if text)
     yield from (("widgets", label) for label in LABELS)
     yield from (("panel", label) for label in PANEL_LABELS)

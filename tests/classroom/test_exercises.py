@@ -15,6 +15,7 @@ from lsys_kit import ModelNameError, ModelValueError, check, limits
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS
 from lsys_kit.classroom.exercises.lint import problems_in
+from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.classroom.exercises.verdict import Verdict
 from tests.classroom.answers import EXERCISES, OF_EACH_KIND, as_typed, of_each_kind_added, right_answers, wrong_answers_to
 
@@ -135,8 +136,8 @@ IN_PARTS = {"table", "words", "system", "map", "net"}
 
 def test_the_guide_says_of_each_kind_which_parts_count_and_in_which_words():
     guide = (Path(__file__).parents[2] / ".github" / "EXERCISES.md").read_text("utf-8")
-    said = {name: kind.parts_said.format(right=3, all=4) for name, kind in ANSWER_KINDS.items() if kind.parts_said}
-    assert said.keys() == IN_PARTS
+    assert {name for name, kind in ANSWER_KINDS.items() if kind.parts_right} == IN_PARTS
+    said = {name: reply(f"{name}.parts", right=3, all=4) for name in IN_PARTS}
     assert [name for name, words in said.items() if f"| {name} |" not in guide or f'"{words}"' not in guide] == []
 
 

@@ -14,13 +14,11 @@ from collections.abc import Mapping
 from lsys_kit.budget import Task, current, limits
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.judging import judged, wrong_answers
-from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS
 from lsys_kit.classroom.exercises.progress import keep_score, keep_try
 from lsys_kit.classroom.exercises.registry import exercise_of
 from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.classroom.exercises.verdict import Verdict
 from lsys_kit.errors import LSystemError, ModelFileError, ModelLimitError, ModelValueError, require
-from lsys_kit.translation import gettext
 
 BUDGET: Mapping[str, float] = {"modules": 100_000, "seconds": 3, "rules": 50}
 """The limits for an answer."""
@@ -80,7 +78,7 @@ def checked(asked: Exercise, answer: object, hint: object, solution: object, cal
     require(solution, bool, 'True or False for "solution"')
     hints = _hints(asked, hint, call)
     if _untouched(asked, answer):
-        missing = reply("check.untouched", answer=gettext(ANSWER_KINDS[asked.kind].what))
+        missing = reply("check.untouched", answer=reply(f"{asked.kind}.answer"))
         if os.environ.get("SERVER_SOFTWARE", "").startswith("voila"):  # which shows no code
             missing = reply("check.voila")
         after = reply("check.after_a_try") if solution or hints else ""

@@ -180,7 +180,7 @@ def _parts_right(exercise: Exercise, own: Any, solution: Any) -> tuple[str, floa
     """Which parts of a wrong answer are right, in words, and the mark for them: nothing where none is."""
     kind = ANSWER_KINDS[exercise.kind]
     right, all = kind.parts_right(exercise, own, solution) if kind.parts_right else (0, 0)
-    return (gettext(kind.parts_said, right=right, all=all), right / all) if right else ("", 0)
+    return (reply(f"{exercise.kind}.parts", right=right, all=all), right / all) if right else ("", 0)
 
 
 def _explained(fitting: Sequence[WrongAnswer], found: Difference) -> str:

@@ -93,13 +93,7 @@ def _choice_difference(exercise: Exercise, own: str, _: str) -> Difference:
     return Difference(says or exercise.otherwise or reply("choice.not_right", answer=own))
 
 
-CHOICE = AnswerKind(
-    'option, as its letter in quotation marks, such as "A"',
-    _read_choice,
-    lambda _, a, b: a == b,
-    _choice_difference,
-    lambda *_: True,
-)
+CHOICE = AnswerKind(_read_choice, _choice_difference)
 
 
 # One symbol
@@ -136,9 +130,7 @@ def _symbol_difference(exercise: Exercise, own: tuple[str, int], wanted: tuple[s
     return Difference(exercise.otherwise or reply("symbol.not_asked_for", answer=own[0]))
 
 
-SYMBOL = AnswerKind(
-    "symbol, as a text in quotation marks, or its position", _read_symbol, _same_symbol, _symbol_difference, lambda *_: True
-)
+SYMBOL = AnswerKind(_read_symbol, _symbol_difference, _same_symbol)
 
 
 # One line
@@ -174,4 +166,4 @@ def _line_difference(exercise: Exercise, own: int, _: int) -> Difference:
     return Difference(f"{reply('line.not_this', number=own)} {exercise.otherwise}".strip())
 
 
-LINE = AnswerKind("line, as its number", _read_line, lambda _, a, b: a == b, _line_difference, lambda *_: True)
+LINE = AnswerKind(_read_line, _line_difference)

@@ -174,6 +174,4 @@ def _stroke_by_stroke(mine: Drawn, wanted: Drawn) -> str:
     return reply("drawing.missing_strokes" if missing else "drawing.other_strokes")
 
 
-DRAWING = AnswerKind(
-    'word or system, as a text between """ and """', _read, _same, _difference, lambda _, mine, wanted: len(mine.strokes) > 1
-)
+DRAWING = AnswerKind(_read, _difference, _same, lambda _, mine, wanted: len(mine.strokes) > 1)

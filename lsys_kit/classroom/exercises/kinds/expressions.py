@@ -238,11 +238,8 @@ def _praise(_: Exercise, own: Expression, solution: Expression) -> str:
     return reply("expression.proved" if proved_equal(own, solution) else "expression.right_here")
 
 
-EXPRESSION = AnswerKind(
-    "expression, as a text in quotation marks",
-    _read,
-    _same,
-    _difference,
-    lambda _, own, solution: bool(names_in(own)) or not names_in(solution),
-    _praise,
-)
+def _honest(_: Exercise, own: Expression, solution: Expression) -> bool:
+    return bool(names_in(own)) or not names_in(solution)
+
+
+EXPRESSION = AnswerKind(_read, _difference, _same, _honest, _praise)

@@ -177,14 +177,4 @@ def _praise(exercise: Exercise, _: MapAnswer, __: MapAnswer) -> str:
     return reply("map.agree", last=exercise.steps)
 
 
-MAP = AnswerKind(
-    'rules for walls, as a text between """ and """',
-    _read,
-    _same,
-    _difference,
-    _honest,
-    _praise,
-    _alike,
-    _steps_right,
-    "Right: {right} of {all} steps.",
-)
+MAP = AnswerKind(_read, _difference, _same, _honest, _praise, _alike, _steps_right)

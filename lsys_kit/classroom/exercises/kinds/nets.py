@@ -181,12 +181,8 @@ def _difference(_: Exercise, mine: Net, wanted: Net) -> Difference:
     return Difference(reply("net.transition", place=odd.place), likeness, near)
 
 
-NET = AnswerKind(
-    "transitions, a line each, as a text",
-    _read,
-    _same,
-    _difference,
-    lambda _, own, wanted: 2 * len(own.firings) >= len(wanted.firings),
-    parts_right=_transitions_right,
-    parts_said="Right: {right} of {all} transitions.",
-)
+def _honest(_: Exercise, mine: Net, wanted: Net) -> bool:
+    return 2 * len(mine.firings) >= len(wanted.firings)
+
+
+NET = AnswerKind(_read, _difference, _same, _honest, parts_right=_transitions_right)

@@ -455,14 +455,4 @@ def _praise(exercise: Exercise, _: SystemAnswer, wanted: SystemAnswer) -> str:
     return reply("system.agree", last=exercise.steps) if not States(wanted.front).traits.stochastic else reply("system.chance")
 
 
-SYSTEM = AnswerKind(
-    'lines of the system, as a text between """ and """',
-    _read,
-    same,
-    _difference,
-    _honest,
-    _praise,
-    alike,
-    tests_passed,
-    "Passed: {right} of {all} tests.",
-)
+SYSTEM = AnswerKind(_read, _difference, same, _honest, _praise, alike, tests_passed)

@@ -140,9 +140,7 @@ def _honest_word(exercise: Exercise, word: Modules, solution: Modules) -> bool:
     return 2 * len(word) >= len(solution) and tuple(map(str, word)) != tuple(map(str, axiom))
 
 
-WORD = AnswerKind(
-    "word, as a text in quotation marks", _read_word, lambda _, a, b: bool(a == b), _word_difference, _honest_word
-)
+WORD = AnswerKind(_read_word, _word_difference, honest=_honest_word)
 
 
 # Several words
@@ -184,12 +182,12 @@ def _where(exercise: Exercise, at: int) -> str:
     return reply("words.differs_at_step", at=at + 1, step=asked_steps(exercise)[at])
 
 
-WORDS = AnswerKind(
-    "words, as a text in quotation marks, one a line",
-    _read_words,
-    lambda _, a, b: bool(a == b),
-    _words_difference,
-    lambda _, own, solution: 2 * len(own) >= len(solution),
-    parts_right=lambda _, own, solution: (first_difference(own, solution), max(len(own), len(solution))),
-    parts_said="Right: the first {right} of {all} words.",
-)
+def _words_right(_: Exercise, own: Sequence[Modules], solution: Sequence[Modules]) -> tuple[int, int]:
+    return first_difference(own, solution), max(len(own), len(solution))
+
+
+def _honest_words(_: Exercise, own: Sequence[Modules], solution: Sequence[Modules]) -> bool:
+    return 2 * len(own) >= len(solution)
+
+
+WORDS = AnswerKind(_read_words, _words_difference, honest=_honest_words, parts_right=_words_right)
