@@ -12,8 +12,8 @@ from lsys_kit.classroom.catalogue import system as system
 from lsys_kit.classroom.catalogue import systems as systems
 from lsys_kit.classroom.exercises.check import check as check
 from lsys_kit.classroom.exercises.practice.practice import practice as practice
-from lsys_kit.classroom.exercises.progress.progress import progress as progress
-from lsys_kit.classroom.exercises.progress.scores import score as score
+from lsys_kit.classroom.exercises.progress import progress as progress
+from lsys_kit.classroom.exercises.progress import score as score
 from lsys_kit.classroom.exercises.registry import exercises as exercises
 from lsys_kit.classroom.lessons.predict import predict as predict
 from lsys_kit.classroom.lessons.rule_finder import rule_finder as rule_finder

@@ -334,7 +334,7 @@ def _write_new(name: str, text: str) -> None:
 
 
 def collect_marks(options: argparse.Namespace) -> None:
-    from lsys_kit.classroom.exercises.collecting.collect import collect, marks_table
+    from lsys_kit.classroom.exercises.collecting import collect, marks_table
 
     if os.path.lexists(options.output):
         raise _exists(options.output)

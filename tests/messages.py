@@ -24,12 +24,12 @@ from babel.messages.mofile import write_mo
 from babel.messages.pofile import read_po, write_po
 
 from lsys_kit.classroom.exercises.declarations import QUESTIONS, questions_in
-from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
-from lsys_kit.classroom.exercises.practice import of_languages, of_space
-from lsys_kit.classroom.exercises.practice.practice import TOPICS
-from lsys_kit.classroom.exercises.progress.progress import SIGNS
-from lsys_kit.classroom.exercises.translated import texts
+from lsys_kit.classroom.exercises.practice.drafts import SAID
+from lsys_kit.classroom.exercises.practice.makers import DIRECTIONS, TYPES
+from lsys_kit.classroom.exercises.progress import SIGNS
+from lsys_kit.classroom.exercises.registry import texts
+from lsys_kit.classroom.exercises.replies import REPLIES
 from lsys_kit.classroom.exercises.verdict import SIGNS_AND_COLOURS
 from lsys_kit.classroom.lessons.widget import LABELS
 from lsys_kit.classroom.panel.labels import LABELS as PANEL_LABELS
@@ -77,18 +77,30 @@ def _in_calls(module: ast.Module) -> Iterator[str | tuple[str, str]]:
                 yield found[0] if count == 1 else (found[0], found[1])
 
 
-def _in_tables() -> Iterator[tuple[str, str]]:
+def _in_tables() -> Iterator[tuple[str, str | tuple[str, str]]]:
     yield from (("verdict", word) for word in SIGNS_AND_COLOURS)
-    yield from (("kinds", text) for kind in ANSWER_KINDS.values() for text in (kind.what, kind.parts_said) if text)
     yield from (("misconceptions", text) for each in MISCONCEPTIONS.values() for text in (each.do, each.but) if text)
     yield from (("widgets", label) for label in LABELS)
     yield from (("panel", label) for label in PANEL_LABELS)
     yield from (("pages of learning platforms", text) for text in (*WORDS, *ASKED.values(), DIFFERENT))
     yield from (("progress", state) for state in SIGNS)
-    yield from (("practice", topic.title) for topic in TOPICS.values())
-    yield from (("practice", text) for text in (*of_languages.TYPES, *of_languages.REPLIES.values()))
-    yield from (("practice", text) for text in (*of_space.DIRECTIONS.values(), of_space.AGAIN))
-    yield from (("practice", unit) for unit in ("letters", "cells", "strokes", "internodes", "shoots", "walls"))
+    yield from (("practice", text) for text in (*TYPES, *DIRECTIONS.values(), *_texts_in(SAID)))
+    yield from (("replies", _one_text(text)) for place in REPLIES.values() for text in place.values())
+
+
+def _one_text(text: str | list[str]) -> str | tuple[str, str]:
+    return text if isinstance(text, str) else (text[0], text[1])
+
+
+def _texts_in(said: object) -> Iterator[str]:
+    """The texts for people in what the exercises of all topics say."""
+    if isinstance(said, str):
+        yield said
+    elif isinstance(said, list):
+        yield from (text for each in said for text in _texts_in(each))
+    elif isinstance(said, dict):
+        for key, value in said.items():
+            yield from () if key in ("kind", "asks", "expects", "unlikely") else _texts_in(value)
 
 
 def template() -> Catalog:

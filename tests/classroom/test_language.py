@@ -23,10 +23,8 @@ from lsys_kit.classroom.exercises.kinds.numbers import FORMULA
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
 from lsys_kit.classroom.exercises.notebooks import exercise_notebook
 from lsys_kit.classroom.exercises.practice.practice import TOPICS
-from lsys_kit.classroom.exercises.progress.progress import progress_of
-from lsys_kit.classroom.exercises.progress.record import Record, Try
-from lsys_kit.classroom.exercises.registry import lessons
-from lsys_kit.classroom.exercises.translated import texts, translated, translated_lesson
+from lsys_kit.classroom.exercises.progress import Record, Try, progress_of
+from lsys_kit.classroom.exercises.registry import lessons, texts, translated, translated_lesson
 from lsys_kit.classroom.lessons.declared import table
 from lsys_kit.classroom.lessons.widget import LABELS
 from lsys_kit.classroom.lessons.worksheet import marked, summary

@@ -11,10 +11,8 @@ from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.judging import is_right_by_mistake, right_by_mistake, wrong_answers
 from lsys_kit.classroom.exercises.kinds.choices import letters
 from lsys_kit.classroom.exercises.lint import HINTS
-from lsys_kit.classroom.exercises.practice.drafts import choice_exercise, number_exercise
-from lsys_kit.classroom.exercises.practice.of_drawings import end_of
-from lsys_kit.classroom.exercises.practice.of_languages import TYPES, growth_type
-from lsys_kit.classroom.exercises.practice.of_space import DIRECTIONS, heading_after
+from lsys_kit.classroom.exercises.practice.drafts import Draft
+from lsys_kit.classroom.exercises.practice.makers import DIRECTIONS, TYPES, end_of, growth_type, heading_after
 from lsys_kit.classroom.exercises.practice.practice import LEVELS, TOPICS, _made
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.notation.read import read
@@ -106,13 +104,33 @@ def test_every_lesson_has_something_to_practise():
     assert {topic.lesson for topic in TOPICS.values()} == set(range(19))
 
 
+def _opposite(vector):
+    return tuple(-each for each in vector)
+
+
+def _turned(axes, command):
+    """Heading, left and up after a turn: + and - about the up, & and ^ about the left, \\\\ and / about the heading."""
+    heading, left, up = axes
+    return {
+        "+": (left, _opposite(heading), up),
+        "-": (_opposite(left), heading, up),
+        "&": (_opposite(up), left, heading),
+        "^": (up, left, _opposite(heading)),
+        "\\": (heading, _opposite(up), left),
+        "/": (heading, up, _opposite(left)),
+    }[command]
+
+
 @pytest.mark.parametrize("seed", range(30))
-def test_the_turtle_in_space_is_that_of_the_kit(seed):
+def test_the_turtle_in_space_turns_about_its_own_axes(seed):
+    """ABOP, section 1.5: it looks upwards, its left is the viewer's left, and its back is turned to the viewer."""
     exercise = practice("space", 1 + seed % 3, seed).exercise
     word = re.search(r"^    (\S+)$", exercise.question, re.MULTILINE)[1]
-    x, y, z, u, v, w = scene_of(derive(read(f"angle: 90\naxiom: {word}"), 0)).segments.ends[-1].round(6)
-    assert (u - x, v - y, w - z) == heading_after(word)
-    assert exercise.options[letters(exercise).index(exercise.solution)].text == DIRECTIONS[heading_after(word)]
+    axes = (0, 0, 1), (-1, 0, 0), (0, -1, 0)
+    for command in word.replace("F", ""):
+        axes = _turned(axes, command)
+    assert axes[0] == heading_after(word)
+    assert exercise.options[letters(exercise).index(exercise.solution)].text == DIRECTIONS[axes[0]]
 
 
 def _numbers(topic, level, seed):
@@ -197,9 +215,12 @@ def test_misconceptions_are_looked_for_until_one_is_right():
 
 
 def test_questions_whose_answers_are_the_same_are_no_exercises():
-    assert number_exercise("", 3, [(4, ""), (4, "")], "", ()) is None
-    assert number_exercise("", 0, [(4, "")], "", ()) is None
-    assert choice_exercise(Random(1), "", "a", [("b", ""), ("b", "")], "", ()) is None
+    draft = Draft({"kind": "number", "hints": [], "replies": ["", ""]})
+    assert draft.number(3, [4, 5]).solution == "3"
+    assert draft.number(3, [4, 4]) is None
+    assert draft.number(3, [3, 4]) is None
+    assert draft.number(0, [4, 5]) is None
+    assert draft.choice(Random(1), "a", [("b", ""), ("b", "")]) is None
 
 
 def test_it_displays_as_its_question():

@@ -1,16 +1,67 @@
-"""The exercises that `check` knows: those of the kit, and those of the folders that were added."""
+"""The exercises that `check` knows, in the chosen language: those of the kit, and those of the folders that were added."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from functools import cache
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from functools import cache, lru_cache
 from pathlib import Path
+from typing import Any, TypeVar
 
 from lsys_kit.classroom.exercises.declarations import QUESTIONS, Questions, questions_in
-from lsys_kit.classroom.exercises.exercise import Exercise, Lesson
-from lsys_kit.classroom.exercises.translated import translated, translated_lesson
+from lsys_kit.classroom.exercises.exercise import Exercise, Lesson, Option, Slip
 from lsys_kit.errors import ModelFileError, ModelNameError, ModelValueError, quotable, require
 from lsys_kit.notation.analysis.checks import suggestion
+from lsys_kit.translation import gettext, language
+
+TEXTS: Mapping[type, Sequence[str]] = {
+    Lesson: ("title", "objectives", "introduction", "summary"),
+    Exercise: ("title", "question", "explanation", "hints", "otherwise"),
+    Slip: ("says",),
+    Option: ("text", "says"),
+}
+"""The texts of records that are translated; those without a translation stay as they are."""
+Record = TypeVar("Record", Lesson, Exercise, Slip, Option)
+
+
+def _with_texts(record: Record) -> Record:
+    found: dict[str, Any] = {}
+    for key in TEXTS[type(record)]:
+        value = getattr(record, key)
+        found[key] = gettext(value) if isinstance(value, str) else tuple(map(gettext, value))
+    return replace(record, **found)
+
+
+def translated(exercise: Exercise) -> Exercise:
+    """An exercise with its texts in the chosen language."""
+    return _exercise_in(language(), exercise)
+
+
+@lru_cache(maxsize=512)
+def _exercise_in(_: str, exercise: Exercise) -> Exercise:
+    slips, options = map(_with_texts, exercise.slips), map(_with_texts, exercise.options)
+    return replace(_with_texts(exercise), slips=tuple(slips), options=tuple(options))
+
+
+def translated_lesson(lesson: Lesson) -> Lesson:
+    """The exercises of a lesson, with the texts around them, in the chosen language."""
+    return replace(_with_texts(lesson), exercises=tuple(map(translated, lesson.exercises)))
+
+
+def texts(lesson: Lesson) -> Iterator[str]:
+    """The texts of a lesson's exercises that are translated, each as its file has it."""
+    yield from _texts_in(lesson)
+    for exercise in lesson.exercises:
+        yield from (*_texts_in(exercise), exercise.unit)
+        for part in (*exercise.slips, *exercise.options):
+            yield from _texts_in(part)
+
+
+def _texts_in(record: object) -> Iterator[str]:
+    for key in TEXTS[type(record)]:
+        value = getattr(record, key)
+        yield from [value] if isinstance(value, str) else value
+
 
 _added: dict[Path, Questions] = {}
 

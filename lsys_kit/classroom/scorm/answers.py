@@ -23,7 +23,7 @@ from lsys_kit.classroom.exercises.judging import wrong_answers
 from lsys_kit.classroom.exercises.kinds.choices import letters
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS, solution_of
 from lsys_kit.classroom.exercises.kinds.words import system_of_words
-from lsys_kit.classroom.exercises.typed.units import UNITS
+from lsys_kit.classroom.exercises.typed import UNITS
 from lsys_kit.errors import LSystemError
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import symbols

@@ -16,8 +16,7 @@ from xml.etree import ElementTree
 
 from lsys_kit.classroom.exercises.declarations import questions_in
 from lsys_kit.classroom.exercises.exercise import Lesson
-from lsys_kit.classroom.exercises.registry import exercises, lessons
-from lsys_kit.classroom.exercises.translated import translated_lesson
+from lsys_kit.classroom.exercises.registry import exercises, lessons, translated_lesson
 from lsys_kit.classroom.scorm.page import exercise_page
 from lsys_kit.errors import ModelFileError, ModelNameError, ModelValueError, quotable
 from lsys_kit.files import KIT_MARK, save_file

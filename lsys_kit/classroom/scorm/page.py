@@ -7,7 +7,7 @@ from typing import Any
 
 from lsys_kit.classroom.exercises.exercise import Exercise, Lesson
 from lsys_kit.classroom.exercises.kinds.choices import letters
-from lsys_kit.classroom.exercises.translated import translated_lesson
+from lsys_kit.classroom.exercises.registry import translated_lesson
 from lsys_kit.classroom.panel.bundle import compact, style
 from lsys_kit.classroom.panel.document import Program, document
 from lsys_kit.classroom.scorm.answers import page_data
