@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from lsys_kit.classroom.lessons.worksheet import worksheet
     from lsys_kit.classroom.link import link, linked
     from lsys_kit.classroom.panel.comparison import compare
-    from lsys_kit.classroom.panel.explore import explore
+    from lsys_kit.classroom.panel.explorer import explore
     from lsys_kit.classroom.variants import variants
     from lsys_kit.derivation.explain import explain
     from lsys_kit.derivation.growth.growth import growth
@@ -88,7 +88,7 @@ _HOMES = {
     "sweep": "experiments.runs",
     "exercises": "classroom.exercises.declared.registry",
     "explain": "derivation.explain",
-    "explore": "classroom.panel.explore",
+    "explore": "classroom.panel.explorer",
     "figure": "pictures.draw",
     "growth": "derivation.growth.growth",
     "infer": "geometry.inference.infer",

@@ -33,8 +33,7 @@ from lsys_kit.classroom.exercises.translated import texts
 from lsys_kit.classroom.exercises.verdict import SIGNS_AND_COLOURS
 from lsys_kit.classroom.lessons.widget import LABELS
 from lsys_kit.classroom.panel.labels import LABELS as PANEL_LABELS
-from lsys_kit.classroom.scorm.answers import DIFFERENT
-from lsys_kit.classroom.scorm.page import ASKED, WORDS
+from lsys_kit.classroom.scorm.page import ASKED, DIFFERENT, WORDS
 from lsys_kit.translation import LOCALE
 
 PACKAGE = LOCALE.parent

@@ -12,7 +12,7 @@ from weakref import WeakKeyDictionary
 from playwright.sync_api import JSHandle, Page
 
 import lsys_kit.classroom.panel
-from lsys_kit.classroom.panel.books.drawing import faces_in
+from lsys_kit.classroom.panel.books.book import faces_in
 from lsys_kit.derivation.core.interpretation import interpretations
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.geometry.natural_colours import has_natural_colours

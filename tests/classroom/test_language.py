@@ -27,7 +27,7 @@ from lsys_kit.classroom.exercises.practice.practice import TOPICS
 from lsys_kit.classroom.exercises.progress.progress import progress_of
 from lsys_kit.classroom.exercises.progress.record import Record, Try
 from lsys_kit.classroom.exercises.translated import texts, translated, translated_lesson
-from lsys_kit.classroom.lessons.declared import table
+from lsys_kit.classroom.lessons.lesson import table
 from lsys_kit.classroom.lessons.widget import LABELS
 from lsys_kit.classroom.lessons.worksheet import marked, summary
 from lsys_kit.classroom.panel.labels import LABELS as PANEL_LABELS

@@ -24,9 +24,8 @@ from lsys_kit import ModelFileError, ModelNameError, ModelValueError, check
 from lsys_kit.__main__ import main
 from lsys_kit.classroom.exercises.declared.registry import lessons
 from lsys_kit.classroom.exercises.exercise import Exercise, Lesson
-from lsys_kit.classroom.scorm.answers import page_data, rounded_key
 from lsys_kit.classroom.scorm.package import ADL, CONTENT, MANIFEST, lessons_of, manifest, package, page_names, write_package
-from lsys_kit.classroom.scorm.page import exercise_page
+from lsys_kit.classroom.scorm.page import exercise_page, page_data, rounded_key
 from tests.classroom.answers import EXERCISES, as_typed, of_each_kind_added, right_answers, wrong_answers_to
 from tests.classroom.front_end import joined
 

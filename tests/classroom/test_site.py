@@ -16,13 +16,11 @@ from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_outp
 from playwright.sync_api import Browser
 
 from lsys_kit import LSystemError, ModelFileError, compare, draw, explore, predict, system, vote, worksheet
-from lsys_kit.classroom.lessons.declared import declared, names
+from lsys_kit.classroom.lessons.lesson import declared, names
 from lsys_kit.classroom.lessons.worksheet import marked, summary
-from lsys_kit.classroom.site.build import build_site
-from lsys_kit.classroom.site.cells import cells_html, data_html, title_of
+from lsys_kit.classroom.site.build import build_site, run
 from lsys_kit.classroom.site.markdown import PLAIN_TAGS, address_on_site, markdown_html, mathml
-from lsys_kit.classroom.site.pages import Entry, index_page, notebook_page
-from lsys_kit.classroom.site.running import run
+from lsys_kit.classroom.site.pages import Entry, cells_html, data_html, index_page, notebook_page, title_of
 from lsys_kit.classroom.site.showing import PART, part
 from tests.classroom.front_end import joined
 from tests.classroom.test_page import Parts
@@ -297,7 +295,7 @@ CELLS = [
 
 
 def test_a_page_finds_right_what_the_kernel_finds_right(browser: Browser) -> None:
-    from lsys_kit.classroom.lessons.answers import is_right
+    from lsys_kit.classroom.lessons.lesson import is_right
 
     tab = browser.new_page()
     cases = [[typed, *cell] for typed, cell in itertools.product(TYPED, CELLS) if typed != "٢"]

@@ -8,8 +8,16 @@ from typing import Any
 import traitlets
 from ipywidgets import VBox, Widget
 
-from lsys_kit.classroom.lessons.displayed import forget_figure, media, widget
-from lsys_kit.classroom.lessons.widget import MOST_TYPED, LessonWidget, boxed_html, prose_html, prose_text
+from lsys_kit.classroom.lessons.widget import (
+    MOST_TYPED,
+    LessonWidget,
+    boxed_html,
+    forget_figure,
+    media,
+    prose_html,
+    prose_text,
+    widget,
+)
 from lsys_kit.classroom.panel.bundle import bundled, style
 from lsys_kit.classroom.widget import Unfinalized
 from lsys_kit.errors import ModelValueError, shown

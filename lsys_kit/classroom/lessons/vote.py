@@ -15,8 +15,7 @@ import traitlets
 
 from lsys_kit.budget import current, limits
 from lsys_kit.classroom.catalogue import cellwork_system, is_cellwork_system, is_map_system, map_system, system
-from lsys_kit.classroom.lessons.declared import lesson
-from lsys_kit.classroom.lessons.lesson import Vote
+from lsys_kit.classroom.lessons.lesson import Vote, lesson
 from lsys_kit.classroom.lessons.widget import LessonWidget, boxed_html, prose_html, prose_text
 from lsys_kit.classroom.panel.bundle import bundled, style
 from lsys_kit.errors import require

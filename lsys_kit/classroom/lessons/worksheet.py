@@ -9,11 +9,8 @@ from typing import Any, overload
 import traitlets
 from ipywidgets import HBox, Layout
 
-from lsys_kit.classroom.lessons.answers import MOST_CHARACTERS, is_right
-from lsys_kit.classroom.lessons.declared import table
-from lsys_kit.classroom.lessons.displayed import html
-from lsys_kit.classroom.lessons.lesson import Blank, Table
-from lsys_kit.classroom.lessons.widget import LessonWidget, boxed_html, prose_html, prose_text
+from lsys_kit.classroom.lessons.lesson import MOST_CHARACTERS, Blank, Table, is_right, table
+from lsys_kit.classroom.lessons.widget import LessonWidget, boxed_html, html, prose_html, prose_text
 from lsys_kit.classroom.panel.bundle import bundled, style
 from lsys_kit.classroom.panel.comparison import Comparison
 from lsys_kit.classroom.panel.explorer import Explorer

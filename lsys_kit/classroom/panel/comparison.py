@@ -9,8 +9,7 @@ import traitlets
 from ipywidgets import widget_serialization
 
 from lsys_kit.classroom.panel.bundle import bundled, style
-from lsys_kit.classroom.panel.explore import chosen_names, explore
-from lsys_kit.classroom.panel.explorer import Explorer
+from lsys_kit.classroom.panel.explorer import Explorer, chosen_names, explore
 from lsys_kit.classroom.widget import KitWidget
 from lsys_kit.errors import ModelValueError, quotable
 from lsys_kit.notation.model.cellworks import CellworkSystem

@@ -1,19 +1,217 @@
-"""The page of a lesson's exercises, without Python and without a network: it checks answers, and tells a learning platform."""
+"""The page of a lesson's exercises, without Python and without a network: it checks answers, and tells a learning platform.
+
+An answer in its normal form, hashed with a salt, is the name of a reply; the reply is sealed with the answer itself. So neither
+the answers nor the replies can be read in the page. That is a courtesy and no secret: whoever tries all small numbers finds the
+right one. `practice/typed.js` brings what is typed into the same normal form, and `practice/sealed.js` opens the reply.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import base64
+import hashlib
+import json
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any
 
+from lsys_kit.classroom.exercises.check import checked
 from lsys_kit.classroom.exercises.exercise import Exercise, Lesson
+from lsys_kit.classroom.exercises.judging import wrong_answers
 from lsys_kit.classroom.exercises.kinds.choices import letters
+from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS, solution_of
+from lsys_kit.classroom.exercises.kinds.words import system_of_words
 from lsys_kit.classroom.exercises.translated import translated_lesson
+from lsys_kit.classroom.exercises.typed.units import UNITS
 from lsys_kit.classroom.panel.bundle import compact, style
 from lsys_kit.classroom.panel.document import Program, document
-from lsys_kit.classroom.scorm.answers import page_data
 from lsys_kit.classroom.site.markdown import markdown_html
+from lsys_kit.errors import LSystemError
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import symbols
 from lsys_kit.pictures.style.labels import escaped
 from lsys_kit.translation import gettext, language
+
+PARTS_OF_A_TOLERANCE = 10
+"""A number that need not be exact is rounded to so many parts of its tolerance before it is hashed."""
+DIFFERENT = "Something in it is different. Do it again, one step after another."
+NAME_LENGTH = 24
+"""Characters of the hash that names a reply."""
+
+
+@dataclass(frozen=True)
+class Reply:
+    """What is said to an answer: a verdict's word, and its message."""
+
+    said: str
+    message: str
+
+
+def page_data(exercise: Exercise) -> dict[str, Any] | None:
+    """What a page needs to check an exercise; None where only Python can check it.
+
+    >>> exercise = Exercise("1", "", "number", "How many?", "21", "Count.", ("Look.",), otherwise="Count again.")
+    >>> data = page_data(exercise)
+    >>> data["kind"], data["otherwise"], len(data["replies"]) > 0, "21" in data["replies"]
+    ('number', 'Count again.', True, False)
+    """
+    if exercise.kind not in _REPLIES:
+        return None
+    with suppress(LSystemError, _NotExact):
+        replies = _REPLIES[exercise.kind](exercise)
+        salt = hashlib.sha256(repr(exercise).encode()).hexdigest()[:16]
+        return {
+            "id": exercise.id,
+            "kind": exercise.kind,
+            "salt": salt,
+            "hints": list(exercise.hints),
+            "otherwise": _otherwise(exercise),
+            "replies": dict(sorted(_sealed(salt, *each) for each in replies.items())),
+            **_reading(exercise),
+        }
+    return None
+
+
+class _NotExact(Exception):
+    """An answer has no normal form that can be hashed."""
+
+
+def _sealed(salt: str, key: str, reply: Reply) -> tuple[str, str]:
+    """The name of a reply, and the reply, sealed with the answer in its normal form."""
+    text = json.dumps([reply.said, reply.message]).encode()
+    stream = b"".join(_hash(f"{salt}|{part}|{key}") for part in range(len(text) // 32 + 1))
+    sealed = bytes(a ^ b for a, b in zip(text, stream, strict=False))
+    return _hash(f"{salt}|{key}").hex()[:NAME_LENGTH], base64.b64encode(sealed).decode()
+
+
+def _hash(text: str) -> bytes:
+    return hashlib.sha256(text.encode()).digest()
+
+
+def _reply(exercise: Exercise, answer: object) -> Reply:
+    """What the kit itself says to an answer; to a right one also why it is right."""
+    verdict = checked(exercise, answer, 0, False, "")
+    if verdict.said == "Correct":
+        return Reply("Correct", exercise.explanation)
+    return Reply(verdict.said, verdict.message)
+
+
+# Normal forms
+
+
+def number_key(number: Any) -> str:
+    """A number as it is hashed, a fraction in lowest terms; a double is the number that is printed for it.
+
+    >>> number_key(21), number_key(Fraction(-3, 6)), number_key(0.1)
+    ('21/1', '-1/2', '1/10')
+    """
+    try:
+        exact = Fraction(repr(number) if isinstance(number, float) else number)
+    except (TypeError, ValueError, OverflowError):
+        raise _NotExact from None
+    return f"{exact.numerator}/{exact.denominator}"
+
+
+def rounded_key(number: Any, part: Fraction) -> str:
+    """A number as it is hashed where it need not be exact: how often a part goes into it, rounded."""
+    return f"~{math.floor(Fraction(number) / part + Fraction(1, 2))}"
+
+
+def word_key(word: tuple[Module, ...]) -> str:
+    """A word as it is hashed: its modules with blanks between them, numbers as fractions.
+
+    >>> from lsys_kit.notation.read import read_word
+    >>> word_key(read_word("M_r(0.5)a"))
+    'M_r(1/2) a'
+    """
+    return " ".join(each.symbol + (f"({','.join(map(number_key, each.arguments))})" if each.arguments else "") for each in word)
+
+
+# The replies of each kind, by the normal forms of the answers
+
+
+def _of_options(exercise: Exercise) -> dict[str, Reply]:
+    return {letter: _reply(exercise, letter) for letter in letters(exercise)}
+
+
+def _of_lines(exercise: Exercise) -> dict[str, Reply]:
+    return {str(number): _reply(exercise, number) for number in range(1, len(exercise.text.strip("\n").splitlines()) + 1)}
+
+
+def _of_numbers(exercise: Exercise) -> dict[str, Reply]:
+    if exercise.tolerance:
+        return _of_rounded_numbers(exercise)
+    if isinstance(solution_of(exercise), float):
+        raise _NotExact
+    return {number_key(answer): _reply(exercise, answer) for answer in _answers(exercise)}
+
+
+def _of_rounded_numbers(exercise: Exercise) -> dict[str, Reply]:
+    part, solution = Fraction(exercise.tolerance) / PARTS_OF_A_TOLERANCE, Fraction(solution_of(exercise))
+    right = {
+        rounded_key(solution + at * part, part): _reply(exercise, solution)
+        for at in range(-PARTS_OF_A_TOLERANCE, PARTS_OF_A_TOLERANCE + 1)
+    }
+    wrong = {rounded_key(each.answer, part): _reply(exercise, each.answer) for each in wrong_answers(exercise)}
+    if right.keys() & wrong.keys():
+        raise _NotExact
+    return {**wrong, **right}
+
+
+def _of_tables(exercise: Exercise) -> dict[str, Reply]:
+    if exercise.tolerance:
+        raise _NotExact
+    return {",".join(map(number_key, answer)): _reply(exercise, answer) for answer in _answers(exercise)}
+
+
+def _of_words(exercise: Exercise) -> dict[str, Reply]:
+    return {word_key(answer): _reply(exercise, list(answer)) for answer in _answers(exercise)}
+
+
+def _answers(exercise: Exercise) -> Iterator[Any]:
+    """All answers that are understood: those that are wrong, then the right one."""
+    yield from (wrong.answer for wrong in wrong_answers(exercise))
+    yield solution_of(exercise)
+
+
+_REPLIES: Mapping[str, Callable[[Exercise], dict[str, Reply]]] = {
+    "choice": _of_options,
+    "line": _of_lines,
+    "number": _of_numbers,
+    "table": _of_tables,
+    "word": _of_words,
+}
+"""The kinds of answers that a page can check."""
+
+
+# What else the page needs
+
+
+def _otherwise(exercise: Exercise) -> str:
+    """What is said to a wrong answer that nothing explains."""
+    if exercise.otherwise or exercise.kind != "number":
+        return exercise.otherwise or gettext(DIFFERENT)
+    solution = solution_of(exercise)
+    message = ANSWER_KINDS["number"].difference(exercise, 10 * abs(math.ceil(solution)) + 10, solution).message
+    return message.partition(". ")[2] or gettext("Look at the question once more.")  # behind the sentence with the number
+
+
+def _reading(exercise: Exercise) -> dict[str, Any]:
+    """How the page reads what is typed."""
+    if exercise.kind == "word":
+        return {"symbols": sorted(symbols(system_of_words(exercise)), key=lambda symbol: (-len(symbol), symbol))}
+    if exercise.kind != "number":
+        return {}
+    part = Fraction(exercise.tolerance) / PARTS_OF_A_TOLERANCE
+    unit = exercise.unit if exercise.unit.lower() in UNITS else gettext(exercise.unit)
+    return {
+        "unit": unit,
+        "known": f"{exercise.question} {exercise.unit} {unit}".lower(),
+        "part": [str(part.numerator), str(part.denominator)] if part else None,
+    }
+
 
 WORDS = (
     "Correct",

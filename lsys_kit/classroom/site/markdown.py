@@ -1,5 +1,6 @@
 """The Markdown of a notebook as HTML: links lead to pages of the site, mathematics becomes MathML, and of HTML
-only a few plain tags pass."""
+only a few plain tags pass.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +12,7 @@ from pathlib import PurePosixPath
 from posixpath import normpath
 from typing import Any
 
-from lsys_kit.classroom.lessons.displayed import escaped_lines
+from lsys_kit.classroom.lessons.widget import escaped_lines
 from lsys_kit.errors import LSystemError
 from lsys_kit.pictures.style.labels import escaped
 

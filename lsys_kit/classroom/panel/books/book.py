@@ -14,29 +14,46 @@ from __future__ import annotations
 
 import base64
 import json
+import math
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
 from lsys_kit.budget import Task, current, limits
-from lsys_kit.classroom.panel.books.drawing import drawing_entries, drawn_rows
-from lsys_kit.classroom.panel.books.growth_rate import growth_entry
 from lsys_kit.classroom.panel.books.net import Unfolding, net_entry, net_of
+from lsys_kit.derivation.core.interpretation import interpretations
 from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.core.traits import traits_of
 from lsys_kit.derivation.derive import Derivation
+from lsys_kit.derivation.growth.growth import growth
+from lsys_kit.derivation.growth.recurrences import greatest_root
 from lsys_kit.derivation.petri.stages import Stages
+from lsys_kit.derivation.timed.ages import age_model
 from lsys_kit.errors import LSystemError, ModelLimitError
 from lsys_kit.files import file_stem
-from lsys_kit.geometry.turtle.commands.mode import drawing_mode
+from lsys_kit.geometry.filament import shapes_of
+from lsys_kit.geometry.natural_colours import has_natural_colours
+from lsys_kit.geometry.turtle.commands.instructions import Instruction, instructions, unknown_commands
+from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
+from lsys_kit.geometry.turtle.commands.table import initial_colour, initial_step
+from lsys_kit.geometry.turtle.plane import PLANE_HANDLERS
+from lsys_kit.geometry.turtle.shapes import label_text
+from lsys_kit.geometry.turtle.space import SPACE_HANDLERS
+from lsys_kit.geometry.turtle.surfaces import Surface, passed_over, surfaces_by_symbol
 from lsys_kit.notation.model.arithmetic import number_text
+from lsys_kit.notation.model.modules import Module, flat
 from lsys_kit.notation.model.system import USUAL_STEPS, LSystem
+from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 from lsys_kit.notation.registry import dialect_named
 from lsys_kit.notation.write import as_written
+from lsys_kit.pictures.filaments.painting import time_text
 from lsys_kit.pictures.nets.parts import steering_of
 from lsys_kit.pictures.style.labels import label_parts, values_text, visible
-from lsys_kit.pictures.style.palette import colours
+from lsys_kit.pictures.style.palette import CHOSEN, colours
 from lsys_kit.worlds.derive import derive
 
 MOST_MODULES, MOST_BYTES = 250_000, 1_900_000
@@ -263,3 +280,183 @@ def packed(numbers: np.ndarray[Any, Any]) -> dict[str, str]:
     least, most = int(numbers.min(initial=0)), int(numbers.max(initial=0))
     kind = np.promote_types(np.min_scalar_type(least), np.min_scalar_type(most)).newbyteorder("<")
     return {"type": f"{kind.kind}{kind.itemsize}", "data": base64.b64encode(numbers.astype(kind).tobytes()).decode()}
+
+
+BY_ANGLE = frozenset(("turn", "turn by mirrored angle", "turn back", "pitch", "roll"))
+"""The actions whose quantity is the angle."""
+GREATEST = 1e300
+"""Stands for what is infinite, which JSON has no number for: a turtle that bends by so much points straight down."""
+_TILDE = -1
+"""The number of a module that is in no word: beside it, the symbols of surfaces are commands."""
+
+
+def drawn_rows(states: States, numbers: Sequence[int], mode: DrawingMode) -> list[list[Any]]:
+    """For each of some states what is drawn.
+
+    In a filament its cells and walls as in `shapes_of`; for a turtle its calls, each an action, a factor and an addend, the
+    values of its module or 0, for a label what it says, and a surface or 0.
+
+    Raises
+    ------
+    LSystemError
+        It cannot be drawn.
+
+    Examples
+    --------
+    >>> from lsys_kit.notation.read import read
+    >>> states = States(read("axiom: F(2)+A"))
+    >>> drawn_rows(states, states.axiom, DrawingMode.PLANE)
+    [[['draw', 0, 2, [2], 0]], [['turn', 1, 0, 0, 0]], []]
+    """
+    if mode is DrawingMode.FILAMENT:
+        return [
+            [[None if math.isnan(number) else _plain(number) for number in shape] for shape in shapes]
+            for shapes in shapes_of(states, numbers).values()
+        ]
+    system, drawn = states.system, interpretations(states, numbers)
+    if any(module.symbol == "~" for module in system.modules):
+        drawn = {**drawn, _TILDE: (Module("~"),)}
+    handlers = PLANE_HANDLERS if mode is DrawingMode.PLANE else SPACE_HANDLERS
+    calls = instructions(drawn, system.turtle, system.angle)
+    known = surfaces_by_symbol(system)
+    return [[_call(each, known) for each in calls[state] if each.action in handlers] for state in numbers]
+
+
+def _call(instruction: Instruction, known: Mapping[str, Surface]) -> list[Any]:
+    action, factor, addend, values, symbol, surface = instruction
+    if action == "draw expected surface":
+        surface = symbol if symbol in known else ""
+    said = [label_text(values)] if action == "draw label" and values else [*map(_plain, values)]
+    return [action, _plain(factor), _plain(addend), said or 0, surface or 0]
+
+
+def _plain(number: float) -> float:
+    """A number as short as it can be written in JSON."""
+    number = max(-GREATEST, min(GREATEST, number))
+    return int(number) if abs(number) < GREATEST and number == int(number) else number
+
+
+def drawing_entries(states: States, numbers: Sequence[int], drawn: list[list[Any]], last: int) -> dict[str, Any]:
+    """The entries of a book that say how it is drawn, given its states, what each is drawn as, and its last step."""
+    system, mode = states.system, drawing_mode(states.system)
+    if mode is DrawingMode.FILAMENT:
+        step = age_model(states).step
+        return {
+            "mode": "filament",
+            "cells": drawn,
+            "look": system.cells,
+            "time": None if step is None else float(step),
+            "times": [] if step is None else [time_text(step * number) for number in range(last + 1)],
+            "unknown": [],
+            "said": "",
+        }
+    unknown = (*unknown_commands(interpretations(states, numbers), system), *_not_surfaces(system))
+    return {
+        "mode": mode.name.lower(),
+        "turtle": _turtle(system, drawn),
+        "unknown": [*map(visible, unknown)],
+        "said": passed_over(unknown),
+    }
+
+
+def _turtle(system: LSystem, calls: list[list[Any]]) -> dict[str, Any]:
+    dialect = TURTLE_DIALECTS[system.turtle]
+    named = {surface for row in calls for *_, surface in row if surface}
+    return {
+        "side": dialect.left,
+        "length": initial_step(system),
+        "width": dialect.width,
+        "colour": initial_colour(system),
+        "natural": has_natural_colours(system),
+        "heading": float(system.heading),
+        "angle": float(system.angle),
+        "pixels": system.widths or ("auto" if dialect.pixels else "units"),
+        "calls": calls,
+        "surfaces": {name: faces_in(surfaces_by_symbol(system)[name], drawing_mode(system)) for name in sorted(named)},
+        "colours": [*CHOSEN],
+        "uses angle": any(action in BY_ANGLE and factor for row in calls for action, factor, *_ in row),
+    }
+
+
+def faces_in(surface: Surface, mode: DrawingMode) -> dict[str, list[Any]]:
+    """The faces of a surface in a book, none where it is flat, and its outlines."""
+    curved = mode is DrawingMode.SPACE and bool(surface.normals)
+    return {
+        "faces": [[*map(list, face)] for face in surface.faces if curved],
+        "outlines": [[*map(list, face)] for face in surface.outlines],
+    }
+
+
+def _not_surfaces(system: LSystem) -> Iterable[str]:
+    """What stands behind a tilde and is no surface, with its tilde."""
+    known = surfaces_by_symbol(system)
+    words = [tuple(flat(word)) for word in (system.axiom, *(rule.successor for rule in system.rules))]
+    return dict.fromkeys(
+        f"~{behind.symbol}"
+        for word in words
+        for before, behind in pairwise(word)
+        if before.symbol == "~" and behind.symbol not in known
+    )
+
+
+MOST_STATES = 40
+"""Of systems with more states the rate takes too long."""
+GREATEST_ROOT = 1_000
+"""Of greater roots only decimals are given."""
+NEAR = 1e-6
+"""A number that is nearer to a whole number than this may be one; whether it is, is then computed exactly."""
+
+
+def growth_entry(system: LSystem, constants: Mapping[str, Any]) -> dict[str, str] | None:
+    """The growth rate as a book holds it, or None.
+
+    >>> from lsys_kit.notation.read import read
+    >>> growth_entry(read("axiom: a\\na -> ab\\nb -> a"), {})
+    {'rate': '(1 + √5)/2 ≈ 1.618'}
+    """
+    if traits_of(system).d0l:
+        with suppress(LSystemError), limits(states=MOST_STATES):
+            return {"rate": rate_text(growth(system, **constants).recurrence)}
+    return None
+
+
+def rate_text(rule: Sequence[int]) -> str:
+    """The greatest root of the polynomial of a recurrence: exactly where it is whole or the root of a quadratic equation.
+
+    >>> rate_text((4, -4)), rate_text((0, 2)), rate_text((1, 0, 1))
+    ('2', '√2 ≈ 1.4142', '≈ 1.4656')
+    """
+    if not any(rule):
+        return "0"
+    polynomial, root = [1, *(-c for c in rule)], greatest_root(rule, exact=False)
+    if abs(root - round(root)) < math.sqrt(NEAR) and not any(_remainder(polynomial, [1, -round(root)])):
+        return str(round(root))
+    decimals = f"≈ {root:.5g}"
+    reach = math.ceil(2 * root) if root < GREATEST_ROOT else 0
+    for p in range(-reach, reach + 1):
+        q = round(root * (root - p))
+        if abs(root * (root - p) - q) < NEAR * root and not any(_remainder(polynomial, [1, -p, -q])):
+            return f"{_quadratic_root(p, p * p + 4 * q)} {decimals}"
+    return decimals
+
+
+def _remainder(polynomial: Sequence[int], divisor: Sequence[int]) -> list[int]:
+    """The remainder of a polynomial in whole numbers; the first coefficient of the divisor is 1."""
+    left = [*polynomial]
+    for at in range(len(left) - len(divisor) + 1):
+        for k, c in enumerate(divisor[1:], 1):
+            left[at + k] -= left[at] * c
+    return left[max(0, len(left) - len(divisor) + 1) :]
+
+
+def _quadratic_root(p: int, discriminant: int) -> str:
+    """(p + √discriminant)/2, in lowest terms.
+
+    >>> _quadratic_root(2, 12), _quadratic_root(1, 5), _quadratic_root(0, 8), _quadratic_root(0, 12)
+    ('1 + √3', '(1 + √5)/2', '√2', '√3')
+    """
+    square = next(k for k in range(math.isqrt(discriminant), 0, -1) if discriminant % (k * k) == 0)
+    inner, whole = discriminant // (square * square), p % 2 == 0 and square % 2 == 0
+    p, square = (p // 2, square // 2) if whole else (p, square)
+    text = f"{p} + " * (p != 0) + f"{square}" * (square != 1) + f"√{inner}"
+    return text if whole else f"({text})/2"

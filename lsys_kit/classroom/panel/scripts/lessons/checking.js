@@ -1,4 +1,4 @@
-// When what was typed into the cells of a table is right, where no kernel says so: as lessons/answers.py and lessons/worksheet.py
+// When what was typed into the cells of a table is right, where no kernel says so: as lessons/lesson.py and lessons/worksheet.py
 // have it. Numbers are exact fractions.
 
 import { plain } from "./prose.js";

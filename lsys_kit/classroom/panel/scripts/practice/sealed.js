@@ -1,4 +1,4 @@
-// Replies that are sealed with the answers they belong to, as scorm/answers.py seals them. SHA-256 is worked out here (FIPS 180-4):
+// Replies that are sealed with the answers they belong to, as scorm/page.py seals them. SHA-256 is worked out here (FIPS 180-4):
 // browsers have it for pages from secure addresses only, and learning platforms are not always at one.
 
 const PRIMES = [];
