@@ -299,7 +299,9 @@ def test_a_page_finds_right_what_the_kernel_finds_right(browser: Browser) -> Non
 
     tab = browser.new_page()
     cases = [[typed, *cell] for typed, cell in itertools.product(TYPED, CELLS) if typed != "٢"]
-    found = tab.evaluate(f"cases => {{ {joined('checking')}\nreturn cases.map((each) => isRight(...each)); }}", cases)
+    found = tab.evaluate(
+        f"cases => {{ {joined('constants', 'checking')}\nreturn cases.map((each) => isRight(...each)); }}", cases
+    )
     assert found == [is_right(*case) for case in cases]
     assert len(set(found)) == 2
     tab.close()
@@ -307,7 +309,10 @@ def test_a_page_finds_right_what_the_kernel_finds_right(browser: Browser) -> Non
 
 @pytest.mark.parametrize("name", names())
 def test_a_page_says_of_a_table_what_the_kernel_says(browser: Browser, name: str) -> None:
-    tab, code = browser.new_page(), f"([data, entries]) => {{ {joined('prose', 'checking')}\nreturn checked(data, entries); }}"
+    tab, code = (
+        browser.new_page(),
+        f"([data, entries]) => {{ {joined('constants', 'prose', 'checking')}\nreturn checked(data, entries); }}",
+    )
     for table in declared(name).tables:
         right = [blank.right[0] for _, _, blank in table.blanks]
         data = worksheet(name[:2], table.id).page_data

@@ -65,7 +65,7 @@ class Prompt(LessonWidget):
         Whether the answer is to be shown.
     """
 
-    _esm = bundled("prediction")
+    _esm = bundled("predicting")
     _css = style("lessons")
     question = traitlets.Unicode().tag(sync=True)
     typed = traitlets.Unicode().tag(sync=True)

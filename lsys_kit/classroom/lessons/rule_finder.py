@@ -100,7 +100,7 @@ class RuleFinder(LessonWidget):
         The step up to which the words are shown, from 1 on.
     """
 
-    _esm = bundled("rule_finder")
+    _esm = bundled("finding")
     _css = style("lessons")
     found = traitlets.Dict().tag(sync=True)
     step = traitlets.Int(1).tag(sync=True)

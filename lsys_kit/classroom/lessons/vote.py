@@ -88,7 +88,7 @@ class VoteBox(LessonWidget):
         The number of the option that was chosen, from 0 on, or -1.
     """
 
-    _esm = bundled("vote")
+    _esm = bundled("voting")
     _css = style("lessons")
     asked = traitlets.Dict().tag(sync=True)
     chosen = traitlets.Int(NONE, min=NONE, max=len(LETTERS) - 1).tag(sync=True)

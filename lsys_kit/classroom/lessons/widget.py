@@ -13,31 +13,14 @@ from ipywidgets import HTML, HTMLMath, Widget
 
 from lsys_kit.budget import Task
 from lsys_kit.classroom.exercises.verdict import PLAIN_TEXT
+from lsys_kit.classroom.panel.bundle import translated_words
 from lsys_kit.classroom.widget import KitWidget
 from lsys_kit.errors import shown
 from lsys_kit.pictures.style.labels import escaped
 from lsys_kit.supervision import supervised
-from lsys_kit.translation import gettext
 
 MOST_TYPED = 1_000
 """What is typed into a box is cut off here."""
-LABELS = (
-    "vote",
-    "prediction",
-    "table to fill",
-    "Show",
-    "I have no idea, show me",
-    "You said:",
-    "You wanted to see it.",
-    "Check",
-    "Right",
-    "Not right",
-    "right",
-    "not yet",
-    "not filled in yet",
-    "The kernel does not answer. Run the cell again.",
-)
-"""What the scripts of questions show by themselves."""
 _MARKED = re.compile(r"`([^`]+)`|\*([^*]+)\*")
 
 
@@ -48,8 +31,7 @@ class LessonWidget(KitWidget):
 
     @traitlets.default("words")
     def _translated_labels(self) -> dict[str, str]:
-        """The labels that another language has another word for."""
-        return {label: gettext(label) for label in LABELS if gettext(label) != label}
+        return translated_words("filling", "predicting", "voting")
 
 
 def boxed_html(*parts: str) -> str:

@@ -71,7 +71,7 @@ class Worksheet(LessonWidget):
         What is in the cells to be filled, row by row, when they were last checked.
     """
 
-    _esm = bundled("worksheet")
+    _esm = bundled("filling")
     _css = style("lessons")
     sheet = traitlets.Dict().tag(sync=True)
     asked = traitlets.Dict().tag(sync=True)

@@ -1,14 +1,12 @@
 """The page of a lesson's exercises, without Python and without a network: it checks answers, and tells a learning platform.
 
-An answer in its normal form, hashed with a salt, is the name of a reply; the reply is sealed with the answer itself. So neither
-the answers nor the replies can be read in the page. That is a courtesy and no secret: whoever tries all small numbers finds the
-right one. `practice/typed.js` brings what is typed into the same normal form, and `practice/sealed.js` opens the reply.
+A page has the replies to all answers that are understood, right and wrong ones, by the answers in a normal form, into which
+`practice/typed.js` brings what is typed. They are deflated, so that nobody reads them by chance. That is a courtesy and no
+secret: whoever inflates them finds the right answers.
 """
 
 from __future__ import annotations
 
-import base64
-import hashlib
 import json
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -25,8 +23,8 @@ from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS, solution_of
 from lsys_kit.classroom.exercises.kinds.words import system_of_words
 from lsys_kit.classroom.exercises.translated import translated_lesson
 from lsys_kit.classroom.exercises.typed.units import UNITS
-from lsys_kit.classroom.panel.bundle import compact, style
-from lsys_kit.classroom.panel.document import Program, document
+from lsys_kit.classroom.panel.bundle import compact, style, translated_words
+from lsys_kit.classroom.panel.document import Program, deflated_text, document
 from lsys_kit.classroom.site.markdown import markdown_html
 from lsys_kit.errors import LSystemError
 from lsys_kit.notation.model.modules import Module
@@ -35,10 +33,8 @@ from lsys_kit.pictures.style.labels import escaped
 from lsys_kit.translation import gettext, language
 
 PARTS_OF_A_TOLERANCE = 10
-"""A number that need not be exact is rounded to so many parts of its tolerance before it is hashed."""
+"""A number that need not be exact is rounded to so many parts of its tolerance in its normal form."""
 DIFFERENT = "Something in it is different. Do it again, one step after another."
-NAME_LENGTH = 24
-"""Characters of the hash that names a reply."""
 
 
 @dataclass(frozen=True)
@@ -60,34 +56,20 @@ def page_data(exercise: Exercise) -> dict[str, Any] | None:
     if exercise.kind not in _REPLIES:
         return None
     with suppress(LSystemError, _NotExact):
-        replies = _REPLIES[exercise.kind](exercise)
-        salt = hashlib.sha256(repr(exercise).encode()).hexdigest()[:16]
+        replies = {key: (reply.said, reply.message) for key, reply in sorted(_REPLIES[exercise.kind](exercise).items())}
         return {
             "id": exercise.id,
             "kind": exercise.kind,
-            "salt": salt,
             "hints": list(exercise.hints),
             "otherwise": _otherwise(exercise),
-            "replies": dict(sorted(_sealed(salt, *each) for each in replies.items())),
+            "replies": deflated_text(json.dumps(replies)),
             **_reading(exercise),
         }
     return None
 
 
 class _NotExact(Exception):
-    """An answer has no normal form that can be hashed."""
-
-
-def _sealed(salt: str, key: str, reply: Reply) -> tuple[str, str]:
-    """The name of a reply, and the reply, sealed with the answer in its normal form."""
-    text = json.dumps([reply.said, reply.message]).encode()
-    stream = b"".join(_hash(f"{salt}|{part}|{key}") for part in range(len(text) // 32 + 1))
-    sealed = bytes(a ^ b for a, b in zip(text, stream, strict=False))
-    return _hash(f"{salt}|{key}").hex()[:NAME_LENGTH], base64.b64encode(sealed).decode()
-
-
-def _hash(text: str) -> bytes:
-    return hashlib.sha256(text.encode()).digest()
+    """An answer has no exact normal form."""
 
 
 def _reply(exercise: Exercise, answer: object) -> Reply:
@@ -102,7 +84,7 @@ def _reply(exercise: Exercise, answer: object) -> Reply:
 
 
 def number_key(number: Any) -> str:
-    """A number as it is hashed, a fraction in lowest terms; a double is the number that is printed for it.
+    """A number in its normal form, a fraction in lowest terms; a double is the number that is printed for it.
 
     >>> number_key(21), number_key(Fraction(-3, 6)), number_key(0.1)
     ('21/1', '-1/2', '1/10')
@@ -115,12 +97,12 @@ def number_key(number: Any) -> str:
 
 
 def rounded_key(number: Any, part: Fraction) -> str:
-    """A number as it is hashed where it need not be exact: how often a part goes into it, rounded."""
+    """A number in its normal form where it need not be exact: how often a part goes into it, rounded."""
     return f"~{math.floor(Fraction(number) / part + Fraction(1, 2))}"
 
 
 def word_key(word: tuple[Module, ...]) -> str:
-    """A word as it is hashed: its modules with blanks between them, numbers as fractions.
+    """A word in its normal form: its modules with blanks between them, numbers as fractions.
 
     >>> from lsys_kit.notation.read import read_word
     >>> word_key(read_word("M_r(0.5)a"))
@@ -213,31 +195,6 @@ def _reading(exercise: Exercise) -> dict[str, Any]:
     }
 
 
-WORDS = (
-    "Correct",
-    "Almost",
-    "Not yet",
-    "Not readable yet",
-    "Not answered yet",
-    "{number} of {total} solved.",
-    "The learning platform knows: score {score} of 100, completed.",
-    "The learning platform knows: score {score} of 100, incomplete.",
-    "The learning platform did not take the score.",
-    "The learning platform cannot be read, so that nothing is written there.",
-    "No learning platform is there: nobody is told.",
-    "You solved this before.",
-    "Hint {number} of {total}",
-    "That is longer than {most} characters.",
-    "A number is needed here, such as 21, 0.5 or 3/4.",
-    "Its unit is: {unit}.",
-    "Write the number alone.",
-    '"{text}" is no number.',
-    "Numbers are needed here, such as 1, 2, 3.",
-    'The question has no symbol "{symbol}". The symbols are: {symbols}.',
-    "The numbers behind {symbol} cannot be read.",
-    "A word is needed here.",
-)
-"""What the scripts of a page say by themselves."""
 _TOLD = (
     "This is practice, not an examination. What is right is in this page, hidden only so that nobody reads it by chance. "
     "The learning platform is told how many of these exercises are solved, and when all of them are, and keeps what was "
@@ -276,12 +233,9 @@ def _without_scripts() -> str:
 
 def _program(exercises: Sequence[dict[str, Any]]) -> Program:
     script = f'"use strict";\n{compact("practice")}\nopenPracticePage();\n'
-    return Program(script, style("lessons") + style("practice"), {"exercises": list(exercises), "words": words_of_page()})
-
-
-def words_of_page() -> dict[str, str]:
-    """The texts that another language has other words for."""
-    return {text: gettext(text) for text in WORDS if gettext(text) != text}
+    return Program(
+        script, style("lessons") + style("practice"), {"exercises": list(exercises), "words": translated_words("practice")}
+    )
 
 
 def _html(text: str) -> str:

@@ -1,7 +1,7 @@
 // A page of the course without a kernel: its panels, votes, predictions, tables, rules and pictures, each where its data belong.
 
 import { hostWith, cannot } from "./page.js";
-import { bytesOf, inflated } from "./books/link.js";
+import { bytesOf, inflated } from "./books/packing.js";
 import { openComparison } from "./panels/compare.js";
 import { openPanel } from "./panels/panel.js";
 import { askForEntries } from "./lessons/filling.js";
@@ -12,7 +12,6 @@ import { checked } from "./lessons/checking.js";
 
 const KINDS = { panel, comparison, vote, prediction, worksheet, beside, rules, picture };
 const NEAR = "50%"; // of a window's height: so near to it something is opened at once
-const MOST_BYTES = 100_000_000; // of a picture
 
 // What comes into view is opened first; then all the rest, one after another, so that a page can be printed and searched.
 export async function openCoursePage() {
@@ -56,7 +55,7 @@ async function panel(place, data, page) {
 
 // The file of a picture, which the page keeps deflated.
 async function picture(place, { drawing }) {
-  const text = await inflated(bytesOf(drawing), "deflate", MOST_BYTES);
+  const text = await inflated(bytesOf(drawing), "deflate");
   place.src = URL.createObjectURL(new Blob([text], { type: "image/svg+xml" }));
 }
 

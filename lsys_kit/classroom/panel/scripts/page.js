@@ -1,11 +1,11 @@
 // The host of a panel on a page without a kernel: the books of all settings are in the page.
 
 import { heldSettings } from "./books/held.js";
-import { bytesOf, inflated, packedLink, unpackedLink } from "./books/link.js";
+import { packedLink, unpackedLink } from "./books/link.js";
+import { bytesOf, inflated } from "./books/packing.js";
 import { relaxedBook } from "./drawing/relaxation.js";
 import { openPanel } from "./panels/panel.js";
 
-const MOST_BYTES = 100_000_000; // of the books of a page
 const LONGEST = 3_000; // milliseconds in which the cells of a map come to rest under other forces
 
 // Open the panel of the data that stand in the page; where that cannot be done, say so.
@@ -23,7 +23,7 @@ export const cannot = (fault) => `This browser cannot show the panel; a newer on
 
 // The host of a panel with the books that are in its data. `alone` on a page it keeps what is seen in the page's address.
 export async function hostWith(data, alone) {
-  const books = JSON.parse(await inflated(bytesOf(data.books), "deflate", MOST_BYTES));
+  const books = JSON.parse(await inflated(bytesOf(data.books), "deflate"));
   return pageHost(data, books, await linkedSettings(data), alone);
 }
 

@@ -3,8 +3,9 @@
 // Where a state alone decides what becomes of it, words are made here, each by copying successors from a table; other books hold
 // the words. A module that was there when several were replaced together counts as a mother with them.
 
+import { whole } from "./packing.js";
+
 const HELD = 4_000_000; // modules of words that are kept
-const KINDS = { u1: Uint8Array, u2: Uint16Array, u4: Uint32Array, i1: Int8Array, i2: Int16Array, i4: Int32Array };
 
 export function openBook(data) {
   const { states, steps } = data, settled = "successors" in data;
@@ -161,10 +162,4 @@ function lastUpTo(starts, position) {
     else high = middle;
   }
   return low;
-}
-
-// Whole numbers from the text of their bytes, the lowest first.
-export function whole({ type, data }) {
-  const bytes = Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0));
-  return Int32Array.from(new KINDS[type](bytes.buffer));
 }

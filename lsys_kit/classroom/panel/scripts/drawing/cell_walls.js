@@ -1,7 +1,8 @@
 // The walls of a cellwork: of the cells that are shown the outer walls, shaded; of all others the edges.
 
 import { mixed } from "./colours.js";
-import { EDGE, brightness, shades } from "./lighting.js";
+import { EDGE } from "./constants.js";
+import { brightness, shades } from "./lighting.js";
 import { line, outline, surround } from "./outlines.js";
 import { meanOf } from "./painting_order.js";
 import { halfToEven } from "./turtle_actions.js";

@@ -1,6 +1,7 @@
 // Colours of the panel: the theme of the page around it, and shades that can be seen on its paper.
 
-const CONTRAST = 3; // of lines against the paper (WCAG 2.2, 1.4.11)
+import { CONTRAST, FINER } from "./constants.js";
+
 const known = new Map();
 
 // A colour as three numbers from 0 to 255.
@@ -39,7 +40,7 @@ export function lineColour(colour, theme) {
   if (!known.has(key)) {
     const own = theme.lines?.[colour.toLowerCase()] ?? colour;
     let strength = 1, shade = own;
-    while (contrast(shade, theme.paper) < CONTRAST && strength > 0) shade = mixed(own, theme.ink, (strength -= 0.04));
+    while (contrast(shade, theme.paper) < CONTRAST && strength > 0) shade = mixed(own, theme.ink, (strength -= FINER));
     known.set(key, shade);
   }
   return known.get(key);

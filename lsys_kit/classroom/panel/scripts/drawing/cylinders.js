@@ -1,12 +1,6 @@
 // Strokes in space: tapered cylinders with round ends, with a light stripe along them and a dark one, as in the pictures that stay.
 
-import { TO_LIGHT } from "./lighting.js";
-
-const LIT = rad(32), DARK = rad(68), RIM = rad(84); // angles of the normal between the brightest line and the edges of the stripes
-
-function rad(degrees) {
-  return (degrees * Math.PI) / 180;
-}
+import { DARK, LIT, RIM, TO_LIGHT } from "./constants.js";
 
 // How broad each stroke begins: as broad as the last stroke of its branch that ends there, where the turtle has set the widths.
 export function startWidths({ n, from, to, orders, widths }, single) {

@@ -33,8 +33,8 @@ const NEARER = { "+": ZOOM, "=": ZOOM, "-": 1 / ZOOM };
 
 // `told` has { view(), front(), turned(around, above), traced(step, position), pointed(step, position) }; position -1 is nothing.
 export function drawingView(parent, told) {
-  const canvas = made("canvas", { class: "lsys-canvas", tabindex: 0, role: "img" });
-  const hint = made("div", { class: "lsys-hint", "aria-hidden": "true" });
+  const canvas = made("canvas.lsys-canvas", { tabindex: 0, role: "img" });
+  const hint = made("div.lsys-hint", { "aria-hidden": "true" });
   parent.append(canvas, hint);
   const pen = canvas.getContext("2d"), pointers = new Map();
   let book, now, look, fault = "", shapes, frame, sheet, waiting = 0, glide = null;
@@ -176,7 +176,7 @@ export function drawingView(parent, told) {
     canvas.setAttribute("aria-label", text);
   }
 
-  // -- the person ---------------------------------------------------------------------------------------------------
+  // The person
 
   function turn(right, up) {
     const [before, height] = told.view(), around = ((((Math.round(before + right) + 180) % 360) + 360) % 360) - 180;

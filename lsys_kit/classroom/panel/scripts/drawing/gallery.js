@@ -60,11 +60,11 @@ function galleryView(parent, chosen) {
 
   function open(entries) {
     tiles = entries.map((entry, number) => {
-      const canvas = made("canvas", { class: "lsys-tile", "aria-hidden": "true" });
-      const tile = made("button", { type: "button", class: "lsys-button lsys-tile-button", onclick: () => chosen(number) }, canvas, made("span", {}, entry.label));
+      const canvas = made("canvas.lsys-tile", { "aria-hidden": "true" });
+      const tile = made("button.lsys-button.lsys-tile-button", { type: "button", onclick: () => chosen(number) }, canvas, made("span", entry.label));
       return { ...entry, canvas, tile };
     });
-    parent.replaceChildren(made("div", { class: "lsys-gallery" }, ...tiles.map(({ tile }) => tile)));
+    parent.replaceChildren(made("div.lsys-gallery", ...tiles.map(({ tile }) => tile)));
   }
 
   // Each at the step that is shown, or at its last one where it has fewer; `current` is the number of the one in the panel.

@@ -2,20 +2,7 @@
 // viewer; far things are paler, as in hazy air.
 
 import { lineColour, mixed } from "./colours.js";
-
-const DIRECTION = [-0.5, 0.65, 0.57], LENGTH = Math.hypot(...DIRECTION);
-export const TO_LIGHT = DIRECTION.map((part) => part / LENGTH); // right, up, towards the viewer
-const AMBIENT = 0.3; // the part of the light that comes from all around
-export const STEPS = 16; // of brightness and of haze
-export const OWN = 10; // the step at which a surface has its own colour
-export const BRIGHT = 14; // of light stripes
-export const DIM = 4; // of dark ones
-export const EDGE = -4; // of edges, to the inside
-const LIGHTEST = 0.55, DARKEST = 0.5; // the part of white in the lightest shade, and of black in the darkest
-const HAZE = 0.5; // the part of paper in what is farthest
-const HIGHLIGHT = [0.6 * TO_LIGHT[0], 0.6 * TO_LIGHT[1]], REACH = 1.6; // where a sphere of radius 1 is brightest, and how far from there darkest
-const EDGE_ON = 1e-9; // how far a unit normal points away by rounding alone, where a surface is seen from its edge
-const SPHERE = [[0, 15], [0.45, OWN], [1, 2]]; // how bright it is at some parts of that way
+import { AMBIENT, DARKEST, EDGE_ON, HAZE, HIGHLIGHT, LIGHTEST, OWN, REACH, SPHERE, STEPS, TO_LIGHT } from "./constants.js";
 
 // The shades of a palette on the paper, each mixed once: of a colour, as near as from 0 to 1 and as bright as some steps.
 export function shades(palette, theme) {

@@ -1,19 +1,29 @@
-// Outlines in the drawings of cells: how they are stroked, surrounded where a cell is traced, and whether a point lies in one.
+// Outlines on a canvas: how they are stroked and filled, surrounded where a cell is traced, and whether a point lies in one; and letters.
 
 const LINES = { self: [4, []], mother: [3, [7, 5]], daughter: [5, []] }; // around what is traced: width and dashes
 
 // Around a part of what is traced; told apart without colours.
 export function surround(pen, path, kind, theme) {
   const [width, dashes] = LINES[kind];
-  pen.setLineDash(dashes);
-  line(pen, path, theme.lit, width);
-  pen.setLineDash([]);
+  line(pen, path, theme.lit, width, dashes);
   if (kind === "daughter") line(pen, path, theme.paper, 2);
 }
 
-export function line(pen, path, colour, width) {
+export function line(pen, path, colour, width, dashes = []) {
   [pen.strokeStyle, pen.lineWidth] = [colour, width];
+  pen.setLineDash(dashes);
   pen.stroke(path);
+  pen.setLineDash([]);
+}
+
+export function fill(pen, path, colour) {
+  pen.fillStyle = colour;
+  pen.fill(path);
+}
+
+export function write(pen, text, x, y, colour, font, align = "left") {
+  [pen.fillStyle, pen.font, pen.textAlign] = [colour, font, align];
+  pen.fillText(text, x, y);
 }
 
 export function outline(points, place, closed = true) {

@@ -1,11 +1,8 @@
 // In which order the shapes of a drawing are painted, and how broad its strokes are, as in the pictures that stay.
 
+import { BROADEST, DEPTH_LEVELS, LEAST_WIDTHS, ORDER_WIDTHS, SLIMMEST } from "./constants.js";
 import { halfToEven } from "./turtle_actions.js";
 
-const ORDER_WIDTHS = [2.4, 1.7, 1.3, 1.0]; // of strokes, in pixels, by branch order
-const LEAST_WIDTHS = [15, 11, 8, 7]; // in tenths of a pixel, however short strokes are: finer lines are too pale to be seen
-const SLIMMEST = 3, BROADEST = 4000; // the least and the greatest width that a turtle sets, in tenths of a pixel
-const DEPTH_LEVELS = 2 ** 15; // over the extent of a drawing in space, so that rounding errors bring nothing forward
 const MOST_NUMBERED = 2 ** 31; // more shapes there cannot be
 const LAST_RANK = 2 ** 21;
 

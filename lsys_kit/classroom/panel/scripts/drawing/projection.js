@@ -4,18 +4,14 @@
 // and looks at the middle of an upright cylinder around all shapes. A frame belongs to a view, not to the shapes: whatever else is
 // painted in it keeps its place and its size.
 
+import { BOLDEST, BROADEST, DISTANCE, FINEST, LARGEST_SCALE, MOST_CYLINDERS, SLIMMEST, STURDY, USUAL_STROKE } from "./constants.js";
 import { startWidths } from "./cylinders.js";
 import { cornersOf, paintingOrder, strokeWidths } from "./painting_order.js";
 import { MOST_POINTS } from "./turtle_actions.js";
 
 const FRAME_MARGIN = 14;
-const LARGEST_SCALE = 120; // pixels a unit
 const NOTHING_WIDE = 1e-9;
-const THINNEST = 0.3, THINNEST_IN_SPACE = 0.6; // how much finer strokes become where they are short
-const STURDY = 0.8, BOLDEST = 2; // how fine they are at least and how broad at most in space, where one sees each by itself
-const USUAL_STROKE = 12; // pixels that strokes are long where they have their usual width
-const DISTANCE = 4; // of the eye from the middle, in radii of the sphere around what is seen
-const MOST_CYLINDERS = 10_000; // of more strokes one sees none by itself, and they are plain lines
+const FINEST_IN_SPACE = 0.6; // how much finer strokes become where they are short and too many to be seen each by itself
 const RADIANS = Math.PI / 180;
 const edgesOfFaces = new WeakMap();
 
@@ -76,7 +72,7 @@ export function frameOf(shapes, width, height, { around = 0, above = 0, near = 1
   const scale = near * Math.min((width / 2 - FRAME_MARGIN) / Math.max(wide, NOTHING_WIDE),
     (height / 2 - FRAME_MARGIN) / Math.max(high, NOTHING_WIDE), LARGEST_SCALE);
   const detailed = inSpace && shapes.strokes.n <= MOST_CYLINDERS;
-  const [finest, broadest] = detailed ? [STURDY, BOLDEST] : [inSpace ? THINNEST_IN_SPACE : THINNEST, 1];
+  const [finest, broadest] = detailed ? [STURDY, BOLDEST] : [inSpace ? FINEST_IN_SPACE : FINEST, 1];
   return {
     inSpace, detailed, scale, distance, middle, extent, pixel, width, x0: width / 2 + shift[0], y0: height / 2 + shift[1], seen: null,
     cos: Math.cos(around * RADIANS), sin: Math.sin(around * RADIANS), level, steep, reach,
@@ -115,7 +111,7 @@ function seenInSpace(frame, shapes, single) {
     const a = strokes.from[i], b = strokes.to[i];
     ends[0][i] = starts[i] * factors[a];
     ends[1][i] = single[i] * factors[b];
-    widths[i] = Math.max(3, Math.min(4000, Math.round((ends[0][i] + ends[1][i]) / 2)));
+    widths[i] = Math.max(SLIMMEST, Math.min(BROADEST, Math.round((ends[0][i] + ends[1][i]) / 2)));
     if (frame.detailed) behind[i] = edges.has(pairOf(a, b)) ? -Infinity
       : (depths[a] + depths[b]) / 2 - Math.hypot(shapes.x[b] - shapes.x[a], shapes.y[b] - shapes.y[a], shapes.z[b] - shapes.z[a]);
   }

@@ -3,7 +3,7 @@
 // As in the pictures that stay, of a cellwork the outer walls of the cells that are shown are painted from far to near, with the
 // edges of all others; on a sphere what lies behind moves to the rim.
 
-import { whole } from "../books/book.js";
+import { whole } from "../books/packing.js";
 import { paintWalls, wallsSeen } from "./cell_walls.js";
 import { isInside } from "./outlines.js";
 import { frameOf, magnified } from "./projection.js";

@@ -1,9 +1,9 @@
 // When what was typed into the cells of a table is right, where no kernel says so: as lessons/lesson.py and lessons/worksheet.py
 // have it. Numbers are exact fractions.
 
+import { LONGEST_ENTRY } from "../drawing/constants.js";
 import { plain } from "./prose.js";
 
-const MOST_CHARACTERS = 200; // longer entries are not looked at
 const NUMBER = /^([+-]?)(?=\.?\d)(\d{0,30})(?:\.(\d{1,30}))?(?:\/(\d{1,30}))?(%?)$/;
 const THOUSANDS = /^[+-]?\d{1,3}(,\d{3})+(\.\d+)?$/, DECIMAL_COMMA = /^[+-]?\d*,\d+$/;
 const RIGHT = "right", NOT_YET = "not yet", MISSING = "not filled in yet";
@@ -20,7 +20,7 @@ function markOf(entry, right, within) {
 }
 
 export function isRight(entry, right, within = "0") {
-  if ([...entry].length > MOST_CHARACTERS) return false;
+  if ([...entry].length > LONGEST_ENTRY) return false;
   const near = numberOf(within) ?? numberOf("0");
   return right.some((each) => bare(entry).toLowerCase() === bare(each).toLowerCase()
     || readings(entry).some((number) => isNear(number, numberOf(each), near)));

@@ -3,10 +3,10 @@
 import { made } from "../views/controls.js";
 
 export function prose(text) {
-  const found = made("span", { class: "mathjax_ignore tex2jax_ignore" });
+  const found = made("span.mathjax_ignore.tex2jax_ignore");
   for (const part of text.split(/(`[^`]+`|\*[^*]+\*)/)) {
-    if (part.length > 2 && part.startsWith("`") && part.endsWith("`")) found.append(made("code", {}, part.slice(1, -1)));
-    else if (part.length > 2 && part.startsWith("*") && part.endsWith("*")) found.append(made("i", {}, part.slice(1, -1)));
+    if (part.length > 2 && part.startsWith("`") && part.endsWith("`")) found.append(made("code", part.slice(1, -1)));
+    else if (part.length > 2 && part.startsWith("*") && part.endsWith("*")) found.append(made("i", part.slice(1, -1)));
     else if (part) found.append(part);
   }
   return found;

@@ -9,14 +9,14 @@ const SHARED = ["step", "angle", "around", "above"];
 
 // `hosts` are those of the two panels; `shared` names the constants that one slider moves on both sides.
 export function openComparison(element, hosts, shared) {
-  const bar = made("div", { class: "lsys-controls" }), root = made("div", { class: "lsys-panel lsys-both" }, bar);
-  const said = made("div", { class: "lsys-sentence", role: "status" }), sides = made("div", { class: "lsys-comparison" });
+  const bar = made("div.lsys-controls"), root = made("div.lsys-panel.lsys-both", bar);
+  const said = made("div.lsys-sentence", { role: "status" }), sides = made("div.lsys-comparison");
   const seen = [null, null], panels = [], offs = [];
   element.append(root);
   offs.push(ownKeys(root));
   root.append(sides, said);
   hosts.forEach((host, side) => {
-    const column = made("div", { class: "lsys-side" });
+    const column = made("div.lsys-side");
     sides.append(column);
     panels.push(openPanel(column, host, {
       bar: side === 0 ? bar : null,

@@ -29,16 +29,16 @@ const SEEDS = DEGREES(0, 999);
 // second, and the names of the constants among them.
 export function openPanel(element, host, compared = null) {
   speak(host.get("model").words);
-  const root = made("div", { class: "lsys-panel", role: "region", "aria-label": "L-system" });
+  const root = made("div.lsys-panel", { role: "region", "aria-label": "L-system" });
   element.append(root);
   const offs = [], still = matchMedia("(prefers-reduced-motion: reduce)");
   let model, books, book, theme, resting = 0, asking = 0, typing = 0, idle = 0, wanted = host.get("step"), traced = null, pointed = null, shownTheme = "", boxed = null, underway = null;
   let constants = [];
 
-  // -- what there is --------------------------------------------------------------------------------------------------
+  // What there is
 
-  const status = made("div", { class: "lsys-status", role: "status" }), sentence = made("div", { class: "lsys-sentence", role: "status" });
-  const message = made("div", { class: "lsys-message", role: "alert", hidden: true });
+  const status = made("div.lsys-status", { role: "status" }), sentence = made("div.lsys-sentence", { role: "status" });
+  const message = made("div.lsys-message", { role: "alert", hidden: true });
   const step = slider("step", worded("the step of the derivation"), ["0"], 0, goTo, worded("step"));
   const angle = slider("angle", worded("degrees by which the turtle turns"), ANGLES, 900, (at) => change({ angle: at / 10 }), worded("angle"));
   const around = slider("around", worded("the side from which it is seen: 0 is the front, 90 the right"), DEGREES(-180, 180), 180, (at) => change({ around: at - 180 }), worded("around"));
@@ -49,8 +49,8 @@ export function openPanel(element, host, compared = null) {
   const die = button("die", worded("another seed, at random"), () => sow(Number(seedTexts()[Math.floor(Math.random() * seedTexts().length)])));
   const play = player(() => ({ now: host.get("step"), most: book.steps }), goTo, () => show());
   const reset = button(worded("reset"), worded("back to the first settings"), goBack);
-  const bottom = made("div", { class: "lsys-controls" }), views = made("div", { class: "lsys-views" });
-  const top = made("div", { class: "lsys-controls" }, step.element, play.element, reset, scale.element, mark.element);
+  const bottom = made("div.lsys-controls"), views = made("div.lsys-views");
+  const top = made("div.lsys-controls", step.element, play.element, reset, scale.element, mark.element);
   root.append(top, message, status, views, sentence, bottom);
   const shared = [step.element, play.element], turning = [angle.element, around.element, above.element];
   if (compared) compared.bar ? compared.bar.append(...shared) : [...shared, ...turning].forEach((each) => (each.hidden = true));
@@ -73,7 +73,7 @@ export function openPanel(element, host, compared = null) {
   const seeds = seedsView(view.seeds.body, sow, say), variants = variantsView(view.variants.body, (text) => rules.put(text), say);
   if (!compared) root.append(keeping(host, { canvas: drawing.canvas, file: () => book.data.file, code: () => code(host, book, turns()), state }));
 
-  // -- what happens ---------------------------------------------------------------------------------------------------
+  // What happens
 
   function goTo(at) {
     wanted = at;
@@ -129,7 +129,7 @@ export function openPanel(element, host, compared = null) {
         host.set("settings", { ...host.get("settings"), [each.name]: each.texts[at] });
       }),
     }));
-    const fixed = model.fixed ? [made("span", { class: "lsys-hint" }, model.fixed)] : [];
+    const fixed = model.fixed ? [made("span.lsys-hint", model.fixed)] : [];
     const ofBoth = constants.filter((each) => compared?.shared.includes(each.name)), own = constants.filter((each) => !ofBoth.includes(each));
     compared?.bar?.append(...ofBoth.map((each) => each.control.element));
     bottom.replaceChildren(...own.map((each) => each.control.element), ...(turns() ? [angle.element] : []),
@@ -192,7 +192,7 @@ export function openPanel(element, host, compared = null) {
   const clicked = () => traced, followed = () => traced ?? (pointed?.position >= 0 ? pointed : null);
   const chosen = () => place(host.get("mark"))?.place ?? pointed?.place ?? -1;
 
-  // -- what is seen ---------------------------------------------------------------------------------------------------
+  // What is seen
 
   function show() {
     if (!book) return;
@@ -267,7 +267,7 @@ export function openPanel(element, host, compared = null) {
     return { ...request(), step: host.get("step"), angle: host.get("angle"), mark: host.get("mark") };
   }
 
-  // -- listening ------------------------------------------------------------------------------------------------------
+  // Listening
 
   let waiting = 0;
   const later = () => {

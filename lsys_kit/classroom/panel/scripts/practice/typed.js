@@ -1,4 +1,4 @@
-// What is typed, in the normal form in which scorm/page.py hashes it: { key }, or { unreadable } with what is to be said.
+// What is typed, in the normal form by which scorm/page.py finds its reply: { key }, or { unreadable } with what is to be said.
 
 import { worded } from "../views/language.js";
 

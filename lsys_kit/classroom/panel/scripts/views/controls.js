@@ -3,24 +3,21 @@
 import { onKey } from "./keys.js";
 import { worded } from "./language.js";
 
-export function made(tag, attributes = {}, ...inside) {
-  const element = document.createElement(tag);
-  for (const [name, value] of Object.entries(attributes)) {
-    if (name === "class") element.className = value;
-    else if (name.startsWith("on")) element.addEventListener(name.slice(2), value);
-    else if (value === true) element.setAttribute(name, "");
-    else if (value !== false && value !== undefined) element.setAttribute(name, value);
-  }
-  element.append(...inside);
-  return element;
-}
-
 const SVG = "http://www.w3.org/2000/svg";
 
-export function drawn(tag, attributes = {}, ...inside) {
-  const element = document.createElementNS(SVG, tag);
-  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
-  element.append(...inside);
+// An element with a tag and classes, as in `made("p.lsys-said", { role: "status" }, "...")`; attributes may be left out.
+export const made = (what, ...parts) => filled((tag) => document.createElement(tag), what, parts);
+
+// The same in a drawing.
+export const drawn = (what, ...parts) => filled((tag) => document.createElementNS(SVG, tag), what, parts);
+
+function filled(create, what, parts) {
+  const [tag, ...classes] = what.split("."), element = create(tag), named = parts[0]?.constructor === Object ? parts.shift() : {};
+  for (const [name, value] of Object.entries(classes.length ? { class: classes.join(" "), ...named } : named)) {
+    if (name.startsWith("on")) element.addEventListener(name.slice(2), value);
+    else if (value !== false && value !== undefined) element.setAttribute(name, value === true ? "" : value);
+  }
+  element.append(...parts);
   return element;
 }
 
@@ -32,9 +29,9 @@ export function freshId() {
 // A slider over some texts of numbers, with a box in which one can be typed. `chosen` is called with the index.
 export function slider(name, hint, texts, index, chosen, label = name) {
   const id = freshId();
-  const box = made("input", { id, type: "text", inputmode: "decimal", class: "lsys-box", autocomplete: "off", spellcheck: "false" });
-  const range = made("input", { type: "range", class: "lsys-range", "aria-label": worded("{name}, slider", { name: label }), min: 0, step: 1 });
-  const element = made("div", { class: "lsys-control", "data-control": name },
+  const box = made("input.lsys-box", { id, type: "text", inputmode: "decimal", autocomplete: "off", spellcheck: "false" });
+  const range = made("input.lsys-range", { type: "range", "aria-label": worded("{name}, slider", { name: label }), min: 0, step: 1 });
+  const element = made("div.lsys-control", { "data-control": name },
     made("label", { for: id, title: hint }, label), box, range);
   let numbers = [];
 
@@ -103,7 +100,7 @@ function nearest(numbers, wanted) {
 // A button with a text, or with an icon.
 export function button(face, hint, pressed, more = {}) {
   const inside = ICONS[face] ? icon(face) : face, name = ICONS[face] ? { "aria-label": hint } : {};
-  return made("button", { type: "button", class: "lsys-button", title: hint, ...name, onclick: pressed, ...more }, inside);
+  return made("button.lsys-button", { type: "button", title: hint, ...name, onclick: pressed, ...more }, inside);
 }
 
 const ICONS = { // of 16 x 16 pixels
@@ -113,14 +110,21 @@ const ICONS = { // of 16 x 16 pixels
 };
 
 export function icon(name) {
-  return drawn("svg", { viewBox: "0 0 16 16", width: 16, height: 16, "aria-hidden": "true", class: `lsys-icon lsys-icon-${name}` }, drawn("path", { d: ICONS[name] }));
+  return drawn(`svg.lsys-icon.lsys-icon-${name}`, { viewBox: "0 0 16 16", width: 16, height: 16, "aria-hidden": "true" }, drawn("path", { d: ICONS[name] }));
+}
+
+// Give a button another icon, and say what it does now.
+export function face(element, name, hint) {
+  element.replaceChildren(icon(name));
+  element.setAttribute("aria-label", hint);
+  element.title = hint;
 }
 
 // A list to choose from: `options` are pairs of a value and its text.
 export function list(name, hint, options, value, chosen, label = name) {
   const id = freshId();
-  const select = made("select", { id, class: "lsys-list" });
-  const element = made("div", { class: "lsys-control", "data-control": name }, made("label", { for: id, title: hint }, label), select);
+  const select = made("select.lsys-list", { id });
+  const element = made("div.lsys-control", { "data-control": name }, made("label", { for: id, title: hint }, label), select);
   select.addEventListener("change", () => chosen(select.value));
 
   function offer(others, chosenValue) {

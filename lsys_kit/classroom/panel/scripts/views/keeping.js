@@ -5,8 +5,8 @@ import { worded } from "./language.js";
 
 // `panel` has { canvas, file(), code(), state() }, the host perhaps a name of its own for files; `host.keep(kind, state)` gives { name, type, text or bytes }, or null.
 export function keeping(host, { canvas, file, code, state }) {
-  const said = made("output", { class: "lsys-hint" }), field = made("input", { type: "text", readonly: true, hidden: true, class: "lsys-code", "aria-label": worded("to be copied") });
-  const element = made("div", { class: "lsys-controls lsys-keep", role: "group", "aria-label": worded("take along") }, made("span", { class: "lsys-hint" }, worded("take along:")));
+  const said = made("output.lsys-hint"), field = made("input.lsys-code", { type: "text", readonly: true, hidden: true, "aria-label": worded("to be copied") });
+  const element = made("div.lsys-controls.lsys-keep", { role: "group", "aria-label": worded("take along") }, made("span.lsys-hint", worded("take along:")));
 
   async function keep(kind) {
     const kept = await host.keep(kind, state());

@@ -1,10 +1,8 @@
 // Texts in the language of a panel or page; in the scripts they stand in English, which is the id of their translation.
 
-let words = {};
+const words = {};
 
-export function speak(given) {
-  words = given ?? {};
-}
+export const speak = (given) => Object.assign(words, given);
 
 // A text with values in the place of its names in braces.
 export function worded(text, values = {}) {

@@ -15,8 +15,8 @@ export function netView(parent, chosen, pointed) {
     net = next;
     places = new Map();
     const least = leastScale(net), needed = `${Math.round(least * net.width)}px`;
-    const sheet = drawn("svg", {
-      viewBox: `0 0 ${net.width} ${net.height}`, width: net.width, height: net.height, class: "lsys-net", role: "group",
+    const sheet = drawn("svg.lsys-net", {
+      viewBox: `0 0 ${net.width} ${net.height}`, width: net.width, height: net.height, role: "group",
       style: `min-width:${needed};min-height:${Math.round(least * net.height)}px`, "aria-label": net.description,
     });
     const view = parent.closest(".lsys-view").style;
@@ -24,30 +24,30 @@ export function netView(parent, chosen, pointed) {
     view.setProperty("--lsys-widest", `${net.width}px`);
     for (const place of net.places) sheet.append(stage(place, theme));
     for (const arc of net.arcs) sheet.append(
-      drawn("path", { class: "lsys-band", d: arc.band }), drawn("path", { class: "lsys-arc", d: arc.path }), drawn("path", { d: arc.head, class: "lsys-head" }));
+      drawn("path.lsys-band", { d: arc.band }), drawn("path.lsys-arc", { d: arc.path }), drawn("path.lsys-head", { d: arc.head }));
     for (const bar of net.bars) {
-      const group = drawn("g", { class: "lsys-bar-of" }, drawn("path", { class: "lsys-arc", d: bar.line }), drawn("rect",
-        { x: bar.x - 1.8, y: bar.y - bar.half, width: 3.6, height: 2 * bar.half, rx: 0.8, class: "lsys-head" }));
-      if (bar.terms) group.append(drawn("text", { x: bar.tx, y: bar.ty, class: "lsys-terms" }, drawn("title", {}, bar.full || bar.terms), bar.terms));
+      const group = drawn("g.lsys-bar-of", drawn("path.lsys-arc", { d: bar.line }), drawn("rect.lsys-head",
+        { x: bar.x - 1.8, y: bar.y - bar.half, width: 3.6, height: 2 * bar.half, rx: 0.8 }));
+      if (bar.terms) group.append(drawn("text.lsys-terms", { x: bar.tx, y: bar.ty }, drawn("title", bar.full || bar.terms), bar.terms));
       sheet.append(group);
     }
     for (const [x, y, width, text] of net.notes) sheet.append(
-      drawn("rect", { x: x - width / 2, y: y - 6, width, height: 12, class: "lsys-band-note" }),
-      drawn("text", { x, y: y + 4, "text-anchor": "middle", class: "lsys-terms" }, text));
-    for (const line of net.footnotes) sheet.append(drawn("text", { x: line.x, y: line.y, class: "lsys-terms" }, line.text));
+      drawn("rect.lsys-band-note", { x: x - width / 2, y: y - 6, width, height: 12 }),
+      drawn("text.lsys-terms", { x, y: y + 4, "text-anchor": "middle" }, text));
+    for (const line of net.footnotes) sheet.append(drawn("text.lsys-terms", { x: line.x, y: line.y }, line.text));
     parent.replaceChildren(sheet);
   }
 
   function stage(place, theme) {
     const { x, y } = place, radius = net.radius;
-    const ring = drawn("circle", { cx: x, cy: y, r: radius + 5, class: "lsys-ring" });
-    const circle = drawn("circle", {
-      cx: x, cy: y, r: radius, class: "lsys-place", fill: fillColour(place.colour, theme, place.strength), stroke: lineColour(place.colour, theme),
+    const ring = drawn("circle.lsys-ring", { cx: x, cy: y, r: radius + 5 });
+    const circle = drawn("circle.lsys-place", {
+      cx: x, cy: y, r: radius, fill: fillColour(place.colour, theme, place.strength), stroke: lineColour(place.colour, theme),
     });
-    const label = drawn("text", { x, y: y + radius + 17, "text-anchor": "middle", class: "lsys-label" }, ...tspans(place));
-    const tokens = drawn("g", { class: "lsys-tokens" });
-    const group = drawn("g", { class: "lsys-stage", "data-place": place.place, role: "button", tabindex: 0, "aria-pressed": "false" },
-      drawn("title", {}, place.name), ring, circle, label, tokens);
+    const label = drawn("text.lsys-label", { x, y: y + radius + 17, "text-anchor": "middle" }, ...tspans(place));
+    const tokens = drawn("g.lsys-tokens");
+    const group = drawn("g.lsys-stage", { "data-place": place.place, role: "button", tabindex: 0, "aria-pressed": "false" },
+      drawn("title", place.name), ring, circle, label, tokens);
     const toggle = () => chosen(place.place);
     group.addEventListener("click", toggle);
     onMouse(group, (event) => pointed(event ? place.place : -1));

@@ -1,6 +1,6 @@
 // Step after step by itself: play, back, single steps, speed, loop.
 
-import { made, button, freshId, icon, list } from "./controls.js";
+import { made, button, face, freshId, list } from "./controls.js";
 import { worded } from "./language.js";
 
 const SPEEDS = [["1200", "slow"], ["600", "normal"], ["250", "fast"]]; // milliseconds a step
@@ -16,8 +16,8 @@ export function player(steps, go, moved) {
     pause = Number(value);
     if (timer) start();
   }, worded("speed"));
-  const element = made("div", { class: "lsys-player", role: "group", "aria-label": worded("play") }, first, back, play, forward, speed.element,
-    made("label", { class: "lsys-check", for: loop.id }, loop, worded("loop")));
+  const element = made("div.lsys-player", { role: "group", "aria-label": worded("play") }, first, back, play, forward, speed.element,
+    made("label.lsys-check", { for: loop.id }, loop, worded("loop")));
 
   function one(way) {
     stop();
@@ -35,9 +35,7 @@ export function player(steps, go, moved) {
   function start() {
     clearInterval(timer);
     timer = setInterval(tick, pause);
-    play.replaceChildren(icon("pause"));
-    play.setAttribute("aria-label", worded("pause"));
-    play.title = worded("pause");
+    face(play, "pause", worded("pause"));
     moved(true);
   }
 
@@ -45,9 +43,7 @@ export function player(steps, go, moved) {
     if (!timer) return;
     clearInterval(timer);
     timer = 0;
-    play.replaceChildren(icon("play"));
-    play.setAttribute("aria-label", worded("play"));
-    play.title = worded("play");
+    face(play, "play", worded("play"));
     moved(false);
   }
 

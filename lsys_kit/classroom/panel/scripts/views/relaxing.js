@@ -4,7 +4,7 @@ import { movedShapes, mapShapes, UNIT } from "../drawing/map.js";
 import { boundsOf } from "../drawing/projection.js";
 import { relaxation, startOf, tissueOf } from "../drawing/relaxation.js";
 import { forcesOf, PULL, PUSH, strongest } from "../drawing/tension.js";
-import { button, drawn, icon, list, made } from "./controls.js";
+import { button, drawn, face, list, made } from "./controls.js";
 import { counted } from "./word.js";
 
 const SPEEDS = [["1", "slow"], ["4", "normal"], ["20", "fast"]]; // iterations a frame
@@ -20,9 +20,9 @@ export function relaxing(changed) {
   const end = button("to rest", "show the map at rest", () => { stop(); leave(); });
   const speed = list("relaxation", "how fast the relaxation is shown", SPEEDS, "4", (value) => { perFrame = Number(value); });
   const forces = made("input", { type: "checkbox", "data-control": "forces", onchange: () => { legend.hidden = !forces.checked; changed(); } });
-  const said = made("span", { class: "lsys-relaxed", role: "status" }), legend = made("div", { class: "lsys-caption", hidden: true });
-  const element = made("div", {}, made("div", { class: "lsys-controls lsys-relaxation", role: "group", "aria-label": "relaxation" },
-    made("label", { class: "lsys-check" }, forces, "forces"), speed.element, made("div", { class: "lsys-player" }, first, play, forward, end), said), legend);
+  const said = made("span.lsys-relaxed", { role: "status" }), legend = made("div.lsys-caption", { hidden: true });
+  const element = made("div", made("div.lsys-controls.lsys-relaxation", { role: "group", "aria-label": "relaxation" },
+    made("label.lsys-check", forces, "forces"), speed.element, made("div.lsys-player", first, play, forward, end), said), legend);
 
   function offer(next) {
     stop();
@@ -80,9 +80,7 @@ export function relaxing(changed) {
     if (timer || frame) return stop();
     if (!way || way.now.end) restart();
     said.setAttribute("aria-live", "off");
-    play.replaceChildren(icon("pause"));
-    play.setAttribute("aria-label", "pause the relaxation");
-    play.title = "pause the relaxation";
+    face(play, "pause", "pause the relaxation");
     if (still.matches) timer = setInterval(() => advance(Math.ceil(book.data.maps[step].iterations / STILLS)), STILL);
     else frame = requestAnimationFrame(run);
   }
@@ -98,9 +96,7 @@ export function relaxing(changed) {
     cancelAnimationFrame(frame);
     [timer, frame] = [0, 0];
     said.setAttribute("aria-live", "polite");
-    play.replaceChildren(icon("play"));
-    play.setAttribute("aria-label", "play the relaxation");
-    play.title = "play the relaxation";
+    face(play, "play", "play the relaxation");
   }
 
   return {

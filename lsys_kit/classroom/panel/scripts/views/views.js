@@ -6,17 +6,17 @@ import { worded } from "./language.js";
 // `views` are triples of a name, a title and whether the view is open at first. Of each its body is returned, whether it is open,
 // and `offer`, which says whether there is anything to show in it.
 export function folding(parent, root, views, changed) {
-  const found = {}, tabs = made("div", { class: "lsys-tabs", role: "group", "aria-label": worded("views") });
+  const found = {}, tabs = made("div.lsys-tabs", { role: "group", "aria-label": worded("views") });
   for (const [name, title, open] of views) {
-    const body = made("div", { class: "lsys-body" });
-    const section = made("section", { class: "lsys-view", "data-view": name, "aria-label": title, hidden: !open });
+    const body = made("div.lsys-body");
+    const section = made("section.lsys-view", { "data-view": name, "aria-label": title, hidden: !open });
     const tab = button(title, worded("show or hide: {title}", { title }), () => {
       section.hidden = !section.hidden;
       tab.setAttribute("aria-pressed", String(!section.hidden));
       changed();
     }, { "aria-pressed": String(open), class: "lsys-button lsys-tab" });
     const wide = button("wide", worded("{title} on the whole screen", { title }), () => (document.fullscreenElement ? document.exitFullscreen() : section.requestFullscreen()));
-    section.append(made("div", { class: "lsys-title" }, title, wide), body);
+    section.append(made("div.lsys-title", title, wide), body);
     parent.append(section);
     tabs.append(tab);
     found[name] = {
