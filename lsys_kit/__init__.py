@@ -38,8 +38,7 @@ if TYPE_CHECKING:
     from lsys_kit.classroom.lessons.vote import vote
     from lsys_kit.classroom.lessons.worksheet import worksheet
     from lsys_kit.classroom.link import link, linked
-    from lsys_kit.classroom.panel.comparison import compare
-    from lsys_kit.classroom.panel.explorer import explore
+    from lsys_kit.classroom.panel.explorer import compare, explore
     from lsys_kit.classroom.variants import variants
     from lsys_kit.derivation.explain import explain
     from lsys_kit.derivation.growth.growth import growth
@@ -77,7 +76,7 @@ _HOMES = {
     "cellwork_system": "classroom.catalogue",
     "cellwork_systems": "classroom.catalogue",
     "check": "classroom.exercises.check",
-    "compare": "classroom.panel.comparison",
+    "compare": "classroom.panel.explorer",
     "continuity": "derivation.timed.continuity",
     "derive": "worlds.derive",
     "draw": "pictures.draw",

@@ -13,7 +13,7 @@ import pytest
 from babel.messages.catalog import Catalog
 from babel.messages.mofile import read_mo
 
-from lsys_kit import ModelNameError, check, exercises, explore, language, practice, predict, system, vote, worksheet
+from lsys_kit import ModelNameError, check, exercises, explore, language, practice, predict, vote, worksheet
 from lsys_kit.classroom.exercises.check import checked
 from lsys_kit.classroom.exercises.declared.declarations import QUESTIONS, questions_in
 from lsys_kit.classroom.exercises.declared.registry import lessons
@@ -28,7 +28,6 @@ from lsys_kit.classroom.exercises.translated import texts, translated, translate
 from lsys_kit.classroom.lessons.lesson import table
 from lsys_kit.classroom.lessons.worksheet import marked, summary
 from lsys_kit.classroom.panel.bundle import translated_words
-from lsys_kit.classroom.panel.page import page_data
 from lsys_kit.classroom.scorm.package import manifest
 from lsys_kit.classroom.scorm.page import exercise_page
 from lsys_kit.translation import gettext, ngettext
@@ -297,7 +296,7 @@ def test_what_scripts_show_is_sent_to_them_in_the_language():
 @pytest.mark.usefixtures("german")
 def test_panels_and_their_pages_are_in_the_language():
     words = explore("J1").model["words"]
-    assert words == page_data(system("J1"))["model"]["words"]
+    assert words == explore("J1").page_data()["model"]["words"]
     assert (words["stages"], words["the step of the derivation"]) == ("Stufen", "der Schritt der Ableitung")
 
 

@@ -18,7 +18,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from playwright.sync_api import Browser, Page, expect
 
-import lsys_kit.classroom.panel.page as panel_page
+import lsys_kit.classroom.panel.opened.systems as panel_page
 from lsys_kit import (
     ModelFileError,
     ModelNameError,
@@ -33,8 +33,11 @@ from lsys_kit import (
     systems,
 )
 from lsys_kit.classroom.panel.books.book import book
-from lsys_kit.classroom.panel.page import deflated, page, page_data, save_page, shared
+from lsys_kit.classroom.panel.opened.opened import Viewing
+from lsys_kit.classroom.panel.opened.systems import OpenedSystem
+from lsys_kit.classroom.panel.page import deflated, page, save_page, shared
 from lsys_kit.notation.fragments import unpacked
+from lsys_kit.notation.model.system import LSystem
 from tests.classroom.front_end import joined
 from tests.classroom.test_link import forged
 from tests.test_hostile_names import HOSTILE, made, refused
@@ -70,6 +73,22 @@ class Parts(HTMLParser):
 
     def handle_comment(self, data: str) -> None:
         self.tags.append("!--")
+
+
+def page_data(
+    system: LSystem,
+    changes: dict[str, Any] | None = None,
+    seed: int = 0,
+    *,
+    title: str = "",
+    step: int | None = None,
+    angle: object = None,
+    asked: list[dict[str, Any]] | tuple[()] = (),
+) -> dict[str, Any]:
+    """What a page knows of a system."""
+    what = OpenedSystem(system, title, changes)
+    chosen = Viewing(what.steps if step is None else step, what.first, seed, what.turned(angle))
+    return what.page_data(chosen, asked)
 
 
 def books_of(data: dict[str, Any]) -> list[dict[str, Any]]:

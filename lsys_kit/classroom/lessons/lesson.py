@@ -155,7 +155,6 @@ def is_right(entry: str, right: Sequence[str], within: str = "0") -> bool:
 
 
 def _readings(entry: str) -> Iterator[Fraction]:
-    """The numbers that an entry may mean."""
     text = _without_blanks(entry)
     yield from _numbers(text)
     if _THOUSANDS.fullmatch(text):
@@ -173,6 +172,8 @@ def _without_blanks(text: str) -> str:
     return "".join(text.split())
 
 
+# From the text of a file to the record of its lesson
+
 OPTIONS = 4
 """How many options a vote has."""
 _NAME = re.compile(r"\d\d_[a-z0-9_]+")
@@ -181,27 +182,16 @@ _PICTURE = ("system", "rules", "step", "angle", "cells", "view", "constants")
 
 
 def lesson_from(name: str, entries: Mapping[str, Any]) -> Lesson:
-    """The record of a lesson, from the entries of its file.
-
-    Raises
-    ------
-    ModelFileError
-        An entry is missing, unknown or not what it should be.
-    """
+    """The record of a lesson, from the entries of its file."""
     where = f"The lesson {name}"
-    if not _NAME.fullmatch(name):
-        raise ModelFileError(f"{where} must be called by two digits and small letters, such as 01_all_at_once")
+    _demand(_NAME.fullmatch(name), f"{where} must be called by two digits and small letters, such as 01_all_at_once")
     found = _taken(where, entries, _LESSON)
-    if found["number"] != int(name[:2]):
-        raise ModelFileError(f'{where}: "number" must be {int(name[:2])}, as in its name, not {found["number"]}')
-    if unknown := [each for each in found["track"] if each not in TRACKS]:
-        raise ModelFileError(f'{where}: "track" has letters of {", ".join(TRACKS)}, not {unknown[0]}')
-    vote = _vote(f"{where}, vote", found.pop("vote"))
-    tables = tuple(_table(f"{where}, table {place}", each) for place, each in enumerate(found.pop("tables"), 1))
-    if len({each.id for each in tables}) < len(tables):
-        raise ModelFileError(f"{where}: two tables have the same id")
-    rows = found.pop("settings")
-    settings = tuple(_settings(f"{where}, settings {place}", each) for place, each in enumerate(rows, 1))
+    number, unknown = int(name[:2]), "".join(each for each in found["track"] if each not in TRACKS)
+    _demand(found["number"] == number, f'{where}: "number" must be {number}, as in its name, not {found["number"]}')
+    _demand(not unknown, f'{where}: "track" has letters of {", ".join(TRACKS)}, not {unknown[:1]}')
+    vote, tables = _vote(f"{where}, vote", found.pop("vote")), _each(f"{where}, table", found.pop("tables"), _table)
+    _demand(len({each.id for each in tables}) == len(tables), f"{where}: two tables have the same id")
+    settings = _each(f"{where}, settings", found.pop("settings"), _settings)
     return Lesson(name=name, vote=vote, tables=tables, settings=settings, **found)
 
 
@@ -209,38 +199,35 @@ def _settings(where: str, row: object) -> dict[str, str]:
     return {name: _numeral(f'{where}, "{name}"', value) for name, value in _entries(where, row).items()}
 
 
-def _vote(where: str, entries: Mapping[str, Any]) -> Vote:
+def _vote(where: str, entries: object) -> Vote:
     found = _taken(where, entries, _VOTE)
-    options = tuple(
-        Option(**_taken(f"{where}, option {place}", each, _OPTION)) for place, each in enumerate(found["options"], 1)
-    )
-    if len(options) != OPTIONS or sum(each.right for each in options) != 1:
-        raise ModelFileError(f"{where}: there must be {OPTIONS} options, and one of them must have right = true")
-    if unknown := [key for key in found["picture"] if key not in _PICTURE]:
-        raise ModelFileError(f'{where}: a picture has no "{unknown[0]}"', hint=f"It may have: {', '.join(_PICTURE)}.")
-    if found["picture"] and ("system" in found["picture"]) == ("rules" in found["picture"]):
-        raise ModelFileError(f'{where}: a picture needs the id of its "system", or its "rules"')
-    _entries(f'{where}, picture, "constants"', found["picture"].get("constants", {}))
-    return Vote(found["question"], options, found["picture"])
+    options = _each(f"{where}, option", found["options"], lambda place, each: Option(**_taken(place, each, _OPTION)))
+    one_right = len(options) == OPTIONS and sum(each.right for each in options) == 1
+    _demand(one_right, f"{where}: there must be {OPTIONS} options, and one of them must have right = true")
+    picture = found["picture"]
+    for key in picture:
+        _demand(key in _PICTURE, f'{where}: a picture has no "{key}"', f"It may have: {', '.join(_PICTURE)}.")
+    one_system = not picture or ("system" in picture) != ("rules" in picture)
+    _demand(one_system, f'{where}: a picture needs the id of its "system", or its "rules"')
+    _entries(f'{where}, picture, "constants"', picture.get("constants", {}))
+    return Vote(found["question"], options, picture)
 
 
-def _table(where: str, entries: Mapping[str, Any]) -> Table:
+def _table(where: str, entries: object) -> Table:
     found = _taken(where, entries, _TABLE)
-    if not _ID.fullmatch(found["id"]):
-        raise ModelFileError(f'{where}: "id" must have small letters, digits and hyphens only')
-    rows = tuple(_row(f"{where}, row {place}", each, found["columns"]) for place, each in enumerate(found["rows"], 1))
-    table = Table(found["id"], found["title"], found["columns"], rows)
-    if not table.blanks:
-        raise ModelFileError(f"{where} has no cell to fill", hint='A cell to fill is { right = "3" }.')
+    _demand(_ID.fullmatch(found["id"]), f'{where}: "id" must have small letters, digits and hyphens only')
+    columns = found["columns"]
+    rows = _each(f"{where}, row", found["rows"], lambda place, cells: _row(place, cells, len(columns)))
+    table = Table(found["id"], found["title"], columns, rows)
+    _demand(table.blanks, f"{where} has no cell to fill", 'A cell to fill is { right = "3" }.')
     return table
 
 
-def _row(where: str, cells: object, columns: Sequence[str]) -> tuple[str | Blank, ...]:
-    if not isinstance(cells, list) or len(cells) != len(columns):
-        raise ModelFileError(f"{where} must have {len(columns)} cells, one for each column")
-    row = tuple(_cell(f"{where}, column {place}", each) for place, each in enumerate(cells, 1))
-    if isinstance(row[0], Blank):
-        raise ModelFileError(f"{where}: the first cell names the row and must be given")
+def _row(where: str, cells: object, many: int) -> tuple[str | Blank, ...]:
+    fits = isinstance(cells, list) and len(cells) == many
+    _demand(fits, f"{where} must have {many} cells, one for each column")
+    row = _each(f"{where}, column", cells, _cell)
+    _demand(isinstance(row[0], str), f"{where}: the first cell names the row and must be given")
     return row
 
 
@@ -248,83 +235,79 @@ def _cell(where: str, cell: object) -> str | Blank:
     if not isinstance(cell, dict):
         return _text(where, cell)
     found = _taken(where, cell, _BLANK)
-    if not found["right"] or not all(map(str.strip, found["right"])):
-        raise ModelFileError(f'{where}: "right" is empty')
+    _demand(found["right"] and all(map(str.strip, found["right"])), f'{where}: "right" is empty')
     return Blank(**found)
+
+
+def _each(where: str, rows: Any, read: Callable[[str, Any], Any]) -> tuple[Any, ...]:
+    """Each of some entries, read; they are counted from 1."""
+    return tuple(read(f"{where} {place}", each) for place, each in enumerate(rows, 1))
+
+
+def _demand(holds: object, message: str, hint: str | None = None) -> None:
+    if not holds:
+        raise ModelFileError(message, hint=hint)
 
 
 # What an entry may be
 
 
+def _fitting(where: str, value: Any, fits: bool, what: str) -> Any:
+    _demand(fits, f"{where} must be {what}, not {shown(value)}")
+    return value
+
+
 def _text(where: str, value: object) -> str:
     """A text; a number is one, too, in a table."""
-    if isinstance(value, bool) or not isinstance(value, str | int | float) or not str(value).strip():
-        raise ModelFileError(f"{where} must be a text, not {shown(value)}")
-    return str(value).strip()
+    fits = isinstance(value, str | int | float) and not isinstance(value, bool) and bool(str(value).strip())
+    return str(_fitting(where, value, fits, "a text")).strip()
 
 
-def _number(where: str, value: object) -> int:
-    if isinstance(value, bool) or not isinstance(value, int) or value < 0:
-        raise ModelFileError(f"{where} must be a whole number, not {shown(value)}")
-    return value
+def _number(where: str, value: object) -> Any:
+    return _fitting(where, value, type(value) is int and value >= 0, "a whole number")
 
 
-def _truth(where: str, value: object) -> bool:
-    if not isinstance(value, bool):
-        raise ModelFileError(f"{where} must be true or false, not {shown(value)}")
-    return value
+def _truth(where: str, value: object) -> Any:
+    return _fitting(where, value, isinstance(value, bool), "true or false")
+
+
+def _list(where: str, value: object) -> Any:
+    return _fitting(where, value, isinstance(value, list), "a list")
+
+
+def _entries(where: str, value: object) -> Any:
+    return _fitting(where, value, isinstance(value, dict), "a table of entries")
 
 
 def _texts(where: str, value: object) -> tuple[str, ...]:
-    if not isinstance(value, list):
-        raise ModelFileError(f"{where} must be a list of texts, not {shown(value)}")
-    return tuple(_text(f"{where}, entry {place}", each) for place, each in enumerate(value, 1))
+    return _each(f"{where}, entry", _fitting(where, value, isinstance(value, list), "a list of texts"), _text)
 
 
 def _answers(where: str, value: object) -> tuple[str, ...]:
-    """One right answer, or a list of them."""
     return _texts(where, value) if isinstance(value, list) else (_text(where, value),)
-
-
-def _distance(where: str, value: object) -> str:
-    text = _numeral(where, value)
-    if Fraction(number_of(text) or 0) < 0:
-        raise ModelFileError(f"{where} must be a number from 0 on, not {shown(value)}")
-    return text
 
 
 def _numeral(where: str, value: object) -> str:
     text = _text(where, value)
-    if number_of(text) is None:
-        raise ModelFileError(f"{where} must be a number, not {shown(value)}")
+    _fitting(where, value, number_of(text) is not None, "a number")
     return text
 
 
-def _list(where: str, value: object) -> list[Any]:
-    if not isinstance(value, list):
-        raise ModelFileError(f"{where} must be a list, not {shown(value)}")
-    return value
-
-
-def _entries(where: str, value: object) -> dict[str, Any]:
-    if not isinstance(value, dict):
-        raise ModelFileError(f"{where} must be a table of entries, not {shown(value)}")
-    return value
+def _distance(where: str, value: object) -> str:
+    text = _numeral(where, value)
+    _fitting(where, value, (number_of(text) or 0) >= 0, "a number from 0 on")
+    return text
 
 
 Shape = Mapping[str, tuple[Callable[[str, object], Any], Any]]
 """For each entry how it is read, and what it is when it is left out; `...` where it may not be left out."""
 _LESSON: Shape = {
     "number": (_number, ...),
-    "title": (_text, ...),
-    "question": (_text, ...),
+    **dict.fromkeys(("title", "question"), (_text, ...)),
     "minutes": (_number, ...),
-    "track": (_texts, ...),
-    "objectives": (_texts, ...),
+    **dict.fromkeys(("track", "objectives"), (_texts, ...)),
     "summary": (_text, ...),
-    "systems": (_texts, ...),
-    "points": (_texts, ...),
-    "misconceptions": (_texts, ...),
+    **dict.fromkeys(("systems", "points", "misconceptions"), (_texts, ...)),
     "vote": (_entries, ...),
     "tables": (_list, ...),
     "settings": (_list, []),
@@ -339,13 +322,13 @@ def _taken(where: str, entries: object, shape: Shape) -> dict[str, Any]:
     """The entries of a shape, each read; none may be unknown."""
     given = _entries(where, entries)
     for key in given:
-        if key not in shape:
-            raise ModelFileError(f'{where} has an unknown entry "{key}"', hint=f"Entries are: {', '.join(shape)}.")
+        _demand(key in shape, f'{where} has an unknown entry "{key}"', f"Entries are: {', '.join(shape)}.")
     for key, (_, default) in shape.items():
-        if default is ... and key not in given:
-            raise ModelFileError(f'{where} has no "{key}"')
+        _demand(default is not ... or key in given, f'{where} has no "{key}"')
     return {key: read(f'{where}, "{key}"', given[key]) if key in given else default for key, (read, default) in shape.items()}
 
+
+# The lessons that are declared
 
 FOLDER = files(__package__) / "data"
 
@@ -358,13 +341,6 @@ def names() -> tuple[str, ...]:
 def lesson(number: str | int) -> Lesson:
     """The lesson with a number, such as "01".
 
-    Raises
-    ------
-    ModelNameError
-        There is no such lesson.
-
-    Examples
-    --------
     >>> lesson("01").title
     'All at once'
     """
@@ -379,13 +355,7 @@ def lesson(number: str | int) -> Lesson:
 
 
 def table(number: str | int, id: str) -> Table:
-    """The table to fill of a lesson that has this id.
-
-    Raises
-    ------
-    ModelNameError
-        There is no such lesson, or it has no such table.
-    """
+    """The table to fill of a lesson that has this id."""
     of = lesson(number)
     known = {each.id: each for each in of.tables}
     if not isinstance(id, str):

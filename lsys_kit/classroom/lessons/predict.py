@@ -111,7 +111,6 @@ class Prediction(Unfinalized, VBox):  # type: ignore[misc]
         return {"question": self.prompt.question}
 
     def _repr_mimebundle_(self, **options: object) -> dict[str, Any]:
-        """The live question; for a page without a kernel the question with its answer."""
         bundle = super()._repr_mimebundle_(**options)
         pictures = {kind: self._media[kind] for kind in _STORED if kind in self._media}
         asked = (

@@ -14,14 +14,11 @@ from typing import Any
 import traitlets
 
 from lsys_kit.budget import current, limits
-from lsys_kit.classroom.catalogue import cellwork_system, is_cellwork_system, is_map_system, map_system, system
 from lsys_kit.classroom.lessons.lesson import Vote, lesson
 from lsys_kit.classroom.lessons.widget import LessonWidget, boxed_html, prose_html, prose_text
 from lsys_kit.classroom.panel.bundle import bundled, style
+from lsys_kit.classroom.panel.opened.opened import catalogued
 from lsys_kit.errors import require
-from lsys_kit.notation.model.cellworks import CellworkSystem
-from lsys_kit.notation.model.maps import MapSystem
-from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read
 from lsys_kit.pictures.draw import draw
 from lsys_kit.pictures.formats.notebook import svg_bundle
@@ -75,7 +72,6 @@ class Ballot(traitlets.HasTraits):
 
 @cache
 def _ballot(_: int) -> Ballot:
-    """The ballot of a lesson, the same as long as the kernel lives."""
     return Ballot()
 
 
@@ -134,11 +130,10 @@ class VoteBox(LessonWidget):
 
 
 def _picture(choices: Mapping[str, Any]) -> dict[str, Any]:
-    """The picture of a vote, by media types."""
     if not choices:
         return {}
     drawn = draw(
-        _pictured(choices),
+        read(choices["rules"]) if "rules" in choices else catalogued(choices["system"]),
         choices.get("step"),
         **choices.get("constants", {}),
         **{name: value for name, value in choices.items() if name in ("angle", "cells", "view")},
@@ -147,16 +142,7 @@ def _picture(choices: Mapping[str, Any]) -> dict[str, Any]:
         return svg_bundle(drawn.svg, repr(drawn))
 
 
-def _pictured(choices: Mapping[str, Any]) -> LSystem | MapSystem | CellworkSystem:
-    """The system of a picture: from its rules, or from the catalogue."""
-    if "rules" in choices:
-        return read(choices["rules"])
-    id = choices["system"]
-    return map_system(id) if is_map_system(id) else cellwork_system(id) if is_cellwork_system(id) else system(id)
-
-
 def _address(picture: Mapping[str, Any]) -> str:
-    """The picture as an address in itself."""
     return f"data:image/svg+xml;base64,{base64.b64encode(picture['image/svg+xml'].encode()).decode()}"
 
 
@@ -172,7 +158,6 @@ def _receipt(ballot: Ballot) -> dict[str, str]:
 
 
 def _reply(vote: Vote, ballot: Ballot) -> dict[str, str]:
-    """What is said before and after the second vote."""
     before = (
         gettext("Your first vote was {letter}.", letter=LETTERS[ballot.first])
         if ballot.first != NONE
@@ -190,7 +175,6 @@ def _reply(vote: Vote, ballot: Ballot) -> dict[str, str]:
 
 
 def _change(vote: Vote, ballot: Ballot) -> str:
-    """How the second vote differs from the first."""
     if ballot.first == NONE:
         return ""
     if ballot.first == ballot.second:

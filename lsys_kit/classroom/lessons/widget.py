@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 import re
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import traitlets
@@ -37,6 +37,13 @@ class LessonWidget(KitWidget):
 def boxed_html(*parts: str) -> str:
     """Parts of HTML in a box in which dollar signs begin no formula."""
     return f'<div class="{PLAIN_TEXT}">{"".join(parts)}</div>'
+
+
+def table_html(head: Iterable[str], rows: Iterable[Iterable[str]], caption: str = "") -> str:
+    """A table of cells that are HTML, in a box."""
+    columns = "".join(f"<th>{each}</th>" for each in head)
+    body = "".join("<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>" for row in rows)
+    return boxed_html(f"<table>{caption}<thead><tr>{columns}</tr></thead><tbody>{body}</tbody></table>")
 
 
 def prose_html(text: str) -> str:

@@ -10,10 +10,9 @@ import traitlets
 from ipywidgets import HBox, Layout
 
 from lsys_kit.classroom.lessons.lesson import MOST_CHARACTERS, Blank, Table, is_right, table
-from lsys_kit.classroom.lessons.widget import LessonWidget, boxed_html, html, prose_html, prose_text
+from lsys_kit.classroom.lessons.widget import LessonWidget, html, prose_html, prose_text, table_html
 from lsys_kit.classroom.panel.bundle import bundled, style
-from lsys_kit.classroom.panel.comparison import Comparison
-from lsys_kit.classroom.panel.explorer import Explorer
+from lsys_kit.classroom.panel.explorer import Comparison, Explorer
 from lsys_kit.classroom.widget import Unfinalized
 from lsys_kit.errors import require
 from lsys_kit.translation import gettext, ngettext
@@ -100,11 +99,9 @@ class Worksheet(LessonWidget):
         self.result = {"number": self.asked.get("number", 0), "marks": marks, "text": summary(self._table, marks)}
 
     def _stored(self) -> dict[str, Any]:
-        head = "".join(f"<th>{prose_html(each)}</th>" for each in self._table.columns)
-        rows = "".join("<tr>" + "".join(f"<td>{_cell_html(cell)}</td>" for cell in row) + "</tr>" for row in self._table.rows)
+        rows = (map(_cell_html, row) for row in self._table.rows)
         title = f"<caption>{prose_html(self._table.title)}</caption>"
-        shown = boxed_html(f"<table>{title}<thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>")
-        return {"text/html": shown, "text/plain": repr(self)}
+        return {"text/html": table_html(map(prose_html, self._table.columns), rows, title), "text/plain": repr(self)}
 
     def __repr__(self) -> str:
         cells = [self._table.columns, *([_cell_text(cell) for cell in row] for row in self._table.rows)]
@@ -132,7 +129,6 @@ class PanelWithWorksheet(Unfinalized, HBox):  # type: ignore[misc]
         super().__init__([panel, sheet], layout=Layout(flex_flow="row wrap", align_items="flex-start", grid_gap="0 12px"))
 
     def _repr_mimebundle_(self, **options: object) -> dict[str, Any]:
-        """The live widgets, and what a page without a kernel shows of both."""
         panel, sheet = self.panel._stored(), self.sheet._stored()
         return {
             **dict(super()._repr_mimebundle_(**options) or {}),

@@ -26,17 +26,9 @@ _TEXT = re.compile(r'"([^"\n]*)"|\'([^\'\n]+)\'')
 
 @cache
 def bundled(name: str, without: frozenset[str] = frozenset()) -> str:
-    """A script after all scripts that it needs; its own names are those of the text.
+    """A script after all scripts that it needs, without some of which nothing will be called; its own names are those of the
+    text.
 
-    Parameters
-    ----------
-    name
-        The script.
-    without
-        Scripts that are left out, because nothing of them will be called.
-
-    Examples
-    --------
     >>> bundled("widget").count("import ")
     0
     >>> len(bundled("widget", frozenset({"turtle"}))) < len(bundled("widget"))
@@ -54,7 +46,6 @@ def bundled(name: str, without: frozenset[str] = frozenset()) -> str:
 
 
 def _plain(name: str) -> str:
-    """A script without the words by which modules import and export."""
     return _EXPORT.sub("", _IMPORT.sub("", source(name)))
 
 
@@ -84,7 +75,6 @@ def source(name: str) -> str:
 
 @cache
 def _scripts() -> Mapping[str, Traversable]:
-    """The scripts by their names, in whatever folder they are."""
     home = files(__package__) / "scripts"
     folders = [home, *(place for place in home.iterdir() if place.is_dir())]
     return {

@@ -1,9 +1,9 @@
-"""The explorer: a system's rules, word, stage diagram and drawing side by side, with sliders made from the model.
+"""The explorer: a system's rules, word, stage diagram and drawing side by side, with sliders made from the model; or two
+of them with one step slider.
 
 The kernel sends a book of the system for a setting of its constants, and the browser turns its pages: neither a step, an
 angle, a point of view, a mark nor a trace asks the kernel (see `book`). What the browser shows, the kernel knows as soon as the
-sliders have come to rest, so that other widgets can be linked to the panel.
-"""
+sliders have come to rest, so that other widgets can be linked to the panel."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from pathlib import Path
 from typing import Any
 
 import traitlets
+from ipywidgets import widget_serialization
 
 from lsys_kit.budget import Task, current, limits
-from lsys_kit.classroom.catalogue import cellwork_system, entry, is_cellwork_system, is_map_system, map_system
-from lsys_kit.classroom.catalogue import system as catalogued
+from lsys_kit.classroom.catalogue import entry
 from lsys_kit.classroom.link import ANGLE, SEED, STEP, linked, settings_given
 from lsys_kit.classroom.panel.books.book import MOST_MODULES
 from lsys_kit.classroom.panel.books.net import Unfolding
@@ -26,11 +26,11 @@ from lsys_kit.classroom.panel.controls import nearest, plain_number, slider
 from lsys_kit.classroom.panel.held import fixed_text
 from lsys_kit.classroom.panel.labels import translated_labels
 from lsys_kit.classroom.panel.opened.kinds import opened
-from lsys_kit.classroom.panel.opened.opened import Opened, Sight, Viewing, read_any
+from lsys_kit.classroom.panel.opened.opened import Opened, Sight, Viewing, catalogued, read_any
 from lsys_kit.classroom.panel.page import page, save_page
 from lsys_kit.classroom.widget import KitWidget
 from lsys_kit.derivation.petri.stages import stages
-from lsys_kit.errors import LSystemError, ModelNameError, ModelValueError, every, require, shown, whole_number
+from lsys_kit.errors import LSystemError, ModelNameError, ModelValueError, every, quotable, require, shown, whole_number
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.fragments import is_link
 from lsys_kit.notation.model.arithmetic import Value, number_text
@@ -215,7 +215,6 @@ class Explorer(KitWidget):
         }
 
     def _offer_constants(self) -> None:
-        """Each constant with a slider is an attribute that can be set and linked."""
         offered = {name: self._trait_of(name, value) for name, value in self._opened.first.items() if not hasattr(self, name)}
         if offered:
             self.add_traits(**offered)  # all at once: this makes a class anew
@@ -235,7 +234,6 @@ class Explorer(KitWidget):
                 setattr(self, name, plain_number(nearest(self._opened.values[name], name, text)))
 
     def _values(self, settings: Mapping[str, object]) -> dict[str, Value]:
-        """The values of the sliders for some settings."""
         return {
             name: nearest(values, name, settings.get(name, self._opened.first[name]))
             for name, values in self._opened.values.items()
@@ -285,7 +283,6 @@ class Explorer(KitWidget):
         return {"opened": True}
 
     def _variants(self, _: Mapping[str, Any]) -> dict[str, Any]:
-        """Nine variants of the system, each with its book."""
         return {
             "variants": [
                 {"text": str(variant), "book": opened(variant).book({}, self.seed, 0)} for variant in self._opened.variants(9)
@@ -303,7 +300,6 @@ class Explorer(KitWidget):
     # -- what is kept ---------------------------------------------------------------------------------------------------
 
     def _stored(self) -> dict[str, Any]:
-        """Its words and its picture."""
         return {"text/plain": f"{self.text} Run this cell to play.", **self.still}
 
     def __repr__(self) -> str:
@@ -385,13 +381,7 @@ def explore(
     title = ""
     if isinstance(what, str) and _ID.fullmatch(what.strip()):
         title = entry(what.strip()).id
-        what = (
-            map_system(title)
-            if is_map_system(title)
-            else cellwork_system(title)
-            if is_cellwork_system(title)
-            else catalogued(title)
-        )
+        what = catalogued(title)
     if isinstance(what, str) and is_link(what):
         there = linked(what)
         given: dict[str, Any] = {**there.settings, **settings_given(step, angle, seed), **constants}
@@ -410,13 +400,7 @@ def explore(
 
 
 def check_unfolded(system: LSystem | MapSystem | CellworkSystem, unfold: Unfolding, constants: dict[str, Any]) -> None:
-    """The stage diagram of a system can be unfolded as somebody asks for.
-
-    Raises
-    ------
-    LSystemError
-        It cannot, or there is no such symbol.
-    """
+    """The stage diagram of a system can be unfolded as somebody asks for."""
     if unfold is False:
         return
     if not isinstance(system, LSystem):
@@ -435,3 +419,140 @@ def chosen_names(names: str | Collection[str], what: str, offered: Collection[st
                 f"There is no {what} {shown(name)}", hint=suggestion(name, offered) or f"The {what}s are: {', '.join(offered)}."
             )
     return frozenset(asked)
+
+
+_COMMON = {"what": "The system", "step": "The step", "sliders": "The choice of sliders", "show": "The choice of views"}
+"""What a side cannot have of its own, though `explore` takes it."""
+
+
+def compare(
+    what: LSystem | MapSystem | CellworkSystem | str,
+    *others: LSystem | MapSystem | CellworkSystem | str | Mapping[str, object],
+    step: int | None = None,
+    sliders: str | Collection[str] | None = None,
+    show: str | Collection[str] | None = None,
+    shared: str | Collection[str] = (),
+    **choices: object,
+) -> Comparison:
+    """Show two systems, or one under two settings of its constants, side by side with one step slider.
+
+    Where the words differ is marked, and said in words below.
+
+    Parameters
+    ----------
+    what
+        A system, as for `explore`.
+    *others
+        Another system; or two settings of this one, each a dictionary of constants. A single dictionary is compared with the
+        system as it is.
+    step
+        The step shown first; by default that of the first system.
+    sliders
+        What has a slider on both sides, as for `explore`; by default everything has one.
+    show
+        The views that are open on both sides at first, as for `explore`; by default the word and the drawing.
+    shared
+        The constants, one or a list, that one slider moves on both sides; at first they are what they are on the left.
+    **choices
+        None: constants, angle and seed of a side stand in its dictionary.
+
+    Raises
+    ------
+    ModelValueError
+        It is not clear what is compared with what, or a choice is none of a side's.
+    ModelNameError
+        One of the two has no slider or view of that name.
+
+    Examples
+    --------
+    >>> both = compare("J4", {}, {"lifeTimeA": 2, "lifeTimeB": 3}, step=9)
+    >>> both.left.settings, both.right.settings
+    ({'lifeTimeA': '3', 'lifeTimeB': '2'}, {'lifeTimeA': '2', 'lifeTimeB': '3'})
+    >>> both.left.step = 4
+    >>> both.right.step
+    4
+    """
+    for name in choices:
+        if name == "field":
+            explore(what, field=choices[name])  # says why a panel has none
+        raise ModelValueError(
+            f'"{quotable(name)}" stands beside what is compared, and belongs to one side of it',
+            hint=f'Each side has settings of its own: compare("J4", {{}}, {{"{quotable(name)}": ...}}).',
+        )
+    match others:
+        case (Mapping() as first, Mapping() as second):
+            sides = (what, first), (what, second)
+        case (Mapping() as second,):
+            sides = (what, {}), (what, second)
+        case (LSystem() | MapSystem() | CellworkSystem() | str() as other,):
+            sides = (what, {}), (other, {})
+        case _:
+            raise ModelValueError(
+                "Two systems are compared, or one system under two settings",
+                hint='For example compare("P2", "P3"), or compare("J4", {}, {"lifeTimeA": 2}).',
+            )
+    left = explore(sides[0][0], step, sliders=sliders, show=show, **_named(sides[0][1]))
+    right = explore(sides[1][0], left.step, sliders=sliders, show=show, **_named(sides[1][1]))
+    return Comparison(left, right, chosen_names(shared, "slider", [name for name in left.settings if name in right.settings]))
+
+
+def _named(settings: Mapping[str, object]) -> dict[str, Any]:
+    for name in settings:
+        if not isinstance(name, str):
+            raise ModelValueError(f"Constants have names, not {name!r}", hint='A setting is for example {"lifeTimeA": 2}.')
+        if name in _COMMON:
+            raise ModelValueError(
+                f"{_COMMON[name]} is no setting of one side",
+                hint='It stands beside the two, as in compare("J4", {}, {"lifeTimeA": 2}, step=9).',
+            )
+    return dict(settings)
+
+
+class Comparison(KitWidget):
+    """The two panels that `compare` shows.
+
+    Attributes
+    ----------
+    left, right
+        The panels, as `explore` makes them; their steps are the same.
+    shared
+        The names of the constants that are the same on both sides.
+    """
+
+    _esm = bundled("comparison")
+    _css = style()
+    left = traitlets.Instance(Explorer).tag(sync=True, **widget_serialization)
+    right = traitlets.Instance(Explorer).tag(sync=True, **widget_serialization)
+
+    shared = traitlets.List(traitlets.Unicode()).tag(sync=True)
+
+    def __init__(self, left: Explorer, right: Explorer, shared: Collection[str] = ()) -> None:
+        super().__init__(left=left, right=right, shared=sorted(shared))
+        traitlets.link((left, "step"), (right, "step"))
+        if shared:
+            traitlets.dlink((left, "settings"), (right, "settings"), self._shared_of)
+            traitlets.dlink((right, "settings"), (left, "settings"), self._shared_of)
+
+    def _shared_of(self, settings: Mapping[str, str]) -> dict[str, str]:
+        return {name: settings[name] for name in self.shared if name in settings}
+
+    @property
+    def text(self) -> str:
+        """What both panels show, in words."""
+        return f"{self.left.text}\n{self.right.text}"
+
+    def page_data(self, asked: Sequence[Mapping[str, object]] = ()) -> dict[str, Any]:
+        """What a page without a kernel has to know of both panels, and of the settings that are asked for."""
+        return {"left": self.left.page_data(asked), "right": self.right.page_data(asked), "shared": self.shared}
+
+    def _stored(self) -> dict[str, Any]:
+        return {"text/plain": self.text, **self.left.still}
+
+    def close(self) -> None:
+        """Close both panels, and what the browser keeps of them."""
+        for each in (self.left, self.right):
+            each.close()
+        super().close()
+
+    def __repr__(self) -> str:
+        return self.text

@@ -11,7 +11,6 @@ import json
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
@@ -37,14 +36,6 @@ PARTS_OF_A_TOLERANCE = 10
 DIFFERENT = "Something in it is different. Do it again, one step after another."
 
 
-@dataclass(frozen=True)
-class Reply:
-    """What is said to an answer: a verdict's word, and its message."""
-
-    said: str
-    message: str
-
-
 def page_data(exercise: Exercise) -> dict[str, Any] | None:
     """What a page needs to check an exercise; None where only Python can check it.
 
@@ -53,10 +44,10 @@ def page_data(exercise: Exercise) -> dict[str, Any] | None:
     >>> data["kind"], data["otherwise"], len(data["replies"]) > 0, "21" in data["replies"]
     ('number', 'Count again.', True, False)
     """
-    if exercise.kind not in _REPLIES:
+    if exercise.kind not in _ANSWERS:
         return None
     with suppress(LSystemError, _NotExact):
-        replies = {key: (reply.said, reply.message) for key, reply in sorted(_REPLIES[exercise.kind](exercise).items())}
+        replies = {key: _reply(exercise, answer) for key, answer in sorted(_ANSWERS[exercise.kind](exercise).items())}
         return {
             "id": exercise.id,
             "kind": exercise.kind,
@@ -72,12 +63,10 @@ class _NotExact(Exception):
     """An answer has no exact normal form."""
 
 
-def _reply(exercise: Exercise, answer: object) -> Reply:
-    """What the kit itself says to an answer; to a right one also why it is right."""
+def _reply(exercise: Exercise, answer: object) -> tuple[str, str]:
+    """What the kit itself says to an answer, a verdict and a message; to a right one also why it is right."""
     verdict = checked(exercise, answer, 0, False, "")
-    if verdict.said == "Correct":
-        return Reply("Correct", exercise.explanation)
-    return Reply(verdict.said, verdict.message)
+    return verdict.said, exercise.explanation if verdict.said == "Correct" else verdict.message
 
 
 # Normal forms
@@ -111,59 +100,56 @@ def word_key(word: tuple[Module, ...]) -> str:
     return " ".join(each.symbol + (f"({','.join(map(number_key, each.arguments))})" if each.arguments else "") for each in word)
 
 
-# The replies of each kind, by the normal forms of the answers
+# The answers of each kind that are understood, by their normal forms: those that are wrong, then the right one
 
 
-def _of_options(exercise: Exercise) -> dict[str, Reply]:
-    return {letter: _reply(exercise, letter) for letter in letters(exercise)}
+def _options(exercise: Exercise) -> dict[str, Any]:
+    return {letter: letter for letter in letters(exercise)}
 
 
-def _of_lines(exercise: Exercise) -> dict[str, Reply]:
-    return {str(number): _reply(exercise, number) for number in range(1, len(exercise.text.strip("\n").splitlines()) + 1)}
+def _lines(exercise: Exercise) -> dict[str, Any]:
+    return {str(number): number for number in range(1, len(exercise.text.strip("\n").splitlines()) + 1)}
 
 
-def _of_numbers(exercise: Exercise) -> dict[str, Reply]:
+def _numbers(exercise: Exercise) -> dict[str, Any]:
     if exercise.tolerance:
-        return _of_rounded_numbers(exercise)
+        return _rounded_numbers(exercise)
     if isinstance(solution_of(exercise), float):
         raise _NotExact
-    return {number_key(answer): _reply(exercise, answer) for answer in _answers(exercise)}
+    return {number_key(answer): answer for answer in _answers(exercise)}
 
 
-def _of_rounded_numbers(exercise: Exercise) -> dict[str, Reply]:
+def _rounded_numbers(exercise: Exercise) -> dict[str, Any]:
     part, solution = Fraction(exercise.tolerance) / PARTS_OF_A_TOLERANCE, Fraction(solution_of(exercise))
-    right = {
-        rounded_key(solution + at * part, part): _reply(exercise, solution)
-        for at in range(-PARTS_OF_A_TOLERANCE, PARTS_OF_A_TOLERANCE + 1)
-    }
-    wrong = {rounded_key(each.answer, part): _reply(exercise, each.answer) for each in wrong_answers(exercise)}
+    near = range(-PARTS_OF_A_TOLERANCE, PARTS_OF_A_TOLERANCE + 1)
+    right = {rounded_key(solution + at * part, part): solution for at in near}
+    wrong = {rounded_key(each.answer, part): each.answer for each in wrong_answers(exercise)}
     if right.keys() & wrong.keys():
         raise _NotExact
     return {**wrong, **right}
 
 
-def _of_tables(exercise: Exercise) -> dict[str, Reply]:
+def _tables(exercise: Exercise) -> dict[str, Any]:
     if exercise.tolerance:
         raise _NotExact
-    return {",".join(map(number_key, answer)): _reply(exercise, answer) for answer in _answers(exercise)}
+    return {",".join(map(number_key, answer)): answer for answer in _answers(exercise)}
 
 
-def _of_words(exercise: Exercise) -> dict[str, Reply]:
-    return {word_key(answer): _reply(exercise, list(answer)) for answer in _answers(exercise)}
+def _words(exercise: Exercise) -> dict[str, Any]:
+    return {word_key(answer): list(answer) for answer in _answers(exercise)}
 
 
 def _answers(exercise: Exercise) -> Iterator[Any]:
-    """All answers that are understood: those that are wrong, then the right one."""
     yield from (wrong.answer for wrong in wrong_answers(exercise))
     yield solution_of(exercise)
 
 
-_REPLIES: Mapping[str, Callable[[Exercise], dict[str, Reply]]] = {
-    "choice": _of_options,
-    "line": _of_lines,
-    "number": _of_numbers,
-    "table": _of_tables,
-    "word": _of_words,
+_ANSWERS: Mapping[str, Callable[[Exercise], dict[str, Any]]] = {
+    "choice": _options,
+    "line": _lines,
+    "number": _numbers,
+    "table": _tables,
+    "word": _words,
 }
 """The kinds of answers that a page can check."""
 
@@ -172,7 +158,6 @@ _REPLIES: Mapping[str, Callable[[Exercise], dict[str, Reply]]] = {
 
 
 def _otherwise(exercise: Exercise) -> str:
-    """What is said to a wrong answer that nothing explains."""
     if exercise.otherwise or exercise.kind != "number":
         return exercise.otherwise or gettext(DIFFERENT)
     solution = solution_of(exercise)
@@ -181,7 +166,6 @@ def _otherwise(exercise: Exercise) -> str:
 
 
 def _reading(exercise: Exercise) -> dict[str, Any]:
-    """How the page reads what is typed."""
     if exercise.kind == "word":
         return {"symbols": sorted(symbols(system_of_words(exercise)), key=lambda symbol: (-len(symbol), symbol))}
     if exercise.kind != "number":
@@ -220,15 +204,11 @@ def exercise_page(lesson: Lesson) -> str | None:
     body = (
         f'<a class="skip" href="#main">{gettext("Skip to the exercises")}</a>\n'
         f'<header><div id="told" role="status"></div></header>\n<main id="main">\n<h1>{escaped(title)}</h1>\n'
-        f'{_html(lesson.introduction)}<div class="note"><p>{gettext(_TOLD)}</p></div>\n{_without_scripts()}'
+        f'{_html(lesson.introduction)}<div class="note"><p>{gettext(_TOLD)}</p></div>\n'
+        f'<noscript><p class="note">{gettext("Answers are checked by scripts, and this browser runs none.")}</p></noscript>\n'
         f"{sections}{_in_the_notebook(lesson, others)}<h2>{gettext('Summary')}</h2>\n{_html(lesson.summary)}</main>\n"
     )
     return document(title, body, style("course"), title, _program([data for _, data in checked]), language())
-
-
-def _without_scripts() -> str:
-    said = gettext("Answers are checked by scripts, and this browser runs none.")
-    return f'<noscript><p class="note">{said}</p></noscript>\n'
 
 
 def _program(exercises: Sequence[dict[str, Any]]) -> Program:
@@ -239,12 +219,10 @@ def _program(exercises: Sequence[dict[str, Any]]) -> Program:
 
 
 def _html(text: str) -> str:
-    """Markdown as HTML, in which links lead nowhere."""
-    return markdown_html(text, lambda address: None)
+    return markdown_html(text, lambda address: None)  # links lead nowhere
 
 
 def _section(exercise: Exercise) -> str:
-    """An exercise: its question, what is typed or chosen, and room for the reply and for hints."""
     title = f"{escaped(exercise.id)} {escaped(exercise.title)}"
     replies = '<div class="lsys-said" role="status"></div><div data-hints></div>'
     return (
@@ -254,7 +232,6 @@ def _section(exercise: Exercise) -> str:
 
 
 def _answering(exercise: Exercise) -> str:
-    """Buttons to choose from, or a box to type in."""
     if exercise.kind == "choice":
         options = zip(letters(exercise), exercise.options, strict=True)
         return _buttons("", [(letter, _inline(option.text)) for letter, option in options])
@@ -279,12 +256,10 @@ def _buttons(kind: str, options: Sequence[tuple[str, str]]) -> str:
 
 
 def _inline(text: str) -> str:
-    """Markdown of one line, without the paragraph around it."""
     return _html(text).strip().removeprefix("<p>").removesuffix("</p>")
 
 
 def _in_the_notebook(lesson: Lesson, others: Sequence[Exercise]) -> str:
-    """The exercises that only the kit itself can check."""
     if not others:
         return ""
     listed = "".join(f"<li>{escaped(each.id)} {escaped(each.title)}</li>\n" for each in others)

@@ -24,26 +24,10 @@ from lsys_kit.files import made_by_the_kit, save_file
 
 
 def build_site(folder: str | Path, source: Path | None = None) -> tuple[Path, ...]:
-    """Write the course into a folder as pages that need neither Python nor a network.
+    """Write the course into a folder as pages that need neither Python nor a network, and return them, the first one first.
 
-    Parameters
-    ----------
-    folder
-        The folder; it is made if necessary. Pages of an older site in it are replaced, and nothing else.
-    source
-        Where the course comes from; by default what came with the kit.
-
-    Returns
-    -------
-    tuple of Path
-        The pages, the first one first.
-
-    Raises
-    ------
-    ModelFileError
-        Something that the kit did not make stands where a page belongs, or the folder cannot be written to.
-    LSystemError
-        A cell of a lesson fails, or a package is missing.
+    The folder is made if necessary. Pages of an older site in it are replaced, and nothing else; what the kit did not make is
+    an error, as is a cell that fails. The course is by default what came with the kit.
     """
     folder = Path(folder)
     files = {name: path for name, path in course_files(source).items() if name.endswith(".ipynb")}
@@ -93,18 +77,7 @@ _FIRST = f"from {showing.__name__} import show_for_pages\nshow_for_pages({{!r}})
 
 
 def run_all(paths: Mapping[str, Path]) -> Iterator[tuple[str, Any]]:
-    """The notebooks of some files, run, in the order in which they are finished.
-
-    Parameters
-    ----------
-    paths
-        The files by their names in the course.
-
-    Raises
-    ------
-    LSystemError
-        A cell fails, or what runs notebooks is not installed.
-    """
+    """The notebooks of some files, by their names in the course, run, in the order in which they are finished."""
     stopped = Event()
     with ThreadPoolExecutor(max_workers=min(8, os.cpu_count() or 1)) as pool:
         tasks = {pool.submit(run, name, path, stopped): name for name, path in paths.items()}

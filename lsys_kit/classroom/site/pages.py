@@ -6,6 +6,7 @@ import base64
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import PurePosixPath
 from posixpath import relpath
 from typing import Any
@@ -17,7 +18,7 @@ from lsys_kit.classroom.lessons.widget import escaped_lines, html, prose_html, p
 from lsys_kit.classroom.panel.bundle import compact, style
 from lsys_kit.classroom.panel.document import Program, deflated_text, document
 from lsys_kit.classroom.panel.page import not_needed
-from lsys_kit.classroom.site.markdown import Links, links_of, markdown_html, mathml
+from lsys_kit.classroom.site.markdown import Links, address_on_site, markdown_html, mathml
 from lsys_kit.classroom.site.showing import PART
 from lsys_kit.pictures.style.labels import escaped
 
@@ -44,16 +45,8 @@ _PANELS = frozenset({"panel", "compare"})
 
 @dataclass(frozen=True)
 class Entry:
-    """A notebook on the site.
-
-    Attributes
-    ----------
-    name
-        Its file, relative to the course.
-    title
-        Its title, as a text.
-    lesson
-        What is declared of it, if it is a lesson.
+    """A notebook on the site: its file, relative to the course, its title as a text, and what is declared of it if it is a
+    lesson.
     """
 
     name: str
@@ -72,18 +65,12 @@ class Entry:
 
 
 def notebook_page(entry: Entry, cells: Sequence[Any], entries: Sequence[Entry]) -> str:
-    """The page of a notebook.
-
-    Parameters
-    ----------
-    entry
-        The notebook.
-    cells
-        Its cells; those of exercises are shown without the code that checks answers.
-    entries
-        All notebooks of the site, in their order.
-    """
-    links, parts, [head, *rest] = links_of(entry.name, {each.name for each in entries}), Parts(), _seen(entry, cells)
+    """The page of a notebook; cells of exercises are shown without the code that checks answers."""
+    links, parts, [head, *rest] = (
+        partial(address_on_site, entry.name, {each.name for each in entries}),
+        Parts(),
+        _seen(entry, cells),
+    )
     begin = cells_html([head], links, parts) + _note(entry) + cells_html(rest, links, parts)
     row = _neighbours(entry, entries)
     body = (
@@ -120,7 +107,6 @@ look, move a slider, change a rule.</p>
 
 
 def _lesson_row(entry: Entry, entries: Sequence[Entry]) -> str:
-    """A lesson in the list: its title, what it asks, how long it takes, its tracks, its exercises."""
     exercises = next((each for each in entries if each.name == f"exercises/{PurePosixPath(entry.name).name}"), None)
     told = entry.lesson
     facts = (
@@ -138,7 +124,6 @@ def _lesson_row(entry: Entry, entries: Sequence[Entry]) -> str:
 
 
 def _seen(entry: Entry, cells: Sequence[Any]) -> list[Any]:
-    """The cells of a notebook that its page shows."""
     return [each for each in cells if not (entry.folder == "exercises" and _checks(each))]
 
 
@@ -150,20 +135,17 @@ def _checks(cell: Any) -> bool:
 
 
 def _note(entry: Entry) -> str:
-    """What is said on a page of what can be done on it."""
     if entry.folder == "exercises":
         return _HOW.format(name=escaped(entry.name))
     return _KEPT if is_lesson(entry.name) else ""
 
 
 def _above(entry: Entry) -> str:
-    """The way back to the first page."""
     home = relpath(INDEX, entry.folder)
     return f'<nav aria-label="the course"><a href="{home}">{COURSE}</a></nav>'
 
 
 def _neighbours(entry: Entry, entries: Sequence[Entry]) -> str:
-    """Links to the pages before and after one of the same kind, and from a lesson to its exercises or back."""
     return "\n".join(
         f'<a class="{kind}" href="{escaped(relpath(other.page, entry.folder))}"><span>{label}</span> {escaped(other.title)}</a>'
         for kind, label, other in _others(entry, entries)
@@ -171,7 +153,6 @@ def _neighbours(entry: Entry, entries: Sequence[Entry]) -> str:
 
 
 def _others(entry: Entry, entries: Sequence[Entry]) -> Iterator[tuple[str, str, Entry]]:
-    """Where one may go on from a page: how the link looks, what it is called, the page."""
     alike = [each for each in entries if each.folder == entry.folder and is_lesson(each.name) == is_lesson(entry.name)]
     place = alike.index(entry)
     if place:
@@ -183,7 +164,6 @@ def _others(entry: Entry, entries: Sequence[Entry]) -> Iterator[tuple[str, str, 
 
 
 def _program(parts: Parts) -> Program | None:
-    """What runs in a page with these parts; nothing, where it has none."""
     if not parts:
         return None
     modes = {*_modes(parts)}
@@ -192,7 +172,6 @@ def _program(parts: Parts) -> Program | None:
 
 
 def _modes(data: Any) -> Iterator[str]:
-    """In which ways panels draw, somewhere in the data of parts."""
     if isinstance(data, list):
         for each in data:
             yield from _modes(each)
@@ -280,7 +259,6 @@ def _kept_picture(packed: str, parts: Parts) -> str:
 
 
 def _part_html(part: Mapping[str, Any], words: str, parts: Parts) -> str:
-    """The place of a part, with what it asks or shows in words, for readers without scripts."""
     kind, number = part["kind"], len(parts)
     parts.append({"kind": kind, "data": part["data"]})
     inside = _prediction_html(part, parts) if kind == "prediction" else _lines(words)
@@ -288,7 +266,6 @@ def _part_html(part: Mapping[str, Any], words: str, parts: Parts) -> str:
 
 
 def _prediction_html(part: Mapping[str, Any], parts: Parts) -> str:
-    """The question, and what answers it, folded."""
     answer = data_html(part["answer"], parts)
     question = prose_html(part["data"]["question"])
     return f"<details><summary>{question}</summary>\n<div data-answer>\n{answer}</div>\n</details>"

@@ -13,8 +13,7 @@ from lsys_kit.classroom.lessons.rule_finder import RuleFinder
 from lsys_kit.classroom.lessons.vote import VoteBox
 from lsys_kit.classroom.lessons.widget import html, prose_text
 from lsys_kit.classroom.lessons.worksheet import PanelWithWorksheet, Worksheet
-from lsys_kit.classroom.panel.comparison import Comparison
-from lsys_kit.classroom.panel.explorer import Explorer
+from lsys_kit.classroom.panel.explorer import Comparison, Explorer
 from lsys_kit.notation.model.arithmetic import Value, normalised
 
 PART = "application/vnd.lsys-kit.page-part+json"
@@ -55,12 +54,10 @@ def part(widget: Any, include: object = None, exclude: object = None, lesson: Le
 
 
 def _seen(widget: Any, lesson: Lesson | None) -> dict[str, Any]:
-    """The kind and the data of a widget."""
     return {"kind": next(kind for each, kind in KINDS.items() if isinstance(widget, each)), "data": _data(widget, lesson)}
 
 
 def _data(widget: Any, lesson: Lesson | None) -> Any:
-    """The data of a widget; a panel's hold the settings that the lesson asks for."""
     if isinstance(widget, PanelWithWorksheet):
         return {"panel": _seen(widget.panel, lesson), "sheet": _data(widget.sheet, lesson)}
     if not isinstance(widget, Explorer | Comparison):
@@ -76,21 +73,9 @@ _SET = re.compile(r"\b(\w++) = ([\d./]+\d|\d)")
 def asked_settings(lesson: Lesson, sliders: Collection[str]) -> Iterator[dict[str, Value]]:
     """What the tables of a lesson say of the sliders of a panel, row by row, and then what its text says.
 
-    Parameters
-    ----------
-    lesson
-        The lesson.
-    sliders
-        The names of the sliders.
+    A row has the values that stand in it, each in a column whose title has the name of the slider in it, and those that the
+    title of the table sets, as in "With dt = 0.8". Settings of the text that name another slider are left out.
 
-    Yields
-    ------
-    dict
-        Values of sliders: those that stand in the row, each in a column whose title has the name of the slider in it, and those
-        that the title of the table sets, as in "With dt = 0.8". Settings of the text that name another slider are left out.
-
-    Examples
-    --------
     >>> from lsys_kit.classroom.lessons.lesson import lesson
     >>> [*map(str, asked_settings(lesson("11"), ("dt", "t_l")))][6]
     "{'dt': Fraction(4, 5), 't_l': Fraction(1, 10)}"
@@ -111,11 +96,9 @@ def asked_settings(lesson: Lesson, sliders: Collection[str]) -> Iterator[dict[st
 
 
 def _named(title: str, sliders: Collection[str]) -> str:
-    """The first slider that is named in the title of a column; "" where none is."""
     return next((word for word in re.findall(r"\w+", prose_text(title)) if word in sliders), "")
 
 
 def _values(cells: Sequence[tuple[str, object]], sliders: Collection[str]) -> dict[str, Value]:
-    """The numbers among the cells of sliders."""
     numbers = ((name, number_of(cell)) for name, cell in cells if name in sliders and isinstance(cell, str))
     return {name: normalised(number) for name, number in numbers if number is not None}

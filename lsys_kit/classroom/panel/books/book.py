@@ -85,36 +85,12 @@ def book(
     least: int = 0,
     unfold: Unfolding = False,
 ) -> dict[str, Any]:
-    """The book of a system, ready to be written as JSON.
+    """The book of a system for new values of its constants, ready to be written as JSON; it holds a step at least, if that can
+    be reached. Symbols are unfolded in the stage diagram as in `stages`.
 
-    Parameters
-    ----------
-    system
-        Any L-system.
-    settings
-        New values for declared constants.
-    seed
-        The seed of the random numbers; by default the system's.
-    title
-        What the system is called.
-    least
-        A step that the book shall hold, if it can be reached.
-    unfold
-        The symbols that are unfolded in the stage diagram, as for `stages`.
+    Its entries are lists, dictionaries, texts and numbers. `end` says why there are no more steps, if something is in the way;
+    otherwise the last step is twice the number that the system asks for, and 10 at least.
 
-    Returns
-    -------
-    dict
-        Its entries are lists, dictionaries, texts and numbers. `end` says why there are no more steps, if something is in the
-        way; otherwise the last step is twice the number that the system asks for, and 10 at least.
-
-    Raises
-    ------
-    LSystemError
-        Not even the axiom can be derived or drawn.
-
-    Examples
-    --------
     >>> from lsys_kit.notation.read import read
     >>> made = book(read("axiom: a\\na -> ab\\nb -> a"))
     >>> made["steps"], made["axiom"], made["successors"], [text for *_, text in made["states"]]
@@ -206,12 +182,10 @@ def _pages(derivation: Derivation, end: str) -> _Pages:
 
 
 def _occurring(derivation: Derivation, step: int) -> Iterable[int]:
-    """The states of a step's word."""
     return derivation.counts(step)
 
 
 def _size(states: States, new: Sequence[int], drawn: Sequence[object]) -> int:
-    """About how many bytes some states take in a book."""
     return len(json.dumps(drawn)) + sum(STATE_BYTES + 2 * len(str(states.modules[state])) for state in new)
 
 
@@ -239,7 +213,6 @@ def _labels(states: States, numbers: Iterable[int], net: Stages | None) -> tuple
 
 
 def _has_chance(states: States) -> bool:
-    """Whether the seed makes a difference."""
     return states.traits.stochastic or states.traits.random or any(rule.probability for rule in states.system.decomposition)
 
 
@@ -296,13 +269,6 @@ def drawn_rows(states: States, numbers: Sequence[int], mode: DrawingMode) -> lis
     In a filament its cells and walls as in `shapes_of`; for a turtle its calls, each an action, a factor and an addend, the
     values of its module or 0, for a label what it says, and a surface or 0.
 
-    Raises
-    ------
-    LSystemError
-        It cannot be drawn.
-
-    Examples
-    --------
     >>> from lsys_kit.notation.read import read
     >>> states = States(read("axiom: F(2)+A"))
     >>> drawn_rows(states, states.axiom, DrawingMode.PLANE)
@@ -331,7 +297,6 @@ def _call(instruction: Instruction, known: Mapping[str, Surface]) -> list[Any]:
 
 
 def _plain(number: float) -> float:
-    """A number as short as it can be written in JSON."""
     number = max(-GREATEST, min(GREATEST, number))
     return int(number) if abs(number) < GREATEST and number == int(number) else number
 
@@ -441,7 +406,6 @@ def rate_text(rule: Sequence[int]) -> str:
 
 
 def _remainder(polynomial: Sequence[int], divisor: Sequence[int]) -> list[int]:
-    """The remainder of a polynomial in whole numbers; the first coefficient of the divisor is 1."""
     left = [*polynomial]
     for at in range(len(left) - len(divisor) + 1):
         for k, c in enumerate(divisor[1:], 1):

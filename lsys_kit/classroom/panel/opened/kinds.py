@@ -21,25 +21,9 @@ def opened(
     without: Collection[str] = (),
     unfold: Unfolding = False,
 ) -> Opened:
-    """A system of any kind, opened.
-
-    Parameters
-    ----------
-    system
-        An L-system, a map system or a cellwork system.
-    title
-        What it is called in the catalogue.
-    changes
-        First values of its constants, or of its forces.
-    without
-        Those of them that have no slider, and stay as they are; what is no constant or force of this system is passed over.
-    unfold
-        The symbols that are unfolded in the stage diagram of an L-system, as for `stages`, as far as that is possible.
-
-    Raises
-    ------
-    LSystemError
-        A value makes no sense.
+    """A system of any kind, opened, with what it is called in the catalogue, first values of its constants or forces, and
+    those of them that have no slider; what is none of this system is passed over. Its stage diagram is unfolded as far as that
+    is possible.
     """
     if isinstance(system, CellworkSystem) or (isinstance(system, MapSystem) and system.sphere):
         return OpenedTissue(system, title, changes, without)

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
+from lsys_kit.classroom.catalogue import cellwork_system, is_cellwork_system, is_map_system, map_system, system
 from lsys_kit.notation.dialects.cellwork.dialect import read_cellwork
 from lsys_kit.notation.dialects.map.dialect import read_map
 from lsys_kit.notation.model.arithmetic import Value
@@ -45,6 +46,11 @@ def read_any(text: str) -> LSystem | MapSystem | CellworkSystem:
     False
     """
     return (read_map if is_map(text) else read_cellwork if is_cellwork(text) else read)(text)
+
+
+def catalogued(id: str) -> LSystem | MapSystem | CellworkSystem:
+    """The system of an id in the catalogue, of any kind."""
+    return (map_system if is_map_system(id) else cellwork_system if is_cellwork_system(id) else system)(id)
 
 
 class Opened(Protocol):
@@ -94,13 +100,7 @@ class Opened(Protocol):
         ...
 
     def turned(self, angle: object) -> float:
-        """The angle of the turtle's turns, or the system's own if none is given.
-
-        Raises
-        ------
-        LSystemError
-            It makes no sense.
-        """
+        """The angle of the turtle's turns, or the system's own if none is given."""
         ...
 
     def book(self, values: Mapping[str, Value], seed: int, least: int) -> dict[str, Any]:
