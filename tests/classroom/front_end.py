@@ -26,8 +26,8 @@ from lsys_kit.pictures.draw import state_colours
 from lsys_kit.pictures.style.palette import CHOSEN
 
 SCRIPTS = Path(lsys_kit.classroom.panel.__file__).parent / "scripts"
-TURTLE = ("constants", "turtle_actions", "turtle_plane", "turtle_space", "turtle")
-PAINTER = (*TURTLE, "colours", "lighting", "cylinders", "outlines", "painting_order", "projection", "painter")
+TURTLE = ("constants", "numbers", "turtle_actions", "turtle_plane", "turtle_space", "turtle")
+PAINTER = (*TURTLE, "colours", "outlines", "projection", "painter")
 IMPORT = re.compile(r"^import .*;$\n", re.MULTILINE)
 
 

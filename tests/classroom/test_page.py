@@ -442,7 +442,7 @@ def test_a_plant_keeps_its_angle_in_its_link(opened) -> None:
 def test_python_and_the_page_write_links_that_the_other_reads(browser: Browser) -> None:
     shown = browser.new_page()
     chosen = {id: link(system(id), {"step": 4, "angle": "77/3"}) for id in systems()}
-    code = f"""given => {{ {joined("constants", "packing", "link")}
+    code = f"""given => {{ {joined("constants", "numbers", "link")}
         return Promise.all(given.map(unpackedLink).map(async (each) => [await each, await packedLink(await each)])); }}"""
     for address, (content, again) in zip(chosen.values(), shown.evaluate(code, [*chosen.values()]), strict=True):
         assert content == {**unpacked(address)._asdict(), "settings": dict(unpacked(address).settings)}
@@ -463,7 +463,7 @@ def test_the_page_reads_no_broken_link_and_no_bomb(browser: Browser) -> None:
         forged(b"abop\naxiom: " + b"A" * 5_000_000),
         forged(b"abop\n\xff"),
     ]
-    code = f"given => {{ {joined('constants', 'packing', 'link')}\nreturn Promise.all(given.map(unpackedLink)); }}"
+    code = f"given => {{ {joined('constants', 'numbers', 'link')}\nreturn Promise.all(given.map(unpackedLink)); }}"
     assert shown.evaluate(code, broken) == [None] * len(broken)
     assert shown.evaluate(code, [whole]) == [unpacked(whole)._asdict() | {"settings": {"step": "4"}}]
     shown.close()

@@ -194,7 +194,7 @@ def test_exercises_that_only_the_kit_can_check_are_named(first):
 # What a page says
 
 
-SAYING = f"""async cases => {{ {joined("language", "packing", "typed")}
+SAYING = f"""async cases => {{ {joined("controls", "numbers", "typed")}
 return Promise.all(cases.map(async ([data, text]) => {{
   const {{ key, unreadable }} = read(data, text);
   if (unreadable) return {{ said: "Not readable yet", message: unreadable }};
@@ -277,7 +277,7 @@ def test_numbers_are_rounded_in_a_page_as_in_the_kit(browser: Browser):
     numbers = [Fraction(above, below) for above in range(-30, 31, 3) for below in (7, 25, 50, 100)]
     given = [[str(number.numerator * sign), str(number.denominator * sign)] for number in numbers for sign in (1, -1)]
     found = tab.evaluate(
-        f"""given => {{ {joined("language", "typed")}
+        f"""given => {{ {joined("controls", "typed")}
 return given.map(([above, below]) => rounded({{ above: BigInt(above), below: BigInt(below) }}, [3n, 50n])); }}""",
         given,
     )

@@ -311,7 +311,7 @@ def test_a_page_finds_right_what_the_kernel_finds_right(browser: Browser) -> Non
 def test_a_page_says_of_a_table_what_the_kernel_says(browser: Browser, name: str) -> None:
     tab, code = (
         browser.new_page(),
-        f"([data, entries]) => {{ {joined('constants', 'prose', 'checking')}\nreturn checked(data, entries); }}",
+        f"([data, entries]) => {{ {joined('constants', 'asking', 'checking')}\nreturn checked(data, entries); }}",
     )
     for table in declared(name).tables:
         right = [blank.right[0] for _, _, blank in table.blanks]

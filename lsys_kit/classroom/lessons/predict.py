@@ -18,7 +18,7 @@ from lsys_kit.classroom.lessons.widget import (
     prose_text,
     widget,
 )
-from lsys_kit.classroom.panel.bundle import bundled, style
+from lsys_kit.classroom.panel.bundle import Data, bundled, style
 from lsys_kit.classroom.widget import Unfinalized
 from lsys_kit.errors import ModelValueError, shown
 
@@ -106,11 +106,11 @@ class Prediction(Unfinalized, VBox):  # type: ignore[misc]
         return self._media
 
     @property
-    def page_data(self) -> dict[str, Any]:
+    def page_data(self) -> Data:
         """What a page without a kernel has to know of the question; what answers it stands beside it there."""
         return {"question": self.prompt.question}
 
-    def _repr_mimebundle_(self, **options: object) -> dict[str, Any]:
+    def _repr_mimebundle_(self, **options: object) -> Data:
         bundle = super()._repr_mimebundle_(**options)
         pictures = {kind: self._media[kind] for kind in _STORED if kind in self._media}
         asked = (

@@ -11,7 +11,7 @@ import traitlets
 
 from lsys_kit.budget import Task
 from lsys_kit.classroom.lessons.widget import LessonWidget, table_html
-from lsys_kit.classroom.panel.bundle import bundled, style
+from lsys_kit.classroom.panel.bundle import Data, bundled, style
 from lsys_kit.derivation.derive import derive
 from lsys_kit.derivation.inference.fits import Explanation, explanation
 from lsys_kit.derivation.inference.infer import MOST_FITS, conditions_of, infer
@@ -106,11 +106,11 @@ class RuleFinder(LessonWidget):
         return max(1, min(len(self._steps), int(proposal["value"])))
 
     @property
-    def page_data(self) -> dict[str, Any]:
+    def page_data(self) -> Data:
         """What a page without a kernel has to know: what is found at every step."""
         return dict(self.found)
 
-    def _stored(self) -> dict[str, Any]:
+    def _stored(self) -> Data:
         rows = ((str(step), f"<code>{escaped(word)}</code>", self._fits_html(step)) for step, word in enumerate(self._words))
         return {"text/html": table_html(("step", "word", "systems that fit"), rows), "text/plain": repr(self)}
 
@@ -158,7 +158,7 @@ def _words_at(systems: Sequence[LSystem], step: int | None) -> Iterator[list[str
         yield from (str(derive(system, step)[step]).split(" ") for system in systems)
 
 
-def _data(found: Found) -> dict[str, Any]:
+def _data(found: Found) -> Data:
     same = sum(1 for _ in takewhile(lambda column: len({*column}) == 1, zip(*found.next_words, strict=False)))
     words = [[" ".join([*word[:same], ""]), _cut(" ".join(word[same:]))] for word in found.next_words]
     return {

@@ -16,7 +16,7 @@ import traitlets
 from lsys_kit.budget import current, limits
 from lsys_kit.classroom.lessons.lesson import Vote, lesson
 from lsys_kit.classroom.lessons.widget import LessonWidget, boxed_html, prose_html, prose_text
-from lsys_kit.classroom.panel.bundle import bundled, style
+from lsys_kit.classroom.panel.bundle import Data, bundled, style
 from lsys_kit.classroom.panel.opened.opened import catalogued
 from lsys_kit.errors import require
 from lsys_kit.notation.read import read
@@ -100,7 +100,7 @@ class VoteBox(LessonWidget):
         self._tell()
 
     @property
-    def page_data(self) -> dict[str, Any]:
+    def page_data(self) -> Data:
         """What a page without a kernel has to know: what is asked, and what is said for each first and each second vote."""
         votes = range(NONE, len(LETTERS))
         said = [[self._said(Ballot(first=first, second=second)) for second in votes] for first in votes]
@@ -112,7 +112,7 @@ class VoteBox(LessonWidget):
     def _tell(self, _: object = None) -> None:
         self.said = self._said(self._ballot)
 
-    def _stored(self) -> dict[str, Any]:
+    def _stored(self) -> Data:
         options = "".join(f"<li>{prose_html(each.text)}</li>" for each in self._vote.options)
         image = self._picture.get("text/html", "")
         html = boxed_html(f"<p>{prose_html(self._vote.question)}</p>", image, f'<ol type="A">{options}</ol>')
@@ -129,7 +129,7 @@ class VoteBox(LessonWidget):
         return "\n".join([prose_text(self._vote.question), *described, *options])
 
 
-def _picture(choices: Mapping[str, Any]) -> dict[str, Any]:
+def _picture(choices: Mapping[str, Any]) -> Data:
     if not choices:
         return {}
     drawn = draw(

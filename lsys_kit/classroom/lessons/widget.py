@@ -13,7 +13,7 @@ from ipywidgets import HTML, HTMLMath, Widget
 
 from lsys_kit.budget import Task
 from lsys_kit.classroom.exercises.verdict import PLAIN_TEXT
-from lsys_kit.classroom.panel.bundle import translated_words
+from lsys_kit.classroom.panel.bundle import Data, translated_words
 from lsys_kit.classroom.widget import KitWidget
 from lsys_kit.errors import shown
 from lsys_kit.pictures.style.labels import escaped
@@ -68,7 +68,7 @@ _IMAGES: Mapping[str, str] = {"image/svg+xml": "svg+xml", "image/png": "png", "i
 _STYLE = "line-height:1.4;overflow-x:auto;margin:4px 0;white-space:pre-wrap;word-break:normal;overflow-wrap:anywhere"
 
 
-def media(what: object) -> dict[str, Any]:
+def media(what: object) -> Data:
     """What a notebook would show of an object, by media types; a text stands for itself.
 
     >>> media("21 cells")

@@ -13,10 +13,13 @@ from graphlib import TopologicalSorter
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 from string import Template
+from typing import Any, TypeAlias
 
 from lsys_kit.pictures.style.themes import DARK, DARK_LINES, LIGHT, Theme
 from lsys_kit.translation import gettext
 
+Data: TypeAlias = dict[str, Any]
+"""What scripts are given, as JSON has it."""
 _IMPORT = re.compile(r'^import \{[^{}]*\} from "(?:[./\w]*/)?(\w+)\.js";\n', re.MULTILINE)
 _EXPORT = re.compile(r"^export (?=(?:async )?(?:function|const|class) (\w+))", re.MULTILINE)
 _WIDGET = re.compile(r"^export default .*\n", re.MULTILINE)

@@ -21,7 +21,7 @@ from lsys_kit.classroom.catalogue import entry
 from lsys_kit.classroom.link import ANGLE, SEED, STEP, linked, settings_given
 from lsys_kit.classroom.panel.books.book import MOST_MODULES
 from lsys_kit.classroom.panel.books.net import Unfolding
-from lsys_kit.classroom.panel.bundle import bundled, style
+from lsys_kit.classroom.panel.bundle import Data, bundled, style
 from lsys_kit.classroom.panel.controls import nearest, plain_number, slider
 from lsys_kit.classroom.panel.held import fixed_text
 from lsys_kit.classroom.panel.labels import translated_labels
@@ -161,7 +161,7 @@ class Explorer(KitWidget):
         """
         save_page(path, self._page())
 
-    def page_data(self, asked: Sequence[Mapping[str, object]] = ()) -> dict[str, Any]:
+    def page_data(self, asked: Sequence[Mapping[str, object]] = ()) -> Data:
         """What a page without a kernel has to know of the panel as it stands, and of the settings that are asked for."""
         every(asked, Mapping, "A dictionary of values of sliders")
         with self._limited():  # each book is a task of its own
@@ -193,7 +193,7 @@ class Explorer(KitWidget):
 
     # -- what happens ---------------------------------------------------------------------------------------------------
 
-    def _model_of(self, what: Opened, first: int, values: Mapping[str, Value]) -> dict[str, Any]:
+    def _model_of(self, what: Opened, first: int, values: Mapping[str, Value]) -> Data:
         """What the browser needs of a system: its sliders, and its book for some values of them."""
         sliders = [slider(name, what.values[name], value, what.hint) for name, value in what.first.items()]
         made = what.book(values, self.seed, first)
@@ -245,7 +245,7 @@ class Explorer(KitWidget):
     def _answer(self, _: object, content: Mapping[str, Any], buffers: object) -> None:
         """Answer what the browser asks, by its number; a mistake is an answer too."""
         kinds = {"book": self._book_for, "rules": self._model_for, "variants": self._variants, "keep": self._kept}
-        reply: dict[str, Any] = {"mistake": _mistake(_BROKEN_OFF)}
+        reply: Data = {"mistake": _mistake(_BROKEN_OFF)}
         try:
             with self._limited(), Task("It was not finished"):
                 reply = kinds[content["kind"]](content)
@@ -254,10 +254,10 @@ class Explorer(KitWidget):
         finally:  # the browser waits for an answer, also where the kernel is interrupted
             self.send({"number": content["number"], **reply})
 
-    def _book_for(self, content: Mapping[str, Any]) -> dict[str, Any]:
+    def _book_for(self, content: Mapping[str, Any]) -> Data:
         return {"book": self._opened.book(self._values(content["constants"]), int(content["seed"]), self.model["step"])}
 
-    def _model_for(self, content: Mapping[str, Any]) -> dict[str, Any]:
+    def _model_for(self, content: Mapping[str, Any]) -> Data:
         """Show the system of a text that was typed.
 
         The step and the angle stay where they can, and so does each constant that is declared as it was.
@@ -282,14 +282,14 @@ class Explorer(KitWidget):
         self._offer_constants()
         return {"opened": True}
 
-    def _variants(self, _: Mapping[str, Any]) -> dict[str, Any]:
+    def _variants(self, _: Mapping[str, Any]) -> Data:
         return {
             "variants": [
                 {"text": str(variant), "book": opened(variant).book({}, self.seed, 0)} for variant in self._opened.variants(9)
             ]
         }
 
-    def _kept(self, content: Mapping[str, Any]) -> dict[str, Any]:
+    def _kept(self, content: Mapping[str, Any]) -> Data:
         """What is taken along: the drawing as SVG, or a link to the panel as it stands, or the panel as a page."""
         if content["what"] == "link":
             return {"text": self.link}
@@ -299,7 +299,7 @@ class Explorer(KitWidget):
 
     # -- what is kept ---------------------------------------------------------------------------------------------------
 
-    def _stored(self) -> dict[str, Any]:
+    def _stored(self) -> Data:
         return {"text/plain": f"{self.text} Run this cell to play.", **self.still}
 
     def __repr__(self) -> str:
@@ -310,7 +310,7 @@ def _texts(values: Mapping[str, Value]) -> dict[str, str]:
     return {name: number_text(value) for name, value in values.items()}
 
 
-def _mistake(error: LSystemError) -> dict[str, Any]:
+def _mistake(error: LSystemError) -> Data:
     """An error as the browser needs it: what is wrong, what to try, and between which offsets of the text it stands."""
     start, end = error.span or (None, None)
     return {"message": error.message, "hint": error.hint or "", "line": error.line, "start": start, "end": end}
@@ -384,7 +384,7 @@ def explore(
         what = catalogued(title)
     if isinstance(what, str) and is_link(what):
         there = linked(what)
-        given: dict[str, Any] = {**there.settings, **settings_given(step, angle, seed), **constants}
+        given: Data = {**there.settings, **settings_given(step, angle, seed), **constants}
         what, step, angle, seed = there.system, given.pop(STEP, None), given.pop(ANGLE, None), given.pop(SEED, 0)
         constants = given
     system = read_any(what) if isinstance(what, str) else what
@@ -399,7 +399,7 @@ def explore(
     return Explorer(chosen, step, angle, seed, without, unfold, None if show is None else chosen_names(show, "view", VIEWS))
 
 
-def check_unfolded(system: LSystem | MapSystem | CellworkSystem, unfold: Unfolding, constants: dict[str, Any]) -> None:
+def check_unfolded(system: LSystem | MapSystem | CellworkSystem, unfold: Unfolding, constants: Data) -> None:
     """The stage diagram of a system can be unfolded as somebody asks for."""
     if unfold is False:
         return
@@ -496,7 +496,7 @@ def compare(
     return Comparison(left, right, chosen_names(shared, "slider", [name for name in left.settings if name in right.settings]))
 
 
-def _named(settings: Mapping[str, object]) -> dict[str, Any]:
+def _named(settings: Mapping[str, object]) -> Data:
     for name in settings:
         if not isinstance(name, str):
             raise ModelValueError(f"Constants have names, not {name!r}", hint='A setting is for example {"lifeTimeA": 2}.')
@@ -541,11 +541,11 @@ class Comparison(KitWidget):
         """What both panels show, in words."""
         return f"{self.left.text}\n{self.right.text}"
 
-    def page_data(self, asked: Sequence[Mapping[str, object]] = ()) -> dict[str, Any]:
+    def page_data(self, asked: Sequence[Mapping[str, object]] = ()) -> Data:
         """What a page without a kernel has to know of both panels, and of the settings that are asked for."""
         return {"left": self.left.page_data(asked), "right": self.right.page_data(asked), "shared": self.shared}
 
-    def _stored(self) -> dict[str, Any]:
+    def _stored(self) -> Data:
         return {"text/plain": self.text, **self.left.still}
 
     def close(self) -> None:

@@ -22,7 +22,7 @@ from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS, solution_of
 from lsys_kit.classroom.exercises.kinds.words import system_of_words
 from lsys_kit.classroom.exercises.translated import translated_lesson
 from lsys_kit.classroom.exercises.typed.units import UNITS
-from lsys_kit.classroom.panel.bundle import compact, style, translated_words
+from lsys_kit.classroom.panel.bundle import Data, compact, style, translated_words
 from lsys_kit.classroom.panel.document import Program, deflated_text, document
 from lsys_kit.classroom.site.markdown import markdown_html
 from lsys_kit.errors import LSystemError
@@ -36,7 +36,7 @@ PARTS_OF_A_TOLERANCE = 10
 DIFFERENT = "Something in it is different. Do it again, one step after another."
 
 
-def page_data(exercise: Exercise) -> dict[str, Any] | None:
+def page_data(exercise: Exercise) -> Data | None:
     """What a page needs to check an exercise; None where only Python can check it.
 
     >>> exercise = Exercise("1", "", "number", "How many?", "21", "Count.", ("Look.",), otherwise="Count again.")
@@ -103,15 +103,15 @@ def word_key(word: tuple[Module, ...]) -> str:
 # The answers of each kind that are understood, by their normal forms: those that are wrong, then the right one
 
 
-def _options(exercise: Exercise) -> dict[str, Any]:
+def _options(exercise: Exercise) -> Data:
     return {letter: letter for letter in letters(exercise)}
 
 
-def _lines(exercise: Exercise) -> dict[str, Any]:
+def _lines(exercise: Exercise) -> Data:
     return {str(number): number for number in range(1, len(exercise.text.strip("\n").splitlines()) + 1)}
 
 
-def _numbers(exercise: Exercise) -> dict[str, Any]:
+def _numbers(exercise: Exercise) -> Data:
     if exercise.tolerance:
         return _rounded_numbers(exercise)
     if isinstance(solution_of(exercise), float):
@@ -119,7 +119,7 @@ def _numbers(exercise: Exercise) -> dict[str, Any]:
     return {number_key(answer): answer for answer in _answers(exercise)}
 
 
-def _rounded_numbers(exercise: Exercise) -> dict[str, Any]:
+def _rounded_numbers(exercise: Exercise) -> Data:
     part, solution = Fraction(exercise.tolerance) / PARTS_OF_A_TOLERANCE, Fraction(solution_of(exercise))
     near = range(-PARTS_OF_A_TOLERANCE, PARTS_OF_A_TOLERANCE + 1)
     right = {rounded_key(solution + at * part, part): solution for at in near}
@@ -129,13 +129,13 @@ def _rounded_numbers(exercise: Exercise) -> dict[str, Any]:
     return {**wrong, **right}
 
 
-def _tables(exercise: Exercise) -> dict[str, Any]:
+def _tables(exercise: Exercise) -> Data:
     if exercise.tolerance:
         raise _NotExact
     return {",".join(map(number_key, answer)): answer for answer in _answers(exercise)}
 
 
-def _words(exercise: Exercise) -> dict[str, Any]:
+def _words(exercise: Exercise) -> Data:
     return {word_key(answer): list(answer) for answer in _answers(exercise)}
 
 
@@ -144,7 +144,7 @@ def _answers(exercise: Exercise) -> Iterator[Any]:
     yield solution_of(exercise)
 
 
-_ANSWERS: Mapping[str, Callable[[Exercise], dict[str, Any]]] = {
+_ANSWERS: Mapping[str, Callable[[Exercise], Data]] = {
     "choice": _options,
     "line": _lines,
     "number": _numbers,
@@ -165,7 +165,7 @@ def _otherwise(exercise: Exercise) -> str:
     return message.partition(". ")[2] or gettext("Look at the question once more.")  # behind the sentence with the number
 
 
-def _reading(exercise: Exercise) -> dict[str, Any]:
+def _reading(exercise: Exercise) -> Data:
     if exercise.kind == "word":
         return {"symbols": sorted(symbols(system_of_words(exercise)), key=lambda symbol: (-len(symbol), symbol))}
     if exercise.kind != "number":
@@ -211,7 +211,7 @@ def exercise_page(lesson: Lesson) -> str | None:
     return document(title, body, style("course"), title, _program([data for _, data in checked]), language())
 
 
-def _program(exercises: Sequence[dict[str, Any]]) -> Program:
+def _program(exercises: Sequence[Data]) -> Program:
     script = f'"use strict";\n{compact("practice")}\nopenPracticePage();\n'
     return Program(
         script, style("lessons") + style("practice"), {"exercises": list(exercises), "words": translated_words("practice")}

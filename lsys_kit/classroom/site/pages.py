@@ -15,7 +15,7 @@ from urllib.parse import quote
 from lsys_kit.classroom.course import is_lesson
 from lsys_kit.classroom.lessons.lesson import TRACKS, Lesson
 from lsys_kit.classroom.lessons.widget import escaped_lines, html, prose_html, prose_text
-from lsys_kit.classroom.panel.bundle import compact, style
+from lsys_kit.classroom.panel.bundle import Data, compact, style
 from lsys_kit.classroom.panel.document import Program, deflated_text, document
 from lsys_kit.classroom.panel.page import not_needed
 from lsys_kit.classroom.site.markdown import Links, address_on_site, markdown_html, mathml
@@ -179,7 +179,7 @@ def _modes(data: Any) -> Iterator[str]:
         yield from [data["mode"]] if "mode" in data else (mode for each in data.values() for mode in _modes(each))
 
 
-def _with_books_once(parts: Parts) -> dict[str, Any]:
+def _with_books_once(parts: Parts) -> Data:
     """The data of a page: panels of the same books have them in common, each names theirs by a number."""
     books: dict[str, int] = {}
 
@@ -194,7 +194,7 @@ def _with_books_once(parts: Parts) -> dict[str, Any]:
     return {"parts": found, "books": [*books]}
 
 
-Parts = list[dict[str, Any]]
+Parts = list[Data]
 """What the script of a page has to know of each of its panels, votes, predictions, tables and pictures, in their order."""
 QUESTIONS = ("vote", "prediction", "worksheet", "beside")
 """Kinds of parts whose code would give away what they ask, and is folded."""

@@ -25,6 +25,7 @@ import numpy as np
 
 from lsys_kit.budget import Task, current, limits
 from lsys_kit.classroom.panel.books.net import Unfolding, net_entry, net_of
+from lsys_kit.classroom.panel.bundle import Data
 from lsys_kit.derivation.core.interpretation import interpretations
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.traits import traits_of
@@ -84,7 +85,7 @@ def book(
     title: str = "",
     least: int = 0,
     unfold: Unfolding = False,
-) -> dict[str, Any]:
+) -> Data:
     """The book of a system for new values of its constants, ready to be written as JSON; it holds a step at least, if that can
     be reached. Symbols are unfolded in the stage diagram as in `stages`.
 
@@ -96,7 +97,7 @@ def book(
     >>> made["steps"], made["axiom"], made["successors"], [text for *_, text in made["states"]]
     (10, [0], [[0, 1], [0]], ['a', 'b'])
     """
-    given: dict[str, Any] = dict(settings or {})
+    given: Data = dict(settings or {})
     with Task("The book was not finished"):
         derivation, end = _derived(system, given, seed, least)
         pages = _pages(derivation, end)
@@ -138,7 +139,7 @@ class _Pages:
     drawn: list[list[Any]] = field(default_factory=list)
 
 
-def _derived(system: LSystem, given: dict[str, Any], seed: int | None, least: int) -> tuple[Derivation, str]:
+def _derived(system: LSystem, given: Data, seed: int | None, least: int) -> tuple[Derivation, str]:
     """The derivation as far as a book may hold it, and why it ends earlier than it should; "" where it does not."""
     asked = first_step(system)
     most, seconds = min(MOST_MODULES, current().modules), current().seconds
@@ -216,7 +217,7 @@ def _has_chance(states: States) -> bool:
     return states.traits.stochastic or states.traits.random or any(rule.probability for rule in states.system.decomposition)
 
 
-def _table(states: States, numbers: Mapping[int, int]) -> dict[str, Any]:
+def _table(states: States, numbers: Mapping[int, int]) -> Data:
     """The successors of states that alone decide them, and the productions that are applied; nothing of states of the last step
     that lead out of the book."""
     rows = {state: row for state in numbers if (row := states.successors.get(state)) is not None and numbers.keys() >= {*row}}
@@ -226,7 +227,7 @@ def _table(states: States, numbers: Mapping[int, int]) -> dict[str, Any]:
     }
 
 
-def _history(derivation: Derivation, pages: _Pages) -> dict[str, Any]:
+def _history(derivation: Derivation, pages: _Pages) -> Data:
     """The words of all steps; for each module but those of the last step how many modules it becomes and by which production,
     and where productions replace several modules together, how many."""
     lookup = np.zeros(max(pages.numbers, default=0) + 1, np.int64)
@@ -301,7 +302,7 @@ def _plain(number: float) -> float:
     return int(number) if abs(number) < GREATEST and number == int(number) else number
 
 
-def drawing_entries(states: States, numbers: Sequence[int], drawn: list[list[Any]], last: int) -> dict[str, Any]:
+def drawing_entries(states: States, numbers: Sequence[int], drawn: list[list[Any]], last: int) -> Data:
     """The entries of a book that say how it is drawn, given its states, what each is drawn as, and its last step."""
     system, mode = states.system, drawing_mode(states.system)
     if mode is DrawingMode.FILAMENT:
@@ -324,7 +325,7 @@ def drawing_entries(states: States, numbers: Sequence[int], drawn: list[list[Any
     }
 
 
-def _turtle(system: LSystem, calls: list[list[Any]]) -> dict[str, Any]:
+def _turtle(system: LSystem, calls: list[list[Any]]) -> Data:
     dialect = TURTLE_DIALECTS[system.turtle]
     named = {surface for row in calls for *_, surface in row if surface}
     return {

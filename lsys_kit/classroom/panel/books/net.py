@@ -6,6 +6,7 @@ from collections.abc import Callable, Collection, Mapping
 from contextlib import suppress
 from typing import Any, TypeAlias
 
+from lsys_kit.classroom.panel.bundle import Data
 from lsys_kit.derivation.petri.stages import Stages, stages
 from lsys_kit.errors import LSystemError
 from lsys_kit.notation.model.system import LSystem
@@ -28,7 +29,7 @@ def net_of(system: LSystem, constants: Mapping[str, object], unfold: Unfolding =
     A(1) -> A(2)
     A(2) -> A(3)
     """
-    given: dict[str, Any] = dict(constants)
+    given: Data = dict(constants)
     if unfold is not False:
         with suppress(LSystemError):
             return stages(system, unfold=unfold, **given)
@@ -37,7 +38,7 @@ def net_of(system: LSystem, constants: Mapping[str, object], unfold: Unfolding =
 
 def net_entry(
     made: Callable[[], Stages], steering: Callable[[LSystem], frozenset[str]] = steering_of
-) -> tuple[Stages | None, dict[str, Any]]:
+) -> tuple[Stages | None, Data]:
     """A net and its diagram, without the symbols that only steer; where there is none to be drawn, a diagram that says why.
 
     >>> from lsys_kit.derivation.petri.stages import stages
@@ -55,7 +56,7 @@ def net_entry(
         return None, _diagram(Parts(NARROW, LOW, text, (), (), (), (), (text,), LOW / 2), [])
 
 
-def _diagram(parts: Parts, names: list[str]) -> dict[str, Any]:
+def _diagram(parts: Parts, names: list[str]) -> Data:
     return {
         "width": parts.width,
         "height": parts.height,
@@ -73,7 +74,7 @@ def _diagram(parts: Parts, names: list[str]) -> dict[str, Any]:
     }
 
 
-def _written(part: Any) -> dict[str, Any]:
+def _written(part: Any) -> Data:
     """A part, without the number of an arc or a transition, which nobody asks for; texts are visible, and pixels in tenths."""
     found = {name: value for name, value in vars(part).items() if name not in ("arc", "transition")}
     return {

@@ -12,6 +12,7 @@ from lsys_kit.classroom.link import ANGLE, SEED, STEP, link
 from lsys_kit.classroom.panel import held
 from lsys_kit.classroom.panel.books.book import book, first_step
 from lsys_kit.classroom.panel.books.net import Unfolding
+from lsys_kit.classroom.panel.bundle import Data
 from lsys_kit.classroom.panel.controls import slider, slider_ranges, slider_values
 from lsys_kit.classroom.panel.labels import translated_labels
 from lsys_kit.classroom.panel.opened.opened import Viewing, read_any
@@ -43,7 +44,7 @@ class Made(NamedTuple):
 
     settings: Mapping[str, Value]
     least: int
-    book: dict[str, Any]
+    book: Data
     seconds: float
 
 
@@ -101,7 +102,7 @@ class OpenedSystem:
             raise ModelValueError(f"angle = {number_text(turn)} lies outside its slider's range", hint="It goes from 0 to 180.")
         return turn
 
-    def book(self, values: Mapping[str, Value], seed: int, least: int) -> dict[str, Any]:
+    def book(self, values: Mapping[str, Value], seed: int, least: int) -> Data:
         settings, began = {**self.given, **values}, processor_time()
         made = book(self.system, settings, seed, title=self.title, least=least, unfold=self._unfold)
         self.last = Made({**settings, held.SEED: seed}, least, made, processor_time() - began)
@@ -117,7 +118,7 @@ class OpenedSystem:
     def still(self, chosen: Viewing) -> Mapping[str, str]:
         return {"image/png": base64.b64encode(composite_png(self.sight(chosen))).decode()}
 
-    def page_data(self, chosen: Viewing, asked: Sequence[Mapping[str, object]] = ()) -> dict[str, Any]:
+    def page_data(self, chosen: Viewing, asked: Sequence[Mapping[str, object]] = ()) -> Data:
         start: dict[str, Value] = {**self.given, **chosen.values}
         start.update({name: start.pop(name) for name in self.declared if name in self.values or name in self.fixed})
         start[held.SEED] = chosen.seed
@@ -215,11 +216,11 @@ class _Shelf:
         if last and last.settings == start and least <= max(last.least, last.book["steps"]):
             self._made[tuple(start.values())] = last
 
-    def first(self) -> dict[str, Any]:
+    def first(self) -> Data:
         """The book of the first settings, or the error that there is none."""
         return self._kept(self.start)
 
-    def book(self, chosen: Mapping[str, Value]) -> dict[str, Any]:
+    def book(self, chosen: Mapping[str, Value]) -> Data:
         """The book of some settings, or why there is none."""
         try:
             return self._kept({**self.start, **chosen})
@@ -232,7 +233,7 @@ class _Shelf:
         seconds = sum(made.seconds for made in self._made.values()) / max(1, len(self._made))
         return min(MOST_BOOKS, many * characters / size, current().seconds / max(seconds, 1e-3))
 
-    def _kept(self, chosen: Mapping[str, Value]) -> dict[str, Any]:
+    def _kept(self, chosen: Mapping[str, Value]) -> Data:
         key = tuple(chosen.values())
         if key not in self._made:
             constants = {name: value for name, value in chosen.items() if name != held.SEED}

@@ -1,10 +1,9 @@
 // A page of exercises that needs no kernel: answers are checked on it, and a learning platform is told how many are solved.
 
-import { made } from "./views/controls.js";
-import { worded, speak } from "./views/language.js";
-import { bytesOf, inflated } from "./books/packing.js";
+import { bytesOf, inflated } from "./books/numbers.js";
 import { connected, platformOf } from "./practice/platform.js";
 import { read } from "./practice/typed.js";
+import { made, speak, worded } from "./views/controls.js";
 
 const VERDICTS = { "Correct": ["✓", "lsys-right"], "Almost": ["≈", "lsys-almost"], "Not yet": ["✗", "lsys-wrong"], "Not readable yet": ["?"],
   "Not answered yet": ["○"] };
@@ -28,7 +27,6 @@ export function openPracticePage() {
   show(platform, ids.filter((id) => solved.has(id)), ids.length, platform.known() !== null);
 }
 
-// Say how many exercises are solved, and what the platform knows of them.
 function show(platform, solved, total, told) {
   const { score, completed } = platform.known() ?? {};
   const known = completed ? "The learning platform knows: score {score} of 100, completed."
@@ -67,7 +65,6 @@ function openExercise(place, data, before, typed, tried) {
   });
 }
 
-// What is said to the answers that are understood, each a pair of a verdict and a message, by the answer in its normal form.
 const repliesOf = async ({ replies }) => new Map(Object.entries(JSON.parse(await inflated(bytesOf(replies), "deflate"))));
 
 function verdictOn(data, replies, text) {

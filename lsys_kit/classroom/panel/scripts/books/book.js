@@ -3,7 +3,7 @@
 // Where a state alone decides what becomes of it, words are made here, each by copying successors from a table; other books hold
 // the words. A module that was there when several were replaced together counts as a mother with them.
 
-import { whole } from "./packing.js";
+import { whole } from "./numbers.js";
 
 const HELD = 4_000_000; // modules of words that are kept
 
@@ -28,7 +28,6 @@ export function openBook(data) {
     return sizes;
   }
 
-  // How often each state occurs at a step.
   function counts(step) {
     if (settled) {
       if (!counted.length) counted = [occurring(data.axiom, states.length)];
@@ -43,7 +42,6 @@ export function openBook(data) {
     return lengths[step];
   }
 
-  // How many tokens lie in each place of the stage diagram.
   function tokens(step) {
     if (data.tokens) return data.tokens[step];
     const found = new Array(data.net.names.length).fill(0);
@@ -116,7 +114,6 @@ function kept(made) {
   };
 }
 
-// Rows of numbers one after another, and where each starts.
 function rowsOf(rows) {
   return { starts: summed(rows.map((row) => row.length)), numbers: Int32Array.from(rows.flat()) };
 }
@@ -128,7 +125,6 @@ function summed(numbers) {
   return sums;
 }
 
-// The word in which each state of a word is replaced by its row.
 function replaced(word, { starts, numbers }, length) {
   const found = new Int32Array(length);
   let at = 0;
@@ -145,7 +141,6 @@ function occurring(word, many) {
   return found;
 }
 
-// How often each state occurs one step later.
 function following(counts, { starts, numbers }) {
   const found = new Float64Array(counts.length);
   for (let state = 0; state < counts.length; state++)

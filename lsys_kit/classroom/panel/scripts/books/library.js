@@ -18,7 +18,6 @@ export function library(host) {
     return books.get(key);
   }
 
-  // A book, or the mistake that there is none.
   async function book(settings) {
     const known = books.get(keyOf(settings));
     if (known) return { book: known };

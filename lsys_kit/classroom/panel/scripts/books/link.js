@@ -1,7 +1,7 @@
 // Links: a model and its settings in the fragment of an address, as lsys_kit/notation/fragments.py writes and reads them.
 
 import { CHECK_BYTES, LINK_MARK, LINK_VERSION } from "../drawing/constants.js";
-import { bytesOf, inflated } from "./packing.js";
+import { bytesOf, inflated } from "./numbers.js";
 
 const MOST_BYTES = 4_000_000; // of a model in a link
 
@@ -20,7 +20,6 @@ export async function unpackedLink(address) {
   }
 }
 
-// The fragment, with its mark, that says this.
 export async function packedLink({ notation, settings, text }) {
   const asked = new URLSearchParams(settings).toString(), content = `${notation}${asked ? `?${asked}` : ""}\n${text}`;
   const stream = new Blob([content]).stream().pipeThrough(new CompressionStream("deflate-raw"));

@@ -1,5 +1,6 @@
 // The rows of a developmental sequence: cells and walls below one another with a common scale, laid out as pictures that stay are.
 
+import { clamped, times } from "../books/numbers.js";
 import { fillColour, lineColour, mixed } from "./colours.js";
 import { FILLED_ROW, LEGIBLE_ROW, LOWEST_ROW, MARKED_CELL, MOST_ROWS, OLDEST, PALEST, PICTURE_HEIGHT, PICTURE_MARGIN, PICTURE_WIDTH, ROW_AGES, ROW_HEAD, ROW_STEPS, ROW_TIMES, SIGN_COLOUR, STRONGEST, TALLEST_ROW } from "./constants.js";
 import { fill, line, write } from "./outlines.js";
@@ -14,13 +15,13 @@ const rowsOfBooks = new WeakMap();
 export function sequence(book, step, { rows = MOST_ROWS, width = PICTURE_WIDTH, height = PICTURE_HEIGHT, boxed = null, labelled = true } = {}) {
   const { time, times, look } = book.data, timed = time !== null && time !== 1;
   const gutter = PICTURE_MARGIN + (labelled ? ROW_STEPS + (timed ? ROW_TIMES : 0) : 0), head = labelled ? ROW_HEAD : 0;
-  const room = height - 2 * PICTURE_MARGIN - head, most = Math.max(1, Math.min(rows, Math.floor(room / LOWEST_ROW)));
+  const room = height - 2 * PICTURE_MARGIN - head, most = clamped(1, rows, Math.floor(room / LOWEST_ROW));
   const shown = rowsUpTo(book, step, most), framed = boxed === null || boxed <= step ? [] : rowsUpTo(book, boxed, most), all = [...shown, ...framed];
   const longest = Math.max(1e-9, ...all.map((row) => row.length)), tallest = Math.max(1e-9, ...all.map((row) => row.width));
   const far = Math.min(TALLEST_ROW * Math.max(1, height / PICTURE_HEIGHT), room / Math.max(shown.length, framed.length));
   const above = far > LEGIBLE_ROW && all.some((row) => row.walls.n) ? ROW_AGES : 0;
   const scale = Math.min(Math.max(1, width - gutter - 2 * PICTURE_MARGIN) / longest, (FILLED_ROW * far - above) / tallest);
-  const pitch = Math.max(LOWEST_ROW, Math.min(far, (tallest * scale + above) / FILLED_ROW)), top = PICTURE_MARGIN + head;
+  const pitch = clamped(LOWEST_ROW, far, (tallest * scale + above) / FILLED_ROW), top = PICTURE_MARGIN + head;
   const laid = shown.map((row, place) => ({
     step: row.step, time: timed ? times[row.step] : "", top: top + pitch * place, middle: top + pitch * (place + 0.5) + above / 2,
     left: gutter + (width - gutter - PICTURE_MARGIN - row.length * scale) / 2, current: row.step === step,
@@ -32,7 +33,6 @@ export function sequence(book, step, { rows = MOST_ROWS, width = PICTURE_WIDTH, 
   };
 }
 
-// How long the filament of a step is, in the units of the model.
 export function filamentLength(book, step) {
   return rowsUpTo(book, step, 1)[0].length;
 }
@@ -76,7 +76,7 @@ function howMany(word, shapes, kind) {
 
 // Shapes: their middles, lengths and widths, their polarities or ages, and where they come from.
 function tableOf(n) {
-  const [x, y, length, width, sign, shade] = Array.from({ length: 6 }, () => new Float64Array(n));
+  const [x, y, length, width, sign, shade] = times(6, () => new Float64Array(n));
   return { n, x, y, length, width, sign, shade, state: new Int32Array(n), position: new Int32Array(n), row: new Int32Array(n) };
 }
 
@@ -94,8 +94,7 @@ function joinedRows(tables, laid, scale) {
   return { ...found, starts };
 }
 
-// The numbers of the shapes of a row in its table.
-const numbersIn = ({ starts }, row) => Array.from({ length: starts[row + 1] - starts[row] }, (_, i) => starts[row] + i);
+const numbersIn = ({ starts }, row) => times(starts[row + 1] - starts[row], (i) => starts[row] + i);
 
 // Paint a sequence; `look` has the theme, the states that are marked, and `litAt(step)`, which says what is traced in a row.
 export function paintSequence(pen, sheet, look) {
@@ -119,7 +118,6 @@ function paintHeading(pen, { head, timed }, theme) {
   if (timed) write(pen, "t", x + ROW_TIMES, y, theme.quiet, "italic 11px sans-serif", "right");
 }
 
-// The step and the time of a row, on a band if it is the current one.
 function paintRowLabels(pen, { width, pitch, head }, row, theme) {
   const size = Math.min(14, 0.8 * pitch), x = PICTURE_MARGIN + ROW_STEPS - BESIDE_STEP, y = row.middle + 0.35 * size, band = new Path2D();
   band.roundRect(4, row.top, width - 8, pitch, 6);
@@ -150,7 +148,7 @@ function paintCells(pen, sheet, seen, { theme, marked }) {
   for (const group of [...groups.values()].sort(([i], [j]) => marked.has(cells.state[i]) - marked.has(cells.state[j]))) {
     const [first] = group, colour = colours[cells.state[first]], mark = marked.has(cells.state[first]), path = outlineOf(sheet, group);
     fill(pen, path, fillColour(colour, theme, PALEST + (STRONGEST - PALEST) * cells.shade[first]));
-    line(pen, path, mark ? theme.markEdge : lineColour(colour, theme), mark ? Math.max(1, Math.min(MARKED_CELL, cells.width[first])) : 1);
+    line(pen, path, mark ? theme.markEdge : lineColour(colour, theme), mark ? clamped(1, MARKED_CELL, cells.width[first]) : 1);
   }
 }
 
@@ -166,7 +164,6 @@ function outlineOf({ cells, look }, numbers) {
   return path;
 }
 
-// The arrows of cells that point to the left or right.
 function arrows({ cells }, seen) {
   const path = new Path2D();
   for (const i of seen) {

@@ -1,8 +1,9 @@
 // Several small drawings beside each other: nine seeds of one model, or nine variants of which one can be taken on.
 
 import { openBook } from "../books/book.js";
+import { grouped } from "../books/numbers.js";
 import { made } from "../views/controls.js";
-import { sequence, paintSequence } from "./filament.js";
+import { paintSequence, sequence } from "./filament.js";
 import { paint } from "./painter.js";
 import { frameOf } from "./projection.js";
 import { placed, traced } from "./turtle.js";
@@ -17,8 +18,7 @@ export function seedsView(parent, sow, say) {
   async function show(books, request, now, look) {
     const first = Math.floor(request.seed / MANY) * MANY, key = JSON.stringify([request.constants, first]);
     if (shown.books !== books || shown.key !== key) {
-      const asked = shown = { books, key, first };
-      const entries = [];
+      const asked = shown = { books, key, first }, entries = [];
       for (let seed = first; seed < first + MANY; seed++) {
         const answer = await books.book({ ...request, seed });
         if (answer.mistake) return say(answer.mistake);
@@ -72,7 +72,7 @@ function galleryView(parent, chosen) {
     tiles.forEach(({ book, canvas, tile, label }, number) => {
       const step = Math.min(now.step, book.steps);
       tile.setAttribute("aria-pressed", String(number === current));
-      tile.setAttribute("aria-label", `${label}: ${book.length(step).toLocaleString("en")} ${book.data.noun}s at step ${step}`);
+      tile.setAttribute("aria-label", `${label}: ${grouped(book.length(step))} ${book.data.noun}s at step ${step}`);
       paintTile(canvas, book, { ...now, step, angle: now.angle ?? book.data.turtle?.angle }, look);
     });
   }

@@ -28,12 +28,14 @@ export function write(pen, text, x, y, colour, font, align = "left") {
 
 export function outline(points, place, closed = true) {
   const path = new Path2D();
-  for (const point of points) path.lineTo(...place(point));
+  for (const point of points) {
+    const [x, y] = place(point);
+    path.lineTo(x, y);
+  }
   if (closed) path.closePath();
   return path;
 }
 
-// Whether a point lies in a polygon.
 export function isInside(row, x, y) {
   let inside = false;
   row.forEach(([xa, ya], k) => {

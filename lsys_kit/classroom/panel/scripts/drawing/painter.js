@@ -1,14 +1,13 @@
 // The shapes of a turtle on a canvas, painted from far to near and found again under a pointer.
 //
-// A sheet has the pen, the shapes, the frame in which they are seen, where and how broad they are in it, and the theme.
+// A sheet has the pen, the shapes, the frame in which they are seen, where and how broad they are in it, and the theme. Strokes in
+// space are tapered cylinders with round ends, with a light stripe along them and a dark one.
 
-import { mixed } from "./colours.js";
-import { BALL, BRIGHT, BROADEST_CASING, CASING, DIM, EDGE, FACE_EDGE, FILLED, HOLLOW, LABEL_GAP, LEAST_CASING, OWN, RING, SMALLEST_RADIUS, TONED } from "./constants.js";
-import { cylinder } from "./cylinders.js";
-import { brightness, shades, sphereFill } from "./lighting.js";
+import { clamped } from "../books/numbers.js";
+import { brightness, mixed, shades, sphereFill } from "./colours.js";
+import { BALL, BRIGHT, BROADEST_CASING, CASING, DARK, DIM, EDGE, FACE_EDGE, FILLED, HOLLOW, LABEL_GAP, LEAST_CASING, LIT, OWN, RIM, RING, SMALLEST_RADIUS, TO_LIGHT, TONED } from "./constants.js";
 import { fill, isInside, line, outline, write } from "./outlines.js";
-import { cornersOf, meanOf } from "./painting_order.js";
-import { seenIn } from "./projection.js";
+import { cornersOf, meanOf, seenIn } from "./projection.js";
 
 const MARKED_EDGE = 3, LABEL_FONT = "12px sans-serif", LABEL_HALO = 3; // pixels
 
@@ -49,7 +48,6 @@ function paintLabels({ pen, shapes: { labels }, frame, seen: { x, y }, theme }) 
   pen.textBaseline = "alphabetic";
 }
 
-// Which shape has a number: its group, its number there, and what it belongs to.
 function shapeOf({ strokes, faces, rounds }, number) {
   const [group, i] = number < faces.n ? [faces, number] : number < faces.n + strokes.n ? [strokes, number - faces.n]
     : [rounds, number - faces.n - strokes.n];
@@ -59,7 +57,7 @@ function shapeOf({ strokes, faces, rounds }, number) {
 function paintShapes(sheet, order, marked) {
   const { pen, shapes, frame, seen, theme } = sheet, { strokes, faces, rounds, palette } = shapes, { x, y, nearness, widths } = seen;
   const shade = shades(palette, theme), many = faces.n + strokes.n + rounds.n;
-  let runs = [], run; // strokes that nothing lies between; those of a run look alike
+  let /** @type {any[]} */ runs = [], /** @type {any} */ run; // strokes that nothing lies between; those of a run look alike
 
   function addStroke(i, colour, width, isMarked) {
     if (!run || run.colour !== colour || run.width !== width || run.isMarked !== isMarked)
@@ -82,7 +80,7 @@ function paintShapes(sheet, order, marked) {
     if (!frame.detailed || widths[i] < TONED) return;
     paintRuns();
     const { body, light, dark } = cylinder([x[a], y[a]], [x[b], y[b]], seen.ends.map((breadths) => breadths[i] / 20));
-    for (const [part, bright] of [[body, OWN], [light, BRIGHT], [dark, DIM]]) fill(pen, part, shade(colour, near, bright));
+    for (const [part, bright] of /** @type {[any, number][]} */ ([[body, OWN], [light, BRIGHT], [dark, DIM]])) fill(pen, part, shade(colour, near, bright));
   }
 
   function paintArea(path, group, i, inside, edge, width) {
@@ -177,7 +175,8 @@ export function shapeAt(shapes, frame, x, y, reach) {
 
 // How far a point is from a shape, in pixels; 0 inside.
 function distanceTo(sheet, number, x, y) {
-  const { shapes, seen } = sheet, { group, i } = shapeOf(shapes, number), placeOf = (point) => [seen.x[point], seen.y[point]];
+  const { shapes, seen } = sheet, { group, i } = shapeOf(shapes, number);
+  const placeOf = /** @returns {[number, number]} */ (point) => [seen.x[point], seen.y[point]];
   if (group === shapes.rounds) {
     const [cx, cy] = placeOf(group.centres[i]);
     return Math.max(0, Math.hypot(cx - x, cy - y) - radiusOf(sheet, i));
@@ -189,6 +188,31 @@ function distanceTo(sheet, number, x, y) {
 
 function distanceToLine([fromX, fromY], [toX, toY], x, y) {
   const ax = x - fromX, ay = y - fromY, bx = toX - fromX, by = toY - fromY;
-  const part = Math.max(0, Math.min(1, (ax * bx + ay * by) / (bx * bx + by * by || 1)));
+  const part = clamped(0, 1, (ax * bx + ay * by) / (bx * bx + by * by || 1));
   return Math.hypot(ax - part * bx, ay - part * by);
+}
+
+export function cylinder([ax, ay], [bx, by], [ra, rb]) {
+  const length = Math.hypot(bx - ax, by - ay), along = length > 0 ? [(bx - ax) / length, (by - ay) / length] : [0, -1];
+  const left = [along[1], -along[0]], brightest = Math.atan2(left[0] * TO_LIGHT[0] - left[1] * TO_LIGHT[1], TO_LIGHT[2]);
+  const away = brightest < 0 ? 1 : -1;
+  const at = (end, angle) => {
+    const [x, y, radius, way] = end ? [bx, by, rb, 1] : [ax, ay, ra, -1], aside = radius * Math.sin(angle), ahead = way * radius * Math.cos(angle);
+    return [x + aside * left[0] + ahead * along[0], y + aside * left[1] + ahead * along[1]];
+  };
+  const stripe = (first, last) => {
+    const middle = (first + last) / 2;
+    return outline([[0, middle], [0, first], [1, first], [1, middle], [1, last], [0, last]], ([end, angle]) => at(end, angle));
+  };
+  return { body: capsule(ax, ay, bx, by, ra, rb, Math.atan2(left[1], left[0])),
+    light: stripe(Math.max(brightest - LIT, -RIM), Math.min(brightest + LIT, RIM)),
+    dark: stripe(brightest + away * DARK, (away * Math.PI) / 2) };
+}
+
+function capsule(ax, ay, bx, by, ra, rb, left) {
+  const path = new Path2D();
+  path.arc(bx, by, rb, left, left + Math.PI);
+  path.arc(ax, ay, ra, left + Math.PI, left + 2 * Math.PI);
+  path.closePath();
+  return path;
 }

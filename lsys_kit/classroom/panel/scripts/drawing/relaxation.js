@@ -1,8 +1,8 @@
 // The relaxation of a map: springs pull, cells press, vertices move until they are nearly at rest. The same iterations as the
 // kernel's, so that they can be watched, and so that a page without a kernel finds where cells are at rest under other forces.
 
+import { whole } from "../books/numbers.js";
 import { AT_REST, FARTHEST, LEAST_AREA, LEAST_LENGTH, MOST_ITERATIONS, SHORTEST_TIME_STEP, TIME_STEP } from "./constants.js";
-import { whole } from "../books/packing.js";
 
 const SURELY_AT_REST = 1e-9; // where no kernel goes on from there
 const known = new WeakMap();

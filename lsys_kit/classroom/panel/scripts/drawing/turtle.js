@@ -3,6 +3,7 @@
 // `traced` interprets a word once and records a path that depends neither on the angle nor on the heading; `placed` then finds
 // where its points lie, as often as the angle changes.
 
+import { grouped } from "../books/numbers.js";
 import { BROADEST_PART, LARGEST_SCALE, MOST_CURVED, OWN_LOOK, PICTURE_HEIGHT, PICTURE_MARGIN, PICTURE_WIDTH, RAMP_START, SIGN_COLOUR } from "./constants.js";
 import { colourNaturally, newTurtle, stretchRamp } from "./turtle_actions.js";
 import { placeInPlane, planeActions, planeTrail } from "./turtle_plane.js";
@@ -69,7 +70,7 @@ function tracedAnew(book, step, { inSpace, calls, amounts, palette, chosen, ofSt
 function interpretWord(turtle, word, calls) {
   let many = 0, curved = 0;
   for (const state of word) [many, curved] = [many + calls[state].length, curved + calls[state].surfaces];
-  if (many > MOST_CALLS) throw new RangeError(`Too much to draw: more than ${MOST_CALLS.toLocaleString("en")} commands`);
+  if (many > MOST_CALLS) throw new RangeError(`Too much to draw: more than ${grouped(MOST_CALLS)} commands`);
   turtle.flat = curved > MOST_CURVED;
   for (let place = 0; place < word.length; place++) {
     const state = word[place];
@@ -79,21 +80,16 @@ function interpretWord(turtle, word, calls) {
   }
 }
 
+const REAL = ["widths", "radii"]; // all other numbers of shapes are whole
+
 function shapesOf({ strokes, faces, rounds, labels }, colourOf) {
-  const whole = (numbers) => new Int32Array(numbers);
-  const common = ({ colours, positions, states }) => ({
-    colours: whole(colours.map((colour, i) => colourOf(states[i], colour))), positions: whole(positions),
-    states: whole(states),
-  });
-  return {
-    strokes: { n: strokes.to.length, from: whole(strokes.from), to: whole(strokes.to), orders: whole(strokes.orders),
-      widths: new Float64Array(strokes.widths), ...common(strokes) },
-    faces: { n: faces.states.length, starts: whole(faces.starts), corners: whole(faces.corners),
-      smooth: faces.smooth, ...common(faces) },
-    rounds: { n: rounds.states.length, centres: whole(rounds.centres), radii: new Float64Array(rounds.radii),
-      kinds: whole(rounds.kinds), ...common(rounds) },
-    labels: { points: whole(labels.points), texts: labels.texts },
+  const group = ({ smooth, ...rows }) => {
+    const colours = rows.colours.map((colour, i) => colourOf(rows.states[i], colour));
+    const columns = Object.entries({ ...rows, colours }).map(([name, numbers]) => [name, (REAL.includes(name) ? Float64Array : Int32Array).from(numbers)]);
+    return { n: colours.length, ...Object.fromEntries(columns), smooth };
   };
+  const { lengths, ...drawn } = strokes;
+  return { strokes: group(drawn), faces: group(faces), rounds: group(rounds), labels: { points: Int32Array.from(labels.points), texts: labels.texts } };
 }
 
 // The shapes of a path for an angle, in degrees. Their points stay where they are until the path is placed for another.

@@ -5,6 +5,7 @@
 // records where points lie before the angle is known. Neither is ever changed, so that a branch can remember both. A call of
 // an action has a factor and an addend, and mostly concerns one quantity: the amount is factor * quantity + addend.
 
+import { clamped, grouped, halfToEven } from "../books/numbers.js";
 import { BALL, DISC, HOLLOW, LARGEST_VALUE, LAST_COLOUR, OWN_LOOK, RAMP_END, RAMP_START, SHAPE_WIDTH } from "./constants.js";
 
 export const MOST_POINTS = 2_000_000;
@@ -46,26 +47,18 @@ export function newTurtle(trail, { length, width, colour }) {
   };
 }
 
-// The width of strokes, at the scale of the turtle.
 export const strokeWidth = ({ width, scale }) => (width > 0 ? width * scale : width);
 
 // The width of shapes without an argument: that of strokes.
 const shapeWidth = ({ width }) => (width === OWN_LOOK ? SHAPE_WIDTH : width);
-
-// A number rounded to a whole one, halves to the even one, as the kernel does it.
-export function halfToEven(value) {
-  const whole = Math.round(value);
-  return whole - value === 0.5 && whole % 2 !== 0 ? whole - 1 : whole;
-}
 
 export const amountOf = (call, quantity) => call.factor * quantity + call.addend;
 
 // A length that is drawn: the step, or an argument, at the scale of the turtle.
 const sizeOf = (turtle, call) => turtle.scale * amountOf(call, turtle.length);
 
-// How many points, corners or brackets there are, if that is not too much.
 export function roomFor(many) {
-  if (many > MOST_POINTS) throw new RangeError(`Too much to draw: more than ${MOST_POINTS.toLocaleString("en")} points`);
+  if (many > MOST_POINTS) throw new RangeError(`Too much to draw: more than ${grouped(MOST_POINTS)} points`);
   return many;
 }
 
@@ -125,13 +118,13 @@ function setQuantity(name, called, least = -Infinity) {
 }
 
 function setColour(turtle, call) {
-  turtle.colour = Math.max(0, Math.min(LAST_COLOUR, halfToEven(amountOf(call, Math.max(0, turtle.colour)))));
+  turtle.colour = clamped(0, LAST_COLOUR, halfToEven(amountOf(call, Math.max(0, turtle.colour))));
 }
 
 // Through the ramp from bark to leaves, or through the colours below it, as far as they go.
 function stepColour(turtle, call) {
   const [first, last] = turtle.colour >= RAMP_START ? [RAMP_START, RAMP_END] : [0, RAMP_START - 1];
-  turtle.colour = Math.max(first, Math.min(last, turtle.colour + call.addend));
+  turtle.colour = clamped(first, last, turtle.colour + call.addend);
 }
 
 // Set a quantity, set it back to what it was at first, and set it up to the next stroke.
@@ -172,7 +165,6 @@ function drawSurface(turtle, call) {
   drawLocalFaces(turtle, curved ? call.surface.faces : call.surface.outlines, size, curved);
 }
 
-// Faces that are given in the frame of the turtle.
 function drawLocalFaces(turtle, faces, size, smooth) {
   const { trail, orientation, position } = turtle;
   for (const face of faces)

@@ -18,7 +18,6 @@ export function planeTrail({ side }) {
     step: ([turns, degrees], length, parent) => record(turns, degrees, length, parent),
     local: ([turns, degrees, left], parent, ahead, across) =>
       record(turns, degrees + (left * Math.atan2(across, ahead)) / RADIANS_PER_DEGREE, Math.hypot(ahead, across), parent),
-    // A point on the step that leads to another.
     between(last, part) {
       const [turns, degrees, length, parent] = points.slice(STRIDE * last, STRIDE * last + STRIDE);
       return record(turns, degrees, length * part, parent);
@@ -66,7 +65,6 @@ function setPaletteColour(turtle, call) {
   turtle.colour = colour || !step ? colour : call.addend > 0 ? 1 : FRACTINT_COLOURS - 1;
 }
 
-// The remainder, which is never negative.
 const wrapped = (value, round) => ((value % round) + round) % round;
 
 const rectangle = (length, half) => [[[0, -half, 0], [length, -half, 0], [length, half, 0], [0, half, 0]]];
@@ -81,7 +79,6 @@ export function planeActions() {
   };
 }
 
-// Find where the points of a trail lie for an angle.
 export function placeInPlane({ n, points, x, y }, wanted, heading) {
   const angle = Math.abs(wanted) > LARGEST_EXACT ? wanted % 360 : wanted; // the number of turns is whole
   for (let i = 1, at = STRIDE; i < n; i++, at += STRIDE) {

@@ -7,6 +7,7 @@
 // Between points that it has passed a turtle spans generalised cylinders and patches. The axis of a cylinder is a row of cubic
 // Hermite curves, the tangents of which have the directions of the headings at its control points.
 
+import { clamped } from "../books/numbers.js";
 import { MOST_PARTS, NEGLIGIBLE, OWN_LOOK, PATCH_FACES, RENORMALISED_AFTER, TANGENT } from "./constants.js";
 import { amountOf, commonActions, drawBox, recordFace, recordStroke, roomFor, strokeWidth } from "./turtle_actions.js";
 import { returnToStroke } from "./turtle_plane.js";
@@ -79,7 +80,7 @@ function setPosition(turtle, { values }) {
 }
 
 // In cpfg's axes y grows upwards and z towards the viewer.
-const fromCpfg = ([x, y, z]) => [x, -z, y];
+const fromCpfg = /** @param {number[]} point */ ([x, y, z]) => [x, -z, y];
 
 // The sides of a box, each with its corners counter-clockwise as seen from outside.
 function boxSides(length, half) {
@@ -96,7 +97,7 @@ function boxSides(length, half) {
 
 const here = (turtle) => ({ position: turtle.position, orientation: turtle.orientation, width: strokeWidth(turtle) });
 
-const boundedNumber = (value) => Math.max(1, Math.min(MOST_PARTS, Math.round(value)));
+const boundedNumber = (value) => clamped(1, MOST_PARTS, Math.round(value));
 
 function continueCylinder(turtle, call) {
   const before = turtle.axis;
@@ -268,10 +269,10 @@ function pointTowards(axes, at, [heading, up]) {
   return false;
 }
 
-const cross = ([ax, ay, az], [bx, by, bz]) => [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx];
+const cross = /** @type {(a: any, b: any) => number[]} */ ([ax, ay, az], [bx, by, bz]) => [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx];
 
-function rotateAbout(axes, at, [ax, ay, az], radians) {
-  const cos = Math.cos(radians), sin = Math.sin(radians);
+function rotateAbout(axes, at, axis, radians) {
+  const [ax, ay, az] = axis, cos = Math.cos(radians), sin = Math.sin(radians);
   for (let i = at; i < at + FRAME_SIZE; i += 3) {
     const x = axes[i], y = axes[i + 1], z = axes[i + 2], along = (1 - cos) * (ax * x + ay * y + az * z);
     axes[i] = cos * x + sin * (ay * z - az * y) + along * ax;

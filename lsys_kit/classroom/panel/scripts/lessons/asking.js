@@ -1,8 +1,21 @@
-// What the questions of a lesson share: their frame, keys that stay in it, and a kernel that may be gone.
+// What the questions of a lesson share: their frame, their texts, of which all becomes text nodes, and a kernel that may be gone.
 
-import { made } from "../views/controls.js";
-import { ownKeys } from "../views/keys.js";
-import { speak, worded } from "../views/language.js";
+import { made, ownKeys, speak, worded } from "../views/controls.js";
+
+export function prose(text) {
+  const found = made("span.mathjax_ignore.tex2jax_ignore");
+  for (const part of text.split(/(`[^`]+`|\*[^*]+\*)/)) {
+    if (part.length > 2 && part.startsWith("`") && part.endsWith("`")) found.append(made("code", part.slice(1, -1)));
+    else if (part.length > 2 && part.startsWith("*") && part.endsWith("*")) found.append(made("i", part.slice(1, -1)));
+    else if (part) found.append(part);
+  }
+  return found;
+}
+
+// The same text without these marks, for names that are read out.
+export function plain(text) {
+  return text.replace(/`([^`]+)`|\*([^*]+)\*/g, "$1$2");
+}
 
 // Build a question in a cell's output. `build` is given the frame and returns what is to be told after a change of some traits
 // of the model; `render` returns how all of it is undone.

@@ -2,13 +2,12 @@
 // have it. Numbers are exact fractions.
 
 import { LONGEST_ENTRY } from "../drawing/constants.js";
-import { plain } from "./prose.js";
+import { plain } from "./asking.js";
 
 const NUMBER = /^([+-]?)(?=\.?\d)(\d{0,30})(?:\.(\d{1,30}))?(?:\/(\d{1,30}))?(%?)$/;
 const THOUSANDS = /^[+-]?\d{1,3}(,\d{3})+(\.\d+)?$/, DECIMAL_COMMA = /^[+-]?\d*,\d+$/;
 const RIGHT = "right", NOT_YET = "not yet", MISSING = "not filled in yet";
 
-// What is said of each cell of a table, and of the whole.
 export function checked({ sheet, blanks }, entries) {
   const marks = blanks.map(({ right, within }, number) => markOf(entries[number] ?? "", right, within));
   return { marks, text: summary(sheet, marks) };
@@ -60,7 +59,6 @@ function summary(sheet, marks) {
   return `${parts.join(", ")}.${again}`;
 }
 
-// Where a cell stands, by the names of its row and column.
 function placeOf({ columns, rows }, number) {
   const places = rows.flatMap((cells) => cells.flatMap((cell, column) => (cell === null ? [[cells[0], column]] : [])));
   const [row, column] = places[number];

@@ -1,10 +1,8 @@
 // A table to fill. The model checks it, and says of each cell no more than whether it is right.
 
 import { LONGEST_ENTRY } from "../drawing/constants.js";
-import { freshId, made } from "../views/controls.js";
-import { worded } from "../views/language.js";
-import { question, tellModel } from "./asking.js";
-import { plain, prose } from "./prose.js";
+import { freshId, made, worded } from "../views/controls.js";
+import { plain, prose, question, tellModel } from "./asking.js";
 
 const SIGNS = { "right": "✓", "not yet": "✗", "not filled in yet": "○" };
 

@@ -1,9 +1,7 @@
 // The question of a prediction, with its box. What answers it is not here: the model is told when it may be seen.
 
-import { freshId, made } from "../views/controls.js";
-import { worded } from "../views/language.js";
-import { question, tellModel } from "./asking.js";
-import { prose } from "./prose.js";
+import { freshId, made, worded } from "../views/controls.js";
+import { prose, question, tellModel } from "./asking.js";
 
 export function askForPrediction({ model, el }) {
   return question(model, el, "prediction", ["revealed"], (root) => {

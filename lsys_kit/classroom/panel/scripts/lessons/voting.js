@@ -1,10 +1,8 @@
 // A vote: a question and four buttons. Which is right, the model says, and only the second time.
 
 import { LETTERS } from "../drawing/constants.js";
-import { freshId, made } from "../views/controls.js";
-import { worded } from "../views/language.js";
-import { question, tellModel } from "./asking.js";
-import { prose } from "./prose.js";
+import { freshId, made, worded } from "../views/controls.js";
+import { prose, question, tellModel } from "./asking.js";
 
 const VERDICTS = { "Right": ["✓", "lsys-right"], "Not right": ["✗", "lsys-wrong"] };
 

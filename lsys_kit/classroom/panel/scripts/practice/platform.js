@@ -5,7 +5,6 @@ const MOST_WINDOWS = 50;
 const [LEAST, GREATEST] = ["0", "100"];
 const MOST_CHARACTERS = 4096; // of what is kept
 
-// The platform's API; null where there is none.
 export function platformOf(own) {
   const above = [own];
   while (above.length < MOST_WINDOWS && above.at(-1).parent !== above.at(-1)) above.push(above.at(-1).parent);

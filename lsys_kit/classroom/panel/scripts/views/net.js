@@ -1,8 +1,8 @@
 // The stage diagram: places with tokens, bars, arcs. A place can be chosen, by mouse and by keyboard.
 
-import { drawn } from "./controls.js";
+import { grouped } from "../books/numbers.js";
 import { fillColour, lineColour } from "../drawing/colours.js";
-import { onKey, onMouse } from "./keys.js";
+import { drawn, onKey, onMouse } from "./controls.js";
 
 const LEGIBLE = { terms: 0.82, labels: 0.65 }; // a diagram is made no smaller than this: its smallest text is 9 pixels high then
 const DOTS = [[], [[0, 0]], [[-5, 0], [5, 0]], [[0, -5.5], [-5, 3.5], [5, 3.5]], [[-5, -5], [5, -5], [-5, 5], [5, 5]]];
@@ -66,7 +66,7 @@ export function netView(parent, chosen, pointed) {
       if (entry.shown === count) continue;
       entry.shown = count;
       entry.tokens.replaceChildren(...tokensAt(entry.place, count));
-      entry.group.setAttribute("aria-label", `stage ${entry.place.name}, ${count.toLocaleString("en")} token${count === 1 ? "" : "s"}`);
+      entry.group.setAttribute("aria-label", `stage ${entry.place.name}, ${grouped(count)} token${count === 1 ? "" : "s"}`);
     }
   }
 
@@ -92,17 +92,15 @@ function tspans({ letter, subscript, values }) {
   return parts;
 }
 
-// Up to four tokens as dots, more as a number.
 function tokensAt({ x, y }, count) {
   if (count < 5) return DOTS[count].map(([dx, dy]) => drawn("circle", { cx: x + dx, cy: y + dy, r: 3.6 }));
   const text = short(count), size = text.length < 3 ? 15 : text.length < 4 ? 13 : 11;
   return [drawn("text", { x, y: y + 0.36 * size, "font-size": size, "font-weight": "bold", "text-anchor": "middle" }, text)];
 }
 
-// A number of tokens that fits into a circle.
 export function short(count) {
   if (count < 10_000) return String(count);
-  for (const [size, letter] of [[1e9, "G"], [1e6, "M"], [1e3, "k"]]) {
+  for (const [size, letter] of /** @type {[number, string][]} */ ([[1e9, "G"], [1e6, "M"], [1e3, "k"]])) {
     if (count >= size) return `${(count / size).toPrecision(count / size < 10 ? 2 : 3).replace(/\.0$/, "")}${letter}`;
   }
   return String(count);

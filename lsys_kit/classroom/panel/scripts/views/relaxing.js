@@ -1,6 +1,6 @@
 // The relaxation of a step, watched iteration by iteration: the controls of it, and what is to be painted.
 
-import { movedShapes, mapShapes, UNIT } from "../drawing/map.js";
+import { mapShapes, movedShapes, UNIT } from "../drawing/map.js";
 import { boundsOf } from "../drawing/projection.js";
 import { relaxation, startOf, tissueOf } from "../drawing/relaxation.js";
 import { forcesOf, PULL, PUSH, strongest } from "../drawing/tension.js";
@@ -13,7 +13,7 @@ const STILLS = 8, STILL = 1000; // with reduced motion so many stills, each show
 // `changed` is called when the picture is another.
 export function relaxing(changed) {
   const still = matchMedia("(prefers-reduced-motion: reduce)");
-  let book, step = 0, way = null, timer = 0, frame = 0, perFrame = 4, room = null, most = 0;
+  let book, shownBook, step = 0, way = null, timer = 0, frame = 0, perFrame = 4, room = null, most = 0;
   const first = button("first", "iteration 0 of the relaxation", () => { stop(); restart(); });
   const play = button("play", "play the relaxation", toggle, { class: "lsys-button lsys-play" });
   const forward = button("forward", "one iteration on", () => { stop(); advance(1); });
@@ -32,8 +32,8 @@ export function relaxing(changed) {
 
   // Another step is shown: at rest at first.
   function goTo(at) {
-    if (at === step && book === goTo.book) return;
-    [step, goTo.book, way] = [at, book, null];
+    if (at === step && book === shownBook) return;
+    [step, shownBook, way] = [at, book, null];
     stop();
     [room, most] = [boundsOf(mapShapes(book, step)), strongest(forcesNow().tensions)];
     tell();

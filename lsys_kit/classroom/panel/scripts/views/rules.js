@@ -1,7 +1,7 @@
 // The model's text, to be edited: mistakes are underlined where they stand, traced productions are lit.
 
-import { made, button } from "./controls.js";
-import { worded } from "./language.js";
+import { clamped } from "../books/numbers.js";
+import { button, made, worded } from "./controls.js";
 
 const REST = 250; // milliseconds without a key after which a text is read
 
@@ -60,7 +60,7 @@ export function rulesView(parent, asked) {
       if (!first) first = text;
       area.readOnly = !editable;
       if (area.value !== text && document.activeElement !== area) area.value = text;
-      area.rows = Math.max(4, Math.min(18, area.value.split("\n").length + 1));
+      area.rows = clamped(4, 18, area.value.split("\n").length + 1);
       back.hidden = area.value === first;
       understood();
     },

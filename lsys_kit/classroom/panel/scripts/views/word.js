@@ -1,9 +1,8 @@
 // The word of a step: each module on the tint of its symbol; a long word without its middle.
 
+import { grouped } from "../books/numbers.js";
 import { MOST_MODULES_SHOWN } from "../drawing/constants.js";
-import { made } from "./controls.js";
-import { onKey, onMouse } from "./keys.js";
-
+import { made, onKey, onMouse } from "./controls.js";
 
 // `told` learns of the module that was chosen, `pointed` of the one that the mouse is on, or of -1.
 export function wordView(parent, told, pointed) {
@@ -28,7 +27,7 @@ export function wordView(parent, told, pointed) {
     const from = n > MOST_MODULES_SHOWN ? half : n;
     for (let i = 0; i < from; i++) parts.push(chip(i));
     if (n > MOST_MODULES_SHOWN) {
-      parts.push(made("span.lsys-gap", `… ${(n - MOST_MODULES_SHOWN).toLocaleString("en")} more …`));
+      parts.push(made("span.lsys-gap", `… ${grouped(n - MOST_MODULES_SHOWN)} more …`));
       for (let i = n - half; i < n; i++) parts.push(chip(i));
     }
     if (!n) parts.push(made("span.lsys-gap", "The word is empty."));
@@ -36,7 +35,6 @@ export function wordView(parent, told, pointed) {
     box.setAttribute("aria-label", `Word of step ${step}, ${counted(n, book.data.noun)}. ${help}`);
   }
 
-  // Mark the modules of some states, and light those that are traced: a map from positions to what they are.
   function light(marked, traced) {
     for (const [position, element] of chips) {
       element.classList.toggle("lsys-marked", marked.has(word[position]));
@@ -46,7 +44,6 @@ export function wordView(parent, told, pointed) {
     }
   }
 
-  // Mark where another word differs.
   function differ(positions) {
     for (const [position, element] of chips) element.classList.toggle("lsys-different", positions.has(position));
   }
@@ -78,7 +75,6 @@ export function labelled({ letter, subscript, values, walls = [] }) {
   return parts;
 }
 
-// A wall of a cell, with the edges around it.
 function wallOf(label, colour, edges) {
   const name = made("b.lsys-wall", label);
   name.style.setProperty("--symbol", colour);
@@ -87,7 +83,7 @@ function wallOf(label, colour, edges) {
 
 // A number with its noun: "1 module", "2 modules".
 export function counted(number, noun, several = `${noun}s`) {
-  return `${number.toLocaleString("en")} ${number === 1 ? noun : several}`;
+  return `${grouped(number)} ${number === 1 ? noun : several}`;
 }
 
 // The size of a step in words: of cells as the kit says it, of a map its vertices, walls and cells, of a word its modules.

@@ -1,8 +1,20 @@
-// Bytes, numbers and texts out of the texts in which a page or a book has them.
+// Numbers: bounded, rounded, written; and numbers, bytes and texts out of the texts in which a page or a book has them.
+
+export const times = (many, made) => Array.from({ length: many }, (_, i) => made(i));
+
+export const clamped = (least, most, value) => Math.max(least, Math.min(most, value));
+
+// A number with commas between thousands.
+export const grouped = (number) => number.toLocaleString("en");
+
+// A number rounded to a whole one, halves to the even one, as the kernel does it.
+export function halfToEven(value) {
+  const whole = Math.round(value);
+  return whole - value === 0.5 && whole % 2 !== 0 ? whole - 1 : whole;
+}
 
 const KINDS = { u1: Uint8Array, u2: Uint16Array, u4: Uint32Array, i1: Int8Array, i2: Int16Array, i4: Int32Array };
 
-// The bytes of a text in base 64.
 export function bytesOf(text) {
   return Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
 }
