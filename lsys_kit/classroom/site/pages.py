@@ -155,12 +155,10 @@ def _neighbours(entry: Entry, entries: Sequence[Entry]) -> str:
 def _others(entry: Entry, entries: Sequence[Entry]) -> Iterator[tuple[str, str, Entry]]:
     alike = [each for each in entries if each.folder == entry.folder and is_lesson(each.name) == is_lesson(entry.name)]
     place = alike.index(entry)
-    if place:
-        yield "before", "Before", alike[place - 1]
     pair, label = {"notebooks": ("exercises", "Exercises"), "exercises": ("notebooks", "Lesson")}.get(entry.folder, ("", ""))
+    yield from (("before", "Before", each) for each in alike[:place][-1:])
     yield from (("also", label, each) for each in entries if each.name == f"{pair}/{PurePosixPath(entry.name).name}")
-    if place + 1 < len(alike):
-        yield "after", "Next", alike[place + 1]
+    yield from (("after", "Next", each) for each in alike[place + 1 :][:1])
 
 
 def _program(parts: Parts) -> Program | None:

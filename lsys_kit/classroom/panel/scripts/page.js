@@ -44,7 +44,7 @@ export function store(values) {
   };
 }
 
-export function pageHost(data, books, linked, alone = true) {
+function pageHost(data, books, linked, alone = true) {
   const held = heldSettings(data.model), relaxes = data.mode === "map", { step, angle, around, above, seed } = data.model;
   const answer = relaxes ? ({ constants }) => relaxedTo(bookAt(books, 0).book, constants) : (asked) => bookAt(books, held.rowAt(held.placesOf(asked)));
   const first = Object.fromEntries(data.model.constants.map((each) => [each.name, each.texts[each.index]]));

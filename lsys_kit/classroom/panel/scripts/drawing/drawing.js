@@ -5,6 +5,7 @@ import { eachFrame, made, onKey, onMouse, worded } from "../views/controls.js";
 import { relaxing } from "../views/relaxing.js";
 import { cellAt, paintSequence, sequence } from "./filament.js";
 import { grownShapes, mapShapes, paintCells, paintMapScale, paintWallSigns, wallSigns } from "./map.js";
+import { cleared } from "./outlines.js";
 import { paint, shapeAt } from "./painter.js";
 import { boundsOf, frameOf, widthAndHeight } from "./projection.js";
 import { LONGEST_ARROW, paintForces } from "./tension.js";
@@ -47,12 +48,12 @@ export function drawingView(parent, told) {
     hint.textContent = [inSpace ? IN_SPACE : IN_THE_PLANE, TRACED[book.data.mode] ?? TRACED.plane].map((text) => worded(text)).join(" ");
     canvas.classList.toggle("lsys-turned", inSpace);
     if (isMap && !signs) {
-      [signs, relaxed] = [wallSigns(() => draw()), relaxing(() => draw())];
+      [signs, relaxed] = [wallSigns(draw), relaxing(draw)];
       hint.before(signs.element, relaxed.element);
     }
     signs?.offer(book);
     relaxed?.offer(book);
-    if (isTissue && !choice) hint.before((choice = litCells(() => draw())).element);
+    if (isTissue && !choice) hint.before((choice = litCells(draw)).element);
     choice?.offer(book, 0);
   }
 
@@ -87,15 +88,9 @@ export function drawingView(parent, told) {
   }
 
   function paintNow() {
-    const width = canvas.clientWidth, height = canvas.clientHeight, density = window.devicePixelRatio || 1;
-    if (!width || !height || !now) return;
-    if (canvas.width !== Math.round(width * density) || canvas.height !== Math.round(height * density)) {
-      canvas.width = Math.round(width * density);
-      canvas.height = Math.round(height * density);
-    }
-    pen.setTransform(density, 0, 0, density, 0, 0);
-    pen.fillStyle = look.theme.paper;
-    pen.fillRect(0, 0, width, height);
+    const place = now && cleared(canvas, look.theme);
+    if (!place) return;
+    const { width, height } = place;
     if (isFilament) {
       sheet = sequence(book, now.step, { width: width * near, height, boxed: now.boxed });
       pen.translate(leftOf(width), 0);
@@ -181,11 +176,6 @@ export function drawingView(parent, told) {
     draw();
   }
 
-  function goBack() {
-    home();
-    told.turned(...told.front());
-  }
-
   function home() {
     [near, shift] = [1, [0, 0]];
     draw();
@@ -198,7 +188,10 @@ export function drawingView(parent, told) {
     if (next) told.traced(null, next);
     else if (event.key === "Escape") told.traced(now.step, -1);
     else if (nearer) come(nearer);
-    else if (!arrow) goBack();
+    else if (!arrow) {
+      home();
+      told.turned(...told.front());
+    }
     else if (event.shiftKey || !inSpace) move(-arrow[0] * MOVE, arrow[1] * MOVE);
     else turn(arrow[0] * TURN, arrow[1] * TURN);
   }
@@ -280,7 +273,7 @@ export function drawingView(parent, told) {
 }
 
 // Shapes whose strokes are on their way from those of their mothers: 0 there, 1 at their own place.
-export function strokesBetween(from, to, mothers, share) {
+function strokesBetween(from, to, mothers, share) {
   const first = new Map();
   for (let i = 0; i < from.strokes.n; i++) if (!first.has(from.strokes.positions[i])) first.set(from.strokes.positions[i], i);
   const many = 2 * to.strokes.n, x = new Float64Array(to.n + many), y = new Float64Array(to.n + many);
@@ -303,7 +296,7 @@ export function strokesBetween(from, to, mothers, share) {
 }
 
 // A sequence whose last row is on its way from the row above; `mothers` are the positions of the mothers in the word before.
-export function rowBetween(sheet, mothers, share) {
+function rowBetween(sheet, mothers, share) {
   const { cells } = sheet, last = sheet.rows.length - 1, above = new Map();
   if (last < 1) return sheet;
   const [x, y, length] = [cells.x, cells.y, cells.length].map((column) => column.slice());

@@ -4,6 +4,7 @@ import { openBook } from "../books/book.js";
 import { grouped } from "../books/numbers.js";
 import { made } from "../views/controls.js";
 import { paintSequence, sequence } from "./filament.js";
+import { cleared } from "./outlines.js";
 import { paint } from "./painter.js";
 import { frameOf } from "./projection.js";
 import { placed, traced } from "./turtle.js";
@@ -81,13 +82,9 @@ function galleryView(parent, chosen) {
 }
 
 function paintTile(canvas, book, now, look) {
-  const width = canvas.clientWidth, height = canvas.clientHeight, density = window.devicePixelRatio || 1, pen = canvas.getContext("2d");
-  if (!width) return;
-  [canvas.width, canvas.height] = [Math.round(width * density), Math.round(height * density)];
-  pen.setTransform(density, 0, 0, density, 0, 0);
-  pen.fillStyle = look.theme.paper;
-  pen.fillRect(0, 0, width, height);
-  const plain = { theme: look.theme, marked: new Set(), lit: new Map(), litAt: () => new Map(), current: -1 };
+  const sheet = cleared(canvas, look.theme), plain = { theme: look.theme, marked: new Set(), lit: new Map(), litAt: () => new Map(), current: -1 };
+  if (!sheet) return;
+  const { pen, width, height } = sheet;
   if (book.data.mode === "filament") return paintSequence(pen, sequence(book, now.step, { rows: 12, width, height, boxed: null, labelled: false }), plain);
   const shapes = placed(traced(book, now.step), now.angle);
   paint(pen, shapes, frameOf(shapes, width, height, { around: now.around, above: now.above, near: 1, shift: [0, 0], box: null }), plain);

@@ -9,6 +9,18 @@ export function surround(pen, path, kind, theme) {
   if (kind === "daughter") line(pen, path, theme.paper, 2);
 }
 
+// A canvas as large as it is shown, empty; nothing, if it is not shown.
+export function cleared(canvas, theme) {
+  const width = canvas.clientWidth, height = canvas.clientHeight, density = window.devicePixelRatio || 1, pen = canvas.getContext("2d");
+  if (!width || !height) return null;
+  const sizes = [width, height].map((size) => Math.round(size * density));
+  if (canvas.width !== sizes[0] || canvas.height !== sizes[1]) [canvas.width, canvas.height] = sizes;
+  pen.setTransform(density, 0, 0, density, 0, 0);
+  pen.fillStyle = theme.paper;
+  pen.fillRect(0, 0, width, height);
+  return { pen, width, height };
+}
+
 export function line(pen, path, colour, width, dashes = []) {
   [pen.strokeStyle, pen.lineWidth] = [colour, width];
   pen.setLineDash(dashes);

@@ -146,7 +146,7 @@ function projected({ scale, x0, y0, cos, sin, level, steep, reach, distance, mid
 }
 
 // How broad each stroke begins: as broad as the last stroke of its branch that ends there, where the turtle has set the widths.
-export function startWidths({ n, from, to, orders, widths }, single) {
+function startWidths({ n, from, to, orders, widths }, single) {
   if (widths.some((width) => width <= 0)) return single;
   const ending = new Map(), branch = (point, i) => point * (1 << 20) + orders[i];
   for (let i = 0; i < n; i++) ending.set(branch(to[i], i), single[i]);
@@ -157,7 +157,7 @@ const MOST_NUMBERED = 2 ** 31; // more shapes there cannot be
 const LAST_RANK = 2 ** 21;
 
 // The width of each stroke, in tenths of a pixel: as the turtle has set it, or by its branch order.
-export function strokeWidths({ n, orders, widths }, scale, thin) {
+function strokeWidths({ n, orders, widths }, scale, thin) {
   const own = ORDER_WIDTHS.map((width, order) => Math.max(LEAST_WIDTHS[order], halfToEven(10 * width * thin)));
   const found = new Int32Array(n);
   for (let i = 0; i < n; i++)
@@ -170,7 +170,7 @@ export function strokeWidths({ n, orders, widths }, scale, thin) {
 // strokes by colours, and of one colour the broad ones first. `depths` says how far points lie towards the viewer, and `behind`
 // how far the casings of strokes, whose numbers follow all others; of what is as far away they are painted first.
 /** @param {ArrayLike<number>} behind */
-export function paintingOrder(shapes, widths, depths = null, extent = 0, behind = []) {
+function paintingOrder(shapes, widths, depths = null, extent = 0, behind = []) {
   const { strokes, faces, rounds } = shapes, many = faces.n + strokes.n + rounds.n, all = many + behind.length;
   const ranks = depths ? depthLevels(shapes, depths, extent, behind) : planeRanks(shapes, widths), keys = new Float64Array(all);
   for (let i = 0; i < all; i++) keys[i] = ranks[i] * MOST_NUMBERED + (i < many ? i + behind.length : i - many);

@@ -10,7 +10,7 @@
 // A drawing goes from a word to shapes (filament, turtle, map, tissue), to where they are seen (projection), to paint (painter).
 // Numbers that the kit's own pictures have too stand in drawing/constants.js, which is made.
 
-import { library } from "../books/library.js";
+import { library } from "../books/book.js";
 import { clamped, times } from "../books/numbers.js";
 import { themeOf, whenRecoloured } from "../drawing/colours.js";
 import { drawingView } from "../drawing/drawing.js";
