@@ -164,7 +164,7 @@ def _pages(derivation: Derivation, end: str) -> _Pages:
     states, mode = derivation.states, drawing_mode(derivation.states.system)
     pages, size = _Pages(end=end), 0
     for step, length in enumerate(derivation.lengths):
-        new = sorted(set(_occurring(derivation, step)).difference(pages.numbers))
+        new = sorted(set(derivation.counts(step)).difference(pages.numbers))
         try:
             drawn = drawn_rows(states, new, mode)
         except LSystemError as error:
@@ -180,10 +180,6 @@ def _pages(derivation: Derivation, end: str) -> _Pages:
         pages.drawn += drawn
         pages.last = step
     return pages
-
-
-def _occurring(derivation: Derivation, step: int) -> Iterable[int]:
-    return derivation.counts(step)
 
 
 def _size(states: States, new: Sequence[int], drawn: Sequence[object]) -> int:
