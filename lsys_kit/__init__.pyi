@@ -21,8 +21,8 @@ from lsys_kit.classroom.lessons.vote import vote as vote
 from lsys_kit.classroom.lessons.worksheet import worksheet as worksheet
 from lsys_kit.classroom.link import link as link
 from lsys_kit.classroom.link import linked as linked
-from lsys_kit.classroom.panel.comparison import compare as compare
-from lsys_kit.classroom.panel.explore import explore as explore
+from lsys_kit.classroom.panel.explorer import compare as compare
+from lsys_kit.classroom.panel.explorer import explore as explore
 from lsys_kit.classroom.variants import variants as variants
 from lsys_kit.derivation.explain import explain as explain
 from lsys_kit.derivation.growth.growth import growth as growth

@@ -286,7 +286,7 @@ def print_link(options: argparse.Namespace) -> None:
 
 def write_page(options: argparse.Namespace) -> None:
     """Write the panel of a system into an HTML file that needs no kernel, and print what it shows first."""
-    from lsys_kit.classroom.panel.explore import check_unfolded
+    from lsys_kit.classroom.panel.explorer import check_unfolded
     from lsys_kit.classroom.panel.opened.kinds import opened
     from lsys_kit.classroom.panel.opened.opened import Viewing
     from lsys_kit.classroom.panel.page import page, save_page

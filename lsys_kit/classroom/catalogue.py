@@ -26,7 +26,7 @@ from lsys_kit.notation.dialects.cellwork.dialect import read_cellwork
 from lsys_kit.notation.dialects.map.dialect import read_map
 from lsys_kit.notation.model.cells import CellworkSystem, MapSystem
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.notation.read import read
+from lsys_kit.notation.read import AnySystem, read
 
 WORKS = MappingProxyType(
     {
@@ -227,6 +227,15 @@ def cell_system(id: str) -> MapSystem | CellworkSystem | None:
     known = next(filter(None, (_id_of(id, folder) for folder in (MAPS, CELLWORKS))), None)
     found: MapSystem | CellworkSystem | None = _parsed(known) if known else None
     return found
+
+
+def catalogued(id: str) -> AnySystem:
+    """The system of an id or of a name in the catalogue, of any kind.
+
+    >>> catalogued("K28").axiom == catalogued("K5").axiom
+    False
+    """
+    return cell_system(id) or system(id)
 
 
 def likely_system(id: str, others: Iterable[str] = ()) -> str | None:

@@ -15,7 +15,6 @@ from hypothesis import strategies as st
 from lsys_kit import LSystemError, derive, limits, read, stages, system, systems
 from lsys_kit.classroom.panel import bundle
 from lsys_kit.classroom.panel.books.book import book
-from lsys_kit.classroom.panel.bundle import bundled
 from lsys_kit.derivation.timed.ages import age_model
 from lsys_kit.geometry.filament import filament
 from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
@@ -24,7 +23,7 @@ from lsys_kit.pictures.draw import MOST_ROWS
 from lsys_kit.pictures.filaments import MOST_CELLS, filament_layout
 from lsys_kit.pictures.style.labels import visible
 from lsys_kit.pictures.svg import FilamentRow
-from tests.classroom.front_end import called
+from tests.classroom.front_end import called, joined
 from tests.derivation.random_systems import KINDS, systems_with
 from tests.derivation.random_systems import systems as random_systems
 
@@ -70,8 +69,7 @@ PAINTED = """([data, step, look]) => {
 @pytest.fixture(scope="module")
 def page(browser):
     tab = browser.new_page()
-    tab.add_script_tag(content=bundled("filament"))
-    tab.add_script_tag(content=bundled("book"))
+    tab.add_script_tag(content=joined("constants", "numbers", "colours", "outlines", "filament", "book"))
     yield tab
     tab.close()
 

@@ -81,13 +81,7 @@ class Opened(Protocol):
         ...
 
     def turned(self, angle: object) -> float:
-        """The angle of the turtle's turns, or the system's own if none is given.
-
-        Raises
-        ------
-        LSystemError
-            It makes no sense.
-        """
+        """The angle of the turtle's turns, or the system's own if none is given."""
         ...
 
     def book(self, values: Mapping[str, Value], seed: int, least: int) -> dict[str, Any]:
