@@ -45,7 +45,7 @@ SHARED: Mapping[str, Mapping[str, str]] = {
         "AT_REST": "AT_REST",
         "MOST_ITERATIONS": "MOST_ITERATIONS",
         "FARTHEST": "FARTHEST",
-        "LEAST_AREA": "LEAST_AREA",
+        "LEAST_AREA": "LEAST_ROOM",
         "LEAST_LENGTH": "LEAST_LENGTH",
     },
     "notation.fragments": {"LINK_MARK": "MARK", "LINK_VERSION": "VERSION", "CHECK_BYTES": "CHECK_BYTES"},
