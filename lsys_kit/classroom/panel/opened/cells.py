@@ -50,6 +50,8 @@ VALUES: Mapping[str, tuple[Value, ...]] = MappingProxyType(
 """The values of the sliders of the forces, where a kind of system has no others."""
 SHARE = 1 / 8
 """The part of the limit of bytes up to which cells at rest are kept."""
+CELL_BYTES, WALL_BYTES = 7_200, 600
+"""About what a cell at rest that is seen from all sides takes in memory, and a wall of a map in the plane."""
 LONGEST = 160
 """How many characters of the cells are told."""
 
@@ -93,7 +95,7 @@ def _cellwork_at(found: CellsAtRest, step: int, view: View) -> Drawn:
 
 
 def _tissue_bytes(found: Any) -> int:
-    return 7_200 * len(found.cells)
+    return CELL_BYTES * len(found.cells)
 
 
 _SPACE_VALUES = {
@@ -102,7 +104,7 @@ _SPACE_VALUES = {
     "pressure": tuple(normalised(Fraction(part, 2)) for part in range(1, 21)),
 }
 KINDS: Mapping[str, Kind] = {
-    "map": Kind("walls", _map_at, lambda found: 600 * len(found.walls), (0, 0), flat=True),
+    "map": Kind("walls", _map_at, lambda found: WALL_BYTES * len(found.walls), (0, 0), flat=True),
     "map on a sphere": Kind("edges", _sphere_at, _tissue_bytes, spheres.SIDE),
     "cellwork": Kind("edges", _cellwork_at, _tissue_bytes, cellworks.SIDE, MappingProxyType(_SPACE_VALUES)),
 }
