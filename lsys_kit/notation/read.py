@@ -141,7 +141,6 @@ def _others(chosen: Dialect, text: str) -> Iterator[Dialect]:
 
 
 def _reads(notation: Dialect, text: str, name: str | None) -> bool:
-    """Whether a text makes sense in a notation."""
     try:
         system_in(notation, text, name)
     except LSystemError:
@@ -196,7 +195,8 @@ def read_expression(text: str) -> Expression:
     >>> print(read_expression("2*(t+1)"))
     2 * (t + 1)
     """
-    return parse(ABOP, "expression", text, 0, len(text))  # type: ignore[no-any-return]
+    expression: Expression = parse(ABOP, "expression", text, 0, len(text))
+    return expression
 
 
 def checked_expression(text: str, names: Collection[str], wanted: str = "number") -> Expression:

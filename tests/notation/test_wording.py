@@ -26,6 +26,7 @@ NAMED = {
     "context in {}": ("decomposition", "interpretation"),
     "several modules in {}": ("decomposition", "interpretation"),
     "number of {}": ("steps", "rounds"),
+    "no {}": ("axiom", "angle"),
     "{} never applied": ("production", "decomposition rule"),
 }
 """The codes that are put together from two parts."""

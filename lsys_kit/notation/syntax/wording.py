@@ -130,8 +130,8 @@ def worded(problem: Problem, spelling: Spelling) -> tuple[str, str | None]:
     """
     wording = spelling.wording(problem)
     words = {**spelling.words, **{name: spelling.shown(value) for name, value in problem.subject.items()}}
-    hint = f'Did you mean "{problem.suggestion}"?' if problem.suggestion else wording.hint and wording.hint.format(**words)
-    return wording.message.format(**words), hint
+    hint = f'Did you mean "{problem.suggestion}"?' if problem.suggestion else (wording.hint or "").format(**words)
+    return wording.message.format(**words), hint or None
 
 
 def error_of(problem: Problem, source: str, spelling: Spelling) -> LSystemError:

@@ -10,8 +10,8 @@ from itertools import chain
 from pathlib import Path
 from typing import Any
 
-from lsys_kit.errors import ModelNameError, ModelSyntaxError
-from lsys_kit.notation.analysis.checks import SETTINGS, check_constants, check_expression, span, value_of
+from lsys_kit.notation.analysis.checks import SETTINGS, check_constants, check_expression, value_of
+from lsys_kit.notation.analysis.problems import problem
 from lsys_kit.notation.dialects.cpfg.actions import SILENT, CpfgStatements
 from lsys_kit.notation.dialects.cpfg.expressions import expression_text
 from lsys_kit.notation.dialects.cpfg.preprocessor import preprocessed
@@ -81,21 +81,14 @@ def statements(text: str) -> Iterator[tuple[int, int]]:
     for start, end in merge(_cut(text), (match.span(1) for match in KEPT.finditer(text))):
         begins = _BEGIN.match(text, start) is not None
         if begins and begun:
-            raise ModelSyntaxError("A second L-system begins here", text, start, end, "The kit has no L-systems inside others.")
+            raise problem("second system", (start, end))
         if ended:
-            raise ModelSyntaxError(
-                'This comes after "endlsystem"',
-                text,
-                start,
-                end,
-                'An L-system ends there: put "endlsystem" last, or leave it out.',
-            )
+            raise problem("after the end", (start, end))
         begun, ended = begun or begins, _END.match(text, start) is not None
         yield start, end
 
 
 def _cut(text: str) -> Iterator[tuple[int, int]]:
-    """The offsets of statements without comments."""
     first: _Line | None = None
     end, has_arrow, depth = 0, False, 0
     for line in _nonblank_lines(text):
@@ -151,7 +144,6 @@ _PROSE = re.compile(r"//[ \t]+[A-Za-z]{2}[^\n]*|(?://|(?<=[ \t])#)[ \t]*(?P<word
 
 
 def _finish(draft: Draft) -> LSystem:
-    """The system of all statements."""
     _check_macros(draft)
     _resolve_deferred(draft)
     draft.notes += _notes(draft)
@@ -170,7 +162,7 @@ def _resolve_deferred(draft: Draft) -> None:
             draft.add(kind, record, at)
         elif kind == "rule":
             production, before, after = record
-            draft.add("production", substitute(production, before, after, constants, draft.source), at)
+            draft.add("production", substitute(production, before, after, constants), at)
         elif kind == "passed":
             _resolve_passed(draft, record, at)
         elif kind == "count":
@@ -178,7 +170,7 @@ def _resolve_deferred(draft: Draft) -> None:
             _resolve_count(draft, section, keyword, expression, at)
     _carry_counters(draft, variables.counters)
     axiom = Production((Pattern("axiom"),), draft.axiom or ())
-    check_changing((axiom, *(rule for rules in draft.sections.values() for rule in rules)), variables.changing, draft.source)
+    check_changing((axiom, *(rule for rules in draft.sections.values() for rule in rules)), variables.changing)
 
 
 def _carry_counters(draft: Draft, counters: Counters) -> None:
@@ -199,7 +191,7 @@ def _variables(draft: Draft) -> Variables:
             phases.setdefault(record[0], []).append(record[1])
         elif kind == "rule":
             blocks += record[1:]
-    found = variables_of(phases, blocks, [constant.name for constant in draft.constants], draft.source)
+    found = variables_of(phases, blocks, [constant.name for constant in draft.constants])
     draft.constants += found.constants
     check_constants(draft.constants)
     if found.seed is not None and all(record[0] != "seed" for kind, record, _ in draft.deferred if kind == "count"):
@@ -231,15 +223,10 @@ def _resolve_count(draft: Draft, section: str, keyword: str, expression: Express
     """Take in a number of steps or rounds, or a seed, which may be calculated from constants."""
     depths = {"decomposition": "decomposition_depth", "interpretation": "depth"}
     if keyword == "maximum depth" and section not in depths:
-        raise ModelSyntaxError(
-            'This "maximum depth:" is in no section',
-            draft.source,
-            *at,
-            'It belongs below "decomposition" or below "homomorphism".',
-        )
+        raise problem("depth in no section", at)
     name = depths[section] if keyword == "maximum depth" else "seed" if keyword == "seed" else "steps"
     if name in draft.settings:
-        raise ModelSyntaxError(f'"{keyword}:" is set a second time', draft.source, *at, "Keep one of the two lines.")
+        raise problem("setting twice", at, keyword=keyword)
     values: dict[str, Any] = {}
     for constant in draft.constants:
         values[constant.name] = value_of(constant.value, values)
@@ -253,19 +240,10 @@ def _check_macros(draft: Draft) -> None:
     for index, constant in enumerate(draft.constants):
         value = constant.value
         if constant.name in SETTINGS:
-            raise ModelNameError(
-                f'The name "{constant.name}" is taken by a setting',
-                draft.source,
-                *span(constant),
-                f'Give the macro another name, such as "{constant.name.upper()}".',
-            )
+            raise problem("macro as setting", constant.at, name=constant.name, other=constant.name.upper())
         if isinstance(value, Name) and value.name not in names[:index]:
-            later = value.name in names
-            raise ModelSyntaxError(
-                f'The macro "{value}" is defined further down' if later else f'The macro "{constant.name}" is not a number',
-                draft.source,
-                *span(value),
-                "Put its line before this one." if later else f'Write "{value}" itself wherever "{constant.name}" is used.',
+            raise problem(
+                "macro further down" if value.name in names else "macro of a name", value.at, value=value, name=constant.name
             )
     check_constants(draft.constants)
 

@@ -16,10 +16,19 @@ from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
 from lsys_kit.budget import current
-from lsys_kit.errors import ModelNameError, ModelSyntaxError, ModelValueError
-from lsys_kit.notation.analysis.checks import span
-from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number, is_random, names_in
-from lsys_kit.notation.model.modules import Pattern, expressions_of, flat
+from lsys_kit.notation.analysis.problems import ProblemFound, problem
+from lsys_kit.notation.model.expressions import (
+    OPERATORS,
+    Apply,
+    Expression,
+    Name,
+    Number,
+    calls_in,
+    is_random,
+    names_in,
+    substituted,
+)
+from lsys_kit.notation.model.modules import Pattern, expressions_of, flat, with_expressions
 from lsys_kit.notation.model.system import Constant, Production
 
 Bindings: TypeAlias = Mapping[str, Expression]
@@ -54,47 +63,43 @@ Block: TypeAlias = tuple[Assignment | Choice, ...]
 """Statements, in the order written."""
 
 
-def substitute(production: Production, before: Block, after: Block, constants: Collection[str], source: str) -> Production:
+def substitute(production: Production, before: Block, after: Block, constants: Collection[str]) -> Production:
     """A rule with what its blocks compute: one before its condition, one after it.
 
     >>> x, doubled = Name("x"), Apply("+", (Name("t"), Name("t")))
     >>> rule = Production((Pattern("M", (Name("t"),)),), (Pattern("I", (x,)),))
-    >>> print(substitute(rule, (), (Assignment(x, doubled),), (), ""))
+    >>> print(substitute(rule, (), (Assignment(x, doubled),), ()))
     M(t) -> I(t + t)
     """
     if not before and not after:
         return production
     names = [argument.name for module in production.parameters for argument in module.arguments if isinstance(argument, Name)]
-    rule = _Rule(frozenset(names), frozenset(constants), source)
+    rule = _Rule(frozenset(names), frozenset(constants))
     first = rule.computed(before, {})
     last = rule.computed(after, first)
     condition, probability = production.condition, production.probability
     done = replace(
         production,
         condition=None if condition is None else rule.replaced(condition, first),
-        successor=tuple(_substituted_module(rule, module, last) for module in flat(production.successor)),
+        successor=with_expressions(production.successor, lambda expression: rule.replaced(expression, last)),
         probability=None if probability is None else rule.replaced(probability, last),
     )
-    _check_draws(done, (*before, *after), source)
+    _check_draws(done, (*before, *after))
     return done
 
 
-def computed(block: Block, constants: Iterable[str], source: str, before: Iterable[str] = ()) -> Bindings:
+def computed(block: Block, constants: Iterable[str], before: Iterable[str] = ()) -> Bindings:
     """What the statements of a block compute, by name, perhaps from values before; they use constants, and do not change them.
 
-    >>> print(computed((Assignment(Name("n"), Name("k")), Assignment(Name("m"), Name("n"))), ["k"], "")["m"])
+    >>> print(computed((Assignment(Name("n"), Name("k")), Assignment(Name("m"), Name("n"))), ["k"])["m"])
     k
     """
-    return _Rule(frozenset(before), frozenset(constants), source).computed(block, {})
+    return _Rule(frozenset(before), frozenset(constants)).computed(block, {})
 
 
 def assigned_names(block: Block) -> set[str]:
     """The names to which the statements of a block give values."""
     return {assignment.name.name for assignment in _assignments(block)}
-
-
-def _substituted_module(rule: _Rule, module: Pattern, values: Bindings) -> Pattern:
-    return replace(module, arguments=tuple(rule.replaced(a, values) for a in module.arguments))
 
 
 @dataclass(frozen=True)
@@ -103,7 +108,6 @@ class _Rule:
 
     parameters: frozenset[str]
     constants: frozenset[str]
-    source: str
 
     def computed(self, block: Block, values: Bindings) -> Bindings:
         """The bindings after a block."""
@@ -111,18 +115,12 @@ class _Rule:
             if isinstance(statement, Choice):
                 values = self._chosen(statement, values)
             elif statement.name.name in self.constants:
-                raise ModelNameError(
-                    f'The constant "{statement.name}" cannot be changed',
-                    self.source,
-                    *span(statement.name),
-                    "Give what is computed a name of its own.",
-                )
+                raise problem("constant changed", statement.name.at, name=statement.name)
             else:
                 values = {**values, statement.name.name: self.replaced(statement.value, values)}
         return values
 
     def _chosen(self, choice: Choice, values: Bindings) -> Bindings:
-        """The bindings after a choice."""
         condition = self.replaced(choice.condition, values)
         then, otherwise = self.computed(choice.then, values), self.computed(choice.otherwise, values)
         changed = [name for name in {**then, **otherwise} if then.get(name) is not otherwise.get(name)]
@@ -140,46 +138,18 @@ class _Rule:
         """The expression of a name in one of the two cases."""
         if name in values or name in self.parameters:
             return values.get(name, Name(name))
-        raise ModelNameError(
-            f'"{name}" has a value only where this condition is {truth}',
-            self.source,
-            *span(choice.condition),
-            f'Give it one in the other case, too: "else {{{name} = 0;}}".',
-        )
+        raise problem("value in one case", choice.condition.at, name=name, truth=truth)
 
     def replaced(self, expression: Expression, values: Bindings) -> Expression:
         """An expression with its names replaced."""
-        result = _with_values(expression, values)
+        result = substituted(expression, values)
         if getattr(result, "depth", 0) > current().depth or _long(result):
-            raise ModelSyntaxError(
-                "What is computed here becomes too long an expression",
-                self.source,
-                *span(expression),
-                "Compute less in one rule, and the rest in the next step.",
-            )
+            raise problem("computed too long", expression.at)
         return result
 
 
-def _with_values(expression: Expression, values: Bindings) -> Expression:
-    if isinstance(expression, Name):
-        return values.get(expression.name, expression)
-    if not isinstance(expression, Apply):
-        return expression
-    operands = tuple(_with_values(operand, values) for operand in expression.operands)
-    same = all(new is old for new, old in zip(operands, expression.operands, strict=True))
-    return expression if same else replace(expression, operands=operands)
-
-
-def _operators(expression: Expression | None) -> Iterator[Apply]:
-    """The operators of an expression with their operands; what occurs twice comes twice."""
-    if isinstance(expression, Apply):
-        yield expression
-        for operand in expression.operands:
-            yield from _operators(operand)
-
-
 def _long(expression: Expression) -> bool:
-    return any(number == MOST_OPERATORS for number, _ in enumerate(_operators(expression)))
+    return any(number == MOST_OPERATORS for number, _ in enumerate(calls_in(expression)))
 
 
 def _assignments(block: Block) -> Iterator[Assignment]:
@@ -190,27 +160,21 @@ def _assignments(block: Block) -> Iterator[Assignment]:
             yield from (*_assignments(statement.then), *_assignments(statement.otherwise))
 
 
-def _check_draws(production: Production, block: Block, source: str) -> None:
+def _check_draws(production: Production, block: Block) -> None:
     """No random number that was drawn once in a block is drawn twice in what became of the rule."""
-    arguments = [argument for module in flat(production.successor) for argument in module.arguments]
     drawn: set[int] = set()
-    for expression in (production.condition, production.probability, *arguments):
-        for applied in _operators(expression):
+    for expression in used_expressions(production):
+        for applied in calls_in(expression):
             if OPERATORS[applied.operator].random and id(applied) in drawn:
-                raise _drawn_twice(applied, block, source)
+                raise _drawn_twice(applied, block)
             drawn.add(id(applied))
 
 
-def _drawn_twice(draw: Apply, block: Block, source: str) -> ModelValueError:
+def _drawn_twice(draw: Apply, block: Block) -> ProblemFound:
     """The error for a random number that is used twice, with its name, if it has one."""
-    owner = next((a for a in _assignments(block) if any(applied is draw for applied in _operators(a.value))), None)
+    owner = next((a for a in _assignments(block) if any(applied is draw for applied in calls_in(a.value))), None)
     what = f'The random number "{owner.name}"' if owner else "This random number"
-    return ModelValueError(
-        f"{what} would be drawn anew at each of its uses",
-        source,
-        *span(owner.name if owner else draw),
-        'Make it the parameter of a module, as in "A --> B(ran(1))", and use that in the next step.',
-    )
+    return problem("drawn twice", (owner.name if owner else draw).at, what=what)
 
 
 _DRAWN = frozenset("FfGg")
@@ -331,8 +295,6 @@ def _possible(
 
 @dataclass(frozen=True)
 class _Carrying:
-    """How modules carry counters."""
-
     names: tuple[str, ...]
     kinds: Collection[tuple[str, int]]
     counters: Counters
@@ -404,9 +366,7 @@ class Variables:
     counters: Counters = field(default_factory=lambda: Counters({}, {}))
 
 
-def variables_of(
-    phases: Mapping[str, Sequence[Block]], rules: Iterable[Block], macros: Iterable[str], source: str
-) -> Variables:
+def variables_of(phases: Mapping[str, Sequence[Block]], rules: Iterable[Block], macros: Iterable[str]) -> Variables:
     """The variables of a model.
 
     Parameters
@@ -417,26 +377,24 @@ def variables_of(
         The blocks of the productions.
     macros
         The names of the macros, which no statement changes.
-    source
-        The text.
 
     Examples
     --------
     >>> from lsys_kit.notation.dialects.cpfg.variables import Assignment
     >>> from lsys_kit.notation.model.expressions import Name, Number
     >>> found = variables_of({"start": [(Assignment(Name("n"), Number(3)),)], "endeach": [(Assignment(Name("k"), Name("n")),)]},
-    ...                      [], [], "")
+    ...                      [], [])
     >>> [str(constant) for constant in found.constants], sorted(found.changing)
     (['n = 3'], ['k'])
     """
     known = (*macros,)
     begun, before, after = (_joined(phases.get(phase, ())) for phase in ("start", "starteach", "endeach"))
-    start = computed(begun, known, source)
+    start = computed(begun, known)
     each = assigned_names((*before, *after))
     local = {name for block in rules for name in assigned_names(block)}
     constants = tuple(Constant(name, value) for name, value in start.items() if name not in {*each, *local, SEED})
-    first = computed((*begun, *before), known, source, each)
-    following = computed((*after, *before), known, source, each)
+    first = computed((*begun, *before), known, each)
+    following = computed((*after, *before), known, each)
     counters = Counters(first, {name: value for name, value in following.items() if name not in {*local, SEED}})
     return Variables(constants, start.get(SEED), frozenset((*each, *(local & start.keys()))), counters)
 
@@ -445,17 +403,11 @@ def _joined(blocks: Iterable[Block]) -> Block:
     return tuple(statement for block in blocks for statement in block)
 
 
-def check_changing(productions: Iterable[Production], changing: frozenset[str], source: str) -> None:
+def check_changing(productions: Iterable[Production], changing: frozenset[str]) -> None:
     """No production uses what changes while the model runs, unless its own block computes it."""
     for production in productions if changing else ():
         used = names_used(production) & changing
         for expression in used_expressions(production):
             found = sorted(names_in(expression) & used)
             if found:
-                raise ModelNameError(
-                    f'The variable "{found[0]}" changes while the model runs',
-                    source,
-                    *span(expression),
-                    "The kit has no such variables: give the modules that use it a parameter, as in "
-                    f'"A({found[0]}) --> A({found[0]}+1)".',
-                )
+                raise problem("changing variable", expression.at, name=found[0])

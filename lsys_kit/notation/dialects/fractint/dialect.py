@@ -16,7 +16,7 @@ from typing import Any
 
 from lark import Token, Transformer, v_args
 
-from lsys_kit.errors import ModelSyntaxError
+from lsys_kit.notation.analysis.problems import problem
 from lsys_kit.notation.dialects.fractint.systems import entries_in, selected_entry, statement_lines, system_entries, uncommented
 from lsys_kit.notation.dialects.fractint.writer import (
     LEAST,
@@ -24,8 +24,8 @@ from lsys_kit.notation.dialects.fractint.writer import (
     MOST,
     NAME,
     RESERVED,
-    lacking,
     merged_pair,
+    missing_feature,
     module_text,
     system_text,
     translated,
@@ -34,7 +34,7 @@ from lsys_kit.notation.model.arithmetic import normalised
 from lsys_kit.notation.model.expressions import Number
 from lsys_kit.notation.model.modules import Pattern, flat
 from lsys_kit.notation.model.system import LSystem, Production
-from lsys_kit.notation.syntax.actions import ActionError
+from lsys_kit.notation.syntax.actions import Statement
 from lsys_kit.notation.syntax.builder import Draft, build_system
 from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.wording import Spelling
@@ -50,67 +50,48 @@ class Records(Transformer[Any, Any]):
         return Pattern(token.upper(), at=_at(token))
 
     def command(self, token: Token) -> Pattern:
-        sign, inverse_or_root, digits = _COMMAND.fullmatch(token).groups()  # type: ignore[union-attr]
+        [(sign, inverse_or_root, digits)] = _COMMAND.findall(token)
         return Pattern((sign + inverse_or_root).upper(), (_number(token, digits),) if digits else (), _at(token))
 
     def word(self, *modules: Pattern) -> tuple[Pattern, ...]:
         return modules
 
-    def angle(self, _: Token, count: Token) -> tuple[str, Any]:
+    def angle(self, _: Token, count: Token) -> Statement:
         """Fractint passes over what stands behind the point."""
         whole = count.split(".")[0]
         if len(whole) > len(str(MOST)) or not LEAST <= int(whole) <= MOST:
-            raise ActionError(
-                ModelSyntaxError,
-                f"A full turn cannot have {whole[:10]} parts here",
-                _at(count),
-                f'"Angle n" makes + and - turn by 360/n degrees, with n from {LEAST} to {MOST}.',
-            )
+            raise problem("parts of a turn", _at(count), parts=whole[:10], least=LEAST, most=MOST)
         return "deferred", ("angle", Number(normalised(Fraction(360, int(whole))), _at(count)))
 
     def steps(self, _: Token, count: Token) -> tuple[str, Number]:
         return "steps", Number(int(count), _at(count))
 
-    def axiom(self, _: Token, word: tuple[Pattern, ...]) -> tuple[str, Any]:
+    def axiom(self, _: Token, word: tuple[Pattern, ...]) -> Statement:
         return "deferred", ("axiom", word)
 
-    def production(self, predecessor: Token, word: tuple[Pattern, ...]) -> tuple[str, Any]:
+    def production(self, predecessor: Token, word: tuple[Pattern, ...]) -> Statement:
         symbol = predecessor[0].upper()
-        at = predecessor.start_pos, (predecessor.start_pos or 0) + 1
+        start = predecessor.start_pos or 0
+        at = start, start + 1
         if "=" not in predecessor and re.match("--?>", "".join(module.symbol for module in word[:3])):
-            raise ActionError(ModelSyntaxError, "Fractint has no arrows", word[0].at, f'Type "{predecessor[0]}=...".')
+            raise problem("arrow in rule", word[0].at, symbol=predecessor[0])
         if symbol in RESERVED:
-            raise ActionError(
-                ModelSyntaxError,
-                f'"{predecessor[0]}" is a command, which a rule cannot rewrite',
-                at,  # type: ignore[arg-type]
-                "Choose another letter for the predecessor.",
-            )
-        return "deferred", ("rule", Production((Pattern(symbol, at=at),), word))  # type: ignore[arg-type]
+            raise problem("command rewritten", at, symbol=predecessor[0])
+        return "deferred", ("rule", Production((Pattern(symbol, at=at),), word))
 
-    def erasing(self, predecessor: Token) -> tuple[str, Any]:
+    def erasing(self, predecessor: Token) -> Statement:
         if "=" not in predecessor:
-            raise ActionError(
-                ModelSyntaxError,
-                "This rule has no successor",
-                _at(predecessor),
-                f'To erase {predecessor[0]}, write "{predecessor[0]}=".',
-            )
+            raise problem("no successor", _at(predecessor), symbol=predecessor[0])
         return self.production(predecessor, ())
 
 
 def _at(token: Token) -> tuple[int, int]:
-    return token.start_pos, token.end_pos  # type: ignore[return-value]
+    return token.start_pos or 0, token.end_pos or 0
 
 
 def _number(token: Token, digits: str) -> Number:
     if not re.fullmatch(r"\d++\.?\d*+|\.\d++", digits) or len(digits) > LONGEST:
-        raise ActionError(
-            ModelSyntaxError,
-            "A command cannot take this number",
-            _at(token),
-            'A command takes digits with at most one point, as in "@.5" or "\\30".',
-        )
+        raise problem("number of command", _at(token))
     return Number(normalised(Fraction(f"0{digits}" if digits[0] == "." else digits.rstrip("."))), _at(token))
 
 
@@ -148,15 +129,10 @@ def _note_angle(draft: Draft, angle: Number) -> None:
 
 
 def _check(draft: Draft, said: set[str]) -> None:
-    """A system has an axiom and an angle."""
-    wanted = {
-        "axiom": ("There is no axiom", 'Give the first word on a line of its own, as in "Axiom F--F--F".'),
-        "angle": ("There is no angle", 'Give the parts of a full turn on a line of its own, as in "Angle 6".'),
-    }
-    for kind, (message, hint) in wanted.items():
+    for kind in ("axiom", "angle"):
         if kind not in said:
             end = max((at[1] for _, _, at in draft.deferred), default=len(draft.source.rstrip()))
-            raise ModelSyntaxError(message, draft.source, end, None, hint)
+            raise problem(f"no {kind}", (end, end))
 
 
 def _joined(draft: Draft) -> list[Production]:
@@ -171,12 +147,7 @@ def _joined(draft: Draft) -> list[Production]:
 def _one(draft: Draft, parts: list[tuple[Production, tuple[int, int]]]) -> Production:
     successor = tuple(chain.from_iterable(rule.successor for rule, _ in parts))
     if pair := merged_pair(flat(successor)):
-        raise ModelSyntaxError(
-            f'"{pair[1].symbol}" would be read as part of "{module_text(pair[0])}" in the rule before',
-            draft.source,
-            *(pair[1].at or parts[0][1]),
-            "Rules for the same symbol are joined: divide the word elsewhere.",
-        )
+        raise problem("symbol in number", pair[1].at or parts[0][1], symbol=pair[1].symbol, command=module_text(pair[0]))
     return Production(parts[0][0].predecessors, successor, at=parts[0][1] if len(parts) == 1 else None)
 
 
@@ -201,7 +172,20 @@ FRACTINT = Dialect(
     module=module_text,
     joined="".join,
     write=system_text,
-    missing_feature=lacking,
+    lacks=(
+        "conditions",
+        "contexts",
+        "predecessors of several modules",
+        "probabilities",
+        "repetition",
+        "constants",
+        "decomposition rules",
+        "meta-rules",
+        "interpretation rules",
+        "ignored symbols",
+        "field",
+    ),
+    missing_feature=missing_feature,
     likely=_likely,
     turtle=NAME,
     entry=selected_entry,

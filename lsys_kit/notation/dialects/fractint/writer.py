@@ -16,12 +16,11 @@ from math import lcm
 from string import ascii_uppercase
 
 from lsys_kit.notation.dialects.fractint.systems import entries
-from lsys_kit.notation.model.arithmetic import literal_text, number_text
-from lsys_kit.notation.model.expressions import Expression, Number
+from lsys_kit.notation.model.arithmetic import Value, literal_text, number_text
+from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
 from lsys_kit.notation.model.modules import Module, Pattern, flat
 from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
-from lsys_kit.notation.syntax.formatting import first_missing
 
 NAME = "fractint"
 RESERVED = frozenset("+-/\\@|!C<>[]")
@@ -166,10 +165,11 @@ def module_text(module: Module | Pattern) -> str:
     return module.symbol + "".join(_number_text(argument) for argument in module.arguments)
 
 
-def _number_text(argument: object) -> str:
+def _number_text(argument: Expression | Value) -> str:
     """A number in digits; anything else as the kit writes it."""
-    value = argument.value if isinstance(argument, Number) else argument
-    return str(value) if isinstance(value, Expression) else literal_text(value)  # type: ignore[arg-type]
+    if isinstance(argument, Name | Apply):
+        return str(argument)
+    return literal_text(argument.value if isinstance(argument, Number) else argument)
 
 
 def merged_pair(modules: Iterable[Pattern]) -> tuple[Pattern, Pattern] | None:
@@ -227,27 +227,9 @@ def _rules(production: Production) -> Iterator[str]:
     yield line
 
 
-def lacking(system: LSystem) -> str | None:
-    """The first thing that a system has and the notation lacks, in words."""
-    return (
-        first_missing(
-            system,
-            "conditions",
-            "contexts",
-            "predecessors of several modules",
-            "probabilities",
-            "repetition",
-            "constants",
-            "decomposition rules",
-            "meta-rules",
-            "interpretation rules",
-            "ignored symbols",
-            "field",
-        )
-        or _strange_setting(system)
-        or _strange_rule(system)
-        or _strange_word(system)
-    )
+def missing_feature(system: LSystem) -> str | None:
+    """What else a system has and the notation lacks, in words."""
+    return _strange_setting(system) or _strange_rule(system) or _strange_word(system)
 
 
 def _strange_setting(system: LSystem) -> str | None:

@@ -12,11 +12,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from lark import Token, Transformer, v_args
-from lark.visitors import merge_transformers
+from lark import Token, v_args
 
-from lsys_kit.errors import ModelNameError, ModelSyntaxError, ModelValueError
-from lsys_kit.notation.analysis.checks import span
+from lsys_kit.errors import ModelSyntaxError
+from lsys_kit.notation.analysis.problems import problem
 from lsys_kit.notation.dialects.grogra.probabilities import complete_probabilities
 from lsys_kit.notation.dialects.grogra.variables import Scope, Variable, check_variables, resolve, resolve_items, resolve_rule
 from lsys_kit.notation.dialects.grogra.writer import (
@@ -28,9 +27,9 @@ from lsys_kit.notation.dialects.grogra.writer import (
     system_text,
 )
 from lsys_kit.notation.model.expressions import OPERATORS, Expression, Name, Number, names_in
-from lsys_kit.notation.model.modules import Item, Pattern, Repeat
+from lsys_kit.notation.model.modules import Item, Pattern, flat, rewritten
 from lsys_kit.notation.model.system import Constant, LSystem, Production
-from lsys_kit.notation.syntax.actions import ActionError, Expressions, Statements
+from lsys_kit.notation.syntax.actions import Expressions, Statement, Statements, place_of, transformer
 from lsys_kit.notation.syntax.builder import Draft, build_system
 from lsys_kit.notation.syntax.diagnostics import compiled
 from lsys_kit.notation.syntax.dialect import Dialect
@@ -55,9 +54,9 @@ def statements(text: str) -> Iterator[tuple[int, int]]:
     >>> [text[start:end] for start, end in statements(text)]
     ['* # F a(1, 2)', 'a(x, y) # F']
     """
-    source, text = text, without_comments(text)
+    text = without_comments(text)
     if (closed := text.find("*/")) >= 0:
-        raise ModelSyntaxError("This comment was never opened", source, closed, closed + 2, 'A comment begins with "/*".')
+        raise problem("comment closed", (closed, closed + 2))
     depth = start = 0
     for part in _SEPARATORS.finditer(text):
         if part.group() in "()":
@@ -86,12 +85,7 @@ class _GrograExpressions(Expressions):
         operator = OPERATORS.get(name)
         at = name.start_pos or 0, name.end_pos or 0
         if operator is not None and operator.random:
-            raise ActionError(
-                ModelSyntaxError,
-                "A random number is declared on a line of its own",
-                at,
-                f'Type "\\var x {name} ...," there, and "x" here.',
-            )
+            raise problem("random number in rule", at, name=name)
         if operator is not None and operator.precedence is None and name != "sensed":
             return super().call(name, *operands)
         return self._applied("sensed", (Name(str(name), at), *operands), at)  # the text's own; its name is looked up later
@@ -99,48 +93,41 @@ class _GrograExpressions(Expressions):
 
 @v_args(inline=True)
 class _GrograStatements(_GrograExpressions, Statements):
-    """What `grammar.lark` names."""
-
     def glued(self, token: Token) -> Pattern:
         """A command with its number: in `L*0.6` the symbol is `L*`."""
         symbol, sign, number = (_subtoken(token, *match) for match in _command_parts(token))
         value = self.number(number)
         return self.module(symbol, self.unary(sign, value) if sign else value)
 
-    def axiom(self, _: Token, word: tuple[Pattern, ...], *steps: Token) -> tuple[str, Any]:
+    def axiom(self, _: Token, word: tuple[Pattern, ...], *steps: Token) -> Statement:
         ends = [int(end) for end in steps[0].split("-")] if steps else []
         if ends and ends[0] > ends[-1]:
-            raise ActionError(
-                ModelValueError,
-                f'"{steps[0]}" runs backwards',
-                (steps[0].start_pos or 0, steps[0].end_pos or 0),
-                'Steps are counted upwards, as in "1-8".',
-            )
+            raise problem("steps backwards", place_of(steps[0]), steps=steps[0])
         return "deferred", ("axiom", (word, ends[-1] if ends else None))
 
-    def setting(self, keyword: Token, value: Expression) -> tuple[str, Any]:
+    def setting(self, keyword: Token, value: Expression) -> Statement:
         return "deferred", ("setting", (keyword.split()[-1].lstrip("\\"), value))
 
-    def turtle(self, _: Token, tradition: Token) -> tuple[str, Any]:
+    def turtle(self, _: Token, tradition: Token) -> Statement:
         return "deferred", ("setting", ("turtle", str(tradition)))
 
-    def look(self, token: Token) -> tuple[str, Any]:
+    def look(self, token: Token) -> Statement:
         return "deferred", ("setting", super().look(token))
 
-    def unused(self, token: Token) -> tuple[str, Any]:
+    def unused(self, token: Token) -> Statement:
         return "deferred", ("note", f'"{" ".join(token.split())}" has no meaning here.')
 
     def constant(self, name: Token, *rest: Any) -> tuple[str, Constant]:
         return super().constant(*rest)  # the first token is "\\const"
 
-    def variable(self, _: Token, name: Token, kind: Token, *values: Expression) -> tuple[str, Any]:
+    def variable(self, _: Token, name: Token, kind: Token, *values: Expression) -> Statement:
         self.name(name)
         return "deferred", ("variable", Variable(str(name), str(kind), values, (kind.start_pos or 0, kind.end_pos or 0)))
 
-    def production(self, *parts: Any) -> tuple[str, Any]:
+    def production(self, *parts: Any) -> Statement:
         return "production", _production_of(parts)
 
-    def interpretation(self, *parts: Any) -> tuple[str, Any]:
+    def interpretation(self, *parts: Any) -> Statement:
         return "deferred", ("interpretation", _production_of(parts))
 
 
@@ -161,11 +148,6 @@ def _production_of(parts: tuple[Any, ...]) -> Production:
     named = {part[0]: part[1] for part in parts if isinstance(part, tuple) and part and isinstance(part[0], str)}
     successor = next((part for part in parts if isinstance(part, tuple) and not (part and isinstance(part[0], str))), ())
     return Production((predecessor,), successor, **named)
-
-
-def transformer() -> Transformer[Any, Any]:
-    """What makes the records."""
-    return merge_transformers(_GrograStatements(), expressions=_GrograExpressions())  # type: ignore[no-untyped-call,no-any-return]
 
 
 _SLIDE_SPELLINGS = {
@@ -224,17 +206,9 @@ def _resolve_deferred(draft: Draft) -> list[str]:
 
 
 def _add_setting(draft: Draft, at: tuple[int, int], name: str, value: object) -> None:
-    """Take in a setting."""
-    if name in draft.settings:
-        raise ModelSyntaxError(f"The {name} is set a second time", draft.source, *at, "Keep one of the two lines.")
+    draft.add(name, value, at)
     if isinstance(value, Expression) and names_in(value):
-        raise ModelNameError(
-            f'The name "{sorted(names_in(value))[0]}" cannot be used here',
-            draft.source,
-            *span(value),
-            f"The {name} is set to a number.",
-        )
-    draft.settings[name] = value
+        raise problem("name in setting", value.at, name=min(names_in(value)), keyword=name)
 
 
 def _default_axiom(draft: Draft, notes: list[str]) -> None:
@@ -243,9 +217,7 @@ def _default_axiom(draft: Draft, notes: list[str]) -> None:
     if draft.axiom is not None:
         return
     if not rules:
-        raise ModelSyntaxError(
-            "There is no axiom and no rule", draft.source, len(draft.source), None, 'Give the first word, as in "\\axiom a,".'
-        )
+        raise problem("no axiom and no rule", (len(draft.source), len(draft.source)))
     draft.axiom = START
     if all(rule.predecessor.symbol != "*" for rule in rules):
         first = rules[0].predecessor
@@ -261,22 +233,21 @@ def _check_constants(draft: Draft) -> None:
     known: set[str] = set()
     for constant in draft.constants:
         for expression in (constant.value, *(constant.range or ())):
-            resolve(expression, Scope(draft.source, frozenset(known), {}))
+            resolve(expression, Scope(frozenset(known), {}))
         known.add(constant.name)
 
 
 def _replace_variables(draft: Draft, variables: list[Variable]) -> None:
     """Replace the variables in all rules and in the axiom by what they mean."""
     constants = [constant.name for constant in draft.constants]
-    check_variables(variables, constants, draft.source)
-    scope = Scope(draft.source, frozenset(constants), {variable.name: variable for variable in variables})
-    draft.axiom = resolve_items(draft.axiom or (), scope)  # type: ignore[assignment]
+    check_variables(variables, constants)
+    scope = Scope(frozenset(constants), {variable.name: variable for variable in variables})
+    draft.axiom = tuple(flat(resolve_items(draft.axiom or (), scope)))
     for section, rules in draft.sections.items():
         draft.sections[section] = [resolve_rule(rule, scope, section == "productions") for rule in rules]
 
 
 def _spelling_notes(source: str) -> Iterator[str]:
-    """Notes on spellings of the slides."""
     found = dict.fromkeys(_SPELT.findall(without_comments(source)))
     pairs = [f'"{word}" as "{_SLIDE_SPELLINGS[word]}"' for word in found if word in _SLIDE_SPELLINGS]
     if pairs:
@@ -290,28 +261,23 @@ def with_ones(system: LSystem) -> tuple[LSystem, list[str]]:
 
     Print does not distinguish the two: Kurth's slides have `ul` where `u1` is meant.
     """
-    rewritten = {rule.predecessor.symbol for rule in system.rules}
+    heads = {rule.predecessor.symbol for rule in system.rules}
     symbols = dict.fromkeys(module.symbol for module in system.modules)
     ones = {
-        symbol: _one(symbol)
-        for symbol in symbols
-        if symbol not in rewritten and _one(symbol) in symbols and _one(symbol) != symbol
+        symbol: _one(symbol) for symbol in symbols if symbol not in heads and _one(symbol) in symbols and _one(symbol) != symbol
     }
     if not ones:
         return system, []
 
-    def module(m: Pattern) -> Pattern:
-        return replace(m, symbol=ones.get(m.symbol, m.symbol))
-
-    def word(items: Iterable[Item]) -> tuple[Item, ...]:
-        return tuple(replace(i, body=word(i.body)) if isinstance(i, Repeat) else module(i) for i in items)
+    def word(items: Iterable[Item]) -> tuple[Any, ...]:
+        return rewritten(items, lambda m: (replace(m, symbol=ones.get(m.symbol, m.symbol)),), lambda count: count)
 
     def rule(r: Production) -> Production:
-        return replace(r, left=tuple(map(module, r.left)), right=tuple(map(module, r.right)), successor=word(r.successor))
+        return replace(r, left=word(r.left), right=word(r.right), successor=word(r.successor))
 
     read = replace(
         system,
-        axiom=tuple(map(module, system.axiom)),
+        axiom=word(system.axiom),
         productions=tuple(map(rule, system.productions)),
         interpretation=tuple(map(rule, system.interpretation)),
     )
@@ -324,7 +290,6 @@ def _one(symbol: str) -> str:
 
 
 def _lacking(system: LSystem) -> str | None:
-    """The first thing that a system has and the notation lacks, in words."""
     with reporting(system.source, GROGRA.spelling):
         missing = missing_feature(system)
     if missing:
@@ -356,7 +321,7 @@ def _comma(failure: ParseFailure) -> ModelSyntaxError | None:
 GROGRA = Dialect(
     name="grogra",
     statements=statements,
-    transformer=transformer,
+    transformer=transformer(_GrograStatements, _GrograExpressions),
     finish=_finish,
     diagnostics=(
         "foreign_comment",
@@ -382,6 +347,16 @@ GROGRA = Dialect(
     module=module_text,
     joined=joined_word,
     write=system_text,
+    lacks=(
+        "round brackets as branches",
+        "predecessors of several modules",
+        "decomposition rules",
+        "meta-rules",
+        "ignored symbols",
+        "right contexts that name the next branch",
+        "right contexts that pass over brackets",
+        "field",
+    ),
     missing_feature=_lacking,
     likely=lambda text: 2 * len(_MARKS.findall(text)),
     turtle="grogra",

@@ -9,9 +9,10 @@ different contexts, or values, match at once are their weights taken in proporti
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from functools import partial
 from itertools import pairwise, product
 from math import prod
 
@@ -19,8 +20,18 @@ from lsys_kit.budget import current
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.analysis.checks import value_of
 from lsys_kit.notation.model.arithmetic import Value, number_text
-from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number, function_of, names_in
-from lsys_kit.notation.model.modules import Item, Pattern, Repeat
+from lsys_kit.notation.model.expressions import (
+    OPERATORS,
+    Apply,
+    Expression,
+    Name,
+    Number,
+    calls_in,
+    function_of,
+    names_in,
+    substituted,
+)
+from lsys_kit.notation.model.modules import Pattern, with_expressions
 from lsys_kit.notation.model.system import LSystem, Production
 
 _TRIED = 1_000
@@ -67,11 +78,9 @@ def _values(name: str, conditions: tuple[Expression, ...]) -> list[Value]:
 
 def _compared(name: str, condition: Expression) -> Iterator[Value]:
     """The numbers with which a condition compares a name."""
-    if isinstance(condition, Apply):
-        if Name(name) in condition.operands:
-            yield from (operand.value for operand in condition.operands if isinstance(operand, Number))
-        for operand in condition.operands:
-            yield from _compared(name, operand)
+    for call in calls_in(condition):
+        if Name(name) in call.operands:
+            yield from (operand.value for operand in call.operands if isinstance(operand, Number))
 
 
 _Condition = Expression | None
@@ -108,7 +117,7 @@ def _left_side(rule: Production, constants: frozenset[str]) -> object:
     names = {name: Name(f"?{number}") for number, name in enumerate(_parameters(rule, constants))}
 
     def plain(module: Pattern) -> Pattern:
-        return replace(module, arguments=tuple(renamed(a, names) for a in module.arguments))
+        return replace(module, arguments=tuple(substituted(a, names) for a in module.arguments))
 
     return tuple(map(plain, rule.left)), plain(rule.predecessor), tuple(map(plain, rule.right))
 
@@ -127,13 +136,13 @@ def _candidates(rules: Sequence[Production], row: Sequence[int], constants: froz
             yield number, rule
         elif rule.probability is None and _is_for_all(rule, first, constants):
             names = dict(zip(_parameters(rule, constants), first.predecessor.arguments, strict=True))
-            condition = None if rule.condition is None else renamed(rule.condition, names)
+            condition = None if rule.condition is None else substituted(rule.condition, names)
             if condition is None or names_in(condition) or value_of(condition):
                 yield (
                     number,
                     replace(
                         first,
-                        successor=renamed_items(rule.successor, names),
+                        successor=with_expressions(rule.successor, partial(substituted, values=names)),
                         probability=None,
                         condition=condition if condition and names_in(condition) else None,
                     ),
@@ -148,29 +157,6 @@ def _is_for_all(rule: Production, other: Production, constants: frozenset[str]) 
         and not rule.left
         and not rule.right
         and len(_parameters(rule, constants)) == len(one.arguments)
-    )
-
-
-def renamed(expression: Expression, names: Mapping[str, Expression]) -> Expression:
-    """An expression with others in place of some names.
-
-    >>> print(renamed(Apply("+", (Name("t"), Number(1))), {"t": Name("s")}))
-    s + 1
-    """
-    if isinstance(expression, Name):
-        return names.get(expression.name, expression)
-    if isinstance(expression, Apply):
-        return Apply(expression.operator, tuple(renamed(operand, names) for operand in expression.operands), expression.at)
-    return expression
-
-
-def renamed_items(items: Iterable[Item], names: Mapping[str, Expression]) -> tuple[Item, ...]:
-    """A word with others in place of some names."""
-    return tuple(
-        Repeat(renamed(item.count, names), renamed_items(item.body, names), item.index, item.at)
-        if isinstance(item, Repeat)
-        else replace(item, arguments=tuple(renamed(a, names) for a in item.arguments))
-        for item in items
     )
 
 
@@ -273,14 +259,14 @@ def _complete_row(system: LSystem, row: Sequence[int], constants: frozenset[str]
     names, shares, notes = _parameters(first, constants), _Shares(), list[str]()
     for number, rule in _candidates(system.productions, row, constants):
         there = dict(zip(_parameters(rule, constants), map(Name, names), strict=True))
-        condition = None if rule.condition is None else renamed(rule.condition, there)
+        condition = None if rule.condition is None else substituted(rule.condition, there)
         if rule.probability is None and (shares.closed & {None, condition} or (number not in row and shares.complete)):
             continue  # never applied where the others are
-        share = None if rule.probability is None else renamed(rule.probability, there)
+        share = None if rule.probability is None else substituted(rule.probability, there)
         given = shares.give(condition, share)
         if share not in (None, given):
             notes.append(f"The probabilities of {rule.predecessor} add up to more than 1: {share} is read as {given}.")
-        whole = replace(rule, probability=renamed(given, {new.name: Name(old) for old, new in there.items()}))
+        whole = replace(rule, probability=substituted(given, {new.name: Name(old) for old, new in there.items()}))
         if number in row:
             found[number][-1] = whole
         else:

@@ -14,10 +14,20 @@ from itertools import count
 from lsys_kit.notation.dialects.grogra.probabilities import complete_probabilities
 from lsys_kit.notation.dialects.grogra.variables import Variable, names_of, random_call
 from lsys_kit.notation.model.arithmetic import number_text
-from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number, Style, names_in, styled_text
-from lsys_kit.notation.model.modules import END, Item, Module, Pattern, Repeat, expressions_of
-from lsys_kit.notation.model.system import Constant, LSystem, Production
-from lsys_kit.notation.syntax.formatting import first_missing, look
+from lsys_kit.notation.model.expressions import (
+    OPERATORS,
+    Apply,
+    Expression,
+    Name,
+    Number,
+    Style,
+    names_in,
+    styled_text,
+    transform,
+)
+from lsys_kit.notation.model.modules import END, Item, Module, Pattern, Repeat, expressions_of, with_expressions
+from lsys_kit.notation.model.system import LOOK, Constant, LSystem, Production
+from lsys_kit.notation.syntax.formatting import unusual
 
 _FunctionKey = tuple[int, int]
 """A sensitive function: its number, and how many values it takes."""
@@ -76,7 +86,6 @@ def _free_names(letter: str, taken: Collection[str]) -> Iterator[str]:
 
 
 def _expressions(system: LSystem) -> Iterator[Expression]:
-    """All expressions of a system, in the order written."""
     for constant in system.constants:
         yield from (Name(constant.name), constant.value)
     yield from expressions_of(system.axiom)
@@ -148,15 +157,16 @@ def inexpressible(system: LSystem) -> str | None:
 
 def with_variables(expression: Expression, names: Declared) -> Expression:
     """An expression with variables in place of random and sensitive calls."""
-    if not isinstance(expression, Apply):
-        return expression
-    if expression in names.draws:
-        return Name(names.draws[expression])
-    operands = tuple(with_variables(operand, names) for operand in expression.operands)
-    if expression.operator == "sensed":
-        values = f"({', '.join(map(str, operands[1:]))})" if operands[1:] else ""
-        return Name(f"{names.functions[_function_key(expression)]}{values}")
-    return Apply(expression.operator, operands)
+
+    def change(part: Expression) -> Expression | None:
+        if part in names.draws:
+            return Name(names.draws[part])
+        if not isinstance(part, Apply) or part.operator != "sensed":
+            return None
+        values = ", ".join(str(with_variables(value, names)) for value in part.operands[1:])
+        return Name(f"{names.functions[_function_key(part)]}{f'({values})' if values else ''}")
+
+    return transform(expression, change)
 
 
 def rule_with_variables(rule: Production, names: Declared) -> Production:
@@ -164,15 +174,8 @@ def rule_with_variables(rule: Production, names: Declared) -> Production:
     condition, probability = (
         part if part is None else with_variables(part, names) for part in (rule.condition, rule.probability)
     )
-    return replace(rule, condition=condition, probability=probability, successor=tuple(_named_items(rule.successor, names)))
-
-
-def _named_items(items: Iterable[Item], names: Declared) -> Iterator[Item]:
-    for item in items:
-        if isinstance(item, Repeat):
-            yield Repeat(with_variables(item.count, names), tuple(_named_items(item.body, names)), item.index, item.at)
-        else:
-            yield replace(item, arguments=tuple(with_variables(a, names) for a in item.arguments))
+    successor = with_expressions(rule.successor, lambda expression: with_variables(expression, names))
+    return replace(rule, condition=condition, probability=probability, successor=successor)
 
 
 STYLE = Style({"==": "="})
@@ -271,7 +274,7 @@ def _settings(system: LSystem) -> Iterator[str]:
     ):
         if value is not None and value != usual:
             yield f"{directive} {_value_text(Number(value))}"
-    yield from (f"\\set {name} {said}" for name, said in look(system))
+    yield from (f"\\set {name} {said}" for name, said in unusual(system, *LOOK))
 
 
 def _constant(constant: Constant) -> str:
@@ -297,21 +300,10 @@ def _variable(variable: Variable) -> str:
 
 
 def missing_feature(system: LSystem) -> str | None:
-    """The first thing that a system has and GROGRA's notation lacks, in words."""
+    """What else a system has and GROGRA's notation lacks, in words."""
     ends = any(module.symbol == END for rule in system.rules for module in rule.right)
     return (
-        first_missing(
-            system,
-            "round brackets as branches",
-            "predecessors of several modules",
-            "decomposition rules",
-            "meta-rules",
-            "ignored symbols",
-            "right contexts that name the next branch",
-            "right contexts that pass over brackets",
-            "field",
-        )
-        or (None if system.decomposition_depth is None else "depth of decomposition")
+        (None if system.decomposition_depth is None else "depth of decomposition")
         or ("branch ends in contexts" if ends else None)
         or (None if system.axiom else "empty axiom")
         or inexpressible(system)

@@ -14,14 +14,14 @@ from typing import Any, TypeVar
 
 from lark import Token
 
-from lsys_kit.errors import ModelNameError
-from lsys_kit.notation.analysis.checks import check_constants, check_expression, closest, span, suggestion, value_of
+from lsys_kit.notation.analysis.checks import check_constants, check_expression, closest, suggestion, value_of
 from lsys_kit.notation.analysis.problems import Problem, ProblemFound, problem
 from lsys_kit.notation.dialects.mathematica.actions import RuleDefinition, RuleList, Run, SystemDefinition, WordDefinition
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.expressions import Expression, Name, Number, names_in
 from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.notation.model.system import Constant, LSystem
+from lsys_kit.notation.syntax.actions import place_of
 from lsys_kit.notation.syntax.builder import Draft, build_system
 from lsys_kit.notation.syntax.segmentation import segment_with_notes
 
@@ -41,8 +41,6 @@ class Definitions:
 
     Attributes
     ----------
-    source
-        The text.
     single
         Rules outside of LRULES.
     run
@@ -55,7 +53,6 @@ class Definitions:
         Notes, and the statements that are ignored: in order, each once.
     """
 
-    source: str
     axioms: dict[str, WordDefinition] = field(default_factory=dict)
     rules: dict[str, RuleList] = field(default_factory=dict)
     single: dict[str, RuleDefinition] = field(default_factory=dict)
@@ -162,20 +159,14 @@ def _lookup(definitions: Definitions, table: Mapping[str, Thing], name: Token, k
     same = next((known for known in table if known.casefold() == name.casefold()), None)
     if same is None:
         named = [known for known in table if not known.isdigit()]
-        raise ModelNameError(
-            f'No {kind} has the name "{name}"',
-            definitions.source,
-            name.start_pos,
-            name.end_pos,
-            suggestion(name, named) or _HINTS[kind],
-        )
+        raise problem("unknown definition", place_of(name), kind=kind, name=name, hint=suggestion(name, named) or _HINTS[kind])
     definitions.notes[f'"{name}" is read as "{same}".'] = None
     return table[same]
 
 
 def finish(draft: Draft) -> LSystem:
     """The system of a text's definitions."""
-    definitions = Definitions(draft.source)
+    definitions = Definitions()
     for kind, record, at in draft.deferred:
         definitions.take(kind, record, at)
     try:
@@ -192,8 +183,7 @@ def _about_symbol(unworded: Problem, draft: Draft) -> ProblemFound:
 
 
 def _system(draft: Draft, definitions: Definitions) -> LSystem:
-    """The L-system that the definitions make together."""
-    draft.constants = _in_order(definitions.constants.values(), draft.source)
+    draft.constants = _in_order(definitions.constants.values())
     names = definitions.constants.keys()
     _check_constants(draft.constants)
     system = main_system(definitions)
@@ -201,7 +191,7 @@ def _system(draft: Draft, definitions: Definitions) -> LSystem:
     if draft.axiom is None:
         raise problem("no axiom", (len(draft.source), len(draft.source)))
     for rule in rules_in(definitions, system):
-        _check_names(rule, names, draft.source)
+        _check_names(rule, names)
         draft.add("production", rule.production, rule.at)
     _add_settings(draft, definitions)
     draft.notes += _notes(draft, definitions)
@@ -209,7 +199,7 @@ def _system(draft: Draft, definitions: Definitions) -> LSystem:
     return segment_with_notes(whole) if system.printed else whole
 
 
-def _in_order(constants: Iterable[Constant], source: str) -> list[Constant]:
+def _in_order(constants: Iterable[Constant]) -> list[Constant]:
     """The constants so that each uses only those before it: as they were defined, where that is so already."""
     known = {constant.name: constant for constant in constants}
     uses = {name: _names_of_constant(constant) & known.keys() for name, constant in known.items()}
@@ -224,16 +214,10 @@ def _in_order(constants: Iterable[Constant], source: str) -> list[Constant]:
         return [known[name] for name in TopologicalSorter(uses).static_order()]
     except CycleError as found:
         name = found.args[1][0]
-        raise ModelNameError(
-            f'The constant "{name}" is defined in terms of itself',
-            source,
-            *span(known[name]),
-            "Give it a value that can be computed without it.",
-        ) from None
+        raise problem("constant in terms of itself", known[name].at, name=name) from None
 
 
 def _names_of_constant(constant: Constant) -> set[str]:
-    """The names that a constant's value and range use."""
     return set().union(*(names_in(part) for part in (constant.value, *(constant.range or ()))))
 
 
@@ -253,22 +237,17 @@ def _check_constants(constants: Iterable[Constant]) -> None:
     check_constants(constants)
 
 
-def _check_names(rule: RuleDefinition, constants: Collection[str], source: str) -> None:
+def _check_names(rule: RuleDefinition, constants: Collection[str]) -> None:
     """A parameter has a name of its own, and every value in a pattern is known."""
     for argument in rule.arguments:
         value = argument.value
         if argument.named and str(value) in constants:
-            raise ModelNameError(
-                f'"{value}" is already a constant',
-                source,
-                *span(value),
-                f'Give the parameter another name; or type "{value}" to match the constant\'s value.',
-            )
+            raise problem("parameter as constant", value.at, name=value)
         strange = () if argument.named else sorted(names_in(value) - set(constants))
         if strange:
             name = re.sub(r"_(Integer|Real|Rational|Symbol|String|List)$", "", strange[0])
             hint = suggestion(strange[0], constants, 0.8) or f'A parameter is named with "_" after it: "{name}_".'
-            raise ModelNameError(f'No constant has the name "{strange[0]}"', source, *span(value), hint)
+            raise problem("no constant", value.at, name=strange[0], hint=hint)
 
 
 def _add_settings(draft: Draft, definitions: Definitions) -> None:
@@ -285,7 +264,6 @@ def _add_settings(draft: Draft, definitions: Definitions) -> None:
 
 
 def _notes(draft: Draft, definitions: Definitions) -> Iterator[str]:
-    """Notes on definitions that are not used."""
     yield from definitions.notes
     unused = {constant.name for constant in draft.constants} - _used_names(draft, definitions)
     for constant in draft.constants:
@@ -298,7 +276,6 @@ def _notes(draft: Draft, definitions: Definitions) -> Iterator[str]:
 
 
 def _used_names(draft: Draft, definitions: Definitions) -> set[str]:
-    """The names that anything uses."""
     rules = draft.sections["productions"]
     steps = definitions.run.steps if definitions.run else None
     parts = [
@@ -312,5 +289,4 @@ def _used_names(draft: Draft, definitions: Definitions) -> set[str]:
 
 
 def _modules(draft: Draft) -> list[Pattern]:
-    """All modules of a text."""
     return [*(draft.axiom or ()), *(module for rule in draft.sections["productions"] for module in rule.modules)]
