@@ -141,7 +141,6 @@ def _others(chosen: Dialect, text: str) -> Iterator[Dialect]:
 
 
 def _reads(notation: Dialect, text: str, name: str | None) -> bool:
-    """Whether a text makes sense in a notation."""
     try:
         system_in(notation, text, name)
     except LSystemError:

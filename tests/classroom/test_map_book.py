@@ -167,7 +167,7 @@ def test_a_diagram_of_very_many_walls_is_a_sentence():
 
 @pytest.mark.slow
 def test_books_are_small():
-    assert all(len(json.dumps(book_of(id))) < 50_000 for id in map_systems())
+    assert all(len(json.dumps(book_of(id))) < 50_000 for id in FLAT)
 
 
 @pytest.mark.slow

@@ -57,7 +57,7 @@ def test_no_cell_is_turned_inside_out_and_halves_are_alike() -> None:
 @given(st.lists(st.floats(-0.2, 0.2), min_size=24, max_size=24))
 def test_wherever_the_corners_begin_they_come_to_rest_in_the_same_cube(shifts: list[float]) -> None:
     [points] = place_cellworks(derive(K33, 0))
-    *_, rest = relax(points + np.array(shifts).reshape(8, 3), solid_tissue(derive(K33, 0)[0]))
+    *_, rest = relax(points + np.array(shifts).reshape(8, 3), solid_tissue(derive(K33, 0)[0]), SPACE_FORCES)
     assert rooms(derive(K33, 0)[0], rest) == pytest.approx([8], rel=1e-2)
 
 

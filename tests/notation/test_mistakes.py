@@ -4,28 +4,35 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
+from functools import partial
 from types import ModuleType
 from typing import Any
 
 import pytest
 
 from lsys_kit.errors import LSystemError
-from lsys_kit.notation.read import read
+from lsys_kit.notation.dialects.cellwork.dialect import CELLWORK
+from lsys_kit.notation.dialects.map.dialect import MAP
+from lsys_kit.notation.read import CELL_READERS, read
 from lsys_kit.notation.registry import DIALECTS
 from lsys_kit.notation.syntax import diagnostics
+from lsys_kit.notation.syntax.dialect import Grammar
 from lsys_kit.notation.syntax.wording import KIT_SPELLING
 from tests.notation import (
+    test_cellworks,
     test_cpfg_diagnostics,
     test_diagnostics,
     test_diagnostics_of_rules,
     test_fractint,
     test_grogra_diagnostics,
+    test_maps,
     test_mathematica_diagnostics,
     test_surfaces,
 )
 
 Said = tuple[str, str | None]
-SPELLINGS = {"every": KIT_SPELLING, **{f"own {name}": dialect.spelling for name, dialect in DIALECTS.items()}}
+GRAMMARS: Mapping[str, Grammar] = {**DIALECTS, MAP.name: MAP, CELLWORK.name: CELLWORK}
+SPELLINGS = {"every": KIT_SPELLING, **{f"own {name}": grammar.spelling for name, grammar in GRAMMARS.items()}}
 KEYS = {
     *diagnostics._TOKENS,
     *diagnostics._STRETCHES,
@@ -39,6 +46,8 @@ MODULES = {
     "grogra": (test_grogra_diagnostics,),
     "fractint": (test_fractint,),
     "mathematica": (test_mathematica_diagnostics,),
+    "map": (test_maps,),
+    "cellwork": (test_cellworks,),
 }
 """Where texts with mistakes stand, by notation."""
 OTHERS = {
@@ -84,6 +93,21 @@ OTHERS = {
         "axiom: A\nA = B[",
     ],
     "plant-string": ["Axiom: I\nI < A -> A"],
+    "map": ["ω 2ABAB", "A -> B[-A -> B"],
+    "cellwork": [
+        "steps: x",
+        "cellwork: x",
+        "angle: 3",
+        "wall PQ 1",
+        "A: * -> ]",
+        "A: * -> A [W",
+        "A: * -> A [W W",
+        "A: * ->",
+        "A: -> B",
+        "A: * B",
+        "A",
+        "A B",
+    ],
     "cpfg": [
         "#define x 1 ? 2",
         "#define a ,1\nAxiom: A",
@@ -133,7 +157,7 @@ def test_every_row_has_a_text_that_shows_it(monkeypatch: pytest.MonkeyPatch) -> 
     for notation, modules in MODULES.items():
         for text in (*OTHERS.get(notation, ()), *(text for module in modules for text in texts(module))):
             with suppress(LSystemError):
-                read(text, notation)
+                CELL_READERS.get(notation, partial(read, notation=notation))(text)
     assert {(name, table, said) for name, table, _, said in ROWS if said and said not in shown} == set()
 
 
@@ -141,9 +165,9 @@ def test_a_row_asks_for_nothing_that_is_not_known() -> None:
     assert {(name, table, key) for name, table, row, _ in ROWS for key in row if key not in KEYS} == set()
 
 
-@pytest.mark.parametrize("name", DIALECTS)
+@pytest.mark.parametrize("name", GRAMMARS)
 def test_every_table_is_looked_up(name: str) -> None:
-    dialect = DIALECTS[name]
+    dialect = GRAMMARS[name]
     own = dialect.spelling.tables.get("mistakes", {})
     named = {each for each in dialect.diagnostics if isinstance(each, str)}
     handed = {row["cases"] for _, _, row, _ in ROWS if isinstance(row.get("cases"), str)}

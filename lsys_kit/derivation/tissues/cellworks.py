@@ -195,13 +195,13 @@ def _rules(found: Cellwork, system: CellworkSystem) -> Iterator[tuple[CellEdge, 
     """Each edge with its production: the first one whose walls all have the edge."""
     labels: list[set[str]] = [set() for _ in found.edges]
     for wall in counted(found.walls):
-        for side in wall.sides:
-            labels[side.wall].add(wall.label)
+        for edge, _ in wall.sides:
+            labels[edge].add(wall.label)
     productions: dict[Edge, list[CellworkProduction]] = {}
     for production in system.productions:
         productions.setdefault(production.predecessor, []).append(production)
-    for edge, its in zip(counted(found.edges), labels, strict=True):
-        yield edge, next((each for each in productions.get(edge.kind, ()) if its.issuperset(each.walls)), None)
+    for placed, its in zip(counted(found.edges), labels, strict=True):
+        yield placed, next((each for each in productions.get(placed.kind, ()) if its.issuperset(each.walls)), None)
 
 
 def _divided_walls(

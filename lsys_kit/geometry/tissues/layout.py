@@ -257,7 +257,7 @@ def cellwork_scene(found: Cellwork, points: Floats, numbers: Mapping[str, int], 
         if cell in lit:
             around.setdefault(wall, []).append(forward)
     outer = {wall: forward[0] for wall, forward in around.items() if len(forward) == 1}
-    shown = {side.wall for wall in around for side in found.walls[wall].sides}
+    shown = {edge for wall in around for edge, _ in found.walls[wall].sides}
     rows = [points[found.corners(found.walls[wall])][:: 1 if forward else -1] for wall, forward in outer.items()]
     rest = [(edge.start, edge.end) for number, edge in enumerate(found.edges) if number not in shown]
     places = points[np.array(rest, dtype=np.int64).reshape(-1, 2)].reshape(-1, 6)

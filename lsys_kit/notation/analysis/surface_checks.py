@@ -46,7 +46,6 @@ def checked_surfaces(texts: Iterable[SurfaceText]) -> tuple[SurfaceShape, ...]:
 
 
 def _check_number(part: PointList, patched: bool) -> None:
-    """There are as many points as there must be."""
     count = len(part.points)
     if patched and count != ROW**2:
         raise problem("number of control points", part.at, count=count)

@@ -189,7 +189,7 @@ def is_random(expression: Expression) -> bool:
     >>> is_random(Apply("+", (Name("t"), Apply("uniform", (Number(0), Number(1))))))
     True
     """
-    return any(OPERATORS[call.operator].random for call in calls_in(expression))
+    return any(isinstance(part, Apply) and OPERATORS[part.operator].random for part in walk(expression))
 
 
 def sensed_in(expression: Expression) -> Iterator[Apply]:
@@ -258,7 +258,6 @@ def to_sympy(expression: Expression) -> sympy.Basic:
 
 
 def _sympy_table() -> dict[str, Callable[..., sympy.Basic]]:
-    """For each operator what builds it in sympy."""
     import sympy
 
     def remainder(x: Any, y: Any) -> Any:

@@ -62,7 +62,6 @@ def check_name(token: Token) -> None:
 
 
 def _surface_name(keyword: Token) -> str:
-    """The name of a surface, in the words that begin its declaration."""
     name = keyword[:-1].split()[1]
     if len(name) > current().name:
         raise problem("name too long", place_of(keyword), most=current().name)
@@ -106,7 +105,6 @@ def check_arity(name: Token, operator: str, operands: Sequence[Expression]) -> N
 
 
 def _is_named(part: Any) -> bool:
-    """Whether a part of a statement comes with its name."""
     return isinstance(part, tuple) and len(part) == 2 and isinstance(part[0], str)
 
 
@@ -231,28 +229,16 @@ class Statements(Transformer[Any, Any]):
         name = "_".join(keyword.rstrip(": \t").lower().split())
         return "angle" if name == "δ" else name, _number(value) if isinstance(value, Token) else value
 
-    def turtle(self, _: Token, tradition: Token) -> tuple[str, str]:
-        return "turtle", str(tradition)
-
     def field(self, _: Token, name: Token, *arguments: Expression) -> tuple[str, Pattern]:
         return "field", Pattern(str(name), arguments, place_of(name, *arguments))
 
-    def cells(self, _: Token, look: Token) -> tuple[str, str]:
-        return "cells", str(look)
+    def chosen(self, keyword: Token, word: Token) -> tuple[str, str]:
+        return keyword.rstrip(": \t").lower(), str(word)
 
     def look(self, token: Token) -> tuple[str, str]:
         """How a system looks, in a single token: a keyword and a word."""
         name, said = re.findall("[a-z]+", token)[-2:]
         return name, said
-
-    def branches(self, _: Token, which: Token) -> tuple[str, str]:
-        return "branches", str(which)
-
-    def widths(self, _: Token, unit: Token) -> tuple[str, str]:
-        return "widths", str(unit)
-
-    def colours(self, _: Token, source: Token) -> tuple[str, str]:
-        return "colours", str(source)
 
     def polygon(self, keyword: Token, *points: Pattern) -> tuple[str, SurfaceText]:
         at = place_of(keyword)

@@ -90,7 +90,6 @@ class Draft:
             self._set(kind, record, at)
 
     def _set(self, kind: str, record: Any, at: tuple[int, int]) -> None:
-        """Take in a setting."""
         if kind in ("ignore", "consider") and {"ignore", "consider"} & self.settings.keys() - {kind}:
             raise problem("ignore and consider", at)
         if kind in self.settings:
@@ -99,7 +98,6 @@ class Draft:
 
 
 def _occurring_symbols(draft: Draft) -> set[str]:
-    """The symbols that can occur in words."""
     productions = [rule.successor for rules in draft.sections.values() for rule in rules]
     words = (draft.axiom or (), *productions, *(rule.successor for rule in draft.meta))
     return {module.symbol for word in words for module in flat(word)}
@@ -150,7 +148,6 @@ def build_system(draft: Draft) -> LSystem:
 
 
 def _checked_settings(draft: Draft) -> dict[str, Any]:
-    """The settings with their values, checked."""
     result: dict[str, Any] = {"turtle": draft.turtle}
     for name, setting in draft.settings.items():
         if name in _SYMBOL_LISTS or name in _TEXT_SETTINGS:

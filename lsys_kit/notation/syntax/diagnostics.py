@@ -202,7 +202,6 @@ def _keyword(typed: str, tables: Mapping[str, Any], likeness: float) -> dict[str
 
 
 def _error(row: Row, failure: ParseFailure, seen: _Seen) -> ModelSyntaxError:
-    """What a row says."""
     parts = {**seen.parts, "found": failure.found, "before": failure.before, "possible": expected_hint(failure.accepted) or ""}
     words = {**failure.spelling.words, **{name: _Piece(part) for name, part in parts.items()}}
     start, end = _span(row, failure, seen)

@@ -83,8 +83,10 @@ class Dialect(Grammar):
         The texts of modules, as one word.
     write
         The text of a system that lacks nothing in the notation.
+    lacks
+        The features that the notation lacks, by their names in `formatting.FEATURES`.
     missing_feature
-        The first feature that a system has and the notation lacks, in words; symbols are looked at apart.
+        What else a system has and the notation lacks, in words, or None; symbols are looked at apart.
     entry
         The text with the system of a name in it alone; without a name, with the only one.
     transcribe
@@ -102,7 +104,8 @@ class Dialect(Grammar):
     module: Callable[[Module | Pattern], str]
     joined: Callable[[Iterable[str]], str]
     write: Callable[[LSystem], str]
-    missing_feature: Callable[[LSystem], str | None]
+    lacks: Sequence[str] = ()
+    missing_feature: Callable[[LSystem], str | None] = lambda system: None
     likely: Callable[[str], int]
     entry: Callable[[str, str | None], str] = whole
     turtle: str = "abop"

@@ -255,7 +255,7 @@ def _cellwork_page(found: Cellwork, points: Floats, order: Mapping[str, int]) ->
         "ends": packed(net.ends.ravel()),
         "corners": packed(net.corners),
         "starts": packed(net.starts),
-        "borders": _packed(side.wall for wall in found.walls for side in wall.sides),
+        "borders": _packed(edge for wall in found.walls for edge, _ in wall.sides),
         "labels": _packed(order[wall.label] for wall in found.walls),
         "sides": _packed(part for side in found.cells_at() for part in side),
     }

@@ -15,7 +15,7 @@ from lsys_kit.notation.syntax.builder import Draft, build_system, check_colons
 from lsys_kit.notation.syntax.diagnostics import DIAGNOSTICS
 from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.failure import excerpt
-from lsys_kit.notation.syntax.formatting import first_missing, sections, settings
+from lsys_kit.notation.syntax.formatting import sections, settings
 from lsys_kit.notation.syntax.segmentation import check_digits, segment_system, segment_with_notes
 from lsys_kit.notation.syntax.text.printed import IN_A_SET, printed_statements
 from lsys_kit.notation.syntax.text.statements import without_comments
@@ -85,10 +85,6 @@ def _write(system: LSystem) -> str:
     )
 
 
-def _lacking(system: LSystem) -> str | None:
-    return first_missing(system, "round brackets as branches")
-
-
 ABOP = Dialect(
     name="abop",
     statements=printed_statements,
@@ -98,7 +94,7 @@ ABOP = Dialect(
     module=str,
     joined=joined,
     write=_write,
-    missing_feature=_lacking,
+    lacks=("round brackets as branches",),
     likely=likely,
     transcribe=transcribe,
     spelling=Spelling(Path(__file__).parent),

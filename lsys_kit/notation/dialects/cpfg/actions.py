@@ -35,12 +35,10 @@ def _expression_span(first: Expression, last: Expression | None = None) -> tuple
 
 @cache
 def _bare_module(symbol: str) -> Pattern:
-    """A module without values."""
     return Pattern("-" if symbol == "−" else symbol)
 
 
 def _flattened(parts: Iterable[Any]) -> Iterator[Any]:
-    """The parts of a word, one after another."""
     for part in parts:
         if isinstance(part, tuple):
             yield from part

@@ -89,7 +89,6 @@ def statements(text: str) -> Iterator[tuple[int, int]]:
 
 
 def _cut(text: str) -> Iterator[tuple[int, int]]:
-    """The offsets of statements without comments."""
     first: _Line | None = None
     end, has_arrow, depth = 0, False, 0
     for line in _nonblank_lines(text):
@@ -145,7 +144,6 @@ _PROSE = re.compile(r"//[ \t]+[A-Za-z]{2}[^\n]*|(?://|(?<=[ \t])#)[ \t]*(?P<word
 
 
 def _finish(draft: Draft) -> LSystem:
-    """The system of all statements."""
     _check_macros(draft)
     _resolve_deferred(draft)
     draft.notes += _notes(draft)

@@ -77,7 +77,6 @@ def with_surface(system: LSystem, name: str, text: str) -> LSystem:
 
 
 def _patches(text: str) -> tuple[tuple[SurfacePoint, ...], ...]:
-    """The patches of a file, in the frame of the turtle."""
     contact, heading, up = (_vector(text, keyword) for keyword in ("CONTACT POINT", "HEADING", "UP"))
     size = _size(text)
     ahead = _unit(heading, text, "HEADING")
@@ -94,7 +93,6 @@ def _patches(text: str) -> tuple[tuple[SurfacePoint, ...], ...]:
 
 
 def _vector(text: str, keyword: str) -> _Vector:
-    """The vector behind a keyword."""
     pattern = "".join(rf"[ \t]+{axis}:[ \t]*({_NUMBER})" for axis in "XYZ")
     found = re.search(rf"^{keyword}{pattern}", text, re.MULTILINE)
     if not found:

@@ -121,7 +121,6 @@ class _Rule:
         return values
 
     def _chosen(self, choice: Choice, values: Bindings) -> Bindings:
-        """The bindings after a choice."""
         condition = self.replaced(choice.condition, values)
         then, otherwise = self.computed(choice.then, values), self.computed(choice.otherwise, values)
         changed = [name for name in {**then, **otherwise} if then.get(name) is not otherwise.get(name)]
@@ -296,8 +295,6 @@ def _possible(
 
 @dataclass(frozen=True)
 class _Carrying:
-    """How modules carry counters."""
-
     names: tuple[str, ...]
     kinds: Collection[tuple[str, int]]
     counters: Counters

@@ -24,8 +24,8 @@ from lsys_kit.notation.dialects.fractint.writer import (
     MOST,
     NAME,
     RESERVED,
-    lacking,
     merged_pair,
+    missing_feature,
     module_text,
     system_text,
     translated,
@@ -34,7 +34,7 @@ from lsys_kit.notation.model.arithmetic import normalised
 from lsys_kit.notation.model.expressions import Number
 from lsys_kit.notation.model.modules import Pattern, flat
 from lsys_kit.notation.model.system import LSystem, Production
-from lsys_kit.notation.syntax.actions import Statement, place_of
+from lsys_kit.notation.syntax.actions import Statement
 from lsys_kit.notation.syntax.builder import Draft, build_system
 from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.wording import Spelling
@@ -47,11 +47,11 @@ class Records(Transformer[Any, Any]):
     """What `grammar.lark` names: letters are capitals, whatever was typed."""
 
     def symbol(self, token: Token) -> Pattern:
-        return Pattern(token.upper(), at=place_of(token))
+        return Pattern(token.upper(), at=_at(token))
 
     def command(self, token: Token) -> Pattern:
         [(sign, inverse_or_root, digits)] = _COMMAND.findall(token)
-        return Pattern((sign + inverse_or_root).upper(), (_number(token, digits),) if digits else (), place_of(token))
+        return Pattern((sign + inverse_or_root).upper(), (_number(token, digits),) if digits else (), _at(token))
 
     def word(self, *modules: Pattern) -> tuple[Pattern, ...]:
         return modules
@@ -60,11 +60,11 @@ class Records(Transformer[Any, Any]):
         """Fractint passes over what stands behind the point."""
         whole = count.split(".")[0]
         if len(whole) > len(str(MOST)) or not LEAST <= int(whole) <= MOST:
-            raise problem("parts of a turn", place_of(count), parts=whole[:10], least=LEAST, most=MOST)
-        return "deferred", ("angle", Number(normalised(Fraction(360, int(whole))), place_of(count)))
+            raise problem("parts of a turn", _at(count), parts=whole[:10], least=LEAST, most=MOST)
+        return "deferred", ("angle", Number(normalised(Fraction(360, int(whole))), _at(count)))
 
     def steps(self, _: Token, count: Token) -> tuple[str, Number]:
-        return "steps", Number(int(count), place_of(count))
+        return "steps", Number(int(count), _at(count))
 
     def axiom(self, _: Token, word: tuple[Pattern, ...]) -> Statement:
         return "deferred", ("axiom", word)
@@ -81,14 +81,18 @@ class Records(Transformer[Any, Any]):
 
     def erasing(self, predecessor: Token) -> Statement:
         if "=" not in predecessor:
-            raise problem("no successor", place_of(predecessor), symbol=predecessor[0])
+            raise problem("no successor", _at(predecessor), symbol=predecessor[0])
         return self.production(predecessor, ())
+
+
+def _at(token: Token) -> tuple[int, int]:
+    return token.start_pos or 0, token.end_pos or 0
 
 
 def _number(token: Token, digits: str) -> Number:
     if not re.fullmatch(r"\d++\.?\d*+|\.\d++", digits) or len(digits) > LONGEST:
-        raise problem("number of command", place_of(token))
-    return Number(normalised(Fraction(f"0{digits}" if digits[0] == "." else digits.rstrip("."))), place_of(token))
+        raise problem("number of command", _at(token))
+    return Number(normalised(Fraction(f"0{digits}" if digits[0] == "." else digits.rstrip("."))), _at(token))
 
 
 _SAID = re.compile(r"angle(?:\s*=)?\s*\d|axiom(?:\s*=\s*|\s+)[^\s:=]", re.IGNORECASE)
@@ -125,7 +129,6 @@ def _note_angle(draft: Draft, angle: Number) -> None:
 
 
 def _check(draft: Draft, said: set[str]) -> None:
-    """A system has an axiom and an angle."""
     for kind in ("axiom", "angle"):
         if kind not in said:
             end = max((at[1] for _, _, at in draft.deferred), default=len(draft.source.rstrip()))
@@ -169,7 +172,20 @@ FRACTINT = Dialect(
     module=module_text,
     joined="".join,
     write=system_text,
-    missing_feature=lacking,
+    lacks=(
+        "conditions",
+        "contexts",
+        "predecessors of several modules",
+        "probabilities",
+        "repetition",
+        "constants",
+        "decomposition rules",
+        "meta-rules",
+        "interpretation rules",
+        "ignored symbols",
+        "field",
+    ),
+    missing_feature=missing_feature,
     likely=_likely,
     turtle=NAME,
     entry=selected_entry,

@@ -21,7 +21,6 @@ from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
 from lsys_kit.notation.model.modules import Module, Pattern, flat
 from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
-from lsys_kit.notation.syntax.formatting import first_missing
 
 NAME = "fractint"
 RESERVED = frozenset("+-/\\@|!C<>[]")
@@ -228,27 +227,9 @@ def _rules(production: Production) -> Iterator[str]:
     yield line
 
 
-def lacking(system: LSystem) -> str | None:
-    """The first thing that a system has and the notation lacks, in words."""
-    return (
-        first_missing(
-            system,
-            "conditions",
-            "contexts",
-            "predecessors of several modules",
-            "probabilities",
-            "repetition",
-            "constants",
-            "decomposition rules",
-            "meta-rules",
-            "interpretation rules",
-            "ignored symbols",
-            "field",
-        )
-        or _strange_setting(system)
-        or _strange_rule(system)
-        or _strange_word(system)
-    )
+def missing_feature(system: LSystem) -> str | None:
+    """What else a system has and the notation lacks, in words."""
+    return _strange_setting(system) or _strange_rule(system) or _strange_word(system)
 
 
 def _strange_setting(system: LSystem) -> str | None:

@@ -93,8 +93,6 @@ class _GrograExpressions(Expressions):
 
 @v_args(inline=True)
 class _GrograStatements(_GrograExpressions, Statements):
-    """What `grammar.lark` names."""
-
     def glued(self, token: Token) -> Pattern:
         """A command with its number: in `L*0.6` the symbol is `L*`."""
         symbol, sign, number = (_subtoken(token, *match) for match in _command_parts(token))
@@ -208,7 +206,6 @@ def _resolve_deferred(draft: Draft) -> list[str]:
 
 
 def _add_setting(draft: Draft, at: tuple[int, int], name: str, value: object) -> None:
-    """Take in a setting."""
     draft.add(name, value, at)
     if isinstance(value, Expression) and names_in(value):
         raise problem("name in setting", value.at, name=min(names_in(value)), keyword=name)
@@ -251,7 +248,6 @@ def _replace_variables(draft: Draft, variables: list[Variable]) -> None:
 
 
 def _spelling_notes(source: str) -> Iterator[str]:
-    """Notes on spellings of the slides."""
     found = dict.fromkeys(_SPELT.findall(without_comments(source)))
     pairs = [f'"{word}" as "{_SLIDE_SPELLINGS[word]}"' for word in found if word in _SLIDE_SPELLINGS]
     if pairs:
@@ -294,7 +290,6 @@ def _one(symbol: str) -> str:
 
 
 def _lacking(system: LSystem) -> str | None:
-    """The first thing that a system has and the notation lacks, in words."""
     with reporting(system.source, GROGRA.spelling):
         missing = missing_feature(system)
     if missing:
@@ -352,6 +347,16 @@ GROGRA = Dialect(
     module=module_text,
     joined=joined_word,
     write=system_text,
+    lacks=(
+        "round brackets as branches",
+        "predecessors of several modules",
+        "decomposition rules",
+        "meta-rules",
+        "ignored symbols",
+        "right contexts that name the next branch",
+        "right contexts that pass over brackets",
+        "field",
+    ),
     missing_feature=_lacking,
     likely=lambda text: 2 * len(_MARKS.findall(text)),
     turtle="grogra",

@@ -182,7 +182,6 @@ def _root(value: int | Fraction) -> Fraction | None:
 
 
 def _sensed_call(expression: Apply, name: Name, values: list[Expression], scope: Scope) -> Apply:
-    """The call of a sensitive function."""
     variable = scope.variables.get(name.name)
     if variable is None or variable.kind != "function":
         functions = {v.name for v in scope.variables.values() if v.kind == "function"}

@@ -26,8 +26,8 @@ from lsys_kit.notation.model.expressions import (
     transform,
 )
 from lsys_kit.notation.model.modules import END, Item, Module, Pattern, Repeat, expressions_of, with_expressions
-from lsys_kit.notation.model.system import Constant, LSystem, Production
-from lsys_kit.notation.syntax.formatting import first_missing, look
+from lsys_kit.notation.model.system import LOOK, Constant, LSystem, Production
+from lsys_kit.notation.syntax.formatting import unusual
 
 _FunctionKey = tuple[int, int]
 """A sensitive function: its number, and how many values it takes."""
@@ -86,7 +86,6 @@ def _free_names(letter: str, taken: Collection[str]) -> Iterator[str]:
 
 
 def _expressions(system: LSystem) -> Iterator[Expression]:
-    """All expressions of a system, in the order written."""
     for constant in system.constants:
         yield from (Name(constant.name), constant.value)
     yield from expressions_of(system.axiom)
@@ -275,7 +274,7 @@ def _settings(system: LSystem) -> Iterator[str]:
     ):
         if value is not None and value != usual:
             yield f"{directive} {_value_text(Number(value))}"
-    yield from (f"\\set {name} {said}" for name, said in look(system))
+    yield from (f"\\set {name} {said}" for name, said in unusual(system, *LOOK))
 
 
 def _constant(constant: Constant) -> str:
@@ -301,21 +300,10 @@ def _variable(variable: Variable) -> str:
 
 
 def missing_feature(system: LSystem) -> str | None:
-    """The first thing that a system has and GROGRA's notation lacks, in words."""
+    """What else a system has and GROGRA's notation lacks, in words."""
     ends = any(module.symbol == END for rule in system.rules for module in rule.right)
     return (
-        first_missing(
-            system,
-            "round brackets as branches",
-            "predecessors of several modules",
-            "decomposition rules",
-            "meta-rules",
-            "ignored symbols",
-            "right contexts that name the next branch",
-            "right contexts that pass over brackets",
-            "field",
-        )
-        or (None if system.decomposition_depth is None else "depth of decomposition")
+        (None if system.decomposition_depth is None else "depth of decomposition")
         or ("branch ends in contexts" if ends else None)
         or (None if system.axiom else "empty axiom")
         or inexpressible(system)

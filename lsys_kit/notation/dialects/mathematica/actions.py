@@ -325,7 +325,6 @@ def _rule_of(
     successor: WordDefinition,
     at: tuple[int, int],
 ) -> RuleDefinition:
-    """The rule of some patterns and a successor."""
     every = (*left, pattern, *right)
     condition = condition_of(condition for one in every for condition in one.conditions)
     if isinstance(condition, Apply) and condition.depth > current().depth:

@@ -183,7 +183,6 @@ def _about_symbol(unworded: Problem, draft: Draft) -> ProblemFound:
 
 
 def _system(draft: Draft, definitions: Definitions) -> LSystem:
-    """The L-system that the definitions make together."""
     draft.constants = _in_order(definitions.constants.values())
     names = definitions.constants.keys()
     _check_constants(draft.constants)
@@ -219,7 +218,6 @@ def _in_order(constants: Iterable[Constant]) -> list[Constant]:
 
 
 def _names_of_constant(constant: Constant) -> set[str]:
-    """The names that a constant's value and range use."""
     return set().union(*(names_in(part) for part in (constant.value, *(constant.range or ()))))
 
 
@@ -266,7 +264,6 @@ def _add_settings(draft: Draft, definitions: Definitions) -> None:
 
 
 def _notes(draft: Draft, definitions: Definitions) -> Iterator[str]:
-    """Notes on definitions that are not used."""
     yield from definitions.notes
     unused = {constant.name for constant in draft.constants} - _used_names(draft, definitions)
     for constant in draft.constants:
@@ -279,7 +276,6 @@ def _notes(draft: Draft, definitions: Definitions) -> Iterator[str]:
 
 
 def _used_names(draft: Draft, definitions: Definitions) -> set[str]:
-    """The names that anything uses."""
     rules = draft.sections["productions"]
     steps = definitions.run.steps if definitions.run else None
     parts = [
@@ -293,5 +289,4 @@ def _used_names(draft: Draft, definitions: Definitions) -> set[str]:
 
 
 def _modules(draft: Draft) -> list[Pattern]:
-    """All modules of a text."""
     return [*(draft.axiom or ()), *(module for rule in draft.sections["productions"] for module in rule.modules)]

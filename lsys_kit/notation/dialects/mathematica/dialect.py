@@ -19,7 +19,6 @@ from lsys_kit.notation.syntax.actions import transformer
 from lsys_kit.notation.syntax.diagnostics import innermost_bracket
 from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.failure import ParseFailure
-from lsys_kit.notation.syntax.formatting import first_missing
 from lsys_kit.notation.syntax.text.statements import ARROW
 from lsys_kit.notation.syntax.text.transcript import Transcript, as_typed, edited
 from lsys_kit.notation.syntax.text.typesetting import LINE_OF_SUBSCRIPTS, subscripts
@@ -124,23 +123,7 @@ _SETTING_NAMES = frozenset(("angle", "heading", "length", "seed", "steps", "turt
 """What a definition sets, so that no constant can have that name."""
 
 
-def _lacking(system: LSystem) -> str | None:
-    return first_missing(
-        system,
-        "predecessors of several modules",
-        "probabilities",
-        "repetition",
-        "decomposition rules",
-        "interpretation rules",
-        "meta-rules",
-        "right contexts that name the next branch",
-        "right contexts that pass over brackets",
-        "field",
-    ) or next(_own_lacks(system), None)
-
-
 def _own_lacks(system: LSystem) -> Iterator[str]:
-    """What only this notation lacks."""
     if any(module.symbol == "ε" for rule in system.rules for module in rule.right):
         yield "branch ends in contexts"
     if system.considered:
@@ -155,7 +138,6 @@ def _own_lacks(system: LSystem) -> Iterator[str]:
 
 
 def _names_and_functions(system: LSystem) -> tuple[set[str], set[str]]:
-    """The names and the functions of a system."""
     names, functions = {constant.name for constant in system.constants}, set[str]()
     parts = [
         *(part for constant in system.constants for part in (constant.value, *(constant.range or ()))),
@@ -243,7 +225,18 @@ MATHEMATICA = Dialect(
     module=module_text,
     joined=" ".join,
     write=system_text,
-    missing_feature=_lacking,
+    lacks=(
+        "predecessors of several modules",
+        "probabilities",
+        "repetition",
+        "decomposition rules",
+        "interpretation rules",
+        "meta-rules",
+        "right contexts that name the next branch",
+        "right contexts that pass over brackets",
+        "field",
+    ),
+    missing_feature=lambda system: next(_own_lacks(system), None),
     likely=lambda text: 3 * len(_MARKS.findall(text)),
     spelling=Spelling(Path(__file__).parent, expression=expression_text, module=module_text, joined=" ".join),
     bare=_bare,

@@ -13,7 +13,7 @@ from lsys_kit.notation.syntax.actions import Statements
 from lsys_kit.notation.syntax.builder import Draft, build_system
 from lsys_kit.notation.syntax.diagnostics import DIAGNOSTICS
 from lsys_kit.notation.syntax.dialect import Dialect
-from lsys_kit.notation.syntax.formatting import first_missing, settings
+from lsys_kit.notation.syntax.formatting import settings
 from lsys_kit.notation.syntax.text.statements import blank_parentheses, statements, without_comments
 from lsys_kit.notation.syntax.text.typesetting import HEADING, SENTENCE, without_headings
 from lsys_kit.notation.syntax.wording import Spelling
@@ -55,26 +55,6 @@ def _lines(system: LSystem) -> Iterator[str]:
         yield f"{production.predecessor} -> {PLANT_STRING.word(flat(production.successor)) or 'ε'}"
 
 
-def _lacking(system: LSystem) -> str | None:
-    return first_missing(
-        system,
-        "parameters",
-        "symbols of several letters",
-        "conditions",
-        "contexts",
-        "predecessors of several modules",
-        "probabilities",
-        "repetition",
-        "constants",
-        "decomposition rules",
-        "meta-rules",
-        "interpretation rules",
-        "starting direction",
-        "ignored symbols",
-        "field",
-    )
-
-
 def _likely(text: str) -> int:
     """How likely a text is a plant string: 0 where a line is not possible in one."""
     try:
@@ -106,7 +86,22 @@ PLANT_STRING = Dialect(
     module=str,
     joined="".join,
     write=lambda system: "\n".join(_lines(system)),
-    missing_feature=_lacking,
+    lacks=(
+        "parameters",
+        "symbols of several letters",
+        "conditions",
+        "contexts",
+        "predecessors of several modules",
+        "probabilities",
+        "repetition",
+        "constants",
+        "decomposition rules",
+        "meta-rules",
+        "interpretation rules",
+        "starting direction",
+        "ignored symbols",
+        "field",
+    ),
     likely=_likely,
     turtle=NAME,
     starts=("statement", "word"),

@@ -249,7 +249,6 @@ class _Listing:
             yield Edit(first.start, first.start, "axiom: ")
 
     def _is_word(self, line: _Line) -> bool:
-        """Whether a line that stands alone is a word."""
         return self.printed or bool(_WORD.fullmatch(line.text.rstrip()))
 
     def letters(self) -> Iterator[Edit]:
@@ -290,7 +289,6 @@ class _Listing:
             above = None
 
     def _head(self, line: _Line, head: str) -> Iterator[Edit]:
-        """What stands before the arrow."""
         for match in _ANY.finditer(line.text, 0, len(head) + 2):
             side = match.lastgroup or "left"
             yield Edit(line.start + match.start(side), line.start + match.end(side), "")
