@@ -15,9 +15,8 @@ from lark import Token, Transformer, v_args
 from lark.visitors import merge_transformers
 
 from lsys_kit.budget import current
-from lsys_kit.notation.analysis.checks import closest
+from lsys_kit.notation.analysis.checks import PointList, SurfaceText, closest
 from lsys_kit.notation.analysis.problems import problem
-from lsys_kit.notation.analysis.surface_checks import PointList, SurfaceText
 from lsys_kit.notation.model.arithmetic import PLAIN, literal_text, normalised
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number, TextSpan
 from lsys_kit.notation.model.modules import Pattern, Repeat

@@ -8,16 +8,17 @@ from typing import Any
 from lsys_kit.budget import current
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.analysis.checks import (
+    SurfaceText,
     check_constants,
     check_expression,
     check_field,
     check_meta,
     check_production,
     check_word,
+    checked_surfaces,
     value_of,
 )
 from lsys_kit.notation.analysis.problems import problem
-from lsys_kit.notation.analysis.surface_checks import SurfaceText, checked_surfaces
 from lsys_kit.notation.model.expressions import Name, names_in
 from lsys_kit.notation.model.modules import Pattern, flat
 from lsys_kit.notation.model.system import Constant, LSystem, MetaRule, Production

@@ -14,7 +14,7 @@ from typing import TypeAlias
 
 from lsys_kit.budget import current
 from lsys_kit.errors import ModelLimitError, ModelSyntaxError, ModelValueError, require
-from lsys_kit.notation.analysis.surface_checks import LARGEST
+from lsys_kit.notation.analysis.checks import LARGEST
 from lsys_kit.notation.model.surfaces import ROW, SurfacePoint, SurfaceShape
 from lsys_kit.notation.model.system import LSystem
 
