@@ -25,7 +25,7 @@ from babel.messages.pofile import read_po, write_po
 
 from lsys_kit.classroom.exercises.declarations import QUESTIONS, questions_in
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
-from lsys_kit.classroom.exercises.practice.drafts import SAID
+from lsys_kit.classroom.exercises.practice.drafts import TOPICS
 from lsys_kit.classroom.exercises.practice.makers import DIRECTIONS, TYPES
 from lsys_kit.classroom.exercises.progress import SIGNS
 from lsys_kit.classroom.exercises.registry import texts
@@ -120,7 +120,7 @@ def _in_tables() -> Iterator[tuple[str, str | tuple[str, str]]]:
     yield from (("scripts", text) for text in (*TABLES_OF_SCRIPTS, *in_scripts()))
     yield from (("pages of learning platforms", text) for text in (*ASKED.values(), DIFFERENT))
     yield from (("progress", state) for state in SIGNS)
-    yield from (("practice", text) for text in (*TYPES, *DIRECTIONS.values(), *_texts_in(SAID)))
+    yield from (("practice", text) for text in (*TYPES, *DIRECTIONS.values(), *_texts_in(TOPICS)))
     yield from (("replies", _one_text(text)) for place in REPLIES.values() for text in place.values())
 
 

@@ -20,7 +20,7 @@ from lsys_kit.classroom.exercises.kinds.choices import letters
 from lsys_kit.classroom.exercises.kinds.numbers import FORMULA
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
 from lsys_kit.classroom.exercises.notebooks import exercise_notebook
-from lsys_kit.classroom.exercises.practice.practice import TOPICS
+from lsys_kit.classroom.exercises.practice.drafts import TOPICS
 from lsys_kit.classroom.exercises.progress import Record, Try, progress_of
 from lsys_kit.classroom.exercises.registry import lessons, texts, translated, translated_lesson
 from lsys_kit.classroom.lessons.lesson import table

@@ -11,9 +11,9 @@ from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.judging import is_right_by_mistake, right_by_mistake, wrong_answers
 from lsys_kit.classroom.exercises.kinds.choices import letters
 from lsys_kit.classroom.exercises.lint import HINTS
-from lsys_kit.classroom.exercises.practice.drafts import Draft
+from lsys_kit.classroom.exercises.practice.drafts import TOPICS, Draft
 from lsys_kit.classroom.exercises.practice.makers import DIRECTIONS, TYPES, end_of, growth_type, heading_after
-from lsys_kit.classroom.exercises.practice.practice import LEVELS, TOPICS, _made
+from lsys_kit.classroom.exercises.practice.practice import LEVELS, _made
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.notation.read import read
 from lsys_kit.worlds.derive import derive
@@ -101,36 +101,16 @@ def test_probabilities_sum_to_one():
 
 
 def test_every_lesson_has_something_to_practise():
-    assert {topic.lesson for topic in TOPICS.values()} == set(range(19))
-
-
-def _opposite(vector):
-    return tuple(-each for each in vector)
-
-
-def _turned(axes, command):
-    """Heading, left and up after a turn: + and - about the up, & and ^ about the left, \\\\ and / about the heading."""
-    heading, left, up = axes
-    return {
-        "+": (left, _opposite(heading), up),
-        "-": (_opposite(left), heading, up),
-        "&": (_opposite(up), left, heading),
-        "^": (up, left, _opposite(heading)),
-        "\\": (heading, _opposite(up), left),
-        "/": (heading, up, _opposite(left)),
-    }[command]
+    assert {topic["lesson"] for topic in TOPICS.values()} == set(range(19))
 
 
 @pytest.mark.parametrize("seed", range(30))
-def test_the_turtle_in_space_turns_about_its_own_axes(seed):
-    """ABOP, section 1.5: it looks upwards, its left is the viewer's left, and its back is turned to the viewer."""
+def test_the_turtle_in_space_is_that_of_the_kit(seed):
     exercise = practice("space", 1 + seed % 3, seed).exercise
     word = re.search(r"^    (\S+)$", exercise.question, re.MULTILINE)[1]
-    axes = (0, 0, 1), (-1, 0, 0), (0, -1, 0)
-    for command in word.replace("F", ""):
-        axes = _turned(axes, command)
-    assert axes[0] == heading_after(word)
-    assert exercise.options[letters(exercise).index(exercise.solution)].text == DIRECTIONS[axes[0]]
+    x, y, z, u, v, w = scene_of(derive(read(f"angle: 90\naxiom: {word}"), 0)).segments.ends[-1].round(6)
+    assert (u - x, v - y, w - z) == heading_after(word)
+    assert exercise.options[letters(exercise).index(exercise.solution)].text == DIRECTIONS[heading_after(word)]
 
 
 def _numbers(topic, level, seed):

@@ -36,6 +36,9 @@ from lsys_kit.notation.read import read_word
 from lsys_kit.notation.registry import DIALECTS
 from lsys_kit.pictures.style.labels import visible
 
+# Answers in a notebook
+
+
 MOST_CHARACTERS, MOST_CELLS = 20_000, 2_000
 """The greatest length of a cell, and the greatest number of cells."""
 COMPUTED = object()
@@ -190,6 +193,9 @@ def _is_sum(value: ast.expr) -> bool:
         case ast.BinOp(left=left, op=ast.Add() | ast.Sub() | ast.Mult() | ast.Div() | ast.Pow(), right=right):
             return _is_sum(left) and _is_sum(right)
     return False
+
+
+# Marks
 
 
 ENDING = ".ipynb"

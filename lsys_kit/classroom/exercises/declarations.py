@@ -25,6 +25,9 @@ from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.errors import LSystemError, ModelFileError, quotable
 from lsys_kit.notation.analysis.checks import suggestion
 
+# Mistakes and their places
+
+
 PROBLEMS: Mapping[str, Mapping[str, Sequence[str]]] = tomllib.loads((files(__package__) / "problems.toml").read_text("utf-8"))
 """Each mistake in words, and what to try."""
 MOST_STEPS = 10_000
@@ -96,6 +99,9 @@ class Source:
 
 
 MakeProblem: TypeAlias = Callable[..., Problem]
+
+
+# What a key may be
 
 
 def _is_text(value: object) -> bool:
@@ -182,6 +188,9 @@ _TOP: Mapping[str, Form] = {
 """What stands before the exercises."""
 
 
+# What is wrong with a declaration
+
+
 def lesson_problems(source: Source, declared: Mapping[str, Any]) -> Iterator[Problem]:
     """What is wrong with the top of a file."""
     for key, form in _TOP.items():
@@ -260,6 +269,9 @@ def _part_problems(
 def read_exercise(declared: Mapping[str, Any]) -> Exercise:
     """The exercise that is declared, without mistakes."""
     return Exercise(**{key: KEYS[key].read(value) for key, value in declared.items()})
+
+
+# Files
 
 
 QUESTIONS = Path(__file__).parent / "questions"

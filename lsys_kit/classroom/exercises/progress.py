@@ -29,6 +29,9 @@ from lsys_kit.pictures.style.labels import escaped
 from lsys_kit.pictures.style.palette import BLUE, GREEN, INK, ORANGE, PAPER, QUIET
 from lsys_kit.translation import gettext
 
+# The record
+
+
 FILE = "progress.csv"
 """The record, in the folder of the course."""
 HEAD = "time,exercise,result"
@@ -170,6 +173,9 @@ def _tries(lines: Iterable[str]) -> Iterator[Try | None]:
         with suppress(csv.Error):
             row = next(csv.reader([line]), [])
         yield Try(row[1], row[2] == SOLVED) if len(row) == 3 and row[2] in (SOLVED, TRIED) else None
+
+
+# The page
 
 
 SIGNS = {"solved": ("✓", GREEN), "tried": ("◐", ORANGE), "not tried": ("○", QUIET)}
@@ -370,6 +376,9 @@ def _linked(page: Progress, note: str) -> str:
         return escaped(note)
     lesson, _ = page.next
     return f"{begin}{_link(page, lesson, note.removeprefix(begin))}" if page.lessons != (lesson,) else escaped(note)
+
+
+# Scores
 
 
 _last: dict[str, float] = {}

@@ -14,6 +14,9 @@ from lsys_kit.errors import ModelFileError, ModelNameError, ModelValueError, quo
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.translation import gettext, language
 
+# In the chosen language
+
+
 TEXTS: Mapping[type, Sequence[str]] = {
     Lesson: ("title", "objectives", "introduction", "summary"),
     Exercise: ("title", "question", "explanation", "hints", "otherwise"),
@@ -61,6 +64,9 @@ def _texts_in(record: object) -> Iterator[str]:
     for key in TEXTS[type(record)]:
         value = getattr(record, key)
         yield from [value] if isinstance(value, str) else value
+
+
+# Those that there are
 
 
 _added: dict[Path, Questions] = {}

@@ -25,6 +25,9 @@ from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read
 from lsys_kit.worlds.derive import derive
 
+# Stroke by stroke, in the order in which they are drawn
+
+
 NEAR = 1e-4
 """How far a stroke may be beside another, where the first stroke is 1 long."""
 
@@ -67,6 +70,9 @@ def _lies_on(stroke: Floats, others: Floats) -> bool:
             break
         reached = max(reached, float(high))
     return bool(reached * length >= length - NEAR)
+
+
+# What is drawn
 
 
 _SYSTEM = re.compile(r"->|=|:|→|#")

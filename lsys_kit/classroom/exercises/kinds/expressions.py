@@ -29,6 +29,9 @@ from lsys_kit.notation.model.expressions import (
 from lsys_kit.notation.read import checked_expression, read_expression
 from lsys_kit.notation.syntax.wording import reporting
 
+# Whether two expressions are equal
+
+
 Valuations: TypeAlias = Mapping[str, Value]
 """A value for each name."""
 MOST_NODES = 40
@@ -140,6 +143,9 @@ def is_rational(expression: Expression) -> bool:
     )
 
 
+# As it was typed
+
+
 def _read(exercise: Exercise, answer: object) -> Expression:
     wanted = expression_type(read_expression(exercise.solution))
     if not isinstance(answer, str):
@@ -211,6 +217,9 @@ def from_sympy(formula: object, depth: int = 0) -> Expression:
     if operator in _OF_TWO:
         return reduce(lambda one, other: Apply(operator, (one, other)), operands)
     return Apply(operator, tuple(operands))
+
+
+# What to say
 
 
 def _cases(exercise: Exercise) -> Iterator[Valuations]:

@@ -31,6 +31,8 @@ from lsys_kit.notation.model.system import LSystem, Production, symbols
 from lsys_kit.notation.read import read, read_word
 from lsys_kit.worlds.derive import derive
 
+# Words that are the same but for the names of their symbols
+
 
 class Renaming:
     """Which symbol of an answer stands for which of the solution, found as words are compared.
@@ -90,6 +92,9 @@ class Renaming:
     def wanted(self, module: Module) -> Module:
         """A module of the answer as the solution calls it."""
         return replace(module, symbol=self._wanted.get(module.symbol, module.symbol))
+
+
+# Two systems compared
 
 
 MOST_MODULES = 300
@@ -305,6 +310,9 @@ def _numbers_compared(*systems: LSystem) -> set[Value]:
         found |= {part.value} if isinstance(part, Number) else set()
         waiting += part.operands if isinstance(part, Apply) else ()
     return found
+
+
+# As it was typed
 
 
 _AXIOM_LINE = re.compile(r"^[ \t]*(axiom|omega|ω)[ \t]*:", re.IGNORECASE | re.MULTILINE)

@@ -18,8 +18,8 @@ from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.translation import gettext
 from lsys_kit.worlds.derive import derive
 
-SAID: Mapping[str, Mapping[str, Any]] = tomllib.loads((files(__package__) / "topics.toml").read_text("utf-8"))
-"""What the exercises of each topic say."""
+TOPICS: Mapping[str, Mapping[str, Any]] = tomllib.loads((files(__package__) / "topics.toml").read_text("utf-8"))
+"""What can be practised: what the exercises of each topic say, and the lesson that it goes with."""
 _AS_KEY: Mapping[str, Callable[[Any], Any]] = {"kind": str, "asks": str, "unit": str, "expects": tuple, "unlikely": tuple}
 """Which of that are keys of exercises, and what becomes of them."""
 Rules: TypeAlias = Mapping[str, Sequence[str]]
@@ -80,15 +80,6 @@ class Draft:
 
 Maker: TypeAlias = Callable[[Random, int, Draft], Exercise | None]
 """From a source of chance, a level and what is said there to an exercise, which may be too easy, or None if there is none."""
-
-
-@dataclass(frozen=True)
-class Topic:
-    """A kind of exercises that are made at random: what is practised, the number of the lesson that it goes with, its maker."""
-
-    title: str
-    lesson: int
-    make: Maker
 
 
 def random_rules(chance: Random, letters: Sequence[str], longest: int) -> Rules:

@@ -29,10 +29,7 @@ from lsys_kit.classroom.exercises.practice.drafts import (
 from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.derivation.growth.growth import growth
 from lsys_kit.derivation.inference.infer import infer
-from lsys_kit.geometry.drawing import scene_of
-from lsys_kit.notation.read import read
 from lsys_kit.translation import gettext
-from lsys_kit.worlds.derive import derive
 
 # Words by hand
 
@@ -610,15 +607,23 @@ DIRECTIONS: Mapping[Vector, str] = {
 """x grows to the right, y away from the viewer, z upwards."""
 
 
+AXES: Sequence[Vector] = ((0, 0, 1), (-1, 0, 0), (0, -1, 0))
+"""The turtle's heading, its left and its up: it looks upwards, and its back is turned to the viewer (ABOP, section 1.5)."""
+_TURNS = {"+": (0, 1), "-": (1, 0), "&": (2, 0), "^": (0, 2), "\\": (2, 1), "/": (1, 2)}
+"""For each turn by 90 degrees which of its axes comes to stand where which other one was."""
+
+
 def heading_after(word: str) -> Vector:
-    """In which direction the last stroke of a word is that turns by 90 degrees.
+    """The heading of the turtle behind a word.
 
     >>> DIRECTIONS[heading_after("F+F")], DIRECTIONS[heading_after("F&F")], DIRECTIONS[heading_after("F/F")]
     ('to the left', 'away from you', 'upwards')
     """
-    in_space = read(f"angle: 90\naxiom: &^{word}")
-    ends = scene_of(derive(in_space, 0)).segments.ends[-1]
-    return tuple(map(round, (ends[3:] - ends[:3]).tolist()))
+    axes = [*AXES]
+    for command in word.replace("F", ""):
+        one, other = _TURNS[command]
+        axes[one], axes[other] = axes[other], tuple(-each for each in axes[one])
+    return axes[0]
 
 
 def _heading(chance: Random, level: int, draft: Draft) -> Exercise | None:

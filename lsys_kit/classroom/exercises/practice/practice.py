@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from random import Random
@@ -12,15 +11,13 @@ from lsys_kit.classroom.exercises.check import checked
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.judging import is_right_by_mistake, wrong_answers
 from lsys_kit.classroom.exercises.kinds.choices import listing
-from lsys_kit.classroom.exercises.practice.drafts import SAID, Draft, Topic
+from lsys_kit.classroom.exercises.practice.drafts import TOPICS, Draft
 from lsys_kit.classroom.exercises.practice.makers import MAKERS
 from lsys_kit.classroom.exercises.verdict import Verdict
 from lsys_kit.errors import ModelNameError, ModelValueError, quotable, require, whole_number
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.translation import language
 
-TOPICS: Mapping[str, Topic] = {name: Topic(said["title"], said["lesson"], MAKERS[name]) for name, said in SAID.items()}
-"""What can be practised."""
 LEVELS = 3
 """How many levels there are."""
 
@@ -124,12 +121,12 @@ def practice(topic: str, level: int = 1, seed: int = 0) -> Practice:
 def _made(topic: str, level: int, seed: int, _: str) -> Exercise:
     """The first sound exercise that chance yields, in the chosen language."""
     chance = Random(f"{topic}, {level}, {seed}")  # noqa: S311 (nothing secret depends on it)
-    said = SAID[topic]
+    said = TOPICS[topic]
     draft = Draft({**said, **said.get(f"level_{level}", {})})
     with Task("No exercise was found"):
         while True:
             check_budget()
-            made = TOPICS[topic].make(chance, level, draft)
+            made = MAKERS[topic](chance, level, draft)
             named = made and replace(made, id=f"{topic}, level {level}, seed {seed}", title=draft.text("title"))
             if named is not None and is_sound(named):
                 return named
