@@ -146,7 +146,7 @@ def _seconds(pattern: re.Pattern[str], way: str, text: str) -> float:
 @pytest.mark.parametrize("patterns", [named_patterns, patterns_in_calls, patterns_of_mistakes, tokens])
 def test_what_a_pattern_repeats_takes_linear_time(patterns: Callable[[], Iterator[Used]]) -> None:
     used = {each[1:]: each[0] for each in patterns()}
-    assert len(used) > 100
+    assert len(used) > 50
     for text, flags, _ in [each for each in used if each[2] == "finditer"]:
         used.pop((text, flags, "search"), None)  # which is how finding all begins
         used.pop((text, flags, "match"), None)
