@@ -24,25 +24,7 @@ Change = TypeVar("Change", bound=Callable[..., Any])
 
 @dataclass(frozen=True)
 class Misconception:
-    """A misconception.
-
-    Attributes
-    ----------
-    name
-        What exercises call it.
-    applies
-        To which questions.
-    do, but
-        What it does, and how it is.
-    yields
-        From a question to the wrong answers, one way after another.
-    near
-        Whether such an answer is nearly right.
-    on_request
-        Whether it is looked for in exercises only that expect it, since many answers could be taken for it.
-    faint
-        Whether one number shows too little of it: in questions for a number it is looked for only where it is expected.
-    """
+    """A misconception: what `misconceptions.toml` says of it, and the ways in which it yields wrong answers to a question."""
 
     name: str
     applies: str
