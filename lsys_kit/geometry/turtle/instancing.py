@@ -34,7 +34,6 @@ from lsys_kit.geometry.turtle.commands import (
     unknown_commands,
 )
 from lsys_kit.geometry.turtle.space import SPACE_HANDLERS, SpaceTurtle, initial_frame, operand
-from lsys_kit.geometry.turtle.turtle import collected_shapes
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 
 Key: TypeAlias = tuple[int, int, tuple[Any, ...]]
@@ -180,21 +179,27 @@ class Prototypes:
             SPACE_HANDLERS[instruction.action](turtle, operand(instruction, self.angle))
         strokes = np.array(turtle.strokes).reshape(-1, 10).T
         points = strokes[:6].T.reshape(-1, 3)
-        polygons, discs = collected_shapes(turtle.outlines, turtle.rounds, self._points)
+        corners = [corner for outline in turtle.outlines for corner in outline.corners]
         opened = len(turtle.stack)  # 1 for an opening bracket, which counts in the branch order of its instance
         return Prototype(
             np.ascontiguousarray(points[:, self._axes]),
             ((strokes[6] - opened).astype(np.int16), strokes[7].astype(np.int32), strokes[8], strokes[9].astype(np.int32)),
-            polygons.points,
-            (np.diff(polygons.starts), polygons.states, polygons.colours),
-            discs.centres,
-            (discs.radii, discs.kinds, discs.states, discs.colours),
+            self._points(corners),
+            (
+                np.array([len(outline.corners) for outline in turtle.outlines], np.int64),
+                *(np.array([outline[place] for outline in turtle.outlines], np.int32) for place in (1, 2)),
+            ),
+            self._points([found.place for found in turtle.rounds]),
+            (
+                np.array([found.radius for found in turtle.rounds]),
+                *(np.array([found[place] for found in turtle.rounds], np.int32) for place in (2, 3, 4)),
+            ),
             np.array(turtle.position)[self._axes],
             (np.array(turtle.orientation[:3]).T @ self._inverse)[np.ix_(self._axes, self._axes)],
             _carried_by(turtle),
         )
 
-    def _points(self, places: list[Any]) -> Floats:
+    def _points(self, places: Sequence[Any]) -> Floats:
         return np.ascontiguousarray(np.array(places, np.float64).reshape(-1, 3)[:, self._axes])
 
 
