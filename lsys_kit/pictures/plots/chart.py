@@ -176,8 +176,7 @@ DASHES = ("solid", (0, (6, 4)), (0, (2, 4)), (0, (10, 4)), (0, (8, 3, 2, 3)), (0
 """How the lines of several curves are broken, so that colour alone says nothing."""
 
 
-@dataclass(frozen=True)
-class Curve:
+class Curve(NamedTuple):
     """A curve: its points, from left to right; its colour; its name, perhaps with mathematics, if it needs one; whether it is
     drawn thin and pale, as one of many."""
 
