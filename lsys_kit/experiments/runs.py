@@ -13,7 +13,7 @@ import time
 from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import BrokenExecutor, Executor, Future, as_completed
 from contextlib import closing
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from itertools import islice, product
 from math import ceil, prod
 from typing import Any, NamedTuple, TypeAlias
@@ -52,8 +52,7 @@ class Failure(NamedTuple):
 Outcome: TypeAlias = Rows | Failure
 
 
-@dataclass(frozen=True)
-class Experiment:
+class Experiment(NamedTuple):
     """What is done in each run: the system that is derived, the steps that are measured, in ascending order, what is measured,
     as a person gives it, and the limits."""
 

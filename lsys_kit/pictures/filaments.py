@@ -105,11 +105,11 @@ class DrawnWall(NamedTuple):
     state: int
 
 
-def drawn_cells(cells: Cells, scale: float, some: Any = slice(None)) -> Iterator[DrawnCell]:
-    """Some cells of a filament in a picture of a scale, whose left end is at 0."""
-    columns = (cells.centres[some, 0] * scale, *(cells.sizes[some] * scale / 2).T)
+def drawn_cells(cells: Cells, left: float, scale: float, some: Any = slice(None)) -> Iterator[DrawnCell]:
+    """Some cells of a filament in a picture of a scale, with its left end."""
+    places = left + cells.centres[some, 0] * scale, *(cells.sizes[some] * scale / 2).T
     rest = cells.polarities[some], cells.shades[some], cells.states[some]
-    return map(DrawnCell, *(column.tolist() for column in (*columns, *rest)))
+    return map(DrawnCell, *(column.tolist() for column in (*places, *rest)))
 
 
 @dataclass(frozen=True)
@@ -139,24 +139,16 @@ class FilamentLayout:
 
     def cells(self, row: FilamentRow, most: float = math.inf) -> Iterator[DrawnCell]:
         """The cells of a row; no more than so many in a pixel."""
-        some, left = self._seen(row.scene.cells.centres[:, 0], most), self._left(row)
-        return (cell._replace(x=left + cell.x) for cell in drawn_cells(row.scene.cells, self.scale, some))
+        cells = row.scene.cells
+        return drawn_cells(cells, self._left(row), self.scale, self._seen(cells.centres[:, 0], most))
 
     def walls(self, row: FilamentRow, most: float = math.inf) -> Iterator[DrawnWall]:
         """The walls of a row; no more than so many in a pixel."""
-        walls, left = row.scene.walls, self._left(row)
-        some = self._seen(walls.places, most)
-        return (
-            DrawnWall(left + x, height / 2, "" if math.isnan(age) else f"{age:.4g}", shade, state)
-            for x, height, age, shade, state in zip(
-                (walls.places[some] * self.scale).tolist(),
-                (walls.heights[some] * self.scale).tolist(),
-                walls.ages[some].tolist(),
-                walls.shades[some].tolist(),
-                walls.states[some].tolist(),
-                strict=True,
-            )
-        )
+        walls, some = row.scene.walls, self._seen(row.scene.walls.places, most)
+        places = self._left(row) + walls.places[some] * self.scale, walls.heights[some] * self.scale / 2
+        ages = ["" if math.isnan(age) else f"{age:.4g}" for age in walls.ages[some].tolist()]
+        columns = places[0].tolist(), places[1].tolist(), ages, walls.shades[some].tolist(), walls.states[some].tolist()
+        return map(DrawnWall, *columns)
 
     def _seen(self, places: Floats, most: float) -> Any:
         """Which of the shapes at some places are drawn, if no more than so many can be seen in a pixel: the first at each."""

@@ -15,7 +15,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import cycle, pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from lsys_kit.budget import Task, current
 from lsys_kit.derivation.core.interpretation import interpretation_of, is_cell
@@ -48,8 +48,7 @@ DASHES = ("", "80 45", "1 45", "120 40 1 40")
 """The dash pattern of each kind of cells, in tenths of a pixel."""
 
 
-@dataclass(frozen=True)
-class CellKind:
+class CellKind(NamedTuple):
     """Cells that were alike at birth: what they were, as SVG text of so many characters; the look of their lines."""
 
     label: str
@@ -63,8 +62,7 @@ class CellKind:
         return f' stroke-dasharray="{self.dash}"' if self.dash else ""
 
 
-@dataclass(frozen=True)
-class Tree:
+class Tree(NamedTuple):
     """The layout of a lineage, in pixels: the horizontal position of the line of each cell; the cells of the filament below, or
     none; the kinds of cells, and for each cell the number of its kind; for each cell of the last word its colour; and where the
     tree ends to the right."""
@@ -123,10 +121,8 @@ def _filament(lineage: Lineage, right: int) -> list[DrawnCell]:
         return []
     scale = min((right - AXIS - MARGIN) / scene.width, BROADEST / scene.height) if len(scene.cells) else 1.0
     left = (right + AXIS - scene.width * scale) / 2
-    return [
-        cell._replace(x=left + cell.x, state=number)
-        for number, cell in zip(lineage.words[-1], drawn_cells(scene.cells, scale), strict=True)
-    ]
+    drawn = drawn_cells(scene.cells, left, scale)
+    return [cell._replace(state=number) for number, cell in zip(lineage.words[-1], drawn, strict=True)]
 
 
 def _kinds(lineage: Lineage) -> tuple[list[CellKind], list[int], dict[int, str]]:

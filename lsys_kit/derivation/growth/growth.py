@@ -17,7 +17,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, partial, reduce
-from itertools import count, islice
+from itertools import count, islice, zip_longest
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -89,16 +89,11 @@ def _massey(terms: Sequence[int], prime: int) -> list[Any]:
             continue
         factor = error * pow(best_error, -1, prime) if prime else error / best_error
         update = [0] * (t - best_end - 1) + [factor] + [-factor * c for c in best]
-        before, size = rule, max(len(rule), len(update))
-        rule = [a + b for a, b in zip(_padded(rule, size), _padded(update, size), strict=True)]
+        before, rule = rule, [a + b for a, b in zip_longest(rule, update, fillvalue=0)]
         rule = [c % prime for c in rule] if prime else rule
         if t - len(before) > best_end - len(best):
             best, best_end, best_error = before, t, error
     return rule
-
-
-def _padded(row: list[Any], size: int) -> list[Any]:
-    return row + [0] * (size - len(row))
 
 
 def remainder_of_power(rule: Sequence[int], exponent: int) -> list[int]:

@@ -302,10 +302,11 @@ def _solutions(equations: tuple[Equation, ...], bounds: Bounds, effort: Effort) 
     known = deduced(equations, bounds)
     if known is None:
         return
-    for group in (groups := groups_of(known)):
+    found = []
+    for group in groups_of(known):
         if (key := question(group, known)) not in effort.kept:
             (effort.kept[key],) = tee(_tried(group, known, effort), 1)
-    found = [effort.kept[question(group, known)] for group in groups]
+        found.append(effort.kept[key])
     if all(next(copy(each), None) is not None for each in found):  # else nothing needs to be combined
         yield from (known.successors | others for others in _combined(found))
 

@@ -297,10 +297,8 @@ class AgeTerms:
                 continue
             if isinstance(part, Apply) and part.operator in _CONNECTIVES:
                 todo += part.operands[::-1]
-            elif isinstance(part, Apply) and part.operator in _COMPARISONS:
-                yield Apply("-", part.operands)
             else:
-                yield None
+                yield Apply("-", part.operands) if isinstance(part, Apply) and part.operator in _COMPARISONS else None
 
 
 def unit_slope(expression: Expression, age: str) -> bool:

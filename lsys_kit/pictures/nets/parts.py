@@ -5,9 +5,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
 from functools import lru_cache
 from string import punctuation
+from typing import NamedTuple
 
 from lsys_kit.derivation.petri.net import Place, Stages, Transition, likelihood
 from lsys_kit.geometry.turtle.commands import COMMANDS, Effect, symbols_with
@@ -128,8 +128,7 @@ SHORTER_ROWS = (6, 5, 4, 3, 2, 1)
 """How many places rows may have at most where longer ones are too wide."""
 
 
-@dataclass(frozen=True)
-class PlacePart:
+class PlacePart(NamedTuple):
     """A place: its number and the centre of its circle; its label in parts and in words; its colour and how strong that is."""
 
     place: int
@@ -144,8 +143,7 @@ class PlacePart:
     strength: float
 
 
-@dataclass(frozen=True)
-class BarPart:
+class BarPart(NamedTuple):
     """A bar: the number of its transition; its centre, half its height, the line to it as an SVG path; its terms, in short
     and in full, and the left end of their baseline."""
 
@@ -160,8 +158,7 @@ class BarPart:
     ty: float
 
 
-@dataclass(frozen=True)
-class ArcPart:
+class ArcPart(NamedTuple):
     """An arc: its number in the net; its line, the band that interrupts the lines it crosses, and its head, as SVG paths."""
 
     arc: int
@@ -170,8 +167,7 @@ class ArcPart:
     head: str
 
 
-@dataclass(frozen=True)
-class NotePart:
+class NotePart(NamedTuple):
     """The note of an arc: its centre, its width and its text."""
 
     x: float
@@ -180,8 +176,7 @@ class NotePart:
     text: str
 
 
-@dataclass(frozen=True)
-class Parts:
+class Parts(NamedTuple):
     """A stage diagram without its tokens, its places in reading order. Footnotes are the terms for which there is no room at
     their bars, and what else the system does, a line each; the foot is the baseline of the first."""
 
@@ -198,7 +193,7 @@ class Parts:
     @property
     def nameless(self) -> Parts:
         """The same without the names of stages."""
-        return replace(self, places=tuple(replace(place, letter="", subscript="", values="") for place in self.places))
+        return self._replace(places=tuple(place._replace(letter="", subscript="", values="") for place in self.places))
 
 
 def steering_of(system: LSystem) -> frozenset[str]:

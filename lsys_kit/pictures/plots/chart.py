@@ -10,8 +10,6 @@ from math import ceil, floor, isfinite, log10
 from statistics import fmean
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
-import numpy as np
-
 from lsys_kit.budget import Task
 from lsys_kit.errors import ModelValueError
 from lsys_kit.pictures.formats.notebook import SVGPicture
@@ -178,8 +176,7 @@ DASHES = ("solid", (0, (6, 4)), (0, (2, 4)), (0, (10, 4)), (0, (8, 3, 2, 3)), (0
 """How the lines of several curves are broken, so that colour alone says nothing."""
 
 
-@dataclass(frozen=True)
-class Curve:
+class Curve(NamedTuple):
     """A curve: its points, from left to right; its colour; its name, perhaps with mathematics, if it needs one; whether it is
     drawn thin and pale, as one of many."""
 
@@ -265,13 +262,15 @@ def spread(places: Sequence[float], distance: float) -> list[float]:
     >>> spread([0, 3, 50], 10)
     [-3.5, 6.5, 50.0]
     """
-    from scipy.optimize import isotonic_regression
-
-    order, apart = np.argsort(places, kind="stable"), distance * np.arange(len(places))
-    found = np.zeros(len(places))
-    if len(places):
-        found[order] = isotonic_regression(np.asarray(places, float)[order] - apart).x + apart
-    return list(map(float, found))
+    groups: list[tuple[float, int]] = []
+    for place in sorted(places):
+        groups.append((float(place), 1))
+        while len(groups) > 1 and groups[-1][0] - groups[-2][0] < distance * (groups[-1][1] + groups[-2][1]) / 2:
+            (first, some), (second, more) = groups[-2:]
+            groups[-2:] = [((first * some + second * more) / (some + more), some + more)]
+    found = [middle + distance * (number - (many - 1) / 2) for middle, many in groups for number in range(many)]
+    order = sorted(range(len(places)), key=places.__getitem__)
+    return [found[order.index(place)] for place in range(len(places))]
 
 
 MOST_BARS = 24
