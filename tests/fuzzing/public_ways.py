@@ -91,7 +91,8 @@ def results() -> dict[str, type]:
         if one.__name__ not in found and (one.__name__ in SYSTEMS or not one.__module__.startswith(PARTS)):
             found[one.__name__] = one
             todo += [each for _, member in _public(one) for each in _returned(member)]
-    return found
+            todo += [each for base in getattr(one, "__orig_bases__", ()) for each in get_args(base) if isinstance(each, type)]
+    return {name: each for name, each in found.items() if each.__module__.startswith("lsys_kit")}
 
 
 def members(result: str) -> list[str]:

@@ -46,6 +46,9 @@ _LEFT = "\u20d6"
 _LONGEST_NUMBER = 1_000
 """So many characters a number may have."""
 
+_OTHER_NAMES = {"δ": "angle", "colors": "colours"}
+"""Other names of settings."""
+
 
 def place_of(*parts: Any) -> tuple[int, int]:
     """The offsets from the first to the last of some tokens or records."""
@@ -65,6 +68,12 @@ def _surface_name(keyword: Token) -> str:
     if len(name) > current().name:
         raise problem("name too long", place_of(keyword), most=current().name)
     return name
+
+
+def _named(keyword: Token) -> str:
+    """The name of a setting."""
+    name = "_".join(keyword.rstrip(": \t").lower().split())
+    return _OTHER_NAMES.get(name, name)
 
 
 def _symbol(token: Token) -> str:
@@ -225,14 +234,13 @@ class Statements(Transformer[Any, Any]):
         return "constant", Constant(str(name), value, (ends[0], ends[1], step) if ends else None)
 
     def setting(self, keyword: Token, value: Any) -> tuple[str, Expression]:
-        name = "_".join(keyword.rstrip(": \t").lower().split())
-        return "angle" if name == "δ" else name, _number(value) if isinstance(value, Token) else value
+        return _named(keyword), _number(value) if isinstance(value, Token) else value
 
     def field(self, _: Token, name: Token, *arguments: Expression) -> tuple[str, Pattern]:
         return "field", Pattern(str(name), arguments, place_of(name, *arguments))
 
     def chosen(self, keyword: Token, word: Token) -> tuple[str, str]:
-        return keyword.rstrip(": \t").lower(), str(word)
+        return _named(keyword), str(word)
 
     def look(self, token: Token) -> tuple[str, str]:
         """How a system looks, in a single token: a keyword and a word."""
