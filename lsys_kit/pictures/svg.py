@@ -46,8 +46,10 @@ def element(tag: str, body: str | None = None, **look: object) -> str:
     >>> element("text", "a", class_="token", x=1.25, font_size=11)
     '<text class="token" x="1.2" font-size="11">a</text>'
     """
-    given = ((name.rstrip("_").replace("_", "-"), value) for name, value in look.items())
-    written = "".join(f' {name}="{value:.1f}"' if isinstance(value, float) else f' {name}="{value}"' for name, value in given)
+    written = ""
+    for name, value in look.items():
+        name = name.rstrip("_").replace("_", "-") if "_" in name else name
+        written += f' {name}="{value:.1f}"' if isinstance(value, float) else f' {name}="{value}"'
     return f"<{tag}{written}/>" if body is None else f"<{tag}{written}>{body}</{tag}>"
 
 

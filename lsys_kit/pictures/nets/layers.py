@@ -175,7 +175,11 @@ def _places(layer: Sequence[int], neighbours: _Neighbours, beside: Sequence[int]
 def _gain(first: Sequence[int], second: Sequence[int]) -> int:
     """How many crossings fewer there are if two vertices, one after the other, are exchanged, by the places of their neighbours
     in one of the layers beside them."""
-    return sum((one > other) - (one < other) for one in first for other in second)
+    gain = 0
+    for one in first:
+        for other in second:
+            gain += (one > other) - (one < other)
+    return gain
 
 
 def _crossings(order: Sequence[Sequence[int]], after: _Neighbours) -> int:
