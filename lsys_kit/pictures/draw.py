@@ -24,6 +24,7 @@ from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.chosen_words import ChosenWord, chosen_words, numbers_from
+from lsys_kit.pictures.filaments.folding import FilamentRow
 from lsys_kit.pictures.filaments.painting import LOOKS
 from lsys_kit.pictures.formats.axes import new_axes, set_ground
 from lsys_kit.pictures.formats.notebook import SVGPicture
@@ -39,7 +40,6 @@ from lsys_kit.pictures.rendering.view import project_smoothly, view_from
 from lsys_kit.pictures.sizes import size_from
 from lsys_kit.pictures.style.palette import colour_of
 from lsys_kit.pictures.style.themes import drawn_on
-from lsys_kit.pictures.svg import FilamentRow
 from lsys_kit.pictures.tissues.cellworks import CellworkPicture, cellwork_picture
 from lsys_kit.pictures.tissues.maps import MapPicture, map_picture
 from lsys_kit.pictures.tissues.phases import PhasesPicture, phases_picture

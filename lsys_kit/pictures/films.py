@@ -29,18 +29,17 @@ from lsys_kit.pictures.draw import check_choices, draw, state_colours
 from lsys_kit.pictures.formats.film import SECONDS, Film
 from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.formats.painting import painted
-from lsys_kit.pictures.formats.raster import centred, turtle_image
-from lsys_kit.pictures.formats.vector.reading import drawing_of
+from lsys_kit.pictures.formats.raster import centred, embedded, turtle_image
 from lsys_kit.pictures.kinds import WORD, coloured_symbols, instead, kind_of
 from lsys_kit.pictures.legends import Legend, image_with_legend, legend_of
 from lsys_kit.pictures.options import STAGES, Options, options_from, seen_as, split_options
 from lsys_kit.pictures.picture import Picture
 from lsys_kit.pictures.rendering.frames import ViewFrame, frame_around
 from lsys_kit.pictures.rendering.line_widths import in_units
+from lsys_kit.pictures.rendering.scene_shapes import label_shapes
 from lsys_kit.pictures.rendering.view import FROM_THE_RIGHT, View, project_smoothly, view_from
-from lsys_kit.pictures.sizes import enlargement, final_size, size_from
+from lsys_kit.pictures.sizes import document, enlargement, final_size, size_from
 from lsys_kit.pictures.style.themes import drawn_on
-from lsys_kit.pictures.svg import document, embedded, labels_svg
 from lsys_kit.pictures.tissues.cellworks import SIDE, cellwork_steps
 
 if TYPE_CHECKING:
@@ -249,8 +248,8 @@ def _with_labels(image: Image, scene: Scene, frame: ViewFrame) -> Image:
     """An image of a scene with what the turtle has written."""
     if not len(scene.labels):
         return image
-    body = embedded(frame.width * frame.parts, frame.height * frame.parts, image) + labels_svg(scene, frame)
-    return painted(drawing_of(document(body, frame.width, frame.height, "", frame.parts)), image.width / frame.width)
+    body = [embedded(frame.width * frame.parts, frame.height * frame.parts, image), *label_shapes(scene, frame)]
+    return painted(document(body, frame.width, frame.height, "", frame.parts), image.width / frame.width)
 
 
 def _turned(what: Any, n: int | None, pace: float, view: View | None, size: object, choices: Mapping[str, Any]) -> Film:

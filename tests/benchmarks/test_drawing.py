@@ -16,9 +16,10 @@ from lsys_kit import derive, draw, figure, read
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.turtle.space import trace_in_space
 from lsys_kit.pictures.formats.raster import turtle_png
+from lsys_kit.pictures.formats.svg import element
 from lsys_kit.pictures.rendering.frames import frame_of
+from lsys_kit.pictures.rendering.scene_shapes import scene_shapes
 from lsys_kit.pictures.rendering.view import project
-from lsys_kit.pictures.svg import turtle_svg
 
 PLANT = read("angle: 25.7\naxiom: F\nF -> F[+F]F[-F]F")
 IN_SPACE = read("angle: 25.7\naxiom: F\nF -> F[+F]/(90)F[-F]F")
@@ -92,6 +93,6 @@ def test_a_page_of_many_strokes(benchmark):
 def test_a_thousand_strokes_as_text(benchmark):
     picture = draw(PLANT, 5)
     frame = frame_of(picture.scene.box)
-    svg = benchmark(lambda: turtle_svg(picture.scene, frame, picture.colour_of))
+    svg = benchmark(lambda: "".join(map(element, scene_shapes(picture.scene, frame, picture.colour_of))))
     assert "<path" in svg
     told(benchmark, len(picture.scene.segments), 1e6)

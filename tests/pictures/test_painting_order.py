@@ -21,12 +21,13 @@ from lsys_kit.geometry.scene import DISC, OWN, Discs, Polygons, Scene, Segments
 from lsys_kit.geometry.turtle.space import trace_in_space
 from lsys_kit.pictures.formats.axes import frame_in, plot_turtle
 from lsys_kit.pictures.formats.raster import turtle_image
+from lsys_kit.pictures.formats.svg import element
 from lsys_kit.pictures.rendering.display_list import AreaRun, LineRun
 from lsys_kit.pictures.rendering.frames import frame_around
 from lsys_kit.pictures.rendering.painters_order import display_list
+from lsys_kit.pictures.rendering.scene_shapes import scene_shapes
 from lsys_kit.pictures.rendering.view import FRONT, MOST_CYLINDERS, project
 from lsys_kit.pictures.style.palette import PAPER
-from lsys_kit.pictures.svg import turtle_svg
 
 POINT = st.tuples(*[st.integers(-6, 6)] * 3)
 COLOUR, WIDTH = st.integers(0, 15), st.sampled_from([OWN, 0.5, 1, 2])
@@ -109,7 +110,7 @@ def test_the_casing_of_a_stroke_does_not_part_it_from_the_polygon_whose_edge_it_
 def test_svg_has_the_shapes_in_the_order_in_which_they_are_painted(scene):
     [seen] = project([scene], FRONT)
     frame = frame_around([seen])
-    shapes, svg = display_list(seen, frame.scale, {}), turtle_svg(seen, frame, {})
+    shapes, svg = display_list(seen, frame.scale, {}), "".join(map(element, scene_shapes(seen, frame, {})))
     points = frame.points(shapes.lines.ends).tolist()
     centres = frame.points(shapes.rounds.centres).tolist()
     corners = [frame.points(each).tolist() for each in np.split(shapes.areas.points, shapes.areas.starts[1:-1])]

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from lsys_kit import animate, derive, draw, limits, read
 from lsys_kit.geometry.drawing import scene_of
-from lsys_kit.pictures.formats.vector.lettering import advance
+from lsys_kit.pictures.formats.lettering import advance
 from lsys_kit.pictures.rendering.frames import LABEL, LABEL_GAP, frame_around, label_width
 from lsys_kit.pictures.rendering.view import project
 

@@ -5,26 +5,26 @@ from __future__ import annotations
 
 import base64
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lsys_kit.budget import Task
+from lsys_kit.budget import Task, current
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.errors import ModelValueError, require, shown
 from lsys_kit.files import marked_png, marked_xml, path_from
+from lsys_kit.pictures.formats.axes import AxesPainter
 from lsys_kit.pictures.formats.files import save_as
 from lsys_kit.pictures.formats.painting import painted
-from lsys_kit.pictures.formats.pdf.page import pdf
+from lsys_kit.pictures.formats.pdf import pdf
 from lsys_kit.pictures.formats.raster import encoded
-from lsys_kit.pictures.formats.shape_axes import plot_drawing
+from lsys_kit.pictures.formats.svg import svg
 from lsys_kit.pictures.formats.transparency import on_ground
-from lsys_kit.pictures.formats.vector.reading import drawing_of
-from lsys_kit.pictures.formats.vector.shapes import Drawing
-from lsys_kit.pictures.sizes import Size
+from lsys_kit.pictures.shapes import Drawing
+from lsys_kit.pictures.sizes import SHARP, Size, resized
 from lsys_kit.pictures.style.themes import LIGHT, Theme, drawn_on
 from lsys_kit.supervision import supervised
 
@@ -42,8 +42,7 @@ LEAST_DOTS, MOST_DOTS = 24, 2_400
 
 @dataclass(frozen=True)
 class SVGPicture(ABC):
-    """A picture that is written as SVG, from which its other formats are painted; its text alternative is what `repr` says of
-    it.
+    """A picture of shapes, which each format paints; its text alternative is what `repr` says of it.
 
     Attributes
     ----------
@@ -56,10 +55,16 @@ class SVGPicture(ABC):
     pixels: Size | None = field(default=None, kw_only=True, repr=False)
     theme: Theme = field(default=LIGHT, kw_only=True, repr=False)
 
-    @property
     @abstractmethod
+    def shown(self, most: int, enlarged: float) -> Drawing:
+        """What the picture shows, in its usual size; if it has more shapes than the most, these are pixels, so many in each
+        direction of its own."""
+
+    @cached_property
     def svg(self) -> str:
         """The picture as SVG text."""
+        with Task("The picture was not drawn"), drawn_on(self.theme):
+            return svg(resized(self.shown(current().segments, SHARP), self.pixels))
 
     @cached_property
     def png(self) -> bytes:
@@ -87,8 +92,8 @@ class SVGPicture(ABC):
 
     def drawing(self, enlarged: float = 1.0) -> Drawing:
         """The shapes of the picture; what of it is pixels has so many in each direction of its own."""
-        with Task("The picture was not drawn"):
-            return drawing_of(self.svg)
+        with Task("The picture was not drawn"), drawn_on(self.theme):
+            return resized(self.shown(current().figure, enlargement_from(enlarged)), self.pixels)
 
     def plot_into(self, ax: Axes) -> None:
         """Paint the picture into axes of a matplotlib figure, whose units are pixels or those of its turtle."""
@@ -99,7 +104,7 @@ class SVGPicture(ABC):
             self._plot_into(ax)
 
     def _plot_into(self, ax: Axes) -> None:
-        plot_drawing(ax, self.drawing())
+        AxesPainter(ax).draw(self.drawing())
 
     def save(self, path: str | Path, *, dpi: object = None) -> None:
         """Write the picture to an .svg, .png or .pdf file.
@@ -132,6 +137,11 @@ class SVGPicture(ABC):
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
         return svg_bundle(self.svg, repr(self))
+
+
+def described(parts: Iterable[str]) -> str:
+    """Parts of a description, joined as a sentence."""
+    return "; ".join(part for part in parts if part)
 
 
 def dots_from(value: object, path: Path) -> float | None:

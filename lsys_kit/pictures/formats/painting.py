@@ -3,23 +3,22 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from lsys_kit.budget import counted
 from lsys_kit.geometry.scene import Floats
+from lsys_kit.pictures.formats.lettering import advance, glyph
 from lsys_kit.pictures.formats.line_raster import spread
+from lsys_kit.pictures.formats.painter import Ink, Lettering, Painter, Subpath, dashed, subpaths
 from lsys_kit.pictures.formats.raster import FINE
 from lsys_kit.pictures.formats.sheet import Sheet
-from lsys_kit.pictures.formats.vector.lettering import advance, glyph
-from lsys_kit.pictures.formats.vector.paths import Subpath, dashed, subpaths
-from lsys_kit.pictures.formats.vector.shapes import Drawing, Gradient, Outline, Place, Raster, Shape, Sphere, Text
+from lsys_kit.pictures.shapes import Circle, Drawing, Gradient, Image, Outlined, Place
 
 if TYPE_CHECKING:
-    from PIL.Image import Image
+    from PIL.Image import Image as Pixels
     from PIL.ImageDraw import ImageDraw
 
 SHADES = 512
@@ -28,48 +27,89 @@ CURVED = 4
 """From this width on, in points of the grid, the corners of a line are seen."""
 
 
-def painted(drawing: Drawing, enlarged: float = 1.0) -> Image:
+def painted(drawing: Drawing, enlarged: float = 1.0) -> Pixels:
     """A drawing as an image, perhaps enlarged."""
     sheet = Sheet(round(drawing.width * enlarged), round(drawing.height * enlarged))
-    paint(sheet, drawing.shapes, Place(enlarged))
+    PixelPainter(sheet, Place(enlarged)).draw(drawing)
     return sheet.image
 
 
-def paint(sheet: Sheet, shapes: Iterable[Shape], place: Place = Place()) -> None:  # noqa: B008
-    """Paint shapes on a sheet, at a place."""
-    for shape in counted(shapes):
-        at = place.within(*shape.place)
-        at = Place(at.scale * FINE, at.x * FINE, at.y * FINE)
-        if isinstance(shape, Outline):
-            _outline(sheet, shape, at)
-        elif isinstance(shape, Sphere):
-            _sphere(sheet, shape, at)
-        elif isinstance(shape, Text):
-            _text(sheet, shape, at)
-        else:
-            _raster(sheet, shape, at)
+class PixelPainter(Painter):
+    """What paints shapes on a sheet, on which a picture has some place."""
+
+    def __init__(self, sheet: Sheet, place: Place) -> None:
+        self._sheet, self._place = sheet, place
+
+    def _on_grid(self, place: Place) -> Place:
+        """Where units lie on the fine grid."""
+        return Place(*(FINE * each for each in self._place.within(place)))
+
+    def outline(self, shape: Outlined, ink: Ink, place: Place) -> None:
+        """Fill an outline, then draw its line."""
+        place, sheet = self._on_grid(place), self._sheet
+        paths = [Subpath(_at(each.corners, place), each.closed) for each in subpaths(shape, place.scale)]
+        if ink.fill:
+            inside = [each.corners for each in paths if len(each.corners) > 2]
+            if ink.evenodd and len(inside) > 1:
+                _crossed(sheet, [*map(_whole, inside)], ink.fill)
+            else:
+                _with_opacity(sheet, ink.fill, ink.fill_opacity, lambda pen, colour: _fill(pen, inside, colour))
+        if ink.stroke:
+            dashes, width = [each * place.scale for each in ink.dashes], max(1, round(ink.width * place.scale))
+            lines = [part for each in paths for part in dashed(each, dashes)] if dashes else paths
+            _with_opacity(
+                sheet, ink.stroke, ink.stroke_opacity, lambda pen, colour: _stroke(pen, lines, colour, width, ink.round_ends)
+            )
+
+    def sphere(self, circle: Circle, gradient: Gradient, place: Place) -> None:
+        """Mix the colours of a gradient with what is there."""
+        from PIL import Image
+
+        place = self._on_grid(place)
+        (x, y), radius = _at(np.array([circle.x, circle.y]), place).tolist(), circle.radius * place.scale
+        left, top = int(x - radius), int(y - radius)
+        side = int(2 * radius) + 2
+        down, across = (np.arange(side)[:, None] + top + 0.5, np.arange(side)[None] + left + 0.5)
+        colours, opacity = gradient_at(gradient, (across - x) / radius / 2 + 0.5, (down - y) / radius / 2 + 0.5)
+        mask = np.where(np.hypot(across - x, down - y) <= radius, opacity, 0).astype(np.uint8)
+        self._sheet.grid.paste(Image.fromarray(colours), (left, top), Image.fromarray(mask))
+
+    def text(self, text: Lettering, place: Place) -> None:
+        """Write letters, those with a halo over it."""
+        place, letters = self._on_grid(place), []
+        for run in text.runs:
+            x = run.x
+            for letter in run.text:
+                mask, left, top = glyph(letter, run.size * place.scale, run.italic, text.font)
+                if mask.size:
+                    letters.append((mask, round(place.x + x * place.scale) + left, round(place.y + run.y * place.scale) + top))
+                x += advance(letter, run.size, text.font)
+        if text.halo:
+            reach = round(text.halo_width * place.scale / 2)
+            for mask, left, top in letters:
+                self._stamp(spread(np.pad(mask, reach), reach), left - reach, top - reach, text.halo)
+        for mask, left, top in letters:
+            self._stamp(mask, left, top, text.colour)
+
+    def _stamp(self, mask: Any, left: int, top: int, colour: str) -> None:
+        from PIL import Image
+
+        self._sheet.grid.paste(colour, (left, top), Image.fromarray(mask))
+
+    def image(self, image: Image, place: Place) -> None:
+        """Paint an image over what is there."""
+        from PIL import Image
+
+        place, pixels = self._on_grid(place), Image.open(io.BytesIO(image.png)).convert("RGBA")
+        left, top = _at(np.array([image.x or 0, image.y or 0]), place).tolist()
+        size = round(image.width * place.scale), round(image.height * place.scale)
+        seen = pixels.resize(size, Image.Resampling.BICUBIC)
+        self._sheet.grid.paste(seen.convert("RGB"), (round(left), round(top)), seen.getchannel("A"))
 
 
 def _at(points: Floats, place: Place) -> Floats:
-    """Points on the fine grid."""
     found: Floats = points * place.scale + (place.x, place.y)
     return found
-
-
-def _outline(sheet: Sheet, shape: Outline, place: Place) -> None:
-    look, paths = shape.look, [Subpath(_at(each.corners, place), each.closed) for each in subpaths(shape.data, place.scale)]
-    if look.fill:
-        inside = [each.corners for each in paths if len(each.corners) > 2]
-        if look.evenodd and len(inside) > 1:
-            _crossed(sheet, [*map(_whole, inside)], look.fill)
-        else:
-            _with_opacity(sheet, look.fill, look.fill_opacity, lambda pen, colour: _fill(pen, inside, colour))
-    if look.stroke:
-        dashes, width = [each * place.scale for each in look.dashes], max(1, round(look.width * place.scale))
-        lines = [part for each in paths for part in dashed(each, dashes)] if dashes else paths
-        _with_opacity(
-            sheet, look.stroke, look.stroke_opacity, lambda pen, colour: _stroke(pen, lines, colour, width, look.round_ends)
-        )
 
 
 def _whole(points: Floats) -> list[tuple[int, int]]:
@@ -122,19 +162,6 @@ def _stroke(pen: ImageDraw, paths: Sequence[Subpath], colour: Any, width: int, r
                 pen.ellipse((x - reach, y - reach, x + reach, y + reach), colour)
 
 
-def _sphere(sheet: Sheet, shape: Sphere, place: Place) -> None:
-    """Mix the colours of a gradient with what is there."""
-    from PIL import Image
-
-    (x, y), radius = _at(np.array([shape.x, shape.y]), place).tolist(), shape.radius * place.scale
-    left, top = int(x - radius), int(y - radius)
-    side = int(2 * radius) + 2
-    down, across = (np.arange(side)[:, None] + top + 0.5, np.arange(side)[None] + left + 0.5)
-    colours, opacity = gradient_at(shape.gradient, (across - x) / radius / 2 + 0.5, (down - y) / radius / 2 + 0.5)
-    inside = np.hypot(across - x, down - y) <= radius
-    sheet.grid.paste(Image.fromarray(colours), (left, top), Image.fromarray(np.where(inside, opacity, 0).astype(np.uint8)))
-
-
 def gradient_at(gradient: Gradient, across: Floats, down: Floats) -> tuple[Any, Any]:
     """The colours of points in the square around a circle, whose side is 1, and how opaque they are, as bytes."""
     way = np.hypot(across - gradient.x, down - gradient.y) / gradient.radius
@@ -143,41 +170,3 @@ def gradient_at(gradient: Gradient, across: Floats, down: Floats) -> tuple[Any, 
     colours = np.array([(*bytes.fromhex(stop.colour[1:]), 255 * stop.opacity) for stop in gradient.stops])
     table = np.stack([np.interp(shares, offsets, each) for each in colours.T], axis=1).round().astype(np.uint8)
     return table[places, :3], table[places, 3]
-
-
-def _text(sheet: Sheet, shape: Text, place: Place) -> None:
-    """Letters, those with a halo over it."""
-    letters = [*_letters(shape, place)]
-    if shape.halo:
-        for mask, left, top in letters:
-            reach = round(shape.halo_width * place.scale / 2)
-            _stamp(sheet, spread(np.pad(mask, reach), reach), left - reach, top - reach, shape.halo)
-    for mask, left, top in letters:
-        _stamp(sheet, mask, left, top, shape.colour)
-
-
-def _letters(shape: Text, place: Place) -> Iterable[tuple[Any, int, int]]:
-    """The letters of a text as points of the grid, with their left upper corners."""
-    for run in shape.runs:
-        x = run.x
-        for letter in run.text:
-            mask, left, top = glyph(letter, run.size * place.scale, run.italic, shape.font)
-            if mask.size:
-                yield (mask, round(place.x + x * place.scale) + left, round(place.y + run.y * place.scale) + top)
-            x += advance(letter, run.size, shape.font)
-
-
-def _stamp(sheet: Sheet, mask: Any, left: int, top: int, colour: str) -> None:
-    from PIL import Image
-
-    sheet.grid.paste(colour, (left, top), Image.fromarray(mask))
-
-
-def _raster(sheet: Sheet, shape: Raster, place: Place) -> None:
-    from PIL import Image
-
-    image = Image.open(io.BytesIO(shape.png)).convert("RGBA")
-    left, top = _at(np.array([shape.x, shape.y]), place).tolist()
-    size = round(shape.width * place.scale), round(shape.height * place.scale)
-    seen = image.resize(size, Image.Resampling.BICUBIC)
-    sheet.grid.paste(seen.convert("RGB"), (round(left), round(top)), seen.getchannel("A"))

@@ -30,12 +30,13 @@ from lsys_kit.pictures.rendering.display_list import (
 )
 from lsys_kit.pictures.rendering.frames import MARGIN, ViewFrame, frame_around
 from lsys_kit.pictures.rendering.painters_order import display_list
+from lsys_kit.pictures.shapes import Image
 from lsys_kit.pictures.sizes import Size, enlargement, final_size
 from lsys_kit.pictures.style.lighting import HIGHLIGHT, REACH, sphere_tones
 from lsys_kit.pictures.style.themes import theme
 
 if TYPE_CHECKING:
-    from PIL.Image import Image
+    from PIL.Image import Image as Pixels
     from PIL.ImageDraw import ImageDraw
 
 Colours: TypeAlias = NDArray[np.uint8]
@@ -56,7 +57,7 @@ def turtle_png(scene: Scene, colour_of: Mapping[int, str]) -> bytes:
     return encoded(turtle_picture(scene, colour_of))
 
 
-def turtle_picture(scene: Scene, colour_of: Mapping[int, str], size: Size | None = None, enlarged: float = 1.0) -> Image:
+def turtle_picture(scene: Scene, colour_of: Mapping[int, str], size: Size | None = None, enlarged: float = 1.0) -> Pixels:
     """A scene of a turtle as an image of a size, perhaps enlarged."""
     frame = frame_around([scene])
     wide, high = final_size(frame.width, frame.height, size)
@@ -64,7 +65,7 @@ def turtle_picture(scene: Scene, colour_of: Mapping[int, str], size: Size | None
     return centred(image, (wide, high) if enlarged == 1 else (round(wide * enlarged), round(high * enlarged)))
 
 
-def centred(image: Image, size: tuple[int, int]) -> Image:
+def centred(image: Pixels, size: tuple[int, int]) -> Pixels:
     """An image in the middle of paper."""
     from PIL import Image
 
@@ -76,7 +77,7 @@ def centred(image: Image, size: tuple[int, int]) -> Image:
     return paper
 
 
-def turtle_image(scene: Scene, colour_of: Mapping[int, str], frame: ViewFrame, enlarged: float = 1.0) -> Image:
+def turtle_image(scene: Scene, colour_of: Mapping[int, str], frame: ViewFrame, enlarged: float = 1.0) -> Pixels:
     """A scene of a turtle as an image, in a frame that contains it; perhaps enlarged.
 
     Each point of a fine grid gets the number of what is seen there. Numbers grow along the display list: of two shapes the one
@@ -285,8 +286,14 @@ def _paint_at_once(
             np.maximum(seen, spread(touched(across[chosen], down[chosen], seen.shape, covering), radius), out=seen)
 
 
-def encoded(image: object) -> bytes:
+def encoded(image: Pixels) -> bytes:
     """An image as PNG."""
     buffer = io.BytesIO()
-    image.save(buffer, "PNG")  # type: ignore[attr-defined]
+    image.save(buffer, "PNG")
     return buffer.getvalue()
+
+
+def embedded(width: int, height: int, image: Pixels, corner: tuple[int, int] | None = None) -> Image:
+    """An image in a picture, as broad and high as it is there, perhaps with its left upper corner at some place."""
+    left, top = corner or (None, None)
+    return Image(left, top, width, height, encoded(image))

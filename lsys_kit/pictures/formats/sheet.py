@@ -10,8 +10,8 @@ import io
 from typing import TYPE_CHECKING, Self, TypeAlias
 
 from lsys_kit.budget import check_bytes
+from lsys_kit.pictures.formats.lettering import advance, glyph
 from lsys_kit.pictures.formats.raster import FINE
-from lsys_kit.pictures.formats.vector.lettering import advance, glyph
 from lsys_kit.pictures.style.themes import theme
 
 if TYPE_CHECKING:
