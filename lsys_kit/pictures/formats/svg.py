@@ -93,6 +93,7 @@ def _other(shape: Shape | Span | str) -> str:
         return f"<title>{escaped(shape.text)}</title>"
     if isinstance(shape, Paper):
         return f'<rect width="100%" height="100%" fill="{shape.colour}"/>'
+    assert isinstance(shape, Gradients)
     return f"<defs>{''.join(map(_gradient, shape.gradients))}</defs>"
 
 
