@@ -35,7 +35,7 @@ from lsys_kit.pictures.multiples import SmallMultiples
 from lsys_kit.pictures.options import KINDS, LINEAGE, SPHERE, STAGES, Options, options_from, seen_as, split_options
 from lsys_kit.pictures.picture import NetPicture, Picture
 from lsys_kit.pictures.plots.chart import Plot, painted
-from lsys_kit.pictures.rendering.line_widths import in_units
+from lsys_kit.pictures.rendering.frames import in_units
 from lsys_kit.pictures.rendering.view import project_smoothly, view_from
 from lsys_kit.pictures.sizes import size_from
 from lsys_kit.pictures.style.palette import colour_of

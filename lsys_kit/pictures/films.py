@@ -34,8 +34,7 @@ from lsys_kit.pictures.kinds import WORD, coloured_symbols, instead, kind_of
 from lsys_kit.pictures.legends import Legend, image_with_legend, legend_of
 from lsys_kit.pictures.options import STAGES, Options, options_from, seen_as, split_options
 from lsys_kit.pictures.picture import Picture
-from lsys_kit.pictures.rendering.frames import ViewFrame, frame_around
-from lsys_kit.pictures.rendering.line_widths import in_units
+from lsys_kit.pictures.rendering.frames import ViewFrame, frame_around, in_units
 from lsys_kit.pictures.rendering.scene_shapes import label_shapes
 from lsys_kit.pictures.rendering.view import FROM_THE_RIGHT, View, project_smoothly, view_from
 from lsys_kit.pictures.sizes import document, enlargement, final_size, size_from

@@ -19,12 +19,12 @@ from lsys_kit.pictures.legends import Legend, with_legend
 from lsys_kit.pictures.picture import Picture
 from lsys_kit.pictures.rendering.frames import MARGIN, ViewFrame, in_fine_parts, painted_box
 from lsys_kit.pictures.rendering.scene_shapes import label_shapes, scene_shapes
-from lsys_kit.pictures.shapes import Drawing, Image, Look, Shape, Text
+from lsys_kit.pictures.shapes import Drawing, Look, Raster, Shape, Text
 from lsys_kit.pictures.sizes import document, enlargement, resized
 from lsys_kit.pictures.style.themes import theme
 
 if TYPE_CHECKING:
-    from PIL.Image import Image as Pixels
+    from PIL.Image import Image
 
 WIDTH, HEIGHT = 760, 540
 """The greatest size of a picture, in pixels."""
@@ -32,7 +32,7 @@ GAP, CAPTION, TEXT, LOWER = 30, 44, 13, 22
 """The space between two drawings, that below one, the size of its caption there and how far below the ground it stands, in
 pixels."""
 LARGEST_SCALE = 120.0
-"""Pixels of a unit, at most."""
+"""Image of a unit, at most."""
 
 
 class Panel(NamedTuple):
@@ -72,7 +72,7 @@ class SmallMultiples(SVGPicture):
         """What the picture shows, in words."""
         return described([f"{self.captions[0]} to {self.captions[-1]}", f"the last: {self.pictures[-1].text}"])
 
-    def _image(self, enlarged: float) -> Pixels:
+    def _image(self, enlarged: float) -> Image:
         return painted(resized(self.shown(0, enlarged), self.pixels), enlarged)
 
     def shown(self, most: int, enlarged: float) -> Drawing:
@@ -148,7 +148,7 @@ def _panel_shapes(picture: Picture, panel: Panel, caption: str, pixels: float) -
     return [*drawn, Text(round(panel.middle * parts), round((panel.ground + LOWER) * parts), caption, look)]
 
 
-def _panel_image(picture: Picture, panel: Panel, enlarged: float) -> Image:
+def _panel_image(picture: Picture, panel: Panel, enlarged: float) -> Raster:
     """A drawing as pixels."""
     own, parts = own_frame(picture.scene, panel.frame.scale), panel.frame.parts
     image = turtle_image(picture.scene, picture.colour_of, own, enlarged)

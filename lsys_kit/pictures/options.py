@@ -13,7 +13,7 @@ from lsys_kit.errors import LSystemError, ModelNameError, ModelValueError, quota
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.notation.analysis.checks import suggestion
-from lsys_kit.pictures.rendering.chosen_looks import with_colours_of_symbols, with_start, with_widths
+from lsys_kit.pictures.rendering.looks import with_colours_of_symbols, with_start, with_widths
 from lsys_kit.pictures.style.colour_values import colour_from
 from lsys_kit.pictures.style.themes import LIGHT, Theme, theme_from
 

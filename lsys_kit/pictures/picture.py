@@ -25,9 +25,8 @@ from lsys_kit.pictures.formats.filament_raster import rows_image
 from lsys_kit.pictures.formats.files import FILMS, listed, save_as
 from lsys_kit.pictures.formats.mesh_files import glb, mtl, obj
 from lsys_kit.pictures.formats.notebook import SVGPicture, described
-from lsys_kit.pictures.formats.painting import painted
+from lsys_kit.pictures.formats.painting import on_ground, painted
 from lsys_kit.pictures.formats.raster import embedded, turtle_image, turtle_picture
-from lsys_kit.pictures.formats.transparency import on_ground
 from lsys_kit.pictures.legends import Legend, plot_legend, with_legend
 from lsys_kit.pictures.nets.diagram import drawn_stages
 from lsys_kit.pictures.nets.parts import positions_in

@@ -138,7 +138,7 @@ class Paper(NamedTuple):
     colour: str
 
 
-class Image(NamedTuple):
+class Raster(NamedTuple):
     """An image: its left upper corner, None for that of the picture, its size, and its content as PNG."""
 
     x: float | None
@@ -190,7 +190,7 @@ class Group(NamedTuple):
 
 
 Outlined: TypeAlias = Path | Strokes | Polygon | Circle | Ellipse | Rectangle
-Shape: TypeAlias = Outlined | Text | Image | Group | Title | Gradients | Paper
+Shape: TypeAlias = Outlined | Text | Raster | Group | Title | Gradients | Paper
 
 
 @dataclass(frozen=True)

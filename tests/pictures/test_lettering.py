@@ -11,7 +11,7 @@ import pytest
 from PIL import Image, ImageDraw, ImageFont
 
 from lsys_kit.pictures.formats.lettering import PLAIN, advance, glyph, opened_font
-from lsys_kit.pictures.formats.sheet import Sheet, label_width
+from lsys_kit.pictures.formats.painting import Sheet, label_width
 from lsys_kit.pictures.style.palette import INK
 
 SIZE = 400

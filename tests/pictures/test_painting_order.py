@@ -22,9 +22,8 @@ from lsys_kit.geometry.turtle.space import trace_in_space
 from lsys_kit.pictures.formats.axes import frame_in, plot_turtle
 from lsys_kit.pictures.formats.raster import turtle_image
 from lsys_kit.pictures.formats.svg import element
-from lsys_kit.pictures.rendering.display_list import AreaRun, LineRun
+from lsys_kit.pictures.rendering.display_list import AreaRun, LineRun, display_list
 from lsys_kit.pictures.rendering.frames import frame_around
-from lsys_kit.pictures.rendering.painters_order import display_list
 from lsys_kit.pictures.rendering.scene_shapes import scene_shapes
 from lsys_kit.pictures.rendering.view import FRONT, MOST_CYLINDERS, project
 from lsys_kit.pictures.style.palette import PAPER

@@ -13,8 +13,7 @@ from PIL import Image
 
 from lsys_kit.classroom.panel.view_model import StepView
 from lsys_kit.pictures.formats.lettering import advance
-from lsys_kit.pictures.formats.painting import PixelPainter
-from lsys_kit.pictures.formats.sheet import Sheet, label_width
+from lsys_kit.pictures.formats.painting import PixelPainter, Sheet, label_width
 from lsys_kit.pictures.nets.diagram import drawn_stages
 from lsys_kit.pictures.nets.parts import parts_of, steering_of
 from lsys_kit.pictures.shapes import Place

@@ -26,7 +26,7 @@ from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.draw import MOST_ROWS, filament_picture, state_colours
 from lsys_kit.pictures.filaments.folding import FilamentRow
 from lsys_kit.pictures.picture import Picture
-from lsys_kit.pictures.rendering.line_widths import in_units
+from lsys_kit.pictures.rendering.frames import in_units
 from lsys_kit.pictures.rendering.view import project_smoothly
 from lsys_kit.pictures.style.labels import place_text
 from lsys_kit.worlds.derive import derive

@@ -16,7 +16,7 @@ from lsys_kit.notation.model.arithmetic import Value, normalised, number_text
 from lsys_kit.pictures.filaments.folding import FilamentRow
 from lsys_kit.pictures.filaments.layout import STEPS, TIMES, DrawnCell, DrawnWall, FilamentLayout
 from lsys_kit.pictures.rendering.frames import MARGIN, WIDTH
-from lsys_kit.pictures.shapes import Ellipse, Group, Image, Look, Path, Rectangle, Shape, Span, Text
+from lsys_kit.pictures.shapes import Ellipse, Group, Look, Path, Raster, Rectangle, Shape, Span, Text
 from lsys_kit.pictures.style.colour_values import mixed
 from lsys_kit.pictures.style.palette import GREEN, OLDEST, cell_fill
 from lsys_kit.pictures.style.themes import edge_colour, line, theme
@@ -35,7 +35,7 @@ def row_shapes(
     colour_of: Mapping[int, str],
     current: int | None = None,
     marked: Collection[int] = (),
-    image: Image | None = None,
+    image: Raster | None = None,
     letters: Mapping[int, str] = MappingProxyType({}),
 ) -> list[Shape]:
     """Filaments below one another, centred, with a common scale; the current row on a tinted band. An image, if there is one,

@@ -12,10 +12,9 @@ from lsys_kit.geometry.labels import Labels
 from lsys_kit.geometry.scene import Floats, Scene
 from lsys_kit.pictures.formats.painter import Ink, Lettering, Painter, subpaths
 from lsys_kit.pictures.formats.painting import gradient_at
-from lsys_kit.pictures.rendering.display_list import AreaRun, DisplayList, LineRun
+from lsys_kit.pictures.rendering.display_list import AreaRun, DisplayList, LineRun, display_list
 from lsys_kit.pictures.rendering.frames import LABEL, LABEL_GAP, MARGIN, ViewFrame, frame_around
-from lsys_kit.pictures.rendering.painters_order import display_list
-from lsys_kit.pictures.shapes import Circle, Drawing, Gradient, Image, Outlined, Place
+from lsys_kit.pictures.shapes import Circle, Drawing, Gradient, Outlined, Place, Raster
 from lsys_kit.pictures.style.lighting import HIGHLIGHT, sphere_tone
 from lsys_kit.pictures.style.palette import PAPER
 from lsys_kit.pictures.style.themes import theme
@@ -137,13 +136,13 @@ class AxesPainter(Painter):
                 clip_on=True,
             )
 
-    def image(self, image: Image, place: Place) -> None:
+    def raster(self, raster: Raster, place: Place) -> None:
         """Paint an image."""
         from PIL import Image
 
-        corner = image.x or 0, image.y or 0
-        (left, top), (right, bottom) = _placed([corner, (corner[0] + image.width, corner[1] + image.height)], place)
-        pixels = np.asarray(Image.open(io.BytesIO(image.png)))
+        corner = raster.x or 0, raster.y or 0
+        (left, top), (right, bottom) = _placed([corner, (corner[0] + raster.width, corner[1] + raster.height)], place)
+        pixels = np.asarray(Image.open(io.BytesIO(raster.png)))
         self._ax.imshow(pixels, extent=(left, right, bottom, top), zorder=self._next(), aspect="equal")
 
 

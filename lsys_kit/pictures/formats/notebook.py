@@ -18,11 +18,10 @@ from lsys_kit.errors import ModelValueError, require, shown
 from lsys_kit.files import marked_png, marked_xml, path_from
 from lsys_kit.pictures.formats.axes import AxesPainter
 from lsys_kit.pictures.formats.files import save_as
-from lsys_kit.pictures.formats.painting import painted
+from lsys_kit.pictures.formats.painting import on_ground, painted
 from lsys_kit.pictures.formats.pdf import pdf
 from lsys_kit.pictures.formats.raster import encoded
 from lsys_kit.pictures.formats.svg import svg
-from lsys_kit.pictures.formats.transparency import on_ground
 from lsys_kit.pictures.shapes import Drawing
 from lsys_kit.pictures.sizes import SHARP, Size, resized
 from lsys_kit.pictures.style.themes import LIGHT, Theme, drawn_on

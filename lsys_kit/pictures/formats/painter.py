@@ -23,13 +23,13 @@ from lsys_kit.pictures.shapes import (
     Gradient,
     Gradients,
     Group,
-    Image,
     Look,
     Outlined,
     Paper,
     Path,
     Place,
     Polygon,
+    Raster,
     Rectangle,
     Shape,
     Strokes,
@@ -110,8 +110,8 @@ class Painter(ABC):
                 self.paint(shape.shapes, own, place.within(shape.place))
             elif isinstance(shape, Text):
                 self.text(lettering(shape, own), place.within(shape.place))
-            elif isinstance(shape, Image):
-                self.image(shape, place)
+            elif isinstance(shape, Raster):
+                self.raster(shape, place)
             else:
                 self._outlined(shape, own, place)
 
@@ -147,7 +147,7 @@ class Painter(ABC):
         """Write a text."""
 
     @abstractmethod
-    def image(self, image: Image, place: Place) -> None:
+    def raster(self, raster: Raster, place: Place) -> None:
         """Paint an image."""
 
 

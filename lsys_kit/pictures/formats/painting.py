@@ -1,25 +1,136 @@
-"""The shapes of a picture as pixels: painted on a sheet, one over another."""
+"""Pixels that are the same on every machine: a sheet of paper on which shapes of pictures, text and boxes are put.
+
+Everything is drawn at three times its size and then reduced, as in `raster`.
+"""
 
 from __future__ import annotations
 
+import copy
 import io
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from itertools import chain
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Self, TypeAlias
 
 import numpy as np
 
+from lsys_kit.budget import check_bytes
 from lsys_kit.geometry.scene import Floats
 from lsys_kit.pictures.formats.lettering import advance, glyph
-from lsys_kit.pictures.formats.line_raster import spread
 from lsys_kit.pictures.formats.painter import Ink, Lettering, Painter, Subpath, dashed, subpaths
-from lsys_kit.pictures.formats.raster import FINE
-from lsys_kit.pictures.formats.sheet import Sheet
-from lsys_kit.pictures.shapes import Circle, Drawing, Gradient, Image, Outlined, Place
+from lsys_kit.pictures.formats.raster import FINE, spread
+from lsys_kit.pictures.shapes import Circle, Drawing, Gradient, Outlined, Place, Raster
+from lsys_kit.pictures.style.colour_values import BLACK, WHITE
+from lsys_kit.pictures.style.themes import drawn_on, theme
 
 if TYPE_CHECKING:
-    from PIL.Image import Image as Pixels
+    from PIL.Image import Image
     from PIL.ImageDraw import ImageDraw
+
+Point: TypeAlias = tuple[float, float]
+PIXEL_BYTES = 3 * (FINE**2 + 1)
+"""What a pixel takes while a sheet is painted and reduced."""
+SUBSCRIPT, LOWERED = 0.7, 0.21
+"""The size of a subscript and how far it is lowered, to the size of the text."""
+
+
+class Sheet:
+    """White paper, or a part of it with its own origin and unit.
+
+    Parameters
+    ----------
+    width, height
+        Its size in pixels; at first a pixel is the unit, and the left upper corner the origin.
+    """
+
+    _pasted: list[tuple[Image, tuple[int, int]]]
+
+    def __init__(self, width: int, height: int) -> None:
+        from PIL import Image, ImageDraw
+
+        check_bytes(width * height * PIXEL_BYTES, lambda: "The picture was not drawn")
+        self._size, self._left, self._top, self._unit = (width, height), 0.0, 0.0, float(FINE)
+        self._image = Image.new("RGB", (width * FINE, height * FINE), theme().ground)
+        self._pen = ImageDraw.Draw(self._image)
+        self._pasted = []
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Its width and height in pixels."""
+        return self._size
+
+    @property
+    def grid(self) -> Image:
+        """The fine grid of points that is painted on."""
+        return self._image
+
+    @property
+    def pen(self) -> ImageDraw:
+        """What paints on the grid."""
+        return self._pen
+
+    def part(self, x: float, y: float, unit: float = 1.0) -> Self:
+        """The same sheet, measured from another point with another unit."""
+        part = copy.copy(self)
+        part._left, part._top, part._unit = *self._at(x, y), self._unit * unit
+        return part
+
+    def text(self, x: float, y: float, text: str, size: float, colour: str = "", italic: bool = False) -> float:
+        """Write a text from a point of its baseline on, and return where it ends."""
+        from PIL import Image
+
+        for letter in text:
+            mask, left, top = glyph(letter, size * self._unit, italic)
+            across, down = self._at(x, y)
+            if mask.size:
+                self._image.paste(colour or theme().ink, (round(across) + left, round(down) + top), Image.fromarray(mask))
+            x += advance(letter, size)
+        return x
+
+    def label(self, x: float, y: float, label: tuple[str, str, str], size: float, colour: str = "") -> None:
+        """Write a label, given as letter, subscript and values, as mathematics is set."""
+        letter, subscript, values = label
+        x = self.text(x, y, letter, size, colour, letter[:1].isalpha())
+        x = self.text(x, y + LOWERED * size, subscript, SUBSCRIPT * size, colour)
+        self.text(x, y, values, size, colour)
+
+    def box(self, x: float, y: float, width: float, height: float, fill: str, corner: float = 0) -> None:
+        """A filled rectangle, perhaps with round corners."""
+        (left, top), (right, bottom) = self._at(x, y), self._at(x + width, y + height)
+        self._pen.rounded_rectangle((round(left), round(top), round(right) - 1, round(bottom) - 1), corner * self._unit, fill)
+
+    def picture(self, x: float, y: float, image: Image) -> None:
+        """A picture in its own pixels, above everything else."""
+        across, down = self._at(x, y)
+        self._pasted.append((image, (round(across / FINE), round(down / FINE))))
+
+    @property
+    def png(self) -> bytes:
+        """The sheet as PNG."""
+        buffer = io.BytesIO()
+        self.image.save(buffer, "PNG")
+        return buffer.getvalue()
+
+    @property
+    def image(self) -> Image:
+        """The sheet as an image."""
+        from PIL import Image
+
+        image = self._image.resize(self._size, Image.Resampling.BOX)
+        for pasted, corner in self._pasted:
+            image.paste(pasted, corner)
+        return image
+
+    def _at(self, x: float, y: float) -> Point:
+        """A point on the fine grid."""
+        return self._left + x * self._unit, self._top + y * self._unit
+
+
+def label_width(label: tuple[str, str, str], size: float) -> float:
+    """The width of a label, given as letter, subscript and values."""
+    letter, subscript, values = label
+    return advance(letter + values, size) + advance(subscript, SUBSCRIPT * size)
+
 
 SHADES = 512
 """The steps of a gradient."""
@@ -27,7 +138,7 @@ CURVED = 4
 """From this width on, in points of the grid, the corners of a line are seen."""
 
 
-def painted(drawing: Drawing, enlarged: float = 1.0) -> Pixels:
+def painted(drawing: Drawing, enlarged: float = 1.0) -> Image:
     """A drawing as an image, perhaps enlarged."""
     sheet = Sheet(round(drawing.width * enlarged), round(drawing.height * enlarged))
     PixelPainter(sheet, Place(enlarged)).draw(drawing)
@@ -96,13 +207,13 @@ class PixelPainter(Painter):
 
         self._sheet.grid.paste(colour, (left, top), Image.fromarray(mask))
 
-    def image(self, image: Image, place: Place) -> None:
+    def raster(self, raster: Raster, place: Place) -> None:
         """Paint an image over what is there."""
         from PIL import Image
 
-        place, pixels = self._on_grid(place), Image.open(io.BytesIO(image.png)).convert("RGBA")
-        left, top = _at(np.array([image.x or 0, image.y or 0]), place).tolist()
-        size = round(image.width * place.scale), round(image.height * place.scale)
+        place, pixels = self._on_grid(place), Image.open(io.BytesIO(raster.png)).convert("RGBA")
+        left, top = _at(np.array([raster.x or 0, raster.y or 0]), place).tolist()
+        size = round(raster.width * place.scale), round(raster.height * place.scale)
         seen = pixels.resize(size, Image.Resampling.BICUBIC)
         self._sheet.grid.paste(seen.convert("RGB"), (round(left), round(top)), seen.getchannel("A"))
 
@@ -170,3 +281,24 @@ def gradient_at(gradient: Gradient, across: Floats, down: Floats) -> tuple[Any, 
     colours = np.array([(*bytes.fromhex(stop.colour[1:]), 255 * stop.opacity) for stop in gradient.stops])
     table = np.stack([np.interp(shares, offsets, each) for each in colours.T], axis=1).round().astype(np.uint8)
     return table[places, :3], table[places, 3]
+
+
+def on_ground(render: Callable[[], Image]) -> Image:
+    """An image as it is rendered in the theme in force, transparent if there is no paper.
+
+    What is seen in front of white is brighter than in front of black by as much as shines through.
+    """
+    if not theme().transparent:
+        return render()
+    from PIL import Image
+
+    white, black = (_on(ground, render) for ground in (WHITE, BLACK))
+    cover = 255 - np.clip((white - black).max(axis=2), 0, 255)
+    colours = np.where(cover[..., None] > 0, np.clip(black * 255 / np.maximum(cover, 1)[..., None], 0, 255), 255)
+    return Image.fromarray(np.dstack([colours, cover]).round().astype(np.uint8), "RGBA")
+
+
+def _on(ground: str, render: Callable[[], Image]) -> Floats:
+    """The pixels of an image in front of a colour."""
+    with drawn_on(replace(theme(), ground=ground)):
+        return np.asarray(render().convert("RGB"), np.float64)

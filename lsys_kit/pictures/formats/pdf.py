@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 from lsys_kit.files import KIT_MARK
 from lsys_kit.pictures.formats.lettering import FAMILIES, SLANT, Font, advance, font_path, glyph_name, opened_font, outlines
 from lsys_kit.pictures.formats.painter import Ink, Lettering, Painter, commands
-from lsys_kit.pictures.shapes import Circle, Drawing, Gradient, Image, Outlined, Place, Strokes
+from lsys_kit.pictures.shapes import Circle, Drawing, Gradient, Outlined, Place, Raster, Strokes
 
 if TYPE_CHECKING:
     from fontTools.ttLib import TTFont
@@ -264,11 +264,11 @@ class Page(Painter):
             parts.append(f"/{name} {number_text(run.size)} Tf 1 0 {lean} -1 {_numbers(run.x, run.y)} Tm <{written}> Tj")
         self._write(place, *parts, "ET")
 
-    def image(self, image: Image, place: Place) -> None:
+    def raster(self, raster: Raster, place: Place) -> None:
         """Paint an image on white."""
         from PIL import Image
 
-        seen = Image.open(io.BytesIO(image.png)).convert("RGBA")
+        seen = Image.open(io.BytesIO(raster.png)).convert("RGBA")
         pixels = Image.alpha_composite(Image.new("RGBA", seen.size, "white"), seen).convert("RGB")
         name = self._named(
             "XObject",
@@ -283,8 +283,8 @@ class Page(Painter):
                 BitsPerComponent=8,
             ),
         )
-        corner = _numbers(image.x or 0, (image.y or 0) + image.height)
-        self._write(place, f"q {number_text(image.width)} 0 0 {number_text(-image.height)} {corner} cm /{name} Do Q")
+        corner = _numbers(raster.x or 0, (raster.y or 0) + raster.height)
+        self._write(place, f"q {number_text(raster.width)} 0 0 {number_text(-raster.height)} {corner} cm /{name} Do Q")
 
 
 def _operators(shape: Outlined) -> str:

@@ -19,12 +19,12 @@ from lsys_kit.pictures.shapes import (
     Gradient,
     Gradients,
     Group,
-    Image,
     Look,
     Paper,
     Path,
     Place,
     Polygon,
+    Raster,
     Rectangle,
     Shape,
     Span,
@@ -41,7 +41,7 @@ _ELEMENTS: Mapping[type, tuple[str, tuple[str, ...]]] = {
     Circle: ("circle", ("cx", "cy", "r")),
     Ellipse: ("ellipse", ("cx", "cy", "rx", "ry")),
     Rectangle: ("rect", ("x", "y", "width", "height", "rx")),
-    Image: ("image", ("x", "y", "width", "height", "href")),
+    Raster: ("image", ("x", "y", "width", "height", "href")),
     Text: ("text", ("x", "y")),
     Group: ("g", ()),
 }
@@ -66,7 +66,7 @@ def element(shape: Shape | Span | str) -> str:
     >>> element(Text(1, 2.5, "<a>", Look(font_size=12)))
     '<text x="1" y="2.5" font-size="12">&lt;a&gt;</text>'
     """
-    if type(shape) not in _ELEMENTS:
+    if isinstance(shape, str | Span | Title | Gradients | Paper):
         return _other(shape)
     name, keys = _ELEMENTS[type(shape)]
     tags = "".join([f' {key}="{value}"' for key, value in shape.tags.items()]) if shape.tags else ""
@@ -84,7 +84,7 @@ def element(shape: Shape | Span | str) -> str:
     return f"<{name}{tags}{first}{_look(shape.look)}/>"
 
 
-def _other(shape: Shape | Span | str) -> str:
+def _other(shape: str | Span | Title | Gradients | Paper) -> str:
     if isinstance(shape, str):
         return escaped(shape)
     if isinstance(shape, Span):
@@ -93,7 +93,6 @@ def _other(shape: Shape | Span | str) -> str:
         return f"<title>{escaped(shape.text)}</title>"
     if isinstance(shape, Paper):
         return f'<rect width="100%" height="100%" fill="{shape.colour}"/>'
-    assert isinstance(shape, Gradients)
     return f"<defs>{''.join(map(_gradient, shape.gradients))}</defs>"
 
 

@@ -11,10 +11,9 @@ from itertools import groupby
 import numpy as np
 
 from lsys_kit.geometry.scene import Integers, Scene
-from lsys_kit.pictures.rendering.display_list import NO_COLOUR, AreaRun, DisplayList, LineRun, Lines
+from lsys_kit.pictures.rendering.display_list import NO_COLOUR, AreaRun, DisplayList, LineRun, Lines, display_list
 from lsys_kit.pictures.rendering.frames import LABEL, LABEL_GAP, ViewFrame, label_width
 from lsys_kit.pictures.rendering.looks import stroke_scale
-from lsys_kit.pictures.rendering.painters_order import display_list
 from lsys_kit.pictures.shapes import Circle, Gradient, Gradients, Group, Look, Polygon, Shape, Stop, Strokes, Text
 from lsys_kit.pictures.style.lighting import HIGHLIGHT, REACH, sphere_tones
 from lsys_kit.pictures.style.themes import theme
