@@ -22,9 +22,8 @@ from lsys_kit.pictures.filaments.layout import filament_layout
 from lsys_kit.pictures.filaments.painting import LOOKS, letters_fit, row_shapes
 from lsys_kit.pictures.formats.axes import plot_turtle
 from lsys_kit.pictures.formats.filament_raster import rows_image
-from lsys_kit.pictures.formats.files import FILMS, listed, save_as
 from lsys_kit.pictures.formats.mesh_files import glb, mtl, obj
-from lsys_kit.pictures.formats.notebook import SVGPicture, described
+from lsys_kit.pictures.formats.notebook import FILMS, SVGPicture, described, listed, save_as
 from lsys_kit.pictures.formats.painting import on_ground, painted
 from lsys_kit.pictures.formats.raster import embedded, turtle_image, turtle_picture
 from lsys_kit.pictures.legends import Legend, plot_legend, with_legend

@@ -1,23 +1,23 @@
-"""Pictures as a file keeps them, and as a notebook shows them: with a text alternative, which JupyterLab gives to no picture
-that comes without one."""
+"""Pictures as a file keeps them, in the format given by its extension, and as a notebook shows them: with a text alternative,
+which JupyterLab gives to no picture that comes without one.
+"""
 
 from __future__ import annotations
 
 import base64
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from lsys_kit.budget import Task, current
 from lsys_kit.derivation.core.rules import real_from
-from lsys_kit.errors import ModelValueError, require, shown
-from lsys_kit.files import marked_png, marked_xml, path_from
+from lsys_kit.errors import ModelFileError, ModelValueError, quotable, require, shown
+from lsys_kit.files import marked_png, marked_xml, path_from, save_file
 from lsys_kit.pictures.formats.axes import AxesPainter
-from lsys_kit.pictures.formats.files import save_as
 from lsys_kit.pictures.formats.painting import on_ground, painted
 from lsys_kit.pictures.formats.pdf import pdf
 from lsys_kit.pictures.formats.raster import encoded
@@ -30,6 +30,49 @@ from lsys_kit.supervision import supervised
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from PIL.Image import Image
+
+Encoders: TypeAlias = Mapping[str, Callable[[], bytes]]
+"""For each extension a function that encodes the picture."""
+FILMS = (".gif", ".apng", ".mp4")
+"""The extensions of films."""
+
+
+def save_as(path: Path, formats: Encoders, hint: str = "") -> None:
+    """Write a file in the format given by its extension; a file that the kit has made before is replaced, no other.
+
+    Parameters
+    ----------
+    path
+        The path of the file.
+    formats
+        The formats, by extension.
+    hint
+        An addition to the error message if the extension is unknown.
+
+    Raises
+    ------
+    ModelFileError
+        The name ends in something else, a file that the kit did not make is there already, or the file cannot be written.
+    """
+    if path.suffix.lower() not in formats:
+        raise ModelFileError(
+            f'This picture cannot be written to "{quotable(path.name)}"',
+            hint=f"Let the name end in {listed(formats)}. {hint}".rstrip(),
+        )
+    with Task("The file was not written"):
+        content = formats[path.suffix.lower()]()
+    save_file(path, content)
+
+
+def listed(endings: Iterable[str]) -> str:
+    """The extensions, in a sentence.
+
+    >>> listed([".svg", ".png", ".pdf"])
+    '.svg, .png or .pdf'
+    """
+    *most, last = endings
+    return f"{', '.join(most)} or {last}" if most else last
+
 
 INCH = 96
 """The pixels of an inch, as CSS has them."""
