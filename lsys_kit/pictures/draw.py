@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, overload
 
 from lsys_kit.budget import Task, counted
 from lsys_kit.derivation.cellworks.development import CellworkDevelopment
-from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.maps.development import Development
@@ -35,19 +34,18 @@ from lsys_kit.pictures.options import (
     LINEAGE,
     SPHERE,
     STAGES,
-    Options,
+    Style,
     check_drawable,
     coloured_symbols,
     kind_of,
-    options_from,
     seen_as,
     split_options,
+    style_from,
 )
 from lsys_kit.pictures.picture import NetPicture, Picture
 from lsys_kit.pictures.plots.chart import Plot, painted
 from lsys_kit.pictures.rendering.frames import in_units
 from lsys_kit.pictures.rendering.view import project_smoothly, view_from
-from lsys_kit.pictures.sizes import size_from
 from lsys_kit.pictures.style.palette import colour_of
 from lsys_kit.pictures.style.themes import drawn_on
 from lsys_kit.pictures.tissues.cellworks import CellworkPicture, cellwork_picture
@@ -73,48 +71,25 @@ class ChosenWord(NamedTuple):
     caption: str = ""
 
 
-def numbers_from(value: object, name: str) -> tuple[int, ...]:
-    """Some whole numbers from what a person gives.
-
-    >>> numbers_from([4, 6, 8], "steps")
-    (4, 6, 8)
-
-    Raises
-    ------
-    ModelValueError
-        They are no whole numbers, or too many.
-    """
+def _numbers_from(value: object, name: str) -> tuple[int, ...]:
+    """Some whole numbers from what a person gives."""
     if not isinstance(value, Sequence) or isinstance(value, str):
         raise ModelValueError(f'"{name}" takes a list of whole numbers, not {shown(value)}')
     if len(value) > MOST:
-        raise ModelLimitError(f"A picture shows {MOST} drawings at most, not {len(value):,}", limit=MOST, needed=len(value))
+        raise _too_many(len(value))
     return tuple(whole_number(each, f'A number of "{name}"') for each in value)
 
 
-def chosen_words(
+def _too_many(needed: int) -> ModelLimitError:
+    return ModelLimitError(f"A picture shows {MOST} drawings at most, not {needed:,}", limit=MOST, needed=needed)
+
+
+def _chosen_words(
     what: LSystem | Derivation | Word, n: int | None, steps: Sequence[int], seeds: Sequence[int], choices: Mapping[str, Any]
 ) -> list[ChosenWord]:
-    """The words that are drawn.
-
-    Parameters
-    ----------
-    what, n
-        As for `draw`.
-    steps, seeds
-        Each of these steps is drawn for each of these seeds; by default the last step, and one seed.
-    choices
-        As for `derive`.
-
-    Raises
-    ------
-    ModelValueError
-        The steps or seeds of a derivation or a word are fixed already.
-    ModelLimitError
-        There are too many.
-    """
+    """The words that are drawn: each of some steps for each of some seeds; by default the last step, and one seed."""
     if len(steps) * len(seeds) > MOST:
-        needed = len(steps) * len(seeds)
-        raise ModelLimitError(f"A picture shows {MOST} drawings at most, not {needed:,}", limit=MOST, needed=needed)
+        raise _too_many(len(steps) * len(seeds))
     if seeds and (not isinstance(what, LSystem) or choices.get("seed") is not None):
         raise ModelValueError("Seeds are chosen when a system is derived", hint="Give either seed=1 or seeds=[1, 2, 3].")
     if steps and (isinstance(what, Word) or n is not None):
@@ -301,33 +276,34 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> AnyPicture:
 
 
 def _drawn(what: Any, n: int | None, size: object = None, **choices: Any) -> AnyPicture:
-    """The picture in the size and with the looks that were chosen."""
+    """The picture in the style that was chosen."""
     check_drawable(what, n)
     given, choices = split_options(choices)
-    pixels, options = size_from(size), options_from(given, kind_of(what, choices), coloured_symbols(what))
-    with drawn_on(options.theme):
-        picture = _in_usual_size(what, n, options, **choices)
-    return replace(picture, pixels=pixels, theme=options.theme)
+    style = style_from(given, kind_of(what, choices), coloured_symbols(what), size)
+    with drawn_on(style.theme):
+        picture = _in_style(what, n, style, **choices)
+    return replace(picture, pixels=style.size, theme=style.theme)
 
 
-def _in_usual_size(what: Any, n: int | None, options: Options, **choices: Any) -> AnyPicture:
+def _in_style(what: Any, n: int | None, style: Style, **choices: Any) -> AnyPicture:
+    labels, legend = style.labels is not False, style.legend is not False
     if isinstance(what, Stages):
         check_choices(choices, ("tokens", "positions"), STAGES)
-        return _net_picture(what, options.labels is not False, **choices)
+        return _net_picture(what, labels, **choices)
     if isinstance(what, MapSystem | Development):
         if kind_of(what, choices) == SPHERE:
             return sphere_picture(what, n, **choices)
         draws = phases_picture if _yes(choices, "phases") else map_picture
-        return draws(what, n, labels=options.labels is not False, **choices)
+        return draws(what, n, labels=labels, **choices)
     if isinstance(what, CellworkSystem | CellworkDevelopment):
-        return cellwork_picture(what, n, legend=bool(options.legend), **choices)
+        return cellwork_picture(what, n, legend=bool(style.legend), **choices)
     if isinstance(what, Lineage):
         check_choices(choices, ("intervals",), LINEAGE)
-        return lineage_picture(what, labels=options.labels is not False, legend=options.legend is not False, **choices)
+        return lineage_picture(what, labels=labels, legend=legend, **choices)
     if isinstance(what, LSystem):
         names = "angle", "seed", "arithmetic", "marked", "cells", "field", "view", "steps", "seeds"
         check_choices(choices, names, kind_of(what, choices), [each.name for each in what.constants])
-    return _drawing(what, n, options, **choices)
+    return _drawing(what, n, style, **choices)
 
 
 def _yes(choices: dict[str, Any], name: str) -> bool:
@@ -355,7 +331,7 @@ def _net_picture(net: Stages, labels: bool, tokens: Word | None = None, position
 def _drawing(
     what: LSystem | Derivation | Word,
     n: int | None,
-    options: Options,
+    style: Style,
     *,
     angle: object = None,
     marked: Collection[int] = (),
@@ -368,45 +344,44 @@ def _drawing(
     require(marked, Collection, "A collection of states")
     states = frozenset(whole_number(each, "A state") for each in counted(marked))
     side = None if view is None else view_from(view)
-    drawn = chosen_words(what, n, numbers_from(steps, "steps"), numbers_from(seeds, "seeds"), choices)
+    drawn = _chosen_words(what, n, _numbers_from(steps, "steps"), _numbers_from(seeds, "seeds"), choices)
     system = drawn[0].word.states.system
     if drawing_mode(system) is DrawingMode.FILAMENT:
-        return _sequence(drawn, states, cells, options)
+        return _sequence(drawn, states, cells, style)
     turn = turning_angle(angle, system)
-    scenes = in_units([seen_as(each.word, turn, options) for each in drawn], system)
+    scenes = in_units([seen_as(each.word, turn, style) for each in drawn], system)
     pictures = [
         Picture(
             (FilamentRow(each.step, seen),), state_colours(each.word), None, states, scene if scene.dimension == 3 else None
         )
         for each, scene, seen in zip(drawn, scenes, project_smoothly(scenes, side), strict=True)
     ]
-    legend = legend_of([each.word.states for each in drawn], scenes) if options.legend else None
+    legend = legend_of([each.word.states for each in drawn], scenes) if style.legend else None
     if not drawn[0].caption:
         return replace(pictures[0], legend=legend)
     columns = len({each.step for each in drawn}) if len({each.seed for each in drawn}) > 1 else 0
     captions = [each.caption for each in drawn]
-    return SmallMultiples(pictures, captions, columns if columns > 1 else 0, options.labels is not False, legend=legend)
+    return SmallMultiples(pictures, captions, columns if columns > 1 else 0, style.labels is not False, legend=legend)
 
 
-def _sequence(drawn: Sequence[ChosenWord], marked: Collection[int], cells: str | None, options: Options) -> Picture:
+def _sequence(drawn: Sequence[ChosenWord], marked: Collection[int], cells: str | None, style: Style) -> Picture:
     """A filament's steps below one another; a word alone."""
     last = drawn[-1].word
     if isinstance(last, Word):
-        alone = filament_picture(last, (FilamentRow(0, filament(last)),), None, marked, cells)
-        return _with_options(alone, last.states, options)
+        return _in_letters(filament_picture(last, (FilamentRow(0, filament(last)),), None, marked, cells), last, style)
     if len({each.seed for each in drawn}) > 1:
         raise ModelValueError("The rows of a filament are the steps of one seed", hint="Draw one seed at a time.")
     steps = [each.step for each in drawn] if drawn[0].caption else range(max(0, last.steps + 1 - MOST_ROWS), last.steps + 1)
     rows = tuple(FilamentRow(step, filament(last.to(max(steps))[step])) for step in steps)
-    return _with_options(filament_picture(last, rows, steps[-1], marked, cells), last.states, options)
+    return _in_letters(filament_picture(last, rows, steps[-1], marked, cells), last, style)
 
 
-def _with_options(picture: Picture, states: States, options: Options) -> Picture:
+def _in_letters(picture: Picture, what: Derivation | Word, style: Style) -> Picture:
     """A picture of filaments with labels and a legend as they were chosen."""
     scenes = [row.scene for row in picture.rows]
-    legend = legend_of([states] * len(scenes), scenes) if options.legend else None
-    letters = letters_of(states, scenes, options.labels)
-    return replace(picture, labels=options.labels, letters=letters, legend=legend)
+    legend = legend_of([what.states] * len(scenes), scenes) if style.legend else None
+    letters = letters_of(what.states, scenes, style.labels)
+    return replace(picture, labels=style.labels, letters=letters, legend=legend)
 
 
 def filament_picture(

@@ -38,13 +38,13 @@ from lsys_kit.pictures.legends import Legend, image_with_legend, legend_of
 from lsys_kit.pictures.options import (
     STAGES,
     WORD,
-    Options,
+    Style,
     coloured_symbols,
     instead,
     kind_of,
-    options_from,
     seen_as,
     split_options,
+    style_from,
 )
 from lsys_kit.pictures.picture import Picture
 from lsys_kit.pictures.rendering.frames import ViewFrame, frame_around, in_units
@@ -273,23 +273,23 @@ def animate(
     side, (given, choices) = None if view is None else view_from(view), split_options(choices)
     if isinstance(what, SVGPicture | list | tuple):
         _check_drawn(n, None if turntable else side, given | choices)
-    options = _options(what, given)
-    with Task("The film was not finished"), drawn_on(options.theme):
+    style = _style(what, given)
+    with Task("The film was not finished"), drawn_on(style.theme):
         if turntable:
             return _turned(what, n, pace, side, size, choices | given)
-        text, images = _shown(what, n, side, size, choices, given, options)
+        text, images = _shown(what, n, side, size, choices, given, style)
         return Film(text, tuple(images), pace)
 
 
-def _options(what: Any, given: Mapping[str, Any]) -> Options:
+def _style(what: Any, given: Mapping[str, Any]) -> Style:
     """How the pictures of a film look."""
     last = what[-1] if isinstance(what, list | tuple) and what else what
     if isinstance(last, SVGPicture):
-        return Options(theme=replace(last.theme, ground=last.theme.paper))
-    options = options_from(given, kind_of(what, {}), coloured_symbols(what))
-    if options.theme.transparent:
+        return Style(theme=replace(last.theme, ground=last.theme.paper))
+    style = style_from(given, kind_of(what, {}), coloured_symbols(what))
+    if style.theme.transparent:
         raise ModelValueError("A film has a background", hint='Give background="light", "dark" or a colour.')
-    return options
+    return style
 
 
 def _check_drawn(n: int | None, side: View | None, choices: Mapping[str, Any]) -> None:
@@ -306,7 +306,7 @@ def _shown(
     size: object,
     choices: Mapping[str, Any],
     given: Mapping[str, Any],
-    options: Options,
+    style: Style,
 ) -> tuple[str, Sequence[Image]]:
     """What a film shows, in words, and its pictures."""
     if isinstance(what, LSystem | Derivation):
@@ -315,9 +315,9 @@ def _shown(
         derivation = _derived(what, n, {name: value for name, value in choices.items() if name != "angle"})
         if drawing_mode(derivation.states.system) is DrawingMode.FILAMENT:
             return _filmed(draw(derivation, size=size, **given))
-        return _turtle_film(derivation, choices.get("angle"), side, size, options)
+        return _turtle_film(derivation, choices.get("angle"), side, size, style)
     if isinstance(what, CellworkSystem | CellworkDevelopment):
-        steps = cellwork_steps(what, n, legend=bool(options.legend), **choices)
+        steps = cellwork_steps(what, n, legend=bool(style.legend), **choices)
         scenes = project_smoothly([step.solid for step in steps if step.solid is not None], side or SIDE)
         told = f"steps 0 to {len(steps) - 1}; the last: {steps[-1].text}"
         return told, _framed(scenes, steps[-1].colour_of, size, steps[-1].legend)
@@ -389,16 +389,16 @@ def _pictures_film(what: Any, size: object) -> tuple[str, Sequence[Image]]:
 
 
 def _turtle_film(
-    derivation: Derivation, angle: object, view: View | None, size: object, options: Options
+    derivation: Derivation, angle: object, view: View | None, size: object, style: Style
 ) -> tuple[str, Sequence[Image]]:
     """What the turtle draws, step after step."""
     turn = turning_angle(angle, derivation.states.system)
     steps: list[Scene] = []
     for step in counted(range(derivation.steps + 1), 1):
-        steps.append(seen_as(derivation.to(step), turn, options))
+        steps.append(seen_as(derivation.to(step), turn, style))
         check_bytes(SHAPE_BYTES * sum(scene.size for scene in steps), lambda: "The film was not finished")
     scenes = project_smoothly(in_units(steps, derivation.states.system), view)
-    legend = legend_of([derivation.states] * len(scenes), scenes) if options.legend else None
+    legend = legend_of([derivation.states] * len(scenes), scenes) if style.legend else None
     return f"steps 0 to {derivation.steps}; the last: {steps[-1]}", _framed(scenes, state_colours(derivation), size, legend)
 
 

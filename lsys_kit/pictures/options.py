@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, TypeAlias
 
@@ -23,6 +23,7 @@ from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem, symbols
 from lsys_kit.pictures.rendering.looks import with_colours_of_symbols, with_start, with_widths
+from lsys_kit.pictures.sizes import Size, size_from
 from lsys_kit.pictures.style.colour_values import colour_from
 from lsys_kit.pictures.style.labels import polar_symbols
 from lsys_kit.pictures.style.themes import LIGHT, Theme, theme_from
@@ -31,7 +32,8 @@ from lsys_kit.pictures.tissues.cellworks import labels_of_walls
 Symbols: TypeAlias = Mapping[str, tuple[str, ...]]
 """Names of symbols, each with those that it stands for: one, or the two polarities of a cell."""
 OPTIONS = ("labels", "colours", "widths", "turtle", "legend", "background")
-"""All of them."""
+FLAGS = ("labels", "turtle", "legend")
+"""All of them; those that are chosen or not."""
 DRAWING, STEPS, FILAMENT = "the drawing of a turtle", "drawings side by side", "a filament"
 STAGES, LINEAGE = "a stage diagram", "a lineage"
 MAP, SPHERE, CELLWORK = "a map", "a map on a sphere", "a cellwork"
@@ -52,40 +54,41 @@ LEAST_FACTOR, GREATEST_FACTOR = 0.1, 20.0
 
 
 @dataclass(frozen=True)
-class Options:
+class Style:
     """How something is drawn.
 
     Attributes
     ----------
-    labels
-        Whether it has labels; None where that is left to the kind of picture.
+    labels, legend
+        Whether it has labels and a legend; None where that is left to the kind of picture.
+    turtle
+        Whether it is marked where the turtle starts and looks.
     colours
         Whose colours strokes have: "natural" ones, or those of "symbols"; "" for those of the system.
     widths
         Where the widths of strokes come from: their "order", or they are "constant"; "" as the turtle has set them.
-    legend
-        Whether there is a legend; None where that is left to the kind of picture.
     theme
         The colours of the picture, and how bold its strokes are.
-    turtle
-        Whether it is marked where the turtle starts and looks.
+    size
+        The width and height of the picture, if it is not of the usual size.
     """
 
     labels: bool | None = None
+    legend: bool | None = None
+    turtle: bool = False
     colours: str = ""
     widths: str = ""
-    legend: bool | None = None
     theme: Theme = LIGHT
-    turtle: bool = False
+    size: Size | None = None
 
 
-def options_from(given: Mapping[str, object], kind: str, symbols: Symbols) -> Options:
-    """The options that a person gives for a kind of picture, whose symbols may be given colours.
+def style_from(given: Mapping[str, Any], kind: str, symbols: Symbols, size: object = None) -> Style:
+    """The style that a person chooses for a kind of picture, whose symbols may be given colours.
 
-    >>> found = options_from({"colours": {"A": "navy"}, "background": "dark"}, STAGES, {"A": ("A",)})
+    >>> found = style_from({"colours": {"A": "navy"}, "background": "dark"}, STAGES, {"A": ("A",)})
     >>> found.theme.symbols, found.theme.dark
     ((('A', '#000080'),), True)
-    >>> options_from({"widths": 2}, DRAWING, {}).theme.boldness
+    >>> style_from({"widths": 2}, DRAWING, {}).theme.boldness
     2.0
 
     Raises
@@ -93,39 +96,21 @@ def options_from(given: Mapping[str, object], kind: str, symbols: Symbols) -> Op
     ModelValueError
         An option means nothing for this kind of picture, or its value is none that there is.
     """
-    found = Options()
-    for name in sorted(given, key=_after_background):
+    pixels = size_from(size)
+    for name, value in given.items():
         if name not in KINDS[kind]:
             raise ModelValueError(f'"{name}" means nothing for {kind}', hint=f"What can be chosen is {_listed(KINDS[kind])}.")
-        found = _SETTERS[name](found, given[name], kind, symbols)
-    return found
+        if name in FLAGS:
+            require(value, bool, f'True or False for "{name}"')
+    found = Style(theme=theme_from(given["background"]) if "background" in given else LIGHT, size=pixels)
+    if "colours" in given:
+        found = _with_colours(found, given["colours"], kind, symbols)
+    if "widths" in given:
+        found = _with_widths(found, given["widths"])
+    return replace(found, **{name: value for name, value in given.items() if name in FLAGS})
 
 
-def _after_background(name: str) -> bool:
-    """A background comes first, because the other choices are kept in its theme."""
-    return name != "background"
-
-
-def _with_labels(found: Options, value: object, kind: str, symbols: Symbols) -> Options:
-    require(value, bool, 'True or False for "labels"')
-    return replace(found, labels=value)  # type: ignore[arg-type]
-
-
-def _with_legend(found: Options, value: object, kind: str, symbols: Symbols) -> Options:
-    require(value, bool, 'True or False for "legend"')
-    return replace(found, legend=value)  # type: ignore[arg-type]
-
-
-def _with_turtle(found: Options, value: object, kind: str, symbols: Symbols) -> Options:
-    require(value, bool, 'True or False for "turtle"')
-    return replace(found, turtle=value)  # type: ignore[arg-type]
-
-
-def _with_background(found: Options, value: object, kind: str, symbols: Symbols) -> Options:
-    return replace(found, theme=theme_from(value))
-
-
-def _with_colours(found: Options, value: object, kind: str, symbols: Symbols) -> Options:
+def _with_colours(found: Style, value: object, kind: str, symbols: Symbols) -> Style:
     if isinstance(value, str) and value in COLOURS:
         if value == "natural" and kind not in (DRAWING, STEPS):
             raise ModelValueError(
@@ -152,7 +137,7 @@ def _called(symbol: object, symbols: Symbols) -> tuple[str, ...]:
     return symbols[symbol]
 
 
-def _with_widths(found: Options, value: object, kind: str, symbols: Symbols) -> Options:
+def _with_widths(found: Style, value: object) -> Style:
     if isinstance(value, str) and value in WIDTHS:
         return replace(found, widths=value, theme=replace(found.theme, even=value == "constant"))
     try:
@@ -164,26 +149,16 @@ def _with_widths(found: Options, value: object, kind: str, symbols: Symbols) -> 
     return replace(found, theme=replace(found.theme, boldness=factor))
 
 
-_SETTERS: Mapping[str, Callable[[Options, object, str, Symbols], Options]] = {
-    "labels": _with_labels,
-    "colours": _with_colours,
-    "widths": _with_widths,
-    "turtle": _with_turtle,
-    "legend": _with_legend,
-    "background": _with_background,
-}
-
-
-def seen_as(what: Derivation | Word, angle: float, options: Options) -> Scene:
+def seen_as(what: Derivation | Word, angle: float, style: Style) -> Scene:
     """The scene of a word with the colours and widths that were chosen."""
-    scene, chosen = scene_of(what, angle, options.colours), dict(options.theme.symbols)
-    if options.colours == "symbols":
+    scene, chosen = scene_of(what, angle, style.colours), dict(style.theme.symbols)
+    if style.colours == "symbols":
         scene = with_colours_of_symbols(scene)
     elif chosen:
         states = [state for state, module in enumerate(what.states.modules) if module.symbol in chosen]
         scene = with_colours_of_symbols(scene, states)
-    scene = with_widths(scene, options.widths, options.theme.boldness)
-    return with_start(scene, what.states.system) if options.turtle else scene
+    scene = with_widths(scene, style.widths, style.theme.boldness)
+    return with_start(scene, what.states.system) if style.turtle else scene
 
 
 def split_options(choices: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
