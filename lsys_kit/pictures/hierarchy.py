@@ -8,8 +8,11 @@ The Algorithmic Beauty of Plants, figure 1.2.
 
 from __future__ import annotations
 
+import tomllib
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import NamedTuple
+from importlib.resources import files
+from typing import Any, NamedTuple
 
 from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.shapes import Circle, Drawing, Ellipse, Look, Text
@@ -44,36 +47,18 @@ class Language(NamedTuple):
     classes: frozenset[str]
 
 
-FINITE, REGULAR, FREE = "Finite", "Regular", "Context-free"
-SENSITIVE, ENUMERABLE = "Context-sensitive", "Recursively enumerable"
-CHOMSKY = (
-    LanguageClass(ENUMERABLE, (360, 215), (345, 200), (360, 44), QUIET),
-    LanguageClass(SENSITIVE, (305, 232), (275, 163), (300, 98), QUIET),
-    LanguageClass(FREE, (238, 245), (195, 122), (190, 152), QUIET),
-    LanguageClass(REGULAR, (205, 252), (145, 90), (160, 190), QUIET),
-    LanguageClass(FINITE, (165, 258), (92, 52), (113, 263), QUIET),
-)
+def _classes(told: Mapping[str, Any], *colours: str) -> tuple[LanguageClass, ...]:
+    rows = zip(told.items(), colours, strict=True)
+    return tuple(LanguageClass(name, centre, reach, label, colour) for (name, (centre, reach, label)), colour in rows)
+
+
+_TOLD: Mapping[str, Any] = tomllib.loads((files(__package__) / "hierarchy.toml").read_text(encoding="utf-8"))
+CHOMSKY = _classes(_TOLD["chomsky"], *[QUIET] * 5)
 """The classes of Chomsky's grammars, each inside the one before."""
-PARALLEL = (
-    LanguageClass("(k,l)-systems", (410, 258), (262, 112), (600, 236), BLUE),
-    LanguageClass("0L-systems", (362, 262), (150, 66), (440, 238), VERMILION),
-)
+PARALLEL = _classes(_TOLD["parallel"], BLUE, VERMILION)
 """The classes of L-systems, the second inside the first."""
-LANGUAGES = (
-    Language("{a, aa}", 184, 227, frozenset({FINITE, REGULAR, FREE, SENSITIVE, ENUMERABLE, "(k,l)-systems"})),
-    Language("{a}", 235, 264, frozenset({FINITE, REGULAR, FREE, SENSITIVE, ENUMERABLE, "0L-systems", "(k,l)-systems"})),
-    Language("aⁿ", 300, 264, frozenset({REGULAR, FREE, SENSITIVE, ENUMERABLE, "0L-systems", "(k,l)-systems"})),
-    Language("aⁿbaⁿ", 378, 264, frozenset({FREE, SENSITIVE, ENUMERABLE, "0L-systems", "(k,l)-systems"})),
-    Language("a², a⁴, a⁸, …", 461, 266, frozenset({SENSITIVE, ENUMERABLE, "0L-systems", "(k,l)-systems"})),
-)
-"""A language in each part that matters. 0L are {a}; aⁿ by a → a and a → aa; aⁿbaⁿ by b → aba; a², a⁴, a⁸ by a → aa. {a, aa} is
-not: where a becomes aa, aa becomes aaaa, unless a neighbour prevents it."""
-DESCRIPTION = (
-    "Power of 0L-systems and (k,l)-systems in comparison to Chomsky languages: five nested ellipses, finite inside regular "
-    "inside context-free inside context-sensitive inside recursively enumerable languages. The ellipse of 0L-systems lies "
-    "inside the context-sensitive one and cuts across the finite, regular and context-free ones. That of (k,l)-systems "
-    "contains it, lies inside the recursively enumerable one and cuts across all others. Languages as examples: "
-)
+LANGUAGES = tuple(Language(**{**each, "classes": frozenset(each["classes"])}) for each in _TOLD["languages"])
+"""A language in each part that matters."""
 
 
 @dataclass(frozen=True)
@@ -83,7 +68,8 @@ class HierarchyPicture(SVGPicture):
     @property
     def text(self) -> str:
         """What the picture shows, in words."""
-        return DESCRIPTION + "; ".join(f"{each.text}: {', '.join(sorted(each.classes))}" for each in LANGUAGES) + "."
+        examples = "; ".join(f"{each.text}: {', '.join(sorted(each.classes))}" for each in LANGUAGES)
+        return f"{_TOLD['description']}{examples}."
 
     def shown(self, most: int, enlarged: float) -> Drawing:
         """The ellipses, their names, and the languages."""
