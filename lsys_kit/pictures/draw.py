@@ -72,7 +72,6 @@ class ChosenWord(NamedTuple):
 
 
 def _numbers_from(value: object, name: str) -> tuple[int, ...]:
-    """Some whole numbers from what a person gives."""
     if not isinstance(value, Sequence) or isinstance(value, str):
         raise ModelValueError(f'"{name}" takes a list of whole numbers, not {shown(value)}')
     if len(value) > MOST:
@@ -102,7 +101,6 @@ def _chosen_words(
 
 
 def _chosen(word: Derivation | Word, step: int | None, seed: int | None) -> ChosenWord:
-    """A word with its caption."""
     if step is not None:
         assert isinstance(word, Derivation)
         if step > word.steps:
@@ -276,7 +274,6 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> AnyPicture:
 
 
 def _drawn(what: Any, n: int | None, size: object = None, **choices: Any) -> AnyPicture:
-    """The picture in the style that was chosen."""
     check_drawable(what, n)
     given, choices = split_options(choices)
     style = style_from(given, kind_of(what, choices), coloured_symbols(what), size)
@@ -377,7 +374,6 @@ def _sequence(drawn: Sequence[ChosenWord], marked: Collection[int], cells: str |
 
 
 def _in_letters(picture: Picture, what: Derivation | Word, style: Style) -> Picture:
-    """A picture of filaments with labels and a legend as they were chosen."""
     scenes = [row.scene for row in picture.rows]
     legend = legend_of([what.states] * len(scenes), scenes) if style.legend else None
     letters = letters_of(what.states, scenes, style.labels)

@@ -33,7 +33,7 @@ from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.draw import check_choices, derivation_of, draw, state_colours
 from lsys_kit.pictures.formats.notebook import SVGPicture, film_bundle, save_as
 from lsys_kit.pictures.formats.painting import painted
-from lsys_kit.pictures.formats.raster import centred, embedded, turtle_image
+from lsys_kit.pictures.formats.raster import centred, embedded, encoded, turtle_image
 from lsys_kit.pictures.legends import Legend, image_with_legend, legend_of
 from lsys_kit.pictures.options import (
     STAGES,
@@ -50,7 +50,7 @@ from lsys_kit.pictures.picture import Picture
 from lsys_kit.pictures.rendering.frames import ViewFrame, frame_around, in_units
 from lsys_kit.pictures.rendering.scene_shapes import label_shapes
 from lsys_kit.pictures.rendering.view import FROM_THE_RIGHT, View, project_smoothly, view_from
-from lsys_kit.pictures.sizes import document, enlargement, final_size, size_from
+from lsys_kit.pictures.sizes import Size, document, enlargement, final_size, size_from
 from lsys_kit.pictures.style.themes import drawn_on
 from lsys_kit.pictures.tissues.cellworks import SIDE, cellwork_steps
 
@@ -61,20 +61,7 @@ SECONDS, HELD = 0.6, 4
 """The duration of each step in seconds, and the factor by which the last is shown longer."""
 RATE = 25
 """An MP4 film has so many pictures a second at least, many of them the same, because players expect about as many."""
-SETTINGS = (
-    "-preset",
-    "medium",
-    "-crf",
-    "16",
-    "-threads",
-    "1",
-    "-fflags",
-    "+bitexact",
-    "-flags:v",
-    "+bitexact",
-    "-movflags",
-    "+faststart",
-)
+SETTINGS = "-preset medium -crf 16 -threads 1 -fflags +bitexact -flags:v +bitexact -movflags +faststart".split()  # noqa: SIM905
 """What ffmpeg is told besides: to lose hardly anything, to write the same every time, and to let a page play the beginning
 while the rest is loaded."""
 
@@ -149,13 +136,7 @@ class Film:
         return buffer.getvalue()
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
-        return film_bundle(self.gif, self._last, self.text)
-
-    def _last(self) -> bytes:
-        """The last picture, as PNG."""
-        buffer = io.BytesIO()
-        self.images[-1].save(buffer, "PNG")
-        return buffer.getvalue()
+        return film_bundle(self.gif, lambda: encoded(self.images[-1]), self.text)
 
     def __repr__(self) -> str:
         return self.text
@@ -267,7 +248,7 @@ def animate(
     require(turntable, bool, 'True or False for "turntable"')
     usual = TURN_SECONDS if turntable else SECONDS
     pace = real_from(usual if seconds is None else seconds, "seconds", "A step is shown for some time, as in seconds=0.5.")
-    size_from(size)  # which is wrong before anything is made
+    pixels = size_from(size)  # which is wrong before anything is made
     if not 0.02 <= pace <= 60:
         raise ModelValueError(f"A step can be shown for 0.02 to 60 seconds, not for {pace:g}")
     side, (given, choices) = None if view is None else view_from(view), split_options(choices)
@@ -276,13 +257,12 @@ def animate(
     style = _style(what, given)
     with Task("The film was not finished"), drawn_on(style.theme):
         if turntable:
-            return _turned(what, n, pace, side, size, choices | given)
-        text, images = _shown(what, n, side, size, choices, given, style)
+            return _turned(what, n, pace, side, pixels, choices | given)
+        text, images = _shown(what, n, side, choices, {"size": size, **given}, replace(style, size=pixels))
         return Film(text, tuple(images), pace)
 
 
 def _style(what: Any, given: Mapping[str, Any]) -> Style:
-    """How the pictures of a film look."""
     last = what[-1] if isinstance(what, list | tuple) and what else what
     if isinstance(last, SVGPicture):
         return Style(theme=replace(last.theme, ground=last.theme.paper))
@@ -300,38 +280,30 @@ def _check_drawn(n: int | None, side: View | None, choices: Mapping[str, Any]) -
 
 
 def _shown(
-    what: Any,
-    n: int | None,
-    side: View | None,
-    size: object,
-    choices: Mapping[str, Any],
-    given: Mapping[str, Any],
-    style: Style,
+    what: Any, n: int | None, side: View | None, choices: Mapping[str, Any], given: Mapping[str, Any], style: Style
 ) -> tuple[str, Sequence[Image]]:
-    """What a film shows, in words, and its pictures."""
     if isinstance(what, LSystem | Derivation):
         if isinstance(what, LSystem):
             _check_choices(choices, ("angle", "view"), kind_of(what, {}), what)
         derivation = _derived(what, n, {name: value for name, value in choices.items() if name != "angle"})
         if drawing_mode(derivation.states.system) is DrawingMode.FILAMENT:
-            return _filmed(draw(derivation, size=size, **given))
-        return _turtle_film(derivation, choices.get("angle"), side, size, style)
+            return _filmed(draw(derivation, **given))
+        return _turtle_film(derivation, choices.get("angle"), side, style)
     if isinstance(what, CellworkSystem | CellworkDevelopment):
         steps = cellwork_steps(what, n, legend=bool(style.legend), **choices)
         scenes = project_smoothly([step.solid for step in steps if step.solid is not None], side or SIDE)
         told = f"steps 0 to {len(steps) - 1}; the last: {steps[-1].text}"
-        return told, _framed(scenes, steps[-1].colour_of, size, steps[-1].legend)
+        return told, _framed(scenes, steps[-1].colour_of, style.size, steps[-1].legend)
     if isinstance(what, MapSystem | Development | Lineage):
         seen: dict[str, Any] = {} if side is None else {"view": side}
         drawn: Any = what
-        return _filmed(draw(drawn, n, size=size, **(seen | {**choices, **given})))
+        return _filmed(draw(drawn, n, **(seen | {**choices, **given})))
     if isinstance(what, Stages):
-        return _net_film(what, n, size, choices, given)
-    return _pictures_film(what, size)
+        return _net_film(what, n, choices, given)
+    return _pictures_film(what, style.size)
 
 
 def _check_choices(choices: Mapping[str, Any], own: tuple[str, ...], kind: str, system: LSystem) -> None:
-    """Every choice is one of the film, or a constant of the system."""
     options = *own, "seed", "arithmetic", "field", "seconds", "turntable"
     check_choices(choices, options, kind, [each.name for each in system.constants])
 
@@ -355,19 +327,16 @@ def _filmed(picture: SVGPicture) -> tuple[str, Sequence[Image]]:
         return repr(picture), picture.film_images()
 
 
-def _net_film(
-    net: Stages, n: int | None, size: object, choices: Mapping[str, Any], given: Mapping[str, Any]
-) -> tuple[str, Sequence[Image]]:
-    """A stage diagram with the tokens of each step."""
+def _net_film(net: Stages, n: int | None, choices: Mapping[str, Any], given: Mapping[str, Any]) -> tuple[str, Sequence[Image]]:
     _check_choices(choices, ("positions",), STAGES, net.system)
     own = {name: value for name, value in choices.items() if name != "positions"}
     derivation = _derived(net.system, n, own)
     told = {"positions": choices["positions"]} if "positions" in choices else {}
-    pictures = [draw(net, tokens=word, size=size, **told, **given) for word in derivation]
+    pictures = [draw(net, tokens=word, **told, **given) for word in derivation]
     return f"steps 0 to {derivation.steps}; the last: {pictures[-1]!r}", [picture.image() for picture in counted(pictures, 1)]
 
 
-def _pictures_film(what: Any, size: object) -> tuple[str, Sequence[Image]]:
+def _pictures_film(what: Any, size: Size | None) -> tuple[str, Sequence[Image]]:
     """A picture that unfolds, or several pictures one after another, on paper on which all have room."""
     if isinstance(what, SVGPicture):
         return _filmed(what)
@@ -380,18 +349,14 @@ def _pictures_film(what: Any, size: object) -> tuple[str, Sequence[Image]]:
         raise _too_long(len(what))
     images = [picture.image() for picture in counted(what, 1)]
     wide, high = (max(sides) for sides in zip(*(image.size for image in images), strict=True))
-    found = size_from(size)
-    paper = final_size(wide, high, found)
+    paper = final_size(wide, high, size)
     return f"{len(what)} pictures; the last: {what[-1]!r}", [
-        centred(picture.image(enlargement(wide, high, found)) if found else image, paper)
+        centred(picture.image(enlargement(wide, high, size)) if size else image, paper)
         for picture, image in zip(what, images, strict=True)
     ]
 
 
-def _turtle_film(
-    derivation: Derivation, angle: object, view: View | None, size: object, style: Style
-) -> tuple[str, Sequence[Image]]:
-    """What the turtle draws, step after step."""
+def _turtle_film(derivation: Derivation, angle: object, view: View | None, style: Style) -> tuple[str, Sequence[Image]]:
     turn = turning_angle(angle, derivation.states.system)
     steps: list[Scene] = []
     for step in counted(range(derivation.steps + 1), 1):
@@ -399,28 +364,29 @@ def _turtle_film(
         check_bytes(SHAPE_BYTES * sum(scene.size for scene in steps), lambda: "The film was not finished")
     scenes = project_smoothly(in_units(steps, derivation.states.system), view)
     legend = legend_of([derivation.states] * len(scenes), scenes) if style.legend else None
-    return f"steps 0 to {derivation.steps}; the last: {steps[-1]}", _framed(scenes, state_colours(derivation), size, legend)
+    return f"steps 0 to {derivation.steps}; the last: {steps[-1]}", _framed(
+        scenes, state_colours(derivation), style.size, legend
+    )
 
 
-def _framed(scenes: Sequence[Scene], colour_of: Mapping[int, str], size: object, legend: Legend | None = None) -> list[Image]:
-    """Scenes as images in a common frame, each with the legend below."""
-    frame, found = frame_around(scenes), size_from(size)
+def _framed(
+    scenes: Sequence[Scene], colour_of: Mapping[int, str], size: Size | None, legend: Legend | None = None
+) -> list[Image]:
+    frame = frame_around(scenes)
     width, more = legend.size(frame.width) if legend else (frame.width, 0)
-    enlarged, whole = enlargement(width, frame.height + more, found), final_size(width, frame.height + more, found)
+    enlarged, whole = enlargement(width, frame.height + more, size), final_size(width, frame.height + more, size)
     images = (_with_labels(turtle_image(scene, colour_of, frame, enlarged), scene, frame) for scene in counted(scenes, 1))
     return [centred(image_with_legend(image, legend, enlarged), whole) for image in images]
 
 
 def _with_labels(image: Image, scene: Scene, frame: ViewFrame) -> Image:
-    """An image of a scene with what the turtle has written."""
     if not len(scene.labels):
         return image
     body = [embedded(frame.width * frame.parts, frame.height * frame.parts, image), *label_shapes(scene, frame)]
     return painted(document(body, frame.width, frame.height, "", frame.parts), image.width / frame.width)
 
 
-def _turned(what: Any, n: int | None, pace: float, view: View | None, size: object, choices: Mapping[str, Any]) -> Film:
-    """What is in space, from all sides."""
+def _turned(what: Any, n: int | None, pace: float, view: View | None, size: Size | None, choices: Mapping[str, Any]) -> Film:
     picture = what if isinstance(what, SVGPicture) else draw(what, n, **choices)
     if not isinstance(picture, Picture) or picture.solid is None:
         raise ModelValueError(

@@ -127,7 +127,6 @@ def _class_name(each: LanguageClass) -> Text:
 
 
 def _point(each: Language) -> tuple[Circle, Text]:
-    """The point of a language, with the language below it."""
     x, y = _tenths((each.x, each.y))
     return Circle(x, y, 30, Look(fill=theme().ink)), _text(each.text, each.x, each.y + 19, 13, theme().ink)
 

@@ -140,7 +140,6 @@ def with_legend(drawing: Drawing, legend: Legend | None) -> Drawing:
 
 
 def _entries(legend: Legend, width: float) -> Iterator[Shape]:
-    """Each entry with its colours, from the corner of the legend."""
     for number, entries in enumerate(legend.lines(width - 2 * MARGIN)):
         for x, entry in entries:
             y, step = float(number * LINE + TEXT), SWATCH / max(len(entry.colours), 1)

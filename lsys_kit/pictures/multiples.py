@@ -149,7 +149,6 @@ def _panel_shapes(picture: Picture, panel: Panel, caption: str, pixels: float) -
 
 
 def _panel_image(picture: Picture, panel: Panel, enlarged: float) -> Raster:
-    """A drawing as pixels."""
     own, parts = own_frame(picture.scene, panel.frame.scale), panel.frame.parts
     image = turtle_image(picture.scene, picture.colour_of, own, enlarged)
     corner = round((panel.middle - own.width / 2) * parts), round((panel.ground - own.height + MARGIN) * parts)

@@ -128,7 +128,6 @@ def _with_colours(found: Style, value: object, kind: str, symbols: Symbols) -> S
 
 
 def _called(symbol: object, symbols: Symbols) -> tuple[str, ...]:
-    """The symbols that a name stands for."""
     if not isinstance(symbol, str) or symbol not in symbols:
         text = quotable(symbol) if isinstance(symbol, str) else ""
         name = f'"{text}"' if isinstance(symbol, str) else shown(symbol)

@@ -12,7 +12,7 @@ from lsys_kit.budget import Task, current
 from lsys_kit.derivation.petri.pnml import placed_pnml
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.errors import ModelLimitError
-from lsys_kit.files import marked_xml, path_from, save_file
+from lsys_kit.files import marked_xml, save_file
 from lsys_kit.geometry.meshes.mesh import OWN_WIDTHS, Mesh, mesh_of
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.geometry.turtle.surfaces import passed_over
@@ -23,7 +23,7 @@ from lsys_kit.pictures.filaments.painting import LOOKS, letters_fit, row_shapes
 from lsys_kit.pictures.formats.axes import plot_turtle
 from lsys_kit.pictures.formats.filament_raster import rows_image
 from lsys_kit.pictures.formats.mesh_files import glb, mtl, obj
-from lsys_kit.pictures.formats.notebook import FILMS, SVGPicture, described, listed, save_as
+from lsys_kit.pictures.formats.notebook import FILMS, Encoders, SVGPicture, described, listed
 from lsys_kit.pictures.formats.painting import on_ground, painted
 from lsys_kit.pictures.formats.raster import embedded, turtle_image, turtle_picture
 from lsys_kit.pictures.legends import Legend, plot_legend, with_legend
@@ -164,42 +164,16 @@ class Picture(SVGPicture):
         with Task("The mesh was not made"), drawn_on(self.theme):
             return mesh_of(self.scene if self.solid is None else self.solid, widths_by_order(OWN_WIDTHS))
 
-    def save(self, path: str | Path, *, dpi: object = None) -> None:
-        """Write the picture to a file, in the format given by its extension: .svg, .png, .pdf, .glb or .obj.
-
-        The last two are for 3D programs and contain only the last step. The colours of an .obj file are kept in an .mtl file
-        beside it. Labels are no shapes in space, and left out there.
-
-        Parameters
-        ----------
-        path
-            The file.
-        dpi
-            For .png files the dots of an inch of paper: with 300 the picture has 300/96 of its size in pixels.
-
-        Raises
-        ------
-        ModelFileError
-            The extension is unknown, or the file cannot be written.
-        ModelValueError
-            The dots are no number from 24 to 2400, or the file is no .png file.
-        """
-        path = path_from(path)
+    def _encoders(self, path: Path, dots: float | None) -> tuple[Encoders, str]:
         library = path.parent / ("".join(c if c.isalnum() else "_" for c in path.stem) + ".mtl")
-        flat = self._encoders(path, dpi)
-        if path.suffix.lower() == ".obj":
+
+        def with_colours() -> bytes:
             save_file(library, mtl(self.mesh, self.colour_of))
-        save_as(
-            path,
-            {
-                ".svg": flat[".svg"],
-                ".png": flat[".png"],
-                ".pdf": flat[".pdf"],
-                ".glb": lambda: glb(self.mesh, self.colour_of),
-                ".obj": lambda: obj(self.mesh, self.colour_of, library.name),
-            },
-            f"Films end in {listed(FILMS)}, and are made by animate(...).",
-        )
+            return obj(self.mesh, self.colour_of, library.name)
+
+        solid: Encoders = {".glb": lambda: glb(self.mesh, self.colour_of), ".obj": with_colours}
+        flat, _ = super()._encoders(path, dots)
+        return {**flat, **solid}, f"Films end in {listed(FILMS)}, and are made by animate(...)."
 
     def __repr__(self) -> str:
         return "; ".join(filter(None, (self.text, passed_over(self.scene.unknown))))
@@ -230,26 +204,9 @@ class NetPicture(SVGPicture):
         """The diagram."""
         return drawn_stages(self.net, self.tokens, positions=self.positions, labels=self.labels)
 
-    def save(self, path: str | Path, *, dpi: object = None) -> None:
-        """Write the picture to an .svg, .png or .pdf file, or the net to a .pnml file for Petri-net tools (see `pnml`).
-
-        Parameters
-        ----------
-        path
-            The file, whose name says the format.
-        dpi
-            For .png files the dots of an inch of paper.
-
-        Raises
-        ------
-        ModelFileError
-            The extension is unknown, or the file cannot be written.
-        ModelValueError
-            The dots are no number from 24 to 2400, or the file is no .png file.
-        """
-        net = {".pnml": lambda: marked_xml(placed_pnml(self.net, self.tokens, positions_in(self.net)))}
-        path = path_from(path)
-        save_as(path, self._encoders(path, dpi) | net)
+    def _encoders(self, path: Path, dots: float | None) -> tuple[Encoders, str]:
+        flat, told = super()._encoders(path, dots)
+        return {**flat, ".pnml": lambda: marked_xml(placed_pnml(self.net, self.tokens, positions_in(self.net)))}, told
 
     def __repr__(self) -> str:
         return visible(self.drawing().title)

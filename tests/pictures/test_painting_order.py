@@ -128,8 +128,10 @@ def test_a_figure_has_the_shapes_in_the_order_in_which_they_are_painted(scene):
     plot_turtle(ax, seen, {})
     shapes = display_list(seen, frame_in(ax, seen).scale, {})
     corners = np.diff(shapes.areas.starts)
-    expected = {"LineRun": lambda _: 2, "RoundRun": lambda _: 26, "AreaRun": lambda n: corners[n] + 1}
-    assert [len(path.vertices) for path in ax.collections[0].get_paths()] == [expected[kind](n) for kind, n in painted(shapes)]
+    expected = {"LineRun": lambda _: 2, "RoundRun": lambda _: None, "AreaRun": lambda n: corners[n] + 1}
+    sizes = [len(path.vertices) for strokes in ax.collections for path in strokes.get_paths()]
+    for size, (kind, number) in zip(sizes, painted(shapes), strict=True):
+        assert size == expected[kind](number) or (kind == "RoundRun" and size > 12)
 
 
 @pytest.mark.slow
@@ -187,7 +189,7 @@ def test_a_far_sphere_does_not_cover_a_near_one(far_first):
     assert green > max(red, blue)  # as colour 2 is, where colour 4 is red
     *_, last = re.findall(r'<circle [^>]*fill="url\(#lsys-sphere-(\w\w)(\w\w)(\w\w)\)', picture.svg)
     assert last[1] > max(last[0], last[2])
-    near_one = figure(picture).collections[0].get_facecolors()[-1][:3]
+    near_one = figure(picture).collections[-1].get_facecolors()[-1][:3]
     assert near_one[1] > max(near_one[0], near_one[2])
 
 
@@ -208,4 +210,4 @@ def test_where_nothing_is_drawn_in_space_the_picture_is_empty():
     picture = draw(read("axiom: A&"), 0)
     assert "<path" not in picture.svg
     assert Image.open(io.BytesIO(picture.png)).convert("L").getextrema() == (255, 255)
-    assert len(figure(picture).collections[0].get_paths()) == 0
+    assert not figure(picture).collections

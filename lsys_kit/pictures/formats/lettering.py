@@ -63,7 +63,6 @@ def advance(text: str, size: float, face: Font = PLAIN) -> float:
 
 @cache
 def _width(letter: str, face: Font) -> int:
-    """How far the next letter stands, in units of the font."""
     name = glyph_name(letter, face)
     with opened_font(face) as font:
         return int(font["hmtx"][name][0])
@@ -71,7 +70,6 @@ def _width(letter: str, face: Font) -> int:
 
 @cache
 def _units(face: Font) -> int:
-    """How many units of the font are its size."""
     with opened_font(face) as font:
         return int(font["head"].unitsPerEm)
 

@@ -17,7 +17,7 @@ from lsys_kit.budget import Task, current
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.errors import ModelFileError, ModelValueError, quotable, require, shown
 from lsys_kit.files import marked_png, marked_xml, path_from, save_file
-from lsys_kit.pictures.formats.axes import AxesPainter
+from lsys_kit.pictures.formats.axes import plot_drawing
 from lsys_kit.pictures.formats.painting import on_ground, painted
 from lsys_kit.pictures.formats.pdf import pdf
 from lsys_kit.pictures.formats.raster import encoded
@@ -146,10 +146,14 @@ class SVGPicture(ABC):
             self._plot_into(ax)
 
     def _plot_into(self, ax: Axes) -> None:
-        AxesPainter(ax).draw(self.drawing())
+        plot_drawing(ax, self.drawing())
 
     def save(self, path: str | Path, *, dpi: object = None) -> None:
-        """Write the picture to an .svg, .png or .pdf file.
+        """Write the picture to a file, in the format given by its extension: .svg, .png or .pdf.
+
+        What a turtle has drawn can be written to .glb and .obj files, too, which are for 3D programs and contain only the last
+        step; the colours of an .obj file are kept in an .mtl file beside it. Labels are no shapes in space, and left out there.
+        A stage diagram can be written to a .pnml file, for Petri-net tools (see `pnml`).
 
         Parameters
         ----------
@@ -166,16 +170,15 @@ class SVGPicture(ABC):
             The dots are no number from 24 to 2400, or the file is no .png file.
         """
         path = path_from(path)
-        save_as(path, self._encoders(path, dpi))
+        save_as(path, *self._encoders(path, dots_from(dpi, path)))
 
-    def _encoders(self, path: Path, dpi: object = None) -> dict[str, Callable[[], bytes]]:
-        """For each extension what encodes the picture."""
-        dots = dots_from(dpi, path)
+    def _encoders(self, path: Path, dots: float | None) -> tuple[Encoders, str]:
+        """For each extension what encodes the picture; and what else there is, where none fits."""
         return {
             ".svg": lambda: marked_xml(self.svg),
             ".png": lambda: marked_png(self.png if dots is None else encoded(self.image(dots / INCH)), dots),
             ".pdf": lambda: self.pdf,
-        }
+        }, ""
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
         return svg_bundle(self.svg, repr(self))

@@ -279,7 +279,6 @@ def subpaths(shape: Outlined, scale: float = 1.0) -> list[Subpath]:
 
 
 def _curve(controls: Sequence[Point], scale: float) -> list[Point]:
-    """The corners of a cubic curve behind its start."""
     start, first, second, end = np.array(controls)
     length = float(np.hypot(*np.diff(controls, axis=0).T).sum()) * scale
     shares = np.linspace(0, 1, max(LEAST_PIECES, math.ceil(length**0.5)) + 1)[1:, None]

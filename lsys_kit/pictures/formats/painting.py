@@ -152,7 +152,6 @@ class PixelPainter(Painter):
         self._sheet, self._place = sheet, place
 
     def _on_grid(self, place: Place) -> Place:
-        """Where units lie on the fine grid."""
         return Place(*(FINE * each for each in self._place.within(place)))
 
     def outline(self, shape: Outlined, ink: Ink, place: Place) -> None:
@@ -224,7 +223,6 @@ def _at(points: Floats, place: Place) -> Floats:
 
 
 def _whole(points: Floats) -> list[tuple[int, int]]:
-    """The points of the grid in which some points lie."""
     return [*map(tuple, np.floor(points).astype(int).tolist())]
 
 
@@ -251,7 +249,6 @@ def _fill(pen: ImageDraw, outlines: Sequence[Floats], colour: Any) -> None:
 
 
 def _crossed(sheet: Sheet, outlines: Sequence[Sequence[tuple[int, int]]], colour: str) -> None:
-    """Paint what lies inside an odd number of outlines."""
     from PIL import Image, ImageChops, ImageDraw
 
     (left, top), (right, bottom) = (pick([*chain(*outlines)], axis=0) for pick in (np.min, np.max))
@@ -299,6 +296,5 @@ def on_ground(render: Callable[[], Image]) -> Image:
 
 
 def _on(ground: str, render: Callable[[], Image]) -> Floats:
-    """The pixels of an image in front of a colour."""
     with drawn_on(replace(theme(), ground=ground)):
         return np.asarray(render().convert("RGB"), np.float64)

@@ -169,7 +169,6 @@ class Page(Painter):
         return objects.file(Root=root, Info=objects.add(Title=string(drawing.title), Creator=string(KIT_MARK.decode())))
 
     def _named(self, kind: str, key: object, reference: str = "") -> str:
-        """The name by which the page calls an object."""
         own = self._resources[kind]
         name = self._names[key] = f"{kind[0]}{len(own)}"
         own[name] = reference
@@ -214,7 +213,6 @@ class Page(Painter):
         self._write(place, f"q {side} 0 0 {side} {corner} cm {round_window} {mask}/{self._names[gradient]} sh Q")
 
     def _shading(self, gradient: Gradient, colours: Sequence[Sequence[float]]) -> str:
-        """A radial gradient in a square whose side is 1, through some colours."""
         pieces = [{"FunctionType": 2, "Domain": [0, 1], "N": 1, "C0": first, "C1": last} for first, last in pairwise(colours)]
         return self._objects.add(
             ShadingType=3,
@@ -307,7 +305,6 @@ def _channels(colour: str) -> list[float]:
 
 
 def _contours(text: Lettering) -> str:
-    """The outlines of the letters of a text."""
     parts = []
     for run in text.runs:
         x = run.x
@@ -350,7 +347,6 @@ def _base_name(font: Font, letters: Sequence[str]) -> str:
 
 
 def _font(objects: Objects, part: TTFont, name: str, data: bytes, codes: Mapping[str, int]) -> str:
-    """Add the objects of a font (chapters 9.7 and 9.10)."""
     head, across = part["head"], part["hhea"]
     unit = 1000 / head.unitsPerEm
     about = objects.add(
@@ -386,7 +382,6 @@ def _font(objects: Objects, part: TTFont, name: str, data: bytes, codes: Mapping
 
 
 def _letters_of(codes: Mapping[str, int]) -> bytes:
-    """The table of what the letters of a font stand for."""
     rows = [f"<{code:04X}> <{letter.encode('utf-16-be').hex().upper()}>\n" for letter, code in sorted(codes.items()) if code]
     blocks = [rows[first : first + MOST_ENTRIES] for first in range(0, len(rows), MOST_ENTRIES)]
     return _MAP.format("".join(f"{len(block)} beginbfchar\n{''.join(block)}endbfchar\n" for block in blocks)).encode()

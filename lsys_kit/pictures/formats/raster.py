@@ -74,7 +74,6 @@ def touched(across: Coordinates, down: Coordinates, shape: tuple[int, ...], numb
 
 
 def _blocks(counts: NDArray[np.integer[Any]]) -> Iterator[slice]:
-    """Stretches of strokes that have few points together."""
     ends = np.cumsum(counts, dtype=np.int64)
     first = 0
     while first < len(counts):
@@ -232,8 +231,6 @@ def _painted_in_turn(
 
 
 def _line_painter(lines: Lines, fine: float, across: Coordinates, down: Coordinates, pen: ImageDraw) -> ShapePainter:
-    """A function that paints a line with round ends."""
-
     def paint(which: int, number: int) -> None:
         (x, to_x), (y, to_y), reach = across[which].tolist(), down[which].tolist(), float(lines.widths[which]) * fine / 20
         length = math.hypot(to_x - x, to_y - y) or 1.0
@@ -260,7 +257,6 @@ def _area_painter(areas: Areas, grid: FineGrid, pen: ImageDraw) -> ShapePainter:
 
 
 def _round_painter(rounds: Rounds, grid: FineGrid, pen: ImageDraw) -> ShapePainter:
-    """The same for discs."""
     middles, radii = grid.points(rounds.centres).tolist(), rounds.radii.tolist()
     fills, edges = (rounds.fills != NO_COLOUR).tolist(), (rounds.edges != NO_COLOUR).tolist()
     edge = max(1, round(grid.fine))
@@ -274,7 +270,6 @@ def _round_painter(rounds: Rounds, grid: FineGrid, pen: ImageDraw) -> ShapePaint
 
 
 def _colours(shapes: DisplayList) -> Colours:
-    """Red, green and blue of each number."""
     palette = _channels([*shapes.palette, theme().ground])
     found, lines = np.zeros((2 * len(shapes.numbers) + 2, 3), np.uint8), shapes.keys >= 0
     found[0] = palette[-1]
@@ -287,12 +282,10 @@ def _colours(shapes: DisplayList) -> Colours:
 
 
 def _channels(colours: Sequence[str]) -> Colours:
-    """Red, green and blue of colours."""
     return np.array([tuple(bytes.fromhex(colour[1:])) for colour in colours], np.uint8)
 
 
 def _shade_spheres(pixels: Colours, seen: Grid, shapes: DisplayList, grid: FineGrid) -> None:
-    """Give each point of a sphere the colour that it has there."""
     rounds, keys = shapes.rounds, np.repeat(shapes.keys, np.diff(shapes.starts))
     places = np.flatnonzero(keys == ROUND)
     places = places[rounds.spheres[shapes.numbers[places]]]
@@ -320,7 +313,6 @@ def _tones(palette: Sequence[str], fills: NDArray[np.int64], way: Coordinates) -
 
 
 def _pixels(ends: Coordinates, scene: Scene, grid: FineGrid) -> tuple[Coordinates, Coordinates]:
-    """The columns and rows of the ends of lines in the fine grid."""
     precision = np.dtype(np.float32 if max(map(abs, scene.box)) < FLOAT32_RANGE else np.float64)
     frame, fine = grid.frame, grid.fine
     ends, (left, top, factor, margin) = (

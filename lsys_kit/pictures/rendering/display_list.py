@@ -311,7 +311,6 @@ def _in_space(scene: ProjectedScene, scale: float, colour_of: Mapping[int, str])
 
 
 def _lines(segments: Segments, widths: Integers, colours: Integers, chosen: NDArray[np.bool_], cased: int, paper: int) -> Lines:
-    """The casings of the first strokes, then some strokes."""
     if chosen.all() and not cased:
         return Lines(segments.ends, widths, colours, segments.states)
     return Lines(
@@ -362,7 +361,6 @@ def _first_slots(scene: ProjectedScene, toned: NDArray[np.bool_]) -> Sequence[In
 
 
 def _inverse(slots: Integers) -> Integers:
-    """What stands in each slot."""
     order = np.empty(len(slots), np.int64)
     order[slots] = np.arange(len(slots))
     return order
@@ -379,19 +377,16 @@ def _faces(scene: ProjectedScene, colours: Integers) -> Areas:
 
 
 def _stripes(cylinders: Cylinders, bodies: Integers) -> Sequence[Areas]:
-    """The light and the dark stripes of cylinders."""
     light, dark = stripes(cylinders)
     return [_polygons(light, bodies + BRIGHT - OWN), _polygons(dark, bodies + DIM - OWN)]
 
 
 def _polygons(corners: Floats, fills: Integers) -> Areas:
-    """Polygons without edges, with as many corners each."""
     many, each = corners.shape[:2]
     return Areas(corners.reshape(-1, 2), np.arange(many + 1) * each, fills, np.full(many, NO_COLOUR))
 
 
 def _joined(areas: Sequence[Areas]) -> Areas:
-    """Polygons one after another."""
     sizes = np.concatenate([np.diff(some.starts) for some in areas])
     points, _, fills, edges = (np.concatenate(column) for column in zip(*areas, strict=True))
     return Areas(points, np.cumsum([0, *sizes]), fills, edges)
@@ -411,7 +406,6 @@ def _rounds(scene: ProjectedScene, own: Integers) -> Rounds:
 
 
 def _with_few_colours(lines: Lines, areas: Areas, rounds: Rounds, names: Sequence[str], order: Integers) -> DisplayList:
-    """The display list with a palette of the shades that occur."""
     used = np.unique(
         np.concatenate(
             [

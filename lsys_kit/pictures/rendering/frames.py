@@ -149,11 +149,9 @@ def in_units(scenes: Sequence[Scene], system: LSystem) -> list[Scene]:
 
 
 def _in_pixels(system: LSystem, broadest: float) -> bool:
-    """Whether the widths of strokes are in pixels, given the greatest."""
     return system.widths == "pixels" or (not system.widths and TURTLE_DIALECTS[system.turtle].pixels and broadest >= 1)
 
 
 def _with_pixels(scene: Scene, pixel: float) -> Scene:
-    """A scene with widths in units of length, given the length of a pixel."""
     widths = scene.segments.widths
     return replace(scene, segments=replace(scene.segments, widths=np.where(widths == OWN, OWN, widths * pixel)))

@@ -101,7 +101,6 @@ def with_colours_of_symbols(scene: Scene, states: Collection[int] | None = None)
 
 
 def _colours(shapes: Segments | Polygons | Discs, states: Collection[int] | None) -> Integers:
-    """The colours of shapes, in which some have those of their symbols."""
     theirs = np.ones(len(shapes), bool) if states is None else np.isin(shapes.states, list(states))
     return np.where(theirs, OWN, np.broadcast_to(shapes.colours, len(shapes)))
 

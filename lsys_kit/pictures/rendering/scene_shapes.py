@@ -61,7 +61,6 @@ def label_shapes(scene: Scene, frame: ViewFrame) -> list[Shape]:
 
 
 def _areas(shapes: DisplayList, frame: ViewFrame) -> list[Shape]:
-    """Polygons, most with an edge."""
     areas, palette = shapes.areas, shapes.palette
     points, starts = frame.points(areas.points).tolist(), areas.starts.tolist()
     pairs = [*zip(areas.fills.tolist(), areas.edges.tolist(), strict=True)]

@@ -40,7 +40,6 @@ def are_edges(segments: Segments, polygons: Polygons) -> NDArray[np.bool_]:
 
 
 def _keys(rows: Floats) -> NDArray[np.void]:
-    """Rows of numbers as values that can be compared."""
     whole = np.ascontiguousarray(rows + 0.0)  # which makes no difference between 0 and -0
     return whole.view(np.dtype((np.void, whole.strides[0]))).ravel()
 
@@ -186,7 +185,6 @@ def lies_flat(scene: Scene) -> bool:
 
 
 def _spans(scene: Scene) -> Floats:
-    """The extents of the points of a scene along the axes."""
     points = _points([scene])
     return np.array(
         [
@@ -197,7 +195,6 @@ def _spans(scene: Scene) -> Floats:
 
 
 def _points(scenes: Sequence[Scene]) -> list[Floats]:
-    """The points of scenes in space: ends of strokes, corners of polygons, centres."""
     some = [
         each
         for scene in scenes
@@ -207,7 +204,6 @@ def _points(scenes: Sequence[Scene]) -> list[Floats]:
 
 
 def _flattened(scene: Scene) -> Scene:
-    """A scene in space seen from the front, as one in the plane."""
     segments, polygons, discs = scene.segments, scene.polygons, scene.discs
     return Scene(
         replace(segments, ends=segments.points[:, ::2].reshape(-1, 4)),
@@ -219,7 +215,6 @@ def _flattened(scene: Scene) -> Scene:
 
 
 def _placed(labels: Labels, place: Callable[[Floats], Floats]) -> Labels:
-    """Labels at points of the plane of the picture."""
     return replace(labels, points=place(labels.points)) if len(labels) else no_labels()
 
 
@@ -304,13 +299,11 @@ def _normals(polygons: Polygons, side: tuple[Floats, Floats, Floats]) -> Floats:
 
 
 def _depths(points: Floats, towards: Floats) -> Floats:
-    """How far points lie towards the viewer."""
     depths: Floats = _mapped(points, towards[:, None])[:, 0]
     return depths
 
 
 def _means(numbers: Floats, starts: Integers) -> Floats:
-    """The means of the numbers of each polygon."""
     return np.add.reduceat(numbers, starts[:-1]) / np.diff(starts) if len(starts) > 1 else np.empty(0)
 
 

@@ -50,7 +50,6 @@ def colours(system: LSystem) -> Mapping[str, str]:
 
 @lru_cache(maxsize=64)
 def _own_colours(system: LSystem) -> Mapping[str, str]:
-    """The colours of symbols where nobody has chosen any."""
     pairs = polar_symbols(system)
     found = {symbol: NATURAL[name] for symbol, name in surfaces_of(system).items() if name in NATURAL}
     free = [colour for colour in SERIES if colour not in found.values()]
