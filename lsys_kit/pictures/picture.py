@@ -21,7 +21,6 @@ from lsys_kit.pictures.filaments.folding import FilamentRow
 from lsys_kit.pictures.filaments.layout import filament_layout
 from lsys_kit.pictures.filaments.painting import LOOKS, letters_fit, row_shapes
 from lsys_kit.pictures.formats.axes import plot_turtle
-from lsys_kit.pictures.formats.filament_raster import rows_image
 from lsys_kit.pictures.formats.mesh_files import glb, mtl, obj
 from lsys_kit.pictures.formats.notebook import FILMS, Encoders, SVGPicture, described, listed
 from lsys_kit.pictures.formats.painting import on_ground, painted
@@ -150,10 +149,14 @@ class Picture(SVGPicture):
         height, now = layout.height, self.rows[shown - 1].step if shown else self.current
         begun = {row.step for row in self.rows[: shown or None]}
         sheet = replace(layout, rows=[line for line in layout.rows if line.step in begun])
+
+        def cells() -> Drawing:
+            bare = row_shapes(sheet, self.look, self.colour_of, now, self.marked, bare=True)
+            return document(bare, WIDTH, sheet.height, "")
+
         if pixels:
             factor = enlarged * enlargement(WIDTH, height, self.pixels)
-            cells = on_ground(lambda: rows_image(sheet, self.look, self.colour_of, now, self.marked, factor))
-            image = embedded(10 * WIDTH, 10 * sheet.height, cells)
+            image = embedded(10 * WIDTH, 10 * sheet.height, on_ground(lambda: painted(cells(), factor, quick=True)))
         letters = self.letters if self.labels or letters_fit(layout, self.letters) else {}
         body = row_shapes(sheet, self.look, self.colour_of, now, self.marked, image, letters)
         return with_legend(document(body, WIDTH, height, self.text), self.legend)

@@ -15,7 +15,7 @@ import pytest
 from lsys_kit import derive, draw, figure, read
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.turtle.space import trace_in_space
-from lsys_kit.pictures.formats.raster import turtle_png
+from lsys_kit.pictures.formats.raster import encoded, turtle_picture
 from lsys_kit.pictures.formats.svg import element
 from lsys_kit.pictures.rendering.frames import frame_of
 from lsys_kit.pictures.rendering.scene_shapes import scene_shapes
@@ -65,7 +65,7 @@ def test_every_module_is_different(benchmark):
 def test_a_million_strokes_as_a_picture(benchmark):
     derivation = derive(PLANT, 9)
     scene, colours = scene_of(derivation), draw(derivation.to(3)).colour_of
-    png = benchmark(lambda: turtle_png(scene, colours))
+    png = benchmark(lambda: encoded(turtle_picture(scene, colours)))
     assert png.startswith(b"\x89PNG")
     told(benchmark, len(scene.segments), 5e6)
 
@@ -73,7 +73,7 @@ def test_a_million_strokes_as_a_picture(benchmark):
 def test_a_plant_in_space_from_far_to_near_as_a_picture(benchmark):
     derivation = derive(IN_SPACE, 8)
     scene, colours = scene_of(derivation), draw(derivation.to(3)).colour_of
-    png = benchmark(lambda: turtle_png(*project([scene]), colours))
+    png = benchmark(lambda: encoded(turtle_picture(*project([scene]), colours)))
     assert png.startswith(b"\x89PNG")
     told(benchmark, len(scene.segments), 1e6)
 

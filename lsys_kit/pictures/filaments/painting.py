@@ -23,6 +23,8 @@ from lsys_kit.pictures.style.themes import edge_colour, line, theme
 
 LOOKS = ("rectangles", "ellipses")
 """The shapes in which cells can be drawn."""
+CELLS_A_PIXEL = 16
+"""Of more cells than this in one pixel, the others cannot be seen."""
 MARKED = 3.2
 """The width of the edges of marked cells, in pixels."""
 LETTER = 11
@@ -37,20 +39,23 @@ def row_shapes(
     marked: Collection[int] = (),
     image: Raster | None = None,
     letters: Mapping[int, str] = MappingProxyType({}),
+    bare: bool = False,
 ) -> list[Shape]:
     """Filaments below one another, centred, with a common scale; the current row on a tinted band. An image, if there is one,
-    stands for the band and for all cells. Letters are written into cells, as far as they fit."""
-    body: list[Shape] = [*([image] if image else []), *(_heading(sheet) if sheet.numbered else [])]
+    stands for the band and for all cells; bare these are alone, and no more of them than can be seen. Letters are written into
+    cells, as far as they fit."""
+    most, written = CELLS_A_PIXEL if bare else math.inf, sheet.numbered and not bare
+    body: list[Shape] = [*([image] if image else []), *(_heading(sheet) if written else [])]
     for place, row in enumerate(sheet.rows):
         middle = sheet.middle(place)
-        if sheet.numbered:
-            body += [_band(sheet, place)] if row.step == current and not image else []
-            body += _row_labels(sheet, row, middle, row.step == current)
+        if sheet.numbered and row.step == current and not image:
+            body.append(_band(sheet, place))
+        body += _row_labels(sheet, row, middle, row.step == current) if written else []
         if not image:
-            cells = list(sheet.cells(row))
+            cells = list(sheet.cells(row, most))
             body += filament_shapes(cells, look, middle, colour_of, marked)
             body += _letters(cells, middle, colour_of, letters)
-            body += _walls(list(sheet.walls(row)), middle, bool(sheet.above), colour_of, marked)
+            body += _walls(list(sheet.walls(row, most)), middle, bool(sheet.above) and not bare, colour_of, marked)
     return body
 
 
@@ -62,16 +67,10 @@ def _heading(sheet: FilamentLayout) -> list[Text]:
     return headings[: 1 if sheet.time is None else 2]
 
 
-def band_of(sheet: FilamentLayout, place: int) -> tuple[float, float, float, float, float]:
-    """The band behind the current row: its left, upper, right and lower edge, and the radius of its corners, in pixels."""
-    top = sheet.middle(place) - sheet.above / 2 - sheet.pitch / 2
-    return 4.0, top, WIDTH - 4.0, top + sheet.pitch, 6.0
-
-
 def _band(sheet: FilamentLayout, place: int) -> Rectangle:
-    left, top, right, _, corner = band_of(sheet, place)
-    sides = tenths(left), tenths(top), tenths(right - left), tenths(sheet.pitch)
-    return Rectangle(*sides, tenths(corner), Look(fill=theme().mark))
+    """The band behind the current row."""
+    top = sheet.middle(place) - sheet.above / 2 - sheet.pitch / 2
+    return Rectangle(40, tenths(top), tenths(WIDTH - 8), tenths(sheet.pitch), 60, Look(fill=theme().mark))
 
 
 def _row_labels(sheet: FilamentLayout, row: FilamentRow, middle: float, current: bool) -> list[Text]:
@@ -162,14 +161,10 @@ def arrow(x: int, y: int, rx: int, ry: int, way: int) -> str:
     return f"M{x - way * reach} {y}H{tip}M{tip - way * head} {y - head}L{tip} {y}L{tip - way * head} {y + head}"
 
 
-def wall_width(shade: float) -> float:
-    """The width of the line of a wall, in pixels."""
-    return 1.5 + 3.0 * shade
-
-
-def wall_colour(colour: str, shade: float) -> str:
-    """The colour of a wall, given that of its symbol: the older, the nearer to that of ink."""
-    return mixed(line(colour), theme().ink, 1 - (1 - OLDEST) * shade)
+def _wall_look(colour: str, shade: float, marked: bool) -> Look:
+    """How a wall looks, given the colour of its symbol: the older, the broader and the nearer to ink."""
+    aged = mixed(line(colour), theme().ink, 1 - (1 - OLDEST) * shade)
+    return Look(stroke=theme().mark_edge if marked else aged, stroke_width=tenths(1.5 + 3.0 * shade))
 
 
 def _walls(
@@ -179,8 +174,8 @@ def _walls(
     parts: list[Shape] = []
     for wall in walls:
         x, top, bottom = tenths(wall.x), tenths(middle - wall.height - 2), tenths(middle + wall.height + 2)
-        colour = theme().mark_edge if wall.state in marked else wall_colour(colour_of.get(wall.state, GREEN), wall.shade)
-        parts.append(Path(f"M{x} {top}V{bottom}", Look(stroke=colour, stroke_width=tenths(wall_width(wall.shade)))))
+        look = _wall_look(colour_of.get(wall.state, GREEN), wall.shade, wall.state in marked)
+        parts.append(Path(f"M{x} {top}V{bottom}", look))
     if aged and _ages_fit(walls):
         look = Look(font_size=105, text_anchor="middle", font_family="sans-serif", fill=theme().ink)
         parts += [Text(tenths(_age_place(wall)), tenths(middle - wall.height - 4.5), wall.age, look) for wall in walls]

@@ -19,7 +19,7 @@ from lsys_kit.geometry.scene import Floats
 from lsys_kit.pictures.formats.lettering import advance, glyph
 from lsys_kit.pictures.formats.painter import Ink, Lettering, Painter, Subpath, dashed, subpaths
 from lsys_kit.pictures.formats.raster import FINE, spread
-from lsys_kit.pictures.shapes import Circle, Drawing, Gradient, Outlined, Place, Raster
+from lsys_kit.pictures.shapes import Circle, Drawing, Ellipse, Gradient, Outlined, Place, Raster, Rectangle
 from lsys_kit.pictures.style.colour_values import BLACK, WHITE
 from lsys_kit.pictures.style.themes import drawn_on, theme
 
@@ -138,10 +138,10 @@ CURVED = 4
 """From this width on, in points of the grid, the corners of a line are seen."""
 
 
-def painted(drawing: Drawing, enlarged: float = 1.0) -> Image:
-    """A drawing as an image, perhaps enlarged."""
+def painted(drawing: Drawing, enlarged: float = 1.0, quick: bool = False) -> Image:
+    """A drawing as an image, perhaps enlarged; quick where there are very many shapes."""
     sheet = Sheet(round(drawing.width * enlarged), round(drawing.height * enlarged))
-    PixelPainter(sheet, Place(enlarged)).draw(drawing)
+    (QuickPainter if quick else PixelPainter)(sheet, Place(enlarged)).draw(drawing)
     return sheet.image
 
 
@@ -215,6 +215,27 @@ class PixelPainter(Painter):
         size = round(raster.width * place.scale), round(raster.height * place.scale)
         seen = pixels.resize(size, Image.Resampling.BICUBIC)
         self._sheet.grid.paste(seen.convert("RGB"), (round(left), round(top)), seen.getchannel("A"))
+
+
+class QuickPainter(PixelPainter):
+    """What paints ellipses and rectangles as the library does: their edges lie inside, and it takes a tenth of the time."""
+
+    def outline(self, shape: Outlined, ink: Ink, place: Place) -> None:
+        """Paint an outline."""
+        if not isinstance(shape, Rectangle | Ellipse):
+            super().outline(shape, ink, place)
+            return
+        place, pen = self._on_grid(place), self._sheet.pen
+        x, y, across, up = (number or 0 for number in shape[:4])
+        left, top, wide, high = (x, y, across, up) if isinstance(shape, Rectangle) else (x - across, y - up, 2 * across, 2 * up)
+        box = [*_at(np.array([[left, top], [left + wide, top + high]]), place).ravel().tolist()]
+        edge, width = ink.stroke or None, max(1, round(ink.width * place.scale))
+        if isinstance(shape, Ellipse):
+            pen.ellipse(box, ink.fill, edge, width)
+        elif min(wide, high) * place.scale > 2 * width:
+            pen.rounded_rectangle(box, (shape.corner or 0) * place.scale, ink.fill, edge, width)
+        else:
+            pen.rectangle(box, ink.fill, edge, width)
 
 
 def _at(points: Floats, place: Place) -> Floats:

@@ -117,11 +117,6 @@ MOST_SPREADS, FEW_RUNS = 6, 2_000
 """Lines of so many widths are painted at once, width after width; of more widths, those with few lines are painted in turn."""
 
 
-def turtle_png(scene: Scene, colour_of: Mapping[int, str]) -> bytes:
-    """A scene of a turtle as PNG."""
-    return encoded(turtle_picture(scene, colour_of))
-
-
 def turtle_picture(scene: Scene, colour_of: Mapping[int, str], size: Size | None = None, enlarged: float = 1.0) -> Image:
     """A scene of a turtle as an image of a size, perhaps enlarged."""
     frame = frame_around([scene])
