@@ -265,7 +265,7 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> AnyPicture:
 
     Examples
     --------
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> draw(read("angle: 60\\nheading: 0\\naxiom: F--F--F\\nF -> F+F--F+F"), 3)
     192 segments, width 27, height 31.18
     """
@@ -423,9 +423,8 @@ def figure(what: Any, ax: Axes | None = None, **choices: Any) -> Axes:
 
     Examples
     --------
-    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit import derive, read
     >>> from matplotlib.figure import Figure
-    >>> from lsys_kit.notation.read import read
     >>> left, right = Figure().subplots(1, 2)
     >>> plant = read("angle: 25\\naxiom: F\\nF -> F[+F]F[-F]F")
     >>> _ = left.plot([len(word) for word in derive(plant, 4)])

@@ -240,7 +240,7 @@ def animate(
 
     Examples
     --------
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> plant = animate(read("angle: 25\\naxiom: F\\nF -> F[+F]F[-F]F"), 3, seconds="0.5")
     >>> plant, len(plant.images)
     (steps 0 to 3; the last: 125 segments, width 8.84, height 27, 4)

@@ -75,9 +75,8 @@ class Legend:
 def legend_of(tables: Sequence[States], scenes: Sequence[Scene]) -> Legend:
     """The legend of scenes of some words, given the states of each.
 
-    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.drawing import scene_of
-    >>> from lsys_kit.notation.read import read
     >>> word = derive(read("axiom: F ;(3) F RX"), 0)
     >>> [(entry.colours, "".join(entry.label)) for entry in legend_of([word.states], [scene_of(word)]).entries]
     [(('#28A964',), 'F'), (('#3BA7A0',), 'colour 3')]
@@ -103,9 +102,8 @@ def legend_of(tables: Sequence[States], scenes: Sequence[Scene]) -> Legend:
 def letters_of(states: States, scenes: Sequence[Scene], labels: bool | None = None) -> Mapping[int, str]:
     """What is written into cells, by their states: their letters if labels are wanted, or if there are many and nobody says.
 
-    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.drawing import scene_of
-    >>> from lsys_kit.notation.read import read
     >>> word = derive(read("axiom: ar al\\ninterpretation:\\nar -> R(1,1)\\nal -> L(1,1)"), 0)
     >>> letters_of(word.states, [scene_of(word)], True), letters_of(word.states, [scene_of(word)])
     ({0: 'a', 1: 'a'}, {})
@@ -167,12 +165,10 @@ def plot_legend(ax: Axes, legend: Legend) -> None:
     from matplotlib.patches import Patch
 
     handles = [
-        Patch(color=line(entry.colours[len(entry.colours) // 2]) if entry.colours else "none", label=_plain(entry.label))
-        for entry in legend.entries
+        Patch(
+            color=line(colours[len(colours) // 2]) if colours else "none",
+            label=f"{letter}_{subscript}{values}" if subscript else f"{letter}{values}",
+        )
+        for colours, (letter, subscript, values) in legend.entries
     ]
     ax.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0.0), frameon=False, labelcolor=theme().ink, ncols=4)
-
-
-def _plain(label: Label) -> str:
-    letter, subscript, values = label
-    return f"{letter}_{subscript}{values}" if subscript else f"{letter}{values}"

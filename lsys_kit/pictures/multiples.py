@@ -17,7 +17,7 @@ from lsys_kit.pictures.formats.painting import painted
 from lsys_kit.pictures.formats.raster import embedded, turtle_image
 from lsys_kit.pictures.legends import Legend, with_legend
 from lsys_kit.pictures.picture import Picture
-from lsys_kit.pictures.rendering.frames import MARGIN, ViewFrame, in_fine_parts, painted_box
+from lsys_kit.pictures.rendering.frames import MARGIN, ViewFrame, frame_on, in_fine_parts, painted_box
 from lsys_kit.pictures.rendering.scene_shapes import label_shapes, scene_shapes
 from lsys_kit.pictures.shapes import Drawing, Look, Raster, Shape, Text
 from lsys_kit.pictures.sizes import document, enlargement, resized
@@ -91,19 +91,12 @@ class SmallMultiples(SVGPicture):
         return self.text
 
 
-def own_frame(scene: Scene, scale: float) -> ViewFrame:
-    """The frame of a drawing by itself, on a given scale."""
-    left, bottom, right, top = painted_box(scene)
-    return ViewFrame(scale, left, top, round((right - left) * scale) + 2 * MARGIN, round((top - bottom) * scale) + 2 * MARGIN)
-
-
 def arranged(scenes: Sequence[Scene], columns: int = 0, broadest: float = 0.0) -> list[Panel]:
     """The places of drawings, on the greatest scale on which all fit: in lines of as many, on a common ground; none is narrower
     than the broadest caption, in pixels.
 
-    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.drawing import scene_of
-    >>> from lsys_kit.notation.read import read
     >>> plants = [scene_of(derive(read("axiom: F\\nF -> FF"), step)) for step in (1, 2)]
     >>> [(round(panel.middle), round(panel.ground), panel.frame.scale) for panel in arranged(plants)]
     [(12, 484, 118.0), (42, 484, 118.0)]
@@ -118,7 +111,7 @@ def arranged(scenes: Sequence[Scene], columns: int = 0, broadest: float = 0.0) -
     room = max(wide * scale, broadest)
     across, down = room + GAP, high * scale + CAPTION
     width, height = round(columns * across - GAP) + 2 * MARGIN, round(lines * down) + 2 * MARGIN
-    parts = max(in_fine_parts(own_frame(scene, scale), scene).parts for scene in scenes)
+    parts = max(in_fine_parts(frame_on(painted_box(scene), scale), scene).parts for scene in scenes)
     panels = []
     for number, (left, bottom, right, _) in enumerate(boxes):
         line, column = divmod(number, columns)
@@ -149,7 +142,7 @@ def _panel_shapes(picture: Picture, panel: Panel, caption: str, pixels: float) -
 
 
 def _panel_image(picture: Picture, panel: Panel, enlarged: float) -> Raster:
-    own, parts = own_frame(picture.scene, panel.frame.scale), panel.frame.parts
+    own, parts = frame_on(painted_box(picture.scene), panel.frame.scale), panel.frame.parts
     image = turtle_image(picture.scene, picture.colour_of, own, enlarged)
     corner = round((panel.middle - own.width / 2) * parts), round((panel.ground - own.height + MARGIN) * parts)
     return embedded(own.width * parts, own.height * parts, image, corner)

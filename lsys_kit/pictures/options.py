@@ -22,6 +22,7 @@ from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.cellworks import CellworkSystem
 from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem, symbols
+from lsys_kit.pictures.formats.notebook import listed
 from lsys_kit.pictures.rendering.looks import with_colours_of_symbols, with_start, with_widths
 from lsys_kit.pictures.sizes import Size, size_from
 from lsys_kit.pictures.style.colour_values import colour_from
@@ -99,7 +100,8 @@ def style_from(given: Mapping[str, Any], kind: str, symbols: Symbols, size: obje
     pixels = size_from(size)
     for name, value in given.items():
         if name not in KINDS[kind]:
-            raise ModelValueError(f'"{name}" means nothing for {kind}', hint=f"What can be chosen is {_listed(KINDS[kind])}.")
+            there = listed(KINDS[kind]) + " alone" * (len(KINDS[kind]) == 1)
+            raise ModelValueError(f'"{name}" means nothing for {kind}', hint=f"What can be chosen is {there}.")
         if name in FLAGS:
             require(value, bool, f'True or False for "{name}"')
     found = Style(theme=theme_from(given["background"]) if "background" in given else LIGHT, size=pixels)
@@ -166,10 +168,6 @@ def split_options(choices: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str,
     return given, {name: value for name, value in choices.items() if name not in OPTIONS}
 
 
-def _listed(names: tuple[str, ...]) -> str:
-    return f"{', '.join(names[:-1])} or {names[-1]}" if len(names) > 1 else f"{names[0]} alone"
-
-
 DRAWABLE = (LSystem, Derivation, Word, MapSystem, Development, CellworkSystem, CellworkDevelopment, Stages, Lineage)
 """What can be drawn."""
 
@@ -233,7 +231,7 @@ def coloured_symbols(what: object) -> Symbols:
 def named_symbols(system: LSystem) -> Symbols:
     """The symbols of a system by their names.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> named_symbols(read("axiom: ar b\\nar -> al"))
     {'a': ('ar', 'al'), 'ar': ('ar',), 'b': ('b',), 'al': ('al',)}
     """

@@ -237,9 +237,8 @@ def display_list(scene: Scene, scale: float, colour_of: Mapping[int, str]) -> Di
 
     Examples
     --------
-    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.drawing import scene_of
-    >>> from lsys_kit.notation.read import read
     >>> from lsys_kit.pictures.rendering.view import FRONT, project
     >>> scene = scene_of(derive(read("axiom: F@o(1)!(3)F{f+f+f}"), 0))
     >>> [(type(run).__name__, run.numbers.tolist()) for run in display_list(scene, 1, {})]

@@ -58,9 +58,8 @@ class ViewFrame:
 def in_fine_parts(frame: ViewFrame, scene: Scene) -> ViewFrame:
     """The frame with pixels in so many parts that rounding bends no stroke to be seen: the median one is 50 long at least.
 
-    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.drawing import scene_of
-    >>> from lsys_kit.notation.read import read
     >>> koch = [scene_of(derive(read("angle: 60\\naxiom: F\\nF -> F+F--F+F"), step)) for step in (2, 4)]
     >>> [in_fine_parts(frame_around([scene]), scene).parts for scene in koch]
     [10, 100]
@@ -72,9 +71,8 @@ def in_fine_parts(frame: ViewFrame, scene: Scene) -> ViewFrame:
 def frame_around(scenes: Sequence[Scene], width: float = WIDTH, height: float = HEIGHT) -> ViewFrame:
     """The frame that fits all that is painted of some scenes into a picture, with the round ends of broad strokes.
 
-    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.drawing import scene_of
-    >>> from lsys_kit.notation.read import read
     >>> frame_around([scene_of(derive(read("axiom: !(0.5)F"), 0))])  # 0.5 wide, 1.5 high
     ViewFrame(scale=120.0, left=-0.25, top=1.25, width=84, height=204, parts=10)
     """
@@ -120,7 +118,12 @@ def frame_of(box: tuple[float, float, float, float], width: float = WIDTH, heigh
     """The frame that fits a box into a picture, no larger than needed."""
     left, bottom, right, top = box
     across, up = max(right - left, 1e-9), max(top - bottom, 1e-9)
-    scale = min((width - 2 * MARGIN) / across, (height - 2 * MARGIN) / up, 120.0)
+    return frame_on(box, min((width - 2 * MARGIN) / across, (height - 2 * MARGIN) / up, 120.0))
+
+
+def frame_on(box: tuple[float, float, float, float], scale: float) -> ViewFrame:
+    """The frame of a box on a scale."""
+    left, bottom, right, top = box
     return ViewFrame(scale, left, top, round((right - left) * scale) + 2 * MARGIN, round((top - bottom) * scale) + 2 * MARGIN)
 
 
@@ -131,9 +134,8 @@ MOST_OF_A_PICTURE = 0.5
 def in_units(scenes: Sequence[Scene], system: LSystem) -> list[Scene]:
     """Scenes of a system with the widths of their strokes in the units of lengths, such that all fit into one frame.
 
-    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.drawing import scene_of
-    >>> from lsys_kit.notation.read import read
     >>> stem = read("axiom: !(6)F(370)")
     >>> [scene] = in_units([scene_of(derive(stem, 0))], stem)
     >>> scene.segments.widths.tolist()  # 370 units and the round ends are as high as a picture without its margins

@@ -85,9 +85,8 @@ START, START_COLOUR = 0.12, 4
 def with_colours_of_symbols(scene: Scene, states: Collection[int] | None = None) -> Scene:
     """A scene in which shapes have the colours of their symbols: all of them, or those that modules of some states drew.
 
-    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.drawing import scene_of
-    >>> from lsys_kit.notation.read import read
     >>> with_colours_of_symbols(scene_of(derive(read("axiom: F ;(2) F"), 0))).segments.colours.tolist()
     [-1, -1]
     """
@@ -108,9 +107,8 @@ def _colours(shapes: Segments | Polygons | Discs, states: Collection[int] | None
 def with_start(scene: Scene, system: LSystem) -> Scene:
     """A scene with an arrow whose tip is where the turtle starts, and which points where it looks then.
 
-    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.drawing import scene_of
-    >>> from lsys_kit.notation.read import read
     >>> plant = derive(read("axiom: F(10)"), 0)
     >>> with_start(scene_of(plant), plant.states.system).polygons.points.round(2).tolist()
     [[0.0, 0.0], [-0.48, -1.2], [0.48, -1.2]]
@@ -136,9 +134,8 @@ def with_widths(scene: Scene, widths: str = "", factor: float = 1.0) -> Scene:
     """A scene with strokes for which the turtle has set no width, if these are chosen by "order" or "constant"; else those that
     it has set are broader by a factor.
 
-    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.drawing import scene_of
-    >>> from lsys_kit.notation.read import read
     >>> scene = scene_of(derive(read("axiom: F !(3) F"), 0))
     >>> with_widths(scene, "order").segments.widths.tolist(), with_widths(scene, factor=2).segments.widths.tolist()
     ([-1.0], [-1.0, 6.0])

@@ -24,9 +24,8 @@ from lsys_kit.geometry.smoothing import smoothed
 def are_edges(segments: Segments, polygons: Polygons) -> NDArray[np.bool_]:
     """Which strokes are edges of polygons.
 
-    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.turtle.space import trace_in_space
-    >>> from lsys_kit.notation.read import read
     >>> leaf = trace_in_space(derive(read("axiom: F & { . F + (120) F } F"), 0)[0])
     >>> are_edges(leaf.segments, leaf.polygons).tolist()
     [False, True, True, False]
@@ -150,9 +149,8 @@ def project(scenes: Sequence[Scene], view: View | None = None) -> list[Scene]:
 
     Examples
     --------
-    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.turtle.space import trace_in_space
-    >>> from lsys_kit.notation.read import read
     >>> bush = trace_in_space(derive(read("axiom: F[&(90)F]"), 0)[0])
     >>> front, right = project([bush], FRONT), project([bush], (90, 0))
     >>> print(bush, *front, *right, sep="; ")
@@ -174,9 +172,8 @@ def project_smoothly(scenes: Sequence[Scene], view: View | None = None) -> list[
 def lies_flat(scene: Scene) -> bool:
     """Whether all of a scene lies in the plane of the picture, as it is seen from the front.
 
-    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.turtle.space import trace_in_space
-    >>> from lsys_kit.notation.read import read
     >>> [lies_flat(trace_in_space(derive(read(text), 0)[0])) for text in ("axiom: F+F", "axiom: F&F")]
     [True, False]
     """

@@ -41,7 +41,7 @@ def visible(text: str) -> str:
 def polar_symbols(system: LSystem) -> Mapping[str, tuple[str, str]]:
     """The symbols that come in two polarities, each with the letter and the polarity, "l" or "r".
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> polar_symbols(read("axiom: ar\\nar -> al b\\nal -> b ar"))
     {'ar': ('a', 'r'), 'al': ('a', 'l')}
     """
@@ -56,7 +56,7 @@ def polar_symbols(system: LSystem) -> Mapping[str, tuple[str, str]]:
 def label_parts(symbol: str, system: LSystem) -> tuple[str, str]:
     """A symbol's letter and its subscript, which may be empty.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> label_parts("u12", read("axiom: u12"))
     ('u', '12')
     """
@@ -94,7 +94,7 @@ def label_spans(letter: str, subscript: str, values: str = "") -> list[str | Spa
 def html_label(module: Module, system: LSystem) -> str:
     """A module as HTML.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> html_label(Module("a_r", (2,)), read("axiom: a_r(2)"))
     '<i>a</i><sub style="line-height:0">r</sub>(2)'
     """
@@ -107,8 +107,7 @@ def place_parts(place: Place, system: LSystem) -> tuple[str, str, str]:
     """A stage's letter, subscript and values: without the polarity, where its modules differ in that, and with the values
     that they share, if all have as many.
 
-    >>> from lsys_kit.derivation.petri.stages import stages
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read, stages
     >>> system = read("axiom: M(5,1)\\nM(t,p) -> M(t,-p)\\ninterpretation:\\nM(t,p) : p < 0 -> L(1,1)\\nM(t,p) -> R(1,1)")
     >>> place_parts(stages(system).places[0], system)
     ('M', '', '(5)')

@@ -40,7 +40,7 @@ def colours(system: LSystem) -> Mapping[str, str]:
 
     Symbols for which a person has chosen a colour have that.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> colours(read("axiom: ar\\nar -> al br\\nal -> bl ar\\nbr -> ar\\nbl -> al"))
     {'ar': '#28A964', 'al': '#28A964', 'br': '#AF7605', 'bl': '#AF7605'}
     """
@@ -64,7 +64,7 @@ def _own_colours(system: LSystem) -> Mapping[str, str]:
 def colour_of(symbol: str, system: LSystem) -> str:
     """The colour in which what a symbol stands for is drawn; where a sign draws, green.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> colour_of("B", read("axiom: A B {F}")) == ORANGE, colour_of("{", read("axiom: A B {F}")) == GREEN
     (True, True)
     """
