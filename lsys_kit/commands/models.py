@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from lsys_kit.derivation.derive import Derivation
     from lsys_kit.notation.model.system import LSystem
     from lsys_kit.pictures.draw import AnyPicture
-    from lsys_kit.pictures.formats.film import Film
+    from lsys_kit.pictures.films import Film
 
 _BASE = 'Give one with --base: where the page of this model stands that "lsys-kit page" makes.'
 BITS_A_DIGIT = 3
@@ -132,7 +132,7 @@ def draw_word(options: argparse.Namespace) -> None:
 
 def _film(options: argparse.Namespace) -> dict[str, Any]:
     """How a film is shown; nothing, if no film is wanted."""
-    from lsys_kit.pictures.formats.files import FILMS
+    from lsys_kit.pictures.formats.notebook import FILMS
 
     turntable = getattr(options, "turntable", False)
     if Path(options.output).suffix.lower() not in FILMS and not turntable:

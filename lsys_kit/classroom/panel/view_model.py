@@ -24,11 +24,11 @@ from lsys_kit.geometry.turtle.plane import Path, place_path, trace
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.draw import MOST_ROWS, filament_picture, state_colours
+from lsys_kit.pictures.filaments.folding import FilamentRow
 from lsys_kit.pictures.picture import Picture
-from lsys_kit.pictures.rendering.line_widths import in_units
+from lsys_kit.pictures.rendering.frames import in_units
 from lsys_kit.pictures.rendering.view import project_smoothly
 from lsys_kit.pictures.style.labels import place_text
-from lsys_kit.pictures.svg import FilamentRow
 from lsys_kit.worlds.derive import derive
 
 DERIVATION_BYTES, SHAPE_BYTES = 16 * 2**20, 100

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lsys_kit.geometry.scene import Cells, Scene, Walls
-from lsys_kit.pictures.svg import FilamentRow
 
 MOST_CELLS, A_LINE = 100, 60
 """The greatest number of cells of a row that is not folded, and about how many stand in a line then."""
@@ -18,6 +17,15 @@ SLACK = 0.2
 """A row that is longer than a line by no more than this part is not folded for its last cells."""
 MOST_LINES = 60
 """What would have more lines than this is not folded: a person wants to see it as a whole."""
+
+
+@dataclass(frozen=True)
+class FilamentRow:
+    """One step of a developmental sequence; or one line of it, if it is folded, with its number from 0."""
+
+    step: int
+    scene: Scene
+    part: int | None = None
 
 
 def folded(rows: Sequence[FilamentRow]) -> Sequence[FilamentRow]:

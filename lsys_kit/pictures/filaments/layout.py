@@ -11,9 +11,8 @@ import numpy as np
 
 from lsys_kit.geometry.scene import Floats
 from lsys_kit.notation.model.arithmetic import Value
-from lsys_kit.pictures.filaments.folding import folded
+from lsys_kit.pictures.filaments.folding import FilamentRow, folded
 from lsys_kit.pictures.rendering.frames import HEIGHT, MARGIN, WIDTH
-from lsys_kit.pictures.svg import FilamentRow
 
 HEAD, STEPS, TIMES, AGES = 18, 34, 46, 12
 """Room for the heading, the column of steps, that of times, and the ages of walls, in pixels."""

@@ -9,90 +9,80 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Mapping, Sequence
-from html import escape
 from itertools import pairwise
 from types import MappingProxyType
 
 from lsys_kit.notation.model.arithmetic import Value, normalised, number_text
+from lsys_kit.pictures.filaments.folding import FilamentRow
 from lsys_kit.pictures.filaments.layout import STEPS, TIMES, DrawnCell, DrawnWall, FilamentLayout
 from lsys_kit.pictures.rendering.frames import MARGIN, WIDTH
+from lsys_kit.pictures.shapes import Ellipse, Group, Look, Path, Raster, Rectangle, Shape, Span, Text
 from lsys_kit.pictures.style.colour_values import mixed
 from lsys_kit.pictures.style.palette import GREEN, OLDEST, cell_fill
 from lsys_kit.pictures.style.themes import edge_colour, line, theme
-from lsys_kit.pictures.svg import FilamentRow
 
 LOOKS = ("rectangles", "ellipses")
 """The shapes in which cells can be drawn."""
+CELLS_A_PIXEL = 16
+"""Of more cells than this in one pixel, the others cannot be seen."""
 MARKED = 3.2
 """The width of the edges of marked cells, in pixels."""
 LETTER = 11
 """The size of letters in cells, in pixels."""
 
 
-def rows_svg(
+def row_shapes(
     sheet: FilamentLayout,
     look: str,
     colour_of: Mapping[int, str],
     current: int | None = None,
     marked: Collection[int] = (),
-    image: str = "",
+    image: Raster | None = None,
     letters: Mapping[int, str] = MappingProxyType({}),
-) -> str:
+    bare: bool = False,
+) -> list[Shape]:
     """Filaments below one another, centred, with a common scale; the current row on a tinted band. An image, if there is one,
-    stands for the band and for all cells. Letters are written into cells, as far as they fit."""
-    body = [image, _heading(sheet)] if sheet.numbered else [image]
+    stands for the band and for all cells; bare these are alone, and no more of them than can be seen. Letters are written into
+    cells, as far as they fit."""
+    most, written = CELLS_A_PIXEL if bare else math.inf, sheet.numbered and not bare
+    body: list[Shape] = [*([image] if image else []), *(_heading(sheet) if written else [])]
     for place, row in enumerate(sheet.rows):
         middle = sheet.middle(place)
-        if sheet.numbered:
-            body += [_band(sheet, place)] if row.step == current and not image else []
-            body.append(_row_labels(sheet, row, middle, row.step == current))
+        if sheet.numbered and row.step == current and not image:
+            body.append(_band(sheet, place))
+        body += _row_labels(sheet, row, middle, row.step == current) if written else []
         if not image:
-            cells = list(sheet.cells(row))
-            body.append(filament_svg(cells, look, middle, colour_of, marked))
-            body.append(_letters_svg(cells, middle, colour_of, letters))
-            body.append(_walls_svg(list(sheet.walls(row)), middle, bool(sheet.above), colour_of, marked))
-    return "".join(body)
+            cells = list(sheet.cells(row, most))
+            body += filament_shapes(cells, look, middle, colour_of, marked)
+            body += _letters(cells, middle, colour_of, letters)
+            body += _walls(list(sheet.walls(row, most)), middle, bool(sheet.above) and not bare, colour_of, marked)
+    return body
 
 
-def _heading(sheet: FilamentLayout) -> str:
+def _heading(sheet: FilamentLayout) -> list[Text]:
     """The headings of the columns."""
-    y, texts = tenths(MARGIN + sheet.head - 7), [(MARGIN + STEPS - 8, "step")]
-    if sheet.time is not None:
-        texts.append((MARGIN + STEPS + TIMES - 8, '<tspan font-style="italic">t</tspan>'))
-    return "".join(
-        f'<text x="{tenths(x)}" y="{y}" font-size="110" text-anchor="end" font-family="sans-serif" '
-        f'fill="{theme().quiet}">{text}</text>'
-        for x, text in texts
-    )
+    look = Look(font_size=110, text_anchor="end", font_family="sans-serif", fill=theme().quiet)
+    y, time = tenths(MARGIN + sheet.head - 7), Span("t", Look(font_style="italic"))
+    headings = [Text(tenths(MARGIN + STEPS - 8), y, "step", look), Text(tenths(MARGIN + STEPS + TIMES - 8), y, [time], look)]
+    return headings[: 1 if sheet.time is None else 2]
 
 
-def band_of(sheet: FilamentLayout, place: int) -> tuple[float, float, float, float, float]:
-    """The band behind the current row: its left, upper, right and lower edge, and the radius of its corners, in pixels."""
+def _band(sheet: FilamentLayout, place: int) -> Rectangle:
+    """The band behind the current row."""
     top = sheet.middle(place) - sheet.above / 2 - sheet.pitch / 2
-    return 4.0, top, WIDTH - 4.0, top + sheet.pitch, 6.0
+    return Rectangle(40, tenths(top), tenths(WIDTH - 8), tenths(sheet.pitch), 60, Look(fill=theme().mark))
 
 
-def _band(sheet: FilamentLayout, place: int) -> str:
-    left, top, right, _, corner = band_of(sheet, place)
-    return (
-        f'<rect x="{tenths(left)}" y="{tenths(top)}" width="{tenths(right - left)}" height="{tenths(sheet.pitch)}" '
-        f'rx="{tenths(corner)}" fill="{theme().mark}"/>'
-    )
-
-
-def _row_labels(sheet: FilamentLayout, row: FilamentRow, middle: float, current: bool) -> str:
+def _row_labels(sheet: FilamentLayout, row: FilamentRow, middle: float, current: bool) -> list[Text]:
     """The step and time of a row, bold if it is the current one; a folded row has them at its first line."""
     if row.part:
-        return ""
+        return []
     size, texts = tenths(min(14.0, 0.8 * sheet.pitch)), [(MARGIN + STEPS - 8, str(row.step))]
     if sheet.time is not None:
         texts.append((MARGIN + STEPS + TIMES - 8, time_text(row.step * sheet.time)))
-    weight = f'fill="{theme().ink}" font-weight="bold"' if current else f'fill="{theme().quiet}"'
-    return "".join(
-        f'<text x="{tenths(x)}" y="{tenths(middle) + round(0.35 * size)}" font-size="{size}" '
-        f'text-anchor="end" font-family="sans-serif" {weight}>{text}</text>'
-        for x, text in texts
-    )
+    weight = Look(fill=theme().ink, font_weight="bold") if current else Look(fill=theme().quiet)
+    look: Look = {"font_size": size, "text_anchor": "end", "font_family": "sans-serif", **weight}
+    return [Text(tenths(x), tenths(middle) + round(0.35 * size), text, look) for x, text in texts]
 
 
 def time_text(time: Value) -> str:
@@ -102,35 +92,34 @@ def time_text(time: Value) -> str:
     ('0.7', '0.6667')
     """
     text = number_text(normalised(time))
-    return escape(text if len(text) <= 6 else f"{float(time):.4g}")
+    return text if len(text) <= 6 else f"{float(time):.4g}"
 
 
-def filament_svg(
+def filament_shapes(
     cells: Sequence[DrawnCell], look: str, middle: float, colour_of: Mapping[int, str], marked: Collection[int] = ()
-) -> str:
+) -> list[Shape]:
     """One filament: cells, lighter when young, with arrows for their polarity."""
-    fills = {key: cell_fill(colour_of.get(key[0], GREEN), key[1]) for key in {(c.state, c.shade) for c in cells}}
-    y, shapes, arrows = tenths(middle), [], []
+    looks = {
+        key: _cell_look(colour_of.get(key[0], GREEN), key[1], key[0] in marked) for key in {(c.state, c.shade) for c in cells}
+    }
+    y, shapes, arrows = tenths(middle), list[Shape](), []
     for cell in cells:
         x, rx, ry = tenths(cell.x), tenths(cell.length), tenths(cell.width)
-        outline = (
-            f'{theme().mark_edge}" stroke-width="{10 * MARKED:.0f}'
-            if cell.state in marked
-            else edge_colour(colour_of.get(cell.state, GREEN))
+        own = looks[cell.state, cell.shade]
+        shapes.append(
+            Ellipse(x, y, rx, ry, own) if look == "ellipses" else Rectangle(x - rx, y - ry, 2 * rx, 2 * ry, min(rx, ry), own)
         )
-        shape = (
-            f'<ellipse cx="{x}" cy="{y}" rx="{rx}" ry="{ry}"'
-            if look == "ellipses"
-            else f'<rect x="{x - rx}" y="{y - ry}" width="{2 * rx}" height="{2 * ry}" rx="{min(rx, ry)}"'
-        )
-        shapes.append(f'{shape} fill="{fills[cell.state, cell.shade]}" stroke="{outline}"/>')
         if cell.way and rx > 25:
             arrows.append(arrow(x, y, rx, ry, cell.way))
-    return (
-        f'<g stroke-width="10">{"".join(shapes)}</g>'
-        f'<path d="{"".join(arrows)}" fill="none" stroke="{theme().ink}" stroke-width="10" stroke-linecap="round" '
-        f'stroke-linejoin="round"/>'
-    )
+    pen = Look(fill="none", stroke=theme().ink, stroke_width=10, stroke_linecap="round", stroke_linejoin="round")
+    return [Group(shapes, Look(stroke_width=10)), Path("".join(arrows), pen)]
+
+
+def _cell_look(colour: str, shade: float, marked: bool) -> Look:
+    fill = cell_fill(colour, shade)
+    if marked:
+        return Look(fill=fill, stroke=theme().mark_edge, stroke_width=round(10 * MARKED))
+    return Look(fill=fill, stroke=edge_colour(colour))
 
 
 def letters_fit(sheet: FilamentLayout, letters: Mapping[int, str]) -> bool:
@@ -138,23 +127,26 @@ def letters_fit(sheet: FilamentLayout, letters: Mapping[int, str]) -> bool:
     return all(_fits(cell, letters) for row in sheet.rows for cell in sheet.cells(row))
 
 
-def _letters_svg(cells: Sequence[DrawnCell], middle: float, colour_of: Mapping[int, str], letters: Mapping[int, str]) -> str:
+def _letters(
+    cells: Sequence[DrawnCell], middle: float, colour_of: Mapping[int, str], letters: Mapping[int, str]
+) -> list[Shape]:
     """The letters in cells, where there is room, each on its cell's own colour."""
     y = tenths(middle + 0.36 * LETTER)
     texts = [
-        f'<text x="{tenths(cell.x)}" y="{y}" stroke="{cell_fill(colour_of.get(cell.state, GREEN), cell.shade)}">'
-        f"{escape(letters[cell.state])}</text>"
+        Text(tenths(cell.x), y, letters[cell.state], Look(stroke=cell_fill(colour_of.get(cell.state, GREEN), cell.shade)))
         for cell in cells
         if letters.get(cell.state) and _fits(cell, letters)
     ]
-    return (
-        (
-            f'<g font-size="{10 * LETTER}" font-family="sans-serif" font-style="italic" text-anchor="middle" '
-            f'fill="{theme().ink}" stroke-width="40" paint-order="stroke">{"".join(texts)}</g>'
-        )
-        if texts
-        else ""
+    look = Look(
+        font_size=10 * LETTER,
+        font_family="sans-serif",
+        font_style="italic",
+        text_anchor="middle",
+        fill=theme().ink,
+        stroke_width=40,
+        paint_order="stroke",
     )
+    return [Group(texts, look)] if texts else []
 
 
 def _fits(cell: DrawnCell, letters: Mapping[int, str]) -> bool:
@@ -169,32 +161,25 @@ def arrow(x: int, y: int, rx: int, ry: int, way: int) -> str:
     return f"M{x - way * reach} {y}H{tip}M{tip - way * head} {y - head}L{tip} {y}L{tip - way * head} {y + head}"
 
 
-def wall_width(shade: float) -> float:
-    """The width of the line of a wall, in pixels."""
-    return 1.5 + 3.0 * shade
+def _wall_look(colour: str, shade: float, marked: bool) -> Look:
+    """How a wall looks, given the colour of its symbol: the older, the broader and the nearer to ink."""
+    aged = mixed(line(colour), theme().ink, 1 - (1 - OLDEST) * shade)
+    return Look(stroke=theme().mark_edge if marked else aged, stroke_width=tenths(1.5 + 3.0 * shade))
 
 
-def wall_colour(colour: str, shade: float) -> str:
-    """The colour of a wall, given that of its symbol: the older, the nearer to that of ink."""
-    return mixed(line(colour), theme().ink, 1 - (1 - OLDEST) * shade)
-
-
-def _walls_svg(
+def _walls(
     walls: Sequence[DrawnWall], middle: float, aged: bool, colour_of: Mapping[int, str], marked: Collection[int]
-) -> str:
+) -> list[Shape]:
     """The walls of a filament, with their ages above."""
-    parts = []
+    parts: list[Shape] = []
     for wall in walls:
         x, top, bottom = tenths(wall.x), tenths(middle - wall.height - 2), tenths(middle + wall.height + 2)
-        colour = theme().mark_edge if wall.state in marked else wall_colour(colour_of.get(wall.state, GREEN), wall.shade)
-        parts.append(f'<path d="M{x} {top}V{bottom}" stroke="{colour}" stroke-width="{tenths(wall_width(wall.shade))}"/>')
+        look = _wall_look(colour_of.get(wall.state, GREEN), wall.shade, wall.state in marked)
+        parts.append(Path(f"M{x} {top}V{bottom}", look))
     if aged and _ages_fit(walls):
-        parts += [
-            f'<text x="{tenths(_age_place(wall))}" y="{tenths(middle - wall.height - 4.5)}" font-size="105" '
-            f'text-anchor="middle" font-family="sans-serif" fill="{theme().ink}">{wall.age}</text>'
-            for wall in walls
-        ]
-    return f'<g stroke-linecap="round">{"".join(parts)}</g>' if parts else ""
+        look = Look(font_size=105, text_anchor="middle", font_family="sans-serif", fill=theme().ink)
+        parts += [Text(tenths(_age_place(wall)), tenths(middle - wall.height - 4.5), wall.age, look) for wall in walls]
+    return [Group(parts, Look(stroke_linecap="round"))] if parts else []
 
 
 def _ages_fit(walls: Sequence[DrawnWall]) -> bool:

@@ -11,23 +11,23 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from lsys_kit.budget import Task, current
+from lsys_kit.budget import current
 from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.derivation.timed.lineage import Lineage
 from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown
 from lsys_kit.notation.model.arithmetic import Value
-from lsys_kit.pictures.filaments.painting import filament_svg, tenths, time_text
+from lsys_kit.pictures.filaments.painting import filament_shapes, tenths, time_text
 from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.lineages.tree import AXIS, HEAD, Tree, polarity_of, tree_of
 from lsys_kit.pictures.rendering.frames import MARGIN, WIDTH
-from lsys_kit.pictures.style.labels import svg_label, values_text
+from lsys_kit.pictures.shapes import Drawing, Group, Look, Path, Place, Shape, Span, Text
+from lsys_kit.pictures.sizes import document
+from lsys_kit.pictures.style.labels import label_parts, label_spans, values_text
 from lsys_kit.pictures.style.palette import VERMILION, tinted
-from lsys_kit.pictures.style.themes import drawn_on, line, theme
-from lsys_kit.pictures.svg import background, document, resized
+from lsys_kit.pictures.style.themes import line, theme
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -63,11 +63,9 @@ class LineagePicture(SVGPicture):
     labels: bool = True
     legend: bool = True
 
-    @cached_property
-    def svg(self) -> str:
-        """The picture as SVG text."""
-        with Task("The picture was not drawn"), drawn_on(self.theme):
-            return resized(drawn_lineage(self.lineage, self.intervals, self.labels, self.legend), self.pixels)
+    def shown(self, most: int, enlarged: float) -> Drawing:
+        """The tree, with what stands beside and below it."""
+        return drawn_lineage(self.lineage, self.intervals, self.labels, self.legend)
 
     def film_images(self) -> Sequence[Image]:
         """The tree as it grows, one time after another; at the end with what stands below it."""
@@ -130,38 +128,38 @@ def lineage_picture(
 
 def drawn_lineage(
     lineage: Lineage, intervals: Sequence[tuple[Value, Value]] = (), labels: bool = True, legend: bool = True
-) -> str:
-    """A lineage as SVG text."""
+) -> Drawing:
+    """A lineage as shapes."""
     tree = tree_of(lineage, BRACKET * len(intervals))
     half = max((cell.width for cell in tree.row), default=8.0)
     middle = tree.y(lineage.times[-1]) + TAIL + half
-    meaning, parts = _legend(tree) if legend else "", middle + half + 24
-    body = [
-        _axis(tree) if labels else "",
-        *(_bracket(tree, place, *interval) for place, interval in enumerate(intervals)),
-        *(_line(tree, cell) for cell in range(len(lineage.cells))),
+    meaning, parts = _legend(tree) if legend else [], middle + half + 24
+    body: list[Shape] = [
+        *([_axis(tree)] if labels else []),
+        *(shape for place, interval in enumerate(intervals) for shape in _bracket(tree, place, *interval)),
+        *(shape for cell in range(len(lineage.cells)) for shape in _line(tree, cell)),
         _flags(tree),
-        _last_word(tree, middle, labels),
-        f'<g transform="translate({AXIS * 10} {tenths(parts)})" font-family="sans-serif" font-size="13">{meaning}</g>',
+        *_last_word(tree, middle, labels),
+        Group(meaning, Look(font_family="sans-serif", font_size=13), place=Place(1, AXIS * 10, tenths(parts))),
     ]
     height = round(parts) + (MARGIN if meaning else -MARGIN)
-    return document(background(WIDTH, height) + "".join(body), WIDTH, height, f"Lineage of {lineage}")
+    return document(body, WIDTH, height, f"Lineage of {lineage}")
 
 
-def _axis(tree: Tree) -> str:
+def _axis(tree: Tree) -> Group:
     """The axis of time: a fine line through the tree at each time on it."""
     lineage = tree.lineage
     whole = lineage.stepwise and lineage.times == tuple(range(len(lineage.times)))
-    name = "step" if whole else '<tspan font-style="italic">t</tspan>'
-    quiet, fine = theme().quiet, tinted(theme().quiet, 0.3)
-    parts = [f'<text x="{tenths(AXIS - 10)}" y="{tenths(MARGIN + HEAD - 16)}" font-size="110" fill="{quiet}">{name}</text>']
+    name = "step" if whole else [Span("t", Look(font_style="italic"))]
+    quiet, fine = theme().quiet, Look(stroke=tinted(theme().quiet, 0.3), stroke_width=8)
+    parts: list[Shape] = [Text(tenths(AXIS - 10), tenths(MARGIN + HEAD - 16), name, Look(font_size=110, fill=quiet))]
     for time in _ticks(lineage):
         y = tenths(tree.y(time))
-        parts.append(
-            f'<path d="M{tenths(AXIS)} {y}H{tenths(WIDTH - MARGIN)}" stroke="{fine}" stroke-width="8"/>'
-            f'<text x="{tenths(AXIS - 10)}" y="{y + 42}" font-size="120" fill="{quiet}">{time_text(time)}</text>'
-        )
-    return f'<g text-anchor="end" font-family="sans-serif">{"".join(parts)}</g>'
+        parts += [
+            Path(f"M{tenths(AXIS)} {y}H{tenths(WIDTH - MARGIN)}", fine),
+            Text(tenths(AXIS - 10), y + 42, time_text(time), Look(font_size=120, fill=quiet)),
+        ]
+    return Group(parts, Look(text_anchor="end", font_family="sans-serif"))
 
 
 def _ticks(lineage: Lineage) -> Sequence[Value]:
@@ -172,41 +170,38 @@ def _ticks(lineage: Lineage) -> Sequence[Value]:
     return range(0, int(end) + 1, max(1, -(-int(end) // MOST_TICKS)))
 
 
-def _bracket(tree: Tree, place: int, first: Value, last: Value) -> str:
+def _bracket(tree: Tree, place: int, first: Value, last: Value) -> list[Shape]:
     """An interval beside the tree, with its length."""
     x, top, bottom = tree.right + BRACKET * place + 18, tree.y(first), tree.y(last)
-    return (
-        f'<path d="M{tenths(x - 5)} {tenths(top)}h100M{tenths(x)} {tenths(top)}V{tenths(bottom)}m-50 0h100" fill="none" '
-        f'stroke="{theme().ink}" stroke-width="14"/><text x="{tenths(x + 8)}" y="{tenths((top + bottom) / 2 + 4.5)}" '
-        f'font-size="130" font-family="sans-serif" fill="{theme().ink}">{time_text(last - first)}</text>'
-    )
+    data = f"M{tenths(x - 5)} {tenths(top)}h100M{tenths(x)} {tenths(top)}V{tenths(bottom)}m-50 0h100"
+    look = Look(font_size=130, font_family="sans-serif", fill=theme().ink)
+    return [
+        Path(data, Look(fill="none", stroke=theme().ink, stroke_width=14)),
+        Text(tenths(x + 8), tenths((top + bottom) / 2 + 4.5), time_text(last - first), look),
+    ]
 
 
-def _line(tree: Tree, number: int) -> str:
+def _line(tree: Tree, number: int) -> list[Path]:
     """A cell's line, from its mother's; broad behind it the time by which it divides late."""
     cell, kind, x = tree.lineage.cells[number], tree.kinds[tree.kind_of[number]], tree.x[number]
     bottom = tree.y(tree.lineage.times[-1]) + TAIL if cell.ended is None else tree.y(cell.ended)
     seen = tree.y(tree.lineage.times[cell.modules[0][0]]) if cell.modules else bottom
-    late = (
-        ""
-        if cell.due is None
-        else (
-            f'<path d="M{tenths(x)} {tenths(tree.y(max(cell.due, cell.born)))}V{tenths(bottom)}" {_late_look()} fill="none"/>'
-        )
-    )
+    found = []
+    if cell.due is not None:
+        data = f"M{tenths(x)} {tenths(tree.y(max(cell.due, cell.born)))}V{tenths(bottom)}"
+        found.append(Path(data, {**_late_look(), "fill": "none"}))
     start, turned = _branch_path(tree, number, bottom)
-    look = f'fill="none" stroke="{line(kind.colour)}" stroke-linecap="round"{kind.broken}'
+    look: Look = {"fill": "none", "stroke": line(kind.colour), "stroke_linecap": "round", **kind.broken}
+    thick, thin = (look | Look(stroke_width=width) for width in (THICK, THIN))
     if seen <= turned or not tree.lineage.stepwise:
-        return f'{late}<path d="{start}V{tenths(bottom)}" {look} stroke-width="{THICK}"/>'
-    thin = f'{late}<path d="{start}V{tenths(seen)}" {look} stroke-width="{THIN}"/>'
-    return thin + (
-        f'<path d="M{tenths(x)} {tenths(seen)}V{tenths(bottom)}" {look} stroke-width="{THICK}"/>' if bottom > seen else ""
-    )
+        return [*found, Path(f"{start}V{tenths(bottom)}", thick)]
+    found.append(Path(f"{start}V{tenths(seen)}", thin))
+    return [*found, *([Path(f"M{tenths(x)} {tenths(seen)}V{tenths(bottom)}", thick)] if bottom > seen else [])]
 
 
-def _late_look() -> str:
+def _late_look() -> Look:
     """How the time is shown by which a cell divides late."""
-    return f'stroke="{line(VERMILION)}" stroke-width="{LATE}" stroke-opacity="0.35"'
+    return Look(stroke=line(VERMILION), stroke_width=LATE, stroke_opacity=0.35)
 
 
 def _branch_path(tree: Tree, number: int, bottom: float) -> tuple[str, float]:
@@ -223,7 +218,7 @@ def _branch_path(tree: Tree, number: int, bottom: float) -> tuple[str, float]:
     ), top + bend
 
 
-def _flags(tree: Tree) -> str:
+def _flags(tree: Tree) -> Path:
     """A flag at the beginning of each line, to the side to which the cell points."""
     parts = []
     for number, cell in enumerate(tree.lineage.cells):
@@ -232,48 +227,37 @@ def _flags(tree: Tree) -> str:
         if way and end - top > 16:
             x, y = tenths(tree.x[number]), tenths(top + 7)
             parts.append(f"M{x} {y}L{x + way * 65} {y + 32}L{x} {y + 64}Z")
-    return f'<path d="{"".join(parts)}" fill="{theme().ink}"/>'
+    return Path("".join(parts), Look(fill=theme().ink))
 
 
-def _last_word(tree: Tree, middle: float, labels: bool) -> str:
+def _last_word(tree: Tree, middle: float, labels: bool) -> list[Shape]:
     """The last word below the tree: its cells as they are drawn, else their names where there is room."""
     lineage, system = tree.lineage, tree.lineage.states.system
     if tree.row:
-        return filament_svg(tree.row, system.cells, middle, tree.colours)
+        return filament_shapes(tree.row, system.cells, middle, tree.colours)
     modules = [lineage.cells[cell].modules[-1][1] for cell in lineage.words[-1]]
     places = [tree.x[cell] for cell in lineage.words[-1]]
     longest = max((len(str(module)) for module in modules), default=0)
     if not labels or any(after - before < 7 * longest for before, after in pairwise(places)):
-        return ""
-    return "".join(
-        f'<text transform="translate({tenths(x)} {tenths(middle + 6)}) scale(10)" font-size="13" '
-        f'text-anchor="middle" font-family="sans-serif" fill="{theme().ink}">'
-        f"{svg_label(module.symbol, system, values_text(module))}</text>"
-        for x, module in zip(places, modules, strict=True)
-    )
+        return []
+    look = Look(font_size=13, text_anchor="middle", font_family="sans-serif", fill=theme().ink)
+    names = [label_spans(*label_parts(module.symbol, system), values_text(module)) for module in modules]
+    spots = [Place(10, tenths(x), tenths(middle + 6)) for x in places]
+    return [Text(None, None, name, look, place=place) for name, place in zip(names, spots, strict=True)]
 
 
-def _legend(tree: Tree) -> str:
+def _legend(tree: Tree) -> list[Shape]:
     """What the lines mean: kinds of cells by what they are at birth; what is not in a word yet, what is late."""
-    cells, entries = tree.lineage.cells, []
-    if len(tree.kinds) > 1:
-        entries += [
-            (
-                f'stroke="{line(kind.colour)}" stroke-width="{THICK}" stroke-linecap="round"{kind.broken}',
-                kind.label,
-                kind.characters,
-            )
-            for kind in tree.kinds
-        ]
+    cells, entries = tree.lineage.cells, list[tuple[Look, str | Sequence[str | Span], int]]()
+    for kind in tree.kinds if len(tree.kinds) > 1 else ():
+        look = Look(stroke=line(kind.colour), stroke_width=THICK, stroke_linecap="round")
+        entries.append((look | kind.broken, kind.label, kind.characters))
     if tree.lineage.stepwise and any(not cell.modules or tree.lineage.times[cell.modules[0][0]] > cell.born for cell in cells):
-        entries.append((f'stroke="{theme().quiet}" stroke-width="{THIN}"', "within a step", 13))
+        entries.append((Look(stroke=theme().quiet, stroke_width=THIN), "within a step", 13))
     if any(cell.due is not None for cell in cells):
         entries.append((_late_look(), "should have divided", 19))
-    parts, x = [], 0
+    parts, x = list[Shape](), 0
     for look, label, characters in entries:
-        parts.append(
-            f'<path d="M{x} 0h280" {look}/><text transform="translate({x + 360} 45) scale(10)" fill="{theme().ink}">'
-            f"{label}</text>"
-        )
+        parts += [Path(f"M{x} 0h280", look), Text(None, None, label, Look(fill=theme().ink), place=Place(10, x + 360, 45))]
         x += 360 + 65 * characters + 280
-    return "".join(parts)
+    return parts

@@ -16,7 +16,8 @@ from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.modules import CELLS, Module
 from lsys_kit.pictures.filaments.layout import DrawnCell
 from lsys_kit.pictures.rendering.frames import MARGIN, WIDTH
-from lsys_kit.pictures.style.labels import place_parts, polar_symbols, svg_label
+from lsys_kit.pictures.shapes import Look, Span
+from lsys_kit.pictures.style.labels import label_parts, label_spans, place_parts, polar_symbols
 from lsys_kit.pictures.style.palette import colour_of
 
 AXIS, HEAD, TREE = 54, 22, 300
@@ -36,22 +37,22 @@ class CellKind:
     Attributes
     ----------
     label
-        What they were, as SVG text.
+        What they were, in pieces of text.
     characters
         The number of characters of the label.
     colour, dash
         The colour and the dash pattern of their lines.
     """
 
-    label: str
+    label: Sequence[str | Span]
     characters: int
     colour: str
     dash: str
 
     @property
-    def broken(self) -> str:
-        """The SVG attribute for the dash pattern."""
-        return f' stroke-dasharray="{self.dash}"' if self.dash else ""
+    def broken(self) -> Look:
+        """How lines are broken."""
+        return Look(stroke_dasharray=self.dash) if self.dash else Look()
 
 
 @dataclass(frozen=True)
@@ -171,7 +172,10 @@ def _cell_kind(lineage: Lineage, modules: Sequence[Module], number: int) -> Cell
     letter, subscript, values = place_parts(Place(symbol, tuple(modules)), system)
     name = f"{letter}_{subscript}" if subscript else letter
     return CellKind(
-        svg_label(name, system, values), len(name + values), colour_of(symbol, system), DASHES[number % len(DASHES)]
+        label_spans(*label_parts(name, system), values),
+        len(name + values),
+        colour_of(symbol, system),
+        DASHES[number % len(DASHES)],
     )
 
 

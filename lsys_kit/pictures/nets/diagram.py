@@ -27,7 +27,8 @@ from lsys_kit.pictures.nets.parts import (
     parts_of,
     steering_of,
 )
-from lsys_kit.pictures.style.labels import escaped, letter_svg
+from lsys_kit.pictures.shapes import Circle, Drawing, Group, Look, Paper, Path, Rectangle, Shape, Text, Title
+from lsys_kit.pictures.style.labels import label_spans
 from lsys_kit.pictures.style.palette import tinted
 from lsys_kit.pictures.style.themes import Theme, line, theme
 
@@ -48,18 +49,15 @@ class Diagram:
     ----------
     parts
         Its parts.
-    start
-        The SVG up to the end of its description.
     lines
-        The bars and arcs, as SVG.
+        The bars and arcs.
     stages
-        For each place that is shown its circle and label, as SVG.
+        For each place that is shown its circle and label.
     """
 
     parts: Parts
-    start: str
-    lines: str
-    stages: tuple[str, ...]
+    lines: Sequence[Shape]
+    stages: Sequence[Sequence[Shape]]
 
 
 def drawn_stages(
@@ -70,8 +68,8 @@ def drawn_stages(
     positions: bool = False,
     steering: Collection[str] | None = None,
     labels: bool = True,
-) -> str:
-    """A stage diagram as SVG text.
+) -> Drawing:
+    """A stage diagram as shapes.
 
     Parameters
     ----------
@@ -97,23 +95,23 @@ def drawn_stages(
     --------
     >>> from lsys_kit.derivation.petri.stages import stages
     >>> from lsys_kit.notation.read import read
-    >>> drawn_stages(stages(read("axiom: a\\na -> ab\\nb -> a")), (2, 1)).count('class="token"')
-    3
+    >>> [*drawn_stages(stages(read("axiom: a\\na -> ab\\nb -> a")), (2, 1)).shapes[1].shapes][-1].tags
+    {'class': 'token'}
     """
     if tokens is not None and len(tokens) != len(net.places):
         raise ModelValueError(f"The diagram has {len(net.places)} places; {len(tokens)} numbers of tokens do not fit it")
     diagram = _diagram(net, positions, steering_of(net.system) if steering is None else frozenset(steering), theme(), labels)
-    body, places = [], diagram.parts.places
+    parts, places = diagram.parts, diagram.parts.places
+    body: list[Shape] = [] if theme().transparent else [Paper(theme().ground)]
     for part, stage in zip(places, diagram.stages, strict=True):
         x, y, chosen = part.x, part.y, part.place in marked
-        body.append(
-            f'<g class="stage" data-place="{part.place}">{_ring(x, y) if chosen else ""}{stage}'
-            f"{_edge(x, y) if chosen else ''}{'' if tokens is None else _tokens(x, y, tokens[part.place])}</g>"
-        )
+        shapes = [_ring(x, y), *stage, _edge(x, y)] if chosen else stage
+        held = [] if tokens is None else _tokens(x, y, tokens[part.place])
+        body.append(Group([*shapes, *held], tags={"class": "stage", "data-place": part.place}))
     told = "" if tokens is None else "; tokens " + ", ".join(short(tokens[part.place]) for part in places)
     told += "".join(f"; {part.name} is marked" for part in places if part.place in marked)
-    paper = "" if theme().transparent else f'<rect width="100%" height="100%" fill="{theme().ground}"/>'
-    return f'{diagram.start}{escaped(told)}">{paper}{"".join(body)}{diagram.lines}</svg>'
+    look, box = Look(font_family="sans-serif", fill=theme().ink), (0, 0, parts.width, parts.height)
+    return Drawing(parts.width, parts.height, parts.description + told, [*body, *diagram.lines], box, look)
 
 
 @lru_cache(maxsize=64)
@@ -121,51 +119,37 @@ def _diagram(net: Stages, positions: bool, steering: frozenset[str], chosen: The
     """What of the diagram does not depend on the tokens, in the theme in force."""
     parts = parts_of(net, positions, steering, chosen.symbols)
     parts = parts if labels else parts.nameless
-    lines = "".join(
-        [
-            *map(_arc_svg, parts.arcs),
-            *map(_bar_svg, parts.bars),
-            *map(_note_svg, parts.notes),
-            *(_footnote_svg(parts.foot + LINE * line, text) for line, text in enumerate(parts.footnotes)),
-        ]
-    )
-    start = (
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {parts.width} {parts.height}" width="{parts.width}" '
-        f'height="{parts.height}" style="max-width:100%;height:auto" font-family="sans-serif" fill="{chosen.ink}" '
-        f'role="img" aria-label="{escaped(parts.description)}'
-    )
-    return Diagram(parts, start, lines, tuple(map(_stage, parts.places)))
+    footnotes = [_footnote(parts.foot + LINE * line, text) for line, text in enumerate(parts.footnotes)]
+    lines = [shape for each in (*map(_arc, parts.arcs), *map(_bar, parts.bars), *map(_note, parts.notes)) for shape in each]
+    return Diagram(parts, [*lines, *footnotes], [_stage(part) for part in parts.places])
 
 
-def _stage(part: PlacePart) -> str:
+def _stage(part: PlacePart) -> list[Shape]:
     """A circle with its label and its name in words."""
-    x, y = part.x, part.y
-    return (
-        f'<title>{escaped(part.title)}</title><circle cx="{x:.1f}" cy="{y:.1f}" r="{RADIUS:.1f}" '
-        f'fill="{tinted(part.colour, part.strength)}" stroke="{line(part.colour)}" stroke-width="1.8"/>'
-        f'<text x="{x:.1f}" y="{y + RADIUS + 17:.1f}" font-size="{LABEL_SIZE}" text-anchor="middle">'
-        f"{letter_svg(part.letter, part.subscript, part.values)}</text>"
-    )
+    x, y = float(part.x), float(part.y)
+    look = Look(fill=tinted(part.colour, part.strength), stroke=line(part.colour), stroke_width=1.8)
+    written = label_spans(part.letter, part.subscript, part.values)
+    label = Text(x, y + RADIUS + 17, written, Look(font_size=LABEL_SIZE, text_anchor="middle"))
+    return [Title(part.title), Circle(x, y, float(RADIUS), look), label]
 
 
-def _ring(x: float, y: float) -> str:
-    return f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{RADIUS + 5:.1f}" fill="{theme().mark}" stroke="{theme().mark_edge}"/>'
+def _ring(x: float, y: float) -> Circle:
+    return Circle(float(x), float(y), RADIUS + 5.0, Look(fill=theme().mark, stroke=theme().mark_edge))
 
 
-def _edge(x: float, y: float) -> str:
-    return f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{RADIUS:.1f}" fill="none" stroke="{theme().mark_edge}" stroke-width="3.6"/>'
+def _edge(x: float, y: float) -> Circle:
+    return Circle(float(x), float(y), float(RADIUS), Look(fill="none", stroke=theme().mark_edge, stroke_width=3.6))
 
 
-def _tokens(x: float, y: float, count: int) -> str:
+def _tokens(x: float, y: float, count: int) -> list[Shape]:
     """Up to four tokens as dots, more as a number."""
+    tags = {"class": "token"}
     if count < 5:
-        return "".join(f'<circle class="token" cx="{x + dx:.1f}" cy="{y + dy:.1f}" r="3.6"/>' for dx, dy in DOTS[count])
+        return [Circle(float(x + dx), float(y + dy), 3.6, tags=tags) for dx, dy in DOTS[count]]
     text = short(count)
     size = token_size(text)
-    return (
-        f'<text class="token" x="{x:.1f}" y="{y + 0.36 * size:.1f}" font-size="{size}" font-weight="bold" '
-        f'text-anchor="middle">{text}</text>'
-    )
+    look = Look(font_size=size, font_weight="bold", text_anchor="middle")
+    return [Text(float(x), y + 0.36 * size, text, look, tags)]
 
 
 def token_size(text: str) -> int:
@@ -177,41 +161,36 @@ def token_size(text: str) -> int:
     return 15 if len(text) < 3 else 13 if len(text) < 4 else 11
 
 
-def _bar_svg(bar: BarPart) -> str:
+def _bar(bar: BarPart) -> list[Shape]:
     """A bar with the line to it and its terms."""
-    text = (
-        (
-            f'<text class="terms" x="{bar.tx:.1f}" y="{bar.ty:.1f}" font-size="{SMALL}"><title>{escaped(bar.full)}</title>'
-            f"{escaped(bar.terms)}</text>"
-        )
-        if bar.terms
-        else ""
-    )
-    return (
-        f'<g class="transition"><path class="feed" d="{bar.line}" {_stroke()}/><rect x="{bar.x - 1.8:.1f}" '
-        f'y="{bar.y - bar.half:.1f}" width="3.6" height="{2 * bar.half:.1f}" rx="0.8"/>{text}</g>'
-    )
+    shapes: list[Shape] = [
+        Path(bar.line, _stroke(), {"class": "feed"}),
+        Rectangle(bar.x - 1.8, float(bar.y - bar.half), 3.6, 2.0 * bar.half, 0.8),
+    ]
+    if bar.terms:
+        look, tags = Look(font_size=SMALL), {"class": "terms"}
+        shapes.append(Text(float(bar.tx), float(bar.ty), (Title(bar.full), bar.terms), look, tags))
+    return [Group(shapes, tags={"class": "transition"})]
 
 
-def _stroke() -> str:
-    return f'fill="none" stroke="{theme().ink}" stroke-width="1.3"'
+def _stroke() -> Look:
+    return Look(fill="none", stroke=theme().ink, stroke_width=1.3)
 
 
-def _arc_svg(arc: ArcPart) -> str:
+def _arc(arc: ArcPart) -> list[Shape]:
     """An arc with its arrowhead, on a band of paper that interrupts the lines it crosses."""
-    return (
-        f'<path d="{arc.band}" fill="none" stroke="{theme().ground}" stroke-width="5"/><path class="arc" '
-        f'data-arc="{arc.arc}" d="{arc.path}" {_stroke()}/><path d="{arc.head}"/>'
-    )
+    band = Look(fill="none", stroke=theme().ground, stroke_width=5)
+    return [Path(arc.band, band), Path(arc.path, _stroke(), {"class": "arc", "data-arc": arc.arc}), Path(arc.head)]
 
 
-def _note_svg(note: NotePart) -> str:
-    x, y, width, paper = note.x, note.y, note.width, theme().ground
-    return (
-        f'<rect x="{x - width / 2:.1f}" y="{y - 6:.1f}" width="{width:.1f}" height="12" fill="{paper}"/><text class="note" '
-        f'x="{x:.1f}" y="{y + 0.36 * SMALL:.1f}" font-size="{SMALL}" text-anchor="middle">{escaped(note.text)}</text>'
-    )
+def _note(note: NotePart) -> list[Shape]:
+    x, y, width = float(note.x), float(note.y), float(note.width)
+    look = Look(font_size=SMALL, text_anchor="middle")
+    return [
+        Rectangle(x - width / 2, y - 6, width, 12, look=Look(fill=theme().ground)),
+        Text(x, y + 0.36 * SMALL, note.text, look, {"class": "note"}),
+    ]
 
 
-def _footnote_svg(y: float, text: str) -> str:
-    return f'<text class="footnote" x="{EDGE:.1f}" y="{y:.1f}" font-size="{SMALL}">{escaped(text)}</text>'
+def _footnote(y: float, text: str) -> Text:
+    return Text(float(EDGE), float(y), text, Look(font_size=SMALL), {"class": "footnote"})
