@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from lsys_kit.notation.model.system import LSystem
     from lsys_kit.notation.read import AnySystem
     from lsys_kit.pictures.draw import AnyPicture
-    from lsys_kit.pictures.formats.film import Film
+    from lsys_kit.pictures.films import Film
 
 
 MOST_NEIGHBOURS = 1_000
@@ -210,7 +210,7 @@ def draw_word(options: argparse.Namespace) -> None:
 
 
 def _film(options: argparse.Namespace) -> dict[str, Any]:
-    from lsys_kit.pictures.formats.files import FILMS
+    from lsys_kit.pictures.formats.notebook import FILMS
 
     turntable = getattr(options, "turntable", False)
     if Path(options.output).suffix.lower() not in FILMS and not turntable:

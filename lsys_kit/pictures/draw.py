@@ -4,30 +4,28 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias, overload
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, overload
 
 from lsys_kit.budget import Task, counted
-from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.derivation.timed.ages import age_model
 from lsys_kit.derivation.timed.lineage import Lineage
 from lsys_kit.derivation.tissues.development import CellDevelopment, CellworkDevelopment, Development
-from lsys_kit.errors import ModelNameError, ModelValueError, require, shown, whole_number
+from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError, require, shown, whole_number
 from lsys_kit.geometry.drawing import turning_angle
 from lsys_kit.geometry.filament import filament
 from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.cells import CellSystem, CellworkSystem, MapSystem
-from lsys_kit.notation.model.system import LSystem
-from lsys_kit.pictures.chosen_words import ChosenWord, chosen_words, numbers_from
-from lsys_kit.pictures.filaments import LOOKS
+from lsys_kit.notation.model.system import USUAL_STEPS, LSystem
+from lsys_kit.pictures.filaments.folding import FilamentRow
+from lsys_kit.pictures.filaments.painting import LOOKS
 from lsys_kit.pictures.formats.axes import new_axes, set_ground
 from lsys_kit.pictures.formats.notebook import SVGPicture
-from lsys_kit.pictures.kinds import check_drawable, coloured_symbols, kind_of
 from lsys_kit.pictures.legends import legend_of, letters_of
-from lsys_kit.pictures.lineages import LineagePicture, lineage_picture
+from lsys_kit.pictures.lineages.picture import LineagePicture, lineage_picture
 from lsys_kit.pictures.multiples import SmallMultiples
 from lsys_kit.pictures.options import (
     CELLWORK,
@@ -36,27 +34,91 @@ from lsys_kit.pictures.options import (
     MAP,
     SPHERE,
     STAGES,
-    Options,
-    options_from,
+    Style,
+    check_drawable,
+    coloured_symbols,
+    kind_of,
     seen_as,
     split_options,
+    style_from,
 )
 from lsys_kit.pictures.picture import NetPicture, Picture
 from lsys_kit.pictures.plots.chart import Plot, painted
-from lsys_kit.pictures.rendering.line_widths import in_units
+from lsys_kit.pictures.rendering.frames import in_units
 from lsys_kit.pictures.rendering.view import project_smoothly, view_from
-from lsys_kit.pictures.sizes import size_from
 from lsys_kit.pictures.style.palette import colour_of
 from lsys_kit.pictures.style.themes import drawn_on
-from lsys_kit.pictures.svg import FilamentRow
 from lsys_kit.pictures.tissues.cellworks import CellworkPicture, cellwork_picture
 from lsys_kit.pictures.tissues.maps import MapPicture, map_picture
 from lsys_kit.pictures.tissues.phases import PhasesPicture, phases_picture
 from lsys_kit.pictures.tissues.spheres import sphere_picture
+from lsys_kit.worlds.derive import derive
 from lsys_kit.worlds.fields import Field
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+MOST = 36
+"""The greatest number of words in a picture."""
+
+
+class ChosenWord(NamedTuple):
+    """A word, or a derivation whose last word is drawn; its step and its seed; and what stands below it, if it is not alone."""
+
+    word: Derivation | Word
+    step: int
+    seed: int | None = None
+    caption: str = ""
+
+
+def _numbers_from(value: object, name: str) -> tuple[int, ...]:
+    if not isinstance(value, Sequence) or isinstance(value, str):
+        raise ModelValueError(f'"{name}" takes a list of whole numbers, not {shown(value)}')
+    if len(value) > MOST:
+        raise _too_many(len(value))
+    return tuple(whole_number(each, f'A number of "{name}"') for each in value)
+
+
+def _too_many(needed: int) -> ModelLimitError:
+    return ModelLimitError(f"A picture shows {MOST} drawings at most, not {needed:,}", limit=MOST, needed=needed)
+
+
+def _chosen_words(
+    what: LSystem | Derivation | Word, n: int | None, steps: Sequence[int], seeds: Sequence[int], choices: Mapping[str, Any]
+) -> list[ChosenWord]:
+    """The words that are drawn: each of some steps for each of some seeds; by default the last step, and one seed."""
+    if len(steps) * len(seeds) > MOST:
+        raise _too_many(len(steps) * len(seeds))
+    if seeds and (not isinstance(what, LSystem) or choices.get("seed") is not None):
+        raise ModelValueError("Seeds are chosen when a system is derived", hint="Give either seed=1 or seeds=[1, 2, 3].")
+    if steps and (isinstance(what, Word) or n is not None):
+        raise ModelValueError("Steps are chosen by n or by steps, and a word has none", hint="Give steps=[4, 6, 8] alone.")
+    choices = {name: value for name, value in choices.items() if value is not None}
+    last = max(steps) if steps and isinstance(what, LSystem) else n
+    own = choices.pop("seed", None)
+    rows = [(seed, derivation_of(what, last, seed=own if seed is None else seed, **choices)) for seed in seeds or (None,)]
+    return [_chosen(word, step, seed) for seed, word in rows for step in steps or (None,)]
+
+
+def _chosen(word: Derivation | Word, step: int | None, seed: int | None) -> ChosenWord:
+    if step is not None:
+        assert isinstance(word, Derivation)
+        if step > word.steps:
+            raise ModelValueError(f"Step {step} has not been derived", hint=f"The last step is {word.steps}.")
+        word = word.to(step)
+    number = word.steps if isinstance(word, Derivation) else 0
+    names = [f"seed {seed}"] * (seed is not None) + [f"step {step}"] * (step is not None)
+    return ChosenWord(word, number, seed, ", ".join(names))
+
+
+def derivation_of(what: LSystem | Derivation | Word, n: int | None, **choices: Any) -> Derivation | Word:
+    """The derivation of a system; a derivation or word unchanged, because its steps are fixed already."""
+    if isinstance(what, LSystem):
+        return derive(what, n if n is not None else what.steps if what.steps is not None else USUAL_STEPS, **choices)
+    if n is not None or choices.keys() - {"seed", "arithmetic"}:
+        raise ModelValueError("Steps and constants are chosen when a system is derived, not when a word is drawn")
+    return what
+
 
 AnyPicture: TypeAlias = "MapPicture | PhasesPicture | Picture | NetPicture | LineagePicture | SmallMultiples"
 _CELL_PICTURES: Mapping[str, Callable[..., AnyPicture]] = {MAP: map_picture, SPHERE: sphere_picture, CELLWORK: cellwork_picture}
@@ -205,7 +267,7 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> AnyPicture:
 
     Examples
     --------
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> draw(read("angle: 60\\nheading: 0\\naxiom: F--F--F\\nF -> F+F--F+F"), 3)
     192 segments, width 27, height 31.18
     """
@@ -214,30 +276,30 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> AnyPicture:
 
 
 def _drawn(what: Any, n: int | None, size: object = None, **choices: Any) -> AnyPicture:
-    """The picture in the size and with the looks that were chosen."""
     check_drawable(what, n)
     given, choices = split_options(choices)
-    pixels, options = size_from(size), options_from(given, kind_of(what, choices), coloured_symbols(what))
-    with drawn_on(options.theme):
-        picture = _in_usual_size(what, n, options, **choices)
-    return replace(picture, pixels=pixels, theme=options.theme)
+    style = style_from(given, kind_of(what, choices), coloured_symbols(what), size)
+    with drawn_on(style.theme):
+        picture = _in_style(what, n, style, **choices)
+    return replace(picture, pixels=style.size, theme=style.theme)
 
 
-def _in_usual_size(what: Any, n: int | None, options: Options, **choices: Any) -> AnyPicture:
+def _in_style(what: Any, n: int | None, style: Style, **choices: Any) -> AnyPicture:
+    labels, legend = style.labels is not False, style.legend is not False
     if isinstance(what, Stages):
         check_choices(choices, ("tokens", "positions"), STAGES)
-        return _net_picture(what, options.labels is not False, **choices)
+        return _net_picture(what, labels, **choices)
     if isinstance(what, CellSystem | CellDevelopment):
-        kind, looks = kind_of(what, choices), {"labels": options.labels is not False, "legend": bool(options.legend)}
+        kind, looks = kind_of(what, choices), {"labels": labels, "legend": bool(style.legend)}
         draws: Callable[..., AnyPicture] = phases_picture if kind == MAP and _yes(choices, "phases") else _CELL_PICTURES[kind]
         return draws(what, n, **{name: value for name, value in looks.items() if name in KINDS[kind]}, **choices)
     if isinstance(what, Lineage):
         check_choices(choices, ("intervals",), LINEAGE)
-        return lineage_picture(what, labels=options.labels is not False, legend=options.legend is not False, **choices)
+        return lineage_picture(what, labels=labels, legend=legend, **choices)
     if isinstance(what, LSystem):
         names = "angle", "seed", "arithmetic", "marked", "cells", "field", "view", "steps", "seeds"
         check_choices(choices, names, kind_of(what, choices), [each.name for each in what.constants])
-    return _drawing(what, n, options, **choices)
+    return _drawing(what, n, style, **choices)
 
 
 def _yes(choices: dict[str, Any], name: str) -> bool:
@@ -265,7 +327,7 @@ def _net_picture(net: Stages, labels: bool, tokens: Word | None = None, position
 def _drawing(
     what: LSystem | Derivation | Word,
     n: int | None,
-    options: Options,
+    style: Style,
     *,
     angle: object = None,
     marked: Collection[int] = (),
@@ -278,45 +340,43 @@ def _drawing(
     require(marked, Collection, "A collection of states")
     states = frozenset(whole_number(each, "A state") for each in counted(marked))
     side = None if view is None else view_from(view)
-    drawn = chosen_words(what, n, numbers_from(steps, "steps"), numbers_from(seeds, "seeds"), choices)
+    drawn = _chosen_words(what, n, _numbers_from(steps, "steps"), _numbers_from(seeds, "seeds"), choices)
     system = drawn[0].word.states.system
     if drawing_mode(system) is DrawingMode.FILAMENT:
-        return _sequence(drawn, states, cells, options)
+        return _sequence(drawn, states, cells, style)
     turn = turning_angle(angle, system)
-    scenes = in_units([seen_as(each.word, turn, options) for each in drawn], system)
+    scenes = in_units([seen_as(each.word, turn, style) for each in drawn], system)
     pictures = [
         Picture(
             (FilamentRow(each.step, seen),), state_colours(each.word), None, states, scene if scene.dimension == 3 else None
         )
         for each, scene, seen in zip(drawn, scenes, project_smoothly(scenes, side), strict=True)
     ]
-    legend = legend_of([each.word.states for each in drawn], scenes) if options.legend else None
+    legend = legend_of([each.word.states for each in drawn], scenes) if style.legend else None
     if not drawn[0].caption:
         return replace(pictures[0], legend=legend)
     columns = len({each.step for each in drawn}) if len({each.seed for each in drawn}) > 1 else 0
     captions = [each.caption for each in drawn]
-    return SmallMultiples(pictures, captions, columns if columns > 1 else 0, options.labels is not False, legend=legend)
+    return SmallMultiples(pictures, captions, columns if columns > 1 else 0, style.labels is not False, legend=legend)
 
 
-def _sequence(drawn: Sequence[ChosenWord], marked: Collection[int], cells: str | None, options: Options) -> Picture:
+def _sequence(drawn: Sequence[ChosenWord], marked: Collection[int], cells: str | None, style: Style) -> Picture:
     """A filament's steps below one another; a word alone."""
     last = drawn[-1].word
     if isinstance(last, Word):
-        alone = filament_picture(last, (FilamentRow(0, filament(last)),), None, marked, cells)
-        return _with_options(alone, last.states, options)
+        return _in_letters(filament_picture(last, (FilamentRow(0, filament(last)),), None, marked, cells), last, style)
     if len({each.seed for each in drawn}) > 1:
         raise ModelValueError("The rows of a filament are the steps of one seed", hint="Draw one seed at a time.")
     steps = [each.step for each in drawn] if drawn[0].caption else range(max(0, last.steps + 1 - MOST_ROWS), last.steps + 1)
     rows = tuple(FilamentRow(step, filament(last.to(max(steps))[step])) for step in steps)
-    return _with_options(filament_picture(last, rows, steps[-1], marked, cells), last.states, options)
+    return _in_letters(filament_picture(last, rows, steps[-1], marked, cells), last, style)
 
 
-def _with_options(picture: Picture, states: States, options: Options) -> Picture:
-    """A picture of filaments with labels and a legend as they were chosen."""
+def _in_letters(picture: Picture, what: Derivation | Word, style: Style) -> Picture:
     scenes = [row.scene for row in picture.rows]
-    legend = legend_of([states] * len(scenes), scenes) if options.legend else None
-    letters = letters_of(states, scenes, options.labels)
-    return replace(picture, labels=options.labels, letters=letters, legend=legend)
+    legend = legend_of([what.states] * len(scenes), scenes) if style.legend else None
+    letters = letters_of(what.states, scenes, style.labels)
+    return replace(picture, labels=style.labels, letters=letters, legend=legend)
 
 
 def filament_picture(
@@ -362,9 +422,8 @@ def figure(what: Any, ax: Axes | None = None, **choices: Any) -> Axes:
 
     Examples
     --------
-    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit import derive, read
     >>> from matplotlib.figure import Figure
-    >>> from lsys_kit.notation.read import read
     >>> left, right = Figure().subplots(1, 2)
     >>> plant = read("angle: 25\\naxiom: F\\nF -> F[+F]F[-F]F")
     >>> _ = left.plot([len(word) for word in derive(plant, 4)])

@@ -1,13 +1,18 @@
-"""Films: a development step after step, or what is in space on a turntable.
+"""Films: a development step after step, or what is in space on a turntable; as an animated GIF or PNG, or as MP4.
 
 All steps have the same frame, so that what grows is seen to grow. Of a filament's developmental sequence one row after another
-appears, and of a lineage one step after another.
+appears, and of a lineage one step after another. MP4 is written by the program ffmpeg.
 """
 
 from __future__ import annotations
 
+import io
+import tempfile
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from functools import cached_property
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lsys_kit.budget import Task, check_bytes, counted
@@ -16,33 +21,175 @@ from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.derivation.timed.lineage import Lineage
 from lsys_kit.derivation.tissues.development import CellDevelopment, CellworkDevelopment
-from lsys_kit.errors import ModelLimitError, ModelValueError, require
+from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError, require
+from lsys_kit.files import marked_gif, marked_mp4, marked_png, path_from
 from lsys_kit.geometry.drawing import turning_angle
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
 from lsys_kit.notation.model.cells import CellSystem, CellworkSystem
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.pictures.chosen_words import derivation_of
-from lsys_kit.pictures.draw import check_choices, draw, state_colours
-from lsys_kit.pictures.formats.film import SECONDS, Film
-from lsys_kit.pictures.formats.notebook import SVGPicture
+from lsys_kit.pictures.draw import check_choices, derivation_of, draw, state_colours
+from lsys_kit.pictures.formats.notebook import SVGPicture, film_bundle, save_as
 from lsys_kit.pictures.formats.painting import painted
-from lsys_kit.pictures.formats.raster import centred, turtle_image
-from lsys_kit.pictures.formats.vector.reading import drawing_of
-from lsys_kit.pictures.kinds import WORD, coloured_symbols, instead, kind_of
+from lsys_kit.pictures.formats.raster import centred, embedded, encoded, turtle_image
 from lsys_kit.pictures.legends import Legend, image_with_legend, legend_of
-from lsys_kit.pictures.options import STAGES, Options, options_from, seen_as, split_options
+from lsys_kit.pictures.options import (
+    STAGES,
+    WORD,
+    Style,
+    coloured_symbols,
+    instead,
+    kind_of,
+    seen_as,
+    split_options,
+    style_from,
+)
 from lsys_kit.pictures.picture import Picture
-from lsys_kit.pictures.rendering.frames import ViewFrame, frame_around
-from lsys_kit.pictures.rendering.line_widths import in_units
+from lsys_kit.pictures.rendering.frames import ViewFrame, frame_around, in_units
+from lsys_kit.pictures.rendering.scene_shapes import label_shapes
 from lsys_kit.pictures.rendering.view import FROM_THE_RIGHT, View, project_smoothly, view_from
-from lsys_kit.pictures.sizes import enlargement, final_size, size_from
+from lsys_kit.pictures.sizes import Size, document, enlargement, final_size, size_from
 from lsys_kit.pictures.style.themes import drawn_on
-from lsys_kit.pictures.svg import document, embedded, labels_svg
 from lsys_kit.pictures.tissues.cellworks import SIDE, cellwork_steps
 
 if TYPE_CHECKING:
     from PIL.Image import Image
+
+SECONDS, HELD = 0.6, 4
+"""The duration of each step in seconds, and the factor by which the last is shown longer."""
+RATE = 25
+"""An MP4 film has so many pictures a second at least, many of them the same, because players expect about as many."""
+SETTINGS = "-preset medium -crf 16 -threads 1 -fflags +bitexact -flags:v +bitexact -movflags +faststart".split()  # noqa: SIM905
+"""What ffmpeg is told besides: to lose hardly anything, to write the same every time, and to let a page play the beginning
+while the rest is loaded."""
+
+
+@dataclass(frozen=True)
+class Film:
+    """Pictures one after another, such as the steps of a development.
+
+    Attributes
+    ----------
+    text
+        What the film shows, in words.
+    images
+        The pictures, all of the same size.
+    seconds
+        The duration of each picture.
+    held
+        The factor by which the last is shown longer.
+    """
+
+    text: str
+    images: tuple[Image, ...] = field(repr=False)
+    seconds: float = SECONDS
+    held: int = HELD
+
+    @cached_property
+    def gif(self) -> bytes:
+        """The film as a GIF that loops for ever."""
+        return self._film("GIF")
+
+    @cached_property
+    def apng(self) -> bytes:
+        """The film as an animated PNG, whose colours are exact."""
+        return self._film("PNG")
+
+    @cached_property
+    def mp4(self) -> bytes:
+        """The film as MP4 (H.264), for slides and for pages with many films.
+
+        Raises
+        ------
+        LSystemError
+            There is no ffmpeg, or it failed.
+        """
+        with Task("The film was not written"):
+            return mp4_of([*self.images, *[self.images[-1]] * (self.held - 1)], self.seconds)
+
+    def save(self, path: str | Path) -> None:
+        """Write the film to a file, in the format given by its extension: .gif, .apng, .png or .mp4.
+
+        Raises
+        ------
+        ModelFileError
+            The extension is unknown, or the file cannot be written.
+        LSystemError
+            For .mp4 there is no ffmpeg, or it failed.
+        """
+        save_as(
+            path_from(path),
+            {
+                ".gif": lambda: marked_gif(self.gif),
+                ".apng": lambda: marked_png(self.apng),
+                ".png": lambda: marked_png(self.apng),
+                ".mp4": lambda: marked_mp4(self.mp4),
+            },
+        )
+
+    def _film(self, form: str) -> bytes:
+        buffer, step = io.BytesIO(), round(1000 * self.seconds)
+        first, *rest = self.images
+        first.save(buffer, form, save_all=True, append_images=rest, loop=0, duration=[*[step] * len(rest), self.held * step])
+        return buffer.getvalue()
+
+    def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
+        return film_bundle(self.gif, lambda: encoded(self.images[-1]), self.text)
+
+    def __repr__(self) -> str:
+        return self.text
+
+
+def mp4_of(images: Sequence[Image], seconds: float) -> bytes:
+    """Pictures of the same size as MP4, each shown so long; the same on the same machine.
+
+    Raises
+    ------
+    LSystemError
+        There is no ffmpeg, or it failed.
+    """
+    try:
+        from imageio_ffmpeg import get_ffmpeg_exe, write_frames
+
+        get_ffmpeg_exe()
+    except (ImportError, RuntimeError):
+        raise LSystemError(
+            "Films in .mp4 are written by the program ffmpeg, which is not installed",
+            hint="Install it with: pip install 'lsys-kit[film]'; or take .gif or .apng.",
+        ) from None
+    even = [_even(image) for image in images]
+    with tempfile.TemporaryDirectory() as folder:
+        target = Path(folder) / "film.mp4"
+        writer = write_frames(
+            str(target),
+            even[0].size,
+            fps=1 / Fraction(seconds).limit_denominator(1_000),
+            codec="libx264",
+            quality=None,
+            macro_block_size=1,
+            ffmpeg_log_level="fatal",
+            output_params=[*SETTINGS, "-r", f"{max(RATE, 1 / seconds):g}"],
+        )
+        try:
+            writer.send(None)
+            for image in counted(even, 1):
+                writer.send(image.tobytes())
+            writer.close()
+            return target.read_bytes()
+        except OSError:
+            raise LSystemError("ffmpeg did not write the film", hint="Take .gif or .apng.") from None
+
+
+def _even(image: Image) -> Image:
+    """An image with even numbers of pixels across and down, as H.264 wants it: pixels like those of its corner may be added."""
+    from PIL import Image
+
+    paper = Image.new(
+        "RGB", (image.width + image.width % 2, image.height + image.height % 2), image.convert("RGB").getpixel((0, 0))
+    )
+    paper.paste(image)
+    return paper
+
 
 SHAPE_BYTES = 100
 """About what a shape takes in memory."""
@@ -91,7 +238,7 @@ def animate(
 
     Examples
     --------
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> plant = animate(read("angle: 25\\naxiom: F\\nF -> F[+F]F[-F]F"), 3, seconds="0.5")
     >>> plant, len(plant.images)
     (steps 0 to 3; the last: 125 segments, width 8.84, height 27, 4)
@@ -99,29 +246,28 @@ def animate(
     require(turntable, bool, 'True or False for "turntable"')
     usual = TURN_SECONDS if turntable else SECONDS
     pace = real_from(usual if seconds is None else seconds, "seconds", "A step is shown for some time, as in seconds=0.5.")
-    size_from(size)  # which is wrong before anything is made
+    pixels = size_from(size)  # which is wrong before anything is made
     if not 0.02 <= pace <= 60:
         raise ModelValueError(f"A step can be shown for 0.02 to 60 seconds, not for {pace:g}")
     side, (given, choices) = None if view is None else view_from(view), split_options(choices)
     if isinstance(what, SVGPicture | list | tuple):
         _check_drawn(n, None if turntable else side, given | choices)
-    options = _options(what, given)
-    with Task("The film was not finished"), drawn_on(options.theme):
+    style = _style(what, given)
+    with Task("The film was not finished"), drawn_on(style.theme):
         if turntable:
-            return _turned(what, n, pace, side, size, choices | given)
-        text, images = _shown(what, n, side, size, choices, given, options)
+            return _turned(what, n, pace, side, pixels, choices | given)
+        text, images = _shown(what, n, side, choices, {"size": size, **given}, replace(style, size=pixels))
         return Film(text, tuple(images), pace)
 
 
-def _options(what: Any, given: Mapping[str, Any]) -> Options:
-    """How the pictures of a film look."""
+def _style(what: Any, given: Mapping[str, Any]) -> Style:
     last = what[-1] if isinstance(what, list | tuple) and what else what
     if isinstance(last, SVGPicture):
-        return Options(theme=replace(last.theme, ground=last.theme.paper))
-    options = options_from(given, kind_of(what, {}), coloured_symbols(what))
-    if options.theme.transparent:
+        return Style(theme=replace(last.theme, ground=last.theme.paper))
+    style = style_from(given, kind_of(what, {}), coloured_symbols(what))
+    if style.theme.transparent:
         raise ModelValueError("A film has a background", hint='Give background="light", "dark" or a colour.')
-    return options
+    return style
 
 
 def _check_drawn(n: int | None, side: View | None, choices: Mapping[str, Any]) -> None:
@@ -132,38 +278,30 @@ def _check_drawn(n: int | None, side: View | None, choices: Mapping[str, Any]) -
 
 
 def _shown(
-    what: Any,
-    n: int | None,
-    side: View | None,
-    size: object,
-    choices: Mapping[str, Any],
-    given: Mapping[str, Any],
-    options: Options,
+    what: Any, n: int | None, side: View | None, choices: Mapping[str, Any], given: Mapping[str, Any], style: Style
 ) -> tuple[str, Sequence[Image]]:
-    """What a film shows, in words, and its pictures."""
     if isinstance(what, LSystem | Derivation):
         if isinstance(what, LSystem):
             _check_choices(choices, ("angle", "view"), kind_of(what, {}), what)
         derivation = _derived(what, n, {name: value for name, value in choices.items() if name != "angle"})
         if drawing_mode(derivation.states.system) is DrawingMode.FILAMENT:
-            return _filmed(draw(derivation, size=size, **given))
-        return _turtle_film(derivation, choices.get("angle"), side, size, options)
+            return _filmed(draw(derivation, **given))
+        return _turtle_film(derivation, choices.get("angle"), side, style)
     if isinstance(what, CellworkSystem | CellworkDevelopment):
-        steps = cellwork_steps(what, n, legend=bool(options.legend), **choices)
+        steps = cellwork_steps(what, n, legend=bool(style.legend), **choices)
         scenes = project_smoothly([step.solid for step in steps if step.solid is not None], side or SIDE)
         told = f"steps 0 to {len(steps) - 1}; the last: {steps[-1].text}"
-        return told, _framed(scenes, steps[-1].colour_of, size, steps[-1].legend)
+        return told, _framed(scenes, steps[-1].colour_of, style.size, steps[-1].legend)
     if isinstance(what, CellSystem | CellDevelopment | Lineage):
         seen: dict[str, Any] = {} if side is None else {"view": side}
         drawn: Any = what
-        return _filmed(draw(drawn, n, size=size, **(seen | {**choices, **given})))
+        return _filmed(draw(drawn, n, **(seen | {**choices, **given})))
     if isinstance(what, Stages):
-        return _net_film(what, n, size, choices, given)
-    return _pictures_film(what, size)
+        return _net_film(what, n, choices, given)
+    return _pictures_film(what, style.size)
 
 
 def _check_choices(choices: Mapping[str, Any], own: tuple[str, ...], kind: str, system: LSystem) -> None:
-    """Every choice is one of the film, or a constant of the system."""
     options = *own, "seed", "arithmetic", "field", "seconds", "turntable"
     check_choices(choices, options, kind, [each.name for each in system.constants])
 
@@ -187,19 +325,16 @@ def _filmed(picture: SVGPicture) -> tuple[str, Sequence[Image]]:
         return repr(picture), picture.film_images()
 
 
-def _net_film(
-    net: Stages, n: int | None, size: object, choices: Mapping[str, Any], given: Mapping[str, Any]
-) -> tuple[str, Sequence[Image]]:
-    """A stage diagram with the tokens of each step."""
+def _net_film(net: Stages, n: int | None, choices: Mapping[str, Any], given: Mapping[str, Any]) -> tuple[str, Sequence[Image]]:
     _check_choices(choices, ("positions",), STAGES, net.system)
     own = {name: value for name, value in choices.items() if name != "positions"}
     derivation = _derived(net.system, n, own)
     told = {"positions": choices["positions"]} if "positions" in choices else {}
-    pictures = [draw(net, tokens=word, size=size, **told, **given) for word in derivation]
+    pictures = [draw(net, tokens=word, **told, **given) for word in derivation]
     return f"steps 0 to {derivation.steps}; the last: {pictures[-1]!r}", [picture.image() for picture in counted(pictures, 1)]
 
 
-def _pictures_film(what: Any, size: object) -> tuple[str, Sequence[Image]]:
+def _pictures_film(what: Any, size: Size | None) -> tuple[str, Sequence[Image]]:
     """A picture that unfolds, or several pictures one after another, on paper on which all have room."""
     if isinstance(what, SVGPicture):
         return _filmed(what)
@@ -212,47 +347,44 @@ def _pictures_film(what: Any, size: object) -> tuple[str, Sequence[Image]]:
         raise _too_long(len(what))
     images = [picture.image() for picture in counted(what, 1)]
     wide, high = (max(sides) for sides in zip(*(image.size for image in images), strict=True))
-    found = size_from(size)
-    paper = final_size(wide, high, found)
+    paper = final_size(wide, high, size)
     return f"{len(what)} pictures; the last: {what[-1]!r}", [
-        centred(picture.image(enlargement(wide, high, found)) if found else image, paper)
+        centred(picture.image(enlargement(wide, high, size)) if size else image, paper)
         for picture, image in zip(what, images, strict=True)
     ]
 
 
-def _turtle_film(
-    derivation: Derivation, angle: object, view: View | None, size: object, options: Options
-) -> tuple[str, Sequence[Image]]:
-    """What the turtle draws, step after step."""
+def _turtle_film(derivation: Derivation, angle: object, view: View | None, style: Style) -> tuple[str, Sequence[Image]]:
     turn = turning_angle(angle, derivation.states.system)
     steps: list[Scene] = []
     for step in counted(range(derivation.steps + 1), 1):
-        steps.append(seen_as(derivation.to(step), turn, options))
+        steps.append(seen_as(derivation.to(step), turn, style))
         check_bytes(SHAPE_BYTES * sum(scene.size for scene in steps), lambda: "The film was not finished")
     scenes = project_smoothly(in_units(steps, derivation.states.system), view)
-    legend = legend_of([derivation.states] * len(scenes), scenes) if options.legend else None
-    return f"steps 0 to {derivation.steps}; the last: {steps[-1]}", _framed(scenes, state_colours(derivation), size, legend)
+    legend = legend_of([derivation.states] * len(scenes), scenes) if style.legend else None
+    return f"steps 0 to {derivation.steps}; the last: {steps[-1]}", _framed(
+        scenes, state_colours(derivation), style.size, legend
+    )
 
 
-def _framed(scenes: Sequence[Scene], colour_of: Mapping[int, str], size: object, legend: Legend | None = None) -> list[Image]:
-    """Scenes as images in a common frame, each with the legend below."""
-    frame, found = frame_around(scenes), size_from(size)
+def _framed(
+    scenes: Sequence[Scene], colour_of: Mapping[int, str], size: Size | None, legend: Legend | None = None
+) -> list[Image]:
+    frame = frame_around(scenes)
     width, more = legend.size(frame.width) if legend else (frame.width, 0)
-    enlarged, whole = enlargement(width, frame.height + more, found), final_size(width, frame.height + more, found)
+    enlarged, whole = enlargement(width, frame.height + more, size), final_size(width, frame.height + more, size)
     images = (_with_labels(turtle_image(scene, colour_of, frame, enlarged), scene, frame) for scene in counted(scenes, 1))
     return [centred(image_with_legend(image, legend, enlarged), whole) for image in images]
 
 
 def _with_labels(image: Image, scene: Scene, frame: ViewFrame) -> Image:
-    """An image of a scene with what the turtle has written."""
     if not len(scene.labels):
         return image
-    body = embedded(frame.width * frame.parts, frame.height * frame.parts, image) + labels_svg(scene, frame)
-    return painted(drawing_of(document(body, frame.width, frame.height, "", frame.parts)), image.width / frame.width)
+    body = [embedded(frame.width * frame.parts, frame.height * frame.parts, image), *label_shapes(scene, frame)]
+    return painted(document(body, frame.width, frame.height, "", frame.parts), image.width / frame.width)
 
 
-def _turned(what: Any, n: int | None, pace: float, view: View | None, size: object, choices: Mapping[str, Any]) -> Film:
-    """What is in space, from all sides."""
+def _turned(what: Any, n: int | None, pace: float, view: View | None, size: Size | None, choices: Mapping[str, Any]) -> Film:
     picture = what if isinstance(what, SVGPicture) else draw(what, n, **choices)
     if not isinstance(picture, Picture) or picture.solid is None:
         raise ModelValueError(

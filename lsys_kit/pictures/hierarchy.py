@@ -8,15 +8,17 @@ The Algorithmic Beauty of Plants, figure 1.2.
 
 from __future__ import annotations
 
+import tomllib
+from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
-from typing import NamedTuple
+from importlib.resources import files
+from typing import Any, NamedTuple
 
 from lsys_kit.pictures.formats.notebook import SVGPicture
+from lsys_kit.pictures.shapes import Circle, Drawing, Ellipse, Look, Text
+from lsys_kit.pictures.sizes import document
 from lsys_kit.pictures.style.palette import BLUE, QUIET, VERMILION, tinted
-from lsys_kit.pictures.style.themes import drawn_on, line, text_colour, theme, theme_from
-from lsys_kit.pictures.svg import background as paper
-from lsys_kit.pictures.svg import document
+from lsys_kit.pictures.style.themes import line, text_colour, theme, theme_from
 
 WIDTH, HEIGHT = 720, 430
 """The size of the picture, in pixels."""
@@ -45,36 +47,18 @@ class Language(NamedTuple):
     classes: frozenset[str]
 
 
-FINITE, REGULAR, FREE = "Finite", "Regular", "Context-free"
-SENSITIVE, ENUMERABLE = "Context-sensitive", "Recursively enumerable"
-CHOMSKY = (
-    LanguageClass(ENUMERABLE, (360, 215), (345, 200), (360, 44), QUIET),
-    LanguageClass(SENSITIVE, (305, 232), (275, 163), (300, 98), QUIET),
-    LanguageClass(FREE, (238, 245), (195, 122), (190, 152), QUIET),
-    LanguageClass(REGULAR, (205, 252), (145, 90), (160, 190), QUIET),
-    LanguageClass(FINITE, (165, 258), (92, 52), (113, 263), QUIET),
-)
+def _classes(told: Mapping[str, Any], *colours: str) -> tuple[LanguageClass, ...]:
+    rows = zip(told.items(), colours, strict=True)
+    return tuple(LanguageClass(name, centre, reach, label, colour) for (name, (centre, reach, label)), colour in rows)
+
+
+_TOLD: Mapping[str, Any] = tomllib.loads((files(__package__) / "hierarchy.toml").read_text(encoding="utf-8"))
+CHOMSKY = _classes(_TOLD["chomsky"], *[QUIET] * 5)
 """The classes of Chomsky's grammars, each inside the one before."""
-PARALLEL = (
-    LanguageClass("(k,l)-systems", (410, 258), (262, 112), (600, 236), BLUE),
-    LanguageClass("0L-systems", (362, 262), (150, 66), (440, 238), VERMILION),
-)
+PARALLEL = _classes(_TOLD["parallel"], BLUE, VERMILION)
 """The classes of L-systems, the second inside the first."""
-LANGUAGES = (
-    Language("{a, aa}", 184, 227, frozenset({FINITE, REGULAR, FREE, SENSITIVE, ENUMERABLE, "(k,l)-systems"})),
-    Language("{a}", 235, 264, frozenset({FINITE, REGULAR, FREE, SENSITIVE, ENUMERABLE, "0L-systems", "(k,l)-systems"})),
-    Language("aⁿ", 300, 264, frozenset({REGULAR, FREE, SENSITIVE, ENUMERABLE, "0L-systems", "(k,l)-systems"})),
-    Language("aⁿbaⁿ", 378, 264, frozenset({FREE, SENSITIVE, ENUMERABLE, "0L-systems", "(k,l)-systems"})),
-    Language("a², a⁴, a⁸, …", 461, 266, frozenset({SENSITIVE, ENUMERABLE, "0L-systems", "(k,l)-systems"})),
-)
-"""A language in each part that matters. 0L are {a}; aⁿ by a → a and a → aa; aⁿbaⁿ by b → aba; a², a⁴, a⁸ by a → aa. {a, aa} is
-not: where a becomes aa, aa becomes aaaa, unless a neighbour prevents it."""
-DESCRIPTION = (
-    "Power of 0L-systems and (k,l)-systems in comparison to Chomsky languages: five nested ellipses, finite inside regular "
-    "inside context-free inside context-sensitive inside recursively enumerable languages. The ellipse of 0L-systems lies "
-    "inside the context-sensitive one and cuts across the finite, regular and context-free ones. That of (k,l)-systems "
-    "contains it, lies inside the recursively enumerable one and cuts across all others. Languages as examples: "
-)
+LANGUAGES = tuple(Language(**{**each, "classes": frozenset(each["classes"])}) for each in _TOLD["languages"])
+"""A language in each part that matters."""
 
 
 @dataclass(frozen=True)
@@ -84,19 +68,13 @@ class HierarchyPicture(SVGPicture):
     @property
     def text(self) -> str:
         """What the picture shows, in words."""
-        return DESCRIPTION + "; ".join(f"{each.text}: {', '.join(sorted(each.classes))}" for each in LANGUAGES) + "."
+        examples = "; ".join(f"{each.text}: {', '.join(sorted(each.classes))}" for each in LANGUAGES)
+        return f"{_TOLD['description']}{examples}."
 
-    @cached_property
-    def svg(self) -> str:
-        """The picture as SVG text."""
-        with drawn_on(self.theme):
-            shapes = [
-                *map(_ellipse, CHOMSKY),
-                *map(_ellipse, PARALLEL),
-                *map(_class_name, (*CHOMSKY, *PARALLEL)),
-                *map(_point, LANGUAGES),
-            ]
-            return document(paper(WIDTH, HEIGHT) + "".join(shapes), WIDTH, HEIGHT, self.text)
+    def shown(self, most: int, enlarged: float) -> Drawing:
+        """The ellipses, their names, and the languages."""
+        classes, points = (*CHOMSKY, *PARALLEL), (shape for each in LANGUAGES for shape in _point(each))
+        return document([*map(_ellipse, classes), *map(_class_name, classes), *points], WIDTH, HEIGHT, self.text)
 
     def __repr__(self) -> str:
         return self.text
@@ -127,32 +105,42 @@ def draw_hierarchy(background: str = "light") -> HierarchyPicture:
     return HierarchyPicture(theme=theme_from(background))
 
 
-def _ellipse(each: LanguageClass) -> str:
+def _ellipse(each: LanguageClass) -> Ellipse:
     """An ellipse; those of L-systems are broken lines, so that colour alone says nothing."""
-    (x, y), (across, up) = each.centre, each.reach
-    broken = ' stroke-dasharray="90 50"' if each in PARALLEL else ""
-    fill = f'fill="{tinted(each.colour, 0.3)}" fill-opacity="{0.3 if broken else 0.24}"'
-    return (
-        f'<ellipse cx="{10 * x:g}" cy="{10 * y:g}" rx="{10 * across:g}" ry="{10 * up:g}" {fill} '
-        f'stroke="{line(each.colour)}" stroke-width="{20 if broken else 14}"{broken}/>'
+    broken = each in PARALLEL
+    look = Look(
+        fill=tinted(each.colour, 0.3),
+        fill_opacity=0.3 if broken else 0.24,
+        stroke=line(each.colour),
+        stroke_width=20 if broken else 14,
     )
+    (x, y), (across, up) = map(_tenths, (each.centre, each.reach))
+    return Ellipse(x, y, across, up, look | (Look(stroke_dasharray="90 50") if broken else Look()))
 
 
-def _class_name(each: LanguageClass) -> str:
+def _tenths(pixels: tuple[float, float]) -> tuple[int, int]:
+    return round(10 * pixels[0]), round(10 * pixels[1])
+
+
+def _class_name(each: LanguageClass) -> Text:
     return _text(each.name, *each.label, 15, theme().ink if each.colour == QUIET else text_colour(each.colour))
 
 
-def _point(each: Language) -> str:
-    """The point of a language, with the language below it."""
-    return (
-        f'<circle cx="{10 * each.x:g}" cy="{10 * each.y:g}" r="30" fill="{theme().ink}"/>'
-        f"{_text(each.text, each.x, each.y + 19, 13, theme().ink)}"
-    )
+def _point(each: Language) -> tuple[Circle, Text]:
+    x, y = _tenths((each.x, each.y))
+    return Circle(x, y, 30, Look(fill=theme().ink)), _text(each.text, each.x, each.y + 19, 13, theme().ink)
 
 
-def _text(text: str, x: float, y: float, size: int, colour: str) -> str:
-    return (
-        f'<text x="{10 * x:g}" y="{10 * y:g}" font-family="sans-serif" font-size="{10 * size}" text-anchor="middle" '
-        f'fill="{colour}" stroke="{theme().paper}" stroke-width="40" stroke-linejoin="round" paint-order="stroke">'
-        f"{text}</text>"
+def _text(text: str, x: float, y: float, size: int, colour: str) -> Text:
+    look = Look(
+        font_family="sans-serif",
+        font_size=10 * size,
+        text_anchor="middle",
+        fill=colour,
+        stroke=theme().paper,
+        stroke_width=40,
+        stroke_linejoin="round",
+        paint_order="stroke",
     )
+    across, down = _tenths((x, y))
+    return Text(across, down, text, look)

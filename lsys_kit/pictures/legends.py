@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
@@ -15,13 +14,13 @@ from lsys_kit.geometry.turtle.commands import RAMP_END, RAMP_START
 from lsys_kit.geometry.turtle.surfaces import passed_over
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.formats.painting import painted
-from lsys_kit.pictures.formats.vector.reading import drawing_of
 from lsys_kit.pictures.nets.parts import width_of
 from lsys_kit.pictures.rendering.frames import MARGIN
-from lsys_kit.pictures.style.labels import escaped, label_parts, letter_svg, polar_symbols
+from lsys_kit.pictures.shapes import Drawing, Group, Look, Place, Rectangle, Shape, Text
+from lsys_kit.pictures.sizes import document
+from lsys_kit.pictures.style.labels import label_parts, label_spans, polar_symbols
 from lsys_kit.pictures.style.palette import CHOSEN, RAMP, colour_of
 from lsys_kit.pictures.style.themes import line, theme
-from lsys_kit.pictures.svg import document
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -35,7 +34,6 @@ of a legend, in pixels."""
 MOST_WITHOUT_LETTERS = 2
 """Of more kinds of cells each has its letter, because their colours differ too little in grey."""
 NATURAL = "natural colours, from the stem to the tips"
-_HEAD = re.compile(r'viewBox="0 0 (\d+) (\d+)" width="(\d+)" height="(\d+)"')
 
 
 class Entry(NamedTuple):
@@ -77,9 +75,8 @@ class Legend:
 def legend_of(tables: Sequence[States], scenes: Sequence[Scene]) -> Legend:
     """The legend of scenes of some words, given the states of each.
 
-    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.drawing import scene_of
-    >>> from lsys_kit.notation.read import read
     >>> word = derive(read("axiom: F ;(3) F RX"), 0)
     >>> [(entry.colours, "".join(entry.label)) for entry in legend_of([word.states], [scene_of(word)]).entries]
     [(('#28A964',), 'F'), (('#3BA7A0',), 'colour 3')]
@@ -105,9 +102,8 @@ def legend_of(tables: Sequence[States], scenes: Sequence[Scene]) -> Legend:
 def letters_of(states: States, scenes: Sequence[Scene], labels: bool | None = None) -> Mapping[int, str]:
     """What is written into cells, by their states: their letters if labels are wanted, or if there are many and nobody says.
 
-    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.drawing import scene_of
-    >>> from lsys_kit.notation.read import read
     >>> word = derive(read("axiom: ar al\\ninterpretation:\\nar -> R(1,1)\\nal -> L(1,1)"), 0)
     >>> letters_of(word.states, [scene_of(word)], True), letters_of(word.states, [scene_of(word)])
     ({0: 'a', 1: 'a'}, {})
@@ -128,53 +124,27 @@ def _label(symbol: str, system: LSystem) -> Label:
 # --- in each format ----------------------------------------------------------------------------------------------------------
 
 
-def with_legend(svg: str, legend: Legend | None) -> str:
-    """A whole SVG picture with a legend below it."""
-    found = _HEAD.search(svg)
-    if legend is None or found is None:
-        return svg
-    across, _, width, height = map(int, found.groups())
-    wide, more = legend.size(width)
-    parts, aside = across // width, (wide - width) // 2
-    head = f'viewBox="0 0 {wide * parts} {(height + more) * parts}" width="{wide}" height="{height + more}"'
-    title, body = svg[found.end() :].removesuffix("</svg>").split("</title>", 1)
-    paper = (
-        ""
-        if theme().transparent
-        else f'<rect width="{wide * parts}" height="{(height + more) * parts}" fill="{theme().ground}"/>'
-    )
-    moved = f'<g transform="translate({aside * parts} 0)">{body}</g>' if aside else body
-    return (
-        f"{svg[: found.start()]}{head}{title}</title>{paper}{moved}"
-        f'<g class="legend" transform="translate({MARGIN * parts} {height * parts}) scale({parts})" '
-        f'font-family="sans-serif" font-size="{TEXT}" fill="{theme().ink}">{_entries_svg(legend, wide)}</g></svg>'
-    )
+def with_legend(drawing: Drawing, legend: Legend | None) -> Drawing:
+    """A picture with a legend below it."""
+    if legend is None:
+        return drawing
+    wide, more = legend.size(drawing.width)
+    parts, aside = drawing.box[2] // drawing.width, (wide - drawing.width) // 2
+    moved = [Group(drawing.shapes, place=Place(1, aside * parts, 0))] if aside else drawing.shapes
+    look = Look(font_family="sans-serif", font_size=TEXT, fill=theme().ink)
+    place = Place(parts, MARGIN * parts, drawing.height * parts)
+    below = Group([*_entries(legend, wide)], look, {"class": "legend"}, place)
+    return document([*moved, below], wide, drawing.height + more, drawing.title, parts)
 
 
-def _entries_svg(legend: Legend, width: float) -> str:
-    texts = []
-    for x, y, entry in _placed(legend, width):
-        step = SWATCH / max(len(entry.colours), 1)
-        texts += [
-            f'<rect x="{x + number * step:.1f}" y="{y - HIGH + 1:.1f}" width="{step:.1f}" height="{HIGH}" '
-            f'fill="{line(colour)}"/>'
-            for number, colour in enumerate(entry.colours)
-        ]
-        texts.append(
-            f'<text x="{_text_place(x, entry):.1f}" y="{y:.1f}">{letter_svg(*entry.label[:2])}{escaped(entry.label[2])}</text>'
-        )
-    return "".join(texts)
-
-
-def _placed(legend: Legend, width: float) -> Iterator[tuple[float, float, Entry]]:
-    """Each entry with the left end of its baseline, from the corner of the legend."""
+def _entries(legend: Legend, width: float) -> Iterator[Shape]:
     for number, entries in enumerate(legend.lines(width - 2 * MARGIN)):
         for x, entry in entries:
-            yield x, number * LINE + TEXT, entry
-
-
-def _text_place(x: float, entry: Entry) -> float:
-    return x + (SWATCH + 6) * bool(entry.colours)
+            y, step = float(number * LINE + TEXT), SWATCH / max(len(entry.colours), 1)
+            for along, colour in enumerate(entry.colours):
+                yield Rectangle(x + along * step, y - HIGH + 1, step, HIGH, look=Look(fill=line(colour)))
+            written = [*label_spans(*entry.label[:2]), entry.label[2]]
+            yield Text(x + (SWATCH + 6) * bool(entry.colours), y, written)
 
 
 def image_with_legend(image: Image, legend: Legend | None, enlarged: float = 1.0) -> Image:
@@ -183,7 +153,7 @@ def image_with_legend(image: Image, legend: Legend | None, enlarged: float = 1.0
         return image
     from PIL import Image
 
-    drawn = painted(drawing_of(with_legend(document("", round(image.width / enlarged), 0, ""), legend)), enlarged)
+    drawn = painted(with_legend(document([], round(image.width / enlarged), 0, ""), legend), enlarged)
     whole = Image.new("RGB", (drawn.width, image.height + drawn.height), theme().ground)
     whole.paste(image, ((whole.width - image.width) // 2, 0))
     whole.paste(drawn, (0, image.height))
@@ -195,12 +165,10 @@ def plot_legend(ax: Axes, legend: Legend) -> None:
     from matplotlib.patches import Patch
 
     handles = [
-        Patch(color=line(entry.colours[len(entry.colours) // 2]) if entry.colours else "none", label=_plain(entry.label))
-        for entry in legend.entries
+        Patch(
+            color=line(colours[len(colours) // 2]) if colours else "none",
+            label=f"{letter}_{subscript}{values}" if subscript else f"{letter}{values}",
+        )
+        for colours, (letter, subscript, values) in legend.entries
     ]
     ax.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0.0), frameon=False, labelcolor=theme().ink, ncols=4)
-
-
-def _plain(label: Label) -> str:
-    letter, subscript, values = label
-    return f"{letter}_{subscript}{values}" if subscript else f"{letter}{values}"

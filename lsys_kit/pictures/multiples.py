@@ -8,23 +8,20 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from html import escape
 from typing import TYPE_CHECKING, NamedTuple
 
-from lsys_kit.budget import Task, current
 from lsys_kit.geometry.scene import Scene
-from lsys_kit.pictures.formats.notebook import SVGPicture, enlargement_from
+from lsys_kit.pictures.formats.lettering import advance
+from lsys_kit.pictures.formats.notebook import SVGPicture, described
 from lsys_kit.pictures.formats.painting import painted
-from lsys_kit.pictures.formats.raster import turtle_image
-from lsys_kit.pictures.formats.vector.lettering import advance
-from lsys_kit.pictures.formats.vector.reading import drawing_of
-from lsys_kit.pictures.formats.vector.shapes import Drawing
+from lsys_kit.pictures.formats.raster import embedded, turtle_image
 from lsys_kit.pictures.legends import Legend, with_legend
 from lsys_kit.pictures.picture import Picture
-from lsys_kit.pictures.rendering.frames import MARGIN, ViewFrame, in_fine_parts, painted_box
-from lsys_kit.pictures.sizes import SHARP, enlargement
-from lsys_kit.pictures.style.themes import drawn_on, theme
-from lsys_kit.pictures.svg import background, described, document, embedded, labels_svg, resized, turtle_svg
+from lsys_kit.pictures.rendering.frames import MARGIN, ViewFrame, frame_on, in_fine_parts, painted_box
+from lsys_kit.pictures.rendering.scene_shapes import label_shapes, scene_shapes
+from lsys_kit.pictures.shapes import Drawing, Look, Raster, Shape, Text
+from lsys_kit.pictures.sizes import document, enlargement, resized
+from lsys_kit.pictures.style.themes import theme
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -35,7 +32,7 @@ GAP, CAPTION, TEXT, LOWER = 30, 44, 13, 22
 """The space between two drawings, that below one, the size of its caption there and how far below the ground it stands, in
 pixels."""
 LARGEST_SCALE = 120.0
-"""Pixels of a unit, at most."""
+"""Image of a unit, at most."""
 
 
 class Panel(NamedTuple):
@@ -75,54 +72,31 @@ class SmallMultiples(SVGPicture):
         """What the picture shows, in words."""
         return described([f"{self.captions[0]} to {self.captions[-1]}", f"the last: {self.pictures[-1].text}"])
 
-    @cached_property
-    def svg(self) -> str:
-        """The picture as SVG text."""
-        with Task("The picture was not drawn"), drawn_on(self.theme):
-            return self._written(current().segments, SHARP)
-
     def _image(self, enlarged: float) -> Image:
-        return painted(drawing_of(self._written(0, enlarged)), enlarged)
+        return painted(resized(self.shown(0, enlarged), self.pixels), enlarged)
 
-    def drawing(self, enlarged: float = 1.0) -> Drawing:
-        """The shapes of the picture; if they are too many, pixels, so many in each direction of its own."""
-        with Task("The picture was not drawn"), drawn_on(self.theme):
-            return drawing_of(self._written(current().figure, enlargement_from(enlarged)))
-
-    def _written(self, most: int, enlarged: float = 1.0) -> str:
-        """The picture as SVG; if it has more shapes than the most, its drawings are pixels, so many in each direction of its
-        own."""
+    def shown(self, most: int, enlarged: float) -> Drawing:
+        """The drawings with their captions; if they have more shapes than the most, they are pixels."""
         captions = self.captions if self.labels else [""] * len(self.captions)
         broadest = max(advance(caption, TEXT) for caption in captions)
         panels = arranged([each.scene for each in self.pictures], self.columns, broadest)
         frame = panels[0].frame
         factor = enlarged * enlargement(frame.width, frame.height, self.pixels)
         pixels = sum(each.size for each in self.pictures) > most
-        body = "".join(
-            _panel_svg(*each, factor if pixels else 0.0) for each in zip(self.pictures, panels, captions, strict=True)
-        )
-        whole = document(
-            background(frame.width, frame.height, frame.parts) + body, frame.width, frame.height, self.text, frame.parts
-        )
-        return resized(with_legend(whole, self.legend), self.pixels)
+        panels_with = zip(self.pictures, panels, captions, strict=True)
+        body = [shape for each in panels_with for shape in _panel_shapes(*each, factor if pixels else 0.0)]
+        return with_legend(document(body, frame.width, frame.height, self.text, frame.parts), self.legend)
 
     def __repr__(self) -> str:
         return self.text
-
-
-def own_frame(scene: Scene, scale: float) -> ViewFrame:
-    """The frame of a drawing by itself, on a given scale."""
-    left, bottom, right, top = painted_box(scene)
-    return ViewFrame(scale, left, top, round((right - left) * scale) + 2 * MARGIN, round((top - bottom) * scale) + 2 * MARGIN)
 
 
 def arranged(scenes: Sequence[Scene], columns: int = 0, broadest: float = 0.0) -> list[Panel]:
     """The places of drawings, on the greatest scale on which all fit: in lines of as many, on a common ground; none is narrower
     than the broadest caption, in pixels.
 
-    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.drawing import scene_of
-    >>> from lsys_kit.notation.read import read
     >>> plants = [scene_of(derive(read("axiom: F\\nF -> FF"), step)) for step in (1, 2)]
     >>> [(round(panel.middle), round(panel.ground), panel.frame.scale) for panel in arranged(plants)]
     [(12, 484, 118.0), (42, 484, 118.0)]
@@ -137,7 +111,7 @@ def arranged(scenes: Sequence[Scene], columns: int = 0, broadest: float = 0.0) -
     room = max(wide * scale, broadest)
     across, down = room + GAP, high * scale + CAPTION
     width, height = round(columns * across - GAP) + 2 * MARGIN, round(lines * down) + 2 * MARGIN
-    parts = max(in_fine_parts(own_frame(scene, scale), scene).parts for scene in scenes)
+    parts = max(in_fine_parts(frame_on(painted_box(scene), scale), scene).parts for scene in scenes)
     panels = []
     for number, (left, bottom, right, _) in enumerate(boxes):
         line, column = divmod(number, columns)
@@ -155,24 +129,20 @@ def _scale(wide: float, high: float, many: int, columns: int) -> float:
     return min(across / max(wide, 1e-9), down / max(high, 1e-9), LARGEST_SCALE)
 
 
-def _panel_svg(picture: Picture, panel: Panel, caption: str, pixels: float) -> str:
+def _panel_shapes(picture: Picture, panel: Panel, caption: str, pixels: float) -> list[Shape]:
     """A drawing with its caption; perhaps as so many pixels in each direction of one of the picture."""
     parts = panel.frame.parts
     drawn = (
-        turtle_svg(picture.scene, panel.frame, picture.colour_of, picture.marked)
+        scene_shapes(picture.scene, panel.frame, picture.colour_of, picture.marked)
         if not pixels
-        else _panel_image(picture, panel, pixels) + labels_svg(picture.scene, panel.frame)
+        else [_panel_image(picture, panel, pixels), *label_shapes(picture.scene, panel.frame)]
     )
-    return (
-        f'{drawn}<text x="{panel.middle * parts:.0f}" y="{(panel.ground + LOWER) * parts:.0f}" '
-        f'font-size="{TEXT * parts}" text-anchor="middle" font-family="sans-serif" '
-        f'fill="{theme().quiet}">{escape(caption)}</text>'
-    )
+    look = Look(font_size=TEXT * parts, text_anchor="middle", font_family="sans-serif", fill=theme().quiet)
+    return [*drawn, Text(round(panel.middle * parts), round((panel.ground + LOWER) * parts), caption, look)]
 
 
-def _panel_image(picture: Picture, panel: Panel, enlarged: float) -> str:
-    """A drawing as pixels."""
-    own, parts = own_frame(picture.scene, panel.frame.scale), panel.frame.parts
+def _panel_image(picture: Picture, panel: Panel, enlarged: float) -> Raster:
+    own, parts = frame_on(painted_box(picture.scene), panel.frame.scale), panel.frame.parts
     image = turtle_image(picture.scene, picture.colour_of, own, enlarged)
     corner = round((panel.middle - own.width / 2) * parts), round((panel.ground - own.height + MARGIN) * parts)
     return embedded(own.width * parts, own.height * parts, image, corner)

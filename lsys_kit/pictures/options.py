@@ -1,26 +1,37 @@
-"""Options: how what is drawn looks, and which of these can be chosen for which kind of picture."""
+"""Kinds of pictures and how they look: as which something is drawn, which options that has, and whose symbols have colours."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, TypeAlias
 
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
+from lsys_kit.derivation.petri.stages import Stages
+from lsys_kit.derivation.timed.lineage import Lineage
+from lsys_kit.derivation.timed.timed import Timed
+from lsys_kit.derivation.tissues.development import CellDevelopment
 from lsys_kit.errors import LSystemError, ModelNameError, ModelValueError, quotable, require, shown
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.scene import Scene
+from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
 from lsys_kit.notation.analysis.checks import suggestion
-from lsys_kit.pictures.rendering.chosen_looks import with_colours_of_symbols, with_start, with_widths
+from lsys_kit.notation.model.cells import CellSystem, CellworkSystem
+from lsys_kit.notation.model.system import LSystem, symbols
+from lsys_kit.pictures.formats.notebook import listed
+from lsys_kit.pictures.rendering.looks import with_colours_of_symbols, with_start, with_widths
+from lsys_kit.pictures.sizes import Size, size_from
 from lsys_kit.pictures.style.colour_values import colour_from
+from lsys_kit.pictures.style.labels import polar_symbols
 from lsys_kit.pictures.style.themes import LIGHT, Theme, theme_from
 
 Symbols: TypeAlias = Mapping[str, tuple[str, ...]]
 """Names of symbols, each with those that it stands for: one, or the two polarities of a cell."""
 OPTIONS = ("labels", "colours", "widths", "turtle", "legend", "background")
-"""All of them."""
+FLAGS = ("labels", "turtle", "legend")
+"""All of them; those that are chosen or not."""
 DRAWING, STEPS, FILAMENT = "the drawing of a turtle", "drawings side by side", "a filament"
 STAGES, LINEAGE = "a stage diagram", "a lineage"
 MAP, SPHERE, CELLWORK = "a map", "a map on a sphere", "a cellwork"
@@ -41,40 +52,41 @@ LEAST_FACTOR, GREATEST_FACTOR = 0.1, 20.0
 
 
 @dataclass(frozen=True)
-class Options:
+class Style:
     """How something is drawn.
 
     Attributes
     ----------
-    labels
-        Whether it has labels; None where that is left to the kind of picture.
+    labels, legend
+        Whether it has labels and a legend; None where that is left to the kind of picture.
+    turtle
+        Whether it is marked where the turtle starts and looks.
     colours
         Whose colours strokes have: "natural" ones, or those of "symbols"; "" for those of the system.
     widths
         Where the widths of strokes come from: their "order", or they are "constant"; "" as the turtle has set them.
-    legend
-        Whether there is a legend; None where that is left to the kind of picture.
     theme
         The colours of the picture, and how bold its strokes are.
-    turtle
-        Whether it is marked where the turtle starts and looks.
+    size
+        The width and height of the picture, if it is not of the usual size.
     """
 
     labels: bool | None = None
+    legend: bool | None = None
+    turtle: bool = False
     colours: str = ""
     widths: str = ""
-    legend: bool | None = None
     theme: Theme = LIGHT
-    turtle: bool = False
+    size: Size | None = None
 
 
-def options_from(given: Mapping[str, object], kind: str, symbols: Symbols) -> Options:
-    """The options that a person gives for a kind of picture, whose symbols may be given colours.
+def style_from(given: Mapping[str, Any], kind: str, symbols: Symbols, size: object = None) -> Style:
+    """The style that a person chooses for a kind of picture, whose symbols may be given colours.
 
-    >>> found = options_from({"colours": {"A": "navy"}, "background": "dark"}, STAGES, {"A": ("A",)})
+    >>> found = style_from({"colours": {"A": "navy"}, "background": "dark"}, STAGES, {"A": ("A",)})
     >>> found.theme.symbols, found.theme.dark
     ((('A', '#000080'),), True)
-    >>> options_from({"widths": 2}, DRAWING, {}).theme.boldness
+    >>> style_from({"widths": 2}, DRAWING, {}).theme.boldness
     2.0
 
     Raises
@@ -82,39 +94,22 @@ def options_from(given: Mapping[str, object], kind: str, symbols: Symbols) -> Op
     ModelValueError
         An option means nothing for this kind of picture, or its value is none that there is.
     """
-    found = Options()
-    for name in sorted(given, key=_after_background):
+    pixels = size_from(size)
+    for name, value in given.items():
         if name not in KINDS[kind]:
-            raise ModelValueError(f'"{name}" means nothing for {kind}', hint=f"What can be chosen is {_listed(KINDS[kind])}.")
-        found = _SETTERS[name](found, given[name], kind, symbols)
-    return found
+            there = listed(KINDS[kind]) + " alone" * (len(KINDS[kind]) == 1)
+            raise ModelValueError(f'"{name}" means nothing for {kind}', hint=f"What can be chosen is {there}.")
+        if name in FLAGS:
+            require(value, bool, f'True or False for "{name}"')
+    found = Style(theme=theme_from(given["background"]) if "background" in given else LIGHT, size=pixels)
+    if "colours" in given:
+        found = _with_colours(found, given["colours"], kind, symbols)
+    if "widths" in given:
+        found = _with_widths(found, given["widths"])
+    return replace(found, **{name: value for name, value in given.items() if name in FLAGS})
 
 
-def _after_background(name: str) -> bool:
-    """A background comes first, because the other choices are kept in its theme."""
-    return name != "background"
-
-
-def _with_labels(found: Options, value: object, kind: str, symbols: Symbols) -> Options:
-    require(value, bool, 'True or False for "labels"')
-    return replace(found, labels=value)  # type: ignore[arg-type]
-
-
-def _with_legend(found: Options, value: object, kind: str, symbols: Symbols) -> Options:
-    require(value, bool, 'True or False for "legend"')
-    return replace(found, legend=value)  # type: ignore[arg-type]
-
-
-def _with_turtle(found: Options, value: object, kind: str, symbols: Symbols) -> Options:
-    require(value, bool, 'True or False for "turtle"')
-    return replace(found, turtle=value)  # type: ignore[arg-type]
-
-
-def _with_background(found: Options, value: object, kind: str, symbols: Symbols) -> Options:
-    return replace(found, theme=theme_from(value))
-
-
-def _with_colours(found: Options, value: object, kind: str, symbols: Symbols) -> Options:
+def _with_colours(found: Style, value: object, kind: str, symbols: Symbols) -> Style:
     if isinstance(value, str) and value in COLOURS:
         if value == "natural" and kind not in (DRAWING, STEPS):
             raise ModelValueError(
@@ -132,7 +127,6 @@ def _with_colours(found: Options, value: object, kind: str, symbols: Symbols) ->
 
 
 def _called(symbol: object, symbols: Symbols) -> tuple[str, ...]:
-    """The symbols that a name stands for."""
     if not isinstance(symbol, str) or symbol not in symbols:
         text = quotable(symbol) if isinstance(symbol, str) else ""
         name = f'"{text}"' if isinstance(symbol, str) else shown(symbol)
@@ -141,7 +135,7 @@ def _called(symbol: object, symbols: Symbols) -> tuple[str, ...]:
     return symbols[symbol]
 
 
-def _with_widths(found: Options, value: object, kind: str, symbols: Symbols) -> Options:
+def _with_widths(found: Style, value: object) -> Style:
     if isinstance(value, str) and value in WIDTHS:
         return replace(found, widths=value, theme=replace(found.theme, even=value == "constant"))
     try:
@@ -153,26 +147,16 @@ def _with_widths(found: Options, value: object, kind: str, symbols: Symbols) -> 
     return replace(found, theme=replace(found.theme, boldness=factor))
 
 
-_SETTERS: Mapping[str, Callable[[Options, object, str, Symbols], Options]] = {
-    "labels": _with_labels,
-    "colours": _with_colours,
-    "widths": _with_widths,
-    "turtle": _with_turtle,
-    "legend": _with_legend,
-    "background": _with_background,
-}
-
-
-def seen_as(what: Derivation | Word, angle: float, options: Options) -> Scene:
+def seen_as(what: Derivation | Word, angle: float, style: Style) -> Scene:
     """The scene of a word with the colours and widths that were chosen."""
-    scene, chosen = scene_of(what, angle, options.colours), dict(options.theme.symbols)
-    if options.colours == "symbols":
+    scene, chosen = scene_of(what, angle, style.colours), dict(style.theme.symbols)
+    if style.colours == "symbols":
         scene = with_colours_of_symbols(scene)
     elif chosen:
         states = [state for state, module in enumerate(what.states.modules) if module.symbol in chosen]
         scene = with_colours_of_symbols(scene, states)
-    scene = with_widths(scene, options.widths, options.theme.boldness)
-    return with_start(scene, what.states.system) if options.turtle else scene
+    scene = with_widths(scene, style.widths, style.theme.boldness)
+    return with_start(scene, what.states.system) if style.turtle else scene
 
 
 def split_options(choices: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
@@ -181,5 +165,82 @@ def split_options(choices: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str,
     return given, {name: value for name, value in choices.items() if name not in OPTIONS}
 
 
-def _listed(names: tuple[str, ...]) -> str:
-    return f"{', '.join(names[:-1])} or {names[-1]}" if len(names) > 1 else f"{names[0]} alone"
+DRAWABLE = (LSystem, Derivation, Word, CellSystem, CellDevelopment, Stages, Lineage)
+"""What can be drawn."""
+
+
+WORD = "timed(system).word(4)"
+"""An example of a word of a timed system."""
+
+
+def instead(what: object, function: str, of_words: str) -> str:
+    """What to try in place of a text or a timed system, of which a function makes no picture.
+
+    >>> instead("K5", "draw", "")
+    "For example draw(system('K5')), or draw(read(text))."
+    """
+    if isinstance(what, str):
+        return f"For example {function}(system({shown(what)})), or {function}(read(text))."
+    if isinstance(what, Timed):
+        return f"At a time it has a word: {of_words}; up to a time a lineage: {function}(lineage(timed(system), 4))."
+    return ""
+
+
+def check_drawable(what: object, n: int | None = None) -> None:
+    """It can be drawn, and its number of steps can be chosen if one is."""
+    if not isinstance(what, DRAWABLE):
+        hint = instead(what, "draw", f"draw({WORD})")
+        raise ModelValueError(
+            "Only systems, derivations, words, developments, stage diagrams and lineages can be drawn, "
+            f"not {type(what).__name__}",
+            hint=hint,
+        )
+    if n is not None and isinstance(what, Stages | Lineage):
+        hint = "Give the word of a step as tokens=..., or animate(...)." if isinstance(what, Stages) else ""
+        raise ModelValueError(f"The steps of {kind_of(what, {})} are chosen when it is made, not when it is drawn", hint=hint)
+
+
+def kind_of(what: object, choices: Mapping[str, Any]) -> str:
+    """The kind of picture that is drawn of something."""
+    if isinstance(what, CellSystem | CellDevelopment):
+        return f"a {cell_system_of(what).kind}"
+    if isinstance(what, LSystem | Derivation | Word):
+        if drawing_mode(system_of(what)) is DrawingMode.FILAMENT:
+            return FILAMENT
+        several = any(isinstance(choices.get(name), Sequence) and len(choices[name]) for name in ("steps", "seeds"))
+        return STEPS if several else DRAWING
+    return {Stages: STAGES, Lineage: LINEAGE}.get(type(what), DRAWING)
+
+
+def coloured_symbols(what: object) -> Symbols:
+    """The symbols in something whose colours can be chosen; both polarities of a cell are chosen by its letter."""
+    if isinstance(what, CellSystem | CellDevelopment):
+        cells = cell_system_of(what)
+        return {label: (label,) for label in cells.labels} if isinstance(cells, CellworkSystem) else {}
+    if isinstance(what, LSystem | Derivation | Word):
+        return named_symbols(system_of(what))
+    if isinstance(what, Stages):
+        return named_symbols(what.system)
+    return named_symbols(what.states.system) if isinstance(what, Lineage) else {}
+
+
+def named_symbols(system: LSystem) -> Symbols:
+    """The symbols of a system by their names.
+
+    >>> from lsys_kit import read
+    >>> named_symbols(read("axiom: ar b\\nar -> al"))
+    {'a': ('ar', 'al'), 'ar': ('ar',), 'b': ('b',), 'al': ('al',)}
+    """
+    found: dict[str, tuple[str, ...]] = {}
+    for symbol, (letter, _) in polar_symbols(system).items():
+        found[letter] = (*found.get(letter, ()), symbol)
+    return found | {symbol: (symbol,) for symbol in symbols(system)}
+
+
+def system_of(what: LSystem | Derivation | Word) -> LSystem:
+    return what if isinstance(what, LSystem) else what.states.system
+
+
+def cell_system_of(what: CellSystem | CellDevelopment[Any, Any]) -> CellSystem:
+    system: CellSystem = what if isinstance(what, CellSystem) else what.system
+    return system

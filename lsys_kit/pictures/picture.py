@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from html import unescape
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,30 +12,29 @@ from lsys_kit.budget import Task, current
 from lsys_kit.derivation.petri.pnml import placed_pnml
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.errors import ModelLimitError
-from lsys_kit.files import marked_xml, path_from, save_file
+from lsys_kit.files import marked_xml, save_file
 from lsys_kit.geometry.meshes.mesh import OWN_WIDTHS, Mesh, mesh_of
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.geometry.turtle.surfaces import passed_over
 from lsys_kit.notation.model.arithmetic import Value
-from lsys_kit.pictures.filaments import LOOKS, filament_layout, letters_fit, rows_svg
+from lsys_kit.pictures.filaments.folding import FilamentRow
+from lsys_kit.pictures.filaments.layout import filament_layout
+from lsys_kit.pictures.filaments.painting import LOOKS, letters_fit, row_shapes
 from lsys_kit.pictures.formats.axes import plot_turtle
-from lsys_kit.pictures.formats.filament_raster import rows_image
-from lsys_kit.pictures.formats.files import FILMS, listed, save_as
 from lsys_kit.pictures.formats.mesh_files import glb, mtl, obj
-from lsys_kit.pictures.formats.notebook import SVGPicture, enlargement_from
-from lsys_kit.pictures.formats.painting import painted
-from lsys_kit.pictures.formats.raster import turtle_image, turtle_picture
-from lsys_kit.pictures.formats.transparency import on_ground
-from lsys_kit.pictures.formats.vector.reading import drawing_of
-from lsys_kit.pictures.formats.vector.shapes import Drawing
+from lsys_kit.pictures.formats.notebook import FILMS, Encoders, SVGPicture, described, listed
+from lsys_kit.pictures.formats.painting import on_ground, painted
+from lsys_kit.pictures.formats.raster import embedded, turtle_image, turtle_picture
 from lsys_kit.pictures.legends import Legend, plot_legend, with_legend
 from lsys_kit.pictures.nets.diagram import drawn_stages
 from lsys_kit.pictures.nets.parts import positions_in
 from lsys_kit.pictures.rendering.frames import WIDTH, frame_around, in_fine_parts
 from lsys_kit.pictures.rendering.looks import widths_by_order
-from lsys_kit.pictures.sizes import SHARP, enlargement
+from lsys_kit.pictures.rendering.scene_shapes import label_shapes, scene_shapes
+from lsys_kit.pictures.shapes import Drawing
+from lsys_kit.pictures.sizes import document, enlargement, resized
+from lsys_kit.pictures.style.labels import visible
 from lsys_kit.pictures.style.themes import drawn_on
-from lsys_kit.pictures.svg import FilamentRow, background, described, document, embedded, labels_svg, resized, turtle_svg
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -101,22 +99,11 @@ class Picture(SVGPicture):
         """How many shapes there are to draw."""
         return sum(row.scene.size for row in self.rows)
 
-    @cached_property
-    def svg(self) -> str:
-        """The picture as SVG text."""
-        with Task("The picture was not drawn"), drawn_on(self.theme):
-            return self._written(current().segments, SHARP)
-
     def _image(self, enlarged: float) -> Image:
         if len(self.scene.cells) or self.legend or len(self.scene.labels):
             most = MOST_PAINTED if len(self.scene.cells) else 0
-            return painted(drawing_of(self._written(most, enlarged)), enlarged)
+            return painted(resized(self.shown(most, enlarged), self.pixels), enlarged)
         return turtle_picture(self.scene, self.colour_of, self.pixels, enlarged)
-
-    def drawing(self, enlarged: float = 1.0) -> Drawing:
-        """The shapes of the picture; if they are too many, pixels, so many in each direction of its own."""
-        with Task("The picture was not drawn"), drawn_on(self.theme):
-            return drawing_of(self._written(current().figure, enlargement_from(enlarged)))
 
     def _plot_into(self, ax: Axes) -> None:
         if self.size > current().figure:
@@ -133,46 +120,46 @@ class Picture(SVGPicture):
             if self.legend is not None:
                 plot_legend(ax, self.legend)
 
-    def _written(self, most: int, enlarged: float = 1.0) -> str:
-        """The picture as SVG; if it has more shapes than the most, these are pixels, so many in each direction of its own."""
+    def shown(self, most: int, enlarged: float) -> Drawing:
+        """The last scene, or the rows of a filament; if they have more shapes than the most, these are pixels."""
         if len(self.scene.cells):
-            return self._sequence_written(self.size > most, enlarged)
+            return self._sequence(self.size > most, enlarged)
         usual = frame_around([self.scene])
         frame = in_fine_parts(usual, self.scene)
         if self.size > most:
             factor = enlarged * enlargement(usual.width, usual.height, self.pixels)
             image = on_ground(lambda: turtle_image(self.scene, self.colour_of, usual, factor))
-            body = embedded(frame.width * frame.parts, frame.height * frame.parts, image) + labels_svg(self.scene, frame)
+            pixels = embedded(frame.width * frame.parts, frame.height * frame.parts, image)
+            body = [pixels, *label_shapes(self.scene, frame)]
         else:
-            body = turtle_svg(self.scene, frame, self.colour_of, self.marked)
-        return self._framed(body, frame.width, frame.height, frame.parts)
+            body = scene_shapes(self.scene, frame, self.colour_of, self.marked)
+        return with_legend(document(body, frame.width, frame.height, self.text, frame.parts), self.legend)
 
     def film_images(self) -> Sequence[Image]:
         """The rows of a filament, which appear one after another."""
         many = len(self.rows) if len(self.scene.cells) and self.current is not None else 0
         pixels = self.size > MOST_PAINTED
-        return [painted(drawing_of(self._sequence_written(pixels, 1.0, shown))) for shown in range(1, many + 1)] or [
-            self.image()
-        ]
+        rows = (self._sequence(pixels, 1.0, shown) for shown in range(1, many + 1))
+        return [painted(resized(each, self.pixels)) for each in rows] or [self.image()]
 
-    def _sequence_written(self, pixels: bool, enlarged: float, shown: int = 0) -> str:
+    def _sequence(self, pixels: bool, enlarged: float, shown: int = 0) -> Drawing:
         """The rows of a filament, whose cells may be pixels; perhaps as if so many of them were all."""
         labelled = self.labels is not False
-        layout, image = filament_layout(self.rows, labelled and self.current is not None, self.time, labelled), ""
+        layout, image = filament_layout(self.rows, labelled and self.current is not None, self.time, labelled), None
         height, now = layout.height, self.rows[shown - 1].step if shown else self.current
         begun = {row.step for row in self.rows[: shown or None]}
         sheet = replace(layout, rows=[line for line in layout.rows if line.step in begun])
+
+        def cells() -> Drawing:
+            bare = row_shapes(sheet, self.look, self.colour_of, now, self.marked, bare=True)
+            return document(bare, WIDTH, sheet.height, "")
+
         if pixels:
             factor = enlarged * enlargement(WIDTH, height, self.pixels)
-            cells = on_ground(lambda: rows_image(sheet, self.look, self.colour_of, now, self.marked, factor))
-            image = embedded(10 * WIDTH, 10 * sheet.height, cells)
+            image = embedded(10 * WIDTH, 10 * sheet.height, on_ground(lambda: painted(cells(), factor, quick=True)))
         letters = self.letters if self.labels or letters_fit(layout, self.letters) else {}
-        body = rows_svg(sheet, self.look, self.colour_of, now, self.marked, image, letters)
-        return self._framed(body, WIDTH, height, 10)
-
-    def _framed(self, body: str, width: int, height: int, parts: int) -> str:
-        whole = document(background(width, height, parts) + body, width, height, self.text, parts)
-        return resized(with_legend(whole, self.legend), self.pixels)
+        body = row_shapes(sheet, self.look, self.colour_of, now, self.marked, image, letters)
+        return with_legend(document(body, WIDTH, height, self.text), self.legend)
 
     @cached_property
     def mesh(self) -> Mesh:
@@ -180,42 +167,16 @@ class Picture(SVGPicture):
         with Task("The mesh was not made"), drawn_on(self.theme):
             return mesh_of(self.scene if self.solid is None else self.solid, widths_by_order(OWN_WIDTHS))
 
-    def save(self, path: str | Path, *, dpi: object = None) -> None:
-        """Write the picture to a file, in the format given by its extension: .svg, .png, .pdf, .glb or .obj.
-
-        The last two are for 3D programs and contain only the last step. The colours of an .obj file are kept in an .mtl file
-        beside it. Labels are no shapes in space, and left out there.
-
-        Parameters
-        ----------
-        path
-            The file.
-        dpi
-            For .png files the dots of an inch of paper: with 300 the picture has 300/96 of its size in pixels.
-
-        Raises
-        ------
-        ModelFileError
-            The extension is unknown, or the file cannot be written.
-        ModelValueError
-            The dots are no number from 24 to 2400, or the file is no .png file.
-        """
-        path = path_from(path)
+    def _encoders(self, path: Path, dots: float | None) -> tuple[Encoders, str]:
         library = path.parent / ("".join(c if c.isalnum() else "_" for c in path.stem) + ".mtl")
-        flat = self._encoders(path, dpi)
-        if path.suffix.lower() == ".obj":
+
+        def with_colours() -> bytes:
             save_file(library, mtl(self.mesh, self.colour_of))
-        save_as(
-            path,
-            {
-                ".svg": flat[".svg"],
-                ".png": flat[".png"],
-                ".pdf": flat[".pdf"],
-                ".glb": lambda: glb(self.mesh, self.colour_of),
-                ".obj": lambda: obj(self.mesh, self.colour_of, library.name),
-            },
-            f"Films end in {listed(FILMS)}, and are made by animate(...).",
-        )
+            return obj(self.mesh, self.colour_of, library.name)
+
+        solid: Encoders = {".glb": lambda: glb(self.mesh, self.colour_of), ".obj": with_colours}
+        flat, _ = super()._encoders(path, dots)
+        return {**flat, **solid}, f"Films end in {listed(FILMS)}, and are made by animate(...)."
 
     def __repr__(self) -> str:
         return "; ".join(filter(None, (self.text, passed_over(self.scene.unknown))))
@@ -242,32 +203,13 @@ class NetPicture(SVGPicture):
     positions: bool = False
     labels: bool = True
 
-    @cached_property
-    def svg(self) -> str:
-        """The picture as SVG text."""
-        with Task("The picture was not drawn"), drawn_on(self.theme):
-            return resized(drawn_stages(self.net, self.tokens, positions=self.positions, labels=self.labels), self.pixels)
+    def shown(self, most: int, enlarged: float) -> Drawing:
+        """The diagram."""
+        return drawn_stages(self.net, self.tokens, positions=self.positions, labels=self.labels)
 
-    def save(self, path: str | Path, *, dpi: object = None) -> None:
-        """Write the picture to an .svg, .png or .pdf file, or the net to a .pnml file for Petri-net tools (see `pnml`).
-
-        Parameters
-        ----------
-        path
-            The file, whose name says the format.
-        dpi
-            For .png files the dots of an inch of paper.
-
-        Raises
-        ------
-        ModelFileError
-            The extension is unknown, or the file cannot be written.
-        ModelValueError
-            The dots are no number from 24 to 2400, or the file is no .png file.
-        """
-        net = {".pnml": lambda: marked_xml(placed_pnml(self.net, self.tokens, positions_in(self.net)))}
-        path = path_from(path)
-        save_as(path, self._encoders(path, dpi) | net)
+    def _encoders(self, path: Path, dots: float | None) -> tuple[Encoders, str]:
+        flat, told = super()._encoders(path, dots)
+        return {**flat, ".pnml": lambda: marked_xml(placed_pnml(self.net, self.tokens, positions_in(self.net)))}, told
 
     def __repr__(self) -> str:
-        return unescape(self.svg.split('aria-label="')[1].split('"')[0])
+        return visible(self.drawing().title)

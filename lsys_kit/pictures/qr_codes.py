@@ -9,8 +9,9 @@ from itertools import groupby
 
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError, require
 from lsys_kit.pictures.formats.notebook import SVGPicture
+from lsys_kit.pictures.shapes import Drawing, Look, Path
+from lsys_kit.pictures.sizes import document
 from lsys_kit.pictures.style.palette import PAPER
-from lsys_kit.pictures.svg import background, document
 
 BLACK = "#000000"
 SIDE = 4
@@ -41,12 +42,10 @@ class QRCode(SVGPicture):
         """Its width and height with the margin, in pixels."""
         return (len(self.rows) + 2 * QUIET_ZONE) * SIDE
 
-    @cached_property
-    def svg(self) -> str:
-        """The code as SVG text."""
+    def shown(self, most: int, enlarged: float) -> Drawing:
+        """The dark modules."""
         path = "".join(f"M{10 * x} {10 * y}h{10 * wide}v{10 * SIDE}h{-10 * wide}z" for x, y, wide in self._dark)
-        body = f'<path fill="{BLACK}" d="{path}"/>'
-        return document(background(self.size, self.size) + body, self.size, self.size, f"QR code: {self.text}")
+        return document([Path(path, Look(fill=BLACK))], self.size, self.size, f"QR code: {self.text}")
 
     @cached_property
     def png(self) -> bytes:

@@ -15,10 +15,11 @@ import pytest
 from lsys_kit import derive, draw, figure, read
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.turtle.space import trace_in_space
-from lsys_kit.pictures.formats.raster import turtle_png
+from lsys_kit.pictures.formats.raster import encoded, turtle_picture
+from lsys_kit.pictures.formats.svg import element
 from lsys_kit.pictures.rendering.frames import frame_of
+from lsys_kit.pictures.rendering.scene_shapes import scene_shapes
 from lsys_kit.pictures.rendering.view import project
-from lsys_kit.pictures.svg import turtle_svg
 
 PLANT = read("angle: 25.7\naxiom: F\nF -> F[+F]F[-F]F")
 IN_SPACE = read("angle: 25.7\naxiom: F\nF -> F[+F]/(90)F[-F]F")
@@ -64,7 +65,7 @@ def test_every_module_is_different(benchmark):
 def test_a_million_strokes_as_a_picture(benchmark):
     derivation = derive(PLANT, 9)
     scene, colours = scene_of(derivation), draw(derivation.to(3)).colour_of
-    png = benchmark(lambda: turtle_png(scene, colours))
+    png = benchmark(lambda: encoded(turtle_picture(scene, colours)))
     assert png.startswith(b"\x89PNG")
     told(benchmark, len(scene.segments), 5e6)
 
@@ -72,7 +73,7 @@ def test_a_million_strokes_as_a_picture(benchmark):
 def test_a_plant_in_space_from_far_to_near_as_a_picture(benchmark):
     derivation = derive(IN_SPACE, 8)
     scene, colours = scene_of(derivation), draw(derivation.to(3)).colour_of
-    png = benchmark(lambda: turtle_png(*project([scene]), colours))
+    png = benchmark(lambda: encoded(turtle_picture(*project([scene]), colours)))
     assert png.startswith(b"\x89PNG")
     told(benchmark, len(scene.segments), 1e6)
 
@@ -92,6 +93,6 @@ def test_a_page_of_many_strokes(benchmark):
 def test_a_thousand_strokes_as_text(benchmark):
     picture = draw(PLANT, 5)
     frame = frame_of(picture.scene.box)
-    svg = benchmark(lambda: turtle_svg(picture.scene, frame, picture.colour_of))
+    svg = benchmark(lambda: "".join(map(element, scene_shapes(picture.scene, frame, picture.colour_of))))
     assert "<path" in svg
     told(benchmark, len(picture.scene.segments), 1e6)

@@ -19,6 +19,7 @@ from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.turtle.surfaces import passed_over
 from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.notation.model.system import LSystem, Production
+from lsys_kit.pictures.formats.svg import svg
 from lsys_kit.pictures.nets.diagram import drawn_stages
 from lsys_kit.pictures.style.labels import visible
 from lsys_kit.pictures.style.palette import GREEN, colours
@@ -126,7 +127,7 @@ def test_colours_are_those_of_the_pictures():
 @pytest.mark.slow
 @pytest.mark.parametrize("name", systems())
 def test_the_diagram_of_a_book_is_that_of_the_picture(name):
-    diagram, picture = made_book(name)["net"], drawn_stages(stages(system(name)))
+    diagram, picture = made_book(name)["net"], svg(drawn_stages(stages(system(name))))
     root = ET.fromstring(picture)
     paths = [path.attrib["d"] for path in root.iter(f"{SVG}path")]
     assert paths == [

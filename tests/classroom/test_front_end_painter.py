@@ -11,8 +11,7 @@ from lsys_kit import derive, read
 from lsys_kit.classroom.catalogue import system, systems
 from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
 from lsys_kit.pictures.draw import state_colours
-from lsys_kit.pictures.rendering.display_list import AreaRun, LineRun
-from lsys_kit.pictures.rendering.painters_order import display_list
+from lsys_kit.pictures.rendering.display_list import AreaRun, LineRun, display_list
 from lsys_kit.pictures.rendering.view import far_to_near, project
 from lsys_kit.pictures.style.colour_values import contrast, mixed
 from tests.classroom.front_end import PAINTER, answers, book_of

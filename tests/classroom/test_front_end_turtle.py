@@ -22,7 +22,7 @@ from lsys_kit.notation.model.expressions import Number
 from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.draw import state_colours
-from lsys_kit.pictures.rendering.line_widths import in_units
+from lsys_kit.pictures.rendering.frames import in_units
 from lsys_kit.pictures.rendering.looks import numbered_colours
 from tests.classroom.front_end import TURTLE, answers, book_of
 from tests.shared_constants import CONSTANTS, script

@@ -55,7 +55,7 @@ WRITERS: dict[str, tuple[Write, Write, tuple[str, ...]]] = {
         ending: (
             lambda folder, ending=ending: SMALL.save(folder / f"a.{ending}"),  # type: ignore[misc]
             lambda folder, ending=ending: LARGE.save(folder / f"a.{ending}"),  # type: ignore[misc]
-            ("files.py", "pictures/formats/files.py"),
+            ("files.py", "pictures/formats/notebook.py"),
         )
         for ending in ("svg", "png", "glb", "obj")
     },

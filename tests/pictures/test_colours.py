@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 from lsys_kit import derive, draw, lineage, read, stages, system
 from lsys_kit.classroom.panel.word_view import word_html
 from lsys_kit.pictures.draw import state_colours
-from lsys_kit.pictures.lineages import tree_of
+from lsys_kit.pictures.formats.svg import svg as written
+from lsys_kit.pictures.lineages.tree import tree_of
 from lsys_kit.pictures.nets.diagram import drawn_stages
 from lsys_kit.pictures.style.labels import html_label
 from lsys_kit.pictures.style.palette import SERIES, colour_of, colours
@@ -34,7 +35,7 @@ def in_the_word(word):
 def in_the_diagram(model):
     """For each symbol the colours of the circles of its stages."""
     net, found = stages(model), {}
-    svg = drawn_stages(net)
+    svg = written(drawn_stages(net))
     for number, place in enumerate(net.places):
         for circle in re.findall(rf'data-place="{number}".*?<circle [^>]*stroke="(#\w+)"', svg, re.DOTALL):
             found.setdefault(place.symbol, set()).add(circle)

@@ -123,7 +123,8 @@ def test_a_drawing_goes_into_a_teachers_own_figure():
     ax = Figure().add_subplot()
     assert figure(system("K5"), ax, n=3) is ax
     assert sum(len(shapes.get_paths()) for shapes in ax.collections) == 125
-    assert len(figure(system("J1"), n=2).patches) == 1 + 1 + 3 + (1 + 2 + 3)  # paper, a mark, arrows row by row, cells
+    cells = figure(system("J1"), n=2).collections  # of paper, a mark, arrows row by row, and cells
+    assert sum(len(shapes.get_paths()) for shapes in cells) == 1 + 1 + 3 + (1 + 2 + 3)
 
 
 @pytest.mark.parametrize("what", ["J1", None, 3])

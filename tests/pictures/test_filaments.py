@@ -10,8 +10,7 @@ import pytest
 from PIL import Image
 
 from lsys_kit import ModelValueError, animate, derive, draw, figure, read, system
-from lsys_kit.pictures.filaments import DrawnCell, FilamentLayout, filament_layout
-from lsys_kit.pictures.formats.vector.shapes import Outline
+from lsys_kit.pictures.filaments.layout import DrawnCell, FilamentLayout, filament_layout
 from lsys_kit.pictures.picture import Picture
 from lsys_kit.pictures.rendering.frames import WIDTH
 
@@ -155,7 +154,11 @@ def test_ages_that_would_stand_too_close_are_left_out() -> None:
 def test_a_figure_shows_the_same_cells_and_texts() -> None:
     ax, picture = figure(system("P9w"), n=2), draw(system("P9w"), 2)
     assert [text.get_text() for text in ax.texts] == texts(picture)
-    assert len(ax.patches) == sum(isinstance(shape, Outline) for shape in picture.drawing().shapes) > 9
+    assert (
+        sum(len(shapes.get_paths()) for shapes in ax.collections)
+        == len(re.findall(r"<(rect|ellipse|path(?! d=\"\"))", picture.svg))
+        > 9
+    )
 
 
 def test_a_look_reads_back_and_is_no_part_of_what_a_system_is() -> None:

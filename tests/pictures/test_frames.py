@@ -15,8 +15,8 @@ from PIL import Image
 
 from lsys_kit import animate, derive, draw, figure, read, system
 from lsys_kit.geometry.scene import OWN
+from lsys_kit.pictures.rendering.display_list import BROADEST_CASING
 from lsys_kit.pictures.rendering.frames import frame_around
-from lsys_kit.pictures.rendering.painters_order import BROADEST_CASING
 from lsys_kit.pictures.style.palette import PAPER
 
 BOOK = Path(__file__).parents[1] / "listings" / "abop"

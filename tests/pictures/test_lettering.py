@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from PIL import Image, ImageDraw, ImageFont
 
-from lsys_kit.pictures.formats.sheet import Sheet, label_width
-from lsys_kit.pictures.formats.vector.lettering import PLAIN, advance, glyph, opened_font
+from lsys_kit.pictures.formats.lettering import PLAIN, advance, glyph, opened_font
+from lsys_kit.pictures.formats.painting import Sheet, label_width
 from lsys_kit.pictures.style.palette import INK
 
 SIZE = 400

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from lsys_kit import ModelLimitError, ModelValueError, derive, draw, limits, read, stages, system, systems, timed
 from lsys_kit.derivation.petri.stages import Stages
+from lsys_kit.pictures.formats.svg import svg
 from lsys_kit.pictures.nets import diagram, parts
 from lsys_kit.pictures.nets.diagram import drawn_stages, steering_of
 from lsys_kit.pictures.nets.parts import short, width_of
@@ -33,7 +34,7 @@ SVG = "{http://www.w3.org/2000/svg}"
 
 
 def svg_of(net: Stages, **options: object) -> ET.Element:
-    return ET.fromstring(drawn_stages(net, (1,) * len(net.places), **options))
+    return ET.fromstring(svg(drawn_stages(net, (1,) * len(net.places), **options)))
 
 
 def sampled(path: str) -> list[tuple[float, float]]:
@@ -187,7 +188,7 @@ def test_tokens_are_the_counts_of_the_word(name: str) -> None:
     net = stages(system(name))
     for word in derive(system(name), 5):
         tokens = net.tokens(word)
-        for stage in ET.fromstring(drawn_stages(net, tokens)).iter(f"{SVG}g"):
+        for stage in ET.fromstring(svg(drawn_stages(net, tokens))).iter(f"{SVG}g"):
             if stage.get("class") == "stage":
                 dots = [c for c in stage.iter(f"{SVG}circle") if c.get("class") == "token"]
                 numbers = [t.text for t in stage.iter(f"{SVG}text") if t.get("class") == "token"]
@@ -203,27 +204,27 @@ def test_the_number_of_copies_stands_at_the_arc(name: str, notes: list[str]) -> 
 def test_positions_in_the_successor_on_request() -> None:
     texts = svg_of(stages(system("K2")), positions=True).iter(f"{SVG}text")
     assert sorted(t.text or "" for t in texts if t.get("class") == "note") == ["1st", "1st", "2nd", "4th", "6th"]
-    assert "1, 3, 6, 8" in drawn_stages(stages(system("T2")), positions=True)
+    assert "1, 3, 6, 8" in svg(drawn_stages(stages(system("T2")), positions=True))
 
 
 def test_what_only_steers_the_turtle_is_no_stage() -> None:
-    assert 'aria-label="Stage diagram: 3 stages a, b, F"' in drawn_stages(stages(system("K2")))
-    assert "Stage diagram: 6 stages" in drawn_stages(stages(system("K2")), steering=())
+    assert 'aria-label="Stage diagram: 3 stages a, b, F"' in svg(drawn_stages(stages(system("K2"))))
+    assert "Stage diagram: 6 stages" in svg(drawn_stages(stages(system("K2")), steering=()))
 
 
 def test_a_rewritten_turn_is_a_stage() -> None:
-    assert "2 stages +, F" in drawn_stages(stages(read("axiom: +\n+ -> F+\nF -> F")))
+    assert "2 stages +, F" in svg(drawn_stages(stages(read("axiom: +\n+ -> F+\nF -> F"))))
 
 
 def test_the_description_says_in_words_what_is_seen() -> None:
-    picture = drawn_stages(stages(system("P2")), (1, 0, 1, 2, 0), marked=(0,))
+    picture = svg(drawn_stages(stages(system("P2")), (1, 0, 1, 2, 0), marked=(0,)))
     assert 'aria-label="Stage diagram: 5 stages S, L, A, B, C; tokens 0, 1, 0, 1, 2; L is marked"' in picture
     assert 'role="img"' in picture
 
 
 def test_a_marked_stage_is_not_told_by_colour_alone() -> None:
     net = stages(system("P2"))
-    plain, marked = drawn_stages(net), drawn_stages(net, marked=(3,))
+    plain, marked = svg(drawn_stages(net)), svg(drawn_stages(net, marked=(3,)))
     assert MARK not in plain
     assert marked.count(MARK) == 1
     assert marked.count("<circle") == plain.count("<circle") + 2
@@ -250,10 +251,10 @@ def test_hostile_names_are_escaped(name: str) -> None:
 @pytest.mark.parametrize("name", NAMED)
 def test_the_same_net_gives_the_same_bytes(name: str) -> None:
     net = stages(system(name))
-    first = drawn_stages(net, (2,) * len(net.places))
+    first = svg(drawn_stages(net, (2,) * len(net.places)))
     diagram._diagram.cache_clear()
     parts.parts_of.cache_clear()
-    assert drawn_stages(stages(system(name)), (2,) * len(net.places)) == first
+    assert svg(drawn_stages(stages(system(name)), (2,) * len(net.places))) == first
     assert not re.search(r"\d\.\d\d", re.sub(r"<text.*?</text>|aria-label=\"[^\"]*\"|<title>.*?</title>", "", first))
 
 
@@ -271,18 +272,18 @@ def test_everything_lies_inside_the_picture() -> None:
 
 def test_moving_tokens_lays_nothing_out_again(monkeypatch: pytest.MonkeyPatch) -> None:
     net = stages(system("J4"))
-    drawn_stages(net, (1, 0, 0, 0, 0))
+    svg(drawn_stages(net, (1, 0, 0, 0, 0)))
     monkeypatch.setattr(parts, "layout_in_rows", None)
-    assert drawn_stages(net, (0, 1, 0, 0, 0)) != drawn_stages(net, (1, 0, 0, 0, 0))
+    assert svg(drawn_stages(net, (0, 1, 0, 0, 0))) != svg(drawn_stages(net, (1, 0, 0, 0, 0)))
 
 
 def test_tokens_that_do_not_fit_the_net() -> None:
     with pytest.raises(ModelValueError, match="5 places; 2 numbers"):
-        drawn_stages(stages(system("P2")), (1, 2))
+        svg(drawn_stages(stages(system("P2")), (1, 2)))
 
 
 def test_a_system_without_stages_is_an_empty_picture() -> None:
-    assert "Stage diagram: 0 stages" in drawn_stages(stages(read("axiom: +")), (1,))
+    assert "Stage diagram: 0 stages" in svg(drawn_stages(stages(read("axiom: +")), (1,)))
 
 
 @pytest.mark.slow

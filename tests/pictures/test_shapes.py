@@ -1,4 +1,4 @@
-"""The kit's SVG read back as shapes, and shapes as pixels."""
+"""Shapes: the steps along their outlines, what groups pass on, and their pixels."""
 
 from __future__ import annotations
 
@@ -10,29 +10,24 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from matplotlib.path import Path
+from matplotlib.path import Path as Outline
 from PIL import Image
 
 from lsys_kit import draw, map_system, plot, stages, system
+from lsys_kit.pictures.formats.lettering import advance
+from lsys_kit.pictures.formats.painter import Subpath, dashed, lettering, subpaths
 from lsys_kit.pictures.formats.painting import painted
-from lsys_kit.pictures.formats.pdf.objects import number_text
-from lsys_kit.pictures.formats.vector.lettering import advance
-from lsys_kit.pictures.formats.vector.paths import Subpath, dashed, ellipse, plain, rectangle, subpaths
-from lsys_kit.pictures.formats.vector.reading import drawing_of
-from lsys_kit.pictures.formats.vector.shapes import Text
+from lsys_kit.pictures.formats.pdf import number_text
+from lsys_kit.pictures.shapes import Circle, Drawing, Group, Look, Path, Place, Rectangle, Shape, Span, Strokes, Text
+from lsys_kit.pictures.sizes import document
 
 NUMBERS = st.integers(-1000, 1000)
+WHOLE = (None, None, 400, 300)
 
 
-def svg(body: str, width: int = 40, height: int = 30, box: str = "0 0 400 300") -> str:
-    return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}" width="{width}" height="{height}"><title>-</title>'
-        f'<rect width="100%" height="100%" fill="#FFFFFF"/>{body}</svg>'
-    )
-
-
-def pixels(body: str, **choices: object) -> np.ndarray:
-    return np.asarray(painted(drawing_of(svg(body, **choices))))  # type: ignore[arg-type]
+def pixels(*shapes: Shape, box: tuple[int, int, int, int] = (0, 0, 400, 300)) -> np.ndarray:
+    drawing = document(shapes, 40, 30, "-")
+    return np.asarray(painted(Drawing(40, 30, "-", drawing.shapes, box, Look())))
 
 
 # --- paths ------------------------------------------------------------------------------------------------------------
@@ -44,22 +39,28 @@ def test_relative_and_short_commands_mean_the_same(points: list[tuple[int, int]]
     ways = [(x - a, y - b) for (a, b), (x, y) in pairwise(points)]
     relative = "M{} {}".format(*points[0]) + "".join(f"l{x} {y}" for x, y in ways)
     steps = "M{} {}".format(*points[0]) + "".join(f"h{x}V{y}" for (x, _), (_, y) in zip(ways, points[1:], strict=True))
-    assert plain(relative) == plain(absolute)
-    assert subpaths(plain(steps))[0].corners[::2].tolist() == [[*map(float, point)] for point in points]
+    corners = [subpaths(Path(data))[0].corners.tolist() for data in (absolute, relative, steps)]
+    assert corners[0] == corners[1] == corners[2][::2] == [[*map(float, point)] for point in points]
 
 
 @given(NUMBERS, NUMBERS, NUMBERS, NUMBERS)
 def test_a_quadratic_curve_is_the_same_as_a_cubic_one(x: int, y: int, to_x: int, to_y: int) -> None:
-    corners = subpaths(plain(f"M0 0Q{x} {y} {to_x} {to_y}"), 10)[0].corners
+    corners = subpaths(Path(f"M0 0Q{x} {y} {to_x} {to_y}"), 10)[0].corners
     shares = np.linspace(0, 1, len(corners))[:, None]
     expected = 2 * (1 - shares) * shares * (x, y) + shares**2 * (to_x, to_y)
     assert corners == pytest.approx(expected, abs=0.01)
 
 
+def test_strokes_are_lines_between_their_ends() -> None:
+    ends = np.array([[0, 0, 10, 20], [30, 0, 0, 30]])
+    parts = [path.corners.tolist() for path in subpaths(Strokes(ends))]
+    assert parts == [path.corners.tolist() for path in subpaths(Path("M0 0L10 20M30 0L0 30"))]
+
+
 def test_a_circle_is_round_and_a_rectangle_holds_its_corners() -> None:
-    around = subpaths(ellipse(10, 20, 100, 100), 10)[0].corners
+    around = subpaths(Circle(10, 20, 100), 10)[0].corners
     assert np.hypot(*(around - (10, 20)).T) == pytest.approx(100, abs=0.05)
-    inside = Path(subpaths(rectangle(0, 0, 100, 50, 10))[0].corners)
+    inside = Outline(subpaths(Rectangle(0, 0, 100, 50, 10))[0].corners)
     assert inside.contains_points([(50, 25), (12, 12)]).all()
     assert not inside.contains_points([(1, 1), (99, 49), (-1, 25)]).any()
 
@@ -77,37 +78,28 @@ def test_a_number_of_a_page_has_no_exponent(value: float) -> None:
     assert float(number_text(value)) == pytest.approx(value, abs=1e-5)
 
 
-# --- reading ----------------------------------------------------------------------------------------------------------
+# --- what is around shapes --------------------------------------------------------------------------------------------
 
 
 def test_groups_pass_on_how_shapes_look_and_where() -> None:
-    body = '<g fill="#FF0000" transform="translate(100 50) scale(10)"><path d="M0 0H10V10H0Z"/></g>'
-    found = pixels(body)
+    found = pixels(Group([Path("M0 0H10V10H0Z")], Look(fill="#FF0000"), place=Place(10, 100, 50)))
     assert found[6:14, 11:19].reshape(-1, 3).tolist() == [[255, 0, 0]] * 64
     assert (found[:4] == 255).all()
 
 
 def test_a_view_that_does_not_begin_at_nought_is_moved() -> None:
-    body = '<rect x="0" y="0" width="100" height="100" fill="#0000FF"/>'
-    found = pixels(body, box="-100 -100 400 300")
+    found = pixels(Rectangle(0, 0, 100, 100, look=Look(fill="#0000FF")), box=(-100, -100, 400, 300))
     assert found[10:20, 10:20].reshape(-1, 3).tolist() == [[0, 0, 255]] * 100
-    assert (found[:10] == 255).all()
+    assert (found[11:, 20:] == 255).all()
 
 
 @pytest.mark.parametrize(("anchor", "share"), [("start", 0), ("middle", 0.5), ("end", 1)])
 def test_a_text_is_held_where_its_anchor_says(anchor: str, share: float) -> None:
-    [_, text] = drawing_of(
-        svg(f'<text x="200" y="150" font-size="50" text-anchor="{anchor}">a<tspan dy="9" font-size="50%">1</tspan></text>')
-    ).shapes
-    assert isinstance(text, Text)
+    look: Look = {"font_size": 50, **({} if anchor == "start" else {"text_anchor": anchor})}  # type: ignore[typeddict-item]
+    text = lettering(Text(200, 150, ["a", Span("1", Look(dy=9, font_size="50%"))]), look)
     assert text.runs[0].x == pytest.approx(200 - share * (advance("a", 50) + advance("1", 25)))
     assert text.runs[1].x == pytest.approx(text.runs[0].x + advance("a", 50))
     assert [run.y for run in text.runs] == [150, 159]
-
-
-def test_what_the_kit_never_writes_is_not_read() -> None:
-    with pytest.raises(ValueError, match="<polyline>"):
-        drawing_of(svg("<polyline points='0,0 1,1'/>"))
 
 
 # --- painting ---------------------------------------------------------------------------------------------------------
@@ -115,24 +107,24 @@ def test_what_the_kit_never_writes_is_not_read() -> None:
 
 def test_opacity_mixes_with_what_is_there() -> None:
     over = pixels(
-        '<rect width="400" height="300" fill="#FF0000"/><rect width="400" height="300" fill="#0000FF" '
-        'fill-opacity="0.25"/><path d="M0 150H400" stroke="#FFFFFF" stroke-width="100" stroke-opacity="0.5"/>'
+        Rectangle(*WHOLE, look=Look(fill="#FF0000")),
+        Rectangle(*WHOLE, look=Look(fill="#0000FF", fill_opacity=0.25)),
+        Path("M0 150H400", Look(stroke="#FFFFFF", stroke_width=100, stroke_opacity=0.5)),
     )
     assert over[2, 20].tolist() == pytest.approx([191, 0, 64], abs=2)
     assert over[15, 20].tolist() == pytest.approx([223, 128, 160], abs=2)
 
 
 def test_a_hole_is_left_out() -> None:
-    ring = pixels('<path d="M50 50H350V250H50ZM100 100H300V200H100Z" fill="#008000" fill-rule="evenodd"/>')
+    ring = pixels(Path("M50 50H350V250H50ZM100 100H300V200H100Z", Look(fill="#008000", fill_rule="evenodd")))
     assert ring[7, 20].tolist() == [0, 128, 0]
     assert ring[15, 20].tolist() == [255, 255, 255]
 
 
 def test_a_letter_has_room_around_it() -> None:
-    dark = '<rect width="400" height="300" fill="#000000"/>'
-    text = 'x="200" y="200" font-size="150" text-anchor="middle" fill="#FF0000"'
-    halo = 'stroke="#FFFFFF" stroke-width="40" paint-order="stroke"'
-    plain_one, other = (pixels(f"{dark}<text {text} {more}>l</text>") for more in ("", halo))
+    dark, look = Rectangle(*WHOLE, look=Look(fill="#000000")), Look(font_size=150, text_anchor="middle", fill="#FF0000")
+    halo = Look(stroke="#FFFFFF", stroke_width=40, paint_order="stroke")
+    plain_one, other = (pixels(dark, Text(200, 200, "l", look | more)) for more in (Look(), halo))
     white = (other == 255).all(axis=2)
     assert white.any()
     assert not (plain_one == 255).all(axis=2).any()

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from lsys_kit import animate, derive, draw, limits, read
 from lsys_kit.geometry.drawing import scene_of
-from lsys_kit.pictures.formats.vector.lettering import advance
+from lsys_kit.pictures.formats.lettering import advance
 from lsys_kit.pictures.rendering.frames import LABEL, LABEL_GAP, frame_around, label_width
 from lsys_kit.pictures.rendering.view import project
 
@@ -74,7 +74,7 @@ def test_figures_show_them() -> None:
     ax = Figure().add_subplot()
     draw(TREE, 2).plot_into(ax)
     assert [text.get_text() for text in ax.texts] == SAID
-    assert ax.texts[0].xy == pytest.approx((0, 1))
+    assert ax.texts[0].get_position() == pytest.approx((0, 1), abs=0.2)
 
 
 def test_meshes_have_none(tmp_path: Path) -> None:

@@ -26,19 +26,17 @@ from lsys_kit.geometry.turtle.plane import Path, place_path, trace
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.draw import MOST_ROWS, filament_picture, state_colours
-from lsys_kit.pictures.formats.painting import paint
-from lsys_kit.pictures.formats.sheet import Sheet, label_width
-from lsys_kit.pictures.formats.vector.lettering import advance
-from lsys_kit.pictures.formats.vector.reading import drawing_of
-from lsys_kit.pictures.formats.vector.shapes import Place
+from lsys_kit.pictures.filaments.folding import FilamentRow
+from lsys_kit.pictures.formats.lettering import advance
+from lsys_kit.pictures.formats.painting import PixelPainter, Sheet, label_width
 from lsys_kit.pictures.nets.diagram import drawn_stages
 from lsys_kit.pictures.nets.parts import parts_of, steering_of
 from lsys_kit.pictures.picture import Picture
-from lsys_kit.pictures.rendering.line_widths import in_units
+from lsys_kit.pictures.rendering.frames import in_units
 from lsys_kit.pictures.rendering.view import project_smoothly
+from lsys_kit.pictures.shapes import Place
 from lsys_kit.pictures.style.labels import label_parts, place_text, values_text
 from lsys_kit.pictures.style.palette import INK, MARK, MARK_EDGE, QUIET, colours, tinted
-from lsys_kit.pictures.svg import FilamentRow
 from lsys_kit.worlds.derive import derive
 
 DERIVATION_BYTES, SHAPE_BYTES = 16 * 2**20, 100
@@ -202,8 +200,7 @@ def composite_png(view: StepView) -> bytes:
     _paint_word(sheet.part(MARGIN, MARGIN + ABOVE), lines)
     _paint_heading(sheet.part(MARGIN, top), "stages")
     marked = {view.net.place_of(view.word.states.modules[state]) for state in view.marked}
-    stages = drawing_of(drawn_stages(view.net, view.tokens, marked=marked))
-    paint(sheet, stages.shapes, Place(unit, MARGIN, top))
+    PixelPainter(sheet, Place(unit, MARGIN, top)).draw(drawn_stages(view.net, view.tokens, marked=marked))
     _paint_heading(sheet.part(MARGIN + across[0], top + across[1]), "drawing")
     sheet.picture(MARGIN + across[0], top + across[1], drawing)
     return sheet.png

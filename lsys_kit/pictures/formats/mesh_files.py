@@ -63,7 +63,6 @@ def by_colour(mesh: Mesh, colour_of: Mapping[int, str]) -> Iterator[ColouredMesh
 
 
 def _bytes_of(mesh: Mesh) -> int:
-    """How many bytes the numbers of a mesh take that are written."""
     return mesh.vertices.nbytes + mesh.normals.nbytes + mesh.triangles.nbytes
 
 
@@ -122,7 +121,6 @@ def _accessor(lists: Mapping[str, list[Any]], data: bytearray, rows: Singles | N
 
 
 def _material(colour: str) -> dict[str, Any]:
-    """A matt, double-sided material of a colour."""
     factor = [round(_linear(channel), 6) for channel in channels(colour)]
     return {
         "name": colour,

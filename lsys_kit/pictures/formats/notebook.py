@@ -1,36 +1,78 @@
-"""Pictures as a file keeps them, and as a notebook shows them: with a text alternative, which JupyterLab gives to no picture
-that comes without one."""
+"""Pictures as a file keeps them, in the format given by its extension, and as a notebook shows them: with a text alternative,
+which JupyterLab gives to no picture that comes without one.
+"""
 
 from __future__ import annotations
 
 import base64
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
-from lsys_kit.budget import Task
+from lsys_kit.budget import Task, current
 from lsys_kit.derivation.core.rules import real_from
-from lsys_kit.errors import ModelValueError, require, shown
-from lsys_kit.files import marked_png, marked_xml, path_from
-from lsys_kit.pictures.formats.files import save_as
-from lsys_kit.pictures.formats.painting import painted
-from lsys_kit.pictures.formats.pdf.page import pdf
+from lsys_kit.errors import ModelFileError, ModelValueError, quotable, require, shown
+from lsys_kit.files import marked_png, marked_xml, path_from, save_file
+from lsys_kit.pictures.formats.axes import plot_drawing
+from lsys_kit.pictures.formats.painting import on_ground, painted
+from lsys_kit.pictures.formats.pdf import pdf
 from lsys_kit.pictures.formats.raster import encoded
-from lsys_kit.pictures.formats.shape_axes import plot_drawing
-from lsys_kit.pictures.formats.transparency import on_ground
-from lsys_kit.pictures.formats.vector.reading import drawing_of
-from lsys_kit.pictures.formats.vector.shapes import Drawing
-from lsys_kit.pictures.sizes import Size
+from lsys_kit.pictures.formats.svg import svg
+from lsys_kit.pictures.shapes import Drawing
+from lsys_kit.pictures.sizes import SHARP, Size, resized
 from lsys_kit.pictures.style.themes import LIGHT, Theme, drawn_on
 from lsys_kit.supervision import supervised
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from PIL.Image import Image
+
+Encoders: TypeAlias = Mapping[str, Callable[[], bytes]]
+"""For each extension a function that encodes the picture."""
+FILMS = (".gif", ".apng", ".mp4")
+"""The extensions of films."""
+
+
+def save_as(path: Path, formats: Encoders, hint: str = "") -> None:
+    """Write a file in the format given by its extension; a file that the kit has made before is replaced, no other.
+
+    Parameters
+    ----------
+    path
+        The path of the file.
+    formats
+        The formats, by extension.
+    hint
+        An addition to the error message if the extension is unknown.
+
+    Raises
+    ------
+    ModelFileError
+        The name ends in something else, a file that the kit did not make is there already, or the file cannot be written.
+    """
+    if path.suffix.lower() not in formats:
+        raise ModelFileError(
+            f'This picture cannot be written to "{quotable(path.name)}"',
+            hint=f"Let the name end in {listed(formats)}. {hint}".rstrip(),
+        )
+    with Task("The file was not written"):
+        content = formats[path.suffix.lower()]()
+    save_file(path, content)
+
+
+def listed(endings: Iterable[str]) -> str:
+    """The extensions, in a sentence.
+
+    >>> listed([".svg", ".png", ".pdf"])
+    '.svg, .png or .pdf'
+    """
+    *most, last = endings
+    return f"{', '.join(most)} or {last}" if most else last
+
 
 INCH = 96
 """The pixels of an inch, as CSS has them."""
@@ -42,8 +84,7 @@ LEAST_DOTS, MOST_DOTS = 24, 2_400
 
 @dataclass(frozen=True)
 class SVGPicture(ABC):
-    """A picture that is written as SVG, from which its other formats are painted; its text alternative is what `repr` says of
-    it.
+    """A picture of shapes, which each format paints; its text alternative is what `repr` says of it.
 
     Attributes
     ----------
@@ -56,10 +97,16 @@ class SVGPicture(ABC):
     pixels: Size | None = field(default=None, kw_only=True, repr=False)
     theme: Theme = field(default=LIGHT, kw_only=True, repr=False)
 
-    @property
     @abstractmethod
+    def shown(self, most: int, enlarged: float) -> Drawing:
+        """What the picture shows, in its usual size; if it has more shapes than the most, these are pixels, so many in each
+        direction of its own."""
+
+    @cached_property
     def svg(self) -> str:
         """The picture as SVG text."""
+        with Task("The picture was not drawn"), drawn_on(self.theme):
+            return svg(resized(self.shown(current().segments, SHARP), self.pixels))
 
     @cached_property
     def png(self) -> bytes:
@@ -87,8 +134,8 @@ class SVGPicture(ABC):
 
     def drawing(self, enlarged: float = 1.0) -> Drawing:
         """The shapes of the picture; what of it is pixels has so many in each direction of its own."""
-        with Task("The picture was not drawn"):
-            return drawing_of(self.svg)
+        with Task("The picture was not drawn"), drawn_on(self.theme):
+            return resized(self.shown(current().figure, enlargement_from(enlarged)), self.pixels)
 
     def plot_into(self, ax: Axes) -> None:
         """Paint the picture into axes of a matplotlib figure, whose units are pixels or those of its turtle."""
@@ -102,7 +149,11 @@ class SVGPicture(ABC):
         plot_drawing(ax, self.drawing())
 
     def save(self, path: str | Path, *, dpi: object = None) -> None:
-        """Write the picture to an .svg, .png or .pdf file.
+        """Write the picture to a file, in the format given by its extension: .svg, .png or .pdf.
+
+        What a turtle has drawn can be written to .glb and .obj files, too, which are for 3D programs and contain only the last
+        step; the colours of an .obj file are kept in an .mtl file beside it. Labels are no shapes in space, and left out there.
+        A stage diagram can be written to a .pnml file, for Petri-net tools (see `pnml`).
 
         Parameters
         ----------
@@ -119,19 +170,23 @@ class SVGPicture(ABC):
             The dots are no number from 24 to 2400, or the file is no .png file.
         """
         path = path_from(path)
-        save_as(path, self._encoders(path, dpi))
+        save_as(path, *self._encoders(path, dots_from(dpi, path)))
 
-    def _encoders(self, path: Path, dpi: object = None) -> dict[str, Callable[[], bytes]]:
-        """For each extension what encodes the picture."""
-        dots = dots_from(dpi, path)
+    def _encoders(self, path: Path, dots: float | None) -> tuple[Encoders, str]:
+        """For each extension what encodes the picture; and what else there is, where none fits."""
         return {
             ".svg": lambda: marked_xml(self.svg),
             ".png": lambda: marked_png(self.png if dots is None else encoded(self.image(dots / INCH)), dots),
             ".pdf": lambda: self.pdf,
-        }
+        }, ""
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
         return svg_bundle(self.svg, repr(self))
+
+
+def described(parts: Iterable[str]) -> str:
+    """Parts of a description, joined as a sentence."""
+    return "; ".join(part for part in parts if part)
 
 
 def dots_from(value: object, path: Path) -> float | None:

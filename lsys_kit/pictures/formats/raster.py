@@ -1,23 +1,22 @@
 """Rasterisation of scenes as PNG, for pictures with too many strokes for SVG and for stored notebooks.
 
 Pictures are drawn without text at three times their size and then reduced, so that edges are smooth and pixels the same
-everywhere.
+everywhere. Lines of any number are rasterised at once, and then dilated to their width.
 """
 
 from __future__ import annotations
 
 import io
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lsys_kit.budget import check_bytes, counted, current
+from lsys_kit.budget import check_budget, check_bytes, counted, current
 from lsys_kit.geometry.scene import Floats, Scene
-from lsys_kit.pictures.formats.line_raster import Coordinates, Grid, spread, touched
 from lsys_kit.pictures.rendering.display_list import (
     AREA,
     NO_COLOUR,
@@ -27,9 +26,10 @@ from lsys_kit.pictures.rendering.display_list import (
     Lines,
     Rounds,
     colours_and_widths,
+    display_list,
 )
 from lsys_kit.pictures.rendering.frames import MARGIN, ViewFrame, frame_around
-from lsys_kit.pictures.rendering.painters_order import display_list
+from lsys_kit.pictures.shapes import Raster
 from lsys_kit.pictures.sizes import Size, enlargement, final_size
 from lsys_kit.pictures.style.lighting import HIGHLIGHT, REACH, sphere_tones
 from lsys_kit.pictures.style.themes import theme
@@ -37,6 +37,72 @@ from lsys_kit.pictures.style.themes import theme
 if TYPE_CHECKING:
     from PIL.Image import Image
     from PIL.ImageDraw import ImageDraw
+
+Coordinates: TypeAlias = NDArray[np.floating[Any]]
+Grid: TypeAlias = NDArray[np.int32]
+STROKES_AT_A_TIME, POINTS_AT_A_TIME = 2**16, 2**18
+"""Strokes are rasterised in blocks of at most so many strokes and points, which stay in the cache of the processor between two
+operations; a longer stroke is a block of its own."""
+
+
+def touched(across: Coordinates, down: Coordinates, shape: tuple[int, ...], numbers: Grid | None = None) -> NDArray[Any]:
+    """The points of a grid that lie on strokes, given the columns and rows of their ends.
+
+    If each stroke has a number, in ascending order, a point gets that of the last stroke on which it lies.
+
+    >>> across, down = np.array([[0.5, 2.5], [1.5, 1.5]], np.float32), np.array([[0.5, 0.5], [0.5, 1.5]], np.float32)
+    >>> touched(across[:1], down[:1], (2, 4)).astype(int).tolist()
+    [[1, 1, 1, 0], [0, 0, 0, 0]]
+    >>> touched(across, down, (2, 4), np.array([5, 7])).tolist()
+    [[5, 7, 5, 0], [0, 7, 0, 0]]
+    """
+    found = np.zeros(shape[0] * shape[1], dtype=bool if numbers is None else np.int32)
+    for first in range(0, len(across), STROKES_AT_A_TIME):
+        x, y = across[first : first + STROKES_AT_A_TIME], down[first : first + STROKES_AT_A_TIME]
+        wide, high = x[:, 1] - x[:, 0], y[:, 1] - y[:, 0]
+        steps = np.ceil(np.maximum(np.abs(wide), np.abs(high))).astype(np.int32)
+        np.maximum(steps, 1, out=steps)
+        for some in _blocks(steps + 1):
+            check_budget()
+            counts = steps[some] + 1
+            along = np.arange(int(counts.sum()), dtype=np.int32) - np.repeat(np.cumsum(counts) - counts, counts)
+            column = (np.repeat(x[some, 0], counts) + np.repeat(wide[some] / steps[some], counts) * along).astype(np.int32)
+            row = (np.repeat(y[some, 0], counts) + np.repeat(high[some] / steps[some], counts) * along).astype(np.int32)
+            here = True if numbers is None else np.repeat(numbers[first : first + STROKES_AT_A_TIME][some], counts)
+            found[row * shape[1] + column] = here
+    return found.reshape(shape)
+
+
+def _blocks(counts: NDArray[np.integer[Any]]) -> Iterator[slice]:
+    ends = np.cumsum(counts, dtype=np.int64)
+    first = 0
+    while first < len(counts):
+        before = ends[first - 1] if first else 0
+        after = max(first + 1, int(np.searchsorted(ends, before + POINTS_AT_A_TIME, side="right")))
+        yield slice(first, after)
+        first = after
+
+
+def spread(found: NDArray[Any], radius: float) -> NDArray[Any]:
+    """The dilation of a set of points of a grid by a disc of a given radius; of numbers, the greatest in each disc.
+
+    >>> spread(np.array([[0, 0, 0], [0, 1, 0], [0, 0, 0]], dtype=bool), 1).astype(int).tolist()
+    [[0, 1, 0], [1, 1, 1], [0, 1, 0]]
+    >>> spread(np.array([[0, 0, 5, 7]]), 1).tolist()
+    [[0, 5, 7, 7]]
+    >>> spread(np.array([[1], [0], [0], [0]]), 5).ravel().tolist()  # a disc larger than the grid
+    [1, 1, 1, 1]
+    """
+    row, side, whole, height = found.copy(), 0, np.zeros_like(found), len(found)  # the row is dilated to both sides
+    for up in counted(range(min(int(radius), height - 1), -1, -1), 1):
+        while side < int((radius * radius - up * up) ** 0.5):
+            side += 1
+            np.maximum(row[:, side:], found[:, :-side], out=row[:, side:])
+            np.maximum(row[:, :-side], found[:, side:], out=row[:, :-side])
+        np.maximum(whole[up:], row[: height - up], out=whole[up:])
+        np.maximum(whole[: height - up], row[up:], out=whole[: height - up])
+    return whole
+
 
 Colours: TypeAlias = NDArray[np.uint8]
 ShapePainter: TypeAlias = Callable[[int, int], None]
@@ -49,11 +115,6 @@ FLOAT32_RANGE = 1e30
 
 MOST_SPREADS, FEW_RUNS = 6, 2_000
 """Lines of so many widths are painted at once, width after width; of more widths, those with few lines are painted in turn."""
-
-
-def turtle_png(scene: Scene, colour_of: Mapping[int, str]) -> bytes:
-    """A scene of a turtle as PNG."""
-    return encoded(turtle_picture(scene, colour_of))
 
 
 def turtle_picture(scene: Scene, colour_of: Mapping[int, str], size: Size | None = None, enlarged: float = 1.0) -> Image:
@@ -165,8 +226,6 @@ def _painted_in_turn(
 
 
 def _line_painter(lines: Lines, fine: float, across: Coordinates, down: Coordinates, pen: ImageDraw) -> ShapePainter:
-    """A function that paints a line with round ends."""
-
     def paint(which: int, number: int) -> None:
         (x, to_x), (y, to_y), reach = across[which].tolist(), down[which].tolist(), float(lines.widths[which]) * fine / 20
         length = math.hypot(to_x - x, to_y - y) or 1.0
@@ -193,7 +252,6 @@ def _area_painter(areas: Areas, grid: FineGrid, pen: ImageDraw) -> ShapePainter:
 
 
 def _round_painter(rounds: Rounds, grid: FineGrid, pen: ImageDraw) -> ShapePainter:
-    """The same for discs."""
     middles, radii = grid.points(rounds.centres).tolist(), rounds.radii.tolist()
     fills, edges = (rounds.fills != NO_COLOUR).tolist(), (rounds.edges != NO_COLOUR).tolist()
     edge = max(1, round(grid.fine))
@@ -207,7 +265,6 @@ def _round_painter(rounds: Rounds, grid: FineGrid, pen: ImageDraw) -> ShapePaint
 
 
 def _colours(shapes: DisplayList) -> Colours:
-    """Red, green and blue of each number."""
     palette = _channels([*shapes.palette, theme().ground])
     found, lines = np.zeros((2 * len(shapes.numbers) + 2, 3), np.uint8), shapes.keys >= 0
     found[0] = palette[-1]
@@ -220,12 +277,10 @@ def _colours(shapes: DisplayList) -> Colours:
 
 
 def _channels(colours: Sequence[str]) -> Colours:
-    """Red, green and blue of colours."""
     return np.array([tuple(bytes.fromhex(colour[1:])) for colour in colours], np.uint8)
 
 
 def _shade_spheres(pixels: Colours, seen: Grid, shapes: DisplayList, grid: FineGrid) -> None:
-    """Give each point of a sphere the colour that it has there."""
     rounds, keys = shapes.rounds, np.repeat(shapes.keys, np.diff(shapes.starts))
     places = np.flatnonzero(keys == ROUND)
     places = places[rounds.spheres[shapes.numbers[places]]]
@@ -253,7 +308,6 @@ def _tones(palette: Sequence[str], fills: NDArray[np.int64], way: Coordinates) -
 
 
 def _pixels(ends: Coordinates, scene: Scene, grid: FineGrid) -> tuple[Coordinates, Coordinates]:
-    """The columns and rows of the ends of lines in the fine grid."""
     precision = np.dtype(np.float32 if max(map(abs, scene.box)) < FLOAT32_RANGE else np.float64)
     frame, fine = grid.frame, grid.fine
     ends, (left, top, factor, margin) = (
@@ -285,8 +339,14 @@ def _paint_at_once(
             np.maximum(seen, spread(touched(across[chosen], down[chosen], seen.shape, covering), radius), out=seen)
 
 
-def encoded(image: object) -> bytes:
+def encoded(image: Image) -> bytes:
     """An image as PNG."""
     buffer = io.BytesIO()
-    image.save(buffer, "PNG")  # type: ignore[attr-defined]
+    image.save(buffer, "PNG")
     return buffer.getvalue()
+
+
+def embedded(width: int, height: int, image: Image, corner: tuple[int, int] | None = None) -> Raster:
+    """An image in a picture, as broad and high as it is there, perhaps with its left upper corner at some place."""
+    left, top = corner or (None, None)
+    return Raster(left, top, width, height, encoded(image))

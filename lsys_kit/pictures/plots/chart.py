@@ -14,8 +14,9 @@ from lsys_kit.budget import Task
 from lsys_kit.errors import ModelValueError
 from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.plots.lettering import literal, mathematics, plain, width
+from lsys_kit.pictures.shapes import Drawing, Group
+from lsys_kit.pictures.sizes import document
 from lsys_kit.pictures.style.palette import BLUE, INK, PAPER, QUIET, VERMILION, shaded, tinted
-from lsys_kit.pictures.svg import background, document
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -77,15 +78,16 @@ class Plot(SVGPicture):
     def text(self) -> str:
         return self.chart.text
 
-    @cached_property
-    def svg(self) -> str:
-        """The plot as SVG text."""
+    def shown(self, most: int, enlarged: float) -> Drawing:
+        """The chart with its axes."""
         with Task("The plot was not drawn"):
-            from lsys_kit.pictures.plots.renderer import svg_elements
+            return document([self._shapes], WIDTH, self.chart.height, self.text)
 
-            height = self.chart.height
-            body = svg_elements(_figure(self.chart), WIDTH, height)
-            return document(background(WIDTH, height) + body, WIDTH, height, self.text)
+    @cached_property
+    def _shapes(self) -> Group:
+        from lsys_kit.pictures.plots.renderer import shapes_of
+
+        return shapes_of(_figure(self.chart), WIDTH, self.chart.height)
 
     def __repr__(self) -> str:
         return self.text

@@ -1,4 +1,4 @@
-"""Labels of plots: a small part of the mathematical text of matplotlib, measured and written as SVG.
+"""Labels of plots: a small part of the mathematical text of matplotlib, measured and set in pieces.
 
 `"length $N(n)$"` has an italic N and n; `"$t_{div}$"` has a subscript. Matplotlib sets the same text where it makes pixels.
 """
@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from html import escape
 from typing import NamedTuple
 
-from lsys_kit.pictures.formats.vector.lettering import advance
+from lsys_kit.pictures.formats.lettering import advance
+from lsys_kit.pictures.shapes import Look, Span
 from lsys_kit.pictures.style.labels import visible
 
 SUBSCRIPT, LOWERED = 0.7, 0.25
@@ -84,12 +84,12 @@ def plain(text: str) -> str:
     return "".join(("_" if part.lowered else "") + part.text for part in parts(text))
 
 
-def spans(text: str, size: float) -> str:
-    """A label as the content of an SVG text element."""
-    found, drop, back = [], round(LOWERED * size), ""
+def spans(text: str, size: float) -> list[str | Span]:
+    """A label in pieces of text."""
+    found, drop, back = list[str | Span](), round(LOWERED * size), Look()
     for part in parts(text):
-        place = f' dy="{drop}" font-size="{SUBSCRIPT:.0%}"' if part.lowered else back
-        look = place + (' font-style="italic"' if part.italic else "")
-        found.append(f"<tspan{look}>{escape(part.text)}</tspan>" if look else escape(part.text))
-        back = f' dy="{-drop}"' if part.lowered else ""
-    return "".join(found)
+        look = Look(dy=drop, font_size=f"{SUBSCRIPT:.0%}") if part.lowered else back
+        look = look | Look(font_style="italic") if part.italic else look
+        found.append(Span(part.text, look) if look else part.text)
+        back = Look(dy=-drop) if part.lowered else Look()
+    return found

@@ -1,4 +1,4 @@
-"""A renderer of matplotlib that writes the kit's SVG.
+"""A renderer of matplotlib that makes the kit's shapes.
 
 Matplotlib lays a plot out and says what to draw; its own SVG differs between versions and machines in dates, ids, digits and
 the shapes of letters. Here coordinates are whole tenths of a pixel and text stays text, so that a picture is the same
@@ -11,10 +11,11 @@ from typing import TYPE_CHECKING, Any
 
 from matplotlib.backend_bases import RendererBase
 from matplotlib.colors import to_hex
-from matplotlib.path import Path
+from matplotlib.path import Path as Outline
 from matplotlib.transforms import Affine2D
 
 from lsys_kit.pictures.plots.lettering import spans, width
+from lsys_kit.pictures.shapes import Group, Look, Path, Shape, Text
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -23,19 +24,24 @@ ASCENT, DESCENT = 0.76, 0.24
 """How far letters reach above the baseline and below it, to the size of the text."""
 NUDGE = 1e-5
 """Added before a coordinate is rounded: one half way between two tenths, but for the last digit, is always rounded up."""
-_HELD = {"left": "", "center": ' text-anchor="middle"', "right": ' text-anchor="end"'}
+_HELD = {"left": Look(), "center": Look(text_anchor="middle"), "right": Look(text_anchor="end")}
 _BELOW = {"baseline": 0.0, "bottom": -DESCENT, "center": (ASCENT - DESCENT) / 2, "center_baseline": ASCENT / 2, "top": ASCENT}
 """How far the baseline lies below the point by which a text is aligned, to its size."""
-_COMMANDS = {Path.MOVETO: "M", Path.LINETO: "L", Path.CURVE3: "Q", Path.CURVE4: "C", Path.CLOSEPOLY: "Z"}
+_COMMANDS = {Outline.MOVETO: "M", Outline.LINETO: "L", Outline.CURVE3: "Q", Outline.CURVE4: "C", Outline.CLOSEPOLY: "Z"}
 
 
-class SVGRenderer(RendererBase):
-    """A renderer that collects elements of SVG for a picture of so many pixels; lengths are tenths of a pixel, which is a point
-    of matplotlib's."""
+class ShapesRenderer(RendererBase):
+    """A renderer that collects shapes; lengths are tenths of a pixel, which is a point of matplotlib's.
+
+    Parameters
+    ----------
+    width, height
+        The size of the picture in pixels.
+    """
 
     def __init__(self, width: int, height: int) -> None:
         super().__init__()
-        self.width, self.height, self.elements = width, height, [""]
+        self.width, self.height, self.shapes = width, height, list[Shape]()
         self._down = Affine2D().scale(10, -10).translate(0, 10 * height)
 
     def flipy(self) -> bool:
@@ -55,25 +61,31 @@ class SVGRenderer(RendererBase):
         size = prop.get_size_in_points()
         return width(_label(s, ismath), size), (ASCENT + DESCENT) * size, DESCENT * size
 
-    def draw_path(self, gc: Any, path: Path, transform: Any, rgbFace: Any = None) -> None:  # noqa: N803
+    def draw_path(self, gc: Any, path: Outline, transform: Any, rgbFace: Any = None) -> None:  # noqa: N803
         """Draw a path, filled or not."""
-        written = _path_data(path, transform + self._down)
         stroke = _stroke(gc)
         if stroke or rgbFace is not None:
-            fill = "none" if rgbFace is None else to_hex(rgbFace)
-            seen = "" if rgbFace is None or len(rgbFace) < 4 or rgbFace[3] == 1 else f' fill-opacity="{rgbFace[3]:.2g}"'
-            self.elements.append(f'<path d="{written}" fill="{fill}"{seen}{stroke}/>')
+            look = Look(fill="none" if rgbFace is None else to_hex(rgbFace))
+            if rgbFace is not None and len(rgbFace) == 4 and rgbFace[3] != 1:
+                look["fill_opacity"] = float(f"{rgbFace[3]:.2g}")
+            self.shapes.append(Path(_path_data(path, transform + self._down), look | stroke))
 
-    def draw_markers(self, gc: Any, marker_path: Path, marker_trans: Any, path: Path, trans: Any, rgbFace: Any = None) -> None:  # noqa: N803
+    def draw_markers(
+        self,
+        gc: Any,
+        marker_path: Outline,
+        marker_trans: Any,
+        path: Outline,
+        trans: Any,
+        rgbFace: Any = None,  # noqa: N803
+    ) -> None:
         """Draw markers, all of which are dots: strokes without length and with round ends."""
         broad = marker_path.get_extents(marker_trans).width
         places = ((trans + self._down).transform(path.vertices) + NUDGE).round().astype(int).tolist()
         if broad and rgbFace is not None:
             dots = "".join(f"M{x} {y}h0" for x, y in places)
-            faint = "" if rgbFace[3] == 1 else f' stroke-opacity="{rgbFace[3]:.2g}"'
-            self.elements.append(
-                f'<path d="{dots}" stroke="{to_hex(rgbFace)}" stroke-width="{10 * broad:.0f}" stroke-linecap="round"{faint}/>'
-            )
+            look = Look(stroke=to_hex(rgbFace), stroke_width=round(10 * broad), stroke_linecap="round")
+            self.shapes.append(Path(dots, look | _faint(rgbFace)))
 
     def draw_text(
         self, gc: Any, x: float, y: float, s: str, prop: Any, angle: float, ismath: Any = False, mtext: Any = None
@@ -83,19 +95,16 @@ class SVGRenderer(RendererBase):
         size = prop.get_size_in_points()
         across, up = mtext.get_transform().transform(mtext.get_unitless_position())
         down = self.height - up + _BELOW[mtext.get_verticalalignment()] * size
-        place = f'x="{round(10 * across + NUDGE)}" y="{round(10 * down + NUDGE)}"'
-        self.elements.append(
-            f'<text {place} font-size="{10 * size:.0f}" '
-            f'fill="{to_hex(gc.get_rgb())}"{_HELD[mtext.get_horizontalalignment()]}>'
-            f"{spans(_label(s, ismath), 10 * size)}</text>"
-        )
+        look = Look(font_size=round(10 * size), fill=to_hex(gc.get_rgb())) | _HELD[mtext.get_horizontalalignment()]
+        place = round(10 * across + NUDGE), round(10 * down + NUDGE)
+        self.shapes.append(Text(*place, spans(_label(s, ismath), 10 * size), look))
 
 
-def svg_elements(figure: Figure, width: int, height: int) -> str:
-    """What a figure shows, as elements of SVG."""
-    renderer = SVGRenderer(width, height)
+def shapes_of(figure: Figure, width: int, height: int) -> Group:
+    """What a figure shows."""
+    renderer = ShapesRenderer(width, height)
     figure.draw(renderer)
-    return f'<g font-family="sans-serif">{"".join(renderer.elements)}</g>'
+    return Group(renderer.shapes, Look(font_family="sans-serif"))
 
 
 def _label(text: str, mathematical: object) -> str:
@@ -103,9 +112,10 @@ def _label(text: str, mathematical: object) -> str:
     return text if mathematical else text.replace("$", "\\$")
 
 
-def _path_data(path: Path, transform: Any) -> str:
+def _path_data(path: Outline, transform: Any) -> str:
+    """A path as SVG writes it."""
     return "".join(
-        _COMMANDS[code] + ("" if code == Path.CLOSEPOLY else _numbers(corners))
+        _COMMANDS[code] + ("" if code == Outline.CLOSEPOLY else _numbers(corners))
         for corners, code in path.iter_segments(transform, simplify=False)
     )
 
@@ -114,15 +124,16 @@ def _numbers(corners: Any) -> str:
     return " ".join(map(str, (corners + NUDGE).round().astype(int).tolist()))
 
 
-def _stroke(gc: Any) -> str:
-    """The attributes of a stroke; nothing where it is not seen."""
+def _stroke(gc: Any) -> Look:
+    """The look of a stroke; nothing where it is not seen."""
     colour, broad = gc.get_rgb(), gc.get_linewidth()
     if not broad or colour[3] == 0:
-        return ""
+        return Look()
     _, dashes = gc.get_dashes()
-    broken = f' stroke-dasharray="{" ".join(f"{10 * each:.0f}" for each in dashes)}"' if dashes is not None else ""
-    faint = "" if colour[3] == 1 else f' stroke-opacity="{colour[3]:.2g}"'
-    return (
-        f' stroke="{to_hex(colour)}" stroke-width="{10 * broad:.0f}" stroke-linecap="round" stroke-linejoin="round"'
-        f"{faint}{broken}"
-    )
+    broken = Look() if dashes is None else Look(stroke_dasharray=" ".join(f"{10 * each:.0f}" for each in dashes))
+    pen = Look(stroke=to_hex(colour), stroke_width=round(10 * broad), stroke_linecap="round", stroke_linejoin="round")
+    return pen | _faint(colour) | broken
+
+
+def _faint(colour: Any) -> Look:
+    return Look() if colour[3] == 1 else Look(stroke_opacity=float(f"{colour[3]:.2g}"))

@@ -1,4 +1,14 @@
-"""Frames: where the plane of a drawing lies in a picture, with white space around what is painted."""
+"""Frames: where the plane of a drawing lies in a picture, with white space around it, and how broad its strokes are there.
+
+In cpfg lines of the style "pixel" are so many pixels wide, and lines of the styles "polygon" and "cylinder" so many units; the
+style stands in another file than the model. So in the listings of the book: `A(1,10)` of figure 2.6 draws a stem of length 1
+and width 10. A system can say which is meant, by `widths: pixels` or `widths: units`. Where it does not, its widths are pixels
+if the broadest stroke has at least one: a line cannot be narrower.
+
+A pixel is one of a picture of the usual size, and at most a unit: a drawing of more units than the picture has pixels is made
+smaller with its strokes, as those of figure 2.8 with stems of 200 units. Pictures of other sizes, films and meshes scale
+strokes with the drawing.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +18,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lsys_kit.geometry.scene import Floats, Integers, Labels, Scene
+from lsys_kit.geometry.scene import OWN, Floats, Integers, Labels, Scene
+from lsys_kit.notation.model.system import LSystem
+from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 from lsys_kit.pictures.rendering.looks import median_length
 from lsys_kit.pictures.rendering.view import ProjectedScene
 
@@ -45,9 +57,8 @@ class ViewFrame:
 def in_fine_parts(frame: ViewFrame, scene: Scene) -> ViewFrame:
     """The frame with pixels in so many parts that rounding bends no stroke to be seen: the median one is 50 long at least.
 
-    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.drawing import scene_of
-    >>> from lsys_kit.notation.read import read
     >>> koch = [scene_of(derive(read("angle: 60\\naxiom: F\\nF -> F+F--F+F"), step)) for step in (2, 4)]
     >>> [in_fine_parts(frame_around([scene]), scene).parts for scene in koch]
     [10, 100]
@@ -59,9 +70,8 @@ def in_fine_parts(frame: ViewFrame, scene: Scene) -> ViewFrame:
 def frame_around(scenes: Sequence[Scene], width: float = WIDTH, height: float = HEIGHT) -> ViewFrame:
     """The frame that fits all that is painted of some scenes into a picture, with the round ends of broad strokes.
 
-    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.drawing import scene_of
-    >>> from lsys_kit.notation.read import read
     >>> frame_around([scene_of(derive(read("axiom: !(0.5)F"), 0))])  # 0.5 wide, 1.5 high
     ViewFrame(scale=120.0, left=-0.25, top=1.25, width=84, height=204, parts=10)
     """
@@ -107,5 +117,42 @@ def frame_of(box: tuple[float, float, float, float], width: float = WIDTH, heigh
     """The frame that fits a box into a picture, no larger than needed."""
     left, bottom, right, top = box
     across, up = max(right - left, 1e-9), max(top - bottom, 1e-9)
-    scale = min((width - 2 * MARGIN) / across, (height - 2 * MARGIN) / up, 120.0)
+    return frame_on(box, min((width - 2 * MARGIN) / across, (height - 2 * MARGIN) / up, 120.0))
+
+
+def frame_on(box: tuple[float, float, float, float], scale: float) -> ViewFrame:
+    """The frame of a box on a scale."""
+    left, bottom, right, top = box
     return ViewFrame(scale, left, top, round((right - left) * scale) + 2 * MARGIN, round((top - bottom) * scale) + 2 * MARGIN)
+
+
+MOST_OF_A_PICTURE = 0.5
+"""The part of a picture that the broadest stroke may fill before the drawing is no longer made smaller for it."""
+
+
+def in_units(scenes: Sequence[Scene], system: LSystem) -> list[Scene]:
+    """Scenes of a system with the widths of their strokes in the units of lengths, such that all fit into one frame.
+
+    >>> from lsys_kit import derive, read
+    >>> from lsys_kit.geometry.drawing import scene_of
+    >>> stem = read("axiom: !(6)F(370)")
+    >>> [scene] = in_units([scene_of(derive(stem, 0))], stem)
+    >>> scene.segments.widths.tolist()  # 370 units and the round ends are as high as a picture without its margins
+    [6.0]
+    """
+    broadest = max((float(scene.segments.widths.max(initial=OWN)) for scene in scenes), default=OWN)
+    if not _in_pixels(system, broadest):
+        return [*scenes]
+    left, bottom, right, top = zip(*(scene.box for scene in scenes), strict=True)
+    box, room = (min(left), min(bottom), max(right), max(top)), min(broadest, MOST_OF_A_PICTURE * HEIGHT)
+    pixel = min(1.0, 1 / frame_of(box, WIDTH - room, HEIGHT - room).scale)
+    return [_with_pixels(scene, pixel) for scene in scenes]
+
+
+def _in_pixels(system: LSystem, broadest: float) -> bool:
+    return system.widths == "pixels" or (not system.widths and TURTLE_DIALECTS[system.turtle].pixels and broadest >= 1)
+
+
+def _with_pixels(scene: Scene, pixel: float) -> Scene:
+    widths = scene.segments.widths
+    return replace(scene, segments=replace(scene.segments, widths=np.where(widths == OWN, OWN, widths * pixel)))

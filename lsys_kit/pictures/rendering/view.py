@@ -11,13 +11,36 @@ from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.errors import ModelValueError, shown
 from lsys_kit.geometry.meshes.mesh import normals_of, start_widths
 from lsys_kit.geometry.scene import OWN, Floats, Integers, Labels, Polygons, Scene, Segments, no_labels
 from lsys_kit.geometry.smoothing import smoothed
-from lsys_kit.pictures.rendering.polygon_edges import are_edges
+
+
+def are_edges(segments: Segments, polygons: Polygons) -> NDArray[np.bool_]:
+    """Which strokes are edges of polygons.
+
+    >>> from lsys_kit import derive, read
+    >>> from lsys_kit.geometry.turtle.space import trace_in_space
+    >>> leaf = trace_in_space(derive(read("axiom: F & { . F + (120) F } F"), 0)[0])
+    >>> are_edges(leaf.segments, leaf.polygons).tolist()
+    [False, True, True, False]
+    """
+    if not (len(polygons) and len(segments)):
+        return np.zeros(len(segments), bool)
+    points, following = polygons.points, np.arange(1, len(polygons.points) + 1)
+    following[polygons.starts[1:] - 1] = polygons.starts[:-1]
+    edges = np.concatenate([np.hstack([points, points[following]]), np.hstack([points[following], points])])
+    return np.isin(_keys(segments.ends), _keys(edges))
+
+
+def _keys(rows: Floats) -> NDArray[np.void]:
+    whole = np.ascontiguousarray(rows + 0.0)  # which makes no difference between 0 and -0
+    return whole.view(np.dtype((np.void, whole.strides[0]))).ravel()
+
 
 View: TypeAlias = tuple[float, float]
 """The side of the viewer, in degrees: around, 0 at the front and 90 at the right; and above, 0 level and 90 from the top."""
@@ -125,9 +148,8 @@ def project(scenes: Sequence[Scene], view: View | None = None) -> list[Scene]:
 
     Examples
     --------
-    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.turtle.space import trace_in_space
-    >>> from lsys_kit.notation.read import read
     >>> bush = trace_in_space(derive(read("axiom: F[&(90)F]"), 0)[0])
     >>> front, right = project([bush], FRONT), project([bush], (90, 0))
     >>> print(bush, *front, *right, sep="; ")
@@ -149,9 +171,8 @@ def project_smoothly(scenes: Sequence[Scene], view: View | None = None) -> list[
 def lies_flat(scene: Scene) -> bool:
     """Whether all of a scene lies in the plane of the picture, as it is seen from the front.
 
-    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.turtle.space import trace_in_space
-    >>> from lsys_kit.notation.read import read
     >>> [lies_flat(trace_in_space(derive(read(text), 0)[0])) for text in ("axiom: F+F", "axiom: F&F")]
     [True, False]
     """
@@ -160,7 +181,6 @@ def lies_flat(scene: Scene) -> bool:
 
 
 def _spans(scene: Scene) -> Floats:
-    """The extents of the points of a scene along the axes."""
     points = _points([scene])
     return np.array(
         [
@@ -171,7 +191,6 @@ def _spans(scene: Scene) -> Floats:
 
 
 def _points(scenes: Sequence[Scene]) -> list[Floats]:
-    """The points of scenes in space: ends of strokes, corners of polygons, centres."""
     some = [
         each
         for scene in scenes
@@ -181,7 +200,6 @@ def _points(scenes: Sequence[Scene]) -> list[Floats]:
 
 
 def _flattened(scene: Scene) -> Scene:
-    """A scene in space seen from the front, as one in the plane."""
     segments, polygons, discs = scene.segments, scene.polygons, scene.discs
     return Scene(
         replace(segments, ends=segments.points[:, ::2].reshape(-1, 4)),
@@ -193,7 +211,6 @@ def _flattened(scene: Scene) -> Scene:
 
 
 def _placed(labels: Labels, place: Callable[[Floats], Floats]) -> Labels:
-    """Labels at points of the plane of the picture."""
     return replace(labels, points=place(labels.points)) if len(labels) else no_labels()
 
 
@@ -278,13 +295,11 @@ def _normals(polygons: Polygons, side: tuple[Floats, Floats, Floats]) -> Floats:
 
 
 def _depths(points: Floats, towards: Floats) -> Floats:
-    """How far points lie towards the viewer."""
     depths: Floats = _mapped(points, towards[:, None])[:, 0]
     return depths
 
 
 def _means(numbers: Floats, starts: Integers) -> Floats:
-    """The means of the numbers of each polygon."""
     return np.add.reduceat(numbers, starts[:-1]) / np.diff(starts) if len(starts) > 1 else np.empty(0)
 
 

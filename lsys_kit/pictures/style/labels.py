@@ -16,6 +16,7 @@ from lsys_kit.errors import printable
 from lsys_kit.notation.model.arithmetic import is_symbolic, number_text, rounded
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem, symbols
+from lsys_kit.pictures.shapes import Look, Span
 
 
 def escaped(text: str) -> str:
@@ -40,7 +41,7 @@ def visible(text: str) -> str:
 def polar_symbols(system: LSystem) -> Mapping[str, tuple[str, str]]:
     """The symbols that come in two polarities, each with the letter and the polarity, "l" or "r".
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> polar_symbols(read("axiom: ar\\nar -> al b\\nal -> b ar"))
     {'ar': ('a', 'r'), 'al': ('a', 'l')}
     """
@@ -55,7 +56,7 @@ def polar_symbols(system: LSystem) -> Mapping[str, tuple[str, str]]:
 def label_parts(symbol: str, system: LSystem) -> tuple[str, str]:
     """A symbol's letter and its subscript, which may be empty.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> label_parts("u12", read("axiom: u12"))
     ('u', '12')
     """
@@ -76,30 +77,24 @@ def values_text(module: Module) -> str:
     return f"({values})" if values else ""
 
 
-def svg_label(symbol: str, system: LSystem, values: str = "") -> str:
-    """A label as the content of an SVG text element: italic letter, small lowered subscript, upright values.
+def label_spans(letter: str, subscript: str, values: str = "") -> list[str | Span]:
+    """A label in pieces: italic letter, small lowered subscript, upright values.
 
-    >>> from lsys_kit.notation.read import read
-    >>> svg_label("a_r", read("axiom: a_r"), "(2)")
-    '<tspan font-style="italic">a</tspan><tspan dy="3" font-size="70%">r</tspan><tspan dy="-3">(2)</tspan>'
+    >>> [each.text for each in label_spans("a", "r", "(2)")], label_spans("+", "", "(2)")
+    (['a', 'r', '(2)'], ['+(2)'])
     """
-    return letter_svg(*label_parts(symbol, system), values)
-
-
-def letter_svg(letter: str, subscript: str, values: str = "") -> str:
-    """The same, given its parts."""
-    text = f'<tspan font-style="italic">{escaped(letter)}</tspan>' if letter[:1].isalpha() else escaped(letter)
-    if subscript:
-        text += f'<tspan dy="3" font-size="70%">{escaped(subscript)}</tspan>'
-    if values:
-        text += f'<tspan dy="-3">{escaped(values)}</tspan>' if subscript else escaped(values)
-    return text
+    if not (letter[:1].isalpha() or subscript):
+        return [letter + values]
+    first = Span(letter, Look(font_style="italic")) if letter[:1].isalpha() else letter
+    if not subscript:
+        return [first, values]
+    return [first, Span(subscript, Look(dy=3, font_size="70%")), *([Span(values, Look(dy=-3))] if values else [])]
 
 
 def html_label(module: Module, system: LSystem) -> str:
     """A module as HTML.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> html_label(Module("a_r", (2,)), read("axiom: a_r(2)"))
     '<i>a</i><sub style="line-height:0">r</sub>(2)'
     """
@@ -112,8 +107,7 @@ def place_parts(place: Place, system: LSystem) -> tuple[str, str, str]:
     """A stage's letter, subscript and values: without the polarity, where its modules differ in that, and with the values
     that they share, if all have as many.
 
-    >>> from lsys_kit.derivation.petri.stages import stages
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read, stages
     >>> system = read("axiom: M(5,1)\\nM(t,p) -> M(t,-p)\\ninterpretation:\\nM(t,p) : p < 0 -> L(1,1)\\nM(t,p) -> R(1,1)")
     >>> place_parts(stages(system).places[0], system)
     ('M', '', '(5)')

@@ -82,16 +82,6 @@ def sphere_tones(colour: str) -> list[tuple[float, str]]:
     return [(share, _shade(colour, STEPS * (STEPS + 1) + bright)) for share, bright in SPHERE]
 
 
-def sphere_tone(colour: str, share: float) -> str:
-    """The colour of a sphere at a part of that way.
-
-    >>> sphere_tone("#800000", 0.45)
-    '#800000'
-    """
-    shares, bright = zip(*SPHERE, strict=True)
-    return _shade(colour, STEPS * (STEPS + 1) + round(float(np.interp(share, shares, bright))))
-
-
 def paper_number(names: Sequence[str]) -> int:
     """The number that stands for paper."""
     return len(names) * _SHADES

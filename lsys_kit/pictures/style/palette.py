@@ -14,44 +14,16 @@ from lsys_kit.geometry.turtle.surfaces import surfaces_of
 from lsys_kit.notation.model.system import LSystem, symbols
 from lsys_kit.pictures.style.colour_values import BLACK, mixed
 from lsys_kit.pictures.style.labels import polar_symbols
-from lsys_kit.pictures.style.themes import LIGHT, theme
+from lsys_kit.pictures.style.themes import COLOURS, LIGHT, theme
 
-GREEN, ORANGE, BLUE, PURPLE, VERMILION, SKY = "#28A964", "#AF7605", "#0658A0", "#B97FB3", "#B3482B", "#337CCD"
-SERIES = (GREEN, ORANGE, BLUE, PURPLE, VERMILION, SKY)
-NATURAL = {
-    "leaf": GREEN,
-    "needle": GREEN,
-    "sepal": GREEN,
-    "bud": GREEN,
-    "petal": PURPLE,
-    "flower": PURPLE,
-    "rosette": PURPLE,
-    "fruit": VERMILION,
-}
+SERIES: tuple[str, ...] = tuple(COLOURS["series"].values())
+GREEN, ORANGE, BLUE, PURPLE, VERMILION, SKY = SERIES
+NATURAL = {name: COLOURS["series"][colour] for name, colour in COLOURS["natural"].items()}
 """What has its natural colour, as far as there is one."""
-RAMP = ("#5A3A24", "#5B4626", "#59522A", "#54602F", "#4D6F38", "#448043", "#399351", "#28A964")
-"""The colours through which `'` steps: from bark to leaves, each lighter than the one before."""
-CHOSEN = (
-    "#000000",
-    "#0072B2",
-    "#009E73",
-    "#3BA7A0",
-    "#C2452D",
-    "#9C5FA3",
-    "#8A5A2B",
-    "#B9C0C6",
-    "#6B7680",
-    "#56B4E9",
-    "#6CBF5F",
-    "#7FD1CB",
-    "#E8806B",
-    "#CC79A7",
-    "#D9A400",
-    "#DDE3E8",
-    *RAMP,
-)
-"""The colours that a turtle chooses by number: the sixteen of GROGRA, in shades that can be told apart and be seen on
-white: black, blue, green, cyan, red, magenta, brown, light and dark grey, the light ones, yellow, white; then the ramp."""
+RAMP: tuple[str, ...] = tuple(COLOURS["turtle"]["ramp"])
+"""The colours through which `'` steps."""
+CHOSEN: tuple[str, ...] = (*COLOURS["turtle"]["chosen"], *RAMP)
+"""The colours that a turtle chooses by number."""
 PALEST, LABELLED, STRONGEST = 0.45, 0.58, 0.85
 """The strengths of fills: the least at which colours can be told apart with any kind of colour vision; the greatest behind a
 label; the greatest."""
@@ -68,7 +40,7 @@ def colours(system: LSystem) -> Mapping[str, str]:
 
     Symbols for which a person has chosen a colour have that.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> colours(read("axiom: ar\\nar -> al br\\nal -> bl ar\\nbr -> ar\\nbl -> al"))
     {'ar': '#28A964', 'al': '#28A964', 'br': '#AF7605', 'bl': '#AF7605'}
     """
@@ -78,7 +50,6 @@ def colours(system: LSystem) -> Mapping[str, str]:
 
 @lru_cache(maxsize=64)
 def _own_colours(system: LSystem) -> Mapping[str, str]:
-    """The colours of symbols where nobody has chosen any."""
     pairs = polar_symbols(system)
     found = {symbol: NATURAL[name] for symbol, name in surfaces_of(system).items() if name in NATURAL}
     free = [colour for colour in SERIES if colour not in found.values()]
@@ -93,7 +64,7 @@ def _own_colours(system: LSystem) -> Mapping[str, str]:
 def colour_of(symbol: str, system: LSystem) -> str:
     """The colour in which what a symbol stands for is drawn; where a sign draws, green.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> colour_of("B", read("axiom: A B {F}")) == ORANGE, colour_of("{", read("axiom: A B {F}")) == GREEN
     (True, True)
     """

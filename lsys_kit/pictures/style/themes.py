@@ -15,11 +15,14 @@ of 3:1 and more against their paper, and all text one of 4.5:1 (WCAG 2.2, 1.4.11
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from importlib.resources import files
+from typing import Any
 
 from lsys_kit.errors import ModelValueError, shown
 from lsys_kit.notation.analysis.checks import suggestion
@@ -32,22 +35,9 @@ BLACKEST = 0.179
 """Paper of a luminance below this is dark: white contrasts with it more than black does."""
 NOTHING = "none"
 """The ground of a picture without paper."""
-DARK_LINES: Mapping[str, str] = {
-    "#28A964": "#77BD7E",
-    "#AF7605": "#FEC95A",
-    "#0658A0": "#3570A4",
-    "#B97FB3": "#CF80B7",
-    "#B3482B": "#BC6149",
-    "#337CCD": "#6284ED",
-    "#5A3A24": "#9F8B7C",
-    "#5B4626": "#A48F72",
-    "#59522A": "#A29769",
-    "#54602F": "#97A167",
-    "#4D6F38": "#8CAA6B",
-    "#448043": "#83B170",
-    "#399351": "#7CB776",
-}
-"""Lines on dark paper: of the colours of symbols, then of the ramp from bark to leaves."""
+COLOURS: Mapping[str, Any] = tomllib.loads((files(__package__) / "colours.toml").read_text(encoding="utf-8"))
+DARK_LINES: Mapping[str, str] = COLOURS["dark_lines"]
+"""Lines on dark paper."""
 
 
 @dataclass(frozen=True)
@@ -91,8 +81,7 @@ class Theme:
         return self.ground == NOTHING
 
 
-LIGHT = Theme("#FFFFFF", "#22303C", "#5B6875", "#FFF2C2", "#8F6400", "#FFFFFF")
-DARK = Theme("#161B20", "#E8EDF2", "#AAB6C2", "#4A3A06", "#E5B84A", "#161B20")
+LIGHT, DARK = (Theme(**COLOURS[name], ground=COLOURS[name]["paper"]) for name in ("light", "dark"))
 GROUNDS: Mapping[str, Theme] = {"light": LIGHT, "dark": DARK, NOTHING: replace(LIGHT, ground=NOTHING)}
 """The backgrounds that have a name."""
 _current: ContextVar[Theme] = ContextVar("theme", default=LIGHT)

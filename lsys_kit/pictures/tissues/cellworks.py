@@ -18,12 +18,13 @@ from lsys_kit.errors import ModelLimitError, ModelValueError, whole_number
 from lsys_kit.geometry.scene import Floats
 from lsys_kit.geometry.tissues.layout import cellwork_scene, place_cellworks
 from lsys_kit.notation.model.cells import CellworkSystem
+from lsys_kit.pictures.filaments.folding import FilamentRow
+from lsys_kit.pictures.formats.notebook import described
 from lsys_kit.pictures.legends import Entry, Legend
 from lsys_kit.pictures.picture import Picture
 from lsys_kit.pictures.rendering.view import View, project, view_from
 from lsys_kit.pictures.style.palette import SERIES, tinted
 from lsys_kit.pictures.style.themes import theme
-from lsys_kit.pictures.svg import FilamentRow, described
 from lsys_kit.pictures.tissues.chosen import counts_text, developed, forces_of
 
 SIDE = 30, 25

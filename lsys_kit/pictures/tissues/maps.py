@@ -10,7 +10,6 @@ import math
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 from lsys_kit.budget import Task, current
@@ -20,14 +19,14 @@ from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown, wh
 from lsys_kit.geometry.scene import Floats, Polygons, Scene
 from lsys_kit.geometry.tissues.layout import equilibria, relaxation_steps, scenes
 from lsys_kit.notation.model.cells import MapSystem
-from lsys_kit.pictures.formats.notebook import SVGPicture
+from lsys_kit.pictures.formats.notebook import SVGPicture, described
 from lsys_kit.pictures.formats.painting import painted
-from lsys_kit.pictures.formats.vector.reading import drawing_of
 from lsys_kit.pictures.rendering.frames import MARGIN, ViewFrame
-from lsys_kit.pictures.style.labels import letter_svg
+from lsys_kit.pictures.shapes import Drawing, Group, Look, Path, Polygon, Shape, Text
+from lsys_kit.pictures.sizes import document, resized
+from lsys_kit.pictures.style.labels import label_spans
 from lsys_kit.pictures.style.palette import PALEST, SERIES, STRONGEST, tinted
-from lsys_kit.pictures.style.themes import drawn_on, theme
-from lsys_kit.pictures.svg import background, described, document, resized
+from lsys_kit.pictures.style.themes import theme
 from lsys_kit.pictures.tissues.chosen import counts_text, developed, forces_of
 
 if TYPE_CHECKING:
@@ -87,16 +86,12 @@ class MapPicture(SVGPicture):
         steps = f"steps {self.numbers[0]} to {self.numbers[-1]}" if len(self.numbers) > 1 else ""
         return described([steps, ("the last: " if steps else "") + last, _unsettled_text(self.unsettled)])
 
-    @cached_property
-    def svg(self) -> str:
-        """The picture as SVG text."""
-        with Task("The picture was not drawn"), drawn_on(self.theme):
-            panels = arranged(self.scenes)
-            shown = zip(self.maps, self.places, self.scenes, panels, self.numbers, strict=True)
-            body = "".join(panel_svg(*each, self.labels) for each in shown)
-            width, height = panels[0].frame.width, panels[0].frame.height
-            words = described([self.text, self._colours])
-            return resized(document(background(width, height) + body, width, height, words), self.pixels)
+    def shown(self, most: int, enlarged: float) -> Drawing:
+        """The maps side by side."""
+        panels = arranged(self.scenes)
+        shown = zip(self.maps, self.places, self.scenes, panels, self.numbers, strict=True)
+        body = [shape for each in shown for shape in panel_shapes(*each, self.labels)]
+        return document(body, panels[0].frame.width, panels[0].frame.height, described([self.text, self._colours]))
 
     def film_images(self) -> Sequence[Image]:
         """The maps one after another, on one scale, each in the middle."""
@@ -112,8 +107,8 @@ class MapPicture(SVGPicture):
         left, _, _, top = scene.box
         corner = left - (wide / scale - scene.width) / 2, top + (high / scale - scene.height) / 2
         panel = Panel(ViewFrame(scale, *corner, *size), 5 * size[0], round(10 * (MARGIN + high + NUMBER + 3)))
-        body = panel_svg(self.maps[place], self.places[place], scene, panel, self.numbers[place], self.labels)
-        return painted(drawing_of(resized(document(background(*size) + body, *size, self.text), self.pixels)))
+        body = panel_shapes(self.maps[place], self.places[place], scene, panel, self.numbers[place], self.labels)
+        return painted(resized(document(body, *size, self.text), self.pixels))
 
     @property
     def _colours(self) -> str:
@@ -241,29 +236,25 @@ def _maps_by_line(some: Sequence[Scene], scale: float) -> Iterator[list[Scene]]:
     yield line
 
 
-def panel_svg(found: Map, places: Floats, scene: Scene, panel: Panel, number: int, labels: bool = True) -> str:
+def panel_shapes(found: Map, places: Floats, scene: Scene, panel: Panel, number: int, labels: bool = True) -> list[Shape]:
     """One map: its cells, its walls, their arrows and labels, and the number of the step below."""
-    return (
-        f"{cells_svg(scene.polygons, panel.frame)}{walls_svg(found, places, panel.frame, labels)}"
-        f"{caption_svg(str(number), panel.x, panel.y)}"
-    )
+    walls = wall_shapes(found, places, panel.frame, labels)
+    return [*cell_shapes(scene.polygons, panel.frame), *walls, caption(str(number), panel.x, panel.y)]
 
 
-def caption_svg(text: str, x: int, y: int) -> str:
+def caption(text: str, x: int, y: int) -> Text:
     """What stands below a map."""
-    return (
-        f'<text x="{x}" y="{y}" font-size="{NUMBER * 10}" text-anchor="middle" font-family="sans-serif" '
-        f'fill="{theme().quiet}">{text}</text>'
-    )
+    look = Look(font_size=NUMBER * 10, text_anchor="middle", font_family="sans-serif", fill=theme().quiet)
+    return Text(x, y, text, look)
 
 
-def cells_svg(cells: Polygons, frame: ViewFrame) -> str:
+def cell_shapes(cells: Polygons, frame: ViewFrame) -> list[Polygon]:
     """The cells, filled: a soft colour for each of the first kinds."""
-    shapes = []
-    for corners, kind in zip(cells, cells.states.tolist(), strict=True):
-        points = " ".join(map("{},{}".format, *frame.points(corners).T.tolist()))
-        shapes.append(f'<polygon points="{points}" fill="{cell_colour(kind)}"/>')
-    return "".join(shapes)
+    kinds = cells.states.tolist()
+    return [
+        Polygon(frame.points(corners).tolist(), Look(fill=cell_colour(kind)))
+        for corners, kind in zip(cells, kinds, strict=True)
+    ]
 
 
 def cell_colour(kind: int) -> str:
@@ -271,7 +262,7 @@ def cell_colour(kind: int) -> str:
     return tinted(*FILLS[kind]) if kind < len(FILLS) else tinted(theme().quiet, REST)
 
 
-def walls_svg(found: Map, places: Floats, frame: ViewFrame, labelled: bool = True) -> str:
+def wall_shapes(found: Map, places: Floats, frame: ViewFrame, labelled: bool = True) -> list[Shape]:
     """The walls as one path, their arrows as another, then their labels, if they have any."""
     points = frame.points(places).tolist()
     strokes, arrows, labels = [], [], []
@@ -283,18 +274,23 @@ def walls_svg(found: Map, places: Floats, frame: ViewFrame, labelled: bool = Tru
             arrows.append(_wall_arrow(x, y, to_x, to_y, length))
         if labelled and length > LEAST_LABELLED * 10:
             labels.append(wall_label(wall.label, (x + to_x) // 2, (y + to_y) // 2))
-    return (
-        f'<path d="{"".join(strokes)}" fill="none" stroke="{theme().ink}" stroke-width="16" stroke-linecap="round"/>'
-        f'<path d="{"".join(arrows)}" fill="{theme().ink}"/>{labels_svg(labels)}'
-    )
+    look = Look(fill="none", stroke=theme().ink, stroke_width=16, stroke_linecap="round")
+    return [Path("".join(strokes), look), Path("".join(arrows), Look(fill=theme().ink)), lettered(labels)]
 
 
-def labels_svg(labels: Sequence[str]) -> str:
+def lettered(labels: Sequence[Text]) -> Group:
     """The letters of walls."""
-    return (
-        f'<g font-family="Georgia,serif" font-size="{LABEL * 10:.0f}" text-anchor="middle" fill="{theme().ink}" '
-        f'stroke="{theme().paper}" stroke-width="40" stroke-linejoin="round" paint-order="stroke">{"".join(labels)}</g>'
+    look = Look(
+        font_family="Georgia,serif",
+        font_size=round(LABEL * 10),
+        text_anchor="middle",
+        fill=theme().ink,
+        stroke=theme().paper,
+        stroke_width=40,
+        stroke_linejoin="round",
+        paint_order="stroke",
     )
+    return Group(labels, look)
 
 
 def _wall_arrow(x: int, y: int, to_x: int, to_y: int, length: float) -> str:
@@ -307,7 +303,7 @@ def _wall_arrow(x: int, y: int, to_x: int, to_y: int, length: float) -> str:
     return f"M{'L'.join(at)}Z"
 
 
-def wall_label(label: str, x: int, y: int, arrow: str = "") -> str:
+def wall_label(label: str, x: int, y: int, arrow: str = "") -> Text:
     """The letter of a wall, with its number as an index, in the middle of a place; behind that of a marker its arrow."""
     letter, number = re.fullmatch(r"(\D)(\d*)", label).groups()  # type: ignore[union-attr]
-    return f'<text x="{x}" y="{y + round(3.4 * LABEL)}">{letter_svg(letter, number, arrow)}</text>'
+    return Text(x, y + round(3.4 * LABEL), label_spans(letter, number, arrow))

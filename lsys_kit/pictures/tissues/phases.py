@@ -21,11 +21,11 @@ from lsys_kit.geometry.tissues.layout import insert_vertices, place_maps, scenes
 from lsys_kit.notation.model.cells import LEFT, MapSystem
 from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.formats.painting import painted
-from lsys_kit.pictures.formats.vector.reading import drawing_of
 from lsys_kit.pictures.rendering.frames import MARGIN, ViewFrame
+from lsys_kit.pictures.shapes import Drawing, Look, Path, Shape
+from lsys_kit.pictures.sizes import document, resized
 from lsys_kit.pictures.style.palette import BLUE
-from lsys_kit.pictures.style.themes import drawn_on, line, theme
-from lsys_kit.pictures.svg import background, document, resized
+from lsys_kit.pictures.style.themes import line, theme
 from lsys_kit.pictures.tissues.chosen import developed, forces_of
 from lsys_kit.pictures.tissues.maps import (
     CAPTION,
@@ -33,12 +33,12 @@ from lsys_kit.pictures.tissues.maps import (
     HIGHEST,
     NUMBER,
     WIDTH,
-    caption_svg,
-    cells_svg,
+    caption,
+    cell_shapes,
     check_walls,
-    labels_svg,
+    lettered,
     wall_label,
-    walls_svg,
+    wall_shapes,
 )
 
 if TYPE_CHECKING:
@@ -83,9 +83,8 @@ class PhasesPicture(SVGPicture):
         cells = "1 cell" if len(self.maps[2].cells) == 1 else f"{len(self.maps[2].cells):,} cells"
         return f"step {self.step} in {PHASES} pictures: {matched} of {len(self.stubs)} markers match; at the end {cells}"
 
-    @cached_property
-    def svg(self) -> str:
-        """The picture as SVG text."""
+    def shown(self, most: int, enlarged: float) -> Drawing:
+        """The phases side by side."""
         scale = min((WIDTH - 2 * MARGIN - (PHASES - 1) * GAP) / (PHASES * self._room[0]), HIGHEST / self._room[1])
         return self._drawn(range(PHASES), scale)
 
@@ -93,7 +92,7 @@ class PhasesPicture(SVGPicture):
         """The phases one after another."""
         scale = min(WIDTH / 2 / self._room[0], HIGHEST / self._room[1])
         with Task("The film was not finished"):
-            return [painted(drawing_of(self._drawn([phase], scale))) for phase in range(PHASES)]
+            return [painted(resized(self._drawn([phase], scale), self.pixels)) for phase in range(PHASES)]
 
     @cached_property
     def _scenes(self) -> Sequence[Scene]:
@@ -111,19 +110,18 @@ class PhasesPicture(SVGPicture):
         """How far markers and their letters reach beyond the map."""
         return max(((WRITTEN + REACH / 2) * math.hypot(*self._out(stub)) for stub in self.stubs), default=0.0)
 
-    def _drawn(self, phases: Sequence[int], scale: float) -> str:
-        with Task("The picture was not drawn"), drawn_on(self.theme):
-            wide, high = self._room
-            across = wide * scale + GAP
-            size = math.ceil(across * len(phases) - GAP) + 2 * MARGIN, math.ceil(high * scale + CAPTION) + 2 * MARGIN
-            left, _, _, top = self._scenes[0].box
-            body = background(*size)
-            for place, phase in enumerate(phases):
-                corner = left - self._beyond - place * across / scale, top + self._beyond
-                middle = round(10 * (MARGIN + place * across + wide * scale / 2))
-                body += self._phase(phase, ViewFrame(scale, *corner, *size))
-                body += caption_svg(self._names[phase], middle, round(10 * (MARGIN + high * scale + NUMBER + 3)))
-            return resized(document(body, *size, self.text), self.pixels)
+    def _drawn(self, phases: Sequence[int], scale: float) -> Drawing:
+        wide, high = self._room
+        across = wide * scale + GAP
+        size = math.ceil(across * len(phases) - GAP) + 2 * MARGIN, math.ceil(high * scale + CAPTION) + 2 * MARGIN
+        left, _, _, top = self._scenes[0].box
+        body: list[Shape] = []
+        for place, phase in enumerate(phases):
+            corner = left - self._beyond - place * across / scale, top + self._beyond
+            middle = round(10 * (MARGIN + place * across + wide * scale / 2))
+            body += self._phase(phase, ViewFrame(scale, *corner, *size))
+            body.append(caption(self._names[phase], middle, round(10 * (MARGIN + high * scale + NUMBER + 3))))
+        return document(body, *size, self.text)
 
     def __repr__(self) -> str:
         return self.text
@@ -132,14 +130,15 @@ class PhasesPicture(SVGPicture):
     def _names(self) -> tuple[str, ...]:
         return f"step {self.step - 1}", "walls replaced", "markers matched", f"step {self.step}"
 
-    def _phase(self, phase: int, frame: ViewFrame) -> str:
+    def _phase(self, phase: int, frame: ViewFrame) -> list[Shape]:
         which = (0, 1, 1, 2)[phase]
-        drawn = cells_svg(self._scenes[which].polygons, frame) + walls_svg(self.maps[which], self.places, frame, self.labels)
-        return drawn + (self._markers(frame, phase == PHASES - 2) if which == 1 else "")
+        walls = wall_shapes(self.maps[which], self.places, frame, self.labels)
+        markers = self._markers(frame, phase == PHASES - 2) if which == 1 else []
+        return [*cell_shapes(self._scenes[which].polygons, frame), *walls, *markers]
 
-    def _markers(self, frame: ViewFrame, matched: bool) -> str:
+    def _markers(self, frame: ViewFrame, matched: bool) -> list[Shape]:
         """The markers: all alike, or those that match with the walls to come, and the others pale."""
-        lines, pale, broken, letters = list[str](), list[str](), list[str](), list[str]()
+        lines, pale, broken, letters = list[str](), list[str](), list[str](), []
         for stub in self.stubs:
             here, out = self.places[stub.vertex], self._out(stub)
             placed = frame.points(np.array([here, here + REACH * out, here + WRITTEN * out]))
@@ -150,12 +149,12 @@ class PhasesPicture(SVGPicture):
                 broken.append("M{} {}L{} {}".format(x, y, *frame.points(self.places[stub.partner]).tolist()))
             if self.labels and not alone:
                 letters.append(wall_label(stub.edge.label, at_x, at_y, stub.edge.arrow))
-        dashed = f'stroke-dasharray="{BROKEN}"'
-        return (
-            f'<path d="{"".join(broken)}" fill="none" stroke="{line(BLUE)}" stroke-width="16" {dashed}/>'
-            f'<path d="{"".join(pale)}" fill="none" stroke="{theme().quiet}" stroke-width="10" {dashed}/>'
-            f'<path d="{"".join(lines)}" fill="none" stroke="{line(BLUE)}" stroke-width="{STROKE}"/>{labels_svg(letters)}'
-        )
+        return [
+            Path("".join(broken), Look(fill="none", stroke=line(BLUE), stroke_width=16, stroke_dasharray=BROKEN)),
+            Path("".join(pale), Look(fill="none", stroke=theme().quiet, stroke_width=10, stroke_dasharray=BROKEN)),
+            Path("".join(lines), Look(fill="none", stroke=line(BLUE), stroke_width=STROKE)),
+            lettered(letters),
+        ]
 
     def _out(self, stub: Stub) -> Floats:
         """A vector as long as the wall of a marker, to the side of it where the marker stands."""

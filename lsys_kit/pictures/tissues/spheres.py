@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from itertools import chain
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,14 +19,15 @@ from lsys_kit.derivation.tissues.maps import Map, kinds_of_cells
 from lsys_kit.geometry.scene import Floats
 from lsys_kit.geometry.tissues.layout import Placed, arc, meridian, place_on_sphere
 from lsys_kit.notation.model.cells import MapSystem
+from lsys_kit.pictures.formats.notebook import described
 from lsys_kit.pictures.formats.painting import painted
-from lsys_kit.pictures.formats.vector.reading import drawing_of
 from lsys_kit.pictures.rendering.frames import MARGIN
 from lsys_kit.pictures.rendering.view import View, axes, view_from
-from lsys_kit.pictures.style.themes import drawn_on, theme
-from lsys_kit.pictures.svg import background, described, document, resized
+from lsys_kit.pictures.shapes import Circle, Drawing, Gradient, Gradients, Look, Path, Shape, Stop
+from lsys_kit.pictures.sizes import document, resized
+from lsys_kit.pictures.style.themes import theme
 from lsys_kit.pictures.tissues.chosen import developed, forces_of
-from lsys_kit.pictures.tissues.maps import CAPTION, GAP, MOST_MAPS, NUMBER, WIDTH, MapPicture, caption_svg, cell_colour
+from lsys_kit.pictures.tissues.maps import CAPTION, GAP, MOST_MAPS, NUMBER, WIDTH, MapPicture, caption, cell_colour
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -39,12 +40,8 @@ STRAIGHT = math.radians(6)
 """Arcs are drawn as straight pieces that turn by this angle at most."""
 SLIVER = 0.1
 """Twice the area that an outline along the rim may enclose, because it is made of straight pieces."""
-_SHADE = (
-    '<radialGradient id="lsys-sphere" cx="0.38" cy="0.32" r="0.72">'
-    '<stop offset="0" stop-color="#FFFFFF" stop-opacity="0.5"/><stop offset="0.5" stop-color="#FFFFFF" stop-opacity="0"/>'
-    '<stop offset="0.55" stop-color="#000000" stop-opacity="0"/>'
-    '<stop offset="1" stop-color="#000000" stop-opacity="0.45"/></radialGradient>'
-)
+_STOPS = Stop(0, "#FFFFFF", 0.5), Stop(0.5, "#FFFFFF", 0), Stop(0.55, "#000000", 0), Stop(1, "#000000", 0.45)
+_SHADE = Gradient("lsys-sphere", 0.38, 0.32, 0.72, _STOPS)
 
 
 @dataclass(frozen=True)
@@ -67,23 +64,20 @@ class SpherePicture(MapPicture):
 
     views: Sequence[SphereView] = ()
 
-    @cached_property
-    def svg(self) -> str:
-        """The picture as SVG text."""
-        with Task("The picture was not drawn"), drawn_on(self.theme):
-            return self._side_by_side(range(len(self.views)))
+    def shown(self, most: int, enlarged: float) -> Drawing:
+        """The spheres side by side."""
+        return self._side_by_side(range(len(self.views)))
 
     def film_images(self) -> Sequence[Image]:
         """The spheres one after another."""
         with Task("The film was not finished"):
-            return [painted(drawing_of(self._side_by_side([place]))) for place in range(len(self.views))]
+            return [painted(resized(self._side_by_side([place]), self.pixels)) for place in range(len(self.views))]
 
-    def _side_by_side(self, places: Sequence[int]) -> str:
-        """Some of the spheres as SVG."""
+    def _side_by_side(self, places: Sequence[int]) -> Drawing:
         many = len(places)
         radius = min(LARGEST, (WIDTH - 2 * MARGIN - GAP * (many - 1)) / (2 * many))
         spheres = [
-            _sphere_svg(
+            _sphere(
                 self.maps[place],
                 self.views[place],
                 MARGIN + radius + number * (2 * radius + GAP),
@@ -95,9 +89,8 @@ class SpherePicture(MapPicture):
         ]
         width = math.ceil(2 * MARGIN + many * 2 * radius + (many - 1) * GAP)
         height = math.ceil(2 * MARGIN + 2 * radius + CAPTION)
-        body = f"{background(width, height)}<defs>{_SHADE}</defs>{''.join(spheres)}"
         words = described([self.text, "cells of one colour have the same walls around them"])
-        return resized(document(body, width, height, words), self.pixels)
+        return document([Gradients([_SHADE]), *chain(*spheres)], width, height, words)
 
 
 def sphere_picture(
@@ -140,20 +133,21 @@ def _around_cells(found: Map, view: SphereView) -> Iterator[tuple[Floats, int]]:
             yield around, kind
 
 
-def _sphere_svg(found: Map, view: SphereView, x: float, y: float, radius: float, step: int) -> str:
+def _sphere(found: Map, view: SphereView, x: float, y: float, radius: float, step: int) -> list[Shape]:
     """A sphere: its cells, its walls, its shade, and the number of the step below."""
-    cells = []
+    shapes: list[Shape] = []
     for around, kind in _around_cells(found, view):
         outline = "".join(_closed(row, x, y, radius) for row in _seen_outlines(around))
-        cells.append(f'<path d="{outline}" fill="{cell_colour(kind)}" fill-rule="evenodd"/>')
+        shapes.append(Path(outline, Look(fill=cell_colour(kind), fill_rule="evenodd")))
     walls = "".join(_visible(each, x, y, radius) for each in view.arcs)
-    centre = f'cx="{round(10 * x)}" cy="{round(10 * y)}" r="{round(10 * radius)}"'
-    return (
-        f'{"".join(cells)}<circle {centre} fill="url(#lsys-sphere)"/><path d="{walls}" fill="none" stroke="{theme().ink}" '
-        f'stroke-width="14" stroke-linecap="round" stroke-linejoin="round"/>'
-        f'<circle {centre} fill="none" stroke="{theme().ink}" stroke-width="14"/>'
-        f"{caption_svg(str(step), round(10 * x), round(10 * (y + radius + NUMBER + 8)))}"
-    )
+    circle, rim = (round(10 * x), round(10 * y), round(10 * radius)), Look(fill="none", stroke=theme().ink, stroke_width=14)
+    return [
+        *shapes,
+        Circle(*circle, Look(fill=_SHADE)),
+        Path(walls, rim | Look(stroke_linecap="round", stroke_linejoin="round")),
+        Circle(*circle, rim),
+        caption(str(step), circle[0], round(10 * (y + radius + NUMBER + 8))),
+    ]
 
 
 def _seen_outlines(around: Floats) -> list[Floats]:

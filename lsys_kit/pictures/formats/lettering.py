@@ -17,7 +17,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lsys_kit.errors import printable
-from lsys_kit.pictures.formats.vector.shapes import Font
 
 if TYPE_CHECKING:
     from fontTools.ttLib import TTFont
@@ -27,12 +26,21 @@ FONTS = "mpl-data/fonts/ttf"
 """Where matplotlib keeps its fonts."""
 FAMILIES = {"sans-serif": "DejaVuSans", "serif": "DejaVuSerif", "monospace": "DejaVuSansMono"}
 """The fonts of families of letters."""
-PLAIN = Font()
-"""The usual font."""
 PIECES = 6
 """The straight pieces of a curve."""
 SLANT = 0.2
 """How far an italic letter leans, to its height."""
+
+
+class Font(NamedTuple):
+    """A family of letters, and whether they are bold."""
+
+    family: str = "sans-serif"
+    bold: bool = False
+
+
+PLAIN = Font()
+"""The usual font."""
 
 
 class Glyph(NamedTuple):
@@ -55,7 +63,6 @@ def advance(text: str, size: float, face: Font = PLAIN) -> float:
 
 @cache
 def _width(letter: str, face: Font) -> int:
-    """How far the next letter stands, in units of the font."""
     name = glyph_name(letter, face)
     with opened_font(face) as font:
         return int(font["hmtx"][name][0])
@@ -63,7 +70,6 @@ def _width(letter: str, face: Font) -> int:
 
 @cache
 def _units(face: Font) -> int:
-    """How many units of the font are its size."""
     with opened_font(face) as font:
         return int(font["head"].unitsPerEm)
 
@@ -159,19 +165,10 @@ def _curve(start: tuple[float, float], points: Any) -> list[tuple[float, float]]
     """The corners of quadratic curves behind one another, as TrueType writes them: between two controls lies a point."""
     from fontTools.pens.basePen import decomposeQuadraticSegment
 
-    corners = []
+    corners: list[tuple[float, float]] = []
     for control, end in decomposeQuadraticSegment(points):
-        corners += _corners(start, control, end)
+        for t in (number / PIECES for number in range(1, PIECES + 1)):
+            x, y = ((1 - t) ** 2 * a + 2 * t * (1 - t) * b + t * t * c for a, b, c in zip(start, control, end, strict=True))
+            corners.append((x, y))
         start = end
     return corners
-
-
-def _corners(start: tuple[float, float], control: tuple[float, float], end: tuple[float, float]) -> list[tuple[float, float]]:
-    """The corners of a quadratic curve behind its start."""
-    found = []
-    for number in range(1, PIECES + 1):
-        t = number / PIECES
-        found.append(
-            tuple((1 - t) ** 2 * a + 2 * t * (1 - t) * b + t * t * c for a, b, c in zip(start, control, end, strict=True))
-        )
-    return found  # type: ignore[return-value]
