@@ -120,6 +120,8 @@ def derivation_of(what: LSystem | Derivation | Word, n: int | None, **choices: A
     return what
 
 
+# --- from what is given to a picture -----------------------------------------------------------------------------------------
+
 AnyPicture: TypeAlias = "MapPicture | PhasesPicture | Picture | NetPicture | LineagePicture | SmallMultiples"
 MOST_ROWS = 24
 """The greatest number of rows of a developmental sequence, which shows the last steps."""

@@ -124,6 +124,8 @@ def label_width(label: tuple[str, str, str], size: float) -> float:
     return advance(letter + values, size) + advance(subscript, SUBSCRIPT * size)
 
 
+# --- shapes on a sheet -------------------------------------------------------------------------------------------------------
+
 SHADES = 512
 """The steps of a gradient."""
 CURVED = 4
@@ -291,6 +293,9 @@ def gradient_at(gradient: Gradient, across: Floats, down: Floats) -> tuple[Any, 
     colours = np.array([(*bytes.fromhex(stop.colour[1:]), 255 * stop.opacity) for stop in gradient.stops])
     table = np.stack([np.interp(shares, offsets, each) for each in colours.T], axis=1).round().astype(np.uint8)
     return table[places, :3], table[places, 3]
+
+
+# --- pictures without paper --------------------------------------------------------------------------------------------------
 
 
 def on_ground(render: Callable[[], Image]) -> Image:
