@@ -120,7 +120,7 @@ def derivation_of(what: LSystem | Derivation | Word, n: int | None, **choices: A
     return what
 
 
-# --- from what is given to a picture -----------------------------------------------------------------------------------------
+# --- from what is given to a picture ---
 
 AnyPicture: TypeAlias = "MapPicture | PhasesPicture | Picture | NetPicture | LineagePicture | SmallMultiples"
 MOST_ROWS = 24

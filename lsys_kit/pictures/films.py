@@ -193,7 +193,7 @@ def _even(image: Image) -> Image:
     return paper
 
 
-# --- what is animated --------------------------------------------------------------------------------------------------------
+# --- what is animated ---
 
 SHAPE_BYTES = 100
 """About what a shape takes in memory."""

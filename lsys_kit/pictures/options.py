@@ -168,7 +168,7 @@ def split_options(choices: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str,
     return given, {name: value for name, value in choices.items() if name not in OPTIONS}
 
 
-# --- the kinds ---------------------------------------------------------------------------------------------------------------
+# --- the kinds ---
 
 DRAWABLE = (LSystem, Derivation, Word, MapSystem, Development, CellworkSystem, CellworkDevelopment, Stages, Lineage)
 """What can be drawn."""

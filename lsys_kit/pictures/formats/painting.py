@@ -124,7 +124,7 @@ def label_width(label: tuple[str, str, str], size: float) -> float:
     return advance(letter + values, size) + advance(subscript, SUBSCRIPT * size)
 
 
-# --- shapes on a sheet -------------------------------------------------------------------------------------------------------
+# --- shapes on a sheet ---
 
 SHADES = 512
 """The steps of a gradient."""
@@ -295,7 +295,7 @@ def gradient_at(gradient: Gradient, across: Floats, down: Floats) -> tuple[Any, 
     return table[places, :3], table[places, 3]
 
 
-# --- pictures without paper --------------------------------------------------------------------------------------------------
+# --- pictures without paper ---
 
 
 def on_ground(render: Callable[[], Image]) -> Image:

@@ -53,7 +53,7 @@ def pdf(drawing: Drawing) -> bytes:
     return page.file(drawing)
 
 
-# --- the objects of a file ---------------------------------------------------------------------------------------------------
+# --- the objects of a file ---
 
 
 class Objects:
@@ -136,7 +136,7 @@ def string(text: str) -> str:
     return f"<feff{text.encode('utf-16-be').hex()}>"
 
 
-# --- the shapes of a page ----------------------------------------------------------------------------------------------------
+# --- the shapes of a page ---
 
 
 class Shown(NamedTuple):
@@ -328,7 +328,7 @@ def _contours(text: Lettering) -> str:
     return "".join(parts)
 
 
-# --- fonts -------------------------------------------------------------------------------------------------------------------
+# --- fonts ---
 
 
 def _added_font(objects: Objects, font: Font, letters: Sequence[str]) -> tuple[str, Mapping[str, int]]:

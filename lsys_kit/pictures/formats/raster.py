@@ -45,7 +45,7 @@ STROKES_AT_A_TIME, POINTS_AT_A_TIME = 2**16, 2**18
 operations; a longer stroke is a block of its own."""
 
 
-# --- lines on a grid of points -----------------------------------------------------------------------------------------------
+# --- lines on a grid of points ---
 
 
 def touched(across: Coordinates, down: Coordinates, shape: tuple[int, ...], numbers: Grid | None = None) -> NDArray[Any]:
@@ -107,7 +107,7 @@ def spread(found: NDArray[Any], radius: float) -> NDArray[Any]:
     return whole
 
 
-# --- scenes ------------------------------------------------------------------------------------------------------------------
+# --- scenes ---
 
 Colours: TypeAlias = NDArray[np.uint8]
 ShapePainter: TypeAlias = Callable[[int, int], None]

@@ -142,7 +142,7 @@ def in_order(lines: Lines, areas: Areas, rounds: Rounds, palette: Sequence[str],
     return DisplayList(lines, areas, rounds, palette, numbers, np.append(starts, len(order)), keys[starts])
 
 
-# --- strokes in space, as cylinders ------------------------------------------------------------------------------------------
+# --- strokes in space, as cylinders ---
 
 TONED = 16
 """From this width on, in tenths of a pixel, stripes can be seen."""
@@ -219,7 +219,7 @@ def _stripe(cylinders: Cylinders, first: Floats, last: Floats) -> Floats:
     return np.stack(corners, axis=1)
 
 
-# --- in painter's order ------------------------------------------------------------------------------------------------------
+# --- in painter's order ---
 
 FILLED = 0.7
 """The strength of the colour inside a surface in the plane."""
