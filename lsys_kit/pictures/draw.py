@@ -120,6 +120,8 @@ def derivation_of(what: LSystem | Derivation | Word, n: int | None, **choices: A
     return what
 
 
+# --- from what is given to a picture ---
+
 AnyPicture: TypeAlias = "MapPicture | PhasesPicture | Picture | NetPicture | LineagePicture | SmallMultiples"
 _CELL_PICTURES: Mapping[str, Callable[..., AnyPicture]] = {MAP: map_picture, SPHERE: sphere_picture, CELLWORK: cellwork_picture}
 """How the kinds of systems of cells are drawn."""

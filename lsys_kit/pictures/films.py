@@ -191,6 +191,8 @@ def _even(image: Image) -> Image:
     return paper
 
 
+# --- what is animated ---
+
 SHAPE_BYTES = 100
 """About what a shape takes in memory."""
 MOST_FRAMES = 300

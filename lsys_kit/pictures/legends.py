@@ -121,7 +121,7 @@ def _label(symbol: str, system: LSystem) -> Label:
     return (*label_parts(symbol, system), "")
 
 
-# --- in each format ----------------------------------------------------------------------------------------------------------
+# --- in each format ---
 
 
 def with_legend(drawing: Drawing, legend: Legend | None) -> Drawing:

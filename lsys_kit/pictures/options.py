@@ -165,6 +165,8 @@ def split_options(choices: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str,
     return given, {name: value for name, value in choices.items() if name not in OPTIONS}
 
 
+# --- the kinds ---
+
 DRAWABLE = (LSystem, Derivation, Word, CellSystem, CellDevelopment, Stages, Lineage)
 """What can be drawn."""
 

@@ -87,12 +87,12 @@ def test_a_figure_holds_what_is_painted(text, size):
     figure(drawn(text), ax)
     ax.apply_aspect()
     room = ax.get_window_extent()
-    [shapes] = ax.collections
-    for path, width in zip(shapes.get_paths(), shapes.get_linewidths(), strict=True):
-        places = ax.transData.transform(path.vertices)
-        reach = width / 2 * ax.figure.dpi / 72
-        assert (places.min(axis=0) - reach >= room.min - 0.5).all()
-        assert (places.max(axis=0) + reach <= room.max + 0.5).all()
+    for shapes in ax.collections:
+        for path, width in zip(shapes.get_paths(), shapes.get_linewidths(), strict=True):
+            places = ax.transData.transform(path.vertices)
+            reach = width / 2 * ax.figure.dpi / 72
+            assert (places.min(axis=0) - reach >= room.min - 0.5).all()
+            assert (places.max(axis=0) + reach <= room.max + 0.5).all()
 
 
 def test_a_film_of_thick_strokes_holds_them():

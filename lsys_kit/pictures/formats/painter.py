@@ -217,7 +217,7 @@ def _steps(data: str) -> Iterator[Command]:
             here = points[-1]
         if command == "M":
             start = here
-        yield {"H": "L", "V": "L", "Q": "C"}.get(command, command), _seven(points)
+        yield {"H": "L", "V": "L", "Q": "C"}.get(command, command), points if letter in "MLC" else _seven(points)
 
 
 def _seven(points: Sequence[Point]) -> list[Point]:

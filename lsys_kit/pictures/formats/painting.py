@@ -41,8 +41,15 @@ class Sheet:
     ----------
     width, height
         Its size in pixels; at first a pixel is the unit, and the left upper corner the origin.
+
+    Attributes
+    ----------
+    grid, pen
+        The fine grid of points that is painted on, and what paints there.
     """
 
+    grid: Image
+    pen: ImageDraw
     _pasted: list[tuple[Image, tuple[int, int]]]
 
     def __init__(self, width: int, height: int) -> None:
@@ -50,24 +57,9 @@ class Sheet:
 
         check_bytes(width * height * PIXEL_BYTES, lambda: "The picture was not drawn")
         self._size, self._left, self._top, self._unit = (width, height), 0.0, 0.0, float(FINE)
-        self._image = Image.new("RGB", (width * FINE, height * FINE), theme().ground)
-        self._pen = ImageDraw.Draw(self._image)
+        self.grid = Image.new("RGB", (width * FINE, height * FINE), theme().ground)
+        self.pen = ImageDraw.Draw(self.grid)
         self._pasted = []
-
-    @property
-    def size(self) -> tuple[int, int]:
-        """Its width and height in pixels."""
-        return self._size
-
-    @property
-    def grid(self) -> Image:
-        """The fine grid of points that is painted on."""
-        return self._image
-
-    @property
-    def pen(self) -> ImageDraw:
-        """What paints on the grid."""
-        return self._pen
 
     def part(self, x: float, y: float, unit: float = 1.0) -> Self:
         """The same sheet, measured from another point with another unit."""
@@ -83,7 +75,7 @@ class Sheet:
             mask, left, top = glyph(letter, size * self._unit, italic)
             across, down = self._at(x, y)
             if mask.size:
-                self._image.paste(colour or theme().ink, (round(across) + left, round(down) + top), Image.fromarray(mask))
+                self.grid.paste(colour or theme().ink, (round(across) + left, round(down) + top), Image.fromarray(mask))
             x += advance(letter, size)
         return x
 
@@ -97,7 +89,7 @@ class Sheet:
     def box(self, x: float, y: float, width: float, height: float, fill: str, corner: float = 0) -> None:
         """A filled rectangle, perhaps with round corners."""
         (left, top), (right, bottom) = self._at(x, y), self._at(x + width, y + height)
-        self._pen.rounded_rectangle((round(left), round(top), round(right) - 1, round(bottom) - 1), corner * self._unit, fill)
+        self.pen.rounded_rectangle((round(left), round(top), round(right) - 1, round(bottom) - 1), corner * self._unit, fill)
 
     def picture(self, x: float, y: float, image: Image) -> None:
         """A picture in its own pixels, above everything else."""
@@ -116,7 +108,7 @@ class Sheet:
         """The sheet as an image."""
         from PIL import Image
 
-        image = self._image.resize(self._size, Image.Resampling.BOX)
+        image = self.grid.resize(self._size, Image.Resampling.BOX)
         for pasted, corner in self._pasted:
             image.paste(pasted, corner)
         return image
@@ -131,6 +123,8 @@ def label_width(label: tuple[str, str, str], size: float) -> float:
     letter, subscript, values = label
     return advance(letter + values, size) + advance(subscript, SUBSCRIPT * size)
 
+
+# --- shapes on a sheet ---
 
 SHADES = 512
 """The steps of a gradient."""
@@ -299,6 +293,9 @@ def gradient_at(gradient: Gradient, across: Floats, down: Floats) -> tuple[Any, 
     colours = np.array([(*bytes.fromhex(stop.colour[1:]), 255 * stop.opacity) for stop in gradient.stops])
     table = np.stack([np.interp(shares, offsets, each) for each in colours.T], axis=1).round().astype(np.uint8)
     return table[places, :3], table[places, 3]
+
+
+# --- pictures without paper ---
 
 
 def on_ground(render: Callable[[], Image]) -> Image:

@@ -11,10 +11,10 @@ import re
 import zlib
 from collections.abc import Mapping, Sequence
 from itertools import chain, pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from lsys_kit.files import KIT_MARK
-from lsys_kit.pictures.formats.lettering import FAMILIES, SLANT, Font, advance, font_path, glyph_name, opened_font, outlines
+from lsys_kit.pictures.formats.lettering import FAMILIES, SLANT, Font, advance, font_path, glyph_name, outlines
 from lsys_kit.pictures.formats.painter import Ink, Lettering, Painter, commands
 from lsys_kit.pictures.shapes import Circle, Drawing, Gradient, Outlined, Place, Raster, Strokes
 
@@ -53,7 +53,7 @@ def pdf(drawing: Drawing) -> bytes:
     return page.file(drawing)
 
 
-# --- the objects of a file ---------------------------------------------------------------------------------------------------
+# --- the objects of a file ---
 
 
 class Objects:
@@ -136,25 +136,39 @@ def string(text: str) -> str:
     return f"<feff{text.encode('utf-16-be').hex()}>"
 
 
-# --- the shapes of a page ----------------------------------------------------------------------------------------------------
+# --- the shapes of a page ---
+
+
+class Shown(NamedTuple):
+    """Letters that a font is yet to give numbers, and what stands before them."""
+
+    font: Font
+    place: str
+    text: str
 
 
 class Page(Painter):
     """What writes the operators of shapes, and adds to a file what they need beside them."""
 
     def __init__(self) -> None:
-        self._objects, self._parts, self._at = Objects(), list[str](), Place()
+        self._objects, self._parts, self._at = Objects(), list[str | Shown](), Place()
         self._resources: dict[str, dict[str, str]] = {"ExtGState": {}, "Font": {}, "Shading": {}, "XObject": {}}
         self._names: dict[object, str] = {}
-        self._letters: dict[Font, dict[str, int]] = {}
+        self._letters: dict[Font, set[str]] = {}
 
     def file(self, drawing: Drawing) -> bytes:
         """The file of a page with what was painted."""
-        objects, box = self._objects, (POINT * drawing.width, POINT * drawing.height)
+        objects, box, codes = self._objects, (POINT * drawing.width, POINT * drawing.height), {}
+        for font, letters in self._letters.items():
+            self._resources["Font"][self._names[font]], codes[font] = _added_font(objects, font, sorted(letters))
+        written = [
+            part
+            if isinstance(part, str)
+            else f"{part.place} <{''.join(f'{codes[part.font][each]:04X}' for each in part.text)}> Tj"
+            for part in self._parts
+        ]
         flipped = f"{_numbers(POINT, 0, 0, -POINT, 0, box[1])} cm\nq"
-        content = objects.stream("\n".join([flipped, *self._parts, "Q"]).encode("ascii"))
-        for font, codes in self._letters.items():
-            self._resources["Font"][self._names[font]] = _added_font(objects, font, codes)
+        content = objects.stream("\n".join([flipped, *written, "Q"]).encode("ascii"))
         pages = objects.ahead(2)
         page = objects.add(
             Type="/Page",
@@ -174,7 +188,7 @@ class Page(Painter):
         own[name] = reference
         return name
 
-    def _write(self, place: Place, *parts: str) -> None:
+    def _write(self, place: Place, *parts: str | Shown) -> None:
         """Write operators, in units that lie at a place."""
         if place != self._at:
             self._parts += ["Q", f"q {place.scale:.8f} 0 0 {place.scale:.8f} {_numbers(place.x, place.y)} cm"]
@@ -250,17 +264,15 @@ class Page(Painter):
             pen = f"{_colour(text.halo, 'RG')} {number_text(text.halo_width)} w 1 J 1 j [] 0 d"
             self._write(place, f"{pen} {_contours(text)}S")
         if text.font not in self._letters:
-            self._letters[text.font] = {}
+            self._letters[text.font] = set()
             self._named("Font", text.font)
-        codes, name = self._letters[text.font], self._names[text.font]
-        parts = [f"BT {_colour(text.colour, 'rg')}"]
+        parts, name = list[str | Shown](), self._names[text.font]
         for run in text.runs:
-            with opened_font(text.font) as font:
-                codes |= {letter: font.getGlyphID(glyph_name(letter, text.font)) for letter in run.text if letter not in codes}
-            written = "".join(f"{codes[letter]:04X}" for letter in run.text)
+            self._letters[text.font] |= {*run.text}
             lean = number_text(SLANT if run.italic else 0)
-            parts.append(f"/{name} {number_text(run.size)} Tf 1 0 {lean} -1 {_numbers(run.x, run.y)} Tm <{written}> Tj")
-        self._write(place, *parts, "ET")
+            at = f"/{name} {number_text(run.size)} Tf 1 0 {lean} -1 {_numbers(run.x, run.y)} Tm"
+            parts.append(Shown(text.font, at, run.text))
+        self._write(place, f"BT {_colour(text.colour, 'rg')}", *parts, "ET")
 
     def raster(self, raster: Raster, place: Place) -> None:
         """Paint an image on white."""
@@ -316,11 +328,11 @@ def _contours(text: Lettering) -> str:
     return "".join(parts)
 
 
-# --- fonts -------------------------------------------------------------------------------------------------------------------
+# --- fonts ---
 
 
-def _added_font(objects: Objects, font: Font, codes: Mapping[str, int]) -> str:
-    """Add the part of a font that some letters need, which keep their numbers, with what they stand for."""
+def _added_font(objects: Objects, font: Font, letters: Sequence[str]) -> tuple[str, Mapping[str, int]]:
+    """Add the part of a font that some letters need; return what stands for it, and the numbers of the letters in it."""
     from fontTools import subset
     from fontTools.ttLib import TTFont
 
@@ -329,12 +341,12 @@ def _added_font(objects: Objects, font: Font, codes: Mapping[str, int]) -> str:
     for table in _UNREAD & {*whole.keys()}:
         del whole[table]
     options = subset.Options(hinting=False, notdef_outline=True, glyph_names=True, drop_tables=["post", "cmap", "FFTM"])
-    options.retain_gids = True
-    part = subset.Subsetter(options)
-    part.populate(gids=[*codes.values()])
+    part, names = subset.Subsetter(options), {letter: glyph_name(letter, font) for letter in letters}
+    part.populate(glyphs=names.values())
     part.subset(whole)
+    codes = {letter: whole.getGlyphID(name) for letter, name in names.items()}
     whole.save(buffer)
-    return _font(objects, whole, _base_name(font, sorted(codes)), buffer.getvalue(), codes)
+    return _font(objects, whole, _base_name(font, letters), buffer.getvalue(), codes), codes
 
 
 def _base_name(font: Font, letters: Sequence[str]) -> str:
@@ -361,7 +373,7 @@ def _font(objects: Objects, part: TTFont, name: str, data: bytes, codes: Mapping
         CapHeight=730,
         FontFile2=objects.stream(data, Length1=len(data)),
     )
-    widths = {code: [round(unit * part["hmtx"][part.getGlyphName(code)][0], 3)] for code in sorted({*codes.values()})}
+    widths = [round(unit * part["hmtx"][glyph][0], 3) for glyph in part.getGlyphOrder()]
     inner = objects.add(
         Type="/Font",
         Subtype="/CIDFontType2",
@@ -369,7 +381,7 @@ def _font(objects: Objects, part: TTFont, name: str, data: bytes, codes: Mapping
         CIDToGIDMap="/Identity",
         CIDSystemInfo={"Registry": "(Adobe)", "Ordering": "(Identity)", "Supplement": 0},
         FontDescriptor=about,
-        W=[each for entry in widths.items() for each in entry],
+        W=[0, widths],
     )
     return objects.add(
         Type="/Font",
@@ -382,6 +394,6 @@ def _font(objects: Objects, part: TTFont, name: str, data: bytes, codes: Mapping
 
 
 def _letters_of(codes: Mapping[str, int]) -> bytes:
-    rows = [f"<{code:04X}> <{letter.encode('utf-16-be').hex().upper()}>\n" for letter, code in sorted(codes.items()) if code]
+    rows = [f"<{code:04X}> <{letter.encode('utf-16-be').hex().upper()}>\n" for letter, code in codes.items() if code]
     blocks = [rows[first : first + MOST_ENTRIES] for first in range(0, len(rows), MOST_ENTRIES)]
     return _MAP.format("".join(f"{len(block)} beginbfchar\n{''.join(block)}endbfchar\n" for block in blocks)).encode()

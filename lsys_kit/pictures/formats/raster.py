@@ -45,6 +45,9 @@ STROKES_AT_A_TIME, POINTS_AT_A_TIME = 2**16, 2**18
 operations; a longer stroke is a block of its own."""
 
 
+# --- lines on a grid of points ---
+
+
 def touched(across: Coordinates, down: Coordinates, shape: tuple[int, ...], numbers: Grid | None = None) -> NDArray[Any]:
     """The points of a grid that lie on strokes, given the columns and rows of their ends.
 
@@ -103,6 +106,8 @@ def spread(found: NDArray[Any], radius: float) -> NDArray[Any]:
         np.maximum(whole[: height - up], row[up:], out=whole[: height - up])
     return whole
 
+
+# --- scenes ---
 
 Colours: TypeAlias = NDArray[np.uint8]
 ShapePainter: TypeAlias = Callable[[int, int], None]

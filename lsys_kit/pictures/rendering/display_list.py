@@ -142,6 +142,8 @@ def in_order(lines: Lines, areas: Areas, rounds: Rounds, palette: Sequence[str],
     return DisplayList(lines, areas, rounds, palette, numbers, np.append(starts, len(order)), keys[starts])
 
 
+# --- strokes in space, as cylinders ---
+
 TONED = 16
 """From this width on, in tenths of a pixel, stripes can be seen."""
 TAPERED = 0.06
@@ -216,6 +218,8 @@ def _stripe(cylinders: Cylinders, first: Floats, last: Floats) -> Floats:
         corners.append(cylinders.ends[:, end] + cylinders.radii[:, end, None] * way)
     return np.stack(corners, axis=1)
 
+
+# --- in painter's order ---
 
 FILLED = 0.7
 """The strength of the colour inside a surface in the plane."""

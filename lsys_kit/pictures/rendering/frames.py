@@ -126,6 +126,8 @@ def frame_on(box: tuple[float, float, float, float], scale: float) -> ViewFrame:
     return ViewFrame(scale, left, top, round((right - left) * scale) + 2 * MARGIN, round((top - bottom) * scale) + 2 * MARGIN)
 
 
+# --- widths of strokes ---
+
 MOST_OF_A_PICTURE = 0.5
 """The part of a picture that the broadest stroke may fill before the drawing is no longer made smaller for it."""
 

@@ -78,6 +78,8 @@ def numbered_colours(states: Integers, colours: Integers, colour_of: Mapping[int
     return names, np.where(colours == OWN, of_state[states], chosen[colours % len(CHOSEN)])
 
 
+# --- as a person chooses ---
+
 START, START_COLOUR = 0.12, 4
 """The length of the arrow at the start as a share of the drawing, and its colour, as a turtle chooses it by number."""
 
