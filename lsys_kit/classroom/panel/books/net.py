@@ -76,7 +76,7 @@ def _diagram(parts: Parts, names: list[str]) -> Data:
 
 def _written(part: Any) -> Data:
     """A part, without the number of an arc or a transition, which nobody asks for; texts are visible, and pixels in tenths."""
-    found = {name: value for name, value in vars(part).items() if name not in ("arc", "transition")}
+    found = {name: value for name, value in part._asdict().items() if name not in ("arc", "transition")}
     return {
         name: visible(value) if isinstance(value, str) else _tenths(value) if name in _PIXELS else value
         for name, value in found.items()
