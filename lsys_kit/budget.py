@@ -79,7 +79,6 @@ class Limits:
 
 
 DEFAULT = Limits()
-"""The limits where none are set."""
 
 
 class Block:
@@ -107,7 +106,6 @@ class Block:
 
 
 def _runs(wanted: FrameType) -> bool:
-    """Whether a frame is at work, in this thread or in another."""
     return _calls(wanted, sys._getframe(1)) or any(_calls(wanted, top) for top in sys._current_frames().values())
 
 
@@ -259,13 +257,9 @@ class Task:
 
     It can be taken up again where there is more to do; what passes in between is not counted.
 
-    Parameters
-    ----------
     failed
         What to say if the budget does not suffice, as in "Step 5 was not reached", or a function that knows.
 
-    Examples
-    --------
     >>> with limits(seconds=0.01), Task("The sum was not found"):
     ...     sum(counted(range(10**9)))
     Traceback (most recent call last):
@@ -320,14 +314,15 @@ def check_bytes(needed: int, failed: Callable[[], str]) -> None:
     lsys_kit.errors.ModelLimitError: The word was not built: it would take 1,000,000,000 bytes; the limit is 536,870,912. \
 Take fewer steps, or set limits(bytes=...).
     """
-    most = current().bytes
+    check_limit("bytes", needed, lambda: f"{failed()}: it would take {_written(needed)} bytes")
+
+
+def check_limit(name: str, needed: int, said: Callable[[], str]) -> None:
+    """Refuse what would be past one of the limits; say then how much it would be."""
+    most = getattr(current(), name)
     if needed > most:
-        raise ModelLimitError(
-            f"{failed()}: it would take {_written(needed)} bytes; the limit is {most:,}",
-            limit=most,
-            needed=needed,
-            hint="Take fewer steps, or set limits(bytes=...).",
-        )
+        hint = f"Take fewer steps, or set limits({name}=...)."
+        raise ModelLimitError(f"{said()}; the limit is {_written(most)}", limit=most, needed=needed, hint=hint)
 
 
 def check_step(step: int, size: int, parts: str, bytes_each: int) -> None:
@@ -338,30 +333,17 @@ def check_step(step: int, size: int, parts: str, bytes_each: int) -> None:
     lsys_kit.errors.ModelLimitError: Step 30 would have 100,000,000 walls or more; the limit is 5,000,000. \
 Take fewer steps, or set limits(modules=...).
     """
-    most = current()
-    if size > most.modules:
-        raise ModelLimitError(
-            f"Step {step} would have {size:,} {parts} or more; the limit is {most.modules:,}",
-            limit=most.modules,
-            needed=size,
-            hint="Take fewer steps, or set limits(modules=...).",
-        )
-    if (needed := size * bytes_each) > most.bytes:
-        raise ModelLimitError(
-            f"Step {step} would take about {needed:,} bytes; the limit is {most.bytes:,}",
-            limit=most.bytes,
-            needed=needed,
-            hint="Take fewer steps, or set limits(bytes=...).",
-        )
+    check_limit("modules", size, lambda: f"Step {step} would have {size:,} {parts} or more")
+    check_limit("bytes", needed := size * bytes_each, lambda: f"Step {step} would take about {needed:,} bytes")
 
 
-def _written(size: int) -> str:
+def _written(size: float) -> str:
     """A size with its digits, or about how large it is.
 
     >>> _written(1234567), _written(10**5000)
     ('1,234,567', 'about 10^5000')
     """
-    return f"{size:,}" if size < 10**30 else f"about 10^{round((size.bit_length() - 1) * log10(2))}"
+    return f"{size:,}" if size < 10**30 else f"about 10^{round((int(size).bit_length() - 1) * log10(2))}"
 
 
 def counted(things: Iterable[_T], interval: int = INTERVAL) -> Iterator[_T]:

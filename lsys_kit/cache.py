@@ -14,16 +14,12 @@ _V = TypeVar("_V")
 class Cache(Generic[_K, _V]):
     """Results that can be computed again: those used last are kept, as many as the limit of bytes has room for (LRU).
 
-    Parameters
-    ----------
     size
         How many bytes a result takes.
     share
         What part of the limit there is room for.
 
-    Examples
-    --------
-    >>> from lsys_kit.budget import limits
+    >>> from lsys_kit import limits
     >>> with limits(bytes=10):
     ...     cache = Cache(len)
     ...     for text in ("four", "five5", "six", "six"):
@@ -42,7 +38,6 @@ class Cache(Generic[_K, _V]):
         return iter(self._found)
 
     def get(self, key: _K) -> _V | None:
-        """A result, or None."""
         found = self._found.pop(key, None)
         if found is not None:
             self._found[key] = found  # the last one in a dictionary was used last
@@ -54,7 +49,6 @@ class Cache(Generic[_K, _V]):
         return self.put(key, make()) if known is None else known
 
     def put(self, key: _K, result: _V) -> _V:
-        """Keep a result."""
         if key in self._found:
             self._bytes -= self._size(self._found.pop(key))
         self._found[key] = result

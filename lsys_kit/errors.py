@@ -61,7 +61,6 @@ class LSystemError(Exception):
         super().__init__(self._text())
 
     def _locate(self, source: str | None, start: int | None, end: int | None) -> None:
-        """Set the place, given by offsets in a text."""
         self.source = source
         self.line: int | None = None
         self.column: int | None = None

@@ -1,12 +1,18 @@
-"""Files that are written whole or not at all, and never over something that the kit did not make.
+"""Files that are written whole or not at all, and never over something that the kit did not make; and texts that are read.
 
 A file is first written under a name of its own beside the place where it belongs, and takes its name at one stroke. So a disk
 that is full, or an interrupt, leaves the old file as it was, and nothing half written behind. A link is replaced, never
 followed.
+
+A text is UTF-8, or says by its first bytes that it is otherwise: a byte order mark of UTF-8 is passed over, those of UTF-16 and
+UTF-32 say how to read the rest (Unicode 15.0, section 23.8). A text in an older encoding does not say in which, so that none is
+guessed; the message shows what the file would say in Windows-1252, which most of them are in. What is no text at all is called
+what it is.
 """
 
 from __future__ import annotations
 
+import codecs
 import errno
 import os
 import re
@@ -14,7 +20,7 @@ import secrets
 import shutil
 import struct
 import zlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
@@ -31,13 +37,7 @@ _TO_THE_END = os.O_RDWR | os.O_APPEND | getattr(os, "O_NOFOLLOW", 0) | getattr(o
 
 
 def replace_file(path: Path, content: bytes) -> None:
-    """Write a file, in place of one that may be there.
-
-    Raises
-    ------
-    OSError
-        It cannot be written; what was there is as it was.
-    """
+    """Write a file, in place of one that may be there."""
     with _draft(path, content) as draft:
         if path.is_file() and not path.is_symlink():
             shutil.copymode(path, draft)
@@ -72,11 +72,6 @@ def path_from(given: object) -> Path:
 
     >>> path_from("plant.png").suffix
     '.png'
-
-    Raises
-    ------
-    ModelValueError
-        It is neither a text nor a path.
     """
     try:
         return Path(given)  # type: ignore[arg-type]
@@ -96,6 +91,21 @@ def file_stem(title: str, kind: str, content: str) -> str:
     return said or f"{kind}-{zlib.crc32(content.encode(errors='replace')) & 0xFFFF:04x}"
 
 
+@contextmanager
+def file_errors(what: str, hint: str | None = None) -> Iterator[None]:
+    """A `with` block in which what the system says of a file becomes an error of the kit.
+
+    >>> with file_errors('"plant.txt" cannot be read'):
+    ...     open("/no such folder/plant.txt")
+    Traceback (most recent call last):
+    lsys_kit.errors.ModelFileError: "plant.txt" cannot be read: No such file or directory.
+    """
+    try:
+        yield
+    except (OSError, ValueError) as fault:
+        raise ModelFileError(f"{what}: {getattr(fault, 'strerror', None) or fault}", hint=hint) from None
+
+
 def save_file(path: Path, content: bytes) -> None:
     """Write a file, in place of one that the kit itself has made, perhaps; anything else is not replaced.
 
@@ -105,28 +115,17 @@ def save_file(path: Path, content: bytes) -> None:
         Something that the kit did not make is there already, or the file cannot be written.
     """
     name = quotable(str(path))
-    try:
+    with file_errors(f'"{name}" cannot be written'):
         if os.path.lexists(path) and not made_by_the_kit(path):
             raise ModelFileError(
                 f'"{name}" is there already, and was not made by the kit',
                 hint="It would be lost: choose another name, or delete it first.",
             )
         replace_file(path, content)
-    except (OSError, ValueError) as fault:
-        raise ModelFileError(f'"{name}" cannot be written: {getattr(fault, "strerror", None) or fault}') from None
 
 
 def append_line(path: Path, line: str, head: str) -> None:
     """Add a line to the end of a text file of the kit, at one stroke; two programs that do so at the same time lose nothing.
-
-    Parameters
-    ----------
-    path
-        The file; where none is there it is made.
-    line
-        The line, without its end.
-    head
-        The first line of the file, which shows that it is the kit's.
 
     Raises
     ------
@@ -175,7 +174,6 @@ def marked_png(image: bytes, dpi: float | None = None) -> bytes:
 
 
 def _chunk(content: bytes) -> bytes:
-    """A chunk of a PNG picture, given its type and its data."""
     return struct.pack(">I", len(content) - 4) + content + struct.pack(">I", zlib.crc32(content))
 
 
@@ -202,3 +200,70 @@ def _draft(path: Path, content: bytes) -> Iterator[Path]:
     finally:
         with suppress(OSError):
             draft.unlink(missing_ok=True)
+
+
+_MARKS: Mapping[bytes, str] = {
+    codecs.BOM_UTF8: "utf-8",
+    codecs.BOM_UTF32_LE: "utf-32-le",
+    codecs.BOM_UTF32_BE: "utf-32-be",
+    codecs.BOM_UTF16_LE: "utf-16-le",
+    codecs.BOM_UTF16_BE: "utf-16-be",
+}
+"""The byte order marks; that of UTF-32 begins with that of UTF-16, and comes before it."""
+_BINARY: Mapping[bytes, str] = {
+    b"\x89PNG": "a PNG picture",
+    b"GIF8": "a GIF picture",
+    b"\xff\xd8\xff": "a JPEG picture",
+    b"%PDF-": "a PDF document",
+    b"PK\x03\x04": "a ZIP archive, as documents of Word are",
+    b"\x1f\x8b": "a gzip archive",
+    b"glTF": "a glTF model",
+    b"\xd0\xcf\x11\xe0": "a document of an older Word",
+    b"\x7fELF": "a program",
+    b"MZ\x90": "a program",
+}
+"""How files begin that are no text."""
+_SAVE = "Save it as plain text, in UTF-8."
+
+
+def decoded(content: bytes, name: str, most: int) -> str:
+    r"""The text that the first bytes of a file hold, at most so many; lines end in line feeds.
+
+    >>> decoded("axiom: Ä\r\n".encode("utf-16"), "the file", 100)
+    'axiom: Ä\n'
+    """
+    mark = next((mark for mark in _MARKS if content.startswith(mark)), b"")
+    if not mark and len(content) < most:  # what is longer will be refused for that
+        _check_bytes(content, name)
+    encoding = _MARKS.get(mark, "utf-8")
+    decoder = codecs.getincrementaldecoder(encoding)()
+    try:
+        text = decoder.decode(content[len(mark) :], final=len(content) < most)
+    except UnicodeDecodeError as fault:
+        raise _invalid(content, name, encoding, len(mark) + fault.start) from None
+    return text.replace("\r\n", "\n")
+
+
+def _check_bytes(content: bytes, name: str) -> None:
+    """Refuse what is no text, or does not say how it is encoded."""
+    kind = next((kind for beginning, kind in _BINARY.items() if content.startswith(beginning)), None)
+    if kind:
+        raise ModelFileError(f"{_capital(name)} is {kind}, not a text", hint="A model is plain text, in UTF-8.")
+    if b"\0" in content:
+        start = content.index(b"\0")
+        likely = "as UTF-16 without a byte order mark has" if start < 4 else "as no text has"
+        raise ModelFileError(f"{_capital(name)} has zero bytes, {likely}: byte {start + 1} is the first", hint=_SAVE)
+
+
+def _invalid(content: bytes, name: str, encoding: str, start: int) -> ModelFileError:
+    message = f"{_capital(name)} is not valid {encoding.upper()[:6]} text: byte {start + 1} is wrong"
+    if encoding != "utf-8":
+        return ModelFileError(message, hint=_SAVE)
+    line_start = content.rfind(b"\n", 0, start) + 1
+    shown = content[max(line_start, start - 30) : start + 30].split(b"\n")[0].decode("cp1252", errors="replace").strip()
+    line = content.count(b"\n", 0, start) + 1
+    return ModelFileError(message, hint=f'In Windows-1252 line {line} has "{shown}": if that is right, save the file in UTF-8.')
+
+
+def _capital(name: str) -> str:
+    return name[0].upper() + name[1:]

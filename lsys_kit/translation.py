@@ -16,10 +16,8 @@ from pathlib import Path
 from lsys_kit.errors import ModelNameError, quotable, shown
 
 LOCALE = Path(__file__).parent / "locale"
-"""The folder of the catalogues."""
 ENGLISH = "en"
 VARIABLE = "LSYS_KIT_LANGUAGE"
-"""The environment variable that chooses a language."""
 
 _chosen: list[str] = []
 

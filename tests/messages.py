@@ -4,8 +4,8 @@
     python -m tests.messages fr       # begins another language, or renews this one alone
 
 A translator fills in the `msgstr` of a .po file, with an editor of one's choice, and runs it again. What is translated: the
-constant texts that stand in calls of `gettext` and `ngettext`, those of the tables of misconceptions, kinds of answers and
-topics, and what a student reads in the files of exercises. A test finds what is missing.
+constant texts that stand in calls of `gettext` and `ngettext`, and of `worded` in scripts, those of the tables of
+misconceptions, kinds of answers and topics, and what a student reads in the files of exercises. A test finds what is missing.
 """
 
 from __future__ import annotations
@@ -23,18 +23,15 @@ from babel.messages.catalog import Catalog, Message
 from babel.messages.mofile import write_mo
 from babel.messages.pofile import read_po, write_po
 
-from lsys_kit.classroom.exercises.declared.declarations import QUESTIONS, questions_in
-from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS
+from lsys_kit.classroom.exercises.declarations import QUESTIONS, questions_in
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
-from lsys_kit.classroom.exercises.practice import of_languages, of_space
-from lsys_kit.classroom.exercises.practice.practice import TOPICS
-from lsys_kit.classroom.exercises.progress.progress import SIGNS
-from lsys_kit.classroom.exercises.translated import texts
+from lsys_kit.classroom.exercises.practice.drafts import TOPICS
+from lsys_kit.classroom.exercises.practice.makers import DIRECTIONS, TYPES
+from lsys_kit.classroom.exercises.progress import SIGNS
+from lsys_kit.classroom.exercises.registry import texts
+from lsys_kit.classroom.exercises.replies import REPLIES
 from lsys_kit.classroom.exercises.verdict import SIGNS_AND_COLOURS
-from lsys_kit.classroom.lessons.widget import LABELS
-from lsys_kit.classroom.panel.labels import LABELS as PANEL_LABELS
-from lsys_kit.classroom.scorm.answers import DIFFERENT
-from lsys_kit.classroom.scorm.page import ASKED, WORDS
+from lsys_kit.classroom.scorm.page import ASKED, DIFFERENT
 from lsys_kit.translation import LOCALE
 
 PACKAGE = LOCALE.parent
@@ -45,6 +42,46 @@ _CHANGING = re.compile(
     rb'"(Generated-By|(POT-Creation|PO-Revision)-Date|Report-Msgid-Bugs-To|Last-Translator|Language-Team):.*\n'
 )
 """Lines of a catalogue's head that say nothing of its texts."""
+
+
+SCRIPTS = PACKAGE / "classroom" / "panel" / "scripts"
+_WORDED = re.compile(r"""\bworded\(\s*(?:"([^"]+)"|'([^']+)')""")
+TABLES_OF_SCRIPTS = (
+    "vote",
+    "prediction",
+    "table to fill",
+    "Right",
+    "Not right",
+    "right",
+    "not yet",
+    "not filled in yet",
+    "slow",
+    "normal",
+    "fast",
+    "+, − or, after a click, the wheel zooms; arrows move it, Home puts it back.",
+    "Drag or arrow keys turn it. +, − or, after a click, the wheel zooms; Shift and arrows move it, Home puts it back.",
+    "Point at a part or click it to trace it; N and P go to the next and previous one.",
+    "Point at a wall or click it to trace it; N and P go to the next and previous one.",
+    "Point at a cell or click it to trace it; N and P go to the next and previous one.",
+    "Correct",
+    "Almost",
+    "Not yet",
+    "Not readable yet",
+    "Not answered yet",
+    "The learning platform knows: score {score} of 100, completed.",
+    "The learning platform knows: score {score} of 100, incomplete.",
+    "The learning platform did not take the score.",
+    "The learning platform cannot be read, so that nothing is written there.",
+    "No learning platform is there: nobody is told.",
+    'The question has no symbol "{symbol}". The symbols are: {symbols}.',
+)
+"""What scripts show in the language that is chosen, and have in tables."""
+
+
+def in_scripts() -> list[str]:
+    """What else they show so: the texts in calls of `worded`."""
+    scripts = (path.read_text(encoding="utf-8") for path in sorted(SCRIPTS.rglob("*.js")))
+    return [*dict.fromkeys(one or other for script in scripts for one, other in _WORDED.findall(script))]
 
 
 def messages() -> Iterator[tuple[str | tuple[str, str], str]]:
@@ -77,18 +114,29 @@ def _in_calls(module: ast.Module) -> Iterator[str | tuple[str, str]]:
                 yield found[0] if count == 1 else (found[0], found[1])
 
 
-def _in_tables() -> Iterator[tuple[str, str]]:
+def _in_tables() -> Iterator[tuple[str, str | tuple[str, str]]]:
     yield from (("verdict", word) for word in SIGNS_AND_COLOURS)
-    yield from (("kinds", text) for kind in ANSWER_KINDS.values() for text in (kind.what, kind.parts_said) if text)
     yield from (("misconceptions", text) for each in MISCONCEPTIONS.values() for text in (each.do, each.but) if text)
-    yield from (("widgets", label) for label in LABELS)
-    yield from (("panel", label) for label in PANEL_LABELS)
-    yield from (("pages of learning platforms", text) for text in (*WORDS, *ASKED.values(), DIFFERENT))
+    yield from (("scripts", text) for text in (*TABLES_OF_SCRIPTS, *in_scripts()))
+    yield from (("pages of learning platforms", text) for text in (*ASKED.values(), DIFFERENT))
     yield from (("progress", state) for state in SIGNS)
-    yield from (("practice", topic.title) for topic in TOPICS.values())
-    yield from (("practice", text) for text in (*of_languages.TYPES, *of_languages.REPLIES.values()))
-    yield from (("practice", text) for text in (*of_space.DIRECTIONS.values(), of_space.AGAIN))
-    yield from (("practice", unit) for unit in ("letters", "cells", "strokes", "internodes", "shoots", "walls"))
+    yield from (("practice", text) for text in (*TYPES, *DIRECTIONS.values(), *_texts_in(TOPICS)))
+    yield from (("replies", _one_text(text)) for place in REPLIES.values() for text in place.values())
+
+
+def _one_text(text: str | list[str]) -> str | tuple[str, str]:
+    return text if isinstance(text, str) else (text[0], text[1])
+
+
+def _texts_in(said: object) -> Iterator[str]:
+    """The texts for people in what the exercises of all topics say."""
+    if isinstance(said, str):
+        yield said
+    elif isinstance(said, list):
+        yield from (text for each in said for text in _texts_in(each))
+    elif isinstance(said, dict):
+        for key, value in said.items():
+            yield from () if key in ("kind", "asks", "expects", "unlikely") else _texts_in(value)
 
 
 def template() -> Catalog:

@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lsys_kit.decoding import decoded
 from lsys_kit.errors import LSystemError, ModelFileError
+from lsys_kit.files import decoded
 from lsys_kit.notation.read import read
 
 MOST = 10_000

@@ -21,12 +21,11 @@ from matplotlib.figure import Figure
 
 from lsys_kit import LSystemError, animate, check, derive, draw, explain, explore, figure, growth, read, stages, system, write
 from lsys_kit.__main__ import main
-from lsys_kit.classroom import magic, typeset
-from lsys_kit.classroom.exercises.declared.registry import kit_questions
+from lsys_kit.classroom import magic
+from lsys_kit.classroom.exercises.registry import kit_questions
 from lsys_kit.classroom.exercises.verdict import Verdict
-from lsys_kit.classroom.magic import underlined
+from lsys_kit.classroom.magic import shown, underlined
 from lsys_kit.classroom.panel.word_view import word_html
-from lsys_kit.classroom.typeset import shown
 from lsys_kit.notation.model.expressions import Apply, Name, Number
 from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.notation.model.system import Constant, LSystem, Production
@@ -286,7 +285,7 @@ def test_every_sign_that_may_be_a_symbol_is_shown_as_text():
 @pytest.mark.parametrize("text", HOSTILE, ids=ascii)
 def test_outputs_escape_names_of_records_made_by_hand(text):
     shows(made(text))
-    check_html(typeset._box(made(text), text, [text], derive(made(text), 1)))
+    check_html(magic._box(made(text), text, [text], derive(made(text), 1)))
     check_svg(draw(stages(made(text)), tokens=derive(made(text), 1)[-1]).svg)
 
 

@@ -10,19 +10,22 @@ from __future__ import annotations
 import ast
 import re
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import reduce
 from importlib import import_module
 from itertools import product
 from operator import or_
 from pathlib import Path
 from pkgutil import walk_packages
+from typing import Any
 
 import pytest
 
 import lsys_kit
 from lsys_kit.notation.registry import DIALECTS
+from lsys_kit.notation.syntax.diagnostics import _STRETCHES, compiled
 from lsys_kit.notation.syntax.parser import _parser
+from lsys_kit.notation.syntax.wording import KIT_SPELLING
 from tests.pattern_texts import repetitions
 
 Used = tuple[str, str, int, str]
@@ -91,6 +94,25 @@ def _written(node: ast.expr, module: str) -> str:
     )
 
 
+def patterns_of_mistakes() -> Iterator[Used]:
+    """The patterns of the tables of mistakes, but for those of what is near: they see 200 characters."""
+    for dialect in DIALECTS.values():
+        for tables in (KIT_SPELLING.tables, dialect.spelling.tables):
+            for name, rows in tables.get("mistakes", {}).items():
+                for condition, pattern in conditions(rows):
+                    if condition in _STRETCHES:
+                        found = compiled(f"(?s:{pattern})" if condition == "found" else pattern, dialect.spelling)
+                        yield f"{dialect.name}: {name}", found.pattern, found.flags, _STRETCHES[condition][0]
+
+
+def conditions(rows: Iterable[Mapping[str, Any]]) -> Iterator[tuple[str, Any]]:
+    """What rows of mistakes ask for, and their cases."""
+    for row in rows:
+        yield from row.items()
+        if not isinstance(row.get("cases", ""), str):
+            yield from conditions(row["cases"])
+
+
 def tokens() -> Iterator[Used]:
     """The tokens of the grammars."""
     for name, dialect in DIALECTS.items():
@@ -121,7 +143,7 @@ def _seconds(pattern: re.Pattern[str], way: str, text: str) -> float:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("patterns", [named_patterns, patterns_in_calls, tokens])
+@pytest.mark.parametrize("patterns", [named_patterns, patterns_in_calls, patterns_of_mistakes, tokens])
 def test_what_a_pattern_repeats_takes_linear_time(patterns: Callable[[], Iterator[Used]]) -> None:
     used = {each[1:]: each[0] for each in patterns()}
     assert len(used) > 100

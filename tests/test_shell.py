@@ -708,7 +708,7 @@ def test_a_command_that_no_budget_stops_ends_with_a_sentence(doing, limits, said
 )
 def test_each_command_has_the_limits_of_its_kind(command, limited):
     code = (
-        "import resource as r\nfrom lsys_kit.commands.hard_limits import set_hard_limits\n"
+        "import resource as r\nfrom lsys_kit.commands import set_hard_limits\n"
         f"set_hard_limits({command!r})\n"
         "print(*(r.getrlimit(kind)[0] != r.RLIM_INFINITY for kind in (r.RLIMIT_DATA, r.RLIMIT_CPU)))"
     )

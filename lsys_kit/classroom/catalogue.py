@@ -12,6 +12,7 @@ from __future__ import annotations
 import re
 import tomllib
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cache
 from importlib.resources import files
 from importlib.resources.abc import Traversable
@@ -19,18 +20,71 @@ from itertools import groupby
 from types import MappingProxyType
 from typing import Any
 
-from lsys_kit.classroom.catalogue_entry import WORKS, Entry
 from lsys_kit.errors import ModelNameError, ModelValueError
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.dialects.cellwork.dialect import read_cellwork
 from lsys_kit.notation.dialects.map.dialect import read_map
-from lsys_kit.notation.model.cellworks import CellworkSystem
-from lsys_kit.notation.model.maps import MapSystem
+from lsys_kit.notation.model.cells import CellworkSystem, MapSystem
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.notation.read import read
+from lsys_kit.notation.read import AnySystem, read
+
+WORKS = MappingProxyType(
+    {
+        "Jacob": "C. Jacob, Modeling Growth with L-Systems & Mathematica",
+        "textbook": "Lindenmayer Systems (textbook)",
+        "Prusinkiewicz": "P. Prusinkiewicz, Introduction to Modeling with L-systems",
+        "Kurth": "W. Kurth, L-Systeme (lecture slides)",
+        "applet lesson": "Lesson 2 - String Rewriting (lesson of a plant applet)",
+        "ABOP": "P. Prusinkiewicz and A. Lindenmayer, The Algorithmic Beauty of Plants",
+    }
+)
+"""The works from which the systems come, in the order in which the catalogue lists them."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """What the catalogue knows about a system.
+
+    Attributes
+    ----------
+    id, name, title
+        What it is called: "J4", "anabaena-life-spans", and a line of text.
+    work, source
+        A key of `WORKS`, and where in that work the system stands.
+    status
+        "as printed" where the rules stand in the work, "corrected" where the print had to be corrected; "found" where the work
+        has only a picture and the source names where the rules were found, "memory" where they are known from the literature
+        and were not read again, "reconstruction" where they were made for this kit.
+    notation, rules
+        The rules, as text in a notation.
+    errata
+        What is wrong in print, a sentence each.
+    notes
+        What else a reader should know, a sentence each.
+    words
+        The words, maps or cellworks of some steps, where chance has no part in them.
+    lengths
+        The number of modules, or walls, at steps 0, 1, 2, ..., as far as they were checked, where chance has no part in them.
+    same_as
+        The id of the system that this one repeats, or None.
+    """
+
+    id: str
+    name: str
+    title: str
+    work: str
+    source: str
+    status: str
+    notation: str
+    rules: str
+    errata: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
+    words: Mapping[int, str] = field(default_factory=dict, hash=False)
+    lengths: tuple[int, ...] = ()
+    same_as: str | None = None
+
 
 SYSTEMS, BOOK, MAPS, CELLWORKS = "systems", "book", "maps", "cellworks"
-"""The folders."""
 _KINDS = {
     SYSTEMS: ("an L-system", "system"),
     BOOK: ("an L-system", "system"),
@@ -39,7 +93,6 @@ _KINDS = {
 }
 """What each folder holds, and the function that returns it."""
 MOST_LISTED = 40
-"""A message names so many systems at most."""
 _NAME_PATTERN = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
 
 
@@ -84,7 +137,8 @@ def system(id: str) -> LSystem:
     >>> print(system("ABOP-1.24a").productions[0])
     F -> F[+F]F[-F]F
     """
-    return _parsed_system(_known(id, SYSTEMS, BOOK))
+    found: LSystem = _parsed(_known(id, SYSTEMS, BOOK))
+    return found
 
 
 def map_system(id: str) -> MapSystem:
@@ -93,7 +147,8 @@ def map_system(id: str) -> MapSystem:
     >>> print(map_system("k28").productions[0])
     A -> B[-A][+A]B
     """
-    return _parsed_map(_known(id, MAPS))
+    found: MapSystem = _parsed(_known(id, MAPS))
+    return found
 
 
 def cellwork_system(id: str) -> CellworkSystem:
@@ -102,7 +157,8 @@ def cellwork_system(id: str) -> CellworkSystem:
     >>> print(cellwork_system("k33").productions[0])
     P: * -> R [PQ: PR|P|PR, PQ] [PR: QR|Q|QR, PQ] R
     """
-    return read_cellwork(_entry(_known(id, CELLWORKS)).rules)
+    found: CellworkSystem = _parsed(_known(id, CELLWORKS))
+    return found
 
 
 def systems() -> Catalogue:
@@ -154,13 +210,6 @@ def _catalogue(folder: str) -> Catalogue:
 def entry(id: str) -> Entry:
     """What the catalogue knows about a system of any kind, given its id or its name.
 
-    Raises
-    ------
-    ModelNameError
-        No system is called that.
-
-    Examples
-    --------
     >>> entry("P4").words[1]
     'M(2,-1)M(1,1)'
     >>> entry("anabaena-life-spans").id
@@ -169,18 +218,24 @@ def entry(id: str) -> Entry:
     return _entry(_known(id, next((folder for folder in _KINDS if _id_of(id, folder)), SYSTEMS)))
 
 
-def is_map_system(id: str) -> bool:
-    """Whether this is the id or the name of a map system.
+def cell_system(id: str) -> MapSystem | CellworkSystem | None:
+    """The map system or the cellwork system with an id or a name; None, if there is none.
 
-    >>> is_map_system("K28"), is_map_system("map-offset-walls"), is_map_system("P4")
-    (True, True, False)
+    >>> cell_system("K28") == map_system("map-crosswise-divisions"), cell_system("P4")
+    (True, None)
     """
-    return _id_of(id, MAPS) is not None
+    known = next(filter(None, (_id_of(id, folder) for folder in (MAPS, CELLWORKS))), None)
+    found: MapSystem | CellworkSystem | None = _parsed(known) if known else None
+    return found
 
 
-def is_cellwork_system(id: str) -> bool:
-    """Whether this is the id or the name of a cellwork system."""
-    return _id_of(id, CELLWORKS) is not None
+def catalogued(id: str) -> AnySystem:
+    """The system of an id or of a name in the catalogue, of any kind.
+
+    >>> catalogued("K28").axiom == catalogued("K5").axiom
+    False
+    """
+    return cell_system(id) or system(id)
 
 
 def likely_system(id: str, others: Iterable[str] = ()) -> str | None:
@@ -217,7 +272,6 @@ def _listed(ids: Sequence[str]) -> str:
 
 
 def _id_of(id: str, folder: str) -> str | None:
-    """The id of the system that has this id or name, if there is one in the folder."""
     spelt = id.strip().lower() if isinstance(id, str) else ""
     return _ids(folder).get(spelt) or (_ids_by_name(folder).get(spelt) if _NAME_PATTERN.fullmatch(spelt) else None)
 
@@ -238,7 +292,6 @@ def _ids(folder: str) -> Mapping[str, str]:
 
 @cache
 def _ids_by_name(folder: str) -> Mapping[str, str]:
-    """The ids by the names of the systems."""
     return {_entry(id).name: id for id in _ids(folder).values()}
 
 
@@ -257,14 +310,12 @@ def _entry(id: str) -> Entry:
 
 
 @cache
-def _parsed_system(id: str) -> LSystem:
+def _parsed(id: str) -> Any:
     found = _entry(id)
+    for folder, reads in ((MAPS, read_map), (CELLWORKS, read_cellwork)):
+        if id.lower() in _ids(folder):
+            return reads(found.rules)
     return read(found.rules, found.notation)
-
-
-@cache
-def _parsed_map(id: str) -> MapSystem:
-    return read_map(_entry(id).rules)
 
 
 def _natural(id: str) -> list[str | int]:

@@ -61,8 +61,6 @@ def in_child_processes(
 ) -> list[Any]:
     """What comes of each piece: what `work` returns, as JSON keeps it, or why it `Failed`.
 
-    Parameters
-    ----------
     work
         A function of a module, whose results JSON can write.
     pieces
@@ -74,8 +72,6 @@ def in_child_processes(
     together
         So many pieces one child works on, one after another.
 
-    Examples
-    --------
     >>> in_child_processes(len, ["four", "five5"], 10), in_child_processes(len, [5], 10)
     ([4, 5], [Failed(reason='It cannot be worked on (TypeError)')])
     """
@@ -127,7 +123,6 @@ def _start(
 
 
 def _received(connection: Connection, child: _Child) -> Any:
-    """The result that a child has sent, or why none came."""
     try:
         done, result = json.loads(connection.recv_bytes(MOST_BYTES))
     except (EOFError, OSError):

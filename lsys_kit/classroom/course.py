@@ -5,6 +5,9 @@ file that still matches is untouched, and a newer version of the kit may update 
 version is put beside it.
 
 Nothing outside the folder is written: names come from the kit alone, and links in the folder are not followed.
+
+The lessons that come with the kit keep what they show, for people who read them without running them. In a student's copy
+nothing that a lesson will show is there yet, and it says how a cell is run.
 """
 
 from __future__ import annotations
@@ -17,16 +20,15 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import count
 from pathlib import Path, PurePosixPath
+from typing import Any
 
-from lsys_kit.classroom.students_copy import students_copy
 from lsys_kit.errors import ModelFileError
-from lsys_kit.files import replace_file
+from lsys_kit.files import file_errors, replace_file
 
 COURSE_PARTS = ("notebooks", "exercises", "notebooks/reference")
 """The folders of the course: lessons with the gallery, exercises, and the live references of notations and turtle commands. The
 teacher's pages, in `notebooks/teacher`, are not for students and never copied."""
 FOLDER = "lsys_kit_course"
-"""The default folder of the user."""
 MANIFEST = ".lsys_kit_course.json"
 MOST_MANIFEST = 1_000_000
 """The greatest size of a manifest that is read; those written here are far smaller."""
@@ -38,8 +40,6 @@ _FILE_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,80}\.(ipynb|md)")
 class Copied:
     """What became of one file of the course.
 
-    Attributes
-    ----------
     name
         The file, relative to the folder of the course.
     what
@@ -90,35 +90,18 @@ def _home() -> Path:
 def copy_course(folder: str | Path = FOLDER, source: Path | None = None) -> tuple[Copied, ...]:
     """Copy the course into a folder.
 
-    Parameters
-    ----------
     folder
         The user's folder; it is made if necessary.
     source
         Where the course comes from; by default what came with the kit.
-
-    Returns
-    -------
-    tuple of Copied
-        What became of each file. `copy_report` says it in words.
-
-    Raises
-    ------
-    ModelFileError
-        The folder cannot be written to.
     """
     folder, files = Path(folder), course_files(source)
-    try:
+    with file_errors(f"The course cannot be copied to {folder}", hint="Choose another folder: lsys-kit lab FOLDER."):
         for part in dict.fromkeys(str(parent) for name in files for parent in reversed(PurePosixPath(name).parents)):
             _made_folder(folder / part)
         manifest = _manifest(folder)
         copied = tuple(_copied(folder, name, _content(name, path), manifest) for name, path in files.items())
         replace_file(folder / MANIFEST, json.dumps({"files": manifest}, indent=1, sort_keys=True).encode())
-    except OSError as fault:
-        raise ModelFileError(
-            f"The course cannot be copied to {folder}: {fault.strerror or fault}",
-            hint="Choose another folder: lsys-kit lab FOLDER.",
-        ) from None
     return copied
 
 
@@ -207,3 +190,37 @@ def _hash(content: bytes) -> str:
 def _has_content(path: Path, version: str) -> bool:
     """Whether a file, not a link, has exactly that content."""
     return path.is_file() and not path.is_symlink() and _hash(path.read_bytes()) == version
+
+
+HOW_TO_RUN = """\
+**How to work with this page.** Click into a grey box, a *cell*, and press **Shift + Enter**: the cell is run, and what it shows
+appears below it. Run the cells one after another, from the top. To change something, type in the cell and run it again. If
+nothing helps, choose *Kernel* and then *Restart Kernel* in the menu, and begin at the top."""
+"""The text that a student's copy has after its title."""
+HOW_TO_RUN_ID = "how-to-run-a-cell"
+
+
+def students_copy(content: bytes) -> bytes:
+    """A notebook without what its cells show, and with a text on how they are run; anything else as it is.
+
+    >>> cells = [{"cell_type": "markdown", "source": ["# Title"]},
+    ...          {"cell_type": "code", "source": ["1 + 1"], "outputs": [{}], "execution_count": 1}]
+    >>> copy = json.loads(students_copy(json.dumps({"cells": cells}).encode()))
+    >>> [cell.get("outputs") for cell in copy["cells"]], copy["cells"][1]["id"]
+    ([None, None, []], 'how-to-run-a-cell')
+    """
+    try:
+        notebook = json.loads(content)
+        notebook["cells"] = [_unrun(cell) for cell in notebook["cells"]]
+        notebook["cells"].insert(1, _text_cell())
+    except (ValueError, TypeError, KeyError, AttributeError):
+        return content
+    return (json.dumps(notebook, indent=1, ensure_ascii=False, sort_keys=True) + "\n").encode()
+
+
+def _unrun(cell: dict[str, Any]) -> dict[str, Any]:
+    return {**cell, "outputs": [], "execution_count": None} if cell["cell_type"] == "code" else cell
+
+
+def _text_cell() -> dict[str, Any]:
+    return {"cell_type": "markdown", "id": HOW_TO_RUN_ID, "metadata": {}, "source": HOW_TO_RUN.splitlines(keepends=True)}

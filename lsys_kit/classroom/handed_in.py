@@ -11,6 +11,7 @@ from itertools import islice
 from pathlib import Path
 
 from lsys_kit.errors import ModelFileError, quotable
+from lsys_kit.files import file_errors
 
 DEPTH, MOST_FILES = 8, 10_000
 """So deep folders are looked into, and so many files are taken at most."""
@@ -24,8 +25,6 @@ _PASSED_OVER = ("__MACOSX",)
 class HandedIn:
     """A file that somebody has handed in.
 
-    Attributes
-    ----------
     student
         The name of the folder in which it stands, or its own name without its ending.
     name
@@ -47,17 +46,10 @@ def handed_in(folder: str | Path, ending: str = "") -> list[HandedIn]:
 
     A folder in it belongs to one student, with all that is in it; one without files of this ending is listed with that as its
     problem, as are links, which are never followed. Names that begin with a dot are passed over.
-
-    Raises
-    ------
-    ModelFileError
-        There is no such folder, nothing in it, or too much.
     """
     folder = Path(folder)
-    try:
+    with file_errors(f'"{quotable(str(folder))}" cannot be read'):
         found = list(islice((each for entry in _entries(folder) for each in _of_student(entry, ending)), MOST_FILES + 1))
-    except (OSError, ValueError) as fault:
-        raise ModelFileError(f'"{quotable(str(folder))}" cannot be read: {getattr(fault, "strerror", None) or fault}') from None
     if all(each.problem.startswith(_OTHER) for each in found):
         kind = f"whose names end in {ending} " if ending else ""
         raise ModelFileError(f'There are no files {kind}in "{quotable(str(folder))}"')
@@ -75,20 +67,16 @@ def content_of(path: Path, most: int) -> bytes:
         It cannot be read, is a link or no plain file, or has more than so many bytes.
     """
     careful = getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
-    try:
-        with os.fdopen(os.open(path, os.O_RDONLY | careful), "rb") as file:
-            if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
-                raise ModelFileError("It is no plain file")
-            content = file.read(most + 1)
-    except (OSError, ValueError) as fault:
-        raise ModelFileError(f"It cannot be read: {getattr(fault, 'strerror', None) or fault}") from None
+    with file_errors("It cannot be read"), os.fdopen(os.open(path, os.O_RDONLY | careful), "rb") as file:
+        if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
+            raise ModelFileError("It is no plain file")
+        content = file.read(most + 1)
     if len(content) > most:
         raise ModelFileError(f"It has more than {most:,} bytes")
     return content
 
 
 def _of_student(entry: os.DirEntry[str], ending: str) -> Iterator[HandedIn]:
-    """What an entry of the folder holds."""
     path = Path(entry.path)
     if entry.is_dir(follow_symlinks=False):
         yield from _in_folder(path, ending)
@@ -98,7 +86,6 @@ def _of_student(entry: os.DirEntry[str], ending: str) -> Iterator[HandedIn]:
 
 
 def _in_folder(path: Path, ending: str) -> Iterator[HandedIn]:
-    """What the folder of one student holds."""
     try:
         inside = list(_files(path))
     except OSError as fault:
@@ -147,7 +134,6 @@ def _ends(name: str, ending: str) -> bool:
 
 
 def _problem(entry: os.DirEntry[str], ending: str) -> str:
-    """Why an entry cannot be read."""
     if entry.is_symlink():
         return "It is a link, and links are not followed"
     if not _ends(entry.name, ending):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import import_module
 from types import MappingProxyType
@@ -11,16 +11,13 @@ from typing import Any
 from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.errors import ModelNameError, ModelSyntaxError, ModelValueError, require, shown
 from lsys_kit.notation.analysis.checks import suggestion
-from lsys_kit.notation.dialects.cellwork.dialect import CELLWORK, read_cellwork
-from lsys_kit.notation.dialects.map.dialect import MAP, read_map
 from lsys_kit.notation.fragments import LinkContent, is_link, packed, unpacked
 from lsys_kit.notation.model.arithmetic import Value, is_symbolic, number_text
-from lsys_kit.notation.model.cellworks import CellworkSystem
-from lsys_kit.notation.model.maps import MapSystem
+from lsys_kit.notation.model.cells import CellSystem
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.notation.read import read
+from lsys_kit.notation.read import CELL_READERS, AnySystem, read
 from lsys_kit.notation.write import write
-from lsys_kit.pictures.tissues.forces import RANGES
+from lsys_kit.pictures.tissues.chosen import RANGES
 
 STEP, ANGLE, SEED = "step", "angle", "seed"
 """The settings that are no constants."""
@@ -39,25 +36,18 @@ class Linked:
         Exact values by name: perhaps `step`, `angle` and `seed`, and constants of the system. They are what `explore` takes.
     """
 
-    system: LSystem | MapSystem | CellworkSystem
+    system: AnySystem
     settings: Mapping[str, Value]
 
     def __repr__(self) -> str:
         return "\n".join((repr(self.system), *(f"{name} = {number_text(value)}" for name, value in self.settings.items())))
 
     def _repr_mimebundle_(self, **options: object) -> Any:
-        """The panel that the link leads to."""
         explore = import_module("lsys_kit").explore  # imported late: panels make links
         return explore(self.system, **self.settings)._repr_mimebundle_(**options)
 
 
-def link(
-    system: LSystem | MapSystem | CellworkSystem,
-    settings: Mapping[str, object] | None = None,
-    base: str = "",
-    *,
-    step: int | None = None,
-) -> str:
+def link(system: AnySystem, settings: Mapping[str, object] | None = None, base: str = "", *, step: int | None = None) -> str:
     """An address with a model in it, which `read` reads; nothing of it is kept anywhere else.
 
     Parameters
@@ -83,18 +73,18 @@ def link(
 
     Examples
     --------
-    >>> from lsys_kit.classroom.catalogue import system
+    >>> from lsys_kit import system
     >>> there = link(system("T2"), {"step": 4}, "https://example.org/panel.html")
     >>> there.partition("=")[0], len(there) < 150, read(there) == system("T2"), dict(linked(there).settings)
     ('https://example.org/panel.html#lsys', True, True, {'step': 4})
     """
-    require(system, (LSystem, MapSystem, CellworkSystem), "A system")
+    require(system, (LSystem, CellSystem), "A system")
     require(base, str, "The address of a page")
     require(settings, (Mapping, type(None)), "A mapping of settings")
     wanted = {**(settings or {}), **({} if step is None else {STEP: step})}
     given = {name: number_text(value) for name, value in _values(system, wanted).items()}
     _values(system, given)  # which raises an error if a number is too long to be read again
-    notation, text = (system.notation, write(system)) if isinstance(system, LSystem) else _cells_text(system)
+    notation, text = system.notation, write(system) if isinstance(system, LSystem) else _cells_text(system)
     address = base.partition("#")[0] + packed(LinkContent(notation, given, text))
     if not base.isprintable() or not is_link(address):
         raise ModelValueError(
@@ -128,11 +118,7 @@ Links are made by link(system).
             'This text is no link: it has no model behind "#lsys="', link, 0, len(link), "Links are made by link(system)."
         )
     content = unpacked(link)
-    readers: dict[str, Callable[[str], LSystem | MapSystem | CellworkSystem]] = {
-        MAP.name: read_map,
-        CELLWORK.name: read_cellwork,
-    }
-    system = readers.get(content.notation, read)(link)
+    system = CELL_READERS.get(content.notation, read)(link)
     return Linked(system, MappingProxyType(_values(system, content.settings)))
 
 
@@ -146,7 +132,7 @@ def settings_given(step: object, angle: object, seed: object) -> dict[str, objec
     return {name: value for name, value in ((STEP, step), (ANGLE, angle), (SEED, None if usual else seed)) if value is not None}
 
 
-def _values(system: LSystem | MapSystem | CellworkSystem, settings: Mapping[str, object]) -> dict[str, Value]:
+def _values(system: AnySystem, settings: Mapping[str, object]) -> dict[str, Value]:
     """The exact values of settings, if the system has them."""
     constants = [constant.name for constant in system.constants] if isinstance(system, LSystem) else [*RANGES]
     for name in settings:
@@ -165,9 +151,9 @@ def _value(name: str, given: object) -> Value:
     return value
 
 
-def _cells_text(system: MapSystem | CellworkSystem) -> tuple[str, str]:
-    """The notation and the text of a map system or a cellwork system, if it reads back."""
-    text, name = str(system), MAP.name if isinstance(system, MapSystem) else CELLWORK.name
-    if (read_map(text) if isinstance(system, MapSystem) else read_cellwork(text)) != system:
-        raise ModelValueError(f"This {name} system cannot be written so that it reads back")
-    return name, text
+def _cells_text(system: CellSystem) -> str:
+    """The text of a map system or a cellwork system, if it reads back."""
+    text = str(system)
+    if CELL_READERS[system.notation](text) != system:
+        raise ModelValueError(f"This {system.notation} system cannot be written so that it reads back")
+    return text

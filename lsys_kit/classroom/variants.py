@@ -98,7 +98,6 @@ def _changed(system: LSystem, chance: Chance) -> LSystem | None:
 
 
 def _one_of(chance: Chance, choices: Sequence[_T]) -> _T:
-    """One of some things, each equally likely."""
     return choices[int(chance.unit() * len(choices))]
 
 
@@ -145,7 +144,6 @@ def _copied(items: Successor, chance: Chance) -> Successor | None:
 
 
 def _left_out(items: Successor, chance: Chance) -> Successor | None:
-    """A module or a branch is gone."""
     parts = [(start, stop) for start, stop in _parts(items) if stop - start < len(items)]
     if not parts:
         return None
@@ -154,7 +152,6 @@ def _left_out(items: Successor, chance: Chance) -> Successor | None:
 
 
 def _other_way(items: Successor, chance: Chance) -> Successor | None:
-    """A turn goes the other way."""
     turns = [place for place, item in enumerate(items) if isinstance(item, Pattern) and item.symbol in _OTHER_WAY]
     if not turns:
         return None
@@ -174,7 +171,6 @@ def _branched(items: Successor, chance: Chance) -> Successor | None:
 
 
 def _other_number(items: Successor, chance: Chance) -> Successor | None:
-    """A number is a little greater or less."""
     numbers = [number for item in items for number in _numbers_in(item) if number.value]
     if not numbers:
         return None

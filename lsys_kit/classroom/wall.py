@@ -12,7 +12,7 @@ import base64
 import re
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from math import ceil
 from pathlib import Path
@@ -24,20 +24,18 @@ from lsys_kit.classroom.child_processes import Failed, in_child_processes
 from lsys_kit.classroom.handed_in import HandedIn, content_of, handed_in
 from lsys_kit.classroom.link import ANGLE, SEED, STEP, Linked, linked
 from lsys_kit.classroom.panel.document import document
-from lsys_kit.classroom.panel.opened.opened import read_any
-from lsys_kit.decoding import decoded
+from lsys_kit.derivation.core.rules import with_constants
 from lsys_kit.errors import LSystemError, ModelFileError, ModelLimitError, quotable
+from lsys_kit.files import decoded
 from lsys_kit.notation.fragments import MARK, is_link
-from lsys_kit.notation.model.expressions import Number
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.notation.read import read_word
+from lsys_kit.notation.read import read_any, read_word
 from lsys_kit.notation.registry import DIALECTS
 from lsys_kit.notation.write import write
 from lsys_kit.pictures.draw import draw
 from lsys_kit.pictures.style.labels import escaped
 
 MOST_TILES = 1_000
-"""So many plants a page shows."""
 MOST_CHARACTERS = 50_000_000
 """So many characters of models are taken together."""
 BUDGET = {"modules": 300_000, "bytes": 2**27, "segments": 2_000}
@@ -68,8 +66,6 @@ class Given:
 class Tile:
     """A plant on the wall.
 
-    Attributes
-    ----------
     name
         Whose it is.
     picture, description, rules
@@ -86,13 +82,7 @@ class Tile:
 
 
 def wall(folder: str | Path) -> list[Tile]:
-    """What stands in a folder, drawn: files with a model, or with links, one a line, perhaps with a name before each.
-
-    Raises
-    ------
-    ModelFileError
-        There is no such folder, nothing in it, or more than a page shows.
-    """
+    """What stands in a folder, drawn: files with a model, or with links, one a line, perhaps with a name before each."""
     given = [each for file in handed_in(folder) for each in models_in(file)]
     if len(given) > MOST_TILES or sum(len(each.text) for each in given) > MOST_CHARACTERS:
         raise ModelFileError(
@@ -192,16 +182,10 @@ def _steps(model: Linked) -> int | None:
 
 
 def _with_constants(model: Linked) -> Any:
-    """The system, with the constants of a link in place of its own."""
     if not isinstance(model.system, LSystem):
         return model.system
-    return replace(
-        model.system,
-        constants=tuple(
-            replace(each, value=Number(model.settings[each.name])) if each.name in model.settings else each
-            for each in model.system.constants
-        ),
-    )
+    names = {constant.name for constant in model.system.constants}
+    return with_constants(model.system, {name: value for name, value in model.settings.items() if name in names})
 
 
 def _choices(model: Linked) -> dict[str, Any]:
@@ -211,7 +195,6 @@ def _choices(model: Linked) -> dict[str, Any]:
 
 
 def _described(model: Linked, picture: str) -> str:
-    """The step and what is seen of it."""
     steps = model.settings.get(STEP, getattr(model.system, "steps", None))
     return picture if steps is None or "step" in picture else f"step {steps}; {picture}"
 

@@ -22,11 +22,9 @@ class KitWidget(Unfinalized, anywidget.AnyWidget):  # type: ignore[misc]
         return {"text/plain": repr(self)}
 
     def _repr_mimebundle_(self, **options: object) -> dict[str, Any]:
-        """The live widget, and what a page without a kernel shows."""
         bundle = super()._repr_mimebundle_(**options)
         return {**dict(bundle[0] if isinstance(bundle, tuple) else bundle or {}), **self._stored()}
 
     def close(self) -> None:
-        """Close the widget, and what the browser keeps of it."""
         self.layout.close()
         super().close()

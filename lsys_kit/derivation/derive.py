@@ -1,6 +1,9 @@
 """Derivation: from the axiom to the word of any step.
 
 A `Derivation` asks its engine for one step after another, within the limits of size and time, and keeps the steps that fit.
+Which engine derives a system follows from the system's traits, and from nothing else: each engine serves the systems that ask
+for no more than the traits in its row of the table. The first that serves a system is the fastest for it. Those further down
+serve it as well, and must give the same words: the laws in the tests compare them.
 """
 
 from __future__ import annotations
@@ -8,21 +11,48 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from operator import index as place
+from types import MappingProxyType
 from typing import Any, TypeAlias, overload
 
 from lsys_kit.budget import Task, check_budget, counted
-from lsys_kit.derivation.cellworks.development import CellworkDevelopment, develop_cellwork
-from lsys_kit.derivation.core.closure import check_d0l
-from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.core.states import States, check_d0l
+from lsys_kit.derivation.core.traits import ANY, D0L, S0L, Traits
 from lsys_kit.derivation.core.words import Word
-from lsys_kit.derivation.engines.counting import next_counts
+from lsys_kit.derivation.engines.columnar import ColumnarSteps
+from lsys_kit.derivation.engines.contexts import ContextEngine
+from lsys_kit.derivation.engines.counting import CountingEngine, next_counts
 from lsys_kit.derivation.engines.engine import Engine, Observation, Observer, Origins, check_size
-from lsys_kit.derivation.engines.table import engine_for
-from lsys_kit.derivation.maps.development import Development, develop
+from lsys_kit.derivation.engines.stepping import SteppingEngine
+from lsys_kit.derivation.engines.stepwise import Stepper
+from lsys_kit.derivation.tissues.development import CellDevelopment, CellworkDevelopment, Development, develop
 from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown, whole_number
-from lsys_kit.notation.model.cellworks import CellworkSystem
-from lsys_kit.notation.model.maps import MapSystem
+from lsys_kit.notation.model.cells import CellSystem, CellworkSystem, MapSystem
 from lsys_kit.notation.model.system import LSystem
+
+ENGINES: Mapping[type, Traits] = MappingProxyType(
+    {ColumnarSteps: Traits(), CountingEngine: D0L, ContextEngine: S0L._replace(context=1, meta=True), Stepper: ANY}
+)
+"""The most that a system may have to be derived in columns, by counting, by arrays, and module by module."""
+
+
+def serves(engine: type, traits: Traits) -> bool:
+    """Whether an engine can derive systems with some traits.
+
+    >>> serves(CountingEngine, Traits(decomposition=True)), serves(CountingEngine, Traits(stochastic=True))
+    (True, False)
+    """
+    return traits.within(ENGINES[engine])
+
+
+def engine_for(states: States, seed: int, world: Observer | None = None) -> Engine:
+    """The engine that derives a system; where it asks what the turtle sees, in a world that answers."""
+    traits = states.traits
+    if serves(CountingEngine, traits):
+        return CountingEngine(states, serves(ColumnarSteps, traits))
+    stepper = Stepper(states, seed)
+    arrays = ContextEngine(stepper) if serves(ContextEngine, traits) else None
+    return SteppingEngine(stepper, arrays, world if traits.sensitive else None)
+
 
 _Refusal: TypeAlias = ModelLimitError | ModelValueError
 """Why a step is not made."""
@@ -36,53 +66,21 @@ def derive(
 def derive(system: MapSystem, steps: int) -> Development: ...
 @overload
 def derive(system: CellworkSystem, steps: int) -> CellworkDevelopment: ...
-def derive(system: Any, steps: int, **choices: Any) -> Derivation | Development | CellworkDevelopment:
+def derive(system: Any, steps: int, **choices: Any) -> Derivation | CellDevelopment[Any, Any]:
     """Derive a system by its words alone; `lsys_kit.derive` does the same and also answers what modules ask of the turtle.
 
-    Parameters
-    ----------
-    system
-        Any L-system; or a map system or a cellwork system, whose maps or cellworks are derived and which take none of the
-        choices below.
-    steps
-        How many steps.
-    seed
-        The seed of all random numbers: the same seed gives the same words on every machine. By default the system's, else 0.
-    arithmetic
-        "exact", or "float" to compute in doubles as cpfg and L-Py do.
-    **choices
-        New values for declared constants: numbers, or texts such as "14/10".
-
-    Returns
-    -------
-    Derivation
-        A sequence of `steps + 1` words. A word is built when it is first asked for, `[-1]` without those in between. For a
-        map system a `Development`, a sequence of `steps + 1` maps; for a cellwork system a `CellworkDevelopment`.
-
-    Raises
-    ------
-    ModelLimitError
-        A step would be too large; the error gives the step, the size and, in `partial`, the derivation of the steps that fit.
-    ModelValueError
-        A value cannot be computed; the error names the module and the production.
-
-    Examples
-    --------
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> fibonacci = read("axiom: a\\na -> ab\\nb -> a")
     >>> [str(word) for word in derive(fibonacci, 3)]
     ['a', 'a b', 'a b a', 'a b a a b']
-    >>> derive(fibonacci, 30).lengths[-1]
-    2178309
     """
-    if not isinstance(system, MapSystem | CellworkSystem):
+    if not isinstance(system, CellSystem):
         return derive_observed(system, steps, None, **choices)
     if choices:
-        kind = "map" if isinstance(system, MapSystem) else "cellwork"
         raise ModelValueError(
-            f'A {kind} system has no "{next(iter(choices))}"', hint="It has neither chance nor declared constants."
+            f'A {system.notation} system has no "{next(iter(choices))}"', hint="It has neither chance nor declared constants."
         )
-    return develop(system, steps) if isinstance(system, MapSystem) else develop_cellwork(system, steps)
+    return develop(system, steps)
 
 
 def derive_observed(
@@ -119,13 +117,7 @@ class Derivation(Sequence[Word]):
         self.states = engine.states
 
     def to(self, steps: int) -> Derivation:
-        """The same derivation up to another step; known steps are not computed again.
-
-        Raises
-        ------
-        ModelLimitError
-            A step would be too large.
-        """
+        """The same derivation up to another step; known steps are not computed again."""
         last, reached = whole_number(steps, "The number of steps"), 0
         try:
             with Task(lambda: f"Step {reached} was not reached"):
@@ -143,7 +135,6 @@ class Derivation(Sequence[Word]):
             check_size(self.states, step, self._engine.size(step))
 
     def _refusal(self, error: _Refusal, step: int) -> _Refusal:
-        """The error, with the steps that were finished."""
         error.partial = Derivation(self._engine, step - 1) if step else None
         kept = f"Steps 0-{step - 1} are kept. " if step > 1 else "Step 0 is kept. " if step else ""
         return error.with_hint(kept + (error.hint or ""))
@@ -180,7 +171,7 @@ class Derivation(Sequence[Word]):
     def notes(self) -> tuple[str, ...]:
         """Remarks: names that were read as several symbols, values that are no longer exact.
 
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> derive(read("axiom: F(0)\\nF(x) -> F(x^2 + 0.1)"), 8).notes
         ('From step 7 on values outgrow 128 bits and are doubles, such as F(0.11270011762177155).',)
         """
@@ -196,7 +187,6 @@ class Derivation(Sequence[Word]):
         return self._engine.counts(self._reached(step))
 
     def _reached(self, step: int) -> int:
-        """A step that the derivation has."""
         found = whole_number(step, "The step")
         if found > self.steps:
             raise ModelValueError(f"A derivation of {self.steps} steps has no step {shown(step)}")
@@ -205,7 +195,7 @@ class Derivation(Sequence[Word]):
     def origins(self, step: int) -> Origins:
         """Where the modules of a step's word come from: which module of the previous word, and which production.
 
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> derive(read("axiom: a\\na -> ab\\nb -> a"), 2).origins(2)
         Origins(parents=[0, 0, 1], productions=[0, 0, 1])
         """
@@ -228,7 +218,7 @@ class Derivation(Sequence[Word]):
     def ancestors(self, step: int, before: int = 0) -> list[int]:
         """For each module of a step's word the position of its ancestor in the word of an earlier step.
 
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> derive(read("axiom: b a\\na -> ab\\nb -> a"), 3).ancestors(3)
         [0, 0, 0, 1, 1, 1, 1, 1]
         """
@@ -253,7 +243,7 @@ class Derivation(Sequence[Word]):
 
         Examples
         --------
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> derive(read("axiom: a\\na -> ab\\nb -> a"), 3).column(centred=True)
         0     a
         1    a b
@@ -280,14 +270,9 @@ class Column(str):
 def lengths(system: LSystem, steps: int, *, arithmetic: str = "exact", **constants: object) -> Iterator[int]:
     """The number of modules at steps 0 to `steps`, however large, without building a word.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> len(str(list(lengths(read("axiom: a\\na -> ab\\nb -> a"), 10_000))[-1]))
     2090
-
-    Raises
-    ------
-    ModelLimitError
-        Counting takes too long, since there are too many different modules.
     """
     states, counting = States(system, constants, arithmetic), Task()
     check_d0l(states, "The number of modules of a step that is not derived")

@@ -91,8 +91,7 @@ def explain(derivation: Derivation, step: int) -> Explanation:
 
     Examples
     --------
-    >>> from lsys_kit.derivation.derive import derive
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import derive, read
     >>> explain(derive(read("axiom: b a\\nb < a -> b\\na -> c"), 1), 1)
     1. b becomes b: no production is for b
     2. a becomes b: production 1, b < a -> b
@@ -206,7 +205,6 @@ def _others_missing(system: LSystem, old: ParentWord, position: int, rule: Rule)
 
 
 def _context_missing(system: LSystem, old: ParentWord, position: int, rule: Rule) -> str:
-    """Which context a module lacks."""
     assert old.around is not None
     word = dialect_named(system.notation).word
     left = neighbours_along(old.around.before, position, len(rule.left))

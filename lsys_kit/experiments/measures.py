@@ -17,7 +17,6 @@ from lsys_kit.derivation.growth.growth import growth
 from lsys_kit.errors import LSystemError, ModelNameError, ModelValueError, shown
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.notation.analysis.checks import suggestion
-from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.system import LSystem, symbols
 from lsys_kit.pictures.style.labels import polar_symbols
 
@@ -35,16 +34,9 @@ class Measure(NamedTuple):
 
 
 def measures_of(asked: Asked, system: LSystem) -> tuple[Measure, ...]:
-    """The measures that a person asks for.
+    """The measures that a person asks for: names of measures or symbols of the system, or functions; no name stands twice.
 
-    Raises
-    ------
-    ModelNameError
-        A name is neither that of a measure nor a symbol of the system, or stands twice.
-
-    Examples
-    --------
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> [each.name for each in measures_of(["height", "F"], read("axiom: F"))]
     ['height', 'F']
     """
@@ -60,14 +52,12 @@ def measures_of(asked: Asked, system: LSystem) -> tuple[Measure, ...]:
     return found
 
 
-def _named(asked: Any) -> Iterator[tuple[str, object]]:
-    """Measures with the names of their columns."""
+def _named(asked: object) -> Iterator[tuple[str, object]]:
     for each in asked if isinstance(asked, list | tuple) else (asked,):
         yield from _with_names(each)
 
 
-def _with_names(asked: Any) -> Iterator[tuple[str, object]]:
-    """One measure, or several by their names."""
+def _with_names(asked: object) -> Iterator[tuple[str, object]]:
     if isinstance(asked, Mapping):
         for name, each in asked.items():
             if not isinstance(name, str):
@@ -102,7 +92,7 @@ def _function(name: str, asked: object, system: LSystem) -> Callable[[Any], obje
 def symbols_named(name: str, system: LSystem) -> frozenset[str]:
     """The symbol with a name, or both polarities of a cell.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> sorted(symbols_named("a", read("axiom: ar\\nar -> al b\\nal -> b ar")))
     ['al', 'ar']
     """
@@ -123,36 +113,20 @@ def _modules(what: Measurable) -> int:
     return len(what) if isinstance(what, Word) else sum(what.counts(what.steps).values())
 
 
-def _cells(what: Measurable) -> int:
-    return len(scene_of(what).cells)
-
-
-def _strokes(what: Measurable) -> int:
-    return len(scene_of(what).segments)
-
-
-def _height(what: Measurable) -> float:
-    return scene_of(what).height
-
-
-def _width(what: Measurable) -> float:
-    return scene_of(what).width
-
-
 def _rate(what: Measurable) -> float:
-    states = what.states
-    names = [constant.name for constant in states.system.constants]
-    values: Mapping[str, Value] = dict(zip(names, states.constants, strict=True))
-    return growth(states.system, **values).rate
+    system = what.states.system
+    return growth(
+        system, **{each.name: value for each, value in zip(system.constants, what.states.constants, strict=True)}
+    ).rate
 
 
 MEASURES: Mapping[str, Callable[[Measurable], float]] = {
     "modules": _modules,
     "length": _modules,
-    "cells": _cells,
-    "strokes": _strokes,
-    "height": _height,
-    "width": _width,
+    "cells": lambda what: len(scene_of(what).cells),
+    "strokes": lambda what: len(scene_of(what).segments),
+    "height": lambda what: scene_of(what).height,
+    "width": lambda what: scene_of(what).width,
     "rate": _rate,
 }
 """The quantities that have names: the number of modules, which is the length of the word; the cells of a filament and the
@@ -161,7 +135,6 @@ strokes of the turtle; the extent of the drawing in the units of the model; the 
 
 
 def _called(name: str, function: Callable[[Any], object], what: Measurable) -> object:
-    """What a person's function says of a derivation."""
     try:
         return number(function(what), name)
     except LSystemError:

@@ -5,28 +5,27 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from itertools import islice
-from typing import Any
+from typing import Any, NamedTuple
 
 from lsys_kit.budget import Task, counted
 from lsys_kit.derivation.core.rules import number_from
+from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.growth.growth import Growth
-from lsys_kit.derivation.maps.development import Development
+from lsys_kit.derivation.petri.net import Place
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.derivation.timed.timed import Timed
+from lsys_kit.derivation.tissues.development import Development
 from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError, require, shown, whole_number
-from lsys_kit.experiments.charts import column_label, measured_label
 from lsys_kit.experiments.measures import Asked, Measure, measures_of
-from lsys_kit.experiments.table import Table
-from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
-from lsys_kit.notation.model.arithmetic import is_symbolic
-from lsys_kit.notation.model.maps import MapSystem
+from lsys_kit.experiments.table import Table, column_label, measured_label
+from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
+from lsys_kit.notation.model.arithmetic import Value, is_symbolic
+from lsys_kit.notation.model.cells import MapSystem
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem, symbols
-from lsys_kit.pictures.plots.bars import Share, ShareChart
-from lsys_kit.pictures.plots.chart import Axis, Plot, finite, name_label
-from lsys_kit.pictures.plots.curves import Curve, CurveChart
+from lsys_kit.pictures.plots.chart import Axis, Curve, CurveChart, Plot, Share, ShareChart, finite, name_label
 from lsys_kit.pictures.plots.lettering import literal, mathematics
 from lsys_kit.pictures.style.labels import label_parts, place_parts, polar_symbols, values_text
 from lsys_kit.pictures.style.palette import BLUE, SERIES, colour_of
@@ -73,7 +72,7 @@ def plot(what: Any, n: Any = None, measure: Asked | None = None, *, log: bool = 
 
     Examples
     --------
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> alga = read("axiom: a\\na -> a b\\nb -> a")
     >>> plot(alga, 12)
     2 curves (a, b) of modules, step n from 0 to 12, largest 233
@@ -82,34 +81,29 @@ def plot(what: Any, n: Any = None, measure: Asked | None = None, *, log: bool = 
     """
     require(log, bool, 'True or False for "log"')
     with Task("The plot was not made"):
-        return _plot(what, n, measure, log, choices)
+        if isinstance(what, Table):
+            _refuse(choices, n, "A table has its steps and constants")
+            column: Any = measure
+            return what.plot(column, log)
+        if isinstance(what, Stages | Growth):
+            _refuse(choices, None if isinstance(what, Stages) else n, "Its constants are those of the system it was made of")
+            if measure is not None or log:
+                raise ModelValueError("Of stages the frequencies are shown, and nothing else is measured")
+            return Plot(_stage_shares(what, n) if isinstance(what, Stages) else _long_run(what))
+        if isinstance(what, MapSystem | Development):
+            return Plot(_map_chart(what, n, measure, log, choices))
+        return Plot(_curve_chart(what, n, measure, log, choices))
 
 
-def _plot(what: Any, n: Any, measure: Any, log: bool, choices: dict[str, Any]) -> Plot:
-    if isinstance(what, Table):
-        _refuse(choices, n, "A table has its steps and constants")
-        return what.plot(measure, log)
-    if isinstance(what, Stages | Growth):
-        _refuse(choices, None if isinstance(what, Stages) else n, "Its constants are those of the system it was made of")
-        if measure is not None or log:
-            raise ModelValueError("Of stages the frequencies are shown, and nothing else is measured")
-        return Plot(_stage_shares(what, n) if isinstance(what, Stages) else _long_run(what))
-    if isinstance(what, MapSystem | Development):
-        return Plot(_map_chart(what, n, measure, log, choices))
-    return Plot(_curve_chart(what, n, measure, log, choices))
-
-
-def _refuse(choices: Mapping[str, Any], n: object, why: str) -> None:
+def _refuse(choices: Mapping[str, object], n: object, why: str) -> None:
     if choices or n is not None:
         name = next(iter(choices), "n")
         raise ModelNameError(f'{why}: there is no choice "{name}" here')
 
 
-def _curve_chart(what: Any, n: Any, measure: Any, log: bool, choices: dict[str, Any]) -> CurveChart:
-    """Curves of one system, or of several."""
+def _curve_chart(what: object, n: object, measure: Asked | None, log: bool, choices: dict[str, Any]) -> CurveChart:
     if not isinstance(what, Mapping):
-        run = _run(what, n, choices)
-        return _chart_of_runs([("", run)], measure, log)
+        return _chart_of_runs([("", _run(what, n, choices))], measure, log)
     if not what:
         raise ModelValueError("There is nothing to plot", hint='Name what is compared: {"with": ..., "without": ...}.')
     runs = [(_name_label(str(name)), _run(each, n, choices)) for name, each in islice(what.items(), MOST_CURVES + 1)]
@@ -120,15 +114,18 @@ def _curve_chart(what: Any, n: Any, measure: Any, log: bool, choices: dict[str, 
     return _chart_of_runs(runs, measure, log)
 
 
-class _Course:
+class _Course(NamedTuple):
     """A timed system up to a time."""
 
-    def __init__(self, system: Timed, end: Any) -> None:
-        self.system, self.end, self.states = system, end, system.states
+    system: Timed
+    end: Value
+
+    @property
+    def states(self) -> States:
+        return self.system.states
 
 
-def _run(what: Any, n: Any, choices: dict[str, Any]) -> Derivation | _Course:
-    """What is measured: a derivation, or a timed system up to a time."""
+def _run(what: object, n: object, choices: dict[str, Any]) -> Derivation | _Course:
     if isinstance(what, Timed):
         _refuse(choices, None, "The constants of a timed system are chosen when it is made")
         end = number_from(5 if n is None else n, "n")
@@ -148,22 +145,24 @@ def _run(what: Any, n: Any, choices: dict[str, Any]) -> Derivation | _Course:
     return derive(what, steps, **choices)
 
 
-def _chart_of_runs(runs: Sequence[tuple[str, Any]], measure: Any, log: bool) -> CurveChart:
+def _chart_of_runs(runs: Sequence[tuple[str, Derivation | _Course]], measure: Asked | None, log: bool) -> CurveChart:
     """The curves of some runs, of which one may be measured in several ways."""
-    first = runs[0][1]
+    first, several = runs[0][1], len(runs) > 1
     course = isinstance(first, _Course)
-    asked = measure if measure is not None else "width" if course else "length" if len(runs) > 1 else _kinds(first)
+    asked = measure
+    if asked is None:
+        asked = "width" if isinstance(first, _Course) else "length" if several else _kinds(first)
     curves: list[Curve] = []
-    names: list[str] = []
+    names = []
     for name, run in runs:
         measures = measures_of(asked, run.states.system)
         names = [each.name for each in measures]
-        if len(runs) > 1 and len(names) > 1:
+        if several and len(names) > 1:
             raise ModelValueError("Of several systems one thing is measured", hint=f'Choose one: measure="{names[0]}".')
-        points = _points(run, measures)
-        for each, along in zip(measures, points, strict=True):
-            label = name if len(runs) > 1 else _measure_label(each.name, run.states.system) if len(names) > 1 else ""
-            curves.append(Curve(along, _colour(each.name, run.states.system, len(curves), len(runs)), label))
+        system = run.states.system
+        for each, along in zip(names, _points(run, measures), strict=True):
+            label = name if several else _measure_label(each, system) if len(names) > 1 else ""
+            curves.append(Curve(along, _colour(each, system, len(curves), several), label))
     counts = all(value == int(value) for curve in curves for _, value in curve.points)
     up = measured_label(names[0]) if len(names) == 1 else "modules" if measure is None else "value"
     if names == ["width"] and all(drawing_mode(run.states.system) is DrawingMode.FILAMENT for _, run in runs):
@@ -183,13 +182,12 @@ def _name_label(name: str) -> str:
 
 
 def _points(run: Derivation | _Course, measures: Sequence[Measure]) -> list[tuple[tuple[float, float], ...]]:
-    """For each measure its values at all steps or moments."""
     if isinstance(run, Derivation):
         places: list[Any] = [*range(len(run))]
         seen = [run.to(step) for step in counted(places, 1)]
     else:
         timed, grid = run.system, [run.end * Fraction(place, MOMENTS) for place in range(MOMENTS + 1)]
-        words: dict[Any, tuple[Word, ...]] = {place: (timed.word(place),) for place in counted(grid, 1)}
+        words: dict[Value, tuple[Word, ...]] = {place: (timed.word(place),) for place in counted(grid, 1)}
         words |= {moment: timed.around(moment) for moment in counted(islice(timed.divisions(run.end), MOMENTS), 1)}
         places, seen = map(list, zip(*((place, word) for place in sorted(words) for word in words[place]), strict=True))
     found = [finite([each.value(one) for one in counted(seen, 1)], f'The measure "{each.name}"') for each in measures]
@@ -200,38 +198,26 @@ def _kinds(run: Derivation) -> list[str]:
     """The kinds of modules that occur, if their curves can be told apart; else all modules together."""
     system, modules = run.states.system, run.states.modules
     met = {modules[state].symbol for step in counted(range(len(run)), 1) for state in run.counts(step)}
-    pairs = polar_symbols(system)
-    kinds = [
-        *dict.fromkeys(
-            pairs[symbol][0] if symbol in pairs else symbol
-            for symbol in symbols(system)
-            if symbol in met and symbol[0].isalnum()
-        )
-    ]
+    shown = [symbol for symbol in symbols(system) if symbol in met and symbol[0].isalnum()]
+    kinds = [*dict.fromkeys(polar_symbols(system).get(symbol, (symbol, ""))[0] for symbol in shown)]
     return kinds if 1 <= len(kinds) <= MOST_CURVES else ["modules"]
 
 
 def _measure_label(name: str, system: LSystem) -> str:
-    """The label of a curve among several of one system."""
-    return (
-        mathematics(*label_parts(name, system))
-        if name in symbols(system) or name[:1].isupper()
-        else measured_label(name).removeprefix("number of ")
-    )
+    if name in symbols(system) or name[:1].isupper():
+        return mathematics(*label_parts(name, system))
+    return measured_label(name).removeprefix("number of ")
 
 
-def _colour(name: str, system: LSystem, place: int, runs: int) -> str:
+def _colour(name: str, system: LSystem, place: int, several: bool) -> str:
     """The colour of a symbol for its counts; else the next one."""
-    if runs == 1 and (
-        members := [symbol for symbol, (letter, _) in polar_symbols(system).items() if letter == name]
-        or [symbol for symbol in symbols(system) if symbol == name]
-    ):
-        return colour_of(members[0], system)
-    return BLUE if runs == 1 and place == 0 else SERIES[place % len(SERIES)]
+    polar = [symbol for symbol, (letter, _) in polar_symbols(system).items() if letter == name]
+    if not several and (polar or name in symbols(system)):
+        return colour_of(polar[0] if polar else name, system)
+    return BLUE if not several and place == 0 else SERIES[place % len(SERIES)]
 
 
-def _map_chart(what: MapSystem | Development, n: Any, measure: Any, log: bool, choices: Mapping[str, Any]) -> CurveChart:
-    """The cells and walls of a map system."""
+def _map_chart(what: MapSystem | Development, n: Any, measure: object, log: bool, choices: Mapping[str, object]) -> CurveChart:
     _refuse(choices, n if isinstance(what, Development) else None, "A map system has no constants")
     if measure is not None:
         raise ModelValueError("Of a map system cells and walls are counted, and nothing else is measured")
@@ -242,17 +228,12 @@ def _map_chart(what: MapSystem | Development, n: Any, measure: Any, log: bool, c
     return CurveChart(curves, Axis(column_label("step"), True), Axis("number", True, log))
 
 
-def _stage_shares(net: Stages, n: Any) -> ShareChart:
-    """The share of each stage at a step."""
+def _stage_shares(net: Stages, n: object) -> ShareChart:
     system = net.system
     steps = whole_number(n, "The step") if n is not None else DEFAULT_STEPS if system.steps is None else system.steps
     amounts = finite(net.expected(steps), "A stage")
     labels = [mathematics(*place_parts(place, system)) for place in net.places]
-    return _shares(
-        list(zip(labels, amounts, (colour_of(place.symbol, system) for place in net.places), strict=True)),
-        f"at step {steps:,}",
-        "stages",
-    )
+    return _shares(labels, amounts, net.places, system, f"at step {steps:,}", "stages")
 
 
 def _long_run(found: Growth) -> ShareChart:
@@ -264,22 +245,19 @@ def _long_run(found: Growth) -> ShareChart:
             hint="Look at a step: plot(stages(system), 20).",
         )
     system = found.table.system
-    labels = [_module_label(module, system) for module in found.states]
-    return _shares(
-        list(zip(labels, shares, (colour_of(module.symbol, system) for module in found.states), strict=True)),
-        "in the long run",
-        "states",
-    )
+    labels = [mathematics(*label_parts(module.symbol, system), values_text(module)) for module in found.states]
+    return _shares(labels, shares, found.states, system, "in the long run", "states")
 
 
-def _module_label(module: Module, system: LSystem) -> str:
-    return mathematics(*label_parts(module.symbol, system), values_text(module))
-
-
-def _shares(found: Sequence[tuple[str, float, str]], when: str, kinds: str) -> ShareChart:
-    whole = sum(amount for _, amount, _ in found)
+def _shares(
+    labels: Sequence[str], amounts: Sequence[float], kinds: Sequence[Place | Module], system: LSystem, when: str, name: str
+) -> ShareChart:
+    whole, many = sum(amounts), len(kinds)
     if not whole:
         raise ModelValueError(f"There is no module {when}")
-    if len(found) > 40:
-        raise ModelLimitError(f"A plot shows at most 40 {kinds}, and here are {len(found):,}", limit=40, needed=len(found))
-    return ShareChart(tuple(Share(label, amount / whole, colour) for label, amount, colour in found), when, kinds)
+    if many > 40:
+        raise ModelLimitError(f"A plot shows at most 40 {name}, and here are {many:,}", limit=40, needed=many)
+    shares = zip(labels, amounts, kinds, strict=True)
+    return ShareChart(
+        tuple(Share(label, amount / whole, colour_of(kind.symbol, system)) for label, amount, kind in shares), when, name
+    )

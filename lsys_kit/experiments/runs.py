@@ -1,24 +1,129 @@
-"""Ensembles and sweeps: a system derived again and again, with other seeds or constants, and what is measured each time."""
+"""Ensembles and sweeps: a system derived again and again, with other seeds or constants, and what is measured each time.
+
+Runs are made here, or on any executor of `concurrent.futures`, such as a pool of processes or `Client.get_executor()` of
+dask.distributed. To hand a piece of work to another process takes milliseconds, as long as a small run. So a batch holds as
+many runs as take about a quarter of a second; how long one takes is learnt from the first ones, which are made here. What
+comes out depends on the runs alone, never on who makes them or when.
+"""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import BrokenExecutor, Executor
+import time
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import BrokenExecutor, Executor, Future, as_completed
 from contextlib import closing
+from dataclasses import asdict, dataclass
 from itertools import islice, product
-from typing import Any
+from math import ceil, prod
+from typing import Any, NamedTuple, TypeAlias
 
-from lsys_kit.budget import check_bytes, current
+from lsys_kit.budget import Limits, Task, check_bytes, current, limits
 from lsys_kit.derivation.core.rules import constants_of, number_from
-from lsys_kit.errors import ModelNameError, ModelValueError, require, shown, whole_number
-from lsys_kit.experiments.batches import Experiment, Failure, Outcome, Run, outcomes
-from lsys_kit.experiments.measures import Asked, measures_of
+from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError, require, shown, whole_number
+from lsys_kit.experiments.measures import Asked, Measure, measures_of
 from lsys_kit.experiments.table import Table, value_text
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.arithmetic import Value, normalised
 from lsys_kit.notation.model.expressions import function_of
 from lsys_kit.notation.model.system import USUAL_STEPS, LSystem
+from lsys_kit.worlds.derive import derive
+
+FIRST_SECONDS, BATCH_SECONDS = 0.05, 0.25
+"""For how long runs are made here before the others are handed out, and about how long a batch takes."""
+FEWEST_BATCHES = 16
+"""There are at least so many batches, if there are as many runs, so that no processor waits long for the last one."""
+
+Rows: TypeAlias = tuple[tuple[object, ...], ...]
+"""What a run comes to: for each step the step and its measured values."""
+
+
+class Failure(NamedTuple):
+    """Why a run could not be finished."""
+
+    message: str
+    limit: float | None = None
+
+    def error(self) -> ModelLimitError | ModelValueError:
+        """The error to raise."""
+        return ModelValueError(self.message) if self.limit is None else ModelLimitError(self.message, limit=self.limit)
+
+
+Outcome: TypeAlias = Rows | Failure
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """What is done in each run: the system that is derived, the steps that are measured, in ascending order, what is measured,
+    as a person gives it, and the limits."""
+
+    system: LSystem
+    steps: tuple[int, ...]
+    measure: Asked
+    limits: Limits
+
+
+Run: TypeAlias = Mapping[str, object]
+"""The seed and the constants of a run, as `derive` takes them."""
+
+
+def outcome_of(experiment: Experiment, measures: Sequence[Measure], run: Run) -> Outcome:
+    """Make a run."""
+    choices: dict[str, Any] = {**run}
+    with limits(**asdict(experiment.limits)), Task("The run was not finished"):
+        try:
+            whole = derive(experiment.system, experiment.steps[-1], **choices)
+            parts = [whole.to(step) for step in experiment.steps]
+            return tuple((part.steps, *(measure.value(part) for measure in measures)) for part in parts)
+        except (ModelLimitError, ModelValueError) as error:
+            return Failure(error.message, getattr(error, "limit", None))
+
+
+def batch(experiment: Experiment, runs: Sequence[Run]) -> list[Outcome]:
+    """Make some runs, one after another."""
+    measures = measures_of(experiment.measure, experiment.system)
+    return [outcome_of(experiment, measures, run) for run in runs]
+
+
+def outcomes(
+    experiment: Experiment, runs: Sequence[Run], executor: Executor | None
+) -> Generator[tuple[int, Outcome], None, None]:
+    """The runs' outcomes, each with its place, in the order in which they are finished.
+
+    When it is closed, whatever has not begun is called off.
+    """
+    measures, start = measures_of(experiment.measure, experiment.system), time.perf_counter()
+    for place, run in enumerate(runs):
+        yield place, outcome_of(experiment, measures, run)
+        passed = time.perf_counter() - start
+        if executor is not None and passed > FIRST_SECONDS:
+            yield from _handed_out(experiment, runs, place + 1, passed / (place + 1), executor.submit)
+            return
+
+
+def _handed_out(
+    experiment: Experiment, runs: Sequence[Run], first: int, seconds: float, submit: Callable[..., Future[list[Outcome]]]
+) -> Iterator[tuple[int, Outcome]]:
+    size = batch_size(len(runs) - first, seconds)
+    futures = {}
+    try:
+        for place in range(first, len(runs), size):
+            futures[submit(batch, experiment, runs[place : place + size])] = place
+        for future in as_completed(futures):
+            yield from enumerate(future.result(), futures[future])
+    finally:
+        for each in futures:
+            each.cancel()
+
+
+def batch_size(runs: int, seconds: float) -> int:
+    """How many runs a batch holds, given how many there are and how long one takes.
+
+    >>> batch_size(400, 0.0026), batch_size(100_000, 0.0026), batch_size(400, 1.0)
+    (25, 97, 1)
+    """
+    return max(1, min(ceil(BATCH_SECONDS / max(seconds, 1e-6)), ceil(runs / FEWEST_BATCHES)))
+
 
 BYTES_A_VALUE = 128
 """About what a value takes in a table, with what is needed to find it."""
@@ -76,7 +181,7 @@ def ensemble(
 
     Examples
     --------
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> plant = read("axiom: F\\nF -> F[+F]F : 1/2\\nF -> F[-F]F[+F]F : 1/2")
     >>> ensemble(plant, 3, "F", steps=2)
     seed  step   F
@@ -126,7 +231,7 @@ def sweep(
 
     Examples
     --------
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> alga = read("d = 2 in 1 .. 3\\naxiom: A(1)\\nA(t) : t < d -> A(t+1)\\nA(t) -> A(1) A(1)")
     >>> sweep(alga, "d", "rate")
     d  step     rate
@@ -137,10 +242,7 @@ def sweep(
     """
     require(system, LSystem, "An L-system")
     values = _swept(system, over)
-    many = 1
-    for each in values.values():
-        many *= len(each)
-    _check_room(many)
+    _check_room(prod(map(len, values.values())))
     named = [dict(zip(values, chosen, strict=True)) for chosen in product(*values.values())]
     return _table(system, [*values], named, measure, steps, executor, progress, choices)
 
@@ -155,7 +257,6 @@ def _table(
     progress: bool,
     choices: Mapping[str, object],
 ) -> Table:
-    """The table of some runs, as far as they can be finished."""
     require(progress, bool, 'True or False for "progress"')
     if executor is not None and not callable(getattr(executor, "submit", None)):
         raise ModelValueError(f"An executor of concurrent.futures is needed, not {shown(executor)}")
@@ -168,13 +269,8 @@ def _table(
         raise ModelValueError("There is nothing to run", hint="Give at least one seed, or a value for each constant.")
     experiment = Experiment(system, _steps(system, steps), measure, current())
     _check_room(len(runs) * len(experiment.steps) * len(columns))
-    return _collected(experiment, columns, [{**choices, **run} for run in runs], executor, progress)
-
-
-def _collected(
-    experiment: Experiment, columns: tuple[str, ...], runs: Sequence[Run], executor: Executor | None, progress: bool
-) -> Table:
-    found: dict[int, Outcome] = {}
+    runs = [{**choices, **run} for run in runs]
+    found = {}
     stopped = ""
     with closing(outcomes(experiment, runs, executor)) as finished, _bar(len(runs), progress) as bar:
         try:
@@ -185,20 +281,6 @@ def _collected(
             stopped = "Stopped"
         except BrokenExecutor as fault:
             stopped = f"The executor broke ({type(fault).__name__})"
-    return _tidy(columns, runs, found, stopped)
-
-
-def _bar(runs: int, shown: bool) -> Any:
-    """A progress bar, which vanishes when all is done."""
-    from tqdm.auto import tqdm
-
-    hidden = not shown or os.environ.get("TQDM_DISABLE", "0") not in ("", "0")  # tqdm's bar in notebooks does not look there
-    return tqdm(total=runs, unit="run", leave=False, delay=PROGRESS_DELAY, disable=hidden)
-
-
-def _tidy(columns: tuple[str, ...], runs: Sequence[Run], found: Mapping[int, Outcome], stopped: str) -> Table:
-    """The finished runs as a table."""
-    keys = columns[: columns.index("step")]
     rows, failures = [], []
     for place, outcome in sorted(found.items()):
         if isinstance(outcome, Failure):
@@ -207,19 +289,20 @@ def _tidy(columns: tuple[str, ...], runs: Sequence[Run], found: Mapping[int, Out
             rows += [(*(runs[place][key] for key in keys), *row) for row in outcome]
     if failures and not rows:
         raise failures[0][1].error()
-    remarks = [*_failed(keys, failures, len(runs))]
+    remarks = [f"{len(failures):,} of {len(runs):,} runs are left out:"] if failures else []
+    for run, failure in failures[:MOST_FAILURES_TOLD]:
+        setting = ", ".join(f"{key} = {value_text(run[key])}" for key in keys)
+        remarks.append(f"{setting}: {failure.message}.")
     if stopped:
         remarks.append(f"{stopped}: {len(found):,} of {len(runs):,} runs are finished.")
     return Table(columns, tuple(rows), len(keys) + 1, tuple(remarks))
 
 
-def _failed(keys: Sequence[str], failures: Sequence[tuple[Run, Failure]], runs: int) -> Iterator[str]:
-    """What there is to say of runs that failed."""
-    if failures:
-        yield f"{len(failures):,} of {runs:,} runs are left out:"
-    for run, failure in failures[:MOST_FAILURES_TOLD]:
-        setting = ", ".join(f"{key} = {value_text(run[key])}" for key in keys)
-        yield f"{setting}: {failure.message}."
+def _bar(runs: int, shown: bool) -> Any:
+    from tqdm.auto import tqdm
+
+    hidden = not shown or os.environ.get("TQDM_DISABLE", "0") not in ("", "0")  # tqdm's bar in notebooks does not look there
+    return tqdm(total=runs, unit="run", leave=False, delay=PROGRESS_DELAY, disable=hidden)
 
 
 def _check_names(system: LSystem, keys: Sequence[str], choices: Mapping[str, object]) -> None:
@@ -238,8 +321,7 @@ def _check_room(values: int) -> None:
     check_bytes(values * BYTES_A_VALUE, lambda: "The table was not made")
 
 
-def _seeds(seeds: Any) -> Sequence[int]:
-    """The seeds of the runs."""
+def _seeds(seeds: object) -> Sequence[int]:
     if isinstance(seeds, bool) or not isinstance(seeds, Iterable):
         many = whole_number(seeds, "The number of seeds")
         _check_room(many)
@@ -254,15 +336,13 @@ def _seed(given: object) -> int:
 
 
 def _all_of(values: Iterable[object]) -> list[object]:
-    """All of some values, if there are not too many."""
     most = current().bytes // BYTES_A_VALUE
     found = list(islice(iter(values), most + 1))
     _check_room(len(found))
     return found
 
 
-def _steps(system: LSystem, steps: Any) -> tuple[int, ...]:
-    """The steps at which is measured, in ascending order."""
+def _steps(system: LSystem, steps: object) -> tuple[int, ...]:
     if steps is None:
         return (USUAL_STEPS if system.steps is None else system.steps,)
     if isinstance(steps, str) or not isinstance(steps, Iterable):
@@ -273,21 +353,18 @@ def _steps(system: LSystem, steps: Any) -> tuple[int, ...]:
     return tuple(found)
 
 
-def _swept(system: LSystem, over: Any) -> dict[str, list[Any]]:
+def _swept(system: LSystem, over: object) -> dict[str, list[Value]]:
     """For each name that varies its values, as exact numbers."""
-    if isinstance(over, Mapping):
-        return {_name(name): _values(_name(name), values) for name, values in over.items()}
-    if isinstance(over, Iterable):
-        return {_name(name): declared_values(system, _name(name)) for name in ([over] if isinstance(over, str) else over)}
-    raise ModelValueError(f'Constants to vary are needed, as in {{"p": [1, 2]}}, not {shown(over)}')
+    if not isinstance(over, Iterable):
+        raise ModelValueError(f'Constants to vary are needed, as in {{"p": [1, 2]}}, not {shown(over)}')
+    found = {}
+    for name in [over] if isinstance(over, str) else over:
+        require(name, str, "The name of a constant")
+        found[name] = _values(name, over[name]) if isinstance(over, Mapping) else declared_values(system, name)
+    return found
 
 
-def _name(given: object) -> str:
-    require(given, str, "The name of a constant")
-    return str(given)
-
-
-def _values(name: str, values: object) -> list[Any]:
+def _values(name: str, values: object) -> list[Value]:
     if isinstance(values, str) or not isinstance(values, Iterable):
         raise ModelValueError(f'The values of "{name}" are needed, as in {{"{name}": [1, 2]}}, not {shown(values)}')
     return [_seed(value) if name == "seed" else number_from(value, name) for value in _all_of(values)]
@@ -296,7 +373,7 @@ def _values(name: str, values: object) -> list[Any]:
 def declared_values(system: LSystem, name: str) -> list[Value]:
     """The values of the range that a model declares for a constant.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> [str(value) for value in declared_values(read("p = 1 in 0 .. 1 by 0.5\\naxiom: A"), "p")]
     ['0', '1/2', '1']
     """

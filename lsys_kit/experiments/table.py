@@ -1,4 +1,9 @@
-"""Tables: what runs have come to, a row for each run and step, as data are kept tidily (Wickham, Tidy Data, 2014)."""
+"""Tables: what runs have come to, a row for each run and step, as data are kept tidily (Wickham, Tidy Data, 2014).
+
+Which chart a table has depends on what varied: over the seeds alone it is a histogram; over the steps or one constant a curve;
+over two constants a grid; over a constant and the steps a curve for each value. Where the seeds vary besides, curves and grids
+show means, a curve also the single runs.
+"""
 
 from __future__ import annotations
 
@@ -6,21 +11,138 @@ import statistics
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from itertools import groupby
+from itertools import groupby, islice
+from statistics import fmean
 from typing import TYPE_CHECKING, Any
 
 from lsys_kit.budget import Task
 from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.errors import ModelNameError, ModelValueError, require, shown
-from lsys_kit.experiments.charts import chart_of
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.arithmetic import number_text
-from lsys_kit.pictures.plots.chart import Plot
+from lsys_kit.pictures.plots.chart import Axis, Chart, Curve, CurveChart, GridChart, HistogramChart, Plot, finite, name_label
+from lsys_kit.pictures.plots.lettering import literal
 from lsys_kit.pictures.style.labels import escaped, visible
+from lsys_kit.pictures.style.palette import BLUE, SERIES
 
 if TYPE_CHECKING:
     import pandas
     import xarray
+
+
+MOST_CURVES, MOST_RUNS = 8, 200
+"""The most curves that can be told apart; the most single runs that are drawn behind a mean."""
+SEED, STEP = "seed", "step"
+LABELS = {
+    "modules": "modules",
+    "length": "length of the word",
+    "cells": "cells",
+    "strokes": "strokes",
+    "height": "height",
+    "width": "width",
+    "rate": "growth per step",
+    STEP: "step $n$",
+    SEED: SEED,
+}
+"""What stands along an axis for columns with a name of the kit's."""
+
+
+def column_label(name: str) -> str:
+    """The label of a column.
+
+    >>> column_label("rate"), column_label("lifeTimeA")
+    ('growth per step', '$\\\\mathit{lifeTimeA}$')
+    """
+    return LABELS.get(name) or name_label(name)
+
+
+def measured_label(name: str) -> str:
+    """The label of what was measured: of a symbol that its modules were counted.
+
+    >>> measured_label("height"), measured_label("F")
+    ('height', 'number of $\\\\mathit{F}$')
+    """
+    return LABELS.get(name) or (f"number of {name_label(name)}" if len(name) <= 2 else literal(name))
+
+
+Rows = Sequence[tuple[dict[str, Any], float]]
+"""For each row its settings and the measured value."""
+
+
+def chart_of(table: Table, column: str, log: bool) -> Chart:
+    """The chart of a measured column, refused where too much varied at once, or nothing."""
+    keys, values = table.varied, table[column]
+    places = {key: table.columns.index(key) for key in keys}
+    settings = [{key: row[place] for key, place in places.items()} for row in table.rows]
+    found = list(zip(settings, finite(values, f'The column "{column}"'), strict=True))
+    up = Axis(measured_label(column), all(isinstance(value, int) for value in values), log)
+    over = [key for key in keys if key != SEED]
+    if not keys:
+        raise ModelValueError(
+            "Only one setting was run, and a plot compares several", hint="Take more seeds, steps or values of a constant."
+        )
+    if not over:
+        return HistogramChart(tuple(value for _, value in found), up._replace(log=False))
+    if len(over) == 1:
+        return _one_variable(found, over[0], up)
+    if len(over) == 2 and STEP in over:
+        return _families(found, next(key for key in over if key != STEP), up)
+    if len(over) == 2:
+        return _grid(found, over, up)
+    chosen = ", ".join(f"{key} = {found[0][0][key]}" for key in over[2:])
+    raise ModelValueError(
+        f"{' and '.join((', '.join(over[:-1]), over[-1]))} vary together, and a plot shows two of them",
+        hint=f"Choose the others, as in table.where({chosen}).plot().",
+    )
+
+
+def _one_variable(rows: Rows, name: str, up: Axis) -> Chart:
+    """A curve over a variable; over seeds besides the mean, with the runs behind it."""
+    across = Axis(column_label(name), all(isinstance(setting[name], int) for setting, _ in rows))
+    if not any(SEED in setting for setting, _ in rows):
+        return CurveChart((Curve(_means(rows, name), BLUE),), across, up)
+    runs: dict[object, list[tuple[float, float]]] = {}
+    for setting, value in rows:
+        runs.setdefault(setting[SEED], []).append((float(setting[name]), value))
+    quiet = (Curve(tuple(sorted(points)), BLUE, quiet=True) for points in islice(runs.values(), MOST_RUNS))
+    return CurveChart((*quiet, Curve(_means(rows, name), BLUE, "mean")), across, up)
+
+
+def _families(rows: Rows, name: str, up: Axis) -> Chart:
+    kinds = sorted({setting[name] for setting, _ in rows})
+    if len(kinds) > MOST_CURVES:
+        raise ModelValueError(
+            f"{name} has {len(kinds)} values, and more than {MOST_CURVES} curves cannot be told apart",
+            hint="Choose some values, or one step: table.where(step=...).plot().",
+        )
+    curves = tuple(
+        Curve(
+            _means([row for row in rows if row[0][name] == kind], STEP),
+            SERIES[place % len(SERIES)],
+            f"{column_label(name)} = {number_text(kind)}",
+        )
+        for place, kind in enumerate(kinds)
+    )
+    return CurveChart(curves, Axis(column_label(STEP), True), up)
+
+
+def _grid(rows: Rows, names: Sequence[str], up: Axis) -> Chart:
+    columns, lines = (sorted({setting[name] for setting, _ in rows}) for name in names)
+    cells: dict[tuple[int, int], list[float]] = {}
+    places = [{value: place for place, value in enumerate(values)} for values in (columns, lines)]
+    for setting, value in rows:
+        cells.setdefault((places[0][setting[names[0]]], places[1][setting[names[1]]]), []).append(value)
+    across, upwards = map(column_label, names)
+    means = {place: fmean(values) for place, values in cells.items()}
+    return GridChart(across, upwards, tuple(map(number_text, columns)), tuple(map(number_text, lines)), means, up.label)
+
+
+def _means(rows: Rows, name: str) -> tuple[tuple[float, float], ...]:
+    groups: dict[float, list[float]] = {}
+    for setting, value in rows:
+        groups.setdefault(float(setting[name]), []).append(value)
+    return tuple((x, fmean(groups[x])) for x in sorted(groups))
+
 
 MOST_SHOWN = 10
 """How many rows of a long table are shown: its first ones and its last ones."""
@@ -74,13 +196,7 @@ class Table:
         return len(self.rows)
 
     def __getitem__(self, column: str) -> tuple[Any, ...]:
-        """The values of a column.
-
-        Raises
-        ------
-        ModelNameError
-            There is no such column.
-        """
+        """The values of a column."""
         place = self._place(column)
         return tuple(row[place] for row in self.rows)
 
@@ -159,10 +275,9 @@ class Table:
         1 curve of cells, d from 1 to 3, largest 32
         """
         require(log, bool, 'True or False for "log"')
-        name, keys = self.measured(column), self.varied
-        places = [self._place(key) for key in keys]
+        name = self.measured(column)
         with Task("The plot was not made"):
-            return Plot(chart_of(keys, [tuple(row[place] for place in places) for row in self.rows], name, self[name], log))
+            return Plot(chart_of(self, name, log))
 
     def to_pandas(self) -> pandas.DataFrame:
         """The table as a data frame of pandas, which has to be installed; fractions become doubles."""
@@ -197,12 +312,11 @@ class Table:
     def _shown_rows(self) -> Iterator[tuple[str, ...]]:
         """The texts of the rows; of a long table the middle is left out."""
         half = MOST_SHOWN // 2
-        if len(self.rows) <= MOST_SHOWN:
-            yield from (tuple(map(value_text, row)) for row in self.rows)
-            return
-        yield from (tuple(map(value_text, row)) for row in self.rows[:half])
-        yield ("...",) * len(self.columns)
-        yield from (tuple(map(value_text, row)) for row in self.rows[-half:])
+        for number, row in enumerate(self.rows):
+            if len(self) <= MOST_SHOWN or not half <= number < len(self) - half:
+                yield tuple(map(value_text, row))
+            elif number == half:
+                yield ("...",) * len(self.columns)
 
 
 def value_text(value: Any) -> str:
@@ -219,14 +333,12 @@ def _plain(value: Any) -> Any:
 
 
 def _described(values: Sequence[Any]) -> tuple[Any, ...]:
-    """The columns of a summary."""
     spread = statistics.stdev(map(float, values)) if len(values) > 1 else 0.0
     mean = statistics.fmean(values)
     return len(values), mean, spread, min(values), statistics.median(values), max(values)
 
 
 def _library(name: str) -> Any:
-    """A library that need not be there."""
     from importlib import import_module
 
     try:

@@ -1,18 +1,97 @@
-"""The scene of a word: a filament, or what a turtle draws, assembled from instances where that pays, else module by module."""
+"""The scene of a word: a filament, or what a turtle draws, assembled from instances where that pays, else module by module.
+
+Strokes have natural colours, from bark to leaves, by their width where the turtle has set one, else by their branch order.
+Plants in space have them, if neither the model nor whoever draws says otherwise.
+"""
 
 from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
 
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.geometry.filament import filament
-from lsys_kit.geometry.natural_colours import coloured
-from lsys_kit.geometry.scene import Scene
-from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
+from lsys_kit.geometry.scene import OWN, Floats, Integers, Scene, Segments
+from lsys_kit.geometry.turtle.commands import (
+    RAMP_END,
+    RAMP_START,
+    DrawingMode,
+    Effect,
+    commands_of,
+    drawing_mode,
+    initial_colour,
+)
 from lsys_kit.geometry.turtle.instancing import draw_instanced
 from lsys_kit.geometry.turtle.plane import place_path, trace
 from lsys_kit.geometry.turtle.space import trace_in_space
 from lsys_kit.notation.model.system import LSystem
+
+
+def has_natural_colours(system: LSystem) -> bool:
+    """Whether strokes have natural colours, if they have no others: as the system says, else if it branches in space.
+
+    >>> from lsys_kit import read
+    >>> [has_natural_colours(read(text)) for text in ("axiom: F[&F]", "axiom: F[+F]", "colours: natural\\naxiom: F[+F]")]
+    [True, False, True]
+    """
+    if system.colours:
+        return system.colours == "natural"
+    branches = any(Effect.OPENS in command.effects for command, _ in commands_of(system))
+    return branches and drawing_mode(system) is DrawingMode.SPACE
+
+
+def coloured(scene: Scene, system: LSystem, colours: str = "") -> Scene:
+    """A scene of a system, in which strokes without a chosen colour have natural ones if those of the system have.
+
+    Whoever draws can choose "natural" ones.
+
+    Where its turtle steps through colours, the farthest step that is drawn is the last colour of the ramp.
+
+    >>> from lsys_kit import derive, read
+    >>> from lsys_kit.geometry.turtle.space import trace_in_space
+    >>> tree = read("colours: natural\\naxiom: F[&F[&F]]")
+    >>> coloured(trace_in_space(derive(tree, 0)[0]), tree).segments.colours.tolist()
+    [16, 20, 23]
+    """
+    if initial_colour(system) == RAMP_START:
+        return _stretched(scene)
+    return _by_width_or_order(scene) if colours == "natural" or has_natural_colours(system) else scene
+
+
+def _stretched(scene: Scene) -> Scene:
+    segments, polygons, discs = scene.segments, scene.polygons, scene.discs
+    most = max(int(colours.max(initial=RAMP_START)) for colours in (segments.colours, polygons.colours, discs.colours))
+    stretch = (RAMP_END - RAMP_START) / max(min(RAMP_END, most) - RAMP_START, 1)
+    return replace(
+        scene,
+        segments=replace(segments, colours=_along_ramp(segments.colours, stretch)),
+        polygons=replace(polygons, colours=_along_ramp(polygons.colours, stretch)),
+        discs=replace(discs, colours=_along_ramp(discs.colours, stretch)),
+    )
+
+
+def _along_ramp(colours: Integers, stretch: float) -> Integers:
+    there = (colours >= RAMP_START) & (colours <= RAMP_END)
+    return np.where(there, RAMP_START + np.floor((colours - RAMP_START) * stretch + 0.5).astype(np.int64), colours)
+
+
+def _by_width_or_order(scene: Scene) -> Scene:
+    segments = scene.segments
+    numbers = RAMP_START + np.floor((RAMP_END - RAMP_START) * _youth(segments) + 0.5).astype(np.int64)
+    return replace(scene, segments=replace(segments, colours=np.where(segments.colours == OWN, numbers, segments.colours)))
+
+
+def _youth(segments: Segments) -> Floats:
+    """How young strokes are, from 0 to 1: the thinner or the farther from the stem."""
+    deepest, widest = int(segments.orders.max(initial=0)), float(segments.widths.max(initial=OWN))
+    by_order = segments.orders / deepest if deepest else np.ones(len(segments))
+    if widest <= 0:
+        return by_order
+    return np.where(segments.widths == OWN, by_order, 1 - np.sqrt(np.clip(segments.widths / widest, 0, 1)))
+
 
 ANGLE_HINT = "An angle is in degrees, as in angle=25.7."
 """What to write where an angle is no number."""
@@ -21,8 +100,6 @@ ANGLE_HINT = "An angle is in degrees, as in angle=25.7."
 def scene_of(what: Derivation | Word, angle: float | None = None, colours: str = "") -> Scene:
     """The scene of a word, or of the last word of a derivation.
 
-    Parameters
-    ----------
     what
         A word; or a derivation, whose last word is often not even built.
     angle
@@ -30,17 +107,7 @@ def scene_of(what: Derivation | Word, angle: float | None = None, colours: str =
     colours
         Whether strokes without a chosen colour have "natural" ones; by default as the system says.
 
-    Raises
-    ------
-    ModelLimitError
-        More brackets are open at once than the limit allows.
-    ModelValueError
-        A value cannot be drawn.
-
-    Examples
-    --------
-    >>> from lsys_kit.derivation.derive import derive
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import derive, read
     >>> plant = derive(read("angle: 25.7\\naxiom: F\\nF -> F[+F]F[-F]F"), 7)
     >>> print(scene_of(plant))
     78,125 segments, width 732.47, height 2187
@@ -53,14 +120,9 @@ def scene_of(what: Derivation | Word, angle: float | None = None, colours: str =
 def turning_angle(given: object, system: LSystem) -> float:
     """The turning angle that a person wants for a system, in degrees; by default the system's.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> turning_angle(None, read("angle: 60\\naxiom: F")), turning_angle("51/2", read("axiom: F"))
     (60.0, 25.5)
-
-    Raises
-    ------
-    ModelValueError
-        It is no number, or a number that is not known.
     """
     return float(system.angle) if given is None else real_from(given, "angle", ANGLE_HINT)
 

@@ -21,7 +21,7 @@ from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word, blocks
 from lsys_kit.errors import ModelValueError
 from lsys_kit.geometry.scene import Cells, Floats, Scene, Walls
-from lsys_kit.geometry.turtle.commands.instructions import values_of
+from lsys_kit.geometry.turtle.commands import values_of
 from lsys_kit.notation.model.modules import CELLS, WALL, Module
 
 SHAPE_BYTES = 240
@@ -31,15 +31,7 @@ SHAPE_BYTES = 240
 def filament(word: Word) -> Scene:
     """The cells of a word, side by side from x = 0, and the walls between them.
 
-    Raises
-    ------
-    ModelValueError
-        A cell has a length or width that is not positive, or a value is too large to draw, or symbolic.
-
-    Examples
-    --------
-    >>> from lsys_kit.derivation.derive import derive
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import derive, read
     >>> growing = read("axiom: a\\na -> a b\\nb -> a\\ninterpretation:\\na -> R(2,1)\\nb -> L(1,1)")
     >>> print(filament(derive(growing, 2)[-1]))
     3 cells, width 5, height 1
@@ -65,14 +57,7 @@ def shapes_of(states: States, numbers: Sequence[int]) -> dict[int, list[tuple[fl
     """For each of some states the cells and walls that it is drawn as: of a cell 0, its length, width, polarity and shade; of a
     wall 1, 0, 0, its age, which is NaN where it has none, and its shade.
 
-    Raises
-    ------
-    ModelValueError
-        As for `filament`.
-
-    Examples
-    --------
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> states = States(read("axiom: a\\ninterpretation:\\na -> L(2,1) W(3)"))
     >>> shapes_of(states, states.axiom)
     {0: [(0, 2.0, 1.0, -1, 0.0), (1, 0, 0, 3.0, 0.0)]}

@@ -1,4 +1,4 @@
-"""Scenes: arrays of plain shapes, each with the state of the module that it comes from.
+"""Scenes: arrays of plain shapes, each with the state of the module that it comes from; an array has a row for each shape.
 
 Lengths are in the units of the model. In the plane x grows to the right and y upwards; in space x grows to the right, z
 upwards, and y away from the viewer. A scene knows no screen, no palette and no file.
@@ -13,7 +13,30 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from lsys_kit.geometry.labels import Labels, no_labels
+
+@dataclass(frozen=True)
+class Labels:
+    """Short texts at points.
+
+    points
+        Shape (n, 2) or (n, 3): where the turtle wrote each.
+    texts
+        What it wrote.
+    states
+        The state of the module of each.
+    """
+
+    points: NDArray[np.float64]
+    texts: tuple[str, ...]
+    states: NDArray[np.int64]
+
+    def __len__(self) -> int:
+        return len(self.texts)
+
+
+def no_labels(dimension: int = 2) -> Labels:
+    return Labels(np.empty((0, dimension)), (), np.empty(0, np.int64))
+
 
 Floats: TypeAlias = NDArray[np.float64]
 Integers: TypeAlias = NDArray[np.int64]
@@ -26,18 +49,16 @@ OWN = -1
 class Segments:
     """Straight strokes.
 
-    Attributes
-    ----------
     ends
         Shape (n, 4) in the plane: x and y of the start, x and y of the end; (n, 6) in space.
     orders
-        Shape (n,): the branch order of each, the number of brackets around it.
+        The branch order of each, the number of brackets around it.
     states
-        Shape (n,): the state of the module that drew it.
+        The state of the module that drew it.
     widths
-        Shape (n,), in the model's units; or shape (1,) for all. `OWN` if the turtle has set none.
+        In the model's units; or a single one for all. `OWN` if the turtle has set none.
     colours
-        Shape (n,): numbers of colours; or shape (1,) for all. `OWN` if the turtle has set none.
+        Numbers of colours; or a single one for all. `OWN` if the turtle has set none.
     """
 
     ends: Floats
@@ -59,18 +80,16 @@ class Segments:
 class Cells:
     """Cells of a filament: ellipses in a row.
 
-    Attributes
-    ----------
     centres
         Shape (n, 2).
     sizes
         Shape (n, 2): length along the filament, and width.
     polarities
-        Shape (n,): -1 for a cell that points left, 1 for one that points right, 0 for one without polarity.
+        -1 for a cell that points left, 1 for one that points right, 0 for one without polarity.
     shades
-        Shape (n,): 0 for a young cell to 1 for an old one.
+        0 for a young cell to 1 for an old one.
     states
-        Shape (n,): the state of the module of each.
+        The state of the module of each.
     """
 
     centres: Floats
@@ -92,16 +111,14 @@ class Cells:
 class Walls:
     """Walls between the cells of a filament.
 
-    Attributes
-    ----------
     places
-        Shape (n,): the position of each along the filament.
+        The position of each along the filament.
     heights
-        Shape (n,): the width of the wider of the two neighbouring cells.
+        The width of the wider of the two neighbouring cells.
     ages
-        Shape (n,): NaN if a wall has no age.
+        NaN if a wall has no age.
     shades, states
-        Shape (n,), as of `Cells`.
+        As of `Cells`.
     """
 
     places: Floats
@@ -123,14 +140,12 @@ class Walls:
 class Polygons:
     """Filled outlines: leaves, petals, and what stands in `{ }`.
 
-    Attributes
-    ----------
     points
         Shape (m, 2) or (m, 3): the corners of all, one polygon after another.
     starts
         Shape (n + 1,): the index in `points` of the first corner of each; the last is m.
     states, colours
-        Shape (n,), as of `Segments`.
+        As of `Segments`.
     normals
         Shape (m, 3): at each corner of a face of a curved surface the unit normal of the surface, zeros at those of flat
         polygons; shape (0, 3) if all are flat.
@@ -154,7 +169,6 @@ class Polygons:
         return found
 
     def __iter__(self) -> Iterator[Floats]:
-        """The corners of each polygon."""
         return iter(np.split(self.points, self.starts[1:-1]) if len(self) else [])
 
 
@@ -162,16 +176,14 @@ class Polygons:
 class Discs:
     """Circles, discs and spheres.
 
-    Attributes
-    ----------
     centres
         Shape (n, 2) or (n, 3).
     radii
         Shape (n,).
     kinds
-        Shape (n,): `CIRCLE`, `DISC` or `SPHERE`; in space a circle and a disc face the viewer.
+        `CIRCLE`, `DISC` or `SPHERE`; in space a circle and a disc face the viewer.
     states, colours
-        Shape (n,), as of `Segments`.
+        As of `Segments`.
     """
 
     centres: Floats
@@ -194,27 +206,22 @@ CIRCLE, DISC, SPHERE = range(3)
 
 
 def no_segments(dimension: int = 2) -> Segments:
-    """No strokes."""
     return Segments(np.empty((0, 2 * dimension)), np.empty(0, np.int64), np.empty(0, np.int64))
 
 
 def no_cells() -> Cells:
-    """No cells."""
     return Cells(np.empty((0, 2)), np.empty((0, 2)), np.empty(0, np.int64), np.empty(0), np.empty(0, np.int64))
 
 
 def no_walls() -> Walls:
-    """No walls."""
     return Walls(np.empty(0), np.empty(0), np.empty(0), np.empty(0), np.empty(0, np.int64))
 
 
 def no_polygons(dimension: int = 2) -> Polygons:
-    """No polygons."""
     return Polygons(np.empty((0, dimension)), np.zeros(1, np.int64), np.empty(0, np.int64), np.empty(0, np.int64))
 
 
 def no_discs(dimension: int = 2) -> Discs:
-    """No circles."""
     return Discs(np.empty((0, dimension)), np.empty(0), *(np.empty(0, np.int64) for _ in range(3)))
 
 
@@ -222,8 +229,6 @@ def no_discs(dimension: int = 2) -> Discs:
 class Scene:
     """The shapes of a word, in the plane or in space.
 
-    Attributes
-    ----------
     segments, cells, walls, polygons, discs, labels
         The shapes, and what is written.
     unknown
@@ -239,6 +244,10 @@ class Scene:
     unknown: tuple[str, ...] = ()
 
     @property
+    def _shapes(self) -> dict[str, Segments | Cells | Walls | Polygons | Discs | Labels]:
+        return {name: getattr(self, name) for name in ("segments", "cells", "walls", "polygons", "discs", "labels")}
+
+    @property
     def dimension(self) -> int:
         """2 in the plane, 3 in space."""
         return int(self.segments.ends.shape[1]) // 2
@@ -246,20 +255,13 @@ class Scene:
     @property
     def size(self) -> int:
         """How many shapes there are to draw, with each corner of a polygon."""
-        return (
-            len(self.segments)
-            + len(self.cells)
-            + len(self.walls)
-            + len(self.polygons.points)
-            + len(self.discs)
-            + len(self.labels)
-        )
+        others = len(self.segments) + len(self.cells) + len(self.walls) + len(self.discs) + len(self.labels)
+        return others + len(self.polygons.points)
 
     @property
     def corners(self) -> tuple[Floats, Floats]:
         """The bounding box: the least and the greatest of each coordinate; zeros for an empty scene."""
-        shapes = (self.segments, self.cells, self.walls, self.polygons, self.discs, self.labels)
-        found = [each.points for each in shapes if len(each)] or [np.zeros((1, self.dimension))]
+        found = [each.points for each in self._shapes.values() if len(each)] or [np.zeros((1, self.dimension))]
         axes = range(self.dimension)  # column by column, which is ten times as fast
         return (
             np.array([min(points[:, axis].min() for points in found) for axis in axes]),
@@ -287,15 +289,9 @@ class Scene:
 
     def __str__(self) -> str:
         """The scene in words: the line that replaces a picture where none can be shown."""
-        kinds = (
-            (self.segments, "segment"),
-            (self.cells, "cell"),
-            (self.walls, "wall"),
-            (self.polygons, "polygon"),
-            (self.discs, "disc"),
-            (self.labels, "label"),
-        )
-        counted = [f"{len(shapes):,} {name}{'s' * (len(shapes) != 1)}" for shapes, name in kinds if len(shapes)]
+        counted = [
+            f"{len(each):,} {name[: -1 if len(each) == 1 else None]}" for name, each in self._shapes.items() if len(each)
+        ]
         least, greatest = self.corners
         depth = f", depth {_two_decimals(float(greatest[1] - least[1]))}" if self.dimension == 3 else ""
         return (

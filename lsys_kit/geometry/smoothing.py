@@ -23,9 +23,8 @@ _SIDES = 4
 def smoothed(scene: Scene) -> Scene:
     """A scene in space whose curved surfaces have finer faces, if there are few.
 
-    >>> from lsys_kit.derivation.derive import derive
+    >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.turtle.space import trace_in_space
-    >>> from lsys_kit.notation.read import read
     >>> leaf = trace_in_space(derive(read("axiom: &~L"), 0)[0])
     >>> len(leaf.polygons), len(smoothed(leaf).polygons)
     (30, 480)
@@ -74,7 +73,6 @@ def _grids(corners: Floats, normals: Floats, parts: int) -> Floats:
 
 
 def _cells(parts: int) -> Integers:
-    """The corners of the cells of a grid of points, in order."""
     first = (np.arange(parts)[:, None] * (parts + 1) + np.arange(parts)).ravel()[:, None]
     found: Integers = first + np.array([0, parts + 1, parts + 2, 1])
     return found

@@ -7,18 +7,20 @@ in `dialects`, one for each notation; they share `expressions.lark` in `syntax`.
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import replace
+from typing import TypeAlias
 
 from lsys_kit.budget import current
 from lsys_kit.errors import LSystemError, ModelValueError, require
 from lsys_kit.notation.analysis.checks import check_expression, check_word, value_of
 from lsys_kit.notation.dialects.abop.dialect import ABOP
-from lsys_kit.notation.dialects.cellwork.dialect import CELLWORK
-from lsys_kit.notation.dialects.map.dialect import MAP
+from lsys_kit.notation.dialects.cellwork.dialect import CELLWORK, read_cellwork
+from lsys_kit.notation.dialects.map.dialect import MAP, read_map
 from lsys_kit.notation.foreign import foreign_format, mistakable_format
 from lsys_kit.notation.fragments import is_link, unpacked
 from lsys_kit.notation.model.arithmetic import Value
+from lsys_kit.notation.model.cells import CellworkSystem, MapSystem
 from lsys_kit.notation.model.expressions import Expression
 from lsys_kit.notation.model.modules import Module, flat
 from lsys_kit.notation.model.system import LSystem
@@ -30,10 +32,15 @@ from lsys_kit.notation.syntax.systems import system_in
 from lsys_kit.notation.syntax.text.statements import ARROW, check_text
 from lsys_kit.notation.syntax.wording import reporting
 
-_CELLWORK = re.compile(r"\s*cellwork[ \t]*:", re.IGNORECASE)
-"""How a cellwork system begins (see `read_cellwork`)."""
-_MAP = re.compile(rf"\s*(?:map|sphere)[ \t]*:(?!.*(?:{ARROW.pattern}))", re.IGNORECASE)
-"""How a map system begins (see `read_map`)."""
+AnySystem: TypeAlias = LSystem | MapSystem | CellworkSystem
+"""A system of any kind."""
+CELL_READERS: Mapping[str, Callable[[str], MapSystem | CellworkSystem]] = {MAP.name: read_map, CELLWORK.name: read_cellwork}
+"""What reads systems of cells, by their notations."""
+_BEGINNINGS = {
+    MAP.name: re.compile(rf"\s*(?:map|sphere)[ \t]*:(?!.*(?:{ARROW.pattern}))", re.IGNORECASE),
+    CELLWORK.name: re.compile(r"\s*cellwork[ \t]*:", re.IGNORECASE),
+}
+"""How their texts begin."""
 
 
 def read(text: str, notation: str | None = None, name: str | None = None) -> LSystem:
@@ -79,22 +86,9 @@ def read(text: str, notation: str | None = None, name: str | None = None) -> LSy
     if is_link(text):
         return _read_link(text, notation, name)
     text = text.removeprefix("\ufeff")  # the byte order mark, with which some editors begin a file
-    if _MAP.match(text):
-        raise ModelValueError(
-            "This is a map system, not an L-system",
-            text,
-            len(text) - len(text.lstrip()),
-            None,
-            "Maps are read by read_map(text).",
-        )
-    if _CELLWORK.match(text):
-        raise ModelValueError(
-            "This is a cellwork system, not an L-system",
-            text,
-            len(text) - len(text.lstrip()),
-            None,
-            "Cellworks are read by read_cellwork(text).",
-        )
+    if kind := cells_notation(text):
+        start, hint = len(text) - len(text.lstrip()), f"{kind.capitalize()}s are read by read_{kind}(text)."
+        raise ModelValueError(f"This is a {kind} system, not an L-system", text, start, None, hint)
     require(notation, (str, type(None)), "The name of a notation")
     if notation:
         return _read_as_named(dialect_named(notation), text, name)
@@ -108,12 +102,9 @@ def read(text: str, notation: str | None = None, name: str | None = None) -> LSy
 def _read_link(link: str, notation: str | None, name: str | None) -> LSystem:
     """The system of a link, which names its notation itself."""
     content = unpacked(link)
-    if content.notation == MAP.name:
-        raise ModelValueError("This is the link of a map system, not of an L-system", hint="Maps are read by read_map(link).")
-    if content.notation == CELLWORK.name:
-        raise ModelValueError(
-            "This is the link of a cellwork system, not of an L-system", hint="Cellworks are read by read_cellwork(link)."
-        )
+    if (kind := content.notation) in CELL_READERS:
+        hint = f"{kind.capitalize()}s are read by read_{kind}(link)."
+        raise ModelValueError(f"This is the link of a {kind} system, not of an L-system", hint=hint)
     if name is not None or notation not in (None, content.notation):
         raise ModelValueError(
             f"This link has one system, in the notation {content.notation}",
@@ -122,26 +113,25 @@ def _read_link(link: str, notation: str | None, name: str | None) -> LSystem:
     return system_in(dialect_named(content.notation), content.text)
 
 
-def is_map(text: str) -> bool:
-    """Whether a text begins as a map system does, which `read_map` reads, or is the link of one.
+def cells_notation(text: str) -> str | None:
+    """The notation of systems of cells in which a text is written, as its beginning shows, or a link; None for any other.
 
-    >>> is_map("map: ABAB\\nA -> B"), is_map("axiom: A")
-    (True, False)
+    >>> cells_notation("map: ABAB\\nA -> B"), cells_notation("cellwork: 1(0,0,0)"), cells_notation("axiom: A")
+    ('map', 'cellwork', None)
     """
     if is_link(text):
-        return unpacked(text).notation == MAP.name
-    return _MAP.match(text.removeprefix("\ufeff")) is not None
+        return name if (name := unpacked(text).notation) in CELL_READERS else None
+    return next((name for name, begins in _BEGINNINGS.items() if begins.match(text.removeprefix("\ufeff"))), None)
 
 
-def is_cellwork(text: str) -> bool:
-    """Whether a text begins as a cellwork system does, which `read_cellwork` reads, or is the link of one.
+def read_any(text: str) -> AnySystem:
+    """The system of a text or a link, of the kind that its beginning shows.
 
-    >>> is_cellwork("cellwork: 1(0,0,0)"), is_cellwork("map: ABAB\\nA -> B")
-    (True, False)
+    >>> read_any("map: ABAB").axiom == read_any("axiom: A").axiom
+    False
     """
-    if is_link(text):
-        return unpacked(text).notation == CELLWORK.name
-    return _CELLWORK.match(text.removeprefix("\ufeff")) is not None
+    kind = cells_notation(text)
+    return CELL_READERS[kind](text) if kind else read(text)
 
 
 def _others(chosen: Dialect, text: str) -> Iterator[Dialect]:
@@ -151,7 +141,6 @@ def _others(chosen: Dialect, text: str) -> Iterator[Dialect]:
 
 
 def _reads(notation: Dialect, text: str, name: str | None) -> bool:
-    """Whether a text makes sense in a notation."""
     try:
         system_in(notation, text, name)
     except LSystemError:
@@ -206,7 +195,8 @@ def read_expression(text: str) -> Expression:
     >>> print(read_expression("2*(t+1)"))
     2 * (t + 1)
     """
-    return parse(ABOP, "expression", text, 0, len(text))  # type: ignore[no-any-return]
+    expression: Expression = parse(ABOP, "expression", text, 0, len(text))
+    return expression
 
 
 def checked_expression(text: str, names: Collection[str], wanted: str = "number") -> Expression:

@@ -2,36 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, overload
 
 from lsys_kit.budget import Task, counted
-from lsys_kit.derivation.cellworks.development import CellworkDevelopment
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
-from lsys_kit.derivation.maps.development import Development
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.derivation.timed.ages import age_model
 from lsys_kit.derivation.timed.lineage import Lineage
+from lsys_kit.derivation.tissues.development import CellDevelopment, CellworkDevelopment, Development
 from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError, require, shown, whole_number
 from lsys_kit.geometry.drawing import turning_angle
 from lsys_kit.geometry.filament import filament
-from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
+from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
 from lsys_kit.notation.analysis.checks import suggestion
-from lsys_kit.notation.model.cellworks import CellworkSystem
-from lsys_kit.notation.model.maps import MapSystem
+from lsys_kit.notation.model.cells import CellSystem, CellworkSystem, MapSystem
 from lsys_kit.notation.model.system import USUAL_STEPS, LSystem
-from lsys_kit.pictures.filaments.folding import FilamentRow
-from lsys_kit.pictures.filaments.painting import LOOKS
+from lsys_kit.pictures.filaments import LOOKS, FilamentRow
 from lsys_kit.pictures.formats.axes import new_axes, set_ground
 from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.legends import legend_of, letters_of
-from lsys_kit.pictures.lineages.picture import LineagePicture, lineage_picture
+from lsys_kit.pictures.lineages import LineagePicture, lineage_picture
 from lsys_kit.pictures.multiples import SmallMultiples
 from lsys_kit.pictures.options import (
+    CELLWORK,
     KINDS,
     LINEAGE,
+    MAP,
     SPHERE,
     STAGES,
     Style,
@@ -123,6 +122,8 @@ def derivation_of(what: LSystem | Derivation | Word, n: int | None, **choices: A
 # --- from what is given to a picture ---
 
 AnyPicture: TypeAlias = "MapPicture | PhasesPicture | Picture | NetPicture | LineagePicture | SmallMultiples"
+_CELL_PICTURES: Mapping[str, Callable[..., AnyPicture]] = {MAP: map_picture, SPHERE: sphere_picture, CELLWORK: cellwork_picture}
+"""How the kinds of systems of cells are drawn."""
 MOST_ROWS = 24
 """The greatest number of rows of a developmental sequence, which shows the last steps."""
 
@@ -289,13 +290,10 @@ def _in_style(what: Any, n: int | None, style: Style, **choices: Any) -> AnyPict
     if isinstance(what, Stages):
         check_choices(choices, ("tokens", "positions"), STAGES)
         return _net_picture(what, labels, **choices)
-    if isinstance(what, MapSystem | Development):
-        if kind_of(what, choices) == SPHERE:
-            return sphere_picture(what, n, **choices)
-        draws = phases_picture if _yes(choices, "phases") else map_picture
-        return draws(what, n, labels=labels, **choices)
-    if isinstance(what, CellworkSystem | CellworkDevelopment):
-        return cellwork_picture(what, n, legend=bool(style.legend), **choices)
+    if isinstance(what, CellSystem | CellDevelopment):
+        kind, looks = kind_of(what, choices), {"labels": labels, "legend": bool(style.legend)}
+        draws: Callable[..., AnyPicture] = phases_picture if kind == MAP and _yes(choices, "phases") else _CELL_PICTURES[kind]
+        return draws(what, n, **{name: value for name, value in looks.items() if name in KINDS[kind]}, **choices)
     if isinstance(what, Lineage):
         check_choices(choices, ("intervals",), LINEAGE)
         return lineage_picture(what, labels=labels, legend=legend, **choices)

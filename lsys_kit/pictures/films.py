@@ -16,19 +16,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lsys_kit.budget import Task, check_bytes, counted
-from lsys_kit.derivation.cellworks.development import CellworkDevelopment
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.derive import Derivation
-from lsys_kit.derivation.maps.development import Development
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.derivation.timed.lineage import Lineage
+from lsys_kit.derivation.tissues.development import CellDevelopment, CellworkDevelopment
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError, require
 from lsys_kit.files import marked_gif, marked_mp4, marked_png, path_from
 from lsys_kit.geometry.drawing import turning_angle
 from lsys_kit.geometry.scene import Scene
-from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
-from lsys_kit.notation.model.cellworks import CellworkSystem
-from lsys_kit.notation.model.maps import MapSystem
+from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
+from lsys_kit.notation.model.cells import CellSystem, CellworkSystem
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.draw import check_choices, derivation_of, draw, state_colours
 from lsys_kit.pictures.formats.notebook import SVGPicture, film_bundle, save_as
@@ -296,7 +294,7 @@ def _shown(
         scenes = project_smoothly([step.solid for step in steps if step.solid is not None], side or SIDE)
         told = f"steps 0 to {len(steps) - 1}; the last: {steps[-1].text}"
         return told, _framed(scenes, steps[-1].colour_of, style.size, steps[-1].legend)
-    if isinstance(what, MapSystem | Development | Lineage):
+    if isinstance(what, CellSystem | CellDevelopment | Lineage):
         seen: dict[str, Any] = {} if side is None else {"view": side}
         drawn: Any = what
         return _filmed(draw(drawn, n, **(seen | {**choices, **given})))

@@ -10,11 +10,11 @@ import numpy as np
 
 from lsys_kit.derivation.core.states import States
 from lsys_kit.geometry.scene import OWN, Scene
-from lsys_kit.geometry.turtle.commands.table import RAMP_END, RAMP_START
+from lsys_kit.geometry.turtle.commands import RAMP_END, RAMP_START
 from lsys_kit.geometry.turtle.surfaces import passed_over
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.formats.painting import painted
-from lsys_kit.pictures.nets.captions import width_of
+from lsys_kit.pictures.nets.parts import width_of
 from lsys_kit.pictures.rendering.frames import MARGIN
 from lsys_kit.pictures.shapes import Drawing, Group, Look, Place, Rectangle, Shape, Text
 from lsys_kit.pictures.sizes import document

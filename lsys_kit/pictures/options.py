@@ -6,21 +6,19 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, TypeAlias
 
-from lsys_kit.derivation.cellworks.development import CellworkDevelopment
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
-from lsys_kit.derivation.maps.development import Development
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.derivation.timed.lineage import Lineage
 from lsys_kit.derivation.timed.timed import Timed
+from lsys_kit.derivation.tissues.development import CellDevelopment
 from lsys_kit.errors import LSystemError, ModelNameError, ModelValueError, quotable, require, shown
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.scene import Scene
-from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
+from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
 from lsys_kit.notation.analysis.checks import suggestion
-from lsys_kit.notation.model.cellworks import CellworkSystem
-from lsys_kit.notation.model.maps import MapSystem
+from lsys_kit.notation.model.cells import CellSystem, CellworkSystem
 from lsys_kit.notation.model.system import LSystem, symbols
 from lsys_kit.pictures.formats.notebook import listed
 from lsys_kit.pictures.rendering.looks import with_colours_of_symbols, with_start, with_widths
@@ -28,7 +26,6 @@ from lsys_kit.pictures.sizes import Size, size_from
 from lsys_kit.pictures.style.colour_values import colour_from
 from lsys_kit.pictures.style.labels import polar_symbols
 from lsys_kit.pictures.style.themes import LIGHT, Theme, theme_from
-from lsys_kit.pictures.tissues.cellworks import labels_of_walls
 
 Symbols: TypeAlias = Mapping[str, tuple[str, ...]]
 """Names of symbols, each with those that it stands for: one, or the two polarities of a cell."""
@@ -170,7 +167,7 @@ def split_options(choices: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str,
 
 # --- the kinds ---
 
-DRAWABLE = (LSystem, Derivation, Word, MapSystem, Development, CellworkSystem, CellworkDevelopment, Stages, Lineage)
+DRAWABLE = (LSystem, Derivation, Word, CellSystem, CellDevelopment, Stages, Lineage)
 """What can be drawn."""
 
 
@@ -207,22 +204,21 @@ def check_drawable(what: object, n: int | None = None) -> None:
 
 def kind_of(what: object, choices: Mapping[str, Any]) -> str:
     """The kind of picture that is drawn of something."""
-    if isinstance(what, MapSystem | Development):
-        return SPHERE if (what if isinstance(what, MapSystem) else what.system).sphere else MAP
+    if isinstance(what, CellSystem | CellDevelopment):
+        return f"a {cell_system_of(what).kind}"
     if isinstance(what, LSystem | Derivation | Word):
         if drawing_mode(system_of(what)) is DrawingMode.FILAMENT:
             return FILAMENT
         several = any(isinstance(choices.get(name), Sequence) and len(choices[name]) for name in ("steps", "seeds"))
         return STEPS if several else DRAWING
-    kinds = {Stages: STAGES, Lineage: LINEAGE, CellworkSystem: CELLWORK, CellworkDevelopment: CELLWORK}
-    return kinds.get(type(what), DRAWING)
+    return {Stages: STAGES, Lineage: LINEAGE}.get(type(what), DRAWING)
 
 
 def coloured_symbols(what: object) -> Symbols:
     """The symbols in something whose colours can be chosen; both polarities of a cell are chosen by its letter."""
-    if isinstance(what, CellworkSystem | CellworkDevelopment):
-        system = what if isinstance(what, CellworkSystem) else what.system
-        return {label: (label,) for label in labels_of_walls(system)}
+    if isinstance(what, CellSystem | CellDevelopment):
+        cells = cell_system_of(what)
+        return {label: (label,) for label in cells.labels} if isinstance(cells, CellworkSystem) else {}
     if isinstance(what, LSystem | Derivation | Word):
         return named_symbols(system_of(what))
     if isinstance(what, Stages):
@@ -233,7 +229,7 @@ def coloured_symbols(what: object) -> Symbols:
 def named_symbols(system: LSystem) -> Symbols:
     """The symbols of a system by their names.
 
-    >>> from lsys_kit import read
+    >>> from lsys_kit.notation.read import read
     >>> named_symbols(read("axiom: ar b\\nar -> al"))
     {'a': ('ar', 'al'), 'ar': ('ar',), 'b': ('b',), 'al': ('al',)}
     """
@@ -245,3 +241,8 @@ def named_symbols(system: LSystem) -> Symbols:
 
 def system_of(what: LSystem | Derivation | Word) -> LSystem:
     return what if isinstance(what, LSystem) else what.states.system
+
+
+def cell_system_of(what: CellSystem | CellDevelopment[Any, Any]) -> CellSystem:
+    system: CellSystem = what if isinstance(what, CellSystem) else what.system
+    return system

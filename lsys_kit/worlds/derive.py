@@ -11,11 +11,9 @@ from functools import partial
 from typing import Any, overload
 
 from lsys_kit.derivation import derive as words_alone
-from lsys_kit.derivation.cellworks.development import CellworkDevelopment
 from lsys_kit.derivation.derive import Derivation, derive_observed
-from lsys_kit.derivation.maps.development import Development
-from lsys_kit.notation.model.cellworks import CellworkSystem
-from lsys_kit.notation.model.maps import MapSystem
+from lsys_kit.derivation.tissues.development import CellworkDevelopment, Development
+from lsys_kit.notation.model.cells import CellworkSystem, MapSystem
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.worlds.fields import Field
 from lsys_kit.worlds.sight import observe
@@ -69,7 +67,7 @@ def derive(system: Any, steps: int, **choices: Any) -> Derivation | Development 
 
     Examples
     --------
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> fibonacci = read("axiom: a\\na -> ab\\nb -> a")
     >>> [str(word) for word in derive(fibonacci, 3)]
     ['a', 'a b', 'a b a', 'a b a a b']

@@ -15,13 +15,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from lsys_kit.geometry.scene import OWN, Floats, Integers, Segments
-from lsys_kit.geometry.turtle.commands.table import FIRST_COLOUR
+from lsys_kit.geometry.turtle.commands import FIRST_COLOUR
 from lsys_kit.notation.model.arithmetic import Value
-from lsys_kit.worlds.boxes import Boxes, Cones, counts_in_cones, nearest_in_cones, steepest_lines
-from lsys_kit.worlds.neighbours import NEARNESS, lengths_of
+from lsys_kit.worlds.neighbours import NEARNESS, Boxes, Cones, counts_in_cones, lengths_of, nearest_in_cones, steepest_lines
 
 NO_SHOOT = -1
-"""The number of the shoot before the first one."""
 FIRST_LOOK = 64
 """Among so many of the nearest points one in a cone is looked for first."""
 _NEAR = 4
@@ -32,12 +30,10 @@ _NEAR = 4
 class Things:
     """The start and end points of some shoots, their start points, or the shoots themselves seen from the front.
 
-    Attributes
-    ----------
     lows, highs
         Shape (n, 2) or (n, 3): the least and the greatest coordinates of each.
     owners
-        Shape (n,): the number of the shoot of each.
+        The number of the shoot of each.
     """
 
     lows: Floats
@@ -86,11 +82,9 @@ class Shoots:
         return self._once(("points", least, colour), lambda numbers: self.ends[numbers].reshape(-1, 1, 3), 2)
 
     def starts(self, least: float) -> Things:
-        """Their start points."""
         return self._once(("starts", least, None), lambda numbers: self.ends[numbers, :1])
 
     def fronts(self, least: float) -> Things:
-        """The shoots themselves, seen from the front."""
         return self._once(("fronts", least, None), lambda numbers: self.ends[numbers][:, :, ::2])
 
     def _once(self, key: tuple[str, float, float | None], corners: Callable[[Integers], Floats], each: int = 1) -> Things:
@@ -105,12 +99,10 @@ class Shoots:
 class Standpoints:
     """Where modules ask from.
 
-    Attributes
-    ----------
     shoots
         All shoots.
     own, mothers
-        Shape (n,): the numbers of the shoots of those who ask, and of the shoots from which these grow; neither counts as a
+        The numbers of the shoots of those who ask, and of the shoots from which these grow; neither counts as a
         neighbour. `NO_SHOOT` where there is none.
     tips, heads
         Shape (n, 3): the tips of their shoots, and the directions of the shoots.
@@ -222,7 +214,6 @@ def shoots_above(asking: Standpoints, angle: float, least: float) -> Integers:
 
 
 def inclination(asking: Standpoints) -> Floats:
-    """The angle of the shoot from the vertical: 0 degrees upright, 90 horizontal, 180 hanging down."""
     found: Floats = np.degrees(np.arctan2(np.hypot(asking.heads[:, 0], asking.heads[:, 1]), asking.heads[:, 2]))
     return found
 
@@ -243,4 +234,3 @@ SENSITIVE_FUNCTIONS: Mapping[Value, SensitiveFunction] = {
     7: SensitiveFunction("the inclination", 0, 0, inclination),
     9: SensitiveFunction("the distance to the nearest shoot ahead", 2, 3, nearest_ahead),
 }
-"""The sensitive functions, by number."""

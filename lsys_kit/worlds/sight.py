@@ -21,21 +21,18 @@ from typing import NamedTuple
 import numpy as np
 
 from lsys_kit.budget import check_budget, counted
-from lsys_kit.derivation.core.rules import kind_of
+from lsys_kit.derivation.core.rules import Values, kind_of
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.traits import QUERIES
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.errors import ModelValueError
 from lsys_kit.geometry.scene import SPHERE, Integers, Segments
-from lsys_kit.geometry.turtle.commands.table import initial_step
-from lsys_kit.geometry.turtle.frames import TurtleFrame, Vector, initial_frame
-from lsys_kit.geometry.turtle.interpreter import compile_word
-from lsys_kit.geometry.turtle.shapes import collected_shapes
-from lsys_kit.geometry.turtle.space import SPACE_HANDLERS, SpaceTurtle, operand, strokes_of
+from lsys_kit.geometry.turtle.commands import initial_step
+from lsys_kit.geometry.turtle.space import SPACE_HANDLERS, SpaceTurtle, TurtleFrame, Vector, initial_frame, operand, strokes_of
+from lsys_kit.geometry.turtle.turtle import collected_shapes, compile_word
 from lsys_kit.notation.model.arithmetic import Value, short_text
-from lsys_kit.worlds.fields import Field, Question, Surroundings, answered
-from lsys_kit.worlds.ready_fields import named_field
-from lsys_kit.worlds.rounding import rounded
+from lsys_kit.worlds.fields import Field, Question, answered, named_field, rounded
+from lsys_kit.worlds.neighbours import Surroundings
 from lsys_kit.worlds.sensitive_functions import NO_SHOOT, SENSITIVE_FUNCTIONS, SensitiveFunction, Shoots, Standpoints
 
 TURTLE_QUERIES = QUERIES - {"?E"}
@@ -98,8 +95,6 @@ class Answers:
 class TurtleObservation:
     """What the modules of a word see.
 
-    Attributes
-    ----------
     word
         The word, with the values of its query modules filled in.
     shoots
@@ -113,20 +108,14 @@ class TurtleObservation:
     places: dict[int, Standpoint]
 
     def sees(self, position: int, function: Value, *values: Value) -> Value:
-        """The value of a sensitive function for the module at a position; both apices of a fork get the same.
-
-        Raises
-        ------
-        ValueError
-            There is no such function, or it takes another number of values.
-        """
+        """The value of a sensitive function for the module at a position; both apices of a fork get the same."""
         key = (function, *values)
         if key not in self._answers:
             self._answers[key] = Answers(self._standpoints, _sensitive_function(function, values), values)
         return rounded(self._answers[key].to(self._numbers[position]), self.word.states.arithmetic)
 
     @cached_property
-    def _answers(self) -> dict[tuple[Value, ...], Answers]:
+    def _answers(self) -> dict[Values, Answers]:
         return {}
 
     @cached_property
@@ -140,7 +129,6 @@ class TurtleObservation:
 
     @cached_property
     def _standpoints(self) -> Standpoints:
-        """All who ask, by number."""
         first = {self._numbers[position]: place for position, place in reversed(self.places.items())}
         places = [first[number] for number in range(len(first))]
         own: Integers = np.array([place.shoot for place in places], np.int64)
@@ -154,7 +142,6 @@ class TurtleObservation:
 
 
 def _sensitive_function(number: Value, values: Sequence[Value]) -> SensitiveFunction:
-    """The function with a number, where it takes so many values."""
     sensitive = SENSITIVE_FUNCTIONS.get(number)
     if sensitive is None:
         known = ", ".join(map(str, SENSITIVE_FUNCTIONS))
@@ -168,24 +155,7 @@ def _sensitive_function(number: Value, values: Sequence[Value]) -> SensitiveFunc
 def observe(word: Word, field: Field | None = None) -> TurtleObservation:
     """Interpret a word and record what its modules see.
 
-    Parameters
-    ----------
-    word
-        The word; interpretation rules are applied first.
-    field
-        What answers query modules `?E`; by default the field that the model names.
-
-    Raises
-    ------
-    ModelLimitError
-        More brackets are open at once than the limit allows.
-    ModelValueError
-        A value is too large to draw, or symbolic; a query module asks for more than three values; or no field answers.
-
-    Examples
-    --------
-    >>> from lsys_kit.derivation.derive import derive
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import derive, read
     >>> print(observe(derive(read("axiom: F(2)[+F(1)?P(0,0)]F(1)?H(0,0,0)"), 0)[0]).word)
     F(2)[+F(1)?P(-1,2)]F(1)?H(0,1,0)
     >>> print(observe(derive(read("field: place(y/2)\\naxiom: F?E(0)F?E(0)"), 0)[0]).word)
@@ -221,9 +191,7 @@ def _observing_states(states: States, present: Iterable[int]) -> frozenset[int]:
     )
 
 
-def _query_values(
-    states: States, numbers: Sequence[int], places: Mapping[int, Standpoint]
-) -> Iterator[tuple[int, tuple[Value, ...]]]:
+def _query_values(states: States, numbers: Sequence[int], places: Mapping[int, Standpoint]) -> Iterator[tuple[int, Values]]:
     """The positions of the query modules that ask the turtle, with the values that they receive."""
     for position, place in places.items():
         module = states.modules[numbers[position]]
@@ -241,7 +209,7 @@ def _field_values(
     places: Mapping[int, Standpoint],
     field: Field | None,
     scene: Callable[[], Surroundings],
-) -> Iterator[tuple[int, tuple[Value, ...]]]:
+) -> Iterator[tuple[int, Values]]:
     """The positions of the query modules that ask a field, with the values that they receive."""
     modules = [states.modules[number] for number in numbers]
     asking = [at for at in places if modules[at].symbol == "?E" and modules[at].arguments]

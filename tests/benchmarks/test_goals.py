@@ -20,8 +20,7 @@ import pytest
 from lsys_kit import ModelLimitError, derive, growth, limits, read, system
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import lengths
-from lsys_kit.derivation.engines.columnar import ColumnWord
-from lsys_kit.derivation.engines.columns import FloatValues
+from lsys_kit.derivation.engines.columnar import ColumnWord, FloatColumns
 from tests.benchmarks.test_engine import FIBONACCI, PLANT, TEN_RULES
 
 P4, CHANCE = system("P4"), system("K7")
@@ -109,7 +108,7 @@ def array_of(word: Word) -> np.ndarray:
     """What a copy of the word copies at least."""
     if not isinstance(word, ColumnWord):
         return np.asarray(word.codes)
-    return word.values.array if isinstance(word.values, FloatValues) else word.values.numerators
+    return word.values.array if isinstance(word.values, FloatColumns) else word.values.numerators
 
 
 def compare(benchmark, score: Score, goal: Goal, work: Callable[[], Word], visits: int | None = None) -> None:

@@ -20,11 +20,11 @@ from playwright.sync_api import Browser, Page, Route, expect
 
 from lsys_kit import read
 from lsys_kit.classroom.course import course_files, is_lesson
-from lsys_kit.classroom.lessons.declared import declared
-from lsys_kit.classroom.lessons.settings import asked_settings
+from lsys_kit.classroom.lessons.lesson import declared
 from lsys_kit.classroom.panel.books.book import book
 from lsys_kit.classroom.panel.controls import slider_ranges
 from lsys_kit.classroom.site.build import build_site
+from lsys_kit.classroom.site.showing import asked_settings
 from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.system import LSystem
 from tests.browser.test_lessons import ONE_SCREEN, height_of, move_every_slider

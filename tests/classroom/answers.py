@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 from lsys_kit import derive, exercises, read, read_map
-from lsys_kit.classroom.exercises.declared import registry
+from lsys_kit.classroom.exercises import registry
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.judging import WrongAnswer, wrong_answers
 from lsys_kit.classroom.exercises.kinds.choices import letters

@@ -12,22 +12,20 @@ from weakref import WeakKeyDictionary
 from playwright.sync_api import JSHandle, Page
 
 import lsys_kit.classroom.panel
-from lsys_kit.classroom.panel.books.drawing import faces_in
+from lsys_kit.classroom.panel.books.book import faces_in
 from lsys_kit.derivation.core.interpretation import interpretations
 from lsys_kit.derivation.core.words import Word
-from lsys_kit.geometry.natural_colours import has_natural_colours
-from lsys_kit.geometry.turtle.commands.instructions import Instruction, instructions
-from lsys_kit.geometry.turtle.commands.mode import drawing_mode
-from lsys_kit.geometry.turtle.commands.table import initial_colour, initial_step
-from lsys_kit.geometry.turtle.shapes import label_text
+from lsys_kit.geometry.drawing import has_natural_colours
+from lsys_kit.geometry.turtle.commands import Instruction, drawing_mode, initial_colour, initial_step, instructions
 from lsys_kit.geometry.turtle.surfaces import surfaces_by_symbol
+from lsys_kit.geometry.turtle.turtle import label_text
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 from lsys_kit.pictures.draw import state_colours
 from lsys_kit.pictures.style.palette import CHOSEN
 
 SCRIPTS = Path(lsys_kit.classroom.panel.__file__).parent / "scripts"
-TURTLE = ("turtle_actions", "turtle_plane", "turtle_curves", "turtle_space", "turtle")
-PAINTER = (*TURTLE, "colours", "lighting", "cylinders", "painting_order", "projection", "painter")
+TURTLE = ("constants", "numbers", "turtle_actions", "turtle_plane", "turtle_space", "turtle")
+PAINTER = (*TURTLE, "colours", "outlines", "projection", "painter")
 IMPORT = re.compile(r"^import .*;$\n", re.MULTILINE)
 
 

@@ -15,7 +15,7 @@ import pytest
 import sympy
 
 from lsys_kit import check, derive, exercises, read
-from lsys_kit.classroom.exercises.declared import registry
+from lsys_kit.classroom.exercises import registry
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.judging import wrong_answers
 from lsys_kit.classroom.exercises.kinds.numbers import FORMULA

@@ -12,10 +12,9 @@ import pytest
 
 from lsys_kit import LSystemError, derive, growth, read, stages, system, systems
 from lsys_kit.budget import limits
-from lsys_kit.classroom.panel.books.book import MOST_MODULES, book
-from lsys_kit.classroom.panel.books.growth_rate import rate_text
+from lsys_kit.classroom.panel.books.book import MOST_MODULES, book, rate_text
 from lsys_kit.derivation.core.traits import traits_of
-from lsys_kit.derivation.growth.recurrences import greatest_root
+from lsys_kit.derivation.growth.growth import greatest_root
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.turtle.surfaces import passed_over
 from lsys_kit.notation.model.modules import Pattern

@@ -15,16 +15,14 @@ from hypothesis import strategies as st
 from lsys_kit import LSystemError, derive, limits, read, stages, system, systems
 from lsys_kit.classroom.panel import bundle
 from lsys_kit.classroom.panel.books.book import book
-from lsys_kit.classroom.panel.bundle import bundled
 from lsys_kit.derivation.timed.ages import age_model
 from lsys_kit.geometry.filament import filament
-from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
+from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
 from lsys_kit.notation.registry import dialect_named
 from lsys_kit.pictures.draw import MOST_ROWS
-from lsys_kit.pictures.filaments.folding import MOST_CELLS, FilamentRow
-from lsys_kit.pictures.filaments.layout import filament_layout
+from lsys_kit.pictures.filaments import MOST_CELLS, FilamentRow, filament_layout
 from lsys_kit.pictures.style.labels import visible
-from tests.classroom.front_end import called
+from tests.classroom.front_end import called, joined
 from tests.derivation.random_systems import KINDS, systems_with
 from tests.derivation.random_systems import systems as random_systems
 
@@ -70,8 +68,7 @@ PAINTED = """([data, step, look]) => {
 @pytest.fixture(scope="module")
 def page(browser):
     tab = browser.new_page()
-    tab.add_script_tag(content=bundled("filament"))
-    tab.add_script_tag(content=bundled("book"))
+    tab.add_script_tag(content=joined("constants", "numbers", "colours", "outlines", "filament", "book"))
     yield tab
     tab.close()
 

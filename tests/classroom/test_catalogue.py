@@ -6,9 +6,8 @@ from itertools import pairwise
 import pytest
 
 from lsys_kit import derive, draw, explore, read, stages, timed, write
-from lsys_kit.classroom.catalogue import entry, system, systems
-from lsys_kit.classroom.catalogue_entry import WORKS, Entry
-from lsys_kit.classroom.lessons.declared import lesson
+from lsys_kit.classroom.catalogue import WORKS, Entry, entry, system, systems
+from lsys_kit.classroom.lessons.lesson import lesson
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.filament import filament
 

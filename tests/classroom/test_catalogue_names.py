@@ -8,9 +8,18 @@ import sys
 
 import pytest
 
-from lsys_kit import ModelNameError, ModelValueError, book_systems, explore, map_system, map_systems, system, systems
-from lsys_kit.classroom.catalogue import entry, is_map_system
-from lsys_kit.classroom.catalogue_entry import WORKS
+from lsys_kit import (
+    ModelNameError,
+    ModelValueError,
+    book_systems,
+    cellwork_systems,
+    explore,
+    map_system,
+    map_systems,
+    system,
+    systems,
+)
+from lsys_kit.classroom.catalogue import WORKS, cell_system, entry
 
 
 def test_the_list_names_every_system_under_the_work_it_comes_from():
@@ -45,7 +54,8 @@ def test_a_name_is_accepted_wherever_an_id_is(id):
     ask = map_system if id in map_systems() else system
     assert ask(name) is ask(f" {name.upper()} ") is ask(id)
     assert entry(name) is entry(id)
-    assert is_map_system(name) == is_map_system(id) == (id in map_systems())
+    assert cell_system(name) == cell_system(id)
+    assert (cell_system(id) is not None) == (id in map_systems() or id in cellwork_systems())
 
 
 def test_a_panel_may_be_asked_for_by_name():

@@ -19,10 +19,9 @@ import lsys_kit
 from lsys_kit import check, score
 from lsys_kit.__main__ import main
 from lsys_kit.classroom import child_processes
-from lsys_kit.classroom.exercises.collecting import collect as collecting
-from lsys_kit.classroom.exercises.collecting.collect import collect, marks_table, scores_in
-from lsys_kit.classroom.exercises.collecting.submissions import COMPUTED, answers_in
-from lsys_kit.classroom.exercises.declared.registry import exercise_of
+from lsys_kit.classroom.exercises import collecting
+from lsys_kit.classroom.exercises.collecting import COMPUTED, answers_in, collect, marks_table, scores_in
+from lsys_kit.classroom.exercises.registry import exercise_of
 from lsys_kit.classroom.handed_in import handed_in
 from lsys_kit.errors import ModelFileError
 

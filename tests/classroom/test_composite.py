@@ -14,8 +14,7 @@ import pytest
 from PIL import Image
 
 from lsys_kit import explore, read, system, systems
-from lsys_kit.classroom.panel.composite import BETWEEN, LINES, MARGIN, WIDEST, composite_png, lines_of
-from lsys_kit.classroom.panel.view_model import StepView, ViewModel
+from lsys_kit.classroom.panel.view_model import BETWEEN, LINES, MARGIN, WIDEST, StepView, ViewModel, composite_png, lines_of
 from lsys_kit.pictures.style.palette import MARK, MARK_EDGE, tinted
 from tests.test_hostile_names import HOSTILE, made, refused
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from lsys_kit import cellwork_systems, map_systems, systems
-from lsys_kit.classroom.exercises.declared.registry import lessons as exercises
-from lsys_kit.classroom.lessons.declared import declared, names
+from lsys_kit.classroom.exercises.registry import lessons as exercises
+from lsys_kit.classroom.lessons.lesson import declared, names
 from tests.notebooks.test_lesson_form import LESSONS, POINTS, TEACHER
 
 COURSE = (

@@ -6,9 +6,8 @@ import pytest
 
 from lsys_kit import ModelFileError, check, exercises
 from lsys_kit.__main__ import main
-from lsys_kit.classroom.exercises.declared import registry
-from lsys_kit.classroom.exercises.declared.declarations import QUESTIONS, questions_in
-from lsys_kit.classroom.exercises.declared.keys import KEYS
+from lsys_kit.classroom.exercises import registry
+from lsys_kit.classroom.exercises.declarations import KEYS, QUESTIONS, questions_in
 from lsys_kit.classroom.exercises.lint import problems_in
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
 from tests.exercise_guide import GUIDE, with_table

@@ -5,6 +5,8 @@ The exercises are found from the files: those of the kit, and one of each kind i
 
 import re
 import time
+import tomllib
+from fractions import Fraction
 from pathlib import Path
 
 import pytest
@@ -13,6 +15,7 @@ from lsys_kit import ModelNameError, ModelValueError, check, limits
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS
 from lsys_kit.classroom.exercises.lint import problems_in
+from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.classroom.exercises.verdict import Verdict
 from tests.classroom.answers import EXERCISES, OF_EACH_KIND, as_typed, of_each_kind_added, right_answers, wrong_answers_to
 
@@ -58,8 +61,10 @@ def test_the_solution_is_right_in_five_forms(exercise):
 @each_exercise
 def test_a_misconception_has_its_own_reply_and_earns_the_parts_that_are_right(exercise):
     for wrong in wrong_answers_to(exercise):
-        verdict = check(exercise.id, as_typed(exercise, wrong.answer))
-        assert float(verdict) == mark_said(exercise, verdict) < 1, str(verdict)
+        answer = as_typed(exercise, wrong.answer)
+        verdict = check(exercise.id, answer)
+        mark = Fraction(MARKS.get(exercise.id, {}).get(as_text(answer), 0))
+        assert float(verdict) == mark_said(verdict) == float(mark) < 1, str(verdict)
         name = wrong.misconception.name if wrong.misconception else ""
         own = [slip.says for slip in exercise.slips if slip.says and name and slip.misconception == name]
         expected = (wrong.says or wrong.misconception.do, *own)
@@ -81,11 +86,49 @@ def test_no_reply_gives_the_solution_away(exercise):
 # Marks
 
 
-def mark_said(exercise: Exercise, verdict: Verdict) -> float:
+MARKS = tomllib.loads((Path(__file__).parent / "data" / "marks.toml").read_text("utf-8"))
+_PARTS = re.compile(r"(?:Right|Passed): (?:the first )?(\d+) of (\d+) (?:numbers|words|tests|steps|transitions)\.")
+
+
+def mark_said(verdict: Verdict) -> float:
     """The mark that the first words of a reply to a wrong answer give: the share of the parts that are right, else nothing."""
-    pattern = re.escape(ANSWER_KINDS[exercise.kind].parts_said).replace(r"\{right\}", r"(\d+)").replace(r"\{all\}", r"(\d+)")
-    found = re.match(pattern, verdict.message) if pattern else None
+    found = _PARTS.match(verdict.message)
     return int(found[1]) / int(found[2]) if found else 0
+
+
+def as_text(answer: object) -> str:
+    """An answer as the table of marks has it."""
+    if not isinstance(answer, tuple | list):
+        return str(answer)
+    rows = any(isinstance(each, tuple) for each in answer)
+    return "\n".join(map(as_text, answer)) if rows else " ".join(map(str, answer))
+
+
+@pytest.mark.parametrize(
+    ("exercise", "answer", "mark", "said"),
+    [
+        ("1.2", 63, 0, "63 is not the number"),
+        ("kinds.angle", 77, 0, "77 degrees is not the number"),
+        ("kinds.word", "abaabaaa", 0, "Up to position 6 your word is right"),
+        ("kinds.word", "bbabbaba", 0, "At position 1 you have b."),
+        ("kinds.words", "a\nab\nbba\nabaab", 2 / 4, "Right: the first 2 of 4 words. Word 3"),
+        ("kinds.words", "b\nab\naba\nabaab", 0, "Word 1, that of step 0"),
+        ("kinds.table", "1 1 2 5", 3 / 4, "Right: 3 of 4 numbers. The first 3"),
+        ("kinds.table", "7 7 7 7", 0, "Look at number 1"),
+        ("kinds.lengths", "1, 2, 3, 5, 9, 13", 5 / 6, "Right: 5 of 6 numbers. The first 4"),
+        ("kinds.symbol", "1", 0, "Count the brackets"),
+        ("kinds.line", 1, 0, "It is not line 1."),
+        ("kinds.system", "axiom: S\nL -> L S\nS -> L L", 0, "Of S something else should become"),
+        ("kinds.expression", "d + 7", 0, "With d = 1 and n = 0 your expression gives 8"),
+        ("kinds.drawing", "F[+F]FF", 0, "Your first 3 strokes are right"),
+        ("kinds.net", "S -> L\nL -> A\nA -> L + 3 S", 2 / 3, "Right: 2 of 3 transitions. Look"),
+        ("kinds.net", "S -> S\nL -> L\nA -> A", 0, "Look at the transition that empties S"),
+        ("kinds.map", "A> -> B>[-A>]D>", 0, "At step 1 the number of cells is right."),
+    ],
+)
+def test_a_wrong_answer_that_nothing_explains_earns_the_parts_that_are_right(exercise, answer, mark, said):
+    verdict = check(exercise, answer)
+    assert (float(verdict), verdict.message[: len(said)]) == (mark, said)
 
 
 IN_PARTS = {"table", "words", "system", "map", "net"}
@@ -93,8 +136,8 @@ IN_PARTS = {"table", "words", "system", "map", "net"}
 
 def test_the_guide_says_of_each_kind_which_parts_count_and_in_which_words():
     guide = (Path(__file__).parents[2] / ".github" / "EXERCISES.md").read_text("utf-8")
-    said = {name: kind.parts_said.format(right=3, all=4) for name, kind in ANSWER_KINDS.items() if kind.parts_said}
-    assert said.keys() == IN_PARTS
+    assert {name for name, kind in ANSWER_KINDS.items() if kind.parts_right} == IN_PARTS
+    said = {name: reply(f"{name}.parts", right=3, all=4) for name in IN_PARTS}
     assert [name for name, words in said.items() if f"| {name} |" not in guide or f'"{words}"' not in guide] == []
 
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from lsys_kit import derive, read
 from lsys_kit.classroom.catalogue import system, systems
-from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
+from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
 from lsys_kit.pictures.draw import state_colours
 from lsys_kit.pictures.rendering.display_list import AreaRun, LineRun, display_list
 from lsys_kit.pictures.rendering.view import far_to_near, project

@@ -14,12 +14,10 @@ from playwright.sync_api import Error
 from lsys_kit import derive, read
 from lsys_kit.classroom.catalogue import system, systems
 from lsys_kit.errors import ModelValueError
-from lsys_kit.geometry.natural_colours import coloured
-from lsys_kit.geometry.turtle.commands.actions import Effect
-from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
-from lsys_kit.geometry.turtle.commands.table import COMMANDS
-from lsys_kit.geometry.turtle.plane import place_path, trace
-from lsys_kit.geometry.turtle.space import trace_in_space
+from lsys_kit.geometry.drawing import coloured
+from lsys_kit.geometry.turtle.commands import COMMANDS, DrawingMode, Effect, drawing_mode
+from lsys_kit.geometry.turtle.plane import PLANE_HANDLERS, place_path, trace
+from lsys_kit.geometry.turtle.space import SPACE_HANDLERS, trace_in_space
 from lsys_kit.notation.model.expressions import Number
 from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.notation.model.system import LSystem
@@ -27,6 +25,7 @@ from lsys_kit.pictures.draw import state_colours
 from lsys_kit.pictures.rendering.frames import in_units
 from lsys_kit.pictures.rendering.looks import numbered_colours
 from tests.classroom.front_end import TURTLE, answers, book_of
+from tests.shared_constants import CONSTANTS, script
 
 MOST_MODULES, LAST_STEP = 5_000, 6
 ANGLES = (17.3, 90.0, -144.5)
@@ -312,3 +311,33 @@ def test_the_paths_of_few_large_words_are_kept(page):
 
     assert kept(3) == [0, 1, 2, 4, 5, 3]
     assert kept(17) == [2, 4, 5, 3]
+
+
+FRACTINT = {
+    "draw by second heading",
+    "move by second heading",
+    "turn second heading",
+    "mirror turns",
+    "set palette colour",
+    "turn by mirrored angle",
+}
+
+
+@pytest.mark.parametrize(("made", "handlers"), [("planeActions", PLANE_HANDLERS), ("spaceActions", SPACE_HANDLERS)])
+def test_the_turtle_of_the_panel_knows_the_actions_of_the_kit(page, made, handlers):
+    """That of Fractint never leaves the plane."""
+    known = answers(page, f"return Object.keys({made}());", None, *TURTLE)
+    missing = {*handlers} - {*known}
+    assert missing == (FRACTINT if made == "spaceActions" else set())
+
+
+def test_an_action_that_the_panel_does_not_know_is_named(page):
+    book = book_of([derive(read("axiom: F"), 0)[0]])
+    book["turtle"]["calls"][0][0][0] = "fly"
+    with pytest.raises(Error, match='The turtle of the panel does not know how to "fly"'):
+        answers(page, SHAPES, [{"book": book, "angles": [90]}], *TURTLE)
+
+
+def test_the_constants_of_the_scripts_are_those_of_the_kit():
+    """If not: python -m tests.shared_constants."""
+    assert CONSTANTS.read_text(encoding="utf-8") == script()

@@ -8,38 +8,43 @@ import re
 import subprocess
 import sys
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 from babel.messages.catalog import Catalog
 from babel.messages.mofile import read_mo
 
-import lsys_kit
-from lsys_kit import ModelNameError, check, exercises, explore, language, practice, predict, system, vote, worksheet
+from lsys_kit import ModelNameError, check, exercises, explore, language, practice, predict, vote, worksheet
 from lsys_kit.classroom.exercises.check import checked
-from lsys_kit.classroom.exercises.declared.declarations import QUESTIONS, questions_in
-from lsys_kit.classroom.exercises.declared.registry import lessons
+from lsys_kit.classroom.exercises.declarations import QUESTIONS, questions_in
 from lsys_kit.classroom.exercises.kinds.choices import letters
 from lsys_kit.classroom.exercises.kinds.numbers import FORMULA
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
 from lsys_kit.classroom.exercises.notebooks import exercise_notebook
-from lsys_kit.classroom.exercises.practice.practice import TOPICS
-from lsys_kit.classroom.exercises.progress.progress import progress_of
-from lsys_kit.classroom.exercises.progress.record import Record, Try
-from lsys_kit.classroom.exercises.translated import texts, translated, translated_lesson
-from lsys_kit.classroom.lessons.declared import table
-from lsys_kit.classroom.lessons.widget import LABELS
+from lsys_kit.classroom.exercises.practice.drafts import TOPICS
+from lsys_kit.classroom.exercises.progress import Record, Try, progress_of
+from lsys_kit.classroom.exercises.registry import lessons, texts, translated, translated_lesson
+from lsys_kit.classroom.lessons.lesson import table
 from lsys_kit.classroom.lessons.worksheet import marked, summary
-from lsys_kit.classroom.panel.labels import LABELS as PANEL_LABELS
-from lsys_kit.classroom.panel.page import page_data
+from lsys_kit.classroom.panel.bundle import translated_words
 from lsys_kit.classroom.scorm.package import manifest
-from lsys_kit.classroom.scorm.page import WORDS, exercise_page, words_of_page
+from lsys_kit.classroom.scorm.page import exercise_page
 from lsys_kit.translation import gettext, ngettext
-from tests.messages import TEMPLATE, codes, is_translated, placeholders, po_file, po_text, renewed, template
+from tests.messages import (
+    SCRIPTS,
+    TABLES_OF_SCRIPTS,
+    TEMPLATE,
+    codes,
+    in_scripts,
+    is_translated,
+    placeholders,
+    po_file,
+    po_text,
+    renewed,
+    template,
+)
 
 LESSONS = questions_in(QUESTIONS).lessons
 EXERCISES = [exercise for lesson in LESSONS for exercise in lesson.exercises]
-SCRIPTS = Path(lsys_kit.__file__).parent / "classroom" / "panel" / "scripts"
 _RENEW = "python -m tests.messages renews the catalogues"
 
 
@@ -193,7 +198,7 @@ def test_no_hint_contains_the_solution(exercise):
 @pytest.mark.usefixtures("german")
 def test_a_notebook_is_written_in_the_language():
     notebook = exercise_notebook(translated_lesson(LESSONS[1]))
-    assert "# Aufgaben: Paralleles Ersetzen" in notebook
+    assert "# Aufgaben: Alles auf einmal" in notebook
     assert json.loads(notebook)["cells"][1]["source"] == ["from lsys_kit import check, language, progress\n", 'language("de");']
     assert not re.search(r"After these exercises|hints 1 to|Not answered|Replace the", notebook)
 
@@ -275,30 +280,21 @@ def test_english_labels_need_nowords_of_page():
     assert predict("How many?", "3").prompt.words == {}
 
 
-def test_the_scripts_show_the_labels_that_are_translated():
-    scripts = "".join(path.read_text("utf-8") for path in SCRIPTS.glob("lessons/*.js"))
-    assert [label for label in LABELS if f'"{label}"' not in scripts] == ["Not right"]  # said by the kernel
+def test_the_scripts_have_the_texts_that_are_said_to_stand_in_their_tables():
+    scripts = "".join(path.read_text("utf-8") for path in SCRIPTS.rglob("*.js"))
+    assert [text for text in TABLES_OF_SCRIPTS if f'"{text}"' not in scripts and f"'{text}'" not in scripts] == []
 
 
-def test_the_scripts_of_a_page_for_platforms_show_the_texts_that_are_translated():
-    scripts = "".join(path.read_text("utf-8") for path in (SCRIPTS / "practice.js", *SCRIPTS.glob("practice/*.js")))
-    assert [text for text in WORDS if f'"{text}"' not in scripts and f"'{text}'" not in scripts] == []
-    shown = re.findall(r"""worded\((?:"([^"]+)"|'([^']+)')""", scripts)
-    assert shown
-    assert {one or other for one, other in shown} <= {*WORDS}
-
-
-def test_the_scripts_of_the_panel_show_the_labels_that_are_translated():
-    paths = [SCRIPTS / "panels" / "panel.js", SCRIPTS / "drawing" / "drawing.js", *SCRIPTS.glob("views/*.js")]
-    scripts = "".join(path.read_text("utf-8") for path in paths)
-    assert [label for label in PANEL_LABELS if f'"{label}"' not in scripts] == []
-    assert {*re.findall(r'worded\("([^"]+)"', scripts)} <= {*PANEL_LABELS}
+@pytest.mark.usefixtures("german")
+def test_what_scripts_show_is_sent_to_them_in_the_language():
+    sent = [*translated_words("panel"), *vote("01").words, *translated_words("practice")]
+    assert [text for text in in_scripts() if text not in sent and gettext(text) != text] == []
 
 
 @pytest.mark.usefixtures("german")
 def test_panels_and_their_pages_are_in_the_language():
     words = explore("J1").model["words"]
-    assert words == page_data(system("J1"))["model"]["words"]
+    assert words == explore("J1").page_data()["model"]["words"]
     assert (words["stages"], words["the step of the derivation"]) == ("Stufen", "der Schritt der Ableitung")
 
 
@@ -311,15 +307,15 @@ def test_a_page_for_platforms_is_in_the_language():
     lesson = lessons()[1]
     page = exercise_page(lesson)
     assert page.startswith('<!doctype html>\n<html lang="de">')
-    assert "<h1>Aufgaben: Paralleles Ersetzen</h1>" in page
+    assert "<h1>Aufgaben: Alles auf einmal</h1>" in page
     for said in ("Das ist Übung und keine Prüfung.", "Deine Antwort, ein Wort", "<h2>Zusammenfassung</h2>", "Im Notebook</h2>"):
         assert said in page
-    assert manifest([translated_lesson(lesson)], ["01.html"]).count("Paralleles Ersetzen") == 2
-    assert words_of_page()["{number} of {total} solved."] == "{number} von {total} gelöst."
+    assert manifest([translated_lesson(lesson)], ["01.html"]).count("Alles auf einmal") == 2
+    assert translated_words("practice")["{number} of {total} solved."] == "{number} von {total} gelöst."
 
 
 @pytest.mark.usefixtures("german")
 def test_progress_is_in_the_language():
     page = progress_of(Record((Try("1.1", True),)), 1)
-    assert repr(page).startswith("Paralleles Ersetzen: 1 von 5 gelöst.\n✓ 1.1  Ein Wort von Hand\n")
+    assert repr(page).startswith("Alles auf einmal: 1 von 5 gelöst.\n✓ 1.1  Ein Wort von Hand\n")
     assert 'aria-label="gelöst:"' in page._repr_html_()

@@ -27,13 +27,21 @@ from lsys_kit import (
     worksheet,
 )
 from lsys_kit.budget import in_task
-from lsys_kit.classroom.lessons.answers import is_right, number_of
-from lsys_kit.classroom.lessons.declaration import lesson_from
-from lsys_kit.classroom.lessons.declared import FOLDER, lesson, names, table
-from lsys_kit.classroom.lessons.displayed import html, media
-from lsys_kit.classroom.lessons.lesson import Blank, Option, Table, Vote
+from lsys_kit.classroom.lessons.lesson import (
+    FOLDER,
+    Blank,
+    Option,
+    Table,
+    Vote,
+    is_right,
+    lesson,
+    lesson_from,
+    names,
+    number_of,
+    table,
+)
 from lsys_kit.classroom.lessons.vote import Ballot, VoteBox
-from lsys_kit.classroom.lessons.widget import prose_html, prose_text
+from lsys_kit.classroom.lessons.widget import html, media, prose_html, prose_text
 from lsys_kit.classroom.lessons.worksheet import Worksheet, marked, summary
 
 ONE = "01_all_at_once"

@@ -8,10 +8,11 @@ from dataclasses import replace
 import pytest
 
 from lsys_kit import check, map_system
-from lsys_kit.classroom.exercises.declared.registry import exercise_of
 from lsys_kit.classroom.exercises.kinds.maps import same_maps
-from lsys_kit.derivation.maps.development import develop
-from lsys_kit.derivation.maps.map import Map, Side
+from lsys_kit.classroom.exercises.registry import exercise_of
+from lsys_kit.derivation.tissues.development import develop
+from lsys_kit.derivation.tissues.edges import Side
+from lsys_kit.derivation.tissues.maps import Map
 
 
 def shuffled(found: Map, chance: random.Random) -> Map:

@@ -10,8 +10,8 @@ import pytest
 from lsys_kit import ModelNameError, ModelValueError, derive, draw, map_system, map_systems, read_map, system, systems
 from lsys_kit.__main__ import main
 from lsys_kit.classroom.catalogue import entry
-from lsys_kit.derivation.maps.map import cell_words
-from lsys_kit.geometry.tissues.map_layout import FIRST_WALL, polygon, tissue
+from lsys_kit.derivation.tissues.maps import cell_words
+from lsys_kit.geometry.tissues.layout import FIRST_WALL, polygon, tissue
 from lsys_kit.geometry.tissues.relaxation import DEFAULT_FORCES, areas, force
 
 COUNTS = {

@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 from lsys_kit import check, score
-from lsys_kit.classroom.exercises.declared.registry import lessons
+from lsys_kit.classroom.exercises import progress as scores
 from lsys_kit.classroom.exercises.notebooks import exercise_notebook
-from lsys_kit.classroom.exercises.progress import scores
+from lsys_kit.classroom.exercises.registry import lessons
 
 LESSON = next(lesson for lesson in lessons() if lesson.name.startswith("01"))
 FIRST, SECOND = LESSON.exercises[:2]

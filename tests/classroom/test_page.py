@@ -18,7 +18,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from playwright.sync_api import Browser, Page, expect
 
-import lsys_kit.classroom.panel.page as panel_page
+import lsys_kit.classroom.panel.opened.systems as panel_page
 from lsys_kit import (
     ModelFileError,
     ModelNameError,
@@ -33,8 +33,11 @@ from lsys_kit import (
     systems,
 )
 from lsys_kit.classroom.panel.books.book import book
-from lsys_kit.classroom.panel.page import deflated, page, page_data, save_page, shared
+from lsys_kit.classroom.panel.opened.opened import Viewing
+from lsys_kit.classroom.panel.opened.systems import OpenedSystem
+from lsys_kit.classroom.panel.page import deflated, page, save_page, shared
 from lsys_kit.notation.fragments import unpacked
+from lsys_kit.notation.model.system import LSystem
 from tests.classroom.front_end import joined
 from tests.classroom.test_link import forged
 from tests.test_hostile_names import HOSTILE, made, refused
@@ -70,6 +73,22 @@ class Parts(HTMLParser):
 
     def handle_comment(self, data: str) -> None:
         self.tags.append("!--")
+
+
+def page_data(
+    system: LSystem,
+    changes: dict[str, Any] | None = None,
+    seed: int = 0,
+    *,
+    title: str = "",
+    step: int | None = None,
+    angle: object = None,
+    asked: list[dict[str, Any]] | tuple[()] = (),
+) -> dict[str, Any]:
+    """What a page knows of a system."""
+    what = OpenedSystem(system, title, changes)
+    chosen = Viewing(what.steps if step is None else step, what.first, seed, what.turned(angle))
+    return what.page_data(chosen, asked)
 
 
 def books_of(data: dict[str, Any]) -> list[dict[str, Any]]:
@@ -423,7 +442,7 @@ def test_a_plant_keeps_its_angle_in_its_link(opened) -> None:
 def test_python_and_the_page_write_links_that_the_other_reads(browser: Browser) -> None:
     shown = browser.new_page()
     chosen = {id: link(system(id), {"step": 4, "angle": "77/3"}) for id in systems()}
-    code = f"""given => {{ {joined("link")}
+    code = f"""given => {{ {joined("constants", "numbers", "link")}
         return Promise.all(given.map(unpackedLink).map(async (each) => [await each, await packedLink(await each)])); }}"""
     for address, (content, again) in zip(chosen.values(), shown.evaluate(code, [*chosen.values()]), strict=True):
         assert content == {**unpacked(address)._asdict(), "settings": dict(unpacked(address).settings)}
@@ -444,7 +463,7 @@ def test_the_page_reads_no_broken_link_and_no_bomb(browser: Browser) -> None:
         forged(b"abop\naxiom: " + b"A" * 5_000_000),
         forged(b"abop\n\xff"),
     ]
-    code = f"given => {{ {joined('link')}\nreturn Promise.all(given.map(unpackedLink)); }}"
+    code = f"given => {{ {joined('constants', 'numbers', 'link')}\nreturn Promise.all(given.map(unpackedLink)); }}"
     assert shown.evaluate(code, broken) == [None] * len(broken)
     assert shown.evaluate(code, [whole]) == [unpacked(whole)._asdict() | {"settings": {"step": "4"}}]
     shown.close()

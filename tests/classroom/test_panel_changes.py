@@ -14,9 +14,9 @@ from typing import Any
 import pytest
 
 from lsys_kit import derive, explore
-from lsys_kit.classroom.panel.opened.opened import read_any
 from lsys_kit.errors import LSystemError
 from lsys_kit.notation.model.system import LSystem
+from lsys_kit.notation.read import read_any
 from tests.classroom.panel_page import PanelPage, Tab, open_panel, open_tab
 
 SYSTEMS: Mapping[str, tuple[tuple[str, str], ...]] = {

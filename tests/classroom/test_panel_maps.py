@@ -10,7 +10,7 @@ from playwright.sync_api import expect
 
 from lsys_kit import derive, explore, map_system, read_map
 from lsys_kit.classroom.panel.bundle import bundled
-from lsys_kit.geometry.tissues.map_layout import initial_vertices, place_maps, tissue
+from lsys_kit.geometry.tissues.layout import initial_vertices, place_maps, tissue
 from lsys_kit.geometry.tissues.relaxation import Forces, areas, force, relax
 from tests.classroom.front_end import called
 from tests.classroom.test_map_book import FLAT

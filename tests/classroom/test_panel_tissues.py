@@ -9,11 +9,10 @@ from hypothesis import strategies as st
 from playwright.sync_api import expect
 
 from lsys_kit import LSystemError, derive, explore, limits, map_system
-from lsys_kit.classroom.panel.books.tissue_layout import tissue_at_rest
-from lsys_kit.classroom.panel.books.tissues import tissue_book
-from lsys_kit.geometry.tissues.cell_relaxation import SPACE_FORCES
-from lsys_kit.geometry.tissues.cellwork_layout import cellwork_scene
-from lsys_kit.geometry.tissues.sphere_layout import SPHERE_FORCES
+from lsys_kit.classroom.panel.books.at_rest import cells_at_rest
+from lsys_kit.classroom.panel.books.cells import cell_book
+from lsys_kit.geometry.tissues.layout import cellwork_scene
+from lsys_kit.geometry.tissues.relaxation import SPACE_FORCES, SPHERE_FORCES
 from lsys_kit.pictures.rendering.view import axes, project
 from lsys_kit.pictures.style.lighting import brightness
 from lsys_kit.pictures.tissues.cellworks import wall_labels
@@ -72,9 +71,9 @@ def page(browser):
 def expect_as_drawn(page, rest, step, cells=None):
     """What the browser sees of a cellwork from several sides is what the kit draws, in the same order and shades."""
     labels = {label: number for number, label in enumerate(wall_labels(rest.steps))}
-    shown = asked(page, SEEN, book=tissue_book(rest, {}), step=step, sides=SIDES, cells=cells)
+    shown = asked(page, SEEN, book=cell_book(rest, {}), step=step, sides=SIDES, cells=cells)
     lit = range(len(rest.steps[step].cells)) if cells is None else cells
-    scene = cellwork_scene(rest.steps[step], rest.places[step], labels, lit, len(labels))
+    scene = cellwork_scene(rest.steps[step], rest.reached[step], labels, lit, len(labels))
     for side, seen in zip(SIDES, shown, strict=True):
         [drawn] = project([scene], side)
         polygons, bright, parts = [*drawn.polygons], brightness(drawn.normals), seen["parts"]
@@ -91,7 +90,7 @@ def expect_as_drawn(page, rest, step, cells=None):
 
 @pytest.mark.parametrize("cells", [None, [3], [0, 5, 6]])
 def test_a_cellwork_is_seen_from_all_sides_as_the_kit_draws_it(page, cells):
-    rest = tissue_at_rest(explore("K33", 0).system, SPACE_FORCES)
+    rest = cells_at_rest(explore("K33", 0).system, SPACE_FORCES)
     for step in range(rest.last + 1) if cells is None else (3, 4):
         expect_as_drawn(page, rest, step, cells)
 
@@ -102,7 +101,7 @@ def test_a_cellwork_is_seen_from_all_sides_as_the_kit_draws_it(page, cells):
 def test_random_cellworks_are_seen_so_too(page, system, data):
     try:
         with limits(modules=120, seconds=5):
-            rest = tissue_at_rest(system, SPACE_FORCES)
+            rest = cells_at_rest(system, SPACE_FORCES)
     except LSystemError:
         return
     step = data.draw(st.integers(0, min(rest.last, 3)))
@@ -112,13 +111,13 @@ def test_random_cellworks_are_seen_so_too(page, system, data):
 
 
 def test_a_sphere_is_seen_from_all_sides_as_the_kit_draws_it(page):
-    rest = tissue_at_rest(map_system("K34"), SPHERE_FORCES)
+    rest = cells_at_rest(map_system("K34"), SPHERE_FORCES)
     for step in range(4):
         found = rest.steps[step]
-        shown = asked(page, SEEN, book=tissue_book(rest, {}), step=step, sides=OBLIQUE, cells=None)
+        shown = asked(page, SEEN, book=cell_book(rest, {}), step=step, sides=OBLIQUE, cells=None)
         for side, seen in zip(OBLIQUE, shown, strict=True):
             view = np.column_stack(axes(*map(np.radians, side)))
-            arcs = [each @ view for each in wall_arcs(found, *rest.places[step])]
+            arcs = [each @ view for each in wall_arcs(found, *rest.reached[step])]
             for cell, outlines in zip(found.cells, seen["cells"], strict=True):
                 around = np.concatenate([arcs[wall][:-1] if forward else arcs[wall][:0:-1] for wall, forward in cell])
                 drawn = _seen_outlines(around) if (around[:, 2] > 0).any() else []

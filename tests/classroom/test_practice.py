@@ -11,11 +11,9 @@ from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.judging import is_right_by_mistake, right_by_mistake, wrong_answers
 from lsys_kit.classroom.exercises.kinds.choices import letters
 from lsys_kit.classroom.exercises.lint import HINTS
-from lsys_kit.classroom.exercises.practice.drafts import choice_exercise, number_exercise
-from lsys_kit.classroom.exercises.practice.of_drawings import end_of
-from lsys_kit.classroom.exercises.practice.of_languages import TYPES, growth_type
-from lsys_kit.classroom.exercises.practice.of_space import DIRECTIONS, heading_after
-from lsys_kit.classroom.exercises.practice.practice import LEVELS, TOPICS, _made
+from lsys_kit.classroom.exercises.practice.drafts import TOPICS, Draft
+from lsys_kit.classroom.exercises.practice.makers import DIRECTIONS, TYPES, end_of, growth_type, heading_after
+from lsys_kit.classroom.exercises.practice.practice import LEVELS, _made
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.notation.read import read
 from lsys_kit.worlds.derive import derive
@@ -103,7 +101,7 @@ def test_probabilities_sum_to_one():
 
 
 def test_every_lesson_has_something_to_practise():
-    assert {topic.lesson for topic in TOPICS.values()} == set(range(19))
+    assert {topic["lesson"] for topic in TOPICS.values()} == set(range(19))
 
 
 @pytest.mark.parametrize("seed", range(30))
@@ -197,9 +195,12 @@ def test_misconceptions_are_looked_for_until_one_is_right():
 
 
 def test_questions_whose_answers_are_the_same_are_no_exercises():
-    assert number_exercise("", 3, [(4, ""), (4, "")], "", ()) is None
-    assert number_exercise("", 0, [(4, "")], "", ()) is None
-    assert choice_exercise(Random(1), "", "a", [("b", ""), ("b", "")], "", ()) is None
+    draft = Draft({"kind": "number", "hints": [], "replies": ["", ""]})
+    assert draft.number(3, [4, 5]).solution == "3"
+    assert draft.number(3, [4, 4]) is None
+    assert draft.number(3, [3, 4]) is None
+    assert draft.number(0, [4, 5]) is None
+    assert draft.choice(Random(1), "a", [("b", ""), ("b", "")]) is None
 
 
 def test_it_displays_as_its_question():

@@ -12,11 +12,10 @@ import pytest
 
 from lsys_kit import LSystemError, ModelNameError, ModelValueError, check, files, progress
 from lsys_kit.classroom.course import copy_course
-from lsys_kit.classroom.exercises.declared import registry
-from lsys_kit.classroom.exercises.declared.registry import lessons
-from lsys_kit.classroom.exercises.progress import record
-from lsys_kit.classroom.exercises.progress.progress import progress_of
-from lsys_kit.classroom.exercises.progress.record import FILE, HEAD, MOST_BYTES, Record, Try, record_so_far
+from lsys_kit.classroom.exercises import progress as kept
+from lsys_kit.classroom.exercises import registry
+from lsys_kit.classroom.exercises.progress import FILE, HEAD, MOST_BYTES, Record, Try, progress_of, record_so_far
+from lsys_kit.classroom.exercises.registry import lessons
 from lsys_kit.files import append_line
 
 RIGHT, NEAR, UNREADABLE = "bl ar bl ar ar", "al al br", "al al bx"
@@ -27,8 +26,8 @@ RIGHT, NEAR, UNREADABLE = "bl ar bl ar ar", "al al br", "al al bx"
 def new_session(monkeypatch):
     """As if Python had just begun."""
     for name in ("_seen", "_said"):
-        monkeypatch.setattr(record, name, set())
-    monkeypatch.setattr(record, "_not_kept", [])
+        monkeypatch.setattr(kept, name, set())
+    monkeypatch.setattr(kept, "_not_kept", [])
 
 
 @pytest.fixture
@@ -53,7 +52,7 @@ def results(course: Path) -> list[str]:
 def begin_again(monkeypatch) -> None:
     """As if Python had been started again."""
     for name in ("_seen", "_said"):
-        monkeypatch.setattr(record, name, set())
+        monkeypatch.setattr(kept, name, set())
 
 
 # What is kept
@@ -190,7 +189,7 @@ def test_a_folder_that_cannot_be_written_to_stops_no_check(course, monkeypatch):
     def refuse(*_: object) -> None:
         raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr(record, "append_line", refuse)
+    monkeypatch.setattr(kept, "append_line", refuse)
     verdict = check("1.1", NEAR)
     assert verdict.said == "Almost"
     assert verdict.message.endswith(f"\nThis try is not kept in {FILE}: Permission denied.")
@@ -228,7 +227,7 @@ def test_what_is_solved_and_tried_is_counted(new_session):
     tries = [("1.1", False), ("1.1", False), ("1.1", True), ("1.1", False), ("1.2", False)]
     page = progress_of(Record(tuple(Try(*each) for each in tries)), 1)
     assert repr(page).splitlines()[:4] == [
-        "Parallel rewriting: 1 of 5 solved, 1 more tried.",
+        "All at once: 1 of 5 solved, 1 more tried.",
         "✓ 1.1  A word by hand (3 tries)",
         "◐ 1.2  Find the bug",
         "○ 1.3  The filament in a mirror",
@@ -255,7 +254,7 @@ def test_next_is_the_first_exercise_not_solved_of_the_lesson_worked_on_last(trie
 
 def test_when_all_is_solved_the_page_says_so(monkeypatch):
     tries = tuple(Try(exercise.id, True) for lesson in lessons() for exercise in lesson.exercises)
-    monkeypatch.setattr("lsys_kit.classroom.exercises.progress.progress.all_lessons", lessons)
+    monkeypatch.setattr("lsys_kit.classroom.exercises.progress.all_lessons", lessons)
     page = progress_of(Record(tries))
     assert page.next is None
     assert "All exercises are solved." in repr(page)

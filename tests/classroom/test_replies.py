@@ -7,12 +7,13 @@ import pytest
 import sympy
 
 from lsys_kit import check, derive, read, stages, system
-from lsys_kit.classroom.exercises.declared.declarations import questions_in
+from lsys_kit.classroom.exercises.declarations import questions_in
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.judging import judged
-from lsys_kit.classroom.exercises.kinds.proofs import differing_values, proved_equal
+from lsys_kit.classroom.exercises.kinds.expressions import differing_values, proved_equal
+from lsys_kit.classroom.exercises.kinds.kind import one_apart
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS
-from lsys_kit.classroom.exercises.misconceptions.rewriting import leftmost_only, sequential, words_by
+from lsys_kit.classroom.exercises.misconceptions.of_steps import leftmost_only, sequential, words_by
 from lsys_kit.notation.read import read_expression
 from tests.classroom.answers import OF_EACH_KIND, of_each_kind_added
 
@@ -321,6 +322,27 @@ def test_a_misprint_that_the_kit_corrects_is_right():
 
 
 # Marks
+
+
+@pytest.mark.parametrize(
+    ("mine", "wanted", "near"),
+    [
+        ("abb", "aba", False),
+        ("ab", "aba", False),
+        ("abab", "aba", False),
+        ("abb", "abab", True),
+        ("abbb", "abab", True),
+        ("ababa", "abab", True),
+        ("abba", "abab", False),
+    ],
+)
+def test_one_thing_that_differs_is_nearly_right_in_rows_of_four_and_more(mine, wanted, near):
+    assert one_apart(tuple(mine), tuple(wanted)) is near
+
+
+def test_one_wrong_letter_of_three_is_not_almost_right(asked):
+    three = asked("word", system="axiom: a\na -> ab\nb -> a", steps=2, solution="aba")
+    assert [said(three, answer).said for answer in ("bba", "abb")] == ["Not yet", "Not yet"]
 
 
 @pytest.mark.parametrize(

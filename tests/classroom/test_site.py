@@ -16,13 +16,11 @@ from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_outp
 from playwright.sync_api import Browser
 
 from lsys_kit import LSystemError, ModelFileError, compare, draw, explore, predict, system, vote, worksheet
-from lsys_kit.classroom.lessons.declared import declared, names
+from lsys_kit.classroom.lessons.lesson import declared, names
 from lsys_kit.classroom.lessons.worksheet import marked, summary
-from lsys_kit.classroom.site.build import build_site
-from lsys_kit.classroom.site.cells import cells_html, data_html, title_of
+from lsys_kit.classroom.site.build import build_site, run
 from lsys_kit.classroom.site.markdown import PLAIN_TAGS, address_on_site, markdown_html, mathml
-from lsys_kit.classroom.site.pages import Entry, index_page, notebook_page
-from lsys_kit.classroom.site.running import run
+from lsys_kit.classroom.site.pages import Entry, cells_html, data_html, index_page, notebook_page, title_of
 from lsys_kit.classroom.site.showing import PART, part
 from tests.classroom.front_end import joined
 from tests.classroom.test_page import Parts
@@ -297,11 +295,13 @@ CELLS = [
 
 
 def test_a_page_finds_right_what_the_kernel_finds_right(browser: Browser) -> None:
-    from lsys_kit.classroom.lessons.answers import is_right
+    from lsys_kit.classroom.lessons.lesson import is_right
 
     tab = browser.new_page()
     cases = [[typed, *cell] for typed, cell in itertools.product(TYPED, CELLS) if typed != "٢"]
-    found = tab.evaluate(f"cases => {{ {joined('checking')}\nreturn cases.map((each) => isRight(...each)); }}", cases)
+    found = tab.evaluate(
+        f"cases => {{ {joined('constants', 'checking')}\nreturn cases.map((each) => isRight(...each)); }}", cases
+    )
     assert found == [is_right(*case) for case in cases]
     assert len(set(found)) == 2
     tab.close()
@@ -309,7 +309,10 @@ def test_a_page_finds_right_what_the_kernel_finds_right(browser: Browser) -> Non
 
 @pytest.mark.parametrize("name", names())
 def test_a_page_says_of_a_table_what_the_kernel_says(browser: Browser, name: str) -> None:
-    tab, code = browser.new_page(), f"([data, entries]) => {{ {joined('prose', 'checking')}\nreturn checked(data, entries); }}"
+    tab, code = (
+        browser.new_page(),
+        f"([data, entries]) => {{ {joined('constants', 'asking', 'checking')}\nreturn checked(data, entries); }}",
+    )
     for table in declared(name).tables:
         right = [blank.right[0] for _, _, blank in table.blanks]
         data = worksheet(name[:2], table.id).page_data

@@ -25,8 +25,8 @@ from lsys_kit import (
     read_map,
 )
 from lsys_kit.__main__ import main
-from lsys_kit.classroom.panel.books.tissues import size_text
-from lsys_kit.notation.model.maps import Edge
+from lsys_kit.classroom.panel.books.cells import size_text
+from lsys_kit.notation.model.cells import Edge
 from tests.classroom.panel_page import answered
 from tests.classroom.test_map_book import whole
 

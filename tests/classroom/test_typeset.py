@@ -11,7 +11,7 @@ from html.parser import HTMLParser
 import pytest
 
 from lsys_kit import derive, limits, read, system, systems
-from lsys_kit.classroom.typeset import FIRST_MODULES, FIRST_STEPS, MOST_RULES, first_words, formula, shown
+from lsys_kit.classroom.magic import FIRST_MODULES, FIRST_STEPS, MOST_RULES, first_words, formula, shown
 from lsys_kit.notation.read import read_expression
 from lsys_kit.notation.registry import DIALECTS
 from tests.plants import plant

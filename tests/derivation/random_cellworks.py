@@ -5,8 +5,7 @@ from __future__ import annotations
 from hypothesis import strategies as st
 
 from lsys_kit.notation.dialects.cellwork.dialect import read_cellwork
-from lsys_kit.notation.model.cellworks import CellworkProduction, CellworkSystem, EdgeMarker, EdgePart, WallProduction
-from lsys_kit.notation.model.maps import Edge
+from lsys_kit.notation.model.cells import CellworkProduction, CellworkSystem, Edge, EdgeMarker, WallProduction
 
 CORNERS = "cellwork: 1(0,0,0) 2(1,0,0) 3(1,1,0) 4(0,1,0) 5(0,0,1) 6(1,0,1) 7(1,1,1) 8(0,1,1)"
 WALLS = (
@@ -40,10 +39,10 @@ def productions(draw: st.DrawFn, label: str) -> CellworkProduction:
     """An edge becomes another one, or two with markers between them, or three."""
     one, count = draw(neutral), draw(st.sampled_from((1, 2, 2, 2, 3)))
     some = [*{marker.wall: marker for marker in draw(st.lists(markers(), max_size=3))}.values()]
-    successor: tuple[EdgePart, ...] = (one,) if count == 1 else (one, *some, one)
+    successor: tuple[Edge | EdgeMarker, ...] = (one,) if count == 1 else (one, *some, one)
     if count == 3:
         successor = (one, *some, draw(neutral), *some, one)
-    return CellworkProduction(Edge(label), (), successor)
+    return CellworkProduction(Edge(label), successor)
 
 
 @st.composite

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from hypothesis import strategies as st
 
-from lsys_kit.notation.model.maps import OTHER_SIDE, Edge, EdgeProduction, MapSystem, Marker, SuccessorPart
+from lsys_kit.notation.model.cells import Edge, EdgeProduction, MapSystem, Marker, SuccessorPart
 
 LABELS = ("A", "B", "C", "x1")
 
@@ -17,7 +15,7 @@ markers = st.builds(Marker, st.sampled_from("+-"), st.one_of(neutral, neutral, d
 
 
 def _other_end(part: SuccessorPart) -> SuccessorPart:
-    return part.turned if isinstance(part, Edge) else replace(part, side=OTHER_SIDE[part.side])
+    return part.turned
 
 
 @st.composite

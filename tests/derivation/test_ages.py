@@ -7,7 +7,6 @@ from dataclasses import replace
 import pytest
 
 from lsys_kit import ModelLimitError, ModelValueError, derive, limits, lineage, read, stages, timed
-from lsys_kit.derivation.timed import cell_lineage
 from lsys_kit.derivation.timed import lineage as lineages
 from lsys_kit.notation.model.expressions import Apply, Name, Number
 from lsys_kit.notation.model.modules import Pattern
@@ -105,7 +104,7 @@ def test_cells_that_have_died_count_in_a_lineage(monkeypatch: pytest.MonkeyPatch
     dying = timed(read("axiom: A(0)\nA(1) -> A(0) B(0) B(0)\nB(1/2) -> ε"))
     assert len(dying.word("9/2")) == 3
     assert len(lineage(dying, "9/2").cells) == 13
-    monkeypatch.setattr(cell_lineage, "MOST_CELLS", 12)
+    monkeypatch.setattr(lineages, "MOST_CELLS", 12)
     with pytest.raises(ModelLimitError, match="A lineage may have 12 cells"):
         lineage(dying, "9/2")
 
@@ -122,7 +121,7 @@ def test_the_living_cells_of_a_lineage_are_counted_first(monkeypatch: pytest.Mon
 def test_what_comes_and_goes_within_steps_is_limited(monkeypatch: pytest.MonkeyPatch) -> None:
     passing = read("axiom: A\nA -> A X X\nX -> ε")
     assert len(lineage(passing, 3).states) == 2
-    monkeypatch.setattr(cell_lineage, "MOST_FOLLOWED", 10)
+    monkeypatch.setattr(lineages, "MOST_FOLLOWED", 10)
     with pytest.raises(ModelLimitError, match="More than 10 modules come and go"):
         lineage(passing, 3)
 

@@ -10,9 +10,9 @@ import pytest
 from hypothesis import given, settings
 
 from lsys_kit import ModelLimitError, ModelValueError, cellwork_system, derive, limits, read_cellwork
-from lsys_kit.derivation.cellworks.cellwork import Cellwork
-from lsys_kit.derivation.cellworks.development import CellworkDevelopment, develop_cellwork
-from lsys_kit.notation.model.cellworks import CellworkSystem
+from lsys_kit.derivation.tissues.cellworks import Cellwork
+from lsys_kit.derivation.tissues.development import CellworkDevelopment, develop
+from lsys_kit.notation.model.cells import CellworkSystem
 from tests.derivation.random_cellworks import BOX, CORNERS, cellwork_systems
 
 K33 = cellwork_system("K33")
@@ -159,7 +159,7 @@ def test_a_limit_keeps_the_finished_steps() -> None:
 
 
 def test_a_development_is_a_sequence_of_cellworks() -> None:
-    found = develop_cellwork(K33, 5)
+    found = develop(K33, 5)
     assert (len(found), found.steps) == (6, 5)
     assert isinstance(found[1], Cellwork)
     assert [len(each.cells) for each in found[1:3]] == [2, 4]

@@ -12,8 +12,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from lsys_kit import LSystemError, ModelLimitError, ModelNameError, ModelSyntaxError, ModelValueError, read, system, timed
-from lsys_kit.derivation.timed.continuity import Continuity, continuity
-from lsys_kit.derivation.timed.equations import growth_base
+from lsys_kit.derivation.timed.continuity import Continuity, continuity, growth_base
 
 ANABAENA = read("axiom: ar(0)\nar(1) -> al(0) br(0)\nal(1) -> bl(0) ar(0)\nbr(1) -> ar(0)\nbl(1) -> al(0)")
 EXPONENTIAL = {"ar al": "A * exp(B*(t+1))", "br bl": "A * exp(B*t)"}

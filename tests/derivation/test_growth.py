@@ -14,10 +14,15 @@ from hypothesis import strategies as st
 from lsys_kit import derive, system
 from lsys_kit.budget import Task, limits
 from lsys_kit.derivation.core.states import States
-from lsys_kit.derivation.growth.counts import counts_of_steps
-from lsys_kit.derivation.growth.growth import Growth, growth
-from lsys_kit.derivation.growth.recurrences import leading_weights, shortest_recurrence, shortest_rule
-from lsys_kit.derivation.timed.equations import growth_base
+from lsys_kit.derivation.growth.growth import (
+    Growth,
+    counts_of_steps,
+    growth,
+    leading_weights,
+    shortest_recurrence,
+    shortest_rule,
+)
+from lsys_kit.derivation.timed.continuity import growth_base
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.read import read
 

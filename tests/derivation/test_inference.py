@@ -18,10 +18,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lsys_kit import ModelLimitError, derive, infer, limits, system
-from lsys_kit.derivation.inference.fits import Fits
-from lsys_kit.derivation.inference.problem import Conditions, counted_tables, problem_of, table_of, tables
-from lsys_kit.derivation.inference.slips import Slip
-from lsys_kit.derivation.inference.words import read_words
+from lsys_kit.derivation.inference.infer import Fits
+from lsys_kit.derivation.inference.problem import Conditions, counted_tables, problem_of, read_words, table_of, tables
+from lsys_kit.derivation.inference.refusals import Slip
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.read import read
 

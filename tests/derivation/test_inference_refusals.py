@@ -10,7 +10,7 @@ import pytest
 
 from lsys_kit import LSystemError, ModelLimitError, ModelValueError, derive, infer, limits, read, system
 from lsys_kit.derivation.inference import infer as infer_module
-from lsys_kit.derivation.inference import refusals, slips, too_many
+from lsys_kit.derivation.inference import refusals
 from lsys_kit.derivation.inference.problem import Problem, Table, tables
 from tests.derivation.test_inference import texts
 
@@ -37,7 +37,7 @@ def test_too_many_fits_are_refused_with_those_that_were_found(monkeypatch: pytes
 
 def test_more_fits_than_can_soon_be_counted_are_refused_with_what_is_known(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(infer_module, "MOST_FITS", 20)
-    monkeypatch.setattr(too_many, "MOST_TRIED_TO_COUNT", 3)
+    monkeypatch.setattr(infer_module, "MOST_TRIED_TO_COUNT", 3)
     with pytest.raises(
         ModelLimitError,
         match=r"^More than 20 systems fit these 2 words. .* They differ in what "
@@ -155,8 +155,8 @@ def test_no_more_is_said_of_a_refusal_than_is_soon_found(monkeypatch: pytest.Mon
     assert "Step 2 cannot come from step 1" in str(infer(words))
     assert str(infer(words)).endswith("With context=(2, 1) many systems fit.")
     for module, most in (
-        (too_many, "MOST_TRIED_FOR_ONE"),
-        (slips, "MOST_SUCCESSORS_TRIED"),
+        (infer_module, "MOST_TRIED_FOR_ONE"),
+        (refusals, "MOST_TRIED_FOR_A_SLIP"),
         (refusals, "MOST_SUCCESSORS_TRIED"),
     ):
         assert str(infer(words)).startswith("No system fits these 3 words. ")

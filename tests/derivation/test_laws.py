@@ -14,11 +14,10 @@ import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
-import lsys_kit.derivation.engines.expansion as expansion
+import lsys_kit.derivation.engines.engine as expansion
 from lsys_kit.budget import limits
 from lsys_kit.derivation.core.chance import Chance
-from lsys_kit.derivation.core.closure import closure
-from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.core.states import States, closure
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation, derive, lengths
 from lsys_kit.derivation.engines.stepping import SteppingEngine

@@ -10,6 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lsys_kit import LSystemError, derive, lineage, read, stages, system, timed
+from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.timed.ages import age_model
 from lsys_kit.notation.model.system import LSystem
 from tests.derivation.timed_nets import fired_in_time
 
@@ -73,6 +75,23 @@ def test_lives_that_are_shorter_than_a_step_are_said_to_end_late() -> None:
         "derived in steps of 1.4, lives shorter than that end late",
     )
     assert stages(system("P5"), durations=True).besides == stages(system("P6"), durations=True, dt="1.4").besides == ()
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "axiom: M(0)\nM(t) : t >= 1/2 -> M(0) M(0)\nM(t) -> M(t+1)",
+        "axiom: M(1/4)\nM(t) : t >= 1 -> M(0) N(1/2)\nM(t) -> M(t+1)\nN(t) : t >= 1 -> M(1/2)\nN(t) -> N(t+1)",
+        "axiom: M(0)\nM(t) -> M(t+1)\nN(t) -> N(t+1)\ndecomposition:\nM(t) : t >= 1/2 -> M(t-1/2) N(0)\nN(t) : t > 2 -> M(t-2)",
+    ],
+)
+def test_lives_that_are_measured_in_steps_never_end_late(text: str) -> None:
+    ages = age_model(States(read(text)))
+    modules = [ages.states.modules[state] for state in ages.states.axiom]
+    modules += [daughter for module in modules for daughter in ages.daughters(module)]
+    assert not ages.even
+    assert not any(map(ages.is_late, modules))
+    assert stages(read(text), durations=True).besides == ()
 
 
 @given(st.fractions("1/7", 2, max_denominator=40), st.integers(0, 6))

@@ -12,12 +12,19 @@ from hypothesis import strategies as st
 
 from lsys_kit.budget import limits
 from lsys_kit.derivation.derive import derive
-from lsys_kit.derivation.maps.development import Development, develop, productions_of
-from lsys_kit.derivation.maps.divisions import dividing_walls, map_step, replaced_map
-from lsys_kit.derivation.maps.map import Map, cell_words, least_rotation
+from lsys_kit.derivation.tissues.development import Development, develop
+from lsys_kit.derivation.tissues.maps import (
+    Map,
+    cell_words,
+    dividing_walls,
+    kinds_of_cells,
+    least_rotation,
+    map_step,
+    replaced_map,
+)
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.dialects.map.dialect import read_map
-from lsys_kit.notation.model.maps import Edge, EdgeProduction, MapSystem
+from lsys_kit.notation.model.cells import Edge, EdgeProduction, MapSystem
 from tests.derivation.random_maps import map_systems
 
 STEPS = 4
@@ -40,7 +47,7 @@ def rewritten(word: tuple[Edge, ...], productions: dict[Edge, EdgeProduction]) -
     made: list[Edge] = []
     for edge in word:
         production = productions.get(edge.turned if edge.arrow == "<" else edge)
-        parts = production.walls if production else (edge.turned if edge.arrow == "<" else edge,)
+        parts = production.edges if production else (edge.turned if edge.arrow == "<" else edge,)
         made += (part.turned for part in reversed(parts)) if edge.arrow == "<" else parts
     return tuple(made)
 
@@ -112,13 +119,13 @@ def _flipped(cell, found):  # type: ignore[no-untyped-def]
 
 def next_words(found: Map, system: MapSystem) -> str:
     with limits(modules=1_000_000):
-        return str(map_step(found, {production.predecessor: production for production in system.productions}, 1))
+        return str(map_step(found, system, 1))
 
 
 @given(map_systems())
 @settings(max_examples=40)
 def test_a_map_without_markers_only_parts_its_walls(system: MapSystem) -> None:
-    bare = MapSystem(system.axiom, tuple(EdgeProduction(p.predecessor, p.walls) for p in system.productions))
+    bare = MapSystem(system.axiom, tuple(EdgeProduction(p.predecessor, p.edges) for p in system.productions))
     for found in maps_of(bare):
         assert len(found.cells) == 1
         assert found.cells[0] == found.boundary
@@ -276,6 +283,14 @@ def test_a_cell_between_meridians_is_divided_from_one_to_the_other() -> None:
     assert str(maps[1]) == " | ".join(["L>ex<L< | x>L>L<e"] * 4)
 
 
+def test_cells_with_the_same_walls_are_of_one_kind_in_all_steps() -> None:
+    maps = derive(read_map(K30.format("A>B>C>D>")), 4)
+    kinds = [*kinds_of_cells(maps)]
+    assert kinds == [[0], [0, 1], [0, 1, 2], [1, 0, 2, 3], [2, 1, 0, 3, 4]]
+    assert [*kinds_of_cells(maps.up_to(2))] == kinds[:3]
+    assert maps[1].edges == maps[1].walls
+
+
 @pytest.mark.parametrize("text", [K28, K29, K30.format("A>B>C>D>")])
 def test_markers_that_match_are_not_remarked_on(text: str) -> None:
     for steps in range(5):
@@ -298,11 +313,10 @@ def test_the_remarks_of_the_rules_are_those_of_the_maps() -> None:
 @given(map_systems())
 def test_the_walls_that_divide_cells_join_the_markers_that_match(system: MapSystem) -> None:
     maps = maps_of(system)
-    productions = productions_of(system)
     for before, after in pairwise(maps):
-        replaced, stubs = replaced_map(before, productions)
+        replaced, stubs = replaced_map(before, system)
         joined = {frozenset((stub.vertex, stub.partner)) for stub in stubs if stub.partner is not None}  # some are typed twice
-        assert joined == {frozenset(wall[1:3]) for wall in dividing_walls(before, after, productions)}
+        assert joined == {frozenset(wall[1:3]) for wall in dividing_walls(before, after, system)}
         assert replaced.vertices == after.vertices
         assert replaced.walls == after.walls[: len(replaced.walls)]
         assert [before.counts[2], replaced.boundary] == [replaced.counts[2], after.boundary]
@@ -310,6 +324,6 @@ def test_the_walls_that_divide_cells_join_the_markers_that_match(system: MapSyst
 
 def test_markers_without_a_partner_are_known() -> None:
     [square] = develop(read_map(K28), 0)
-    _, stubs = replaced_map(square, productions_of(read_map(K28)))
+    _, stubs = replaced_map(square, read_map(K28))
     found = [(stub.wall, stub.side, stub.partner) for stub in stubs]
     assert found == [(0, "-", 5), (0, "+", None), (2, "-", 4), (2, "+", None)]

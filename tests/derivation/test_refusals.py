@@ -14,7 +14,7 @@ from lsys_kit.derivation.core.interpretation import interpretation_of, interpret
 from lsys_kit.derivation.core.rules import ModuleTemplate, real_from
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.derive import derive
-from lsys_kit.derivation.engines.columns import exact_number
+from lsys_kit.derivation.engines.columnar import exact_number
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.model.modules import Module, Pattern
 from lsys_kit.notation.model.system import LSystem, Production

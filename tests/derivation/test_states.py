@@ -6,9 +6,8 @@ from dataclasses import replace
 
 import pytest
 
-from lsys_kit.derivation.core.closure import closure
 from lsys_kit.derivation.core.interpretation import interpretations, is_filament
-from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.core.states import States, closure
 from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.notation.model.system import LSystem, Production

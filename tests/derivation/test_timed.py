@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from lsys_kit import LSystemError, ModelLimitError, ModelValueError, derive, limits, lineage, read, stages, system
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.timed.ages import age_model
-from lsys_kit.derivation.timed.equations import growth_base, positive_root, roots
+from lsys_kit.derivation.timed.continuity import growth_base, positive_root, roots
 from lsys_kit.derivation.timed.timed import timed
 from lsys_kit.notation.model.modules import Module
 

@@ -12,11 +12,11 @@ from hypothesis import HealthCheck, given, settings
 from lsys_kit import ModelValueError, derive, read, stages
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.traits import Traits, traits_of
+from lsys_kit.derivation.derive import ENGINES, serves
 from lsys_kit.derivation.engines.columnar import ColumnarSteps
 from lsys_kit.derivation.engines.contexts import ContextEngine
 from lsys_kit.derivation.engines.counting import CountingEngine
 from lsys_kit.derivation.engines.stepwise import Stepper
-from lsys_kit.derivation.engines.table import ENGINES, serves
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
 from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.notation.model.system import LSystem, Production

@@ -27,7 +27,7 @@ from lsys_kit import (
     system,
 )
 from lsys_kit.derivation.derive import Derivation
-from lsys_kit.experiments import batches
+from lsys_kit.experiments import runs
 from lsys_kit.geometry.drawing import scene_of
 
 ALGA = read("d = 2 in 1 .. 3\nrate = 1/2\naxiom: A(1)\nA(t) : t < d -> A(t+1)\nA(t) -> A(1) A(1)")
@@ -38,7 +38,7 @@ MODEL = "axiom: F\nF -> F[+F]F : 1/2\nF -> F : 1/2"
 @pytest.fixture
 def handed_out_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """All runs but the first are handed out, however fast the machine is."""
-    monkeypatch.setattr(batches, "FIRST_SECONDS", 0.0)
+    monkeypatch.setattr(runs, "FIRST_SECONDS", 0.0)
 
 
 def twigs(derivation: Derivation) -> int:
@@ -246,8 +246,8 @@ class Broken(Executor):
 @pytest.mark.usefixtures("handed_out_at_once")
 class TestWhoeverMakesTheRuns:
     def test_a_batch_takes_about_a_quarter_of_a_second(self) -> None:
-        assert batches.batch_size(100_000, 0.0026) * 0.0026 == pytest.approx(batches.BATCH_SECONDS, rel=0.02)
-        assert batches.batch_size(3, 0.0) == 1
+        assert runs.batch_size(100_000, 0.0026) * 0.0026 == pytest.approx(runs.BATCH_SECONDS, rel=0.02)
+        assert runs.batch_size(3, 0.0) == 1
 
     def test_threads_make_the_same_table(self) -> None:
         with ThreadPoolExecutor(3) as executor:

@@ -31,10 +31,7 @@ from lsys_kit import (
     system,
     timed,
 )
-from lsys_kit.pictures.plots.bars import HistogramChart, ShareChart, class_edges
-from lsys_kit.pictures.plots.chart import Axis, Plot
-from lsys_kit.pictures.plots.curves import CurveChart, spread
-from lsys_kit.pictures.plots.grid import GridChart
+from lsys_kit.pictures.plots.chart import Axis, CurveChart, GridChart, HistogramChart, Plot, ShareChart, class_edges, spread
 from tests.pictures.test_seed_figures import alike
 
 GOLDEN = Path(__file__).parent / "golden"

@@ -23,7 +23,7 @@ from lsys_kit.supervision import supervised
 from tests.faults.injection import Work, break_off, bytecodes_of
 
 BUDGETS = ("budget.py", "supervision.py")
-PANELS = ("classroom/panel/explorer.py", "classroom/panel/comparison.py", "classroom/lessons/predict.py", "classroom/widget.py")
+PANELS = ("classroom/panel/explorer.py", "classroom/lessons/predict.py", "classroom/widget.py")
 ALGAE = "axiom: a\na -> ab\nb -> a"
 ASKED: Mapping[str, Mapping[str, object]] = MappingProxyType(
     {

@@ -9,10 +9,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from lsys_kit import derive, limits
-from lsys_kit.geometry.turtle.commands.actions import ACTIONS, Effect
-from lsys_kit.geometry.turtle.commands.instructions import Instruction
-from lsys_kit.geometry.turtle.commands.mode import in_plane
-from lsys_kit.geometry.turtle.commands.table import COMMAND_TABLE, COMMANDS, commands_of
+from lsys_kit.geometry.turtle.commands import ACTIONS, COMMAND_TABLE, COMMANDS, Effect, Instruction, commands_of, in_plane
 from lsys_kit.geometry.turtle.plane import PLANE_HANDLERS, place_path, trace
 from lsys_kit.geometry.turtle.space import SPACE_HANDLERS, SpaceTurtle, operand, trace_in_space
 from lsys_kit.notation.model.expressions import Number

@@ -8,16 +8,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lsys_kit import ModelValueError, cellwork_system, derive, read_cellwork
-from lsys_kit.geometry.tissues.cell_relaxation import SPACE_FORCES, area_vectors, relax_in_space, volumes
-from lsys_kit.geometry.tissues.cellwork_layout import cellwork_scene, place_cellworks, solid_tissue
-from lsys_kit.geometry.tissues.relaxation import Forces
+from lsys_kit.geometry.tissues.layout import cellwork_scene, place_cellworks, solid_tissue
+from lsys_kit.geometry.tissues.relaxation import SPACE_FORCES, Forces, area_vectors, relax, volumes
 
 K33 = cellwork_system("K33")
 
 
 def rooms(found, points):  # type: ignore[no-untyped-def]
-    tissue = solid_tissue(found)
-    return volumes(points, tissue, area_vectors(points, tissue, tissue.following))
+    return volumes(points, solid_tissue(found))
 
 
 @pytest.mark.parametrize(
@@ -40,8 +38,8 @@ def test_a_cube_is_as_large_as_springs_and_pressure_balance(forces: Forces, side
 def test_the_volume_of_a_box_is_the_product_of_its_sides_wherever_it_lies() -> None:
     tissue, cube = solid_tissue(derive(K33, 0)[0]), np.array([[float(x) for x in corner.place] for corner in K33.corners])
     points = cube * (2, 3, 5) + (100, -7, 11)
-    vectors = area_vectors(points, tissue, tissue.following)
-    assert volumes(points, tissue, vectors) == pytest.approx([30])
+    vectors = area_vectors(points, tissue)
+    assert volumes(points, tissue) == pytest.approx([30])
     assert sorted(np.linalg.norm(vectors, axis=1)) == pytest.approx([6, 6, 10, 10, 15, 15])
     assert (vectors[tissue.walls] * tissue.signs[:, None]).sum(axis=0) == pytest.approx([0, 0, 0])
 
@@ -59,7 +57,7 @@ def test_no_cell_is_turned_inside_out_and_halves_are_alike() -> None:
 @given(st.lists(st.floats(-0.2, 0.2), min_size=24, max_size=24))
 def test_wherever_the_corners_begin_they_come_to_rest_in_the_same_cube(shifts: list[float]) -> None:
     [points] = place_cellworks(derive(K33, 0))
-    *_, rest = relax_in_space(points + np.array(shifts).reshape(8, 3), solid_tissue(derive(K33, 0)[0]))
+    *_, rest = relax(points + np.array(shifts).reshape(8, 3), solid_tissue(derive(K33, 0)[0]), SPACE_FORCES)
     assert rooms(derive(K33, 0)[0], rest) == pytest.approx([8], rel=1e-2)
 
 

@@ -8,8 +8,7 @@ import pytest
 import sympy
 
 from lsys_kit import ModelValueError, derive, read, write
-from lsys_kit.geometry.turtle.commands.instructions import instructions, unknown_commands
-from lsys_kit.geometry.turtle.commands.table import COMMAND_TABLE, COMMANDS
+from lsys_kit.geometry.turtle.commands import COMMAND_TABLE, COMMANDS, instructions, unknown_commands
 from lsys_kit.geometry.turtle.space import trace_in_space
 from lsys_kit.notation.model.modules import Module, Pattern
 from lsys_kit.notation.model.system import LSystem

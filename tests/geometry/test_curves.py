@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 from lsys_kit import ModelLimitError, derive, draw, limits, read
 from lsys_kit.geometry.meshes.mesh import mesh_of
 from lsys_kit.geometry.scene import OWN
-from lsys_kit.geometry.turtle.commands.mode import in_plane
+from lsys_kit.geometry.turtle.commands import in_plane
 from lsys_kit.geometry.turtle.space import trace_in_space
 from lsys_kit.notation.model.expressions import Number
 from lsys_kit.notation.model.modules import Pattern

@@ -16,7 +16,7 @@ import pytest
 from lsys_kit import ModelLimitError, ModelValueError, derive, draw, infer, limits, read, system
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.inference import infer as infer_module
-from lsys_kit.geometry.inference.fits import DrawingFits
+from lsys_kit.geometry.inference.infer import DrawingFits
 from lsys_kit.geometry.inference.strokes import angle_between, read_drawings
 from lsys_kit.geometry.sameness import normalised, same_strokes
 from lsys_kit.geometry.scene import Floats

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from lsys_kit import derive, limits, read
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.geometry.turtle import instancing
-from lsys_kit.geometry.turtle.commands.mode import in_plane
+from lsys_kit.geometry.turtle.commands import in_plane
 from lsys_kit.geometry.turtle.instancing import draw_instanced
 from lsys_kit.geometry.turtle.plane import place_path, trace
 from lsys_kit.geometry.turtle.space import trace_in_space

@@ -8,13 +8,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lsys_kit.budget import limits
-from lsys_kit.derivation.maps.development import develop
+from lsys_kit.derivation.tissues.development import develop
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.geometry.tissues.equilibrium import BALANCED, cell_hessian, equilibrium, wall_hessian
-from lsys_kit.geometry.tissues.map_layout import equilibria, insert_vertices, place_maps, polygon, scenes, tissue
+from lsys_kit.geometry.tissues.layout import equilibria, insert_vertices, place_maps, polygon, scenes, tissue
 from lsys_kit.geometry.tissues.relaxation import DEFAULT_FORCES, MOST_ITERATIONS, Forces, Tissue, areas, force, relax
 from lsys_kit.notation.dialects.map.dialect import read_map
-from lsys_kit.notation.model.maps import MapSystem
+from lsys_kit.notation.model.cells import MapSystem
 from tests.derivation.random_maps import map_systems
 from tests.derivation.test_maps import K28, K29, K30, maps_of
 

@@ -11,9 +11,8 @@ from hypothesis import strategies as st
 
 from lsys_kit import ModelLimitError, derive, draw, limits, read, system
 from lsys_kit.geometry.drawing import scene_of
-from lsys_kit.geometry.meshes.mesh import mesh_of
+from lsys_kit.geometry.meshes.mesh import mesh_of, triangulate
 from lsys_kit.geometry.meshes.solids import SIDES, THIN_SIDES
-from lsys_kit.geometry.meshes.triangulation import triangulate
 
 BUSH = """angle: 22.5
 axiom: A

@@ -7,7 +7,7 @@ import pytest
 from lsys_kit import derive, read
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.filament import filament
-from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
+from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
 
 
 @pytest.mark.parametrize(

@@ -5,10 +5,11 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from lsys_kit import ModelLimitError, derive, limits, read, system
+from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.turtle.plane import place_path, trace
 
 
@@ -62,10 +63,19 @@ def test_turning_the_start_turns_the_picture(text, turn):
     )
 
 
-@given(branched.filter(bool))
-def test_a_full_turn_changes_nothing(text):
-    word = " ".join(text)
-    assert np.allclose(scene(word, 25).segments.ends, scene(f"+(360) {word}", 25).segments.ends, atol=1e-9)
+ONCE_ROUND = [*(f"{symbol}({degrees})" for symbol in "+-/\\&^" for degrees in (0, 360, -360, 720)), "| |", "/(180) \\(180)"]
+
+
+@given(branched, branched.filter(bool), st.sampled_from(ONCE_ROUND))
+@example("F", "+F", "/(360)")
+@example("F", "+F", "\\(0)")
+def test_a_full_turn_changes_nothing(before, behind, turn):
+    texts = " ".join([*before, *behind]), " ".join([*before, turn, *behind])
+    plain, turned = (scene(text, 25).segments.ends for text in texts)
+    assert np.allclose(plain, turned, atol=1e-9)
+    drawn, anyhow = (scene_of(derive(read(f"angle: 25\naxiom: {text}"), 0)).segments.ends for text in texts)
+    seen = anyhow if anyhow.shape[1] == 4 else anyhow[:, [0, 2, 3, 5]]  # pitches are made in space
+    assert np.allclose(drawn, seen, atol=1e-9)
 
 
 def test_a_branch_brings_the_turtle_back():

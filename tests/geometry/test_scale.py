@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from lsys_kit import read
 from lsys_kit.geometry.scene import OWN
-from lsys_kit.geometry.turtle.commands.mode import in_plane
+from lsys_kit.geometry.turtle.commands import in_plane
 from lsys_kit.geometry.turtle.plane import place_path, trace
 from lsys_kit.geometry.turtle.space import trace_in_space
 from tests.geometry.test_space import SHAPES, STROKES, TURNS, branched, command, drawn, extent, lengths, same, word_of

@@ -13,13 +13,11 @@ from hypothesis import strategies as st
 from lsys_kit import ModelLimitError, ModelValueError, derive, limits, read, system
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.geometry.scene import CIRCLE, DISC, OWN, SPHERE
-from lsys_kit.geometry.turtle.commands.mode import in_plane
-from lsys_kit.geometry.turtle.commands.table import initial_colour
-from lsys_kit.geometry.turtle.frames import RENORMALISATION_INTERVAL
-from lsys_kit.geometry.turtle.interpreter import run_turtle
+from lsys_kit.geometry.turtle.commands import in_plane, initial_colour
 from lsys_kit.geometry.turtle.plane import place_path, trace
-from lsys_kit.geometry.turtle.space import SPACE_HANDLERS, SpaceTurtle, operand, trace_in_space
+from lsys_kit.geometry.turtle.space import RENORMALISATION_INTERVAL, SPACE_HANDLERS, SpaceTurtle, operand, trace_in_space
 from lsys_kit.geometry.turtle.surfaces import surfaces
+from lsys_kit.geometry.turtle.turtle import run_turtle
 from lsys_kit.notation.model.expressions import Number
 from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.notation.model.system import LSystem, Production

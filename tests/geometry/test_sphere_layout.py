@@ -8,10 +8,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lsys_kit import ModelLimitError, ModelValueError, derive, limits, map_system, read_map
-from lsys_kit.derivation.maps.development import Development
+from lsys_kit.derivation.tissues.development import Development
+from lsys_kit.geometry.tissues.layout import arc, meridian, place_on_sphere
 from lsys_kit.geometry.tissues.relaxation import Forces
-from lsys_kit.geometry.tissues.sphere_layout import arc, meridian, place_on_sphere
-from lsys_kit.notation.model.maps import MapSystem
+from lsys_kit.notation.model.cells import MapSystem
 from tests.derivation.random_maps import map_systems
 
 K34 = map_system("K34")

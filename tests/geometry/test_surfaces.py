@@ -10,12 +10,10 @@ import pytest
 from lsys_kit import derive, draw, read
 from lsys_kit.geometry.scene import Scene, no_segments
 from lsys_kit.geometry.smoothing import smoothed
-from lsys_kit.geometry.turtle.frames import initial_frame
-from lsys_kit.geometry.turtle.patches import patch_grid, revolved_facets
 from lsys_kit.geometry.turtle.plane import place_path, trace
-from lsys_kit.geometry.turtle.shapes import collected_shapes
-from lsys_kit.geometry.turtle.space import SpaceTurtle, trace_in_space
-from lsys_kit.geometry.turtle.surfaces import Surface, passed_over, surfaces, surfaces_by_symbol
+from lsys_kit.geometry.turtle.space import SpaceTurtle, initial_frame, trace_in_space
+from lsys_kit.geometry.turtle.surfaces import Surface, passed_over, patch_grid, revolved_facets, surfaces, surfaces_by_symbol
+from lsys_kit.geometry.turtle.turtle import collected_shapes
 from lsys_kit.notation.model.system import LSystem
 
 

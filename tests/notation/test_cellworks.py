@@ -8,13 +8,20 @@ from fractions import Fraction
 import pytest
 from hypothesis import given
 
-from lsys_kit import ModelNameError, limits, read, read_cellwork
+from lsys_kit import ModelNameError, limits, read, read_cellwork, read_map
 from lsys_kit.classroom.catalogue import entry
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelSyntaxError, ModelValueError
 from lsys_kit.notation.fragments import LinkContent, packed
-from lsys_kit.notation.model.cellworks import CellworkProduction, CellworkSystem, Corner, EdgeMarker, FirstWall, WallProduction
-from lsys_kit.notation.model.maps import Edge
-from lsys_kit.notation.read import is_cellwork
+from lsys_kit.notation.model.cells import (
+    CellworkProduction,
+    CellworkSystem,
+    Corner,
+    Edge,
+    EdgeMarker,
+    FirstWall,
+    WallProduction,
+)
+from lsys_kit.notation.read import cells_notation
 from tests.derivation.random_cellworks import BOX, cellwork_systems
 
 TETRAHEDRON = (
@@ -48,7 +55,6 @@ def test_what_is_read_is_a_record() -> None:
     assert found.productions == (
         CellworkProduction(
             Edge("A", ">"),
-            ("W",),
             (
                 Edge("A"),
                 Edge("B", ">"),
@@ -56,6 +62,7 @@ def test_what_is_read_is_a_record() -> None:
                 EdgeMarker("*", Edge("c", ">"), ("W", "V"), "U"),
                 Edge("A"),
             ),
+            ("W",),
         ),
     )
     assert found.wall_productions == (WallProduction("V", "W"),)
@@ -268,6 +275,12 @@ def test_parts_that_are_never_used_are_noted() -> None:
     assert read_cellwork(directed).notes == ()
 
 
+def test_systems_of_cells_say_what_they_are_systems_of() -> None:
+    systems = read_map("map: AAA"), read_map("sphere: AA"), read_cellwork(TETRAHEDRON)
+    assert [system.kind for system in systems] == ["map", "map on a sphere", "cellwork"]
+    assert read_cellwork(TETRAHEDRON).labels == {"W"}
+
+
 def test_a_cellwork_is_no_l_system_and_is_referred_to_its_reader() -> None:
     with pytest.raises(ModelValueError, match=r"This is a cellwork system, not an L-system.*read_cellwork\(text\)"):
         read(entry("K33").rules)
@@ -287,7 +300,7 @@ def test_a_cellwork_has_so_many_walls_and_productions_and_no_more() -> None:
 def test_the_link_of_a_cellwork_is_read_by_its_reader() -> None:
     address = packed(LinkContent("cellwork", {}, TETRAHEDRON))
     assert read_cellwork(address) == read_cellwork(TETRAHEDRON)
-    assert (is_cellwork(address), is_cellwork(TETRAHEDRON), is_cellwork("axiom: A")) == (True, True, False)
+    assert [cells_notation(text) for text in (address, TETRAHEDRON, "axiom: A")] == ["cellwork", "cellwork", None]
     with pytest.raises(ModelValueError, match="This is the link of a cellwork system, not of an L-system"):
         read(address)
     with pytest.raises(ModelValueError, match="This is the link of another system, not of a cellwork system"):

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from lsys_kit.classroom.catalogue import system, systems
 from lsys_kit.errors import LSystemError, ModelSyntaxError
-from lsys_kit.notation.foreign import FORMATS, GLANCE, ForeignFormat, foreign_format, mistakable_format, name_hint
+from lsys_kit.notation.foreign import GLANCE, ForeignFormat, foreign_format, formats, mistakable_format, name_hint
 from lsys_kit.notation.read import read
 from lsys_kit.notation.registry import DIALECTS
 from lsys_kit.notation.syntax.systems import lacking
@@ -85,13 +85,13 @@ def test_a_message_of_a_reader_that_was_named_ends_with_the_guess() -> None:
 
 
 def test_each_format_has_five_texts() -> None:
-    assert {row.name for row in FORMATS} == set(FOREIGN)
+    assert {row.name for row in formats()} == set(FOREIGN)
     assert all(len(texts) >= 5 for texts in FOREIGN.values())
 
 
-@pytest.mark.parametrize("row", FORMATS, ids=lambda row: row.name)
+@pytest.mark.parametrize("row", formats(), ids=lambda row: row.name)
 def test_a_message_says_what_the_kit_lacks_and_what_to_try(row) -> None:
-    found = claim(next(text for text, _ in FOREIGN[row.name] if next(each for each in FORMATS if each.sign_in(text)) is row))
+    found = claim(next(text for text, _ in FOREIGN[row.name] if next(each for each in formats() if each.sign_in(text)) is row))
     assert row.name in found.message
     assert found.hint == f"{row.lacks}. {row.advice}"
     assert re.fullmatch(r"[A-Z].*[^.]\. [A-Z].*\.", f"{row.lacks}. {row.advice}")

@@ -9,7 +9,7 @@ import pytest
 
 from lsys_kit.errors import ModelNameError, ModelSyntaxError
 from lsys_kit.notation.read import read
-from lsys_kit.notation.syntax.text.greek import GREEK, name_of
+from lsys_kit.notation.syntax.text.transcription import GREEK, name_of
 
 
 @pytest.mark.parametrize(

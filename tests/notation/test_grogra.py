@@ -16,7 +16,7 @@ from lsys_kit.budget import limits
 from lsys_kit.classroom.catalogue import system
 from lsys_kit.derivation.derive import derive
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError
-from lsys_kit.notation.dialects.grogra.conditions import exclusive
+from lsys_kit.notation.dialects.grogra.probabilities import exclusive
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number, function_of
 from lsys_kit.notation.model.modules import Module, Pattern, Repeat
 from lsys_kit.notation.model.system import LSystem, Production

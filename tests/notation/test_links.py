@@ -9,7 +9,7 @@ import pytest
 
 from lsys_kit.errors import ModelLimitError, ModelNameError, ModelSyntaxError
 from lsys_kit.notation.fragments import LinkContent, _check, packed, unpacked
-from lsys_kit.notation.read import is_map, read
+from lsys_kit.notation.read import cells_notation, read
 
 
 def crafted(stream: bytes) -> str:
@@ -41,8 +41,8 @@ def test_a_bomb_is_refused() -> None:
 
 
 def test_the_link_of_a_map_is_that_of_a_map() -> None:
-    assert is_map(packed(LinkContent("map", {}, "map: ABAB\nA -> B")))
-    assert not is_map(packed(LinkContent("abop", {}, "axiom: A")))
+    assert cells_notation(packed(LinkContent("map", {}, "map: ABAB\nA -> B"))) == "map"
+    assert not cells_notation(packed(LinkContent("abop", {}, "axiom: A")))
 
 
 @pytest.mark.parametrize(

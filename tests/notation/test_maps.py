@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelNameError, ModelSyntaxError, ModelValueError
 from lsys_kit.notation.dialects.map.dialect import read_map
-from lsys_kit.notation.model.maps import Edge, EdgeProduction, MapSystem, Marker
+from lsys_kit.notation.model.cells import Edge, EdgeProduction, MapSystem, Marker
 from lsys_kit.notation.read import read
 from tests.derivation.random_maps import map_systems
 

@@ -15,7 +15,7 @@ from lsys_kit.notation.analysis.lint import warnings
 from lsys_kit.notation.dialects.abop.dialect import ABOP
 from lsys_kit.notation.dialects.cpfg.expressions import simplified
 from lsys_kit.notation.dialects.fractint import systems as files
-from lsys_kit.notation.dialects.grogra.conditions import exclusive
+from lsys_kit.notation.dialects.grogra.probabilities import exclusive
 from lsys_kit.notation.model.arithmetic import equal_values, expanded_value
 from lsys_kit.notation.model.expressions import Apply, Name, Number
 from lsys_kit.notation.model.modules import Pattern

@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from lsys_kit.classroom.typeset import shown
+from lsys_kit.classroom.magic import shown
 from lsys_kit.errors import LSystemError
 from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.notation.read import read

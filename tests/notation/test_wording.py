@@ -9,23 +9,24 @@ import pytest
 import lsys_kit.notation
 from lsys_kit.errors import LSystemError
 from lsys_kit.notation.analysis.problems import Problem
-from lsys_kit.notation.dialects.cellwork.spelling import SPELLING as CELLWORK_SPELLING
-from lsys_kit.notation.dialects.map.spelling import SPELLING as MAP_SPELLING
+from lsys_kit.notation.dialects.cellwork.dialect import CELLWORK
+from lsys_kit.notation.dialects.map.dialect import MAP
 from lsys_kit.notation.read import read
 from lsys_kit.notation.registry import DIALECTS
-from lsys_kit.notation.syntax.spelling import Wording
-from lsys_kit.notation.syntax.wording import WORDINGS, worded
+from lsys_kit.notation.syntax.wording import KIT_SPELLING, Wording, worded
 
 ROOM = Path(lsys_kit.notation.__file__).parent
+WORDINGS = KIT_SPELLING.wordings
 DIALECT_WORDINGS = {
     code: wording
-    for spelling in (MAP_SPELLING, CELLWORK_SPELLING, *(dialect.spelling for dialect in DIALECTS.values()))
+    for spelling in (MAP.spelling, CELLWORK.spelling, *(dialect.spelling for dialect in DIALECTS.values()))
     for code, wording in spelling.wordings.items()
 }
 NAMED = {
     "context in {}": ("decomposition", "interpretation"),
     "several modules in {}": ("decomposition", "interpretation"),
     "number of {}": ("steps", "rounds"),
+    "no {}": ("axiom", "angle"),
     "{} never applied": ("production", "decomposition rule"),
 }
 """The codes that are put together from two parts."""

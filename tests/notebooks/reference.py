@@ -18,7 +18,7 @@ import nbformat
 from nbformat import NotebookNode
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 
-from lsys_kit.geometry.turtle.commands.table import COMMAND_TABLE, COMMANDS, Row
+from lsys_kit.geometry.turtle.commands import COMMAND_TABLE, COMMANDS, Row
 from lsys_kit.notation.registry import DIALECTS
 from tests.notebooks.rebuild import METADATA, ROOT, rebuilt
 

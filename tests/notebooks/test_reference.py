@@ -6,7 +6,7 @@ import nbformat
 import pytest
 
 from lsys_kit import derive, draw, read
-from lsys_kit.geometry.turtle.commands.table import COMMAND_TABLE, COMMANDS
+from lsys_kit.geometry.turtle.commands import COMMAND_TABLE, COMMANDS
 from lsys_kit.notation.registry import DIALECTS
 from tests.notebooks.reference import EXAMPLES, FOLDER, built, example_of, symbols_of
 

@@ -15,7 +15,7 @@ from lsys_kit.pictures.nets import parts
 from lsys_kit.pictures.nets.layers import Layers, layered
 from lsys_kit.pictures.nets.layout import Layout, Texts, crossings
 from lsys_kit.pictures.nets.parts import LABEL_SIZE, LEGIBLE, PAGE, clearest_layout, steering_of
-from lsys_kit.pictures.nets.routes import rows_of, shown_places
+from lsys_kit.pictures.nets.rows import rows_of, shown_places
 
 
 @st.composite

@@ -15,9 +15,9 @@ from lsys_kit import ModelLimitError, ModelValueError, derive, draw, limits, rea
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.pictures.formats.svg import svg
 from lsys_kit.pictures.nets import diagram, parts
-from lsys_kit.pictures.nets.captions import short, width_of
 from lsys_kit.pictures.nets.diagram import drawn_stages, steering_of
-from lsys_kit.pictures.nets.routes import rows_of, shown_places
+from lsys_kit.pictures.nets.parts import short, width_of
+from lsys_kit.pictures.nets.rows import rows_of, shown_places
 from lsys_kit.pictures.style.palette import MARK
 
 NAMED = ("J1", "J4", "J5", "P1", "P2", "P3", "P4", "P5", "T2", "K2", "K5", "L1")
@@ -273,7 +273,7 @@ def test_everything_lies_inside_the_picture() -> None:
 def test_moving_tokens_lays_nothing_out_again(monkeypatch: pytest.MonkeyPatch) -> None:
     net = stages(system("J4"))
     svg(drawn_stages(net, (1, 0, 0, 0, 0)))
-    monkeypatch.setattr(parts, "layout_of", None)
+    monkeypatch.setattr(parts, "layout_in_rows", None)
     assert svg(drawn_stages(net, (0, 1, 0, 0, 0))) != svg(drawn_stages(net, (1, 0, 0, 0, 0)))
 
 

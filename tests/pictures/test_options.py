@@ -26,7 +26,7 @@ from lsys_kit import (
 )
 from lsys_kit.__main__ import main
 from lsys_kit.geometry.scene import OWN
-from lsys_kit.geometry.turtle.commands.table import RAMP_END, RAMP_START
+from lsys_kit.geometry.turtle.commands import RAMP_END, RAMP_START
 from lsys_kit.pictures.options import KINDS, OPTIONS
 from lsys_kit.pictures.style.palette import RAMP, SERIES, colours
 from lsys_kit.pictures.style.themes import DARK, DARK_LINES, LIGHT

@@ -15,7 +15,8 @@ import pytest
 from lsys_kit import derive, explain, read, write
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.worlds.fields import Question, Surroundings
+from lsys_kit.worlds.fields import Question
+from lsys_kit.worlds.neighbours import Surroundings
 
 ULAM = """angle: 90
 axiom: [F A] [+ F A] [- F A] [+(180) F A]

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from lsys_kit import LSystemError, ModelLimitError, ModelValueError, derive, draw, explain, explore, growth, limits, read, write
-from lsys_kit.classroom.typeset import shown
+from lsys_kit.classroom.magic import shown
 from lsys_kit.derivation.derive import derive as words_alone
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.worlds.sight import observe

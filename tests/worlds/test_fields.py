@@ -16,8 +16,8 @@ from hypothesis import strategies as st
 
 from lsys_kit import LSystemError, ModelValueError, animate, derive, draw, explain, explore, read, write
 from lsys_kit.derivation.derive import Derivation
-from lsys_kit.worlds.fields import Question, Surroundings
-from lsys_kit.worlds.ready_fields import SKY, Light, Polygon, Shadows, Space, Water
+from lsys_kit.worlds.fields import SKY, Light, Polygon, Question, Shadows, Space, Water
+from lsys_kit.worlds.neighbours import Surroundings
 from lsys_kit.worlds.sight import observe
 
 coordinates = st.integers(-12, 12).map(lambda fourths: fourths / 4)

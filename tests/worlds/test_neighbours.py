@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 
 from lsys_kit import derive, read
 from lsys_kit.derivation.core.words import Word
-from lsys_kit.worlds.fields import Question, Surroundings
-from lsys_kit.worlds.ready_fields import Light, Shadows, Space
+from lsys_kit.worlds.fields import Light, Question, Shadows, Space
+from lsys_kit.worlds.neighbours import Surroundings
 from lsys_kit.worlds.sight import TurtleObservation, observe
 
 FUNCTIONS = {1: (1,), 2: (1,), 4: (50, 1), 7: (), 9: (35, 1)}

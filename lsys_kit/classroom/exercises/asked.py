@@ -152,12 +152,9 @@ def _counts(exercise: Exercise, history: History) -> tuple[int, ...]:
     return tuple(found[symbol] for symbol in exercise.symbols or sorted(found))
 
 
-def _matrix(_: Exercise, history: History) -> tuple[int, ...] | None:
-    return None if history.offset or not isinstance(history.words, Derived) else tuple(map(int, growth(history.system).matrix))
-
-
-def _stages(_: Exercise, history: History) -> object:
-    return None if history.offset or not isinstance(history.words, Derived) else stages(history.system)
+def _of_the_system(found: Callable[[LSystem], object]) -> Asked:
+    """What is found of a system, and not of words that somebody has in mind."""
+    return lambda _, history: None if history.offset or not isinstance(history.words, Derived) else found(history.system)
 
 
 def _step_value(exercise: Exercise, history: History) -> int:
@@ -187,8 +184,8 @@ ASKED: Mapping[str, Asked] = {
     "first": _first_step,
     "lengths": _step_values,
     "counts": lambda exercise, history: (_step_values if " " in exercise.asks else _counts)(exercise, history),
-    "matrix": _matrix,
-    "stages": _stages,
+    "matrix": _of_the_system(lambda system: tuple(map(int, growth(system).matrix))),
+    "stages": _of_the_system(stages),
     "words": lambda exercise, history: tuple(map(history.word, asked_steps(exercise))),
     "drawing": lambda exercise, history: written(history.system, history.word(exercise.steps)),
 }

@@ -12,15 +12,13 @@ import os
 from collections.abc import Mapping
 
 from lsys_kit.budget import Task, current, limits
-from lsys_kit.classroom.exercises.declared.registry import exercise_of
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.judging import judged, wrong_answers
-from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS
-from lsys_kit.classroom.exercises.progress.record import keep_try
-from lsys_kit.classroom.exercises.progress.scores import keep_score
+from lsys_kit.classroom.exercises.progress import keep_score, keep_try
+from lsys_kit.classroom.exercises.registry import exercise_of
+from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.classroom.exercises.verdict import Verdict
 from lsys_kit.errors import LSystemError, ModelFileError, ModelLimitError, ModelValueError, require
-from lsys_kit.translation import gettext
 
 BUDGET: Mapping[str, float] = {"modules": 100_000, "seconds": 3, "rules": 50}
 """The limits for an answer."""
@@ -80,23 +78,22 @@ def checked(asked: Exercise, answer: object, hint: object, solution: object, cal
     require(solution, bool, 'True or False for "solution"')
     hints = _hints(asked, hint, call)
     if _untouched(asked, answer):
-        missing = gettext("Replace the ... with your {answer}.", answer=gettext(ANSWER_KINDS[asked.kind].what))
+        missing = reply("check.untouched", answer=reply(f"{asked.kind}.answer"))
         if os.environ.get("SERVER_SOFTWARE", "").startswith("voila"):  # which shows no code
-            missing = gettext("Voila has no place for an answer: open this notebook in JupyterLab, by lsys-kit lab.")
-        after = gettext("Hints and the solution are shown after a try.") if solution or hints else ""
+            missing = reply("check.voila")
+        after = reply("check.after_a_try") if solution or hints else ""
         return Verdict("Not answered yet", f"{missing} {after}".rstrip())
     _prepare(asked)
     try:
-        with limits(**_budget()), Task(gettext("It was not checked")):
+        with limits(**_budget()), Task(reply("check.not_checked")):
             verdict, tried = _judged(asked, answer)
     except ModelLimitError as grown:
         advice = "" if "limits(" in (grown.hint or "") else f" {(grown.hint or '').split('kept. ')[-1]}".rstrip()
-        said = gettext("Your answer cannot be followed to its end. {reason}.", reason=grown.message)
-        return Verdict("Not yet", said + advice)
+        return Verdict("Not yet", reply("check.too_much", reason=grown.message) + advice)
     except LSystemError as mistake:
         return Verdict("Not readable yet", str(mistake))
     if (hints or solution) and not tried:
-        return _with(verdict, gettext("Hints and the solution are shown after a try: an answer that could be meant."))
+        return _with(verdict, reply("check.after_a_meant_try"))
     return _with(verdict, "\n".join([*hints, *([_solution(asked)] if solution else [])]))
 
 
@@ -129,30 +126,23 @@ def _untouched(exercise: Exercise, answer: object) -> bool:
 def _judged(exercise: Exercise, answer: object) -> tuple[Verdict, bool]:
     if isinstance(answer, str) and len(answer) > MOST_ANSWER_CHARACTERS:
         raise ModelLimitError(
-            gettext(
-                "It has {number} characters; the limit is {most}", number=f"{len(answer):,}", most=f"{MOST_ANSWER_CHARACTERS:,}"
-            ),
-            limit=MOST_ANSWER_CHARACTERS,
+            reply("check.too_long", number=f"{len(answer):,}", most=f"{MOST_ANSWER_CHARACTERS:,}"), limit=MOST_ANSWER_CHARACTERS
         )
     return judged(exercise, answer)
 
 
 def _hints(exercise: Exercise, number: object, call: str) -> list[str]:
-    """The hints up to one, as lines."""
     most = len(exercise.hints)
     if isinstance(number, bool) or not isinstance(number, int) or not 0 <= number <= most:
-        raise ModelValueError(gettext("Exercise {id} has the hints 1 to {most}", id=exercise.id, most=most))
-    shown = [
-        gettext("Hint {number} of {most}: {hint}", number=at, most=most, hint=hint)
-        for at, hint in enumerate(exercise.hints[:number], 1)
-    ]
-    more = [gettext("One more: {call}.", call=f"{call}, hint={number + 1})")] if 0 < number < most else []
+        raise ModelValueError(reply("check.no_such_hint", id=exercise.id, most=most))
+    shown = [reply("check.hint", number=at, most=most, hint=hint) for at, hint in enumerate(exercise.hints[:number], 1)]
+    more = [reply("check.one_more", call=f"{call}, hint={number + 1})")] if 0 < number < most else []
     return [*shown, *more]
 
 
 def _solution(exercise: Exercise) -> str:
     quoted = "\n".join(f"  {line}" for line in exercise.solution.strip().splitlines())
-    return f"{gettext('The solution:')}\n{quoted}\n{exercise.explanation}"
+    return f"{reply('check.solution')}\n{quoted}\n{exercise.explanation}"
 
 
 def _with(verdict: Verdict, more: str) -> Verdict:

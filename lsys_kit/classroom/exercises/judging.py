@@ -15,6 +15,7 @@ from lsys_kit.classroom.exercises.kinds.choices import letters
 from lsys_kit.classroom.exercises.kinds.kind import Difference
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS, solution_of
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS, Misconception
+from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.classroom.exercises.verdict import Verdict
 from lsys_kit.errors import LSystemError
 from lsys_kit.translation import gettext
@@ -114,7 +115,6 @@ class _Yields:
 
 @lru_cache(maxsize=512)
 def _yielded(exercise: Exercise) -> _Yields:
-    """The answers that misconceptions yield, and whether they are right."""
     return _Yields(exercise)
 
 
@@ -153,7 +153,6 @@ def _is_looked_for(exercise: Exercise, misconception: Misconception) -> bool:
 
 
 def _alike(exercise: Exercise, own: Any, other: Any) -> bool:
-    """Whether an answer is that which is understood."""
     return (ANSWER_KINDS[exercise.kind].alike or ANSWER_KINDS[exercise.kind].same)(exercise, own, other)
 
 
@@ -181,7 +180,7 @@ def _parts_right(exercise: Exercise, own: Any, solution: Any) -> tuple[str, floa
     """Which parts of a wrong answer are right, in words, and the mark for them: nothing where none is."""
     kind = ANSWER_KINDS[exercise.kind]
     right, all = kind.parts_right(exercise, own, solution) if kind.parts_right else (0, 0)
-    return (gettext(kind.parts_said, right=right, all=all), right / all) if right else ("", 0)
+    return (reply(f"{exercise.kind}.parts", right=right, all=all), right / all) if right else ("", 0)
 
 
 def _explained(fitting: Sequence[WrongAnswer], found: Difference) -> str:
@@ -193,23 +192,22 @@ def _explained(fitting: Sequence[WrongAnswer], found: Difference) -> str:
     others = {wrong.misconception.name: wrong.misconception for wrong in fitting if wrong.misconception}
     if own is not None:
         others.pop(own.misconception.name if own.misconception else "", None)
-        asked = gettext("Or did you {do}?", do=_any_of(list(others.values()))) if others else ""
+        asked = reply("reply.or_did_you", do=_any_of(list(others.values()))) if others else ""
         return f"{own.says.strip()} {asked}".rstrip()
     if len(others) == 1:
         only = next(iter(others.values()))
         if found.likeness >= MOST_RIGHT and found.at_a_place and not only.near:
             return f"{_asked([only])} {found.message}"
-        return gettext("That is what comes out if you {do}. {but}", do=gettext(only.do), but=gettext(only.but))
+        return reply("reply.comes_out", do=gettext(only.do), but=gettext(only.but))
     return _asked(list(others.values()))
 
 
 def _asked(several: Sequence[Misconception]) -> str:
-    return gettext("Did you {do}?", do=_any_of(several))
+    return reply("reply.did_you", do=_any_of(several))
 
 
 def _any_of(several: Sequence[Misconception]) -> str:
-    """What several misconceptions do, as a sentence goes on with it."""
     return reduce(
-        lambda one, other: gettext("{one}, or {other}", one=one, other=other),
+        lambda one, other: reply("reply.or", one=one, other=other),
         (gettext(misconception.do) for misconception in several[:MOST_ASKED]),
     )

@@ -4,29 +4,26 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
-from typing import TypeAlias
 
 from lsys_kit.budget import Task, limits
 from lsys_kit.classroom.exercises.asked import answer_by, asked_system, right_history, what_is_asked
 from lsys_kit.classroom.exercises.check import BUDGET
-from lsys_kit.classroom.exercises.declared.declarations import QUESTIONS, Questions, questions_in
-from lsys_kit.classroom.exercises.declared.keys import Problem, Source
-from lsys_kit.classroom.exercises.declared.registry import kit_questions
-from lsys_kit.classroom.exercises.exercise import Exercise, Lesson
+from lsys_kit.classroom.exercises.declarations import QUESTIONS, MakeProblem, Problem, Questions, questions_in
+from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.judging import judged, wrong_answers
 from lsys_kit.classroom.exercises.kinds.choices import letters
 from lsys_kit.classroom.exercises.kinds.numbers import FORMULA, formula_in_reply
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS, solution_of
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
+from lsys_kit.classroom.exercises.registry import kit_questions
 from lsys_kit.errors import LSystemError
 from lsys_kit.notation.dialects.map.dialect import read_map
 from lsys_kit.notation.read import read
 
-MakeProblem: TypeAlias = Callable[..., Problem]
 HINTS = 3
 """How many hints an exercise has."""
-_NEEDS_OTHERWISE = ("number", "choice", "symbol", "line")
 
 
 def problems_in(folder: str | Path = QUESTIONS) -> list[Problem]:
@@ -40,72 +37,48 @@ def problems_in(folder: str | Path = QUESTIONS) -> list[Problem]:
     problems = [*found.problems, *_lesson_problems(found)]
     taken = {} if path == QUESTIONS else {exercise.id: source.file for source, _, exercise in kit_questions().exercises}
     for source, number, exercise in found.exercises:
-        problems += list(_exercise_problems(source, number, exercise))
+        problem = partial(source.problem_of, number, exercise.id)
+        problems += _exercise_problems(problem, exercise)
         if exercise.id in taken:
-            problems.append(
-                Problem(
-                    source.file,
-                    source.line_of(number, "id"),
-                    exercise.id,
-                    "The kit has an exercise with this id",
-                    "Take another, such as my.1.",
-                )
-            )
+            problems.append(problem("id", "exercise.taken"))
     return sorted(problems, key=lambda problem: (problem.file, problem.line))
 
 
 def _lesson_problems(found: Questions) -> Iterator[Problem]:
     """The objectives that no exercise tests, and those that do not exist."""
-    for lesson, (source, exercises) in _lessons_and_sources(found):
-        tested = {exercise.objective for _, exercise in exercises}
+    lessons = {lesson.name: lesson.objectives for lesson in found.lessons}
+    unread = {problem.file for problem in found.problems}
+    for source, exercises in found.sources:
+        objectives = lessons.get(source.file.removesuffix(".toml"), ())
         for number, exercise in exercises:
-            if exercise.objective > len(lesson.objectives):
-                yield Problem(
-                    source.file,
-                    source.line_of(number, "objective"),
-                    exercise.id,
-                    f"There is no objective {exercise.objective}",
-                    f"The lesson has {len(lesson.objectives)}.",
-                )
-        unread = any(problem.file == source.file for problem in found.problems)
-        for number, objective in enumerate(() if unread else lesson.objectives, 1):
+            if exercise.objective > len(objectives):
+                values = {"number": exercise.objective, "most": len(objectives)}
+                yield source.problem_of(number, exercise.id, "objective", "exercise.no_such_objective", **values)
+        tested = {exercise.objective for _, exercise in exercises}
+        for number, objective in enumerate(() if source.file in unread else objectives, 1):
             if number not in tested:
-                yield Problem(
-                    source.file,
-                    1,
-                    "",
-                    f'No exercise tests objective {number}, "{objective}"',
-                    f"Write objective = {number} in one that does.",
-                )
+                yield source.problem("file.untested", number=number, objective=objective)
 
 
-def _lessons_and_sources(found: Questions) -> Iterator[tuple[Lesson, tuple[Source, tuple[tuple[int, Exercise], ...]]]]:
-    sources = {source.file.removesuffix(".toml"): (source, exercises) for source, exercises in found.sources}
-    for lesson in found.lessons:
-        yield lesson, sources[lesson.name]
-
-
-def _exercise_problems(source: Source, number: int, exercise: Exercise) -> Iterator[Problem]:
-    def problem(key: str, what: str, hint: str = "", part: str = "", at: int = 0) -> Problem:
-        return Problem(source.file, source.line_of(number, key, part, at), exercise.id, what, hint)
-
+def _exercise_problems(problem: MakeProblem, exercise: Exercise) -> Iterator[Problem]:
     unread = next(_unread(exercise), None)
     if unread is not None:
         key, mistake = unread
-        yield problem(key, f'"{key}" cannot be read: {mistake.message}', mistake.hint or "")
+        yield problem(key, "exercise.unreadable", fault=mistake.message, hint=mistake.hint)
         return
     with limits(**BUDGET), Task("It was not checked"):
         solution = solution_of(exercise)
         verdict, _ = judged(exercise, exercise.solution)
     if verdict.said != "Correct":
-        yield problem("solution", "The solution is not accepted", verdict.message)
+        yield problem("solution", "exercise.not_accepted", hint=verdict.message)
+    kind = ANSWER_KINDS[exercise.kind]
     if what_is_asked(exercise) and exercise.kind in ("word", "words", "number", "table", "net"):
         asked = answer_by(exercise, right_history(exercise))
-        asked = ANSWER_KINDS["net"].read(exercise, asked) if exercise.kind == "net" else asked
-        if asked is None or not ANSWER_KINDS[exercise.kind].same(exercise, asked, solution):
-            yield problem("solution", f"The system gives another answer: {_short(asked)}", "Look at system, steps and asks.")
+        asked = kind.read(exercise, asked) if exercise.kind == "net" else asked
+        if asked is None or not kind.same(exercise, asked, solution):
+            yield problem("solution", "exercise.another_answer", answer=_short(asked))
     if exercise.template.split() == exercise.solution.split():
-        yield problem("template", "The template is the solution")
+        yield problem("template", "exercise.template")
     yield from _text_problems(problem, exercise)
     yield from _slip_problems(problem, exercise)
     yield from _expected_problems(problem, exercise)
@@ -113,7 +86,6 @@ def _exercise_problems(source: Source, number: int, exercise: Exercise) -> Itera
 
 
 def _unread(exercise: Exercise) -> Iterator[tuple[str, LSystemError]]:
-    """The keys whose texts make no sense, with the errors."""
     readers: dict[str, Callable[[], object]] = {
         "system": lambda: exercise.system and asked_system(exercise),
         "given": lambda: exercise.given and (read_map if exercise.kind == "map" else read)(exercise.given),
@@ -138,41 +110,30 @@ def _short(answer: object) -> str:
 
 def _text_problems(problem: MakeProblem, exercise: Exercise) -> Iterator[Problem]:
     if len(exercise.hints) != HINTS:
-        yield problem("hints", f"There are {len(exercise.hints)} hints", f"Write {HINTS}, from a nudge to nearly there.")
-    answer = " ".join(exercise.solution.split())
+        yield problem("hints", "exercise.hints", number=len(exercise.hints), most=HINTS)
+    answer = re.compile(rf"(?<!\w){re.escape(' '.join(exercise.solution.split()))}(?!\w)")
     for hint in exercise.hints:
-        if exercise.kind not in ("choice", "symbol") and re.search(
-            rf"(?<!\w){re.escape(answer)}(?!\w)", " ".join(hint.split())
-        ):
-            yield problem("hints", "A hint contains the solution", hint)
+        if exercise.kind not in ("choice", "symbol") and answer.search(" ".join(hint.split())):
+            yield problem("hints", "exercise.hint_tells", hint=hint)
     if not exercise.objective:
-        yield problem(
-            "id", "It does not say which objective it tests", "Write objective = 1, the number in the list at the top."
-        )
+        yield problem("id", "exercise.no_objective")
     if exercise.kind == "number":
-        for fault in _unread_formulas(exercise):
-            yield problem("otherwise", fault.message, "In braces stand formulas of answer.")
-    if exercise.kind in _NEEDS_OTHERWISE and not exercise.system and not exercise.otherwise and exercise.kind != "choice":
-        yield problem("kind", "Nothing is said of a wrong answer that nobody expects", 'Write otherwise = "...".')
+        for found in FORMULA.finditer(exercise.otherwise):
+            try:
+                formula_in_reply(found[1])
+            except LSystemError as fault:
+                yield problem("otherwise", "exercise.formula", fault=fault.message)
+    if exercise.kind in ("number", "symbol", "line") and not exercise.system and not exercise.otherwise:
+        yield problem("kind", "exercise.otherwise")
     if not (exercise.expects or exercise.slips or exercise.options):
-        yield problem("id", "It uncovers no misconception", 'Write expects = ["..."], or a slip.')
+        yield problem("id", "exercise.no_misconception")
     if exercise.kind == "expression" and not exercise.values:
-        yield problem("kind", "An expression needs values", "Write values = { s = [1, 2, 3] }.")
+        yield problem("kind", "exercise.values")
     if exercise.kind in ("symbol", "line") and not exercise.text:
-        yield problem("kind", "The word or program is missing", 'Write text = "...".')
-
-
-def _unread_formulas(exercise: Exercise) -> Iterator[LSystemError]:
-    """What is wrong with the formulas in a reply."""
-    for found in FORMULA.finditer(exercise.otherwise):
-        try:
-            formula_in_reply(found[1])
-        except LSystemError as fault:
-            yield fault
+        yield problem("kind", "exercise.text")
 
 
 def _slip_problems(problem: MakeProblem, exercise: Exercise) -> Iterator[Problem]:
-    """Slips that cannot be read, that are right, or that say what others say."""
     kind, solution = ANSWER_KINDS[exercise.kind], solution_of(exercise)
     said: dict[str, int] = {}
     for at, slip in enumerate(exercise.slips):
@@ -181,58 +142,39 @@ def _slip_problems(problem: MakeProblem, exercise: Exercise) -> Iterator[Problem
                 own = kind.read(exercise, slip.answer)
                 right = kind.same(exercise, own, solution)
         except LSystemError as mistake:
-            yield problem("answer", f"The slip cannot be read: {mistake.message}", mistake.hint or "", "slips", at)
+            yield problem("answer", "slips.unreadable", "slips", at, fault=mistake.message, hint=mistake.hint)
             continue
         if right:
-            yield problem("answer", "The slip is right", "", "slips", at)
+            yield problem("answer", "slips.right", "slips", at)
         alike = kind.alike or kind.same
         if slip.says in said and slip.says:
-            yield problem("says", f"It says what slip {said[slip.says] + 1} says", "", "slips", at)
+            yield problem("says", "slips.said_already", "slips", at, number=said[slip.says] + 1)
         said.setdefault(slip.says, at)
-        others = sorted(
-            {
-                wrong.misconception.name
-                for wrong in wrong_answers(exercise)
-                if wrong.misconception and alike(exercise, own, wrong.answer)
-            }
-            - {slip.misconception}
-        )
+        fitting = (each.misconception for each in wrong_answers(exercise) if alike(exercise, own, each.answer))
+        others = {each.name for each in fitting if each} - {slip.misconception}
         if others and not slip.misconception:
-            yield problem(
-                "answer",
-                f'The misconception "{others[0]}" yields this answer too',
-                f'Write misconception = "{others[0]}" below it; says may stay.',
-                "slips",
-                at,
-            )
+            yield problem("answer", "slips.yielded", "slips", at, name=min(others))
 
 
 def _expected_problems(problem: MakeProblem, exercise: Exercise) -> Iterator[Problem]:
-    """Misconceptions that an exercise expects and that yield nothing, or the right answer."""
     reached = {wrong.misconception.name for wrong in wrong_answers(exercise) if wrong.misconception}
     for name in exercise.expects:
         if name not in reached:
-            yield problem(
-                "expects",
-                f'"{name}" yields no wrong answer here',
-                f"It applies to: {MISCONCEPTIONS[name].applies}. Perhaps it yields the right one, or write a slip with "
-                f'misconception = "{name}".',
-            )
+            yield problem("expects", "exercise.yields_nothing", name=name, applies=MISCONCEPTIONS[name].applies)
 
 
 def _option_problems(problem: MakeProblem, exercise: Exercise) -> Iterator[Problem]:
     if exercise.kind != "choice":
         if exercise.options:
-            yield problem("", "Only a choice has options", "", "options", 0)
+            yield problem("", "options.of_a_choice", "options")
         return
     if not 2 <= len(exercise.options) <= 8:
-        yield problem("kind", "A choice needs 2 to 8 options", "Write [[exercise.options]].")
+        yield problem("kind", "options.number")
         return
     right = letters(exercise).index(solution_of(exercise))
     for at, option in enumerate(exercise.options):
-        if at != right and not (option.says or option.misconception):
-            yield problem(
-                "text", "Nothing is said of this wrong option", 'Write says = "...", or misconception = "...".', "options", at
-            )
-        if at == right and (option.says or option.misconception):
-            yield problem("text", "The right option needs no reply", "", "options", at)
+        replied = option.says or option.misconception
+        if at != right and not replied:
+            yield problem("text", "options.no_reply", "options", at)
+        if at == right and replied:
+            yield problem("text", "options.right", "options", at)

@@ -9,43 +9,28 @@ from __future__ import annotations
 import json
 import re
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, TypeAlias
 
 from lsys_kit.classroom.exercises.check import check
-from lsys_kit.classroom.exercises.declared.declarations import QUESTIONS, questions_in
-from lsys_kit.classroom.exercises.declared.registry import exercises
+from lsys_kit.classroom.exercises.declarations import QUESTIONS, questions_in
 from lsys_kit.classroom.exercises.exercise import Exercise, Lesson
 from lsys_kit.classroom.exercises.kinds.choices import listing
-from lsys_kit.classroom.exercises.progress.progress import Progress, progress_of
-from lsys_kit.classroom.exercises.progress.record import Record
-from lsys_kit.classroom.exercises.translated import translated_lesson
+from lsys_kit.classroom.exercises.progress import Progress, Record, progress_of
+from lsys_kit.classroom.exercises.registry import exercises, translated_lesson
+from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.classroom.exercises.verdict import Verdict
 from lsys_kit.files import replace_file
-from lsys_kit.translation import ENGLISH, gettext, language
+from lsys_kit.translation import ENGLISH, language
 
 NotebookCell: TypeAlias = dict[str, Any]
-
-_HOW = """\
-Replace the `...` of an answer and run its cell: the reply says whether the answer is right, or how it differs. Below each
-answer is a cell for hints, which come after a try: remove its first `#` and run it. After a try,
-`check("{id}", answer, solution=True)` shows the solution.
-
-What you have tried and solved is shown at the end. In a copy of the course it is kept in `progress.csv`, without your answers.
-
-The answers come with the kit, where anybody can find them. This is a self-check, not an examination."""
-_MARKS = """\
-## For a class
-
-Where answers are marked with nbgrader, each cell below gives the score of one exercise, from 0 to 1. Whoever learns alone does
-not need them."""
 
 
 def exercise_notebook(lesson: Lesson, folder: str = "") -> str:
     """The notebook of a lesson's exercises, as the text of its file; `folder` has their questions, if these are not the kit's.
 
-    >>> from lsys_kit.classroom.exercises.declared.registry import lessons
+    >>> from lsys_kit.classroom.exercises.registry import lessons
     >>> json.loads(exercise_notebook(lessons()[0]))["cells"][1]["source"]
     ['from lsys_kit import check, progress']
     """
@@ -86,11 +71,11 @@ def _cells(lesson: Lesson, folder: str) -> Iterator[NotebookCell]:
         yield from _exercise_cells(exercise)
     yield _markdown(
         "summary",
-        f"## {gettext('Summary')}\n\n{lesson.summary}\n\n[{gettext('Back to the lesson')}](../notebooks/{lesson.name}.ipynb)",
+        f"## {reply('notebook.summary')}\n\n{lesson.summary}\n\n[{reply('notebook.back')}](../notebooks/{lesson.name}.ipynb)",
     )
-    all_lessons = gettext("progress() shows all lessons")
-    yield _code("progress", f'progress("{lesson.name}")   # {all_lessons}', progress_of(Record(), lesson.name))
-    yield _markdown("marks", gettext(_MARKS))
+    all_lessons = reply("notebook.all_lessons")
+    yield _code("progress", f'progress("{lesson.name}")   # {all_lessons}', _shown(progress_of(Record(), lesson.name)))
+    yield _markdown("marks", reply("notebook.marks"))
     yield from map(_score_cell, lesson.exercises)
 
 
@@ -104,22 +89,19 @@ def _beginning(folder: str) -> str:
 
 def _introduction(lesson: Lesson) -> str:
     objectives = "\n".join(f"- {objective}" for objective in lesson.objectives)
-    goes_with = gettext("They go with the lesson {lesson}.", lesson=f"[{lesson.title}](../notebooks/{lesson.name}.ipynb)")
+    goes_with = reply("notebook.lesson", lesson=f"[{lesson.title}](../notebooks/{lesson.name}.ipynb)")
     return (
-        f"# {gettext('Exercises: {title}', title=lesson.title)}\n\n{lesson.introduction} {goes_with}\n\n"
-        f"**{gettext('After these exercises you can')}**\n\n{objectives}\n\n{gettext(_HOW, id=lesson.exercises[0].id)}"
+        f"# {reply('notebook.title', title=lesson.title)}\n\n{lesson.introduction} {goes_with}\n\n"
+        f"**{reply('notebook.afterwards')}**\n\n{objectives}\n\n{reply('notebook.how', id=lesson.exercises[0].id)}"
     )
 
 
 def _exercise_cells(exercise: Exercise) -> Iterator[NotebookCell]:
     name = f"exercise-{exercise.id.replace('.', '-')}"
     yield _markdown(name, f"## {exercise.id} {exercise.title}\n\n{exercise.question.strip()}{listing(exercise)}")
-    yield _code(f"{name}-answer", f'answer = {_template(exercise)}\ncheck("{exercise.id}", answer)', check(exercise.id))
-    yield _code(f"{name}-hints", f'# check("{exercise.id}", answer, hint=1)   # {_hints(exercise)}')
-
-
-def _hints(exercise: Exercise) -> str:
-    return gettext("hints 1 to {number}", number=len(exercise.hints))
+    yield _code(f"{name}-answer", f'answer = {_template(exercise)}\ncheck("{exercise.id}", answer)', _shown(check(exercise.id)))
+    hints = reply("notebook.hints", number=len(exercise.hints))
+    yield _code(f"{name}-hints", f'# check("{exercise.id}", answer, hint=1)   # {hints}')
 
 
 def _score_cell(exercise: Exercise) -> NotebookCell:
@@ -128,22 +110,12 @@ def _score_cell(exercise: Exercise) -> NotebookCell:
     The cells for answers are not declared as solutions: nbgrader would put a text of its own in the place of their templates.
     """
     name = f"score-{re.sub('[^A-Za-z0-9_-]', '-', exercise.id)}"
-    cell = _code(name, f'from lsys_kit import score\n\nscore("{exercise.id}")')
-    graded = {
-        "schema_version": 3,
-        "grade_id": name,
-        "grade": True,
-        "points": 1,
-        "locked": True,
-        "solution": False,
-        "task": False,
-    }
-    shown = {"data": {"text/plain": ["0.0"]}, "execution_count": None, "metadata": {}, "output_type": "execute_result"}
-    return {**cell, "metadata": {"nbgrader": graded}, "outputs": [shown]}
+    cell = _code(name, f'from lsys_kit import score\n\nscore("{exercise.id}")', {"text/plain": ["0.0"]})
+    flags = {"grade": True, "locked": True, "solution": False, "task": False}
+    return {**cell, "metadata": {"nbgrader": {"schema_version": 3, "grade_id": name, "points": 1, **flags}}}
 
 
 def _template(exercise: Exercise) -> str:
-    """What stands in the cell before an answer."""
     text = exercise.template.strip("\n")
     return text if text == "..." else f'"""\n{text}\n"""' if "\n" in text else f'"{text}"'
 
@@ -152,27 +124,13 @@ def _markdown(name: str, text: str) -> NotebookCell:
     return {"cell_type": "markdown", "id": name, "metadata": {}, "source": _source_lines(text)}
 
 
-def _code(name: str, text: str, shown: Verdict | Progress | None = None) -> NotebookCell:
-    outputs = (
-        []
-        if shown is None
-        else [
-            {
-                "data": {"text/html": _source_lines(shown._repr_html_()), "text/plain": _source_lines(repr(shown))},
-                "execution_count": None,
-                "metadata": {},
-                "output_type": "execute_result",
-            }
-        ]
-    )
-    return {
-        "cell_type": "code",
-        "execution_count": None,
-        "id": name,
-        "metadata": {},
-        "outputs": outputs,
-        "source": _source_lines(text),
-    }
+def _code(name: str, text: str, data: Mapping[str, list[str]] | None = None) -> NotebookCell:
+    output = {"data": data, "execution_count": None, "metadata": {}, "output_type": "execute_result"}
+    return {**_markdown(name, text), "cell_type": "code", "execution_count": None, "outputs": [output] if data else []}
+
+
+def _shown(value: Verdict | Progress) -> dict[str, list[str]]:
+    return {"text/html": _source_lines(value._repr_html_()), "text/plain": _source_lines(repr(value))}
 
 
 def _with_execution_counts(cells: Iterable[NotebookCell]) -> Iterator[NotebookCell]:

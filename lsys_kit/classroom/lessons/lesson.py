@@ -1,13 +1,23 @@
 """What a lesson is made of beside its notebook: its objectives, its vote and its tables to fill, as they are declared.
 
-Each lesson has a file in the folder `data`, with the name of its notebook. The right answers are in the package, where anybody
-can find them; the notebook shows none of them before the student has answered.
+Each lesson has a file in the folder `data`, with the name of its notebook. What is missing in it or does not fit is an error
+that names its place. The right answers are in the package, where anybody can find them; the notebook shows none of them before
+the student has answered.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import re
+import tomllib
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import cache
+from importlib.resources import files
+from typing import Any
+
+from lsys_kit.errors import ModelFileError, ModelNameError, ModelValueError, quotable, shown
+from lsys_kit.notation.analysis.checks import suggestion
 
 TRACKS: Mapping[str, str] = {"F": "the fast track of 90 minutes", "C": "the core of a semester", "O": "an option"}
 """The ways through the course that a lesson may belong to."""
@@ -101,3 +111,262 @@ class Lesson:
     vote: Vote
     tables: tuple[Table, ...]
     settings: tuple[Mapping[str, str], ...] = field(default=(), hash=False)
+
+
+MOST_CHARACTERS = 200
+"""Longer entries are not looked at."""
+_NUMBER = re.compile(r"([+-]?(?=\.?\d)\d{0,30}(?:\.\d{1,30})?)(?:/(\d{1,30}))?(%?)")
+_THOUSANDS = re.compile(r"[+-]?\d{1,3}(,\d{3})+(\.\d+)?")
+_DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+")
+
+
+def number_of(text: str) -> Fraction | None:
+    """The number that a text is, or None: a whole number, a decimal, a fraction, a percentage.
+
+    >>> number_of("3/4"), number_of(" 0.75 "), number_of("75 %"), number_of("al br")
+    (Fraction(3, 4), Fraction(3, 4), Fraction(3, 4), None)
+    """
+    found = _NUMBER.fullmatch(_without_blanks(text).replace("−", "-"))
+    if not found or (found[2] and not int(found[2])):
+        return None
+    return Fraction(found[1]) / int(found[2] or 1) / (100 if found[3] else 1)
+
+
+def is_right(entry: str, right: Sequence[str], within: str = "0") -> bool:
+    """Whether an entry is one of the right answers, up to blanks and capitals; numbers may be off by a given distance.
+
+    A comma may part thousands, or stand for the decimal point.
+
+    >>> is_right("0.5", ["1/2"]), is_right("10,946", ["10946"]), is_right("1,618", ["1.6180"]), is_right("AL  br", ["al br"])
+    (True, True, True, True)
+    >>> is_right("1.62", ["1.618"]), is_right("1.62", ["1.618"], within="0.01"), is_right("21 cells", ["21"])
+    (False, True, False)
+    >>> is_right(".9", ["0.9"]), is_right(",9", ["0.9"])
+    (True, True)
+    """
+    if len(entry) > MOST_CHARACTERS:
+        return False
+    near = number_of(within) or 0
+    return any(
+        _without_blanks(entry).casefold() == _without_blanks(each).casefold()
+        or any(abs(number - wanted) <= near for number in _readings(entry) for wanted in _numbers(each))
+        for each in right
+    )
+
+
+def _readings(entry: str) -> Iterator[Fraction]:
+    text = _without_blanks(entry)
+    yield from _numbers(text)
+    if _THOUSANDS.fullmatch(text):
+        yield from _numbers(text.replace(",", ""))
+    if _DECIMAL_COMMA.fullmatch(text):
+        yield from _numbers(text.replace(",", "."))
+
+
+def _numbers(text: str) -> Iterator[Fraction]:
+    if (number := number_of(text)) is not None:
+        yield number
+
+
+def _without_blanks(text: str) -> str:
+    return "".join(text.split())
+
+
+# From the text of a file to the record of its lesson
+
+OPTIONS = 4
+"""How many options a vote has."""
+_NAME = re.compile(r"\d\d_[a-z0-9_]+")
+_ID = re.compile(r"[a-z0-9-]+")
+_PICTURE = ("system", "rules", "step", "angle", "cells", "view", "constants")
+
+
+def lesson_from(name: str, entries: Mapping[str, Any]) -> Lesson:
+    """The record of a lesson, from the entries of its file."""
+    where = f"The lesson {name}"
+    _demand(_NAME.fullmatch(name), f"{where} must be called by two digits and small letters, such as 01_all_at_once")
+    found = _taken(where, entries, _LESSON)
+    number, unknown = int(name[:2]), "".join(each for each in found["track"] if each not in TRACKS)
+    _demand(found["number"] == number, f'{where}: "number" must be {number}, as in its name, not {found["number"]}')
+    _demand(not unknown, f'{where}: "track" has letters of {", ".join(TRACKS)}, not {unknown[:1]}')
+    vote, tables = _vote(f"{where}, vote", found.pop("vote")), _each(f"{where}, table", found.pop("tables"), _table)
+    _demand(len({each.id for each in tables}) == len(tables), f"{where}: two tables have the same id")
+    settings = _each(f"{where}, settings", found.pop("settings"), _settings)
+    return Lesson(name=name, vote=vote, tables=tables, settings=settings, **found)
+
+
+def _settings(where: str, row: object) -> dict[str, str]:
+    return {name: _numeral(f'{where}, "{name}"', value) for name, value in _entries(where, row).items()}
+
+
+def _vote(where: str, entries: object) -> Vote:
+    found = _taken(where, entries, _VOTE)
+    options = _each(f"{where}, option", found["options"], lambda place, each: Option(**_taken(place, each, _OPTION)))
+    one_right = len(options) == OPTIONS and sum(each.right for each in options) == 1
+    _demand(one_right, f"{where}: there must be {OPTIONS} options, and one of them must have right = true")
+    picture = found["picture"]
+    for key in picture:
+        _demand(key in _PICTURE, f'{where}: a picture has no "{key}"', f"It may have: {', '.join(_PICTURE)}.")
+    one_system = not picture or ("system" in picture) != ("rules" in picture)
+    _demand(one_system, f'{where}: a picture needs the id of its "system", or its "rules"')
+    _entries(f'{where}, picture, "constants"', picture.get("constants", {}))
+    return Vote(found["question"], options, picture)
+
+
+def _table(where: str, entries: object) -> Table:
+    found = _taken(where, entries, _TABLE)
+    _demand(_ID.fullmatch(found["id"]), f'{where}: "id" must have small letters, digits and hyphens only')
+    columns = found["columns"]
+    rows = _each(f"{where}, row", found["rows"], lambda place, cells: _row(place, cells, len(columns)))
+    table = Table(found["id"], found["title"], columns, rows)
+    _demand(table.blanks, f"{where} has no cell to fill", 'A cell to fill is { right = "3" }.')
+    return table
+
+
+def _row(where: str, cells: object, many: int) -> tuple[str | Blank, ...]:
+    fits = isinstance(cells, list) and len(cells) == many
+    _demand(fits, f"{where} must have {many} cells, one for each column")
+    row = _each(f"{where}, column", cells, _cell)
+    _demand(isinstance(row[0], str), f"{where}: the first cell names the row and must be given")
+    return row
+
+
+def _cell(where: str, cell: object) -> str | Blank:
+    if not isinstance(cell, dict):
+        return _text(where, cell)
+    found = _taken(where, cell, _BLANK)
+    _demand(found["right"] and all(map(str.strip, found["right"])), f'{where}: "right" is empty')
+    return Blank(**found)
+
+
+def _each(where: str, rows: Any, read: Callable[[str, Any], Any]) -> tuple[Any, ...]:
+    """Each of some entries, read; they are counted from 1."""
+    return tuple(read(f"{where} {place}", each) for place, each in enumerate(rows, 1))
+
+
+def _demand(holds: object, message: str, hint: str | None = None) -> None:
+    if not holds:
+        raise ModelFileError(message, hint=hint)
+
+
+# What an entry may be
+
+
+def _fitting(where: str, value: Any, fits: bool, what: str) -> Any:
+    _demand(fits, f"{where} must be {what}, not {shown(value)}")
+    return value
+
+
+def _text(where: str, value: object) -> str:
+    """A text; a number is one, too, in a table."""
+    fits = isinstance(value, str | int | float) and not isinstance(value, bool) and bool(str(value).strip())
+    return str(_fitting(where, value, fits, "a text")).strip()
+
+
+def _number(where: str, value: object) -> Any:
+    return _fitting(where, value, type(value) is int and value >= 0, "a whole number")
+
+
+def _truth(where: str, value: object) -> Any:
+    return _fitting(where, value, isinstance(value, bool), "true or false")
+
+
+def _list(where: str, value: object) -> Any:
+    return _fitting(where, value, isinstance(value, list), "a list")
+
+
+def _entries(where: str, value: object) -> Any:
+    return _fitting(where, value, isinstance(value, dict), "a table of entries")
+
+
+def _texts(where: str, value: object) -> tuple[str, ...]:
+    return _each(f"{where}, entry", _fitting(where, value, isinstance(value, list), "a list of texts"), _text)
+
+
+def _answers(where: str, value: object) -> tuple[str, ...]:
+    return _texts(where, value) if isinstance(value, list) else (_text(where, value),)
+
+
+def _numeral(where: str, value: object) -> str:
+    text = _text(where, value)
+    _fitting(where, value, number_of(text) is not None, "a number")
+    return text
+
+
+def _distance(where: str, value: object) -> str:
+    text = _numeral(where, value)
+    _fitting(where, value, (number_of(text) or 0) >= 0, "a number from 0 on")
+    return text
+
+
+Shape = Mapping[str, tuple[Callable[[str, object], Any], Any]]
+"""For each entry how it is read, and what it is when it is left out; `...` where it may not be left out."""
+_LESSON: Shape = {
+    "number": (_number, ...),
+    **dict.fromkeys(("title", "question"), (_text, ...)),
+    "minutes": (_number, ...),
+    **dict.fromkeys(("track", "objectives"), (_texts, ...)),
+    "summary": (_text, ...),
+    **dict.fromkeys(("systems", "points", "misconceptions"), (_texts, ...)),
+    "vote": (_entries, ...),
+    "tables": (_list, ...),
+    "settings": (_list, []),
+}
+_VOTE: Shape = {"question": (_text, ...), "options": (_list, ...), "picture": (_entries, {})}
+_OPTION: Shape = {"text": (_text, ...), "reply": (_text, ...), "right": (_truth, False)}
+_TABLE: Shape = {"id": (_text, ...), "title": (_text, ...), "columns": (_texts, ...), "rows": (_list, ...)}
+_BLANK: Shape = {"right": (_answers, ...), "within": (_distance, "0")}
+
+
+def _taken(where: str, entries: object, shape: Shape) -> dict[str, Any]:
+    """The entries of a shape, each read; none may be unknown."""
+    given = _entries(where, entries)
+    for key in given:
+        _demand(key in shape, f'{where} has an unknown entry "{key}"', f"Entries are: {', '.join(shape)}.")
+    for key, (_, default) in shape.items():
+        _demand(default is not ... or key in given, f'{where} has no "{key}"')
+    return {key: read(f'{where}, "{key}"', given[key]) if key in given else default for key, (read, default) in shape.items()}
+
+
+# The lessons that are declared
+
+FOLDER = files(__package__) / "data"
+
+
+def names() -> tuple[str, ...]:
+    """The names of all lessons, in their order."""
+    return tuple(sorted(file.name.removesuffix(".toml") for file in FOLDER.iterdir() if file.name.endswith(".toml")))
+
+
+def lesson(number: str | int) -> Lesson:
+    """The lesson with a number, such as "01".
+
+    >>> lesson("01").title
+    'All at once'
+    """
+    if isinstance(number, bool) or not isinstance(number, str | int):
+        raise ModelValueError(f'The number of a lesson must be a text such as "01", not {shown(number)}')
+    known = {name[:2]: name for name in names()}
+    asked = str(number).strip().zfill(2) if isinstance(number, str) or 0 <= number < 100 else shown(number)
+    if asked not in known:
+        hint = suggestion(asked[:20], known) or f"Lessons are: {', '.join(known)}."
+        raise ModelNameError(f'There is no lesson "{quotable(asked)}"', hint=hint)
+    return declared(known[asked])
+
+
+def table(number: str | int, id: str) -> Table:
+    """The table to fill of a lesson that has this id."""
+    of = lesson(number)
+    known = {each.id: each for each in of.tables}
+    if not isinstance(id, str):
+        raise ModelValueError(f'The id of a table must be a text such as "steps", not {shown(id)}')
+    if id.strip() not in known:
+        hint = suggestion(id[:20], known) or f"Its tables are: {', '.join(known)}."
+        raise ModelNameError(f'Lesson {of.number} has no table "{quotable(id)}"', hint=hint)
+    return known[id.strip()]
+
+
+@cache
+def declared(name: str) -> Lesson:
+    """The lesson of a file, by its name without the suffix."""
+    return lesson_from(name, tomllib.loads((FOLDER / f"{name}.toml").read_text(encoding="utf-8")))

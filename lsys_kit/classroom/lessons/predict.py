@@ -8,9 +8,17 @@ from typing import Any
 import traitlets
 from ipywidgets import VBox, Widget
 
-from lsys_kit.classroom.lessons.displayed import forget_figure, media, widget
-from lsys_kit.classroom.lessons.widget import MOST_TYPED, LessonWidget, boxed_html, prose_html, prose_text
-from lsys_kit.classroom.panel.bundle import bundled, style
+from lsys_kit.classroom.lessons.widget import (
+    MOST_TYPED,
+    LessonWidget,
+    boxed_html,
+    forget_figure,
+    media,
+    prose_html,
+    prose_text,
+    widget,
+)
+from lsys_kit.classroom.panel.bundle import Data, bundled, style
 from lsys_kit.classroom.widget import Unfinalized
 from lsys_kit.errors import ModelValueError, shown
 
@@ -57,7 +65,7 @@ class Prompt(LessonWidget):
         Whether the answer is to be shown.
     """
 
-    _esm = bundled("prediction")
+    _esm = bundled("predicting")
     _css = style("lessons")
     question = traitlets.Unicode().tag(sync=True)
     typed = traitlets.Unicode().tag(sync=True)
@@ -98,12 +106,11 @@ class Prediction(Unfinalized, VBox):  # type: ignore[misc]
         return self._media
 
     @property
-    def page_data(self) -> dict[str, Any]:
+    def page_data(self) -> Data:
         """What a page without a kernel has to know of the question; what answers it stands beside it there."""
         return {"question": self.prompt.question}
 
-    def _repr_mimebundle_(self, **options: object) -> dict[str, Any]:
-        """The live question; for a page without a kernel the question with its answer."""
+    def _repr_mimebundle_(self, **options: object) -> Data:
         bundle = super()._repr_mimebundle_(**options)
         pictures = {kind: self._media[kind] for kind in _STORED if kind in self._media}
         asked = (

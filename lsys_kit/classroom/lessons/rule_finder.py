@@ -10,12 +10,11 @@ from typing import Any
 import traitlets
 
 from lsys_kit.budget import Task
-from lsys_kit.classroom.lessons.widget import LessonWidget, boxed_html
-from lsys_kit.classroom.panel.bundle import bundled, style
+from lsys_kit.classroom.lessons.widget import LessonWidget, table_html
+from lsys_kit.classroom.panel.bundle import Data, bundled, style
 from lsys_kit.derivation.derive import derive
-from lsys_kit.derivation.inference.fits import Explanation, explanation
-from lsys_kit.derivation.inference.infer import MOST_FITS, conditions_of, infer
-from lsys_kit.derivation.inference.words import Row, read_words
+from lsys_kit.derivation.inference.infer import MOST_FITS, Explanation, conditions_of, explanation, infer
+from lsys_kit.derivation.inference.problem import Row, read_words
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.model.modules import joined
 from lsys_kit.notation.model.system import LSystem
@@ -74,16 +73,8 @@ def rule_finder(
 
 @dataclass(frozen=True)
 class Found:
-    """What the words up to a step tell.
-
-    Attributes
-    ----------
-    count
-        How many systems fit, as a text.
-    said
-        What is said of them.
-    next_words
-        The word of each system that is shown at the step at which they part, in parts; empty where they do not.
+    """What the words up to a step tell: how many systems fit, as a text; what is said of them; and where they part, the word
+    of each one that is shown, in parts.
     """
 
     count: str
@@ -100,7 +91,7 @@ class RuleFinder(LessonWidget):
         The step up to which the words are shown, from 1 on.
     """
 
-    _esm = bundled("rule_finder")
+    _esm = bundled("finding")
     _css = style("lessons")
     found = traitlets.Dict().tag(sync=True)
     step = traitlets.Int(1).tag(sync=True)
@@ -114,20 +105,15 @@ class RuleFinder(LessonWidget):
         return max(1, min(len(self._steps), int(proposal["value"])))
 
     @property
-    def page_data(self) -> dict[str, Any]:
+    def page_data(self) -> Data:
         """What a page without a kernel has to know: what is found at every step."""
         return dict(self.found)
 
-    def _stored(self) -> dict[str, Any]:
-        rows = "".join(
-            f"<tr><td>{step}</td><td><code>{escaped(word)}</code></td><td>{self._fits_html(step)}</td></tr>"
-            for step, word in enumerate(self._words)
-        )
-        head = "<thead><tr><th>step</th><th>word</th><th>systems that fit</th></tr></thead>"
-        return {"text/html": boxed_html(f"<table>{head}<tbody>{rows}</tbody></table>"), "text/plain": repr(self)}
+    def _stored(self) -> Data:
+        rows = ((str(step), f"<code>{escaped(word)}</code>", self._fits_html(step)) for step, word in enumerate(self._words))
+        return {"text/html": table_html(("step", "word", "systems that fit"), rows), "text/plain": repr(self)}
 
     def _fits_html(self, step: int) -> str:
-        """The systems that fit the words up to a step, for the table that is stored."""
         if not step:
             return ""
         found = self._steps[step - 1]
@@ -156,7 +142,6 @@ def _all_found(rows: Sequence[Row], constants: Iterable[str], erasing: bool, con
 
 
 def _found(rows: Sequence[Row], constants: Iterable[str], erasing: bool, context: tuple[int, int]) -> Found:
-    """What some words tell; too many systems are not listed."""
     try:
         fits = infer(rows, constants, erasing, context)
     except ModelLimitError as error:
@@ -168,13 +153,11 @@ def _found(rows: Sequence[Row], constants: Iterable[str], erasing: bool, context
 
 
 def _words_at(systems: Sequence[LSystem], step: int | None) -> Iterator[list[str]]:
-    """The word of each system at a step, in the parts between its blanks."""
     if step is not None:
         yield from (str(derive(system, step)[step]).split(" ") for system in systems)
 
 
-def _data(found: Found) -> dict[str, Any]:
-    """What the script has to know of a step."""
+def _data(found: Found) -> Data:
     same = sum(1 for _ in takewhile(lambda column: len({*column}) == 1, zip(*found.next_words, strict=False)))
     words = [[" ".join([*word[:same], ""]), _cut(" ".join(word[same:]))] for word in found.next_words]
     return {

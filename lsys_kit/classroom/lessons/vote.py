@@ -14,15 +14,11 @@ from typing import Any
 import traitlets
 
 from lsys_kit.budget import current, limits
-from lsys_kit.classroom.catalogue import cellwork_system, is_cellwork_system, is_map_system, map_system, system
-from lsys_kit.classroom.lessons.declared import lesson
-from lsys_kit.classroom.lessons.lesson import Vote
+from lsys_kit.classroom.catalogue import catalogued
+from lsys_kit.classroom.lessons.lesson import Vote, lesson
 from lsys_kit.classroom.lessons.widget import LessonWidget, boxed_html, prose_html, prose_text
-from lsys_kit.classroom.panel.bundle import bundled, style
+from lsys_kit.classroom.panel.bundle import Data, bundled, style
 from lsys_kit.errors import require
-from lsys_kit.notation.model.cellworks import CellworkSystem
-from lsys_kit.notation.model.maps import MapSystem
-from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read
 from lsys_kit.pictures.draw import draw
 from lsys_kit.pictures.formats.notebook import svg_bundle
@@ -76,7 +72,6 @@ class Ballot(traitlets.HasTraits):
 
 @cache
 def _ballot(_: int) -> Ballot:
-    """The ballot of a lesson, the same as long as the kernel lives."""
     return Ballot()
 
 
@@ -89,7 +84,7 @@ class VoteBox(LessonWidget):
         The number of the option that was chosen, from 0 on, or -1.
     """
 
-    _esm = bundled("vote")
+    _esm = bundled("voting")
     _css = style("lessons")
     asked = traitlets.Dict().tag(sync=True)
     chosen = traitlets.Int(NONE, min=NONE, max=len(LETTERS) - 1).tag(sync=True)
@@ -105,7 +100,7 @@ class VoteBox(LessonWidget):
         self._tell()
 
     @property
-    def page_data(self) -> dict[str, Any]:
+    def page_data(self) -> Data:
         """What a page without a kernel has to know: what is asked, and what is said for each first and each second vote."""
         votes = range(NONE, len(LETTERS))
         said = [[self._said(Ballot(first=first, second=second)) for second in votes] for first in votes]
@@ -117,7 +112,7 @@ class VoteBox(LessonWidget):
     def _tell(self, _: object = None) -> None:
         self.said = self._said(self._ballot)
 
-    def _stored(self) -> dict[str, Any]:
+    def _stored(self) -> Data:
         options = "".join(f"<li>{prose_html(each.text)}</li>" for each in self._vote.options)
         image = self._picture.get("text/html", "")
         html = boxed_html(f"<p>{prose_html(self._vote.question)}</p>", image, f'<ol type="A">{options}</ol>')
@@ -134,12 +129,11 @@ class VoteBox(LessonWidget):
         return "\n".join([prose_text(self._vote.question), *described, *options])
 
 
-def _picture(choices: Mapping[str, Any]) -> dict[str, Any]:
-    """The picture of a vote, by media types."""
+def _picture(choices: Mapping[str, Any]) -> Data:
     if not choices:
         return {}
     drawn = draw(
-        _pictured(choices),
+        read(choices["rules"]) if "rules" in choices else catalogued(choices["system"]),
         choices.get("step"),
         **choices.get("constants", {}),
         **{name: value for name, value in choices.items() if name in ("angle", "cells", "view")},
@@ -148,16 +142,7 @@ def _picture(choices: Mapping[str, Any]) -> dict[str, Any]:
         return svg_bundle(drawn.svg, repr(drawn))
 
 
-def _pictured(choices: Mapping[str, Any]) -> LSystem | MapSystem | CellworkSystem:
-    """The system of a picture: from its rules, or from the catalogue."""
-    if "rules" in choices:
-        return read(choices["rules"])
-    id = choices["system"]
-    return map_system(id) if is_map_system(id) else cellwork_system(id) if is_cellwork_system(id) else system(id)
-
-
 def _address(picture: Mapping[str, Any]) -> str:
-    """The picture as an address in itself."""
     return f"data:image/svg+xml;base64,{base64.b64encode(picture['image/svg+xml'].encode()).decode()}"
 
 
@@ -173,7 +158,6 @@ def _receipt(ballot: Ballot) -> dict[str, str]:
 
 
 def _reply(vote: Vote, ballot: Ballot) -> dict[str, str]:
-    """What is said before and after the second vote."""
     before = (
         gettext("Your first vote was {letter}.", letter=LETTERS[ballot.first])
         if ballot.first != NONE
@@ -191,7 +175,6 @@ def _reply(vote: Vote, ballot: Ballot) -> dict[str, str]:
 
 
 def _change(vote: Vote, ballot: Ballot) -> str:
-    """How the second vote differs from the first."""
     if ballot.first == NONE:
         return ""
     if ballot.first == ballot.second:

@@ -1,35 +1,26 @@
-"""What the widgets of a lesson share: their style, their prose, and what a stored notebook shows of them."""
+"""What the widgets of a lesson share: their style, their prose, and what a notebook shows of anything else."""
 
 from __future__ import annotations
 
+import base64
 import re
+import sys
+from collections.abc import Iterable, Mapping
+from typing import Any
 
 import traitlets
+from ipywidgets import HTML, HTMLMath, Widget
 
+from lsys_kit.budget import Task
 from lsys_kit.classroom.exercises.verdict import PLAIN_TEXT
+from lsys_kit.classroom.panel.bundle import Data, translated_words
 from lsys_kit.classroom.widget import KitWidget
+from lsys_kit.errors import shown
 from lsys_kit.pictures.style.labels import escaped
-from lsys_kit.translation import gettext
+from lsys_kit.supervision import supervised
 
 MOST_TYPED = 1_000
 """What is typed into a box is cut off here."""
-LABELS = (
-    "vote",
-    "prediction",
-    "table to fill",
-    "Show",
-    "I have no idea, show me",
-    "You said:",
-    "You wanted to see it.",
-    "Check",
-    "Right",
-    "Not right",
-    "right",
-    "not yet",
-    "not filled in yet",
-    "The kernel does not answer. Run the cell again.",
-)
-"""What the scripts of questions show by themselves."""
 _MARKED = re.compile(r"`([^`]+)`|\*([^*]+)\*")
 
 
@@ -40,13 +31,19 @@ class LessonWidget(KitWidget):
 
     @traitlets.default("words")
     def _translated_labels(self) -> dict[str, str]:
-        """The labels that another language has another word for."""
-        return {label: gettext(label) for label in LABELS if gettext(label) != label}
+        return translated_words("filling", "predicting", "voting")
 
 
 def boxed_html(*parts: str) -> str:
     """Parts of HTML in a box in which dollar signs begin no formula."""
     return f'<div class="{PLAIN_TEXT}">{"".join(parts)}</div>'
+
+
+def table_html(head: Iterable[str], rows: Iterable[Iterable[str]], caption: str = "") -> str:
+    """A table of cells that are HTML, in a box."""
+    columns = "".join(f"<th>{each}</th>" for each in head)
+    body = "".join("<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>" for row in rows)
+    return boxed_html(f"<table>{caption}<thead><tr>{columns}</tr></thead><tbody>{body}</tbody></table>")
 
 
 def prose_html(text: str) -> str:
@@ -65,3 +62,71 @@ def prose_text(text: str) -> str:
     'What does F[+F] make in Anabaena?'
     """
     return _MARKED.sub(r"\1\2", text)
+
+
+_IMAGES: Mapping[str, str] = {"image/svg+xml": "svg+xml", "image/png": "png", "image/jpeg": "jpeg"}
+_STYLE = "line-height:1.4;overflow-x:auto;margin:4px 0;white-space:pre-wrap;word-break:normal;overflow-wrap:anywhere"
+
+
+def media(what: object) -> Data:
+    """What a notebook would show of an object, by media types; a text stands for itself.
+
+    >>> media("21 cells")
+    {'text/plain': '21 cells'}
+    """
+    if isinstance(what, str):
+        return {"text/plain": what}
+    from IPython.core.formatters import DisplayFormatter
+    from IPython.core.interactiveshell import InteractiveShell
+
+    formatter: Any = InteractiveShell.instance().display_formatter if InteractiveShell.initialized() else DisplayFormatter()
+    if _is_the_kits(what):  # which looks at budgets of its own
+        data, _ = formatter.format(what)
+    else:
+        with Task("It was not shown"), supervised():
+            data, _ = formatter.format(what)
+        data = {kind: value for kind, value in data.items() if kind != "text/html"}
+    if not data:  # of what cannot be written
+        return {"text/plain": shown(what)}
+    return {kind: base64.b64encode(value).decode() if isinstance(value, bytes) else value for kind, value in data.items()}
+
+
+def widget(what: object) -> Any:
+    """The widget that shows an object; a widget shows itself."""
+    if isinstance(what, Widget):
+        return what
+    data = media(what)
+    if "text/html" in data or "text/latex" not in data:
+        return HTML(html(data))
+    return HTMLMath(f"<div>{escaped(data['text/latex'])}</div>")
+
+
+def html(data: Mapping[str, Any]) -> str:
+    """What is shown by media types, as HTML: the kit's own HTML, else a picture, else the text."""
+    if "text/html" in data:
+        return str(data["text/html"])
+    for kind, form in _IMAGES.items():
+        if kind in data:
+            return _image(form, data[kind], data["text/plain"])
+    return f'<pre class="{PLAIN_TEXT}" style="{_STYLE}">{escaped_lines(data["text/plain"])}</pre>'
+
+
+def escaped_lines(text: str) -> str:
+    """A text of several lines, as it may stand in HTML."""
+    return "\n".join(map(escaped, str(text).split("\n")))
+
+
+def forget_figure(what: object) -> None:
+    """Take a figure from those that matplotlib shows at the end of a cell by itself, so that it is not seen too early."""
+    pyplot = sys.modules.get("matplotlib.pyplot")
+    if pyplot is not None and type(what).__module__.startswith("matplotlib."):
+        pyplot.close(getattr(what, "figure", what))
+
+
+def _image(form: str, data: str, text: str) -> str:
+    packed = base64.b64encode(data.encode()).decode() if form == "svg+xml" else "".join(data.split())
+    return f'<img alt="{escaped(text)}" style="max-width:100%" src="data:image/{form};base64,{packed}">'
+
+
+def _is_the_kits(what: object) -> bool:
+    return type(what).__module__.split(".")[0] == "lsys_kit"

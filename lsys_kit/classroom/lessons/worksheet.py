@@ -4,19 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import islice
-from typing import Any, overload
+from typing import overload
 
 import traitlets
 from ipywidgets import HBox, Layout
 
-from lsys_kit.classroom.lessons.answers import MOST_CHARACTERS, is_right
-from lsys_kit.classroom.lessons.declared import table
-from lsys_kit.classroom.lessons.displayed import html
-from lsys_kit.classroom.lessons.lesson import Blank, Table
-from lsys_kit.classroom.lessons.widget import LessonWidget, boxed_html, prose_html, prose_text
-from lsys_kit.classroom.panel.bundle import bundled, style
-from lsys_kit.classroom.panel.comparison import Comparison
-from lsys_kit.classroom.panel.explorer import Explorer
+from lsys_kit.classroom.lessons.lesson import MOST_CHARACTERS, Blank, Table, is_right, table
+from lsys_kit.classroom.lessons.widget import LessonWidget, html, prose_html, prose_text, table_html
+from lsys_kit.classroom.panel.bundle import Data, bundled, style
+from lsys_kit.classroom.panel.explorer import Comparison, Explorer
 from lsys_kit.classroom.widget import Unfinalized
 from lsys_kit.errors import require
 from lsys_kit.translation import gettext, ngettext
@@ -74,7 +70,7 @@ class Worksheet(LessonWidget):
         What is in the cells to be filled, row by row, when they were last checked.
     """
 
-    _esm = bundled("worksheet")
+    _esm = bundled("filling")
     _css = style("lessons")
     sheet = traitlets.Dict().tag(sync=True)
     asked = traitlets.Dict().tag(sync=True)
@@ -93,7 +89,7 @@ class Worksheet(LessonWidget):
         return (given + [""] * len(self._table.blanks))[: len(self._table.blanks)]
 
     @property
-    def page_data(self) -> dict[str, Any]:
+    def page_data(self) -> Data:
         """What a page without a kernel has to know: the table, and the right answers, which are no secret there."""
         blanks = [{"right": list(blank.right), "within": blank.within} for _, _, blank in self._table.blanks]
         return {"sheet": self.sheet, "blanks": blanks}
@@ -102,12 +98,10 @@ class Worksheet(LessonWidget):
         marks = marked(self._table, self.entries)
         self.result = {"number": self.asked.get("number", 0), "marks": marks, "text": summary(self._table, marks)}
 
-    def _stored(self) -> dict[str, Any]:
-        head = "".join(f"<th>{prose_html(each)}</th>" for each in self._table.columns)
-        rows = "".join("<tr>" + "".join(f"<td>{_cell_html(cell)}</td>" for cell in row) + "</tr>" for row in self._table.rows)
+    def _stored(self) -> Data:
+        rows = (map(_cell_html, row) for row in self._table.rows)
         title = f"<caption>{prose_html(self._table.title)}</caption>"
-        shown = boxed_html(f"<table>{title}<thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>")
-        return {"text/html": shown, "text/plain": repr(self)}
+        return {"text/html": table_html(map(prose_html, self._table.columns), rows, title), "text/plain": repr(self)}
 
     def __repr__(self) -> str:
         cells = [self._table.columns, *([_cell_text(cell) for cell in row] for row in self._table.rows)]
@@ -134,8 +128,7 @@ class PanelWithWorksheet(Unfinalized, HBox):  # type: ignore[misc]
             each.layout.flex, each.layout.min_width = share, "0"
         super().__init__([panel, sheet], layout=Layout(flex_flow="row wrap", align_items="flex-start", grid_gap="0 12px"))
 
-    def _repr_mimebundle_(self, **options: object) -> dict[str, Any]:
-        """The live widgets, and what a page without a kernel shows of both."""
+    def _repr_mimebundle_(self, **options: object) -> Data:
         panel, sheet = self.panel._stored(), self.sheet._stored()
         return {
             **dict(super()._repr_mimebundle_(**options) or {}),

@@ -13,26 +13,25 @@ from graphlib import TopologicalSorter
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 from string import Template
+from typing import Any, TypeAlias
 
 from lsys_kit.pictures.style.themes import DARK, DARK_LINES, LIGHT, Theme
+from lsys_kit.translation import gettext
 
+Data: TypeAlias = dict[str, Any]
+"""What scripts are given, as JSON has it."""
 _IMPORT = re.compile(r'^import \{[^{}]*\} from "(?:[./\w]*/)?(\w+)\.js";\n', re.MULTILINE)
 _EXPORT = re.compile(r"^export (?=(?:async )?(?:function|const|class) (\w+))", re.MULTILINE)
+_WIDGET = re.compile(r"^export default .*\n", re.MULTILINE)
+"""By which a script is a widget of Jupyter."""
+_TEXT = re.compile(r'"([^"\n]*)"|\'([^\'\n]+)\'')
 
 
 @cache
 def bundled(name: str, without: frozenset[str] = frozenset()) -> str:
-    """A script after all scripts that it needs; its own names are those of the text.
+    """A script after all scripts that it needs, without some of which nothing will be called; its own names are those of the
+    text.
 
-    Parameters
-    ----------
-    name
-        The script.
-    without
-        Scripts that are left out, because nothing of them will be called.
-
-    Examples
-    --------
     >>> bundled("widget").count("import ")
     0
     >>> len(bundled("widget", frozenset({"turtle"}))) < len(bundled("widget"))
@@ -46,25 +45,19 @@ def bundled(name: str, without: frozenset[str] = frozenset()) -> str:
             needed[script] = set() if script in without else set(_IMPORT.findall(source(script)))
             todo += needed[script]
     order = TopologicalSorter({script: sorted(needed[script]) for script in sorted(needed)}).static_order()
-    return "\n".join(
-        _plain(script) if script == name else _nothing(script) if script in without else _enclosed(script) for script in order
-    )
+    return "\n".join(_plain(script) if script == name else _enclosed(script, script in without) for script in order)
 
 
 def _plain(name: str) -> str:
-    """A script without the words by which modules import and export."""
     return _EXPORT.sub("", _IMPORT.sub("", source(name)))
 
 
-def _enclosed(name: str) -> str:
-    """A script as a function that returns what the module exports."""
+def _enclosed(name: str, left_out: bool) -> str:
+    """A script as a function that returns what the module exports; none of it where it is left out."""
     exported = f"{{ {', '.join(_EXPORT.findall(source(name)))} }}"
-    return f"const {exported} = (() => {{\n{_plain(name)}return {exported};\n}})();\n"
-
-
-def _nothing(name: str) -> str:
-    """What a script exports, without any of it."""
-    return f"const {{ {', '.join(_EXPORT.findall(source(name)))} }} = {{}};\n"
+    if left_out:
+        return f"const {exported} = {{}};\n"
+    return f"const {exported} = (() => {{\n{_WIDGET.sub('', _plain(name))}return {exported};\n}})();\n"
 
 
 @cache
@@ -85,12 +78,25 @@ def source(name: str) -> str:
 
 @cache
 def _scripts() -> Mapping[str, Traversable]:
-    """The scripts by their names, in whatever folder they are."""
     home = files(__package__) / "scripts"
     folders = [home, *(place for place in home.iterdir() if place.is_dir())]
     return {
         place.name.removesuffix(".js"): place for folder in folders for place in folder.iterdir() if place.name.endswith(".js")
     }
+
+
+def translated_words(*names: str) -> dict[str, str]:
+    """The texts in some scripts that another language has other words for.
+
+    >>> translated_words("panel")
+    {}
+    """
+    return {text: gettext(text) for text in _texts(names) if gettext(text) != text}
+
+
+@cache
+def _texts(names: tuple[str, ...]) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(one or other for name in names for one, other in _TEXT.findall(compact(name))))
 
 
 @cache

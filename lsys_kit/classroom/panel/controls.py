@@ -32,13 +32,6 @@ class SliderRange:
 def slider_ranges(system: LSystem, changes: Mapping[str, object]) -> dict[str, SliderRange]:
     """For each constant that has a slider, the slider's values: where it declares a range, or is a number of its own.
 
-    Raises
-    ------
-    ModelValueError
-        A value lies outside the range that the system declares.
-
-    Examples
-    --------
     >>> from lsys_kit.notation.read import read
     >>> slider_ranges(read("lifeTime = 3 in 1 .. 6\\naxiom: A(lifeTime)"), {})["lifeTime"].high
     6

@@ -48,30 +48,9 @@ class Program:
 
 
 def document(title: str, body: str, style: str, description: str, program: Program | None = None, language: str = "en") -> str:
-    """One HTML file.
+    """One HTML file, with a title for the window, a body that holds nothing from outside and needs no script, a description for
+    search, a program, without which nothing runs in it, and its language, as in "en" or "de-AT".
 
-    Parameters
-    ----------
-    title
-        What the window is called.
-    body
-        HTML that holds nothing from outside.
-    style
-        The style of the body, which needs no script.
-    description
-        What the page shows, in words, for search.
-    program
-        What runs in it; without it nothing does.
-    language
-        The language of the page, as in "en" or "de-AT".
-
-    Raises
-    ------
-    ModelValueError
-        There is no language of that form.
-
-    Examples
-    --------
     >>> document("Algae", "<main><h1>Algae</h1></main>", "", "Two cells").count("<script")
     0
     """
@@ -103,7 +82,6 @@ def deflated_text(text: str) -> str:
 
 
 def _policy(program: Program | None) -> str:
-    """What a page lets run, load and send: its own scripts, its own pictures, nothing."""
     runs = f"script-src {_hashed(_FIRST)} {_hashed(program.script)}; " if program else ""
     return (
         f"default-src 'none'; {runs}style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'; "
@@ -118,5 +96,4 @@ def _scripts(program: Program) -> str:
 
 
 def _hashed(script: str) -> str:
-    """How a Content Security Policy names a script that may run."""
     return f"'sha256-{base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()}'"

@@ -1,23 +1,27 @@
-"""The explorer: a system's rules, word, stage diagram and drawing side by side, with sliders made from the model.
+"""The explorer: a system's rules, word, stage diagram and drawing side by side, with sliders made from the model; or two
+of them with one step slider.
 
 The kernel sends a book of the system for a setting of its constants, and the browser turns its pages: neither a step, an
 angle, a point of view, a mark nor a trace asks the kernel (see `book`). What the browser shows, the kernel knows as soon as the
-sliders have come to rest, so that other widgets can be linked to the panel.
-"""
+sliders have come to rest, so that other widgets can be linked to the panel."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Mapping, Sequence
 from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
 
 import traitlets
+from ipywidgets import widget_serialization
 
 from lsys_kit.budget import Task, current, limits
+from lsys_kit.classroom.catalogue import catalogued, entry
+from lsys_kit.classroom.link import ANGLE, SEED, STEP, linked, settings_given
 from lsys_kit.classroom.panel.books.book import MOST_MODULES
 from lsys_kit.classroom.panel.books.net import Unfolding
-from lsys_kit.classroom.panel.bundle import bundled, style
+from lsys_kit.classroom.panel.bundle import Data, bundled, style
 from lsys_kit.classroom.panel.controls import nearest, plain_number, slider
 from lsys_kit.classroom.panel.held import fixed_text
 from lsys_kit.classroom.panel.labels import translated_labels
@@ -25,11 +29,14 @@ from lsys_kit.classroom.panel.opened.kinds import opened
 from lsys_kit.classroom.panel.opened.opened import Opened, Sight, Viewing
 from lsys_kit.classroom.panel.page import page, save_page
 from lsys_kit.classroom.widget import KitWidget
-from lsys_kit.errors import LSystemError, ModelValueError, every, shown, whole_number
+from lsys_kit.derivation.petri.stages import stages
+from lsys_kit.errors import LSystemError, ModelNameError, ModelValueError, every, quotable, require, shown, whole_number
+from lsys_kit.notation.analysis.checks import suggestion
+from lsys_kit.notation.fragments import is_link
 from lsys_kit.notation.model.arithmetic import Value, number_text
-from lsys_kit.notation.model.cellworks import CellworkSystem
-from lsys_kit.notation.model.maps import MapSystem
+from lsys_kit.notation.model.cells import CellSystem
 from lsys_kit.notation.model.system import LSystem
+from lsys_kit.notation.read import AnySystem, read_any
 
 _BROKEN_OFF = LSystemError("The kernel was interrupted before this was finished", hint="Try it again.")
 
@@ -110,9 +117,9 @@ class Explorer(KitWidget):
     # -- what Python sees -----------------------------------------------------------------------------------------------
 
     @property
-    def system(self) -> LSystem | MapSystem | CellworkSystem:
+    def system(self) -> AnySystem:
         """The system that is shown: the one that was given, or the one that was typed."""
-        system: LSystem | MapSystem | CellworkSystem = self._opened.system
+        system: AnySystem = self._opened.system
         return system
 
     @property
@@ -154,7 +161,7 @@ class Explorer(KitWidget):
         """
         save_page(path, self._page())
 
-    def page_data(self, asked: Sequence[Mapping[str, object]] = ()) -> dict[str, Any]:
+    def page_data(self, asked: Sequence[Mapping[str, object]] = ()) -> Data:
         """What a page without a kernel has to know of the panel as it stands, and of the settings that are asked for."""
         every(asked, Mapping, "A dictionary of values of sliders")
         with self._limited():  # each book is a task of its own
@@ -186,7 +193,7 @@ class Explorer(KitWidget):
 
     # -- what happens ---------------------------------------------------------------------------------------------------
 
-    def _model_of(self, what: Opened, first: int, values: Mapping[str, Value]) -> dict[str, Any]:
+    def _model_of(self, what: Opened, first: int, values: Mapping[str, Value]) -> Data:
         """What the browser needs of a system: its sliders, and its book for some values of them."""
         sliders = [slider(name, what.values[name], value, what.hint) for name, value in what.first.items()]
         made = what.book(values, self.seed, first)
@@ -208,7 +215,6 @@ class Explorer(KitWidget):
         }
 
     def _offer_constants(self) -> None:
-        """Each constant with a slider is an attribute that can be set and linked."""
         offered = {name: self._trait_of(name, value) for name, value in self._opened.first.items() if not hasattr(self, name)}
         if offered:
             self.add_traits(**offered)  # all at once: this makes a class anew
@@ -228,7 +234,6 @@ class Explorer(KitWidget):
                 setattr(self, name, plain_number(nearest(self._opened.values[name], name, text)))
 
     def _values(self, settings: Mapping[str, object]) -> dict[str, Value]:
-        """The values of the sliders for some settings."""
         return {
             name: nearest(values, name, settings.get(name, self._opened.first[name]))
             for name, values in self._opened.values.items()
@@ -240,7 +245,7 @@ class Explorer(KitWidget):
     def _answer(self, _: object, content: Mapping[str, Any], buffers: object) -> None:
         """Answer what the browser asks, by its number; a mistake is an answer too."""
         kinds = {"book": self._book_for, "rules": self._model_for, "variants": self._variants, "keep": self._kept}
-        reply: dict[str, Any] = {"mistake": _mistake(_BROKEN_OFF)}
+        reply: Data = {"mistake": _mistake(_BROKEN_OFF)}
         try:
             with self._limited(), Task("It was not finished"):
                 reply = kinds[content["kind"]](content)
@@ -249,10 +254,10 @@ class Explorer(KitWidget):
         finally:  # the browser waits for an answer, also where the kernel is interrupted
             self.send({"number": content["number"], **reply})
 
-    def _book_for(self, content: Mapping[str, Any]) -> dict[str, Any]:
+    def _book_for(self, content: Mapping[str, Any]) -> Data:
         return {"book": self._opened.book(self._values(content["constants"]), int(content["seed"]), self.model["step"])}
 
-    def _model_for(self, content: Mapping[str, Any]) -> dict[str, Any]:
+    def _model_for(self, content: Mapping[str, Any]) -> Data:
         """Show the system of a text that was typed.
 
         The step and the angle stay where they can, and so does each constant that is declared as it was.
@@ -277,15 +282,14 @@ class Explorer(KitWidget):
         self._offer_constants()
         return {"opened": True}
 
-    def _variants(self, _: Mapping[str, Any]) -> dict[str, Any]:
-        """Nine variants of the system, each with its book."""
+    def _variants(self, _: Mapping[str, Any]) -> Data:
         return {
             "variants": [
                 {"text": str(variant), "book": opened(variant).book({}, self.seed, 0)} for variant in self._opened.variants(9)
             ]
         }
 
-    def _kept(self, content: Mapping[str, Any]) -> dict[str, Any]:
+    def _kept(self, content: Mapping[str, Any]) -> Data:
         """What is taken along: the drawing as SVG, or a link to the panel as it stands, or the panel as a page."""
         if content["what"] == "link":
             return {"text": self.link}
@@ -295,8 +299,7 @@ class Explorer(KitWidget):
 
     # -- what is kept ---------------------------------------------------------------------------------------------------
 
-    def _stored(self) -> dict[str, Any]:
-        """Its words and its picture."""
+    def _stored(self) -> Data:
         return {"text/plain": f"{self.text} Run this cell to play.", **self.still}
 
     def __repr__(self) -> str:
@@ -307,7 +310,249 @@ def _texts(values: Mapping[str, Value]) -> dict[str, str]:
     return {name: number_text(value) for name, value in values.items()}
 
 
-def _mistake(error: LSystemError) -> dict[str, Any]:
+def _mistake(error: LSystemError) -> Data:
     """An error as the browser needs it: what is wrong, what to try, and between which offsets of the text it stands."""
     start, end = error.span or (None, None)
     return {"message": error.message, "hint": error.hint or "", "line": error.line, "start": start, "end": end}
+
+
+_ID = re.compile(r"[\w-]+(\.[\w-]+)?")
+
+
+def explore(
+    what: AnySystem | str,
+    step: int | None = None,
+    *,
+    angle: object = None,
+    seed: int = 0,
+    sliders: str | Collection[str] | None = None,
+    unfold: Unfolding = False,
+    show: str | Collection[str] | None = None,
+    **constants: object,
+) -> Explorer:
+    """Show a system with its sliders: rules, word, stage diagram and drawing of one step, side by side.
+
+    Parameters
+    ----------
+    what
+        An L-system, a map system or a cellwork system, the id or name of one in the catalogue, the text of a model, or a link.
+    step
+        The step shown first; by default the system's own.
+    angle
+        Degrees by which the turtle turns at first.
+    seed
+        The seed of the random numbers.
+    sliders
+        What has a slider besides the step: names of constants or forces, `angle`, `seed`. All else stays as it is, and the
+        panel says which constants do. By default everything has one.
+    unfold
+        A symbol, or several, whose stages the diagram shows one by one, or True for all, as for `stages`.
+    show
+        The views that are open at first, one or a list of `rules`, `word`, `stages`, `drawing`, `counts`, `seeds` and
+        `variants`; by default the word, the stages and the drawing. The others are a click away.
+    **constants
+        First values of declared constants; of a map or cellwork system those of its forces: `stiffness`, `rest`, `pressure`,
+        `damping`.
+
+    Raises
+    ------
+    ModelValueError
+        A first value lies outside its slider's range.
+    ModelNameError
+        There is no slider or view of that name, or no symbol that is to be unfolded.
+    ModelSyntaxError
+        The text makes no sense.
+
+    Examples
+    --------
+    >>> panel = explore("J4", 3)
+    >>> panel.step = 9
+    >>> print(panel.text)
+    Step 9: 9 modules. Al(1)Br(1)Bl(2)Ar(2)Al(3)Bl(1)Ar(1)Bl(2)Ar(2). Stages A(1): 2, A(2): 2, A(3): 1, B(1): 2, B(2): 2. \
+9 cells, width 14, height 1.
+    >>> explore("P6", 4, dt=1, sliders="dt").settings
+    {'dt': '1'}
+    """
+    if "field" in constants:
+        raise ModelValueError(
+            "The explorer takes no field of Python: its pages and links hold the text of the model alone",
+            hint='Name a field in the text, as in "field: light", or draw or animate with field=...',
+        )
+    title = ""
+    if isinstance(what, str) and _ID.fullmatch(what.strip()):
+        title = entry(what.strip()).id
+        what = catalogued(title)
+    if isinstance(what, str) and is_link(what):
+        there = linked(what)
+        given: Data = {**there.settings, **settings_given(step, angle, seed), **constants}
+        what, step, angle, seed = there.system, given.pop(STEP, None), given.pop(ANGLE, None), given.pop(SEED, 0)
+        constants = given
+    system = read_any(what) if isinstance(what, str) else what
+    if not isinstance(system, AnySystem):
+        raise ModelValueError(f"Only a system, its id or name, or its text can be explored, not {type(what).__name__}")
+    check_unfolded(system, unfold, constants)
+    unfold = unfold if isinstance(unfold, bool | str) else [*unfold]
+    found = opened(system, title, constants, unfold=unfold)
+    offered = (*found.values, "angle", "seed")
+    without = frozenset() if sliders is None else frozenset(offered) - chosen_names(sliders, "slider", offered)
+    chosen = opened(system, title, constants, without, unfold) if without else found
+    return Explorer(chosen, step, angle, seed, without, unfold, None if show is None else chosen_names(show, "view", VIEWS))
+
+
+def check_unfolded(system: AnySystem, unfold: Unfolding, constants: Data) -> None:
+    """The stage diagram of a system can be unfolded as somebody asks for."""
+    if unfold is False:
+        return
+    if not isinstance(system, LSystem):
+        raise ModelValueError("Only the stages of an L-system can be unfolded", hint="Those of maps are their walls.")
+    stages(system, unfold=unfold, **constants)
+
+
+def chosen_names(names: str | Collection[str], what: str, offered: Collection[str]) -> frozenset[str]:
+    """The sliders or views that somebody asks for, by their names."""
+    asked = (names,) if isinstance(names, str) else names
+    require(asked, Collection, f"A name or a list of names of {what}s")
+    for name in asked:
+        require(name, str, f"The name of a {what}")
+        if name not in offered:
+            raise ModelNameError(
+                f"There is no {what} {shown(name)}", hint=suggestion(name, offered) or f"The {what}s are: {', '.join(offered)}."
+            )
+    return frozenset(asked)
+
+
+_COMMON = {"what": "The system", "step": "The step", "sliders": "The choice of sliders", "show": "The choice of views"}
+"""What a side cannot have of its own, though `explore` takes it."""
+
+
+def compare(
+    what: AnySystem | str,
+    *others: AnySystem | str | Mapping[str, object],
+    step: int | None = None,
+    sliders: str | Collection[str] | None = None,
+    show: str | Collection[str] | None = None,
+    shared: str | Collection[str] = (),
+    **choices: object,
+) -> Comparison:
+    """Show two systems, or one under two settings of its constants, side by side with one step slider.
+
+    Where the words differ is marked, and said in words below.
+
+    Parameters
+    ----------
+    what
+        A system, as for `explore`.
+    *others
+        Another system; or two settings of this one, each a dictionary of constants. A single dictionary is compared with the
+        system as it is.
+    step
+        The step shown first; by default that of the first system.
+    sliders
+        What has a slider on both sides, as for `explore`; by default everything has one.
+    show
+        The views that are open on both sides at first, as for `explore`; by default the word and the drawing.
+    shared
+        The constants, one or a list, that one slider moves on both sides; at first they are what they are on the left.
+    **choices
+        None: constants, angle and seed of a side stand in its dictionary.
+
+    Raises
+    ------
+    ModelValueError
+        It is not clear what is compared with what, or a choice is none of a side's.
+    ModelNameError
+        One of the two has no slider or view of that name.
+
+    Examples
+    --------
+    >>> both = compare("J4", {}, {"lifeTimeA": 2, "lifeTimeB": 3}, step=9)
+    >>> both.left.settings, both.right.settings
+    ({'lifeTimeA': '3', 'lifeTimeB': '2'}, {'lifeTimeA': '2', 'lifeTimeB': '3'})
+    >>> both.left.step = 4
+    >>> both.right.step
+    4
+    """
+    for name in choices:
+        if name == "field":
+            explore(what, field=choices[name])  # says why a panel has none
+        raise ModelValueError(
+            f'"{quotable(name)}" stands beside what is compared, and belongs to one side of it',
+            hint=f'Each side has settings of its own: compare("J4", {{}}, {{"{quotable(name)}": ...}}).',
+        )
+    match others:
+        case (Mapping() as first, Mapping() as second):
+            sides = (what, first), (what, second)
+        case (Mapping() as second,):
+            sides = (what, {}), (what, second)
+        case (LSystem() | CellSystem() | str() as other,):
+            sides = (what, {}), (other, {})
+        case _:
+            raise ModelValueError(
+                "Two systems are compared, or one system under two settings",
+                hint='For example compare("P2", "P3"), or compare("J4", {}, {"lifeTimeA": 2}).',
+            )
+    left = explore(sides[0][0], step, sliders=sliders, show=show, **_named(sides[0][1]))
+    right = explore(sides[1][0], left.step, sliders=sliders, show=show, **_named(sides[1][1]))
+    return Comparison(left, right, chosen_names(shared, "slider", [name for name in left.settings if name in right.settings]))
+
+
+def _named(settings: Mapping[str, object]) -> Data:
+    for name in settings:
+        if not isinstance(name, str):
+            raise ModelValueError(f"Constants have names, not {name!r}", hint='A setting is for example {"lifeTimeA": 2}.')
+        if name in _COMMON:
+            raise ModelValueError(
+                f"{_COMMON[name]} is no setting of one side",
+                hint='It stands beside the two, as in compare("J4", {}, {"lifeTimeA": 2}, step=9).',
+            )
+    return dict(settings)
+
+
+class Comparison(KitWidget):
+    """The two panels that `compare` shows.
+
+    Attributes
+    ----------
+    left, right
+        The panels, as `explore` makes them; their steps are the same.
+    shared
+        The names of the constants that are the same on both sides.
+    """
+
+    _esm = bundled("comparison")
+    _css = style()
+    left = traitlets.Instance(Explorer).tag(sync=True, **widget_serialization)
+    right = traitlets.Instance(Explorer).tag(sync=True, **widget_serialization)
+
+    shared = traitlets.List(traitlets.Unicode()).tag(sync=True)
+
+    def __init__(self, left: Explorer, right: Explorer, shared: Collection[str] = ()) -> None:
+        super().__init__(left=left, right=right, shared=sorted(shared))
+        traitlets.link((left, "step"), (right, "step"))
+        if shared:
+            traitlets.dlink((left, "settings"), (right, "settings"), self._shared_of)
+            traitlets.dlink((right, "settings"), (left, "settings"), self._shared_of)
+
+    def _shared_of(self, settings: Mapping[str, str]) -> dict[str, str]:
+        return {name: settings[name] for name in self.shared if name in settings}
+
+    @property
+    def text(self) -> str:
+        """What both panels show, in words."""
+        return f"{self.left.text}\n{self.right.text}"
+
+    def page_data(self, asked: Sequence[Mapping[str, object]] = ()) -> Data:
+        """What a page without a kernel has to know of both panels, and of the settings that are asked for."""
+        return {"left": self.left.page_data(asked), "right": self.right.page_data(asked), "shared": self.shared}
+
+    def _stored(self) -> Data:
+        return {"text/plain": self.text, **self.left.still}
+
+    def close(self) -> None:
+        """Close both panels, and what the browser keeps of them."""
+        for each in (self.left, self.right):
+            each.close()
+        super().close()
+
+    def __repr__(self) -> str:
+        return self.text

@@ -35,14 +35,8 @@ class Choice:
 
 @dataclass(frozen=True)
 class Held:
-    """The settings that a page holds.
-
-    Attributes
-    ----------
-    first, values
-        For each slider that moves, its first value and all that it has on the page.
-    together
-        The sliders all of whose combinations are there. Each of the others moves while the rest stands at first values.
+    """The settings that a page holds: for each slider that moves, its first value and all that it has on the page; and the
+    sliders all of whose combinations are there. Each of the others moves while the rest stands at first values.
     """
 
     first: Mapping[str, Value] = field(default_factory=dict)
@@ -98,19 +92,9 @@ def fewest(choices: Mapping[str, Choice], most: float) -> Held:
 
 
 def planned(choices: Mapping[str, Choice], together: Sequence[str], most: float) -> Held:
-    """The settings for which a page has room, if it has room for so many.
+    """The settings for which a page has room, of some sliders together if that is asked for; the fewest values of each slider
+    are held in any case.
 
-    Parameters
-    ----------
-    choices
-        What it may hold of each slider.
-    together
-        The sliders that are asked for together.
-    most
-        How many settings it has room for; the fewest values of each slider are held in any case.
-
-    Examples
-    --------
     >>> found = planned({name: constant_choice(range(6), 3) for name in "abc"}, (), 50)
     >>> found.together, found.alone, len([*settings(found)])
     (('a', 'b'), ('c',), 41)
@@ -148,29 +132,18 @@ def _thinned(choices: Mapping[str, Choice], together: Sequence[str], most: float
 
 
 def _many(values: Mapping[str, Sequence[Value]], together: Collection[str] = ()) -> int:
-    """How many settings there are: those of some sliders together, and of the others one at a time."""
     alone = (len(each) - 1 for name, each in values.items() if name not in together)
     return prod(len(values[name]) for name in together) + sum(alone)
 
 
 def held_text(fixed: Mapping[str, Value], held: Held, all_values: Mapping[str, Sequence[Value]]) -> str:
-    """What a page says of its sliders: which constants are fixed, and how the others move.
+    """What a page says of its sliders: what does not move, and how the others move, given the values that they have with a
+    kernel.
 
-    Parameters
-    ----------
-    fixed
-        What does not move.
-    held
-        What does.
-    all_values
-        The values that the sliders of constants have where a kernel runs.
-
-    Examples
-    --------
     >>> found = Held({"a": 1, "b": 5, SEED: 0}, {"a": (1, 2), "b": (4, 5), SEED: tuple(range(9))})
     >>> held_text({"k": 2}, found, {"a": range(1, 1001), "b": (4, 5)})
     'Fixed on this page: k = 2. It holds 2 of the 1,000 values of a and the seeds 0 to 8. a, b and seed move one at a time: \
-the other sliders then go back to their first values.'
+    the other sliders then go back to their first values.'
     """
     fewer = [
         f"{len(each):,} of the {len(all_values[name]):,} values of {name}"

@@ -14,10 +14,9 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from xml.etree import ElementTree
 
-from lsys_kit.classroom.exercises.declared.declarations import questions_in
-from lsys_kit.classroom.exercises.declared.registry import exercises, lessons
+from lsys_kit.classroom.exercises.declarations import questions_in
 from lsys_kit.classroom.exercises.exercise import Lesson
-from lsys_kit.classroom.exercises.translated import translated_lesson
+from lsys_kit.classroom.exercises.registry import exercises, lessons, translated_lesson
 from lsys_kit.classroom.scorm.page import exercise_page
 from lsys_kit.errors import ModelFileError, ModelNameError, ModelValueError, quotable
 from lsys_kit.files import KIT_MARK, save_file
@@ -33,26 +32,8 @@ _NO_TIME = (1980, 1, 1, 0, 0, 0)
 
 
 def write_package(what: str, path: str | Path) -> tuple[tuple[Lesson, ...], Path]:
-    """Write a package of SCORM 1.2.
-
-    Parameters
-    ----------
-    what
-        A lesson of the kit, by its number or name, or a folder of files of exercises.
-    path
-        The zip file.
-
-    Returns
-    -------
-    tuple
-        The lessons whose pages are in it, and the file.
-
-    Raises
-    ------
-    ModelNameError
-        There is no such lesson and no such folder.
-    ModelFileError
-        There are mistakes in the files, none of the exercises can be checked in a page, or the package cannot be written.
+    """Write a package of SCORM 1.2: a zip file with the pages of a lesson of the kit, by its number or name, or of a folder of
+    files of exercises. The lessons whose pages are in it, and the file, are returned.
     """
     path = Path(path)
     if path.suffix != ".zip":

@@ -1,44 +1,33 @@
-"""The course as static pages: one HTML file for each notebook and a first page, with no address outside them."""
+"""The course as static pages: one HTML file for each notebook and a first page, with no address outside them.
+
+Lessons are run in real kernels, several at a time, so that their pages know what their panels, votes and tables hold.
+"""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Mapping
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
+from threading import Event
 from typing import Any
 
 from tqdm import tqdm
 
 from lsys_kit.classroom.course import course_files
-from lsys_kit.classroom.lessons.declared import declared, names
-from lsys_kit.classroom.site.cells import title_of
-from lsys_kit.classroom.site.pages import INDEX, Entry, index_page, notebook_page
-from lsys_kit.classroom.site.running import read_notebook, run_all
-from lsys_kit.errors import ModelFileError, quotable
+from lsys_kit.classroom.lessons.lesson import declared, names
+from lsys_kit.classroom.site import showing
+from lsys_kit.classroom.site.markdown import missing
+from lsys_kit.classroom.site.pages import INDEX, Entry, index_page, notebook_page, title_of
+from lsys_kit.errors import LSystemError, ModelFileError, quotable
 from lsys_kit.files import made_by_the_kit, save_file
 
 
 def build_site(folder: str | Path, source: Path | None = None) -> tuple[Path, ...]:
-    """Write the course into a folder as pages that need neither Python nor a network.
+    """Write the course into a folder as pages that need neither Python nor a network, and return them, the first one first.
 
-    Parameters
-    ----------
-    folder
-        The folder; it is made if necessary. Pages of an older site in it are replaced, and nothing else.
-    source
-        Where the course comes from; by default what came with the kit.
-
-    Returns
-    -------
-    tuple of Path
-        The pages, the first one first.
-
-    Raises
-    ------
-    ModelFileError
-        Something that the kit did not make stands where a page belongs, or the folder cannot be written to.
-    LSystemError
-        A cell of a lesson fails, or a package is missing.
+    The folder is made if necessary. Pages of an older site in it are replaced, and nothing else; what the kit did not make is
+    an error, as is a cell that fails. The course is by default what came with the kit.
     """
     folder = Path(folder)
     files = {name: path for name, path in course_files(source).items() if name.endswith(".ipynb")}
@@ -79,3 +68,73 @@ def _make_room(folder: Path, places: Mapping[str, Path]) -> None:
                 f'"{quotable(str(place))}" is there already, and was not made by the kit',
                 hint="It would be lost: choose another folder, or delete it first.",
             )
+
+
+SECONDS = 300
+"""How long a cell may take."""
+_FIRST = f"from {showing.__name__} import show_for_pages\nshow_for_pages({{!r}})"
+"""The cell that is run before those of a lesson, with its name."""
+
+
+def run_all(paths: Mapping[str, Path]) -> Iterator[tuple[str, Any]]:
+    """The notebooks of some files, by their names in the course, run, in the order in which they are finished."""
+    stopped = Event()
+    with ThreadPoolExecutor(max_workers=min(8, os.cpu_count() or 1)) as pool:
+        tasks = {pool.submit(run, name, path, stopped): name for name, path in paths.items()}
+        try:
+            for task in as_completed(tasks):
+                yield tasks[task], task.result()
+        finally:  # what is running ends with its cell, so that no kernel is left behind
+            stopped.set()
+            pool.shutdown(cancel_futures=True)
+
+
+def run(name: str, path: Path, stopped: Event | None = None) -> Any:
+    """The notebook of a file, run in a kernel of its own, in which the kit's widgets are shown as parts of a page."""
+    nbclient, nbformat = _libraries()
+    notebook = nbformat.read(path, as_version=4)
+    notebook.cells.insert(0, nbformat.v4.new_code_cell(_FIRST.format(path.stem)))
+
+    def unless_stopped(**_: Any) -> None:
+        if stopped is not None and stopped.is_set():
+            raise KeyboardInterrupt
+
+    client = nbclient.NotebookClient(
+        notebook,
+        timeout=SECONDS,
+        kernel_name="python3",
+        store_widget_state=False,
+        extra_arguments=["--log-level=ERROR"],
+        on_cell_start=unless_stopped,
+        resources={"metadata": {"path": str(path.parent)}},
+    )
+    environment = {**os.environ, "TQDM_DISABLE": "1"}
+    try:
+        try:
+            client.execute(env=environment)
+        except nbclient.exceptions.DeadKernelError:
+            raise
+        except RuntimeError:  # the kernel did not start: another program took one of its ports before it could
+            client.execute(env=environment)
+    except nbclient.exceptions.CellExecutionError as failed:
+        raise LSystemError(
+            f"A cell of {name} fails: {failed.ename}: {failed.evalue}",
+            hint="Run the lesson in JupyterLab to see which: lsys-kit lab.",
+        ) from None
+    del notebook.cells[0]
+    return notebook
+
+
+def read_notebook(path: Path) -> Any:
+    """The notebook of a file as it is stored."""
+    return _libraries()[1].read(path, as_version=4)
+
+
+def _libraries() -> tuple[Any, Any]:
+    try:
+        import ipykernel  # noqa: F401
+        import nbclient
+        import nbformat
+    except ImportError as absent:
+        raise missing(absent.name or "nbclient") from None
+    return nbclient, nbformat

@@ -1,17 +1,17 @@
 """The Markdown of a notebook as HTML: links lead to pages of the site, mathematics becomes MathML, and of HTML
-only a few plain tags pass."""
+only a few plain tags pass.
+"""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable, Container
-from functools import partial
 from html import escape, unescape
 from pathlib import PurePosixPath
 from posixpath import normpath
 from typing import Any
 
-from lsys_kit.classroom.lessons.displayed import escaped_lines
+from lsys_kit.classroom.lessons.widget import escaped_lines
 from lsys_kit.errors import LSystemError
 from lsys_kit.pictures.style.labels import escaped
 
@@ -26,15 +26,6 @@ _PLAIN_TAG = re.compile(rf"&lt;(/?(?:{'|'.join(PLAIN_TAGS)}))&gt;")
 def markdown_html(text: str, links: Links) -> str:
     """A cell of Markdown as HTML. Of HTML in it no more passes than the plain tags of `PLAIN_TAGS`.
 
-    Parameters
-    ----------
-    text
-        CommonMark with tables and mathematics between dollar signs, as Jupyter has it.
-    links
-        Where a link leads.
-
-    Examples
-    --------
     >>> markdown_html("## An *alga*\\n\\n`a -> ab`", lambda address: address)
     '<h2 id="An-alga">An <em>alga</em></h2>\\n<p><code>a -&gt; ab</code></p>\\n'
     >>> markdown_html("<b>no</b> [markup](x.html) [gone](y.html)", {"x.html": "X.html"}.get)
@@ -117,17 +108,6 @@ def mathml(latex: str, display: str = "inline") -> str:
 def address_on_site(page: str, pages: Container[str], address: str) -> str | None:
     """Where a link of a notebook leads on the site: to a page of it, or a place on the same page; else nowhere.
 
-    Parameters
-    ----------
-    page
-        The notebook that has the link, relative to the course.
-    pages
-        The notebooks of the site.
-    address
-        The link.
-
-    Examples
-    --------
     >>> there = {"notebooks/01.ipynb", "exercises/01.ipynb"}
     >>> address_on_site("notebooks/01.ipynb", there, "../exercises/01.ipynb#try")
     '../exercises/01.html#try'
@@ -141,11 +121,6 @@ def address_on_site(page: str, pages: Container[str], address: str) -> str | Non
     if target not in pages:
         return None
     return f"{file.removesuffix('.ipynb')}.html{'#' * bool(place)}{place}"
-
-
-def links_of(page: str, pages: Container[str]) -> Links:
-    """The links of a notebook on the site."""
-    return partial(address_on_site, page, pages)
 
 
 def missing(package: str) -> LSystemError:

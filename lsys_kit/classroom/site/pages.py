@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import base64
+import re
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import PurePosixPath
 from posixpath import relpath
 from typing import Any
+from urllib.parse import quote
 
 from lsys_kit.classroom.course import is_lesson
 from lsys_kit.classroom.lessons.lesson import TRACKS, Lesson
-from lsys_kit.classroom.lessons.widget import prose_html, prose_text
-from lsys_kit.classroom.panel.bundle import compact, style
-from lsys_kit.classroom.panel.document import Program, document
+from lsys_kit.classroom.lessons.widget import escaped_lines, html, prose_html, prose_text
+from lsys_kit.classroom.panel.bundle import Data, compact, style
+from lsys_kit.classroom.panel.document import Program, deflated_text, document
 from lsys_kit.classroom.panel.page import not_needed
-from lsys_kit.classroom.site.cells import Parts, cells_html
-from lsys_kit.classroom.site.markdown import links_of
+from lsys_kit.classroom.site.markdown import Links, address_on_site, markdown_html, mathml
+from lsys_kit.classroom.site.showing import PART
 from lsys_kit.pictures.style.labels import escaped
 
 INDEX = "index.html"
@@ -41,16 +45,8 @@ _PANELS = frozenset({"panel", "compare"})
 
 @dataclass(frozen=True)
 class Entry:
-    """A notebook on the site.
-
-    Attributes
-    ----------
-    name
-        Its file, relative to the course.
-    title
-        Its title, as a text.
-    lesson
-        What is declared of it, if it is a lesson.
+    """A notebook on the site: its file, relative to the course, its title as a text, and what is declared of it if it is a
+    lesson.
     """
 
     name: str
@@ -69,18 +65,12 @@ class Entry:
 
 
 def notebook_page(entry: Entry, cells: Sequence[Any], entries: Sequence[Entry]) -> str:
-    """The page of a notebook.
-
-    Parameters
-    ----------
-    entry
-        The notebook.
-    cells
-        Its cells; those of exercises are shown without the code that checks answers.
-    entries
-        All notebooks of the site, in their order.
-    """
-    links, parts, [head, *rest] = links_of(entry.name, {each.name for each in entries}), Parts(), _seen(entry, cells)
+    """The page of a notebook; cells of exercises are shown without the code that checks answers."""
+    links, parts, [head, *rest] = (
+        partial(address_on_site, entry.name, {each.name for each in entries}),
+        Parts(),
+        _seen(entry, cells),
+    )
     begin = cells_html([head], links, parts) + _note(entry) + cells_html(rest, links, parts)
     row = _neighbours(entry, entries)
     body = (
@@ -117,7 +107,6 @@ look, move a slider, change a rule.</p>
 
 
 def _lesson_row(entry: Entry, entries: Sequence[Entry]) -> str:
-    """A lesson in the list: its title, what it asks, how long it takes, its tracks, its exercises."""
     exercises = next((each for each in entries if each.name == f"exercises/{PurePosixPath(entry.name).name}"), None)
     told = entry.lesson
     facts = (
@@ -135,7 +124,6 @@ def _lesson_row(entry: Entry, entries: Sequence[Entry]) -> str:
 
 
 def _seen(entry: Entry, cells: Sequence[Any]) -> list[Any]:
-    """The cells of a notebook that its page shows."""
     return [each for each in cells if not (entry.folder == "exercises" and _checks(each))]
 
 
@@ -147,20 +135,17 @@ def _checks(cell: Any) -> bool:
 
 
 def _note(entry: Entry) -> str:
-    """What is said on a page of what can be done on it."""
     if entry.folder == "exercises":
         return _HOW.format(name=escaped(entry.name))
     return _KEPT if is_lesson(entry.name) else ""
 
 
 def _above(entry: Entry) -> str:
-    """The way back to the first page."""
     home = relpath(INDEX, entry.folder)
     return f'<nav aria-label="the course"><a href="{home}">{COURSE}</a></nav>'
 
 
 def _neighbours(entry: Entry, entries: Sequence[Entry]) -> str:
-    """Links to the pages before and after one of the same kind, and from a lesson to its exercises or back."""
     return "\n".join(
         f'<a class="{kind}" href="{escaped(relpath(other.page, entry.folder))}"><span>{label}</span> {escaped(other.title)}</a>'
         for kind, label, other in _others(entry, entries)
@@ -168,19 +153,15 @@ def _neighbours(entry: Entry, entries: Sequence[Entry]) -> str:
 
 
 def _others(entry: Entry, entries: Sequence[Entry]) -> Iterator[tuple[str, str, Entry]]:
-    """Where one may go on from a page: how the link looks, what it is called, the page."""
     alike = [each for each in entries if each.folder == entry.folder and is_lesson(each.name) == is_lesson(entry.name)]
     place = alike.index(entry)
-    if place:
-        yield "before", "Before", alike[place - 1]
     pair, label = {"notebooks": ("exercises", "Exercises"), "exercises": ("notebooks", "Lesson")}.get(entry.folder, ("", ""))
+    yield from (("before", "Before", each) for each in alike[:place][-1:])
     yield from (("also", label, each) for each in entries if each.name == f"{pair}/{PurePosixPath(entry.name).name}")
-    if place + 1 < len(alike):
-        yield "after", "Next", alike[place + 1]
+    yield from (("after", "Next", each) for each in alike[place + 1 :][:1])
 
 
 def _program(parts: Parts) -> Program | None:
-    """What runs in a page with these parts; nothing, where it has none."""
     if not parts:
         return None
     modes = {*_modes(parts)}
@@ -189,7 +170,6 @@ def _program(parts: Parts) -> Program | None:
 
 
 def _modes(data: Any) -> Iterator[str]:
-    """In which ways panels draw, somewhere in the data of parts."""
     if isinstance(data, list):
         for each in data:
             yield from _modes(each)
@@ -197,7 +177,7 @@ def _modes(data: Any) -> Iterator[str]:
         yield from [data["mode"]] if "mode" in data else (mode for each in data.values() for mode in _modes(each))
 
 
-def _with_books_once(parts: Parts) -> dict[str, Any]:
+def _with_books_once(parts: Parts) -> Data:
     """The data of a page: panels of the same books have them in common, each names theirs by a number."""
     books: dict[str, int] = {}
 
@@ -210,3 +190,101 @@ def _with_books_once(parts: Parts) -> dict[str, Any]:
 
     found = [numbered(part) for part in parts]
     return {"parts": found, "books": [*books]}
+
+
+Parts = list[Data]
+"""What the script of a page has to know of each of its panels, votes, predictions, tables and pictures, in their order."""
+QUESTIONS = ("vote", "prediction", "worksheet", "beside")
+"""Kinds of parts whose code would give away what they ask, and is folded."""
+_PICTURE = re.compile(r'src="data:image/svg\+xml;base64,([A-Za-z0-9+/=]{4000,})"')
+"""A picture that is worth being kept apart, and how large it is."""
+_SIZE = re.compile(r'<svg(?: (?!width)[\w:]+="[^"]*")*( width="[^"]*" height="[^"]*")')
+
+
+def cells_html(cells: list[Any], links: Links, parts: Parts) -> str:
+    """Cells of a notebook as HTML; what the script of the page has to know is added to `parts`."""
+    return "".join(
+        markdown_html(cell.source, links) if cell.cell_type == "markdown" else _code_html(cell, parts)
+        for cell in cells
+        if cell.cell_type in ("markdown", "code") and cell.source.strip()
+    )
+
+
+def _code_html(cell: Any, parts: Parts) -> str:
+    """A code cell: its code, and below it what it shows; where it asks something, its code is folded and comes last."""
+    shown = "".join(output_html(output, parts) for output in cell.outputs)
+    code = f'<pre class="code"><code>{escaped_lines(cell.source.strip())}</code></pre>\n'
+    asks = any(output.get("data", {}).get(PART, {}).get("kind") in QUESTIONS for output in cell.outputs)
+    if asks:
+        return f'{shown}<details class="folded"><summary>Code of this cell</summary>\n{code}</details>\n'
+    return code + shown
+
+
+def output_html(output: Mapping[str, Any], parts: Parts) -> str:
+    """What a cell has put out, as HTML.
+
+    >>> output_html({"output_type": "stream", "text": "a < b\\n"}, [])
+    '<div class="output" tabindex="0"><pre>a &lt; b</pre></div>\\n'
+    """
+    if output["output_type"] == "stream":
+        return _block(_lines(output["text"]))
+    if output["output_type"] == "error":
+        return _block(_lines(f"{output['ename']}: {output['evalue']}"))
+    return data_html(output["data"], parts)
+
+
+def data_html(data: Mapping[str, Any], parts: Parts) -> str:
+    """What is shown of an object, by media types, as HTML.
+
+    >>> data_html({"text/latex": "$x$", "text/plain": "x"}, [])
+    '<div class="output" tabindex="0"><math display="block"><mrow><mi>x</mi></mrow></math></div>\\n'
+    """
+    if PART in data:
+        return _part_html(data[PART], data["text/plain"], parts)
+    if "text/latex" in data and "text/html" not in data:
+        return _block(mathml(data["text/latex"], "block"))
+    return _block(_PICTURE.sub(lambda found: _kept_picture(found[1], parts), html(data)))
+
+
+def _kept_picture(packed: str, parts: Parts) -> str:
+    """The place of a picture: an empty one of its size, which the script of the page fills before it comes into view."""
+    drawing = base64.b64decode(packed).decode()
+    size = _SIZE.search(drawing)
+    empty = f'<svg xmlns="http://www.w3.org/2000/svg"{size[1] if size else ""}/>'
+    number = len(parts)
+    parts.append({"kind": "picture", "data": {"drawing": deflated_text(drawing)}})
+    return f'data-part="{number}" src="data:image/svg+xml,{quote(empty)}"'
+
+
+def _part_html(part: Mapping[str, Any], words: str, parts: Parts) -> str:
+    kind, number = part["kind"], len(parts)
+    parts.append({"kind": kind, "data": part["data"]})
+    inside = _prediction_html(part, parts) if kind == "prediction" else _lines(words)
+    return f'<div class="part part-{kind}" data-part="{number}">{inside}</div>\n'
+
+
+def _prediction_html(part: Mapping[str, Any], parts: Parts) -> str:
+    answer = data_html(part["answer"], parts)
+    question = prose_html(part["data"]["question"])
+    return f"<details><summary>{question}</summary>\n<div data-answer>\n{answer}</div>\n</details>"
+
+
+def _lines(text: str) -> str:
+    return f"<pre>{escaped_lines(text.rstrip())}</pre>"
+
+
+def _block(inside: str) -> str:
+    return f'<div class="output" tabindex="0">{inside}</div>\n'
+
+
+def headings(cells: list[Any]) -> Iterator[str]:
+    """The headings of a notebook, from the greatest on, each as it is written."""
+    for cell in cells:
+        if cell.cell_type == "markdown":
+            yield from (line for line in cell.source.splitlines() if line.startswith("#"))
+
+
+def title_of(cells: list[Any], name: str) -> str:
+    """The title of a notebook: its first heading."""
+    first = next((line for line in headings(cells) if line.startswith("# ")), f"# {name}")
+    return escaped(first[2:].strip()).replace("`", "").replace("*", "")

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import re
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import partial
 from typing import Any
 
-from lsys_kit.classroom.lessons.declared import declared, names
-from lsys_kit.classroom.lessons.displayed import html
-from lsys_kit.classroom.lessons.lesson import Lesson
+from lsys_kit.classroom.lessons.lesson import Lesson, declared, names, number_of
 from lsys_kit.classroom.lessons.predict import Prediction
 from lsys_kit.classroom.lessons.rule_finder import RuleFinder
-from lsys_kit.classroom.lessons.settings import asked_settings
 from lsys_kit.classroom.lessons.vote import VoteBox
+from lsys_kit.classroom.lessons.widget import html, prose_text
 from lsys_kit.classroom.lessons.worksheet import PanelWithWorksheet, Worksheet
-from lsys_kit.classroom.panel.comparison import Comparison
-from lsys_kit.classroom.panel.explorer import Explorer
+from lsys_kit.classroom.panel.explorer import Comparison, Explorer
+from lsys_kit.notation.model.arithmetic import Value, normalised
 
 PART = "application/vnd.lsys-kit.page-part+json"
 """The media type of what a page has to know of a panel, a question or a table to open it: its kind, its data, its words."""
@@ -55,12 +54,10 @@ def part(widget: Any, include: object = None, exclude: object = None, lesson: Le
 
 
 def _seen(widget: Any, lesson: Lesson | None) -> dict[str, Any]:
-    """The kind and the data of a widget."""
     return {"kind": next(kind for each, kind in KINDS.items() if isinstance(widget, each)), "data": _data(widget, lesson)}
 
 
 def _data(widget: Any, lesson: Lesson | None) -> Any:
-    """The data of a widget; a panel's hold the settings that the lesson asks for."""
     if isinstance(widget, PanelWithWorksheet):
         return {"panel": _seen(widget.panel, lesson), "sheet": _data(widget.sheet, lesson)}
     if not isinstance(widget, Explorer | Comparison):
@@ -68,3 +65,40 @@ def _data(widget: Any, lesson: Lesson | None) -> Any:
     panels = [widget] if isinstance(widget, Explorer) else [widget.left, widget.right]
     sliders = {"seed", *(name for each in panels for name in each.settings)}
     return widget.page_data([*asked_settings(lesson, sliders)] if lesson else [])
+
+
+_SET = re.compile(r"\b(\w++) = ([\d./]+\d|\d)")
+
+
+def asked_settings(lesson: Lesson, sliders: Collection[str]) -> Iterator[dict[str, Value]]:
+    """What the tables of a lesson say of the sliders of a panel, row by row, and then what its text says.
+
+    A row has the values that stand in it, each in a column whose title has the name of the slider in it, and those that the
+    title of the table sets, as in "With dt = 0.8". Settings of the text that name another slider are left out.
+
+    >>> from lsys_kit.classroom.lessons.lesson import lesson
+    >>> [*map(str, asked_settings(lesson("11"), ("dt", "t_l")))][6]
+    "{'dt': Fraction(4, 5), 't_l': Fraction(1, 10)}"
+    >>> [row["w"] for row in asked_settings(lesson("09"), ("w",))]
+    [2, 3, 5, 8]
+    >>> [*asked_settings(lesson("11"), ("dt", "t_div", "t_l"))][-1].keys()
+    dict_keys(['dt', 't_div', 't_l'])
+    """
+    for table in lesson.tables:
+        for row in table.rows:
+            titled = ((_named(column, sliders), cell) for column, cell in zip(table.columns, row, strict=True))
+            found = _values([*_SET.findall(prose_text(table.title)), *titled], sliders)
+            if found:
+                yield found
+    for together in lesson.settings:
+        if set(together) <= set(sliders):
+            yield _values([*together.items()], sliders)
+
+
+def _named(title: str, sliders: Collection[str]) -> str:
+    return next((word for word in re.findall(r"\w+", prose_text(title)) if word in sliders), "")
+
+
+def _values(cells: Sequence[tuple[str, object]], sliders: Collection[str]) -> dict[str, Value]:
+    numbers = ((name, number_of(cell)) for name, cell in cells if name in sliders and isinstance(cell, str))
+    return {name: normalised(number) for name, number in numbers if number is not None}

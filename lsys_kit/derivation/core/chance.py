@@ -17,6 +17,7 @@ from statistics import NormalDist
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lsys_kit.budget import check_budget, counted
 from lsys_kit.notation.model.arithmetic import Value, normalised
@@ -37,7 +38,7 @@ def splitmix64(number: int) -> int:
     return number ^ number >> 31
 
 
-def splitmix64_array(numbers: np.ndarray[Any, np.dtype[np.uint64]]) -> np.ndarray[Any, np.dtype[np.uint64]]:
+def splitmix64_array(numbers: NDArray[np.uint64]) -> NDArray[np.uint64]:
     """The same for many states at once."""
     numbers = numbers + np.uint64(_GOLDEN)
     numbers = (numbers ^ numbers >> np.uint64(30)) * np.uint64(_FIRST)
@@ -45,7 +46,7 @@ def splitmix64_array(numbers: np.ndarray[Any, np.dtype[np.uint64]]) -> np.ndarra
     return numbers ^ numbers >> np.uint64(31)
 
 
-def units(seed: int, step: int, positions: np.ndarray[Any, Any]) -> np.ndarray[Any, np.dtype[np.float64]]:
+def units(seed: int, step: int, positions: NDArray[Any]) -> NDArray[np.float64]:
     """The first random number, from 0 up to 1, of the modules at some positions of a step's word.
 
     >>> units(1, 2, np.arange(3)).tolist() == [Chance(1, 2, position).unit() for position in range(3)]
@@ -63,8 +64,6 @@ def _stem(seed: int, step: int) -> int:
 class Chance:
     """The random numbers of one module at one step.
 
-    Parameters
-    ----------
     seed
         Any whole number.
     step, position
@@ -72,8 +71,6 @@ class Chance:
     sees
         Answers what the module asks of the turtle, given a function's number and values; None without an observer.
 
-    Examples
-    --------
     >>> one, again = Chance(7, 3, 12), Chance(7, 3, 12)
     >>> one.unit() == again.unit(), 0 <= one.uniform(0, 360) < 360
     (True, True)

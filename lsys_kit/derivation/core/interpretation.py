@@ -21,7 +21,7 @@ _T = TypeVar("_T")
 def interpretations(states: States, numbers: Sequence[int]) -> dict[int, tuple[Module, ...]]:
     """For each of some states the modules that it is drawn as: itself, where no interpretation rule matches.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> states = States(read("axiom: A(2)[B]\\ninterpretation:\\nA(t) -> F(t) F(1)"))
     >>> {str(states.modules[s]): " ".join(map(str, drawn)) for s, drawn in interpretations(states, states.axiom).items()}
     {'A(2)': 'F(2) F(1)', '[': '[', 'B': 'B', ']': ']'}
@@ -44,7 +44,6 @@ def interpretations(states: States, numbers: Sequence[int]) -> dict[int, tuple[M
 
 
 def interpretation_of(states: States, module: Module) -> tuple[Module, ...]:
-    """The modules that a module is drawn as."""
     rules = rules_of(states.system, states.arithmetic, "interpretation")
     found: list[Module] = []
     todo = [(module, states.system.depth)]
@@ -93,7 +92,7 @@ def is_cell(made: Module | Pattern) -> bool:
 def is_filament(system: LSystem) -> bool:
     """Whether a system is drawn as cells in a row: its interpretation makes cells with a length and a width, perhaps walls.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> is_filament(read("axiom: a\\ninterpretation:\\na -> R(2,1)"))
     True
     """

@@ -19,19 +19,15 @@ from __future__ import annotations
 from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass
 
-from lsys_kit.derivation.core.rules import Branch, Rule, is_branch, kind_of
-from lsys_kit.notation.model.arithmetic import Value
+from lsys_kit.derivation.core.rules import Branch, Rule, Values, is_branch, kind_of
 from lsys_kit.notation.model.modules import CLOSING, END, OPENING, Module
 from lsys_kit.notation.model.system import ANY_BRANCH, FLAT, NEXT_BRANCH, LSystem
 
 NO_NEIGHBOUR = -1
-"""The position of a neighbour that is not there."""
 
 
 @dataclass(frozen=True)
 class _AllBut:
-    """All symbols but some."""
-
     those: frozenset[str]
 
     def __contains__(self, symbol: object) -> bool:
@@ -42,8 +38,6 @@ class _AllBut:
 class Passing:
     """What contexts pass over: symbols that are ignored, and branches.
 
-    Attributes
-    ----------
     ignored
         The symbols.
     branches
@@ -62,7 +56,7 @@ class Passing:
 def passing_of(system: LSystem) -> Passing:
     """What the contexts of a system pass over.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> "+" in passing_of(read("ignore: + -\\naxiom: A")).ignored, "B" in passing_of(read("consider: A\\naxiom: A")).ignored
     (True, True)
     """
@@ -73,8 +67,8 @@ def passing_of(system: LSystem) -> Passing:
 class Neighbours:
     """For each position of a word its neighbours' positions, or `NO_NEIGHBOUR`.
 
-    Attributes
-    ----------
+    symbols
+        Those of the word.
     passing
         What contexts pass over.
     before
@@ -87,13 +81,12 @@ class Neighbours:
     closing
         For an opening bracket the position of its closing one.
 
-    Examples
-    --------
     >>> found = neighbours("ABC[DE][SG[HI]M]", Passing())
     >>> "ABC[DE][SG[HI]M]"[found.before[8]], "ABC[DE][SG[HI]M]"[found.after[9]]
     ('C', 'M')
     """
 
+    symbols: Sequence[str]
     passing: Passing
     before: Sequence[int]
     after: Sequence[int]
@@ -105,11 +98,10 @@ def neighbours(symbols: Sequence[str], passing: Passing) -> Neighbours:
     """The neighbours of all positions of a word, in one pass in each direction."""
     before, closing = _backwards(symbols, passing.ignored)
     after, inside = _ahead(symbols, passing.ignored) if not passing.flat else _ahead_of_all(symbols, passing.ignored)
-    return Neighbours(passing, before, after, inside, closing)
+    return Neighbours(symbols, passing, before, after, inside, closing)
 
 
 def _backwards(symbols: Sequence[str], ignored: Container[str]) -> tuple[list[int], list[int]]:
-    """The neighbours to the left, and where each branch closes."""
     before, closing = [NO_NEIGHBOUR] * len(symbols), [NO_NEIGHBOUR] * len(symbols)
     last, stack = NO_NEIGHBOUR, []
     for position, symbol in enumerate(symbols):
@@ -126,7 +118,6 @@ def _backwards(symbols: Sequence[str], ignored: Container[str]) -> tuple[list[in
 
 
 def _ahead(symbols: Sequence[str], ignored: Container[str]) -> tuple[list[int], list[int]]:
-    """The neighbours to the right, and the first module of each branch."""
     after, inside = [NO_NEIGHBOUR] * len(symbols), [NO_NEIGHBOUR] * len(symbols)
     following = NO_NEIGHBOUR
     behind: list[int] = []
@@ -169,16 +160,17 @@ def neighbours_along(links: Sequence[int], position: int, length: int) -> tuple[
     return tuple(found)
 
 
-def branches(symbols: Sequence[str], around: Neighbours, position: int) -> Iterator[int]:
+def branches(around: Neighbours, position: int) -> Iterator[int]:
     """The opening brackets of the side branches that stand right behind a position, before the next module."""
     position += 1
-    while position < len(symbols):
-        if symbols[position] in OPENING:
+    while position < len(around.symbols):
+        symbol = around.symbols[position]
+        if symbol in OPENING:
             yield position
             position = around.closing[position]
             if position == NO_NEIGHBOUR:
                 return
-        elif symbols[position] in CLOSING or symbols[position] not in around.passing.ignored:
+        elif symbol in CLOSING or symbol not in around.passing.ignored:
             return
         position += 1
 
@@ -194,9 +186,7 @@ def match_predecessor(rule: Rule, word: Sequence[Module], position: int) -> tupl
     return tuple(range(position, position + size))
 
 
-def match_context(
-    rule: Rule, word: Sequence[Module], symbols: Sequence[str], around: Neighbours, own: tuple[int, ...]
-) -> tuple[int, ...] | None:
+def match_context(rule: Rule, word: Sequence[Module], around: Neighbours, own: tuple[int, ...]) -> tuple[int, ...] | None:
     """The positions of the modules that a rule names, in the order written, where its contexts match; else None.
 
     What it replaces stands at its own positions; its contexts are what stands before the first of them and behind the last.
@@ -204,55 +194,40 @@ def match_context(
     left = neighbours_along(around.before, own[0], len(rule.left))
     if len(left) < len(rule.left) or any(kind_of(word[at]) != kind for at, kind in zip(left, rule.left, strict=True)):
         return None
-    right = _followed(rule.right, word, symbols, around, own[-1])
+    right = _followed(rule.right, word, around, own[-1])
     return None if right is None else (*reversed(left), *own, *right)
 
 
-def values_at(word: Sequence[Module], positions: Sequence[int]) -> tuple[Value, ...]:
+def values_at(word: Sequence[Module], positions: Sequence[int]) -> Values:
     """The values of the modules at some positions, one after another."""
     return tuple(value for at in positions for value in word[at].arguments)
 
 
 def _followed(
-    row: Branch, word: Sequence[Module], symbols: Sequence[str], around: Neighbours, position: int
+    row: Branch, word: Sequence[Module], around: Neighbours, position: int, there: Iterator[int] | None = None
 ) -> tuple[int, ...] | None:
-    """The positions of a row of modules and branches that begins behind a position, or None."""
+    """The positions of a row of modules and branches behind a position, or None; its branches are some of those there."""
     if not row:
         return ()
     first, rest = row[0], row[1:]
     if is_branch(first):
-        return _branched(row, word, symbols, around, position)
-    at = around.inside[position] if symbols[position] in OPENING else around.after[position]
+        there = iter(() if around.passing.flat else branches(around, position)) if there is None else there
+        inside = _first_match(first, word, around, there)
+        behind = None if inside is None else _followed(rest, word, around, position, there)
+        return None if inside is None or behind is None else (*inside, *behind)
+    at = around.inside[position] if around.symbols[position] in OPENING else around.after[position]
     if first[0] == END:
         return () if at == NO_NEIGHBOUR else None
     if at == NO_NEIGHBOUR or kind_of(word[at]) != first:
         return None
-    found = _followed(rest, word, symbols, around, at)
+    found = _followed(rest, word, around, at)
     return None if found is None else (at, *found)
 
 
-def _branched(
-    row: Branch, word: Sequence[Module], symbols: Sequence[str], around: Neighbours, position: int
-) -> tuple[int, ...] | None:
-    """The positions of a row that begins with branches, which stand behind a position."""
-    first = next((index for index, item in enumerate(row) if not is_branch(item)), len(row))
-    there = iter(() if around.passing.flat else branches(symbols, around, position))
-    found: list[int] = []
-    for branch in row[:first]:
-        inside = _first_match(branch, word, symbols, around, there)  # type: ignore[arg-type]
-        if inside is None:
-            return None
-        found += inside
-    rest = _followed(row[first:], word, symbols, around, position)
-    return None if rest is None else (*found, *rest)
-
-
-def _first_match(
-    branch: Branch, word: Sequence[Module], symbols: Sequence[str], around: Neighbours, there: Iterator[int]
-) -> tuple[int, ...] | None:
+def _first_match(branch: Branch, word: Sequence[Module], around: Neighbours, there: Iterator[int]) -> tuple[int, ...] | None:
     """The positions of a branch that is named, in the first of some branches that it may be; those before are used up."""
     for opened in there:
-        inside = _followed(branch, word, symbols, around, opened)
+        inside = _followed(branch, word, around, opened)
         if inside is not None or around.passing.branches == NEXT_BRANCH:
             return inside
     return None

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import numbers
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache
 from typing import Any, TypeAlias, TypeGuard
@@ -17,11 +17,12 @@ from typing import Any, TypeAlias, TypeGuard
 from lsys_kit.errors import ModelNameError, ModelValueError, quotable, shown
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.arithmetic import Value, expanded_value, finite, is_symbolic, normalised, reason_of
-from lsys_kit.notation.model.expressions import Apply, Expression, Function, Name, function_of, is_random, sensed_in
+from lsys_kit.notation.model.expressions import Apply, Expression, Function, Name, Number, function_of, is_random, sensed_in
 from lsys_kit.notation.model.modules import CLOSING, OPENING, Item, Module, Pattern, Repeat, expressions_of
 from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.read import read_number
 
+Values: TypeAlias = tuple[Value, ...]
 ModuleKind: TypeAlias = tuple[str, int]
 """What a rule asks of a module first: its symbol and the number of its parameters."""
 Branch: TypeAlias = tuple["ModuleKind | Branch", ...]
@@ -48,8 +49,6 @@ class RepeatTemplate:
 class Rule:
     """One production, ready to run.
 
-    Attributes
-    ----------
     number
         The production's place in the order written, from 0.
     predecessors
@@ -105,18 +104,7 @@ Rules: TypeAlias = Mapping[ModuleKind, tuple[Rule, ...]]
 def rules_of(system: LSystem, arithmetic: str = "exact", section: str = "productions") -> Rules:
     """The rules of a system, by the symbol and the number of parameters of the module that they rewrite; of several, the first.
 
-    Parameters
-    ----------
-    system
-        Any L-system.
-    arithmetic
-        "exact" or "float".
-    section
-        "productions", "decomposition" or "interpretation".
-
-    Examples
-    --------
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> sorted(rules_of(read("axiom: A(0)\\nA(t) : t < 5 -> A(t+1) B")))
     [('A', 1)]
     """
@@ -142,10 +130,10 @@ def rule_for(system: LSystem, number: int, production: Production, arithmetic: s
     constants = [constant.name for constant in system.constants]
     arguments = [argument for module in production.parameters for argument in module.arguments]
     order = {name: len(arguments) + index for index, name in enumerate(constants)}
-    formal = [isinstance(a, Name) and a.name not in order for a in arguments]
-    order.update({a.name: i for i, a in enumerate(arguments) if formal[i]})  # type: ignore[union-attr]
+    formal = {i: a.name for i, a in enumerate(arguments) if isinstance(a, Name) and a.name not in order}
+    order.update({name: i for i, name in formal.items()})
 
-    def ready(expression: Any) -> Function:
+    def ready(expression: Expression) -> Function:
         return function_of(expression, order, arithmetic)
 
     made = [expression for expression in expressions_of(production.successor) if isinstance(expression, Expression)]
@@ -156,7 +144,7 @@ def rule_for(system: LSystem, number: int, production: Production, arithmetic: s
         tuple(map(kind_of, production.predecessors)),
         tuple(map(kind_of, reversed(production.left))),
         _branched_context(production.right),
-        tuple((i, ready(a)) for i, a in enumerate(arguments) if not formal[i]),
+        tuple((i, ready(a)) for i, a in enumerate(arguments) if i not in formal),
         None if production.condition is None else ready(production.condition),
         None if production.probability is None else ready(production.probability),
         _templates(production.successor, order, len(arguments) + len(constants), arithmetic),
@@ -205,10 +193,10 @@ def _branched_context(modules: Sequence[Pattern]) -> Branch:
     return tuple(rows[0])
 
 
-def constants_of(system: LSystem, changes: Mapping[str, object], arithmetic: str = "exact") -> tuple[Value, ...]:
+def constants_of(system: LSystem, changes: Mapping[str, object], arithmetic: str = "exact") -> Values:
     """The values of the declared constants, in their order, with some of them changed.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> constants_of(read("dt = 7/10\\nhalf = dt/2\\naxiom: A"), {"dt": "14/10"})
     (Fraction(7, 5), Fraction(7, 10))
     """
@@ -226,22 +214,27 @@ def constants_of(system: LSystem, changes: Mapping[str, object], arithmetic: str
                 if constant.name in changes
                 else finite(function_of(constant.value, order, arithmetic)(tuple(values)))
             )
-        except (ArithmeticError, ValueError) as fault:
-            raise ModelValueError(
-                f'The constant "{constant.name}" has no value: {reason_of(fault)}',
-                system.source or None,
-                *(constant.at or (None, None)),
-            ) from None
-        except TypeError:
-            if not any(map(is_symbolic, values)):
+        except (ArithmeticError, ValueError, TypeError) as fault:
+            if isinstance(fault, TypeError) and not any(map(is_symbolic, values)):
                 raise
-            raise ModelValueError(
-                f'The constant "{constant.name}" has no value: it depends on an unknown constant',
-                system.source or None,
-                *(constant.at or (None, None)),
-            ) from None
+            reason = "it depends on an unknown constant" if isinstance(fault, TypeError) else reason_of(fault)
+            said = f'The constant "{constant.name}" has no value: {reason}'
+            raise ModelValueError(said, system.source or None, *(constant.at or (None, None))) from None
         values.append(float(value) if arithmetic == "float" and not is_symbolic(value) else value)
     return tuple(values)
+
+
+def with_constants(system: LSystem, values: Mapping[str, object]) -> LSystem:
+    """A system with other values of some of its constants.
+
+    >>> from lsys_kit import read
+    >>> print(with_constants(read("dt = 7/10\\naxiom: A(dt)"), {"dt": "1.4"}))
+    dt = 1.4
+    axiom: A(dt)
+    """
+    constants_of(system, values)
+    changed = {name: Number(number_from(value)) for name, value in values.items()}
+    return replace(system, constants=tuple(replace(c, value=changed.get(c.name, c.value)) for c in system.constants))
 
 
 def number_from(given: object, name: str = "value") -> Value:
@@ -286,7 +279,6 @@ def unknown_constant(name: str) -> Any:
 
 
 def _beginning(given: object) -> str:
-    """The beginning of a value, as a message quotes it."""
     try:
         return repr(quotable(str(given)[:40])) if isinstance(given, str | numbers.Number) else shown(given)
     except ValueError:  # Python refuses to write a whole number of thousands of digits

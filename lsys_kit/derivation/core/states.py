@@ -1,27 +1,88 @@
 """The table of states: each distinct module that a derivation meets, numbered in the order in which it is met.
 
 Where a module's symbol and values alone decide what becomes of it, its successor is computed once, here, however often the
-module occurs. A word is then an array of states, the growth matrix counts states in successors, and the stage diagram is this
-table drawn. Where neighbours or chance matter, the table still numbers the modules, and what they become is computed for
-each combination that occurs.
+module occurs: which rules match it, which of them is applied, and what it makes. A word is then an array of states, the growth
+matrix counts states in successors, and the stage diagram is this table drawn. Where neighbours or chance matter, the table
+still numbers the modules, and what they become is computed for each combination that occurs.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from typing import Any, TypeVar
+from typing import Any, TypeAlias, TypeVar
 
-from lsys_kit.budget import check_bytes, counted, current
-from lsys_kit.derivation.core.application import RuleApplication
-from lsys_kit.derivation.core.chance import Chance
-from lsys_kit.derivation.core.rule_errors import AXIOM
-from lsys_kit.derivation.core.rules import Rule, kind_of, rule_for, rules_of
+from lsys_kit.budget import check_budget, check_bytes, counted, current
+from lsys_kit.derivation.core.chance import Chance, choose
+from lsys_kit.derivation.core.rules import (
+    ModuleTemplate,
+    RepeatTemplate,
+    Rule,
+    Rules,
+    Values,
+    constants_of,
+    kind_of,
+    rule_for,
+    rules_of,
+)
 from lsys_kit.derivation.core.traits import traits_of
-from lsys_kit.errors import ModelLimitError, ModelValueError
-from lsys_kit.notation.model.arithmetic import Value, is_symbolic
+from lsys_kit.errors import LSystemError, ModelLimitError, ModelNameError, ModelValueError, require
+from lsys_kit.notation.model.arithmetic import SMALL, Value, equal_values, expanded_value, finite, is_symbolic, reason_of
 from lsys_kit.notation.model.modules import Module, Pattern
 from lsys_kit.notation.model.system import LSystem, Production
+from lsys_kit.notation.registry import dialect_named
+from lsys_kit.notation.syntax.wording import Wording
 from lsys_kit.notation.write import as_written
+
+AXIOM = Module("axiom")
+"""The module from which the axiom is made as a successor."""
+UNKNOWN = "it depends on an unknown constant"
+
+
+def rule_error(system: LSystem, module: Module | Pattern, rule: Rule, fault: Exception) -> LSystemError:
+    dialect = dialect_named(system.notation)
+    shown, production = dialect.module(module), as_written(system, rule.production)
+    what = "The axiom" if module is AXIOM else f"{shown} under production {rule.number + 1}, {production},"
+    hint = None if module is AXIOM else "A condition before the arrow can keep such values out."
+    if rule.looks:
+        hint = "Where there is no such shoot, an answer is infinite." if isinstance(fault, OverflowError) else None
+    if isinstance(fault, ZeroDivisionError):
+        hint = " ".join(filter(None, (hint, dialect.spelling.wordings.get("division by zero", Wording("")).hint))) or None
+    reason = UNKNOWN if isinstance(fault, TypeError) else reason_of(fault)
+    return ModelValueError(f"{what} has no value: {reason}", hint=hint, **_place(system, rule))
+
+
+def _place(system: LSystem, rule: Rule) -> dict[str, Any]:
+    """Where a rule stands in the text of its system, as errors take it."""
+    start, end = rule.production.at or (None, None)
+    return {"source": system.source or None, "start": start, "end": end}
+
+
+def undecided_condition(system: LSystem, constants: Sequence[Value], module: Module, rule: Rule) -> LSystemError:
+    names = sorted({str(name) for value in constants for name in getattr(value, "free_symbols", ())})
+    said = (
+        f"Whether production {rule.number + 1}, {as_written(system, rule.production)}, applies to "
+        f"{dialect_named(system.notation).module(module)} cannot be decided"
+    )
+    hint = f"It depends on {', '.join(names)}: choose a value for {names[0]}."
+    return ModelValueError(said, hint=hint, **_place(system, rule))
+
+
+Row: TypeAlias = tuple[int, ...]
+"""A row of states."""
+Match: TypeAlias = tuple[Rule, Values]
+"""A rule that matches, with the values of all parameters that it names."""
+EXACT_BITS = 128
+"""A rational value with more bits than this becomes a double."""
+
+
+def _times(count: Value) -> int:
+    most = current().repetitions
+    if count != int(count) or count < 0:
+        raise ValueError(f"it is repeated {float(count):g} times, which is no whole number from 0 on")
+    if count > most:
+        raise ValueError(f"it is repeated {int(count):,} times; the limit is {most:,}")
+    return int(count)
+
 
 _T = TypeVar("_T")
 ROW_BYTES = 8
@@ -30,13 +91,13 @@ MODULES_BETWEEN_CHECKS = 100
 """The budget is checked after so many modules have been decomposed."""
 
 
-class Successors(dict[int, tuple[int, ...]]):
+class Successors(dict[int, Row]):
     """What replaces each state that alone decides it in one step, found when it is first asked for."""
 
     def __init__(self, states: States) -> None:
         self.states = states
 
-    def __missing__(self, state: int) -> tuple[int, ...]:
+    def __missing__(self, state: int) -> Row:
         states, module = self.states, self.states.modules[state]
         rule = states.rule(state)
         found = states.keep(states.decompose(module) if rule is None else states.replacement(rule, module))
@@ -44,8 +105,8 @@ class Successors(dict[int, tuple[int, ...]]):
         return found
 
 
-class States(RuleApplication):
-    """The states of a system under given constants.
+class States:
+    """The states of a system under given constants, and its rules at work.
 
     Parameters
     ----------
@@ -58,6 +119,8 @@ class States(RuleApplication):
 
     Attributes
     ----------
+    constants
+        The values of all declared constants, in their order.
     modules
         The module of each state.
     traits
@@ -69,7 +132,7 @@ class States(RuleApplication):
 
     Examples
     --------
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> states = States(read("axiom: A(4)\\nA(t) : t < 5 -> A(t+1)\\nA(t) -> A(1) B"))
     >>> states.axiom, states.successor(0), states.successor(1), states.successor(3)
     ((0,), (1,), (2, 3), (3,))
@@ -78,14 +141,20 @@ class States(RuleApplication):
     """
 
     def __init__(self, system: LSystem, constants: dict[str, object] | None = None, arithmetic: str = "exact") -> None:
-        super().__init__(system, constants, arithmetic)
+        require(system, LSystem, "An L-system")
+        require(arithmetic, str, "The name of an arithmetic")
+        if arithmetic not in ("exact", "float"):
+            raise ModelNameError(f'There is no arithmetic called "{arithmetic}"', hint='Choose "exact" or "float".')
+        self.system, self.arithmetic = system, arithmetic
+        self.constants = constants_of(system, constants or {}, arithmetic)
+        self._outgrown = False
         self.modules: list[Module] = []
         self.inexact: Module | None = None
         self._numbers: dict[tuple[object, ...], int] = {}
         self._row_states = 0
         self.successors = Successors(self)
         self._applied: dict[int, Rule | None] = {}
-        self._decompositions: dict[tuple[object, ...], tuple[int, ...]] = {}
+        self._decompositions: dict[tuple[object, ...], Row] = {}
         self.rules = rules_of(system, arithmetic)
         self.decomposition = rules_of(system, arithmetic, "decomposition")
         self._joined = frozenset(kind for rules in self.rules.values() for rule in rules for kind in rule.predecessors[1:])
@@ -105,7 +174,7 @@ class States(RuleApplication):
         self.rules = rules_of(self.system, self.arithmetic)
         self.decomposition = rules_of(self.system, self.arithmetic, "decomposition")
 
-    def number(self, symbol: str, values: tuple[Value, ...] = ()) -> int:
+    def number(self, symbol: str, values: Values = ()) -> int:
         """The state of a module, a new one where it has not been met."""
         key = (symbol, values, *map(type, values))
         found = self._numbers.get(key)
@@ -115,7 +184,7 @@ class States(RuleApplication):
             self._numbers[key] = found  # last, so that an interrupt leaves no number without its module
         return found
 
-    def keep(self, row: tuple[int, ...]) -> tuple[int, ...]:
+    def keep(self, row: Row) -> Row:
         """A row of states that is going to be kept, if there is room for it."""
         self._row_states += len(row)
         check_bytes(self._row_states * ROW_BYTES, lambda: "What becomes of each module is not known")
@@ -133,14 +202,8 @@ class States(RuleApplication):
             and not (self._joined and kind_of(self.modules[state]) in self._joined)
         )
 
-    def successor(self, state: int) -> tuple[int, ...]:
-        """The states that replace a state in one step: itself, where no production matches.
-
-        Raises
-        ------
-        ModelValueError
-            Its neighbours, chance or what the turtle sees decide that as well.
-        """
+    def successor(self, state: int) -> Row:
+        """The states that replace a state in one step: itself, where no production matches."""
         return self.successors[state]
 
     def width(self, state: int) -> int:
@@ -164,15 +227,101 @@ class States(RuleApplication):
             self._applied[state] = self.matching_rule(self.modules[state], self.rules)
         return self._applied[state]
 
-    def applied_states(
-        self, rule: Rule, module: Module, values: Sequence[object] | None = None, chance: Chance | None = None
-    ) -> tuple[int, ...]:
+    def matching_rule(self, module: Module, rules: Rules, chance: Chance | None = None) -> Rule | None:
+        """The rule that rewrites a module, of rules that need no context."""
+        return self.choose_rule(self.matching_rules(module, rules, chance), chance)
+
+    def matching_rules(self, module: Module, rules: Rules, chance: Chance | None = None) -> list[Match]:
+        """The rules that match a module, up to the first that has no probability."""
+        values: Values = module.arguments
+        found: list[Match] = []
+        for rule in rules.get(kind_of(module), ()):
+            if self.matches(rule, values, module, chance):
+                found.append((rule, values))
+                if found[0][0].probability is None:
+                    break
+        return found
+
+    def matches(self, rule: Rule, values: Values, module: Module, chance: Chance | None = None) -> bool:
+        """Whether a rule accepts some values: they are equal to those it asks for, and its condition is true."""
+        given = (*values, *self.constants, chance)
+        try:
+            return all(equal_values(values[i], wanted(given)) for i, wanted in rule.equalities) and (
+                rule.condition is None or bool(rule.condition(given))
+            )
+        except TypeError:
+            raise undecided_condition(self.system, self.constants, module, rule) from None
+        except (ArithmeticError, ValueError) as fault:
+            raise rule_error(self.system, module, rule, fault) from None
+
+    def choose_rule(self, matched: Sequence[Match], chance: Chance | None) -> Rule | None:
+        """The rule that is applied, of those that match: the first, or one at random where the first has a probability."""
+        if not matched or matched[0][0].probability is None:
+            return matched[0][0] if matched else None
+        weighted = self.weighted(matched, chance)
+        unit = chance.unit() if chance else 0.0
+        try:
+            return weighted[choose([weight for _, weight in weighted], unit)][0]
+        except (ValueError, TypeError) as fault:
+            raise rule_error(self.system, weighted[0][0].production.predecessor, weighted[0][0], fault) from None
+
+    def weighted(self, matched: Sequence[Match], chance: Chance | None = None) -> list[tuple[Rule, Value]]:
+        """The rules with a probability, of those that match, each with its weight."""
+        return [(rule, self.weight(rule, values, chance)) for rule, values in matched if rule.probability]
+
+    def weight(self, rule: Rule, values: Values, chance: Chance | None = None) -> Value:
+        """The weight with which a rule is chosen at random."""
+        assert rule.probability
+        try:
+            return finite(rule.probability((*values, *self.constants, chance)))
+        except (ArithmeticError, ValueError) as fault:
+            raise rule_error(self.system, rule.production.predecessor, rule, fault) from None
+
+    def apply(
+        self, rule: Rule, module: Module, values: Values | None = None, chance: Chance | None = None
+    ) -> Iterator[tuple[str, Values]]:
+        """The symbols and values that a rule makes of a module, given the values of all parameters that it names."""
+        given = (*(module.arguments if values is None else values), *self.constants)
+        try:
+            yield from self._written(rule.successor, given, chance)
+        except (ArithmeticError, ValueError) as fault:
+            raise rule_error(self.system, module, rule, fault) from None
+        except TypeError as fault:
+            if not any(map(is_symbolic, given)):
+                raise
+            raise rule_error(self.system, module, rule, fault) from None
+
+    def _written(
+        self, parts: Iterable[ModuleTemplate | RepeatTemplate], given: tuple[object, ...], chance: Chance | None
+    ) -> Iterator[tuple[str, Values]]:
+        values: tuple[object, ...] = (*given, chance)
+        for part in parts:
+            if isinstance(part, ModuleTemplate):
+                yield part.symbol, tuple([self._kept(argument(values)) for argument in part.arguments])
+            else:
+                check_budget()  # repetitions within repetitions may each be few
+                for index in counted(range(_times(part.count(values)))):
+                    yield from self._written(part.body, (*given, index), chance)
+
+    def _kept(self, value: Value) -> Value:
+        """The value as the table keeps it: rational up to 128 bits, else a double that is a number."""
+        if value.__class__ is int and -SMALL < value < SMALL:
+            return value
+        finite(value)
+        if is_symbolic(value):
+            value = expanded_value(value)
+        if isinstance(value, float) or is_symbolic(value):
+            return value
+        if max(value.numerator.bit_length(), value.denominator.bit_length()) <= EXACT_BITS:
+            return value
+        self._outgrown = True
+        return float(value)
+
+    def applied_states(self, rule: Rule, module: Module, values: Values | None = None, chance: Chance | None = None) -> Row:
         """The states that a rule makes of a module, before any decomposition."""
         return tuple(self.number(*made) for made in self._made(rule, module, values, chance))
 
-    def replacement(
-        self, rule: Rule, module: Module, values: Sequence[object] | None = None, chance: Chance | None = None
-    ) -> tuple[int, ...]:
+    def replacement(self, rule: Rule, module: Module, values: Values | None = None, chance: Chance | None = None) -> Row:
         """The states that replace a module by a rule, after decomposition."""
         if not self.decomposition:
             return self.applied_states(rule, module, values, chance)
@@ -183,13 +332,11 @@ class States(RuleApplication):
                 raise self._too_many(rule, module)
         return tuple(found)
 
-    def _made(
-        self, rule: Rule, module: Module, values: Sequence[object] | None, chance: Chance | None
-    ) -> Iterator[tuple[str, tuple[Value, ...]]]:
+    def _made(self, rule: Rule, module: Module, values: Values | None, chance: Chance | None) -> Iterator[tuple[str, Values]]:
         """The symbols and values of the modules that a rule makes; no more of them than a word may have."""
         most = current().modules
         self._outgrown = False
-        for number, made in enumerate(self.apply(rule, module, values, chance)):  # type: ignore[arg-type]
+        for number, made in enumerate(self.apply(rule, module, values, chance)):
             if self._outgrown and self.inexact is None:
                 self.inexact = Module(*made)
             if number == most and module is not AXIOM:  # the axiom is step 0, which is checked like any step
@@ -197,16 +344,11 @@ class States(RuleApplication):
             yield made
 
     def _too_many(self, rule: Rule, module: Module) -> ModelLimitError:
-        most, (start, end) = current().modules, rule.production.at or (None, None)
-        return ModelLimitError(
-            f"{module} becomes more than {most:,} modules in one step",
-            limit=most,
-            source=self.system.source or None,
-            start=start,
-            end=end,
-        )
+        most = current().modules
+        said = f"{module} becomes more than {most:,} modules in one step"
+        return ModelLimitError(said, limit=most, **_place(self.system, rule))
 
-    def decompose(self, module: Module, chance: Chance | None = None) -> tuple[int, ...]:
+    def decompose(self, module: Module, chance: Chance | None = None) -> Row:
         """The states of a module's parts, and of their parts, until nothing is left to replace or the depth is reached."""
         if self.traits.varying_decomposition:
             return self._decomposed(module, chance)
@@ -215,7 +357,7 @@ class States(RuleApplication):
             self._decompositions[key] = self.keep(self._decomposed(module, chance))
         return self._decompositions[key]
 
-    def _decomposed(self, module: Module, chance: Chance | None) -> tuple[int, ...]:
+    def _decomposed(self, module: Module, chance: Chance | None) -> Row:
         found: list[int] = []
         most, asked = current().modules, self.system.decomposition_depth
         deepest = current().decomposition if asked is None else current().repetitions
@@ -225,17 +367,11 @@ class States(RuleApplication):
             if rule is None:
                 found.append(self.number(part.symbol, part.arguments))
             elif depth == deepest:
-                start, end = rule.production.at or (None, None)
-                raise ModelLimitError(
-                    f"{module} is decomposed more than {deepest} times, last by {as_written(self.system, rule.production)}",
-                    limit=deepest,
-                    source=self.system.source or None,
-                    start=start,
-                    end=end,
-                    hint="A condition before the arrow can bring it to an end."
-                    if rule.production.condition is None
-                    else "What is made must come nearer to where the condition ends.",
-                )
+                said = f"{module} is decomposed more than {deepest} times, last by {as_written(self.system, rule.production)}"
+                ends = rule.production.condition is not None
+                hint = "What is made must come nearer to where the condition ends."
+                hint = hint if ends else "A condition before the arrow can bring it to an end."
+                raise ModelLimitError(said, limit=deepest, hint=hint, **_place(self.system, rule))
             else:
                 todo += [(Module(*made), depth + 1) for made in reversed([*self._made(rule, part, None, chance)])]
             if len(found) + len(todo) > most:
@@ -253,3 +389,37 @@ def popped(stack: list[_T]) -> Iterator[_T]:
     """The things on a stack, until none is left; whoever takes one may put others there."""
     while stack:
         yield stack.pop()
+
+
+def check_d0l(states: States, what: str) -> None:
+    """Refuse a question that has an answer only where every module alone decides what becomes of it."""
+    if states.traits.predecessor > 1:
+        raise ModelValueError(
+            f"{what} is defined for systems that replace each module alone, not several together",
+            hint="Derive this system, and look at its words.",
+        )
+    if not states.traits.d0l:
+        raise ModelValueError(
+            f"{what} is defined for context-free systems without chance, cuts and meta-rules",
+            hint="Derive this system, and look at its words; where chance chooses its "
+            "productions, stages(system).expected(n) gives the average counts.",
+        )
+
+
+def closure(states: States, limit: int) -> Sequence[int] | None:
+    """All states that are reached from the axiom, in the order of their numbers; None where there are more than `limit`.
+
+    >>> from lsys_kit import read
+    >>> closure(States(read("axiom: A\\nA -> A B")), 100)
+    range(0, 2)
+    >>> closure(States(read("axiom: A(0)\\nA(t) -> A(t+1)")), 100) is None
+    True
+    """
+    done = 0
+    while done < len(states):
+        if len(states) > limit:
+            return None
+        check_budget()
+        states.successor(done)
+        done += 1
+    return range(done)

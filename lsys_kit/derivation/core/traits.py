@@ -23,15 +23,11 @@ CUT = "%"
 """The symbol that cuts off the rest of its branch (ABOP, section 1.8)."""
 QUERIES = frozenset(("?P", "?H", "?U", "?L", "?E"))
 """The symbols whose values come from outside: the turtle's position, its heading, its up and its left, or what a field says."""
-MOST = 10**9
-"""More modules than any production names."""
 
 
 class Traits(NamedTuple):
     """What a system has.
 
-    Attributes
-    ----------
     context
         How many neighbours on one side a production names at most.
     predecessor
@@ -59,9 +55,7 @@ class Traits(NamedTuple):
     unknown
         Whether a constant is unknown.
 
-    Examples
-    --------
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> signal = traits_of(read("axiom: b a a\\nb < a -> b"))
     >>> signal.context, signal.stochastic, signal.d0l
     (1, False, False)
@@ -98,8 +92,11 @@ class Traits(NamedTuple):
 
 D0L = Traits(decomposition=True, repetition=True, scalar=True, unknown=True)
 """The most that a deterministic system without interactions has."""
-S0L = Traits(stochastic=True, decomposition=True, repetition=True, scalar=True, unknown=True)
-"""The most that a stochastic system without interactions has."""
+S0L = D0L._replace(stochastic=True)
+ANY = Traits(
+    **{name: True for name, usual in Traits._field_defaults.items() if usual is False}, context=10**9, predecessor=10**9
+)
+"""What no system exceeds."""
 
 
 @lru_cache(maxsize=256)
@@ -138,7 +135,6 @@ COLUMN_OPERATORS = frozenset(
 
 
 def _has_column_form(rule: Rule, arithmetic: str) -> bool:
-    """Whether all expressions of a rule can be computed for whole columns."""
     operators = COLUMN_OPERATORS | ({"sqrt"} if arithmetic == "float" else set())
     return set(_operators(_expressions(rule.production))) <= operators
 
@@ -152,7 +148,6 @@ def _expressions(production: Production) -> Iterator[object]:
 
 
 def _operators(expressions: Iterable[object]) -> Iterator[str]:
-    """All operators in some expressions."""
     for expression in expressions:
         if isinstance(expression, Apply):
             yield expression.operator

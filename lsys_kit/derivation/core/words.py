@@ -8,6 +8,7 @@ from itertools import chain
 from typing import Any, overload
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lsys_kit.budget import INTERVAL, Task, check_bytes, counted
 from lsys_kit.derivation.core.states import States
@@ -33,8 +34,7 @@ class Word(Sequence[Module]):
 
     Examples
     --------
-    >>> from lsys_kit.derivation.derive import derive
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import derive, read
     >>> word = derive(read("axiom: A(1)\\nA(t) -> A(t+1) [B]"), 2)[-1]
     >>> print(word), len(word), word[0].symbol, word[0].arguments
     A(3)[B][B]
@@ -43,7 +43,7 @@ class Word(Sequence[Module]):
 
     __slots__ = ("codes", "states")
 
-    def __init__(self, states: States, codes: Sequence[int] | np.ndarray[Any, Any]) -> None:
+    def __init__(self, states: States, codes: Sequence[int] | NDArray[Any]) -> None:
         self.states, self.codes = states, codes
 
     def __len__(self) -> int:
@@ -80,7 +80,6 @@ class Word(Sequence[Module]):
 
     @property
     def bytes(self) -> int:
-        """How much memory it takes."""
         return self.codes.nbytes if isinstance(self.codes, np.ndarray) else len(self.codes) * 8
 
     def numbers(self) -> list[int]:
@@ -90,8 +89,7 @@ class Word(Sequence[Module]):
     def coded(self, coding: Mapping[str, str]) -> str:
         """The word's text with some of its modules replaced: a coding (Rozenberg and Salomaa 1980).
 
-        >>> from lsys_kit.derivation.derive import derive
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import derive, read
         >>> derive(read("axiom: S L(1)"), 0)[0].coded({"S": "M(1)"})
         'M(1)L(1)'
         """
@@ -106,8 +104,7 @@ class Word(Sequence[Module]):
     def counts(self) -> Mapping[str, int]:
         """How often each symbol occurs.
 
-        >>> from lsys_kit.derivation.derive import derive
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import derive, read
         >>> dict(derive(read("axiom: a\\na -> ab\\nb -> a"), 5)[-1].counts())
         {'a': 8, 'b': 5}
         """
@@ -125,11 +122,6 @@ def state_counts(word: Word) -> Counter[int]:
     return Counter(word.codes)
 
 
-def word_bytes(word: Word) -> int:
-    """How much memory a word takes."""
-    return word.bytes
-
-
 def blocks(numbers: Sequence[int], size: int = INTERVAL) -> Iterator[Sequence[int]]:
     """A row of numbers in blocks, with a look at the budget after each.
 
@@ -139,7 +131,7 @@ def blocks(numbers: Sequence[int], size: int = INTERVAL) -> Iterator[Sequence[in
     return (numbers[first : first + size] for first in counted(range(0, len(numbers), size), 1))
 
 
-def text_of(states: States, codes: Sequence[int] | np.ndarray[Any, Any], shown: bool = False) -> str:
+def text_of(states: States, codes: Sequence[int] | NDArray[Any], shown: bool = False) -> str:
     """The text of a row of states, in their system's notation; if it is only shown, with rounded values."""
     numbers = codes.tolist() if isinstance(codes, np.ndarray) else codes
     notation = dialect_named(states.system.notation)
@@ -154,7 +146,6 @@ def text_of(states: States, codes: Sequence[int] | np.ndarray[Any, Any], shown: 
 
 
 def _check_size(texts: Mapping[int, str], counts: Mapping[int, int]) -> None:
-    """Refuse a text that would take too much memory, given the text of each state and how often it occurs."""
     size = sum(len(texts[state]) * count for state, count in counts.items())
     check_bytes(size, lambda: "The text of the word was not written")
 
@@ -162,8 +153,7 @@ def _check_size(texts: Mapping[int, str], counts: Mapping[int, int]) -> None:
 def abridged(word: Word, characters: int) -> str:
     """The text of a word as it is shown: with rounded values, and with its middle left out where it is long.
 
-    >>> from lsys_kit.derivation.derive import derive
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import derive, read
     >>> abridged(derive(read("axiom: F\\nF -> F+F"), 9)[-1], 40)
     'F+F+F+F+F+F+F+F+F+F+ ... +F+F+F+F+F+F+F+F+F+F (1,023 modules)'
     """

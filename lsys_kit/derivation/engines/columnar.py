@@ -4,33 +4,278 @@ Numbering states does not pay where hardly one occurs twice. Then a word is a co
 parameters) and a column for each parameter, and each rule is computed once for all modules that it rewrites. What columns
 cannot compute as the table of states does, a division by zero above all, raises an `ArithmeticError`: such a step is the
 table's.
+
+In doubles a column is an array, and the operations are those that numpy computes to the last bit as Python does; what raises a
+floating-point error is not for columns. Exact columns are integers over one common denominator: of 64 bits while they are sure
+to fit, else Python's own. Where a row may have no exact result, or none that fits, an `ArithmeticError` is raised.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+import math
+import operator
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from fractions import Fraction
+from typing import Any, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
-from lsys_kit.budget import Task, counted
-from lsys_kit.derivation.core.rules import ModuleKind, Rule, kind_of
-from lsys_kit.derivation.core.states import States
+from lsys_kit.budget import Task, counted, current
+from lsys_kit.derivation.core.rules import ModuleKind, Rule, Values, kind_of
+from lsys_kit.derivation.core.states import EXACT_BITS, States
 from lsys_kit.derivation.core.words import Word
-from lsys_kit.derivation.engines.columns import (
-    Array,
-    ColumnFunction,
-    ExactColumns,
-    ExactValues,
-    FloatColumns,
-    FloatValues,
-    column_function,
-    exact_number,
-)
-from lsys_kit.derivation.engines.expansion import code_type
-from lsys_kit.notation.model.expressions import Apply, Name, Number
+from lsys_kit.derivation.engines.engine import code_type
+from lsys_kit.notation.model.arithmetic import Value, normalised
+from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
 from lsys_kit.notation.model.modules import Module, flat
+
+Array: TypeAlias = NDArray[Any]
+ColumnFunction: TypeAlias = Callable[..., Any]
+"""From the columns of the names to the column of an expression, which is written to `out` where that is given and there is
+something to compute."""
+SHORT_BITS = 62
+"""Integers of so many bits are added and compared in 64."""
+ROWS_AT_A_TIME = 2**12
+"""So many rows of an array become numbers of Python at a time."""
+
+
+@dataclass(frozen=True, eq=False)
+class ExactColumn:
+    """Rational numbers with a common denominator.
+
+    numerators
+        An array of integers, or one integer for all rows.
+    denominator
+        An integer greater than 0.
+    bits
+        As many bits as are enough for the absolute value of each numerator.
+
+    >>> tenths = ExactColumn(np.array([1, 25]), 10, 5)
+    >>> found = tenths * exact_number(Fraction(1, 2)) + exact_number(1)
+    >>> found.numerators.tolist(), found.denominator
+    ([21, 45], 20)
+    """
+
+    numerators: Any
+    denominator: int
+    bits: int
+
+    def __post_init__(self) -> None:
+        if self.bits + self.denominator.bit_length() > current().bits:
+            raise OverflowError
+        if self.bits > SHORT_BITS and isinstance(self.numerators, np.ndarray) and self.numerators.dtype != object:
+            object.__setattr__(self, "numerators", self.numerators.astype(object))
+
+    def over(self, denominator: int) -> Any:
+        """The numerators over a multiple of the denominator."""
+        factor = denominator // self.denominator
+        return self.numerators if factor == 1 else self.widened(factor.bit_length()).numerators * factor
+
+    def widened(self, bits: int) -> ExactColumn:
+        """The same numbers, with room for so many bits more."""
+        return ExactColumn(self.numerators, self.denominator, self.bits + bits)
+
+    def __add__(self, other: ExactColumn) -> ExactColumn:
+        return _over_common(operator.add, self, other)
+
+    def __sub__(self, other: ExactColumn) -> ExactColumn:
+        return _over_common(operator.sub, self, other)
+
+    def __mul__(self, other: ExactColumn) -> ExactColumn:
+        left, right = self.widened(other.bits), other.widened(self.bits)
+        return ExactColumn(left.numerators * right.numerators, self.denominator * other.denominator, left.bits)
+
+    def __truediv__(self, other: ExactColumn) -> ExactColumn:
+        if not isinstance(other.numerators, int):
+            raise ArithmeticError("quotients have no common denominator")
+        inverse = Fraction(other.denominator, other.numerators)
+        return self * exact_number(inverse)
+
+    def __neg__(self) -> ExactColumn:
+        return ExactColumn(-self.numerators, self.denominator, self.bits)
+
+    def __abs__(self) -> ExactColumn:
+        return ExactColumn(abs(self.numerators), self.denominator, self.bits)
+
+    def __floor__(self) -> ExactColumn:
+        wide = ExactColumn(self.numerators, self.denominator, max(self.bits, self.denominator.bit_length()))
+        return ExactColumn(wide.numerators // self.denominator, 1, self.bits)
+
+    def __ceil__(self) -> ExactColumn:
+        return -math.floor(-self)
+
+
+def exact_number(value: Value) -> ExactColumn:
+    """A rational number as a column that is the same in all rows."""
+    if not isinstance(value, int | Fraction):
+        raise ArithmeticError("the number is not rational")
+    return ExactColumn(value.numerator, value.denominator, value.numerator.bit_length())
+
+
+def _over_common(operation: Callable[[Any, Any], Any], left: ExactColumn, right: ExactColumn) -> ExactColumn:
+    common = math.lcm(left.denominator, right.denominator)
+    bits = 1 + max(column.bits + (common // column.denominator).bit_length() for column in (left, right))
+    first, second = (ExactColumn(column.numerators, column.denominator, bits).over(common) for column in (left, right))
+    return ExactColumn(operation(first, second), common, bits)
+
+
+def _compared(operation: Callable[[Any, Any], Any]) -> Callable[[ExactColumn, ExactColumn], Any]:
+    def compare(left: ExactColumn, right: ExactColumn) -> Any:
+        return np.asarray(operation((left - right).numerators, 0), dtype=bool)
+
+    return compare
+
+
+def _exact(operation: Callable[..., Any]) -> Callable[..., Any]:
+    return lambda *operands, out=None: operation(*operands)
+
+
+_TRUTHS: Mapping[str, Callable[..., Any]] = {"||": np.logical_or, "&&": np.logical_and, "!": np.logical_not}
+OPERATIONS: Mapping[str, Mapping[str, Callable[..., Any]]] = {
+    "float": {
+        **_TRUTHS,
+        "==": np.equal,
+        "!=": np.not_equal,
+        "<": np.less,
+        "<=": np.less_equal,
+        ">": np.greater,
+        ">=": np.greater_equal,
+        "+": np.add,
+        "-": np.subtract,
+        "*": np.multiply,
+        "/": np.divide,
+        "-x": np.negative,
+        "abs": np.abs,
+        "sqrt": np.sqrt,
+        "floor": np.floor,
+        "ceil": np.ceil,
+    },
+    "exact": {
+        **_TRUTHS,
+        **{
+            sign: _exact(_compared(operation))
+            for sign, operation in (
+                ("==", operator.eq),
+                ("!=", operator.ne),
+                ("<", operator.lt),
+                ("<=", operator.le),
+                (">", operator.gt),
+                (">=", operator.ge),
+            )
+        },
+        "+": _exact(operator.add),
+        "-": _exact(operator.sub),
+        "*": _exact(operator.mul),
+        "/": _exact(operator.truediv),
+        "-x": _exact(operator.neg),
+        "abs": _exact(abs),
+        "floor": _exact(math.floor),
+        "ceil": _exact(math.ceil),
+    },
+}
+
+
+def column_function(expression: Expression, arithmetic: str) -> ColumnFunction:
+    """The function of an expression for whole columns.
+
+    >>> from lsys_kit.notation.model.expressions import Apply
+    >>> run = column_function(Apply("*", (Name("x"), Number(2))), "float")
+    >>> run({"x": np.array([1.0, 2.5])}).tolist()
+    [2.0, 5.0]
+    """
+    if isinstance(expression, Number):
+        value = expression.value
+        number = float if arithmetic == "float" else exact_number
+        return lambda columns, out=None: number(value)
+    if isinstance(expression, Name):
+        name = expression.name
+        return lambda columns, out=None: columns[name]
+    operation = OPERATIONS[arithmetic][expression.operator]
+    operands = [column_function(operand, arithmetic) for operand in expression.operands]
+    return lambda columns, out=None: operation(*[operand(columns) for operand in operands], out=out)
+
+
+def _listed(array: Array) -> Iterator[list[Any]]:
+    for first in range(0, len(array), ROWS_AT_A_TIME):
+        yield from array[first : first + ROWS_AT_A_TIME].tolist()
+
+
+class FloatColumns:
+    """The values of a word in doubles, a row for each module; they are written column by column."""
+
+    bytes = 8
+
+    def __init__(self, shape: tuple[int, int]) -> None:
+        self.array = np.zeros(shape)
+
+    def write(self, argument: ColumnFunction, named: Mapping[str, Any], places: Any, parameter: int) -> None:
+        """Write what an argument comes to into some places of the column of a parameter."""
+        target = self.array[places, parameter] if isinstance(places, slice) else None
+        found = argument(named, out=target)
+        if target is None or found is not target:
+            self.array[places, parameter] = found
+
+    def whole(self) -> FloatColumns:
+        """All that was written."""
+        return self
+
+    def columns(self, rows: Any, parameters: int) -> Iterator[Array]:
+        """The columns of the first parameters, of some rows."""
+        there = self.array[rows]
+        return (there[:, parameter] for parameter in range(parameters))
+
+    def rows(self) -> Iterable[Values]:
+        """The values of each module, as numbers."""
+        return map(tuple, _listed(self.array))
+
+
+class ExactColumns:
+    """The exact values of a word: a row of numerators for each module, and one denominator; they are put together in the end.
+
+    >>> columns = ExactColumns((2, 1))
+    >>> for row, value in enumerate((Fraction(1, 2), Fraction(2, 3))):
+    ...     columns.write(column_function(Number(value), "exact"), {}, row, 0)
+    >>> list(columns.whole().rows())
+    [(Fraction(1, 2),), (Fraction(2, 3),)]
+    """
+
+    def __init__(self, shape: tuple[int, int]) -> None:
+        self._shape = shape
+        self._written: list[tuple[Any, int, ExactColumn]] = []
+
+    def write(self, argument: ColumnFunction, named: Mapping[str, Any], places: Any, parameter: int) -> None:
+        self._written.append((places, parameter, argument(named)))
+
+    def whole(self) -> ExactColumns:
+        """All that was written; an `OverflowError`, where that may be more than the table of states keeps exactly."""
+        common = math.lcm(*{column.denominator for _, _, column in self._written})
+        bits = max((column.bits + (common // column.denominator).bit_length() for _, _, column in self._written), default=0)
+        found = np.zeros(self._shape, dtype=np.int64 if bits <= SHORT_BITS else object)
+        for places, parameter, column in self._written:
+            found[places, parameter] = column.over(common)
+        if bits > SHORT_BITS:
+            bits = max(abs(found.max(initial=0)), abs(found.min(initial=0))).bit_length()
+            found = found.astype(np.int64) if bits <= SHORT_BITS else found
+        if max(bits, common.bit_length()) > EXACT_BITS:
+            raise OverflowError
+        self.numerators, self.denominator, self.bits = found, common, bits
+        self._written.clear()
+        return self
+
+    @property
+    def bytes(self) -> int:
+        """About how many bytes one value takes."""
+        return 8 if self.bits <= SHORT_BITS else 56
+
+    def columns(self, rows: Any, parameters: int) -> Iterator[ExactColumn]:
+        there = self.numerators[rows]
+        return (ExactColumn(there[:, parameter], self.denominator, self.bits) for parameter in range(parameters))
+
+    def rows(self) -> Iterable[Values]:
+        return (tuple(normalised(Fraction(number, self.denominator)) for number in row) for row in _listed(self.numerators))
+
 
 BLOCK_ROWS = 2**15
 """So many rows are computed at a time: what lies between two operations stays in the processor's cache."""
@@ -40,8 +285,6 @@ BLOCK_ROWS = 2**15
 class ColumnRule:
     """One production for whole columns.
 
-    Attributes
-    ----------
     names
         The names of its parameters; `#0`, `#1`, ... where the predecessor asks for a value.
     tests
@@ -58,8 +301,6 @@ class ColumnRule:
 class ColumnWord(Word):
     """A word as columns; it becomes a row of states when single modules are asked for.
 
-    Attributes
-    ----------
     kinds
         For each module the number of its kind.
     values
@@ -70,7 +311,7 @@ class ColumnWord(Word):
 
     __slots__ = ("_row", "kinds", "names", "values")
 
-    def __init__(self, states: States, kinds: Array, values: FloatValues | ExactValues, names: Sequence[ModuleKind]) -> None:
+    def __init__(self, states: States, kinds: Array, values: FloatColumns | ExactColumns, names: Sequence[ModuleKind]) -> None:
         self.states, self.kinds, self.values, self.names = states, kinds, values, names
         self._row: Array | None = None
 
@@ -82,7 +323,6 @@ class ColumnWord(Word):
 
     @property
     def bytes(self) -> int:
-        """How much memory it takes."""
         return len(self) * (self.values.bytes * max(arity for _, arity in self.names) + 10)
 
     @property
@@ -101,9 +341,7 @@ class ColumnWord(Word):
 class ColumnarSteps:
     """The steps of a system in columns.
 
-    Examples
-    --------
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> states = States(read("axiom: A(1) B\\nA(x) : x < 3 -> A(x+1) A(x/2)"))
     >>> columns = ColumnarSteps(states)
     >>> word = columns.step(columns.word([states.modules[code] for code in states.axiom]))
@@ -120,20 +358,19 @@ class ColumnarSteps:
         self._rules = [[*map(self._rule, states.rules.get(kind, ())), self._identity(kind)] for kind in self.kinds]
 
     def _rule(self, rule: Rule) -> ColumnRule:
-        def ready(expression: Any) -> ColumnFunction:
+        def ready(expression: Expression) -> ColumnFunction:
             return column_function(expression, self.states.arithmetic)
 
         production = rule.production
         asked = production.predecessor.arguments
-        formal = [isinstance(a, Name) and a.name not in self._constants for a in asked]
-        names = tuple(a.name if formal[i] else f"#{i}" for i, a in enumerate(asked))  # type: ignore[union-attr]
-        equal = [Apply("==", (Name(names[i]), a)) for i, a in enumerate(asked) if not formal[i]]
-        condition = [production.condition] if production.condition is not None else []
+        formal = {i: a.name for i, a in enumerate(asked) if isinstance(a, Name) and a.name not in self._constants}
+        names = tuple(formal.get(i, f"#{i}") for i in range(len(asked)))
+        equal = [Apply("==", (Name(names[i]), a)) for i, a in enumerate(asked) if i not in formal]
+        condition = [] if production.condition is None else [production.condition]
         parts = tuple((self.kinds.index(kind_of(m)), tuple(map(ready, m.arguments))) for m in flat(production.successor))
         return ColumnRule(names, tuple(map(ready, [*equal, *condition])), parts)
 
     def _identity(self, kind: ModuleKind) -> ColumnRule:
-        """The rule by which modules stay what they are."""
         names = tuple(f"#{i}" for i in range(kind[1]))
         same = tuple(column_function(Name(name), self.states.arithmetic) for name in names)
         return ColumnRule(names, (), ((self.kinds.index(kind), same),))
@@ -146,7 +383,7 @@ class ColumnarSteps:
         for row, module in enumerate(modules):
             for parameter, value in enumerate(module.arguments):
                 columns.write(column_function(Number(value), self.states.arithmetic), {}, row, parameter)
-        return ColumnWord(self.states, kinds, columns.values(), self.kinds)
+        return ColumnWord(self.states, kinds, columns.whole(), self.kinds)
 
     def step(self, word: ColumnWord, check: Callable[[int, int], None] = lambda size, taken: None) -> ColumnWord:
         """The next word; `check` is called with its size and its bytes before it is built, and may raise an error.
@@ -164,7 +401,7 @@ class ColumnarSteps:
             for rule, rows in chosen:
                 for block, at in counted(_blocks(rule, len(word), rows, starts), 1):
                     self._write(rule, self._named(rule, word, block), kinds, columns, at)
-            return ColumnWord(self.states, kinds, columns.values(), self.kinds)
+            return ColumnWord(self.states, kinds, columns.whole(), self.kinds)
 
     def _collected(self, shape: tuple[int, int]) -> FloatColumns | ExactColumns:
         return ExactColumns(shape) if self.states.arithmetic == "exact" else FloatColumns(shape)
@@ -198,7 +435,6 @@ class ColumnarSteps:
         return [(rule, rows) for rule, rows in found if len(rows)]
 
     def _named(self, rule: ColumnRule, word: ColumnWord, rows: Any) -> dict[str, Any]:
-        """The columns of a rule's names."""
         number = exact_number if self.states.arithmetic == "exact" else float
         named: dict[str, Any] = {
             name: number(value) for name, value in zip(self._constants, self.states.constants, strict=True)

@@ -12,19 +12,18 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lsys_kit.budget import counted
-from lsys_kit.derivation.core.application import Match
 from lsys_kit.derivation.core.chance import stretches, units
 from lsys_kit.derivation.core.matching import NO_NEIGHBOUR
-from lsys_kit.derivation.core.rules import Rule
-from lsys_kit.derivation.core.states import States
-from lsys_kit.derivation.engines.expansion import ByteTable, code_type
+from lsys_kit.derivation.core.rules import Rule, Values
+from lsys_kit.derivation.core.states import Match, States
+from lsys_kit.derivation.engines.engine import ByteTable, code_type
 from lsys_kit.derivation.engines.stepwise import Replacement, Stepper
-from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.modules import CLOSING, OPENING
 
-IntegerArray: TypeAlias = np.ndarray[Any, np.dtype[Any]]
+IntegerArray: TypeAlias = NDArray[Any]
 Sides: TypeAlias = tuple[IntegerArray, IntegerArray]
 ORDINARY, OPENS, CLOSES, PASSED, SKIPPED = range(5)
 """The role of a module in contexts: `PASSED` is ignored but has contexts of its own, `SKIPPED` is ignored and has none."""
@@ -52,11 +51,9 @@ class Replacements:
         return found
 
     def sizes(self) -> IntegerArray:
-        """How many modules each replacement has."""
         return np.array([len(replacement.states) for replacement in self.replacements], dtype=np.int64)
 
     def size(self, chosen: IntegerArray) -> int:
-        """How many modules the replacements of some numbers have together."""
         sizes = [len(replacement.states) for replacement in self.replacements]
         others = [(number, size) for number, size in enumerate(sizes) if size != 1]
         if len(others) > FEW_REPLACEMENTS:
@@ -82,8 +79,6 @@ class Replacements:
 class RuleChoice:
     """A case in which chance decides between several rules.
 
-    Attributes
-    ----------
     state
         The module.
     rules
@@ -107,10 +102,8 @@ class RuleChoice:
 class ContextEngine:
     """The steps of one system under one seed, all modules of a word at once.
 
-    Examples
-    --------
+    >>> from lsys_kit import read
     >>> from lsys_kit.derivation.core.states import States
-    >>> from lsys_kit.notation.read import read
     >>> stepper = Stepper(States(read("axiom: b a a\\nb < a -> b")), 0)
     >>> arrays = ContextEngine(stepper)
     >>> arrays.outcomes.replaced(arrays.chosen(np.array(stepper.states.axiom, dtype=np.uint8), 0)).tolist()
@@ -213,7 +206,7 @@ class ContextEngine:
         marks, total = stretches([states.weight(*match) for match in likely])
         return RuleChoice(code, likely, np.array(marks), total)
 
-    def _applied(self, code: int, rule: Rule, values: tuple[Value, ...]) -> Replacement:
+    def _applied(self, code: int, rule: Rule, values: Values) -> Replacement:
         states = self.stepper.states
         return Replacement(states.replacement(rule, states.modules[code], values), rule.number)
 
@@ -243,8 +236,6 @@ class ContextEngine:
 def context_neighbours(codes: IntegerArray, roles: IntegerArray, none: int, flat: bool = False) -> Sides:
     """The neighbours of each module of a word in the sense of contexts, to its left and to its right.
 
-    Parameters
-    ----------
     codes
         The word's states, of a type that holds `none` too.
     roles
@@ -254,8 +245,6 @@ def context_neighbours(codes: IntegerArray, roles: IntegerArray, none: int, flat
     flat
         Whether those to the right are found as if there were no brackets.
 
-    Examples
-    --------
     >>> word, roles = np.array([10, 1, 11, 2, 1, 12, 2, 13]), np.array([0, 1, 0, 2, 1, 0, 2, 0])  # A[B][C]D
     >>> left, right = context_neighbours(word, roles, 99)
     >>> left[[0, 2, 5, 7]].tolist(), right[[0, 2, 5, 7]].tolist()

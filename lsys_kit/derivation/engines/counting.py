@@ -10,18 +10,18 @@ from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property, partial
 from itertools import chain
+from operator import attrgetter
 from typing import Any
 
-import numpy as np
+from numpy.typing import NDArray
 
 from lsys_kit.budget import INTERVAL, Task, check_budget, counted
 from lsys_kit.cache import Cache
 from lsys_kit.derivation.core.states import States
-from lsys_kit.derivation.core.words import Word, state_counts, word_bytes
-from lsys_kit.derivation.engines import expansion
+from lsys_kit.derivation.core.words import Word, state_counts
+from lsys_kit.derivation.engines import engine
 from lsys_kit.derivation.engines.columnar import ColumnarSteps, ColumnWord
-from lsys_kit.derivation.engines.engine import Origins, check_size, check_step
-from lsys_kit.derivation.engines.expansion import ByteTable, compact, expand
+from lsys_kit.derivation.engines.engine import ByteTable, Origins, check_size, check_step, compact, expand
 
 FEWEST_NEW = 50
 """Words become columns after a step in which more new states than this are met, and they are no small part of its word."""
@@ -35,7 +35,7 @@ class CountingEngine:
     def __init__(self, states: States, columnar: bool) -> None:
         self.states = states
         self._steps: list[tuple[dict[int, int], int]] = [(Counter(states.axiom), len(states.axiom))]
-        self._words = Cache[int, Word](word_bytes)
+        self._words = Cache[int, Word](attrgetter("bytes"))
         self._bytes = ByteTable(states)
         self._columnar = columnar
         self._new = 0  # so many states were met first at the last step
@@ -50,23 +50,19 @@ class CountingEngine:
 
     @property
     def known(self) -> int:
-        """The last step whose size is known."""
         return len(self._steps) + len(self._late) - 1
 
     def size(self, step: int) -> int:
-        """How many modules a known step has."""
         return self._steps[step][1] if step < len(self._steps) else len(self.word(step))
 
     def counts(self, step: int) -> Counter[int]:
-        """How often each state occurs at a known step."""
         return Counter(self._steps[step][0]) if step < len(self._steps) else state_counts(self.word(step))
 
     def advance(self) -> None:
-        """Make one step more known."""
         step, (before, _) = self.known + 1, self._steps[-1]
         if self._late or (self._columnar and self._many_new()):
             self._late.append(self._next_word(step))
-            self._late_bytes += word_bytes(self._late[-1])
+            self._late_bytes += self._late[-1].bytes
             return
         met = len(self.states)
         if len(self.states.successors) < met:  # some successors must be computed: not for a step that is refused
@@ -90,7 +86,6 @@ class CountingEngine:
         return ColumnarSteps(self.states)
 
     def _next_word(self, step: int) -> Word:
-        """The next word, where many modules are different: in columns, or from the table of states."""
         before, columns = self.word(step - 1), self._columns
         check_step(self.states, step)
         try:
@@ -102,7 +97,6 @@ class CountingEngine:
             return self._from_table(before.numbers(), step)
 
     def _from_table(self, before: Sequence[int], step: int) -> Word:
-        """The next word, module by module."""
         found: list[int] = []
         for number, state in enumerate(before):
             found += self.states.successors[state]
@@ -112,7 +106,6 @@ class CountingEngine:
         return Word(self.states, compact(found, len(self.states)))
 
     def word(self, step: int) -> Word:
-        """The word of a known step."""
         if step >= len(self._steps):
             return self._late[step - len(self._steps)]
         return self._words.found(step, lambda: self._built(step))
@@ -120,14 +113,14 @@ class CountingEngine:
     def _built(self, step: int) -> Word:
         if step == 0:
             return Word(self.states, list(self.states.axiom))
-        before, small = self._words.get(step - 1), self.size(step) <= expansion.MOST_LISTED
+        before, small = self._words.get(step - 1), self.size(step) <= engine.MOST_LISTED
         if small and before is not None:
             return Word(self.states, self._replaced(before, self._steps[step - 1][0]))
         with Task("The word was not built"):
             array = expand(self.states, [counts for counts, _ in self._steps[: step + 1]])
         return Word(self.states, array.tolist() if small else array)
 
-    def _replaced(self, word: Word, present: dict[int, int]) -> Sequence[int] | np.ndarray[Any, Any]:
+    def _replaced(self, word: Word, present: dict[int, int]) -> Sequence[int] | NDArray[Any]:
         """The successor of a short word, given the states that occur in it."""
         successors, table = self.states.successors, self._bytes
         if present.keys() <= table.known or all(table.add(state, successors[state]) for state in present):
@@ -135,7 +128,6 @@ class CountingEngine:
         return list(chain.from_iterable(map(successors.__getitem__, word.codes)))
 
     def origins(self, step: int) -> Origins:
-        """Where the modules of a step's word come from."""
         parents: list[int] = []
         productions: list[int | None] = []
         for position, state in enumerate(counted(self.word(step - 1).numbers())):

@@ -1,25 +1,82 @@
 """Stepping: the engine of systems in which neighbours, chance or what the turtle sees have a say.
 
 Every step needs the whole word before it. All its modules are replaced at once by arrays, where that is possible, else one by
-one. Where rules ask what the turtle sees, an observer looks at the word before each step; which one is not known here.
+one; then meta-rules shorten the word, until none applies (Kurth, lecture slides, on sessile organisms). Where rules ask what
+the turtle sees, an observer looks at the word before each step; which one is not known here.
 """
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Sequence
-from functools import partial
+from functools import lru_cache, partial
 
 import numpy as np
 
 from lsys_kit.budget import INTERVAL, check_budget
+from lsys_kit.derivation.core.rules import ModuleKind, Rule, Values, kind_of, rule_for
 from lsys_kit.derivation.core.states import States
-from lsys_kit.derivation.core.words import Word, state_counts, word_bytes
+from lsys_kit.derivation.core.words import Word, state_counts
 from lsys_kit.derivation.engines.contexts import ContextEngine
-from lsys_kit.derivation.engines.engine import Observation, Observer, Origins, check_size, check_step
-from lsys_kit.derivation.engines.expansion import code_type, compact
-from lsys_kit.derivation.engines.meta import apply_meta_rules
+from lsys_kit.derivation.engines.engine import Observation, Observer, Origins, check_size, check_step, code_type, compact
 from lsys_kit.derivation.engines.stepwise import SensingFunction, Stepper
+from lsys_kit.notation.model.system import LSystem, Production
+
+
+@lru_cache(maxsize=64)
+def meta_rules(system: LSystem, arithmetic: str) -> tuple[tuple[tuple[ModuleKind, ...], Rule], ...]:
+    """The meta-rules of a system: the kinds of the modules that each replaces, and the rule that replaces them.
+
+    All modules but the last are treated like the left context of a production.
+    """
+    found = []
+    for number, meta in enumerate(system.meta):
+        *before, last = meta.predecessors
+        production = Production((last,), meta.successor, meta.condition, left=tuple(before), at=meta.at)
+        found.append((tuple(map(kind_of, meta.predecessors)), rule_for(system, number, production, arithmetic)))
+    return tuple(found)
+
+
+def apply_meta_rules(states: States, codes: Sequence[int]) -> tuple[list[int], list[int]]:
+    """A word after its meta-rules, and for each module of it the position of the first module that it stands for.
+
+    >>> from lsys_kit import read
+    >>> states = States(read("axiom: f(1) f(2) f(3) A\\nmeta: f(x) f(y) -> f(x+y)"))
+    >>> codes, origins = apply_meta_rules(states, states.axiom)
+    >>> [str(states.modules[code]) for code in codes], origins
+    (['f(6)', 'A'], [0, 3])
+    """
+    rules = meta_rules(states.system, states.arithmetic)
+    done: list[int] = []
+    origins: list[int] = []
+    for position, code in enumerate(codes):
+        todo = [code]
+        while todo:
+            done.append(todo.pop())
+            origins.append(position)
+            made = _applied(states, rules, done)
+            if made is not None:
+                size, successor = made
+                position_of_first = origins[-size]
+                del done[-size:], origins[-size:]
+                todo += reversed(successor)
+                position = position_of_first
+    return done, origins
+
+
+def _applied(
+    states: States, rules: Sequence[tuple[tuple[ModuleKind, ...], Rule]], done: Sequence[int]
+) -> tuple[int, tuple[int, ...]] | None:
+    """How many of the last modules the first matching meta-rule takes, and what it makes of them."""
+    for kinds, rule in rules:
+        last = [states.modules[code] for code in done[-len(kinds) :]]
+        if tuple(map(kind_of, last)) != kinds:
+            continue
+        values: Values = tuple(value for module in last for value in module.arguments)
+        if states.matches(rule, values, last[-1]):
+            return len(kinds), states.applied_states(rule, last[-1], values)
+    return None
+
 
 ORIGIN_BYTES = 16
 """About what is kept for each module, to know where those come from that replace it."""
@@ -41,26 +98,24 @@ class SteppingEngine:
 
     @property
     def known(self) -> int:
-        """The last step whose word is known."""
         return len(self._steps) - 1
 
     def size(self, step: int) -> int:
-        """How many modules a known step has."""
         return len(self._steps[step][0])
 
     def counts(self, step: int) -> Counter[int]:
-        """How often each state occurs at a known step."""
         return state_counts(self._steps[step][0])
 
     def advance(self) -> None:
-        """Make one step more known; nothing of it is kept before it is finished."""
         step, before, sees = self.known + 1, self._steps[-1][0], None
         if self._world:
             sight = self._world(before)
             before, sees = sight.word, sight.sees
         made = self._by_arrays(self._arrays, before, step) if self._arrays else self._one_by_one(before.numbers(), step, sees)
+        if self.states.system.meta:
+            made = self._shortened(*made)
         check_budget()
-        self._held += word_bytes(made[0]) + len(before) * ORIGIN_BYTES
+        self._held += made[0].bytes + len(before) * ORIGIN_BYTES
         self._steps.append(made)
 
     def _by_arrays(self, arrays: ContextEngine, before: Word, step: int) -> tuple[Word, Callable[[], Origins]]:
@@ -78,7 +133,7 @@ class SteppingEngine:
                 [productions[outcome] for outcome in np.repeat(chosen, sizes).tolist()],
             )
 
-        return self._shortened(word.numbers(), origins) if self.states.system.meta else (word, origins)
+        return word, origins
 
     def _one_by_one(self, codes: Sequence[int], step: int, sees: SensingFunction | None) -> tuple[Word, Callable[[], Origins]]:
         """The next word and its origins, module by module."""
@@ -99,11 +154,11 @@ class SteppingEngine:
                 replaced if self.states.traits.predecessor > 1 else (),
             )
 
-        return self._shortened(word, origins) if self.states.system.meta else (self._word(word), origins)
+        return self._word(word), origins
 
-    def _shortened(self, codes: Sequence[int], origins: Callable[[], Origins]) -> tuple[Word, Callable[[], Origins]]:
+    def _shortened(self, word: Word, origins: Callable[[], Origins]) -> tuple[Word, Callable[[], Origins]]:
         """A word after its meta-rules, with its origins."""
-        short, first = apply_meta_rules(self.states, codes)
+        short, first = apply_meta_rules(self.states, word.numbers())
 
         def after() -> Origins:
             old = origins()
@@ -115,22 +170,18 @@ class SteppingEngine:
         return Word(self.states, compact(codes, len(self.states)))
 
     def word(self, step: int) -> Word:
-        """The word of a known step."""
         return self._steps[step][0]
 
     def origins(self, step: int) -> Origins:
-        """Where the modules of a step's word come from."""
         return self._steps[step][1]()
 
     def sight(self, step: int) -> Observation | None:
-        """What the next step sees of a known step's word; None without an observer."""
         return self._world(self.word(step)) if self._world else None
 
 
 def _resumed(
     states: States, seed: int, by_arrays: bool, world: Observer | None, steps: Sequence[tuple[Word, Origins]]
 ) -> SteppingEngine:
-    """An engine that goes on from some steps."""
     stepper = Stepper(states, seed)
     engine = SteppingEngine(stepper, ContextEngine(stepper) if by_arrays else None, world)
     engine._steps = [(word, partial(_same, origins)) for word, origins in steps]

@@ -16,7 +16,6 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TypeAlias
 
-from lsys_kit.derivation.core.application import Match
 from lsys_kit.derivation.core.chance import Chance
 from lsys_kit.derivation.core.matching import (
     Neighbours,
@@ -28,7 +27,7 @@ from lsys_kit.derivation.core.matching import (
     values_at,
 )
 from lsys_kit.derivation.core.rules import Rule, is_branch
-from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.core.states import Match, States
 from lsys_kit.derivation.core.traits import CUT
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.modules import CLOSING, OPENING, Module
@@ -41,8 +40,6 @@ SensingFunction: TypeAlias = Callable[..., Value]
 class Replacement:
     """What one module becomes, or several that are replaced together.
 
-    Attributes
-    ----------
     states
         The states that replace it.
     production
@@ -74,16 +71,7 @@ class ParentWord:
 class Stepper:
     """The steps of one system under one seed; equal cases are computed once.
 
-    Parameters
-    ----------
-    states
-        The table of states.
-    seed
-        The seed of all random numbers.
-
-    Examples
-    --------
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> states = States(read("axiom: b a a\\nb < a -> b"))
     >>> stepper = Stepper(states, 0)
     >>> [replaced.states for replaced in stepper.replacements(list(states.axiom), 0)]
@@ -108,15 +96,6 @@ class Stepper:
         """What each module of a word becomes; what is cut off becomes nothing.
 
         What several modules become together is given with the first of them.
-
-        Parameters
-        ----------
-        codes
-            The word's states.
-        step
-            The word's step, on which its random numbers depend.
-        sees
-            Answers what modules ask of the turtle.
         """
         old, nothing, taken = self.old(codes, sees), Replacement((), None), Replacement((), None, 0)
         behind = 0  # where the scan goes on
@@ -181,7 +160,7 @@ class Stepper:
         own = match_predecessor(rule, old.modules, position) if self.together else (position,)
         if own is None or (len(own) > 1 and CUT in old.symbols[own[1] : own[-1] + 1]):  # no rule replaces what is cut off
             return None
-        return own if old.around is None else match_context(rule, old.modules, old.symbols, old.around, own)
+        return own if old.around is None else match_context(rule, old.modules, old.around, own)
 
     def _matching(self, rules: Sequence[Rule], old: ParentWord, position: int, chance: Chance | None) -> list[Match]:
         found: list[Match] = []

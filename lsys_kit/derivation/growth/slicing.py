@@ -17,7 +17,7 @@ from lsys_kit.notation.model.system import LSystem, Production
 
 ArgumentPosition: TypeAlias = tuple[str, int, int]
 """A parameter: the symbol of its module, how many parameters that has, and which of them it is, from 0."""
-_UnitT = TypeVar("_UnitT", Module, Pattern)
+UnitT = TypeVar("UnitT", Module, Pattern)
 
 
 def slice_system(system: LSystem) -> LSystem:
@@ -26,9 +26,7 @@ def slice_system(system: LSystem) -> LSystem:
     How many modules of each symbol a word holds is the same in both, at every step of the first that has values.
     Interpretation rules, which only draw, are left out.
 
-    Examples
-    --------
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> print(slice_system(read("axiom: A(0,9)\\nA(t,x) : t < 7 -> A(t+1,x+t)\\nA(t,x) -> A(0,1) L(x)\\nL(x) -> L(x+1)")))
     axiom: A(0)
     A(t) : t < 7 -> A(t + 1)
@@ -51,7 +49,7 @@ def deciding_positions(system: LSystem) -> frozenset[ArgumentPosition]:
 
     Where two kinds of modules with the same symbol would become one, they keep all their parameters.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> sorted(deciding_positions(read("axiom: A(0,9)\\nA(t,x) : t < 7 -> A(x,x)")))
     [('A', 2, 0), ('A', 2, 1)]
     """
@@ -73,7 +71,7 @@ def deciding_positions(system: LSystem) -> frozenset[ArgumentPosition]:
 def _deciding(rule: Production, constants: Set[str]) -> Iterator[ArgumentPosition]:
     """The parameters in a rule's condition, its probability and its counts of repetition, and those of a given value."""
     asked = [expression for expression in (rule.condition, rule.probability) if expression is not None]
-    yield from _positions_of_names(rule, (*asked, *_repetitions(rule.successor)))
+    yield from _positions_of_names(rule, (*asked, *repetitions(rule.successor)))
     for module in rule.parameters:
         for i, argument in enumerate(module.arguments):
             if not isinstance(argument, Name) or argument.name in constants:
@@ -96,11 +94,12 @@ def _positions_of_names(rule: Production, expressions: Iterable[Expression]) -> 
                 yield module.symbol, len(module.arguments), i
 
 
-def _repetitions(items: Iterable[Item]) -> Iterator[Expression]:
+def repetitions(items: Iterable[Item]) -> Iterator[Expression]:
+    """How often the repeated parts of a successor are written."""
     for item in items:
         if isinstance(item, Repeat):
             yield item.count
-            yield from _repetitions(item.body)
+            yield from repetitions(item.body)
 
 
 def _clashes(system: LSystem, found: Set[ArgumentPosition]) -> set[ArgumentPosition]:
@@ -131,7 +130,7 @@ def _sliced_items(items: Iterable[Item], kept: Set[ArgumentPosition]) -> tuple[I
     )
 
 
-def without_arguments(module: _UnitT, kept: Set[ArgumentPosition]) -> _UnitT:
+def without_arguments(module: UnitT, kept: Set[ArgumentPosition]) -> UnitT:
     """A module without those of its parameters that decide nothing.
 
     >>> print(without_arguments(Module("A", (1, 2)), {("A", 2, 0)}))

@@ -8,20 +8,292 @@ L-systems, 2018.
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import replace
+from contextlib import suppress
+from dataclasses import dataclass, replace
 from itertools import islice
+from typing import overload
 
-from lsys_kit.budget import Task, counted
-from lsys_kit.derivation.inference.cases import general_productions
-from lsys_kit.derivation.inference.fits import Fits, Refusal, Wider
-from lsys_kit.derivation.inference.problem import Conditions, Table, problem_of, tables, well_nested
-from lsys_kit.derivation.inference.productions import productions_of, system_of
-from lsys_kit.derivation.inference.refusals import contradiction
-from lsys_kit.derivation.inference.slips import doubtful_words, slips
-from lsys_kit.derivation.inference.too_many import one_soon_found, soon_counted, too_many
-from lsys_kit.derivation.inference.words import Row, read_words
+from lsys_kit.budget import Task, check_budget, counted
+from lsys_kit.derivation.derive import Derivation, derive
+from lsys_kit.derivation.inference.problem import (
+    Conditions,
+    Problem,
+    Row,
+    Table,
+    counted_tables,
+    problem_of,
+    read_words,
+    table_of,
+    tables,
+    well_nested,
+)
+from lsys_kit.derivation.inference.productions import general_productions, productions_of, system_of
+from lsys_kit.derivation.inference.refusals import Contradiction, Slip, contradiction, doubtful_words, slips
+from lsys_kit.derivation.inference.word_equations import Count, GivenUp
 from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown, whole_number
+from lsys_kit.notation.model.system import LSystem, Production
+
+MOST_SHOWN = 20
+"""So many systems are shown, and so many letters and productions named."""
+MOST_SLIPS_SHOWN = 6
+"""So many slips are shown."""
+MOST_COMPARED, STEPS_AHEAD, MODULES_AHEAD = 100, 10, 100_000
+"""So many systems, steps, and words of so many modules, are looked at to see where systems part."""
+
+
+@dataclass(frozen=True)
+class Wider:
+    """Wider conditions under which systems fit: how many do (None where they were not counted), how many letters there are,
+    each with its neighbours, and how many of them become different words in these systems."""
+
+    conditions: Conditions
+    systems: int | None
+    letters: int = 0
+    left_open: int = 0
+
+    def __str__(self) -> str:
+        count = (
+            "many systems fit"
+            if self.systems is None
+            else "one system fits"
+            if self.systems == 1
+            else f"{self.systems:,} systems fit"
+        )
+        contexts = self.conditions.context != (0, 0)
+        choices = [f"context={self.conditions.context}"] * contexts + ["erasing=True"] * self.conditions.erasing
+        said = f"With {', '.join(choices)} {count}"
+        if not self.left_open:
+            return f"{said}."
+        apart = ", told apart by their neighbours," if contexts else ""
+        return f"{said}: of {self.letters} letters{apart} {self.left_open} can become different words."
+
+
+@dataclass(frozen=True)
+class Refusal:
+    """Why no system fits: the first step that cannot come from the one before, if it was found; single letters that may be
+    wrong, missing or too many, and neighbours that may have changed places; where there are none, the steps whose words alone
+    contradict the others; and contexts with which some system fits."""
+
+    contradiction: Contradiction | None
+    slips: tuple[Slip, ...] = ()
+    doubtful: tuple[int, ...] = ()
+    wider: Wider | None = None
+
+    def __str__(self) -> str:
+        slips = [str(slip) for slip in self.slips[:MOST_SLIPS_SHOWN]]
+        found = [str(self.contradiction)] if self.contradiction else []
+        if slips:
+            more = len(self.slips) - len(slips)
+            slips += [f"one of {more} other changes were made" if more > 1 else "one other change were made"] if more else []
+            found.append(f"A system without contexts would fit if {', or if '.join(slips)}.")
+        if self.doubtful:
+            steps = " or ".join(map(str, self.doubtful))
+            found.append(f"A system without contexts would fit if the word of step {steps} were another.")
+        if self.wider:
+            found.append(str(self.wider))
+        return " ".join(found)
+
+
+class SystemsFound(Sequence[LSystem]):
+    """Systems in a sequence that prints as an explanation."""
+
+    systems: tuple[LSystem, ...]
+
+    def __len__(self) -> int:
+        return len(self.systems)
+
+    @overload
+    def __getitem__(self, index: int) -> LSystem: ...
+    @overload
+    def __getitem__(self, index: slice) -> Sequence[LSystem]: ...
+    def __getitem__(self, index: int | slice) -> LSystem | Sequence[LSystem]:
+        return self.systems[index]
+
+    @abstractmethod
+    def lines(self) -> Iterator[str]:
+        """The explanation, line by line."""
+
+    def __repr__(self) -> str:
+        with Task("The explanation was not finished"):
+            return "\n".join(self.lines())
+
+
+@dataclass(frozen=True, repr=False)
+class Fits(SystemsFound):
+    """All systems that fit a sequence of words: a sequence of systems, which prints as an explanation.
+
+    Attributes
+    ----------
+    words
+        The words of steps 0, 1, 2, ...
+    systems
+        The systems: each derives the words exactly.
+    conditions
+        What systems were looked for.
+    refusal
+        Why there is none; None where there is one.
+    """
+
+    words: tuple[Row, ...]
+    systems: tuple[LSystem, ...]
+    conditions: Conditions
+    refusal: Refusal | None = None
+
+    def lines(self) -> Iterator[str]:
+        """The explanation, line by line."""
+        yield str(explanation(self))
+
+
+@dataclass(frozen=True)
+class Explanation:
+    """What is said of the systems that fit: how many do, or why none does; the productions that all of them have, and the other
+    ones of each of the first systems; how many are not shown; the first step at which they have different words, if it was
+    found; and what the words leave open."""
+
+    heading: str
+    common: tuple[Production, ...] = ()
+    own: tuple[tuple[Production, ...], ...] = ()
+    more: int = 0
+    parting: int | None = None
+    notes: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        if not self.common and not self.own:
+            return self.heading
+        lines = [f"{self.heading}:"]
+        if self.common:
+            lines += [*([" all have"] if self.own else []), *_lines(self.common, "  ")]
+        for number, productions in enumerate(self.own, 1):
+            lines += [f" {number}.", *_lines(productions, "  ")]
+        return "\n".join([*lines, *([f" and {self.more} more"] if self.more > 0 else []), *self.notes])
+
+
+def explanation(fits: Fits) -> Explanation:
+    """What is said of the systems that fit.
+
+    >>> from lsys_kit.derivation.inference.infer import infer
+    >>> explained = explanation(infer(["a", "bc", "caa"]))
+    >>> explained.heading, explained.parting
+    ('2 systems fit these 3 words; they part at step 3', 3)
+    """
+    if fits.refusal is not None:
+        return Explanation(f"No system fits these {len(fits.words)} words. {fits.refusal}".strip())
+    common = tuple(rule for rule in fits[0].productions if all(rule in system.productions for system in fits))
+    if len(fits) == 1:
+        return Explanation(f"One system fits these {len(fits.words)} words", common, notes=tuple(_unknown(fits)))
+    step = parting_step(fits[:MOST_COMPARED], len(fits.words))
+    later = (
+        "as far as was looked, later words are the same"
+        if step is None
+        else f"they part {'at' if step == len(fits.words) or len(fits) <= MOST_COMPARED else 'by'} step {step}"
+    )
+    own = tuple(tuple(rule for rule in system.productions if rule not in common) for system in fits[:MOST_SHOWN])
+    return Explanation(
+        f"{len(fits)} systems fit these {len(fits.words)} words; {later}",
+        common,
+        own,
+        max(0, len(fits) - MOST_SHOWN),
+        step,
+        tuple(_unknown(fits)),
+    )
+
+
+def _lines(productions: Sequence[Production], margin: str) -> Iterator[str]:
+    return (f"{margin}{production}" for production in productions)
+
+
+def _unknown(fits: Fits) -> Iterator[str]:
+    """What the words leave open: what becomes of letters of the last word alone, and where a threshold lies exactly."""
+    if any(rule.condition is not None for system in fits for rule in system.productions):
+        yield "The number that a condition compares with could lie anywhere between the values that occur on its two sides."
+    before = {module.symbol for word in fits.words[:-1] for module in word} | fits.conditions.unchanged
+    unknown = [*dict.fromkeys(module.symbol for module in fits.words[-1] if module.symbol not in before)]
+    if unknown:
+        yield f"Nothing is known of what becomes of {_some(unknown)}: only the last word has it."
+
+
+def parting_step(fits: Sequence[LSystem], start: int) -> int | None:
+    """The first step from `start` on at which some systems have different words; None where there is none as far as is looked.
+
+    >>> from lsys_kit import read
+    >>> parting_step([read("axiom: a\\na -> a b"), read("axiom: a\\na -> a b\\nb -> a")], 1)
+    2
+    """
+    first, found = derive(fits[0], 0), None
+    for system in fits[1:]:
+        other, step = derive(system, 0), start
+        most = start + STEPS_AHEAD if found is None else found - 1
+        while step <= most and _small(first, step) and _small(other, step):
+            check_budget()
+            if first.to(step)[step] != other.to(step)[step]:
+                found = step
+                break
+            step += 1
+    return found
+
+
+def _small(derivation: Derivation, step: int) -> bool:
+    try:
+        return derivation.to(step).lengths[step] <= MODULES_AHEAD
+    except ModelLimitError:
+        return False
+
+
+MOST_TRIED_FOR_ONE = 100
+"""So many successors are tried to see whether any system fits."""
+MOST_TRIED_TO_COUNT = 8_000
+"""So many successors are tried to count those that fit."""
+_OTHER_LETTERS = (
+    "With contexts, a module with other values, or other neighbours, is another letter: laws of values are looked "
+    "for without contexts only."
+)
+"""Why more steps tell nothing where each brings modules with new values."""
+
+
+def one_soon_found(problem: Problem) -> bool:
+    """Whether some system fits, as far as is soon found."""
+    with suppress(GivenUp):
+        return next(tables(problem, MOST_TRIED_FOR_ONE), None) is not None
+    return False
+
+
+def soon_counted(problem: Problem, trials: int) -> Count | None:
+    """How many systems fit; None where so many trials do not suffice."""
+    with suppress(GivenUp, ModelLimitError):
+        return counted_tables(problem, trials)
+    return None
+
+
+def too_many(problem: Problem, listed: Fits, found: Sequence[Table]) -> ModelLimitError:
+    """The error where more systems fit than are listed."""
+    count, most = soon_counted(problem, MOST_TRIED_TO_COUNT), len(listed)
+    if count is None:
+        said, all_of_them = f"More than {most:,} systems fit", "All that were found"
+        left = [str(letter) for letter, word in found[0].items() if any(other[letter] != word for other in found)]
+        certain = {letter: word for letter, word in found[0].items() if str(letter) not in left}
+    else:
+        said, all_of_them = f"{count.solutions:,} systems fit", "All"
+        certain = table_of(problem, count.certain)
+        left = [f"{problem.letters[letter]} ({ways} ways)" for letter, ways in count.ways.items()]
+    rules = [str(production) for production in productions_of(certain)]
+    has = f" {all_of_them} have {_some(rules)}." if rules else ""
+    parametric = any(letter.module.arguments and (letter.left or letter.right) for letter in problem.letters)
+    hint = f"{_OTHER_LETTERS if parametric else 'Give more steps.'}{has} They differ in what becomes of {_some(left)}."
+    return ModelLimitError(
+        f"{said} these {len(listed.words)} words",
+        limit=most,
+        needed=count.solutions if count else None,
+        partial=listed,
+        hint=hint,
+    )
+
+
+def _some(texts: Sequence[str]) -> str:
+    """Texts in a row; of very many only the first, and how many more there are."""
+    return ", ".join(texts[:MOST_SHOWN]) + (f" and {len(texts) - MOST_SHOWN} more" if len(texts) > MOST_SHOWN else "")
+
 
 MOST_FITS = 1_000
 """So many systems are listed; more are refused."""
@@ -49,8 +321,12 @@ def infer(
     with Task(lambda: f"The search for systems was not finished, with {len(found)} found,"):
         asked = conditions_of(constants, erasing, context)
         rows = read_words(words)
-        if asked.context != (0, 0):
-            _check_brackets(rows)
+        for step, row in enumerate(rows if asked.context != (0, 0) else ()):  # contexts follow branches
+            if not well_nested(row):
+                raise ModelValueError(
+                    f"The word of step {step} has a bracket without its partner, so that it has no contexts",
+                    hint="Look for systems without contexts, or mend the word.",
+                )
         try:
             problem = problem_of(rows, asked)
             found += islice(tables(problem), MOST_FITS + 1)
@@ -88,16 +364,6 @@ def conditions_of(constants: object, erasing: object, context: object) -> Condit
     return Conditions(frozenset(symbols), bool(erasing), (left, right))
 
 
-def _check_brackets(rows: tuple[Row, ...]) -> None:
-    """Contexts follow branches: they need words whose brackets are well nested."""
-    for step, row in enumerate(rows):
-        if not well_nested(row):
-            raise ModelValueError(
-                f"The word of step {step} has a bracket without its partner, so that it has no contexts",
-                hint="Look for systems without contexts, or mend the word.",
-            )
-
-
 def _fits(rows: tuple[Row, ...], found: Sequence[Table], conditions: Conditions) -> Fits:
     """The systems for tables; where modules have parameters, those with the fewest productions."""
     rules = [tuple(productions_of(table)) for table in found]
@@ -109,7 +375,6 @@ def _fits(rows: tuple[Row, ...], found: Sequence[Table], conditions: Conditions)
 
 
 def _refusal(rows: tuple[Row, ...], conditions: Conditions) -> Refusal:
-    """Why no system fits."""
     where = contradiction(rows, conditions)
     if where is None or conditions.context != (0, 0):
         return Refusal(where, wider=next(_wider(rows, conditions, MOST_SUCCESSORS_TRIED), None))
@@ -120,7 +385,6 @@ def _refusal(rows: tuple[Row, ...], conditions: Conditions) -> Refusal:
 
 
 def _wider(rows: tuple[Row, ...], conditions: Conditions, trials: int) -> Iterator[Wider]:
-    """Wider conditions under which systems fit, counted with so many trials."""
     nested = all(map(well_nested, rows))
     for erasing in dict.fromkeys((conditions.erasing, True)):
         alone = ((0, 0),) * (erasing is not conditions.erasing)

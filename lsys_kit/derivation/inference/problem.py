@@ -7,19 +7,123 @@ brackets of branches (ABOP, section 1.6.1), which contexts understand.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from math import inf
 from typing import TypeAlias
 
 from lsys_kit.budget import INTERVAL, counted
-from lsys_kit.derivation.core.matching import Neighbours, Passing, neighbours, neighbours_along
-from lsys_kit.derivation.inference.word_equations.bounds import Bounds, first_bounds
-from lsys_kit.derivation.inference.word_equations.counting import Count, count_of
-from lsys_kit.derivation.inference.word_equations.equations import Equation, put_in
-from lsys_kit.derivation.inference.word_equations.search import Solution, solutions
-from lsys_kit.derivation.inference.words import Row
-from lsys_kit.notation.model.modules import CLOSING, OPENING, Module
+from lsys_kit.derivation.core.matching import Passing, neighbours, neighbours_along
+from lsys_kit.derivation.core.traits import CUT
+from lsys_kit.derivation.inference.word_equations import (
+    Bounds,
+    Count,
+    Equation,
+    Solution,
+    count_of,
+    first_bounds,
+    put_in,
+    solutions,
+)
+from lsys_kit.errors import ModelLimitError, ModelValueError, quotable, shown
+from lsys_kit.notation.model.arithmetic import is_symbolic, normalised
+from lsys_kit.notation.model.modules import CLOSING, OPENING, Module, joined
+
+Row: TypeAlias = tuple[Module, ...]
+"""A word."""
+MOST_MODULES = 100_000
+"""So many modules may all words have together."""
+NUMBER = r"-?\d+(?:\.\d+)?(?:/0*[1-9]\d*|[eE][-+]?\d{1,3})?"
+ARGUMENTS = rf"\(\s*+({NUMBER}(?:\s*+,\s*+{NUMBER})*+)\s*+\)"
+MODULE = re.compile(rf"(\w++|\S)(?:{ARGUMENTS})?")
+VALUE = re.compile(rf"[^\s()]{ARGUMENTS}")
+
+
+def read_words(given: object) -> tuple[Row, ...]:
+    """The words of steps 0, 1, 2, ... as rows of modules.
+
+    A text is a row of one-letter symbols. Where one of the texts has a blank, or numbers in parentheses behind a symbol, all
+    are read as `derive` prints words.
+
+    >>> [len(word) for word in read_words(["ar", "albr"])]
+    [2, 4]
+    >>> [len(word) for word in read_words(["ar", "al br", "bl(1) ar ar"])]
+    [1, 2, 3]
+    """
+    hint = 'Give the words of steps 0, 1, 2, ... in a list, as in infer(["a", "ab", "aba"]).'
+    if isinstance(given, str) or not isinstance(given, Iterable):
+        raise ModelValueError(f"A sequence of words is needed, not {type(given).__name__}", hint=hint)
+    words = [*counted(given, 1)]
+    if len(words) < 2:
+        there = "is one" if words else "are none"
+        raise ModelValueError(f"Rules are found from two words at least; there {there}", hint=hint)
+    texts = [word for word in words if isinstance(word, str)]
+    valued = any(map(VALUE.search, texts))
+    printed = valued or any(len(text.split()) > 1 for text in texts)
+    found, left = [], MOST_MODULES
+    for step, word in enumerate(words):
+        found.append(_row(word, step, printed, valued))
+        left -= len(found[-1])
+        if left < 0:
+            raise ModelLimitError(
+                f"The words up to step {step} have more than {MOST_MODULES:,} modules",
+                limit=MOST_MODULES,
+                hint="Give fewer steps.",
+            )
+    return tuple(found)
+
+
+def _row(word: object, step: int, printed: bool, valued: bool) -> Row:
+    if isinstance(word, str):
+        if valued and (stray := re.search(r"\([^()]*\)?|\)", VALUE.sub(" ", word))):  # no symbol, where symbols have values
+            raise ModelValueError(
+                f'The word of step {step} has "{quotable(stray[0])}", which are no values',
+                hint="Values are numbers with commas between them, as in A(1,2.5).",
+            )
+        row = tuple(_printed_modules(word) if printed else (Module(letter) for letter in word.strip()))
+    elif isinstance(word, Sequence) and not isinstance(word, bytes | bytearray):
+        row = tuple(_module(each, step) for each in counted(word))
+    else:
+        raise ModelValueError(f"The word of step {step} must be a text or a row of modules, not {type(word).__name__}")
+    for module in row:
+        if module.symbol == CUT or (module.symbol[:1] == "?" and len(module.symbol) > 1):
+            raise ModelValueError(
+                f'The word of step {step} has the module "{quotable(module.symbol)}", which is no letter '
+                "that rules alone replace",
+                hint="Such a module cuts a branch, or asks what the turtle sees.",
+            )
+    return row
+
+
+def _printed_modules(text: str) -> Iterable[Module]:
+    for found in MODULE.finditer(text.rstrip()):
+        yield Module(found[1], tuple(normalised(Fraction(value)) for value in found[2].split(",")) if found[2] else ())
+
+
+def _module(given: object, step: int) -> Module:
+    if isinstance(given, str) and given.strip():
+        return Module(given)
+    if not isinstance(given, Module):
+        raise ModelValueError(f"The word of step {step} must be a text or a row of modules, and has {shown(given)}")
+    if any(map(is_symbolic, given.arguments)):
+        raise ModelValueError(
+            f"The word of step {step} has {quotable(str(given))}, whose value is not known",
+            hint="Give the constants of the system numbers.",
+        )
+    return Module(given.symbol, given.arguments)
+
+
+def text_of(row: Iterable[Module]) -> str:
+    """A word as a message shows it: ε where it is empty, without its middle where it is long.
+
+    >>> text_of([]), text_of([Module("al"), Module("br")])
+    ('ε', 'al br')
+    """
+    text = joined(map(str, row)) or "ε"
+    return quotable(text if len(text) <= 70 else f"{text[:40]} ... {text[-20:]}")
+
 
 BRACKETS = frozenset("[]")
 FIRST_CHARACTER = 0xF0000
@@ -51,17 +155,8 @@ Table: TypeAlias = dict[Letter, Row]
 
 @dataclass(frozen=True)
 class Conditions:
-    """What systems are looked for.
-
-    Attributes
-    ----------
-    constants
-        Symbols that stay as they are.
-    erasing
-        Whether a letter may become nothing.
-    context
-        How many neighbours to the left and to the right a production may look at.
-    """
+    """What systems are looked for: symbols that stay as they are, whether a letter may become nothing, and how many neighbours
+    to the left and to the right a production may look at."""
 
     constants: frozenset[str] = frozenset("+-")
     erasing: bool = False
@@ -77,20 +172,9 @@ class Conditions:
 class Problem:
     """Equations for the successors of letters.
 
-    Attributes
-    ----------
-    letters
-        The letters whose successors are unknown; a number in an equation is a place here.
-    modules
-        The modules that a character of a known word stands for.
-    equations
-        One for each step that has an unknown letter.
-    bounds
-        How many letters the successors can have.
-    possible
-        False where the known letters alone contradict the words.
-    nested
-        Whether the brackets of a successor must be well nested, since contexts follow branches.
+    A number in an equation is a place in `letters`, a character of a known word stands for one of the `modules`. The question
+    is not `possible` where the known letters alone contradict the words; it is `nested` where the brackets of a successor must
+    be, since contexts follow branches.
     """
 
     letters: tuple[Letter, ...]
@@ -135,14 +219,9 @@ def letters_of(word: Row, conditions: Conditions) -> Iterator[Letter]:
         return
     around = neighbours([module.symbol for module in word], Passing(conditions.constants))
     for place in counted(range(len(word)), max(1, INTERVAL // max(1, sum(conditions.context)))):
-        yield letter_at(word, around, place, conditions.context)
-
-
-def letter_at(word: Row, around: Neighbours, place: int, context: tuple[int, int]) -> Letter:
-    """The letter at a place of a word."""
-    left = neighbours_along(around.before, place, context[0])
-    right = neighbours_along(around.after, place, context[1])
-    return Letter(tuple(word[at] for at in reversed(left)), word[place], tuple(word[at] for at in right))
+        left = neighbours_along(around.before, place, conditions.context[0])
+        right = neighbours_along(around.after, place, conditions.context[1])
+        yield Letter(tuple(word[at] for at in reversed(left)), word[place], tuple(word[at] for at in right))
 
 
 def tables(problem: Problem, trials: float = inf) -> Iterator[Table]:

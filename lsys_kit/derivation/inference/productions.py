@@ -2,17 +2,27 @@
 
 What a module becomes nearly everywhere is the last of its productions; what it becomes between some neighbours stands before
 it.
+
+Modules with parameters fall into as few cases as possible, each with a condition and laws of its own. The values of a case lie
+in a box whose sides are thresholds of single parameters, and boxes of different cases have no value in common: so a condition
+compares parameters with numbers, perhaps several in conjunction. By a law a value of the successor stays, is moved by an
+amount, is multiplied, or both (affine laws); it may also be that of another parameter, the sum or the difference of two, or
+always the same.
 """
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from fractions import Fraction
+from functools import reduce
+from itertools import count, product
+from typing import TypeAlias
 
 from lsys_kit.budget import check_budget
-from lsys_kit.derivation.inference.problem import Conditions, Letter, Table
-from lsys_kit.derivation.inference.words import Row
-from lsys_kit.notation.model.expressions import Number
+from lsys_kit.derivation.inference.problem import Conditions, Letter, Row, Table
+from lsys_kit.notation.model.arithmetic import Value, normalised
+from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
 from lsys_kit.notation.model.modules import Module, Pattern
 from lsys_kit.notation.model.system import LSystem, Production
 
@@ -20,7 +30,6 @@ from lsys_kit.notation.model.system import LSystem, Production
 def system_of(axiom: Row, productions: Iterable[Production], conditions: Conditions) -> LSystem:
     """The system with an axiom and productions; in its contexts constants are passed over.
 
-    >>> from lsys_kit.notation.model.modules import Module
     >>> print(system_of((Module("a"),), [], Conditions()))
     axiom: a
     """
@@ -47,7 +56,8 @@ def productions_of(table: Table) -> Iterator[Production]:
 
 
 def _productions_of_one(module: Module, table: Table) -> Iterator[Production]:
-    usual = _usual(module, table)
+    found = Counter(table.values())
+    usual = (module,) if (module,) in found else found.most_common(1)[0][0]  # where no context says otherwise
     open_letters = _explicit(table, usual)
     while open_letters:
         check_budget()
@@ -58,12 +68,6 @@ def _productions_of_one(module: Module, table: Table) -> Iterator[Production]:
         open_letters = [other for other in open_letters if other in table]
     if usual != (module,):
         yield Production(row_of((module,)), row_of(usual))
-
-
-def _usual(module: Module, table: Table) -> Row:
-    """What a module becomes where no context says otherwise: itself, if it ever does, else what most of its letters become."""
-    found = Counter(table.values())
-    return (module,) if (module,) in found else found.most_common(1)[0][0]
 
 
 def _explicit(table: Table, usual: Row) -> list[Letter]:
@@ -92,3 +96,197 @@ def _extends(letter: Letter, context: Letter) -> bool:
     """Whether a letter has the neighbours that a context asks for."""
     left, right = len(context.left), len(context.right)
     return letter.left[max(0, len(letter.left) - left) :] == context.left and letter.right[:right] == context.right
+
+
+Values: TypeAlias = tuple[Value, ...]
+"""The values of a module's parameters."""
+POINTS_FOR_TWO_NUMBERS = 3
+"""Through two points there is always a straight line; so many different ones must lie on it."""
+
+
+def law_of(given: Sequence[Values], made: Sequence[Value], names: Sequence[str], place: int) -> Expression | None:
+    """The simplest expression for what became of a value; None where there is none.
+
+    >>> print(law_of([(1, 0), (3, 1)], [2, 4], ["x", "y"], 0))
+    x + 1
+    >>> print(law_of([(1,), (3,), (4,)], [3, 7, 9], ["x"], 0))
+    2 * x + 1
+    """
+    return next(_laws(given, made, names, place), None)
+
+
+def _laws(given: Sequence[Values], made: Sequence[Value], names: Sequence[str], place: int) -> Iterator[Expression]:
+    """The laws that a value obeys, the simplest first; of a kind that of the parameter at its own place first."""
+    if len({*made}) == 1:
+        yield Number(made[0])
+    axes = sorted(range(len(names)), key=lambda axis: axis != place)
+    points = {axis: [(values[axis], value) for values, value in zip(given, made, strict=True)] for axis in axes}
+    for axis in axes:
+        if all(before == after for before, after in points[axis]):
+            yield Name(names[axis])
+    for axis in axes:
+        amounts = {after - before for before, after in points[axis]}
+        if len(amounts) == 1:
+            yield plus(Name(names[axis]), amounts.pop())
+    for axis in axes:
+        factors = {_quotient(after, before) if before else None for before, after in points[axis]}
+        if len(factors) == 1 and (factor := factors.pop()) is not None:
+            yield Apply("*", (Number(factor), Name(names[axis])))
+    for one, other, (operator, sign) in product(axes, range(len(names)), (("+", 1), ("-", -1))):
+        if one != other and all(values[one] + sign * values[other] == value for values, value in zip(given, made, strict=True)):
+            yield Apply(operator, (Name(names[one]), Name(names[other])))
+    for axis in axes:
+        if len({x for x, _ in points[axis]}) >= POINTS_FOR_TWO_NUMBERS:
+            (x0, y0), (x1, y1) = min(points[axis]), max(points[axis])
+            factor = _quotient(y1 - y0, x1 - x0)
+            if all(y - y0 == factor * (x - x0) for x, y in points[axis]):
+                yield plus(Apply("*", (Number(factor), Name(names[axis]))), y0 - factor * x0)
+
+
+def _quotient(above: Value, below: Value) -> Value:
+    return above / below if isinstance(above, float) or isinstance(below, float) else normalised(Fraction(above) / below)
+
+
+def plus(expression: Expression, amount: Value) -> Expression:
+    """The sum of an expression and a number, as one writes it.
+
+    >>> print(plus(Name("x"), -2))
+    x - 2
+    """
+    return Apply("+" if amount > 0 else "-", (expression, Number(normalised(amount if amount > 0 else -amount))))
+
+
+Case: TypeAlias = tuple[tuple[Values, Row], ...]
+"""The values of some modules of one kind, with their successors."""
+Kind: TypeAlias = tuple[str, int]
+"""A symbol and the number of its parameters."""
+NAMES = ("x", "y", "z")
+"""The names of up to so many parameters."""
+
+
+def general_productions(table: Table) -> Iterator[Production]:
+    """Productions with parameters for a table, as few as possible; modules that stay as they are need none.
+
+    >>> from lsys_kit.derivation.inference.problem import Letter
+    >>> a = [Letter((), Module("a", (age,))) for age in range(4)]
+    >>> table = {a[0]: (a[1].module,), a[1]: (a[2].module,), a[2]: (a[3].module,), a[3]: (a[0].module,) * 2}
+    >>> [str(production) for production in general_productions(table)]
+    ['a(x) : x < 3 -> a(x + 1)', 'a(x) : x >= 3 -> a(0)a(0)']
+    """
+    kinds: dict[Kind, dict[Values, Row]] = {}
+    for letter, word in table.items():
+        module = letter.module
+        kinds.setdefault((module.symbol, len(module.arguments)), {})[module.arguments] = word
+    for kind, successors in kinds.items():
+        cases = fewest_cases(kind, successors)
+        for case in cases:
+            if any(word != (Module(kind[0], values),) for values, word in case):
+                others = [other for other in cases if other is not case]
+                own = Pattern(kind[0], tuple(map(Name, names_of(kind))))
+                made = _successor(kind, case, keeps=not others)
+                assert made is not None
+                yield Production((own,), made, condition=_condition(kind, case, others))
+
+
+def fewest_cases(kind: Kind, successors: dict[Values, Row]) -> list[Case]:
+    """The fewest cases that the modules of a kind fall into, rather with simple laws, which one point shows, than others."""
+    points = sorted(successors.items())
+    fewest = len({_symbols(word) for word in successors.values()})
+    return next(
+        found
+        for most in count(fewest)
+        for free in (1, POINTS_FOR_TWO_NUMBERS - 1)
+        for found in _divided(kind, points, [], most, free)
+    )
+
+
+def _divided(kind: Kind, points: Sequence[tuple[Values, Row]], cases: list[Case], most: int, free: int) -> Iterator[list[Case]]:
+    """All ways to divide the rest of the points among at most so many cases; so many points of a case need no law yet."""
+    check_budget()
+    if not points:
+        if all(_successor(kind, case, False) is not None for case in cases):
+            yield cases
+        return
+    for number, case in enumerate(cases):
+        wider, others = (*case, points[0]), cases[:number] + cases[number + 1 :]
+        same = _symbols(case[0][1]) == _symbols(points[0][1])
+        if same and _apart(wider, others) and (len(wider) <= free or _successor(kind, wider, False) is not None):
+            yield from _divided(kind, points[1:], [*cases[:number], wider, *cases[number + 1 :]], most, free)
+    if len(cases) < most and _apart((points[0],), cases):
+        yield from _divided(kind, points[1:], [*cases, (points[0],)], most, free)
+
+
+def _symbols(word: Row) -> tuple[Kind, ...]:
+    """The kinds of modules of a word, which are the same in a case."""
+    return tuple((module.symbol, len(module.arguments)) for module in word)
+
+
+def _apart(case: Case, others: Iterable[Case]) -> bool:
+    return all(any(_side(case, other, axis) for axis in range(len(case[0][0]))) for other in others)
+
+
+def _side(case: Case, other: Case, axis: int) -> int:
+    """On which side of another case's box one lies: -1 below, 1 above, 0 where they overlap."""
+    own, others = _along(case, axis), _along(other, axis)
+    return -1 if max(own) < min(others) else 1 if min(own) > max(others) else 0
+
+
+def _along(case: Case, axis: int) -> list[Value]:
+    return [values[axis] for values, _ in case]
+
+
+def _successor(kind: Kind, case: Case, keeps: bool) -> tuple[Pattern, ...] | None:
+    """The successor of a case's modules as a production writes it; None where no laws give their values.
+
+    It may be asked that a value which is that of a parameter is written as the parameter, though it is always the same number.
+    """
+    names = names_of(kind)
+    given, words = [values for values, _ in case], [word for _, word in case]
+    found = []
+    for index, module in enumerate(words[0]):
+        laws = []
+        for place in range(len(module.arguments)):
+            values = [word[index].arguments[place] for word in words]
+            kept = keeps and place < len(names) and values == [each[place] for each in given]
+            law = Name(names[place]) if kept else law_of(given, values, names, place)
+            if law is None:
+                return None
+            laws.append(law)
+        found.append(Pattern(module.symbol, tuple(laws)))
+    return tuple(found)
+
+
+def names_of(kind: Kind) -> list[str]:
+    """The names of a module's parameters.
+
+    >>> names_of(("F", 2)), names_of(("F", 4))
+    (['x', 'y'], ['x1', 'x2', 'x3', 'x4'])
+    """
+    return [*NAMES[: kind[1]]] if kind[1] <= len(NAMES) else [f"x{number}" for number in range(1, kind[1] + 1)]
+
+
+def _condition(kind: Kind, case: Case, others: Sequence[Case]) -> Expression | None:
+    """What distinguishes the modules of a case from those of the others; None where there are none."""
+    comparisons: list[Expression] = []
+    left = list(others)
+    names = names_of(kind)
+    while left:
+        axis = max(range(kind[1]), key=lambda axis: sum(map(abs, (_side(case, other, axis) for other in left))))
+        there = [other for other in left if _side(case, other, axis)]
+        left = [other for other in left if not _side(case, other, axis)]
+        comparisons += _comparisons(Name(names[axis]), case, there, axis)
+    return reduce(lambda one, another: Apply("&&", (one, another)), comparisons) if comparisons else None
+
+
+def _comparisons(name: Name, case: Case, others: Sequence[Case], axis: int) -> Iterator[Expression]:
+    """The comparisons of a parameter that hold in a case and not in others."""
+    own = {*_along(case, axis)}
+    below = [min(_along(other, axis)) for other in others if _side(case, other, axis) < 0]
+    above = [other for other in others if _side(case, other, axis) > 0]
+    if len(own) == 1 and ((below and above) or all(len({*_along(other, axis)}) == 1 for other in others)):
+        yield Apply("==", (name, Number(own.pop())))
+        return
+    if above:
+        yield Apply(">=", (name, Number(min(own))))
+    if below:
+        yield Apply("<", (name, Number(min(below))))

@@ -1,9 +1,11 @@
-"""Petri nets with the tokens of a word (Peterson 1981; Prusinkiewicz, Introduction to Modeling
-with L-systems, figure 2).
+"""Petri nets with the tokens of a word (Peterson 1981; Prusinkiewicz, Introduction to Modeling with L-systems, figure 2).
 
 Places are the states a module passes through, transitions the productions that take it from one to the next, tokens the
 modules of a word. In an ordinary Petri net one transition fires at a time; here all tokens move in every step. Where several
 transitions leave a place each token takes one of them, and how likely which one is stands at the transitions.
+
+What may become of a state in one step is an outcome: one, where a module alone decides that; where chance decides which
+production rewrites it, one for each of them. All outcomes of all states together are a system's net.
 """
 
 from __future__ import annotations
@@ -13,13 +15,61 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from numbers import Real
 
-from lsys_kit.budget import Task, counted
-from lsys_kit.derivation.core.chance import Chance, choose
+from lsys_kit.budget import Task, check_budget, counted
+from lsys_kit.derivation.core.chance import Chance, choose, shares
+from lsys_kit.derivation.core.states import UNKNOWN, States, rule_error
 from lsys_kit.derivation.core.words import Word, state_counts
 from lsys_kit.errors import ModelValueError, every, require, whole_number
 from lsys_kit.notation.model.arithmetic import Value, normalised, number_text
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What may become of a state: the place of the production in the order written, from 0 (None where a module only grows
+    older), the states that replace it, how likely that is, and how long it takes (None: a step)."""
+
+    production: int | None
+    successor: tuple[int, ...]
+    chance: Value = 1
+    span: Value | None = None
+
+
+def outcomes_of(states: States, state: int) -> tuple[Outcome, ...]:
+    """What may become of a state of a system without contexts; nothing where no production matches.
+
+    >>> from lsys_kit import read
+    >>> for outcome in outcomes_of(States(read("axiom: F\\nF -> F F : 0.33\\nF -> F : 0.66")), 0):
+    ...     print(outcome.production, outcome.successor, outcome.chance)
+    0 (0, 0) 1/3
+    1 (0,) 2/3
+    """
+    module = states.modules[state]
+    matched = states.matching_rules(module, states.rules)
+    if not matched or matched[0][0].probability is None:
+        return tuple(Outcome(rule.number, states.replacement(rule, module)) for rule, _ in matched)
+    lots = [(rule, weight) for rule, weight in states.weighted(matched) if weight != 0]
+    try:
+        likely = shares([weight for _, weight in lots] or [0])
+    except ValueError as fault:
+        raise rule_error(states.system, module, matched[0][0], fault) from None
+    except TypeError:
+        raise rule_error(states.system, module, matched[0][0], ValueError(UNKNOWN)) from None
+    return tuple(
+        Outcome(rule.number, states.replacement(rule, module), chance) for (rule, _), chance in zip(lots, likely, strict=True)
+    )
+
+
+def all_outcomes(states: States, limit: int) -> list[tuple[Outcome, ...]] | None:
+    """The outcomes of all states that may be met from the axiom on; None where they are more than `limit`."""
+    found: list[tuple[Outcome, ...]] = []
+    while len(found) < len(states):
+        if len(states) > limit:
+            return None
+        check_budget()
+        found.append(outcomes_of(states, len(found)))
+    return found
 
 
 @dataclass(frozen=True)
@@ -126,8 +176,7 @@ class Stages:
     def tokens(self, word: Iterable[Module]) -> tuple[int, ...]:
         """How many modules of a word lie in each place.
 
-        >>> from lsys_kit.derivation.petri.stages import stages
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read, stages
         >>> stages(read("axiom: a\\na -> ab\\nb -> a")).tokens([Module("a"), Module("b"), Module("a")])
         (2, 1)
         """
@@ -167,8 +216,7 @@ class Stages:
 
         Examples
         --------
-        >>> from lsys_kit.derivation.petri.stages import stages
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read, stages
         >>> stages(read("axiom: a\\na -> ab\\nb -> a")).fired((2, 1))
         (3, 2)
         >>> net = stages(read("axiom: A\\nA -> A A : 1/2\\nA -> ε : 1/2"))
@@ -196,8 +244,7 @@ class Stages:
 
         Examples
         --------
-        >>> from lsys_kit.derivation.petri.stages import stages
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read, stages
         >>> stages(read("axiom: F\\nF -> F F F : 2\\nF -> F : 1")).expected(2)
         (Fraction(49, 9),)
         """

@@ -11,7 +11,7 @@ import re
 from collections.abc import Mapping, Sequence
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
-from lsys_kit.derivation.petri.net import Arc, Stages, Transition, likelihood
+from lsys_kit.derivation.petri.net import Stages, Transition, likelihood
 from lsys_kit.errors import require, whole_number
 from lsys_kit.notation.model.arithmetic import number_text
 
@@ -52,8 +52,7 @@ def pnml(net: Stages, tokens: Sequence[int] | None = None) -> str:
 
     Examples
     --------
-    >>> from lsys_kit.derivation.petri.stages import stages
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read, stages
     >>> print(pnml(stages(read("axiom: a\\na -> a a"))))
     <?xml version="1.0" encoding="UTF-8"?>
     <pnml xmlns="http://www.pnml.org/version-2009/grammar/pnml">
@@ -91,16 +90,15 @@ def pnml(net: Stages, tokens: Sequence[int] | None = None) -> str:
 def played_otherwise(net: Stages) -> str:
     """Why other programs play a diagram otherwise than the system grows, in a sentence; empty where they play it alike.
 
-    >>> from lsys_kit.derivation.petri.stages import stages
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read, stages
     >>> played_otherwise(stages(read("axiom: s a a\\ns < a -> a s\\ns -> ε")))
     'Programs for Petri nets play this net otherwise than the system grows: they know no condition such as "s < a".'
     >>> played_otherwise(stages(read("axiom: a\\na -> a a")))
     ''
     """
     terms = [*map(_terms, net.transitions), *({"factor": arc.factor} for arc in net.arcs), {"besides": "; ".join(net.besides)}]
-    found = ((name, each[name]) for name in _UNKNOWN for each in terms if each.get(name))
-    first = next((f'{_UNKNOWN[name]} "{said}"' for name, said in found), "")
+    found = (f'{words} "{each[name]}"' for name, words in _UNKNOWN.items() for each in terms if each.get(name))
+    first = next(found, "")
     return first and f"Programs for Petri nets play this net otherwise than the system grows: they know no {first}."
 
 
@@ -128,17 +126,13 @@ def placed_pnml(net: Stages, tokens: Sequence[int] | None, positions: Mapping[st
     for number, transition in enumerate(net.transitions):
         SubElement(page, "arc", id=f"f{number}", source=f"p{transition.place}", target=f"t{number}")
     for number, arc in enumerate(net.arcs):
-        _arc(page, number, arc)
+        node = SubElement(page, "arc", id=f"a{number}", source=f"t{arc.transition}", target=f"p{arc.place}")
+        if arc.copies != 1:
+            _labelled(node, "inscription", str(arc.copies))
+        _tool_specific(node, {"factor": arc.factor})
     _tool_specific(whole, {"besides": "; ".join(net.besides)})
     indent(root)
     return '<?xml version="1.0" encoding="UTF-8"?>\n' + tostring(root, encoding="unicode")
-
-
-def _arc(page: Element, number: int, arc: Arc) -> None:
-    node = SubElement(page, "arc", id=f"a{number}", source=f"t{arc.transition}", target=f"p{arc.place}")
-    if arc.copies != 1:
-        _labelled(node, "inscription", str(arc.copies))
-    _tool_specific(node, {"factor": arc.factor})
 
 
 def _terms(transition: Transition) -> Mapping[str, str]:
@@ -151,19 +145,16 @@ def _terms(transition: Transition) -> Mapping[str, str]:
 
 
 def _labelled(node: Element, tag: str, text: str) -> None:
-    """Give an element a label: a child with a text."""
     SubElement(SubElement(node, tag), "text").text = _legal(text)
 
 
 def _placed(node: Element, position: tuple[float, float] | None) -> None:
-    """Say where an element stands in a picture, if that is known."""
     if position is not None:
         x, y = (f"{each:.1f}" for each in position)
         SubElement(SubElement(node, "graphics"), "position", x=x, y=y)
 
 
 def _tool_specific(node: Element, terms: Mapping[str, str]) -> None:
-    """Give an element what only this kit understands."""
     if any(terms.values()):
         own = SubElement(node, "toolspecific", TOOL)
         for tag, text in terms.items():

@@ -8,12 +8,12 @@ of which tokens know nothing; so an arc that stands for markers names them, inst
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
 
 from lsys_kit.derivation.petri.net import Arc, Place, Stages, Transition
 from lsys_kit.errors import ModelLimitError
-from lsys_kit.notation.model.cellworks import CellworkProduction, CellworkSystem, EdgeMarker, EdgePart
-from lsys_kit.notation.model.maps import Edge, EdgeProduction, MapSystem, Marker, SuccessorPart
+from lsys_kit.notation.model.cells import CellSystem, CellworkSystem, Edge, EdgeRule
 from lsys_kit.notation.model.modules import Module, Pattern
 from lsys_kit.notation.model.system import LSystem, Production
 
@@ -22,28 +22,18 @@ MOST_PLACES, MOST_ARCS = 60, 400
 MARKERS = "two markers [ ] that match make {what}"
 
 
-def kinds_of_walls(system: MapSystem | CellworkSystem) -> Mapping[Edge, str]:
+def kinds_of_walls(system: CellSystem) -> Mapping[Edge, str]:
     """The walls, or edges of a cellwork, that the rules name, in the order in which they are first read, each with the symbol
     that stands for it: its letter, and its arrow where the same letter names a neutral wall too.
 
-    >>> from lsys_kit.notation.dialects.map.dialect import read_map
+    >>> from lsys_kit import read_map
     >>> [*kinds_of_walls(read_map("map: A>B>C<\\nB> -> C>[-D]C")).values()]
     ['A', 'B', 'C>', 'D', 'C']
     """
-    edges = dict.fromkeys(map(kind_of, _edges(system)))
+    read = (edge for rule in system.productions for edge in (rule.predecessor, *rule.named))
+    edges = dict.fromkeys(map(kind_of, (*system.axiom, *read)))
     letters = Counter(edge.label for edge in edges)
     return {edge: edge.label if letters[edge.label] == 1 else str(edge) for edge in edges}
-
-
-def _edges(system: MapSystem | CellworkSystem) -> Iterator[Edge]:
-    yield from system.axiom
-    for production in system.productions:
-        yield production.predecessor
-        yield from map(_edge_of, production.successor)
-
-
-def _edge_of(part: SuccessorPart | EdgePart) -> Edge:
-    return part if isinstance(part, Edge) else part.edge
 
 
 def kind_of(edge: Edge) -> Edge:
@@ -51,36 +41,27 @@ def kind_of(edge: Edge) -> Edge:
     return Edge(edge.label, ">" if edge.arrow else "")
 
 
-def letters_of_walls(system: MapSystem | CellworkSystem) -> LSystem:
+def letters_of_walls(system: CellSystem) -> LSystem:
     """The L-system of the letters of a map's walls or a cellwork's edges, which knows nothing of cells: for labels and colours.
 
-    >>> from lsys_kit.notation.dialects.map.dialect import read_map
+    >>> from lsys_kit import read_map
     >>> print(letters_of_walls(read_map("map: ABAB\\nA -> B[-A][+A]B")))
     axiom: A B A B
     A -> B A A B
     """
     symbols = kinds_of_walls(system)
 
-    def patterns(parts: Sequence[SuccessorPart | EdgePart]) -> tuple[Pattern, ...]:
-        return tuple(Pattern(symbols[kind_of(_edge_of(part))]) for part in parts)
+    def patterns(edges: Iterable[Edge]) -> tuple[Pattern, ...]:
+        return tuple(Pattern(symbols[kind_of(edge)]) for edge in edges)
 
-    return LSystem(
-        patterns(system.axiom),
-        tuple(Production(patterns([made.predecessor]), patterns(made.successor)) for made in system.productions),
-    )
+    rules = (Production(patterns([made.predecessor]), patterns(made.named)) for made in system.productions)
+    return LSystem(patterns(system.axiom), tuple(rules))
 
 
-def wall_stages(system: MapSystem | CellworkSystem) -> Stages:
-    """The stage diagram of the walls of a map system, or of the edges of a cellwork system.
+def wall_stages(system: CellSystem) -> Stages:
+    """The stage diagram of the walls of a map system, or of the edges of a cellwork system; an error, if it is not legible.
 
-    Raises
-    ------
-    ModelLimitError
-        It would have too many places or arcs to be legible.
-
-    Examples
-    --------
-    >>> from lsys_kit.notation.dialects.map.dialect import read_map
+    >>> from lsys_kit import read_map
     >>> wall_stages(read_map("map: ABAB\\nA -> B[-A][+A]B\\nB -> A"))
     A -> 2 B + [-A][+A] A
     B -> A
@@ -90,9 +71,9 @@ def wall_stages(system: MapSystem | CellworkSystem) -> Stages:
     numbers = {edge: number for number, edge in enumerate(symbols)}
     transitions, arcs = list[Transition](), list[Arc]()
     one, many = ("an edge", "edges") if isinstance(system, CellworkSystem) else ("a wall", "walls")
-    productions: Sequence[EdgeProduction | CellworkProduction] = system.productions
-    for rule, production in enumerate(productions):
-        transitions.append(Transition(numbers[production.predecessor], rule, _asked(production)))
+    for rule, production in enumerate(system.productions):
+        walls = getattr(production, "walls", ())  # to which an edge of a cellwork must belong
+        transitions.append(Transition(numbers[production.predecessor], rule, f"in {' '.join(walls)}" if walls else ""))
         arcs += _arcs(rule, production, numbers)
     for what, size, most in ((many, len(symbols), MOST_PLACES), ("arrows", len(arcs), MOST_ARCS)):
         if size > most:
@@ -115,24 +96,13 @@ def wall_stages(system: MapSystem | CellworkSystem) -> Stages:
     )
 
 
-def _asked(production: EdgeProduction | CellworkProduction) -> str:
-    """The walls to which an edge of a cellwork must belong; nothing, if all edges of its label are replaced."""
-    return f"in {' '.join(production.walls)}" if isinstance(production, CellworkProduction) and production.walls else ""
-
-
-def _arcs(transition: int, production: EdgeProduction | CellworkProduction, numbers: Mapping[Edge, int]) -> Iterator[Arc]:
+def _arcs(transition: int, production: EdgeRule[Any], numbers: Mapping[Edge, int]) -> Iterator[Arc]:
     """The arcs of a production: to the walls of its successor, then to those whose markers it has."""
-    made = production.edges if isinstance(production, CellworkProduction) else production.walls
-    for edge, copies in Counter(map(kind_of, made)).items():
+    for edge, copies in Counter(map(kind_of, production.edges)).items():
         yield Arc(transition, numbers[edge], copies)
     markers: dict[Edge, str] = {}
     for marker in production.markers:
         kind = kind_of(marker.edge)
-        markers[kind] = markers.get(kind, "") + _short(marker)
+        markers[kind] = markers.get(kind, "") + marker.short
     for kind, text in markers.items():
         yield Arc(transition, numbers[kind], 1, factor=text)
-
-
-def _short(marker: Marker | EdgeMarker) -> str:
-    """A marker; of a cellwork without the walls to come."""
-    return f"[{marker.wall}: {marker.edge}]" if isinstance(marker, EdgeMarker) else str(marker)

@@ -18,12 +18,10 @@ from heapq import heappop, heappush
 from itertools import count, repeat
 
 from lsys_kit.budget import Task, check_budget, current
-from lsys_kit.derivation.core.closure import check_d0l
 from lsys_kit.derivation.core.rules import number_from
-from lsys_kit.derivation.core.states import MODULES_BETWEEN_CHECKS, States
+from lsys_kit.derivation.core.states import MODULES_BETWEEN_CHECKS, States, check_d0l
 from lsys_kit.derivation.core.words import Word
-from lsys_kit.derivation.timed.ages import AgeModel, age_model, timed_age_model
-from lsys_kit.derivation.timed.lives import undecided_age
+from lsys_kit.derivation.timed.ages import AgeModel, TimedAges, age_model, place_of, undecided_age
 from lsys_kit.errors import ModelLimitError, ModelValueError, every, require
 from lsys_kit.notation.model.arithmetic import Value, is_symbolic, normalised, number_text
 from lsys_kit.notation.model.modules import Module
@@ -33,13 +31,7 @@ from lsys_kit.notation.write import as_written
 
 @dataclass(frozen=True)
 class Timed:
-    """A timed system.
-
-    Attributes
-    ----------
-    ages
-        How its modules grow older, and how their lives end.
-    """
+    """A timed system: how its modules grow older, and how their lives end."""
 
     ages: AgeModel
 
@@ -68,7 +60,7 @@ class Timed:
 
         Examples
         --------
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> fibonacci = timed(read("axiom: a(0)\\na(1) -> a(0) b(0)\\nb(1) -> a(0)"))
         >>> print(fibonacci.word("5/2"), fibonacci.word(1))
         a(0.5)b(0.5)a(0.5) a(1)
@@ -79,30 +71,33 @@ class Timed:
         if given < 0:
             raise ModelValueError(f"The time must not be before the axiom, which is at 0, but it is {at}")
         with Task("The word was not reached"):
-            return self.later([self.states.modules[state] for state in self.states.axiom], given)
+            return self.later(self._axiom(), given)
+
+    def _axiom(self) -> list[Module]:
+        return [self.states.modules[state] for state in self.states.axiom]
 
     def around(self, at: Value) -> tuple[Word, Word]:
         """The words just before and just after what happens at a time: in the first no module divides at this very time.
 
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> fibonacci = timed(read("axiom: a(0)\\na(1) -> a(0) b(0)\\nb(1) -> a(0)"))
         >>> print(*fibonacci.around(1))
         a(1) a(0)b(0)
         """
-        axiom, time = [self.states.modules[state] for state in self.states.axiom], number_from(at, "time")
-        return self.later(axiom, time, already=False), self.later(axiom, time, already=True)
+        time = number_from(at, "time")
+        return self.later(self._axiom(), time, already=False), self.later(self._axiom(), time, already=True)
 
     def divisions(self, until: Value) -> Iterator[Value]:
         """The times at which modules divide, each once, the earliest first, up to a time.
 
-        >>> from lsys_kit.notation.read import read
+        >>> from lsys_kit import read
         >>> [*timed(read("axiom: a(0)\\na(1) -> a(0.5) b(0)\\nb(2) -> a(0)")).divisions(3)]
         [1, Fraction(3, 2), 2, Fraction(5, 2), 3]
         """
         order, told, until = count(), None, number_from(until, "time")
         born: Value = 0
         todo: list[tuple[Value, int, list[Module]]] = []
-        modules = [self.states.modules[state] for state in self.states.axiom]
+        modules = self._axiom()
         while True:
             for module in modules:
                 rest, daughters = self.division(module, until - born, already=True)
@@ -117,7 +112,7 @@ class Timed:
 
     def later(self, word: list[Module], passed: Value, already: bool | None = None) -> Word:
         """What a row of modules becomes in a time: D(word, passed); `already` as for `division`."""
-        found: list[int] = []
+        found = []
         most, deepest, passed = current().modules, current().brackets, number_from(passed, "time")
         every(word, Module, "A module")
         todo = [(module, passed, 0) for module in reversed(word)]
@@ -126,7 +121,10 @@ class Timed:
             module, left, instant = todo.pop()
             rest, daughters = self.division(module, left, already)
             if daughters is None:
-                found.append(self.states.number(*self._older(module, left)))
+                end, age = self.ages.end(module), (self.ages.age(module) or 0) + left
+                stays = end is not None and end.rule is None and age > end.age
+                older = self.ages.aged(module, normalised(end.age if end is not None and stays else age))
+                found.append(self.states.number(older.symbol, older.arguments))
             elif instant > deepest:
                 raise ModelValueError(
                     f"{module} divides endlessly within one instant",
@@ -163,13 +161,6 @@ class Timed:
             raise undecided_age(self.states, module, end.rule.production) from None
         return (rest, self.ages.daughters(module)) if divides else (left, None)
 
-    def _older(self, module: Module, passed: Value) -> tuple[str, tuple[Value, ...]]:
-        """The symbol and the values of a module that does not divide, when some time has passed."""
-        end, age = self.ages.end(module), (self.ages.age(module) or 0) + passed
-        stays = end is not None and end.rule is None and age > end.age
-        older = self.ages.aged(module, normalised(end.age if end is not None and stays else age))
-        return older.symbol, older.arguments
-
 
 def timed(system: LSystem, **constants: object) -> Timed:
     """A system as it is at any time, not only after whole steps.
@@ -190,7 +181,7 @@ def timed(system: LSystem, **constants: object) -> Timed:
 
     Examples
     --------
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> print(timed(read("axiom: a(1)\\na(t) : t < 3 -> a(t+1)\\na(3) -> a(1) b(1)\\nb(t) -> b(t+1)")).word("7/2"))
     a(1.5)b(1.5)
     """
@@ -204,14 +195,11 @@ def timed(system: LSystem, **constants: object) -> Timed:
     for rules in states.rules.values():
         for rule in rules:
             if [index for index, _ in rule.equalities] != [0] or rule.condition is not None:
-                start, end = rule.production.at or (None, None)
                 shown = as_written(system, rule.production)
                 raise ModelValueError(
                     f"The production {shown} does not say at which age it applies",
-                    system.source or None,
-                    start,
-                    end,
+                    *place_of(states, rule.production),
                     'A timed production reads "a(1) -> b(0) a(0)"; in steps of time it reads '
                     '"a(t) : t >= 1 -> b(t-1) a(t-1)", beside "a(t) -> a(t+dt)".',
                 )
-    return Timed(timed_age_model(states))
+    return Timed(TimedAges(states, lambda kind: 0 if kind[1] else None, None))

@@ -13,13 +13,13 @@ from itertools import pairwise, product
 from typing import Any, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lsys_kit.budget import check_budget
-from lsys_kit.geometry.inference.drawn_words import word_of
 from lsys_kit.geometry.inference.strokes import Strokes, Turning
-from lsys_kit.geometry.inference.traversals import START, Traversal, branching, in_one_go
+from lsys_kit.geometry.inference.traversals import START, Traversal, branching, in_one_go, word_of
 
-Numbers: TypeAlias = np.ndarray[Any, np.dtype[np.complex128]]
+Numbers: TypeAlias = NDArray[np.complex128]
 Drawn: TypeAlias = tuple[Numbers, Numbers, Numbers, Numbers]
 """Shape (k, n) each, of k candidates: the middle and the direction of each stroke; shape (k,): where the turtle ends, and its
 heading then, where it begins at 0 with the heading 1."""
@@ -28,7 +28,6 @@ OFF = 1e-3
 
 
 def factor_of(drawings: Sequence[Strokes]) -> int | None:
-    """How many strokes come from each, if it is always the same number; else None."""
     counts = [len(each) for each in drawings]
     if not counts[0]:
         return None

@@ -16,12 +16,10 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from lsys_kit.budget import check_budget
-from lsys_kit.geometry.inference.drawn_words import Apex, word_with
 from lsys_kit.geometry.inference.strokes import NEAR, Points, Strokes, Turning
-from lsys_kit.geometry.inference.traversals import START, Traversal, branching
+from lsys_kit.geometry.inference.traversals import START, Apex, Traversal, branching, word_with
 
 Places = Counter[int]
-"""How many strokes are at each place of a drawing."""
 
 
 @dataclass(frozen=True)
@@ -42,7 +40,6 @@ class _Drawing:
         self.strokes = Counter(int(place) for place in self.places(strokes.ends) or ())
 
     def places(self, ends: Points) -> list[int] | None:
-        """The places of some strokes; None where one is not there."""
         near = self.tree.query_ball_point(_features(ends), NEAR)
         return [min(each) for each in near] if all(near) else None
 

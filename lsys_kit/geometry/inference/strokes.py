@@ -39,8 +39,6 @@ PARTS = 3
 class Strokes:
     """The strokes of one drawing, each of length 1, as a graph.
 
-    Attributes
-    ----------
     ends
         Shape (n, 2): the ends of each, in no order.
     """
@@ -58,7 +56,6 @@ class Strokes:
         return list(zip(first[::2], first[1::2], strict=True))
 
     def point(self, number: int) -> complex:
-        """Where a point is."""
         return complex(self.ends.reshape(-1)[number])
 
     @cached_property
@@ -78,7 +75,6 @@ class Strokes:
 
     @property
     def is_connected(self) -> bool:
-        """Whether the strokes hang together."""
         reached, left = set[int](), [self.vertices[0][0]]
         while left:
             point = left.pop()
@@ -110,13 +106,6 @@ def read_drawings(given: Iterable[object]) -> tuple[Strokes, ...]:
 
     >>> [abs(end - begin).tolist() for begin, end in read_drawings([[(0, 0, 0, 7)]])[0].ends]
     [1.0]
-
-    Raises
-    ------
-    ModelValueError
-        A drawing is not in the plane, or has strokes of several lengths.
-    ModelLimitError
-        There are too many strokes.
     """
     found: list[Strokes] = []
     for step, each in enumerate(counted(given, 1)):
@@ -176,7 +165,6 @@ def angle_between(drawings: Sequence[Strokes]) -> float:
 
 
 def _between(strokes: Strokes) -> Iterator[float]:
-    """The angles between the directions of strokes, up to 90 degrees."""
     directions = np.unique(np.round(np.degrees(np.angle(strokes.ends[:, 1] - strokes.ends[:, 0])) % 180, 6))
     for one, other in combinations(directions.tolist(), 2):
         check_budget()
@@ -199,8 +187,6 @@ def _rounded(angle: float) -> float:
 class Turning:
     """The turns that + and - make.
 
-    Attributes
-    ----------
     degrees
         The angle of one of them.
     """
@@ -219,7 +205,6 @@ class Turning:
         return np.arange(-self.most + whole, self.most + 1)
 
     def by(self, number: Any) -> Any:
-        """So many turns as complex numbers."""
         return np.exp(1j * np.radians(self.degrees) * number)
 
     def is_(self, radians: float, number: int) -> bool:

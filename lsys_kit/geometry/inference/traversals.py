@@ -1,4 +1,4 @@
-"""The ways in which a turtle can draw strokes: from which point, in which order, and where it stands in the end.
+"""The ways in which a turtle can draw strokes: from which point, in which order, where it stands in the end; and their words.
 
 What matters to what a word makes later is which stroke the turtle drew before each, how far it turned between them, and where
 it ends: brackets return it to what it drew before. Strokes drawn in one go need no brackets.
@@ -6,23 +6,22 @@ it ends: brackets return it to what it drew before. Strokes drawn in one go need
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
+from typing import TypeAlias
 
 from lsys_kit.budget import check_budget
 from lsys_kit.geometry.inference.strokes import Strokes, Turning
 
 START = -1
-"""Stands for the place where a turtle begins."""
+Numbers: TypeAlias = tuple[int, ...]
 
 
 @dataclass(frozen=True)
 class Traversal:
     """A way to draw strokes.
 
-    Attributes
-    ----------
     before
         For each stroke the number of that at whose end it begins, an earlier one; or `START`.
     turns
@@ -33,9 +32,9 @@ class Traversal:
         The stroke at whose end the turtle stands in the end, or `START`.
     """
 
-    before: tuple[int, ...]
-    turns: tuple[int, ...]
-    points: tuple[int, ...]
+    before: Numbers
+    turns: Numbers
+    points: Numbers
     last: int
 
     def __len__(self) -> int:
@@ -55,10 +54,10 @@ class _Place:
 class _Drawn:
     """What has been drawn of a traversal, and which strokes of the drawing that were."""
 
-    before: tuple[int, ...]
-    turns: tuple[int, ...]
-    points: tuple[int, ...]
-    numbers: tuple[int, ...]
+    before: Numbers
+    turns: Numbers
+    points: Numbers
+    numbers: Numbers
 
 
 def in_one_go(strokes: Strokes, turning: Turning, size: int) -> Iterator[Traversal]:
@@ -154,3 +153,65 @@ def _all_reached(strokes: Strokes, places: Sequence[_Place], drawn: Sequence[int
             reached |= {number for number, _ in free}
             left += [end for _, end in free]
     return len(reached) == len(strokes)
+
+
+@dataclass(frozen=True)
+class Apex:
+    """A letter that draws nothing.
+
+    turns
+        The number of turns to the left before it.
+    symbol
+        The letter.
+    """
+
+    turns: int
+    symbol: str = "X"
+
+
+def turns_text(number: int) -> str:
+    """So many turns, to the left where the number is positive.
+
+    >>> turns_text(2), turns_text(-1)
+    ('++', '-')
+    """
+    return "+" * number or "-" * -number
+
+
+def word_of(way: Traversal, behind: int = 0) -> str:
+    """The word that draws in some way, with so many turns behind it.
+
+    >>> word_of(Traversal((-1, 0, 0), (0, 1, 0), (0, 1, 2, 3), last=2))
+    'F[+F]F'
+    >>> word_of(Traversal((-1, 0), (0, 1), (0, 1, 2), last=-1), 2)
+    '[F+F]++'
+    """
+    main = {START}
+    at = way.last
+    while at != START:
+        main.add(at)
+        at = way.before[at]
+    return _from(way, START, main, {}) + turns_text(behind)
+
+
+def word_with(way: Traversal, apices: Mapping[int, Sequence[Apex]]) -> str:
+    """The word that draws in some way, with letters at the ends of strokes; it does not matter where the turtle ends.
+
+    >>> word_with(Traversal((-1, 0), (0, 1), (0, 1, 2), last=-1), {0: [Apex(-1)], 1: [Apex(2)]})
+    'F[-X]+F++X'
+    """
+    return _from(way, START, set(), apices)
+
+
+def _from(way: Traversal, behind: int, main: set[int], apices: Mapping[int, Sequence[Apex]]) -> str:
+    """What is drawn from the end of a stroke on: branches in brackets, then what needs none."""
+    following = [each for each in range(len(way)) if way.before[each] == behind]
+    parts = [
+        (each in main, turns_text(way.turns[each]) + "F" + _from(way, each, main, apices))
+        for each in sorted(following, key=lambda each: (each in main, -abs(way.turns[each]), -way.turns[each]))
+    ]
+    parts = [*((False, turns_text(apex.turns) + apex.symbol) for apex in apices.get(behind, ())), *parts]
+    if not parts:
+        return ""
+    bare = parts[-1][0] or behind not in main
+    return "".join(f"[{text}]" for _, text in (parts[:-1] if bare else parts)) + (parts[-1][1] if bare else "")

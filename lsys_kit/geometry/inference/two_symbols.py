@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from lsys_kit.budget import check_budget
-from lsys_kit.geometry.inference.drawn_words import turns_text
 from lsys_kit.geometry.inference.strokes import Strokes, Turning
+from lsys_kit.geometry.inference.traversals import turns_text
 
 PICTURES = 4
 """The drawings of so many steps are walked along."""
@@ -39,8 +39,6 @@ class _Item:
 class _Walk:
     """A turtle on its way.
 
-    Attributes
-    ----------
     rules
         What is known, or was tried.
     item
@@ -64,10 +62,9 @@ class _Walk:
 def two_symbol_rules(drawings: Sequence[Strokes], turning: Turning, factor: int) -> Iterator[tuple[str, str]]:
     """Successors of F_l and of F_r, of so many strokes each, that draw the pictures of steps 1 to 3 from the axiom F_l.
 
+    >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.drawing import scene_of
     >>> from lsys_kit.geometry.inference.strokes import read_drawings
-    >>> from lsys_kit.notation.read import read
-    >>> from lsys_kit.derivation.derive import derive
     >>> dragon = derive(read("axiom: F_l\\nF_l -> F_l+F_r+\\nF_r -> -F_l-F_r"), 3)
     >>> pictures = read_drawings(scene_of(dragon[step]) for step in range(4))
     >>> ("F_l+F_r+", "-F_l-F_r") in [*two_symbol_rules(pictures, Turning(90), 2)]
@@ -87,7 +84,6 @@ def _of_both_kinds(rules: Rules, factor: int) -> bool:
 
 
 def _walked(rules: Rules, strokes: Strokes, turning: Turning, factor: int, steps: int) -> Iterator[Rules]:
-    """What must be known of the rules to draw the strokes of a step."""
     left = [_Walk(rules, _Item(AXIOM, steps, None), point) for point in strokes.leaving]
     while left:
         check_budget()
@@ -99,7 +95,6 @@ def _walked(rules: Rules, strokes: Strokes, turning: Turning, factor: int, steps
 
 
 def _further(walk: _Walk, item: _Item, strokes: Strokes, turning: Turning, factor: int) -> Iterator[_Walk]:
-    """The ways on from a place."""
     name, _, _ = item.what
     if name == "kind" and not item.steps:
         yield from _drawing(walk, item, strokes, turning)

@@ -48,7 +48,6 @@ def prism_triangles(sides: int) -> tuple[Numbers, Numbers, Numbers]:
 
 @cache
 def disc() -> Solid:
-    """A disc of radius 1 that faces the viewer."""
     cos, sin = circle(ROUND)
     rim = np.stack([cos, np.zeros(ROUND), sin], axis=1)
     fan = [(ROUND, k, (k + 1) % ROUND) for k in range(ROUND)]

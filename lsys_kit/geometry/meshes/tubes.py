@@ -34,8 +34,6 @@ SHAPES_AT_A_TIME = 2**12
 class Strokes(NamedTuple):
     """Strokes of some length, in an order in which each that continues another comes right behind it.
 
-    Attributes
-    ----------
     ends
         Shape (n, 2, 3): start and end of each.
     radii
@@ -43,7 +41,7 @@ class Strokes(NamedTuple):
     looks
         Shape (n, 2): its state and the number of its colour.
     follows
-        Shape (n,): whether it continues the one before.
+        Whether it continues the one before.
     """
 
     ends: Floats
@@ -53,7 +51,6 @@ class Strokes(NamedTuple):
 
     @property
     def lengths(self) -> Floats:
-        """The length of each."""
         found: Floats = np.linalg.norm(self.ends[:, 1] - self.ends[:, 0], axis=1)
         return found
 
@@ -64,15 +61,12 @@ class Strokes(NamedTuple):
         return found
 
     def taken(self, some: Integers | Flags) -> Strokes:
-        """Some of them."""
         return Strokes(self.ends[some], self.radii[some], self.looks[some], self.follows[some])
 
 
 class Rings(NamedTuple):
     """The rings of tubes, and between which of them there are sides.
 
-    Attributes
-    ----------
     vertices, normals
         Shape (m, sides, 3).
     looks
@@ -100,17 +94,13 @@ def connected(ends: Floats, radii: Floats, orders: Integers, looks: Integers, ne
 
     A stroke continues the last one of its branch order, if that ends where it starts.
 
-    Parameters
-    ----------
     ends, radii, looks
         As of `Strokes`; all strokes have a length.
     orders
-        Shape (n,): the branch order of each.
+        The branch order of each.
     near
         Points that are closer are one.
 
-    Examples
-    --------
     >>> points = np.array([[0, 0, 0], [0, 0, 1], [0, 0, 2], [1, 0, 2]], float)
     >>> ends = np.stack([points[:-1], points[1:]], axis=1)
     >>> found = connected(ends, np.full((3, 2), 0.1), np.zeros(3, int), np.zeros((3, 2), int), 1e-9)
@@ -156,7 +146,6 @@ def _unbroken(strokes: Strokes) -> Strokes:
 
 
 def _cosines(strokes: Strokes) -> Floats:
-    """The cosine of the angle between each stroke and the one before."""
     ways = strokes.ways
     found: Floats = np.einsum("ij,ij->i", ways, np.roll(ways, 1, axis=0))
     return found
@@ -241,7 +230,6 @@ def _radials(strokes: Strokes) -> Floats:
 
 
 def _across(ways: Floats) -> Floats:
-    """A unit vector at right angles to each direction."""
     aside = np.zeros_like(ways)
     np.put_along_axis(aside, np.abs(ways).argmin(axis=1)[:, None], 1.0, axis=1)
     normals = np.cross(ways, aside)
@@ -258,13 +246,11 @@ def _rotations(a: Floats, b: Floats) -> Floats:
 
 
 def _product(a: Floats, b: Floats) -> Floats:
-    """The rotations b, then a."""
     real = a[:, 0] * b[:, 0] - np.einsum("ij,ij->i", a[:, 1:], b[:, 1:])
     return np.column_stack([real, a[:, :1] * b[:, 1:] + b[:, :1] * a[:, 1:] + np.cross(a[:, 1:], b[:, 1:])])
 
 
 def _rotated(rotations: Floats, vectors: Floats) -> Floats:
-    """Vectors after rotations."""
     twice = 2 * np.cross(rotations[:, 1:], vectors)
     turned: Floats = vectors + rotations[:, :1] * twice + np.cross(rotations[:, 1:], twice)
     return turned

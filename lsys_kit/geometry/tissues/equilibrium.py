@@ -14,8 +14,8 @@ from lsys_kit.budget import counted
 from lsys_kit.geometry.scene import Floats
 from lsys_kit.geometry.tissues.relaxation import (
     DEFAULT_FORCES,
-    LEAST_AREA,
     LEAST_LENGTH,
+    LEAST_ROOM,
     MOST_ITERATIONS,
     Forces,
     Tissue,
@@ -40,16 +40,8 @@ STEADYING = 1e-9
 
 
 class Equilibrium(NamedTuple):
-    """Where a relaxation ends.
-
-    Attributes
-    ----------
-    points
-        The positions of the vertices, shape (n, 2).
-    iterations
-        The number of iterations of the relaxation.
-    settled
-        Whether the vertices are at rest there. If not, they still moved after the last iteration.
+    """Where a relaxation ends: the positions of the vertices, shape (n, 2); the number of iterations; and whether the vertices
+    are at rest there. If not, they still moved after the last iteration.
     """
 
     points: Floats
@@ -58,22 +50,8 @@ class Equilibrium(NamedTuple):
 
 
 def equilibrium(points: Floats, tissue: Tissue, forces: Forces = DEFAULT_FORCES) -> Equilibrium:
-    """Where vertices come to rest.
+    """Where vertices come to rest; an error, if they never do and fly apart.
 
-    Parameters
-    ----------
-    points
-        Shape (n, 2): the initial positions of the vertices.
-    tissue, forces
-        The topology of the map, and the forces of its cells and walls.
-
-    Raises
-    ------
-    ModelValueError
-        The positions grow beyond all bounds.
-
-    Examples
-    --------
     >>> square = Tissue(np.array([[0, 1], [1, 2], [2, 3], [3, 0]]), np.arange(4), np.array([0, 4]))
     >>> points, iterations, settled = equilibrium(np.array([[0, 1], [1, 1], [1, 0], [0, 0.0]]), square)
     >>> print(iterations, settled, areas(points, square)[0].round(9), round(((0.1 + 0.21**0.5) / 2)**2, 9))
@@ -90,78 +68,52 @@ def equilibrium(points: Floats, tissue: Tissue, forces: Forces = DEFAULT_FORCES)
 
 def _balanced(points: Floats, tissue: Tissue, forces: Forces) -> Floats | None:
     """The positions near some others where all forces balance (Newton's method), or None if they are not found."""
-    if np.sum((2 * tissue.sizes.astype(np.float64)) ** 2) > MOST_ENTRIES:
-        return None
-    push, room = _push(points, tissue, forces)
-    for _ in range(MOST_NEWTON_STEPS):
-        size = np.abs(push).max()
-        if size < BALANCED:
-            return points
-        if room.min() < LEAST_AREA:
-            return None
-        step = _newton_step(points, push, room, tissue, forces)
-        if not np.abs(step).max() < FARTHEST_STEP:  # which NaN is not
-            return None
-        points = points + step
-        push, room = _push(points, tissue, forces)
-    return None
-
-
-def _push(points: Floats, tissue: Tissue, forces: Forces) -> tuple[Floats, Floats]:
-    room = areas(points, tissue)
-    return force(points, tissue, room, forces), room
-
-
-def _newton_step(points: Floats, push: Floats, room: Floats, tissue: Tissue, forces: Forces) -> Floats:
-    """How far each vertex is from rest, if forces grow in proportion to it."""
     from scipy.sparse import eye_array  # imported late: it takes longer to load than the kit
     from scipy.sparse.linalg import spsolve
 
-    hessian = wall_hessian(points, tissue, forces) + cell_hessian(points, room, tissue, forces)
-    steadied = hessian + STEADYING * eye_array(points.size)
-    found: Floats = spsolve(steadied.tocsc(), push.ravel()).reshape(-1, 2)
-    return found
+    if np.sum((2 * tissue.sizes.astype(np.float64)) ** 2) > MOST_ENTRIES:
+        return None
+    for _ in range(MOST_NEWTON_STEPS):
+        room = areas(points, tissue)
+        push = force(points, tissue, room, forces)
+        if np.abs(push).max() < BALANCED:
+            return points
+        if room.min() < LEAST_ROOM:
+            return None
+        hessian = wall_hessian(points, tissue, forces) + cell_hessian(points, room, tissue, forces)
+        step: Floats = spsolve((hessian + STEADYING * eye_array(points.size)).tocsc(), push.ravel()).reshape(-1, 2)
+        if not np.abs(step).max() < FARTHEST_STEP:  # which NaN is not
+            return None
+        points = points + step
+    return None
 
 
 def wall_hessian(points: Floats, tissue: Tissue, forces: Forces) -> csr_array:
     """The second derivatives of the energy of walls; x and y of each vertex in turn."""
-    from scipy.sparse import coo_array
+    from scipy.sparse import bsr_array, coo_array, kron
 
-    first, second = tissue.ends.T
-    along = points[second] - points[first]
-    lengths = np.maximum(np.hypot(*along.T), LEAST_LENGTH)
+    along = points[tissue.ends[:, 1]] - points[tissue.ends[:, 0]]
+    lengths, walls = np.maximum(np.hypot(*along.T), LEAST_LENGTH), np.arange(len(along))
     slack = (forces.rest / lengths)[:, None, None]
     ways = along / lengths[:, None]
-    block = forces.stiffness * ((1 - slack) * np.eye(2) + slack * ways[:, :, None] * ways[:, None, :])
-    one, other = _axes(first), _axes(second)
-    rows, columns, values = zip(
-        *((a, b, sign * block) for a, b, sign in ((one, one, 1), (other, other, 1), (one, other, -1), (other, one, -1))),
-        strict=True,
-    )
-    shape = points.size, points.size
-    row = np.concatenate([np.repeat(each, 2) for each in rows])
-    column = np.concatenate([np.tile(each.reshape(-1, 2), 2).ravel() for each in columns])
-    return coo_array((np.concatenate([each.ravel() for each in values]), (row, column)), shape=shape).tocsr()
-
-
-def _axes(vertices: np.ndarray) -> np.ndarray:
-    """The places of x and y of vertices."""
-    return (2 * vertices[:, None] + np.arange(2)).ravel()
+    blocks = forces.stiffness * ((1 - slack) * np.eye(2) + slack * ways[:, :, None] * ways[:, None, :])
+    signs = np.repeat([-1.0, 1.0], len(walls))
+    apart = coo_array((signs, (np.tile(walls, 2), tissue.ends.T.ravel())), shape=(len(walls), len(points)))
+    across = kron(apart, np.eye(2), "csr")
+    return across.T @ bsr_array((blocks, walls, np.arange(len(walls) + 1))) @ across
 
 
 def cell_hessian(points: Floats, room: Floats, tissue: Tissue, forces: Forces) -> csr_array:
     """The second derivatives of the energy of cells, minus the pressure at area 1 times the logarithm of the area."""
-    from scipy.sparse import coo_array
+    from scipy.sparse import coo_array, kron
 
     cell = np.repeat(np.arange(len(room)), tissue.sizes)
     here, there, before = tissue.corners, tissue.following, tissue.preceding
-    (x, y), size = points.T, points.size
+    (x, y), many = points.T, len(points)
     slopes = np.concatenate([y[before] - y[there], x[there] - x[before]]) / 2
     axes = np.concatenate([2 * here, 2 * here + 1])
-    gradient = coo_array((slopes, (np.tile(cell, 2), axes)), shape=(len(room), size)).tocsr()
+    gradient = coo_array((slopes, (np.tile(cell, 2), axes)), shape=(len(room), 2 * many)).tocsr()
     pressures = forces.pressure / room
-    half = pressures[cell] / 2
-    rows = np.concatenate([2 * there, 2 * here + 1, 2 * here, 2 * there + 1])
-    columns = np.concatenate([2 * here + 1, 2 * there, 2 * there + 1, 2 * here])
-    mixed = coo_array((np.concatenate([half, half, -half, -half]), (rows, columns)), shape=(size, size)).tocsr()
+    half = coo_array((pressures[cell] / 2, (there, here)), shape=(many, many)).tocsr()
+    mixed = kron(half - half.T, np.array([[0, 1], [-1, 0]]))
     return gradient.T @ gradient.multiply((pressures / room)[:, None]) - mixed

@@ -15,23 +15,31 @@ from operator import attrgetter
 from typing import Any, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lsys_kit.budget import check_budget
 from lsys_kit.derivation.core.interpretation import interpretations
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.geometry.scene import Discs, Floats, Polygons, Scene, Segments
-from lsys_kit.geometry.turtle.commands.actions import Effect
-from lsys_kit.geometry.turtle.commands.instructions import Instruction, instructions, unknown_commands
-from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
-from lsys_kit.geometry.turtle.commands.table import commands_of, initial_step, symbols_with
-from lsys_kit.geometry.turtle.frames import initial_frame
-from lsys_kit.geometry.turtle.space import SPACE_HANDLERS, SpaceTurtle, operand
+from lsys_kit.geometry.turtle.commands import (
+    DrawingMode,
+    Effect,
+    Instruction,
+    commands_of,
+    drawing_mode,
+    initial_step,
+    instructions,
+    symbols_with,
+    unknown_commands,
+)
+from lsys_kit.geometry.turtle.space import SPACE_HANDLERS, SpaceTurtle, initial_frame, operand
+from lsys_kit.geometry.turtle.turtle import collected_shapes
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 
 Key: TypeAlias = tuple[int, int, tuple[Any, ...]]
 """What a prototype depends on: the state, the number of steps that remain, and what the turtle carries."""
-AttributeColumns: TypeAlias = tuple[np.ndarray[Any, Any], ...]
+AttributeColumns: TypeAlias = tuple[NDArray[Any], ...]
 _CARRIED_ATTRIBUTES = ("length", "width", "colour", "gravitropism", "restored", "mirror", "scale")
 _carried_by = attrgetter(*_CARRIED_ATTRIBUTES)
 LEAST_REPETITION = 30
@@ -44,8 +52,6 @@ POINTS_AT_A_TIME = 2**13
 class Prototype:
     """The drawing of a module, or of what becomes of it, by a turtle that starts at the origin in its initial frame.
 
-    Attributes
-    ----------
     strokes, corners, centres
         Points, a row for each: the starts and ends of strokes in turn, the corners of polygons, the centres of discs.
     of_strokes, of_polygons, of_discs
@@ -79,10 +85,7 @@ class Instance:
 def draw_instanced(derivation: Derivation, step: int, angle: float) -> Scene | None:
     """The scene of a step of a derivation; None if it cannot be instanced, or if that does not pay.
 
-    Examples
-    --------
-    >>> from lsys_kit.derivation.derive import derive
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import derive, read
     >>> print(draw_instanced(derive(read("axiom: F\\nF -> F[+F]F[-F]F"), 7), 7, 25.7))
     78,125 segments, width 732.47, height 2187
     """
@@ -98,17 +101,7 @@ def draw_instanced(derivation: Derivation, step: int, angle: float) -> Scene | N
 
 
 class Prototypes:
-    """The prototypes of the drawings of a system, each made once.
-
-    Parameters
-    ----------
-    states
-        The table of states, none of which depends on its neighbours.
-    angle
-        The turning angle in degrees.
-    in_plane
-        Whether the turtle stays in the plane.
-    """
+    """The prototypes of the drawings of a system, each made once."""
 
     def __init__(self, states: States, angle: float, in_plane: bool) -> None:
         self.states, self.angle = states, angle
@@ -120,7 +113,6 @@ class Prototypes:
         self._instructions: dict[int, list[Instruction]] = {}
 
     def _turtle(self) -> SpaceTurtle:
-        """A turtle at its start."""
         system = self.states.system
         turtle = SpaceTurtle(self._initial_frame, initial_step(system), TURTLE_DIALECTS[system.turtle].width)
         turtle.take_look(system)
@@ -128,7 +120,6 @@ class Prototypes:
         return turtle
 
     def of_row(self, row: Sequence[int], steps: int) -> Prototype:
-        """The prototype of a row of states after a number of steps."""
         turtle = self._turtle()
         return self._run(self._of_row(row, steps, _carried_by(turtle)))
 
@@ -178,7 +169,6 @@ class Prototypes:
         return _merged_instances(parts, position, rotation, carried)
 
     def _of_module(self, state: int, carried: tuple[Any, ...]) -> Prototype:
-        """The prototype of a module that is not rewritten."""
         turtle = self._turtle()
         for name, value in zip(_CARRIED_ATTRIBUTES, carried, strict=True):
             setattr(turtle, name, value)
@@ -190,32 +180,25 @@ class Prototypes:
             SPACE_HANDLERS[instruction.action](turtle, operand(instruction, self.angle))
         strokes = np.array(turtle.strokes).reshape(-1, 10).T
         points = strokes[:6].T.reshape(-1, 3)
-        corners = [corner for outline in turtle.outlines for corner in outline.corners]
+        polygons, discs = collected_shapes(turtle.outlines, turtle.rounds, self._points)
         opened = len(turtle.stack)  # 1 for an opening bracket, which counts in the branch order of its instance
         return Prototype(
             np.ascontiguousarray(points[:, self._axes]),
             ((strokes[6] - opened).astype(np.int16), strokes[7].astype(np.int32), strokes[8], strokes[9].astype(np.int32)),
-            self._points(corners),
-            (
-                np.array([len(outline.corners) for outline in turtle.outlines], np.int64),
-                *(np.array([outline[place] for outline in turtle.outlines], np.int32) for place in (1, 2)),
-            ),
-            self._points([found.place for found in turtle.rounds]),
-            (
-                np.array([found.radius for found in turtle.rounds]),
-                *(np.array([found[place] for found in turtle.rounds], np.int32) for place in (2, 3, 4)),
-            ),
+            polygons.points,
+            (np.diff(polygons.starts), polygons.states, polygons.colours),
+            discs.centres,
+            (discs.radii, discs.kinds, discs.states, discs.colours),
             np.array(turtle.position)[self._axes],
             (np.array(turtle.orientation[:3]).T @ self._inverse)[np.ix_(self._axes, self._axes)],
             _carried_by(turtle),
         )
 
-    def _points(self, places: Sequence[Any]) -> Floats:
+    def _points(self, places: list[Any]) -> Floats:
         return np.ascontiguousarray(np.array(places, np.float64).reshape(-1, 3)[:, self._axes])
 
 
 def _merged_instances(instances: Sequence[Instance], end: Floats, rotation: Floats, carried: tuple[Any, ...]) -> Prototype:
-    """Instances as one prototype."""
     drawn = [part for part in instances if len(part.prototype.strokes)]
     strokes = _transformed([(part, part.prototype.strokes) for part in drawn], len(end))
     orders, states, widths, colours = zip(*(part.prototype.of_strokes for part in drawn), strict=True) if drawn else [()] * 4
@@ -242,11 +225,11 @@ def _merged_instances(instances: Sequence[Instance], end: Floats, rotation: Floa
     )
 
 
-def _concatenated(columns: Sequence[np.ndarray[Any, Any]], kind: Any) -> np.ndarray[Any, Any]:
+def _concatenated(columns: Sequence[NDArray[Any]], kind: Any) -> NDArray[Any]:
     return np.concatenate(columns, dtype=kind) if columns else np.empty(0, kind)
 
 
-def _constant_or_all(columns: Sequence[np.ndarray[Any, Any]], sizes: Sequence[int], kind: Any) -> np.ndarray[Any, Any]:
+def _constant_or_all(columns: Sequence[NDArray[Any]], sizes: Sequence[int], kind: Any) -> NDArray[Any]:
     """The columns as one; a single value, where each column has only that value."""
     if columns and all(len(column) == 1 for column in columns) and len({column[0] for column in columns}) == 1:
         return columns[0]
@@ -270,7 +253,6 @@ def _transformed(parts: Sequence[tuple[Instance, Floats]], size: int) -> Floats:
 
 
 def _as_scene(prototype: Prototype, unknown: tuple[str, ...]) -> Scene:
-    """A prototype as a scene."""
     polygons = Polygons(prototype.corners, np.cumsum([0, *prototype.of_polygons[0]]), *prototype.of_polygons[1:])
     radii, kinds, states, colours = prototype.of_discs
     discs = Discs(prototype.centres, radii, kinds, states, colours)

@@ -9,21 +9,25 @@ the word and its rules.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.geometry.scene import Floats, Integers, Scene, Segments
-from lsys_kit.geometry.turtle.commands.instructions import Instruction
-from lsys_kit.geometry.turtle.commands.table import initial_step
-from lsys_kit.geometry.turtle.fractint import FRACTINT_HANDLERS
-from lsys_kit.geometry.turtle.handlers import COMMON_HANDLERS, Handler
-from lsys_kit.geometry.turtle.interpreter import run_turtle
-from lsys_kit.geometry.turtle.shapes import Outline, RoundShape, Writing, collected_labels, collected_shapes
-from lsys_kit.geometry.turtle.turtle import Turtle
+from lsys_kit.geometry.turtle.commands import Instruction, initial_step
+from lsys_kit.geometry.turtle.turtle import (
+    Outline,
+    RoundShape,
+    Turtle,
+    Writing,
+    collected_labels,
+    collected_shapes,
+    handlers_of,
+    run_turtle,
+)
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 
 
@@ -31,22 +35,20 @@ from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 class Path:
     """The steps forward of a turtle, before the angle is known.
 
-    Attributes
-    ----------
     turns, offsets
-        Shape (n,): the heading is turns * angle + offset, in degrees from the turtle's first heading, to the left.
+        The heading is turns * angle + offset, in degrees from the turtle's first heading, to the left.
     lengths
-        Shape (n,): how far it goes.
+        How far it goes.
     parents
-        Shape (n,): the number of the earlier step at whose end it starts; -1 for the origin.
+        The number of the earlier step at whose end it starts; -1 for the origin.
     drawn
-        Shape (n,): whether it leaves a stroke; a step may also lead to the corner of a leaf.
+        Whether it leaves a stroke; a step may also lead to the corner of a leaf.
     orders
-        Shape (n,): in how many brackets it stands.
+        In how many brackets it stands.
     states
-        Shape (n,): the state of its module.
+        The state of its module.
     widths, colours
-        Shape (n,), as of `Segments`.
+        As of `Segments`.
     outlines, rounds, written
         Polygons, circles and discs, and labels; their places are numbers of steps, at whose ends they are.
     unknown
@@ -57,7 +59,7 @@ class Path:
     offsets: Floats
     lengths: Floats
     parents: Integers
-    drawn: np.ndarray[tuple[int], np.dtype[np.bool_]]
+    drawn: NDArray[np.bool_]
     orders: Integers
     states: Integers
     widths: Floats
@@ -99,31 +101,28 @@ class PlaneTurtle(Turtle):
         return self.step(turns, offset + side * math.degrees(math.atan2(left, ahead)), math.hypot(ahead, left), self.position)
 
     def step(self, turns: float, offset: float, length: float, parent: int, drawn: bool = False) -> int:
-        """Record a step; return its number."""
         self.steps.append((turns, offset, length, parent, drawn, len(self.stack), self.state, self.stroke_width, self.colour))
         return len(self.steps) - 1
 
+    def do_turn(self, instruction: Instruction) -> None:
+        turns, offset, side = self.orientation
+        self.orientation = turns + side * instruction.factor, offset + side * instruction.addend, side
 
-def _turn(turtle: PlaneTurtle, instruction: Instruction) -> None:
-    turns, offset, side = turtle.orientation
-    turtle.orientation = turns + side * instruction.factor, offset + side * instruction.addend, side
+    do_turn_back = do_turn
 
+    def do_turn_by_mirrored_angle(self, instruction: Instruction) -> None:
+        turns, offset, side = self.orientation
+        self.orientation = turns + self.mirror * instruction.factor, offset, side
 
-def _turn_by_mirrored_angle(turtle: PlaneTurtle, instruction: Instruction) -> None:
-    turns, offset, side = turtle.orientation
-    turtle.orientation = turns + turtle.mirror * instruction.factor, offset, side
+    def do_roll(self, instruction: Instruction) -> None:
+        if instruction.factor == 0 and instruction.addend % 360 == 180:
+            turns, offset, side = self.orientation
+            self.orientation = turns, offset, -side
 
-
-def _roll(turtle: PlaneTurtle, instruction: Instruction) -> None:
-    if instruction.factor == 0 and instruction.addend % 360 == 180:
-        turns, offset, side = turtle.orientation
-        turtle.orientation = turns, offset, -side
-
-
-def _return_to_stroke(turtle: PlaneTurtle, instruction: Instruction) -> None:
-    if turtle.last is not None:
-        turns, offset, length, parent, *_ = turtle.steps[turtle.last]
-        turtle.position = turtle.step(turns, offset, length * (instruction.factor + instruction.addend), parent)
+    def do_return_to_stroke(self, instruction: Instruction) -> None:
+        if self.last is not None:
+            turns, offset, length, parent, *_ = self.steps[self.last]
+            self.position = self.step(turns, offset, length * (instruction.factor + instruction.addend), parent)
 
 
 LARGEST_EXACT = 2.0**40
@@ -139,32 +138,14 @@ _COLUMN_TYPES = {
     "widths": np.float64,
     "colours": np.int64,
 }
-PLANE_HANDLERS: Mapping[str, Handler] = {
-    **COMMON_HANDLERS,
-    **FRACTINT_HANDLERS,
-    "turn": _turn,
-    "turn by mirrored angle": _turn_by_mirrored_angle,
-    "turn back": _turn,
-    "roll": _roll,
-    "return to stroke": _return_to_stroke,
-}
-"""The handlers of the turtle in the plane, by action."""
+PLANE_HANDLERS = handlers_of(PlaneTurtle)
+"""What carries out the actions that stay in the plane."""
 
 
 def trace(word: Word) -> Path:
     """The path of a turtle that interprets a word; commands that lead out of the plane are skipped.
 
-    Raises
-    ------
-    ModelLimitError
-        More brackets are open at once than the limit allows.
-    ModelValueError
-        A value is too large to draw, or symbolic.
-
-    Examples
-    --------
-    >>> from lsys_kit.derivation.derive import derive
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import derive, read
     >>> path = trace(derive(read("axiom: F[+F]-(30)F(2)"), 0)[0])
     >>> path.turns.tolist(), path.offsets.tolist(), path.lengths.tolist(), path.parents.tolist()
     ([0.0, 1.0, 0.0], [0.0, 0.0, -30.0], [1.0, 1.0, 2.0], [-1, 0, 0])
@@ -190,8 +171,7 @@ def trace(word: Word) -> Path:
 def place_path(path: Path, angle: float, heading: float = 90.0) -> Scene:
     """The scene of a path for a turning angle and an initial heading, in degrees.
 
-    >>> from lsys_kit.derivation.derive import derive
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import derive, read
     >>> koch = derive(read("axiom: F--F--F\\nF -> F+F--F+F"), 3)[-1]
     >>> print(place_path(trace(koch), 60, 0))
     192 segments, width 27, height 31.18

@@ -6,47 +6,147 @@ book turn the wrong way if H, L and U are read as columns; here commands do what
 
 In the picture x grows to the right, z upwards and y away from the viewer. The turtle starts at the origin with H upwards.
 ABOP's turtle has L to the left and U towards the viewer, GROGRA's L to the right and U away from the viewer.
+
+It also spans generalised cylinders and patches between points that it has passed. The axis of a generalised cylinder is a curve
+through control points: between two of them a cubic Hermite curve, whose tangents have the directions of the turtle's headings
+there, and are 1.2 times as long as the points are apart. It is drawn as a row of strokes whose width changes evenly; as they
+follow one another, they become one tube, whose round cross sections are carried along it without twist. The control points of a
+patch are those at which the turtle is told so (R. Mech and P. Prusinkiewicz, CPFG user's manual).
 """
 
 from __future__ import annotations
 
 import math
 from array import array
-from collections.abc import Mapping
-from typing import Any
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from lsys_kit.budget import check_budget
+from lsys_kit.budget import check_budget, check_bytes
 from lsys_kit.derivation.core.words import Word
-from lsys_kit.geometry.scene import Floats, Scene, Segments
-from lsys_kit.geometry.turtle.commands.instructions import Instruction
-from lsys_kit.geometry.turtle.commands.mode import in_plane
-from lsys_kit.geometry.turtle.commands.table import WIDTH, initial_step
-from lsys_kit.geometry.turtle.curves import CURVE_HANDLERS
-from lsys_kit.geometry.turtle.fractint import FRACTINT_HANDLERS
-from lsys_kit.geometry.turtle.frames import (
-    TurtleFrame,
-    Vector,
-    combined,
-    cos_sin,
-    cross,
-    initial_frame,
-    next_frame,
-    rotated_towards,
-    unit,
-)
-from lsys_kit.geometry.turtle.handlers import COMMON_HANDLERS, Handler
-from lsys_kit.geometry.turtle.interpreter import run_turtle
-from lsys_kit.geometry.turtle.shapes import Outline, collected_labels, collected_shapes
-from lsys_kit.geometry.turtle.surfaces import Surface
-from lsys_kit.geometry.turtle.turtle import Turtle
+from lsys_kit.geometry.scene import OWN, Floats, Scene, Segments
+from lsys_kit.geometry.turtle.commands import WIDTH, Instruction, in_plane, initial_step
+from lsys_kit.geometry.turtle.surfaces import PATCH_FACES, Surface, patch_grid
+from lsys_kit.geometry.turtle.turtle import Outline, Turtle, collected_labels, collected_shapes, handlers_of, run_turtle
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 
+Vector: TypeAlias = tuple[float, float, float]
+TurtleFrame: TypeAlias = tuple[Vector, Vector, Vector, int]
+"""H, L, U, and the number of rotations since they were last made orthonormal."""
+
+RENORMALISATION_INTERVAL = 1_000
+"""The number of rotations after which a frame is made orthonormal again; until then its error is 1e-13 at most."""
+
+
+def combined(frame: TurtleFrame, vector: Vector) -> Vector:
+    """A vector that is given in a frame."""
+    (hx, hy, hz), (lx, ly, lz), (ux, uy, uz), _ = frame
+    ahead, left, up = vector
+    return ahead * hx + left * lx + up * ux, ahead * hy + left * ly + up * uy, ahead * hz + left * lz + up * uz
+
+
+def initial_frame(dialect: str, heading: float = 90.0) -> TurtleFrame:
+    """The frame in which the turtle starts; the heading is an angle in the plane of the picture, 90 is up.
+
+    >>> initial_frame("abop")
+    ((0.0, 0.0, 1.0), (-1.0, 0.0, 0.0), (0.0, -1.0, 0.0), 0)
+    """
+    cos, sin = cos_sin(heading)
+    side = TURTLE_DIALECTS[dialect].left
+    head, left = (cos, 0.0, sin), (-side * sin, 0.0, side * cos)
+    return head, left, cross(head, left), 0
+
+
+def cos_sin(degrees: float) -> tuple[float, float]:
+    """Cosine and sine, exact for quarter turns.
+
+    >>> cos_sin(-90)
+    (0.0, -1.0)
+    """
+    quarters, rest = divmod(degrees, 90.0)
+    if rest == 0:
+        return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[int(quarters) % 4]
+    radians = math.radians(math.fmod(degrees, 360.0))
+    return math.cos(radians), math.sin(radians)
+
+
+def cross(a: Vector, b: Vector) -> Vector:
+    (ax, ay, az), (bx, by, bz) = a, b
+    return ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
+
+
+def unit(a: Vector) -> Vector:
+    length = math.hypot(*a)
+    return a[0] / length, a[1] / length, a[2] / length
+
+
+def rotated_towards(a: Vector, b: Vector, cos: float, sin: float) -> tuple[Vector, Vector]:
+    """Two orthogonal unit vectors after a rotation of the first towards the second."""
+    (ax, ay, az), (bx, by, bz) = a, b
+    return (
+        (cos * ax + sin * bx, cos * ay + sin * by, cos * az + sin * bz),
+        (cos * bx - sin * ax, cos * by - sin * ay, cos * bz - sin * az),
+    )
+
+
+def next_frame(head: Vector, left: Vector, up: Vector, rotations: int) -> TurtleFrame:
+    """The frame after one more rotation, made orthonormal from time to time."""
+    if rotations < RENORMALISATION_INTERVAL:
+        return head, left, up, rotations + 1
+    head = unit(head)
+    up = unit(cross(head, left))
+    return head, cross(up, head), up, 0
+
+
+TANGENT = 1.2
+"""The lengths of tangents, where their points are 1 apart."""
+MOST_PARTS = 100
+"""A curve has so many parts at most, and a patch so many rows and columns of faces."""
+FACE_BYTES = 1_400
+"""About what a face of a patch takes in memory."""
+_ROWS = 4
 _NEGLIGIBLE = 1e-12
 """Smaller sines are taken for 0."""
 _STROKE_COLUMNS = 10
 """How many numbers describe a stroke: both ends, branch order, state, width and colour."""
+
+
+class AxisPoint(NamedTuple):
+    """A control point of the axis of a generalised cylinder: where the turtle is, its heading, and the width of its strokes."""
+
+    place: Vector
+    heading: Vector
+    width: float
+
+
+def _here(turtle: SpaceTurtle) -> AxisPoint:
+    return AxisPoint(turtle.position, turtle.orientation[0], turtle.stroke_width)
+
+
+def hermite(start: AxisPoint, end: AxisPoint, parts: int) -> Floats:
+    """The places on a Hermite curve between its ends.
+
+    >>> hermite(AxisPoint((0, 0, 0), (0, 0, 1), 1), AxisPoint((0, 0, 2), (0, 0, 1), 1), 2).tolist()
+    [[0.0, 0.0, 1.0]]
+    """
+    first, last = np.array(start.place), np.array(end.place)
+    reach = TANGENT * float(np.linalg.norm(last - first))
+    t = np.arange(1, parts)[:, None] / parts
+    found: Floats = (
+        (1 + 2 * t) * (1 - t) ** 2 * first
+        + t * (1 - t) ** 2 * reach * np.array(start.heading)
+        + t**2 * (3 - 2 * t) * last
+        - t**2 * (1 - t) * reach * np.array(end.heading)
+    )
+    return found
+
+
+def _bounded_number(value: float) -> int:
+    return max(1, min(MOST_PARTS, math.floor(value + 0.5)))
+
+
+def _number_of(instruction: Instruction) -> float:
+    return instruction.values[0] if instruction.values else 0.0
 
 
 class SpaceTurtle(Turtle):
@@ -73,7 +173,6 @@ class SpaceTurtle(Turtle):
                 _bend_by_tropism(self, pull)
 
     def stroke(self, start: Vector, end: Vector, width: float) -> None:
-        """Leave a stroke."""
         self.last = len(self.strokes) // _STROKE_COLUMNS
         self.strokes.extend((*start, *end, len(self.stack), self.state, width, self.colour))
 
@@ -100,48 +199,118 @@ class SpaceTurtle(Turtle):
         (x, y, z), (u, v, w) = self.position, combined(self.orientation, (ahead, left, up))
         return x + u, y + v, z + w
 
+    def do_begin_cylinder(self, _: Instruction) -> None:
+        self.axis = _here(self)
 
-def _turn(turtle: SpaceTurtle, angle: tuple[float, float]) -> None:
-    head, left, up, rotations = turtle.orientation
-    head, left = rotated_towards(head, left, *angle)
-    turtle.orientation = next_frame(head, left, up, rotations)
+    def do_continue_cylinder(self, instruction: Instruction) -> None:
+        """Draw the cylinder from its last control point to the self."""
+        if self.axis is None:
+            return
+        before, self.axis = self.axis, _here(self)
+        parts = _bounded_number(instruction.addend)
+        places = [*map(tuple, hermite(before, self.axis, parts).tolist()), self.position]
+        bare = OWN in (before.width, self.axis.width)
+        for number, (start, end) in enumerate(zip([before.place, *places[:-1]], places, strict=True), 1):
+            share = number / parts
+            self.stroke(start, end, OWN if bare else (1 - share) * before.width + share * self.axis.width)
 
+    def do_end_cylinder(self, instruction: Instruction) -> None:
+        self.do_continue_cylinder(instruction)
+        self.axis = None
 
-def _turn_by_mirrored_angle(turtle: SpaceTurtle, angle: tuple[float, float]) -> None:
-    cos, sin = angle
-    _turn(turtle, (cos, turtle.mirror * sin))
+    def do_begin_patch(self, instruction: Instruction) -> None:
+        self.patches[_number_of(instruction)] = {}
 
+    def do_set_control_point(self, instruction: Instruction) -> None:
+        """Take the position of the self as the control point of a row and a column."""
+        number, row, column, *_ = (*instruction.values, 0.0, 0.0, 0.0)
+        if number in self.patches:
+            self.patches[number][row, column] = self.position
 
-def _pitch(turtle: SpaceTurtle, angle: tuple[float, float]) -> None:
-    head, left, up, rotations = turtle.orientation
-    up, head = rotated_towards(up, head, *angle)
-    turtle.orientation = next_frame(head, left, up, rotations)
+    def do_draw_patch(self, instruction: Instruction) -> None:
+        """Draw a patch whose sixteen control points are known; rows and columns count from 0 or from 1."""
+        points = self.patches.get(_number_of(instruction), {})
+        rows, columns = (sorted({place[which] for place in points}) for which in (0, 1))
+        if len(points) != _ROWS**2 or len(rows) != _ROWS or len(columns) != _ROWS:
+            self.unknown[instruction.symbol] = None
+            return
+        check_bytes(FACE_BYTES * len(self.outlines), lambda: "The patches were not drawn")
+        check_budget()
+        control = np.array([[points[row, column] for column in columns] for row in rows])
+        along, across = (_bounded_number(value) for value in (*instruction.values[1:3], *[PATCH_FACES] * 2)[:2])
+        grids = [grid.tolist() for grid in patch_grid(control, along, across)]
+        for i, j in np.ndindex(along, across):
+            places = ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1))
+            corners, normals = ([tuple(grid[a][b]) for a, b in places] for grid in grids)
+            self.outlines.append(Outline(corners, self.state, self.colour, normals))
 
+    def do_turn(self, angle: tuple[float, float]) -> None:
+        head, left, up, rotations = self.orientation
+        head, left = rotated_towards(head, left, *angle)
+        self.orientation = next_frame(head, left, up, rotations)
 
-def _roll(turtle: SpaceTurtle, angle: tuple[float, float]) -> None:
-    head, left, up, rotations = turtle.orientation
-    up, left = rotated_towards(up, left, *angle)
-    turtle.orientation = next_frame(head, left, up, rotations)
+    do_turn_back = do_turn
 
+    def do_turn_by_mirrored_angle(self, angle: tuple[float, float]) -> None:
+        cos, sin = angle
+        self.do_turn((cos, self.mirror * sin))
 
-def _level(turtle: SpaceTurtle, _: Instruction) -> None:
-    """Roll until L is level: it becomes that of vertical x H, unless H is vertical (ABOP, page 57)."""
-    head, _left, _up, rotations = turtle.orientation
-    across = math.hypot(head[0], head[1])
-    if across > _NEGLIGIBLE:
-        left = -head[1] / across, head[0] / across, 0.0
-        turtle.orientation = head, left, cross(head, left), rotations
+    def do_pitch(self, angle: tuple[float, float]) -> None:
+        head, left, up, rotations = self.orientation
+        up, head = rotated_towards(up, head, *angle)
+        self.orientation = next_frame(head, left, up, rotations)
 
+    def do_roll(self, angle: tuple[float, float]) -> None:
+        head, left, up, rotations = self.orientation
+        up, left = rotated_towards(up, left, *angle)
+        self.orientation = next_frame(head, left, up, rotations)
 
-def _bend_by_gravitropism(turtle: SpaceTurtle, instruction: Instruction) -> None:
-    """Bend as GROGRA's RV: H takes the direction of H - strength * vertical; a vertical H can only be reversed."""
-    (hx, hy, hz), *_ = turtle.orientation
-    strength = instruction.factor * turtle.gravitropism + instruction.addend
-    across = math.hypot(hx, hy)
-    if across > _NEGLIGIBLE:
-        _rotate(turtle, (-hy / across, hx / across, 0.0), math.atan2(across, hz - strength) - math.atan2(across, hz))
-    elif hz > 0 and strength > 1:
-        _pitch(turtle, (-1.0, 0.0))
+    def do_level(self, _: Instruction) -> None:
+        """Roll until L is level: it becomes that of vertical x H, unless H is vertical (ABOP, page 57)."""
+        head, _left, _up, rotations = self.orientation
+        across = math.hypot(head[0], head[1])
+        if across > _NEGLIGIBLE:
+            left = -head[1] / across, head[0] / across, 0.0
+            self.orientation = head, left, cross(head, left), rotations
+
+    def do_gravitropism(self, instruction: Instruction) -> None:
+        """Bend as GROGRA's RV: H takes the direction of H - strength * vertical; a vertical H can only be reversed."""
+        (hx, hy, hz), *_ = self.orientation
+        strength = instruction.factor * self.gravitropism + instruction.addend
+        across = math.hypot(hx, hy)
+        if across > _NEGLIGIBLE:
+            _rotate(self, (-hy / across, hx / across, 0.0), math.atan2(across, hz - strength) - math.atan2(across, hz))
+        elif hz > 0 and strength > 1:
+            self.do_pitch((-1.0, 0.0))
+
+    def do_set_tropism(self, instruction: Instruction) -> None:
+        """Set a tropism: `@Ts(e)`, or as in cpfg `@Ts(number, e)`, or with a direction `@Ts(number, e, x, y, z)`."""
+        number, elasticity, *direction = instruction.values if len(instruction.values) > 1 else (1.0, *instruction.values, 0.0)
+        x, y, z = direction if len(direction) == 3 else (0.0, -1.0, 0.0)
+        self.tropisms = {**self.tropisms, number: _from_cpfg((elasticity * x, elasticity * y, elasticity * z))}
+
+    def do_set_position(self, instruction: Instruction) -> None:
+        x, y, z, *_ = (*instruction.values, 0.0, 0.0, 0.0)
+        self.position = _from_cpfg((x, y, z))
+
+    def do_set_heading(self, instruction: Instruction) -> None:
+        """Take a heading H, and an up U as far as H lets it: `@R(x, y, z)`, or `@R(x, y, z, x, y, z)` with both."""
+        x, y, z, *others = (*instruction.values, 0.0, 0.0, 0.0)
+        head = _from_cpfg((x, y, z))
+        if math.hypot(*head) <= _NEGLIGIBLE:
+            return
+        head, (_, left, up, _) = unit(head), self.orientation
+        wanted = _from_cpfg((others[0], others[1], others[2])) if len(instruction.values) > 5 else up
+        across = next(side for side in (cross(wanted, head), cross(up, head), left) if math.hypot(*side) > _NEGLIGIBLE)
+        left = unit(across)
+        self.orientation = head, left, cross(head, left), 0
+
+    def do_return_to_stroke(self, instruction: Instruction) -> None:
+        if self.last is not None:
+            first = self.last * _STROKE_COLUMNS
+            x, y, z, u, v, w = self.strokes[first : first + 6]
+            part = instruction.factor + instruction.addend
+            self.position = x + part * (u - x), y + part * (v - y), z + part * (w - z)
 
 
 def _bend_by_tropism(turtle: SpaceTurtle, pull: Vector) -> None:
@@ -153,7 +322,6 @@ def _bend_by_tropism(turtle: SpaceTurtle, pull: Vector) -> None:
 
 
 def _rotate(turtle: SpaceTurtle, axis: Vector, radians: float) -> None:
-    """Rotate the frame about a unit vector."""
     cos, sin = math.cos(radians), math.sin(radians)
     ax, ay, az = axis
 
@@ -166,94 +334,20 @@ def _rotate(turtle: SpaceTurtle, axis: Vector, radians: float) -> None:
     turtle.orientation = next_frame(rotated(head), rotated(left), rotated(up), rotations)
 
 
-def _set_tropism(turtle: SpaceTurtle, instruction: Instruction) -> None:
-    """Set a tropism: `@Ts(e)`, or as in cpfg `@Ts(number, e)`, or with a direction `@Ts(number, e, x, y, z)`."""
-    number, elasticity, *direction = instruction.values if len(instruction.values) > 1 else (1.0, *instruction.values, 0.0)
-    x, y, z = direction if len(direction) == 3 else (0.0, -1.0, 0.0)
-    turtle.tropisms = {**turtle.tropisms, number: _from_cpfg((elasticity * x, elasticity * y, elasticity * z))}
-
-
-def _set_position(turtle: SpaceTurtle, instruction: Instruction) -> None:
-    x, y, z, *_ = (*instruction.values, 0.0, 0.0, 0.0)
-    turtle.position = _from_cpfg((x, y, z))
-
-
-def _set_heading(turtle: SpaceTurtle, instruction: Instruction) -> None:
-    """Take a heading H, and an up U as far as H lets it: `@R(x, y, z)`, or `@R(x, y, z, x, y, z)` with both."""
-    x, y, z, *others = (*instruction.values, 0.0, 0.0, 0.0)
-    head = _from_cpfg((x, y, z))
-    if math.hypot(*head) <= _NEGLIGIBLE:
-        return
-    head, (_, left, up, _) = unit(head), turtle.orientation
-    wanted = _from_cpfg((others[0], others[1], others[2])) if len(instruction.values) > 5 else up
-    across = next(side for side in (cross(wanted, head), cross(up, head), left) if math.hypot(*side) > _NEGLIGIBLE)
-    left = unit(across)
-    turtle.orientation = head, left, cross(head, left), 0
-
-
 def _from_cpfg(point: Vector) -> Vector:
     """A point or direction in the axes used here, given in cpfg's, where y grows upwards and z towards the viewer."""
     x, y, z = point
     return x, -z, y
 
 
-def _return_to_stroke(turtle: SpaceTurtle, instruction: Instruction) -> None:
-    """Move to a point of the last stroke."""
-    if turtle.last is not None:
-        first = turtle.last * _STROKE_COLUMNS
-        x, y, z, u, v, w = turtle.strokes[first : first + 6]
-        part = instruction.factor + instruction.addend
-        turtle.position = x + part * (u - x), y + part * (v - y), z + part * (w - z)
-
-
-_ROTATIONS: Mapping[str, Handler] = {
-    "turn": _turn,
-    "turn by mirrored angle": _turn_by_mirrored_angle,
-    "turn back": _turn,
-    "pitch": _pitch,
-    "roll": _roll,
-}
-SPACE_HANDLERS: Mapping[str, Handler] = {
-    **COMMON_HANDLERS,
-    **FRACTINT_HANDLERS,
-    **CURVE_HANDLERS,
-    **_ROTATIONS,
-    "level": _level,
-    "set heading": _set_heading,
-    "gravitropism": _bend_by_gravitropism,
-    "set tropism": _set_tropism,
-    "set position": _set_position,
-    "return to stroke": _return_to_stroke,
-}
-"""The handlers of the turtle in space, by action."""
+_ROTATIONS = frozenset(("turn", "turn by mirrored angle", "turn back", "pitch", "roll"))
+SPACE_HANDLERS = handlers_of(SpaceTurtle)
 
 
 def trace_in_space(word: Word, angle: float | None = None) -> Scene:
     """The scene that a turtle in space draws by interpreting a word.
 
-    Parameters
-    ----------
-    word
-        The word; interpretation rules are applied first.
-    angle
-        The angle of turns, pitches and rolls without an argument, in degrees; by default the system's.
-
-    Returns
-    -------
-    Scene
-        Strokes and shapes in space; `unknown` lists the symbols that look like commands and are none.
-
-    Raises
-    ------
-    ModelLimitError
-        More brackets are open at once than the limit allows.
-    ModelValueError
-        A value is too large to draw, or symbolic.
-
-    Examples
-    --------
-    >>> from lsys_kit.derivation.derive import derive
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import derive, read
     >>> bush = read("angle: 22.5\\naxiom: A\\nA -> [&F A] /(120) [&F A] /(120) [&F A]")
     >>> print(trace_in_space(derive(bush, 4)[-1]))
     120 segments, width 5.22, height 3.78, depth 4.82
@@ -277,7 +371,6 @@ def trace_in_space(word: Word, angle: float | None = None) -> Scene:
 
 
 def strokes_of(turtle: SpaceTurtle) -> Segments:
-    """The strokes that a turtle has drawn, in order."""
     rows = np.array(turtle.strokes).reshape(-1, _STROKE_COLUMNS)
     orders, states, colours = (rows[:, column].astype(np.int64) for column in (6, 7, 9))
     return Segments(rows[:, :6].copy(), orders, states, rows[:, 8].copy(), colours)

@@ -1,48 +1,239 @@
 """Surfaces that `~` draws, as in `~L(2)`: leaves, needles, petals, sepals, buds, flowers and fruits, and those of a model.
 
 The kit's own are defined in `surfaces.toml`: blades by their midrib and margin, flowers by their petals, solids by a profile.
+Curved surfaces are small faces: bicubic Bezier patches (ABOP, section 5.1), and solids of revolution. A point is given in the
+frame of a turtle: ahead, to the left, up. Each corner of a face has the normal that the surface has there, so that a mesh of
+few faces is shaded as the smooth surface.
 """
 
 from __future__ import annotations
 
+import math
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, lru_cache
 from importlib.resources import files
 from itertools import pairwise
-from typing import Any
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
 from lsys_kit.errors import quotable
-from lsys_kit.geometry.turtle.commands.table import COMMANDS
-from lsys_kit.geometry.turtle.patches import (
-    Face,
-    Facets,
-    blade_control,
-    joined_facets,
-    mirrored_control,
-    patch_facets,
-    polygon_facets,
-    revolved_facets,
-    rolled,
-    turned,
-)
+from lsys_kit.geometry.scene import Floats
+from lsys_kit.geometry.turtle.commands import COMMANDS
 from lsys_kit.notation.model.modules import flat
 from lsys_kit.notation.model.surfaces import ROW, SurfaceShape
 from lsys_kit.notation.model.system import LSystem
 
+Corner: TypeAlias = tuple[float, float, float]
+"""A point in the frame of the turtle: ahead, to the left, up."""
+Face: TypeAlias = tuple[Corner, ...]
+DECIMALS = 4
+"""So many decimals of a corner are kept: a surface is about 1 long."""
+OUTLINED, BESIDE = 16, 0.008
+"""An outline has so many corners along each side of a patch, less those that lie no farther beside it than this."""
+INWARDS = 1e-3
+"""Where a patch ends in a point, its normal is taken this part of its length further in."""
+
+
+class Facets(NamedTuple):
+    """Faces of a surface; for each corner of each face the unit normal there; and the outlines of its parts.
+
+    Outlines are what is drawn in the plane of a picture. Surfaces without normals are flat.
+    """
+
+    faces: tuple[Face, ...] = ()
+    normals: tuple[Face, ...] = ()
+    outlines: tuple[Face, ...] = ()
+
+    def mapped(self, turn: Callable[[Corner], Corner]) -> Facets:
+        """The surface after a rotation.
+
+        >>> Facets((((1.0, 2.0, 3.0),),)).mapped(lambda corner: corner[::-1]).faces
+        (((3.0, 2.0, 1.0),),)
+        """
+        return Facets(*(tuple(tuple(map(turn, face)) for face in kind) for kind in self))
+
+
+def joined_facets(parts: Sequence[Facets]) -> Facets:
+    return Facets(*(tuple(face for part in parts for face in part[kind]) for kind in range(3)))
+
+
+def polygon_facets(corners: Sequence[Corner]) -> Facets:
+    face = tuple(map(_rounded, corners))
+    return Facets((face,), (), (face,))
+
+
+def patch_facets(control: Floats, along: int, across: int) -> Facets:
+    """A bicubic Bezier patch as so many rows and columns of faces.
+
+    control
+        Shape (4, 4, 3): its control points, row after row.
+    along, across
+        The numbers of rows and of columns.
+
+    >>> square = np.array([[[row / 3, column / 3, 0.0] for column in range(4)] for row in range(4)])
+    >>> found = patch_facets(square, 1, 1)
+    >>> found.faces
+    (((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (0.0, 1.0, 0.0)),)
+    >>> found.normals[0][0]
+    (0.0, 0.0, 1.0)
+    """
+    return _grid_facets(*patch_grid(control, along, across), _boundary(patch_grid(control, OUTLINED, OUTLINED)[0]))
+
+
+def patch_grid(control: Floats, along: int, across: int) -> tuple[Floats, Floats]:
+    """The points of a patch at even parameters, and the normals there, as they are."""
+    rows, columns = np.linspace(0, 1, along + 1), np.linspace(0, 1, across + 1)
+    return _tensor(_bernstein(rows), control, _bernstein(columns)), _normals(control, rows, columns)
+
+
+def _bernstein(t: Floats) -> Floats:
+    """Bernstein's polynomials of degree 3 at some places."""
+    return np.stack([(1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t**2 * (1 - t), t**3], axis=1)
+
+
+def _slopes(t: Floats) -> Floats:
+    return np.stack([-3 * (1 - t) ** 2, 3 * (1 - t) * (1 - 3 * t), 3 * t * (2 - 3 * t), 3 * t**2], axis=1)
+
+
+def _tensor(rows: Floats, control: Floats, columns: Floats) -> Floats:
+    found: Floats = np.einsum("ai,ijk,bj->abk", rows, control, columns)
+    return found
+
+
+def _normals(control: Floats, rows: Floats, columns: Floats) -> Floats:
+    """The unit normals at the corners of faces: the cross products of the tangents; upwards where there is none."""
+    rows, columns = (np.clip(places, INWARDS, 1 - INWARDS) for places in (rows, columns))
+    found = np.cross(_tensor(_slopes(rows), control, _bernstein(columns)), _tensor(_bernstein(rows), control, _slopes(columns)))
+    lengths = np.linalg.norm(found, axis=2, keepdims=True)
+    return np.where(lengths > 0, found / np.where(lengths > 0, lengths, 1.0), (0.0, 0.0, 1.0))
+
+
+def _grid_facets(points: Floats, normals: Floats, outline: Sequence[Corner]) -> Facets:
+    """The faces between the rows and columns of a grid of points; those without an area are left out."""
+    corners, upright = (_corners(grid) for grid in (points, normals))
+    found = []
+    for i, j in np.ndindex(len(points) - 1, points.shape[1] - 1):
+        distinct = {corners[a][b]: upright[a][b] for a, b in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1))}
+        if len(distinct) > 2:
+            found.append((tuple(distinct), tuple(distinct.values())))
+    return Facets(tuple(face for face, _ in found), tuple(normal for _, normal in found), (tuple(outline),))
+
+
+def _corners(grid: Floats) -> list[list[Corner]]:
+    return [[_rounded(corner) for corner in row] for row in grid.tolist()]
+
+
+def _boundary(points: Floats) -> list[Corner]:
+    """The outline of a grid of points, with no more corners than are seen in the plane."""
+    around = np.concatenate([points[:-1, 0], points[-1, :-1], points[:0:-1, -1], points[0, :0:-1]])
+    corners = [_rounded(corner) for corner in around.tolist()]
+    farthest = max(range(len(corners)), key=lambda number: math.dist(corners[number][:2], corners[0][:2]))
+    halves = (_simplified(half) for half in (corners[: farthest + 1], [*corners[farthest:], corners[0]]))
+    bent = [corner for half in halves for corner in half[:-1]]
+    return bent if len(bent) > 2 else corners
+
+
+def _simplified(line: list[Corner]) -> list[Corner]:
+    """A line without the corners that lie hardly beside it (D. Douglas and T. Peucker, 1973)."""
+    (x, y, _), (to_x, to_y, _) = line[0], line[-1]
+    length = math.hypot(to_x - x, to_y - y)
+    aside = [abs((to_x - x) * (left - y) - (to_y - y) * (ahead - x)) for ahead, left, _ in line[1:-1]] if length else []
+    if max(aside, default=0.0) <= BESIDE * length:
+        return [line[0], line[-1]]
+    bend = aside.index(max(aside)) + 1
+    return [*_simplified(line[: bend + 1])[:-1], *_simplified(line[bend:])]
+
+
+def _rounded(corner: Sequence[float]) -> Corner:
+    """A corner with few decimals, and no negative zeros."""
+    ahead, left, up = (round(float(number), DECIMALS) + 0.0 for number in corner)
+    return ahead, left, up
+
+
+def turned(degrees: float) -> Callable[[Corner], Corner]:
+    """A turn to the left."""
+    cos, sin = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    return lambda corner: _rounded((cos * corner[0] - sin * corner[1], sin * corner[0] + cos * corner[1], corner[2]))
+
+
+def rolled(degrees: float) -> Callable[[Corner], Corner]:
+    """A roll to the right, about the direction ahead."""
+    cos, sin = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    return lambda corner: _rounded((corner[0], cos * corner[1] - sin * corner[2], sin * corner[1] + cos * corner[2]))
+
+
+def blade_control(midrib: Sequence[Sequence[float]], margin: Sequence[Sequence[float]], bulge: float) -> Floats:
+    """The control points of the left half of a blade, from its midrib to its margin.
+
+    midrib
+        Four control points of a curve: ahead and up.
+    margin
+        Four of another: ahead, to the left, and up.
+    bulge
+        How far the blade is raised between them.
+    """
+    inner = np.array([(ahead, 0.0, up) for ahead, up in midrib])
+    outer = np.array(margin, float)
+    shares = np.arange(4)[None, :, None] / 3
+    raised = np.zeros((4, 4, 3))
+    raised[1:3, 1:3, 2] = bulge
+    return inner[:, None] * (1 - shares) + outer[:, None] * shares + raised
+
+
+def mirrored_control(control: Floats) -> Floats:
+    """The control points of the other half of a blade, which is seen from the same side."""
+    mirrored: Floats = control[:, ::-1] * (1, -1, 1)
+    return mirrored
+
+
+def revolved_facets(profile: Sequence[Sequence[float]], sides: int, pieces: int) -> Facets:
+    """The faces of a solid whose profile turns about the direction ahead.
+
+    profile
+        The control points of cubic Bezier curves, each of which begins where the one before ends: how far ahead, and how far
+        from the axis.
+    sides, pieces
+        The number of sides, and of pieces of each curve.
+
+    >>> ball = revolved_facets([(-1, 0), (-1, 1.33), (1, 1.33), (1, 0)], 4, 3)
+    >>> len(ball.faces), len(ball.outlines[0])
+    (12, 6)
+    """
+    places, slopes = (_along(np.array(profile, float), basis, pieces) for basis in (_bernstein, _slopes))
+    lengths = np.linalg.norm(slopes, axis=1, keepdims=True)
+    slopes = slopes / np.where(lengths > 0, lengths, 1.0)
+    angles = -2 * np.pi * np.arange(sides + 1) / sides % (2 * np.pi)
+    points, normals = (
+        np.stack(
+            [np.broadcast_to(each[:, :1], (len(each), sides + 1)), each[:, 1:] * np.cos(angles), each[:, 1:] * np.sin(angles)],
+            axis=2,
+        )
+        for each in (places, slopes[:, ::-1] * (-1, 1))
+    )
+    side = [(float(ahead), float(out), 0.0) for ahead, out in places]
+    outline = [*side, *((ahead, -out, 0.0) for ahead, out, _ in side[-2:0:-1])]
+    return _grid_facets(points, normals, [*dict.fromkeys(map(_rounded, outline))])
+
+
+def _along(profile: Floats, basis: Callable[[Floats], Floats], pieces: int) -> Floats:
+    """The places along the curves of a profile, or the slopes there: just inside where a curve ends in a point."""
+    t = np.linspace(0, 1, pieces + 1)
+    weights = basis(np.clip(t, INWARDS, 1 - INWARDS) if basis is _slopes else t)
+    curves = [weights @ profile[first : first + 4] for first in range(0, len(profile) - 1, 3)]
+    return np.concatenate([curves[0], *(curve[1:] for curve in curves[1:])])
+
+
 PATCH_FACES = 5
-"""A patch that a model declares is drawn as so many rows and columns of faces."""
+"""A patch has so many rows and columns of faces, where no number says otherwise."""
 
 
 @dataclass(frozen=True)
 class Surface:
     """A surface composed of faces.
 
-    Attributes
-    ----------
     name
         Its name.
     symbols
@@ -76,7 +267,6 @@ def surfaces() -> Mapping[str, Surface]:
 
 
 def _facets(table: Mapping[str, Any]) -> Facets:
-    """The faces of a surface, as it is described."""
     if "profile" in table:
         return revolved_facets(table["profile"], table["sides"], table["pieces"])
     blade = _blade(table)
@@ -128,7 +318,7 @@ def _floats(point: Sequence[Any]) -> tuple[float, float, float]:
 def surfaces_by_symbol(system: LSystem) -> Mapping[str, Surface]:
     """The surfaces of a system, by what stands for them after a tilde: its own, and those of the kit.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> found = surfaces_by_symbol(read("surface L: (0, 0) (1, 0) (1, 1)\\naxiom: ~L"))
     >>> found["L"].name, found["leaf"].name, len(found["L"].faces)
     ('L', 'leaf', 1)
@@ -140,13 +330,6 @@ def surfaces_by_symbol(system: LSystem) -> Mapping[str, Surface]:
 def passed_over(unknown: Sequence[str]) -> str:
     """What a turtle has passed over, in words; empty if that is nothing.
 
-    Parameters
-    ----------
-    unknown
-        Symbols that look like commands and are none; after a tilde, what no surface is called.
-
-    Examples
-    --------
     >>> passed_over(["~X"])
     'no surface is called X: there are L (leaf), needle, ...; a model declares others'
     >>> passed_over(["~"])
@@ -170,7 +353,7 @@ def passed_over(unknown: Sequence[str]) -> str:
 def surfaces_of(system: LSystem) -> Mapping[str, str]:
     """For each symbol of a system that is drawn as a surface, directly or by interpretation, the name of the surface.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> surfaces_of(read("axiom: A\\nA -> F [+ ~ L] B\\ninterpretation:\\nB -> ~flower(2)"))
     {'L': 'leaf', 'flower': 'flower', 'B': 'flower'}
     """

@@ -1,25 +1,240 @@
-"""A turtle: what it carries and what it has drawn, in the plane and in space."""
+"""A turtle: what it carries, what it has drawn, and what it does at each action, in the plane and in space.
+
+Its shapes are at its own positions. A word is compiled for a turtle, state by state, and carried out action by action.
+"""
 
 from __future__ import annotations
 
+import gc
+import math
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping
-from typing import Any
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from itertools import product
+from operator import attrgetter
+from typing import Any, NamedTuple, TypeAlias
 
-from lsys_kit.budget import check_budget, current
-from lsys_kit.geometry.scene import OWN
-from lsys_kit.geometry.turtle.commands.table import WIDTH, initial_colour
-from lsys_kit.geometry.turtle.patches import Face
-from lsys_kit.geometry.turtle.shapes import Outline, RoundShape, Writing, box_sides, rectangle
-from lsys_kit.geometry.turtle.surfaces import Surface, surfaces_by_symbol
+import numpy as np
+
+from lsys_kit.budget import check_budget, counted, current
+from lsys_kit.derivation.core.interpretation import interpretations, modules_between_checks
+from lsys_kit.derivation.core.words import Word
+from lsys_kit.errors import ModelLimitError, ModelValueError
+from lsys_kit.geometry.scene import CIRCLE, DISC, OWN, SPHERE, Discs, Floats, Labels, Polygons
+from lsys_kit.geometry.turtle.commands import (
+    ACTIONS,
+    LARGEST,
+    RAMP_END,
+    RAMP_START,
+    WIDTH,
+    Instruction,
+    initial_colour,
+    instructions,
+    unknown_commands,
+)
+from lsys_kit.geometry.turtle.surfaces import Face, Surface, surfaces, surfaces_by_symbol
 from lsys_kit.notation.model.system import LSystem
+
+
+class Outline(NamedTuple):
+    """The outline of a polygon: the positions of its corners; of a curved surface, the normals there."""
+
+    corners: list[Any]
+    state: int
+    colour: int
+    normals: list[Any] = []  # noqa: RUF012
+
+
+class RoundShape(NamedTuple):
+    """A circle, disc or sphere."""
+
+    place: Any
+    radius: float
+    kind: int
+    state: int
+    colour: int
+
+
+class Writing(NamedTuple):
+    """A label."""
+
+    place: Any
+    text: str
+    state: int
+
+
+def label_text(values: Sequence[float]) -> str:
+    """What a label with some values says.
+
+    >>> label_text((2.0, 0.25, -0.0))
+    '2, 0.25, 0'
+    """
+    return ", ".join(f"{value + 0.0:g}" for value in values)
+
+
+def rectangle(length: float, width: float) -> Face:
+    """The corners of a rectangle ahead of a turtle, in its frame.
+
+    >>> rectangle(3, 2)
+    ((0.0, -1.0, 0.0), (3, -1.0, 0.0), (3, 1.0, 0.0), (0.0, 1.0, 0.0))
+    """
+    half = width / 2
+    return (0.0, -half, 0.0), (length, -half, 0.0), (length, half, 0.0), (0.0, half, 0.0)
+
+
+def box_sides(length: float, width: float) -> list[Face]:
+    """The six sides of a box ahead of a turtle, or behind it where the length is negative, as wide as it is deep, in its frame.
+
+    Each side has its corners counter-clockwise as seen from outside.
+
+    >>> box_sides(3, 2)[0]
+    ((0.0, -1.0, -1.0), (0.0, -1.0, 1.0), (0.0, 1.0, 1.0), (0.0, 1.0, -1.0))
+    """
+    half = width / 2
+    ends = (min(length, 0.0), max(length, 0.0)), (-half, half), (-half, half)
+    return [_side(ends, axis, end) for axis, end in product(range(3), (0, 1))]
+
+
+def _side(ends: Sequence[tuple[float, float]], axis: int, end: int) -> Face:
+    """A side of a box, given both ends of each of its axes: that at an end of one of them."""
+    around = ((0, 0), (1, 0), (1, 1), (0, 1)) if end else ((0, 0), (0, 1), (1, 1), (1, 0))
+    places = [(end, *others) for others in around]
+    ahead, left, up = ([between[place[(which - axis) % 3]] for place in places] for which, between in enumerate(ends))
+    return tuple(zip(ahead, left, up, strict=True))
+
+
+def _normals_at_corners(outlines: Sequence[Outline]) -> Floats:
+    if not any(outline.normals for outline in outlines):
+        return np.empty((0, 3))
+    return np.array([normal for outline in outlines for normal in outline.normals or [(0.0, 0.0, 0.0)] * len(outline.corners)])
+
+
+def collected_labels(written: Sequence[Writing], points: Callable[[list[Any]], Floats]) -> Labels:
+    """The labels that a turtle has written, given a function from positions to coordinates."""
+    return Labels(
+        points([each.place for each in written]),
+        tuple(each.text for each in written),
+        np.array([each.state for each in written], np.int64),
+    )
+
+
+def collected_shapes(
+    outlines: Sequence[Outline], rounds: Sequence[RoundShape], points: Callable[[list[Any]], Floats]
+) -> tuple[Polygons, Discs]:
+    """The polygons and discs that a turtle has drawn, given a function from positions to coordinates."""
+    sizes = [len(outline.corners) for outline in outlines]
+    states, colours = (np.array([outline[field] for outline in outlines], np.int64) for field in (1, 2))
+    polygons = Polygons(
+        points([corner for outline in outlines for corner in outline.corners]),
+        np.cumsum([0, *sizes]),
+        states,
+        colours,
+        _normals_at_corners(outlines),
+    )
+    discs = Discs(
+        points([found.place for found in rounds]),
+        np.array([found.radius for found in rounds], np.float64),
+        *(np.array([found[field] for found in rounds], np.int64) for field in (2, 3, 4)),
+    )
+    return polygons, discs
+
+
+LAST_COLOUR = 2**31 - 1
+
+Handler: TypeAlias = Callable[[Any, Any], None]
+"""Carries out an instruction, given a turtle and the operand of the instruction."""
+
+PALETTE_SIZE, WHITE = 256, 15
+"""The number of Fractint's colours, and the one in which it draws at first."""
+MOST_CURVED = 150
+"""Where more surfaces are drawn, each is drawn by its outlines: one sees little of its curvature."""
+
+_SAVED_ATTRIBUTES = (
+    "position",
+    "orientation",
+    "length",
+    "width",
+    "colour",
+    "gravitropism",
+    "tropisms",
+    "last",
+    "restored",
+    "mirror",
+    "second_heading",
+    "axis",
+    "scale",
+)
+_saved_state = attrgetter(*_SAVED_ATTRIBUTES)
+
+
+def _forward(drawn: bool, vertex: bool) -> Handler:
+    """An action that moves the turtle forward, with or without a stroke and a vertex of a polygon."""
+
+    def handler(turtle: Turtle, instruction: Instruction) -> None:
+        turtle.forward(_size(turtle, instruction), drawn)
+        if vertex and turtle.open_polygons:
+            turtle.open_polygons[-1].corners.append(turtle.position)
+        if drawn and turtle.restored:
+            for name, value in turtle.restored:
+                setattr(turtle, name, value)
+            turtle.restored = ()
+
+    return handler
+
+
+def _reset(name: str) -> Handler:
+    return lambda turtle, _: setattr(turtle, name, turtle.initial[name])
+
+
+def _set_once(name: str, change: Handler) -> Handler:
+    def handler(turtle: Turtle, instruction: Instruction) -> None:
+        turtle.restored = ((name, getattr(turtle, name)), *turtle.restored)  # the earliest value is set last, and stays
+        change(turtle, instruction)
+
+    return handler
+
+
+def _draw_round(kind: int) -> Handler:
+    def handler(turtle: Turtle, instruction: Instruction) -> None:
+        width = instruction.factor * _shape_width(turtle) + instruction.addend
+        turtle.rounds.append(RoundShape(turtle.position, turtle.scale * abs(width) / 2, kind, turtle.state, turtle.colour))
+
+    return handler
+
+
+def _by_second_heading(forward: Handler) -> Handler:
+    def handler(turtle: Turtle, instruction: Instruction) -> None:
+        orientation, turtle.orientation = turtle.orientation, turtle.initial_orientation(turtle.second_heading)
+        forward(turtle, instruction)
+        turtle.orientation = orientation
+
+    return handler
+
+
+def _size(turtle: Turtle, instruction: Instruction) -> float:
+    """A length that is drawn or gone: the step, or an argument, at the scale of the turtle."""
+    return turtle.scale * (instruction.factor * turtle.length + instruction.addend)
+
+
+def _shape_width(turtle: Turtle) -> float:
+    """The width of shapes without an argument: that of strokes."""
+    return WIDTH if turtle.width == OWN else turtle.width
+
+
+def _bounded(what: str, value: float) -> float:
+    if not abs(value) <= LARGEST:
+        raise ModelValueError(f"The turtle's {what} grows too large to draw: {value:.3g}")
+    return value
+
+
+def _check_depth(turtle: Turtle, opened: Sequence[object]) -> None:
+    if len(opened) >= turtle.bracket_limit:
+        raise ModelLimitError(f"More than {turtle.bracket_limit:,} brackets are open at once", limit=turtle.bracket_limit)
 
 
 class Turtle(ABC):
     """A turtle, with what it carries and what it has drawn.
 
-    Attributes
-    ----------
     position, orientation
         In the plane the number of the path step at whose end the turtle is, and its turns so far; in space a point and a
         frame.
@@ -109,7 +324,6 @@ class Turtle(ABC):
 
     @property
     def stroke_width(self) -> float:
-        """The width of strokes, at the scale of the turtle."""
         return self.width * self.scale if self.width > 0 else self.width
 
     @abstractmethod
@@ -134,10 +348,190 @@ class Turtle(ABC):
         self.draw_faces([rectangle(length, width)] if self.in_plane else box_sides(length, width))
 
     def draw_faces(self, faces: Iterable[Face], size: float = 1.0) -> None:
-        """Draw flat faces, given in the frame of the turtle."""
         check_budget()  # one surface may have thousands of corners
         self.outlines += [Outline(self.local_points(face, size), self.state, self.colour) for face in faces]
 
     def local_points(self, face: Face, size: float) -> list[Any]:
         """The corners of a face of a surface of some size."""
         return [self.local_point(size * ahead, size * left, size * up) for ahead, left, up in face]
+
+    # What it does at each action of the table: the method with the name of the action
+
+    do_draw, do_move = _forward(True, True), _forward(False, True)
+    do_draw_without_vertex, do_move_without_vertex = _forward(True, False), _forward(False, False)
+
+    def do_set_length(self, instruction: Instruction) -> None:
+        self.length = _bounded("step", instruction.factor * self.length + instruction.addend)
+
+    do_reset_length, do_set_length_once = _reset("length"), _set_once("length", do_set_length)
+
+    def do_set_gravitropism(self, instruction: Instruction) -> None:
+        self.gravitropism = _bounded("strength", instruction.factor * self.gravitropism + instruction.addend)
+
+    do_reset_gravitropism, do_set_gravitropism_once = _reset("gravitropism"), _set_once("gravitropism", do_set_gravitropism)
+
+    def do_set_width(self, instruction: Instruction) -> None:
+        before = self.first_width if self.width == OWN else self.width
+        self.width = max(0.0, _bounded("width", instruction.factor * before + instruction.addend))
+
+    do_reset_width, do_set_width_once = _reset("width"), _set_once("width", do_set_width)
+
+    def do_set_scale(self, instruction: Instruction) -> None:
+        self.scale = max(0.0, _bounded("scale", instruction.factor * self.scale + instruction.addend))
+
+    def do_set_colour(self, instruction: Instruction) -> None:
+        self.colour = max(0, min(LAST_COLOUR, round(instruction.factor * max(0, self.colour) + instruction.addend)))
+
+    do_reset_colour = _reset("colour")
+
+    def do_step_colour(self, instruction: Instruction) -> None:
+        """Step through the ramp, or through the colours below it, as far as they go."""
+        first, last = (RAMP_START, RAMP_END) if self.colour >= RAMP_START else (0, RAMP_START - 1)
+        self.colour = max(first, min(last, round(self.colour + instruction.addend)))
+
+    def do_push(self, _: Instruction) -> None:
+        _check_depth(self, self.stack)
+        self.stack.append(_saved_state(self))
+        self.axis = None
+
+    def do_pop(self, _: Instruction) -> None:
+        if self.stack:
+            (
+                self.position,
+                self.orientation,
+                self.length,
+                self.width,
+                self.colour,
+                self.gravitropism,
+                self.tropisms,
+                self.last,
+                self.restored,
+                self.mirror,
+                self.second_heading,
+                self.axis,
+                self.scale,
+            ) = self.stack.pop()
+
+    def do_begin_polygon(self, _: Instruction) -> None:
+        _check_depth(self, self.open_polygons)
+        self.open_polygons.append(Outline([], self.state, self.colour))
+
+    def do_record_vertex(self, _: Instruction) -> None:
+        if self.open_polygons:
+            self.open_polygons[-1].corners.append(self.position)
+
+    def do_end_polygon(self, _: Instruction) -> None:
+        if self.open_polygons and len((outline := self.open_polygons.pop()).corners) > 2:
+            self.outlines.append(outline)
+
+    def do_expect_surface(self, _: Instruction) -> None:
+        self.expects_surface = True
+
+    def do_draw_expected_surface(self, instruction: Instruction) -> None:
+        if self.expects_surface:
+            self.expects_surface = False
+            if surface := self.surfaces.get(instruction.symbol):
+                self.draw_surface(surface, _size(self, instruction))
+            else:
+                self.unknown[f"~{instruction.symbol}"] = None
+
+    def do_draw_surface(self, instruction: Instruction) -> None:
+        self.draw_surface(surfaces()[instruction.surface], _size(self, instruction))
+
+    do_draw_circle, do_draw_disc, do_draw_sphere = _draw_round(CIRCLE), _draw_round(DISC), _draw_round(SPHERE)
+
+    def do_draw_box(self, instruction: Instruction) -> None:
+        """Draw a box ahead: `@B`, `@B(length)` or `@B(length, width)`."""
+        length, width = _size(self, instruction), instruction.values[1] if len(instruction.values) > 1 else _shape_width(self)
+        if length and width:
+            self.draw_box(length, self.scale * abs(width))
+
+    def do_draw_label(self, instruction: Instruction) -> None:
+        if instruction.values:
+            self.labels.append(Writing(self.position, label_text(instruction.values), self.state))
+
+    # Fractint's turtle has a second heading, mirrored turns and a palette of 256 colours: `+`, `-` and `|` turn the heading of
+    # `F` and `G`; `D` and `M` follow a second heading, which only `\` and `/` turn, by degrees.
+
+    do_draw_by_second_heading, do_move_by_second_heading = _by_second_heading(do_draw), _by_second_heading(do_move)
+
+    def do_turn_second_heading(self, instruction: Instruction) -> None:
+        self.second_heading += self.mirror * instruction.addend
+
+    def do_mirror_turns(self, _: Instruction) -> None:
+        self.mirror = -self.mirror
+
+    def do_set_palette_colour(self, instruction: Instruction) -> None:
+        """Set a colour modulo 256; a step never leads to colour 0, that of the background."""
+        colour = WHITE if self.colour == OWN else self.colour
+        colour = math.floor(instruction.factor * colour + instruction.addend) % PALETTE_SIZE
+        step = instruction.factor != 0
+        self.colour = colour or (0 if not step else 1 if instruction.addend > 0 else PALETTE_SIZE - 1)
+
+
+def handlers_of(turtle: type[Turtle]) -> dict[str, Handler]:
+    """What carries out each action that a kind of turtles knows."""
+    methods = {action: getattr(turtle, f"do_{action.replace(' ', '_')}", None) for action in ACTIONS}
+    return {action: method for action, method in methods.items() if method}
+
+
+def run_turtle(
+    turtle: Turtle,
+    word: Word,
+    handlers: Mapping[str, Handler],
+    prepare: Callable[[Instruction], Any] = lambda instruction: instruction,
+) -> None:
+    """Interpret a word by a turtle; actions without a handler are skipped."""
+    with _without_garbage_collection():
+        compiled = compile_word(word, handlers, prepare)
+        turtle.unknown = dict.fromkeys(compiled.unknown)
+        turtle.flat = turtle.in_plane or _surfaces_in(word, compiled) > MOST_CURVED
+        for state in counted(word.numbers(), modules_between_checks(compiled.calls.values())):
+            turtle.state = state
+            for handler, operand in compiled.calls[state]:
+                handler(turtle, operand)
+        if turtle.expects_surface:
+            turtle.unknown["~"] = None
+
+
+def _surfaces_in(word: Word, compiled: CompiledWord) -> int:
+    drawing = {
+        state: many
+        for state, calls in compiled.calls.items()
+        if (many := sum(handler in (Turtle.do_expect_surface, Turtle.do_draw_surface) for handler, _ in calls))
+    }
+    return sum(drawing.get(state, 0) for state in word.numbers()) if drawing else 0
+
+
+@contextmanager
+def _without_garbage_collection() -> Iterator[None]:
+    """Without this, a word of mostly distinct modules spends half of its time in searches for cycles among its instructions."""
+    enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if enabled:
+            gc.enable()
+
+
+class CompiledWord(NamedTuple):
+    """A word compiled for a turtle.
+
+    calls
+        For each state the handlers to be called, each with its operand.
+    unknown
+        The symbols that look like commands and are none.
+    """
+
+    calls: dict[int, list[tuple[Handler, Any]]]
+    unknown: tuple[str, ...]
+
+
+def compile_word(word: Word, handlers: Mapping[str, Handler], prepare: Callable[[Instruction], Any]) -> CompiledWord:
+    system, drawn = word.states.system, interpretations(word.states, word.numbers())
+    calls = {
+        state: [(handlers[instruction.action], prepare(instruction)) for instruction in found if instruction.action in handlers]
+        for state, found in counted(instructions(drawn, system.turtle, system.angle).items())
+    }
+    return CompiledWord(calls, unknown_commands(drawn, system))

@@ -52,11 +52,10 @@ def literal_text(value: Value) -> str:
     >>> literal_text(Fraction(3, 10**400))
     '3e-400'
     """
-    places = _places(value) if isinstance(value, Fraction) else None
-    if places is None:
+    if not isinstance(value, Fraction) or (places := _places(value)) is None:
         return number_text(value)
-    text = _decimal(value, places)  # type: ignore[arg-type]
-    return text if len(text) <= PLAIN else min(text, _scientific(value, places), key=len)  # type: ignore[arg-type]
+    text = _decimal(value, places)
+    return text if len(text) <= PLAIN else min(text, _scientific(value, places), key=len)
 
 
 def _places(value: Fraction) -> int | None:

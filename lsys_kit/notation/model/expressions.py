@@ -9,7 +9,7 @@ Decimal literals are rational numbers, and arithmetic is exact (see `arithmetic`
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from lsys_kit.errors import ModelValueError
@@ -132,17 +132,55 @@ def expression_type(expression: Expression) -> str:
     return OPERATORS[expression.operator].gives if isinstance(expression, Apply) else "number"
 
 
+def walk(expression: Expression) -> Iterator[Expression]:
+    """An expression and all its parts, each before its own, in the order written.
+
+    >>> [str(part) for part in walk(Apply("+", (Name("t"), Number(1))))]
+    ['t + 1', 't', '1']
+    """
+    waiting = [expression]
+    while waiting:
+        part = waiting.pop()
+        yield part
+        if isinstance(part, Apply):
+            waiting += part.operands[::-1]
+
+
+def transform(expression: Expression, change: Callable[[Expression], Expression | None]) -> Expression:
+    """An expression in which parts are replaced by what a function makes of them; where that is None, their own parts are.
+
+    >>> print(transform(Apply("+", (Name("t"), Number(1))), lambda part: Name("s") if part == Name("t") else None))
+    s + 1
+    """
+    changed = change(expression)
+    if changed is not None or not isinstance(expression, Apply):
+        return expression if changed is None else changed
+    operands = tuple(transform(operand, change) for operand in expression.operands)
+    same = all(new is old for new, old in zip(operands, expression.operands, strict=True))
+    return expression if same else replace(expression, operands=operands)
+
+
+def substituted(expression: Expression, values: Mapping[str, Expression]) -> Expression:
+    """An expression with others in place of some names.
+
+    >>> print(substituted(Apply("+", (Name("t"), Number(1))), {"t": Name("s")}))
+    s + 1
+    """
+    return transform(expression, lambda part: values.get(part.name) if isinstance(part, Name) else None)
+
+
+def calls_in(expression: Expression) -> Iterator[Apply]:
+    """The operators in an expression, with their operands."""
+    return (part for part in walk(expression) if isinstance(part, Apply))
+
+
 def names_in(expression: Expression) -> frozenset[str]:
     """The names that an expression uses.
 
     >>> sorted(names_in(Apply("+", (Name("t"), Name("dt")))))
     ['dt', 't']
     """
-    if isinstance(expression, Name):
-        return frozenset((expression.name,))
-    if isinstance(expression, Apply):
-        return frozenset().union(*map(names_in, expression.operands))
-    return frozenset()
+    return frozenset(part.name for part in walk(expression) if isinstance(part, Name))
 
 
 def is_random(expression: Expression) -> bool:
@@ -151,7 +189,7 @@ def is_random(expression: Expression) -> bool:
     >>> is_random(Apply("+", (Name("t"), Apply("uniform", (Number(0), Number(1))))))
     True
     """
-    return isinstance(expression, Apply) and (OPERATORS[expression.operator].random or any(map(is_random, expression.operands)))
+    return any(isinstance(part, Apply) and OPERATORS[part.operator].random for part in walk(expression))
 
 
 def sensed_in(expression: Expression) -> Iterator[Apply]:
@@ -160,11 +198,7 @@ def sensed_in(expression: Expression) -> Iterator[Apply]:
     >>> [str(call) for call in sensed_in(Apply(">", (Apply("sensed", (Number(2), Number(1))), Number(60))))]
     ['sensed(2, 1)']
     """
-    if isinstance(expression, Apply):
-        if OPERATORS[expression.operator].looks:
-            yield expression
-        for operand in expression.operands:
-            yield from sensed_in(operand)
+    return (call for call in calls_in(expression) if OPERATORS[call.operator].looks)
 
 
 def function_of(expression: Expression, order: Mapping[str, int], arithmetic: str = "exact") -> Function:
@@ -224,7 +258,6 @@ def to_sympy(expression: Expression) -> sympy.Basic:
 
 
 def _sympy_table() -> dict[str, Callable[..., sympy.Basic]]:
-    """For each operator what builds it in sympy."""
     import sympy
 
     def remainder(x: Any, y: Any) -> Any:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
 from lsys_kit.notation.model.arithmetic import Value, number_text, rounded
@@ -163,3 +163,26 @@ def expressions_of(items: Iterable[Item]) -> Iterator[Expression]:
             yield from expressions_of(item.body)
         else:
             yield from item.arguments
+
+
+def rewritten(
+    items: Iterable[Item], module: Callable[[Pattern], Iterable[Pattern]], count: Callable[[Expression], Expression]
+) -> tuple[Item, ...]:
+    """A word or successor with others in place of its modules and of the counts of its repeated parts."""
+    found: list[Item] = []
+    for item in items:
+        if isinstance(item, Repeat):
+            found.append(replace(item, count=count(item.count), body=rewritten(item.body, module, count)))
+        else:
+            found += module(item)
+    return tuple(found)
+
+
+def with_expressions(items: Iterable[Item], change: Callable[[Expression], Expression]) -> tuple[Item, ...]:
+    """A word or successor in which each expression is replaced by what a function makes of it.
+
+    >>> from lsys_kit.notation.model.expressions import Name
+    >>> print(*with_expressions((Pattern("A", (Name("t"),)), Repeat(Name("n"), (Pattern("B"),))), lambda _: Name("x")))
+    A(x) repeat(x) <B>
+    """
+    return rewritten(items, lambda each: (replace(each, arguments=tuple(map(change, each.arguments))),), change)

@@ -6,22 +6,21 @@ The parser calls these methods while it reads, so that no tree is built in betwe
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from sys import float_info
-from typing import Any
+from typing import Any, TypeAlias
 
 from lark import Token, Transformer, v_args
+from lark.visitors import merge_transformers
 
 from lsys_kit.budget import current
-from lsys_kit.notation.analysis.checks import closest
+from lsys_kit.notation.analysis.checks import PointList, SurfaceText, closest
 from lsys_kit.notation.analysis.problems import problem
-from lsys_kit.notation.analysis.surface_checks import PointList, SurfaceText
 from lsys_kit.notation.model.arithmetic import PLAIN, literal_text, normalised
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number, TextSpan
 from lsys_kit.notation.model.modules import Pattern, Repeat
 from lsys_kit.notation.model.system import Constant, MetaRule, Production
-from lsys_kit.notation.syntax.spelling import ModelError
 
 _SPELLINGS = {
     "∨": "||",
@@ -40,25 +39,19 @@ _SPELLINGS = {
     "\\ge": ">=",
     "\\ne": "!=",
 }
+Statement: TypeAlias = tuple[str, Any]
+"""What a statement says: its kind and its record."""
 _LEFT = "\u20d6"
 """An arrow to the left, over the letter before it."""
 _LONGEST_NUMBER = 1_000
 """So many characters a number may have."""
 
 
-class ActionError(Exception):
-    """A mistake that only one dialect knows and words itself, before the text it was made in is known."""
-
-    def __init__(self, kind: type[ModelError], message: str, at: TextSpan, hint: str | None = None) -> None:
-        self.kind, self.message, self.at, self.hint = kind, message, at, hint
-        super().__init__(message)
-
-
-def place_of(*parts: Any) -> TextSpan:
+def place_of(*parts: Any) -> tuple[int, int]:
     """The offsets from the first to the last of some tokens or records."""
     first, last = parts[0], parts[-1]
-    start: int = first.start_pos if isinstance(first, Token) else first.at[0]  # type: ignore[assignment]
-    end: int = last.end_pos if isinstance(last, Token) else last.at[1]  # type: ignore[assignment]
+    start: int = first.start_pos or 0 if isinstance(first, Token) else first.at[0]
+    end: int = last.end_pos or 0 if isinstance(last, Token) else last.at[1]
     return start, end
 
 
@@ -68,7 +61,6 @@ def check_name(token: Token) -> None:
 
 
 def _surface_name(keyword: Token) -> str:
-    """The name of a surface, in the words that begin its declaration."""
     name = keyword[:-1].split()[1]
     if len(name) > current().name:
         raise problem("name too long", place_of(keyword), most=current().name)
@@ -112,7 +104,6 @@ def check_arity(name: Token, operator: str, operands: Sequence[Expression]) -> N
 
 
 def _is_named(part: Any) -> bool:
-    """Whether a part of a statement comes with its name."""
     return isinstance(part, tuple) and len(part) == 2 and isinstance(part[0], str)
 
 
@@ -217,10 +208,10 @@ class Statements(Transformer[Any, Any]):
     def axiom(self, _: Token, word: tuple[Pattern, ...]) -> tuple[str, tuple[Pattern, ...]]:
         return "axiom", word
 
-    def plain_axiom(self, _: Token, word: tuple[Pattern, ...]) -> tuple[str, Any]:
+    def plain_axiom(self, _: Token, word: tuple[Pattern, ...]) -> Statement:
         return "deferred", ("axiom", word)
 
-    def delta(self, _: Token, value: Expression, *sign: Token) -> tuple[str, Any]:
+    def delta(self, _: Token, value: Expression, *sign: Token) -> Statement:
         return "deferred", ("angle", value)
 
     def vocabulary(self, _: Token, *letters: Token) -> tuple[str, tuple[str, ...]]:
@@ -237,28 +228,16 @@ class Statements(Transformer[Any, Any]):
         name = "_".join(keyword.rstrip(": \t").lower().split())
         return "angle" if name == "δ" else name, _number(value) if isinstance(value, Token) else value
 
-    def turtle(self, _: Token, tradition: Token) -> tuple[str, str]:
-        return "turtle", str(tradition)
-
     def field(self, _: Token, name: Token, *arguments: Expression) -> tuple[str, Pattern]:
         return "field", Pattern(str(name), arguments, place_of(name, *arguments))
 
-    def cells(self, _: Token, look: Token) -> tuple[str, str]:
-        return "cells", str(look)
+    def chosen(self, keyword: Token, word: Token) -> tuple[str, str]:
+        return keyword.rstrip(": \t").lower(), str(word)
 
     def look(self, token: Token) -> tuple[str, str]:
         """How a system looks, in a single token: a keyword and a word."""
         name, said = re.findall("[a-z]+", token)[-2:]
         return name, said
-
-    def branches(self, _: Token, which: Token) -> tuple[str, str]:
-        return "branches", str(which)
-
-    def widths(self, _: Token, unit: Token) -> tuple[str, str]:
-        return "widths", str(unit)
-
-    def colours(self, _: Token, source: Token) -> tuple[str, str]:
-        return "colours", str(source)
 
     def polygon(self, keyword: Token, *points: Pattern) -> tuple[str, SurfaceText]:
         at = place_of(keyword)
@@ -279,11 +258,22 @@ class Statements(Transformer[Any, Any]):
     def section(self, keyword: Token) -> tuple[str, str]:
         return "section", keyword.rstrip(": \t").lower()
 
-    def heading(self, _: Token) -> tuple[str, Any]:
+    def heading(self, _: Token) -> Statement:
         return "deferred", ("heading", None)
 
-    def how_many(self, _: Token, number: Token) -> tuple[str, Any]:
+    def how_many(self, _: Token, number: Token) -> Statement:
         return "deferred", ("how many", _number(number))
 
-    def stage(self, _: Token, word: tuple[Pattern, ...]) -> tuple[str, Any]:
+    def stage(self, _: Token, word: tuple[Pattern, ...]) -> Statement:
         return "deferred", ("stage", word)
+
+
+def transformer(
+    statements: type[Transformer[Any, Any]], expressions: type[Expressions] = Expressions
+) -> Callable[[], Transformer[Any, Any]]:
+    """What makes the records of a grammar that imports `expressions.lark`."""
+
+    def made() -> Transformer[Any, Any]:
+        return merge_transformers(statements(), expressions=expressions())  # type: ignore[no-untyped-call,no-any-return]
+
+    return made

@@ -8,17 +8,18 @@ from typing import Any
 from lsys_kit.budget import current
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.analysis.checks import (
+    SurfaceText,
     check_constants,
     check_expression,
     check_field,
     check_meta,
     check_production,
     check_word,
+    checked_surfaces,
     value_of,
 )
 from lsys_kit.notation.analysis.problems import problem
-from lsys_kit.notation.analysis.surface_checks import SurfaceText, checked_surfaces
-from lsys_kit.notation.model.expressions import names_in
+from lsys_kit.notation.model.expressions import Name, names_in
 from lsys_kit.notation.model.modules import Pattern, flat
 from lsys_kit.notation.model.system import Constant, LSystem, MetaRule, Production
 
@@ -90,7 +91,6 @@ class Draft:
             self._set(kind, record, at)
 
     def _set(self, kind: str, record: Any, at: tuple[int, int]) -> None:
-        """Take in a setting."""
         if kind in ("ignore", "consider") and {"ignore", "consider"} & self.settings.keys() - {kind}:
             raise problem("ignore and consider", at)
         if kind in self.settings:
@@ -98,11 +98,26 @@ class Draft:
         self.settings[kind] = record
 
 
-def occurring_symbols(draft: Draft) -> set[str]:
-    """The symbols that can occur in words."""
+def _occurring_symbols(draft: Draft) -> set[str]:
     productions = [rule.successor for rules in draft.sections.values() for rule in rules]
     words = (draft.axiom or (), *productions, *(rule.successor for rule in draft.meta))
     return {module.symbol for word in words for module in flat(word)}
+
+
+def check_colons(draft: Draft) -> None:
+    """What is replaced and its left context must not be a condition without its colon, as in "A(t) t < T -> B".
+
+    It is one where a parameter is used as if it were a module, and no module has its name.
+    """
+    symbols = _occurring_symbols(draft)
+    for production in draft.sections["productions"]:
+        before = [*production.left, *production.predecessors]
+        compared = [*before, *production.right[:1]]
+        parameters = {argument.name for module in before for argument in module.arguments if isinstance(argument, Name)}
+        strange = parameters.intersection(module.symbol for module in compared if not module.arguments).difference(symbols)
+        if strange and len(before) > 1 and (production.left or production.right):
+            first = next(index for index, module in enumerate(before) if module.arguments)
+            raise problem("condition without colon", before[min(first + 1, len(before) - 1)].at)
 
 
 def build_system(draft: Draft) -> LSystem:
@@ -119,7 +134,7 @@ def build_system(draft: Draft) -> LSystem:
         check_meta(rule, names)
     if "field" in draft.settings:
         check_field(draft.settings["field"], names)
-    sections = {section: tuple(productions) for section, productions in draft.sections.items()}
+    sections: dict[str, Any] = {section: tuple(rules) for section, rules in draft.sections.items()}
     return LSystem(
         draft.axiom,
         constants=tuple(draft.constants),
@@ -130,11 +145,10 @@ def build_system(draft: Draft) -> LSystem:
         surfaces=checked_surfaces(draft.surfaces),
         **sections,
         **_checked_settings(draft),
-    )  # type: ignore[arg-type]
+    )
 
 
 def _checked_settings(draft: Draft) -> dict[str, Any]:
-    """The settings with their values, checked."""
     result: dict[str, Any] = {"turtle": draft.turtle}
     for name, setting in draft.settings.items():
         if name in _SYMBOL_LISTS or name in _TEXT_SETTINGS:

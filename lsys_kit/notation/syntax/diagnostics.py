@@ -1,245 +1,300 @@
 """Syntax errors explained to the person who typed the text.
 
-A parser knows which token it did not expect; a student wants to know what is missing. `diagnose` tries a list of diagnostics
-at the place of the failure, the most specific first, and takes the first error that one of them gives. Spellings of other
-languages (`=>`, `and`, `**`) are a table (`spelling.CORRECTIONS`).
+A parser knows which token it did not expect; a student wants to know what is missing. The tables of `mistakes.toml` say so:
+those of the dialect, and those of this folder, which the dialects share. A dialect names the tables in which the place of a
+failure is looked up, the most specific first. A table is a list of rows; the first row whose conditions all hold is the error.
+
+    accepts, any, lacks, only, not_only, not_all
+        Tokens with which the parser could have gone on: all of these, one or more, none; these alone, not these alone, not all.
+    found, before, after, next, line, near
+        Patterns of what was found, of the statement up to it, from it on, behind it, of the line before it, of what is around.
+    statement, head, outside, inside, within
+        Patterns of the statement, of what precedes its arrow, of what precedes the place outside of parentheses, of the name
+        before the innermost bracket, in capitals, and of what stands from that bracket to the place.
+    arrow
+        Where the arrow is: "before" the place or "not before", "ahead", or in the statement there is "no".
+    open, shut; unclosed, closed
+        Pairs of brackets of which one is open at the place, or none; of which one is never closed in the statement, or none.
+    keyword, likeness; known
+        The part of a pattern that may be a keyword; how much it must be like one. Whether it is the "same", the "other" that
+        was meant, "any" of both, or "none".
+    says, hint; at, to, length; cases
+        The message and the hint; where the mark begins and how long it is, unless it is what was found; rows with more
+        conditions, or the name of their table, to which all this is handed on.
+
+In patterns, words in capitals stand for those of `[patterns]`; in messages, words in braces for those of `[words]`, the parts
+that patterns have named, and what else is known of the place.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from difflib import get_close_matches
+from functools import cache
+from typing import Any, TypeAlias
 
 from lark.exceptions import UnexpectedInput
 
-from lsys_kit.errors import ModelSyntaxError
-from lsys_kit.notation.model.turtle_dialects import quoted_dialects
-from lsys_kit.notation.syntax.common_diagnostics import (
-    VALUE_TOKENS,
-    foreign_comment,
-    misspelling,
-    parentheses,
-    repetition,
-    second_arrow,
-    second_comparison,
-    unreadable_character,
-    value_in_parentheses,
-)
+from lsys_kit.errors import ModelSyntaxError, named
+from lsys_kit.notation.analysis.problems import Problem
 from lsys_kit.notation.syntax.dialect import Diagnostic, Grammar
 from lsys_kit.notation.syntax.failure import ParseFailure, excerpt, expected_hint, parse_failure, quoted, unclosed_bracket
-from lsys_kit.notation.syntax.predecessor_diagnostics import diagnose_predecessor
-from lsys_kit.notation.syntax.text.statements import ARROW
+from lsys_kit.notation.syntax.text.statements import blank_parentheses
+from lsys_kit.notation.syntax.wording import KIT_SPELLING, Spelling, worded
 
-KEYWORDS = (
-    "axiom",
-    "angle",
-    "heading",
-    "length",
-    "turtle",
-    "steps",
-    "seed",
-    "depth",
-    "alphabet",
-    "ignore",
-    "consider",
-    "meta",
-    "productions",
-    "decomposition",
-    "decomposition depth",
-    "interpretation",
-    "cells",
-    "branches",
-    "widths",
-    "colours",
-    "field",
-    "surface",
-)
-_SYNONYMS = {"start": "axiom", "initiator": "axiom", "word": "axiom", "w": "axiom", "delta": "angle", "rules": "productions"}
-"""What other programs and books call a keyword."""
-_CHOICES = {
-    "TRADITION": ("turtle", "turtle", f"Turtles are {quoted_dialects('and')}."),
-    "SHAPE": ("cells", "look", 'Cells are drawn as "rectangles" or "ellipses".'),
-    "WHICH": ("branches", "kind of branch", 'A right context names "any" branch or the "next" one, or reads the word "flat".'),
-    "UNIT": ("widths", "unit", 'Widths of strokes are in "pixels" or "units".'),
-    "SOURCE": ("colours", "kind of colours", 'Colours of strokes are "natural" or those of "symbols".'),
+Row: TypeAlias = Mapping[str, Any]
+BRACKETS = "[](){}"
+"""All pairs of brackets."""
+_SAID = ("says", "hint", "at", "to", "length")
+_TOKENS: Mapping[str, Callable[[frozenset[str], frozenset[str]], bool]] = {
+    "accepts": lambda accepted, asked: asked <= accepted,
+    "any": lambda accepted, asked: bool(asked & accepted),
+    "lacks": lambda accepted, asked: not asked & accepted,
+    "only": lambda accepted, asked: asked == accepted,
+    "not_only": lambda accepted, asked: asked != accepted,
+    "not_all": lambda accepted, asked: not asked <= accepted,
 }
-"""The keywords that take one of a few words, by the token of that word; what it is called, and which there are."""
-_NUMBER = (
-    'Values are written in parentheses after a symbol, as in "A(2)"; for three turns type "+++", for the colour 2, '
-    '";(2)". Where a digit is a symbol, "alphabet: 2" says so.'
-)
-_BRACED = re.compile(r"\\(vec|over(left|right)arrow|xrightarrow)\b|^V[ \t]*=")
+_STRETCHES: Mapping[str, tuple[str, Callable[[ParseFailure], tuple[str, int]]]] = {
+    "found": ("fullmatch", lambda failure: (failure.found, failure.at)),
+    "before": ("search", lambda failure: (failure.before, failure.start)),
+    "after": ("match", lambda failure: (failure.after, failure.at)),
+    "next": ("match", lambda failure: (failure.after[len(failure.found) :], failure.at + len(failure.found))),
+    "line": ("fullmatch", lambda failure: (failure.text[failure.text.rfind("\n", 0, failure.at) + 1 : failure.at], 0)),
+    "statement": ("search", lambda failure: (failure.statement, failure.start)),
+    "head": ("search", lambda failure: (_head(failure), failure.start)),
+    "outside": ("search", lambda failure: (blank_parentheses(failure.before), failure.start)),
+    "inside": ("fullmatch", lambda failure: (innermost_bracket(failure)[0], 0)),
+    "within": ("fullmatch", lambda failure: (_within(failure), 0)),
+}
+"""For each kind of pattern how it is used, and the stretch of the text that it is for, with its offset."""
+
+
+class _Piece(str):
+    """A piece of the text in a message: "quoted", an "excerpt" of it, its "first" character with its name, in "lower" case."""
+
+    __slots__ = ()
+
+    def __format__(self, form: str) -> str:
+        return _FORMS[form](self)
+
+
+_FORMS: Mapping[str, Callable[[str], str]] = {
+    "": str,
+    "quoted": quoted,
+    "excerpt": lambda text: excerpt(text.rstrip()),
+    "first": lambda text: named(text[0]),
+    "lower": str.lower,
+}
+
+
+@dataclass(frozen=True)
+class _Seen:
+    """What the conditions of a row have found: parts of the text by their names, where they are, and how known a keyword is."""
+
+    tables: Mapping[str, Any]
+    parts: dict[str, str] = field(default_factory=dict)
+    spans: dict[str, tuple[int, int]] = field(default_factory=dict)
 
 
 def diagnose(unexpected: UnexpectedInput, source: str, start: int, end: int, notation: Grammar) -> ModelSyntaxError:
     """What is wrong with the statement between two offsets, as an error with its place and a hint."""
-    failure = parse_failure(unexpected, source, start, end, notation.spelling)
-    errors = (diagnostic(failure) for diagnostic in (*notation.diagnostics, _anything_else))
+    failure = parse_failure(unexpected, source, notation.bare(source), start, end, notation.spelling)
+    every = (*notation.diagnostics, "anything_else")
+    errors = (explained(failure, each) if isinstance(each, str) else each(failure) for each in every)
     return next(error for error in errors if error is not None)
 
 
-def _arrows(failure: ParseFailure) -> ModelSyntaxError | None:
-    """An arrow with nothing before or after it."""
-    first = ARROW.search(failure.before)
-    if ARROW.match(failure.found):
-        if not failure.text[failure.text.rfind("\n", 0, failure.at) + 1 : failure.at].strip():
-            return failure.error("There is nothing before the arrow", failure.spelling.rule_example)
-        if failure.before.endswith(":"):
-            return failure.error("There is no condition before the arrow", 'Write one, as in "t < 5", or leave the ":" out.')
-    if not failure.found and first and first.end() == len(failure.before):
-        head = re.sub(r"^meta[ \t]*:", "", failure.before[: first.start()], flags=re.IGNORECASE)
-        predecessor = excerpt(head.split(":")[0].split("<")[-1].split(">")[0].strip())
-        hint = f"To erase {predecessor}, write {failure.spelling.nothing} there."
-        return failure.error("There is nothing after the arrow", hint, failure.start + first.start(), len(first.group()))
+def explained(failure: ParseFailure, table: str) -> ModelSyntaxError | None:
+    """The error of the first row of a table that fits; None where none does."""
+    tables = failure.spelling.tables
+    tables = tables if table in tables.get("mistakes", {}) else KIT_SPELLING.tables
+    return _first(tables["mistakes"][table], failure, _Seen(tables))
+
+
+def _first(rows: Iterable[Row], failure: ParseFailure, before: _Seen) -> ModelSyntaxError | None:
+    for row in rows:
+        seen = _Seen(before.tables, {**before.parts}, {**before.spans})
+        if not all(_holds(condition, asked, failure, seen, row) for condition, asked in row.items()):
+            continue
+        cases = row.get("cases")
+        if cases is None:
+            return _error(row, failure, seen)
+        said = {key: row[key] for key in _SAID if key in row}
+        if isinstance(cases, str):
+            cases = {**KIT_SPELLING.tables["mistakes"], **failure.spelling.tables["mistakes"]}[cases]
+        error = _first(({**said, **case} for case in cases), failure, seen)
+        if error is not None:
+            return error
     return None
 
 
-def _keyword(failure: ParseFailure) -> ModelSyntaxError | None:
-    """A keyword that is misspelt, or without its colon or its value."""
-    statement = failure.statement
-    word = re.match(r"([A-Za-z_]+(?:[ \t]+depth)?)([ \t]*:(?!=)(?!.*[<>=]))?", statement)
-    if not word or ARROW.search(statement):
-        return None
-    name, rest = word[1].lower(), statement[word.end() :].strip()
-    known = name if name in KEYWORDS else _SYNONYMS.get(name) or next(iter(get_close_matches(name, KEYWORDS, 1, 0.75)), None)
-    sentences: tuple[str, str | None] | None = None
-    if word[2] and known and known != name:
-        sentences = f'I do not know "{word[1]}:"', f'Did you mean "{known}:"?'
-    elif word[2] and not rest:
-        sentences = f'There is nothing after "{word[1]}:"', expected_hint(failure.accepted)
-    elif word[2] and not known and rest[0].isdigit():
-        sentences = f'I do not know "{word[1]}:"', f'A constant is declared with "=", as in "{word[1]} = {excerpt(rest)}".'
-    elif not word[2] and known == name and rest[:1] not in ("(", "=", ":"):
-        return missing_keyword_colon(failure.source, failure.start, word[1], rest)
-    return failure.error(*sentences, failure.start, len(word[1])) if sentences else None
+def _holds(condition: str, asked: Any, failure: ParseFailure, seen: _Seen, row: Row) -> bool:
+    """Whether a condition holds; what it finds is kept."""
+    if condition in _TOKENS:
+        return _TOKENS[condition](failure.accepted, frozenset(asked))
+    if condition in _STRETCHES:
+        return _matches(condition, asked, failure, seen)
+    if condition == "near":
+        return _is_near(asked, failure, seen)
+    if condition == "arrow":
+        place = "before" if _arrow(failure, failure.at) else "ahead" if _arrow(failure) else "no"
+        return bool(asked == place or (asked == "not before" and place != "before"))
+    if condition in ("open", "shut", "unclosed", "closed"):
+        return _is_open(condition, asked, failure, seen) == (condition in ("open", "unclosed"))
+    if condition == "keyword":
+        seen.parts.update(_keyword(seen.parts[asked], seen.tables, row.get("likeness", 0.75)))
+    if condition == "known":
+        return bool(asked == seen.parts["known"] or (asked == "any" and seen.parts["known"] != "none"))
+    return True
 
 
-def _choice(failure: ParseFailure) -> ModelSyntaxError | None:
-    """An unknown turtle, look of cells, unit of widths, or kind of colours."""
-    kind = next(iter(_CHOICES.keys() & failure.accepted), None)
-    if kind is None:
-        return None
-    keyword, called, choices = _CHOICES[kind]
-    if not failure.found:
-        return failure.error(f'There is nothing after "{keyword}:"', choices, failure.start, len(keyword))
-    found = re.match(r"[\w-]+|.", failure.after)
-    return failure.error(f"I do not know the {called} {quoted(found[0] if found else failure.found)}", choices)
+def _matches(condition: str, pattern: str, failure: ParseFailure, seen: _Seen) -> bool:
+    way, stretch = _STRETCHES[condition]
+    text, offset = stretch(failure)
+    match = getattr(compiled(f"(?s:{pattern})" if condition == "found" else pattern, failure.spelling), way)(text)
+    return match is not None and _keep(match, offset, seen)
 
 
-def _braces(failure: ParseFailure) -> ModelSyntaxError | None:
-    """A brace of the mathematical form that is not closed, or a comma that is missing between two."""
-    statement = failure.statement
-    opened = unclosed_bracket(statement, "{}") if _BRACED.search(statement) else None
-    if opened is not None:
-        return failure.error('This "{" is never closed', 'Every "{" needs a "}" after it.', failure.start + opened, 1)
-    if {"COMMA", "RBRACE"} <= failure.accepted:
-        return failure.error('A "," is missing here', 'The letters of an alphabet are separated by commas, as in "V = {A, B}".')
-    return None
+def _keep(match: re.Match[str], offset: int, seen: _Seen) -> bool:
+    """Keep the parts that a pattern has named."""
+    seen.parts.update(match.groupdict(""))
+    seen.spans.update({name: (offset + match.start(name), offset + match.end(name)) for name in match.groupdict()})
+    return True
 
 
-def missing_keyword_colon(source: str, start: int, word: str, rest: str) -> ModelSyntaxError:
-    """The error for a keyword at an offset without its colon."""
-    return ModelSyntaxError(
-        f'A ":" is missing after "{word}"', source, start, start + len(word), f'Type "{word.lower()}: {excerpt(rest.strip())}".'
+def _is_near(pattern: str, failure: ParseFailure, seen: _Seen) -> bool:
+    first, last = max(failure.start, failure.at - 6), min(failure.end, failure.at + 200)
+    for match in compiled(pattern, failure.spelling).finditer(failure.text, first, last):
+        if match.start() <= failure.at <= match.end():
+            seen.spans["near"] = match.span()
+            return True
+    return False
+
+
+def _is_open(condition: str, pairs: str, failure: ParseFailure, seen: _Seen) -> bool:
+    """Whether a bracket is open; in pairs of "<" and ">", those behind the arrow and outside of parentheses count."""
+    whole = condition in ("unclosed", "closed")
+    text, offset = failure.statement if whole else failure.before, failure.start
+    if pairs == "<>":
+        offset = (_arrow(failure) or (0, failure.start))[1]
+        text = blank_parentheses(text[offset - failure.start :])
+    at = unclosed_bracket(text, pairs)
+    if at is None:
+        return False
+    seen.parts.update({"open": text[at], "close": pairs[pairs.index(text[at]) + 1]})
+    seen.spans[condition] = (offset + at, offset + at + 1)
+    return True
+
+
+def _keyword(typed: str, tables: Mapping[str, Any], likeness: float) -> dict[str, str]:
+    """The keyword that was meant, an example of what follows it, and how known it is."""
+    name = " ".join(typed.lower().split())
+    keywords = {keyword.lower(): keyword for keyword in tables["keywords"]}
+    meant = tables["synonyms"].get(name) or next(
+        (keywords[like] for like in get_close_matches(name, keywords, 1, likeness)), None
     )
+    if meant is None:
+        return {"known": "none"}
+    known = "same" if meant.lower() == name else "other"
+    return {"known": known, "meant": meant, "example": tables["keywords"].get(meant, "")}
 
 
-def _repeat(failure: ParseFailure) -> ModelSyntaxError | None:
-    """A repetition in an axiom, one that ends with a minus sign, or one without the name of its index."""
-    arrow, found = ARROW.search(failure.before), failure.found
-    if arrow is None or "RELATION" in failure.accepted:
-        return (
-            failure.error("Nothing is repeated in an axiom", "Write it out in full.")
-            if found == "<" and re.search(r"\brepeat\s*\([^()]*\)$", failure.before)
-            else None
-        )
-    if "MORETHAN" in failure.accepted and found == "->" and not failure.before.endswith(("-", ">")):
-        return failure.error('This "->" is read as an arrow', 'Where a repetition ends, type "- >", with a blank between them.')
-    if failure.accepted == {"NAME"} and failure.before.endswith(","):
-        return failure.error("The name of the index is missing here", failure.spelling.repetition)
+def _error(row: Row, failure: ParseFailure, seen: _Seen) -> ModelSyntaxError:
+    parts = {**seen.parts, "found": failure.found, "before": failure.before, "possible": expected_hint(failure.accepted) or ""}
+    words = {**failure.spelling.words, **{name: _Piece(part) for name, part in parts.items()}}
+    start, end = _span(row, failure, seen)
+    end = {"here": failure.at + 1, "place": failure.at}.get(row.get("to", ""), end)
+    hint = row.get("hint", "").format_map(words) or None
+    return failure.error(row["says"].format_map(words), hint, start, row.get("length") or max(0, end - start))
+
+
+def _span(row: Row, failure: ParseFailure, seen: _Seen) -> tuple[int, int]:
+    """Where the mark begins and ends; where it ends as it begins, it is as long as what was found."""
+    at = row.get("at", "near" if "near" in row else "")
+    if at == "second":
+        return (after_first(failure),) * 2
+    return {"": (failure.at, 0), "start": (failure.start, 0), "arrow": _arrow(failure) or (0, 0), **seen.spans}[at]
+
+
+@cache
+def compiled(pattern: str, spelling: Spelling) -> re.Pattern[str]:
+    """A pattern of a table, with those of the dialect in the place of their names."""
+    names = rf"\b(?:{'|'.join(spelling.patterns)})\b"
+    return re.compile(re.sub(names, lambda name: f"(?:{spelling.patterns[name[0]]})", pattern))
+
+
+def _arrow(failure: ParseFailure, end: int | None = None) -> tuple[int, int] | None:
+    """The offsets of the first arrow of the statement, or of what stands before an offset."""
+    match = compiled("ARROW", failure.spelling).search(failure.text, failure.start, failure.end if end is None else end)
+    return match and match.span()
+
+
+def _head(failure: ParseFailure) -> str:
+    arrow = _arrow(failure)
+    return failure.text[failure.start : arrow[0]] if arrow else ""
+
+
+def innermost_bracket(failure: ParseFailure) -> tuple[str, int | None]:
+    """The last bracket that is open at the place: the name before it, in capitals, and its offset."""
+    opened = unclosed_bracket(failure.before, BRACKETS)
+    if opened is None:
+        return "", None
+    word = re.search(r"(?<!\w)\w*+$", failure.before[:opened].rstrip())
+    return (word[0].upper() if word else ""), failure.start + opened
+
+
+def _within(failure: ParseFailure) -> str:
+    at = innermost_bracket(failure)[1]
+    return "" if at is None else failure.text[at : failure.at + len(failure.found)]
+
+
+def after_first(failure: ParseFailure) -> int:
+    """The offset of what follows the first module of a statement."""
+    head = compiled("FIRST", failure.spelling).match(failure.statement)
+    rest = blank_parentheses(failure.statement)[head.end() if head else 0 :]
+    return failure.end - len(rest.lstrip())
+
+
+_CONDITION = re.compile(r"(if|when)\b|(\w+)\s*(<=|>=|==|!=|[<>=≤≥≠]|\\[lgn]eq?)\s*(\w+|\S?)")
+
+
+def condition_without_colon(failure: ParseFailure) -> ModelSyntaxError | None:
+    """A condition without its ":": a comparison of a parameter, or with a number."""
+    arrow, second = _arrow(failure), after_first(failure)
+    if arrow is None or failure.at > arrow[0] or ":" in failure.before or failure.statement.startswith("meta"):
+        return None
+    found = _CONDITION.match(failure.text, second, arrow[0])
+    if not found or not {"COLON", "LESSTHAN", "NAME"} & failure.accepted:
+        return None
+    parameters = re.findall(r"\w+", failure.text[failure.start : second])[1:]
+    if found[1] or found[3] not in "<>" or {found[2], found[4]} & {*parameters} or found[4][:1].isdigit():
+        return failure.error(*worded(Problem("condition without colon"), failure.spelling), second)
     return None
-
-
-def _equals(failure: ParseFailure) -> ModelSyntaxError | None:
-    """A single "=", where an arrow or a comparison is needed."""
-    if not failure.found.startswith("="):
-        return None
-    if "ARROW" in failure.accepted and not ARROW.search(failure.after):
-        return failure.error("This is not an arrow", failure.spelling.rule_example)
-    return failure.error('A single "=" cannot be used here', 'To compare two values, type "==".')
-
-
-def _constant_declaration(failure: ParseFailure) -> ModelSyntaxError | None:
-    """Something in the declaration of a constant."""
-    constant = re.match(r"([A-Za-z_]\w*)\s*=(?!=)\s*([A-Za-z_]\w*$)?", failure.before)
-    if not constant or ARROW.search(failure.text, failure.start, failure.end) or "RANGE" in failure.accepted:
-        return None
-    production = f'; a production, "{constant[1]} {failure.spelling.arrow} {constant[2]}"' if constant[2] else ""
-    return failure.error(
-        f"I did not expect {quoted(failure.found)} here",
-        f'A constant reads "dt = 0.5", or "dt = 0.5 in 0.1 .. 2 by 0.1"{production}.',
-    )
-
-
-def _production_with_equals(failure: ParseFailure) -> ModelSyntaxError | None:
-    """A production as other programs write it, with "=" for its arrow."""
-    rule = re.fullmatch(r"((?!δ)[^\W\d_])\s*=(?!=)\s*((?:[^\s\d(].*)?)", failure.statement)
-    if not rule or ARROW.search(failure.statement) or (rule[2] and not re.search(r"[\[\]]|[+\-]$", rule[2])):
-        return None
-    arrow, at = failure.spelling.arrow, failure.start + failure.statement.index("=")
-    if rule[2]:
-        return failure.error("This is not an arrow", f'Type "{rule[1]} {arrow} {excerpt(rule[2])}".', at, 1)
-    return failure.error(
-        'There is nothing after the "="',
-        f'A constant reads "{rule[1]} = 0.5"; to erase {rule[1]}, type "{rule[1]} {arrow} *".',
-        at,
-        1,
-    )
-
-
-def _in_a_word(failure: ParseFailure) -> ModelSyntaxError | None:
-    """Something in a word that is not a module."""
-    empty = failure.found if failure.found in ("ε", "*") else failure.before[-1:]
-    if empty in ("ε", "*") and ARROW.search(failure.before):
-        return failure.error(f"Nothing else is possible beside {quoted(empty)}", "It says that the successor is empty.")
-    if failure.found == ":" and ARROW.search(failure.before):
-        return failure.error(
-            'This ":" comes after the arrow', f'A condition comes before it, as in "A(t) : t < 5 {failure.spelling.arrow} B".'
-        )
-    if not {"SYMBOL", "NAME"} & failure.accepted or failure.accepted >= VALUE_TOKENS:
-        return None
-    if failure.found[:1].isdigit():
-        hint = _NUMBER if "NAME" in failure.accepted else 'A plant string has no values: "(" and ")" are branches.'
-        return failure.error("A number is not a module", hint)
-    if failure.found.startswith(","):
-        return failure.error('A "," is not needed here', "Modules and names are separated by blanks.")
-    return None
-
-
-def _anything_else(failure: ParseFailure) -> ModelSyntaxError:
-    what = f"I did not expect {quoted(failure.found)} here" if failure.found else "The line ends too early"
-    return failure.error(what, expected_hint(failure.accepted))
 
 
 DIAGNOSTICS: Sequence[Diagnostic] = (
-    foreign_comment,
-    _repeat,
-    repetition,
-    _choice,
-    _keyword,
-    _braces,
-    parentheses,
-    second_arrow,
-    _arrows,
-    misspelling,
-    unreadable_character,
-    diagnose_predecessor,
-    second_comparison,
-    _in_a_word,
-    _production_with_equals,
-    _equals,
-    value_in_parentheses,
-    _constant_declaration,
+    "foreign_comment",
+    "repeat",
+    "repetition",
+    "choice",
+    "keyword",
+    "braces",
+    "parentheses",
+    "second_arrow",
+    "arrows",
+    "misspelling",
+    "unreadable_character",
+    "predecessor",
+    condition_without_colon,
+    "contexts",
+    "second_comparison",
+    "in_a_word",
+    "production_with_equals",
+    "equals",
+    "missing_value",
+    "missing_operator",
+    "constant_declaration",
 )
-"""The diagnostics of the kit's own notation and of plant strings, the most specific first."""
+"""Where the mistakes in the kit's own notation and in plant strings are looked up, the most specific first."""

@@ -14,8 +14,9 @@ from lark import Transformer
 from lsys_kit.errors import ModelSyntaxError, ModelValueError
 from lsys_kit.notation.model.modules import Module, Pattern
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.notation.syntax.spelling import KIT_SPELLING, Spelling
+from lsys_kit.notation.syntax.text.statements import without_comments
 from lsys_kit.notation.syntax.text.transcript import Transcript, as_typed
+from lsys_kit.notation.syntax.wording import KIT_SPELLING, Spelling
 
 if TYPE_CHECKING:
     from lsys_kit.notation.syntax.builder import Draft
@@ -29,8 +30,8 @@ def whole(text: str, name: str | None) -> str:
     return text
 
 
-Diagnostic: TypeAlias = "Callable[[ParseFailure], ModelSyntaxError | None]"
-"""Looks at the place where a parser failed; the error says what is wrong, None that this diagnostic does not apply."""
+Diagnostic: TypeAlias = "str | Callable[[ParseFailure], ModelSyntaxError | None]"
+"""What looks at the place where a parser failed: a table of mistakes, by name, or a function that finds an error or None."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -49,6 +50,8 @@ class Grammar:
         What can be parsed: a statement, and perhaps a word or an expression alone.
     spelling
         How messages spell what they quote.
+    bare
+        A text as mistakes are looked for in it: without its comments, every other character in its place.
     """
 
     name: str
@@ -56,6 +59,7 @@ class Grammar:
     diagnostics: Sequence[Diagnostic]
     starts: Sequence[str] = ("statement", "word", "expression")
     spelling: Spelling = KIT_SPELLING
+    bare: Callable[[str], str] = without_comments
 
     @property
     def file(self) -> str:
@@ -79,8 +83,10 @@ class Dialect(Grammar):
         The texts of modules, as one word.
     write
         The text of a system that lacks nothing in the notation.
+    lacks
+        The features that the notation lacks, by their names in `formatting.FEATURES`.
     missing_feature
-        The first feature that a system has and the notation lacks, in words; symbols are looked at apart.
+        What else a system has and the notation lacks, in words, or None; symbols are looked at apart.
     entry
         The text with the system of a name in it alone; without a name, with the only one.
     transcribe
@@ -98,7 +104,8 @@ class Dialect(Grammar):
     module: Callable[[Module | Pattern], str]
     joined: Callable[[Iterable[str]], str]
     write: Callable[[LSystem], str]
-    missing_feature: Callable[[LSystem], str | None]
+    lacks: Sequence[str] = ()
+    missing_feature: Callable[[LSystem], str | None] = lambda system: None
     likely: Callable[[str], int]
     entry: Callable[[str, str | None], str] = whole
     turtle: str = "abop"

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from lark.exceptions import UnexpectedCharacters, UnexpectedInput, UnexpectedToken
 
 from lsys_kit.errors import ModelSyntaxError, named, printable
-from lsys_kit.notation.syntax.spelling import Spelling
-from lsys_kit.notation.syntax.text.statements import ARROW, without_comments
+from lsys_kit.notation.syntax.text.statements import ARROW
+from lsys_kit.notation.syntax.wording import Spelling
 
 _TOKEN_NAMES = {
     "ARROW": "an arrow",
@@ -33,7 +33,7 @@ class ParseFailure:
     Attributes
     ----------
     text, source
-        The text without its comments, and as it was typed.
+        The text as mistakes are looked for in it, and as it was typed.
     at, found
         The offset, and the text there: none at the end of the statement.
     accepted
@@ -74,12 +74,14 @@ class ParseFailure:
         return ModelSyntaxError(message, self.source, at, at + (length or max(1, len(self.found))), hint)
 
 
-def parse_failure(unexpected: UnexpectedInput, source: str, start: int, end: int, spelling: Spelling) -> ParseFailure:
+def parse_failure(
+    unexpected: UnexpectedInput, source: str, text: str, start: int, end: int, spelling: Spelling
+) -> ParseFailure:
     """What a parser reports about the statement between two offsets, as a failure."""
     at, found = _unexpected_text(unexpected, source, start, end)
     parser = getattr(unexpected, "interactive_parser", None)
     accepted = frozenset(kind.split("__")[-1] for kind in parser.accepts()) if parser else frozenset()
-    return ParseFailure(without_comments(source), source, start, end, at, found, accepted, spelling)
+    return ParseFailure(text, source, start, end, at, found, accepted, spelling)
 
 
 def _unexpected_text(unexpected: UnexpectedInput, source: str, start: int, end: int) -> tuple[int, str]:
@@ -97,10 +99,10 @@ def _unexpected_text(unexpected: UnexpectedInput, source: str, start: int, end: 
 
 
 def unclosed_bracket(text: str, pair: str = "()") -> int | None:
-    """The offset of the last opening bracket of a pair that is not closed."""
+    """The offset of the last opening bracket of a pair, or of several pairs, that is not closed."""
     opened: list[int] = []
     for match in re.finditer(f"[{re.escape(pair)}]", text):
-        if match.group() == pair[0]:
+        if match.group() in pair[::2]:
             opened.append(match.start())
         else:
             opened[-1:] = []

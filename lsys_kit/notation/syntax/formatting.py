@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from fractions import Fraction
 
 from lsys_kit.notation.model.arithmetic import literal_text
 from lsys_kit.notation.model.modules import OPENING, Repeat
@@ -12,45 +13,44 @@ OWN_NOTATION = "abop"
 """The dialect of turtle commands, and of the notation, that is meant where nothing is said."""
 
 
+_SETTINGS = (
+    "angle",
+    "heading",
+    "length",
+    "steps",
+    "seed",
+    "decomposition_depth",
+    "depth",
+    "ignored",
+    "considered",
+    "branches",
+    "field",
+    *LOOK,
+)
+_KEYWORDS = {"decomposition_depth": "decomposition depth", "ignored": "ignore", "considered": "consider"}
+"""The keywords of settings that have another name in the record."""
+
+
 def settings(system: LSystem, turtle: str = OWN_NOTATION) -> Iterator[str]:
     """The lines of settings, given the notation's own tradition of turtle commands."""
-    if system.alphabet:
-        yield "alphabet: " + " ".join(system.alphabet)
+    yield from (f"{name}: {text}" for name, text in unusual(system, "alphabet"))
     if system.turtle != turtle:
         yield f"turtle: {system.turtle}"
-    if system.angle != 90:
-        yield f"angle: {literal_text(system.angle)}"
-    if system.heading != 90:
-        yield f"heading: {literal_text(system.heading)}"
-    if system.length is not None:
-        yield f"length: {literal_text(system.length)}"
-    for keyword, number in (
-        ("steps", system.steps),
-        ("seed", system.seed),
-        ("decomposition depth", system.decomposition_depth),
-    ):
-        if number is not None:
-            yield f"{keyword}: {number}"
-    if system.depth != 1:
-        yield f"depth: {system.depth}"
-    for keyword, symbols in (("ignore", system.ignored), ("consider", system.considered)):
-        if symbols:
-            yield f"{keyword}: {' '.join(symbols)}"
-    if system.branches != ANY_BRANCH:
-        yield f"branches: {system.branches}"
-    if system.field is not None:
-        yield f"field: {system.field}"
-    yield from (f"{name}: {said}" for name, said in look(system))
+    yield from (f"{_KEYWORDS.get(name, name)}: {text}" for name, text in unusual(system, *_SETTINGS))
 
 
-def look(system: LSystem) -> Iterator[tuple[str, str]]:
-    """What a system says of how it looks, by name.
+def unusual(system: LSystem, *names: str) -> Iterator[tuple[str, str]]:
+    """Those of some attributes of a system that are not as usual, with their texts.
 
     >>> from lsys_kit.notation.read import read
-    >>> [*look(read("axiom: F\\ncolours: natural"))]
-    [('colours', 'natural')]
+    >>> [*unusual(read("axiom: F\\nangle: 22.5\\ncolours: natural"), "angle", "length", "colours")]
+    [('angle', '22.5'), ('colours', 'natural')]
     """
-    return ((name, getattr(system, name)) for name in LOOK if getattr(system, name) != getattr(LSystem, name))
+    for name in names:
+        value = getattr(system, name)
+        if value != getattr(LSystem, name):
+            exact = isinstance(value, Fraction | float)
+            yield name, literal_text(value) if exact else " ".join(value) if isinstance(value, tuple) else str(value)
 
 
 def sections(system: LSystem, rule: Callable[[object], str]) -> Iterator[str]:

@@ -12,7 +12,6 @@ from lark.exceptions import UnexpectedInput
 from lsys_kit.budget import check_budget, current
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.analysis.problems import ProblemFound
-from lsys_kit.notation.syntax.actions import ActionError
 from lsys_kit.notation.syntax.diagnostics import diagnose
 from lsys_kit.notation.syntax.dialect import Grammar
 from lsys_kit.notation.syntax.wording import error_of
@@ -38,9 +37,6 @@ def parse(notation: Grammar, rule: str, text: str, start: int, end: int) -> Any:
         raise diagnose(unexpected, text, start, end, notation) from None
     except ProblemFound as error:
         raise error_of(error.problem, text, notation.spelling) from None
-    except ActionError as error:
-        first, last = error.at or (None, None)
-        raise error.kind(error.message, text, first, last, error.hint) from None
 
 
 @cache

@@ -16,7 +16,7 @@ from itertools import pairwise
 from typing import Any, NamedTuple
 
 from lsys_kit.notation.analysis.problems import problem
-from lsys_kit.notation.model.modules import Item, Pattern, Repeat, flat
+from lsys_kit.notation.model.modules import Item, Pattern, flat, rewritten
 from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 
@@ -142,16 +142,12 @@ def _segmented_rules(rules: Iterable[Production], made: dict[str, list[str]]) ->
 
 def _segmented(word: Iterable[Item], made: dict[str, list[str]]) -> tuple[Any, ...]:
     """The word with its glued names divided; the arguments of a name go to its last symbol."""
-    result: list[Item] = []
-    for module in word:
-        if isinstance(module, Repeat):
-            result.append(replace(module, body=_segmented(module.body, made)))
-        elif pieces := made.get(module.symbol):
-            result += [Pattern(symbol, at=module.at) for symbol in pieces[:-1]]
-            result.append(replace(module, symbol=pieces[-1]))
-        else:
-            result.append(module)
-    return tuple(result)
+
+    def pieces(module: Pattern) -> Iterable[Pattern]:
+        *first, last = made.get(module.symbol, (module.symbol,))
+        return (*(Pattern(symbol, at=module.at) for symbol in first), replace(module, symbol=last)) if first else (module,)
+
+    return rewritten(word, pieces, lambda count: count)
 
 
 def _glued(modules: Iterable[Pattern], known: _Known) -> dict[str, list[str]]:

@@ -1,7 +1,7 @@
 """A system as a text in a notation: read, and written so that it reads back.
 
 A notation can express a system if, and only if, what it writes reads back as the same system; so every text is read before it
-is given away. What a notation lacks as a whole is named before: a feature (`Dialect.missing_feature`), or a symbol.
+is given away. What a notation lacks as a whole is named before: a feature (`Dialect.lacks`), or a symbol.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from lsys_kit.notation.model.modules import END, Pattern, joined
 from lsys_kit.notation.model.system import LOOK, LSystem
 from lsys_kit.notation.syntax.builder import Draft
 from lsys_kit.notation.syntax.dialect import Dialect
+from lsys_kit.notation.syntax.formatting import first_missing
 from lsys_kit.notation.syntax.parser import parse
 from lsys_kit.notation.syntax.text.statements import bounded
 from lsys_kit.notation.syntax.text.transcript import Transcript
@@ -66,7 +67,8 @@ def text_in(notation: Dialect, system: LSystem) -> str:
 def lacking(notation: Dialect, system: LSystem) -> str | None:
     """The first thing that a system has and a notation lacks, in words: a feature or a symbol."""
     system = notation.translated(system)
-    return notation.missing_feature(system) or next(_strange_symbols(notation, system), None)
+    missing = first_missing(system, *notation.lacks) or notation.missing_feature(system)
+    return missing or next(_strange_symbols(notation, system), None)
 
 
 def _built(notation: Dialect, transcript: Transcript) -> LSystem:

@@ -13,7 +13,6 @@ from functools import lru_cache
 
 from lsys_kit.derivation.petri.net import Stages
 from lsys_kit.errors import ModelValueError
-from lsys_kit.pictures.nets.captions import short
 from lsys_kit.pictures.nets.layout import EDGE, RADIUS, Point
 from lsys_kit.pictures.nets.parts import (
     LABEL_SIZE,
@@ -25,6 +24,7 @@ from lsys_kit.pictures.nets.parts import (
     Parts,
     PlacePart,
     parts_of,
+    short,
     steering_of,
 )
 from lsys_kit.pictures.shapes import Circle, Drawing, Group, Look, Paper, Path, Rectangle, Shape, Text, Title
@@ -69,32 +69,12 @@ def drawn_stages(
     steering: Collection[str] | None = None,
     labels: bool = True,
 ) -> Drawing:
-    """A stage diagram as shapes.
+    """A stage diagram as shapes, with numbers of tokens, one for each place, if they are given, and some places highlighted.
 
-    Parameters
-    ----------
-    net
-        The stages of a system.
-    tokens
-        The number of tokens in each place; by default none are drawn.
-    marked
-        The numbers of the places that are highlighted.
-    positions
-        Whether arcs are labelled with the positions of their modules in the successor, rather than with their number.
-    steering
-        Symbols whose places are omitted if they are never rewritten; by default those that only steer the turtle.
-    labels
-        Whether stages have their names.
+    Arcs may be labelled with the positions of their modules in the successor, rather than with their number. Places of symbols
+    that only steer the turtle, or of others that are given, are omitted if they are never rewritten.
 
-    Raises
-    ------
-    ModelValueError
-        The tokens are not one number for each place.
-
-    Examples
-    --------
-    >>> from lsys_kit.derivation.petri.stages import stages
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read, stages
     >>> [*drawn_stages(stages(read("axiom: a\\na -> ab\\nb -> a")), (2, 1)).shapes[1].shapes][-1].tags
     {'class': 'token'}
     """

@@ -1,42 +1,55 @@
-"""Layers of a directed graph in an order with few crossings.
+"""The layout of a stage diagram in layers, from left to right: for nets whose arcs would cross too often above rows of places.
 
 After K. Sugiyama, S. Tagawa and M. Toda, "Methods for visual understanding of hierarchical system structures" (1981), and
 E. R. Gansner, E. Koutsofios, S. C. North and K.-P. Vo, "A technique for drawing directed graphs" (1993): edges that close a
 cycle are turned round; each vertex then gets a layer behind those of its predecessors; an edge across several layers is cut by
 dummy vertices into pieces; and the vertices of each layer are ordered such that few pieces cross.
+
+Circles and bars stand in columns. A line runs straight through a column and slantwise between two of them, so that it meets no
+circle and no label; only lines that are in different orders on both sides cross. An arc that leads back leaves its bar to the
+left and enters its circle from the right.
 """
 
 from __future__ import annotations
 
 from bisect import bisect_right, insort
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import pairwise
+from math import dist
 from random import Random
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
 from lsys_kit.budget import check_budget
+from lsys_kit.derivation.petri.net import Stages
+from lsys_kit.pictures.nets.layout import ARROW_LENGTH, BAR, EDGE, LABEL, RADIUS, BarPosition, Layout, Point, Texts
 
 SWEEPS, STARTS = 6, 6
 """How often the layers are ordered up and down from one first order, and from how many first orders."""
+FEED, ARC, DUMMY = 4, 1, 2
+"""How much it matters that the line from a circle to its bar is short and straight, that an arc is, and that a long arc is."""
+SPACE, LEAST_GAP, MOST_GAP, SLOPE = 8.0, 22.0, 80.0, 0.3
+"""The space between neighbours in a column; the least and the most between two columns; and how steep lines may become before
+columns move apart: the gap to the height of the steepest line."""
+PORT, HIGHEST_PORT = 7.0, 13.0
+"""The distance of lines that end at one side of a circle or bar, and how far from the middle one may meet a circle."""
+MOST_PIECES = 1_000
+"""Paths are followed first from one place after another, until layers with so many pieces of lines have been made."""
+TERMS, NOTE, CLEARANCE = 15.0, 14.0, 6.0
+"""The height of the text above a bar, of a note on a line, and the distance from other lines that is enough for a note."""
+
+_Patch: TypeAlias = tuple[float, float, float, float]
+"""The space that a text or a shape takes: its middle, and how far it reaches to either side and up or down."""
+_Neighbours: TypeAlias = Mapping[int, Sequence[int]]
+"""For each vertex its neighbours in the next layer, or in the one before."""
 
 
-@dataclass(frozen=True)
-class Layers:
-    """A graph in layers.
-
-    Attributes
-    ----------
-    layers
-        The vertices of each layer in their order. Those from the graph's number of vertices on are dummies.
-    chains
-        For each edge the vertices that it runs through, from the first layer to the last.
-    turned
-        The numbers of the edges that were turned round: their chains run from target to source.
-    crossings
-        The number of crossings of pieces of edges.
-    """
+class Layers(NamedTuple):
+    """A graph in layers: the vertices of each in their order (those from the graph's number of vertices on are dummies); for
+    each edge the vertices that it runs through, from the first layer to the last; the numbers of the edges that were turned
+    round, whose chains run from target to source; and the number of crossings of pieces of edges."""
 
     layers: tuple[tuple[int, ...], ...]
     chains: tuple[tuple[int, ...], ...]
@@ -45,121 +58,77 @@ class Layers:
 
 
 def layered(count: int, edges: Sequence[tuple[int, int]], weights: Sequence[int], first: Sequence[int] = ()) -> Layers:
-    """The layers of a graph.
+    """The layers of a graph of so many vertices, given source and target of each edge, how much it matters that it is short,
+    and vertices from which paths are followed first; an edge that leads back to where a path came from is turned round.
 
-    Parameters
-    ----------
-    count
-        The number of vertices.
-    edges
-        Source and target of each edge.
-    weights
-        How much it matters that each edge is short.
-    first
-        Vertices from which paths are followed first; an edge that leads back to where a path came from is turned round.
-
-    Examples
-    --------
     >>> layered(4, [(0, 1), (1, 2), (2, 0), (0, 3)], [1, 1, 1, 1])
-    Layers(layers=((0,), (1, 3, 4), (2,)), chains=((0, 1), (1, 2), (0, 4, 2), (0, 3)), turned=frozenset({2}),
-           crossings=0)
+    Layers(layers=((0,), (1, 3, 4), (2,)), chains=((0, 1), (1, 2), (0, 4, 2), (0, 3)), turned=frozenset({2}), crossings=0)
     """
     turned = _closing(count, edges, first)
     onward = [(target, source) if number in turned else (source, target) for number, (source, target) in enumerate(edges)]
     ranks = _ranks(count, onward, weights)
-    layers, chains = _with_dummies(count, onward, ranks)
-    pieces = _pieces(chains)
-    best, crossings = _ordered(layers, pieces)
-    return Layers(tuple(map(tuple, best)), tuple(map(tuple, chains)), frozenset(turned), crossings)
+    order: list[list[int]] = [[] for _ in range(max(ranks, default=-1) + 1)]
+    for vertex, rank in enumerate(ranks):
+        order[rank].append(vertex)
+    chains, dummy = [], count
+    for source, target in onward:
+        between = range(ranks[source] + 1, ranks[target])
+        chains.append((source, *range(dummy, dummy + len(between)), target))
+        for rank in between:
+            order[rank].append(dummy)
+            dummy += 1
+    best, crossings = _ordered(order, [piece for chain in chains for piece in pairwise(chain)])
+    return Layers(tuple(map(tuple, best)), tuple(chains), frozenset(turned), crossings)
 
 
 def _closing(count: int, edges: Sequence[tuple[int, int]], first: Sequence[int]) -> set[int]:
-    """The numbers of the edges that close a cycle of a search in depth."""
-    leaving: list[list[tuple[int, int]]] = [[] for _ in range(count)]
-    for number, (source, target) in enumerate(edges):
-        leaving[source].append((number, target))
-    found, finished, on_path = set(), set(), set()
-    for root in (*first, *range(count)):
-        if root in finished:
-            continue
-        on_path.add(root)
-        path = [(root, iter(leaving[root]))]
-        while path:
-            vertex, onward = path[-1]
-            step = next(onward, None)
-            if step is None:
-                path.pop()
-                on_path.discard(vertex)
-                finished.add(vertex)
-            elif step[1] in on_path:
-                found.add(step[0])
-            elif step[1] not in finished:
-                on_path.add(step[1])
-                path.append((step[1], iter(leaving[step[1]])))
-    return found
+    """The numbers of the edges that close a cycle of a search in depth: they lead to where it is not finished yet."""
+    import networkx
+
+    graph = networkx.DiGraph()
+    graph.add_nodes_from([*first, *range(count)])
+    graph.add_edges_from(edges)
+    finished = {vertex: moment for moment, vertex in enumerate(networkx.dfs_postorder_nodes(graph))}
+    return {number for number, (source, target) in enumerate(edges) if finished[target] >= finished[source]}
 
 
 def _ranks(count: int, edges: Sequence[tuple[int, int]], weights: Sequence[int]) -> list[int]:
     """The layer of each vertex such that the weighted sum of the edges' lengths is least: a linear programme with whole numbers
     as its solution."""
+    costs, entries = [0.0] * count, []
+    for number, ((source, target), weight) in enumerate(zip(edges, weights, strict=True)):
+        costs[target] += weight
+        costs[source] -= weight
+        entries += [(number, source, 1.0), (number, target, -1.0)]
+    return [round(rank) for rank in _least(costs, entries, [-1.0] * len(edges))]
+
+
+def _least(costs: Sequence[float], entries: Sequence[tuple[int, int, float]], bounds: Sequence[float]) -> Sequence[float]:
+    """The values of variables, none below 0, whose sum with their costs is least, given bounds of other sums of multiples of
+    them: the bound, the variable and the factor."""
     from scipy.optimize import linprog
     from scipy.sparse import coo_array
 
-    if not edges:
-        return [0] * count
-    numbers, ends = np.arange(len(edges)), np.array(edges)
-    costs = np.zeros(count)
-    np.add.at(costs, ends[:, 1], weights)
-    np.subtract.at(costs, ends[:, 0], weights)
-    values = np.repeat([1.0, -1.0], len(edges))
-    rows, columns = np.tile(numbers, 2), np.concatenate([ends[:, 0], ends[:, 1]])
-    solved = linprog(
-        costs,
-        coo_array((values, (rows, columns)), shape=(len(edges), count)).tocsr(),
-        -np.ones(len(edges)),
-        bounds=(0, None),
-        method="highs-ds",
-    )
-    ranks: list[int] = np.rint(solved.x).astype(int).tolist()
-    return ranks
+    if not bounds:
+        return [0.0] * len(costs)
+    rows, columns, values = zip(*entries, strict=True)
+    matrix = coo_array((values, (rows, columns)), shape=(len(bounds), len(costs))).tocsr()
+    found: Sequence[float] = linprog(costs, matrix, bounds, bounds=(0, None), method="highs-ds").x
+    return found
 
 
-def _with_dummies(
-    count: int, edges: Sequence[tuple[int, int]], ranks: Sequence[int]
-) -> tuple[list[list[int]], list[list[int]]]:
-    """The layers with a dummy wherever an edge passes one, and the chain of each edge."""
-    layers: list[list[int]] = [[] for _ in range(max(ranks, default=-1) + 1)]
-    for vertex, rank in enumerate(ranks):
-        layers[rank].append(vertex)
-    chains, dummy = [], count
-    for source, target in edges:
-        between = range(ranks[source] + 1, ranks[target])
-        chains.append([source, *range(dummy, dummy + len(between)), target])
-        for rank in between:
-            layers[rank].append(dummy)
-            dummy += 1
-    return layers, chains
-
-
-def _pieces(chains: Sequence[Sequence[int]]) -> tuple[dict[int, list[int]], dict[int, list[int]]]:
-    """For each vertex its neighbours in the next layer, and in the one before."""
-    after: dict[int, list[int]] = {}
-    before: dict[int, list[int]] = {}
-    for chain in chains:
-        for a, b in pairwise(chain):
-            after.setdefault(a, []).append(b)
-            before.setdefault(b, []).append(a)
-    return after, before
-
-
-def _ordered(layers: list[list[int]], pieces: tuple[dict[int, list[int]], dict[int, list[int]]]) -> tuple[list[list[int]], int]:
+def _ordered(layers: list[list[int]], pieces: Iterable[tuple[int, int]]) -> tuple[list[list[int]], int]:
     """The best order found from several first orders: the one given, and shuffled ones that are the same every time."""
-    best, fewest = layers, _crossings(layers, pieces[0])
+    after, before = defaultdict[int, list[int]](list), defaultdict[int, list[int]](list)
+    for a, b in pieces:
+        after[a].append(b)
+        before[b].append(a)
+    best, fewest = layers, _crossings(layers, after)
     shuffled = Random(0)  # noqa: S311
     for start in range(STARTS if fewest else 0):
         order = [shuffled.sample(layer, len(layer)) for layer in layers] if start else [list(layer) for layer in layers]
-        for now in _swept(order, pieces):
-            count = _crossings(now, pieces[0])
+        for now in _swept(order, after, before):
+            count = _crossings(now, after)
             if count < fewest:
                 best, fewest = [list(layer) for layer in now], count
             if not fewest:
@@ -167,34 +136,22 @@ def _ordered(layers: list[list[int]], pieces: tuple[dict[int, list[int]], dict[i
     return best, fewest
 
 
-def _swept(order: list[list[int]], pieces: tuple[dict[int, list[int]], dict[int, list[int]]]) -> Iterator[list[list[int]]]:
+def _swept(order: list[list[int]], after: _Neighbours, before: _Neighbours) -> Iterator[list[list[int]]]:
     """Orders that become better: each layer by the mean place of its neighbours in the layer before, and after, in turn."""
-    after, before = pieces
     for sweep in range(SWEEPS):
         check_budget()
-        neighbours, numbers = (before, range(1, len(order))) if sweep % 2 == 0 else (after, range(len(order) - 2, -1, -1))
-        for number in numbers:
-            beside = order[number - 1] if sweep % 2 == 0 else order[number + 1]
-            place = {vertex: float(index) for index, vertex in enumerate(beside)}
-            order[number] = _by_means(order[number], neighbours, place)
-        _transpose(order, pieces)
+        neighbours, way = (before, -1) if sweep % 2 == 0 else (after, 1)
+        for number in range(1, len(order)) if way < 0 else range(len(order) - 2, -1, -1):
+            places = _places(order[number], neighbours, order[number + way])
+            means = {vertex: sum(found) / len(found) for vertex, found in places.items() if found}
+            movable = iter(sorted(means, key=means.__getitem__))  # others stay where they are
+            order[number] = [next(movable) if vertex in means else vertex for vertex in order[number]]
+        _transpose(order, after, before)
         yield order
 
 
-def _by_means(layer: Sequence[int], neighbours: dict[int, list[int]], place: dict[int, float]) -> list[int]:
-    """A layer by the mean place of its vertices' neighbours; vertices without any stay where they are."""
-    means = {
-        vertex: sum([place[other] for other in neighbours[vertex]]) / len(neighbours[vertex])
-        for vertex in layer
-        if vertex in neighbours
-    }
-    movable = iter(sorted(means, key=means.__getitem__))
-    return [next(movable) if vertex in means else vertex for vertex in layer]
-
-
-def _transpose(order: list[list[int]], pieces: tuple[dict[int, list[int]], dict[int, list[int]]]) -> None:
+def _transpose(order: list[list[int]], after: _Neighbours, before: _Neighbours) -> None:
     """Exchange neighbours in a layer as long as that removes crossings."""
-    after, before = pieces
     improved = True
     while improved:
         improved = False
@@ -209,7 +166,7 @@ def _transpose(order: list[list[int]], pieces: tuple[dict[int, list[int]], dict[
                     improved = True
 
 
-def _places(layer: Sequence[int], neighbours: dict[int, list[int]], beside: Sequence[int]) -> dict[int, list[int]]:
+def _places(layer: Sequence[int], neighbours: _Neighbours, beside: Sequence[int]) -> dict[int, list[int]]:
     """For each vertex of a layer the places of its neighbours in a layer beside it."""
     place = {vertex: index for index, vertex in enumerate(beside)}
     return {vertex: [place[other] for other in neighbours.get(vertex, ())] for vertex in layer}
@@ -218,22 +175,194 @@ def _places(layer: Sequence[int], neighbours: dict[int, list[int]], beside: Sequ
 def _gain(first: Sequence[int], second: Sequence[int]) -> int:
     """How many crossings fewer there are if two vertices, one after the other, are exchanged, by the places of their neighbours
     in one of the layers beside them."""
-    gain = 0
-    for one in first:
-        for other in second:
-            gain += (one > other) - (one < other)
-    return gain
+    return sum((one > other) - (one < other) for one in first for other in second)
 
 
-def _crossings(order: Sequence[Sequence[int]], after: dict[int, list[int]]) -> int:
-    """The number of pieces that cross."""
+def _crossings(order: Sequence[Sequence[int]], after: _Neighbours) -> int:
     total = 0
     for layer, following in pairwise(order):
-        place = {vertex: index for index, vertex in enumerate(following)}
         seen: list[int] = []
-        for vertex in layer:
-            ends = [place[other] for other in after.get(vertex, ())]
+        for ends in _places(layer, after, following).values():
             total += sum(len(seen) - bisect_right(seen, end) for end in ends)
             for end in ends:
                 insort(seen, end)
     return total
+
+
+class _Box(NamedTuple):
+    """How far a vertex reaches from its middle."""
+
+    left: float
+    right: float
+    above: float
+    below: float
+
+
+_LINE = _Box(0.0, 0.0, 3.5, 3.5)
+"""A dummy: a line that passes."""
+
+
+def layered_layout(net: Stages, places: Sequence[int], texts: Texts) -> Layout:
+    """The layout in layers of a net with some places shown, of which one is followed first that leads to few crossings."""
+    return _InLayers(net, places, texts).layout()
+
+
+class _InLayers:
+    """A diagram in layers. Its vertices are the places in reading order, then their bars, its edges the feeds of bars, then
+    arcs; an edge meets a vertex at a port, so far above or below its middle."""
+
+    def __init__(self, net: Stages, places: Sequence[int], texts: Texts) -> None:
+        self.places, self.texts = places, texts
+        self.bars = [number for number, transition in enumerate(net.transitions) if transition.place in places]
+        number = {place: i for i, place in enumerate(places)}
+        bar = {transition: len(places) + i for i, transition in enumerate(self.bars)}
+        self.arcs = [i for i, arc in enumerate(net.arcs) if arc.place in number and arc.transition in bar]
+        self.edges = [(number[net.transitions[one].place], bar[one]) for one in self.bars]
+        self.edges += [(bar[net.arcs[i].transition], number[net.arcs[i].place]) for i in self.arcs]
+        self.vertices = len(places) + len(self.bars)
+        self.layers = self._best_layers()
+        self.ports = self._ports()
+        self.boxes = self._boxes()
+        self.ys = self._rows()
+        self.column = self._columns()
+
+    def _best_layers(self) -> Layers:
+        """The layers with the fewest crossings, then with the fewest arcs that lead back, over the places that may come
+        first."""
+        weights = [FEED if i < len(self.bars) else ARC for i in range(len(self.edges))]
+        tried = []
+        pieces = 0
+        for start in range(len(self.places)):
+            tried.append(layered(self.vertices, self.edges, weights, [start]))
+            pieces += sum(map(len, tried[-1].chains))
+            if not tried[-1].crossings or pieces > MOST_PIECES:
+                break
+        return min(tried, key=lambda layers: (layers.crossings, len(layers.turned)))
+
+    def _ports(self) -> dict[tuple[int, int], float]:
+        """For each edge and its ends the port; a feed meets the middle."""
+        place = {vertex: i for layer in self.layers.layers for i, vertex in enumerate(layer)}
+        sides: dict[tuple[int, int], list[tuple[int, int]]] = {}
+        for edge, chain in enumerate(self.layers.chains):
+            sides.setdefault((chain[0], 1), []).append((place[chain[1]], edge))
+            sides.setdefault((chain[-1], -1), []).append((place[chain[-2]], edge))
+        found = {}
+        for (vertex, _), members in sides.items():
+            order = [edge for _, edge in sorted(members)]
+            own = [i for i, edge in enumerate(order) if edge < len(self.bars)]
+            middle = own[0] if len(own) == 1 else (len(order) - 1) / 2
+            reach = max(middle, len(order) - 1 - middle, 1)
+            step = min(PORT, HIGHEST_PORT / reach) if vertex < len(self.places) else PORT - 1
+            found.update({(edge, vertex): (i - middle) * step for i, edge in enumerate(order)})
+        return found
+
+    def _boxes(self) -> defaultdict[int, _Box]:
+        boxes: defaultdict[int, _Box] = defaultdict(lambda: _LINE)
+        for i, place in enumerate(self.places):
+            across = max(RADIUS + ARROW_LENGTH, self.texts.labels[place] / 2 + 4)
+            boxes[i] = _Box(across, across, RADIUS + 2, RADIUS + LABEL)
+        for i, bar in enumerate(self.bars, len(self.places)):
+            half, across = self._half(i), max(4.0, self.texts.terms.get(bar, 0.0) / 2 + 4)
+            boxes[i] = _Box(across, across, half + TERMS * (bar in self.texts.terms), half)
+        return boxes
+
+    def _half(self, vertex: int) -> float:
+        """Half the height of a bar."""
+        return max([BAR, *(abs(port) + 4 for (_, at), port in self.ports.items() if at == vertex)])
+
+    def _rows(self) -> dict[int, float]:
+        """The vertical position of each vertex, such that lines are as straight as the order of the columns allows."""
+        count, costs = sum(map(len, self.layers.layers)), list[float]()
+        entries = []
+        bounds: list[float] = []
+        for edge, chain in enumerate(self.layers.chains):
+            for a, b in pairwise(chain):  # |a + shift - b| is at most the piece's own variable
+                shift = self.ports.get((edge, a), 0.0) - self.ports.get((edge, b), 0.0)
+                for sign in (1.0, -1.0):
+                    entries += [(len(bounds), a, sign), (len(bounds), b, -sign), (len(bounds), count + len(costs), -1.0)]
+                    bounds.append(-sign * shift)
+                inside = min(a, b) >= self.vertices
+                costs.append(FEED if edge < len(self.bars) else DUMMY if inside else ARC)
+        for layer in self.layers.layers:
+            for a, b in pairwise(layer):
+                entries += [(len(bounds), a, 1.0), (len(bounds), b, -1.0)]
+                bounds.append(-(self.boxes[a].below + self.boxes[b].above + SPACE))
+        ys = _least([1e-6] * count + costs, entries, bounds)
+        top = min((ys[v] - self.boxes[v].above for v in range(count)), default=0.0)
+        return {v: float(ys[v] - top + EDGE) for v in range(count)}
+
+    def _columns(self) -> dict[int, tuple[float, float, float]]:
+        """For each vertex the left edge, the middle and the right edge of its column; between two columns there is room for the
+        widest note and the steepest line."""
+        found, left, note = dict[int, tuple[float, float, float]](), EDGE, max(self.texts.notes.values(), default=0.0)
+        rise: defaultdict[int, float] = defaultdict(float)  # of the steepest line onward from a vertex
+        for a, b in (piece for chain in self.layers.chains for piece in pairwise(chain)):
+            rise[a] = max(rise[a], abs(self.ys[a] - self.ys[b]))
+        for layer in self.layers.layers:
+            middle = left + max(self.boxes[vertex].left for vertex in layer)
+            right = middle + max(self.boxes[vertex].right for vertex in layer)
+            found.update(dict.fromkeys(layer, (left, middle, right)))
+            left = right + max(LEAST_GAP, 2 * note, min(MOST_GAP, SLOPE * max(rise[vertex] for vertex in layer)))
+        return found
+
+    def layout(self) -> Layout:
+        """The coordinates."""
+        lines = [self._line(edge, chain) for edge, chain in enumerate(self.layers.chains)]
+        lines = [line[::-1] if edge in self.layers.turned else line for edge, line in enumerate(lines)]
+        circles = {place: (self.column[i][1], self.ys[i]) for i, place in enumerate(self.places)}
+        bars = {}
+        for i, bar in enumerate(self.bars):
+            vertex = len(self.places) + i
+            x, y, half = self.column[vertex][1], self.ys[vertex], self._half(vertex)
+            bars[bar] = BarPosition(x, y, half, lines[i], (x - self.texts.terms.get(bar, 0.0) / 2, y - half - 4))
+        arcs = dict(zip(self.arcs, lines[len(self.bars) :], strict=True))
+        taken = [(x, y + RADIUS + LABEL / 2, self.texts.labels[place] / 2, LABEL / 2) for place, (x, y) in circles.items()]
+        taken += [(x, y, RADIUS, RADIUS) for x, y in circles.values()]
+        taken += [(bar.x, bar.y, 2.0, bar.half) for bar in bars.values()]
+        terms = ((bars[number], width) for number, width in self.texts.terms.items() if number in bars)
+        taken += [(bar.x, bar.y - bar.half - 8, width / 2, 6.0) for bar, width in terms]
+        width = max((right for *_, right in self.column.values()), default=0.0) + EDGE
+        height = max((y + self.boxes[vertex].below for vertex, y in self.ys.items()), default=0.0) + EDGE
+        return Layout(width, height, circles, bars, arcs, _notes(arcs, lines, self.texts, taken))
+
+    def _line(self, edge: int, chain: Sequence[int]) -> tuple[Point, ...]:
+        """The vertices of the line of an edge, from left to right."""
+        ports = [self.ports.get((edge, vertex), 0.0) for vertex in chain]
+        heights = [self.ys[vertex] + port for vertex, port in zip(chain, ports, strict=True)]
+        line = [(self.column[chain[0]][1] + self._reach(chain[0], ports[0]), heights[0])]
+        for (a, b), (y, z) in zip(pairwise(chain), pairwise(heights), strict=True):
+            line += [(self.column[a][2], y), (self.column[b][0], z)]
+        line.append((self.column[chain[-1]][1] - self._reach(chain[-1], ports[-1]), heights[-1]))
+        return tuple(point for i, point in enumerate(line) if not i or point != line[i - 1])
+
+    def _reach(self, vertex: int, port: float) -> float:
+        """How far from the middle of a vertex a line meets it."""
+        return (RADIUS**2 - port**2) ** 0.5 if vertex < len(self.places) else 0.0
+
+
+def _notes(
+    arcs: Mapping[int, tuple[Point, ...]], lines: Sequence[tuple[Point, ...]], texts: Texts, taken: list[_Patch]
+) -> dict[int, Point]:
+    """The positions of the notes of arcs: each on its line, as far from other lines and texts as it can be, within reason."""
+    found = {}
+    for arc in (arc for arc in texts.notes if arc in arcs):
+        others = np.array([point for line in lines if line is not arcs[arc] for point in _sampled(line)] or [(-1e6, -1e6)])
+        reach = np.array([texts.notes[arc] / 2, NOTE / 2])
+        boxes = np.array([(x, y, across, above) for x, y, across, above in taken] or [(-1e6, -1e6, 0, 0)])
+        points = np.array(_sampled(arcs[arc])[1:-1])
+        clear = np.max(np.abs(points[:, None] - others) - reach, axis=2).min(axis=1)
+        apart = np.max(np.abs(points[:, None] - boxes[:, :2]) - reach - boxes[:, 2:], axis=2).min(axis=1)
+        best = int(np.argmax(np.minimum(np.minimum(clear, apart), CLEARANCE)))
+        found[arc] = (float(points[best][0]), float(points[best][1]))
+        taken.append((*found[arc], texts.notes[arc] / 2, NOTE / 2))
+    return found
+
+
+def _sampled(line: Sequence[Point]) -> list[Point]:
+    """Points along a line, a few pixels apart."""
+    return [
+        (a[0] + t / n * (b[0] - a[0]), a[1] + t / n * (b[1] - a[1]))
+        for a, b in pairwise(line)
+        for n in [max(2, int(dist(a, b) / 4))]
+        for t in range(n + 1)
+    ]

@@ -1,24 +1,118 @@
-"""The parts of a stage diagram before it is written in any format: labels, colours and positions of places, bars and arcs."""
+"""The parts of a stage diagram before it is written in any format: labels, captions, colours and positions of places, bars and
+arcs."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from string import punctuation
 
-from lsys_kit.derivation.petri.net import Place, Stages
-from lsys_kit.geometry.turtle.commands.actions import Effect
-from lsys_kit.geometry.turtle.commands.table import COMMANDS, symbols_with
-from lsys_kit.notation.model.arithmetic import is_symbolic
+from lsys_kit.derivation.petri.net import Place, Stages, Transition, likelihood
+from lsys_kit.geometry.turtle.commands import COMMANDS, Effect, symbols_with
+from lsys_kit.notation.model.arithmetic import is_symbolic, number_text
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.pictures.nets.captions import captions_of, notes_of, readable, terms_of, width_of
-from lsys_kit.pictures.nets.layered_layout import layered_layout
-from lsys_kit.pictures.nets.layout import EDGE, ROUND, BarPosition, Layout, Point, Texts, crossed_notes, crossings, layout_of
-from lsys_kit.pictures.nets.routes import planned, rows_of, shown_places
+from lsys_kit.pictures.nets.layers import layered_layout
+from lsys_kit.pictures.nets.layout import EDGE, ROUND, Layout, Point, Texts, crossed_notes, crossings
+from lsys_kit.pictures.nets.rows import layout_in_rows, rows_of, shown_places
 from lsys_kit.pictures.style.labels import label_parts, place_parts, place_text
 from lsys_kit.pictures.style.palette import LABELLED, PALEST, QUIET, colours
+
+LONGEST_CAPTION, LONGEST_FOOTNOTE = 24, 120
+"""Longer terms are footnotes; longer footnotes are abbreviated. A caption's title shows the full text."""
+_UNITS = ((10**12, "T"), (10**9, "G"), (10**6, "M"), (10**3, "k"))
+
+
+def short(count: int) -> str:
+    """A number of tokens in at most five characters, rounded down.
+
+    >>> [short(n) for n in (7, 999, 1000, 1250, 31_999, 3_400_000, 10 ** 40)]
+    ['7', '999', '1k', '1.2k', '31k', '3.4M', '10^40']
+    """
+    if count >= 10**15:
+        return f"10^{int(math.log10(count))}"
+    for size, unit in _UNITS:
+        if count >= 10 * size:
+            return f"{count // size}{unit}"
+        if count >= size:
+            return f"{count // size}.{count * 10 // size % 10}{unit}".replace(".0", "")
+    return str(count)
+
+
+def terms_of(transition: Transition) -> str:
+    """The text beside a bar: its probability, its duration and its condition.
+
+    >>> terms_of(Transition(0, 0, "t >= 1", at_once=True)), terms_of(Transition(0, 1, chance=0.5))
+    ('at once, t ≥ 1', 'p = 0.5')
+    """
+    terms = (
+        "at once" if transition.at_once else "",
+        "" if transition.chance is None else f"p = {likelihood(transition.chance)}",
+        "" if transition.span is None else f"after {number_text(transition.span)}",
+        readable(transition.condition),
+    )
+    return ", ".join(filter(None, terms))
+
+
+def notes_of(net: Stages, positions: bool) -> dict[int, str]:
+    """The text at each arc: the number of copies, unless it is 1, or the positions in a successor of several modules."""
+    made = [0] * len(net.transitions)
+    for arc in net.arcs:
+        made[arc.transition] += arc.copies
+    found = {}
+    for number, arc in enumerate(net.arcs):
+        if positions and arc.positions and made[arc.transition] > 1:
+            found[number] = ", ".join(map(str, arc.positions)) if arc.copies > 1 else _ordinal(arc.positions[0])
+        elif arc.copies > 1 or arc.factor:
+            found[number] = " ".join(filter(None, (str(arc.copies) if arc.copies > 1 else "", arc.factor)))
+    return found
+
+
+def _ordinal(number: int) -> str:
+    return f"{number}{'th' if number % 100 in (11, 12, 13) else {1: 'st', 2: 'nd', 3: 'rd'}.get(number % 10, 'th')}"
+
+
+def readable(condition: str) -> str:
+    """A condition as it is typeset beside a bar.
+
+    >>> readable("t >= 1 && p != -1")
+    't ≥ 1 and p ≠ -1'
+    """
+    for code, text in ((">=", "≥"), ("<=", "≤"), ("!=", "≠"), ("==", "="), ("&&", "and"), ("||", "or")):
+        condition = condition.replace(code, text)
+    return condition
+
+
+def width_of(text: str, size: float) -> float:
+    """An upper estimate of the width of a text, independent of installed fonts."""
+    return size * math.fsum(
+        0.34 if letter in "iljtf.,:;()[]|'! " else 1.0 if letter in "mwMW" else 0.8 if letter.isupper() else 0.64
+        for letter in text
+    )
+
+
+def captions_of(net: Stages, places: Collection[int]) -> tuple[dict[int, str], tuple[str, ...]]:
+    """The text at each bar of some places that has any, and the numbered footnotes in which long ones stand.
+
+    >>> from lsys_kit import read, stages
+    >>> captions_of(stages(read("axiom: a(0)\\na(t) : t != 50 && t != 60 || t > 100 -> a(t+1)")), {0})
+    ({0: '(1)'}, ('(1) t ≠ 50 and t ≠ 60 or t > 100',))
+    """
+    captions = {}
+    footnotes: list[str] = []
+    for number, transition in enumerate(net.transitions):
+        text = terms_of(transition)
+        if len(text) > LONGEST_CAPTION and transition.place in places:
+            footnotes.append(f"({len(footnotes) + 1}) {text}")
+            captions[number] = f"({len(footnotes)})"
+        elif text:
+            captions[number] = text
+    short_enough = (
+        text if len(text) <= LONGEST_FOOTNOTE else text[: LONGEST_FOOTNOTE - 1].rstrip() + "…" for text in footnotes
+    )
+    return captions, tuple(short_enough)
+
 
 LABEL_SIZE, SMALL = 14, 11
 """Font sizes, in pixels."""
@@ -88,22 +182,8 @@ class NotePart:
 
 @dataclass(frozen=True)
 class Parts:
-    """A stage diagram without its tokens.
-
-    Attributes
-    ----------
-    width, height
-        Of the picture.
-    description
-        What the picture shows, in words.
-    places
-        The places in reading order.
-    bars, arcs, notes
-        The transitions, the arcs and the notes of arcs.
-    footnotes, foot
-        The terms for which there is no room at their bars, and what else the system does, a line each; and the baseline of the
-        first of these lines.
-    """
+    """A stage diagram without its tokens, its places in reading order. Footnotes are the terms for which there is no room at
+    their bars, and what else the system does, a line each; the foot is the baseline of the first."""
 
     width: int
     height: int
@@ -124,7 +204,7 @@ class Parts:
 def steering_of(system: LSystem) -> frozenset[str]:
     """The symbols that only steer the turtle, and so are no stages.
 
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read
     >>> sorted(steering_of(read("axiom: F [+ &(60) f] A")) & set("F[+&]fA"))
     ['&', '+', '[', ']']
     """
@@ -153,10 +233,13 @@ def parts_of(net: Stages, positions: bool, steering: frozenset[str], chosen: tup
     return Parts(
         math.ceil(max([layout.width, *(width_of(text, SMALL) + 2 * EDGE for text in footnotes)])),
         math.ceil(layout.height + LINE * len(footnotes)),
-        _description([*names.values()], besides),
+        "; ".join(
+            (f"Stage diagram: {len(names)} stage{'s' * (len(names) != 1)} {', '.join(names.values())}".rstrip(), *besides)
+        ),
         tuple(_place(net, place, names[place], layout, *fills[place]) for place in order),
         tuple(
-            _bar(number, bar, terms.get(number, ""), terms_of(net.transitions[number])) for number, bar in layout.bars.items()
+            BarPart(number, x, y, half, rounded_path(line), terms.get(number, ""), terms_of(net.transitions[number]), *place)
+            for number, (x, y, half, line, place) in layout.bars.items()
         ),
         tuple(_arc(arc, corners) for arc, corners in layout.arcs.items()),
         tuple(NotePart(*layout.notes[arc], width_of(text, SMALL), text) for arc, text in notes.items() if arc in layout.notes),
@@ -168,9 +251,8 @@ def parts_of(net: Stages, positions: bool, steering: frozenset[str], chosen: tup
 def positions_in(net: Stages) -> dict[str, Point]:
     """Where places and transitions stand in the picture of a net, by their names in PNML."""
     parts = parts_of(net, False, steering_of(net.system))
-    return {f"p{part.place}": (part.x, part.y) for part in parts.places} | {
-        f"t{part.transition}": (part.x, part.y) for part in parts.bars
-    }
+    places = {f"p{part.place}": (part.x, part.y) for part in parts.places}
+    return places | {f"t{part.transition}": (part.x, part.y) for part in parts.bars}
 
 
 def widest_legible(net: Stages, places: Iterable[int], texts: Texts) -> float:
@@ -186,29 +268,23 @@ def clearest_layout(net: Stages, rows: Sequence[tuple[int, ...]], texts: Texts, 
 
     What is too wide, in rows or in layers, stands in shorter rows.
     """
-    in_rows, places = layout_of(net, planned(net, rows), texts), [place for row in rows for place in row]
-    if len(in_rows.arcs) <= MOST_LAYERED and (count := crossings(in_rows)) > MOST_CROSSINGS:
-        in_layers = layered_layout(net, places, texts)
-        if crossings(in_layers) < count:
-            return in_layers if in_layers.width <= widest else _in_shorter_rows(net, in_rows, places, texts, widest)
-    return in_rows if in_rows.width <= widest else _in_shorter_rows(net, in_rows, places, texts, widest)
+    in_rows, places = layout_in_rows(net, rows, texts), [place for row in rows for place in row]
+    clearest = in_rows
+    if len(in_rows.arcs) <= MOST_LAYERED and crossings(in_rows) > MOST_CROSSINGS:
+        clearest = min(in_rows, layered_layout(net, places, texts), key=crossings)
+    return clearest if clearest.width <= widest else _in_shorter_rows(net, in_rows, places, texts, widest)
 
 
 def _in_shorter_rows(net: Stages, in_rows: Layout, places: Sequence[int], texts: Texts, widest: float) -> Layout:
     """Of the layouts in rows that are no wider than allowed the one with the fewest notes that lines run through, and then the
     fewest crossings; else the narrowest."""
-    wrapped = [in_rows, *(layout_of(net, planned(net, rows_of(net, places, longest)), texts) for longest in SHORTER_ROWS)]
+    wrapped = [in_rows, *(layout_in_rows(net, rows_of(net, places, longest), texts) for longest in SHORTER_ROWS)]
     fitting = [layout for layout in wrapped if layout.width <= widest]
     if not fitting:
         return min(wrapped, key=lambda layout: layout.width)
     if len(in_rows.arcs) > MOST_LAYERED:
         return fitting[0]
     return min(fitting, key=lambda layout: (crossed_notes(layout, texts.notes), crossings(layout)))
-
-
-def _description(names: Sequence[str], besides: Sequence[str]) -> str:
-    told = f"Stage diagram: {len(names)} stage{'' if len(names) == 1 else 's'} {', '.join(names)}".rstrip()
-    return "; ".join((told, *besides))
 
 
 def _place(net: Stages, number: int, name: str, layout: Layout, colour: str, strength: float) -> PlacePart:
@@ -235,10 +311,6 @@ def _fills(net: Stages, order: Sequence[int], chosen: Mapping[str, str]) -> dict
 def _rank(place: Place) -> tuple[float, ...]:
     """By what a place comes before others of its symbol: its values; unknown ones say nothing."""
     return tuple(0.0 if is_symbolic(value) else float(value) for value in place.modules[0].arguments) if place.modules else ()
-
-
-def _bar(number: int, bar: BarPosition, terms: str, full: str) -> BarPart:
-    return BarPart(number, bar.x, bar.y, bar.half, rounded_path(bar.line), terms, full, *bar.terms)
 
 
 def _arc(number: int, corners: Sequence[Point]) -> ArcPart:

@@ -1,26 +1,31 @@
-"""Plots: a chart of numbers on white paper, as a picture that a notebook shows and a file keeps."""
+"""Plots: charts of numbers on white paper (curves, bars, grids), as pictures that a notebook shows and a file keeps."""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
-from math import isfinite
-from typing import TYPE_CHECKING, NamedTuple
+from functools import cached_property, partial
+from math import ceil, floor, isfinite, log10
+from statistics import fmean
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+
+import numpy as np
 
 from lsys_kit.budget import Task
 from lsys_kit.errors import ModelValueError
 from lsys_kit.pictures.formats.notebook import SVGPicture
-from lsys_kit.pictures.plots.lettering import literal, mathematics
+from lsys_kit.pictures.plots.lettering import literal, mathematics, plain, width
 from lsys_kit.pictures.shapes import Drawing, Group
 from lsys_kit.pictures.sizes import document
-from lsys_kit.pictures.style.palette import INK, PAPER, QUIET
+from lsys_kit.pictures.style.palette import BLUE, INK, PAPER, QUIET, VERMILION, shaded, tinted
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+
+Point: TypeAlias = tuple[float, float]
 WIDTH, HEIGHT = 600, 360
 """The size of a plot in pixels."""
 SIZE = 14
@@ -34,17 +39,8 @@ GREATEST = 1e300
 
 
 class Axis(NamedTuple):
-    """An axis.
-
-    Attributes
-    ----------
-    label
-        What it measures, perhaps with mathematics (see `lettering`).
-    whole
-        Whether only whole numbers stand along it.
-    log
-        Whether it is logarithmic: equal distances are equal factors.
-    """
+    """An axis: what it measures, perhaps with mathematics (see `lettering`); whether only whole numbers stand along it; whether
+    it is logarithmic, so that equal distances are equal factors."""
 
     label: str
     whole: bool = False
@@ -76,19 +72,12 @@ class Chart(ABC):
 
 @dataclass(frozen=True)
 class Plot(SVGPicture):
-    """A plot.
-
-    Attributes
-    ----------
-    chart
-        What it shows.
-    """
+    """A plot of a chart."""
 
     chart: Chart
 
     @property
     def text(self) -> str:
-        """What the plot shows, in words."""
         return self.chart.text
 
     def shown(self, most: int, enlarged: float) -> Drawing:
@@ -114,7 +103,6 @@ def painted(plot: Plot, ax: Axes) -> Axes:
 
 
 def _figure(chart: Chart) -> Figure:
-    """A figure with a chart, in which a point is a pixel."""
     from matplotlib.figure import Figure
 
     left, right, above, below = chart.margins
@@ -126,50 +114,26 @@ def _figure(chart: Chart) -> Figure:
 
 def set_paper(ax: Axes, across: Axis, up: Axis) -> None:
     """Axes without a frame, on paper with quiet lines; the label of the vertical one stands above it, to be read level."""
+    from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
+
     for side in ("top", "right", "left"):
         ax.spines[side].set_visible(False)
     ax.spines["bottom"].set(color=QUIET, linewidth=1)
     ax.grid(axis="y", color=RULE, linewidth=1, clip_on=False)
     ax.set_axisbelow(True)
     ax.tick_params(length=0, labelsize=SIZE - 1, labelcolor=INK, pad=6)
-    ax.annotate(
-        across.label,
-        (0.5, 0),
-        (0, -26),
-        xycoords="axes fraction",
-        textcoords="offset points",
-        ha="center",
-        va="top",
-        color=INK,
-        fontsize=SIZE,
-    )
-    ax.annotate(
-        up.label,
-        (0, 1),
-        (0, 14),
-        xycoords="axes fraction",
-        textcoords="offset points",
-        ha="left",
-        va="bottom",
-        color=INK,
-        fontsize=SIZE,
-    )
+    _write(ax, across.label, (0.5, 0), (0, -26), "center", "top", xycoords="axes fraction")
+    _write(ax, up.label, (0, 1), (0, 14), "left", "bottom", xycoords="axes fraction")
     for axis, one in ((ax.xaxis, across), (ax.yaxis, up)):
-        _set_ticks(axis, one)
+        ticks = MaxNLocator(MOST_TICKS, steps=[1, 2, 5, 10], integer=one.whole, min_n_ticks=1)
+        axis.set_major_locator(LogLocator(numticks=MOST_TICKS) if one.log else ticks)
+        axis.set_minor_locator(NullLocator())
+        axis.set_major_formatter(FuncFormatter(lambda value, _: tick_text(value)))
 
 
-def _set_ticks(axis: object, one: Axis) -> None:
-    """Round numbers along an axis, written as in a text."""
-    from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
-
-    locator = (
-        LogLocator(numticks=MOST_TICKS)
-        if one.log
-        else MaxNLocator(MOST_TICKS, steps=[1, 2, 5, 10], integer=one.whole, min_n_ticks=1)
-    )
-    axis.set_major_locator(locator)  # type: ignore[attr-defined]
-    axis.set_minor_locator(NullLocator())  # type: ignore[attr-defined]
-    axis.set_major_formatter(FuncFormatter(lambda value, _: tick_text(value)))  # type: ignore[attr-defined]
+def _write(ax: Axes, text: str, at: Point, away: Point, ha: str, va: str, color: str = INK, **choices: Any) -> None:
+    """Write a text some pixels away from a point."""
+    ax.annotate(text, at, away, textcoords="offset points", ha=ha, va=va, color=color, fontsize=SIZE, **choices)
 
 
 def tick_text(value: float) -> str:
@@ -185,16 +149,10 @@ def tick_text(value: float) -> str:
     return f"{value:,.6g}".replace("-", "\u2212") if abs(value) < 1e6 else f"{value:,.0f}".replace("-", "\u2212")
 
 
-def finite(values: Sequence[object], what: str) -> tuple[float, ...]:
-    """Numbers as doubles.
-
-    Raises
-    ------
-    ModelValueError
-        One is too great, or no number.
-    """
+def finite(values: Sequence[Any], what: str) -> tuple[float, ...]:
+    """Numbers as doubles, none of them too great."""
     try:
-        found = tuple(map(float, values))  # type: ignore[arg-type]
+        found = tuple(map(float, values))
     except OverflowError:
         found = (float("inf"),)
     if not all(isfinite(value) and abs(value) < GREATEST for value in found):
@@ -210,3 +168,314 @@ def name_label(name: str) -> str:
     """
     letter, _, subscript = name.partition("_")
     return mathematics(letter, subscript) if letter.isalnum() and letter.isascii() else literal(name)
+
+
+ABOVE, BELOW, LEFT = 44, 56, 62
+"""The room around the axes, in pixels."""
+LABEL_DISTANCE = 18
+"""Between two labels at the ends of curves, in pixels."""
+MOST_DOTS = 40
+"""A curve of more points has no dots on it."""
+DASHES = ("solid", (0, (6, 4)), (0, (2, 4)), (0, (10, 4)), (0, (8, 3, 2, 3)), (0, (3, 3)))
+"""How the lines of several curves are broken, so that colour alone says nothing."""
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A curve: its points, from left to right; its colour; its name, perhaps with mathematics, if it needs one; whether it is
+    drawn thin and pale, as one of many."""
+
+    points: tuple[Point, ...]
+    colour: str
+    label: str = ""
+    quiet: bool = False
+
+
+@dataclass(frozen=True)
+class CurveChart(Chart):
+    """Curves over one axis, perhaps with all lines solid, so that their jumps can be seen."""
+
+    curves: tuple[Curve, ...]
+    across: Axis
+    up: Axis
+    unbroken: bool = False
+
+    @cached_property
+    def text(self) -> str:
+        (left, right), (_, most) = self._span(0), self._span(1)
+        named = [plain(curve.label) for curve in self.curves if curve.label]
+        names = f" ({', '.join(named)})" if named else ""
+        many = len(self.curves)
+        return (
+            f"{many} curve{'s' * (many != 1)}{names} of {plain(self.up.label)}, {plain(self.across.label)} from "
+            f"{tick_text(left)} to {tick_text(right)}, largest {tick_text(most)}"
+        )
+
+    def _span(self, axis: int) -> tuple[float, float]:
+        values = [point[axis] for curve in self.curves for point in curve.points]
+        return min(values), max(values)
+
+    @property
+    def margins(self) -> tuple[float, float, float, float]:
+        return LEFT, 24 + max((width(curve.label, SIZE) for curve in self.curves), default=0), ABOVE, BELOW
+
+    def paint(self, ax: Axes) -> None:
+        """Draw the curves, those of many first."""
+        if self.up.log:
+            ax.set_yscale("log")
+        set_paper(ax, self.across, self.up)
+        loud = [curve for curve in self.curves if not curve.quiet]
+        for curve in self.curves:
+            broken = curve in loud and not self.unbroken
+            self._paint_curve(ax, curve, DASHES[loud.index(curve) % len(DASHES)] if broken else "solid")
+        self._set_limits(ax)
+        self._paint_labels(ax)
+
+    def _paint_curve(self, ax: Axes, curve: Curve, dashes: object) -> None:
+        points = [point for point in curve.points if point[1] > 0] if self.up.log else [*curve.points]
+        if curve.quiet:
+            ax.plot(*zip(*points, strict=True), color=curve.colour, alpha=0.3, linewidth=1, clip_on=False) if points else None
+            return
+        dots: Any = {"marker": "o" if len(points) <= MOST_DOTS else None, "markersize": 5, "markeredgewidth": 0}
+        xs, ys = [x for x, _ in points], [y for _, y in points]
+        ax.plot(xs, ys, color=curve.colour, linewidth=2, linestyle=dashes, clip_on=False, **dots)
+
+    def _set_limits(self, ax: Axes) -> None:
+        """From the first to the last point, and from 0 where that is near."""
+        (left, right), (least, most) = self._span(0), self._span(1)
+        ax.set_xlim((left, right) if left < right else (left - 0.5, left + 0.5))
+        if self.up.log:
+            seen = [y for curve in self.curves for _, y in curve.points if y > 0] or [1.0]
+            ax.set_ylim(min(seen) / 1.2, 1.2 * max(seen))
+            return
+        bottom = 0.0 if 0 <= least <= most / 2 or least == most >= 0 else least - 0.05 * (most - least)
+        ax.set_ylim(bottom, most + 0.03 * (most - bottom) if most > bottom else bottom + 1)
+
+    def _paint_labels(self, ax: Axes) -> None:
+        named = [curve for curve in self.curves if curve.label and curve.points]
+        room = HEIGHT - ABOVE - BELOW
+        to_axes = ax.transData + ax.transAxes.inverted()
+        ends = [float(to_axes.transform(curve.points[-1])[1]) * room for curve in named]
+        for curve, place in zip(named, spread(ends, LABEL_DISTANCE), strict=True):
+            ink = shaded(curve.colour, 0.7)
+            _write(ax, curve.label, (1, place / room), (10, 0), "left", "center", ink, xycoords="axes fraction")
+
+
+def spread(places: Sequence[float], distance: float) -> list[float]:
+    """Places moved apart as little as needed, so that no two are nearer than a distance.
+
+    >>> spread([0, 3, 50], 10)
+    [-3.5, 6.5, 50.0]
+    """
+    from scipy.optimize import isotonic_regression
+
+    order, apart = np.argsort(places, kind="stable"), distance * np.arange(len(places))
+    found = np.zeros(len(places))
+    if len(places):
+        found[order] = isotonic_regression(np.asarray(places, float)[order] - apart).x + apart
+    return list(map(float, found))
+
+
+MOST_BARS = 24
+"""The most bars of a histogram."""
+
+
+def class_edges(values: Sequence[float]) -> list[float]:
+    """The edges of the classes of a histogram: round numbers; of few whole numbers each is in the middle of a class.
+
+    >>> class_edges([1, 2, 2, 4]), class_edges([0, 100] * 50)[:3]
+    ([0.5, 1.5, 2.5, 3.5, 4.5], [0.0, 10.0, 20.0])
+    """
+    low, high = min(values), max(values)
+    if all(value == floor(value) for value in values) and high - low < MOST_BARS:
+        return [low - 0.5 + number for number in range(int(high - low) + 2)]
+    step = _round_step((high - low) / min(MOST_BARS, max(5, ceil(len(values) ** 0.5)))) if high > low else 1.0
+    first, last = floor(low / step), floor(high / step) + 1
+    return [step * number for number in range(first, last + 1)]
+
+
+def _round_step(step: float) -> float:
+    """The next 1, 2 or 5 times a power of ten.
+
+    >>> _round_step(0.13), _round_step(30.0)
+    (0.2, 50.0)
+    """
+    power = 10.0 ** floor(float(f"{step:e}".split("e")[1]))
+    return next(factor * power for factor in (1, 2, 5, 10) if factor * power >= step * (1 - 1e-9))
+
+
+@dataclass(frozen=True)
+class HistogramChart(Chart):
+    """A histogram of values, one for each run, with the mean."""
+
+    values: tuple[float, ...]
+    across: Axis
+
+    @cached_property
+    def text(self) -> str:
+        return (
+            f"{len(self.values):,} runs, {plain(self.across.label)}: least {tick_text(min(self.values))}, mean "
+            f"{tick_text(float(f'{self._mean:.6g}'))}, greatest {tick_text(max(self.values))}"
+        )
+
+    @property
+    def _mean(self) -> float:
+        return fmean(self.values)
+
+    @property
+    def margins(self) -> tuple[float, float, float, float]:
+        return 62, 30, 44, 56
+
+    def paint(self, ax: Axes) -> None:
+        """Draw a bar for each class."""
+        set_paper(ax, self.across, Axis("runs", True))
+        edges = class_edges(self.values)
+        counts = [0] * (len(edges) - 1)
+        for value in self.values:
+            counts[min(int((value - edges[0]) / (edges[1] - edges[0]) + 1e-9), len(counts) - 1)] += 1
+        broad = edges[1] - edges[0]
+        ax.bar([edge + broad / 2 for edge in edges[:-1]], counts, width=0.94 * broad, color=tinted(BLUE, 0.55), clip_on=False)
+        ax.set_xlim(edges[0], edges[-1])
+        top = 1.16 * max(counts)
+        ax.set_ylim(0, top)
+        ax.plot([self._mean] * 2, [0, top], color=VERMILION, linewidth=2, clip_on=False)
+        left = self._mean > edges[0] + 0.7 * (edges[-1] - edges[0])
+        text, away = f"mean {tick_text(float(f'{self._mean:.4g}'))}", (-6 if left else 6, 0)
+        _write(ax, text, (self._mean, top), away, "right" if left else "left", "top", shaded(VERMILION, 0.8))
+
+
+class Share(NamedTuple):
+    """A kind: its label, perhaps with mathematics, its share and its colour."""
+
+    label: str
+    share: float
+    colour: str
+
+
+@dataclass(frozen=True)
+class ShareChart(Chart):
+    """The shares of kinds, which are 1 together, "at step 12" or when that is: a bar for each, one below another."""
+
+    shares: tuple[Share, ...]
+    when: str
+    kinds: str = "stages"
+
+    @cached_property
+    def text(self) -> str:
+        listed = ", ".join(f"{plain(each.label)} {each.share:.1%}" for each in self.shares)
+        return f"frequencies of {len(self.shares)} {self.kinds} {self.when}: {listed}"
+
+    @property
+    def height(self) -> int:
+        return 60 + 30 * len(self.shares)
+
+    @property
+    def margins(self) -> tuple[float, float, float, float]:
+        return 24 + max(width(each.label, SIZE) for each in self.shares), 64, 44, 16
+
+    def paint(self, ax: Axes) -> None:
+        """Draw the bars, each with its share behind it."""
+        set_paper(ax, Axis(""), Axis(f"share {self.when}"))
+        ax.grid(visible=False)
+        ax.spines["bottom"].set_visible(False)
+        places = range(len(self.shares))
+        amounts, fills = [each.share for each in self.shares], [tinted(each.colour, 0.7) for each in self.shares]
+        ax.barh(places, amounts, height=0.66, color=fills, clip_on=False)
+        for place, amount in zip(places, amounts, strict=True):
+            _write(ax, f"{amount:.1%}", (amount, place), (6, 0), "left", "center")
+        ax.set_yticks(places, [each.label for each in self.shares], fontsize=SIZE)
+        ax.set_xticks([])
+        ax.set_xlim(0, max(amounts) or 1)
+        ax.set_ylim(len(self.shares) - 0.5, -0.5)
+
+
+LEAST_ROOM, LEAST_HEIGHT = 34, 18
+"""A cell that is narrower or lower, in pixels, holds no number."""
+DARK = 0.68
+"""From this strength of the colour on numbers are white."""
+
+
+@dataclass(frozen=True)
+class GridChart(Chart):
+    """A value for each pair of two variables, whose names may have mathematics and whose own values are texts in ascending
+    order; the label says what the values are. Where there is none, the cell is empty."""
+
+    across: str
+    up: str
+    columns: tuple[str, ...]
+    rows: tuple[str, ...]
+    values: Mapping[tuple[int, int], float]
+    label: str
+
+    @cached_property
+    def text(self) -> str:
+        values = self.values.values()
+        least, most = map(number_texts(values), (min(values), max(values)))
+        return (
+            f"{plain(self.label)} for {plain(self.across)} from {self.columns[0]} to {self.columns[-1]} and "
+            f"{plain(self.up)} from {self.rows[0]} to {self.rows[-1]}: {len(values)} values from {least} to {most}"
+        )
+
+    @property
+    def height(self) -> int:
+        return 110 + min(400, max(20, 40 if len(self.rows) <= 10 else 0) * len(self.rows))
+
+    @property
+    def margins(self) -> tuple[float, float, float, float]:
+        return 24 + max(max(width(text, SIZE) for text in self.rows), 40), 24, 54, 56
+
+    def paint(self, ax: Axes) -> None:
+        """Draw a square for each pair, the stronger the greater its value."""
+        from matplotlib.patches import Rectangle
+
+        write = number_texts(self.values.values())
+        low, high = min(self.values.values()), max(self.values.values())
+        left, right, above, below = self.margins
+        high_enough = (self.height - above - below) / len(self.rows) >= LEAST_HEIGHT
+        room = (WIDTH - left - right) / len(self.columns)
+        for (column, row), value in self.values.items():
+            strength = 0.12 + 0.88 * ((value - low) / (high - low) if high > low else 0.5)
+            corner, fill = (column - 0.5, row - 0.5), tinted(BLUE, strength)
+            ax.add_patch(Rectangle(corner, 1, 1, facecolor=fill, edgecolor=PAPER, linewidth=2, clip_on=False))
+            if room >= max(LEAST_ROOM, width(write(value), SIZE - 1) + 4) and high_enough:
+                ink = PAPER if strength > DARK else INK
+                ax.annotate(write(value), (column, row), ha="center", va="center", fontsize=SIZE - 1, color=ink)
+        self._set_paper(ax, ceil_ratio(max(width(text, SIZE - 1) for text in self.columns) + 8, room))
+
+    def _set_paper(self, ax: Axes, every: int) -> None:
+        """The values of both variables along the axes, no frame."""
+        for side in ("top", "right", "left", "bottom"):
+            ax.spines[side].set_visible(False)
+        ax.set_xlim(-0.5, len(self.columns) - 0.5)
+        ax.set_ylim(-0.5, len(self.rows) - 0.5)
+        ax.set_xticks(range(0, len(self.columns), every), self.columns[::every])
+        rows_every = ceil_ratio(LEAST_HEIGHT * len(self.rows), self.height - sum(self.margins[2:]))
+        ax.set_yticks(range(0, len(self.rows), rows_every), self.rows[::rows_every])
+        ax.tick_params(length=0, labelsize=SIZE - 1, labelcolor=INK, pad=6)
+        write = partial(_write, ax, xycoords="axes fraction")
+        write(self.across, (0.5, 0), (0, -26), "center", "top")
+        write(self.up, (0, 1), (24 - self.margins[0], 12), "left", "bottom")
+        write(self.label, (1, 1), (0, 12), "right", "bottom")
+
+
+def number_texts(values: Iterable[float]) -> Callable[[float], str]:
+    """A function that writes numbers with as many decimals as the greatest has among four digits; none where all are whole.
+
+    >>> write = number_texts([2, 1.41421])
+    >>> write(2), write(1.41421), number_texts([2, 30])(2)
+    ('2.000', '1.414', '2')
+    """
+    found = [*values]
+    greatest = max(map(abs, found))
+    if all(value == floor(value) for value in found) or not 1e-3 <= greatest < 1e4:
+        return lambda value: tick_text(float(f"{value:.4g}"))
+    return lambda value: f"{value:.{3 - floor(log10(greatest))}f}".replace("-", "\u2212")
+
+
+def ceil_ratio(needed: float, room: float) -> int:
+    """How many cells a text spans.
+
+    >>> ceil_ratio(30, 20), ceil_ratio(10, 20)
+    (2, 1)
+    """
+    return max(1, -int(-needed // room))

@@ -18,8 +18,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lsys_kit.geometry.labels import Labels
-from lsys_kit.geometry.scene import OWN, Floats, Integers, Scene
+from lsys_kit.geometry.scene import OWN, Floats, Integers, Labels, Scene
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 from lsys_kit.pictures.rendering.looks import median_length

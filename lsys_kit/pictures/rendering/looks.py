@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from lsys_kit.geometry.scene import OWN, Discs, Integers, Polygons, Scene, Segments
-from lsys_kit.geometry.turtle.frames import initial_frame
+from lsys_kit.geometry.turtle.space import initial_frame
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.style.palette import CHOSEN, GREEN
 from lsys_kit.pictures.style.themes import theme

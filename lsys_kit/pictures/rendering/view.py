@@ -15,9 +15,8 @@ from numpy.typing import NDArray
 
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.errors import ModelValueError, shown
-from lsys_kit.geometry.labels import Labels, no_labels
 from lsys_kit.geometry.meshes.mesh import normals_of, start_widths
-from lsys_kit.geometry.scene import OWN, Floats, Integers, Polygons, Scene, Segments
+from lsys_kit.geometry.scene import OWN, Floats, Integers, Labels, Polygons, Scene, Segments, no_labels
 from lsys_kit.geometry.smoothing import smoothed
 
 

@@ -12,24 +12,21 @@ from functools import cached_property
 import numpy as np
 
 from lsys_kit.budget import current
-from lsys_kit.derivation.cellworks.cellwork import Cellwork
-from lsys_kit.derivation.cellworks.development import CellworkDevelopment, develop_cellwork
+from lsys_kit.derivation.tissues.cellworks import Cellwork
+from lsys_kit.derivation.tissues.development import CellworkDevelopment
 from lsys_kit.errors import ModelLimitError, ModelValueError, whole_number
 from lsys_kit.geometry.scene import Floats
-from lsys_kit.geometry.tissues.cell_relaxation import SPACE_FORCES
-from lsys_kit.geometry.tissues.cellwork_layout import cellwork_scene, place_cellworks
-from lsys_kit.notation.model.cellworks import CellworkSystem
-from lsys_kit.pictures.filaments.folding import FilamentRow
+from lsys_kit.geometry.tissues.layout import cellwork_scene, place_cellworks
+from lsys_kit.notation.model.cells import CellworkSystem
+from lsys_kit.pictures.filaments import FilamentRow
 from lsys_kit.pictures.formats.notebook import described
 from lsys_kit.pictures.legends import Entry, Legend
 from lsys_kit.pictures.picture import Picture
 from lsys_kit.pictures.rendering.view import View, project, view_from
 from lsys_kit.pictures.style.palette import SERIES, tinted
 from lsys_kit.pictures.style.themes import theme
-from lsys_kit.pictures.tissues.forces import forces_of
+from lsys_kit.pictures.tissues.chosen import counts_text, developed, forces_of
 
-STEPS = 3
-"""The default number of steps."""
 SIDE = 30, 25
 """From where cells are seen, in degrees: from the front and somewhat from the right, and from above."""
 
@@ -55,10 +52,10 @@ class CellworkPicture(Picture):
     @cached_property
     def text(self) -> str:
         """What the picture shows, in words."""
-        names = (("vertex", "vertices"), ("edge", "edges"), ("wall", "walls"), ("cell", "cells"))
-        counts = [f"{count:,} {names[count != 1]}" for count, names in zip(self.counts, names, strict=True)]
         shown = "" if self.lit == self.counts[3] else f"walls of {self.lit:,} of them, and the edges of the others"
-        return described([f"step {self.rows[-1].step}", ", ".join(counts), shown, "walls of one colour have the same label"])
+        return described(
+            [f"step {self.rows[-1].step}", counts_text(self.counts), shown, "walls of one colour have the same label"]
+        )
 
 
 def cellwork_picture(
@@ -72,27 +69,24 @@ def cellwork_picture(
     **forces: object,
 ) -> CellworkPicture:
     """The picture of a cellwork system after `n` steps, or of the last step of a development."""
-    if isinstance(what, CellworkSystem):
-        what = develop_cellwork(what, n if n is not None else what.steps if what.steps is not None else STEPS)
-    elif n is not None:
-        raise ModelValueError("Steps are chosen when a cellwork system is derived, not when its development is drawn")
-    lit, chosen = lit_cells(what, cell, generation), forces_of(forces, SPACE_FORCES, "cellwork")
-    _check_size(what)
+    cellworks: CellworkDevelopment = developed(what, n)
+    lit, chosen = lit_cells(cellworks, cell, generation), forces_of(forces, "cellwork")
+    _check_size(cellworks)
     side = view_from(view)
-    *_, points = place_cellworks(what, chosen)
-    return picture_at(what[:], points, lit, side, legend)
+    *_, points = place_cellworks(cellworks, chosen)
+    return picture_at(cellworks[:], points, lit, side, legend)
 
 
 def cellwork_steps(
     what: CellworkSystem | CellworkDevelopment, n: int | None = None, *, legend: bool = False, **forces: object
 ) -> list[CellworkPicture]:
     """The pictures of all steps of a cellwork system, or of a development, for a film."""
-    if isinstance(what, CellworkSystem):
-        what = develop_cellwork(what, n if n is not None else what.steps if what.steps is not None else STEPS)
-    _check_size(what)
-    places = place_cellworks(what, forces_of(forces, SPACE_FORCES, "cellwork"))
+    cellworks: CellworkDevelopment = developed(what, n) if isinstance(what, CellworkSystem) else what
+    _check_size(cellworks)
+    places = place_cellworks(cellworks, forces_of(forces, "cellwork"))
     return [
-        picture_at(what[: step + 1], points, range(len(what[step].cells)), SIDE, legend) for step, points in enumerate(places)
+        picture_at(cellworks[: step + 1], points, range(len(cellworks[step].cells)), SIDE, legend)
+        for step, points in enumerate(places)
     ]
 
 
@@ -143,12 +137,6 @@ def _check_size(development: CellworkDevelopment) -> None:
             needed=shapes,
             hint="Take fewer steps, or set limits(figure=...).",
         )
-
-
-def labels_of_walls(system: CellworkSystem) -> Collection[str]:
-    """The labels that the walls of a system can have."""
-    after = {label for marker in system.markers for label in (*marker.daughters, marker.new_wall)}
-    return {wall.label for wall in system.walls} | after
 
 
 def wall_labels(cellworks: Sequence[Cellwork]) -> Mapping[str, str]:

@@ -13,12 +13,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 from lsys_kit.budget import Task, current
-from lsys_kit.derivation.maps.development import Development, develop
-from lsys_kit.derivation.maps.map import Map
+from lsys_kit.derivation.tissues.development import Development
+from lsys_kit.derivation.tissues.maps import Map
 from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown, whole_number
 from lsys_kit.geometry.scene import Floats, Polygons, Scene
-from lsys_kit.geometry.tissues.map_layout import equilibria, relaxation_steps, scenes
-from lsys_kit.notation.model.maps import MapSystem
+from lsys_kit.geometry.tissues.layout import equilibria, relaxation_steps, scenes
+from lsys_kit.notation.model.cells import MapSystem
 from lsys_kit.pictures.formats.notebook import SVGPicture, described
 from lsys_kit.pictures.formats.painting import painted
 from lsys_kit.pictures.rendering.frames import MARGIN, ViewFrame
@@ -27,7 +27,7 @@ from lsys_kit.pictures.sizes import document, resized
 from lsys_kit.pictures.style.labels import label_spans
 from lsys_kit.pictures.style.palette import PALEST, SERIES, STRONGEST, tinted
 from lsys_kit.pictures.style.themes import theme
-from lsys_kit.pictures.tissues.forces import forces_of
+from lsys_kit.pictures.tissues.chosen import counts_text, developed, forces_of
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -38,8 +38,8 @@ LARGE, MIDDLE, SMALL = 180.0, 130.0, 95.0
 """Pixels per unit: for few maps; for maps in several lines; the least for maps in one line."""
 GAP, CAPTION, NUMBER = 22, 34, 14
 """The space between two maps, that below one, and the size of the number of its step there, in pixels."""
-MOST_MAPS, STEPS = 12, 4
-"""The greatest number of maps in a picture, which shows the last ones; the default number of steps."""
+MOST_MAPS = 12
+"""The greatest number of maps in a picture, which shows the last ones."""
 LABEL, LEAST_LABELLED, LEAST_POINTED = 13.0, 24.0, 13.0
 """The size of a label; the least lengths of walls with a label and with an arrow, in pixels."""
 FILLS = tuple((colour, strength) for strength in (PALEST, STRONGEST) for colour in SERIES)
@@ -79,8 +79,7 @@ class MapPicture(SVGPicture):
     @property
     def text(self) -> str:
         """What the picture shows, in words."""
-        counts = zip(self.maps[-1].counts, ("vertex", "wall", "cell"), ("vertices", "walls", "cells"), strict=True)
-        last = ", ".join(f"{count:,} {one if count == 1 else many}" for count, one, many in counts)
+        last = counts_text(self.maps[-1].counts)
         if self.step is not None:
             noun = "iteration" if [*self.numbers] == [1] else "iterations"
             return described([f"step {self.step} after {', '.join(f'{number:,}' for number in self.numbers)} {noun}", last])
@@ -135,21 +134,21 @@ def map_picture(
     what: MapSystem | Development, n: int | None = None, iterations: Sequence[int] = (), labels: bool = True, **forces: object
 ) -> MapPicture:
     """The picture of a map system after `n` steps, or of a development; or of the relaxation of its last step."""
-    what = developed(what, n)
+    maps: Development = developed(what, n)
     require(iterations, Sequence, "A list of iterations")
     if iterations:
         iterations = _checked_iterations(iterations)
-        shown: Sequence[Map] = [what[-1]] * len(iterations)
+        shown: Sequence[Map] = [maps[-1]] * len(iterations)
         check_walls(shown)
-        places = [*relaxation_steps(what, iterations, forces_of(forces))]
-        return MapPicture(shown, places, [*scenes(shown, places)], iterations, what.steps, labels=labels)
-    first = max(0, len(what) - MOST_MAPS)
-    check_walls(what[first:])
-    reached = [*equilibria(what, forces_of(forces))]
+        places = [*relaxation_steps(maps, iterations, forces_of(forces))]
+        return MapPicture(shown, places, [*scenes(shown, places)], iterations, maps.steps, labels=labels)
+    first = max(0, len(maps) - MOST_MAPS)
+    check_walls(maps[first:])
+    reached = [*equilibria(maps, forces_of(forces))]
     places = [each.points for each in reached]
     unsettled = [step for step, each in enumerate(reached) if not each.settled and step >= first]
     return MapPicture(
-        what[first:], places[first:], [*scenes(what, places)][first:], range(first, len(what)), None, unsettled, labels
+        maps[first:], places[first:], [*scenes(maps, places)][first:], range(first, len(maps)), None, unsettled, labels
     )
 
 
@@ -164,15 +163,6 @@ def _checked_iterations(given: Sequence[int]) -> list[int]:
     if not iterations or iterations != sorted({*iterations}):
         raise ModelValueError(f"Iterations are whole numbers from 0 on, each greater than the one before, not {shown(given)}")
     return iterations
-
-
-def developed(what: MapSystem | Development, n: int | None) -> Development:
-    """A development as it is; that of a map system up to a step, by default its own."""
-    if isinstance(what, MapSystem):
-        return develop(what, n if n is not None else what.steps if what.steps is not None else STEPS)
-    if n is not None:
-        raise ModelValueError("Steps are chosen when a map system is derived, not when its development is drawn")
-    return what
 
 
 def check_walls(maps: Sequence[Map]) -> None:

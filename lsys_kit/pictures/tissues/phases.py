@@ -13,13 +13,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lsys_kit.budget import Task
-from lsys_kit.derivation.maps.development import Development, productions_of
-from lsys_kit.derivation.maps.divisions import Stub, replaced_map
-from lsys_kit.derivation.maps.map import Map
+from lsys_kit.derivation.tissues.development import Development
+from lsys_kit.derivation.tissues.maps import Map, Stub, replaced_map
 from lsys_kit.errors import ModelValueError
 from lsys_kit.geometry.scene import Floats, Scene
-from lsys_kit.geometry.tissues.map_layout import insert_vertices, place_maps, scenes
-from lsys_kit.notation.model.maps import LEFT, MapSystem
+from lsys_kit.geometry.tissues.layout import insert_vertices, place_maps, scenes
+from lsys_kit.notation.model.cells import LEFT, MapSystem
 from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.formats.painting import painted
 from lsys_kit.pictures.rendering.frames import MARGIN, ViewFrame
@@ -27,7 +26,7 @@ from lsys_kit.pictures.shapes import Drawing, Look, Path, Shape
 from lsys_kit.pictures.sizes import document, resized
 from lsys_kit.pictures.style.palette import BLUE
 from lsys_kit.pictures.style.themes import line, theme
-from lsys_kit.pictures.tissues.forces import forces_of
+from lsys_kit.pictures.tissues.chosen import developed, forces_of
 from lsys_kit.pictures.tissues.maps import (
     CAPTION,
     GAP,
@@ -37,7 +36,6 @@ from lsys_kit.pictures.tissues.maps import (
     caption,
     cell_shapes,
     check_walls,
-    developed,
     lettered,
     wall_label,
     wall_shapes,
@@ -169,14 +167,14 @@ class PhasesPicture(SVGPicture):
 def phases_picture(what: MapSystem | Development, n: int | None = None, labels: bool = True, **forces: object) -> PhasesPicture:
     """The phases of the last step of a map system, or of a development.
 
-    >>> from lsys_kit.notation.dialects.map.dialect import read_map
+    >>> from lsys_kit import read_map
     >>> phases_picture(read_map("map: ABAB\\nA -> B[-A][+A]B\\nB -> A"), 1)
     step 1 in 4 pictures: 2 of 4 markers match; at the end 2 cells
     """
-    maps = developed(what, n)
+    maps: Development = developed(what, n)
     if maps.steps == 0:
         raise ModelValueError("Phases are those of a step, and step 0 is the first cell", hint="Draw step 1, or a later one.")
     check_walls(maps[-2:])
-    replaced, stubs = replaced_map(maps[-2], productions_of(maps.system))
+    replaced, stubs = replaced_map(maps[-2], maps.system)
     *_, before = place_maps(maps[:-1], forces_of(forces))
     return PhasesPicture((maps[-2], replaced, maps[-1]), stubs, insert_vertices(replaced, before), maps.steps, labels)

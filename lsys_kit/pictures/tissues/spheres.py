@@ -14,12 +14,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lsys_kit.budget import Task, counted
-from lsys_kit.derivation.maps.development import Development, develop
-from lsys_kit.derivation.maps.map import Map, cell_words
-from lsys_kit.errors import ModelValueError
+from lsys_kit.derivation.tissues.development import Development
+from lsys_kit.derivation.tissues.maps import Map, kinds_of_cells
 from lsys_kit.geometry.scene import Floats
-from lsys_kit.geometry.tissues.sphere_layout import SPHERE_FORCES, Placed, arc, meridian, place_on_sphere
-from lsys_kit.notation.model.maps import Edge, MapSystem
+from lsys_kit.geometry.tissues.layout import Placed, arc, meridian, place_on_sphere
+from lsys_kit.notation.model.cells import MapSystem
 from lsys_kit.pictures.formats.notebook import described
 from lsys_kit.pictures.formats.painting import painted
 from lsys_kit.pictures.rendering.frames import MARGIN
@@ -27,8 +26,8 @@ from lsys_kit.pictures.rendering.view import View, axes, view_from
 from lsys_kit.pictures.shapes import Circle, Drawing, Gradient, Gradients, Look, Path, Shape, Stop
 from lsys_kit.pictures.sizes import document, resized
 from lsys_kit.pictures.style.themes import theme
-from lsys_kit.pictures.tissues.forces import forces_of
-from lsys_kit.pictures.tissues.maps import CAPTION, GAP, MOST_MAPS, NUMBER, STEPS, WIDTH, MapPicture, caption, cell_colour
+from lsys_kit.pictures.tissues.chosen import developed, forces_of
+from lsys_kit.pictures.tissues.maps import CAPTION, GAP, MOST_MAPS, NUMBER, WIDTH, MapPicture, caption, cell_colour
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -98,26 +97,16 @@ def sphere_picture(
     what: MapSystem | Development, n: int | None = None, *, view: object = SIDE, **forces: object
 ) -> SpherePicture:
     """The picture of a map system on a sphere after `n` steps, or of a development."""
-    if isinstance(what, MapSystem):
-        what = develop(what, n if n is not None else what.steps if what.steps is not None else STEPS)
-    elif n is not None:
-        raise ModelValueError("Steps are chosen when a map system is derived, not when its development is drawn")
-    chosen = forces_of(forces, SPHERE_FORCES, "map on a sphere")
-    side = view_from(view)
-    return spheres_at(what, [*place_on_sphere(what, chosen)], range(max(0, len(what) - MOST_MAPS), len(what)), side)
+    maps: Development = developed(what, n)
+    chosen, side = forces_of(forces, "map on a sphere"), view_from(view)
+    return spheres_at(maps, [*place_on_sphere(maps, chosen)], range(max(0, len(maps) - MOST_MAPS), len(maps)), side)
 
 
 def spheres_at(maps: Sequence[Map], placed: Sequence[Placed], steps: Sequence[int], view: View) -> SpherePicture:
     """The picture of some steps, given the maps of all steps and where each lies on the sphere."""
-    side, kinds = np.column_stack(axes(*map(math.radians, view))), kinds_of_cells(maps)
+    side, kinds = np.column_stack(axes(*map(math.radians, view))), [*kinds_of_cells(maps)]
     views = [SphereView([each @ side for each in wall_arcs(maps[step], *placed[step])], kinds[step]) for step in steps]
     return SpherePicture([maps[step] for step in steps], [placed[step][0] for step in steps], (), steps, views=views)
-
-
-def kinds_of_cells(maps: Sequence[Map]) -> list[list[int]]:
-    """For each map the numbers of the kinds of its cells: alike in all maps are those with the same walls around them."""
-    known = dict[tuple[Edge, ...], int]()
-    return [[known.setdefault(word, len(known)) for word in cell_words(found)] for found in maps]
 
 
 def wall_arcs(found: Map, points: Floats, longitudes: Mapping[int, float]) -> Iterator[Floats]:

@@ -8,10 +8,9 @@ from string import ascii_uppercase
 
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
-from lsys_kit.classroom.exercises.typed.number_words import with_digits
-from lsys_kit.classroom.exercises.typed.text import keyboard_text, quoted, text_answer, unquoted
+from lsys_kit.classroom.exercises.replies import reply
+from lsys_kit.classroom.exercises.typed import WORDS, keyboard_text, quoted, text_answer, unquoted, with_digits
 from lsys_kit.errors import ModelNameError, ModelValueError, whole_number
-from lsys_kit.translation import gettext
 
 # One of some options
 
@@ -42,7 +41,7 @@ _LETTER = re.compile(
     re.IGNORECASE,
 )
 _LETTER_AND_TEXT = re.compile(r"^\W*([A-Za-z])\s*[:.)\]-]+\s+(\S.*)$", re.DOTALL)
-_EXCLUDING = frozenset(["all", "both", "but", "except", "neither", "never", "no", "none", "nor", "not", "or", "without"])
+_EXCLUDING = frozenset(WORDS["excluding"].split())
 MOST_WORDS = 3
 """So many words has an answer that names an option of one word."""
 _SHORTEST_PART = 3
@@ -57,7 +56,7 @@ def _plain(text: str) -> str:
 
 
 def _read_choice(exercise: Exercise, answer: object) -> str:
-    text = " ".join(text_answer(answer, gettext("An option"), '"A"').split())
+    text = " ".join(text_answer(answer, reply("choice.what"), '"A"').split())
     known = letters(exercise)
     texts = {letter: _plain(option.text) for option, letter in zip(exercise.options, known, strict=True)}
     named, both = _LETTER.match(text), _LETTER_AND_TEXT.match(text)
@@ -69,14 +68,12 @@ def _read_choice(exercise: Exercise, answer: object) -> str:
     meant = meant or _with_part(texts, _plain(text)) or _named_in(texts, text)
     if len(meant) != 1:
         raise ModelNameError(
-            gettext('"{text}" is none of the options', text=quoted(text)),
-            hint=gettext("Choose one of: {options}.", options=", ".join(known)),
+            reply("choice.none_of_these", text=quoted(text)), hint=reply("choice.choose", options=", ".join(known))
         )
     return meant[0]
 
 
 def _with_part(texts: Mapping[str, str], part: str) -> list[str]:
-    """The options whose text has a part, as whole words."""
     before = r"(?<!\w)" if part[:1].isalnum() else ""
     whole = rf"{before}{re.escape(part)}(?!\w)"
     enough = len(part) >= _SHORTEST_PART or part.isdigit()
@@ -93,47 +90,33 @@ def _named_in(texts: Mapping[str, str], text: str) -> list[str]:
 
 def _choice_difference(exercise: Exercise, own: str, _: str) -> Difference:
     says = exercise.options[letters(exercise).index(own)].says
-    return Difference(says or exercise.otherwise or gettext("{answer} is not the right one.", answer=own))
+    return Difference(says or exercise.otherwise or reply("choice.not_right", answer=own))
 
 
-CHOICE = AnswerKind(
-    'option, as its letter in quotation marks, such as "A"',
-    _read_choice,
-    lambda _, a, b: a == b,
-    _choice_difference,
-    lambda *_: True,
-)
+CHOICE = AnswerKind(_read_choice, _choice_difference)
 
 
 # One symbol
 
 
 def _units(text: str) -> list[str]:
-    """The symbols of a text: what stands between its blanks, or its characters."""
     return text.split() if " " in text.strip() else [*text.strip()]
 
 
 def _read_symbol(exercise: Exercise, answer: object) -> tuple[str, int]:
     """The symbol, and its position from 1; 0 where the symbol alone was given and does not stand there once."""
     units = _units(exercise.text)
-    text = (
-        str(answer).strip().strip("\"'`")
-        if isinstance(answer, int) and not isinstance(answer, bool)
-        else text_answer(answer, gettext("A symbol"), '"["').strip().strip("\"'`")
-    )
+    given = str(answer) if isinstance(answer, int) and not isinstance(answer, bool) else answer
+    text = text_answer(given, reply("symbol.what"), '"["').strip().strip("\"'`")
     text = re.sub(r"^(position|symbol|no\.?|number)\s+", "", text, flags=re.IGNORECASE)
     if text.isascii() and text.isdigit() and text not in units:
         if not units or not 1 <= int(text[:9]) <= len(units):
-            raise ModelValueError(
-                gettext("The word has the positions 1 to {last}", last=len(units))
-                if units
-                else gettext("A symbol is needed, not a number")
-            )
+            raise ModelValueError(reply("symbol.positions", last=len(units)) if units else reply("symbol.not_a_number"))
         return units[int(text) - 1], int(text)
     if units and text not in units and exercise.symbols and text not in exercise.symbols:
-        raise ModelNameError(gettext('The symbol "{symbol}" does not occur in the question', symbol=quoted(text)))
+        raise ModelNameError(reply("symbol.unknown", symbol=quoted(text)))
     if not text or len(text.split()) > 1 or (len(text) > 1 and all(len(unit) == 1 for unit in units)):
-        raise ModelValueError(gettext("One symbol is needed, or its position"))
+        raise ModelValueError(reply("symbol.one_needed"))
     return text, units.index(text) + 1 if units.count(text) == 1 else 0
 
 
@@ -143,13 +126,11 @@ def _same_symbol(_: Exercise, own: tuple[str, int], wanted: tuple[str, int]) -> 
 
 def _symbol_difference(exercise: Exercise, own: tuple[str, int], wanted: tuple[str, int]) -> Difference:
     if own[0] == wanted[0] and not own[1]:
-        return Difference(gettext("It occurs several times: give its position, counted from 1."), 1, True)
-    return Difference(exercise.otherwise or gettext("{answer} is not the one that is asked for.", answer=own[0]))
+        return Difference(reply("symbol.several_times"), 1, True)
+    return Difference(exercise.otherwise or reply("symbol.not_asked_for", answer=own[0]))
 
 
-SYMBOL = AnswerKind(
-    "symbol, as a text in quotation marks, or its position", _read_symbol, _same_symbol, _symbol_difference, lambda *_: True
-)
+SYMBOL = AnswerKind(_read_symbol, _symbol_difference, _same_symbol)
 
 
 # One line
@@ -173,19 +154,16 @@ def _read_line(exercise: Exercise, answer: object) -> int:
             return same[0]
         number = _LINE_NUMBER.match(with_digits(keyboard_text(text)))
         if not number:
-            raise ModelValueError(
-                gettext('"{text}" is no line of the program', text=quoted(text)),
-                hint=gettext("Give a number from 1 to {last}.", last=len(lines)),
-            )
+            raise ModelValueError(reply("line.what_is_none", text=quoted(text)), hint=reply("line.choose", last=len(lines)))
         answer = int(number[1])
-    found = whole_number(answer, gettext("The number of a line"))
+    found = whole_number(answer, reply("line.what"))
     if not 1 <= found <= len(lines):
-        raise ModelValueError(gettext("The program has the lines 1 to {last}", last=len(lines)))
+        raise ModelValueError(reply("line.lines", last=len(lines)))
     return found
 
 
 def _line_difference(exercise: Exercise, own: int, _: int) -> Difference:
-    return Difference(f"{gettext('It is not line {number}.', number=own)} {exercise.otherwise}".strip())
+    return Difference(f"{reply('line.not_this', number=own)} {exercise.otherwise}".strip())
 
 
-LINE = AnswerKind("line, as its number", _read_line, lambda _, a, b: a == b, _line_difference, lambda *_: True)
+LINE = AnswerKind(_read_line, _line_difference)

@@ -9,12 +9,13 @@ from functools import cached_property
 
 import numpy as np
 
+from lsys_kit.budget import check_budget
 from lsys_kit.classroom.exercises.asked import asked_system, written
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
-from lsys_kit.classroom.exercises.kinds.stroke_order import strokes_that_fit
 from lsys_kit.classroom.exercises.kinds.words import read_modules, unnamed_word
-from lsys_kit.classroom.exercises.typed.systems import read_typed
+from lsys_kit.classroom.exercises.replies import reply
+from lsys_kit.classroom.exercises.typed import read_typed
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.errors import ModelValueError
 from lsys_kit.geometry.drawing import scene_of
@@ -22,8 +23,57 @@ from lsys_kit.geometry.sameness import normalised, same_strokes
 from lsys_kit.geometry.scene import Floats
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read
-from lsys_kit.translation import gettext
 from lsys_kit.worlds.derive import derive
+
+# Stroke by stroke, in the order in which they are drawn
+
+
+NEAR = 1e-4
+"""How far a stroke may be beside another, where the first stroke is 1 long."""
+
+
+def strokes_that_fit(mine: Floats, wanted: Floats) -> int:
+    """How many of the first strokes of a drawing lie on another one, if its first stroke lies on that one's first.
+
+    Strokes are rows x, y of their beginning and of their end; those that follow one another straight on count as one line.
+
+    >>> bent, straight = np.array([[0.0, 0, 0, 1], [0, 1, 1, 1]]), np.array([[0.0, 0, 0, 1], [0, 1, 0, 2], [0, 2, 1, 2]])
+    >>> strokes_that_fit(bent, straight), strokes_that_fit(straight, straight), strokes_that_fit(straight[:1], bent)
+    (1, 3, 1)
+    """
+    own, other = _from_the_first(mine), _from_the_first(wanted)
+    for number, stroke in enumerate(own):
+        check_budget()
+        if not _lies_on(stroke, other):
+            return number
+    return len(own)
+
+
+def _from_the_first(ends: Floats) -> Floats:
+    """Strokes as they stand to the first: it leads from 0 to 1; shape (n, 2), complex."""
+    points = ends[:, 0::2] + 1j * ends[:, 1::2]
+    start, end = points[0]
+    return np.asarray((points - start) / ((end - start) or 1))
+
+
+def _lies_on(stroke: Floats, others: Floats) -> bool:
+    start, end = stroke
+    length = abs(end - start)
+    if length < NEAR:
+        return True
+    along = (others - start) / (end - start)
+    straight = np.abs(along.imag).max(axis=1) * length < NEAR
+    spans = np.sort(along.real[straight], axis=1)
+    reached = 0.0
+    for low, high in spans[np.argsort(spans[:, 0])]:
+        if low * length > reached * length + NEAR:
+            break
+        reached = max(reached, float(high))
+    return bool(reached * length >= length - NEAR)
+
+
+# What is drawn
+
 
 _SYSTEM = re.compile(r"->|=|:|→|#")
 MOST_STROKES = 5_000
@@ -48,13 +98,7 @@ class Drawn:
         """The strokes as they are drawn, in order: shape (n, 4) or (n, 6)."""
         ends = scene_of(self.derivation).segments.ends
         if len(ends) > MOST_STROKES:
-            raise ModelValueError(
-                gettext(
-                    "The drawing has {number} strokes; up to {most} are compared",
-                    number=f"{len(ends):,}",
-                    most=f"{MOST_STROKES:,}",
-                )
-            )
+            raise ModelValueError(reply("drawing.too_many_strokes", number=f"{len(ends):,}", most=f"{MOST_STROKES:,}"))
         return ends
 
 
@@ -83,7 +127,6 @@ def joined_strokes(ends: Floats) -> Floats:
 
 
 def _direction(across: float, up: float) -> tuple[float, float]:
-    """One direction for both ways along a line."""
     return (-across, -up) if up < -1e-7 or (abs(up) <= 1e-7 and across < 0) else (across, up)
 
 
@@ -120,35 +163,21 @@ def _same(_: Exercise, mine: Drawn, wanted: Drawn) -> bool:
 def _difference(_: Exercise, mine: Drawn, wanted: Drawn) -> Difference:
     own, other = len(mine.strokes), len(wanted.strokes)
     if not own:
-        return Difference(gettext("Nothing is drawn. Which symbols draw a stroke?"))
+        return Difference(reply("drawing.nothing"))
     likeness = min(own, other) / max(own, other) / 2 if own != other else 0.6
     if mine.ends.shape[1] == 4 and wanted.ends.shape[1] == 4 and max(len(mine.ends), len(wanted.ends)) <= MOST_FOLLOWED:
         return Difference(_stroke_by_stroke(mine, wanted), likeness)
-    return Difference(gettext("Draw it beside the picture: at which stroke does the turtle turn otherwise?"), likeness)
+    return Difference(reply("drawing.beside_the_picture"), likeness)
 
 
 def _stroke_by_stroke(mine: Drawn, wanted: Drawn) -> str:
     """Where a drawing first leaves the right one, if both begin with the same stroke."""
     fitting = strokes_that_fit(mine.ends, wanted.ends)
     if fitting < len(mine.ends):
-        if fitting < 2:
-            return gettext(
-                "If your first stroke is right, stroke {number} is where none should be: look at the signs and brackets "
-                "before it.",
-                number=fitting + 1,
-            )
-        return gettext(
-            "Your first {fitting} strokes are right, if you begin at the same place. Stroke {number} is where none should be: "
-            "look at the signs and brackets before it.",
-            fitting=fitting,
-            number=fitting + 1,
-        )
-    missing = strokes_that_fit(wanted.ends, mine.ends)
-    if missing < len(wanted.ends):
-        return gettext("All strokes that you draw lie in the picture, but it has more of them. Which part is missing?")
-    return gettext("Drawn from the same place it covers the picture, but with other strokes.")
+        where = "drawing.wrong_from_the_start" if fitting < 2 else "drawing.wrong_stroke"
+        return reply(where, fitting=fitting, number=fitting + 1)
+    missing = strokes_that_fit(wanted.ends, mine.ends) < len(wanted.ends)
+    return reply("drawing.missing_strokes" if missing else "drawing.other_strokes")
 
 
-DRAWING = AnswerKind(
-    'word or system, as a text between """ and """', _read, _same, _difference, lambda _, mine, wanted: len(mine.strokes) > 1
-)
+DRAWING = AnswerKind(_read, _difference, _same, lambda _, mine, wanted: len(mine.strokes) > 1)

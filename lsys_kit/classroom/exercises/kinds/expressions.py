@@ -3,22 +3,147 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterator, Mapping
+import math
+from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
-from typing import Any
+from functools import reduce
+from typing import TypeAlias
 
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
-from lsys_kit.classroom.exercises.kinds.proofs import Valuations, differing_values, is_rational, proved_equal
-from lsys_kit.classroom.exercises.typed.formulas import formula_text
-from lsys_kit.classroom.exercises.typed.text import assigned_name, text_answer
+from lsys_kit.classroom.exercises.replies import reply
+from lsys_kit.classroom.exercises.typed import assigned_name, formula_text, text_answer
 from lsys_kit.errors import LSystemError, ModelValueError
 from lsys_kit.notation.analysis.checks import check_expression
-from lsys_kit.notation.model.arithmetic import shortest_decimal
-from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number, expression_type, names_in
+from lsys_kit.notation.model.arithmetic import Value, number_text, reason_of, shortest_decimal
+from lsys_kit.notation.model.expressions import (
+    Apply,
+    Expression,
+    Name,
+    Number,
+    expression_type,
+    function_of,
+    names_in,
+    to_sympy,
+)
 from lsys_kit.notation.read import checked_expression, read_expression
 from lsys_kit.notation.syntax.wording import reporting
-from lsys_kit.translation import gettext
+
+# Whether two expressions are equal
+
+
+Valuations: TypeAlias = Mapping[str, Value]
+"""A value for each name."""
+MOST_NODES = 40
+"""Operators, names and numbers of an expression that sympy is asked about."""
+MOST_PROOF_DEGREE = 12
+"""Its degree, with the exponents of its numbers: larger powers are not expanded."""
+
+
+def differing_values(mine: Expression, wanted: Expression, cases: Iterable[Valuations]) -> str | None:
+    """The first case in which two expressions have different values, or None.
+
+    >>> from lsys_kit.notation.read import read_expression
+    >>> differing_values(read_expression("t"), read_expression("2*t"), [{"t": 0}, {"t": 1}])
+    'With t = 1 your expression gives 1, and it should give 2.'
+    """
+    for case in cases:
+        own, right = _value_or_reason(mine, case), _value_or_reason(wanted, case)
+        if not _equal_values(own, right):
+            where = reply("expression.and").join(f"{name} = {number_text(value)}" for name, value in case.items())
+            if isinstance(own, str):
+                return reply("expression.no_value", values=where, reason=own, right=_value_text(right))
+            return reply("expression.value", values=where, own=_value_text(own), right=_value_text(right))
+    return None
+
+
+def _value_or_reason(expression: Expression, case: Valuations) -> Value | str:
+    try:
+        run = function_of(expression, {name: i for i, name in enumerate(case)})
+        return run(tuple(case.values()))  # type: ignore[no-any-return]
+    except (ArithmeticError, ValueError) as fault:
+        return reason_of(fault)
+
+
+def _equal_values(own: Value | str, right: Value | str) -> bool:
+    if isinstance(own, str) or isinstance(right, str):
+        return False
+    return math.isclose(own, right, rel_tol=1e-9) if isinstance(own, float) or isinstance(right, float) else own == right
+
+
+def _value_text(value: Value | str) -> str:
+    return str(value).lower() if isinstance(value, str | bool) else number_text(value)
+
+
+def proved_equal(mine: Expression, wanted: Expression) -> bool:
+    """Whether sympy shows that two expressions are equal whatever the values of their names.
+
+    Also False where they are too large to be compared: sympy may never finish with a power of a power.
+
+    >>> from lsys_kit.notation.read import read_expression
+    >>> proved_equal(read_expression("(x+1)^2"), read_expression("x^2 + 2*x + 1"))
+    True
+    >>> proved_equal(read_expression("x^2"), read_expression("x"))
+    False
+    """
+    if not (_is_small(mine) and _is_small(wanted)):
+        return False
+    import sympy
+
+    left, right = to_sympy(mine), to_sympy(wanted)
+    if isinstance(left, sympy.Rel) and isinstance(right, sympy.Rel):
+        return bool(left.canonical == right.canonical)
+    if not (isinstance(left, sympy.Expr) and isinstance(right, sympy.Expr)):
+        return bool(left == right)
+    return bool(sympy.cancel(sympy.expand(left - right)) == 0)
+
+
+def _is_small(expression: Expression) -> bool:
+    return _nodes(expression) <= MOST_NODES and _degree(expression) <= MOST_PROOF_DEGREE
+
+
+def _nodes(expression: Expression) -> int:
+    return 1 + (sum(map(_nodes, expression.operands)) if isinstance(expression, Apply) else 0)
+
+
+def _degree(expression: Expression) -> float:
+    """A bound for the degree of an expression; infinite where sympy might have to work out something very large."""
+    if not isinstance(expression, Apply):
+        return 0 if isinstance(expression, Number) else 1
+    degrees = [_degree(operand) for operand in expression.operands]
+    if expression.operator == "^":
+        return max(1.0, degrees[0]) * _exponent(expression.operands[1])
+    if expression.operator in ("&&", "||", "!"):
+        return math.inf
+    return sum(degrees) if expression.operator in ("*", "/") else max(degrees)
+
+
+def _exponent(expression: Expression) -> float:
+    if isinstance(expression, Number):
+        return abs(float(expression.value))
+    return 1 if isinstance(expression, Name) else math.inf
+
+
+def is_rational(expression: Expression) -> bool:
+    """Whether an expression is built of numbers, names and + - * / and whole powers, so that equality can be decided.
+
+    >>> from lsys_kit.notation.read import read_expression
+    >>> is_rational(read_expression("(d - s)^2 / 2")), is_rational(read_expression("max(d, s)"))
+    (True, False)
+    """
+    if not isinstance(expression, Apply):
+        return True
+    if expression.operator == "^":
+        base, power = expression.operands
+        return is_rational(base) and isinstance(power, Number) and power.value == int(power.value) and _is_small(expression)
+    return (
+        expression.operator in ("+", "-", "*", "/", "-x")
+        and _is_small(expression)
+        and all(map(is_rational, expression.operands))
+    )
+
+
+# As it was typed
 
 
 def _read(exercise: Exercise, answer: object) -> Expression:
@@ -28,7 +153,7 @@ def _read(exercise: Exercise, answer: object) -> Expression:
             answer = str(answer)
         else:
             return _checked(exercise, from_sympy(answer), wanted)
-    text = text_answer(answer, gettext("An expression"), '"t + 1"')
+    text = text_answer(answer, reply("expression.what"), '"t + 1"')
     try:
         return checked_expression(text, exercise.values, wanted)
     except LSystemError:
@@ -48,6 +173,24 @@ def _checked(exercise: Exercise, expression: Expression, wanted: str) -> Express
     return expression
 
 
+_OPERATORS = {
+    "Add": "+",
+    "Mul": "*",
+    "Pow": "^",
+    "Min": "min",
+    "Max": "max",
+    "Mod": "mod",
+    "Abs": "abs",
+    "exp": "exp",
+    "log": "log",
+}
+_OPERATORS |= {"floor": "floor", "ceiling": "ceil", "And": "&&", "Or": "||", "Not": "!"}
+_OPERATORS |= {"Eq": "==", "Ne": "!=", "Lt": "<", "Le": "<=", "Gt": ">", "Ge": ">="}
+"""For each class of sympy how the kit writes it."""
+_OF_TWO = ("+", "*", "min", "max", "&&", "||")
+"""What sympy has of any number of operands, and the kit of two."""
+
+
 def from_sympy(formula: object, depth: int = 0) -> Expression:
     """An expression of the kit, from one that was made with sympy: by its tree, never by its text.
 
@@ -59,7 +202,7 @@ def from_sympy(formula: object, depth: int = 0) -> Expression:
     import sympy
 
     if not isinstance(formula, sympy.Basic) or depth > 50:
-        raise ModelValueError(gettext('An expression must be a text such as "t + 1", not {kind}', kind=type(formula).__name__))
+        raise ModelValueError(reply("expression.must_be_text", kind=type(formula).__name__))
     if isinstance(formula, sympy.Symbol):
         return Name(str(formula.name))
     if isinstance(formula, sympy.Rational):
@@ -67,55 +210,19 @@ def from_sympy(formula: object, depth: int = 0) -> Expression:
         return Number(int(value) if value.denominator == 1 else value)
     if isinstance(formula, sympy.Float):
         return Number(shortest_decimal(float(formula)))
-    operator = _operators().get(type(formula))
+    operator = {getattr(sympy, name): sign for name, sign in _OPERATORS.items()}.get(type(formula))
     if operator is None or not formula.args:
-        raise ModelValueError(gettext("The kit's expressions have no {name}", name=type(formula).__name__))
+        raise ModelValueError(reply("expression.unknown_function", name=type(formula).__name__))
     operands = [from_sympy(argument, depth + 1) for argument in formula.args]
-    return operator(operands)
+    if operator in _OF_TWO:
+        return reduce(lambda one, other: Apply(operator, (one, other)), operands)
+    return Apply(operator, tuple(operands))
 
 
-def _operators() -> Mapping[Any, Callable[[list[Expression]], Expression]]:
-    """For each class of sympy how the kit writes it."""
-    import sympy
-
-    def chain(operator: str) -> Callable[[list[Expression]], Expression]:
-        def build(operands: list[Expression]) -> Expression:
-            found = operands[0]
-            for operand in operands[1:]:
-                found = Apply(operator, (found, operand))
-            return found
-
-        return build
-
-    def call(operator: str) -> Callable[[list[Expression]], Expression]:
-        return lambda operands: Apply(operator, tuple(operands))
-
-    return {
-        sympy.Add: chain("+"),
-        sympy.Mul: chain("*"),
-        sympy.Pow: call("^"),
-        sympy.floor: call("floor"),
-        sympy.ceiling: call("ceil"),
-        sympy.Abs: call("abs"),
-        sympy.exp: call("exp"),
-        sympy.log: call("log"),
-        sympy.Min: chain("min"),
-        sympy.Max: chain("max"),
-        sympy.Mod: call("mod"),
-        sympy.And: chain("&&"),
-        sympy.Or: chain("||"),
-        sympy.Not: call("!"),
-        sympy.Eq: call("=="),
-        sympy.Ne: call("!="),
-        sympy.Lt: call("<"),
-        sympy.Le: call("<="),
-        sympy.Gt: call(">"),
-        sympy.Ge: call(">="),
-    }
+# What to say
 
 
 def _cases(exercise: Exercise) -> Iterator[Valuations]:
-    """All combinations of the values for which the expression is asked."""
     for combination in itertools.product(*exercise.values.values()):
         yield dict(zip(exercise.values, combination, strict=True))
 
@@ -132,23 +239,16 @@ def _difference(exercise: Exercise, own: Expression, solution: Expression) -> Di
     right = sum(differing_values(own, solution, [case]) is None for case in cases)
     message = differing_values(own, solution, cases)
     if message is None:
-        return Difference(
-            gettext("For the numbers of the question it is right, but not for all others: it is another formula."), 1
-        )
+        return Difference(reply("expression.another_formula"), 1)
     return Difference(message, right / len(cases))
 
 
 def _praise(_: Exercise, own: Expression, solution: Expression) -> str:
-    if proved_equal(own, solution):
-        return gettext("It is so whatever the values.")
-    return gettext("It is so for all the values in question.")
+    return reply("expression.proved" if proved_equal(own, solution) else "expression.right_here")
 
 
-EXPRESSION = AnswerKind(
-    "expression, as a text in quotation marks",
-    _read,
-    _same,
-    _difference,
-    lambda _, own, solution: bool(names_in(own)) or not names_in(solution),
-    _praise,
-)
+def _honest(_: Exercise, own: Expression, solution: Expression) -> bool:
+    return bool(names_in(own)) or not names_in(solution)
+
+
+EXPRESSION = AnswerKind(_read, _difference, _same, _honest, _praise)

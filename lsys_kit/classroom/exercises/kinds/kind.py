@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -37,14 +37,12 @@ class AnswerKind:
 
     Attributes
     ----------
-    what
-        What a student puts in the place of the `...`.
     read
         From the exercise and the answer as given to its meaning.
-    same
-        Whether two answers to an exercise mean the same.
     difference
         From the exercise, a wrong answer and the solution to what can be said.
+    same
+        Whether two answers to an exercise mean the same.
     honest
         Whether a wrong answer is a try, after which the solution may be shown.
     praise
@@ -52,29 +50,26 @@ class AnswerKind:
     alike
         Whether an answer is a wrong one that is understood; `same`, where that will do.
     parts_right
-        Of a wrong answer how many of its parts are right, and how many there are; None where it is right as a whole or not.
-    parts_said
-        That in words; the mark is this share.
+        Of a wrong answer how many of its parts are right, and how many there are, which is its mark; None where it is right as
+        a whole or not.
     """
 
-    what: str
     read: Callable[[Exercise, object], Any]
-    same: Callable[[Exercise, Any, Any], bool]
     difference: Callable[[Exercise, Any, Any], Difference]
-    honest: Callable[[Exercise, Any, Any], bool]
+    same: Callable[[Exercise, Any, Any], bool] = lambda exercise, own, other: bool(own == other)
+    honest: Callable[[Exercise, Any, Any], bool] = lambda exercise, own, solution: True
     praise: Callable[[Exercise, Any, Any], str] = lambda exercise, own, solution: ""
     alike: Callable[[Exercise, Any, Any], bool] | None = None
     parts_right: Callable[[Exercise, Any, Any], tuple[int, int]] | None = None
-    parts_said: str = ""
 
 
-def first_difference(mine: object, wanted: object) -> int:
+def first_difference(mine: Iterable[object], wanted: Iterable[object]) -> int:
     """The first position, from 0, at which two rows differ; the length of the shorter where it begins the longer.
 
     >>> first_difference("abc", "abd"), first_difference("ab", "abd")
     (2, 2)
     """
-    one, other = tuple(mine), tuple(wanted)  # type: ignore[var-annotated, arg-type]
+    one, other = tuple(mine), tuple(wanted)
     shorter = min(len(one), len(other))
     return next((i for i in range(shorter) if one[i] != other[i]), shorter)
 

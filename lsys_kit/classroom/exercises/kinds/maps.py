@@ -16,15 +16,14 @@ import networkx as nx
 from lsys_kit.budget import counted
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
-from lsys_kit.classroom.exercises.typed.systems import read_typed
-from lsys_kit.classroom.exercises.typed.text import text_answer
-from lsys_kit.derivation.maps.development import develop
-from lsys_kit.derivation.maps.map import Map, cell_words
+from lsys_kit.classroom.exercises.replies import reply
+from lsys_kit.classroom.exercises.typed import read_typed, text_answer
+from lsys_kit.derivation.tissues.development import develop
+from lsys_kit.derivation.tissues.maps import Map, cell_words
 from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.dialects.map.dialect import read_map
-from lsys_kit.notation.model.maps import Edge, EdgeProduction, MapSystem
-from lsys_kit.notation.read import is_map
-from lsys_kit.translation import gettext, ngettext
+from lsys_kit.notation.model.cells import Edge, EdgeProduction, MapSystem
+from lsys_kit.notation.read import cells_notation
 
 _AXIOM = re.compile(r"\s*(axiom|\\?omega|ω)\s*[:=]", re.IGNORECASE)
 """How L-systems begin, and maps too, if somebody likes."""
@@ -56,22 +55,17 @@ def with_given(exercise: Exercise, own: Sequence[EdgeProduction]) -> MapAnswer:
 def _read(exercise: Exercise, answer: object) -> MapAnswer:
     if isinstance(answer, MapSystem):
         return MapAnswer(answer, answer.productions)
-    return read_typed(
-        text_answer(answer, gettext("A rule for walls"), '"A -> B[-A][+A]B"'), lambda typed: _read_text(exercise, typed)
-    )
+    return read_typed(text_answer(answer, reply("map.what"), '"A -> B[-A][+A]B"'), lambda typed: _read_text(exercise, typed))
 
 
 def _read_text(exercise: Exercise, text: str) -> MapAnswer:
-    if is_map(text) or _AXIOM.match(text) or not exercise.given:
+    if cells_notation(text) == "map" or _AXIOM.match(text) or not exercise.given:
         whole = read_map(text)
         return MapAnswer(whole, whole.productions)
     given = read_map(exercise.given).productions
     own = tuple(each for each in read_map(f"{text}\n{exercise.given}").productions if each not in given)
     if not own:
-        raise ModelValueError(
-            gettext("There is no production here that the question does not give"),
-            hint=gettext("Write it as: A -> B[-A][+A]B."),
-        )
+        raise ModelValueError(reply("system.not_given"), hint=reply("map.form"))
     return with_given(exercise, own)
 
 
@@ -102,7 +96,6 @@ def _walls_of(found: Map) -> Counter[tuple[str, bool]]:
 
 
 def _graph(found: Map) -> nx.Graph[tuple[str, int]]:
-    """Walls, vertices and cells, each joined to those that it touches."""
     graph: nx.Graph[tuple[str, int]] = nx.Graph()
     for number, wall in enumerate(counted(found.walls)):
         graph.add_node(("wall", number), kind=(wall.label, wall.directed))
@@ -134,18 +127,13 @@ def _first_step_apart(exercise: Exercise, mine: MapAnswer, wanted: MapAnswer) ->
 
 def _steps_right(exercise: Exercise, mine: MapAnswer, wanted: MapAnswer) -> tuple[int, int]:
     """How many steps are right in a row, of those that are not right without the rules that were typed."""
-    untyped = MapAnswer(
-        MapSystem(
-            wanted.system.axiom, read_map(exercise.given).productions if exercise.given else (), sphere=wanted.system.sphere
-        ),
-        (),
-    )
+    rules = read_map(exercise.given).productions if exercise.given else ()
+    untyped = MapAnswer(MapSystem(wanted.system.axiom, rules, sphere=wanted.system.sphere), ())
     given = _agreeing_steps(exercise, untyped, wanted)
     return max(_agreeing_steps(exercise, mine, wanted) - given, 0), exercise.steps - given
 
 
 def _agreeing_steps(exercise: Exercise, mine: MapAnswer, wanted: MapAnswer) -> int:
-    """Up to which step maps are the same."""
     apart = _first_step_apart(exercise, mine, wanted)
     return exercise.steps if apart is None else max(apart - 1, 0)
 
@@ -156,23 +144,16 @@ def _agreeing_steps(exercise: Exercise, mine: MapAnswer, wanted: MapAnswer) -> i
 def _difference(exercise: Exercise, mine: MapAnswer, wanted: MapAnswer) -> Difference:
     step = _first_step_apart(exercise, mine, wanted)
     if not step:
-        return Difference(gettext("Look at the first cell: it is not yet the one with which the development begins."))
+        return Difference(reply("map.first_cell"))
     own, other = develop(mine.system, step)[step], develop(wanted.system, step)[step]
     mine_cells, wanted_cells = cells_of(own), cells_of(other)
     likeness = (mine_cells & wanted_cells).total() / max(mine_cells.total(), wanted_cells.total())
-    said = (
-        _in_words(step, own, other)
-        if _has_rule(mine.system)
-        else gettext(
-            "None of your rules is for a wall of the first cell, {walls}. Letters must be the same, with an arrow or without.",
-            walls=" ".join(map(str, mine.system.axiom)),
-        )
-    )
-    return Difference(said, likeness)
+    if not _has_rule(mine.system):
+        return Difference(reply("map.no_rule", walls=" ".join(map(str, mine.system.axiom))), likeness)
+    return Difference(_in_words(step, own, other), likeness)
 
 
 def _has_rule(system: MapSystem) -> bool:
-    """Whether any wall of the first cell is replaced."""
     replaced = {(rule.predecessor.label, bool(rule.predecessor.arrow)) for rule in system.productions}
     return any((edge.label, bool(edge.arrow)) in replaced for edge in system.axiom)
 
@@ -180,25 +161,11 @@ def _has_rule(system: MapSystem) -> bool:
 def _in_words(step: int, own: Map, other: Map) -> str:
     many = len(own.cells)
     if many != len(other.cells):
-        has = ngettext(
-            "At step {step} your map has {count} cell.",
-            "At step {step} your map has {count} cells.",
-            many,
-            step=step,
-            count=many,
-        )
-        return f"{has} {gettext('That is not the right number. Which two markers match in a cell, and which do not?')}"
+        return f"{reply('map.cells', number=many, step=step, count=many)} {reply('map.wrong_number')}"
     strange = next((cell for cell in cell_words(own) if cell not in cells_of(other)), None)
     if strange is None:
-        return gettext(
-            "At step {step} your cells have the right walls, but other neighbours. Where do the new walls begin?", step=step
-        )
-    return gettext(
-        "At step {step} the number of cells is right. But one of your cells has, clockwise, the walls {walls}. "
-        "Follow them back: from which part of your rule does each of them come?",
-        step=step,
-        walls=" ".join(map(str, strange)),
-    )
+        return reply("map.neighbours", step=step)
+    return reply("map.strange_cell", step=step, walls=" ".join(map(str, strange)))
 
 
 def _honest(_: Exercise, mine: MapAnswer, __: MapAnswer) -> bool:
@@ -207,17 +174,7 @@ def _honest(_: Exercise, mine: MapAnswer, __: MapAnswer) -> bool:
 
 
 def _praise(exercise: Exercise, _: MapAnswer, __: MapAnswer) -> str:
-    return gettext("The maps of all steps from 0 to {last} agree.", last=exercise.steps)
+    return reply("map.agree", last=exercise.steps)
 
 
-MAP = AnswerKind(
-    'rules for walls, as a text between """ and """',
-    _read,
-    _same,
-    _difference,
-    _honest,
-    _praise,
-    _alike,
-    _steps_right,
-    "Right: {right} of {all} steps.",
-)
+MAP = AnswerKind(_read, _difference, _same, _honest, _praise, _alike, _steps_right)

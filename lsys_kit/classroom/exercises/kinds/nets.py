@@ -10,12 +10,12 @@ from itertools import pairwise
 
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
-from lsys_kit.classroom.exercises.typed.text import ARROW, quoted, text_answer
+from lsys_kit.classroom.exercises.replies import reply
+from lsys_kit.classroom.exercises.typed import ARROW, quoted, text_answer
 from lsys_kit.derivation.petri.net import Stages
 from lsys_kit.derivation.petri.stages import stages
 from lsys_kit.errors import ModelLimitError, ModelSyntaxError
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.translation import gettext, ngettext
 
 MOST_TRANSITIONS = 60
 """The most transitions of a net that is compared."""
@@ -69,29 +69,21 @@ def read_net(text: str) -> Net:
     start: Counter[str] | None = None
     lines = [line for part in _BETWEEN.split(text) for line in _single(part) if not line.startswith("besides:")]
     if len(lines) > MOST_TRANSITIONS:
-        raise ModelLimitError(
-            gettext("The net has more than {most} transitions", most=MOST_TRANSITIONS), limit=MOST_TRANSITIONS
-        )
+        raise ModelLimitError(reply("net.too_many", most=MOST_TRANSITIONS), limit=MOST_TRANSITIONS)
     for line in lines:
         marked, arrow = _START.match(line), _ARROW.search(line)
         place = line[: arrow.start()].strip() if arrow else ""
         if marked:
             start = _counted(marked["places"].replace(",", "+"), text)
         elif arrow and place and not _APART.search(place):
-            firings.append(_firing(place, line[arrow.end() :], text))
+            behind = line[arrow.end() :]
+            terms = _TERMS.search(behind)
+            made = _counted(behind[: terms.start()] if terms else behind, text)
+            firings.append(Firing(place, _sorted(made), " ".join(terms[0].split()) if terms else ""))
         else:
             at = text.find(line)
-            raise ModelSyntaxError(
-                gettext("This is no transition"), text, at, at + len(line), gettext("Write it as: A -> B + 2 C.")
-            )
+            raise ModelSyntaxError(reply("net.no_transition"), text, at, at + len(line), reply("net.form"))
     return Net(tuple(firings), None if start is None else _sorted(start))
-
-
-def _firing(place: str, behind: str, text: str) -> Firing:
-    """The transition that empties a place, given what stands behind its arrow."""
-    terms = _TERMS.search(behind)
-    made = behind[: terms.start()] if terms else behind
-    return Firing(place, _sorted(_counted(made, text)), " ".join(terms[0].split()) if terms else "")
 
 
 def _single(line: str) -> Iterator[str]:
@@ -108,20 +100,13 @@ def _single(line: str) -> Iterator[str]:
 
 
 def _counted(made: str, text: str) -> Counter[str]:
-    """How many tokens are put into each place."""
     found: Counter[str] = Counter()
     for part in re.split(r"[+,]", _JOINED.sub("+", made)) if made.strip() not in ("", "ε", "*", "nothing") else ():
         part = part.strip()
         read = list(_PART.finditer(part))
         if "".join(each[0] for each in read) != part or not read or _ARROW.search(part):
             at = max(text.find(part), 0)
-            raise ModelSyntaxError(
-                gettext('"{text}" is no place', text=quoted(part)),
-                text,
-                at,
-                at + len(part),
-                gettext("Write it as: A -> B + 2 C."),
-            )
+            raise ModelSyntaxError(reply("net.no_place", text=quoted(part)), text, at, at + len(part), reply("net.form"))
         for each in read:
             found[each["place"]] += int(each["copies"][:6] or 1)
     return found
@@ -137,7 +122,7 @@ def _read(exercise: Exercise, answer: object) -> Net:
         answer = stages(answer)
     if isinstance(answer, Stages):
         return net_of(answer, with_start)
-    return read_net(text_answer(answer, gettext("A net"), '"A -> B + 2 C"'))
+    return read_net(text_answer(answer, reply("net.what"), '"A -> B + 2 C"'))
 
 
 def isomorphic(mine: Net, wanted: Net) -> bool:
@@ -184,64 +169,20 @@ def _transitions_right(_: Exercise, mine: Net, wanted: Net) -> tuple[int, int]:
 def _difference(_: Exercise, mine: Net, wanted: Net) -> Difference:
     right, all = _transitions_right(_, mine, wanted)
     likeness, near = right / all, len(wanted.firings) > 2 and right >= len(wanted.firings) - 1
-    own, other = len(set(_places(mine))), len(set(_places(wanted)))
-    if own != other:
-        return Difference(
-            ngettext(
-                "Your net has {number} place, which is too many: each stage has one place.",
-                "Your net has {number} places, which is too many: each stage has one place.",
-                own,
-            )
-            if own > other
-            else ngettext(
-                "Your net has {number} place, which is too few: each stage has one place.",
-                "Your net has {number} places, which is too few: each stage has one place.",
-                own,
-            ),
-            likeness,
-            near,
-        )
-    if len(mine.firings) != len(wanted.firings):
-        return Difference(
-            ngettext(
-                "Your net has {number} transition, which is too many.",
-                "Your net has {number} transitions, which is too many.",
-                len(mine.firings),
-            )
-            if len(mine.firings) > len(wanted.firings)
-            else ngettext(
-                "Your net has {number} transition, which is too few.",
-                "Your net has {number} transitions, which is too few.",
-                len(mine.firings),
-            ),
-            likeness,
-            near,
-        )
+    for what, (own, asked) in {
+        "places": [len({*_places(net)}) for net in (mine, wanted)],
+        "transitions": [len(net.firings) for net in (mine, wanted)],
+    }.items():
+        if own != asked:
+            return Difference(reply(f"net.{what}_too_{'many' if own > asked else 'few'}", number=own), likeness, near)
     if wanted.start is not None and isomorphic(Net(mine.firings), Net(wanted.firings)):
-        return Difference(
-            gettext(
-                "The places and transitions are right; look at the tokens with which it starts (a line that begins with "
-                "start:)."
-            ),
-            1,
-            True,
-        )
+        return Difference(reply("net.start"), 1, True)
     odd = next((firing for firing in mine.firings if firing not in wanted.firings), mine.firings[0])
-    return Difference(
-        gettext(
-            "Look at the transition that empties {place}: into which places does it put tokens, and how many?", place=odd.place
-        ),
-        likeness,
-        near,
-    )
+    return Difference(reply("net.transition", place=odd.place), likeness, near)
 
 
-NET = AnswerKind(
-    "transitions, a line each, as a text",
-    _read,
-    _same,
-    _difference,
-    lambda _, own, wanted: 2 * len(own.firings) >= len(wanted.firings),
-    parts_right=_transitions_right,
-    parts_said="Right: {right} of {all} transitions.",
-)
+def _honest(_: Exercise, mine: Net, wanted: Net) -> bool:
+    return 2 * len(mine.firings) >= len(wanted.firings)
+
+
+NET = AnswerKind(_read, _difference, _same, _honest, parts_right=_transitions_right)

@@ -10,37 +10,23 @@ from typing import Any
 from lsys_kit.classroom.exercises.asked import asked_steps, right_history, what_is_asked
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference, first_difference, one_apart
-from lsys_kit.classroom.exercises.typed.numbers import parts, typed_number
-from lsys_kit.classroom.exercises.typed.text import quoted
-from lsys_kit.classroom.exercises.typed.units import UNITS, converted, means_the_same, names_of
+from lsys_kit.classroom.exercises.replies import reply
+from lsys_kit.classroom.exercises.typed import UNITS, WORDS, converted, means_the_same, names_of, parts, quoted, typed_number
 from lsys_kit.errors import LSystemError, ModelNameError, ModelValueError, quotable
 from lsys_kit.notation.model.arithmetic import Value, number_text
 from lsys_kit.notation.model.expressions import Function, function_of
 from lsys_kit.notation.read import checked_expression
-from lsys_kit.translation import gettext, ngettext
+from lsys_kit.translation import gettext
 
 FORMULA = re.compile(r"\{([^{}]+)\}")
 """A formula in a reply, of which the value is shown."""
 MOST_APART = 10
 """How many times too large or too small a number may be that counts as a try."""
-_FILLING_WORDS = (
-    "a an about after again all also altogether answer approx approximately are around at be ca circa exactly follow for has "
-    "have i in is it its length long my number of on roughly so that the then there they this thus together total we you "
-    "also antwort das der die ein eine er es etwa genau gibt hat ich insgesamt ist man nach rund sie sind ungefähr zusammen"
-)
-_FILLING = frozenset(_FILLING_WORDS.split())
-"""Words that may stand around any number."""
-_DOUBTFUL_WORDS = (
-    "above almost below between but either except fewer least less maybe more most never nor not or over than under "
-    "until without außer bis fast höchstens kaum kein keine knapp mehr mindestens nicht oder ohne unter vielleicht weniger "
-    "zwischen über"
-)
-_DOUBTFUL = frozenset(_DOUBTFUL_WORDS.split())
-"""Words by which it is another number, or none."""
+_FILLING, _DOUBTFUL = (frozenset(WORDS[kind].split()) for kind in ("filling", "doubtful"))
+"""Words that may stand around any number, and words by which it is another number, or none."""
 
 
 def _words_of(exercise: Exercise) -> frozenset[str]:
-    """The words of a question, without the s of several."""
     text = f"{exercise.question} {exercise.unit} {gettext(exercise.unit)} {' '.join(exercise.symbols)}".lower()
     return frozenset(word.removesuffix("s") for word in re.findall(r"[^\W\d_]+|[°%]", text))
 
@@ -58,11 +44,11 @@ def _is_in_place(exercise: Exercise, word: str) -> bool:
 
 def _read_number(exercise: Exercise, answer: object) -> Value:
     found = typed_number(answer, _asks_for_decimals(exercise, answer))
-    odd = next((word for word in (*found.before, *found.after) if word.lower() in _DOUBTFUL), "")
-    if odd:
-        raise ModelValueError(gettext("One number is needed"), hint=gettext('Write it alone, as in "21".'))
+    words = (*found.before, *found.after)
+    if any(word.lower() in _DOUBTFUL for word in words):
+        raise ModelValueError(reply("number.one_needed"), hint=reply("number.alone"))
     unit = next((word for word in found.after[:1] if word.lower() in UNITS), "")
-    odd = next((word for word in (*found.before, *found.after) if word != unit and not _is_in_place(exercise, word)), "")
+    odd = next((word for word in words if word != unit and not _is_in_place(exercise, word)), "")
     if odd:
         raise _other_unit(exercise, odd)
     if not unit and found.of_pi and exercise.unit.lower() in names_of("degrees"):
@@ -71,7 +57,6 @@ def _read_number(exercise: Exercise, answer: object) -> Value:
 
 
 def _in_the_unit(exercise: Exercise, number: Value, unit: str) -> Value:
-    """A number in the unit that the question asks for."""
     in_the_text = exercise.kind == "table" and bool(names_of(unit) & {*_words_of(exercise), *exercise.question.lower().split()})
     if exercise.unit.lower() in names_of(unit) or (in_the_text and not exercise.unit):
         return number
@@ -85,10 +70,8 @@ def _in_the_unit(exercise: Exercise, number: Value, unit: str) -> Value:
 
 def _other_unit(exercise: Exercise, word: str) -> ModelNameError:
     return ModelNameError(
-        gettext('"{unit}" is not the unit that the question asks for', unit=quotable(word)),
-        hint=gettext("Its unit is: {unit}.", unit=gettext(exercise.unit))
-        if exercise.unit
-        else gettext("Write the number alone."),
+        reply("number.other_unit", unit=quotable(word)),
+        hint=reply("number.its_unit", unit=gettext(exercise.unit)) if exercise.unit else reply("number.without_unit"),
     )
 
 
@@ -97,10 +80,7 @@ def _asks_for_decimals(exercise: Exercise, answer: object) -> bool:
     whole, point, _ = exercise.solution.strip().lstrip("+-").partition(".")
     decimals = bool(exercise.tolerance or point) and exercise.kind == "number"
     if decimals and isinstance(answer, str) and whole.isdigit() and len(whole) > 3 and re.search(r"\d,\d{3}(?!\d)", answer):
-        raise ModelValueError(
-            gettext('The comma in "{answer}" may stand before decimals or between thousands', answer=quoted(answer)),
-            hint=gettext("Write a point, or nothing."),
-        )
+        raise ModelValueError(reply("number.comma", answer=quoted(answer)), hint=reply("number.point"))
     return decimals
 
 
@@ -129,20 +109,14 @@ def same_number(exercise: Exercise, own: Value, wanted: Value) -> bool:
 def _number_difference(exercise: Exercise, number: Value, solution: Value) -> Difference:
     shown = f"{number:.10g}" if isinstance(number, float) else number_text(number)
     measured = f" {gettext(exercise.unit)}" if exercise.unit.lower() in UNITS else ""
-    said = gettext("{number} is not the number that is asked for.", number=f"{shown}{measured}")
+    said = reply("number.not_asked_for", number=f"{shown}{measured}")
     if "contrary" in exercise.expects and not 0 <= number <= 1:
-        return Difference(f"{said} {gettext('A probability lies between 0 and 1.')}")
+        return Difference(f"{said} {reply('number.probability')}")
     counted = (exercise.unit and exercise.unit.lower() not in UNITS) or what_is_asked(exercise)
     if counted and isinstance(solution, int) and (number != int(number) or number < 0):
-        whole = (
-            gettext("What is counted is a whole number, and not less than 0.")
-            if number < 0
-            else gettext("What is counted is a whole number.")
-        )
-        return Difference(f"{said} {whole}")
-    close = bool(exercise.tolerance) and _distance(number, solution) <= 3 * exercise.tolerance
-    if close:
-        return Difference(f"{said} {gettext('It is close: was something rounded on the way?')}", 1, True)
+        return Difference(f"{said} {reply('number.not_negative' if number < 0 else 'number.whole')}")
+    if exercise.tolerance and _distance(number, solution) <= 3 * exercise.tolerance:
+        return Difference(f"{said} {reply('number.close')}", 1, True)
     return Difference(f"{said} {with_values(exercise.otherwise, number) or _try_small(exercise)}".rstrip())
 
 
@@ -178,7 +152,7 @@ def _try_small(exercise: Exercise) -> str:
     if what_is_asked(exercise) not in ("length", "count", "strokes") or exercise.steps < 4:
         return ""
     values = right_history(exercise).values(exercise, 2)
-    return gettext("Try your way on step 2: does it give {number} there?", number=values[2])
+    return reply("number.small_step", number=values[2])
 
 
 def _honest_number(_: Exercise, number: Value, solution: Value) -> bool:
@@ -188,14 +162,14 @@ def _honest_number(_: Exercise, number: Value, solution: Value) -> bool:
     return bool((number > 0) == (solution > 0) and number and wanted <= MOST_APART * size and size <= MOST_APART * wanted)
 
 
-NUMBER = AnswerKind("number", _read_number, same_number, _number_difference, _honest_number)
+NUMBER = AnswerKind(_read_number, _number_difference, same_number, _honest_number)
 
 
 # Rows and tables
 
 
 def _read_table(exercise: Exercise, answer: object) -> tuple[Value, ...]:
-    found = [part for part in parts(answer, gettext("Numbers")) if not _is_a_word_in_place(exercise, part)]
+    found = [part for part in parts(answer, reply("table.what")) if not _is_a_word_in_place(exercise, part)]
     return tuple(_read_number(exercise, part) for part in found)
 
 
@@ -212,56 +186,32 @@ def _same_table(exercise: Exercise, own: tuple[Value, ...], wanted: tuple[Value,
 
 
 def _numbers_right(exercise: Exercise, own: tuple[Value, ...], wanted: tuple[Value, ...]) -> tuple[int, int]:
-    """How many numbers are right in their places."""
     return sum(same_number(exercise, a, b) for a, b in zip(own, wanted, strict=False)), max(len(own), len(wanted))
 
 
 def _table_difference(exercise: Exercise, own: tuple[Value, ...], solution: tuple[Value, ...]) -> Difference:
-    at = next(
-        (i for i, (a, b) in enumerate(zip(own, solution, strict=False)) if not same_number(exercise, a, b)),
-        min(len(own), len(solution)),
-    )
-    likeness = at / max(len(own), len(solution), 1)
-    count = "" if len(own) == len(solution) else _count(len(own), len(solution))
-    if at == min(len(own), len(solution)):
-        agree = gettext("As far as both go they agree.")
-        return Difference(f"{count} {agree}".lstrip(), likeness, one_apart(own, solution))
-    so_far = gettext("The first {number} are right.", number=at) if at > 1 else ""
-    said = " ".join(filter(None, (count, so_far, _look_at(exercise, at, number_text(own[at])))))
-    return Difference(said, likeness, one_apart(own, solution))
-
-
-def _count(own: int, asked: int) -> str:
-    return ngettext(
-        "You have {number} number, and {asked} are asked for.",
-        "You have {number} numbers, and {asked} are asked for.",
-        own,
-        asked=asked,
-    )
+    pairs = zip(own, solution, strict=False)
+    last = min(len(own), len(solution))
+    at = next((i for i, (a, b) in enumerate(pairs) if not same_number(exercise, a, b)), last)
+    said = [] if len(own) == len(solution) else [reply("table.count", number=len(own), asked=len(solution))]
+    if at == last:
+        said.append(reply("table.agree"))
+    else:
+        said += [reply("table.first_right", number=at)] if at > 1 else []
+        said.append(_look_at(exercise, at, number_text(own[at])))
+    return Difference(" ".join(said), at / max(len(own), len(solution), 1), one_apart(own, solution))
 
 
 def _look_at(exercise: Exercise, at: int, own: str) -> str:
-    """Where the first wrong number of a table stands."""
-    step = _step_of(exercise, at)
-    if step is None:
-        return gettext("Look at number {at}: you have {number}.", at=at + 1, number=own)
-    return gettext("Look at number {at}, that of step {step}: you have {number}.", at=at + 1, step=step, number=own)
+    steps = asked_steps(exercise) if what_is_asked(exercise) in ("lengths", "counts") and not exercise.symbols else ()
+    if at < len(steps):
+        return reply("table.number_of_step", at=at + 1, step=steps[at], number=own)
+    return reply("table.number", at=at + 1, number=own)
 
 
-def _step_of(exercise: Exercise, at: int) -> int | None:
-    if what_is_asked(exercise) in ("lengths", "counts") and not exercise.symbols and at < len(asked_steps(exercise)):
-        return asked_steps(exercise)[at]
-    return None
+def _honest_table(_: Exercise, own: tuple[Value, ...], solution: tuple[Value, ...]) -> bool:
+    begun = 2 * len(own) >= len(solution) and first_difference(own, solution) > 0
+    return begun or (len(own) == len(solution) and any(own))
 
 
-TABLE = AnswerKind(
-    "numbers, in order, as a text or a list",
-    _read_table,
-    _same_table,
-    _table_difference,
-    lambda exercise, own, solution: (
-        (2 * len(own) >= len(solution) and first_difference(own, solution) > 0) or (len(own) == len(solution) and any(own))
-    ),
-    parts_right=_numbers_right,
-    parts_said="Right: {right} of {all} numbers.",
-)
+TABLE = AnswerKind(_read_table, _table_difference, _same_table, _honest_table, parts_right=_numbers_right)

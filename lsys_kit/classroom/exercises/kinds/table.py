@@ -6,29 +6,22 @@ from collections.abc import Mapping
 from typing import Any
 
 from lsys_kit.classroom.exercises.exercise import Exercise
-from lsys_kit.classroom.exercises.kinds.choices import CHOICE, LINE, SYMBOL
-from lsys_kit.classroom.exercises.kinds.drawings import DRAWING
-from lsys_kit.classroom.exercises.kinds.expressions import EXPRESSION
+from lsys_kit.classroom.exercises.kinds import choices, drawings, expressions, maps, nets, numbers, systems, words
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind
-from lsys_kit.classroom.exercises.kinds.maps import MAP
-from lsys_kit.classroom.exercises.kinds.nets import NET
-from lsys_kit.classroom.exercises.kinds.numbers import NUMBER, TABLE
-from lsys_kit.classroom.exercises.kinds.systems import SYSTEM
-from lsys_kit.classroom.exercises.kinds.words import WORD, WORDS
 
 ANSWER_KINDS: Mapping[str, AnswerKind] = {
-    "word": WORD,
-    "words": WORDS,
-    "number": NUMBER,
-    "table": TABLE,
-    "choice": CHOICE,
-    "symbol": SYMBOL,
-    "line": LINE,
-    "system": SYSTEM,
-    "map": MAP,
-    "expression": EXPRESSION,
-    "drawing": DRAWING,
-    "net": NET,
+    "word": words.WORD,
+    "words": words.WORDS,
+    "number": numbers.NUMBER,
+    "table": numbers.TABLE,
+    "choice": choices.CHOICE,
+    "symbol": choices.SYMBOL,
+    "line": choices.LINE,
+    "system": systems.SYSTEM,
+    "map": maps.MAP,
+    "expression": expressions.EXPRESSION,
+    "drawing": drawings.DRAWING,
+    "net": nets.NET,
 }
 """The kinds of answers."""
 

@@ -9,7 +9,8 @@ from contextlib import suppress
 from lsys_kit.classroom.exercises.asked import Derived, asked_steps, asked_system, right_history
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference, first_difference, one_apart
-from lsys_kit.classroom.exercises.typed.text import ARROW, keyboard_text, text_answer, unlabelled, unquoted, without_commas
+from lsys_kit.classroom.exercises.replies import reply
+from lsys_kit.classroom.exercises.typed import ARROW, keyboard_text, text_answer, unlabelled, unquoted, without_commas
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.errors import LSystemError, ModelNameError
@@ -18,7 +19,6 @@ from lsys_kit.notation.model.modules import Module, Pattern
 from lsys_kit.notation.model.system import LSystem, symbols
 from lsys_kit.notation.read import read_word
 from lsys_kit.notation.registry import DIALECTS
-from lsys_kit.translation import gettext, ngettext
 
 Modules = tuple[Module, ...]
 _MISTAKABLE = {"+": "-", "-": "+", "[": "(", "]": ")", "(": "[", ")": "]", "F": "f", "f": "F"}
@@ -53,7 +53,7 @@ def read_modules(system: LSystem, answer: object) -> Modules:
         return tuple(answer)
     if isinstance(answer, list | tuple) and all(isinstance(part, str | Module) for part in answer):
         answer = " ".join(map(str, answer))
-    text = _unlabelled(system, text_answer(answer, gettext("A word"), '"al br"'))
+    text = _unlabelled(system, text_answer(answer, reply("word.what"), '"al br"'))
     bare = _BRACES.sub(lambda found: found[1], text)
     bare = bare if system.notation == "plant-string" else _TUPLE.sub(r"\1", bare)
     plain = bare if system.notation == "plant-string" else without_commas(bare)
@@ -101,8 +101,8 @@ def _of_the_system(system: LSystem, text: str, word: Modules) -> Modules:
     allowed = {*known, *(_MISTAKABLE[symbol] for symbol in known if symbol in _MISTAKABLE)}
     for module in word:
         if module.symbol not in allowed:
-            hint = suggestion(module.symbol, known) or gettext("The symbols are: {symbols}.", symbols=", ".join(known))
-            said = gettext('The question has no symbol "{symbol}"', symbol=module.symbol)
+            hint = suggestion(module.symbol, known) or reply("word.symbols", symbols=", ".join(known))
+            said = reply("word.unknown", symbol=module.symbol)
             raise ModelNameError(said, text, *span(module), hint)
     return word
 
@@ -113,26 +113,17 @@ def _read_word(exercise: Exercise, answer: object) -> Modules:
 
 def _word_difference(exercise: Exercise, word: Modules, solution: Modules) -> Difference:
     at = first_difference(word, solution)
-    if at == len(solution):
-        message = gettext("Up to position {right} your word is right; the modules behind it are too many.", right=at)
-    else:
-        message = f"{_parting(word, at)} {_mother(exercise, at)}".rstrip()
-    return Difference(message, at / max(len(solution), len(word), 1), one_apart(word, solution), at_a_place=True)
+    said = reply("word.too_many", right=at) if at == len(solution) else f"{_parting(word, at)} {_mother(exercise, at)}".rstrip()
+    return Difference(said, at / max(len(solution), len(word), 1), one_apart(word, solution), at_a_place=True)
 
 
 def _parting(word: Modules, at: int) -> str:
-    """Where a word first differs, and what stands there."""
     if at >= len(word):
-        return gettext("Up to position {right} your word is right; at position {at} your word ends.", right=at, at=at + 1)
-    if not at:
-        return gettext("At position 1 you have {module}.", module=word[0])
-    return gettext(
-        "Up to position {right} your word is right; at position {at} you have {module}.", right=at, at=at + 1, module=word[at]
-    )
+        return reply("word.ends", right=at, at=at + 1)
+    return reply("word.differs" if at else "word.first", right=at, at=at + 1, module=word[at])
 
 
 def _mother(exercise: Exercise, at: int) -> str:
-    """Which module of the word before made the module at a position."""
     if not exercise.system or not exercise.steps:
         return ""
     words = right_history(exercise).words
@@ -141,9 +132,7 @@ def _mother(exercise: Exercise, at: int) -> str:
     parent, before = origins.parents[at], words[exercise.steps - 1]
     size = origins.sizes[parent] if origins.sizes else 1
     where = {"modules": before[parent : parent + size], "at": parent + 1, "last": parent + size, "step": exercise.steps - 1}
-    if size == 1:
-        return gettext("Look at what becomes of the {modules} at position {at} of step {step}.", **where)
-    return gettext("Look at what becomes of the {modules} at positions {at} to {last} of step {step}.", **where)
+    return reply("word.mother" if size == 1 else "word.mothers", **where)
 
 
 def _honest_word(exercise: Exercise, word: Modules, solution: Modules) -> bool:
@@ -151,9 +140,7 @@ def _honest_word(exercise: Exercise, word: Modules, solution: Modules) -> bool:
     return 2 * len(word) >= len(solution) and tuple(map(str, word)) != tuple(map(str, axiom))
 
 
-WORD = AnswerKind(
-    "word, as a text in quotation marks", _read_word, lambda _, a, b: bool(a == b), _word_difference, _honest_word
-)
+WORD = AnswerKind(_read_word, _word_difference, honest=_honest_word)
 
 
 # Several words
@@ -168,7 +155,7 @@ def _separate(system: LSystem, answer: object) -> Iterator[object]:
     if isinstance(answer, Derivation | list | tuple):
         yield from answer
         return
-    text = _OUTER.sub(r"\1", unquoted(re.sub(ARROW, ",", text_answer(answer, gettext("Words"), '"a, ab, aba"'))))
+    text = _OUTER.sub(r"\1", unquoted(re.sub(ARROW, ",", text_answer(answer, reply("words.what"), '"a, ab, aba"'))))
     by_blanks = all(len(symbol) == 1 and symbol.isalpha() for symbol in symbols(system))
     separator = next((mark for mark in ("\n", ";", ",", " ") if mark in text and (mark != " " or by_blanks)), "\n")
     for part in text.split(separator):
@@ -178,43 +165,29 @@ def _separate(system: LSystem, answer: object) -> Iterator[object]:
 
 def _words_difference(exercise: Exercise, words: Sequence[Modules], solution: Sequence[Modules]) -> Difference:
     at = first_difference(words, solution)
-    if len(words) != len(solution):
-        if at == min(len(words), len(solution)):
-            return Difference(
-                f"{_count(len(words), len(solution))} {gettext('As far as both go they agree.')}",
-                at / len(solution),
-                len(solution) > 3 and abs(len(words) - len(solution)) == 1,
-            )
-        return Difference(f"{_count(len(words), len(solution))} {_where(exercise, at)}", at / len(solution))
-    inside = first_difference(words[at], solution[at])
-    return Difference(
-        f"{_where(exercise, at)} {gettext('There look at position {at}.', at=inside + 1)}",
-        at / len(solution),
-        at == len(solution) - 1 > 1,
-    )
-
-
-def _count(own: int, asked: int) -> str:
-    return ngettext(
-        "You have {number} word, and {asked} are asked for.",
-        "You have {number} words, and {asked} are asked for.",
-        own,
-        asked=asked,
-    )
+    likeness, where = at / len(solution), _where(exercise, at)
+    if len(words) == len(solution):
+        inside = reply("words.position", at=first_difference(words[at], solution[at]) + 1)
+        return Difference(f"{where} {inside}", likeness, at == len(solution) - 1 > 1)
+    count = reply("words.count", number=len(words), asked=len(solution))
+    if at < min(len(words), len(solution)):
+        return Difference(f"{count} {where}", likeness)
+    one_off = len(solution) > 3 and abs(len(words) - len(solution)) == 1
+    return Difference(f"{count} {reply('table.agree')}", likeness, one_off)
 
 
 def _where(exercise: Exercise, at: int) -> str:
     if not exercise.system or at >= len(asked_steps(exercise)):
-        return gettext("Word {at} is the first that differs.", at=at + 1)
-    return gettext("Word {at}, that of step {step}, is the first that differs.", at=at + 1, step=asked_steps(exercise)[at])
+        return reply("words.differs", at=at + 1)
+    return reply("words.differs_at_step", at=at + 1, step=asked_steps(exercise)[at])
 
 
-WORDS = AnswerKind(
-    "words, as a text in quotation marks, one a line",
-    _read_words,
-    lambda _, a, b: bool(a == b),
-    _words_difference,
-    lambda _, own, solution: 2 * len(own) >= len(solution),
-    parts_right=lambda _, own, solution: (first_difference(own, solution), max(len(own), len(solution))),
-    parts_said="Right: the first {right} of {all} words.",
-)
+def _words_right(_: Exercise, own: Sequence[Modules], solution: Sequence[Modules]) -> tuple[int, int]:
+    return first_difference(own, solution), max(len(own), len(solution))
+
+
+def _honest_words(_: Exercise, own: Sequence[Modules], solution: Sequence[Modules]) -> bool:
+    return 2 * len(own) >= len(solution)
+
+
+WORDS = AnswerKind(_read_words, _words_difference, honest=_honest_words, parts_right=_words_right)

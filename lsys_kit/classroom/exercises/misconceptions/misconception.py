@@ -1,13 +1,25 @@
-"""What a misconception is."""
+"""What a misconception is: what a reply says of it stands in `misconceptions.toml`, what it yields is said by functions.
+
+Each of them is decorated with the name of its misconception, and, where it is no function from an exercise to wrong answers,
+with the way in which it yields them: by what it makes of a system, of a step, of a formula. An answer has the form in which one
+to the exercise is read; where a misconception does not apply to a question there is none.
+"""
 
 from __future__ import annotations
 
+import tomllib
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import partial
+from importlib.resources import files
+from typing import Any, TypeAlias, TypeVar
 
-from lsys_kit.classroom.exercises.misconceptions.answers import WrongAnswers
+from lsys_kit.classroom.exercises.asked import History, answer_by
+from lsys_kit.classroom.exercises.exercise import Exercise
+from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS
 
-BY_DECLARATION = "a slip or an option that names it"
-"""To what a misconception applies that computes no answer."""
+WrongAnswers: TypeAlias = Callable[[Exercise], Iterator[Any]]
+Change = TypeVar("Change", bound=Callable[..., Any])
 
 
 @dataclass(frozen=True)
@@ -22,8 +34,8 @@ class Misconception:
         To which questions.
     do, but
         What it does, and how it is.
-    answers
-        The wrong answers that it yields to a question.
+    yields
+        From a question to the wrong answers, one way after another.
     near
         Whether such an answer is nearly right.
     on_request
@@ -36,7 +48,35 @@ class Misconception:
     applies: str
     do: str
     but: str
-    answers: WrongAnswers
+    yields: tuple[WrongAnswers, ...]
     near: bool = False
     on_request: bool = False
     faint: bool = False
+
+    def answers(self, exercise: Exercise) -> Iterator[Any]:
+        """The wrong answers that it yields to a question."""
+        for answers in self.yields:
+            yield from answers(exercise)
+
+
+DECLARED: Mapping[str, Mapping[str, Any]] = tomllib.loads((files(__package__) / "misconceptions.toml").read_text("utf-8"))
+"""What is said of each misconception, by its name."""
+YIELDS: Mapping[str, list[WrongAnswers]] = {name: [] for name in DECLARED}
+"""What each yields, as its functions are met."""
+
+
+def misconception(name: str, way: Callable[..., Iterator[Any]] | None = None, *given: object) -> Callable[[Change], Change]:
+    """A decorator of what a misconception yields to an exercise, or of what somebody with it changes in some way."""
+
+    def kept(change: Change) -> Change:
+        YIELDS[name].append(partial(way, change, *given) if way else change)
+        return change
+
+    return kept
+
+
+def by_history(exercise: Exercise, history: History) -> Iterator[Any]:
+    """The answer of somebody who has these words in mind."""
+    answer = answer_by(exercise, history)
+    if answer is not None:
+        yield ANSWER_KINDS[exercise.kind].read(exercise, answer) if exercise.kind in ("net", "drawing") else answer

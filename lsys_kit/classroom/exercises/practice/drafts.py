@@ -1,47 +1,85 @@
-"""What the makers of practice exercises share: random systems, and how a question shows them."""
+"""What the makers of practice exercises share: what a topic says, random systems, and how a question shows them."""
 
 from __future__ import annotations
 
 import re
+import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from importlib.resources import files
 from random import Random
 from string import ascii_uppercase
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from lsys_kit.classroom.exercises.asked import system_of
 from lsys_kit.classroom.exercises.exercise import Exercise, Option, Slip
+from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.translation import gettext
 from lsys_kit.worlds.derive import derive
 
+TOPICS: Mapping[str, Mapping[str, Any]] = tomllib.loads((files(__package__) / "topics.toml").read_text("utf-8"))
+"""What can be practised: what the exercises of each topic say, and the lesson that it goes with."""
+_AS_KEY: Mapping[str, Callable[[Any], Any]] = {"kind": str, "asks": str, "unit": str, "expects": tuple, "unlikely": tuple}
+"""Which of that are keys of exercises, and what becomes of them."""
 Rules: TypeAlias = Mapping[str, Sequence[str]]
 """For each letter what it becomes."""
-OF_OVERLAPS = ("all matches applied", "first match overlooked")
-OF_ORDER = ("daughters reversed", "plus and minus swapped", "pen up")
-OF_PICTURES = ("angle between strokes", "angle of the whole fork")
-OF_SILENT_LETTERS, OF_BRANCHES = ("letters vanish",), ("branches kept", "brackets dropped")
-"""Misconceptions that change nothing where productions do not overlap, where order does not count, where nothing is drawn,
-where every letter has a production, where there are no branches."""
+Number: TypeAlias = Fraction | int
 
 
 @dataclass(frozen=True)
-class Topic:
-    """A kind of exercises that are made at random.
+class Draft:
+    """What the exercises of a topic say at a level: with values it becomes an exercise.
 
-    Attributes
-    ----------
-    title
-        What is practised.
-    lesson
-        The number of the lesson that it goes with.
-    draft
-        From a source of chance and a level to an exercise, which may be too easy, or None if there is none.
+    >>> draft = Draft({"kind": "number", "question": "How many {what}?", "hints": [], "replies": ["You guessed."]})
+    >>> draft.number(3, [4], what="cells").question, draft.number(3, [3]) is None
+    ('How many cells?', True)
+    >>> Draft({}).choice(Random(1), "a", [("a", "No.")]) is None
+    True
     """
 
-    title: str
-    lesson: int
-    draft: Callable[[Random, int], Exercise | None]
+    said: Mapping[str, Any]
+
+    def text(self, part: str, **values: object) -> str:
+        """A text in the chosen language, with its values."""
+        return gettext(self.said.get(part, ""), **values)
+
+    def exercise(
+        self, solution: object, keys: Mapping[str, Any] | None = None, after: str = "", listing: str = "", **values: object
+    ) -> Exercise:
+        """An exercise with further keys; they, too, are values for its texts, and `after` continues its explanation."""
+        keys = {**{key: _AS_KEY[key](self.said[key]) for key in _AS_KEY if key in self.said}, **(keys or {})}
+        values = {**keys, **values, "listing": quoted_lines(listing or keys.get("system", ""))}
+        return Exercise(
+            id="",
+            title="",
+            question=self.text("question", **values) + self.text("ends"),
+            solution=str(solution),
+            explanation=self.text("explanation", **values) + after,
+            otherwise=self.text("otherwise"),
+            hints=tuple(map(gettext, self.said["hints"])),
+            **keys,
+        )
+
+    def number(self, right: Number, wrong: Sequence[Number], **values: Any) -> Exercise | None:
+        """A question for a number, with a reply to each wrong one; None where two of all these are the same."""
+        if len({right, *wrong}) <= len(wrong) or right <= 0:
+            return None
+        slips = tuple(Slip(str(each), gettext(says)) for each, says in zip(wrong, self.said["replies"], strict=True))
+        return self.exercise(right, {"slips": slips, **values.pop("keys", {})}, **values)
+
+    def choice(self, chance: Random, right: str, wrong: Sequence[tuple[str, str]], **values: Any) -> Exercise | None:
+        """A question with options in no order, of which each wrong one has its reply; None where two of them are the same."""
+        if len({right, *(each for each, _ in wrong)}) <= len(wrong):
+            return None
+        options = [Option(right), *(Option(each, says) for each, says in wrong)]
+        chance.shuffle(options)
+        letter = ascii_uppercase[[option.text for option in options].index(right)]
+        return self.exercise(letter, {"options": tuple(options)}, **values)
+
+
+Maker: TypeAlias = Callable[[Random, int, Draft], Exercise | None]
+"""From a source of chance, a level and what is said there to an exercise, which may be too easy, or None if there is none."""
 
 
 def random_rules(chance: Random, letters: Sequence[str], longest: int) -> Rules:
@@ -53,18 +91,13 @@ def random_rules(chance: Random, letters: Sequence[str], longest: int) -> Rules:
     return {letter: [chance.choice(letters) for _ in range(chance.randint(1, longest))] for letter in letters}
 
 
-def rules_text(rules: Rules) -> str:
-    """Productions in the kit's notation.
-
-    >>> rules_text({"a": ["a", "b"]})
-    'a -> a b'
-    """
-    return "\n".join(f"{letter} -> {' '.join(successor)}" for letter, successor in rules.items())
-
-
 def system_text(axiom: str, rules: Rules) -> str:
-    """A system in the kit's notation."""
-    return f"axiom: {axiom}\n{rules_text(rules)}"
+    """A system in the kit's notation.
+
+    >>> system_text("a", {"a": ["a", "b"]})
+    'axiom: a\\na -> a b'
+    """
+    return "\n".join([f"axiom: {axiom}", *(f"{letter} -> {' '.join(successor)}" for letter, successor in rules.items())])
 
 
 def quoted_lines(text: str) -> str:
@@ -88,39 +121,4 @@ def size_of(word: str) -> int:
 
 def derivation_text(words: Sequence[str]) -> str:
     """Words with their steps, for an explanation."""
-    return gettext("Step by step:") + "\n" + "\n".join(f"  {step}  {word}" for step, word in enumerate(words))
-
-
-def number_exercise(
-    question: str,
-    right: Fraction | int,
-    wrong: Sequence[tuple[Fraction | int, str]],
-    explanation: str,
-    hints: tuple[str, ...],
-    unit: str = "",
-) -> Exercise | None:
-    """A question for a number, with wrong answers and what is said of each; None where two of all these are the same.
-
-    >>> number_exercise("How many?", 3, [(3, "You guessed.")], "", ()) is None
-    True
-    """
-    if len({right, *(each for each, _ in wrong)}) <= len(wrong) or right <= 0:
-        return None
-    slips = tuple(Slip(str(each), says) for each, says in wrong)
-    return Exercise("", "", "number", question, str(right), explanation, hints, slips=slips, unit=unit)
-
-
-def choice_exercise(
-    chance: Random, question: str, right: str, wrong: Sequence[tuple[str, str]], explanation: str, hints: tuple[str, ...]
-) -> Exercise | None:
-    """A question with options in no order, of which each wrong one has its reply; None where two of them are the same.
-
-    >>> choice_exercise(Random(1), "Which?", "a", [("a", "No.")], "", ()) is None
-    True
-    """
-    if len({right, *(each for each, _ in wrong)}) <= len(wrong):
-        return None
-    options = [Option(right), *(Option(each, says) for each, says in wrong)]
-    chance.shuffle(options)
-    letter = ascii_uppercase[[option.text for option in options].index(right)]
-    return Exercise("", "", "choice", question, letter, explanation, hints, options=tuple(options))
+    return reply("practice.derivation") + "\n" + "\n".join(f"  {step}  {word}" for step, word in enumerate(words))

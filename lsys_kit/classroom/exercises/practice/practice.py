@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from random import Random
@@ -12,31 +11,13 @@ from lsys_kit.classroom.exercises.check import checked
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.judging import is_right_by_mistake, wrong_answers
 from lsys_kit.classroom.exercises.kinds.choices import listing
-from lsys_kit.classroom.exercises.practice.drafts import Topic
-from lsys_kit.classroom.exercises.practice.of_chance import OF_CHANCE
-from lsys_kit.classroom.exercises.practice.of_drawings import OF_DRAWINGS
-from lsys_kit.classroom.exercises.practice.of_languages import OF_LANGUAGES
-from lsys_kit.classroom.exercises.practice.of_numbers import OF_NUMBERS
-from lsys_kit.classroom.exercises.practice.of_plants import OF_PLANTS
-from lsys_kit.classroom.exercises.practice.of_space import OF_SPACE
-from lsys_kit.classroom.exercises.practice.of_time import OF_TIME
-from lsys_kit.classroom.exercises.practice.of_words import OF_WORDS
+from lsys_kit.classroom.exercises.practice.drafts import TOPICS, Draft
+from lsys_kit.classroom.exercises.practice.makers import MAKERS
 from lsys_kit.classroom.exercises.verdict import Verdict
 from lsys_kit.errors import ModelNameError, ModelValueError, quotable, require, whole_number
 from lsys_kit.notation.analysis.checks import suggestion
-from lsys_kit.translation import gettext, language
+from lsys_kit.translation import language
 
-TOPICS: Mapping[str, Topic] = {
-    **OF_WORDS,
-    **OF_NUMBERS,
-    **OF_CHANCE,
-    **OF_DRAWINGS,
-    **OF_PLANTS,
-    **OF_TIME,
-    **OF_SPACE,
-    **OF_LANGUAGES,
-}
-"""What can be practised."""
 LEVELS = 3
 """How many levels there are."""
 
@@ -140,11 +121,13 @@ def practice(topic: str, level: int = 1, seed: int = 0) -> Practice:
 def _made(topic: str, level: int, seed: int, _: str) -> Exercise:
     """The first sound exercise that chance yields, in the chosen language."""
     chance = Random(f"{topic}, {level}, {seed}")  # noqa: S311 (nothing secret depends on it)
+    said = TOPICS[topic]
+    draft = Draft({**said, **said.get(f"level_{level}", {})})
     with Task("No exercise was found"):
         while True:
             check_budget()
-            draft = TOPICS[topic].draft(chance, level)
-            named = draft and replace(draft, id=f"{topic}, level {level}, seed {seed}", title=gettext(TOPICS[topic].title))
+            made = MAKERS[topic](chance, level, draft)
+            named = made and replace(made, id=f"{topic}, level {level}, seed {seed}", title=draft.text("title"))
             if named is not None and is_sound(named):
                 return named
 

@@ -14,29 +14,52 @@ from __future__ import annotations
 
 import base64
 import json
+import math
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
 from lsys_kit.budget import Task, current, limits
-from lsys_kit.classroom.panel.books.drawing import drawing_entries, drawn_rows
-from lsys_kit.classroom.panel.books.growth_rate import growth_entry
 from lsys_kit.classroom.panel.books.net import Unfolding, net_entry, net_of
+from lsys_kit.classroom.panel.bundle import Data
+from lsys_kit.derivation.core.interpretation import interpretations
 from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.core.traits import traits_of
 from lsys_kit.derivation.derive import Derivation
+from lsys_kit.derivation.growth.growth import greatest_root, growth
 from lsys_kit.derivation.petri.stages import Stages
+from lsys_kit.derivation.timed.ages import age_model
 from lsys_kit.errors import LSystemError, ModelLimitError
 from lsys_kit.files import file_stem
-from lsys_kit.geometry.turtle.commands.mode import drawing_mode
+from lsys_kit.geometry.drawing import has_natural_colours
+from lsys_kit.geometry.filament import shapes_of
+from lsys_kit.geometry.turtle.commands import (
+    DrawingMode,
+    Instruction,
+    drawing_mode,
+    initial_colour,
+    initial_step,
+    instructions,
+    unknown_commands,
+)
+from lsys_kit.geometry.turtle.plane import PLANE_HANDLERS
+from lsys_kit.geometry.turtle.space import SPACE_HANDLERS
+from lsys_kit.geometry.turtle.surfaces import Surface, passed_over, surfaces_by_symbol
+from lsys_kit.geometry.turtle.turtle import label_text
 from lsys_kit.notation.model.arithmetic import number_text
+from lsys_kit.notation.model.modules import Module, flat
 from lsys_kit.notation.model.system import USUAL_STEPS, LSystem
+from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 from lsys_kit.notation.registry import dialect_named
 from lsys_kit.notation.write import as_written
+from lsys_kit.pictures.filaments import time_text
 from lsys_kit.pictures.nets.parts import steering_of
 from lsys_kit.pictures.style.labels import label_parts, values_text, visible
-from lsys_kit.pictures.style.palette import colours
+from lsys_kit.pictures.style.palette import CHOSEN, colours
 from lsys_kit.worlds.derive import derive
 
 MOST_MODULES, MOST_BYTES = 250_000, 1_900_000
@@ -67,43 +90,19 @@ def book(
     title: str = "",
     least: int = 0,
     unfold: Unfolding = False,
-) -> dict[str, Any]:
-    """The book of a system, ready to be written as JSON.
+) -> Data:
+    """The book of a system for new values of its constants, ready to be written as JSON; it holds a step at least, if that can
+    be reached. Symbols are unfolded in the stage diagram as in `stages`.
 
-    Parameters
-    ----------
-    system
-        Any L-system.
-    settings
-        New values for declared constants.
-    seed
-        The seed of the random numbers; by default the system's.
-    title
-        What the system is called.
-    least
-        A step that the book shall hold, if it can be reached.
-    unfold
-        The symbols that are unfolded in the stage diagram, as for `stages`.
+    Its entries are lists, dictionaries, texts and numbers. `end` says why there are no more steps, if something is in the way;
+    otherwise the last step is twice the number that the system asks for, and 10 at least.
 
-    Returns
-    -------
-    dict
-        Its entries are lists, dictionaries, texts and numbers. `end` says why there are no more steps, if something is in the
-        way; otherwise the last step is twice the number that the system asks for, and 10 at least.
-
-    Raises
-    ------
-    LSystemError
-        Not even the axiom can be derived or drawn.
-
-    Examples
-    --------
     >>> from lsys_kit.notation.read import read
     >>> made = book(read("axiom: a\\na -> ab\\nb -> a"))
     >>> made["steps"], made["axiom"], made["successors"], [text for *_, text in made["states"]]
     (10, [0], [[0, 1], [0]], ['a', 'b'])
     """
-    given: dict[str, Any] = dict(settings or {})
+    given: Data = dict(settings or {})
     with Task("The book was not finished"):
         derivation, end = _derived(system, given, seed, least)
         pages = _pages(derivation, end)
@@ -145,7 +144,7 @@ class _Pages:
     drawn: list[list[Any]] = field(default_factory=list)
 
 
-def _derived(system: LSystem, given: dict[str, Any], seed: int | None, least: int) -> tuple[Derivation, str]:
+def _derived(system: LSystem, given: Data, seed: int | None, least: int) -> tuple[Derivation, str]:
     """The derivation as far as a book may hold it, and why it ends earlier than it should; "" where it does not."""
     asked = first_step(system)
     most, seconds = min(MOST_MODULES, current().modules), current().seconds
@@ -170,7 +169,7 @@ def _pages(derivation: Derivation, end: str) -> _Pages:
     states, mode = derivation.states, drawing_mode(derivation.states.system)
     pages, size = _Pages(end=end), 0
     for step, length in enumerate(derivation.lengths):
-        new = sorted(set(_occurring(derivation, step)).difference(pages.numbers))
+        new = sorted(set(derivation.counts(step)).difference(pages.numbers))
         try:
             drawn = drawn_rows(states, new, mode)
         except LSystemError as error:
@@ -188,13 +187,7 @@ def _pages(derivation: Derivation, end: str) -> _Pages:
     return pages
 
 
-def _occurring(derivation: Derivation, step: int) -> Iterable[int]:
-    """The states of a step's word."""
-    return derivation.counts(step)
-
-
 def _size(states: States, new: Sequence[int], drawn: Sequence[object]) -> int:
-    """About how many bytes some states take in a book."""
     return len(json.dumps(drawn)) + sum(STATE_BYTES + 2 * len(str(states.modules[state])) for state in new)
 
 
@@ -222,11 +215,10 @@ def _labels(states: States, numbers: Iterable[int], net: Stages | None) -> tuple
 
 
 def _has_chance(states: States) -> bool:
-    """Whether the seed makes a difference."""
     return states.traits.stochastic or states.traits.random or any(rule.probability for rule in states.system.decomposition)
 
 
-def _table(states: States, numbers: Mapping[int, int]) -> dict[str, Any]:
+def _table(states: States, numbers: Mapping[int, int]) -> Data:
     """The successors of states that alone decide them, and the productions that are applied; nothing of states of the last step
     that lead out of the book."""
     rows = {state: row for state in numbers if (row := states.successors.get(state)) is not None and numbers.keys() >= {*row}}
@@ -236,7 +228,7 @@ def _table(states: States, numbers: Mapping[int, int]) -> dict[str, Any]:
     }
 
 
-def _history(derivation: Derivation, pages: _Pages) -> dict[str, Any]:
+def _history(derivation: Derivation, pages: _Pages) -> Data:
     """The words of all steps; for each module but those of the last step how many modules it becomes and by which production,
     and where productions replace several modules together, how many."""
     lookup = np.zeros(max(pages.numbers, default=0) + 1, np.int64)
@@ -263,3 +255,174 @@ def packed(numbers: np.ndarray[Any, Any]) -> dict[str, str]:
     least, most = int(numbers.min(initial=0)), int(numbers.max(initial=0))
     kind = np.promote_types(np.min_scalar_type(least), np.min_scalar_type(most)).newbyteorder("<")
     return {"type": f"{kind.kind}{kind.itemsize}", "data": base64.b64encode(numbers.astype(kind).tobytes()).decode()}
+
+
+BY_ANGLE = frozenset(("turn", "turn by mirrored angle", "turn back", "pitch", "roll"))
+"""The actions whose quantity is the angle."""
+GREATEST = 1e300
+"""Stands for what is infinite, which JSON has no number for: a turtle that bends by so much points straight down."""
+_TILDE = -1
+"""The number of a module that is in no word: beside it, the symbols of surfaces are commands."""
+
+
+def drawn_rows(states: States, numbers: Sequence[int], mode: DrawingMode) -> list[list[Any]]:
+    """For each of some states what is drawn.
+
+    In a filament its cells and walls as in `shapes_of`; for a turtle its calls, each an action, a factor and an addend, the
+    values of its module or 0, for a label what it says, and a surface or 0.
+
+    >>> from lsys_kit.notation.read import read
+    >>> states = States(read("axiom: F(2)+A"))
+    >>> drawn_rows(states, states.axiom, DrawingMode.PLANE)
+    [[['draw', 0, 2, [2], 0]], [['turn', 1, 0, 0, 0]], []]
+    """
+    if mode is DrawingMode.FILAMENT:
+        return [
+            [[None if math.isnan(number) else _plain(number) for number in shape] for shape in shapes]
+            for shapes in shapes_of(states, numbers).values()
+        ]
+    system, drawn = states.system, interpretations(states, numbers)
+    if any(module.symbol == "~" for module in system.modules):
+        drawn = {**drawn, _TILDE: (Module("~"),)}
+    handlers = PLANE_HANDLERS if mode is DrawingMode.PLANE else SPACE_HANDLERS
+    calls = instructions(drawn, system.turtle, system.angle)
+    known = surfaces_by_symbol(system)
+    return [[_call(each, known) for each in calls[state] if each.action in handlers] for state in numbers]
+
+
+def _call(instruction: Instruction, known: Mapping[str, Surface]) -> list[Any]:
+    action, factor, addend, values, symbol, surface = instruction
+    if action == "draw expected surface":
+        surface = symbol if symbol in known else ""
+    said = [label_text(values)] if action == "draw label" and values else [*map(_plain, values)]
+    return [action, _plain(factor), _plain(addend), said or 0, surface or 0]
+
+
+def _plain(number: float) -> float:
+    number = max(-GREATEST, min(GREATEST, number))
+    return int(number) if abs(number) < GREATEST and number == int(number) else number
+
+
+def drawing_entries(states: States, numbers: Sequence[int], drawn: list[list[Any]], last: int) -> Data:
+    """The entries of a book that say how it is drawn, given its states, what each is drawn as, and its last step."""
+    system, mode = states.system, drawing_mode(states.system)
+    if mode is DrawingMode.FILAMENT:
+        step = age_model(states).step
+        return {
+            "mode": "filament",
+            "cells": drawn,
+            "look": system.cells,
+            "time": None if step is None else float(step),
+            "times": [] if step is None else [time_text(step * number) for number in range(last + 1)],
+            "unknown": [],
+            "said": "",
+        }
+    unknown = (*unknown_commands(interpretations(states, numbers), system), *_not_surfaces(system))
+    return {
+        "mode": mode.name.lower(),
+        "turtle": _turtle(system, drawn),
+        "unknown": [*map(visible, unknown)],
+        "said": passed_over(unknown),
+    }
+
+
+def _turtle(system: LSystem, calls: list[list[Any]]) -> Data:
+    dialect = TURTLE_DIALECTS[system.turtle]
+    named = {surface for row in calls for *_, surface in row if surface}
+    return {
+        "side": dialect.left,
+        "length": initial_step(system),
+        "width": dialect.width,
+        "colour": initial_colour(system),
+        "natural": has_natural_colours(system),
+        "heading": float(system.heading),
+        "angle": float(system.angle),
+        "pixels": system.widths or ("auto" if dialect.pixels else "units"),
+        "calls": calls,
+        "surfaces": {name: faces_in(surfaces_by_symbol(system)[name], drawing_mode(system)) for name in sorted(named)},
+        "colours": [*CHOSEN],
+        "uses angle": any(action in BY_ANGLE and factor for row in calls for action, factor, *_ in row),
+    }
+
+
+def faces_in(surface: Surface, mode: DrawingMode) -> dict[str, list[Any]]:
+    """The faces of a surface in a book, none where it is flat, and its outlines."""
+    curved = mode is DrawingMode.SPACE and bool(surface.normals)
+    return {
+        "faces": [[*map(list, face)] for face in surface.faces if curved],
+        "outlines": [[*map(list, face)] for face in surface.outlines],
+    }
+
+
+def _not_surfaces(system: LSystem) -> Iterable[str]:
+    """What stands behind a tilde and is no surface, with its tilde."""
+    known = surfaces_by_symbol(system)
+    words = [tuple(flat(word)) for word in (system.axiom, *(rule.successor for rule in system.rules))]
+    return dict.fromkeys(
+        f"~{behind.symbol}"
+        for word in words
+        for before, behind in pairwise(word)
+        if before.symbol == "~" and behind.symbol not in known
+    )
+
+
+MOST_STATES = 40
+"""Of systems with more states the rate takes too long."""
+GREATEST_ROOT = 1_000
+"""Of greater roots only decimals are given."""
+NEAR = 1e-6
+"""A number that is nearer to a whole number than this may be one; whether it is, is then computed exactly."""
+
+
+def growth_entry(system: LSystem, constants: Mapping[str, Any]) -> dict[str, str] | None:
+    """The growth rate as a book holds it, or None.
+
+    >>> from lsys_kit.notation.read import read
+    >>> growth_entry(read("axiom: a\\na -> ab\\nb -> a"), {})
+    {'rate': '(1 + √5)/2 ≈ 1.618'}
+    """
+    if traits_of(system).d0l:
+        with suppress(LSystemError), limits(states=MOST_STATES):
+            return {"rate": rate_text(growth(system, **constants).recurrence)}
+    return None
+
+
+def rate_text(rule: Sequence[int]) -> str:
+    """The greatest root of the polynomial of a recurrence: exactly where it is whole or the root of a quadratic equation.
+
+    >>> rate_text((4, -4)), rate_text((0, 2)), rate_text((1, 0, 1))
+    ('2', '√2 ≈ 1.4142', '≈ 1.4656')
+    """
+    if not any(rule):
+        return "0"
+    polynomial, root = [1, *(-c for c in rule)], greatest_root(rule, exact=False)
+    if abs(root - round(root)) < math.sqrt(NEAR) and not any(_remainder(polynomial, [1, -round(root)])):
+        return str(round(root))
+    decimals = f"≈ {root:.5g}"
+    reach = math.ceil(2 * root) if root < GREATEST_ROOT else 0
+    for p in range(-reach, reach + 1):
+        q = round(root * (root - p))
+        if abs(root * (root - p) - q) < NEAR * root and not any(_remainder(polynomial, [1, -p, -q])):
+            return f"{_quadratic_root(p, p * p + 4 * q)} {decimals}"
+    return decimals
+
+
+def _remainder(polynomial: Sequence[int], divisor: Sequence[int]) -> list[int]:
+    left = [*polynomial]
+    for at in range(len(left) - len(divisor) + 1):
+        for k, c in enumerate(divisor[1:], 1):
+            left[at + k] -= left[at] * c
+    return left[max(0, len(left) - len(divisor) + 1) :]
+
+
+def _quadratic_root(p: int, discriminant: int) -> str:
+    """(p + √discriminant)/2, in lowest terms.
+
+    >>> _quadratic_root(2, 12), _quadratic_root(1, 5), _quadratic_root(0, 8), _quadratic_root(0, 12)
+    ('1 + √3', '(1 + √5)/2', '√2', '√3')
+    """
+    square = next(k for k in range(math.isqrt(discriminant), 0, -1) if discriminant % (k * k) == 0)
+    inner, whole = discriminant // (square * square), p % 2 == 0 and square % 2 == 0
+    p, square = (p // 2, square // 2) if whole else (p, square)
+    text = f"{p} + " * (p != 0) + f"{square}" * (square != 1) + f"√{inner}"
+    return text if whole else f"({text})/2"

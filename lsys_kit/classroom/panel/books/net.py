@@ -6,15 +6,17 @@ from collections.abc import Callable, Collection, Mapping
 from contextlib import suppress
 from typing import Any, TypeAlias
 
+from lsys_kit.classroom.panel.bundle import Data
 from lsys_kit.derivation.petri.stages import Stages, stages
 from lsys_kit.errors import LSystemError
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.nets.layout import EDGE, RADIUS
-from lsys_kit.pictures.nets.parts import LINE, ArcPart, BarPart, NotePart, Parts, PlacePart, parts_of, steering_of
+from lsys_kit.pictures.nets.parts import LINE, Parts, parts_of, steering_of
 from lsys_kit.pictures.style.labels import place_text, visible
 
 Unfolding: TypeAlias = bool | str | Collection[str]
 """Which symbols of a stage diagram are unfolded, as `stages` takes it."""
+_PIXELS = frozenset(("x", "y", "half", "tx", "ty", "width"))
 NARROW, LOW = 320, 40
 """The size of a diagram that has nothing but a sentence, in pixels."""
 
@@ -27,7 +29,7 @@ def net_of(system: LSystem, constants: Mapping[str, object], unfold: Unfolding =
     A(1) -> A(2)
     A(2) -> A(3)
     """
-    given: dict[str, Any] = dict(constants)
+    given: Data = dict(constants)
     if unfold is not False:
         with suppress(LSystemError):
             return stages(system, unfold=unfold, **given)
@@ -36,7 +38,7 @@ def net_of(system: LSystem, constants: Mapping[str, object], unfold: Unfolding =
 
 def net_entry(
     made: Callable[[], Stages], steering: Callable[[LSystem], frozenset[str]] = steering_of
-) -> tuple[Stages | None, dict[str, Any]]:
+) -> tuple[Stages | None, Data]:
     """A net and its diagram, without the symbols that only steer; where there is none to be drawn, a diagram that says why.
 
     >>> from lsys_kit.derivation.petri.stages import stages
@@ -54,17 +56,17 @@ def net_entry(
         return None, _diagram(Parts(NARROW, LOW, text, (), (), (), (), (text,), LOW / 2), [])
 
 
-def _diagram(parts: Parts, names: list[str]) -> dict[str, Any]:
+def _diagram(parts: Parts, names: list[str]) -> Data:
     return {
         "width": parts.width,
         "height": parts.height,
         "description": visible(parts.description),
         "radius": RADIUS,
         "names": [*map(visible, names)],
-        "places": [*map(_place, parts.places)],
-        "bars": [*map(_bar, parts.bars)],
-        "arcs": [*map(_arc, parts.arcs)],
-        "notes": [*map(_note, parts.notes)],
+        "places": [*map(_written, parts.places)],
+        "bars": [*map(_written, parts.bars)],
+        "arcs": [*map(_written, parts.arcs)],
+        "notes": [[*_written(note).values()] for note in parts.notes],
         "footnotes": [
             {"x": EDGE, "y": _tenths(parts.foot + LINE * line), "text": visible(text)}
             for line, text in enumerate(parts.footnotes)
@@ -72,40 +74,13 @@ def _diagram(parts: Parts, names: list[str]) -> dict[str, Any]:
     }
 
 
-def _place(part: PlacePart) -> dict[str, Any]:
+def _written(part: Any) -> Data:
+    """A part, without the number of an arc or a transition, which nobody asks for; texts are visible, and pixels in tenths."""
+    found = {name: value for name, value in vars(part).items() if name not in ("arc", "transition")}
     return {
-        "place": part.place,
-        "x": _tenths(part.x),
-        "y": _tenths(part.y),
-        "letter": visible(part.letter),
-        "subscript": visible(part.subscript),
-        "values": part.values,
-        "name": visible(part.name),
-        "title": visible(part.title),
-        "colour": part.colour,
-        "strength": part.strength,
+        name: visible(value) if isinstance(value, str) else _tenths(value) if name in _PIXELS else value
+        for name, value in found.items()
     }
-
-
-def _bar(part: BarPart) -> dict[str, Any]:
-    return {
-        "x": _tenths(part.x),
-        "y": _tenths(part.y),
-        "half": _tenths(part.half),
-        "line": part.line,
-        "terms": visible(part.terms),
-        "full": visible(part.full),
-        "tx": _tenths(part.tx),
-        "ty": _tenths(part.ty),
-    }
-
-
-def _arc(part: ArcPart) -> dict[str, Any]:
-    return {"path": part.path, "band": part.band, "head": part.head}
-
-
-def _note(part: NotePart) -> list[Any]:
-    return [_tenths(part.x), _tenths(part.y), _tenths(part.width), visible(part.text)]
 
 
 def _tenths(pixels: float) -> float:

@@ -6,13 +6,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-from lsys_kit.notation.dialects.cellwork.dialect import read_cellwork
-from lsys_kit.notation.dialects.map.dialect import read_map
 from lsys_kit.notation.model.arithmetic import Value
-from lsys_kit.notation.model.cellworks import CellworkSystem
-from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.notation.read import is_cellwork, is_map, read
+from lsys_kit.notation.read import AnySystem
 
 
 @dataclass(frozen=True)
@@ -36,15 +32,6 @@ class Sight(Protocol):
     def svg(self) -> str:
         """Its picture as SVG text."""
         ...
-
-
-def read_any(text: str) -> LSystem | MapSystem | CellworkSystem:
-    """The system of a text, of the kind that its beginning shows.
-
-    >>> read_any("map: ABAB").axiom == read_any("axiom: A").axiom
-    False
-    """
-    return (read_map if is_map(text) else read_cellwork if is_cellwork(text) else read)(text)
 
 
 class Opened(Protocol):
@@ -94,13 +81,7 @@ class Opened(Protocol):
         ...
 
     def turned(self, angle: object) -> float:
-        """The angle of the turtle's turns, or the system's own if none is given.
-
-        Raises
-        ------
-        LSystemError
-            It makes no sense.
-        """
+        """The angle of the turtle's turns, or the system's own if none is given."""
         ...
 
     def book(self, values: Mapping[str, Value], seed: int, least: int) -> dict[str, Any]:
@@ -124,7 +105,7 @@ class Opened(Protocol):
         """An address with the system and what is chosen in it."""
         ...
 
-    def read(self, text: str) -> LSystem | MapSystem | CellworkSystem:
+    def read(self, text: str) -> AnySystem:
         """Read a text that was typed in place of the system's own."""
         ...
 

@@ -1,43 +1,53 @@
-"""An L-system in the panel."""
+"""An L-system in the panel, and on a page without a kernel, which holds the books of the settings for which it has room."""
 
 from __future__ import annotations
 
 import base64
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import cached_property, lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
-from lsys_kit.budget import processor_time
+from lsys_kit.budget import current, processor_time
 from lsys_kit.classroom.link import ANGLE, SEED, STEP, link
+from lsys_kit.classroom.panel import held
 from lsys_kit.classroom.panel.books.book import book, first_step
 from lsys_kit.classroom.panel.books.net import Unfolding
-from lsys_kit.classroom.panel.composite import composite_png
-from lsys_kit.classroom.panel.controls import slider_ranges, slider_values
-from lsys_kit.classroom.panel.opened.opened import Viewing, read_any
-from lsys_kit.classroom.panel.page import Made, page_data
-from lsys_kit.classroom.panel.view_model import StepView, ViewModel
+from lsys_kit.classroom.panel.bundle import Data
+from lsys_kit.classroom.panel.controls import slider, slider_ranges, slider_values
+from lsys_kit.classroom.panel.labels import translated_labels
+from lsys_kit.classroom.panel.opened.opened import Viewing
+from lsys_kit.classroom.panel.page import deflated, shared
+from lsys_kit.classroom.panel.view_model import StepView, ViewModel, composite_png
 from lsys_kit.classroom.variants import variants
-from lsys_kit.derivation.core.rules import constants_of
+from lsys_kit.derivation.core.rules import constants_of, number_from
 from lsys_kit.errors import LSystemError, ModelValueError
 from lsys_kit.geometry.drawing import turning_angle
-from lsys_kit.geometry.turtle.commands.mode import DrawingMode, drawing_mode
+from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
 from lsys_kit.notation.model.arithmetic import Value, number_text
-from lsys_kit.notation.model.cellworks import CellworkSystem
-from lsys_kit.notation.model.maps import MapSystem
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.notation.read import is_cellwork, is_map, read
+from lsys_kit.notation.read import AnySystem, cells_notation, read, read_any
+from lsys_kit.notation.write import write
 from lsys_kit.pictures.rendering.view import FROM_THE_RIGHT, FRONT, lies_flat
 from lsys_kit.pictures.style.labels import place_text
 
+MOST_BOOKS, MOST_CHARACTERS = 2_000, 400_000
+"""A page holds no more books, and no more than about so many characters of them, deflated; nor more than can be made in the
+time of one task."""
+MOST_FOR_FEWEST = 1_100_000
+"""It may have so many characters if the sliders could not move otherwise."""
+
+
+class Made(NamedTuple):
+    """A book with the settings of which it is, the seed among them, the step that it should hold, and the seconds it took."""
+
+    settings: Mapping[str, Value]
+    least: int
+    book: Data
+    seconds: float
+
 
 class OpenedSystem:
-    """An L-system that the panel shows, with the sliders of its constants.
-
-    Raises
-    ------
-    LSystemError
-        A constant is unknown, or its value lies outside of its slider's range.
-    """
+    """An L-system that the panel shows, with the sliders of its constants."""
 
     hint, kind = "", "L-system"
 
@@ -59,10 +69,10 @@ class OpenedSystem:
             zip((each.name for each in system.constants), constants_of(system, {}), strict=True)
         )
         self.given: Mapping[str, Any] = {
-            **{name: value for name, value in (changes or {}).items() if name not in ranges},
+            **{name: number_from(value, name) for name, value in (changes or {}).items() if name not in ranges},
             **self.fixed,
         }
-        self._made: Made | None = None
+        self.last: Made | None = None
         self._views = lru_cache(maxsize=4)(lambda seed: ViewModel(system, seed, unfold))
 
     @property
@@ -90,10 +100,10 @@ class OpenedSystem:
             raise ModelValueError(f"angle = {number_text(turn)} lies outside its slider's range", hint="It goes from 0 to 180.")
         return turn
 
-    def book(self, values: Mapping[str, Value], seed: int, least: int) -> dict[str, Any]:
+    def book(self, values: Mapping[str, Value], seed: int, least: int) -> Data:
         settings, began = {**self.given, **values}, processor_time()
         made = book(self.system, settings, seed, title=self.title, least=least, unfold=self._unfold)
-        self._made = Made(settings, seed, least, made, processor_time() - began)
+        self.last = Made({**settings, held.SEED: seed}, least, made, processor_time() - began)
         return made
 
     def sight(self, chosen: Viewing) -> StepView:
@@ -106,30 +116,49 @@ class OpenedSystem:
     def still(self, chosen: Viewing) -> Mapping[str, str]:
         return {"image/png": base64.b64encode(composite_png(self.sight(chosen))).decode()}
 
-    def page_data(self, chosen: Viewing, asked: Sequence[Mapping[str, object]] = ()) -> dict[str, Any]:
-        return page_data(
-            self.system,
-            {**self.given, **chosen.values},
-            chosen.seed,
-            title=self.title,
-            step=chosen.step,
-            angle=chosen.angle,
-            around=chosen.around,
-            above=chosen.above,
-            asked=asked,
-            without=self._without,
-            unfold=self._unfold,
-            made=self._made,
-        )
+    def page_data(self, chosen: Viewing, asked: Sequence[Mapping[str, object]] = ()) -> Data:
+        start: dict[str, Value] = {**self.given, **chosen.values}
+        start.update({name: start.pop(name) for name in self.declared if name in self.values or name in self.fixed})
+        start[held.SEED] = chosen.seed
+        shelf = _Shelf(self, start, chosen.step)
+        first = shelf.first()
+        sown = chosen.seed if first["chance"] and "seed" not in self._without else None
+        kept = _held(shelf, self.values, sown, asked)
+        fixed = {
+            name: value for name, value in start.items() if name not in kept.values and (name != held.SEED or first["chance"])
+        }
+        model = {
+            "constants": [slider(name, kept.values[name], start[name]) for name in self.values if name in kept.values],
+            "chance": held.SEED in kept.values,
+            "seeds": [*map(number_text, kept.values.get(held.SEED, ()))],
+            "together": kept.together,
+            "fixed": held.held_text(fixed, kept, self.values),
+            "without": sorted(self._without),
+            "unfold": self._unfold,
+            "step": min(chosen.step, first["steps"]),
+            "angle": round(chosen.angle, 1),
+            "around": chosen.around,
+            "above": chosen.above,
+            "seed": chosen.seed,
+            **translated_labels(),
+        }
+        system = self.system
+        return {
+            "model": model,
+            "mode": first["mode"],
+            "system": {"notation": system.notation, "text": write(system), "angle": round(float(system.angle), 1)},
+            "fixed": {name: number_text(value) for name, value in fixed.items() if name != held.SEED},
+            "books": deflated(shared([shelf.book(each) for each in held.settings(kept)])),
+        }
 
     def link(self, chosen: Viewing) -> str:
         turn = {} if chosen.angle == round(float(self.system.angle), 1) else {ANGLE: chosen.angle}
         seed = {SEED: chosen.seed} if chosen.seed else {}
         return link(self.system, {STEP: chosen.step, **turn, **seed, **self.given, **chosen.values})
 
-    def read(self, text: str) -> LSystem | MapSystem | CellworkSystem:
+    def read(self, text: str) -> AnySystem:
         """The text in the notation of the system before it, or in the one that it shows."""
-        if is_map(text) or is_cellwork(text):
+        if cells_notation(text):
             return read_any(text)
         try:
             return read(text, self.system.notation)
@@ -141,3 +170,72 @@ class OpenedSystem:
 
     def variants(self, many: int) -> Sequence[LSystem]:
         return variants(self.system, many)
+
+
+def _held(
+    shelf: _Shelf, values: Mapping[str, Sequence[Value]], seed: int | None, asked: Sequence[Mapping[str, object]]
+) -> held.Held:
+    """The settings for which a page has room: what a book takes is seen from those with the fewest values of each slider."""
+    rows = [*_asked_settings(values, seed, asked)]
+    choices = {
+        name: held.constant_choice(each, shelf.start[name], {row[name] for row in rows if name in row})
+        for name, each in values.items()
+    }
+    if seed is not None:
+        choices[held.SEED] = held.seed_choice(seed, {int(row[held.SEED]) for row in rows if held.SEED in row})
+    few = held.fewest(choices, shelf.room([{}], MOST_FOR_FEWEST))
+    most = shelf.room([*held.settings(few)], MOST_CHARACTERS)
+    away = [[name for name in row if name in few.values and row[name] != choices[name].first] for row in rows]
+    together = [*dict.fromkeys(name for names in away if len(names) > 1 for name in names)]
+    return held.planned({name: choices[name] for name in few.values}, together, most)
+
+
+def _asked_settings(
+    values: Mapping[str, Sequence[Value]], seed: int | None, asked: Sequence[Mapping[str, object]]
+) -> Iterator[dict[str, Value]]:
+    """What is asked for of the sliders of a system: whatever lies between their ends, and whole seeds."""
+    for row in asked:
+        given = {name: number_from(value, name) for name, value in row.items()}
+        found = {
+            name: value for name, value in given.items() if name in values and values[name][0] <= value <= values[name][-1]
+        }
+        if seed is not None and "seed" not in values and isinstance(given.get("seed"), int):
+            found[held.SEED] = given["seed"]
+        if found:
+            yield found
+
+
+class _Shelf:
+    """The books of a system for a page, each made once, and how many of them it has room for."""
+
+    def __init__(self, system: OpenedSystem, start: Mapping[str, Value], least: int) -> None:
+        self.start, self._system, self._least, self._made = start, system, least, dict[tuple[Value, ...], Made]()
+        last = system.last
+        if last and last.settings == start and least <= max(last.least, last.book["steps"]):
+            self._made[tuple(start.values())] = last
+
+    def first(self) -> Data:
+        """The book of the first settings, or the error that there is none."""
+        return self._kept(self.start)
+
+    def book(self, chosen: Mapping[str, Value]) -> Data:
+        """The book of some settings, or why there is none."""
+        try:
+            return self._kept({**self.start, **chosen})
+        except LSystemError as error:
+            return {"mistake": {"message": error.message, "hint": error.hint or ""}}
+
+    def room(self, sample: Sequence[Mapping[str, Value]], characters: int) -> float:
+        """How many books a page has room for that are like those of some settings."""
+        size, many = len(deflated(shared([self.book(each) for each in sample]))), len(sample)
+        seconds = sum(made.seconds for made in self._made.values()) / max(1, len(self._made))
+        return min(MOST_BOOKS, many * characters / size, current().seconds / max(seconds, 1e-3))
+
+    def _kept(self, chosen: Mapping[str, Value]) -> Data:
+        key = tuple(chosen.values())
+        if key not in self._made:
+            constants = {name: value for name, value in chosen.items() if name != held.SEED}
+            self._system.book(constants, int(chosen[held.SEED]), self._least)
+            assert self._system.last
+            self._made[key] = self._system.last
+        return self._made[key].book

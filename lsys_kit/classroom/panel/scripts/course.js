@@ -1,18 +1,18 @@
 // A page of the course without a kernel: its panels, votes, predictions, tables, rules and pictures, each where its data belong.
 
-import { hostWith, cannot } from "./page.js";
-import { bytesOf, inflated } from "./books/link.js";
-import { openComparison } from "./panels/compare.js";
-import { openPanel } from "./panels/panel.js";
+import { bytesOf, inflated } from "./books/numbers.js";
+import { checked } from "./lessons/checking.js";
 import { askForEntries } from "./lessons/filling.js";
 import { showRules } from "./lessons/finding.js";
 import { askForPrediction } from "./lessons/predicting.js";
 import { askForVote } from "./lessons/voting.js";
-import { checked } from "./lessons/checking.js";
+import { cannot, hostWith, store } from "./page.js";
+import { openComparison } from "./panels/compare.js";
+import { openPanel } from "./panels/panel.js";
+import { made } from "./views/controls.js";
 
 const KINDS = { panel, comparison, vote, prediction, worksheet, beside, rules, picture };
 const NEAR = "50%"; // of a window's height: so near to it something is opened at once
-const MOST_BYTES = 100_000_000; // of a picture
 
 // What comes into view is opened first; then all the rest, one after another, so that a page can be printed and searched.
 export async function openCoursePage() {
@@ -54,10 +54,8 @@ async function panel(place, data, page) {
   openPanel(place, host);
 }
 
-// The file of a picture, which the page keeps deflated.
 async function picture(place, { drawing }) {
-  const text = await inflated(bytesOf(drawing), "deflate", MOST_BYTES);
-  place.src = URL.createObjectURL(new Blob([text], { type: "image/svg+xml" }));
+  place.src = URL.createObjectURL(new Blob([await inflated(bytesOf(drawing), "deflate")], { type: "image/svg+xml" }));
 }
 
 async function comparison(place, { left, right, shared }, page) {
@@ -66,65 +64,49 @@ async function comparison(place, { left, right, shared }, page) {
   openComparison(place, hosts, shared);
 }
 
+// Ask a question of a lesson, without a kernel: `saved` is called with its model when the page was told something.
+function asked(ask, place, values, saved) {
+  const found = store(values), tell = (changes) => Object.entries(changes).forEach(([name, value]) => found.set(name, value));
+  const model = { get: found.get, set: found.set, on: (event, handler) => found.on(event.slice("change:".length), handler), off() {}, save_changes: () => saved(model), tell };
+  place.replaceChildren();
+  ask({ model, el: place });
+  return model;
+}
+
 // Both votes on a question know of one another.
-function vote(place, { asked, again, said }, { ballots }) {
-  const key = JSON.stringify([asked.question, asked.options]), ballot = ballots.get(key) ?? { votes: [-1, -1], tellers: [] };
+function vote(place, { asked: question, again, said }, { ballots }) {
+  const key = JSON.stringify([question.question, question.options]), ballot = ballots.get(key) ?? { votes: [-1, -1], tellers: [] };
   ballots.set(key, ballot);
-  const saying = () => said[ballot.votes[0] + 1][ballot.votes[1] + 1];
-  const model = modelOf({ asked, chosen: -1, said: saying() }, () => {
-    ballot.votes[Number(again)] = model.get("chosen");
+  const saying = () => ({ said: said[ballot.votes[0] + 1][ballot.votes[1] + 1] });
+  const model = asked(askForVote, place, { asked: question, chosen: -1, ...saying() }, ({ get }) => {
+    ballot.votes[Number(again)] = get("chosen");
     for (const tell of ballot.tellers) tell();
   });
-  ballot.tellers.push(() => model.tell({ said: saying() }));
-  place.replaceChildren();
-  askForVote({ model, el: place });
+  ballot.tellers.push(() => model.tell(saying()));
 }
 
 function prediction(place, { question }, page) {
   const answer = place.querySelector("[data-answer]");
-  const model = modelOf({ question, typed: "", revealed: false }, () => {
+  asked(askForPrediction, place, { question, typed: "", revealed: false }, () => {
     place.append(answer);
     for (const each of answer.querySelectorAll("[data-part]")) open(each, page);
   });
-  place.replaceChildren();
-  askForPrediction({ model, el: place });
 }
 
 function worksheet(place, data) {
-  const model = modelOf({ sheet: data.sheet, asked: {}, result: {} }, () => {
-    const { number, entries } = model.get("asked");
-    model.tell({ result: { number, ...checked(data, entries) } });
+  asked(askForEntries, place, { sheet: data.sheet, asked: {}, result: {} }, ({ get, tell }) => {
+    const { number, entries } = get("asked");
+    tell({ result: { number, ...checked(data, entries) } });
   });
-  place.replaceChildren();
-  askForEntries({ model, el: place });
 }
 
-// A panel, and the table that is filled in from what it shows.
 async function beside(place, { panel: seen, sheet }, page) {
-  const [left, right] = [0, 1].map(() => document.createElement("div"));
+  const [left, right] = [made("div"), made("div")];
   place.replaceChildren(left, right);
   worksheet(right, sheet);
   await KINDS[seen.kind](left, seen.data, page);
 }
 
 function rules(place, found) {
-  place.replaceChildren();
-  showRules({ model: modelOf({ found, step: 1 }, () => {}), el: place });
-}
-
-// What a widget's script asks of its model, without a kernel: `saved` is called when the page was told something.
-function modelOf(values, saved) {
-  const handlers = new Map();
-  const tell = (changes) => {
-    Object.assign(values, changes);
-    for (const name of Object.keys(changes)) for (const handler of handlers.get(`change:${name}`) ?? []) handler();
-  };
-  return {
-    get: (name) => values[name],
-    set: (name, value) => tell({ [name]: value }),
-    on: (event, handler) => handlers.set(event, [...(handlers.get(event) ?? []), handler]),
-    off: (event, handler) => handlers.set(event, (handlers.get(event) ?? []).filter((each) => each !== handler)),
-    save_changes: saved,
-    tell,
-  };
+  asked(showRules, place, { found, step: 1 }, () => {});
 }

@@ -1,14 +1,13 @@
 // The host of a panel on a page without a kernel: the books of all settings are in the page.
 
 import { heldSettings } from "./books/held.js";
-import { bytesOf, inflated, packedLink, unpackedLink } from "./books/link.js";
+import { packedLink, unpackedLink } from "./books/link.js";
+import { bytesOf, inflated } from "./books/numbers.js";
 import { relaxedBook } from "./drawing/relaxation.js";
 import { openPanel } from "./panels/panel.js";
 
-const MOST_BYTES = 100_000_000; // of the books of a page
 const LONGEST = 3_000; // milliseconds in which the cells of a map come to rest under other forces
 
-// Open the panel of the data that stand in the page; where that cannot be done, say so.
 export async function openPage() {
   const here = document.getElementById("lsys-here"), data = JSON.parse(document.getElementById("lsys-data").textContent);
   try {
@@ -23,25 +22,38 @@ export const cannot = (fault) => `This browser cannot show the panel; a newer on
 
 // The host of a panel with the books that are in its data. `alone` on a page it keeps what is seen in the page's address.
 export async function hostWith(data, alone) {
-  const books = JSON.parse(await inflated(bytesOf(data.books), "deflate", MOST_BYTES));
+  const books = JSON.parse(await inflated(bytesOf(data.books), "deflate"));
   return pageHost(data, books, await linkedSettings(data), alone);
 }
 
-export function pageHost(data, books, linked, alone = true) {
-  const held = heldSettings(data.model), relaxes = data.mode === "map";
+// Values by their names, told to whoever listens when they are set.
+export function store(values) {
+  const handlers = new Map(), of = (name) => handlers.get(name) ?? [];
+  const tell = (name) => of(name).forEach((handler) => handler(values[name]));
+  return {
+    tell,
+    get: (name) => values[name],
+    set(name, value) {
+      values[name] = value;
+      tell(name);
+    },
+    on(name, handler) {
+      handlers.set(name, [...of(name), handler]);
+      return () => handlers.set(name, of(name).filter((each) => each !== handler));
+    },
+  };
+}
+
+function pageHost(data, books, linked, alone = true) {
+  const held = heldSettings(data.model), relaxes = data.mode === "map", { step, angle, around, above, seed } = data.model;
   const answer = relaxes ? ({ constants }) => relaxedTo(bookAt(books, 0).book, constants) : (asked) => bookAt(books, held.rowAt(held.placesOf(asked)));
   const first = Object.fromEntries(data.model.constants.map((each) => [each.name, each.texts[each.index]]));
-  const settings = { ...first, ...linked.settings }, { step, angle, around, above, seed } = data.model, handlers = new Map();
-  const values = { step, angle, around, above, seed, mark: "", ...linked.others, settings };
+  const values = { step, angle, around, above, seed, mark: "", ...linked.others, settings: { ...first, ...linked.settings } };
+  const asked = () => ({ constants: values.settings, seed: values.seed });
   if (!answer(asked()).book) Object.assign(values, { settings: first, seed });
   values.model = { ...data.model, asked: asked(), book: answer(asked()).book };
+  const { get, tell, on } = store(values);
   let notice = null;
-
-  function asked() {
-    return { constants: values.settings, seed: values.seed };
-  }
-
-  const tell = (name) => { for (const handler of handlers.get(name) ?? []) handler(values[name]); };
 
   // Whatever the page does not hold together with what was moved goes back to its first value.
   function settle(before) {
@@ -53,27 +65,21 @@ export function pageHost(data, books, linked, alone = true) {
 
   const address = async () => location.href.split("#")[0] + await packedLink(contentOf(data, values));
   return {
-    get: (name) => values[name],
+    get, on,
     set(name, value) {
       const before = held.placesOf(asked());
       values[name] = value;
       const others = !relaxes && ["settings", "seed"].includes(name) ? settle(before) : [];
       for (const each of new Set([name, ...others])) tell(each);
     },
-    on(name, handler) {
-      handlers.set(name, [...(handlers.get(name) ?? []), handler]);
-      return () => handlers.set(name, handlers.get(name).filter((each) => each !== handler));
-    },
     // The address says what is seen, so that it can be sent, and the page opened again as it was.
     save: () => alone && address().then((there) => history.replaceState(null, "", there)).catch(() => {}),
-    book: (wanted) => Promise.resolve(answer(wanted)),
+    book: async (wanted) => answer(wanted),
     notice: () => notice,
-    rules: () => Promise.resolve(null),
-    variants: () => Promise.resolve({ variants: [] }),
+    rules: async () => null,
+    variants: async () => ({ variants: [] }),
     keep: async () => ({ text: await address() }),
-    keeps: ["link"],
-    file: data.file,
-    editable: false, ahead: !relaxes,
+    keeps: ["link"], file: data.file, editable: false, ahead: !relaxes,
   };
 }
 
@@ -95,11 +101,11 @@ function bookAt({ names, parts, rows }, at) {
 async function linkedSettings({ model, system }) {
   const content = await unpackedLink(location.href), others = {}, settings = {};
   if (content?.notation !== system.notation || content.text !== system.text) return { others, settings };
-  const { step, angle, seed = "0" } = content.settings;
+  const { step, angle, seed = "0" } = content.settings, turn = numberOf(angle);
   if (model.chance && model.seeds.includes(seed)) others.seed = Number(seed);
   if (/^\d{1,9}$/.test(step)) others.step = Number(step);
-  if (numberOf(angle) >= 0 && numberOf(angle) <= 180) others.angle = Math.round(numberOf(angle) * 10) / 10;
-  for (const each of model.constants) if (each.texts.includes(content.settings[each.name])) settings[each.name] = content.settings[each.name];
+  if (turn >= 0 && turn <= 180) others.angle = Math.round(turn * 10) / 10;
+  for (const { name, texts } of model.constants) if (texts.includes(content.settings[name])) settings[name] = content.settings[name];
   return { others, settings };
 }
 

@@ -1,13 +1,12 @@
 // A page of exercises that needs no kernel: answers are checked on it, and a learning platform is told how many are solved.
 
-import { made } from "./views/controls.js";
-import { worded, speak } from "./views/language.js";
+import { bytesOf, inflated } from "./books/numbers.js";
 import { connected, platformOf } from "./practice/platform.js";
-import { replyTo } from "./practice/sealed.js";
 import { read } from "./practice/typed.js";
+import { made, speak, worded } from "./views/controls.js";
 
-const LOOKS = { Correct: "lsys-right", Almost: "lsys-almost", "Not yet": "lsys-wrong" };
-const SIGNS = { Correct: "✓", Almost: "≈", "Not yet": "✗", "Not readable yet": "?", "Not answered yet": "○" };
+const VERDICTS = { "Correct": ["✓", "lsys-right"], "Almost": ["≈", "lsys-almost"], "Not yet": ["✗", "lsys-wrong"], "Not readable yet": ["?"],
+  "Not answered yet": ["○"] };
 
 export function openPracticePage() {
   const { exercises, words } = JSON.parse(document.getElementById("lsys-data").textContent);
@@ -28,7 +27,6 @@ export function openPracticePage() {
   show(platform, ids.filter((id) => solved.has(id)), ids.length, platform.known() !== null);
 }
 
-// Say how many exercises are solved, and what the platform knows of them.
 function show(platform, solved, total, told) {
   const { score, completed } = platform.known() ?? {};
   const known = completed ? "The learning platform knows: score {score} of 100, completed."
@@ -38,54 +36,59 @@ function show(platform, solved, total, told) {
       : "The learning platform did not take the score.";
   const whom = told ? worded(known, { score }) : worded(unknown);
   const count = worded("{number} of {total} solved.", { number: solved.length, total });
-  document.getElementById("told").replaceChildren(made("b", {}, count), ` ${whom}`);
+  document.getElementById("told").replaceChildren(made("b", count), ` ${whom}`);
 }
 
 // `typed` is what was typed before; `tried` is called with what is typed now, and whether it is right.
 function openExercise(place, data, before, typed, tried) {
   const status = place.querySelector("[role=status]"), more = hints(place.querySelector("[data-hints]"), data.hints);
-  const answer = (text) => {
-    const verdict = verdictOn(data, text);
+  const replies = repliesOf(data), buttons = place.querySelectorAll("[data-key]"), box = place.querySelector("input");
+  const answer = async (text) => {
+    const verdict = verdictOn(data, await replies, text);
     showVerdict(status, verdict);
     tried(text, verdict.said === "Correct");
     if (["Not yet", "Almost"].includes(verdict.said)) more();
   };
   if (before) showVerdict(status, { said: "Correct", message: worded("You solved this before.") });
-  const press = (key) => place.querySelectorAll("[data-key]").forEach((each) => each.setAttribute("aria-pressed", String(each.dataset.key === key)));
-  for (const button of place.querySelectorAll("[data-key]")) {
+  const press = (key) => buttons.forEach((each) => each.setAttribute("aria-pressed", String(each.dataset.key === key)));
+  for (const button of buttons) {
     button.addEventListener("click", () => {
       press(button.dataset.key);
       answer(button.dataset.key);
     });
   }
   if (typed) press(typed);
-  if (place.querySelector("input")) place.querySelector("input").value = typed;
+  if (box) box.value = typed;
   place.querySelector("form")?.addEventListener("submit", (event) => {
     event.preventDefault();
-    answer(place.querySelector("input").value);
+    answer(box.value);
   });
 }
 
-function verdictOn(data, text) {
+const repliesOf = async ({ replies }) => new Map(Object.entries(JSON.parse(await inflated(bytesOf(replies), "deflate"))));
+
+function verdictOn(data, replies, text) {
   if (!text.trim() || /\.\.\.|…/.test(text)) return { said: "Not answered yet", message: "" };
   const { key, unreadable } = read(data, text);
   if (unreadable) return { said: "Not readable yet", message: unreadable };
-  return replyTo(data, key) ?? { said: "Not yet", message: data.otherwise };
+  const [said, message] = replies.get(key) ?? ["Not yet", data.otherwise];
+  return { said, message };
 }
 
 function showVerdict(status, { said, message }) {
-  status.className = `lsys-said ${LOOKS[said] ?? ""}`;
-  status.replaceChildren(made("span", { "aria-hidden": "true" }, `${SIGNS[said]} `), made("b", {}, `${worded(said)}. `));
-  message.split("\n").forEach((line) => status.append(line.startsWith("  ") ? made("pre", {}, line) : made("span", {}, `${line} `)));
+  const [sign, look = ""] = VERDICTS[said];
+  status.className = `lsys-said ${look}`;
+  status.replaceChildren(made("span", { "aria-hidden": "true" }, `${sign} `), made("b", `${worded(said)}. `));
+  for (const line of message.split("\n")) status.append(line.startsWith("  ") ? made("pre", line) : made("span", `${line} `));
 }
 
 // A button that shows one hint more, from the first try on.
 function hints(place, texts) {
   let shown = 0;
   const label = () => worded("Hint {number} of {total}", { number: shown + 1, total: texts.length });
-  const list = made("ol", {}), button = made("button", { type: "button", onclick: another }, label());
+  const list = made("ol"), button = made("button", { type: "button", onclick: another }, label());
   function another() {
-    list.append(made("li", {}, texts[shown++]));
+    list.append(made("li", texts[shown++]));
     button.textContent = label();
     if (shown === texts.length) button.remove();
   }

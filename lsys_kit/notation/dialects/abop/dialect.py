@@ -4,31 +4,25 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
-from typing import Any
+from pathlib import Path
 
-from lark import Transformer
-from lark.visitors import merge_transformers
-
+from lsys_kit.notation.analysis.problems import problem
 from lsys_kit.notation.model.expressions import Name
 from lsys_kit.notation.model.modules import Pattern, joined
 from lsys_kit.notation.model.system import LSystem, Production
-from lsys_kit.notation.syntax.actions import Expressions, Statements
-from lsys_kit.notation.syntax.builder import Draft, build_system, occurring_symbols
-from lsys_kit.notation.syntax.diagnostics import DIAGNOSTICS, missing_keyword_colon
+from lsys_kit.notation.syntax.actions import Statements, transformer
+from lsys_kit.notation.syntax.builder import Draft, build_system, check_colons
+from lsys_kit.notation.syntax.diagnostics import DIAGNOSTICS
 from lsys_kit.notation.syntax.dialect import Dialect
-from lsys_kit.notation.syntax.formatting import first_missing, sections, settings
-from lsys_kit.notation.syntax.predecessor_diagnostics import missing_colon
+from lsys_kit.notation.syntax.failure import excerpt
+from lsys_kit.notation.syntax.formatting import sections, settings
 from lsys_kit.notation.syntax.segmentation import check_digits, segment_system, segment_with_notes
-from lsys_kit.notation.syntax.surface_diagnostics import surface_declaration
 from lsys_kit.notation.syntax.text.printed import IN_A_SET, printed_statements
 from lsys_kit.notation.syntax.text.statements import without_comments
 from lsys_kit.notation.syntax.text.transcription import likely, transcribe
+from lsys_kit.notation.syntax.wording import Spelling
 
 _EDGE = re.compile(r"F_\w+")
-
-
-def _transformer() -> Transformer[Any, Any]:
-    return merge_transformers(Statements(), expressions=Expressions())  # type: ignore[no-untyped-call,no-any-return]
 
 
 def _resolve_deferred(draft: Draft) -> None:
@@ -36,7 +30,8 @@ def _resolve_deferred(draft: Draft) -> None:
     plain = without_comments(draft.source)
     for kind, record, at in draft.deferred:
         if kind == "axiom" and not IN_A_SET.search(plain):
-            raise missing_keyword_colon(draft.source, at[0], draft.source[at[0] : at[0] + 5], draft.source[at[0] + 5 : at[1]])
+            word, rest = draft.source[at[0] : at[0] + 5], draft.source[at[0] + 5 : at[1]]
+            raise problem("no colon", (at[0], at[0] + 5), word=word, keyword=word.lower(), rest=excerpt(rest.strip()))
         draft.add(kind, record, at)
     length = next((constant for constant in draft.constants if constant.name == "d"), None)
     if length and re.search(r"(δ|\\delta)\s*=", plain) and len(re.findall(r"\bd\b", plain)) == 1:
@@ -48,7 +43,7 @@ def _resolve_deferred(draft: Draft) -> None:
 def _finish(draft: Draft) -> LSystem:
     """The system with names segmented into letters where they were written together, with a note on each."""
     _resolve_deferred(draft)
-    missing_colon(draft.sections["productions"], occurring_symbols(draft))
+    check_colons(draft)
     system = _with_edges(segment_with_notes(build_system(draft)))
     check_digits(system.modules, system.alphabet)
     return system
@@ -90,20 +85,17 @@ def _write(system: LSystem) -> str:
     )
 
 
-def _lacking(system: LSystem) -> str | None:
-    return first_missing(system, "round brackets as branches")
-
-
 ABOP = Dialect(
     name="abop",
     statements=printed_statements,
-    transformer=_transformer,
+    transformer=transformer(Statements),
     finish=_finish,
-    diagnostics=(surface_declaration, *DIAGNOSTICS),
+    diagnostics=("surface", *DIAGNOSTICS),
     module=str,
     joined=joined,
     write=_write,
-    missing_feature=_lacking,
+    lacks=("round brackets as branches",),
     likely=likely,
     transcribe=transcribe,
+    spelling=Spelling(Path(__file__).parent),
 )

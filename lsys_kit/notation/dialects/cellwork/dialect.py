@@ -7,32 +7,30 @@ from __future__ import annotations
 
 from dataclasses import replace
 from fractions import Fraction
+from pathlib import Path
 from typing import Any
 
 from lark import Token, Transformer, v_args
 
 from lsys_kit.budget import current
 from lsys_kit.errors import ModelValueError
-from lsys_kit.notation.analysis.cellwork_checks import check_cellwork, unused_parts
+from lsys_kit.notation.analysis.cell_checks import check_cellwork, unused_parts
 from lsys_kit.notation.analysis.problems import problem
-from lsys_kit.notation.dialects.cellwork.diagnostics import DIAGNOSTICS
-from lsys_kit.notation.dialects.cellwork.spelling import SPELLING
 from lsys_kit.notation.fragments import is_link, unpacked
-from lsys_kit.notation.model.cellworks import (
+from lsys_kit.notation.model.cells import (
     ANY,
     CellworkProduction,
     CellworkSystem,
     Corner,
+    Edge,
     EdgeMarker,
-    EdgePart,
     FirstWall,
     WallProduction,
 )
-from lsys_kit.notation.model.maps import Edge
 from lsys_kit.notation.syntax.dialect import Grammar
 from lsys_kit.notation.syntax.parser import parse
 from lsys_kit.notation.syntax.text.statements import bounded, check_text, statements
-from lsys_kit.notation.syntax.wording import notes, reporting
+from lsys_kit.notation.syntax.wording import Spelling, notes, reporting
 
 LONGEST_NUMBER = 30
 """The greatest number of digits of a corner or of its place."""
@@ -82,14 +80,13 @@ def read_cellwork(text: str) -> CellworkSystem:
                 hint="L-systems are read by read(link), map systems by read_map(link).",
             )
         text = content.text
-    with reporting(text, SPELLING):
+    with reporting(text, CELLWORK.spelling):
         system = _system(text)
         check_cellwork(system)
-    return replace(system, notes=notes(unused_parts(system), SPELLING))
+    return replace(system, notes=notes(unused_parts(system), CELLWORK.spelling))
 
 
 def _system(text: str) -> CellworkSystem:
-    """The system that the statements of a text make."""
     made: dict[str, list[Any]] = {kind: [] for kind in ("cellwork", "steps", "wall", "production", "wall_production")}
     for start, end in bounded(statements(text), text):
         kind, record = parse(CELLWORK, "statement", text, start, end)
@@ -134,8 +131,8 @@ class _CellworkStatements(Transformer[Any, Any]):
     def production(self, predecessor: Edge, *parts: Any) -> tuple[str, CellworkProduction]:
         arrow = next(place for place, part in enumerate(parts) if isinstance(part, Token) and part.type == "ARROW")
         walls = tuple(dict.fromkeys(_name(wall) for wall in parts[:arrow] if wall != ANY))
-        successor: tuple[EdgePart, ...] = parts[arrow + 1 :]
-        return "production", CellworkProduction(predecessor, walls, successor, predecessor.at)
+        successor: tuple[Edge | EdgeMarker, ...] = parts[arrow + 1 :]
+        return "production", CellworkProduction(predecessor, successor, walls, predecessor.at)
 
     def steps(self, _: Token, number: Token) -> tuple[str, int]:
         if len(number) > 9:
@@ -144,7 +141,6 @@ class _CellworkStatements(Transformer[Any, Any]):
 
 
 def _span(*tokens: Token) -> tuple[int, int]:
-    """From the beginning of the first token to the end of the last one."""
     return tokens[0].start_pos or 0, tokens[-1].end_pos or 0
 
 
@@ -163,5 +159,9 @@ def _number(token: Token) -> str:
 
 
 CELLWORK = Grammar(
-    name="cellwork", transformer=_CellworkStatements, diagnostics=DIAGNOSTICS, starts=("statement",), spelling=SPELLING
+    name="cellwork",
+    transformer=_CellworkStatements,
+    diagnostics=("foreign_comment", "unreadable_character", "setting", "wall", "second_arrow", "own_marker", "production"),
+    starts=("statement",),
+    spelling=Spelling(Path(__file__).parent),
 )

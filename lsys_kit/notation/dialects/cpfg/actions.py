@@ -10,14 +10,13 @@ from typing import Any
 from lark import Token, v_args
 
 from lsys_kit.budget import current
-from lsys_kit.errors import ModelSyntaxError
-from lsys_kit.notation.dialects.cpfg.blocks import Assignment, Block, Choice
+from lsys_kit.notation.analysis.problems import problem
 from lsys_kit.notation.dialects.cpfg.expressions import as_number, as_truth, resolve_call, simplified, wanted
-from lsys_kit.notation.dialects.cpfg.variables import SEED
+from lsys_kit.notation.dialects.cpfg.variables import SEED, Assignment, Block, Choice
 from lsys_kit.notation.model.expressions import Apply, Expression, Number
 from lsys_kit.notation.model.modules import END, Pattern
 from lsys_kit.notation.model.system import Constant
-from lsys_kit.notation.syntax.actions import ActionError, Expressions, Statements, place_of
+from lsys_kit.notation.syntax.actions import Expressions, Statement, Statements, place_of
 
 _SPELLINGS = {"<>": "!=", "%": "rem"}
 """Operators, and how the kit spells them."""
@@ -36,12 +35,10 @@ def _expression_span(first: Expression, last: Expression | None = None) -> tuple
 
 @cache
 def _bare_module(symbol: str) -> Pattern:
-    """A module without values."""
     return Pattern("-" if symbol == "−" else symbol)
 
 
 def _flattened(parts: Iterable[Any]) -> Iterator[Any]:
-    """The parts of a word, one after another."""
     for part in parts:
         if isinstance(part, tuple):
             yield from part
@@ -57,15 +54,6 @@ def _as_block(part: Block | Assignment | Choice) -> Block:
 def _is_block(part: Any) -> bool:
     """Whether a part of a production is a block with its place."""
     return isinstance(part, tuple) and part[:1] in (("before",), ("after",))
-
-
-def _misplaced_equals(token: Token) -> ActionError:
-    return ActionError(
-        ModelSyntaxError,
-        'This "=" is not at the end of a branch',
-        (token.start_pos or 0, token.end_pos or 0),
-        'It is written before a "]", as in "A > [B=]C --> D"; to compare two values, type "==".',
-    )
 
 
 @v_args(inline=True)
@@ -116,33 +104,31 @@ class CpfgStatements(_CpfgExpressions, Statements):
     def setting(self, keyword: Token, value: Expression) -> tuple[str, Expression]:
         return super().setting(keyword, as_number(value))
 
-    def count(self, keyword: Token, value: Expression) -> tuple[str, Any]:
+    def count(self, keyword: Token, value: Expression) -> Statement:
         return "deferred", ("count", (" ".join(keyword.rstrip(": \t").lower().split()), as_number(value)))
 
-    def view_surface(self, token: Token) -> tuple[str, Any]:
+    def view_surface(self, token: Token) -> Statement:
         """A line of a view file: a symbol, a file, and how large it is."""
         words = token.split(":", 1)[1].split()
         if len(words) < 2:
-            raise ActionError(
-                ModelSyntaxError, "A surface has a symbol and a file", place_of(token), 'It reads "surface: l leaf.s 1.5".'
-            )
+            raise problem("surface without file", place_of(token))
         return "deferred", ("view surface", (words[0], words[1]))
 
-    def mark(self, *_: Token) -> tuple[str, Any]:
+    def mark(self, *_: Token) -> Statement:
         return "deferred", ("mark", None)
 
-    def section(self, keyword: Token) -> tuple[str, Any]:
+    def section(self, keyword: Token) -> Statement:
         name = keyword.split()[0].rstrip(":").lower()
         return "deferred", ("section", _SECTION_NAMES.get(name, name))
 
-    def symbols(self, keyword: Token, *names: Token) -> tuple[str, Any]:
+    def symbols(self, keyword: Token, *names: Token) -> Statement:
         """Brackets are symbols like others; one without the other is refused."""
         others = [name for name in names if name not in "[]"]
         both = {"[", "]"} <= set(names) and (others or keyword.lower().startswith("ignore"))
         kind, symbols = super().symbols(keyword, *(others if both else names))
         return "deferred", ("passed", (kind, symbols, len(others) < len(names)))
 
-    def condition(self, expression: Expression) -> tuple[str, Any]:
+    def condition(self, expression: Expression) -> Statement:
         """A number other than 0 is a condition that always holds."""
         always = isinstance(expression, Number) and expression.value != 0
         return "condition", None if always else as_truth(expression)
@@ -154,7 +140,7 @@ class CpfgStatements(_CpfgExpressions, Statements):
         for index, module in enumerate(modules):
             if isinstance(module, Token):
                 if index + 1 == len(modules) or str(modules[index + 1]) != "]":
-                    raise _misplaced_equals(module)
+                    raise problem("misplaced equals", place_of(module))
                 continue
             if module.symbol == "]" and not isinstance(modules[index - 1], Token):
                 found.append(Pattern(END))
@@ -170,7 +156,7 @@ class CpfgStatements(_CpfgExpressions, Statements):
     def block(self, *instructions: Any) -> Block:
         return tuple(instruction for instruction in instructions if instruction != ())
 
-    def phase(self, keyword: Token, *instructions: Any) -> tuple[str, Any]:
+    def phase(self, keyword: Token, *instructions: Any) -> Statement:
         return "deferred", ("phase", ("".join(keyword.rstrip(": \t").lower().split()), self.block(*instructions)))
 
     def procedure(self, name: Token, *values: Expression | Token) -> Any:
@@ -179,12 +165,7 @@ class CpfgStatements(_CpfgExpressions, Statements):
             return Assignment(self.name(name), as_number(values[0]))
         if name in SILENT:
             return ()
-        raise ActionError(
-            ModelSyntaxError,
-            f"The kit has no {name}(...)",
-            place_of(name),
-            "Compute what a rule needs in its own block, with assignments and if.",
-        )
+        raise problem("unknown procedure", place_of(name), name=name)
 
     def assignment(self, name: Token, _: Token, value: Expression) -> Assignment:
         return Assignment(self.name(name), as_number(value))
@@ -192,12 +173,10 @@ class CpfgStatements(_CpfgExpressions, Statements):
     def choice(self, condition: Expression, then: Any, otherwise: Any = ()) -> Choice:
         choice = Choice(as_truth(condition), _as_block(then), _as_block(otherwise))
         if choice.depth > current().depth:
-            raise ActionError(
-                ModelSyntaxError, f"Choices are nested more than {current().depth} deep", _expression_span(condition)
-            )
+            raise problem("choices too deep", _expression_span(condition), most=current().depth)
         return choice
 
-    def production(self, *parts: Any) -> tuple[str, Any]:
+    def production(self, *parts: Any) -> Statement:
         blocks = dict(filter(_is_block, parts))
         _, production = super().production(*(part for part in parts if not _is_block(part)))
         return "deferred", ("rule", (production, blocks.get("before", ()), blocks.get("after", ())))

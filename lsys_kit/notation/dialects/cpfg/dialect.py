@@ -4,29 +4,131 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import dataclass
+from heapq import merge
 from itertools import chain
+from pathlib import Path
 from typing import Any
 
-from lsys_kit.errors import ModelNameError, ModelSyntaxError
-from lsys_kit.notation.analysis.checks import SETTINGS, check_constants, check_expression, span, value_of
+from lsys_kit.notation.analysis.checks import SETTINGS, check_constants, check_expression, value_of
+from lsys_kit.notation.analysis.problems import problem
 from lsys_kit.notation.dialects.cpfg.actions import SILENT, CpfgStatements
-from lsys_kit.notation.dialects.cpfg.blocks import Block, substitute
-from lsys_kit.notation.dialects.cpfg.counters import Counters, with_counters
-from lsys_kit.notation.dialects.cpfg.diagnostics import DIAGNOSTICS
+from lsys_kit.notation.dialects.cpfg.expressions import expression_text
 from lsys_kit.notation.dialects.cpfg.preprocessor import preprocessed
-from lsys_kit.notation.dialects.cpfg.spelling import SPELLING
-from lsys_kit.notation.dialects.cpfg.statements import statements
-from lsys_kit.notation.dialects.cpfg.variables import Variables, check_changing, variables_of
+from lsys_kit.notation.dialects.cpfg.variables import (
+    Block,
+    Counters,
+    Variables,
+    check_changing,
+    substitute,
+    variables_of,
+    with_counters,
+)
 from lsys_kit.notation.dialects.cpfg.writer import joined_word, missing_feature, module_text, system_text
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number
 from lsys_kit.notation.model.modules import Pattern, flat
 from lsys_kit.notation.model.system import FLAT, NEXT_BRANCH, LSystem, Production
-from lsys_kit.notation.syntax.builder import Draft, build_system, occurring_symbols
+from lsys_kit.notation.syntax.builder import Draft, build_system, check_colons
+from lsys_kit.notation.syntax.diagnostics import DIAGNOSTICS
 from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.syntax.parser import parse
-from lsys_kit.notation.syntax.predecessor_diagnostics import missing_colon
 from lsys_kit.notation.syntax.text.statements import ARROW, LABEL, blank_parentheses, without_comments
 from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, edited
+from lsys_kit.notation.syntax.wording import Spelling
+
+KEPT = re.compile(
+    r"^[ \t]*/\*[ \t]*((?:angle|heading|length):[ \t]*-?\d[\d.]*(?:e[+-]?\d+)?(?:/\d+)?"
+    r"|cells:[ \t]*(?:ellipses|rectangles)|widths:[ \t]*(?:pixels|units)|colours:[ \t]*(?:natural|symbols))[ \t]*\*/[ \t]*$",
+    re.MULTILINE,
+)
+"""A comment in which a text keeps what cpfg has in other files: `/* angle: 25.7 */`, alone on its line."""
+_RANGED = re.compile(r"[ \t]*/\*[ \t]*-?[\d./]+[ \t]+\.\.[ \t]+-?[\d./]+([ \t]+by[ \t]+[\d./]+)?[ \t]*\*/")
+"""A comment after a constant that gives the range of its slider."""
+_KEYWORD = re.compile(
+    r"#[ \t]*(define|undef|include|if\w*|el\w+|endif)\b"
+    r"|(lsystem|derivation[ \t]*length|maximum[ \t]+depth|seed|ignore|consider|angle|heading|length|surface)[ \t]*:"
+    r"|(productions?|decomposition|homomorphism|interpretation)\b(?![^\n]*[<>])|endlsystem\b",
+    re.IGNORECASE,
+)
+_PHASE = re.compile(r"(start|end)[ \t]*+(each)?[ \t]*+:", re.IGNORECASE)
+_AXIOM_START = re.compile(r"axiom[ \t]*:", re.IGNORECASE)
+_BEGIN = re.compile(r"lsystem[ \t]*:", re.IGNORECASE)
+_END = re.compile(r"endlsystem\b", re.IGNORECASE)
+
+
+@dataclass(frozen=True)
+class _Line:
+    """A line without its comments: where it begins and ends, apart from blanks, and how far it is indented."""
+
+    start: int
+    end: int
+    text: str
+    indent: int
+
+
+def statements(text: str) -> Iterator[tuple[int, int]]:
+    r"""The offsets of the statements.
+
+    A production or an axiom continues on the lines below that are indented further; a line with an arrow of its own continues
+    only a statement without one. Statements that run around the steps end with their braces. `//` begins a comment at the
+    beginning of a line and after a setting or a condition; in a word it is two rolls.
+
+    >>> text = "Axiom: F//F\nF : 1 // always\n    --> FF\n// the end"
+    >>> [text[start:end] for start, end in statements(text)]
+    ['Axiom: F//F', 'F : 1 // always\n    --> FF']
+    """
+    begun = ended = False
+    for start, end in merge(_cut(text), (match.span(1) for match in KEPT.finditer(text))):
+        begins = _BEGIN.match(text, start) is not None
+        if begins and begun:
+            raise problem("second system", (start, end))
+        if ended:
+            raise problem("after the end", (start, end))
+        begun, ended = begun or begins, _END.match(text, start) is not None
+        yield start, end
+
+
+def _cut(text: str) -> Iterator[tuple[int, int]]:
+    first: _Line | None = None
+    end, has_arrow, depth = 0, False, 0
+    for line in _nonblank_lines(text):
+        inside = depth > 0
+        if inside or _PHASE.match(line.text):
+            depth = max(0, depth + line.text.count("{") - line.text.count("}"))
+        if first is not None and not inside and not _continues(line, first, has_arrow):
+            yield first.start, end
+            first = None
+        if line.text.startswith("//") and (first is None or line.text[2:3].isspace()):
+            continue
+        if first is None:
+            first, has_arrow = line, _AXIOM_START.match(line.text) is not None
+        end, has_arrow = line.end, has_arrow or ARROW.search(line.text) is not None
+    if first is not None:
+        yield first.start, end
+
+
+def _continues(line: _Line, first: _Line, has_arrow: bool) -> bool:
+    """Whether a line continues a statement that begins with another; an axiom counts as having its arrow."""
+    if _KEYWORD.match(first.text) or _KEYWORD.match(line.text) or _AXIOM_START.match(line.text):
+        return False
+    if ARROW.match(line.text):
+        return not _AXIOM_START.match(first.text)
+    return line.indent > first.indent and not (has_arrow and ARROW.search(line.text))
+
+
+def _nonblank_lines(text: str) -> Iterator[_Line]:
+    """The lines that are not blank, without comments after settings."""
+    for found in re.finditer(r"[^\n]+", without_comments(text)):
+        line, content = found.group(), found.group().strip()
+        if not content:
+            continue
+        blank = line[: len(line) - len(line.lstrip())]
+        start = found.start() + len(blank)
+        if _KEYWORD.match(content):
+            content = content.split("//")[0].rstrip()
+        ranged = _RANGED.match(text, start + len(content)) if content.startswith("#") else None
+        yield _Line(start, ranged.end() if ranged else start + len(content), content, len(blank.expandtabs()))
+
 
 _MARKS = re.compile(
     r"^[ \t]*(#[ \t]*define\b|(lsystem|derivation[ \t]+length|maximum[ \t]+depth)[ \t]*:|endlsystem\b|homomorphism\b)",
@@ -42,11 +144,10 @@ _PROSE = re.compile(r"//[ \t]+[A-Za-z]{2}[^\n]*|(?://|(?<=[ \t])#)[ \t]*(?P<word
 
 
 def _finish(draft: Draft) -> LSystem:
-    """The system of all statements."""
     _check_macros(draft)
     _resolve_deferred(draft)
     draft.notes += _notes(draft)
-    missing_colon(draft.sections["productions"], occurring_symbols(draft))
+    check_colons(draft)
     return build_system(draft)
 
 
@@ -61,7 +162,7 @@ def _resolve_deferred(draft: Draft) -> None:
             draft.add(kind, record, at)
         elif kind == "rule":
             production, before, after = record
-            draft.add("production", substitute(production, before, after, constants, draft.source), at)
+            draft.add("production", substitute(production, before, after, constants), at)
         elif kind == "passed":
             _resolve_passed(draft, record, at)
         elif kind == "count":
@@ -69,7 +170,7 @@ def _resolve_deferred(draft: Draft) -> None:
             _resolve_count(draft, section, keyword, expression, at)
     _carry_counters(draft, variables.counters)
     axiom = Production((Pattern("axiom"),), draft.axiom or ())
-    check_changing((axiom, *(rule for rules in draft.sections.values() for rule in rules)), variables.changing, draft.source)
+    check_changing((axiom, *(rule for rules in draft.sections.values() for rule in rules)), variables.changing)
 
 
 def _carry_counters(draft: Draft, counters: Counters) -> None:
@@ -90,7 +191,7 @@ def _variables(draft: Draft) -> Variables:
             phases.setdefault(record[0], []).append(record[1])
         elif kind == "rule":
             blocks += record[1:]
-    found = variables_of(phases, blocks, [constant.name for constant in draft.constants], draft.source)
+    found = variables_of(phases, blocks, [constant.name for constant in draft.constants])
     draft.constants += found.constants
     check_constants(draft.constants)
     if found.seed is not None and all(record[0] != "seed" for kind, record, _ in draft.deferred if kind == "count"):
@@ -122,15 +223,10 @@ def _resolve_count(draft: Draft, section: str, keyword: str, expression: Express
     """Take in a number of steps or rounds, or a seed, which may be calculated from constants."""
     depths = {"decomposition": "decomposition_depth", "interpretation": "depth"}
     if keyword == "maximum depth" and section not in depths:
-        raise ModelSyntaxError(
-            'This "maximum depth:" is in no section',
-            draft.source,
-            *at,
-            'It belongs below "decomposition" or below "homomorphism".',
-        )
+        raise problem("depth in no section", at)
     name = depths[section] if keyword == "maximum depth" else "seed" if keyword == "seed" else "steps"
     if name in draft.settings:
-        raise ModelSyntaxError(f'"{keyword}:" is set a second time', draft.source, *at, "Keep one of the two lines.")
+        raise problem("setting twice", at, keyword=keyword)
     values: dict[str, Any] = {}
     for constant in draft.constants:
         values[constant.name] = value_of(constant.value, values)
@@ -144,19 +240,10 @@ def _check_macros(draft: Draft) -> None:
     for index, constant in enumerate(draft.constants):
         value = constant.value
         if constant.name in SETTINGS:
-            raise ModelNameError(
-                f'The name "{constant.name}" is taken by a setting',
-                draft.source,
-                *span(constant),
-                f'Give the macro another name, such as "{constant.name.upper()}".',
-            )
+            raise problem("macro as setting", constant.at, name=constant.name, other=constant.name.upper())
         if isinstance(value, Name) and value.name not in names[:index]:
-            later = value.name in names
-            raise ModelSyntaxError(
-                f'The macro "{value}" is defined further down' if later else f'The macro "{constant.name}" is not a number',
-                draft.source,
-                *span(value),
-                "Put its line before this one." if later else f'Write "{value}" itself wherever "{constant.name}" is used.',
+            raise problem(
+                "macro further down" if value.name in names else "macro of a name", value.at, value=value, name=constant.name
             )
     check_constants(draft.constants)
 
@@ -249,12 +336,22 @@ CPFG = Dialect(
     statements=statements,
     transformer=CpfgStatements,
     finish=_finish,
-    diagnostics=DIAGNOSTICS,
+    diagnostics=(
+        "feature",
+        "included",
+        "label",
+        "in_a_block",
+        "end_of_block",
+        "macro_definition",
+        "own_keyword",
+        *DIAGNOSTICS,
+        "constant",
+    ),
     module=module_text,
     joined=joined_word,
     write=system_text,
     missing_feature=missing_feature,
     likely=_likely,
-    spelling=SPELLING,
+    spelling=Spelling(Path(__file__).parent, expression=expression_text, module=module_text, joined=joined_word),
     transcribe=_transcribe,
 )

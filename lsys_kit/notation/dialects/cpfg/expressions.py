@@ -9,8 +9,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from lsys_kit.errors import ModelNameError, ModelSyntaxError, ModelValueError
 from lsys_kit.notation.analysis.checks import suggestion
+from lsys_kit.notation.analysis.problems import problem
 from lsys_kit.notation.model.expressions import (
     OPERATORS,
     Apply,
@@ -19,11 +19,11 @@ from lsys_kit.notation.model.expressions import (
     Number,
     Style,
     TextSpan,
+    calls_in,
     expression_type,
     is_random,
     styled_text,
 )
-from lsys_kit.notation.syntax.actions import ActionError
 
 SAME = ("sin", "cos", "tan", "asin", "acos", "atan", "exp", "log", "sqrt", "floor", "ceil")
 """The functions that cpfg and the kit call alike."""
@@ -107,24 +107,18 @@ def resolve_call(name: str, operands: tuple[Expression, ...], at: TextSpan) -> A
     """
     place = at or (0, 0)
     if name in ABSENT:
-        raise ActionError(ModelNameError, f"The kit has no {name}(...)", place, _CURVES if name in CURVES else None)
+        raise problem("absent function", place, name=name, hint=_CURVES if name in CURVES else "")
     if name not in _FUNCTIONS and name not in BUILT:
         known = (*SAME, *RENAMED, *BUILT)
-        raise ActionError(
-            ModelNameError,
-            f'I do not know the function "{name}"',
-            place,
-            _instead(name) or suggestion(name, known, 0.7) or f"Functions are: {', '.join(sorted(known))}.",
-        )
+        hint = _instead(name) or suggestion(name, known, 0.7) or f"Functions are: {', '.join(sorted(known))}."
+        raise problem("unknown function", place, name=name, hint=hint)
     count = 1 if name in BUILT else OPERATORS[_FUNCTIONS[name]].arity[0]
     if len(operands) != count:
-        raise ActionError(ModelSyntaxError, f"{name}(...) takes {count} value{'s' * (count > 1)}, not {len(operands)}", place)
+        raise problem("number of arguments", place, name=name, wanted=f"{count} value{'s' * (count > 1)}", given=len(operands))
     if name not in BUILT:
         return Apply(_FUNCTIONS[name], wanted(_FUNCTIONS[name], operands), at)
     if name != "ran" and is_random(operands[0]):
-        raise ActionError(
-            ModelValueError, f"{name}(...) cannot be of a random number", place, _ROUNDED if name == "trunc" else None
-        )
+        raise problem("function of random number", place, name=name, hint=_ROUNDED if name == "trunc" else "")
     return BUILT[name](as_number(operands[0]), at)
 
 
@@ -222,8 +216,10 @@ def missing_function(expression: Expression) -> str | None:
     >>> missing_function(Apply("poisson", (Name("t"),)))
     'function "poisson"'
     """
-    if not isinstance(expression, Apply):
-        return None
+    return next(filter(None, map(_missing_call, calls_in(expression))), None)
+
+
+def _missing_call(expression: Apply) -> str | None:
     if OPERATORS[expression.operator].precedence is None and expression.operator not in _KNOWN:
         return f'function "{expression.operator}"'
     if expression.operator in _LESS.values() and (len(expression.operands) > 2 or is_random(expression)):
@@ -234,4 +230,4 @@ def missing_function(expression: Expression) -> str | None:
         return "random numbers from a random number on"
     if simplified(expression) != expression:
         return f'other words for "{simplified(expression).operator}"'
-    return next(filter(None, map(missing_function, expression.operands)), None)
+    return None

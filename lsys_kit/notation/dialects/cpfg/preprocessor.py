@@ -1,21 +1,230 @@
-"""The lines of a cpfg text that are for the preprocessor of C: `#define`, `#undef`, `#if` and what belongs to it."""
+"""What the preprocessor of C makes of a cpfg text before cpfg reads it: macros put in place, conditions, comments.
+
+A macro that is a number stays a line of the text, so that it becomes a constant, with a slider. Any other is put in place: a
+part of a word, an expression of parameters, a macro with parameters. Nothing is executed; what grows too long is refused.
+"""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import suppress
+from dataclasses import dataclass
 from functools import cache
+from typing import Any
 
 from lsys_kit.budget import counted, current
-from lsys_kit.errors import LSystemError, ModelSyntaxError
+from lsys_kit.errors import LSystemError, ModelLimitError, ModelSyntaxError, ModelValueError
 from lsys_kit.notation.analysis.checks import check_expression, value_of
 from lsys_kit.notation.analysis.problems import ProblemFound
-from lsys_kit.notation.dialects.cpfg.macros import Macro, Macros, Parse, arrays_in, macro_of
 from lsys_kit.notation.model.arithmetic import Value
-from lsys_kit.notation.model.expressions import expression_type, names_in
+from lsys_kit.notation.model.expressions import expression_type, is_random, names_in
 from lsys_kit.notation.syntax.text.statements import ARROW, without_comments
 from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, as_typed, edited
+
+Parse = Callable[[str, str], Any]
+"""Parses a text as an "expression" or as a "word"."""
+_NAME = re.compile(r"(?<!\w)[A-Za-z_]\w*")
+_OBJECT = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(\w+)(?!\()", re.MULTILINE)
+_LIKE_A_NUMBER = re.compile(r"-?[\d.(=]|[A-Za-z_]\w*+[ \t]*+[(*/+%^-]")
+_RANDOM = re.compile(r"\b(?:n|b|bi)?ran\s*\(")
+_OPENED, _INDEXED, _SIGNS = re.compile(r"\s*\("), re.compile(r"\s*\["), re.compile(r"[()\[\]{},]")
+_ARRAY = re.compile(r"\b([A-Za-z_]\w*+)\s*+\[[^\[\]{}]*+\]\s*+=\s*+\{([^{}]*+)\}")
+_CHANGED = re.compile(r"\b([A-Za-z_]\w*+)\s*+\[[^\[\]=]*+\]\s*+=(?![={]|\s*\{)")
+_DIGITS = re.compile(r"[\d.,\s]+")
+_PARAMETERS = re.compile(r"\(\s*+((?:[A-Za-z_]\w*+\s*+(?:,\s*+)?)*+)\)")
+
+
+@dataclass(frozen=True)
+class Macro:
+    """A name and the text that is put in its place.
+
+    Attributes
+    ----------
+    body
+        The text.
+    parameters
+        Its parameters, where it is written with values in parentheses.
+    elements
+        The elements of an array that nothing changes; there is no other text.
+    """
+
+    body: str
+    parameters: tuple[str, ...] | None = None
+    elements: tuple[str, ...] = ()
+
+
+class Macros:
+    """The macros that are in force at some place of a text.
+
+    Parameters
+    ----------
+    text
+        The text, with its comments blanked.
+    parse
+        What reads an expression or a word.
+
+    Examples
+    --------
+    >>> macros = Macros("A(BOX, twice(x))", lambda rule, text: None)
+    >>> macros.table |= {"BOX": Macro("[+F]"), "twice": Macro("(2*t)", ("t",))}
+    >>> [edit.text for edit in macros.edits(0, 16)]
+    ['[+F]', '(2*x)']
+    """
+
+    def __init__(self, text: str, parse: Parse) -> None:
+        self.text, self._parse = text, parse
+        self.table: dict[str, Macro] = {}
+        self.put: dict[str, None] = {}
+        self._numbers = frozenset(_OBJECT.findall(text))
+        self._spent = 0
+
+    def is_text(self, body: str) -> bool:
+        """Whether a macro is put in place: what can be read as a number is not, nor what was probably meant as one."""
+        try:
+            expression = self._parse("expression", body)
+        except LSystemError:
+            return self._is_word(body)
+        names = names_in(expression)
+        return is_random(expression) or bool(names - self._numbers) or not names.isdisjoint(self.table)
+
+    def _is_word(self, body: str) -> bool:
+        try:
+            self._parse("word", body)
+        except LSystemError:
+            return _LIKE_A_NUMBER.match(body) is None
+        return _DIGITS.fullmatch(body) is None
+
+    def edits(self, start: int, end: int) -> Iterator[Edit]:
+        """What is put in the places of the macros between two offsets."""
+        at = start
+        for found in _NAME.finditer(self.text, start, end) if self.table else ():
+            call = self._call(self.text, found, frozenset(), found.start()) if found.start() >= at else None
+            if call is not None:
+                made, at = call
+                yield Edit(found.start(), at, made)
+
+    def expanded(self, text: str, at: int, hidden: frozenset[str] = frozenset()) -> str:
+        """A text with its macros put in place; a macro is not put in place within itself."""
+        if len(hidden) > current().depth:
+            raise ModelSyntaxError(f"Macros are nested more than {current().depth} deep", self.text, at)
+        parts: list[str] = []
+        last = 0
+        for found in _NAME.finditer(text):
+            call = self._call(text, found, hidden, at) if found.start() >= last else None
+            if call is not None:
+                parts += (text[last : found.start()], call[0])
+                last = call[1]
+        return "".join((*parts, text[last:]))
+
+    def _call(self, text: str, found: re.Match[str], hidden: frozenset[str], at: int) -> tuple[str, int] | None:
+        """What is put in place of a name, and where what it stands for ends; None where the name is no macro's."""
+        name, end = found.group(), found.end()
+        macro = None if name in hidden else self.table.get(name)
+        if macro is None:
+            return None
+        body = macro.body
+        if macro.elements:
+            opened = _INDEXED.match(text, end)
+            if opened is None:
+                return None
+            given, end = self._values(text, opened.end(), at)
+            body = self._element(macro.elements, self.expanded(",".join(given), at, hidden), at)
+        elif macro.parameters is not None:
+            opened = _OPENED.match(text, end)
+            if opened is None:
+                return None
+            given, end = self._values(text, opened.end(), at)
+            body = self._with_values(name, macro, [self.expanded(value, at, hidden) for value in given], at)
+        self.put[name] = None
+        self._spend(len(body) + 1, at)
+        return self.expanded(body, at, hidden | {name}), end
+
+    def _with_values(self, name: str, macro: Macro, values: list[str], at: int) -> str:
+        parameters = macro.parameters or ()
+        if len(values) != len(parameters) and (parameters or values != [""]):
+            raise ModelSyntaxError(
+                f"The macro {name}({','.join(parameters)}) is given {len(values)} "
+                f"value{'s' * (len(values) != 1)}, not {len(parameters)}",
+                self.text,
+                at,
+                at + len(name),
+            )
+        known = dict(zip(parameters, values, strict=False))
+        self._spend(sum(len(known.get(found, "")) for found in _NAME.findall(macro.body)), at)
+        return _NAME.sub(lambda found: known.get(found.group(), found.group()), macro.body)
+
+    def _element(self, elements: tuple[str, ...], index: str, at: int) -> str:
+        """What chooses an element; below the first and beyond the last it is the nearest, as in cpfg, which warns of that."""
+        if _RANDOM.search(index):
+            raise ModelValueError(
+                "The index of an array cannot be random here",
+                self.text,
+                at,
+                at + 1,
+                'Make it the parameter of a module, as in "A --> B(ran(3))", and use that in the next step.',
+            )
+        if index.strip().isdecimal():
+            return elements[min(int(index), len(elements) - 1)]
+        self._spend(len(index) * len(elements), at)
+        return _chosen(elements, 0, index)
+
+    def _values(self, text: str, start: int, at: int) -> tuple[list[str], int]:
+        """The values in the brackets behind a macro, and where they end."""
+        depth, begun, values = 0, start, list[str]()
+        for sign in _SIGNS.finditer(text, start, start + current().expression):
+            if sign.group() == "," and not depth:
+                values.append(text[begun : sign.start()].strip())
+                begun = sign.end()
+            elif sign.group() in ")]" and not depth:
+                return [*values, text[begun : sign.start()].strip()], sign.end()
+            else:
+                depth += (sign.group() in "([{") - (sign.group() in ")]}")
+        raise ModelSyntaxError("The values of this macro never end", self.text, at, at + 1, 'Every "(" needs a ")" after it.')
+
+    def _spend(self, characters: int, at: int) -> None:
+        self._spent += characters
+        if self._spent > current().text:
+            raise ModelLimitError(
+                f"Macros make the text longer than {current().text:,} characters",
+                limit=current().text,
+                source=self.text,
+                start=at,
+            )
+
+
+def _chosen(elements: tuple[str, ...], first: int, index: str) -> str:
+    """The choice of one of some elements, the first of which has a number, by halves."""
+    if len(elements) == 1:
+        return f"({elements[0]})"
+    half = len(elements) // 2
+    left, right = _chosen(elements[:half], first, index), _chosen(elements[half:], first + half, index)
+    return f"(({index}) < {first + half} ? {left} : {right})"
+
+
+def arrays_in(text: str, plain: str) -> dict[str, Macro] | None:
+    """The arrays that a definition makes, if all have their elements and nothing in a text changes them.
+
+    >>> arrays_in("array a[3] = {1, 2, 3}, b[1]={4};", "A(a[2])")
+    {'a': Macro(body='', parameters=None, elements=('1', '2', '3')), 'b': Macro(body='', parameters=None, elements=('4',))}
+    """
+    found = {each[1]: Macro("", None, tuple(value.strip() for value in each[2].split(","))) for each in _ARRAY.finditer(text)}
+    rest = re.sub(r"\barray\b|[\s,;]", "", _ARRAY.sub("", text))
+    changed = any(name in found for name in _CHANGED.findall(plain))
+    return None if rest or changed or not all(all(macro.elements) for macro in found.values()) else found
+
+
+def macro_of(name: str, rest: str, known: Collection[str]) -> Macro | None:
+    """The macro with parameters, or without text, that a definition makes; None where it has a text of its own to judge.
+
+    >>> macro_of("twice", "(t) (2*t)", ()), macro_of("DEBUG", "", ["DEBUG"]), macro_of("dt", " 0.5", ())
+    (Macro(body='(2*t)', parameters=('t',), elements=()), Macro(body='', parameters=None, elements=()), None)
+    """
+    parameters = _PARAMETERS.match(rest)
+    if parameters:
+        return Macro(rest[parameters.end() :].strip(), tuple(_NAME.findall(parameters[1])))
+    return Macro("") if not rest.strip() and name in known else None
+
 
 _DIRECTIVE = re.compile(r"[ \t]*#[ \t]*(define|undef|ifdef|ifndef|if|elif|else|endif)\b[ \t]*")
 _ANY_DIRECTIVE = re.compile(r"^[ \t]*#[ \t]*(?:define|undef|if|ifdef|ifndef|elif|else|endif)\b", re.MULTILINE)

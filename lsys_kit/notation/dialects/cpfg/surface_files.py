@@ -14,7 +14,7 @@ from typing import TypeAlias
 
 from lsys_kit.budget import current
 from lsys_kit.errors import ModelLimitError, ModelSyntaxError, ModelValueError, require
-from lsys_kit.notation.analysis.surface_checks import LARGEST
+from lsys_kit.notation.analysis.checks import LARGEST
 from lsys_kit.notation.model.surfaces import ROW, SurfacePoint, SurfaceShape
 from lsys_kit.notation.model.system import LSystem
 
@@ -77,7 +77,6 @@ def with_surface(system: LSystem, name: str, text: str) -> LSystem:
 
 
 def _patches(text: str) -> tuple[tuple[SurfacePoint, ...], ...]:
-    """The patches of a file, in the frame of the turtle."""
     contact, heading, up = (_vector(text, keyword) for keyword in ("CONTACT POINT", "HEADING", "UP"))
     size = _size(text)
     ahead = _unit(heading, text, "HEADING")
@@ -94,7 +93,6 @@ def _patches(text: str) -> tuple[tuple[SurfacePoint, ...], ...]:
 
 
 def _vector(text: str, keyword: str) -> _Vector:
-    """The vector behind a keyword."""
     pattern = "".join(rf"[ \t]+{axis}:[ \t]*({_NUMBER})" for axis in "XYZ")
     found = re.search(rf"^{keyword}{pattern}", text, re.MULTILINE)
     if not found:

@@ -7,12 +7,12 @@ from collections.abc import Iterable, Iterator
 from itertools import chain
 
 from lsys_kit.notation.dialects.cpfg.expressions import expression_text, missing_function
-from lsys_kit.notation.model.arithmetic import literal_text, number_text
+from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression
 from lsys_kit.notation.model.modules import END, Module, Pattern, flat
-from lsys_kit.notation.model.system import FLAT, Constant, LSystem, Production
+from lsys_kit.notation.model.system import FLAT, LOOK, Constant, LSystem, Production
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
-from lsys_kit.notation.syntax.formatting import first_missing, look
+from lsys_kit.notation.syntax.formatting import first_missing, unusual
 
 _RANGE_END = re.compile(r"-?\d+(\.\d+)?(/\d+)?")
 
@@ -46,18 +46,10 @@ def system_text(system: LSystem) -> str:
 def _lines(system: LSystem) -> Iterator[str]:
     yield from map(_macro_line, system.constants)
     yield "Lsystem: 1"
-    for keyword, number in (("seed", system.seed), ("derivation length", system.steps)):
-        if number is not None:
-            yield f"{keyword}: {number}"
+    for name, text in unusual(system, "seed", "steps"):
+        yield f"{name.replace('steps', 'derivation length')}: {text}"
     yield from _passed(system)
-    for keyword, value, usual in (
-        ("angle", system.angle, 90),
-        ("heading", system.heading, 90),
-        ("length", system.length, None),
-    ):
-        if value != usual and value is not None:
-            yield f"/* {keyword}: {literal_text(value)} */"
-    yield from (f"/* {name}: {said} */" for name, said in look(system))
+    yield from (f"/* {name}: {text} */" for name, text in unusual(system, "angle", "heading", "length", *LOOK))
     yield f"Axiom: {joined_word(map(module_text, system.axiom))}"
     yield from map(_rule, system.productions)
     yield from _section("decomposition", system.decomposition, system.decomposition_depth)

@@ -11,18 +11,89 @@ from __future__ import annotations
 import re
 from fractions import Fraction
 from itertools import chain, islice
+from pathlib import Path
+from typing import Any
 
-from lsys_kit.errors import ModelSyntaxError
-from lsys_kit.notation.dialects.fractint.actions import Records
-from lsys_kit.notation.dialects.fractint.diagnostics import DIAGNOSTICS
+from lark import Token, Transformer, v_args
+
+from lsys_kit.notation.analysis.problems import problem
 from lsys_kit.notation.dialects.fractint.systems import entries_in, selected_entry, statement_lines, system_entries, uncommented
-from lsys_kit.notation.dialects.fractint.translation import NAME, translated
-from lsys_kit.notation.dialects.fractint.writer import lacking, merged_pair, module_text, system_text
+from lsys_kit.notation.dialects.fractint.writer import (
+    LEAST,
+    LONGEST,
+    MOST,
+    NAME,
+    RESERVED,
+    merged_pair,
+    missing_feature,
+    module_text,
+    system_text,
+    translated,
+)
+from lsys_kit.notation.model.arithmetic import normalised
 from lsys_kit.notation.model.expressions import Number
-from lsys_kit.notation.model.modules import flat
+from lsys_kit.notation.model.modules import Pattern, flat
 from lsys_kit.notation.model.system import LSystem, Production
+from lsys_kit.notation.syntax.actions import Statement
 from lsys_kit.notation.syntax.builder import Draft, build_system
 from lsys_kit.notation.syntax.dialect import Dialect
+from lsys_kit.notation.syntax.wording import Spelling
+
+_COMMAND = re.compile(r"(.)([QI]*+)(.*)", re.IGNORECASE)
+
+
+@v_args(inline=True)
+class Records(Transformer[Any, Any]):
+    """What `grammar.lark` names: letters are capitals, whatever was typed."""
+
+    def symbol(self, token: Token) -> Pattern:
+        return Pattern(token.upper(), at=_at(token))
+
+    def command(self, token: Token) -> Pattern:
+        [(sign, inverse_or_root, digits)] = _COMMAND.findall(token)
+        return Pattern((sign + inverse_or_root).upper(), (_number(token, digits),) if digits else (), _at(token))
+
+    def word(self, *modules: Pattern) -> tuple[Pattern, ...]:
+        return modules
+
+    def angle(self, _: Token, count: Token) -> Statement:
+        """Fractint passes over what stands behind the point."""
+        whole = count.split(".")[0]
+        if len(whole) > len(str(MOST)) or not LEAST <= int(whole) <= MOST:
+            raise problem("parts of a turn", _at(count), parts=whole[:10], least=LEAST, most=MOST)
+        return "deferred", ("angle", Number(normalised(Fraction(360, int(whole))), _at(count)))
+
+    def steps(self, _: Token, count: Token) -> tuple[str, Number]:
+        return "steps", Number(int(count), _at(count))
+
+    def axiom(self, _: Token, word: tuple[Pattern, ...]) -> Statement:
+        return "deferred", ("axiom", word)
+
+    def production(self, predecessor: Token, word: tuple[Pattern, ...]) -> Statement:
+        symbol = predecessor[0].upper()
+        start = predecessor.start_pos or 0
+        at = start, start + 1
+        if "=" not in predecessor and re.match("--?>", "".join(module.symbol for module in word[:3])):
+            raise problem("arrow in rule", word[0].at, symbol=predecessor[0])
+        if symbol in RESERVED:
+            raise problem("command rewritten", at, symbol=predecessor[0])
+        return "deferred", ("rule", Production((Pattern(symbol, at=at),), word))
+
+    def erasing(self, predecessor: Token) -> Statement:
+        if "=" not in predecessor:
+            raise problem("no successor", _at(predecessor), symbol=predecessor[0])
+        return self.production(predecessor, ())
+
+
+def _at(token: Token) -> tuple[int, int]:
+    return token.start_pos or 0, token.end_pos or 0
+
+
+def _number(token: Token, digits: str) -> Number:
+    if not re.fullmatch(r"\d++\.?\d*+|\.\d++", digits) or len(digits) > LONGEST:
+        raise problem("number of command", _at(token))
+    return Number(normalised(Fraction(f"0{digits}" if digits[0] == "." else digits.rstrip("."))), _at(token))
+
 
 _SAID = re.compile(r"angle(?:\s*=)?\s*\d|axiom(?:\s*=\s*|\s+)[^\s:=]", re.IGNORECASE)
 """A line that gives an angle or an axiom, without a colon."""
@@ -58,15 +129,10 @@ def _note_angle(draft: Draft, angle: Number) -> None:
 
 
 def _check(draft: Draft, said: set[str]) -> None:
-    """A system has an axiom and an angle."""
-    wanted = {
-        "axiom": ("There is no axiom", 'Give the first word on a line of its own, as in "Axiom F--F--F".'),
-        "angle": ("There is no angle", 'Give the parts of a full turn on a line of its own, as in "Angle 6".'),
-    }
-    for kind, (message, hint) in wanted.items():
+    for kind in ("axiom", "angle"):
         if kind not in said:
             end = max((at[1] for _, _, at in draft.deferred), default=len(draft.source.rstrip()))
-            raise ModelSyntaxError(message, draft.source, end, None, hint)
+            raise problem(f"no {kind}", (end, end))
 
 
 def _joined(draft: Draft) -> list[Production]:
@@ -81,12 +147,7 @@ def _joined(draft: Draft) -> list[Production]:
 def _one(draft: Draft, parts: list[tuple[Production, tuple[int, int]]]) -> Production:
     successor = tuple(chain.from_iterable(rule.successor for rule, _ in parts))
     if pair := merged_pair(flat(successor)):
-        raise ModelSyntaxError(
-            f'"{pair[1].symbol}" would be read as part of "{module_text(pair[0])}" in the rule before',
-            draft.source,
-            *(pair[1].at or parts[0][1]),
-            "Rules for the same symbol are joined: divide the word elsewhere.",
-        )
+        raise problem("symbol in number", pair[1].at or parts[0][1], symbol=pair[1].symbol, command=module_text(pair[0]))
     return Production(parts[0][0].predecessors, successor, at=parts[0][1] if len(parts) == 1 else None)
 
 
@@ -107,14 +168,29 @@ FRACTINT = Dialect(
     statements=statement_lines,
     transformer=Records,
     finish=_finish,
-    diagnostics=DIAGNOSTICS,
+    diagnostics=("colon", "angle", "axiom", "arrow", "beginning", "in_a_word"),
     module=module_text,
     joined="".join,
     write=system_text,
-    missing_feature=lacking,
+    lacks=(
+        "conditions",
+        "contexts",
+        "predecessors of several modules",
+        "probabilities",
+        "repetition",
+        "constants",
+        "decomposition rules",
+        "meta-rules",
+        "interpretation rules",
+        "ignored symbols",
+        "field",
+    ),
+    missing_feature=missing_feature,
     likely=_likely,
     turtle=NAME,
     entry=selected_entry,
     starts=("statement", "word"),
     translated=translated,
+    spelling=Spelling(Path(__file__).parent),
+    bare=str,
 )

@@ -132,7 +132,6 @@ def _named(found: Sequence[FileEntry], name: str) -> FileEntry:
 
 
 def _which(found: Sequence[FileEntry], text: str) -> LSystemError:
-    """Which of several systems is meant?"""
     if not found:
         return ModelSyntaxError(
             "There is no system in this text",

@@ -9,18 +9,79 @@ different contexts, or values, match at once are their weights taken in proporti
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from functools import partial
+from itertools import pairwise, product
+from math import prod
 
 from lsys_kit.budget import current
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.analysis.checks import value_of
-from lsys_kit.notation.dialects.grogra.conditions import exclusive
-from lsys_kit.notation.model.arithmetic import number_text
-from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number, names_in
-from lsys_kit.notation.model.modules import Item, Pattern, Repeat
+from lsys_kit.notation.model.arithmetic import Value, number_text
+from lsys_kit.notation.model.expressions import (
+    OPERATORS,
+    Apply,
+    Expression,
+    Name,
+    Number,
+    calls_in,
+    function_of,
+    names_in,
+    substituted,
+)
+from lsys_kit.notation.model.modules import Pattern, with_expressions
 from lsys_kit.notation.model.system import LSystem, Production
+
+_TRIED = 1_000
+"""So many combinations of values are tried."""
+
+
+def exclusive(one: Expression | None, other: Expression | None) -> bool:
+    """Whether it is certain that two conditions never hold at once; no condition always holds.
+
+    What compares names with numbers alone changes its truth only at those numbers: these, and what lies between and beyond
+    them, are tried.
+
+    >>> young, old = (Apply(sign, (Name("t"), Number(5))) for sign in ("<", ">="))
+    >>> exclusive(young, old), exclusive(young, young), exclusive(young, None)
+    (True, False, False)
+    """
+    if one is None or other is None or not (_is_plain(one) and _is_plain(other)):
+        return False
+    names = sorted(names_in(one) | names_in(other))
+    values = [_values(name, (one, other)) for name in names]
+    if prod(map(len, values)) > _TRIED:
+        return False
+    order = {name: index for index, name in enumerate(names)}
+    both = function_of(Apply("&&", (one, other)), order)
+    return not any(both(tried) for tried in product(*values))
+
+
+def _is_plain(condition: Expression) -> bool:
+    """Whether a condition only compares names with numbers."""
+    if not isinstance(condition, Apply):
+        return False
+    if OPERATORS[condition.operator].takes == "truth":
+        return all(map(_is_plain, condition.operands))
+    kinds = {type(operand) for operand in condition.operands}
+    return OPERATORS[condition.operator].gives == "truth" and kinds == {Name, Number}
+
+
+def _values(name: str, conditions: tuple[Expression, ...]) -> list[Value]:
+    """The numbers with which a name is compared, and others between and beyond them."""
+    found = sorted({Fraction(value) for condition in conditions for value in _compared(name, condition)})
+    between = [(low + high) / 2 for low, high in pairwise(found)]
+    return [found[0] - 1, *found, *between, found[-1] + 1]
+
+
+def _compared(name: str, condition: Expression) -> Iterator[Value]:
+    """The numbers with which a condition compares a name."""
+    for call in calls_in(condition):
+        if Name(name) in call.operands:
+            yield from (operand.value for operand in call.operands if isinstance(operand, Number))
+
 
 _Condition = Expression | None
 _MOST_COMPARED = 100
@@ -56,7 +117,7 @@ def _left_side(rule: Production, constants: frozenset[str]) -> object:
     names = {name: Name(f"?{number}") for number, name in enumerate(_parameters(rule, constants))}
 
     def plain(module: Pattern) -> Pattern:
-        return replace(module, arguments=tuple(renamed(a, names) for a in module.arguments))
+        return replace(module, arguments=tuple(substituted(a, names) for a in module.arguments))
 
     return tuple(map(plain, rule.left)), plain(rule.predecessor), tuple(map(plain, rule.right))
 
@@ -75,13 +136,13 @@ def _candidates(rules: Sequence[Production], row: Sequence[int], constants: froz
             yield number, rule
         elif rule.probability is None and _is_for_all(rule, first, constants):
             names = dict(zip(_parameters(rule, constants), first.predecessor.arguments, strict=True))
-            condition = None if rule.condition is None else renamed(rule.condition, names)
+            condition = None if rule.condition is None else substituted(rule.condition, names)
             if condition is None or names_in(condition) or value_of(condition):
                 yield (
                     number,
                     replace(
                         first,
-                        successor=renamed_items(rule.successor, names),
+                        successor=with_expressions(rule.successor, partial(substituted, values=names)),
                         probability=None,
                         condition=condition if condition and names_in(condition) else None,
                     ),
@@ -96,29 +157,6 @@ def _is_for_all(rule: Production, other: Production, constants: frozenset[str]) 
         and not rule.left
         and not rule.right
         and len(_parameters(rule, constants)) == len(one.arguments)
-    )
-
-
-def renamed(expression: Expression, names: Mapping[str, Expression]) -> Expression:
-    """An expression with others in place of some names.
-
-    >>> print(renamed(Apply("+", (Name("t"), Number(1))), {"t": Name("s")}))
-    s + 1
-    """
-    if isinstance(expression, Name):
-        return names.get(expression.name, expression)
-    if isinstance(expression, Apply):
-        return Apply(expression.operator, tuple(renamed(operand, names) for operand in expression.operands), expression.at)
-    return expression
-
-
-def renamed_items(items: Iterable[Item], names: Mapping[str, Expression]) -> tuple[Item, ...]:
-    """A word with others in place of some names."""
-    return tuple(
-        Repeat(renamed(item.count, names), renamed_items(item.body, names), item.index, item.at)
-        if isinstance(item, Repeat)
-        else replace(item, arguments=tuple(renamed(a, names) for a in item.arguments))
-        for item in items
     )
 
 
@@ -221,14 +259,14 @@ def _complete_row(system: LSystem, row: Sequence[int], constants: frozenset[str]
     names, shares, notes = _parameters(first, constants), _Shares(), list[str]()
     for number, rule in _candidates(system.productions, row, constants):
         there = dict(zip(_parameters(rule, constants), map(Name, names), strict=True))
-        condition = None if rule.condition is None else renamed(rule.condition, there)
+        condition = None if rule.condition is None else substituted(rule.condition, there)
         if rule.probability is None and (shares.closed & {None, condition} or (number not in row and shares.complete)):
             continue  # never applied where the others are
-        share = None if rule.probability is None else renamed(rule.probability, there)
+        share = None if rule.probability is None else substituted(rule.probability, there)
         given = shares.give(condition, share)
         if share not in (None, given):
             notes.append(f"The probabilities of {rule.predecessor} add up to more than 1: {share} is read as {given}.")
-        whole = replace(rule, probability=renamed(given, {new.name: Name(old) for old, new in there.items()}))
+        whole = replace(rule, probability=substituted(given, {new.name: Name(old) for old, new in there.items()}))
         if number in row:
             found[number][-1] = whole
         else:

@@ -12,10 +12,10 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from math import isqrt
 
-from lsys_kit.errors import ModelNameError, ModelSyntaxError, ModelValueError
 from lsys_kit.notation.analysis.checks import suggestion
+from lsys_kit.notation.analysis.problems import problem
 from lsys_kit.notation.model.arithmetic import normalised
-from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number, TextSpan, names_in
+from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number, TextSpan, names_in, transform
 from lsys_kit.notation.model.modules import Item, Repeat, expressions_of
 from lsys_kit.notation.model.system import Production
 
@@ -79,8 +79,6 @@ class Scope:
 
     Attributes
     ----------
-    source
-        The text.
     known
         Constants and parameters.
     variables
@@ -91,64 +89,53 @@ class Scope:
         Whether random numbers are possible here.
     """
 
-    source: str
     known: frozenset[str]
     variables: Mapping[str, Variable]
     counting: Mapping[str, str] = field(default_factory=dict)
     chance: bool = False
 
 
-def check_variables(variables: Sequence[Variable], constants: Iterable[str], source: str) -> None:
+def check_variables(variables: Sequence[Variable], constants: Iterable[str]) -> None:
     """Each variable has a name of its own, a kind that is possible here, and the values that belong to it."""
     taken = set(constants)
     for variable in variables:
         if variable.name in taken:
-            raise ModelNameError(
-                f'The name "{variable.name}" is declared twice', source, *_offsets(variable.at), "Keep one of the two lines."
-            )
+            raise problem("variable twice", variable.at, name=variable.name)
         taken.add(variable.name)
-        _check_kind(variable, source)
-        known = Scope(source, frozenset(constants), {v.name: v for v in variables})
+        _check_kind(variable)
+        known = Scope(frozenset(constants), {v.name: v for v in variables})
         for value in variable.values:
             resolve(value, known)
 
 
-def _check_kind(variable: Variable, source: str) -> None:
-    kind, at = variable.kind, _offsets(variable.at)
+def _check_kind(variable: Variable) -> None:
+    kind = variable.kind
     if kind in QUERY_FUNCTIONS:
-        raise ModelNameError(f'A variable of the kind "{kind}" is not possible here', source, *at, _POSSIBLE)
+        raise problem("kind of variable", variable.at, kind=kind, hint=_POSSIBLE)
     if kind not in VARIABLE_KINDS:
-        raise ModelNameError(
-            f'There is no kind of variable called "{kind}"', source, *at, suggestion(kind, VARIABLE_KINDS) or _POSSIBLE
-        )
+        raise problem("unknown kind of variable", variable.at, kind=kind, hint=suggestion(kind, VARIABLE_KINDS) or _POSSIBLE)
     least, most, example = VARIABLE_KINDS[kind]
-    hint = f'Type "\\var {variable.name} {kind} {example},".'
+    said = {"kind": kind, "name": variable.name, "example": example}
     if not least <= len(variable.values) <= most:
         wanted = f"{least}" if least == most else f"up to {most}" if least == 0 else f"{least} or more"
-        raise ModelSyntaxError(
-            f'A variable of the kind "{kind}" takes {wanted} value{"s" * (most > 1)}, not {len(variable.values)}',
-            source,
-            *at,
-            hint,
+        raise problem(
+            "values of variable", variable.at, wanted=f"{wanted} value{'s' * (most > 1)}", given=len(variable.values), **said
         )
     if kind in ("index", "function") and (len(variable.numbers) < len(variable.values) or min(variable.numbers, default=0) < 0):
-        raise ModelValueError(f'The values of the {kind} "{variable.name}" must be whole numbers, 0 or more', source, *at, hint)
-
-
-def _offsets(at: TextSpan) -> tuple[int | None, int | None]:
-    return at or (None, None)
+        raise problem("numbers of variable", variable.at, **said)
 
 
 def resolve(expression: Expression, scope: Scope) -> Expression:
     """An expression with the variables replaced by what they mean."""
-    if isinstance(expression, Name):
-        return _resolve_name(expression, scope)
-    if not isinstance(expression, Apply):
-        return expression
-    first, *rest = expression.operands
-    if expression.operator == "sensed" and isinstance(first, Name):
-        return _sensed_call(expression, first, [resolve(operand, scope) for operand in rest], scope)
-    return Apply(expression.operator, tuple(resolve(operand, scope) for operand in expression.operands), expression.at)
+
+    def change(part: Expression) -> Expression | None:
+        if isinstance(part, Name):
+            return _resolve_name(part, scope)
+        if isinstance(part, Apply) and part.operator == "sensed" and isinstance(part.operands[0], Name):
+            return _sensed_call(part, part.operands[0], [resolve(value, scope) for value in part.operands[1:]], scope)
+        return None
+
+    return transform(expression, change)
 
 
 def _resolve_name(name: Name, scope: Scope) -> Expression:
@@ -160,31 +147,16 @@ def _resolve_name(name: Name, scope: Scope) -> Expression:
     if variable is None:
         names = {*scope.known, *scope.variables}
         hint = suggestion(name.name, names, 0.5)  # so that "xo" is like "x0"
-        raise ModelNameError(f'I do not know the name "{name}"', scope.source, *_offsets(name.at), hint or _UNKNOWN_NAME_HINT)
+        raise problem("unknown variable", name.at, name=name, hint=hint or _UNKNOWN_NAME_HINT)
     if variable.kind == "function" and variable.numbers[1] == 0:
         return Apply("sensed", (Number(variable.numbers[0]),), name.at)
     if variable.kind == "function":
-        raise ModelSyntaxError(
-            f'"{name}" is a function, and its values are missing',
-            scope.source,
-            *_offsets(name.at),
-            f'It is called as in "{name}({", ".join("1" * variable.numbers[1])})".',
-        )
+        raise problem("function without values", name.at, name=name, values=", ".join("1" * variable.numbers[1]))
     if variable.kind == "index":
         inside = f" with {variable.level} more around it" if variable.level else ""
-        raise ModelNameError(
-            f'"{name}" counts repetitions, and nothing is repeated here',
-            scope.source,
-            *_offsets(name.at),
-            f'It is used in what is repeated, as in "&(3) < a({name}) >"{inside}.',
-        )
+        raise problem("index outside", name.at, name=name, inside=inside)
     if not scope.chance:
-        raise ModelValueError(
-            f'"{name}" draws a new number at every use, which is not possible here',
-            scope.source,
-            *_offsets(name.at),
-            f'Random variables belong after the "#" of a rule, as in "a # F({name})".',
-        )
+        raise problem("draw not possible", name.at, name=name)
     return replace(random_call(variable), at=name.at)
 
 
@@ -210,23 +182,16 @@ def _root(value: int | Fraction) -> Fraction | None:
 
 
 def _sensed_call(expression: Apply, name: Name, values: list[Expression], scope: Scope) -> Apply:
-    """The call of a sensitive function."""
     variable = scope.variables.get(name.name)
     if variable is None or variable.kind != "function":
         functions = {v.name for v in scope.variables.values() if v.kind == "function"}
         functions |= {known for known, operator in OPERATORS.items() if operator.precedence is None and not operator.random}
-        raise ModelNameError(
-            f'I do not know the function "{name}"',
-            scope.source,
-            *_offsets(name.at),
-            suggestion(name.name, functions - {"sensed"}, 0.7)
-            or f'Declare it, as in "\\var {name} function 2 {len(values)},".',
-        )
+        declare = f'Declare it, as in "\\var {name} function 2 {len(values)},".'
+        hint = suggestion(name.name, functions - {"sensed"}, 0.7) or declare
+        raise problem("unknown function", name.at, name=name, hint=hint)
     number, count = variable.numbers
     if len(values) != count:
-        raise ModelSyntaxError(
-            f"{name}(...) takes {count} value{'s' * (count != 1)}, not {len(values)}", scope.source, *_offsets(name.at)
-        )
+        raise problem("number of arguments", name.at, name=name, wanted=f"{count} value{'s' * (count != 1)}", given=len(values))
     return Apply("sensed", (Number(number), *values), expression.at)
 
 

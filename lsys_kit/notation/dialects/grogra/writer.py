@@ -1,18 +1,182 @@
-"""A system in GROGRA's notation: its words, its lines, and what the notation lacks."""
+r"""A system in GROGRA's notation: its words, its lines, and what the notation lacks.
+
+The records have draws where GROGRA has names: RH(uniform(0, 360)) is written `RH(x0)`, after `\var x0 uniform 0 360`. So a text
+has a variable for each distinct draw, function and index.
+"""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from itertools import count
 
-from lsys_kit.notation.dialects.grogra.declarations import declarations, inexpressible, rule_with_variables
 from lsys_kit.notation.dialects.grogra.probabilities import complete_probabilities
-from lsys_kit.notation.dialects.grogra.variables import Variable
+from lsys_kit.notation.dialects.grogra.variables import Variable, names_of, random_call
 from lsys_kit.notation.model.arithmetic import number_text
-from lsys_kit.notation.model.expressions import Expression, Name, Number, Style, styled_text
-from lsys_kit.notation.model.modules import END, Item, Module, Pattern, Repeat
-from lsys_kit.notation.model.system import Constant, LSystem, Production
-from lsys_kit.notation.syntax.formatting import first_missing, look
+from lsys_kit.notation.model.expressions import (
+    OPERATORS,
+    Apply,
+    Expression,
+    Name,
+    Number,
+    Style,
+    names_in,
+    styled_text,
+    transform,
+)
+from lsys_kit.notation.model.modules import END, Item, Module, Pattern, Repeat, expressions_of, with_expressions
+from lsys_kit.notation.model.system import LOOK, Constant, LSystem, Production
+from lsys_kit.notation.syntax.formatting import unusual
+
+_FunctionKey = tuple[int, int]
+"""A sensitive function: its number, and how many values it takes."""
+
+
+@dataclass(frozen=True)
+class Declared:
+    """The variables of a system.
+
+    Attributes
+    ----------
+    draws, functions
+        Their names.
+    levels
+        For each index how many repetitions are around the one that it counts.
+    """
+
+    draws: Mapping[Expression, str]
+    functions: Mapping[_FunctionKey, str]
+    levels: Mapping[str, int]
+
+    @property
+    def variables(self) -> Iterator[Variable]:
+        """The variables to declare."""
+        for drawn, name in self.draws.items():
+            yield replace(as_variable(drawn), name=name)
+        for (number, values), name in self.functions.items():
+            yield Variable(name, "function", (Number(number), Number(values)))
+        for name, level in self.levels.items():
+            yield Variable(name, "index", (Number(level),) if level else ())
+
+
+def declarations(system: LSystem) -> Declared:
+    """The variables that a system needs.
+
+    >>> from lsys_kit.notation.read import read
+    >>> needed = declarations(read("axiom: a\\na -> RH(uniform(0, 360)) repeat(3, i) <b(i)> RU(uniform(0, 360))"))
+    >>> [(variable.name, variable.kind) for variable in needed.variables]
+    [('x0', 'uniform'), ('i', 'index')]
+    """
+    taken = {name for expression in _expressions(system) for name in names_in(expression)}
+    calls = [call for expression in _expressions(system) for call in _draws_and_senses(expression)]
+    draws = dict.fromkeys(call for call in calls if call.operator != "sensed")
+    functions = dict.fromkeys(_function_key(call) for call in calls if call.operator == "sensed")
+    levels = {repeat.index: level for repeat, level in _repeats(system) if repeat.index}
+    return Declared(
+        dict(zip(draws, _free_names("x", taken), strict=False)),
+        dict(zip(functions, _free_names("f", taken), strict=False)),
+        levels,
+    )
+
+
+def _free_names(letter: str, taken: Collection[str]) -> Iterator[str]:
+    """Names made of the letter and a number, without those that are taken."""
+    return (name for name in (f"{letter}{number}" for number in count()) if name not in taken)
+
+
+def _expressions(system: LSystem) -> Iterator[Expression]:
+    for constant in system.constants:
+        yield from (Name(constant.name), constant.value)
+    yield from expressions_of(system.axiom)
+    for rule in system.rules:
+        yield from expressions_of(rule.parameters)
+        yield from (part for part in (rule.condition, rule.probability) if part is not None)
+        yield from expressions_of(rule.successor)
+
+
+def _draws_and_senses(expression: Expression) -> Iterator[Apply]:
+    """The random and the sensitive calls in an expression."""
+    if isinstance(expression, Apply):
+        if expression.operator == "sensed" or OPERATORS[expression.operator].random:
+            yield expression
+        if not OPERATORS[expression.operator].random:
+            for operand in expression.operands:
+                yield from _draws_and_senses(operand)
+
+
+def _function_key(call: Apply) -> _FunctionKey:
+    first, count = call.operands[0], len(call.operands) - 1
+    number = first.value if isinstance(first, Number) else -1
+    return (number if isinstance(number, int) else -1), count
+
+
+def _repeats(system: LSystem) -> Iterator[tuple[Repeat, int]]:
+    """What is repeated, each with the number of repetitions around it."""
+    todo: list[tuple[Item, int]] = [(item, 0) for rule in system.rules for item in rule.successor]
+    for item, level in todo:
+        if isinstance(item, Repeat):
+            yield item, level
+            todo += [(part, level + 1) for part in item.body]
+
+
+def as_variable(drawn: Expression) -> Variable:
+    """What a draw is declared as, without a name; its inverse is `random_call`.
+
+    >>> as_variable(Apply("normal", (Number(0), Number(3)))).values
+    (Number(value=0), Number(value=9))
+    """
+    assert isinstance(drawn, Apply)
+    if drawn.operator != "normal":
+        return Variable("", drawn.operator, drawn.operands)
+    mean, deviation = drawn.operands
+    if isinstance(deviation, Apply) and deviation.operator == "sqrt":
+        return Variable("", "normal", (mean, deviation.operands[0]))
+    variance = Number(deviation.value**2) if isinstance(deviation, Number) else Apply("^", (deviation, Number(2)))
+    return Variable("", "normal", (mean, variance))
+
+
+def inexpressible(system: LSystem) -> str | None:
+    """The first random number, repetition or sensitive function of a system that variables cannot express, in words."""
+    needed, constants = declarations(system), {constant.name for constant in system.constants}
+    for drawn in needed.draws:
+        values = as_variable(drawn).values
+        if any(names_in(value) - constants or any(_draws_and_senses(value)) for value in values):
+            return "random numbers that depend on parameters"
+        if random_call(as_variable(drawn)) != drawn:
+            return f"random number like {drawn}"
+    if any(number < 0 for number, _ in needed.functions):
+        return "sensitive functions whose number is calculated"
+    for repeat, level in _repeats(system):
+        if repeat.index and repeat.index not in names_of(repeat.body):
+            return f'index like "{repeat.index}", which counts and is not used'
+        if repeat.index and needed.levels[repeat.index] != level:
+            return f'index like "{repeat.index}", which counts at two levels'
+    return None
+
+
+def with_variables(expression: Expression, names: Declared) -> Expression:
+    """An expression with variables in place of random and sensitive calls."""
+
+    def change(part: Expression) -> Expression | None:
+        if part in names.draws:
+            return Name(names.draws[part])
+        if not isinstance(part, Apply) or part.operator != "sensed":
+            return None
+        values = ", ".join(str(with_variables(value, names)) for value in part.operands[1:])
+        return Name(f"{names.functions[_function_key(part)]}{f'({values})' if values else ''}")
+
+    return transform(expression, change)
+
+
+def rule_with_variables(rule: Production, names: Declared) -> Production:
+    """A rule with variables in place of random and sensitive calls."""
+    condition, probability = (
+        part if part is None else with_variables(part, names) for part in (rule.condition, rule.probability)
+    )
+    successor = with_expressions(rule.successor, lambda expression: with_variables(expression, names))
+    return replace(rule, condition=condition, probability=probability, successor=successor)
+
 
 STYLE = Style({"==": "="})
 _COMMAND = re.compile(r"R[ULHVG]|[FfLDNPVCHU]l?[+*]?|@")
@@ -31,6 +195,11 @@ def module_text(module: Module | Pattern) -> str:
     if len(texts) == 1 and _COMMAND.fullmatch(module.symbol) and _PLAIN_NUMBER.fullmatch(texts[0]):
         return module.symbol + texts[0]
     return f"{module.symbol}({', '.join(texts)})" if texts else module.symbol
+
+
+def expression_text(expression: Expression) -> str:
+    """An expression, with "=" for equality."""
+    return styled_text(expression, STYLE)
 
 
 def joined_word(texts: Iterable[str]) -> str:
@@ -105,7 +274,7 @@ def _settings(system: LSystem) -> Iterator[str]:
     ):
         if value is not None and value != usual:
             yield f"{directive} {_value_text(Number(value))}"
-    yield from (f"\\set {name} {said}" for name, said in look(system))
+    yield from (f"\\set {name} {said}" for name, said in unusual(system, *LOOK))
 
 
 def _constant(constant: Constant) -> str:
@@ -131,21 +300,10 @@ def _variable(variable: Variable) -> str:
 
 
 def missing_feature(system: LSystem) -> str | None:
-    """The first thing that a system has and GROGRA's notation lacks, in words."""
+    """What else a system has and GROGRA's notation lacks, in words."""
     ends = any(module.symbol == END for rule in system.rules for module in rule.right)
     return (
-        first_missing(
-            system,
-            "round brackets as branches",
-            "predecessors of several modules",
-            "decomposition rules",
-            "meta-rules",
-            "ignored symbols",
-            "right contexts that name the next branch",
-            "right contexts that pass over brackets",
-            "field",
-        )
-        or (None if system.decomposition_depth is None else "depth of decomposition")
+        (None if system.decomposition_depth is None else "depth of decomposition")
         or ("branch ends in contexts" if ends else None)
         or (None if system.axiom else "empty axiom")
         or inexpressible(system)

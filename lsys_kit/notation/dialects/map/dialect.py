@@ -9,25 +9,24 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 from lark import Token, Transformer, v_args
 
 from lsys_kit.budget import current
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError
-from lsys_kit.notation.analysis.map_checks import check_map, unused_parts
+from lsys_kit.notation.analysis.cell_checks import check_map, unused_parts
 from lsys_kit.notation.analysis.problems import problem
-from lsys_kit.notation.dialects.map.diagnostics import DIAGNOSTICS
-from lsys_kit.notation.dialects.map.spelling import SPELLING
 from lsys_kit.notation.fragments import is_link, unpacked
-from lsys_kit.notation.model.maps import Edge, EdgeProduction, MapSystem, Marker, SuccessorPart
+from lsys_kit.notation.model.cells import Edge, EdgeProduction, MapSystem, Marker, SuccessorPart
 from lsys_kit.notation.syntax.dialect import Grammar
 from lsys_kit.notation.syntax.parser import parse
 from lsys_kit.notation.syntax.text.printed import printed_statements
 from lsys_kit.notation.syntax.text.statements import bounded, check_text, without_comments
 from lsys_kit.notation.syntax.text.transcript import edited
 from lsys_kit.notation.syntax.text.typesetting import typesetting
-from lsys_kit.notation.syntax.wording import notes, reporting
+from lsys_kit.notation.syntax.wording import Spelling, notes, reporting
 
 _LEFTWARD = re.compile("\\\\overleftarrow|.\u20d6")
 
@@ -82,7 +81,6 @@ def read_map(text: str) -> MapSystem:
 
 
 def _system(text: str) -> MapSystem:
-    """The system that the statements of a text make."""
     settings: dict[str, Any] = {}
     productions: list[EdgeProduction] = []
     for start, end in bounded(printed_statements(text), text):
@@ -130,4 +128,10 @@ class _MapStatements(Transformer[Any, Any]):
         return "steps", int(number)
 
 
-MAP = Grammar(name="map", transformer=_MapStatements, diagnostics=DIAGNOSTICS, starts=("statement",), spelling=SPELLING)
+MAP = Grammar(
+    name="map",
+    transformer=_MapStatements,
+    diagnostics=("foreign_comment", "setting", "brackets", "second_arrow", "own_arrow", "walls", "unreadable_character"),
+    starts=("statement",),
+    spelling=Spelling(Path(__file__).parent),
+)

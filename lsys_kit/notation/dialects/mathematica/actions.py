@@ -1,4 +1,4 @@
-"""What `grammar.lark` names, as records: a method for each name."""
+"""What `grammar.lark` names, as records: functions, angles, random numbers, and the definitions of a system."""
 
 from __future__ import annotations
 
@@ -8,19 +8,92 @@ from dataclasses import dataclass, replace
 from itertools import count
 from typing import Any, TypeAlias
 
-from lark import Token, Transformer, v_args
-from lark.visitors import merge_transformers
+from lark import Token, v_args
 
 from lsys_kit.budget import current
-from lsys_kit.errors import ModelNameError, ModelSyntaxError
+from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.analysis.problems import problem
-from lsys_kit.notation.dialects.mathematica.calls import MathematicaExpressions
-from lsys_kit.notation.dialects.mathematica.expressions import INSTEAD, spelling_hint
-from lsys_kit.notation.model.expressions import Apply, Expression, Name
+from lsys_kit.notation.dialects.mathematica.expressions import (
+    ANGLES,
+    DISTRIBUTIONS,
+    FUNCTIONS,
+    INSTEAD,
+    INVERSES,
+    TESTS,
+    spelling_hint,
+)
+from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
 from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.notation.model.system import Constant, Production
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS, quoted_dialects
-from lsys_kit.notation.syntax.actions import ActionError, Expressions, check_name, place_of
+from lsys_kit.notation.syntax.actions import Expressions, Statement, check_arity, check_name, place_of
+
+
+@v_args(inline=True)
+class MathematicaExpressions(Expressions):
+    """What expressions name in Mathematica alone."""
+
+    def number(self, token: Token) -> Number:
+        return super().number(token.update(value=token.replace("*^", "e")))
+
+    def call(self, name: Token, *operands: Expression) -> Expression:
+        if name in TESTS:
+            return self._test(name, operands)
+        if name not in FUNCTIONS:
+            functions = f"Functions are: {', '.join(sorted((*FUNCTIONS, *TESTS, *ANGLES)))}."
+            hint = INSTEAD.get(name) or spelling_hint(name) or functions
+            raise problem("unknown function", place_of(name), name=name, hint=hint)
+        return self._of(name, FUNCTIONS[name], operands)
+
+    def _test(self, name: Token, operands: tuple[Expression, ...]) -> Expression:
+        check_arity(name, "abs", operands)
+        modulo, relation, value = TESTS[name]
+        at = place_of(name, *operands)
+        tested = self._applied(modulo, (*operands, Number(2)), at) if modulo else operands[0]
+        return self._applied(relation, (tested, Number(value)), at)
+
+    def _of(self, name: Token, operator: str, operands: tuple[Expression, ...]) -> Expression:
+        check_arity(name, operator, operands)
+        return self._applied(operator, operands, place_of(name, *operands))
+
+    def chain(self, left: Expression, relation: Token, right: Expression, *rest: Any) -> Expression:
+        whole = self.binary(left, relation, right)
+        for sign, further in zip(rest[::2], rest[1::2], strict=True):
+            whole = self._applied("&&", (whole, self.binary(right, sign, further)), place_of(whole, further))
+            right = further
+        return whole
+
+    def degrees(self, name: Token, angle: Expression, *sign: Token) -> Expression:
+        times, degree = (*sign, None)[0], sign[-1]
+        if len(sign) == 2 and times not in ("*", "·", "×"):
+            raise problem("angle times", place_of(times, degree), name=name)
+        return self._of(name, ANGLES[name], (angle,))
+
+    def radians(self, name: Token, angle: Expression) -> Expression:
+        raise problem("radians", place_of(name, angle), name=name)
+
+    def inverse(self, name: Token, value: Expression, over: Token, degree: Token) -> Expression:
+        if over != "/":
+            raise problem("inverse in radians", place_of(name, degree), name=name)
+        return self._of(name, INVERSES[name], (value,))
+
+    def uniform(self, name: Token, *ends: Expression) -> Expression:
+        return self._applied("uniform", ends, place_of(name, *ends))
+
+    def drawn(self, _: Token, distribution: Token, *operands: Expression) -> Expression:
+        if distribution not in DISTRIBUTIONS:
+            hint = suggestion(distribution, DISTRIBUTIONS) or f"Distributions are: {', '.join(DISTRIBUTIONS)}."
+            raise problem("unknown distribution", place_of(distribution), name=distribution, hint=hint)
+        return self._of(distribution, DISTRIBUTIONS[distribution], operands)
+
+    def numbers(self, *values: Expression) -> tuple[Expression, ...]:
+        return values
+
+    def table(self, name: Token, weights: tuple[Expression, ...], _: Token, values: tuple[Expression, ...]) -> Expression:
+        if [value.value if isinstance(value, Number) else None for value in values] != list(range(len(weights))):
+            raise problem("weights", place_of(*values))
+        return self._of(name, "table", weights)
+
 
 WordDefinition: TypeAlias = tuple[Pattern, ...]
 SYMBOL_PATTERN = re.compile(r"[A-Za-z_]\w*'*[*+\-]?|[@?][A-Za-z]\w?|\d|[^\w\sε]", re.ASCII)
@@ -107,7 +180,7 @@ def condition_of(conditions: Iterable[Expression]) -> Expression | None:
 
 
 @v_args(inline=True)
-class _MathematicaStatements(MathematicaExpressions):
+class MathematicaStatements(MathematicaExpressions):
     """What the definitions name."""
 
     def word(self, *modules: Pattern) -> WordDefinition:
@@ -123,12 +196,7 @@ class _MathematicaStatements(MathematicaExpressions):
             return _check_plain_name(token, "A symbol")
         text = re.sub(r"\\(.)", r"\1", token[1:-1])
         if not SYMBOL_PATTERN.fullmatch(text):
-            raise ActionError(
-                ModelSyntaxError,
-                "There is more than one symbol between these quotation marks",
-                place_of(token),
-                "Separate symbols by commas, as in 'F, \"+\", F'.",
-            )
+            raise problem("several symbols quoted", place_of(token))
         return token.update(value=text)
 
     def pattern(self, symbol: Token, *arguments: RequiredArgument) -> PatternDefinition:
@@ -137,23 +205,14 @@ class _MathematicaStatements(MathematicaExpressions):
     def parameter(self, blank: Token, *condition: Expression) -> RequiredArgument:
         name = blank[:-1]
         if name.endswith("_"):
-            raise ActionError(
-                ModelSyntaxError,
-                f'"{blank}" matches a row of values',
-                place_of(blank),
-                f'A parameter matches one: type "{name.rstrip("_")}_".',
-            )
+            raise problem("row of values", place_of(blank), blank=blank, name=name.rstrip("_"))
         check_name(_check_plain_name(blank.update(value=name), "A parameter"))
         return RequiredArgument(Name(name, place_of(blank)), True, *condition)
 
     def argument(self, value: Expression, *condition: Expression) -> RequiredArgument:
         if condition:
-            raise ActionError(
-                ModelSyntaxError,
-                'A parameter is named with "_" after it',
-                value.at,
-                f'Type "{value}_ /; ...".' if isinstance(value, Name) else None,
-            )
+            hint = f'Type "{value}_ /; ...".' if isinstance(value, Name) else ""
+            raise problem("condition on value", value.at, hint=hint)
         return RequiredArgument(value)
 
     def conditioned(self, pattern: PatternDefinition, condition: Expression) -> PatternDefinition:
@@ -185,7 +244,7 @@ class _MathematicaStatements(MathematicaExpressions):
     def successor(self, *word: WordDefinition) -> WordDefinition:
         return word[0] if word else ()
 
-    def printed_rule(self, *parts: Any) -> tuple[str, Any]:
+    def printed_rule(self, *parts: Any) -> Statement:
         sides: dict[str, tuple[PatternDefinition, ...]] = dict(part for part in parts[:-1] if isinstance(part, tuple))
         pattern = next(part for part in parts if isinstance(part, PatternDefinition))
         at = pattern.symbol.start_pos or 0, parts[-2].end_pos or 0
@@ -206,55 +265,46 @@ class _MathematicaStatements(MathematicaExpressions):
     def run(self, _: Token, system: SystemDefinition | Token, steps: Expression) -> Run:
         return Run(system, steps)
 
-    def definition(self, *parts: Any) -> tuple[str, Any]:
+    def definition(self, *parts: Any) -> Statement:
         things = [part for part in parts if not isinstance(part, Token)]
         return "deferred", ("definition", (str(parts[0]) if isinstance(parts[0], Token) else "", things[0]))
 
-    def unknown(self, _: Token, __: Token, call: Token) -> tuple[str, Any]:
+    def unknown(self, _: Token, __: Token, call: Token) -> Statement:
         name = call.split("[")[0].rstrip()
         at = call.start_pos or 0
-        raise ActionError(
-            ModelNameError,
-            f'I do not know "{name}[...]"',
-            (at, at + len(name)),
-            INSTEAD.get(name) or spelling_hint(name) or "What prints or draws can be left out.",
-        )
+        hint = INSTEAD.get(name) or spelling_hint(name) or "What prints or draws can be left out."
+        raise problem("unknown call", (at, at + len(name)), name=name, hint=hint)
 
-    def constant(self, name: Token, _: Token, value: Expression, *slider: Any) -> tuple[str, Any]:
+    def constant(self, name: Token, _: Token, value: Expression, *slider: Any) -> Statement:
         check_name(_check_plain_name(name, "A constant"))
         return "deferred", ("constant", Constant(str(name), value, slider[1:] or None))
 
-    def setting(self, keyword: Token, _: Token, value: Expression) -> tuple[str, Any]:
+    def setting(self, keyword: Token, _: Token, value: Expression) -> Statement:
         return "deferred", ("setting", (str(keyword), value))
 
-    def turtle(self, keyword: Token, _: Token, tradition: Token) -> tuple[str, Any]:
+    def turtle(self, keyword: Token, _: Token, tradition: Token) -> Statement:
         if tradition[1:-1] not in TURTLE_DIALECTS:
-            raise ActionError(
-                ModelNameError,
-                f"I do not know the turtle commands of {tradition}",
-                place_of(tradition),
-                f"Turtle commands are those of {quoted_dialects('or')}.",
-            )
+            raise problem("unknown turtle", place_of(tradition), tradition=tradition, turtles=quoted_dialects("or"))
         return "deferred", ("setting", ("turtle", str(tradition[1:-1])))
 
-    def look(self, token: Token) -> tuple[str, Any]:
+    def look(self, token: Token) -> Statement:
         name, said = re.findall("[a-z]+", token)
         return "deferred", ("setting", (name, said))
 
-    def row(self, _keyword: Token, _: Token, *symbols: Token) -> tuple[str, Any]:
+    def row(self, _keyword: Token, _: Token, *symbols: Token) -> Statement:
         bracket = next((symbol for symbol in symbols if symbol in "[]"), None)
         if bracket is not None:
             raise problem("bracket in list", place_of(bracket))
         kept = tuple(dict.fromkeys(str(symbol) for symbol in symbols if (symbol.type, symbol) != ("NAME", "Null")))
         return "deferred", ("setting", ("ignore", kept))
 
-    def alone(self, name: Token) -> tuple[str, Any]:
+    def alone(self, name: Token) -> Statement:
         return "deferred", ("alone", name)
 
-    def printed_axiom(self, _: Token, word: WordDefinition) -> tuple[str, Any]:
+    def printed_axiom(self, _: Token, word: WordDefinition) -> Statement:
         return "deferred", ("printed_axiom", word)
 
-    def other(self, *parts: Token) -> tuple[str, Any]:
+    def other(self, *parts: Token) -> Statement:
         named = re.search(r"\b\w++(?=\s*+\[)", parts[0]) or re.search(r"\w+", parts[0])
         return "deferred", ("other", named.group() if named else str(parts[0]).strip())
 
@@ -262,13 +312,9 @@ class _MathematicaStatements(MathematicaExpressions):
 def _check_plain_name(name: Token, what: str) -> Token:
     """A name that means nothing else in Mathematica."""
     if name.endswith("_"):
-        raise ActionError(
-            ModelSyntaxError, f'{what} has a name without "_" at its end', place_of(name), f'Type "{name.rstrip("_")}".'
-        )
+        raise problem("blank behind name", place_of(name), what=what, name=name.rstrip("_"))
     if name == "Degree":
-        raise ActionError(
-            ModelNameError, f'{what} cannot be called "Degree"', place_of(name), "It says that an angle is in degrees."
-        )
+        raise problem("called Degree", place_of(name), what=what)
     return name
 
 
@@ -279,11 +325,10 @@ def _rule_of(
     successor: WordDefinition,
     at: tuple[int, int],
 ) -> RuleDefinition:
-    """The rule of some patterns and a successor."""
     every = (*left, pattern, *right)
     condition = condition_of(condition for one in every for condition in one.conditions)
     if isinstance(condition, Apply) and condition.depth > current().depth:
-        raise ActionError(ModelSyntaxError, f"The conditions of this rule are nested more than {current().depth} deep", at)
+        raise problem("conditions too deep", at, most=current().depth)
     numbers = count(1)
     modules = tuple(_module_of(one, numbers) for one in every)
     own = len(left)
@@ -298,8 +343,3 @@ def _module_of(pattern: PatternDefinition, numbers: Iterator[int]) -> Pattern:
         for required in pattern.arguments
     )
     return Pattern(str(pattern.symbol), arguments, place_of(pattern.symbol, *arguments))
-
-
-def transformer() -> Transformer[Any, Any]:
-    """What makes records of all that the grammar names."""
-    return merge_transformers(_MathematicaStatements(), expressions=Expressions())  # type: ignore[no-untyped-call,no-any-return]

@@ -7,11 +7,11 @@ from collections.abc import Collection, Iterable, Iterator
 
 from lsys_kit.notation.dialects.mathematica.actions import condition_of
 from lsys_kit.notation.dialects.mathematica.expressions import expression_text
-from lsys_kit.notation.model.arithmetic import Value, literal_text, number_text
+from lsys_kit.notation.model.arithmetic import Value, number_text
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, names_in
 from lsys_kit.notation.model.modules import Module, Pattern, flat
-from lsys_kit.notation.model.system import Constant, LSystem, Production
-from lsys_kit.notation.syntax.formatting import OWN_NOTATION, look
+from lsys_kit.notation.model.system import LOOK, Constant, LSystem, Production
+from lsys_kit.notation.syntax.formatting import OWN_NOTATION, unusual
 
 _PLAIN_NAME = re.compile(r"(?!(?:axiom|lrules?|lsystem|left|pred|right|succ|null)$)[a-z]\w*(?<!_)", re.IGNORECASE | re.ASCII)
 """A symbol that needs no quotation marks."""
@@ -77,15 +77,8 @@ def _constant(constant: Constant) -> str:
 def _settings(system: LSystem) -> Iterator[str]:
     if system.turtle != OWN_NOTATION:
         yield f'turtle = "{system.turtle}";'
-    for name, value, usual in (
-        ("angle", system.angle, 90),
-        ("heading", system.heading, 90),
-        ("length", system.length, None),
-        ("seed", system.seed, None),
-    ):
-        if value is not None and value != usual:
-            yield f"{name} = {literal_text(value)};"
-    yield from (f'{name} = "{said}";' for name, said in look(system))
+    yield from (f"{name} = {text};" for name, text in unusual(system, "angle", "heading", "length", "seed"))
+    yield from (f'{name} = "{said}";' for name, said in unusual(system, *LOOK))
 
 
 def _word_text(modules: Iterable[Pattern]) -> str:
@@ -98,7 +91,6 @@ def _lrules_text(system: LSystem, name: str, taken: Collection[str]) -> str:
 
 
 def _rule(production: Production, constants: Collection[str]) -> str:
-    """An LRule."""
     conditions = _conditions(production, constants)
     patterns = [_pattern(module, constants, conditions.get(index)) for index, module in enumerate(production.parameters)]
     own = len(production.left)

@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
+from pathlib import Path
 
 from lsys_kit.errors import ModelSyntaxError
 from lsys_kit.notation.model.modules import Pattern, flat
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.syntax.actions import Statements
 from lsys_kit.notation.syntax.builder import Draft, build_system
-from lsys_kit.notation.syntax.diagnostics import DIAGNOSTICS, missing_keyword_colon
+from lsys_kit.notation.syntax.diagnostics import DIAGNOSTICS
 from lsys_kit.notation.syntax.dialect import Dialect
-from lsys_kit.notation.syntax.failure import ParseFailure
-from lsys_kit.notation.syntax.formatting import first_missing, settings
-from lsys_kit.notation.syntax.text.headings import HEADING, SENTENCE, without_headings
-from lsys_kit.notation.syntax.text.statements import ARROW, blank_parentheses, statements, without_comments
+from lsys_kit.notation.syntax.formatting import settings
+from lsys_kit.notation.syntax.text.statements import blank_parentheses, statements, without_comments
+from lsys_kit.notation.syntax.text.typesetting import HEADING, SENTENCE, without_headings
+from lsys_kit.notation.syntax.wording import Spelling
 
 NAME = "plant-string"
 _WORD = r"[A-Za-z\[\]()+\-\s]*+"
@@ -32,33 +33,11 @@ _LINE = re.compile(
     re.IGNORECASE | re.VERBOSE,
 )
 """A line of a plant string."""
-_FOREIGN_KEYWORD = re.compile(
-    r"((?:decomposition[ \t]+)?depth|heading|alphabet|ignore|consider|meta|decomposition|interpretation)[ \t]*:", re.IGNORECASE
-)
-_HEADING = re.compile(r"(number[ \t]+of[ \t]+productions|stage[ \t]+\d+[ \t]+string)(?![ \t]*:)", re.IGNORECASE)
 _MARKS = tuple(
     (re.compile(pattern, re.IGNORECASE), weight)
     for pattern, weight in ((r"number\s+of\s+productions", 2), (r"stage\s+\d+\s+string", 2), (r"turtle\s*:\s*abop", 2))
 )
 """How lines begin that other notations hardly have, and how much each says."""
-
-
-def _other_notation(failure: ParseFailure) -> ModelSyntaxError | None:
-    """What only other notations have, or a line of a lesson without its colon."""
-    line = failure.statement
-    keyword, heading = _FOREIGN_KEYWORD.match(line), _HEADING.match(line)
-    if keyword:
-        return failure.error(
-            f'A plant string has no "{keyword[1].lower()}:"',
-            "Its settings are angle, length, seed, steps and turtle.",
-            failure.start,
-            len(keyword[1]),
-        )
-    if heading:
-        return missing_keyword_colon(failure.source, failure.start, heading[1], line[heading.end() :])
-    if failure.found == ":" and ARROW.search(failure.before):
-        return failure.error("A plant string has no probabilities", failure.spelling.rule_example)
-    return None
 
 
 def _finish(draft: Draft) -> LSystem:
@@ -74,26 +53,6 @@ def _lines(system: LSystem) -> Iterator[str]:
     yield f"Axiom: {PLANT_STRING.word(system.axiom)}"
     for production in system.productions:
         yield f"{production.predecessor} -> {PLANT_STRING.word(flat(production.successor)) or 'ε'}"
-
-
-def _lacking(system: LSystem) -> str | None:
-    return first_missing(
-        system,
-        "parameters",
-        "symbols of several letters",
-        "conditions",
-        "contexts",
-        "predecessors of several modules",
-        "probabilities",
-        "repetition",
-        "constants",
-        "decomposition rules",
-        "meta-rules",
-        "interpretation rules",
-        "starting direction",
-        "ignored symbols",
-        "field",
-    )
 
 
 def _likely(text: str) -> int:
@@ -123,13 +82,29 @@ PLANT_STRING = Dialect(
     statements=statements,
     transformer=Statements,
     finish=_finish,
-    diagnostics=(_other_notation, *DIAGNOSTICS),
+    diagnostics=("other_notation", *DIAGNOSTICS),
     module=str,
     joined="".join,
     write=lambda system: "\n".join(_lines(system)),
-    missing_feature=_lacking,
+    lacks=(
+        "parameters",
+        "symbols of several letters",
+        "conditions",
+        "contexts",
+        "predecessors of several modules",
+        "probabilities",
+        "repetition",
+        "constants",
+        "decomposition rules",
+        "meta-rules",
+        "interpretation rules",
+        "starting direction",
+        "ignored symbols",
+        "field",
+    ),
     likely=_likely,
     turtle=NAME,
     starts=("statement", "word"),
     transcribe=without_headings,
+    spelling=Spelling(Path(__file__).parent),
 )

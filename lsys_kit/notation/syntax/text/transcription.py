@@ -4,22 +4,78 @@ The Algorithmic Beauty of Plants prints a system with its number of steps and it
 labels before productions, probabilities over arrows, digits as symbols, and typographic signs. Whatever is printed otherwise
 than the kit writes it becomes a list of edits. The transcript remembers where in the source each of its characters comes
 from, so that an error is shown in the text that was typed.
+
+Greek letters become names: the book has constants such as α and δ, the kit has names of the letters A to Z. Three of them mean
+something else: ω before the axiom, δ before the angle, ε for nothing.
 """
 
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Iterator
 from itertools import islice
 from typing import NamedTuple
 
 from lsys_kit.budget import current
-from lsys_kit.notation.syntax.text.greek import GREEK, angle_as_constant, name_of, named_letters
-from lsys_kit.notation.syntax.text.headings import HEADING, RULES, SENTENCE, headings
 from lsys_kit.notation.syntax.text.statements import ARROW, LABEL, OMEGA, blank_parentheses, without_comments
-from lsys_kit.notation.syntax.text.subscripts import LINE_OF_SUBSCRIPTS, subscripts
 from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, as_typed, edited
-from lsys_kit.notation.syntax.text.typesetting import MACRO, typesetting
+from lsys_kit.notation.syntax.text.typesetting import (
+    HEADING,
+    LINE_OF_SUBSCRIPTS,
+    MACRO,
+    RULES,
+    SENTENCE,
+    headings,
+    subscripts,
+    typesetting,
+)
+
+GREEK = re.compile(r"[Α-ΡΣ-Ωα-δζ-ωϑϕϱµ]|\\(?:[Aa]lpha|[Bb]eta|[Gg]amma|[Dd]elta|theta|lambda|mu|phi|psi|rho|sigma|tau|omega)\b")
+"""A letter, or its macro in LaTeX."""
+_SETTING = re.compile(
+    rf"(?:^|[,;])[ \t]*+(?:(?P<axiom>{OMEGA})[ \t]*+(?:[:=]|{ARROW.pattern})"
+    r"|(?P<angle>δ|\\delta)[ \t]*+[:=](?:[ \t]*+(?P<value>\d[\d.]*+))?)"
+)
+"""Where a letter has its own meaning: before the axiom or the angle, at the beginning of a line or after a comma."""
+
+
+def name_of(letter: str) -> str:
+    r"""The name of a Greek letter.
+
+    >>> name_of("α"), name_of("Δ"), name_of(r"\beta")
+    ('alpha', 'Delta', 'beta')
+    """
+    if letter[0] == "\\":
+        return letter[1:]
+    name = unicodedata.name(unicodedata.normalize("NFKC", letter)).split()[-1].lower().replace("lamda", "lambda")
+    return name.capitalize() if letter.isupper() else name
+
+
+def named_letters(text: str, start: int, latex: bool) -> Iterator[tuple[str, Edit]]:
+    """The Greek letters of a line that begins at an offset, each with the edit that puts its name in place.
+
+    >>> [edit.text for _, edit in named_letters("αβ -> F(α_1)", 0, False)]
+    ['alpha ', 'beta', 'alpha']
+    """
+    settings = {match.start("axiom" if match["axiom"] else "angle") for match in _SETTING.finditer(text)}
+    for match in GREEK.finditer(text):
+        letter = match.group()
+        if match.start() in settings or (letter[0] == "\\" and not latex):  # a backslash is a roll, before a name
+            continue
+        before, after = text[match.start() - 1 : match.start()], text[match.end() : match.end() + 1]
+        apart = " " * bool(re.match(r"[A-Za-z]", before)), " " * (after.isalpha() and after != "ε")
+        yield letter, Edit(start + match.start(), start + match.end(), f"{apart[0]}{name_of(letter)}{apart[1]}")
+
+
+def angle_as_constant(text: str, start: int) -> Edit | None:
+    """Where a line sets the angle δ, the edit that declares a constant of the same value before it."""
+    setting = next((match for match in _SETTING.finditer(text) if match["value"]), None)
+    if setting is None:
+        return None
+    at = start + setting.start("angle")
+    return Edit(at, at, f"delta = {setting['value']}\n")
+
 
 _ARROW = ARROW.pattern
 _SIGNS = str.maketrans("’‘′ʼ∗⁎–ˆ∕⁄∼˜", "''''**-^//~~")
@@ -193,7 +249,6 @@ class _Listing:
             yield Edit(first.start, first.start, "axiom: ")
 
     def _is_word(self, line: _Line) -> bool:
-        """Whether a line that stands alone is a word."""
         return self.printed or bool(_WORD.fullmatch(line.text.rstrip()))
 
     def letters(self) -> Iterator[Edit]:
@@ -234,7 +289,6 @@ class _Listing:
             above = None
 
     def _head(self, line: _Line, head: str) -> Iterator[Edit]:
-        """What stands before the arrow."""
         for match in _ANY.finditer(line.text, 0, len(head) + 2):
             side = match.lastgroup or "left"
             yield Edit(line.start + match.start(side), line.start + match.end(side), "")

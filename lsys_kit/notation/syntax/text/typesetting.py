@@ -1,19 +1,20 @@
-r"""Productions set by LaTeX or Markdown, reduced to lines of plain text.
+r"""What print puts around productions, and takes out of their line, reduced to lines of plain text.
 
 An article sets its productions in an array or in aligned equations, several on a line apart by `\quad`, with the number of the
-equation behind them, and a web page sets symbols in bold type. What says nothing to a reader of productions becomes a blank,
-and where one production ends and the next begins, a new line.
+equation behind them, and a web page sets symbols in bold type; a book, a lesson or an article has a heading, a sentence or a
+title over them; Mathematica prints subscripts on a line of their own, below the letters that they belong to. What says nothing
+to a reader of productions becomes a blank, and where one production ends and the next begins, a new line.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from itertools import zip_longest
+from itertools import pairwise, zip_longest
 from typing import NamedTuple
 
-from lsys_kit.notation.syntax.text.statements import ARROW, LABEL, OMEGA
-from lsys_kit.notation.syntax.text.transcript import Edit
+from lsys_kit.notation.syntax.text.statements import ARROW, LABEL, OMEGA, blank_parentheses
+from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, edited
 
 MACRO = re.compile(
     r"\\(?:(?:long)?(?:rightarrow|mapsto)|to(?![A-Za-z])|xrightarrow|omega|vec|overleftarrow|overrightarrow|"
@@ -142,3 +143,98 @@ def _cell(plain: str, start: int, end: int) -> _Cell:
     arrow = ARROW.search(text)
     before, behind = (text[: arrow.start()], text[arrow.end() :]) if arrow else ("", "")
     return _Cell(*map(bool, (text.strip(), _BEGINS.match(text), arrow, before.strip(), behind.strip())))
+
+
+HEADING = (
+    r"(?:example|beispiel|figure|fig\.?|abbildung|abb\.?|l-system|listing|exercise|aufgabe|table|tabelle)[ \t]*+"
+    r"\d[\d.]*+[ \t]*+[a-z]?[ \t]*+[:.)]?[ \t]*+"
+)
+SENTENCE = r"[A-ZÄÖÜ][a-zäöüß]*+(?:,?[ \t]++(?:[A-Za-zÄÖÜäöüß'’-]{2,}|a|I))+[.:!][ \t]*+"
+"""Several words, of which none but "a" and "I" has one letter, with a full stop or a colon behind them."""
+RULES = r"(?:(?:rewriting |production )?rules|(?:produktions)?regeln|produktionen)\b(?![ \t]*+(?:=(?!=)|[(<>]))"
+_PRINTED = re.compile(
+    rf"^[ \t]*+(?:(?P<rules>(?i:{RULES})[ \t]*+(?::|(?!{ARROW.pattern})))|(?:(?i:{HEADING})|{SENTENCE})$)", re.MULTILINE
+)
+_AND = re.compile(r"(?<![ \t])(?:[ \t]*+,)?[ \t]++(?:and|und)[ \t]++")
+
+
+def headings(plain: str, notes: list[str]) -> Iterator[Edit]:
+    """The edits that take out what is printed before the first production and says nothing about it.
+
+    >>> notes = []
+    >>> [*headings("Example 2\\naxiom: I", notes)], notes
+    ([Edit(start=0, end=9, text='')], ['"Example 2" is passed over.'])
+    """
+    arrow = ARROW.search(plain)
+    until = _line_end(plain, arrow.start()) if arrow else len(plain)
+    for match in _PRINTED.finditer(plain, 0, until):
+        if match["rules"]:
+            yield Edit(*match.span("rules"), "")
+            yield from _joined(plain, match.end(), _line_end(plain, match.end()))
+        else:
+            notes.append(f'"{match.group().strip()}" is passed over.')
+            yield Edit(match.start(), match.start() + len(match.group().rstrip()), "")
+
+
+def _line_end(plain: str, at: int) -> int:
+    """Where a line ends that holds an offset."""
+    end = plain.find("\n", at)
+    return end if end >= 0 else len(plain)
+
+
+def _joined(plain: str, first: int, end: int) -> Iterator[Edit]:
+    """Productions joined by "and"."""
+    for word in _AND.finditer(plain, first, end):
+        if ARROW.search(plain, first, word.start()) and ARROW.search(plain, word.end(), end):
+            yield Edit(*word.span(), "\n")
+
+
+def without_headings(source: str) -> Transcript:
+    """A text without what is printed around its system.
+
+    >>> without_headings("Example 3\\nHere is another plant:\\nI -> I[A]").text
+    '\\n\\nI -> I[A]'
+    """
+    notes: list[str] = []
+    return edited(source, headings(source, notes), notes)
+
+
+_ROW_OF_SIGNS = r"[ \t]++[A-Za-z0-9](?:[ \t]++[A-Za-z0-9])*+[ \t]*+"
+_SUBSCRIPTS = re.compile(_ROW_OF_SIGNS)
+LINE_OF_SUBSCRIPTS = re.compile(rf"\n{_ROW_OF_SIGNS}(?:\n|\Z)")
+"""What a text with subscripts has."""
+_LETTER = re.compile(r"(?<![\w\\])[A-Za-z](?!\w)")
+_AXIOM = re.compile(r"[ \t]*+(?:axiom|start\w*|ω|\\omega)\b", re.IGNORECASE)
+_BRACKETS = str.maketrans("[]", "()")
+
+
+def subscripts(plain: str, joint: str, values: str = "()") -> Iterator[Edit]:
+    """The edits that put each subscript behind its letter, the first behind the first.
+
+    Parameters
+    ----------
+    plain
+        The text without its comments.
+    joint
+        What stands between a letter and its subscript in a name.
+    values
+        The brackets around values.
+
+    Examples
+    --------
+    >>> [*subscripts("a -> b\\n r    l", "_")]
+    [Edit(start=1, end=1, text='_r '), Edit(start=6, end=6, text='_l '), Edit(start=7, end=14, text='')]
+    """
+    if not LINE_OF_SUBSCRIPTS.search(f"\n{plain}"):
+        return
+    lines = [match for match in re.finditer(r"[^\n]+", plain) if not match.group().isspace()]
+    for above, below in pairwise(lines):
+        names = above.group()
+        if not _SUBSCRIPTS.fullmatch(below.group()) or not (ARROW.search(names) or _AXIOM.match(names)):
+            continue
+        letters = [*_LETTER.finditer(blank_parentheses(names.translate(_BRACKETS) if values == "[]" else names))]
+        found = below.group().split()
+        if len(letters) == len(found):
+            for letter, subscript in zip(letters, found, strict=True):
+                yield Edit(above.start() + letter.end(), above.start() + letter.end(), f"{joint}{subscript} ")
+            yield Edit(*below.span(), "")

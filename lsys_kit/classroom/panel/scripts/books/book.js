@@ -2,9 +2,12 @@
 //
 // Where a state alone decides what becomes of it, words are made here, each by copying successors from a table; other books hold
 // the words. A module that was there when several were replaced together counts as a mother with them.
+//
+// The books of one model are kept by their settings: each is asked for at most once. Another model has a library of its own.
+
+import { whole } from "./numbers.js";
 
 const HELD = 4_000_000; // modules of words that are kept
-const KINDS = { u1: Uint8Array, u2: Uint16Array, u4: Uint32Array, i1: Int8Array, i2: Int16Array, i4: Int32Array };
 
 export function openBook(data) {
   const { states, steps } = data, settled = "successors" in data;
@@ -27,7 +30,6 @@ export function openBook(data) {
     return sizes;
   }
 
-  // How often each state occurs at a step.
   function counts(step) {
     if (settled) {
       if (!counted.length) counted = [occurring(data.axiom, states.length)];
@@ -42,7 +44,6 @@ export function openBook(data) {
     return lengths[step];
   }
 
-  // How many tokens lie in each place of the stage diagram.
   function tokens(step) {
     if (data.tokens) return data.tokens[step];
     const found = new Array(data.net.names.length).fill(0);
@@ -115,7 +116,6 @@ function kept(made) {
   };
 }
 
-// Rows of numbers one after another, and where each starts.
 function rowsOf(rows) {
   return { starts: summed(rows.map((row) => row.length)), numbers: Int32Array.from(rows.flat()) };
 }
@@ -127,7 +127,6 @@ function summed(numbers) {
   return sums;
 }
 
-// The word in which each state of a word is replaced by its row.
 function replaced(word, { starts, numbers }, length) {
   const found = new Int32Array(length);
   let at = 0;
@@ -144,7 +143,6 @@ function occurring(word, many) {
   return found;
 }
 
-// How often each state occurs one step later.
 function following(counts, { starts, numbers }) {
   const found = new Float64Array(counts.length);
   for (let state = 0; state < counts.length; state++)
@@ -163,8 +161,47 @@ function lastUpTo(starts, position) {
   return low;
 }
 
-// Whole numbers from the text of their bytes, the lowest first.
-export function whole({ type, data }) {
-  const bytes = Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0));
-  return Int32Array.from(new KINDS[type](bytes.buffer));
+const MOST_BYTES = 2e6; // of books that were fetched before anybody asked for them
+const LONGEST = 400; // milliseconds of fetching such books, after which no other is begun
+
+export function library(host) {
+  const books = new Map();
+  let fetched = 0, fetching = 0;
+
+  const keyOf = (settings) => JSON.stringify([Object.entries(settings.constants).sort(), settings.seed]);
+
+  function keep(settings, data) {
+    const key = keyOf(settings);
+    if (!books.has(key)) fetched += JSON.stringify(data).length;
+    books.set(key, openBook(data));
+    return books.get(key);
+  }
+
+  async function book(settings) {
+    const known = books.get(keyOf(settings));
+    if (known) return { book: known };
+    const answer = await host.book(settings);
+    return answer.book ? { book: keep(settings, answer.book) } : { mistake: answer.mistake };
+  }
+
+  // Fetch the books of the settings that are one movement of a slider away while nothing else happens; what is fetched later ends it.
+  async function fetchAhead(asked, sliders) {
+    const number = ++fetching, begun = performance.now();
+    for (const settings of neighbours(asked, sliders)) {
+      if (number !== fetching || fetched > MOST_BYTES || performance.now() - begun > LONGEST) return;
+      if (!books.has(keyOf(settings))) await book(settings);
+    }
+  }
+
+  function close() {
+    fetching += 1;
+  }
+
+  return { book, keep, fetchAhead, close, known: (settings) => books.get(keyOf(settings)) };
+}
+
+// The settings that one movement of a slider leads to.
+function neighbours(asked, sliders) {
+  return sliders.flatMap((each) => [1, -1].map((way) => each.control.index + way).filter((index) => index >= 0 && index < each.texts.length)
+    .map((index) => ({ ...asked, constants: { ...asked.constants, [each.name]: each.texts[index] } })));
 }

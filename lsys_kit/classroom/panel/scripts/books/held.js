@@ -7,7 +7,6 @@ export function heldSettings({ constants, chance, seeds, seed, together = [] }) 
   const joined = sliders.map((each) => together.includes(each.name)), atFirst = (place, i) => place === sliders[i].index;
   const first = sliders.map((each) => each.index), grid = sliders.reduce((many, each, i) => (joined[i] ? many * each.texts.length : many), 1);
 
-  // The places of the values of some settings on the sliders; -1 for one that is not there.
   const placesOf = (asked) => sliders.map((each) => each.texts.indexOf(each.name ? asked.constants[each.name] : String(asked.seed)));
 
   // The row of the book at some places; -1 where the page holds none.
@@ -33,7 +32,6 @@ export function heldSettings({ constants, chance, seeds, seed, together = [] }) 
     seed: chance ? Number(seeds[places.at(-1)]) : seed,
   });
 
-  // What is said of sliders that went back; null where none did.
   function told(places, back) {
     const gone = sliders.flatMap(({ name, texts }, i) => (places[i] === back[i] ? [] : [`${name || "seed"} = ${texts[back[i]]}`]));
     return gone.length ? { message: `Back at ${gone.join(", ")}`, hint: "This page does not hold all settings together; the line below the sliders says which." } : null;

@@ -1,10 +1,10 @@
 // The walls of a cellwork: of the cells that are shown the outer walls, shaded; of all others the edges.
 
-import { mixed } from "./colours.js";
-import { EDGE, brightness, shades } from "./lighting.js";
+import { halfToEven } from "../books/numbers.js";
+import { brightness, mixed, shades } from "./colours.js";
+import { EDGE } from "./constants.js";
 import { line, outline, surround } from "./outlines.js";
-import { meanOf } from "./painting_order.js";
-import { halfToEven } from "./turtle_actions.js";
+import { meanOf } from "./projection.js";
 
 const LEVELS = 2 ** 15; // of depths, over the extent of what is seen
 const DIM = 0.6; // how strong the edges of other cells are

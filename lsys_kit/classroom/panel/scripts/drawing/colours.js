@@ -1,6 +1,8 @@
-// Colours of the panel: the theme of the page around it, and shades that can be seen on its paper.
+// Colours of the panel: the theme of the page around it, shades that can be seen on its paper, and light and shade (Lambert's cosine
+// law), as in the pictures that stay; far things are paler, as in hazy air.
 
-const CONTRAST = 3; // of lines against the paper (WCAG 2.2, 1.4.11)
+import { AMBIENT, CONTRAST, DARKEST, EDGE_ON, FINER, HAZE, HIGHLIGHT, LIGHTEST, OWN, REACH, SPHERE, STEPS, TO_LIGHT } from "./constants.js";
+
 const known = new Map();
 
 // A colour as three numbers from 0 to 255.
@@ -27,7 +29,6 @@ function luminance(colour) {
   return 0.2126 * red + 0.7152 * green + 0.0722 * blue;
 }
 
-// The contrast of two colours, from 1 to 21.
 export function contrast(one, other) {
   const [less, more] = [luminance(one), luminance(other)].sort((a, b) => a - b);
   return (more + 0.05) / (less + 0.05);
@@ -39,13 +40,12 @@ export function lineColour(colour, theme) {
   if (!known.has(key)) {
     const own = theme.lines?.[colour.toLowerCase()] ?? colour;
     let strength = 1, shade = own;
-    while (contrast(shade, theme.paper) < CONTRAST && strength > 0) shade = mixed(own, theme.ink, (strength -= 0.04));
+    while (contrast(shade, theme.paper) < CONTRAST && strength > 0) shade = mixed(own, theme.ink, (strength -= FINER));
     known.set(key, shade);
   }
   return known.get(key);
 }
 
-// The fill of what has a colour, on the theme's paper.
 export function fillColour(colour, theme, strength) {
   return mixed(colour, theme.paper, strength);
 }
@@ -73,4 +73,33 @@ export function whenRecoloured(element, changed) {
     placed.disconnect();
     scheme.removeEventListener("change", changed);
   };
+}
+
+// The shades of a palette on the paper, each mixed once: of a colour, as near as from 0 to 1 and as bright as some steps.
+export function shades(palette, theme) {
+  const known = new Map(), lines = palette.map((colour) => lineColour(colour, theme));
+  return (colour, near = 1, bright = OWN) => {
+    const haze = Math.round(near * STEPS), key = (colour * (STEPS + 1) + haze) * (STEPS + 1) + bright;
+    if (!known.has(key)) known.set(key, mixed(lit(lines[colour], bright), theme.paper, 1 - HAZE * (1 - haze / STEPS)));
+    return known.get(key);
+  };
+}
+
+function lit(colour, bright) {
+  return bright > OWN ? mixed(colour, "#ffffff", 1 - (LIGHTEST * (bright - OWN)) / (STEPS - OWN))
+    : mixed(colour, "#000000", 1 - (DARKEST * (OWN - bright)) / OWN);
+}
+
+// How bright a surface is, in steps, given its normal: to the right, up, towards the viewer; from behind it is as from the front.
+export function brightness(normal) {
+  const length = Math.hypot(...normal) || 1, way = (normal[2] < -EDGE_ON * length ? -1 : 1) / length;
+  const facing = normal.reduce((sum, part, i) => sum + part * way * TO_LIGHT[i], 0);
+  return Math.round(STEPS * (AMBIENT + (1 - AMBIENT) * Math.max(0, facing)));
+}
+
+// The colour of a sphere on the canvas: lighter towards the light, darker away from it.
+export function sphereFill(pen, x, y, radius, shade) {
+  const [left, top] = [x + radius * HIGHLIGHT[0], y - radius * HIGHLIGHT[1]], fill = pen.createRadialGradient(left, top, 0, left, top, radius * REACH);
+  for (const [share, bright] of SPHERE) fill.addColorStop(share, shade(bright));
+  return fill;
 }

@@ -1,12 +1,11 @@
 // The drawing of a step on a canvas: a filament's rows, or what the turtle draws, turned, moved and brought nearer by the browser alone.
 
-import { made } from "../views/controls.js";
-import { onKey, onMouse } from "../views/keys.js";
-import { worded } from "../views/language.js";
+import { clamped } from "../books/numbers.js";
+import { eachFrame, made, onKey, onMouse, worded } from "../views/controls.js";
 import { relaxing } from "../views/relaxing.js";
-import { sequence, paintSequence, cellAt } from "./filament.js";
-import { rowBetween, strokesBetween } from "./gliding.js";
+import { cellAt, paintSequence, sequence } from "./filament.js";
 import { grownShapes, mapShapes, paintCells, paintMapScale, paintWallSigns, wallSigns } from "./map.js";
+import { cleared } from "./outlines.js";
 import { paint, shapeAt } from "./painter.js";
 import { boundsOf, frameOf, widthAndHeight } from "./projection.js";
 import { LONGEST_ARROW, paintForces } from "./tension.js";
@@ -21,7 +20,6 @@ const TRACED = {
   map: "Point at a wall or click it to trace it; N and P go to the next and previous one.", filament: CELL, tissue: CELL,
 };
 
-const ROWS = 24; // of a developmental sequence
 const TURN = 5, MOVE = 30, ZOOM = 1.25, NEAREST = 40, PULL = 0.5; // of keys and of the pointer
 const REACH = 6; // pixels from a stroke that is pointed at
 const CLICK = 4; // pixels that a pointer may move in a click
@@ -33,28 +31,29 @@ const NEARER = { "+": ZOOM, "=": ZOOM, "-": 1 / ZOOM };
 
 // `told` has { view(), front(), turned(around, above), traced(step, position), pointed(step, position) }; position -1 is nothing.
 export function drawingView(parent, told) {
-  const canvas = made("canvas", { class: "lsys-canvas", tabindex: 0, role: "img" });
-  const hint = made("div", { class: "lsys-hint", "aria-hidden": "true" });
+  const canvas = made("canvas.lsys-canvas", { tabindex: 0, role: "img" });
+  const hint = made("div.lsys-hint", { "aria-hidden": "true" });
   parent.append(canvas, hint);
-  const pen = canvas.getContext("2d"), pointers = new Map();
-  let book, now, look, fault = "", shapes, frame, sheet, waiting = 0, glide = null;
+  const pen = canvas.getContext("2d"), pointers = new Map(), draw = eachFrame(paintNow);
+  let book, now, look, fault = "", shapes, frame, sheet, glide = null;
   let near = 1, shift = [0, 0], pull = [0, 0], pressed = null, spread = 0;
+  let isFilament, isMap, isTissue, inSpace; // how the book is drawn
   let signs = null, relaxed = null, choice = null; // of walls, of forces, of the cells that are lit, where there are such
-
-  const isTissue = () => book.data.mode === "tissue", inSpace = () => book.data.mode === "space" || isTissue(), isFilament = () => book.data.mode === "filament", isMap = () => book.data.mode === "map";
 
   function open(next) {
     book = next;
+    [isFilament, isMap, isTissue] = ["filament", "map", "tissue"].map((mode) => mode === book.data.mode);
+    inSpace = isTissue || book.data.mode === "space";
     [near, shift, glide] = [1, [0, 0], null];
-    hint.textContent = [inSpace() ? IN_SPACE : IN_THE_PLANE, TRACED[book.data.mode] ?? TRACED.plane].map((text) => worded(text)).join(" ");
-    canvas.classList.toggle("lsys-turned", inSpace());
-    if (isMap() && !signs) {
-      [signs, relaxed] = [wallSigns(() => draw()), relaxing(() => draw())];
+    hint.textContent = [inSpace ? IN_SPACE : IN_THE_PLANE, TRACED[book.data.mode] ?? TRACED.plane].map((text) => worded(text)).join(" ");
+    canvas.classList.toggle("lsys-turned", inSpace);
+    if (isMap && !signs) {
+      [signs, relaxed] = [wallSigns(draw), relaxing(draw)];
       hint.before(signs.element, relaxed.element);
     }
     signs?.offer(book);
     relaxed?.offer(book);
-    if (isTissue() && !choice) hint.before((choice = litCells(() => draw())).element);
+    if (isTissue && !choice) hint.before((choice = litCells(draw)).element);
     choice?.offer(book, 0);
   }
 
@@ -62,21 +61,20 @@ export function drawingView(parent, told) {
   function show(asked, nextLook) {
     const before = now, old = shapes;
     [now, look, fault] = [{ ...asked }, nextLook, ""];
-    if (!isFilament()) shapes = shapesOf(now.step) ?? shapes;
-    if (isMap()) relaxed.goTo(now.step);
+    if (!isFilament) shapes = shapesOf(now.step) ?? shapes;
+    if (isMap) relaxed.goTo(now.step);
     choice?.offer(book, now.step);
-    if (asked.glides && before && !isTissue() && (old || isFilament()) && now.step === before.step + 1 && book.length(now.step) < MOST_GLIDING)
+    if (asked.glides && before && !isTissue && (old || isFilament) && now.step === before.step + 1 && book.length(now.step) < MOST_GLIDING)
       glide = { from: old, started: performance.now(), mothers: mothersOf(now.step) };
     else if (before && before.step !== now.step) glide = null;
-    cancelAnimationFrame(waiting);
-    waiting = 0;
+    draw.cancel();
     paintNow();
   }
 
   // The shapes of a step; null where the turtle cannot draw them, and why.
   function shapesOf(step) {
     try {
-      return isMap() ? mapShapes(book, step) : isTissue() ? tissueShapes(book, step) : placed(traced(book, step), now.angle);
+      return isMap ? mapShapes(book, step) : isTissue ? tissueShapes(book, step) : placed(traced(book, step), now.angle);
     } catch (error) {
       fault = error.message;
       return null;
@@ -89,38 +87,25 @@ export function drawingView(parent, told) {
     return found;
   }
 
-  function draw() {
-    waiting = waiting || requestAnimationFrame(() => {
-      waiting = 0;
-      paintNow();
-    });
-  }
-
   function paintNow() {
-    const width = canvas.clientWidth, height = canvas.clientHeight, density = window.devicePixelRatio || 1;
-    if (!width || !height || !now) return;
-    if (canvas.width !== Math.round(width * density) || canvas.height !== Math.round(height * density)) {
-      canvas.width = Math.round(width * density);
-      canvas.height = Math.round(height * density);
-    }
-    pen.setTransform(density, 0, 0, density, 0, 0);
-    pen.fillStyle = look.theme.paper;
-    pen.fillRect(0, 0, width, height);
-    if (isFilament()) {
-      sheet = sequence(book, now.step, { rows: ROWS, width: width * near, height, boxed: now.boxed });
+    const place = now && cleared(canvas, look.theme);
+    if (!place) return;
+    const { width, height } = place;
+    if (isFilament) {
+      sheet = sequence(book, now.step, { width: width * near, height, boxed: now.boxed });
       pen.translate(leftOf(width), 0);
       const share = shareOfWay();
       paintSequence(pen, share < 1 ? rowBetween(sheet, glide.mothers, share) : sheet, look);
     } else if (fault) sentence(fault, width, height);
-    else if (isTissue()) {
+    else if (isTissue) {
       frame = tissueFrame(shapes, width, height, { around: now.around, above: now.above, near, shift, box: boxOf(now.boxed) });
       paintTissue(pen, shapes, frame, look, choice.shown(look.alone));
     } else {
-      const share = shareOfWay(), visible = share < 1 ? shapesBetween(share) : isMap() ? relaxed.shapes() : shapes;
-      const box = isMap() && relaxed.watched() ? relaxed.room() : boxOf(now.boxed);
-      const forces = isMap() && share >= 1 ? relaxed.forces() : null, scaled = forces ? near * (1 - (2 * LONGEST_ARROW) / Math.min(width, height)) : near;
+      const share = shareOfWay(), visible = share < 1 ? shapesBetween(share) : isMap ? relaxed.shapes() : shapes;
+      const box = isMap && relaxed.watched() ? relaxed.room() : boxOf(now.boxed);
+      const forces = isMap && share >= 1 ? relaxed.forces() : null, scaled = forces ? near * (1 - (2 * LONGEST_ARROW) / Math.min(width, height)) : near;
       frame = frameOf(shapes, width, height, { around: now.around, above: now.above, near: scaled, shift, box });
-      if (isMap()) paintMap(visible, height, forces);
+      if (isMap) paintMap(visible, height, forces);
       else paint(pen, visible, frame, look);
       if (empty()) sentence(`Nothing is drawn at step ${now.step}: no module of the word is a stroke or a surface.`, width, height);
     }
@@ -130,7 +115,6 @@ export function drawingView(parent, told) {
     if (glide) draw();
   }
 
-  // A map: its cells, its walls or its forces, the signs of walls, and a scale.
   function paintMap(visible, height, forces) {
     paintCells(pen, visible, frame, look.theme);
     if (!forces || look.marked.size || look.lit.size) paint(pen, visible, frame, look);
@@ -142,7 +126,7 @@ export function drawingView(parent, told) {
   // Where a filament begins that has been brought nearer: it is moved to the sides, and stays in sight.
   function leftOf(width) {
     const most = ((near - 1) * width) / 2;
-    shift[0] = Math.max(-most, Math.min(most, shift[0]));
+    shift[0] = clamped(-most, most, shift[0]);
     return shift[0] - most;
   }
 
@@ -153,7 +137,7 @@ export function drawingView(parent, told) {
     return share * share * (3 - 2 * share);
   }
 
-  const shapesBetween = (share) => (isMap() ? grownShapes(book, now.step, share) : strokesBetween(glide.from, shapes, glide.mothers, share));
+  const shapesBetween = (share) => (isMap ? grownShapes(book, now.step, share) : strokesBetween(glide.from, shapes, glide.mothers, share));
 
   // The room of the step whose frame is kept; null where each step has its own, or where that one cannot be drawn.
   function boxOf(boxed) {
@@ -166,21 +150,15 @@ export function drawingView(parent, told) {
   const empty = () => !(shapes.strokes.n || shapes.faces.n || shapes.rounds.n || shapes.labels?.texts.length);
 
   function sentence(text, width, height) {
-    pen.fillStyle = look.theme.quiet;
-    pen.font = "14px sans-serif";
-    pen.textAlign = "center";
+    [pen.fillStyle, pen.font, pen.textAlign] = [look.theme.quiet, "14px sans-serif", "center"];
     pen.fillText(text, width / 2, height / 2, width - 20);
   }
 
-  function describe(text) {
-    canvas.setAttribute("aria-label", text);
-  }
-
-  // -- the person ---------------------------------------------------------------------------------------------------
+  // What a person does.
 
   function turn(right, up) {
     const [before, height] = told.view(), around = ((((Math.round(before + right) + 180) % 360) + 360) % 360) - 180;
-    told.turned(around, Math.max(-90, Math.min(90, Math.round(height + up))));
+    told.turned(around, clamped(-90, 90, Math.round(height + up)));
   }
 
   function move(right, down) {
@@ -198,11 +176,6 @@ export function drawingView(parent, told) {
     draw();
   }
 
-  function goBack() {
-    home();
-    told.turned(...told.front());
-  }
-
   function home() {
     [near, shift] = [1, [0, 0]];
     draw();
@@ -215,16 +188,18 @@ export function drawingView(parent, told) {
     if (next) told.traced(null, next);
     else if (event.key === "Escape") told.traced(now.step, -1);
     else if (nearer) come(nearer);
-    else if (!arrow) goBack();
-    else if (event.shiftKey || !inSpace()) move(-arrow[0] * MOVE, arrow[1] * MOVE);
+    else if (!arrow) {
+      home();
+      told.turned(...told.front());
+    }
+    else if (event.shiftKey || !inSpace) move(-arrow[0] * MOVE, arrow[1] * MOVE);
     else turn(arrow[0] * TURN, arrow[1] * TURN);
   }
 
-  // The step and the position of the module that is drawn where the pointer is.
   function moduleAt(event) {
     const { x, y } = placeOf(event);
-    if (isTissue()) return [now.step, cellUnder(shapes, frame, x, y, choice.shown(look.alone))];
-    if (!isFilament()) return [now.step, fault ? -1 : shapeAt(isMap() ? relaxed.shapes() : shapes, frame, x, y, REACH)];
+    if (isTissue) return [now.step, cellUnder(shapes, frame, x, y, choice.shown(look.alone))];
+    if (!isFilament) return [now.step, fault ? -1 : shapeAt(isMap ? relaxed.shapes() : shapes, frame, x, y, REACH)];
     const cell = cellAt(sheet, x - leftOf(canvas.clientWidth), y);
     return cell ? [cell.step, cell.position] : [now.step, -1];
   }
@@ -250,7 +225,7 @@ export function drawingView(parent, told) {
     if (!pressed) return;
     if (Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) > CLICK) pressed.still = false;
     if (pressed.still) return;
-    if (event.shiftKey || !inSpace()) move(event.movementX, event.movementY);
+    if (event.shiftKey || !inSpace) move(event.movementX, event.movementY);
     else {
       pull = [pull[0] - event.movementX * PULL, pull[1] + event.movementY * PULL];
       const whole = pull.map(Math.trunc);
@@ -282,8 +257,9 @@ export function drawingView(parent, told) {
   const resized = new ResizeObserver(draw);
   resized.observe(canvas);
   return {
-    open, show, describe, canvas, home,
-    measured: () => (isFilament() || isMap() || isTissue() || fault ? null : widthAndHeight(shapes)),
+    open, show, canvas, home,
+    describe: (text) => canvas.setAttribute("aria-label", text),
+    measured: () => (isFilament || isMap || isTissue || fault ? null : widthAndHeight(shapes)),
     light(nextLook) {
       look = nextLook;
       draw();
@@ -291,7 +267,44 @@ export function drawingView(parent, told) {
     close() {
       resized.disconnect();
       relaxed?.stop();
-      cancelAnimationFrame(waiting);
+      draw.cancel();
     },
   };
+}
+
+// Shapes whose strokes are on their way from those of their mothers: 0 there, 1 at their own place.
+function strokesBetween(from, to, mothers, share) {
+  const first = new Map();
+  for (let i = 0; i < from.strokes.n; i++) if (!first.has(from.strokes.positions[i])) first.set(from.strokes.positions[i], i);
+  const many = 2 * to.strokes.n, x = new Float64Array(to.n + many), y = new Float64Array(to.n + many);
+  const z = to.z && new Float64Array(to.n + many), starts = new Int32Array(to.strokes.n), stops = new Int32Array(to.strokes.n);
+  x.set(to.x);
+  y.set(to.y);
+  if (z) z.set(to.z);
+  for (let i = 0; i < to.strokes.n; i++) {
+    const mother = first.get(mothers[to.strokes.positions[i]]), ends = [to.strokes.from[i], to.strokes.to[i]];
+    [starts[i], stops[i]] = [to.n + 2 * i, to.n + 2 * i + 1];
+    ends.forEach((end, k) => {
+      const start = mother === undefined ? ends[0] : [from.strokes.from[mother], from.strokes.to[mother]][k];
+      const there = mother === undefined ? to : from, at = to.n + 2 * i + k;
+      x[at] = there.x[start] + share * (to.x[end] - there.x[start]);
+      y[at] = there.y[start] + share * (to.y[end] - there.y[start]);
+      if (z) z[at] = there.z[start] + share * (to.z[end] - there.z[start]);
+    });
+  }
+  return { ...to, n: to.n + many, x, y, z, strokes: { ...to.strokes, from: starts, to: stops } };
+}
+
+// A sequence whose last row is on its way from the row above; `mothers` are the positions of the mothers in the word before.
+function rowBetween(sheet, mothers, share) {
+  const { cells } = sheet, last = sheet.rows.length - 1, above = new Map();
+  if (last < 1) return sheet;
+  const [x, y, length] = [cells.x, cells.y, cells.length].map((column) => column.slice());
+  for (let i = cells.starts[last - 1]; i < cells.starts[last]; i++) above.set(cells.position[i], i);
+  for (let i = cells.starts[last]; i < cells.starts[last + 1]; i++) {
+    const mother = above.get(mothers[cells.position[i]]);
+    if (mother === undefined) continue;
+    for (const [column, own] of [[x, cells.x], [y, cells.y], [length, cells.length]]) column[i] = own[mother] + share * (own[i] - own[mother]);
+  }
+  return { ...sheet, cells: { ...cells, x, y, length } };
 }

@@ -1,42 +1,38 @@
 // The rows of a developmental sequence: cells and walls below one another with a common scale, laid out as pictures that stay are.
 
+import { clamped, times } from "../books/numbers.js";
 import { fillColour, lineColour, mixed } from "./colours.js";
+import { FILLED_ROW, LEGIBLE_ROW, LOWEST_ROW, MARKED_CELL, MOST_ROWS, OLDEST, PALEST, PICTURE_HEIGHT, PICTURE_MARGIN, PICTURE_WIDTH, ROW_AGES, ROW_HEAD, ROW_STEPS, ROW_TIMES, SIGN_COLOUR, STRONGEST, TALLEST_ROW } from "./constants.js";
+import { fill, line, write } from "./outlines.js";
 
-const SHEET = { margin: 12, height: 400, heading: 18, steps: 34, times: 46, ages: 12 }; // of a picture that stays, in pixels
-const TALLEST_ROW = 46, LOWEST_ROW = 14, FILLED_ROW = 0.66; // the distance of rows, and the part of it that cells fill
-const LEGIBLE_ROW = 28; // ages of walls are written where rows are farther apart than this
 const CELLS_IN_PIXEL = 4; // more cells beside one another are not painted
-const NO_SYMBOL_COLOUR = "#28A964"; // of what a sign draws
-const PALEST = 0.45, STRONGEST = 0.85, OLDEST = 0.6; // fills of young and of old cells; how much of its colour an old wall keeps
+const BESIDE_STEP = 8, NEAR_WALL = 3; // pixels
 const RINGS = { self: [3.5, []], mother: [2.5, [5, 3]], daughter: [2.5, []] }; // around what is traced: width and dashes
 const rowsOfBooks = new WeakMap();
 
 // The sequence of the steps up to one of them, at most so many, on a sheet of some size; with the scale that fits the steps up to
 // `boxed` as well, if that is not null.
-export function sequence(book, step, { rows = 24, width = 600, height = SHEET.height, boxed = null, labelled = true } = {}) {
+export function sequence(book, step, { rows = MOST_ROWS, width = PICTURE_WIDTH, height = PICTURE_HEIGHT, boxed = null, labelled = true } = {}) {
   const { time, times, look } = book.data, timed = time !== null && time !== 1;
-  const gutter = SHEET.margin + (labelled ? SHEET.steps + (timed ? SHEET.times : 0) : 0), head = labelled ? SHEET.heading : 0;
-  const room = height - 2 * SHEET.margin - head, most = Math.max(1, Math.min(rows, Math.floor(room / LOWEST_ROW)));
-  const shown = rowsUpTo(book, step, most), framed = boxed === null || boxed <= step ? shown : rowsUpTo(book, boxed, most);
-  const all = framed === shown ? shown : [...shown, ...framed], many = Math.max(shown.length, framed.length);
+  const gutter = PICTURE_MARGIN + (labelled ? ROW_STEPS + (timed ? ROW_TIMES : 0) : 0), head = labelled ? ROW_HEAD : 0;
+  const room = height - 2 * PICTURE_MARGIN - head, most = clamped(1, rows, Math.floor(room / LOWEST_ROW));
+  const shown = rowsUpTo(book, step, most), framed = boxed === null || boxed <= step ? [] : rowsUpTo(book, boxed, most), all = [...shown, ...framed];
   const longest = Math.max(1e-9, ...all.map((row) => row.length)), tallest = Math.max(1e-9, ...all.map((row) => row.width));
-  const far = Math.min(TALLEST_ROW * Math.max(1, height / SHEET.height), room / many);
-  const above = far > LEGIBLE_ROW && all.some((row) => row.walls.n) ? SHEET.ages : 0;
-  const scale = Math.min(Math.max(1, width - gutter - 2 * SHEET.margin) / longest, (FILLED_ROW * far - above) / tallest);
-  const pitch = Math.max(LOWEST_ROW, Math.min(far, (tallest * scale + above) / FILLED_ROW));
-  const top = SHEET.margin + head;
+  const far = Math.min(TALLEST_ROW * Math.max(1, height / PICTURE_HEIGHT), room / Math.max(shown.length, framed.length));
+  const above = far > LEGIBLE_ROW && all.some((row) => row.walls.n) ? ROW_AGES : 0;
+  const scale = Math.min(Math.max(1, width - gutter - 2 * PICTURE_MARGIN) / longest, (FILLED_ROW * far - above) / tallest);
+  const pitch = clamped(LOWEST_ROW, far, (tallest * scale + above) / FILLED_ROW), top = PICTURE_MARGIN + head;
   const laid = shown.map((row, place) => ({
     step: row.step, time: timed ? times[row.step] : "", top: top + pitch * place, middle: top + pitch * (place + 0.5) + above / 2,
-    left: gutter + (width - gutter - SHEET.margin - row.length * scale) / 2, current: row.step === step,
+    left: gutter + (width - gutter - PICTURE_MARGIN - row.length * scale) / 2, current: row.step === step,
   }));
   return {
     dimension: 2, width, height, gutter, head, above, pitch, scale, timed, look, rows: laid,
     cells: joinedRows(shown.map((row) => row.cells), laid, scale), walls: joinedRows(shown.map((row) => row.walls), laid, scale),
-    colours: book.data.states.map(([symbol]) => book.data.symbols[symbol][2] || NO_SYMBOL_COLOUR),
+    colours: book.data.states.map(([symbol]) => book.data.symbols[symbol][2] || SIGN_COLOUR),
   };
 }
 
-// How long the filament of a step is, in the units of the model.
 export function filamentLength(book, step) {
   return rowsUpTo(book, step, 1)[0].length;
 }
@@ -80,7 +76,7 @@ function howMany(word, shapes, kind) {
 
 // Shapes: their middles, lengths and widths, their polarities or ages, and where they come from.
 function tableOf(n) {
-  const [x, y, length, width, sign, shade] = Array.from({ length: 6 }, () => new Float64Array(n));
+  const [x, y, length, width, sign, shade] = times(6, () => new Float64Array(n));
   return { n, x, y, length, width, sign, shade, state: new Int32Array(n), position: new Int32Array(n), row: new Int32Array(n) };
 }
 
@@ -90,11 +86,7 @@ function joinedRows(tables, laid, scale) {
   tables.forEach((table, row) => {
     const start = starts[row], { left, middle } = laid[row];
     for (const name of ["sign", "shade", "state", "position"]) found[name].set(table[name], start);
-    for (let i = 0; i < table.n; i++) {
-      found.x[start + i] = left + table.x[i] * scale;
-      found.length[start + i] = table.length[i] * scale;
-      found.width[start + i] = table.width[i] * scale;
-    }
+    for (const [name, from] of [["x", left], ["length", 0], ["width", 0]]) found[name].set(table[name].map((size) => from + size * scale), start);
     found.y.fill(middle, start, start + table.n);
     found.row.fill(row, start, start + table.n);
     starts.push(start + table.n);
@@ -102,17 +94,18 @@ function joinedRows(tables, laid, scale) {
   return { ...found, starts };
 }
 
+const numbersIn = ({ starts }, row) => times(starts[row + 1] - starts[row], (i) => starts[row] + i);
+
 // Paint a sequence; `look` has the theme, the states that are marked, and `litAt(step)`, which says what is traced in a row.
 export function paintSequence(pen, sheet, look) {
   pen.save();
   pen.lineJoin = pen.lineCap = "round";
   if (sheet.head) paintHeading(pen, sheet, look.theme);
   sheet.rows.forEach((row, number) => {
-    const lit = look.litAt ? look.litAt(row.step) : row.current ? look.lit ?? new Map() : new Map();
+    const lit = look.litAt ? look.litAt(row.step) : row.current ? look.lit ?? new Map() : new Map(), seen = seenCells(sheet, number);
     paintRowLabels(pen, sheet, row, look.theme);
-    const seen = seenCells(sheet, number);
     paintCells(pen, sheet, seen, look);
-    paintArrows(pen, sheet, seen, look.theme);
+    line(pen, arrows(sheet, seen), look.theme.ink, 1);
     paintWalls(pen, sheet, number, look);
     if (lit.size) paintTraced(pen, sheet, number, lit, look.theme);
   });
@@ -120,42 +113,29 @@ export function paintSequence(pen, sheet, look) {
 }
 
 function paintHeading(pen, { head, timed }, theme) {
-  const y = SHEET.margin + head - 7, x = SHEET.margin + SHEET.steps - 8;
-  pen.fillStyle = theme.quiet;
-  pen.textAlign = "right";
-  pen.font = "11px sans-serif";
-  pen.fillText("step", x, y);
-  pen.font = "italic 11px sans-serif";
-  if (timed) pen.fillText("t", x + SHEET.times, y);
+  const y = PICTURE_MARGIN + head - 7, x = PICTURE_MARGIN + ROW_STEPS - BESIDE_STEP;
+  write(pen, "step", x, y, theme.quiet, "11px sans-serif", "right");
+  if (timed) write(pen, "t", x + ROW_TIMES, y, theme.quiet, "italic 11px sans-serif", "right");
 }
 
-// The step and the time of a row, on a band if it is the current one.
 function paintRowLabels(pen, { width, pitch, head }, row, theme) {
-  const size = Math.min(14, 0.8 * pitch), x = SHEET.margin + SHEET.steps - 8, y = row.middle + 0.35 * size;
-  if (row.current) {
-    pen.fillStyle = theme.mark;
-    pen.beginPath();
-    pen.roundRect(4, row.top, width - 8, pitch, 6);
-    pen.fill();
-  }
+  const size = Math.min(14, 0.8 * pitch), x = PICTURE_MARGIN + ROW_STEPS - BESIDE_STEP, y = row.middle + 0.35 * size, band = new Path2D();
+  band.roundRect(4, row.top, width - 8, pitch, 6);
+  if (row.current) fill(pen, band, theme.mark);
   if (!head) return;
-  pen.fillStyle = row.current ? theme.ink : theme.quiet;
-  pen.textAlign = "right";
-  pen.font = `${row.current ? "bold " : ""}${size}px sans-serif`;
-  pen.fillText(String(row.step), x, y);
-  if (row.time) pen.fillText(row.time, x + SHEET.times, y);
+  const [colour, font] = row.current ? [theme.ink, `bold ${size}px sans-serif`] : [theme.quiet, `${size}px sans-serif`];
+  write(pen, String(row.step), x, y, colour, font, "right");
+  if (row.time) write(pen, row.time, x + ROW_TIMES, y, colour, font, "right");
 }
 
 // The numbers of the cells of a row that are painted: of those too narrow to be told apart only some.
 function seenCells({ cells }, row) {
-  const seen = [];
   let last = -Infinity;
-  for (let i = cells.starts[row]; i < cells.starts[row + 1]; i++) {
-    if (cells.x[i] - last < 1 / CELLS_IN_PIXEL && cells.length[i] < 1 / CELLS_IN_PIXEL) continue;
-    seen.push(i);
+  return numbersIn(cells, row).filter((i) => {
+    if (cells.x[i] - last < 1 / CELLS_IN_PIXEL && cells.length[i] < 1 / CELLS_IN_PIXEL) return false;
     last = cells.x[i];
-  }
-  return seen;
+    return true;
+  });
 }
 
 function paintCells(pen, sheet, seen, { theme, marked }) {
@@ -165,100 +145,78 @@ function paintCells(pen, sheet, seen, { theme, marked }) {
     if (!groups.has(key)) groups.set(key, []);
     groups.get(key).push(i);
   }
-  const chosen = [...groups.values()].sort(([i], [j]) => marked.has(cells.state[i]) - marked.has(cells.state[j]));
-  for (const group of chosen) {
-    const [first] = group, colour = colours[cells.state[first]], mark = marked.has(cells.state[first]);
-    pen.fillStyle = fillColour(colour, theme, PALEST + (STRONGEST - PALEST) * cells.shade[first]);
-    pen.strokeStyle = mark ? theme.markEdge : lineColour(colour, theme);
-    pen.lineWidth = mark ? Math.max(1, Math.min(3.2, cells.width[first])) : 1;
-    pen.beginPath();
-    for (const i of group) outlineCell(pen, sheet, i);
-    pen.fill();
-    pen.stroke();
+  for (const group of [...groups.values()].sort(([i], [j]) => marked.has(cells.state[i]) - marked.has(cells.state[j]))) {
+    const [first] = group, colour = colours[cells.state[first]], mark = marked.has(cells.state[first]), path = outlineOf(sheet, group);
+    fill(pen, path, fillColour(colour, theme, PALEST + (STRONGEST - PALEST) * cells.shade[first]));
+    line(pen, path, mark ? theme.markEdge : lineColour(colour, theme), mark ? clamped(1, MARKED_CELL, cells.width[first]) : 1);
   }
 }
 
-function outlineCell(pen, { cells, look }, i) {
-  const rx = cells.length[i] / 2, ry = cells.width[i] / 2;
-  if (look === "ellipses") {
-    pen.moveTo(cells.x[i] + rx, cells.y[i]);
-    pen.ellipse(cells.x[i], cells.y[i], rx, ry, 0, 0, 2 * Math.PI);
-  } else pen.roundRect(cells.x[i] - rx, cells.y[i] - ry, 2 * rx, 2 * ry, Math.min(rx, ry));
+function outlineOf({ cells, look }, numbers) {
+  const path = new Path2D();
+  for (const i of numbers) {
+    const x = cells.x[i], y = cells.y[i], rx = cells.length[i] / 2, ry = cells.width[i] / 2;
+    if (look === "ellipses") {
+      path.moveTo(x + rx, y);
+      path.ellipse(x, y, rx, ry, 0, 0, 2 * Math.PI);
+    } else path.roundRect(x - rx, y - ry, 2 * rx, 2 * ry, Math.min(rx, ry));
+  }
+  return path;
 }
 
-// The arrows of cells that point to the left or right.
-function paintArrows(pen, { cells }, seen, theme) {
-  pen.strokeStyle = theme.ink;
-  pen.lineWidth = 1;
-  pen.beginPath();
+function arrows({ cells }, seen) {
+  const path = new Path2D();
   for (const i of seen) {
-    const way = cells.sign[i], rx = cells.length[i] / 2, y = cells.y[i];
+    const way = cells.sign[i], x = cells.x[i], y = cells.y[i], rx = cells.length[i] / 2;
     if (!way || rx <= 2.5) continue;
-    const barb = Math.max(1.2, 0.3 * Math.min(rx, cells.width[i] / 2)), tip = cells.x[i] + way * 0.55 * rx;
-    pen.moveTo(cells.x[i] - way * 0.55 * rx, y);
-    pen.lineTo(tip, y);
-    pen.moveTo(tip - way * barb, y - barb);
-    pen.lineTo(tip, y);
-    pen.lineTo(tip - way * barb, y + barb);
+    const barb = Math.max(1.2, 0.3 * Math.min(rx, cells.width[i] / 2)), tip = x + way * 0.55 * rx;
+    path.moveTo(x - way * 0.55 * rx, y);
+    path.lineTo(tip, y);
+    path.moveTo(tip - way * barb, y - barb);
+    path.lineTo(tip, y);
+    path.lineTo(tip - way * barb, y + barb);
   }
-  pen.stroke();
+  return path;
 }
 
 // The walls of a row, thicker and darker with age, with their ages above where these fit.
 function paintWalls(pen, { walls, colours, above, width }, row, { theme, marked }) {
-  const ages = [];
-  for (let i = walls.starts[row]; i < walls.starts[row + 1]; i++) {
-    const colour = colours[walls.state[i]], reach = walls.width[i] / 2 + 2;
-    pen.strokeStyle = marked.has(walls.state[i]) ? theme.markEdge : mixed(lineColour(colour, theme), theme.ink, 1 - (1 - OLDEST) * walls.shade[i]);
-    pen.lineWidth = 1.5 + 3 * walls.shade[i];
-    pen.beginPath();
-    pen.moveTo(walls.x[i], walls.y[i] - reach);
-    pen.lineTo(walls.x[i], walls.y[i] + reach);
-    pen.stroke();
+  const ages = numbersIn(walls, row).map((i) => {
+    const colour = colours[walls.state[i]], reach = walls.width[i] / 2 + 2, shade = walls.shade[i];
+    line(pen, upright(walls, i, reach), marked.has(walls.state[i]) ? theme.markEdge : mixed(lineColour(colour, theme), theme.ink, 1 - (1 - OLDEST) * shade), 1.5 + 3 * shade);
     const text = Number.isNaN(walls.sign[i]) ? "" : String(Number(walls.sign[i].toPrecision(4))), half = 3.2 * text.length;
-    ages.push({ text, half, x: Math.min(Math.max(walls.x[i], half), width - half), y: walls.y[i] - reach - 2.5 });
-  }
+    return { text, half, x: Math.min(Math.max(walls.x[i], half), width - half), y: walls.y[i] - reach - 2.5 };
+  });
   if (!above || ages.some((age, i) => i && ages[i - 1].x + ages[i - 1].half >= age.x - age.half)) return;
-  pen.fillStyle = theme.ink;
-  pen.textAlign = "center";
-  pen.font = "10.5px sans-serif";
-  for (const age of ages) pen.fillText(age.text, age.x, age.y);
+  for (const age of ages) write(pen, age.text, age.x, age.y, theme.ink, "10.5px sans-serif", "center");
+}
+
+function upright({ x, y }, i, reach) {
+  const path = new Path2D();
+  path.moveTo(x[i], y[i] - reach);
+  path.lineTo(x[i], y[i] + reach);
+  return path;
 }
 
 // Rings around the cells, and lines along the walls, of the modules that are traced: a map from positions to what they are.
 function paintTraced(pen, sheet, row, lit, theme) {
   const { cells, walls } = sheet;
-  pen.strokeStyle = theme.lit;
-  const ring = (position, outline) => {
-    const [width, dashes] = RINGS[lit.get(position)] ?? RINGS.self;
-    pen.lineWidth = width;
-    pen.setLineDash(dashes);
-    pen.beginPath();
-    outline();
-    pen.stroke();
+  const ring = (table, pathOf) => {
+    for (const i of numbersIn(table, row)) if (lit.has(table.position[i])) line(pen, pathOf(i), theme.lit, ...RINGS[lit.get(table.position[i])]);
   };
-  for (let i = cells.starts[row]; i < cells.starts[row + 1]; i++)
-    if (lit.has(cells.position[i])) ring(cells.position[i], () => outlineCell(pen, sheet, i));
-  for (let i = walls.starts[row]; i < walls.starts[row + 1]; i++) {
-    if (!lit.has(walls.position[i])) continue;
-    ring(walls.position[i], () => {
-      pen.moveTo(walls.x[i], walls.y[i] - walls.width[i] / 2 - 5);
-      pen.lineTo(walls.x[i], walls.y[i] + walls.width[i] / 2 + 5);
-    });
-  }
-  pen.setLineDash([]);
+  ring(cells, (i) => outlineOf(sheet, [i]));
+  ring(walls, (i) => upright(walls, i, walls.width[i] / 2 + 5));
 }
 
 // The step and the position of the module whose cell or wall is at a point; null where there is none.
 export function cellAt(sheet, x, y) {
-  const { cells, walls, rows, pitch } = sheet;
-  const row = rows.findIndex(({ top }) => y >= top && y < top + pitch);
+  const { cells, walls, rows, pitch } = sheet, row = rows.findIndex(({ top }) => y >= top && y < top + pitch);
   if (row < 0) return null;
-  for (let i = walls.starts[row]; i < walls.starts[row + 1]; i++)
-    if (Math.abs(x - walls.x[i]) <= 3) return { step: rows[row].step, position: walls.position[i] };
+  const { step } = rows[row], wall = numbersIn(walls, row).find((i) => Math.abs(x - walls.x[i]) <= NEAR_WALL);
+  if (wall !== undefined) return { step, position: walls.position[wall] };
   const near = nearestTo(cells, cells.starts[row], cells.starts[row + 1], x);
   if (near < 0 || Math.abs(x - cells.x[near]) > Math.max(1, cells.length[near] / 2)) return null;
-  return { step: rows[row].step, position: cells.position[near] };
+  return { step, position: cells.position[near] };
 }
 
 // The number of the cell, of those side by side between two numbers, at some place along the row, or nearest to it.

@@ -1,8 +1,10 @@
 // Several small drawings beside each other: nine seeds of one model, or nine variants of which one can be taken on.
 
 import { openBook } from "../books/book.js";
+import { grouped } from "../books/numbers.js";
 import { made } from "../views/controls.js";
-import { sequence, paintSequence } from "./filament.js";
+import { paintSequence, sequence } from "./filament.js";
+import { cleared } from "./outlines.js";
 import { paint } from "./painter.js";
 import { frameOf } from "./projection.js";
 import { placed, traced } from "./turtle.js";
@@ -17,8 +19,7 @@ export function seedsView(parent, sow, say) {
   async function show(books, request, now, look) {
     const first = Math.floor(request.seed / MANY) * MANY, key = JSON.stringify([request.constants, first]);
     if (shown.books !== books || shown.key !== key) {
-      const asked = shown = { books, key, first };
-      const entries = [];
+      const asked = shown = { books, key, first }, entries = [];
       for (let seed = first; seed < first + MANY; seed++) {
         const answer = await books.book({ ...request, seed });
         if (answer.mistake) return say(answer.mistake);
@@ -60,11 +61,11 @@ function galleryView(parent, chosen) {
 
   function open(entries) {
     tiles = entries.map((entry, number) => {
-      const canvas = made("canvas", { class: "lsys-tile", "aria-hidden": "true" });
-      const tile = made("button", { type: "button", class: "lsys-button lsys-tile-button", onclick: () => chosen(number) }, canvas, made("span", {}, entry.label));
+      const canvas = made("canvas.lsys-tile", { "aria-hidden": "true" });
+      const tile = made("button.lsys-button.lsys-tile-button", { type: "button", onclick: () => chosen(number) }, canvas, made("span", entry.label));
       return { ...entry, canvas, tile };
     });
-    parent.replaceChildren(made("div", { class: "lsys-gallery" }, ...tiles.map(({ tile }) => tile)));
+    parent.replaceChildren(made("div.lsys-gallery", ...tiles.map(({ tile }) => tile)));
   }
 
   // Each at the step that is shown, or at its last one where it has fewer; `current` is the number of the one in the panel.
@@ -72,7 +73,7 @@ function galleryView(parent, chosen) {
     tiles.forEach(({ book, canvas, tile, label }, number) => {
       const step = Math.min(now.step, book.steps);
       tile.setAttribute("aria-pressed", String(number === current));
-      tile.setAttribute("aria-label", `${label}: ${book.length(step).toLocaleString("en")} ${book.data.noun}s at step ${step}`);
+      tile.setAttribute("aria-label", `${label}: ${grouped(book.length(step))} ${book.data.noun}s at step ${step}`);
       paintTile(canvas, book, { ...now, step, angle: now.angle ?? book.data.turtle?.angle }, look);
     });
   }
@@ -81,13 +82,9 @@ function galleryView(parent, chosen) {
 }
 
 function paintTile(canvas, book, now, look) {
-  const width = canvas.clientWidth, height = canvas.clientHeight, density = window.devicePixelRatio || 1, pen = canvas.getContext("2d");
-  if (!width) return;
-  [canvas.width, canvas.height] = [Math.round(width * density), Math.round(height * density)];
-  pen.setTransform(density, 0, 0, density, 0, 0);
-  pen.fillStyle = look.theme.paper;
-  pen.fillRect(0, 0, width, height);
-  const plain = { theme: look.theme, marked: new Set(), lit: new Map(), litAt: () => new Map(), current: -1 };
+  const sheet = cleared(canvas, look.theme), plain = { theme: look.theme, marked: new Set(), lit: new Map(), litAt: () => new Map(), current: -1 };
+  if (!sheet) return;
+  const { pen, width, height } = sheet;
   if (book.data.mode === "filament") return paintSequence(pen, sequence(book, now.step, { rows: 12, width, height, boxed: null, labelled: false }), plain);
   const shapes = placed(traced(book, now.step), now.angle);
   paint(pen, shapes, frameOf(shapes, width, height, { around: now.around, above: now.above, near: 1, shift: [0, 0], box: null }), plain);

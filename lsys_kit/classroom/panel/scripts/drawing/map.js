@@ -1,9 +1,9 @@
 // The map of a step: cells lightly filled, walls as strokes with their directions and labels. A map grows out of the one before:
 // new points start where they were made, on their walls, and all points move to rest.
 
-import { whole } from "../books/book.js";
-import { lineColour, mixed } from "./colours.js";
+import { whole } from "../books/numbers.js";
 import { made } from "../views/controls.js";
+import { lineColour, mixed } from "./colours.js";
 
 export const UNIT = 8; // a wall is about 0.3 long; in a frame it shall be no smaller than a cell of other drawings
 const FILL = 0.07; // how strong the ink is in a cell
@@ -149,8 +149,8 @@ export function paintMapScale(pen, { scale }, { theme }, height) {
 export function wallSigns(changed) {
   const box = (name) => made("input", { type: "checkbox", checked: true, "data-control": name, onchange: changed });
   const directions = box("directions"), labels = box("labels");
-  const element = made("div", { class: "lsys-controls" }, made("label", { class: "lsys-check" }, directions, "directions"),
-    made("label", { class: "lsys-check" }, labels, "labels"));
+  const element = made("div.lsys-controls", made("label.lsys-check", directions, "directions"),
+    made("label.lsys-check", labels, "labels"));
   return {
     element,
     offer(book) {

@@ -1,17 +1,15 @@
 // The shapes of a turtle on a canvas, painted from far to near and found again under a pointer.
+//
+// A sheet has the pen, the shapes, the frame in which they are seen, where and how broad they are in it, and the theme. Strokes in
+// space are tapered cylinders with round ends, with a light stripe along them and a dark one.
 
-import { mixed } from "./colours.js";
-import { cylinder } from "./cylinders.js";
-import { BRIGHT, DIM, EDGE, OWN, brightness, shades, sphereFill } from "./lighting.js";
-import { cornersOf, meanOf } from "./painting_order.js";
-import { seenIn } from "./projection.js";
-import { BALL, HOLLOW } from "./turtle_actions.js";
+import { clamped } from "../books/numbers.js";
+import { brightness, mixed, shades, sphereFill } from "./colours.js";
+import { BALL, BRIGHT, BROADEST_CASING, CASING, DARK, DIM, EDGE, FACE_EDGE, FILLED, HOLLOW, LABEL_GAP, LEAST_CASING, LIT, OWN, RIM, RING, SMALLEST_RADIUS, TO_LIGHT, TONED } from "./constants.js";
+import { fill, isInside, line, outline, write } from "./outlines.js";
+import { cornersOf, meanOf, seenIn } from "./projection.js";
 
-const FILLED = 0.7; // the strength of the colour inside a surface in the plane
-const FACE_EDGE = 0.6, RING = 1, MARKED_EDGE = 3, SMALLEST_RADIUS = 0.8; // pixels
-const LABEL_FONT = "12px sans-serif", LABEL_GAP = 5, LABEL_HALO = 3; // pixels
-const TONED = 16; // tenths of a pixel from which on one sees light and shade on a stroke
-const LEAST_CASING = 4, CASING = 0.4, BROADEST_CASING = 10; // tenths of a pixel that a casing is broader, the part of its stroke, the most
+const MARKED_EDGE = 3, LABEL_FONT = "12px sans-serif", LABEL_HALO = 3; // pixels
 
 // What surrounds a shape that is traced: bands of so many pixels more than the shape, in the colour of what is lit or of the
 // paper, broken by dashes or not. They are told apart without their colour.
@@ -24,48 +22,42 @@ const SURROUNDED = {
 // Paint shapes. A look has the theme with its colours, the states that are marked, and for positions in the word whether they
 // are "self", "mother" or "daughter" of what is traced.
 export function paint(pen, shapes, frame, { theme, marked = new Set(), lit = new Map() }) {
-  const seen = seenIn(frame, shapes);
+  const seen = seenIn(frame, shapes), sheet = { pen, shapes, frame, seen, theme };
   pen.lineCap = pen.lineJoin = "round";
-  paintShapes(pen, shapes, frame, seen, theme, seen.painted, marked);
-  if (lit.size) paintTraced(pen, shapes, frame, seen, theme, lit);
-  paintLabels(pen, shapes.labels, frame, seen, theme);
+  paintShapes(sheet, seen.painted, marked);
+  if (lit.size) paintTraced(sheet, lit);
+  paintLabels(sheet);
 }
 
-function paintTraced(pen, shapes, frame, seen, theme, lit) {
-  const traced = seen.order.filter((number) => lit.has(shapeOf(shapes, number).position));
-  for (const kind of Object.keys(SURROUNDED))
-    surround(pen, shapes, frame, seen, theme, SURROUNDED[kind], traced.filter((number) =>
-      lit.get(shapeOf(shapes, number).position) === kind));
-  paintShapes(pen, shapes, frame, seen, theme, traced, new Set());
+function paintTraced(sheet, lit) {
+  const kindOf = (number) => lit.get(shapeOf(sheet.shapes, number).position), traced = sheet.seen.order.filter(kindOf);
+  for (const [kind, bands] of Object.entries(SURROUNDED)) surroundTraced(sheet, bands, traced.filter((number) => kindOf(number) === kind));
+  paintShapes(sheet, traced, new Set());
 }
 
 // What the turtle has written, each text to the right of its point, as far as the canvas goes.
-function paintLabels(pen, labels, frame, { x, y }, theme) {
+function paintLabels({ pen, shapes: { labels }, frame, seen: { x, y }, theme }) {
   pen.font = LABEL_FONT;
-  pen.textAlign = "left";
   pen.textBaseline = "middle";
   labels?.texts.forEach((text, i) => {
     const point = labels.points[i], start = Math.min(x[point] + LABEL_GAP, frame.width - LABEL_GAP - pen.measureText(text).width);
-    pen.lineWidth = LABEL_HALO;
-    pen.strokeStyle = theme.paper;
+    [pen.lineWidth, pen.strokeStyle, pen.textAlign] = [LABEL_HALO, theme.paper, "left"];
     pen.strokeText(text, start, y[point]);
-    pen.fillStyle = theme.ink;
-    pen.fillText(text, start, y[point]);
+    write(pen, text, start, y[point], theme.ink, LABEL_FONT);
   });
   pen.textBaseline = "alphabetic";
 }
 
-// Which shape has a number: its group, its number there, and what it belongs to.
 function shapeOf({ strokes, faces, rounds }, number) {
   const [group, i] = number < faces.n ? [faces, number] : number < faces.n + strokes.n ? [strokes, number - faces.n]
     : [rounds, number - faces.n - strokes.n];
-  return { group, i, position: group.positions[i], state: group.states[i], colour: group.colours[i] };
+  return { group, i, position: group.positions[i] };
 }
 
-function paintShapes(pen, shapes, frame, seen, theme, order, marked) {
-  const { strokes, faces, rounds, palette } = shapes, { x, y, nearness, widths } = seen, shade = shades(palette, theme);
-  const many = faces.n + strokes.n + rounds.n;
-  let runs = [], run; // strokes that nothing lies between; those of a run look alike
+function paintShapes(sheet, order, marked) {
+  const { pen, shapes, frame, seen, theme } = sheet, { strokes, faces, rounds, palette } = shapes, { x, y, nearness, widths } = seen;
+  const shade = shades(palette, theme), many = faces.n + strokes.n + rounds.n;
+  let /** @type {any[]} */ runs = [], /** @type {any} */ run; // strokes that nothing lies between; those of a run look alike
 
   function addStroke(i, colour, width, isMarked) {
     if (!run || run.colour !== colour || run.width !== width || run.isMarked !== isMarked)
@@ -75,11 +67,11 @@ function paintShapes(pen, shapes, frame, seen, theme, order, marked) {
   }
 
   function paintRuns() {
-    for (const { width, path, isMarked } of runs)
-      if (isMarked) band(pen, path, theme.markEdge, Math.max(5, 9 * frame.thin, width + 4), 0.45);
-    for (const { colour, width, path } of runs) band(pen, path, colour, width);
-    runs = [];
-    run = undefined;
+    pen.globalAlpha = 0.45;
+    for (const { width, path, isMarked } of runs) if (isMarked) line(pen, path, theme.markEdge, Math.max(5, 9 * frame.thin, width + 4));
+    pen.globalAlpha = 1;
+    for (const { colour, width, path } of runs) line(pen, path, colour, width);
+    [runs, run] = [[], undefined];
   }
 
   function paintStroke(i) {
@@ -88,35 +80,29 @@ function paintShapes(pen, shapes, frame, seen, theme, order, marked) {
     if (!frame.detailed || widths[i] < TONED) return;
     paintRuns();
     const { body, light, dark } = cylinder([x[a], y[a]], [x[b], y[b]], seen.ends.map((breadths) => breadths[i] / 20));
-    for (const [part, bright] of [[body, OWN], [light, BRIGHT], [dark, DIM]]) {
-      pen.fillStyle = shade(colour, near, bright);
-      pen.fill(part);
-    }
+    for (const [part, bright] of /** @type {[any, number][]} */ ([[body, OWN], [light, BRIGHT], [dark, DIM]])) fill(pen, part, shade(colour, near, bright));
   }
 
-  function fill(outline, group, i, inside, line, edge) {
+  function paintArea(path, group, i, inside, edge, width) {
     const isMarked = marked.has(group.states[i]);
-    if (inside) {
-      pen.fillStyle = inside;
-      pen.fill(outline);
-    }
-    if (isMarked || line) band(pen, outline, isMarked ? theme.markEdge : line, isMarked ? MARKED_EDGE : edge);
+    if (inside) fill(pen, path, inside);
+    if (isMarked || edge) line(pen, path, isMarked ? theme.markEdge : edge, isMarked ? MARKED_EDGE : width);
   }
 
   function paintFace(i) {
-    const corners = cornersOf(faces, i), colour = faces.colours[i], outline = faceOutline(seen, corners);
-    if (!nearness) return fill(outline, faces, i, mixed(shade(colour), theme.paper, FILLED), shade(colour), FACE_EDGE);
+    const corners = cornersOf(faces, i), colour = faces.colours[i], path = faceOutline(seen, corners);
+    if (!nearness) return paintArea(path, faces, i, mixed(shade(colour), theme.paper, FILLED), shade(colour), FACE_EDGE);
     const near = meanOf(nearness, corners), bright = brightness(normalOf(corners, shapes, frame));
     const edge = faces.smooth?.[i] ? bright : Math.max(0, bright + EDGE); // a curved surface has no edges between its faces
-    return fill(outline, faces, i, shade(colour, near, bright), shade(colour, near, edge), FACE_EDGE);
+    return paintArea(path, faces, i, shade(colour, near, bright), shade(colour, near, edge), FACE_EDGE);
   }
 
   function paintRound(i) {
-    const centre = rounds.centres[i], colour = rounds.colours[i], outline = roundOutline(seen, frame, rounds, i);
-    const near = nearness ? nearness[centre] : 1, isBall = nearness && rounds.kinds[i] === BALL;
-    const inside = isBall ? sphereFill(pen, x[centre], y[centre], radiusOf(seen, frame, rounds, i), (bright) => shade(colour, near, bright))
-      : rounds.kinds[i] === HOLLOW ? (nearness ? null : theme.paper) : nearness ? shade(colour, near) : mixed(shade(colour), theme.paper, FILLED);
-    fill(outline, rounds, i, inside, isBall ? null : nearness ? shade(colour, near, OWN + EDGE) : shade(colour), RING);
+    const centre = rounds.centres[i], colour = rounds.colours[i], path = roundOutline(sheet, i), kind = rounds.kinds[i];
+    if (!nearness) return paintArea(path, rounds, i, kind === HOLLOW ? theme.paper : mixed(shade(colour), theme.paper, FILLED), shade(colour), RING);
+    const near = nearness[centre], tone = (bright) => shade(colour, near, bright);
+    const inside = kind === BALL ? sphereFill(pen, x[centre], y[centre], radiusOf(sheet, i), tone) : kind === HOLLOW ? null : tone(OWN);
+    return paintArea(path, rounds, i, inside, kind === BALL ? null : tone(OWN + EDGE), RING);
   }
 
   for (const number of order) {
@@ -133,30 +119,17 @@ function paintShapes(pen, shapes, frame, seen, theme, order, marked) {
 
 const casingWidth = (width) => width + Math.min(LEAST_CASING + Math.round(CASING * width), BROADEST_CASING);
 
-function band(pen, path, colour, width, alpha = 1) {
-  pen.globalAlpha = alpha;
-  pen.strokeStyle = colour;
-  pen.lineWidth = width;
-  pen.stroke(path);
-  pen.globalAlpha = 1;
+const faceOutline = ({ x, y }, corners) => outline(corners, (corner) => [x[corner], y[corner]]);
+
+function roundOutline(sheet, i) {
+  const path = new Path2D(), { shapes: { rounds }, seen: { x, y } } = sheet, centre = rounds.centres[i];
+  path.arc(x[centre], y[centre], radiusOf(sheet, i), 0, 2 * Math.PI);
+  return path;
 }
 
-function faceOutline({ x, y }, corners) {
-  const outline = new Path2D();
-  for (const corner of corners) outline.lineTo(x[corner], y[corner]);
-  outline.closePath();
-  return outline;
+function radiusOf({ shapes: { rounds }, frame, seen: { factors } }, i) {
+  return Math.max(SMALLEST_RADIUS, rounds.radii[i] * frame.scale * (factors ? factors[rounds.centres[i]] : 1));
 }
-
-function roundOutline(seen, frame, rounds, i) {
-  const { x, y } = seen;
-  const outline = new Path2D();
-  outline.arc(x[rounds.centres[i]], y[rounds.centres[i]], radiusOf(seen, frame, rounds, i), 0, 2 * Math.PI);
-  return outline;
-}
-
-const radiusOf = ({ factors }, { scale }, rounds, i) =>
-  Math.max(SMALLEST_RADIUS, rounds.radii[i] * scale * (factors ? factors[rounds.centres[i]] : 1));
 
 // The normal of a face, by Newell's method: to the right, up, towards the viewer.
 function normalOf(corners, { x, y, z }, { cos, sin, level, steep }) {
@@ -172,33 +145,28 @@ function normalOf(corners, { x, y, z }, { cos, sin, level, steep }) {
 }
 
 // Bands around some shapes, the broadest first.
-function surround(pen, shapes, frame, seen, theme, bands, numbers) {
-  const paths = Array.from(numbers, (number) => outlineOf(shapes, frame, seen, number));
+function surroundTraced(sheet, bands, numbers) {
+  const { pen, theme } = sheet, paths = Array.from(numbers, (number) => outlineOf(sheet, number));
   for (const [more, colour, dashes = []] of bands) {
-    pen.setLineDash(dashes);
     pen.lineCap = dashes.length ? "butt" : "round";
-    for (const { path, width } of paths) band(pen, path, theme[colour], width + more);
+    for (const { path, width } of paths) line(pen, path, theme[colour], width + more, dashes);
   }
-  pen.setLineDash([]);
   pen.lineCap = "round";
 }
 
-function outlineOf(shapes, frame, seen, number) {
-  const { group, i } = shapeOf(shapes, number), { x, y } = seen;
+function outlineOf(sheet, number) {
+  const { shapes, seen } = sheet, { group, i } = shapeOf(shapes, number);
   if (group === shapes.faces) return { path: faceOutline(seen, cornersOf(group, i)), width: FACE_EDGE };
-  if (group === shapes.rounds) return { path: roundOutline(seen, frame, group, i), width: RING };
-  const path = new Path2D();
-  path.moveTo(x[group.from[i]], y[group.from[i]]);
-  path.lineTo(x[group.to[i]], y[group.to[i]]);
-  return { path, width: seen.widths[i] / 10 };
+  if (group === shapes.rounds) return { path: roundOutline(sheet, i), width: RING };
+  return { path: outline([group.from[i], group.to[i]], (point) => [seen.x[point], seen.y[point]], false), width: seen.widths[i] / 10 };
 }
 
 // The position in the word of what lies at a point: of the shape painted last there, else of the nearest within reach; or -1.
 export function shapeAt(shapes, frame, x, y, reach) {
-  const seen = seenIn(frame, shapes);
+  const seen = seenIn(frame, shapes), sheet = { shapes, frame, seen };
   let found = -1, nearest = reach;
   for (let at = seen.order.length - 1; at >= 0 && nearest > 0; at--) {
-    const distance = distanceTo(shapes, frame, seen, seen.order[at], x, y);
+    const distance = distanceTo(sheet, seen.order[at], x, y);
     if (distance > nearest || (distance === nearest && found >= 0)) continue;
     [found, nearest] = [shapeOf(shapes, seen.order[at]).position, distance];
   }
@@ -206,29 +174,45 @@ export function shapeAt(shapes, frame, x, y, reach) {
 }
 
 // How far a point is from a shape, in pixels; 0 inside.
-function distanceTo(shapes, frame, seen, number, x, y) {
-  const { group, i } = shapeOf(shapes, number);
-  if (group === shapes.rounds)
-    return Math.max(0, Math.hypot(seen.x[group.centres[i]] - x, seen.y[group.centres[i]] - y) - radiusOf(seen, frame, group, i));
-  if (group === shapes.strokes)
-    return Math.max(0, distanceToLine(seen, group.from[i], group.to[i], x, y) - seen.widths[i] / 20);
-  const corners = cornersOf(group, i);
-  if (isInside(seen, corners, x, y)) return 0;
-  return corners.reduce((least, corner, k) =>
-    Math.min(least, distanceToLine(seen, corner, corners[(k + 1) % corners.length], x, y)), Infinity);
+function distanceTo(sheet, number, x, y) {
+  const { shapes, seen } = sheet, { group, i } = shapeOf(shapes, number);
+  const placeOf = /** @returns {[number, number]} */ (point) => [seen.x[point], seen.y[point]];
+  if (group === shapes.rounds) {
+    const [cx, cy] = placeOf(group.centres[i]);
+    return Math.max(0, Math.hypot(cx - x, cy - y) - radiusOf(sheet, i));
+  }
+  if (group === shapes.strokes) return Math.max(0, distanceToLine(placeOf(group.from[i]), placeOf(group.to[i]), x, y) - seen.widths[i] / 20);
+  const corners = Array.from(cornersOf(group, i), placeOf);
+  return isInside(corners, x, y) ? 0 : Math.min(...corners.map((corner, k) => distanceToLine(corner, corners[(k + 1) % corners.length], x, y)));
 }
 
-function distanceToLine(seen, from, to, x, y) {
-  const ax = x - seen.x[from], ay = y - seen.y[from], bx = seen.x[to] - seen.x[from], by = seen.y[to] - seen.y[from];
-  const part = Math.max(0, Math.min(1, (ax * bx + ay * by) / (bx * bx + by * by || 1)));
+function distanceToLine([fromX, fromY], [toX, toY], x, y) {
+  const ax = x - fromX, ay = y - fromY, bx = toX - fromX, by = toY - fromY;
+  const part = clamped(0, 1, (ax * bx + ay * by) / (bx * bx + by * by || 1));
   return Math.hypot(ax - part * bx, ay - part * by);
 }
 
-function isInside(seen, corners, x, y) {
-  let inside = false;
-  corners.forEach((one, k) => {
-    const other = corners[(k + 1) % corners.length], ya = seen.y[one], yb = seen.y[other];
-    if ((ya > y) !== (yb > y) && x < seen.x[one] + ((y - ya) / (yb - ya)) * (seen.x[other] - seen.x[one])) inside = !inside;
-  });
-  return inside;
+export function cylinder([ax, ay], [bx, by], [ra, rb]) {
+  const length = Math.hypot(bx - ax, by - ay), along = length > 0 ? [(bx - ax) / length, (by - ay) / length] : [0, -1];
+  const left = [along[1], -along[0]], brightest = Math.atan2(left[0] * TO_LIGHT[0] - left[1] * TO_LIGHT[1], TO_LIGHT[2]);
+  const away = brightest < 0 ? 1 : -1;
+  const at = (end, angle) => {
+    const [x, y, radius, way] = end ? [bx, by, rb, 1] : [ax, ay, ra, -1], aside = radius * Math.sin(angle), ahead = way * radius * Math.cos(angle);
+    return [x + aside * left[0] + ahead * along[0], y + aside * left[1] + ahead * along[1]];
+  };
+  const stripe = (first, last) => {
+    const middle = (first + last) / 2;
+    return outline([[0, middle], [0, first], [1, first], [1, middle], [1, last], [0, last]], ([end, angle]) => at(end, angle));
+  };
+  return { body: capsule(ax, ay, bx, by, ra, rb, Math.atan2(left[1], left[0])),
+    light: stripe(Math.max(brightest - LIT, -RIM), Math.min(brightest + LIT, RIM)),
+    dark: stripe(brightest + away * DARK, (away * Math.PI) / 2) };
+}
+
+function capsule(ax, ay, bx, by, ra, rb, left) {
+  const path = new Path2D();
+  path.arc(bx, by, rb, left, left + Math.PI);
+  path.arc(ax, ay, ra, left + Math.PI, left + 2 * Math.PI);
+  path.closePath();
+  return path;
 }

@@ -3,19 +3,16 @@
 // In space x grows to the right, z upwards, and y away from a viewer who stands at the front, at 0 degrees around and 0 above,
 // and looks at the middle of an upright cylinder around all shapes. A frame belongs to a view, not to the shapes: whatever else is
 // painted in it keeps its place and its size.
+//
+// Then in which order they are painted, and how broad strokes are, as in the pictures that stay.
 
-import { startWidths } from "./cylinders.js";
-import { cornersOf, paintingOrder, strokeWidths } from "./painting_order.js";
+import { clamped, halfToEven, times } from "../books/numbers.js";
+import { BOLDEST, BROADEST, DEPTH_LEVELS, DISTANCE, FINEST, LARGEST_SCALE, LEAST_WIDTHS, MOST_CYLINDERS, ORDER_WIDTHS, SLIMMEST, STURDY, USUAL_STROKE } from "./constants.js";
 import { MOST_POINTS } from "./turtle_actions.js";
 
 const FRAME_MARGIN = 14;
-const LARGEST_SCALE = 120; // pixels a unit
 const NOTHING_WIDE = 1e-9;
-const THINNEST = 0.3, THINNEST_IN_SPACE = 0.6; // how much finer strokes become where they are short
-const STURDY = 0.8, BOLDEST = 2; // how fine they are at least and how broad at most in space, where one sees each by itself
-const USUAL_STROKE = 12; // pixels that strokes are long where they have their usual width
-const DISTANCE = 4; // of the eye from the middle, in radii of the sphere around what is seen
-const MOST_CYLINDERS = 10_000; // of more strokes one sees none by itself, and they are plain lines
+const FINEST_IN_SPACE = 0.6; // how much finer strokes become where they are short and too many to be seen each by itself
 const RADIANS = Math.PI / 180;
 const edgesOfFaces = new WeakMap();
 
@@ -76,7 +73,7 @@ export function frameOf(shapes, width, height, { around = 0, above = 0, near = 1
   const scale = near * Math.min((width / 2 - FRAME_MARGIN) / Math.max(wide, NOTHING_WIDE),
     (height / 2 - FRAME_MARGIN) / Math.max(high, NOTHING_WIDE), LARGEST_SCALE);
   const detailed = inSpace && shapes.strokes.n <= MOST_CYLINDERS;
-  const [finest, broadest] = detailed ? [STURDY, BOLDEST] : [inSpace ? THINNEST_IN_SPACE : THINNEST, 1];
+  const [finest, broadest] = detailed ? [STURDY, BOLDEST] : [inSpace ? FINEST_IN_SPACE : FINEST, 1];
   return {
     inSpace, detailed, scale, distance, middle, extent, pixel, width, x0: width / 2 + shift[0], y0: height / 2 + shift[1], seen: null,
     cos: Math.cos(around * RADIANS), sin: Math.sin(around * RADIANS), level, steep, reach,
@@ -84,7 +81,6 @@ export function frameOf(shapes, width, height, { around = 0, above = 0, near = 1
   };
 }
 
-// By how much what lies so far towards the eye is magnified.
 export const magnified = (distance, towards) => (distance === Infinity ? 1 : distance / (distance - towards));
 
 // Shapes as they are seen in a frame: x to the right and y down in pixels; in space depths towards the viewer in units, how near
@@ -115,7 +111,7 @@ function seenInSpace(frame, shapes, single) {
     const a = strokes.from[i], b = strokes.to[i];
     ends[0][i] = starts[i] * factors[a];
     ends[1][i] = single[i] * factors[b];
-    widths[i] = Math.max(3, Math.min(4000, Math.round((ends[0][i] + ends[1][i]) / 2)));
+    widths[i] = clamped(SLIMMEST, BROADEST, Math.round((ends[0][i] + ends[1][i]) / 2));
     if (frame.detailed) behind[i] = edges.has(pairOf(a, b)) ? -Infinity
       : (depths[a] + depths[b]) / 2 - Math.hypot(shapes.x[b] - shapes.x[a], shapes.y[b] - shapes.y[a], shapes.z[b] - shapes.z[a]);
   }
@@ -125,7 +121,7 @@ function seenInSpace(frame, shapes, single) {
 
 // The edges of faces, as pairs of points: a stroke there has no casing that would part it from its face.
 function edgesOf(faces) {
-  if (!edgesOfFaces.has(faces)) edgesOfFaces.set(faces, new Set(Array.from({ length: faces.n }, (_, i) => {
+  if (!edgesOfFaces.has(faces)) edgesOfFaces.set(faces, new Set(times(faces.n, (i) => {
     const corners = cornersOf(faces, i);
     return Array.from(corners, (corner, k) => pairOf(corner, corners[(k + 1) % corners.length]));
   }).flat()));
@@ -144,7 +140,72 @@ function projected({ scale, x0, y0, cos, sin, level, steep, reach, distance, mid
     seen.y[i] = y0 - (pz * level - ahead * steep) * scale * factor;
     seen.depths[i] = (x[i] * sin - y[i] * cos) * level + z[i] * steep;
     seen.factors[i] = factor;
-    seen.nearness[i] = Math.max(0, Math.min(1, towards / (2 * reach || 1) + 0.5));
+    seen.nearness[i] = clamped(0, 1, towards / (2 * reach || 1) + 0.5);
   }
   return seen;
+}
+
+// How broad each stroke begins: as broad as the last stroke of its branch that ends there, where the turtle has set the widths.
+function startWidths({ n, from, to, orders, widths }, single) {
+  if (widths.some((width) => width <= 0)) return single;
+  const ending = new Map(), branch = (point, i) => point * (1 << 20) + orders[i];
+  for (let i = 0; i < n; i++) ending.set(branch(to[i], i), single[i]);
+  return single.map((width, i) => ending.get(branch(from[i], i)) ?? width);
+}
+
+const MOST_NUMBERED = 2 ** 31; // more shapes there cannot be
+const LAST_RANK = 2 ** 21;
+
+// The width of each stroke, in tenths of a pixel: as the turtle has set it, or by its branch order.
+function strokeWidths({ n, orders, widths }, scale, thin) {
+  const own = ORDER_WIDTHS.map((width, order) => Math.max(LEAST_WIDTHS[order], halfToEven(10 * width * thin)));
+  const found = new Int32Array(n);
+  for (let i = 0; i < n; i++)
+    found[i] = widths[i] < 0 ? own[Math.min(orders[i], own.length - 1)]
+      : clamped(SLIMMEST, BROADEST, halfToEven(widths[i] * scale * 10));
+  return found;
+}
+
+// The numbers of faces, strokes and rounds, counted in this order, as they are painted: in space from far to near; in the plane
+// strokes by colours, and of one colour the broad ones first. `depths` says how far points lie towards the viewer, and `behind`
+// how far the casings of strokes, whose numbers follow all others; of what is as far away they are painted first.
+/** @param {ArrayLike<number>} behind */
+function paintingOrder(shapes, widths, depths = null, extent = 0, behind = []) {
+  const { strokes, faces, rounds } = shapes, many = faces.n + strokes.n + rounds.n, all = many + behind.length;
+  const ranks = depths ? depthLevels(shapes, depths, extent, behind) : planeRanks(shapes, widths), keys = new Float64Array(all);
+  for (let i = 0; i < all; i++) keys[i] = ranks[i] * MOST_NUMBERED + (i < many ? i + behind.length : i - many);
+  keys.sort();
+  for (let i = 0; i < all; i++) {
+    const at = keys[i] - Math.floor(keys[i] / MOST_NUMBERED) * MOST_NUMBERED;
+    keys[i] = at < behind.length ? at + many : at - behind.length;
+  }
+  return keys;
+}
+
+function planeRanks({ strokes, faces, rounds }, widths) {
+  const ranks = new Float64Array(faces.n + strokes.n + rounds.n).fill(LAST_RANK).fill(-1, 0, faces.n);
+  for (let i = 0; i < strokes.n; i++) ranks[faces.n + i] = strokes.colours[i] * (BROADEST + 1) + BROADEST - widths[i];
+  return ranks;
+}
+
+// A shape is as near as its middle: the mean of its corners, the middle of a stroke, a centre.
+function depthLevels({ strokes, faces, rounds }, depths, extent, behind) {
+  const many = faces.n + strokes.n + rounds.n, levels = new Float64Array(many + behind.length), unit = DEPTH_LEVELS / (extent || 1);
+  for (let i = 0; i < faces.n; i++) levels[i] = halfToEven(meanOf(depths, cornersOf(faces, i)) * unit);
+  for (let i = 0; i < strokes.n; i++)
+    levels[faces.n + i] = halfToEven(((depths[strokes.from[i]] + depths[strokes.to[i]]) / 2) * unit);
+  for (let i = 0; i < rounds.n; i++) levels[faces.n + strokes.n + i] = halfToEven(depths[rounds.centres[i]] * unit);
+  const least = levels.subarray(0, many).reduce((found, level) => Math.min(found, level), Infinity);
+  behind.forEach((depth, i) => { levels[many + i] = Math.max(least, halfToEven(depth * unit)); });
+  return levels.map((level) => level - least);
+}
+
+export function cornersOf({ starts, corners }, i) {
+  return corners.subarray(starts[i], starts[i + 1]);
+}
+
+export function meanOf(places, numbers) {
+  let sum = 0;
+  for (const number of numbers) sum += places[number];
+  return sum / numbers.length;
 }

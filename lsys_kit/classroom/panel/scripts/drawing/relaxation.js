@@ -1,12 +1,10 @@
 // The relaxation of a map: springs pull, cells press, vertices move until they are nearly at rest. The same iterations as the
 // kernel's, so that they can be watched, and so that a page without a kernel finds where cells are at rest under other forces.
 
-import { whole } from "../books/book.js";
+import { whole } from "../books/numbers.js";
+import { AT_REST, FARTHEST, LEAST_AREA, LEAST_LENGTH, MOST_ITERATIONS, SHORTEST_TIME_STEP, TIME_STEP } from "./constants.js";
 
-const TIME_STEP = 0.05, SHORTEST_TIME_STEP = TIME_STEP / 1000;
-const AT_REST = 1e-6; // points that move less in an iteration are nearly at rest
 const SURELY_AT_REST = 1e-9; // where no kernel goes on from there
-const MOST_ITERATIONS = 20_000, FARTHEST = 1e6, LEAST_AREA = 1e-3, LEAST_LENGTH = 1e-9;
 const known = new WeakMap();
 
 // Which points bound the walls and cells of a step.

@@ -77,10 +77,7 @@ const wallsOf = ({ sides, starts }, cell) => Array.from({ length: (starts[cell +
 
 function piecesOf(pairs, place) {
   const path = new Path2D();
-  for (const [one, other] of pairs) {
-    path.moveTo(...place(one));
-    path.lineTo(...place(other));
-  }
+  for (const pair of pairs) path.addPath(outline(pair, place, false));
   return path;
 }
 

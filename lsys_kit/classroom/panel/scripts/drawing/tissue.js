@@ -3,12 +3,12 @@
 // As in the pictures that stay, of a cellwork the outer walls of the cells that are shown are painted from far to near, with the
 // edges of all others; on a sphere what lies behind moves to the rim.
 
-import { whole } from "../books/book.js";
+import { whole } from "../books/numbers.js";
+import { list } from "../views/controls.js";
 import { paintWalls, wallsSeen } from "./cell_walls.js";
 import { isInside } from "./outlines.js";
 import { frameOf, magnified } from "./projection.js";
 import { cellSeen, paintSphere } from "./sphere.js";
-import { list } from "../views/controls.js";
 
 const COLOURS = 6; // of cells on a sphere
 const UNIT = 3; // in a frame cells shall be no smaller than those of other drawings

@@ -3,17 +3,15 @@
 // `traced` interprets a word once and records a path that depends neither on the angle nor on the heading; `placed` then finds
 // where its points lie, as often as the angle changes.
 
-import { OWN_LOOK, RAMP_START, colourNaturally, newTurtle, stretchRamp } from "./turtle_actions.js";
+import { grouped } from "../books/numbers.js";
+import { BROADEST_PART, LARGEST_SCALE, MOST_CURVED, OWN_LOOK, PICTURE_HEIGHT, PICTURE_MARGIN, PICTURE_WIDTH, RAMP_START, SIGN_COLOUR } from "./constants.js";
+import { colourNaturally, newTurtle, stretchRamp } from "./turtle_actions.js";
 import { placeInPlane, planeActions, planeTrail } from "./turtle_plane.js";
 import { placeInSpace, spaceActions, spaceTrail } from "./turtle_space.js";
 
-const SIGN_COLOUR = "#28A964"; // of what a sign draws
 const MOST_CALLS = 10_000_000;
-const MOST_CURVED = 150; // of more surfaces one sees little of the curvature, and they are drawn by their outlines
 const DRAWS_SURFACE = ["expect surface", "draw surface"];
 const POINTS_KEPT = 300_000; // of the paths of earlier steps, of which two are kept in any case
-const PICTURE_WIDTH = 600, PICTURE_HEIGHT = 400, PICTURE_MARGIN = 12, PICTURE_SCALE = 120;
-const BROADEST_PART = 0.5; // of a picture that the broadest stroke may fill before the drawing is made smaller for it
 
 const openedTurtles = new WeakMap();
 
@@ -41,12 +39,12 @@ function openTurtle({ mode, turtle, states, symbols }) {
     if (!known.has(key)) known.set(key, amounts.push([factor, addend]) - 1);
     return known.get(key);
   };
-  const compiled = (found) => found.filter(([name]) => Object.hasOwn(actions, name))
-    .map(([name, factor, given, values, surface]) => {
-      const addend = Number(given);
-      return { act: actions[name], factor, addend, values: values || [], surface: surface ? turtle.surfaces[surface] : null,
-        amount: amountNumber(factor, addend) };
-    });
+  const compiled = (found) => found.map(([name, factor, given, values, surface]) => {
+    if (!Object.hasOwn(actions, name)) throw new RangeError(`The turtle of the panel does not know how to "${name}"`);
+    const addend = Number(given);
+    return { act: actions[name], factor, addend, values: values || [], surface: surface ? turtle.surfaces[surface] : null,
+      amount: amountNumber(factor, addend) };
+  });
   const calls = turtle.calls.map((found) => Object.assign(compiled(found), {
     surfaces: found.filter(([name]) => DRAWS_SURFACE.includes(name)).length }));
   const ofStates = states.map(([symbol]) => symbols[symbol][2] || SIGN_COLOUR);
@@ -72,7 +70,7 @@ function tracedAnew(book, step, { inSpace, calls, amounts, palette, chosen, ofSt
 function interpretWord(turtle, word, calls) {
   let many = 0, curved = 0;
   for (const state of word) [many, curved] = [many + calls[state].length, curved + calls[state].surfaces];
-  if (many > MOST_CALLS) throw new RangeError(`Too much to draw: more than ${MOST_CALLS.toLocaleString("en")} commands`);
+  if (many > MOST_CALLS) throw new RangeError(`Too much to draw: more than ${grouped(MOST_CALLS)} commands`);
   turtle.flat = curved > MOST_CURVED;
   for (let place = 0; place < word.length; place++) {
     const state = word[place];
@@ -82,21 +80,16 @@ function interpretWord(turtle, word, calls) {
   }
 }
 
+const REAL = ["widths", "radii"]; // all other numbers of shapes are whole
+
 function shapesOf({ strokes, faces, rounds, labels }, colourOf) {
-  const whole = (numbers) => new Int32Array(numbers);
-  const common = ({ colours, positions, states }) => ({
-    colours: whole(colours.map((colour, i) => colourOf(states[i], colour))), positions: whole(positions),
-    states: whole(states),
-  });
-  return {
-    strokes: { n: strokes.to.length, from: whole(strokes.from), to: whole(strokes.to), orders: whole(strokes.orders),
-      widths: new Float64Array(strokes.widths), ...common(strokes) },
-    faces: { n: faces.states.length, starts: whole(faces.starts), corners: whole(faces.corners),
-      smooth: faces.smooth, ...common(faces) },
-    rounds: { n: rounds.states.length, centres: whole(rounds.centres), radii: new Float64Array(rounds.radii),
-      kinds: whole(rounds.kinds), ...common(rounds) },
-    labels: { points: whole(labels.points), texts: labels.texts },
+  const group = ({ smooth, ...rows }) => {
+    const colours = rows.colours.map((colour, i) => colourOf(rows.states[i], colour));
+    const columns = Object.entries({ ...rows, colours }).map(([name, numbers]) => [name, (REAL.includes(name) ? Float64Array : Int32Array).from(numbers)]);
+    return { n: colours.length, ...Object.fromEntries(columns), smooth };
   };
+  const { lengths, ...drawn } = strokes;
+  return { strokes: group(drawn), faces: group(faces), rounds: group(rounds), labels: { points: Int32Array.from(labels.points), texts: labels.texts } };
 }
 
 // The shapes of a path for an angle, in degrees. Their points stay where they are until the path is placed for another.
@@ -140,7 +133,7 @@ function pixelOf({ broadest, pixels }, { least, most }) {
   const up = least.length - 1, room = Math.min(broadest, BROADEST_PART * PICTURE_HEIGHT);
   const across = Math.max(most[0] - least[0], 1e-9), high = Math.max(most[up] - least[up], 1e-9);
   const scale = Math.min((PICTURE_WIDTH - room - 2 * PICTURE_MARGIN) / across,
-    (PICTURE_HEIGHT - room - 2 * PICTURE_MARGIN) / high, PICTURE_SCALE);
+    (PICTURE_HEIGHT - room - 2 * PICTURE_MARGIN) / high, LARGEST_SCALE);
   return Math.min(1, 1 / scale);
 }
 

@@ -1,17 +1,13 @@
-// What a turtle carries, and the actions that are the same in the plane and in space, by name.
+// What a turtle carries, and the actions that are the same in the plane and in space, by name: those of the kit's own turtles
+// (geometry/turtle/handlers.py), whose names a book sends.
 //
 // A position is the number of a point, of which 0 is the origin; what an orientation is, the turtle's trail knows, which
 // records where points lie before the angle is known. Neither is ever changed, so that a branch can remember both. A call of
 // an action has a factor and an addend, and mostly concerns one quantity: the amount is factor * quantity + addend.
 
-export const OWN_LOOK = -1; // stands for the width of a branch order and the colour of a symbol
-export const HOLLOW = 0; // the kind of a circle; discs are 1
-export const BALL = 2; // the kind of a sphere
-const LARGEST_VALUE = 1e50;
-const LAST_COLOUR = 2 ** 31 - 1;
-export const RAMP_START = 16;
-const RAMP_END = 23; // the colours from bark to leaves
-const SHAPE_WIDTH = 0.1; // of circles, discs, spheres and boxes where no width has been set
+import { clamped, grouped, halfToEven } from "../books/numbers.js";
+import { BALL, DISC, HOLLOW, LARGEST_VALUE, LAST_COLOUR, OWN_LOOK, RAMP_END, RAMP_START, SHAPE_WIDTH } from "./constants.js";
+
 export const MOST_POINTS = 2_000_000;
 const REMEMBERED = ["position", "orientation", "length", "width", "colour", "gravitropism", "tropisms", "last", "restored",
   "mirror", "secondHeading", "axis", "scale"];
@@ -39,56 +35,38 @@ export function colourNaturally({ colours, orders, widths }) {
 }
 
 export function newTurtle(trail, { length, width, colour }) {
-  const initial = { length, width: OWN_LOOK, colour, gravitropism: 0 };
+  const initial = { length, width: OWN_LOOK, colour, gravitropism: 0 }, looks = () => ({ colours: [], positions: [], states: [] });
   return {
     ...initial, initial, trail, scale: 1, firstWidth: width, position: 0, orientation: trail.orientation, mirror: 1, secondHeading: 0,
     tropisms: new Map(), axis: null, patches: new Map(), last: 0, restored: [], stack: [], place: -1, state: -1, expectsSurface: false, flat: false,
     openPolygons: [],
-    strokes: { from: [], to: [], lengths: [], orders: [], widths: [], colours: [], positions: [], states: [] },
-    faces: { starts: [0], corners: [], smooth: [], colours: [], positions: [], states: [] },
-    rounds: { centres: [], radii: [], kinds: [], colours: [], positions: [], states: [] },
+    strokes: { from: [], to: [], lengths: [], orders: [], widths: [], ...looks() },
+    faces: { starts: [0], corners: [], smooth: [], ...looks() },
+    rounds: { centres: [], radii: [], kinds: [], ...looks() },
     labels: { points: [], texts: [] },
   };
 }
 
-// The width of strokes, at the scale of the turtle.
 export const strokeWidth = ({ width, scale }) => (width > 0 ? width * scale : width);
 
 // The width of shapes without an argument: that of strokes.
 const shapeWidth = ({ width }) => (width === OWN_LOOK ? SHAPE_WIDTH : width);
-
-// A number rounded to a whole one, halves to the even one, as the kernel does it.
-export function halfToEven(value) {
-  const whole = Math.round(value);
-  return whole - value === 0.5 && whole % 2 !== 0 ? whole - 1 : whole;
-}
 
 export const amountOf = (call, quantity) => call.factor * quantity + call.addend;
 
 // A length that is drawn: the step, or an argument, at the scale of the turtle.
 const sizeOf = (turtle, call) => turtle.scale * amountOf(call, turtle.length);
 
-function bounded(what, value) {
-  if (!(Math.abs(value) <= LARGEST_VALUE))
-    throw new RangeError(`The turtle's ${what} grows too large to draw: ${Number(value.toPrecision(3))}`);
-  return value;
-}
-
-// How many points, corners or brackets there are, if that is not too much.
 export function roomFor(many) {
-  if (many > MOST_POINTS) throw new RangeError(`Too much to draw: more than ${MOST_POINTS.toLocaleString("en")} points`);
+  if (many > MOST_POINTS) throw new RangeError(`Too much to draw: more than ${grouped(MOST_POINTS)} points`);
   return many;
 }
 
-function moveAhead(turtle, length, drawn) {
-  const from = turtle.position, to = turtle.trail.step(turtle.orientation, length, from);
-  turtle.position = to;
-  if (!drawn) return;
-  if (!turtle.axis) {
-    recordStroke(turtle, from, to, strokeWidth(turtle));
-    turtle.strokes.lengths.push(Math.abs(length));
-  }
-  if (turtle.tropisms.size) turtle.orientation = turtle.trail.bent(turtle.orientation, turtle.tropisms);
+// What a shape looks like and belongs to, as the turtle has it or, of a polygon, had it at its beginning.
+function recordLook({ colours, positions, states }, { colour, place, state }) {
+  colours.push(colour);
+  positions.push(place);
+  states.push(state);
 }
 
 // A stroke between two points; how long it is, its points may say only later.
@@ -99,64 +77,67 @@ export function recordStroke(turtle, from, to, width) {
   strokes.to.push(to);
   strokes.orders.push(turtle.stack.length);
   strokes.widths.push(width);
-  strokes.colours.push(turtle.colour);
-  strokes.positions.push(turtle.place);
-  strokes.states.push(turtle.state);
+  recordLook(strokes, turtle);
 }
 
-function recordVertex(turtle) {
-  if (turtle.openPolygons.length) roomFor(turtle.openPolygons.at(-1).corners.push(turtle.position));
+export function recordFace(faces, corners, look, smooth = false) {
+  for (const corner of corners) faces.corners.push(corner);
+  faces.starts.push(roomFor(faces.corners.length));
+  faces.smooth.push(smooth);
+  recordLook(faces, look);
+}
+
+function recordVertex({ openPolygons, position }) {
+  if (openPolygons.length) roomFor(openPolygons.at(-1).corners.push(position));
 }
 
 // One-time settings end with a stroke; the earliest value is set last, and stays.
-function endOneTimeSettings(turtle) {
-  for (const [name, value] of turtle.restored) turtle[name] = value;
-  turtle.restored = [];
-}
-
 export function goAhead(drawn, vertex) {
   return (turtle, call) => {
-    moveAhead(turtle, sizeOf(turtle, call), drawn);
+    const from = turtle.position, length = sizeOf(turtle, call), to = (turtle.position = turtle.trail.step(turtle.orientation, length, from));
+    if (drawn && !turtle.axis) {
+      recordStroke(turtle, from, to, strokeWidth(turtle));
+      turtle.strokes.lengths.push(Math.abs(length));
+    }
+    if (drawn && turtle.tropisms.size) turtle.orientation = turtle.trail.bent(turtle.orientation, turtle.tropisms);
     if (vertex) recordVertex(turtle);
-    if (drawn && turtle.restored.length) endOneTimeSettings(turtle);
+    if (!drawn || !turtle.restored.length) return;
+    for (const [name, value] of turtle.restored) turtle[name] = value;
+    turtle.restored = [];
   };
 }
 
-function setLength(turtle, call) {
-  turtle.length = bounded("step", amountOf(call, turtle.length));
-}
-
-function setWidth(turtle, call) {
-  const before = turtle.width === OWN_LOOK ? turtle.firstWidth : turtle.width;
-  turtle.width = Math.max(0, bounded("width", amountOf(call, before)));
-}
-
-function setGravitropism(turtle, call) {
-  turtle.gravitropism = bounded("strength", amountOf(call, turtle.gravitropism));
-}
-
-function setScale(turtle, call) {
-  turtle.scale = Math.max(0, bounded("scale", amountOf(call, turtle.scale)));
+// Set a quantity, which the message of a too large value calls so; a width begins with that of the dialect.
+function setQuantity(name, called, least = -Infinity) {
+  return (turtle, call) => {
+    const value = amountOf(call, name === "width" && turtle.width === OWN_LOOK ? turtle.firstWidth : turtle[name]);
+    if (!(Math.abs(value) <= LARGEST_VALUE))
+      throw new RangeError(`The turtle's ${called} grows too large to draw: ${Number(value.toPrecision(3))}`);
+    turtle[name] = Math.max(least, value);
+  };
 }
 
 function setColour(turtle, call) {
-  turtle.colour = Math.max(0, Math.min(LAST_COLOUR, halfToEven(amountOf(call, Math.max(0, turtle.colour)))));
+  turtle.colour = clamped(0, LAST_COLOUR, halfToEven(amountOf(call, Math.max(0, turtle.colour))));
 }
 
 // Through the ramp from bark to leaves, or through the colours below it, as far as they go.
 function stepColour(turtle, call) {
   const [first, last] = turtle.colour >= RAMP_START ? [RAMP_START, RAMP_END] : [0, RAMP_START - 1];
-  turtle.colour = Math.max(first, Math.min(last, turtle.colour + call.addend));
+  turtle.colour = clamped(first, last, turtle.colour + call.addend);
 }
 
-const resetTo = (name) => (turtle) => {
-  turtle[name] = turtle.initial[name];
-};
-
-const setOnce = (name, change) => (turtle, call) => {
-  turtle.restored = [[name, turtle[name]], ...turtle.restored];
-  change(turtle, call);
-};
+// Set a quantity, set it back to what it was at first, and set it up to the next stroke.
+function settings(name, set) {
+  return {
+    [`set ${name}`]: set,
+    [`reset ${name}`]: (turtle) => { turtle[name] = turtle.initial[name]; },
+    [`set ${name} once`]: (turtle, call) => {
+      turtle.restored = [[name, turtle[name]], ...turtle.restored];
+      set(turtle, call);
+    },
+  };
+}
 
 function openBranch(turtle) {
   roomFor(turtle.stack.push(REMEMBERED.map((name) => turtle[name])));
@@ -168,46 +149,33 @@ function closeBranch(turtle) {
   if (remembered) REMEMBERED.forEach((name, i) => (turtle[name] = remembered[i]));
 }
 
-function beginPolygon(turtle) {
-  roomFor(turtle.openPolygons.push({ corners: [], colour: turtle.colour, place: turtle.place, state: turtle.state }));
+function beginPolygon({ openPolygons, colour, place, state }) {
+  roomFor(openPolygons.push({ corners: [], colour, place, state }));
 }
 
-function endPolygon(turtle) {
-  const outline = turtle.openPolygons.pop();
-  if (outline && outline.corners.length > 2) addFace(turtle.faces, outline);
-}
-
-export function addFace(faces, { corners, colour, place, state }, smooth = false) {
-  for (const corner of corners) faces.corners.push(corner);
-  faces.starts.push(roomFor(faces.corners.length));
-  faces.smooth.push(smooth);
-  faces.colours.push(colour);
-  faces.positions.push(place);
-  faces.states.push(state);
+function endPolygon({ openPolygons, faces }) {
+  const outline = openPolygons.pop();
+  if (outline?.corners.length > 2) recordFace(faces, outline.corners, outline);
 }
 
 function drawSurface(turtle, call) {
   const size = sizeOf(turtle, call);
   if (!size || !call.surface) return;
   const curved = !turtle.flat && call.surface.faces.length > 0;
-  addLocalFaces(turtle, curved ? call.surface.faces : call.surface.outlines, size, curved);
+  drawLocalFaces(turtle, curved ? call.surface.faces : call.surface.outlines, size, curved);
 }
 
-// Faces that are given in the frame of the turtle.
-function addLocalFaces(turtle, faces, size, smooth) {
-  const { colour, place, state } = turtle;
-  for (const face of faces) {
-    const corners = face.map(([ahead, left, up]) =>
-      turtle.trail.local(turtle.orientation, turtle.position, size * ahead, size * left, size * up));
-    addFace(turtle.faces, { corners, colour, place, state }, smooth);
-  }
+function drawLocalFaces(turtle, faces, size, smooth) {
+  const { trail, orientation, position } = turtle;
+  for (const face of faces)
+    recordFace(turtle.faces, face.map(([ahead, left, up]) => trail.local(orientation, position, size * ahead, size * left, size * up)), turtle, smooth);
 }
 
 // A box ahead, given how its sides follow from its length and half its width.
 export function drawBox(sides) {
   return (turtle, call) => {
     const length = sizeOf(turtle, call), width = turtle.scale * Math.abs(call.values[1] ?? shapeWidth(turtle));
-    if (length && width) addLocalFaces(turtle, sides(length, width / 2), 1, false);
+    if (length && width) drawLocalFaces(turtle, sides(length, width / 2), 1, false);
   };
 }
 
@@ -222,9 +190,7 @@ function drawRound(kind) {
     roomFor(rounds.centres.push(turtle.position));
     rounds.radii.push((turtle.scale * Math.abs(width)) / 2);
     rounds.kinds.push(kind);
-    rounds.colours.push(turtle.colour);
-    rounds.positions.push(turtle.place);
-    rounds.states.push(turtle.state);
+    recordLook(rounds, turtle);
   };
 }
 
@@ -236,18 +202,15 @@ function drawLabel({ position, labels }, { values: [text] }) {
 
 export function commonActions() {
   return {
-    "draw label": drawLabel,
     "draw": goAhead(true, true), "move": goAhead(false, true),
     "draw without vertex": goAhead(true, false), "move without vertex": goAhead(false, false),
-    "set length": setLength, "reset length": resetTo("length"), "set length once": setOnce("length", setLength),
-    "set width": setWidth, "reset width": resetTo("width"), "set width once": setOnce("width", setWidth),
-    "set scale": setScale, "set gravitropism": setGravitropism, "reset gravitropism": resetTo("gravitropism"),
-    "set gravitropism once": setOnce("gravitropism", setGravitropism),
-    "set colour": setColour, "step colour": stepColour, "reset colour": resetTo("colour"),
+    ...settings("length", setQuantity("length", "step")), ...settings("width", setQuantity("width", "width", 0)),
+    ...settings("gravitropism", setQuantity("gravitropism", "strength")), ...settings("colour", setColour),
+    "set scale": setQuantity("scale", "scale", 0), "step colour": stepColour,
     "push": openBranch, "pop": closeBranch,
     "begin polygon": beginPolygon, "record vertex": recordVertex, "end polygon": endPolygon,
     "expect surface": (turtle) => { turtle.expectsSurface = true; },
     "draw expected surface": drawExpectedSurface, "draw surface": drawSurface,
-    "draw circle": drawRound(HOLLOW), "draw disc": drawRound(1), "draw sphere": drawRound(BALL),
+    "draw circle": drawRound(HOLLOW), "draw disc": drawRound(DISC), "draw sphere": drawRound(BALL), "draw label": drawLabel,
   };
 }

@@ -3,39 +3,29 @@
 //
 // A frame is three unit vectors: the heading H, the left L and the up U, where H x L = U. x grows to the right, z upwards and y
 // away from the viewer. An orientation is the number of a frame, of which 0 is the first; point 0 is the origin.
+//
+// Between points that it has passed a turtle spans generalised cylinders and patches. The axis of a cylinder is a row of cubic
+// Hermite curves, the tangents of which have the directions of the headings at its control points.
 
-import { commonActions, drawBox, roomFor } from "./turtle_actions.js";
-import { curveActions, onCurve } from "./turtle_curves.js";
+import { clamped } from "../books/numbers.js";
+import { MOST_PARTS, NEGLIGIBLE, OWN_LOOK, PATCH_FACES, RENORMALISED_AFTER, TANGENT } from "./constants.js";
+import { amountOf, commonActions, drawBox, recordFace, recordStroke, roomFor, strokeWidth } from "./turtle_actions.js";
 import { returnToStroke } from "./turtle_plane.js";
 
 const TURNED = 0, PITCHED = 1, ROLLED = 2, LEVELLED = 3, BENT_DOWN = 4, BENT_TOWARDS = 5, POINTED = 6; // how a frame is made
 // Points that lie in no frame: given by coordinates, as a part of the way to another, on a curve, or as a mean of others.
 const ABSOLUTE = -1, BETWEEN = -2, CURVED = -3, BLENDED = -4;
 const HEAD_AT = 0, LEFT_AT = 3, UP_AT = 6, FRAME_SIZE = 9; // where the vectors of a frame stand, and how many numbers it has
-const NEGLIGIBLE = 1e-12; // smaller sines are taken for 0
-const RENORMALISED_AFTER = 1000; // rotations a frame is made orthonormal again
-const DEGREES_PER_TURN = 360, QUARTER = 90;
-const QUARTERS = [[1, 0], [0, 1], [-1, 0], [0, -1]];
+const ROTATION_SIZE = 4, POINT_SIZE = 5; // numbers of what is recorded of a frame and of a point
+const DEGREES_PER_TURN = 360, QUARTER = 90, QUARTERS = [[1, 0], [0, 1], [-1, 0], [0, -1]];
+const ROWS = 4; // of the control points of a patch, and their columns
 
-export function spaceTrail(setting) {
-  const frames = { parents: [0], kinds: [TURNED], numbers: [0], values: [0] };
-  const points = { parents: [0], frames: [ABSOLUTE], a: [0], b: [0], c: [0] }, pulls = [], spans = [];
+export function spaceTrail({ side }) {
+  const rotations = [0, TURNED, 0, 0], points = [0, ABSOLUTE, 0, 0, 0], pulls = [], spans = [];
 
   // A rotation by an amount, by gravitropism of a strength, by a tropism; the meaning of number and value depends on the kind.
-  function frame(parent, kind, number, value) {
-    frames.kinds.push(kind);
-    frames.numbers.push(number);
-    frames.values.push(value);
-    return roomFor(frames.parents.push(parent)) - 1;
-  }
-
-  function point(parent, within, a, b, c) {
-    points.frames.push(within);
-    points.a.push(a);
-    points.b.push(b);
-    points.c.push(c);
-    return roomFor(points.parents.push(parent)) - 1;
-  }
+  const frame = (parent, kind, number, value) => roomFor(rotations.push(parent, kind, number, value) / ROTATION_SIZE) - 1;
+  const point = (parent, within, a, b, c) => roomFor(points.push(parent, within, a, b, c) / POINT_SIZE) - 1;
 
   function bent(orientation, tropisms) {
     for (const pull of tropisms.values()) orientation = frame(orientation, BENT_TOWARDS, pulls.push(pull) - 1, 0);
@@ -46,23 +36,15 @@ export function spaceTrail(setting) {
     frame, bent, orientation: 0,
     step: (orientation, length, parent) => point(parent, orientation, length, 0, 0),
     local: (orientation, parent, ahead, left, up) => point(parent, orientation, ahead, left, up),
-    between: (last, part) => point(points.parents[last], BETWEEN, part, last, 0),
+    between: (last, part) => point(points[POINT_SIZE * last], BETWEEN, part, last, 0),
     at: ([x, y, z]) => point(0, ABSOLUTE, x, y, z),
     curved: (before, after, share) => point(0, CURVED, share, spans.push([before, after]) - 1, 0),
     blended: (numbers, weights) => point(0, BLENDED, 0, spans.push([numbers, weights]) - 1, 0),
     pointed: (orientation, directions) => frame(orientation, POINTED, pulls.push(directions) - 1, 0),
-    packed: () => packedTrail(setting, points, frames, pulls, spans),
-  };
-}
-
-function packedTrail({ side }, points, frames, pulls, spans) {
-  const n = points.parents.length, m = frames.parents.length, real = (numbers) => new Float64Array(numbers);
-  return {
-    n, x: real(n), y: real(n), z: real(n), parents: new Int32Array(points.parents), frames: new Int32Array(points.frames),
-    a: real(points.a), b: real(points.b), c: real(points.c), spans,
-    rotations: {
-      n: m, side, pulls, axes: real(FRAME_SIZE * m), since: new Int32Array(m), parents: new Int32Array(frames.parents),
-      kinds: new Uint8Array(frames.kinds), numbers: new Int32Array(frames.numbers), values: real(frames.values),
+    packed() {
+      const n = points.length / POINT_SIZE, many = rotations.length / ROTATION_SIZE, [x, y, z] = [0, 1, 2].map(() => new Float64Array(n));
+      return { n, x, y, z, points: new Float64Array(points), spans, side, pulls, rotations: new Float64Array(rotations),
+        axes: new Float64Array(FRAME_SIZE * many), since: new Int32Array(many) };
     },
   };
 }
@@ -76,8 +58,7 @@ function rollLevel(turtle) {
 }
 
 function bendByGravitropism(turtle, call) {
-  const strength = call.factor * turtle.gravitropism + call.addend;
-  turtle.orientation = turtle.trail.frame(turtle.orientation, BENT_DOWN, 0, strength);
+  turtle.orientation = turtle.trail.frame(turtle.orientation, BENT_DOWN, 0, amountOf(call, turtle.gravitropism));
 }
 
 // `@Ts(e)`, or as in cpfg `@Ts(number, e)`, or with a direction `@Ts(number, e, x, y, z)`.
@@ -89,10 +70,9 @@ function setTropism(turtle, { values }) {
 
 // `@R(x, y, z)`, or with an up `@R(x, y, z, x, y, z)`.
 function setHeading(turtle, { values }) {
-  const [x, y, z, ...up] = [...values, 0, 0, 0];
-  const heading = fromCpfg([x, y, z]);
-  if (Math.hypot(...heading) <= NEGLIGIBLE) return;
-  turtle.orientation = turtle.trail.pointed(turtle.orientation, [heading, values.length > 5 ? fromCpfg(up) : null]);
+  const [x, y, z, ...up] = [...values, 0, 0, 0], heading = fromCpfg([x, y, z]);
+  if (Math.hypot(...heading) > NEGLIGIBLE)
+    turtle.orientation = turtle.trail.pointed(turtle.orientation, [heading, values.length > 5 ? fromCpfg(up) : null]);
 }
 
 function setPosition(turtle, { values }) {
@@ -100,7 +80,7 @@ function setPosition(turtle, { values }) {
 }
 
 // In cpfg's axes y grows upwards and z towards the viewer.
-const fromCpfg = ([x, y, z]) => [x, -z, y];
+const fromCpfg = /** @param {number[]} point */ ([x, y, z]) => [x, -z, y];
 
 // The sides of a box, each with its corners counter-clockwise as seen from outside.
 function boxSides(length, half) {
@@ -113,13 +93,67 @@ function boxSides(length, half) {
     })));
 }
 
+// Cylinders and patches
+
+const here = (turtle) => ({ position: turtle.position, orientation: turtle.orientation, width: strokeWidth(turtle) });
+
+const boundedNumber = (value) => clamped(1, MOST_PARTS, Math.round(value));
+
+function continueCylinder(turtle, call) {
+  const before = turtle.axis;
+  if (!before) return;
+  const after = (turtle.axis = here(turtle)), parts = boundedNumber(amountOf(call, 0)), bare = [before.width, after.width].includes(OWN_LOOK);
+  let from = before.position;
+  for (let number = 1; number <= parts; number++) {
+    const share = number / parts, to = number < parts ? turtle.trail.curved(before, after, share) : after.position;
+    recordStroke(turtle, from, to, bare ? OWN_LOOK : (1 - share) * before.width + share * after.width);
+    from = to;
+  }
+}
+
+function endCylinder(turtle, call) {
+  continueCylinder(turtle, call);
+  turtle.axis = null;
+}
+
+function setControlPoint(turtle, { values: [number = 0, row = 0, column = 0] }) {
+  turtle.patches.get(number)?.set(`${row} ${column}`, { row, column, point: turtle.position });
+}
+
+// Rows and columns count from 0 or from 1.
+function drawPatch(turtle, { values: [number = 0, along = PATCH_FACES, across = PATCH_FACES] }) {
+  const set = [...(turtle.patches.get(number)?.values() ?? [])];
+  const [rows, columns] = ["row", "column"].map((kind) => [...new Set(set.map((each) => each[kind]))].sort((a, b) => a - b));
+  if (set.length !== ROWS ** 2 || rows.length !== ROWS || columns.length !== ROWS) return;
+  const control = [];
+  for (const { row, column, point } of set) control[ROWS * rows.indexOf(row) + columns.indexOf(column)] = point;
+  const [down, over] = [along, across].map(boundedNumber), grid = [];
+  for (let i = 0; i <= down; i++)
+    for (let j = 0; j <= over; j++) grid.push(turtle.trail.blended(control, products(bernstein(i / down), bernstein(j / over))));
+  for (let i = 0; i < down; i++)
+    for (let j = 0; j < over; j++) {
+      const at = i * (over + 1) + j;
+      recordFace(turtle.faces, [at, at + over + 1, at + over + 2, at + 1].map((k) => grid[k]), turtle, true);
+    }
+}
+
+const products = (a, b) => a.flatMap((x) => b.map((y) => x * y));
+
+const bernstein = (t) => [(1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t ** 2 * (1 - t), t ** 3];
+
 export function spaceActions() {
   return {
-    ...commonActions(), ...curveActions(), "draw box": drawBox(boxSides), "set heading": setHeading, "turn": rotationBy(TURNED), "pitch": rotationBy(PITCHED),
-    "roll": rotationBy(ROLLED), "level": rollLevel, "gravitropism": bendByGravitropism,
+    ...commonActions(), "draw box": drawBox(boxSides), "set heading": setHeading, "turn": rotationBy(TURNED), "turn back": rotationBy(TURNED),
+    "pitch": rotationBy(PITCHED), "roll": rotationBy(ROLLED), "level": rollLevel, "gravitropism": bendByGravitropism,
     "set tropism": setTropism, "set position": setPosition, "return to stroke": returnToStroke,
+    "begin cylinder": (turtle) => { turtle.axis = here(turtle); },
+    "continue cylinder": continueCylinder, "end cylinder": endCylinder,
+    "begin patch": (turtle, { values: [number = 0] }) => { turtle.patches.set(number, new Map()); },
+    "set control point": setControlPoint, "draw patch": drawPatch,
   };
 }
+
+// Where everything lies
 
 // Cosine and sine, exact for quarter turns.
 function cosineAndSine(degrees) {
@@ -130,45 +164,48 @@ function cosineAndSine(degrees) {
 
 // Find where the points of a trail lie for an angle; an amount of rotation is a factor of the angle and further degrees.
 export function placeInSpace(trail, amounts, angle, heading) {
-  const { n, x, y, z, parents, frames, a, b, c, spans, rotations } = trail, { axes } = rotations;
-  placeFrames(rotations, amounts, angle, heading);
-  for (let i = 1; i < n; i++) {
-    const from = parents[i], at = FRAME_SIZE * frames[i], ahead = a[i];
+  const { n, x, y, z, points, spans, axes } = trail;
+  placeFrames(trail, amounts, angle, heading);
+  for (let i = 1, row = POINT_SIZE; i < n; i++, row += POINT_SIZE) {
+    const from = points[row], frame = points[row + 1], at = FRAME_SIZE * frame, ahead = points[row + 2], left = points[row + 3], up = points[row + 4];
     if (at >= 0) {
-      x[i] = x[from] + ahead * axes[at] + b[i] * axes[at + LEFT_AT] + c[i] * axes[at + UP_AT];
-      y[i] = y[from] + ahead * axes[at + 1] + b[i] * axes[at + LEFT_AT + 1] + c[i] * axes[at + UP_AT + 1];
-      z[i] = z[from] + ahead * axes[at + 2] + b[i] * axes[at + LEFT_AT + 2] + c[i] * axes[at + UP_AT + 2];
-    } else if (frames[i] === ABSOLUTE) {
-      [x[i], y[i], z[i]] = [ahead, b[i], c[i]];
-    } else if (frames[i] === BETWEEN) {
-      for (const places of [x, y, z]) places[i] = places[from] + ahead * (places[b[i]] - places[from]);
+      x[i] = x[from] + ahead * axes[at] + left * axes[at + LEFT_AT] + up * axes[at + UP_AT];
+      y[i] = y[from] + ahead * axes[at + 1] + left * axes[at + LEFT_AT + 1] + up * axes[at + UP_AT + 1];
+      z[i] = z[from] + ahead * axes[at + 2] + left * axes[at + LEFT_AT + 2] + up * axes[at + UP_AT + 2];
+    } else if (frame === ABSOLUTE) {
+      [x[i], y[i], z[i]] = [ahead, left, up];
+    } else if (frame === BETWEEN) {
+      for (const places of [x, y, z]) places[i] = places[from] + ahead * (places[left] - places[from]);
     } else {
-      [x[i], y[i], z[i]] = frames[i] === CURVED ? placeOnCurve(trail, ahead, spans[b[i]]) : blend(trail, spans[b[i]]);
+      [x[i], y[i], z[i]] = frame === CURVED ? onCurve(trail, ahead, spans[left]) : blend(trail, spans[left]);
     }
   }
 }
 
-function placeOnCurve({ x, y, z, rotations: { axes } }, share, ends) {
-  const [first, last] = ends.map(({ position: i }) => [x[i], y[i], z[i]]);
-  return onCurve(share, first, last, ends.map(({ orientation }) => axes.subarray(FRAME_SIZE * orientation, FRAME_SIZE * orientation + 3)));
+// Where the point at a share of a Hermite curve lies, given its ends.
+function onCurve({ x, y, z, axes }, share, ends) {
+  const [first, last] = ends.map(({ position: i }) => [x[i], y[i], z[i]]), headings = ends.map(({ orientation }) => FRAME_SIZE * orientation);
+  const reach = TANGENT * Math.hypot(...last.map((place, axis) => place - first[axis])), rest = 1 - share;
+  return first.map((place, axis) => (1 + 2 * share) * rest ** 2 * place + share * rest ** 2 * reach * axes[headings[0] + axis]
+    + share ** 2 * (3 - 2 * share) * last[axis] - share ** 2 * rest * reach * axes[headings[1] + axis]);
 }
 
 function blend({ x, y, z }, [numbers, weights]) {
   return [x, y, z].map((places) => numbers.reduce((sum, number, k) => sum + weights[k] * places[number], 0));
 }
 
-function placeFrames({ n, side, pulls, axes, since, parents, kinds, numbers, values }, amounts, angle, heading) {
+function placeFrames({ side, pulls, rotations, axes, since }, amounts, angle, heading) {
   const turned = amounts.map(([factor, addend]) => cosineAndSine(factor * angle + addend));
   placeFirstFrame(axes, side, heading);
-  for (let i = 1; i < n; i++) {
-    const to = FRAME_SIZE * i, kind = kinds[i];
-    axes.copyWithin(to, FRAME_SIZE * parents[i], FRAME_SIZE * (parents[i] + 1));
-    const rotated = kind <= ROLLED ? rotateTowards(axes, to, kind, turned[numbers[i]])
+  for (let i = 1, row = ROTATION_SIZE, to = FRAME_SIZE; i < since.length; i++, row += ROTATION_SIZE, to += FRAME_SIZE) {
+    const parent = rotations[row], kind = rotations[row + 1], number = rotations[row + 2];
+    axes.copyWithin(to, FRAME_SIZE * parent, FRAME_SIZE * (parent + 1));
+    const rotated = kind <= ROLLED ? rotateTowards(axes, to, kind, turned[number])
       : kind === LEVELLED ? makeLevel(axes, to)
-      : kind === BENT_DOWN ? bendDown(axes, to, values[i])
-      : kind === BENT_TOWARDS ? bendTowards(axes, to, pulls[numbers[i]])
-      : pointTowards(axes, to, pulls[numbers[i]]);
-    since[i] = kind === POINTED ? 0 : since[parents[i]] + rotated;
+      : kind === BENT_DOWN ? bendDown(axes, to, rotations[row + 3])
+      : kind === BENT_TOWARDS ? bendTowards(axes, to, pulls[number])
+      : pointTowards(axes, to, pulls[number]);
+    since[i] = kind === POINTED ? 0 : since[parent] + rotated;
     if (since[i] > RENORMALISED_AFTER) since[i] = renormalise(axes, to);
   }
 }
@@ -232,10 +269,10 @@ function pointTowards(axes, at, [heading, up]) {
   return false;
 }
 
-const cross = ([ax, ay, az], [bx, by, bz]) => [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx];
+const cross = /** @type {(a: any, b: any) => number[]} */ ([ax, ay, az], [bx, by, bz]) => [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx];
 
-function rotateAbout(axes, at, [ax, ay, az], radians) {
-  const cos = Math.cos(radians), sin = Math.sin(radians);
+function rotateAbout(axes, at, axis, radians) {
+  const [ax, ay, az] = axis, cos = Math.cos(radians), sin = Math.sin(radians);
   for (let i = at; i < at + FRAME_SIZE; i += 3) {
     const x = axes[i], y = axes[i + 1], z = axes[i + 2], along = (1 - cos) * (ax * x + ay * y + az * z);
     axes[i] = cos * x + sin * (ay * z - az * y) + along * ax;

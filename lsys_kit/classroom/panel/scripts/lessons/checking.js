@@ -1,14 +1,13 @@
-// When what was typed into the cells of a table is right, where no kernel says so: as lessons/answers.py and lessons/worksheet.py
+// When what was typed into the cells of a table is right, where no kernel says so: as lessons/lesson.py and lessons/worksheet.py
 // have it. Numbers are exact fractions.
 
-import { plain } from "./prose.js";
+import { LONGEST_ENTRY } from "../drawing/constants.js";
+import { plain } from "./asking.js";
 
-const MOST_CHARACTERS = 200; // longer entries are not looked at
 const NUMBER = /^([+-]?)(?=\.?\d)(\d{0,30})(?:\.(\d{1,30}))?(?:\/(\d{1,30}))?(%?)$/;
 const THOUSANDS = /^[+-]?\d{1,3}(,\d{3})+(\.\d+)?$/, DECIMAL_COMMA = /^[+-]?\d*,\d+$/;
 const RIGHT = "right", NOT_YET = "not yet", MISSING = "not filled in yet";
 
-// What is said of each cell of a table, and of the whole.
 export function checked({ sheet, blanks }, entries) {
   const marks = blanks.map(({ right, within }, number) => markOf(entries[number] ?? "", right, within));
   return { marks, text: summary(sheet, marks) };
@@ -20,7 +19,7 @@ function markOf(entry, right, within) {
 }
 
 export function isRight(entry, right, within = "0") {
-  if ([...entry].length > MOST_CHARACTERS) return false;
+  if ([...entry].length > LONGEST_ENTRY) return false;
   const near = numberOf(within) ?? numberOf("0");
   return right.some((each) => bare(entry).toLowerCase() === bare(each).toLowerCase()
     || readings(entry).some((number) => isNear(number, numberOf(each), near)));
@@ -60,7 +59,6 @@ function summary(sheet, marks) {
   return `${parts.join(", ")}.${again}`;
 }
 
-// Where a cell stands, by the names of its row and column.
 function placeOf({ columns, rows }, number) {
   const places = rows.flatMap((cells) => cells.flatMap((cell, column) => (cell === null ? [[cells[0], column]] : [])));
   const [row, column] = places[number];

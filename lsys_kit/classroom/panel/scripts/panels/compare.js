@@ -1,7 +1,7 @@
 // Two panels side by side with one step slider: two systems, or two settings of one; where their words differ is marked.
 
-import { made } from "../views/controls.js";
-import { ownKeys } from "../views/keys.js";
+import { grouped } from "../books/numbers.js";
+import { made, ownKeys } from "../views/controls.js";
 import { counted } from "../views/word.js";
 import { openPanel } from "./panel.js";
 
@@ -9,14 +9,14 @@ const SHARED = ["step", "angle", "around", "above"];
 
 // `hosts` are those of the two panels; `shared` names the constants that one slider moves on both sides.
 export function openComparison(element, hosts, shared) {
-  const bar = made("div", { class: "lsys-controls" }), root = made("div", { class: "lsys-panel lsys-both" }, bar);
-  const said = made("div", { class: "lsys-sentence", role: "status" }), sides = made("div", { class: "lsys-comparison" });
+  const bar = made("div.lsys-controls"), root = made("div.lsys-panel.lsys-both", bar);
+  const said = made("div.lsys-sentence", { role: "status" }), sides = made("div.lsys-comparison");
   const seen = [null, null], panels = [], offs = [];
   element.append(root);
   offs.push(ownKeys(root));
   root.append(sides, said);
   hosts.forEach((host, side) => {
-    const column = made("div", { class: "lsys-side" });
+    const column = made("div.lsys-side");
     sides.append(column);
     panels.push(openPanel(column, host, {
       bar: side === 0 ? bar : null,
@@ -26,13 +26,12 @@ export function openComparison(element, hosts, shared) {
         if (seen[0] && seen[1] && seen[0].step === seen[1].step) tell();
       },
     }));
-    for (const name of SHARED) offs.push(host.on(name, () => {
-      const other = hosts[1 - side], value = host.get(name);
+    const other = hosts[1 - side];
+    for (const name of SHARED) offs.push(host.on(name, (value) => {
       if (other.get(name) !== value) other.set(name, value);
     }));
-    offs.push(host.on("settings", () => {
-      const other = hosts[1 - side], there = other.get("settings"), here = host.get("settings");
-      const changed = shared.filter((name) => name in here && name in there && here[name] !== there[name]);
+    offs.push(host.on("settings", (here) => {
+      const there = other.get("settings"), changed = shared.filter((name) => name in here && name in there && here[name] !== there[name]);
       if (changed.length) other.set("settings", { ...there, ...Object.fromEntries(changed.map((name) => [name, here[name]])) });
     }));
   });
@@ -50,12 +49,11 @@ export function openComparison(element, hosts, shared) {
   };
 }
 
-// Where the words of two books differ at a step, and that in words.
 export function differences({ book: one, step }, { book: other }) {
   const [a, b] = [one.word(step), other.word(step)], positions = new Set();
   for (let i = 0; i < Math.max(a.length, b.length); i++) if (textAt(one, a, i) !== textAt(other, b, i)) positions.add(i);
   const [first] = positions, { noun } = one.data, lengths = a.length === b.length ? `both words have ${counted(a.length, noun)}`
-    : `the words have ${a.length.toLocaleString("en")} and ${counted(b.length, other.data.noun)}`;
+    : `the words have ${grouped(a.length)} and ${counted(b.length, other.data.noun)}`;
   const where = positions.size ? `they differ first at ${noun} ${first + 1}: ${shownAt([one, other], [a, b], first).join(" and ")}` : "they are equal";
   const drawings = positions.size && sameCells(one, other, a, b) ? "; cell by cell they are drawn alike" : "";
   return { positions, text: `Step ${step}: ${lengths}; ${where}${drawings}.` };

@@ -1,79 +1,81 @@
 // The panel: a system's rules, word, stage diagram, drawing and counts, side by side, for one step.
 //
-// The kernel has sent a book; step, angle, view, mark and trace are turned here. Only a new setting of the constants, or new
-// rules, ask the kernel for another book.
+// A book is sent for a setting of the constants (books/book.py): the states with their labels, what becomes of each or the words, how
+// each is drawn, and the layout of the stage diagram. books/book.js turns its pages: words, counts, mothers and daughters of a step.
+// Step, angle, view, mark and trace are turned here; only another setting, or other rules, ask the host for another book.
+//
+// A host says what is chosen (get, set, on), answers for books, rules and variants, and says what it can do (editable, keeps, ahead):
+// Jupyter's kernel (panels/jupyter.js), or a page with its books inside (page.js). The panel listens to it, shows what is chosen in
+// every view, and sets what a person moves; a view is given a parent and functions that hear of the person, and knows no host.
+// A drawing goes from a word to shapes (filament, turtle, map, tissue), to where they are seen (projection), to paint (painter).
+// Numbers that the kit's own pictures have too stand in drawing/constants.js, which is made.
 
+import { library } from "../books/book.js";
+import { clamped, times } from "../books/numbers.js";
 import { themeOf, whenRecoloured } from "../drawing/colours.js";
-import { button, list, made, slider } from "../views/controls.js";
-import { countsView } from "../views/counts.js";
 import { drawingView } from "../drawing/drawing.js";
 import { seedsView, variantsView } from "../drawing/gallery.js";
-import { keeping } from "../views/keeping.js";
-import { ownKeys } from "../views/keys.js";
-import { speak, worded } from "../views/language.js";
-import { library } from "../books/library.js";
+import { folding, keeping, player } from "../views/bars.js";
+import { button, eachFrame, list, made, ownKeys, slider, speak, worded } from "../views/controls.js";
+import { countsView } from "../views/counts.js";
 import { netView } from "../views/net.js";
-import { player } from "../views/player.js";
 import { rulesView } from "../views/rules.js";
-import { litAt, placesOf, told } from "../books/tracing.js";
-import { caption, code } from "./telling.js";
 import { wordView } from "../views/word.js";
-import { folding } from "../views/views.js";
+import { caption, code, litAt, placesOf, told } from "./telling.js";
 
 const REST = 400; // milliseconds after which a movement has come to rest, and the kernel is told
-const ANGLES = Array.from({ length: 1801 }, (_, i) => (i / 10).toString());
-const DEGREES = (least, most) => Array.from({ length: most - least + 1 }, (_, i) => String(least + i));
+const ANGLES = times(1801, (i) => (i / 10).toString());
+const DEGREES = (least, most) => times(most - least + 1, (i) => String(least + i));
 const SEEDS = DEGREES(0, 999);
 
 // Of two panels beside each other `compared` has { bar, shared, shown(book, step) }: where the sliders of both are, or null in the
 // second, and the names of the constants among them.
 export function openPanel(element, host, compared = null) {
-  speak(host.get("model").words);
-  const root = made("div", { class: "lsys-panel", role: "region", "aria-label": "L-system" });
+  const seen = new Proxy(/** @type {any} */ ({}), { get: (_, name) => host.get(name) }); // what is chosen, and the model
+  speak(seen.model.words);
+  const root = made("div.lsys-panel", { role: "region", "aria-label": "L-system" });
   element.append(root);
   const offs = [], still = matchMedia("(prefers-reduced-motion: reduce)");
-  let model, books, book, theme, resting = 0, asking = 0, typing = 0, idle = 0, wanted = host.get("step"), traced = null, pointed = null, shownTheme = "", boxed = null, underway = null;
+  let model, books, book, theme, resting = 0, asking = 0, typing = 0, idle = 0, wanted = seen.step, traced = null, pointed = null, shownTheme = "", boxed = null, underway = null;
   let constants = [];
 
-  // -- what there is --------------------------------------------------------------------------------------------------
-
-  const status = made("div", { class: "lsys-status", role: "status" }), sentence = made("div", { class: "lsys-sentence", role: "status" });
-  const message = made("div", { class: "lsys-message", role: "alert", hidden: true });
+  const status = made("div.lsys-status", { role: "status" }), sentence = made("div.lsys-sentence", { role: "status" });
+  const message = made("div.lsys-message", { role: "alert", hidden: true });
   const step = slider("step", worded("the step of the derivation"), ["0"], 0, goTo, worded("step"));
   const angle = slider("angle", worded("degrees by which the turtle turns"), ANGLES, 900, (at) => change({ angle: at / 10 }), worded("angle"));
   const around = slider("around", worded("the side from which it is seen: 0 is the front, 90 the right"), DEGREES(-180, 180), 180, (at) => change({ around: at - 180 }), worded("around"));
   const above = slider("above", worded("the height from which it is seen: 0 is the side, 90 the top"), DEGREES(-90, 90), 90, (at) => change({ above: at - 90 }), worded("above"));
   const mark = list("mark", worded("the stage that is marked in all views"), [["", worded("no stage")]], "", (name) => change({ mark: name }), worded("mark"));
   const scale = list("size", worded("one scale for all steps, or each step as large as it fits"), [["fit", worded("fit each step")], ["same", worded("one scale")]], "fit", () => show(), worded("size"));
-  const seed = slider("seed", worded("the seed of the random numbers"), SEEDS, host.get("seed"), (at) => host.set("seed", Number(seedTexts()[at])), worded("seed"));
+  const seed = slider("seed", worded("the seed of the random numbers"), SEEDS, seen.seed, (at) => host.set("seed", Number(seedTexts()[at])), worded("seed"));
   const die = button("die", worded("another seed, at random"), () => sow(Number(seedTexts()[Math.floor(Math.random() * seedTexts().length)])));
-  const play = player(() => ({ now: host.get("step"), most: book.steps }), goTo, () => show());
+  const play = player(() => ({ now: seen.step, most: book.steps }), goTo, () => show());
   const reset = button(worded("reset"), worded("back to the first settings"), goBack);
-  const bottom = made("div", { class: "lsys-controls" }), views = made("div", { class: "lsys-views" });
-  const top = made("div", { class: "lsys-controls" }, step.element, play.element, reset, scale.element, mark.element);
+  const bottom = made("div.lsys-controls"), views = made("div.lsys-views");
+  const top = made("div.lsys-controls", step.element, play.element, reset, scale.element, mark.element);
   root.append(top, message, status, views, sentence, bottom);
   const shared = [step.element, play.element], turning = [angle.element, around.element, above.element];
   if (compared) compared.bar ? compared.bar.append(...shared) : [...shared, ...turning].forEach((each) => (each.hidden = true));
 
   const titles = { rules: worded("rules"), word: worded("word"), stages: worded("stages"), drawing: worded("drawing"), counts: worded("how many"),
     seeds: worded("nine seeds"), variants: worded("nine variants") };
-  const opening = host.get("model").show ?? ["word", "drawing", ...(compared ? [] : ["stages"])];
+  const opening = seen.model.show ?? ["word", "drawing", ...(compared ? [] : ["stages"])];
   const view = folding(views, root, Object.entries(titles).map(([name, title]) => [name, title, opening.includes(name)]), () => show());
   const rules = rulesView(view.rules.body, (text) => newRules(text));
-  const word = wordView(view.word.body, (position, way) => trace(host.get("step"), position, way), (position) => point({ step: host.get("step"), position }));
+  const word = wordView(view.word.body, (position, way) => trace(seen.step, position, way), (position) => point({ step: seen.step, position }));
   const net = netView(view.stages.body, (place) => toggleMark(place), (place) => point({ place }));
   const drawing = drawingView(view.drawing.body, {
-    view: () => [host.get("around"), host.get("above")],
+    view: () => [seen.around, seen.above],
     front: () => [model.around, model.above],
     turned: (right, up) => change({ around: right, above: up }),
-    traced: (at, position) => (at === null ? trace(host.get("step"), null, position) : trace(at, position)),
+    traced: (at, position) => (at === null ? trace(seen.step, null, position) : trace(at, position)),
     pointed: (at, position) => point({ step: at, position }),
   });
   const counts = countsView(view.counts.body, goTo);
   const seeds = seedsView(view.seeds.body, sow, say), variants = variantsView(view.variants.body, (text) => rules.put(text), say);
-  if (!compared) root.append(keeping(host, { canvas: drawing.canvas, file: () => book.data.file, code: () => code(host, book, turns()), state }));
+  if (!compared) root.append(keeping(host, { canvas: drawing.canvas, file: () => book.data.file, code: () => code(seen, book, turns()), state: () => state() }));
 
-  // -- what happens ---------------------------------------------------------------------------------------------------
+  // What happens.
 
   function goTo(at) {
     wanted = at;
@@ -83,6 +85,10 @@ export function openPanel(element, host, compared = null) {
   // Some settings of the browser's own: they are shown at once; the kernel is told when the movement has come to rest.
   function change(settings) {
     for (const [name, value] of Object.entries(settings)) host.set(name, value);
+    rest();
+  }
+
+  function rest() {
     clearTimeout(resting);
     resting = setTimeout(() => host.save(), REST);
   }
@@ -90,8 +96,7 @@ export function openPanel(element, host, compared = null) {
   // Another setting of the constants, or another seed: another book.
   async function ask() {
     const asked = request(), number = ++asking;
-    clearTimeout(resting);
-    resting = setTimeout(() => host.save(), REST);
+    rest();
     root.ariaBusy = String(!books.known(asked)); // what is shown is still that of other settings
     if (!books.known(asked)) await underway; // a slider that moves on asks only for where it is when the kernel is free
     if (number !== asking) return; // another setting was asked for, or another model was opened
@@ -106,7 +111,7 @@ export function openPanel(element, host, compared = null) {
     if (host.ahead) idle = setTimeout(() => books.fetchAhead(request(), constants), REST);
   }
 
-  const request = () => ({ constants: { ...host.get("settings") }, seed: host.get("seed") });
+  const request = () => ({ constants: { ...seen.settings }, seed: seen.seed });
 
   async function newRules(text) {
     const number = ++typing, answer = await host.rules(text, request().constants);
@@ -115,9 +120,9 @@ export function openPanel(element, host, compared = null) {
     else rules.understood();
   }
 
-  // A model was opened: its controls, and its first book. A book belongs to a model: what was asked about the one before is not shown.
+  // A book belongs to a model: what was asked about the one before is not shown.
   function openModel() {
-    model = host.get("model");
+    model = seen.model;
     asking += 1;
     root.ariaBusy = "false";
     books?.close();
@@ -125,16 +130,16 @@ export function openPanel(element, host, compared = null) {
     for (const each of constants) each.control.element.remove();
     constants = model.constants.map((each) => ({
       ...each,
-      control: slider(each.name, each.hint, each.texts, Math.max(0, each.texts.indexOf(host.get("settings")[each.name])), (at) => {
-        host.set("settings", { ...host.get("settings"), [each.name]: each.texts[at] });
+      control: slider(each.name, each.hint, each.texts, Math.max(0, each.texts.indexOf(seen.settings[each.name])), (at) => {
+        host.set("settings", { ...seen.settings, [each.name]: each.texts[at] });
       }),
     }));
-    const fixed = model.fixed ? [made("span", { class: "lsys-hint" }, model.fixed)] : [];
+    const fixed = model.fixed ? [made("span.lsys-hint", model.fixed)] : [];
     const ofBoth = constants.filter((each) => compared?.shared.includes(each.name)), own = constants.filter((each) => !ofBoth.includes(each));
     compared?.bar?.append(...ofBoth.map((each) => each.control.element));
     bottom.replaceChildren(...own.map((each) => each.control.element), ...(turns() ? [angle.element] : []),
       ...(["space", "tissue"].includes(model.book.mode) ? [around.element, above.element] : []), ...(model.chance ? [seed.element, die] : []), ...fixed);
-    seed.offer(seedTexts(), Math.max(0, seedTexts().indexOf(String(host.get("seed")))));
+    seed.offer(seedTexts(), Math.max(0, seedTexts().indexOf(String(seen.seed))));
     view.seeds.offer(model.chance);
     view.variants.offer(host.editable && !["map", "tissue"].includes(model.book.mode));
     variants.forget();
@@ -154,8 +159,8 @@ export function openPanel(element, host, compared = null) {
     theme = themeOf(root);
     shownTheme = JSON.stringify(theme);
     host.set("step", Math.min(wanted, book.steps)); // a setting with fewer steps does not forget which was wanted
-    step.offer(DEGREES(0, book.steps), host.get("step"));
-    mark.offer([["", worded("no stage")], ...book.data.net.places.map((place) => [place.name, place.name])], place(host.get("mark")) ? host.get("mark") : "");
+    step.offer(DEGREES(0, book.steps), seen.step);
+    mark.offer([["", worded("no stage")], ...book.data.net.places.map((place) => [place.name, place.name])], place(seen.mark) ? seen.mark : "");
     net.open(book.data.net, theme);
     drawing.open(book);
     counts.open(book);
@@ -168,17 +173,17 @@ export function openPanel(element, host, compared = null) {
 
   function toggleMark(number) {
     const { name } = book.data.net.places.find((each) => each.place === number);
-    change({ mark: host.get("mark") === name ? "" : name });
+    change({ mark: seen.mark === name ? "" : name });
   }
 
   function trace(at, position, way = 0) {
     if (position === null) {
       if (traced?.step !== at) traced = { step: at, position: way > 0 ? -1 : book.length(at) };
-      position = Math.max(0, Math.min(book.length(at) - 1, traced.position + way));
+      position = clamped(0, book.length(at) - 1, traced.position + way);
     }
     traced = position < 0 || position >= book.length(at) ? null : { step: at, position };
     light();
-    if (traced && at === host.get("step")) word.reveal(position);
+    if (traced && at === seen.step) word.reveal(position);
   }
 
   // What the mouse is on, { step, position } or { place }, is lit until it leaves, unless something was chosen by a click.
@@ -189,20 +194,20 @@ export function openPanel(element, host, compared = null) {
     light();
   }
 
-  const clicked = () => traced, followed = () => traced ?? (pointed?.position >= 0 ? pointed : null);
-  const chosen = () => place(host.get("mark"))?.place ?? pointed?.place ?? -1;
+  const followed = () => traced ?? (pointed?.position >= 0 ? pointed : null);
+  const chosen = () => place(seen.mark)?.place ?? pointed?.place ?? -1;
 
-  // -- what is seen ---------------------------------------------------------------------------------------------------
+  // What is seen.
 
   function show() {
     if (!book) return;
     pointed = null;
-    const now = Math.min(host.get("step"), book.steps), tokens = book.tokens(now);
+    const now = Math.min(seen.step, book.steps), tokens = book.tokens(now);
     step.show(now);
-    angle.show(Math.round(host.get("angle") * 10));
-    around.show(host.get("around") + 180);
-    above.show(host.get("above") + 90);
-    mark.show(host.get("mark"));
+    angle.show(Math.round(seen.angle * 10));
+    around.show(seen.around + 180);
+    above.show(seen.above + 90);
+    mark.show(seen.mark);
     if (view.word.open) word.show(book, now);
     net.fill(tokens);
     counts.show(now);
@@ -216,9 +221,9 @@ export function openPanel(element, host, compared = null) {
     compared?.shown(book, now);
   }
 
-  const sides = () => ({ step: host.get("step"), angle: host.get("angle"), around: host.get("around"), above: host.get("above") });
+  const sides = () => ({ step: seen.step, angle: seen.angle, around: seen.around, above: seen.above });
 
-  const seedTexts = () => model.seeds?.length ? model.seeds : (SEEDS.includes(String(model.seed)) ? SEEDS : [String(model.seed), ...SEEDS]), showSeed = () => seed.show(seedTexts().indexOf(String(host.get("seed"))));
+  const seedTexts = () => model.seeds?.length ? model.seeds : (SEEDS.includes(String(model.seed)) ? SEEDS : [String(model.seed), ...SEEDS]), showSeed = () => seed.show(seedTexts().indexOf(String(seen.seed)));
 
   function sow(number) {
     host.set("seed", number);
@@ -226,9 +231,9 @@ export function openPanel(element, host, compared = null) {
   }
 
   function look() {
-    const marked = chosen(), traced = followed(), now = host.get("step");
-    const states = new Set(book.data.states.flatMap((state, i) => (marked >= 0 && state[2] === marked ? [i] : [])));
-    return { theme, marked: states, lit: litAt(book, traced, now), alone: litAt(book, clicked(), now), litAt: (at) => litAt(book, traced, at), current: now };
+    const place = chosen(), now = seen.step, lit = (at) => litAt(book, followed(), at);
+    const marked = new Set(book.data.states.flatMap((state, i) => (place >= 0 && state[2] === place ? [i] : [])));
+    return { theme, marked, lit: lit(now), alone: litAt(book, traced, now), litAt: lit, current: now };
   }
 
   function light() {
@@ -242,7 +247,7 @@ export function openPanel(element, host, compared = null) {
     const states = book.word(looks.current), traced = followed();
     word.light(looks.marked, looks.lit);
     const lit = new Set([...looks.lit.keys()].map((position) => book.data.states[states[position]][2]));
-    net.light(place(host.get("mark"))?.place ?? -1, lit, pointed?.place ?? -1);
+    net.light(place(seen.mark)?.place ?? -1, lit, pointed?.place ?? -1);
     rules.light(placesOf(book, traced));
     sentence.textContent = traced ? told(book, traced) : "";
   }
@@ -263,23 +268,15 @@ export function openPanel(element, host, compared = null) {
     change({ step: Math.min(wanted, book.steps), angle: model.angle, around: model.around, above: model.above, mark: "" });
   }
 
-  function state() {
-    return { ...request(), step: host.get("step"), angle: host.get("angle"), mark: host.get("mark") };
-  }
+  const state = () => ({ ...request(), step: seen.step, angle: seen.angle, mark: seen.mark });
 
-  // -- listening ------------------------------------------------------------------------------------------------------
+  // Listening.
 
-  let waiting = 0;
-  const later = () => {
-    waiting = waiting || requestAnimationFrame(() => {
-      waiting = 0;
-      show();
-    });
-  };
+  const later = eachFrame(show);
   offs.push(host.on("step", (at) => { if (at !== Math.min(wanted, book.steps)) wanted = at; }));
   for (const name of ["step", "angle", "around", "above", "mark"]) offs.push(host.on(name, later));
   offs.push(host.on("settings", () => {
-    for (const each of constants) each.control.show(Math.max(0, each.texts.indexOf(host.get("settings")[each.name])));
+    for (const each of constants) each.control.show(Math.max(0, each.texts.indexOf(seen.settings[each.name])));
     ask();
   }));
   offs.push(host.on("seed", () => { showSeed(); ask(); }));
@@ -298,7 +295,7 @@ export function openPanel(element, host, compared = null) {
     for (const off of offs) off();
     for (const timer of [resting, idle]) clearTimeout(timer);
     books.close();
-    cancelAnimationFrame(waiting);
+    later.cancel();
     drawing.close();
     rules.close();
     root.remove();

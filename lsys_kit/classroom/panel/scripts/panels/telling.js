@@ -1,9 +1,86 @@
-// What a panel shows, told: in a sentence, and as the line of code that makes it.
+// What a panel shows, told: in sentences, in what is lit where a module is traced, and as the line of code that makes it.
 
+import { grouped, times } from "../books/numbers.js";
 import { filamentLength } from "../drawing/filament.js";
+import { wallsBeside } from "../drawing/map.js";
 import { counted, sizeOf } from "../views/word.js";
 
-const rounded = (size) => Number((size + 1e-9).toFixed(2));
+const MOST_TOLD = 12; // of the modules that one becomes
+
+// What is lit at a step when a module of some step is traced: a map from positions to "self", "mother" or "daughter".
+export function litAt(book, traced, step) {
+  const lit = new Map();
+  if (!traced) return lit;
+  if (step === traced.step) lit.set(traced.position, "self");
+  if (step === traced.step - 1) {
+    for (const each of originsOf(book, traced)) lit.set(book.mother(step + 1, each), "mother");
+  }
+  if (step === traced.step + 1) {
+    const [from, to] = book.daughters(traced.step, traced.position) ?? [0, 0];
+    for (let i = from; i < to; i++) lit.set(i, "daughter");
+  }
+  return lit;
+}
+
+// Where in the model's text the productions stand that made a module and that will replace it.
+export function placesOf(book, traced) {
+  if (!traced) return [];
+  const numbers = new Set(originsOf(book, traced).map((each) => book.production(traced.step, each)));
+  return [...numbers].flatMap((number) => book.data.productions[number]?.at ? [book.data.productions[number].at] : []);
+}
+
+// The modules of a step by whose mothers one was made: the module itself; of a wall that divides a cell the two beside it.
+function originsOf(book, { step, position }) {
+  if (!step) return [];
+  if (book.mother(step, position) >= 0) return [position];
+  return book.data.mode === "map" ? wallsBeside(book, step, position) : [];
+}
+
+const numbered = (number) => grouped(number + 1); // places are told from 1 on
+
+// What a module is, where it came from and what it becomes, as a sentence.
+export function told(book, { step, position }) {
+  const { noun } = book.data, parts = book.data.mode === "tissue" ? partsOfCell : partsOfModule, text = book.label(book.word(step)[position]).text;
+  const [origin, future] = parts(book, step, position);
+  return `${noun[0].toUpperCase()}${noun.slice(1)} ${numbered(position)} of step ${step}, ${text} ${origin}${future ? `; ${future}` : ""}.`;
+}
+
+function partsOfModule(book, step, position) {
+  const text = (at, where) => book.label(book.word(at)[where]).text, mother = book.mother(step, position), range = book.daughters(step, position);
+  const origin = !step ? "stands in the axiom"
+    : mother < 0 ? `is new and divides a cell: ${halves(book, { step, position })}`
+    : `comes from ${text(step - 1, mother)}, ${book.data.noun} ${numbered(mother)} of step ${step - 1}, ${by(book, book.production(step, position))}`;
+  if (!range) return [origin];
+  const [from, to] = range, many = to - from, made = Array.from(book.word(step + 1).subarray(from, Math.min(to, from + MOST_TOLD)), (state) => book.label(state).text).join(" ");
+  const becomes = many === 1 && book.production(step + 1, from) < 0 ? "stays as it is" : many ? `becomes ${made}${many > MOST_TOLD ? " …" : ""}` : "is gone";
+  return [origin, `it ${becomes} at step ${step + 1}`];
+}
+
+// How a cell was and will be divided.
+function partsOfCell(book, step, position) {
+  const sisters = ([from, to]) => times(to - from, (i) => from + i), listed = (cells) => cells.map(numbered).join(" and ");
+  const mother = book.mother(step, position), others = step ? sisters(book.daughters(step - 1, mother)).filter((each) => each !== position) : [];
+  const before = `cell ${numbered(mother)} of step ${step - 1}, which was`, range = book.daughters(step, position);
+  const origin = !step ? "is there from the beginning"
+    : others.length ? `comes, with cell ${listed(others)}, from ${before} divided` : `was ${before} not divided`;
+  if (!range) return [origin];
+  const next = sisters(range);
+  return [origin, `at step ${step + 1} it is ${next.length > 1 ? `divided into cells ${listed(next)}` : `cell ${listed(next)}, not divided`}`];
+}
+
+function halves(book, traced) {
+  const { step } = traced, found = originsOf(book, traced).map((each) => {
+    const mother = book.mother(step, each);
+    return `${book.label(book.word(step - 1)[mother]).text}, wall ${numbered(mother)}`;
+  });
+  return `markers of ${found.join(", and ")} of step ${step - 1} match`;
+}
+
+function by(book, number) {
+  return number < 0 ? "for which no production matches, so it stays" : `by production ${number + 1}, ${book.data.productions[number].text}`;
+}
+
+const rounded = (size, digits = 2) => Number((size + 1e-9).toFixed(digits));
 
 // A step with its tokens, and the width and height of its drawing, if there is one.
 export function caption(book, now, tokens, measured) {
@@ -11,14 +88,13 @@ export function caption(book, now, tokens, measured) {
   const parts = [`step ${now}: ${sizeOf(book, now)}`];
   if (stages > 1) parts.push(`${occupied} of ${counted(stages, "stage")} occupied`);
   if (changesNothing(book, now)) parts.push("this step changes nothing");
-  if (book.data.mode === "filament") parts.push(`length ${rounded(filamentLength(book, now))}`);
+  if (book.data.mode === "filament") parts.push(`length ${rounded(filamentLength(book, now), 4)}`);
   if (measured) parts.push(`width ${rounded(measured[0])}, height ${rounded(measured[1])}`);
   if (book.data.said) parts.push(book.data.said);
   if (now === book.steps && book.data.end) parts.push(book.data.end);
   return parts.join("; ");
 }
 
-// Whether the word of a step is that of the step before.
 function changesNothing(book, now) {
   if (!now || ["map", "tissue"].includes(book.data.mode) || book.length(now) !== book.length(now - 1)) return false;
   const before = book.word(now - 1);
@@ -26,16 +102,16 @@ function changesNothing(book, now) {
 }
 
 // The line of code that makes a panel as it stands; `turns` says whether its angle has a slider.
-export function code(host, book, turns) {
-  const model = host.get("model");
-  const changed = model.constants.filter((each) => host.get("settings")[each.name] !== each.texts[each.index]);
-  const reader = { map: "read_map", cellwork: "read_cellwork" }[book.data.notation], notation = reader ? "" : `, ${JSON.stringify(book.data.notation)}`;
-  const first = book.data.title ? JSON.stringify(book.data.title) : `${reader ?? "read"}(${JSON.stringify(book.data.text)}${notation})`;
-  const more = [String(host.get("step")), ...(host.get("angle") !== model.angle ? [`angle=${host.get("angle")}`] : []),
-    ...(host.get("seed") ? [`seed=${host.get("seed")}`] : []),
-    ...(model.without?.length ? [`sliders=${JSON.stringify([...model.constants.map((each) => each.name), ...(turns ? ["angle"] : []), ...(model.chance ? ["seed"] : [])])}`] : []),
-    ...(model.unfold ? [`unfold=${model.unfold === true ? "True" : JSON.stringify(model.unfold)}`] : []),
-    ...(model.show ? [`show=${JSON.stringify(model.show)}`] : []),
-    ...changed.map((each) => `${each.name}=${/^[-\d.]+$/.test(host.get("settings")[each.name]) ? host.get("settings")[each.name] : JSON.stringify(host.get("settings")[each.name])}`)];
-  return `explore(${[first, ...more].join(", ")})`;
+export function code(seen, book, turns) {
+  const { model, settings, step, angle, seed } = seen, { title, text, notation } = book.data, named = (name, value) => `${name}=${value}`;
+  const reader = { map: "read_map", cellwork: "read_cellwork" }[notation], written = JSON.stringify;
+  const first = title ? written(title) : reader ? `${reader}(${written(text)})` : `read(${written(text)}, ${written(notation)})`;
+  const sliders = [...model.constants.map((each) => each.name), ...(turns ? ["angle"] : []), ...(model.chance ? ["seed"] : [])];
+  const more = [
+    angle !== model.angle && named("angle", angle), seed && named("seed", seed), model.without?.length && named("sliders", written(sliders)),
+    model.unfold && named("unfold", model.unfold === true ? "True" : written(model.unfold)), model.show && named("show", written(model.show)),
+    ...model.constants.map(({ name, texts, index }) => settings[name] !== texts[index]
+      && named(name, /^[-\d.]+$/.test(settings[name]) ? settings[name] : written(settings[name]))),
+  ];
+  return `explore(${[first, step, ...more.filter(Boolean)].join(", ")})`;
 }

@@ -5,7 +5,6 @@ const MOST_WINDOWS = 50;
 const [LEAST, GREATEST] = ["0", "100"];
 const MOST_CHARACTERS = 4096; // of what is kept
 
-// The platform's API; null where there is none.
 export function platformOf(own) {
   const above = [own];
   while (above.length < MOST_WINDOWS && above.at(-1).parent !== above.at(-1)) above.push(above.at(-1).parent);
@@ -103,7 +102,7 @@ export function connected(api) {
 
 const said = (answer) => String(answer) === "true";
 
-export const scoreOf = (solved, total) => Math.round((100 * solved) / total);
+const scoreOf = (solved, total) => Math.round((100 * solved) / total);
 
 // What was typed and solved on another day; older pages have kept the ids of what was solved alone.
 function answersIn(data) {
@@ -127,7 +126,7 @@ function packed({ solved, typed }) {
 }
 
 // A span of time as SCORM writes it: 0000:05:12.
-export function spanOf(milliseconds) {
+function spanOf(milliseconds) {
   const seconds = Math.floor(milliseconds / 1000), parts = [Math.floor(seconds / 3600) % 10000, Math.floor(seconds / 60) % 60, seconds % 60];
   return parts.map((part, number) => String(part).padStart(number ? 2 : 4, "0")).join(":");
 }

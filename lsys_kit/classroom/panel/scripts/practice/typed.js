@@ -1,6 +1,6 @@
-// What is typed, in the normal form in which scorm/answers.py hashes it: { key }, or { unreadable } with what is to be said.
+// What is typed, in the normal form by which scorm/page.py finds its reply: { key }, or { unreadable } with what is to be said.
 
-import { worded } from "../views/language.js";
+import { worded } from "../views/controls.js";
 
 const ASSIGNED = /^\s*[A-Za-z_]\w*\s*(\([^()=]*\))?\s*=(?!=)\s*/; // the beginning of "N(12) = 21"
 const WITH_UNIT = /^(.*?[\d)])\s*([^\W\d_][\w .]*|°|%)\s*$/s;
@@ -27,7 +27,7 @@ function number({ unit, known, part }, text) {
   if (!value) return { unreadable: worded("A number is needed here, such as 21, 0.5 or 3/4.") };
   const scale = typed && scaleOf(typed, unit.toLowerCase(), known);
   if (scale === null) return { unreadable: unit ? worded("Its unit is: {unit}.", { unit }) : worded("Write the number alone.") };
-  return { key: part ? rounded(value, part.map(BigInt)) : keyOf({ above: value.above, below: value.below * (scale || 1n) }) };
+  return { key: part ? rounded(/** @type {any} */ (value), part.map(BigInt)) : keyOf({ above: value.above, below: /** @type {any} */ (value.below) * (scale || 1n) }) };
 }
 
 // By what a number with a unit is divided, or null where the unit does not fit.
@@ -60,6 +60,7 @@ function keyOf({ above, below }) {
 }
 
 // How often a part goes into a number, rounded.
+/** @param {{ above: bigint, below: bigint }} number @param {bigint[]} part */
 function rounded({ above, below }, [partAbove, partBelow]) {
   const top = 2n * above * partBelow + below * partAbove, bottom = 2n * below * partAbove;
   const [up, down] = bottom < 0n ? [-top, -bottom] : [top, bottom];

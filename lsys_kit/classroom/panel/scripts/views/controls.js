@@ -1,26 +1,78 @@
-// Native controls with names: sliders with number boxes, buttons, lists.
+// What all views are made of: elements, native controls with names (sliders with number boxes, buttons, lists), keys and the mouse,
+// and texts in the language of a panel or page; in the scripts they stand in English, which is the id of their translation.
 
-import { onKey } from "./keys.js";
-import { worded } from "./language.js";
+import { clamped } from "../books/numbers.js";
 
-export function made(tag, attributes = {}, ...inside) {
-  const element = document.createElement(tag);
-  for (const [name, value] of Object.entries(attributes)) {
-    if (name === "class") element.className = value;
-    else if (name.startsWith("on")) element.addEventListener(name.slice(2), value);
-    else if (value === true) element.setAttribute(name, "");
-    else if (value !== false && value !== undefined) element.setAttribute(name, value);
-  }
-  element.append(...inside);
-  return element;
+const words = {};
+
+export const speak = (given) => Object.assign(words, given);
+
+// A text with values in the place of its names in braces.
+export function worded(text, values = {}) {
+  return (words[text] ?? text).replace(/\{(\w+)\}/g, (_, name) => values[name]);
+}
+
+const handlers = new WeakMap();
+
+// What is to be done with keys while an element, or something in it, has the focus.
+export function onKey(element, handler) {
+  handlers.set(element, handler);
+}
+
+// Keep the keys of a panel from whoever else listens, but for those pressed together with Ctrl, Alt or the like. What the browser
+// itself does with a key, as in sliders and lists, is not touched.
+export function ownKeys(root) {
+  const pressed = (event) => {
+    if (!root.contains(event.target) || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.stopImmediatePropagation();
+    for (let element = event.target; element && element !== root.parentElement; element = element.parentElement) {
+      const handler = handlers.get(element);
+      if (handler) return handler(event);
+    }
+  };
+  window.addEventListener("keydown", pressed, true);
+  return () => window.removeEventListener("keydown", pressed, true);
+}
+
+// A function that calls another at the next frame, once, with what it was given last.
+export function eachFrame(handler) {
+  let latest, waiting = 0;
+  const later = (value) => {
+    latest = value;
+    waiting ||= requestAnimationFrame(() => {
+      waiting = 0;
+      handler(latest);
+    });
+  };
+  later.cancel = () => {
+    cancelAnimationFrame(waiting);
+    waiting = 0;
+  };
+  return later;
+}
+
+// Call a handler where the mouse moves over an element with no button pressed, once for each frame, and with null when it leaves.
+// A finger does not point before it touches.
+export function onMouse(element, handler) {
+  const later = eachFrame((event) => element.isConnected && handler(event));
+  element.addEventListener("pointermove", (event) => event.pointerType === "mouse" && !event.buttons && later(event));
+  element.addEventListener("pointerleave", () => later(null));
 }
 
 const SVG = "http://www.w3.org/2000/svg";
 
-export function drawn(tag, attributes = {}, ...inside) {
-  const element = document.createElementNS(SVG, tag);
-  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
-  element.append(...inside);
+// An element with a tag and classes, as in `made("p.lsys-said", { role: "status" }, "...")`; attributes may be left out.
+export const made = (what, ...parts) => filled((tag) => document.createElement(tag), what, parts);
+
+export const drawn = (what, ...parts) => filled((tag) => document.createElementNS(SVG, tag), what, parts);
+
+function filled(create, what, parts) {
+  const [tag, ...classes] = what.split("."), element = create(tag), named = parts[0]?.constructor === Object ? parts.shift() : {};
+  for (const [name, value] of Object.entries(classes.length ? { class: classes.join(" "), ...named } : named)) {
+    if (name.startsWith("on")) element.addEventListener(name.slice(2), value);
+    else if (value !== false && value !== undefined) element.setAttribute(name, value === true ? "" : value);
+  }
+  element.append(...parts);
   return element;
 }
 
@@ -32,14 +84,14 @@ export function freshId() {
 // A slider over some texts of numbers, with a box in which one can be typed. `chosen` is called with the index.
 export function slider(name, hint, texts, index, chosen, label = name) {
   const id = freshId();
-  const box = made("input", { id, type: "text", inputmode: "decimal", class: "lsys-box", autocomplete: "off", spellcheck: "false" });
-  const range = made("input", { type: "range", class: "lsys-range", "aria-label": worded("{name}, slider", { name: label }), min: 0, step: 1 });
-  const element = made("div", { class: "lsys-control", "data-control": name },
+  const box = made("input.lsys-box", { id, type: "text", inputmode: "decimal", autocomplete: "off", spellcheck: "false" });
+  const range = made("input.lsys-range", { type: "range", "aria-label": worded("{name}, slider", { name: label }), min: 0, step: 1 });
+  const element = made("div.lsys-control", { "data-control": name },
     made("label", { for: id, title: hint }, label), box, range);
   let numbers = [];
 
   function show(at) {
-    index = Math.max(0, Math.min(numbers.length - 1, at));
+    index = clamped(0, numbers.length - 1, at);
     range.value = index;
     range.setAttribute("aria-valuetext", texts[index]);
     if (document.activeElement !== box) box.value = texts[index];
@@ -66,7 +118,7 @@ export function slider(name, hint, texts, index, chosen, label = name) {
     texts = others;
     numbers = texts.map(valueOf);
     range.max = texts.length - 1;
-    box.style.width = `${Math.max(3, Math.min(12, Math.max(...[texts[0], texts.at(-1), texts[1] ?? ""].map((text) => text.length)))) + 2}ch`;
+    box.style.width = `${clamped(3, 12, Math.max(...[texts[0], texts.at(-1), texts[1] ?? ""].map((text) => text.length))) + 2}ch`;
     show(at);
   }
 
@@ -100,10 +152,9 @@ function nearest(numbers, wanted) {
   return best;
 }
 
-// A button with a text, or with an icon.
 export function button(face, hint, pressed, more = {}) {
   const inside = ICONS[face] ? icon(face) : face, name = ICONS[face] ? { "aria-label": hint } : {};
-  return made("button", { type: "button", class: "lsys-button", title: hint, ...name, onclick: pressed, ...more }, inside);
+  return made("button.lsys-button", { type: "button", title: hint, ...name, onclick: pressed, ...more }, inside);
 }
 
 const ICONS = { // of 16 x 16 pixels
@@ -113,14 +164,20 @@ const ICONS = { // of 16 x 16 pixels
 };
 
 export function icon(name) {
-  return drawn("svg", { viewBox: "0 0 16 16", width: 16, height: 16, "aria-hidden": "true", class: `lsys-icon lsys-icon-${name}` }, drawn("path", { d: ICONS[name] }));
+  return drawn(`svg.lsys-icon.lsys-icon-${name}`, { viewBox: "0 0 16 16", width: 16, height: 16, "aria-hidden": "true" }, drawn("path", { d: ICONS[name] }));
+}
+
+export function face(element, name, hint) {
+  element.replaceChildren(icon(name));
+  element.setAttribute("aria-label", hint);
+  element.title = hint;
 }
 
 // A list to choose from: `options` are pairs of a value and its text.
 export function list(name, hint, options, value, chosen, label = name) {
   const id = freshId();
-  const select = made("select", { id, class: "lsys-list" });
-  const element = made("div", { class: "lsys-control", "data-control": name }, made("label", { for: id, title: hint }, label), select);
+  const select = made("select.lsys-list", { id });
+  const element = made("div.lsys-control", { "data-control": name }, made("label", { for: id, title: hint }, label), select);
   select.addEventListener("change", () => chosen(select.value));
 
   function offer(others, chosenValue) {

@@ -1,6 +1,7 @@
 // How many modules each step has, as a small plot; a click or the arrow keys go to a step.
 
-import { made, drawn } from "./controls.js";
+import { clamped, grouped } from "../books/numbers.js";
+import { drawn, made } from "./controls.js";
 import { counted } from "./word.js";
 
 const WIDTH = 380, HEIGHT = 150, LEFT = 52, RIGHT = 12, TOP = 14, BOTTOM = 24;
@@ -17,24 +18,24 @@ export function countsView(parent, chosen) {
     const x = (step) => LEFT + ((WIDTH - LEFT - RIGHT) * step) / Math.max(1, lengths.length - 1);
     const y = (n) => HEIGHT - BOTTOM - ((HEIGHT - TOP - BOTTOM) * (scaled(n) - low)) / (high - low || 1);
     points = lengths.map((n, step) => [x(step), y(n)]);
-    dot = drawn("circle", { r: 5, class: "lsys-count-now" });
-    said = drawn("text", { class: "lsys-terms", "text-anchor": "middle" });
-    const sheet = drawn("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, class: "lsys-counts", role: "img", tabindex: 0 },
-      drawn("path", { class: "lsys-axis", d: `M${LEFT} ${TOP}V${HEIGHT - BOTTOM}H${WIDTH - RIGHT}` }),
-      ...[least, most].filter((n, i) => i || most !== least).map((n) => drawn("text", { x: LEFT - 6, y: y(n) + 4, class: "lsys-terms", "text-anchor": "end" }, n.toLocaleString("en"))),
-      drawn("text", { x: x(0), y: HEIGHT - 6, class: "lsys-terms", "text-anchor": "middle" }, "0"),
-      drawn("text", { x: x(lengths.length - 1), y: HEIGHT - 6, class: "lsys-terms", "text-anchor": "end" }, `step ${lengths.length - 1}`),
-      drawn("path", { class: "lsys-curve", d: "M" + points.map(([a, b]) => `${a.toFixed(1)} ${b.toFixed(1)}`).join("L") }),
-      ...points.map(([cx, cy]) => drawn("circle", { cx, cy, r: 2.2, class: "lsys-count" })), dot, said);
+    dot = drawn("circle.lsys-count-now", { r: 5 });
+    said = drawn("text.lsys-terms", { "text-anchor": "middle" });
+    const sheet = drawn("svg.lsys-counts", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "img", tabindex: 0 },
+      drawn("path.lsys-axis", { d: `M${LEFT} ${TOP}V${HEIGHT - BOTTOM}H${WIDTH - RIGHT}` }),
+      ...[least, most].filter((n, i) => i || most !== least).map((n) => drawn("text.lsys-terms", { x: LEFT - 6, y: y(n) + 4, "text-anchor": "end" }, grouped(n))),
+      drawn("text.lsys-terms", { x: x(0), y: HEIGHT - 6, "text-anchor": "middle" }, "0"),
+      drawn("text.lsys-terms", { x: x(lengths.length - 1), y: HEIGHT - 6, "text-anchor": "end" }, `step ${lengths.length - 1}`),
+      drawn("path.lsys-curve", { d: "M" + points.map(([a, b]) => `${a.toFixed(1)} ${b.toFixed(1)}`).join("L") }),
+      ...points.map(([cx, cy]) => drawn("circle.lsys-count", { cx, cy, r: 2.2 })), dot, said);
     const rate = book.data.growth?.rate;
     const told = `${noun[0].toUpperCase()}${noun.slice(1)}s a step${steep ? ", on a logarithmic scale" : ""}${rate ? `; growth rate ${rate}` : ""}`;
     sheet.setAttribute("aria-label", `${told}: ${lengths.slice(0, 12).map((n, step) => `step ${step}, ${n}`).join("; ")}`);
     sheet.addEventListener("click", (event) => {
       const box = sheet.getBoundingClientRect(), at = ((event.clientX - box.left) / box.width) * WIDTH;
       const share = (at - LEFT) / (WIDTH - LEFT - RIGHT);
-      chosen(Math.max(0, Math.min(lengths.length - 1, Math.round(share * (lengths.length - 1)))));
+      chosen(clamped(0, lengths.length - 1, Math.round(share * (lengths.length - 1))));
     });
-    parent.replaceChildren(made("div", { class: "lsys-caption" }, told), sheet);
+    parent.replaceChildren(made("div.lsys-caption", told), sheet);
   }
 
   function show(step) {
@@ -42,7 +43,7 @@ export function countsView(parent, chosen) {
     const [x, y] = points[step];
     dot.setAttribute("cx", x);
     dot.setAttribute("cy", y);
-    said.setAttribute("x", Math.max(LEFT + 40, Math.min(WIDTH - 60, x)));
+    said.setAttribute("x", clamped(LEFT + 40, WIDTH - 60, x));
     said.setAttribute("y", Math.max(12, y - 9));
     said.textContent = counted(lengths[step], noun);
   }

@@ -1,8 +1,8 @@
 // The stage diagram: places with tokens, bars, arcs. A place can be chosen, by mouse and by keyboard.
 
-import { drawn } from "./controls.js";
+import { grouped } from "../books/numbers.js";
 import { fillColour, lineColour } from "../drawing/colours.js";
-import { onKey, onMouse } from "./keys.js";
+import { drawn, onKey, onMouse } from "./controls.js";
 
 const LEGIBLE = { terms: 0.82, labels: 0.65 }; // a diagram is made no smaller than this: its smallest text is 9 pixels high then
 const DOTS = [[], [[0, 0]], [[-5, 0], [5, 0]], [[0, -5.5], [-5, 3.5], [5, 3.5]], [[-5, -5], [5, -5], [-5, 5], [5, 5]]];
@@ -15,8 +15,8 @@ export function netView(parent, chosen, pointed) {
     net = next;
     places = new Map();
     const least = leastScale(net), needed = `${Math.round(least * net.width)}px`;
-    const sheet = drawn("svg", {
-      viewBox: `0 0 ${net.width} ${net.height}`, width: net.width, height: net.height, class: "lsys-net", role: "group",
+    const sheet = drawn("svg.lsys-net", {
+      viewBox: `0 0 ${net.width} ${net.height}`, width: net.width, height: net.height, role: "group",
       style: `min-width:${needed};min-height:${Math.round(least * net.height)}px`, "aria-label": net.description,
     });
     const view = parent.closest(".lsys-view").style;
@@ -24,30 +24,30 @@ export function netView(parent, chosen, pointed) {
     view.setProperty("--lsys-widest", `${net.width}px`);
     for (const place of net.places) sheet.append(stage(place, theme));
     for (const arc of net.arcs) sheet.append(
-      drawn("path", { class: "lsys-band", d: arc.band }), drawn("path", { class: "lsys-arc", d: arc.path }), drawn("path", { d: arc.head, class: "lsys-head" }));
+      drawn("path.lsys-band", { d: arc.band }), drawn("path.lsys-arc", { d: arc.path }), drawn("path.lsys-head", { d: arc.head }));
     for (const bar of net.bars) {
-      const group = drawn("g", { class: "lsys-bar-of" }, drawn("path", { class: "lsys-arc", d: bar.line }), drawn("rect",
-        { x: bar.x - 1.8, y: bar.y - bar.half, width: 3.6, height: 2 * bar.half, rx: 0.8, class: "lsys-head" }));
-      if (bar.terms) group.append(drawn("text", { x: bar.tx, y: bar.ty, class: "lsys-terms" }, drawn("title", {}, bar.full || bar.terms), bar.terms));
+      const group = drawn("g.lsys-bar-of", drawn("path.lsys-arc", { d: bar.line }), drawn("rect.lsys-head",
+        { x: bar.x - 1.8, y: bar.y - bar.half, width: 3.6, height: 2 * bar.half, rx: 0.8 }));
+      if (bar.terms) group.append(drawn("text.lsys-terms", { x: bar.tx, y: bar.ty }, drawn("title", bar.full || bar.terms), bar.terms));
       sheet.append(group);
     }
     for (const [x, y, width, text] of net.notes) sheet.append(
-      drawn("rect", { x: x - width / 2, y: y - 6, width, height: 12, class: "lsys-band-note" }),
-      drawn("text", { x, y: y + 4, "text-anchor": "middle", class: "lsys-terms" }, text));
-    for (const line of net.footnotes) sheet.append(drawn("text", { x: line.x, y: line.y, class: "lsys-terms" }, line.text));
+      drawn("rect.lsys-band-note", { x: x - width / 2, y: y - 6, width, height: 12 }),
+      drawn("text.lsys-terms", { x, y: y + 4, "text-anchor": "middle" }, text));
+    for (const line of net.footnotes) sheet.append(drawn("text.lsys-terms", { x: line.x, y: line.y }, line.text));
     parent.replaceChildren(sheet);
   }
 
   function stage(place, theme) {
     const { x, y } = place, radius = net.radius;
-    const ring = drawn("circle", { cx: x, cy: y, r: radius + 5, class: "lsys-ring" });
-    const circle = drawn("circle", {
-      cx: x, cy: y, r: radius, class: "lsys-place", fill: fillColour(place.colour, theme, place.strength), stroke: lineColour(place.colour, theme),
+    const ring = drawn("circle.lsys-ring", { cx: x, cy: y, r: radius + 5 });
+    const circle = drawn("circle.lsys-place", {
+      cx: x, cy: y, r: radius, fill: fillColour(place.colour, theme, place.strength), stroke: lineColour(place.colour, theme),
     });
-    const label = drawn("text", { x, y: y + radius + 17, "text-anchor": "middle", class: "lsys-label" }, ...tspans(place));
-    const tokens = drawn("g", { class: "lsys-tokens" });
-    const group = drawn("g", { class: "lsys-stage", "data-place": place.place, role: "button", tabindex: 0, "aria-pressed": "false" },
-      drawn("title", {}, place.name), ring, circle, label, tokens);
+    const label = drawn("text.lsys-label", { x, y: y + radius + 17, "text-anchor": "middle" }, ...tspans(place));
+    const tokens = drawn("g.lsys-tokens");
+    const group = drawn("g.lsys-stage", { "data-place": place.place, role: "button", tabindex: 0, "aria-pressed": "false" },
+      drawn("title", place.name), ring, circle, label, tokens);
     const toggle = () => chosen(place.place);
     group.addEventListener("click", toggle);
     onMouse(group, (event) => pointed(event ? place.place : -1));
@@ -66,7 +66,7 @@ export function netView(parent, chosen, pointed) {
       if (entry.shown === count) continue;
       entry.shown = count;
       entry.tokens.replaceChildren(...tokensAt(entry.place, count));
-      entry.group.setAttribute("aria-label", `stage ${entry.place.name}, ${count.toLocaleString("en")} token${count === 1 ? "" : "s"}`);
+      entry.group.setAttribute("aria-label", `stage ${entry.place.name}, ${grouped(count)} token${count === 1 ? "" : "s"}`);
     }
   }
 
@@ -92,17 +92,15 @@ function tspans({ letter, subscript, values }) {
   return parts;
 }
 
-// Up to four tokens as dots, more as a number.
 function tokensAt({ x, y }, count) {
   if (count < 5) return DOTS[count].map(([dx, dy]) => drawn("circle", { cx: x + dx, cy: y + dy, r: 3.6 }));
   const text = short(count), size = text.length < 3 ? 15 : text.length < 4 ? 13 : 11;
   return [drawn("text", { x, y: y + 0.36 * size, "font-size": size, "font-weight": "bold", "text-anchor": "middle" }, text)];
 }
 
-// A number of tokens that fits into a circle.
 export function short(count) {
   if (count < 10_000) return String(count);
-  for (const [size, letter] of [[1e9, "G"], [1e6, "M"], [1e3, "k"]]) {
+  for (const [size, letter] of /** @type {[number, string][]} */ ([[1e9, "G"], [1e6, "M"], [1e3, "k"]])) {
     if (count >= size) return `${(count / size).toPrecision(count / size < 10 ? 2 : 3).replace(/\.0$/, "")}${letter}`;
   }
   return String(count);

@@ -1,10 +1,10 @@
 // The relaxation of a step, watched iteration by iteration: the controls of it, and what is to be painted.
 
-import { movedShapes, mapShapes, UNIT } from "../drawing/map.js";
+import { mapShapes, movedShapes, UNIT } from "../drawing/map.js";
 import { boundsOf } from "../drawing/projection.js";
 import { relaxation, startOf, tissueOf } from "../drawing/relaxation.js";
 import { forcesOf, PULL, PUSH, strongest } from "../drawing/tension.js";
-import { button, drawn, icon, list, made } from "./controls.js";
+import { button, drawn, face, list, made } from "./controls.js";
 import { counted } from "./word.js";
 
 const SPEEDS = [["1", "slow"], ["4", "normal"], ["20", "fast"]]; // iterations a frame
@@ -13,16 +13,16 @@ const STILLS = 8, STILL = 1000; // with reduced motion so many stills, each show
 // `changed` is called when the picture is another.
 export function relaxing(changed) {
   const still = matchMedia("(prefers-reduced-motion: reduce)");
-  let book, step = 0, way = null, timer = 0, frame = 0, perFrame = 4, room = null, most = 0;
+  let book, shownBook, step = 0, way = null, timer = 0, frame = 0, perFrame = 4, room = null, most = 0;
   const first = button("first", "iteration 0 of the relaxation", () => { stop(); restart(); });
   const play = button("play", "play the relaxation", toggle, { class: "lsys-button lsys-play" });
   const forward = button("forward", "one iteration on", () => { stop(); advance(1); });
   const end = button("to rest", "show the map at rest", () => { stop(); leave(); });
   const speed = list("relaxation", "how fast the relaxation is shown", SPEEDS, "4", (value) => { perFrame = Number(value); });
   const forces = made("input", { type: "checkbox", "data-control": "forces", onchange: () => { legend.hidden = !forces.checked; changed(); } });
-  const said = made("span", { class: "lsys-relaxed", role: "status" }), legend = made("div", { class: "lsys-caption", hidden: true });
-  const element = made("div", {}, made("div", { class: "lsys-controls lsys-relaxation", role: "group", "aria-label": "relaxation" },
-    made("label", { class: "lsys-check" }, forces, "forces"), speed.element, made("div", { class: "lsys-player" }, first, play, forward, end), said), legend);
+  const said = made("span.lsys-relaxed", { role: "status" }), legend = made("div.lsys-caption", { hidden: true });
+  const element = made("div", made("div.lsys-controls.lsys-relaxation", { role: "group", "aria-label": "relaxation" },
+    made("label.lsys-check", forces, "forces"), speed.element, made("div.lsys-player", first, play, forward, end), said), legend);
 
   function offer(next) {
     stop();
@@ -32,8 +32,8 @@ export function relaxing(changed) {
 
   // Another step is shown: at rest at first.
   function goTo(at) {
-    if (at === step && book === goTo.book) return;
-    [step, goTo.book, way] = [at, book, null];
+    if (at === step && book === shownBook) return;
+    [step, shownBook, way] = [at, book, null];
     stop();
     [room, most] = [boundsOf(mapShapes(book, step)), strongest(forcesNow().tensions)];
     tell();
@@ -80,9 +80,7 @@ export function relaxing(changed) {
     if (timer || frame) return stop();
     if (!way || way.now.end) restart();
     said.setAttribute("aria-live", "off");
-    play.replaceChildren(icon("pause"));
-    play.setAttribute("aria-label", "pause the relaxation");
-    play.title = "pause the relaxation";
+    face(play, "pause", "pause the relaxation");
     if (still.matches) timer = setInterval(() => advance(Math.ceil(book.data.maps[step].iterations / STILLS)), STILL);
     else frame = requestAnimationFrame(run);
   }
@@ -98,9 +96,7 @@ export function relaxing(changed) {
     cancelAnimationFrame(frame);
     [timer, frame] = [0, 0];
     said.setAttribute("aria-live", "polite");
-    play.replaceChildren(icon("play"));
-    play.setAttribute("aria-label", "play the relaxation");
-    play.title = "play the relaxation";
+    face(play, "play", "play the relaxation");
   }
 
   return {

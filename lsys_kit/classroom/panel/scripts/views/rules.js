@@ -1,17 +1,17 @@
 // The model's text, to be edited: mistakes are underlined where they stand, traced productions are lit.
 
-import { made, button } from "./controls.js";
-import { worded } from "./language.js";
+import { clamped } from "../books/numbers.js";
+import { button, made, worded } from "./controls.js";
 
 const REST = 250; // milliseconds without a key after which a text is read
 
 export function rulesView(parent, asked) {
-  const backdrop = made("div", { class: "lsys-backdrop", "aria-hidden": "true" });
-  const area = made("textarea", { class: "lsys-rules", spellcheck: "false", autocapitalize: "off", autocomplete: "off", "aria-label": worded("rules of the model") });
-  const said = made("div", { class: "lsys-mistake", role: "status", "aria-live": "polite" });
+  const backdrop = made("div.lsys-backdrop", { "aria-hidden": "true" });
+  const area = made("textarea.lsys-rules", { spellcheck: "false", autocapitalize: "off", autocomplete: "off", "aria-label": worded("rules of the model") });
+  const said = made("div.lsys-mistake", { role: "status", "aria-live": "polite" });
   const back = button(worded("back to the first rules"), worded("put back the rules with which the panel was opened"), () => put(first), { hidden: true });
-  const notes = made("div", { class: "lsys-hint", role: "status" });
-  parent.append(made("div", { class: "lsys-editor" }, backdrop, area), said, notes, back);
+  const notes = made("div.lsys-hint", { role: "status" });
+  parent.append(made("div.lsys-editor", backdrop, area), said, notes, back);
   let first = "", told = [], spans = [], waiting = 0;
 
   function paint() {
@@ -19,7 +19,7 @@ export function rulesView(parent, asked) {
     let at = 0;
     for (const { start, end, kind } of [...spans].sort((a, b) => a.start - b.start)) {
       if (start < at || start >= text.length + 1) continue;
-      parts.push(text.slice(at, start), made("mark", { class: `lsys-${kind}` }, text.slice(start, Math.max(end, start + 1)) || " "));
+      parts.push(text.slice(at, start), made(`mark.lsys-${kind}`, text.slice(start, Math.max(end, start + 1)) || " "));
       at = Math.max(end, start + 1);
     }
     backdrop.replaceChildren(...parts, text.slice(at), "\n");
@@ -47,7 +47,7 @@ export function rulesView(parent, asked) {
   function understood() {
     spans = [];
     said.replaceChildren();
-    notes.replaceChildren(...told.map((note) => made("div", {}, note)));
+    notes.replaceChildren(...told.map((note) => made("div", note)));
     area.removeAttribute("aria-invalid");
     paint();
   }
@@ -60,7 +60,7 @@ export function rulesView(parent, asked) {
       if (!first) first = text;
       area.readOnly = !editable;
       if (area.value !== text && document.activeElement !== area) area.value = text;
-      area.rows = Math.max(4, Math.min(18, area.value.split("\n").length + 1));
+      area.rows = clamped(4, 18, area.value.split("\n").length + 1);
       back.hidden = area.value === first;
       understood();
     },
@@ -70,7 +70,7 @@ export function rulesView(parent, asked) {
       notes.replaceChildren();
       spans = start === null || start === undefined ? [] : [{ start, end: end ?? start + 1, kind: "wrong" }];
       const where = line && area.value.includes("\n") ? `Line ${line}: ` : "";
-      said.replaceChildren(made("strong", {}, `${where}${message}.`), hint ? ` ${hint}` : "");
+      said.replaceChildren(made("strong", `${where}${message}.`), hint ? ` ${hint}` : "");
       area.setAttribute("aria-invalid", "true");
       paint();
     },

@@ -1,20 +1,19 @@
 // The word of a step: each module on the tint of its symbol; a long word without its middle.
 
-import { made } from "./controls.js";
-import { onKey, onMouse } from "./keys.js";
-
-const MOST = 240; // modules that are shown
+import { grouped } from "../books/numbers.js";
+import { MOST_MODULES_SHOWN } from "../drawing/constants.js";
+import { made, onKey, onMouse } from "./controls.js";
 
 // `told` learns of the module that was chosen, `pointed` of the one that the mouse is on, or of -1.
 export function wordView(parent, told, pointed) {
-  const box = made("div", { class: "lsys-word", tabindex: 0, role: "application", "aria-roledescription": "word" });
+  const box = made("div.lsys-word", { tabindex: 0, role: "application", "aria-roledescription": "word" });
   const help = "Arrow keys go from module to module; Escape ends that.";
   parent.append(box);
   let book, word, chips = new Map();
 
   function chip(position) {
     const state = word[position], label = book.label(state);
-    const element = made("span", { class: label.steering ? "lsys-steering" : "lsys-module", "data-position": position });
+    const element = made(label.steering ? "span.lsys-steering" : "span.lsys-module", { "data-position": position });
     if (label.colour) element.style.setProperty("--symbol", label.colour);
     if (label.values && !label.text.endsWith(label.values)) element.title = label.text;
     element.append(...labelled(label));
@@ -24,19 +23,18 @@ export function wordView(parent, told, pointed) {
 
   function show(nextBook, step) {
     [book, word, chips] = [nextBook, nextBook.word(step), new Map()];
-    const n = word.length, half = MOST / 2, parts = [];
-    const from = n > MOST ? half : n;
+    const n = word.length, half = MOST_MODULES_SHOWN / 2, parts = [];
+    const from = n > MOST_MODULES_SHOWN ? half : n;
     for (let i = 0; i < from; i++) parts.push(chip(i));
-    if (n > MOST) {
-      parts.push(made("span", { class: "lsys-gap" }, `… ${(n - MOST).toLocaleString("en")} more …`));
+    if (n > MOST_MODULES_SHOWN) {
+      parts.push(made("span.lsys-gap", `… ${grouped(n - MOST_MODULES_SHOWN)} more …`));
       for (let i = n - half; i < n; i++) parts.push(chip(i));
     }
-    if (!n) parts.push(made("span", { class: "lsys-gap" }, "The word is empty."));
+    if (!n) parts.push(made("span.lsys-gap", "The word is empty."));
     box.replaceChildren(...parts);
     box.setAttribute("aria-label", `Word of step ${step}, ${counted(n, book.data.noun)}. ${help}`);
   }
 
-  // Mark the modules of some states, and light those that are traced: a map from positions to what they are.
   function light(marked, traced) {
     for (const [position, element] of chips) {
       element.classList.toggle("lsys-marked", marked.has(word[position]));
@@ -46,7 +44,6 @@ export function wordView(parent, told, pointed) {
     }
   }
 
-  // Mark where another word differs.
   function differ(positions) {
     for (const [position, element] of chips) element.classList.toggle("lsys-different", positions.has(position));
   }
@@ -72,22 +69,21 @@ export function wordView(parent, told, pointed) {
 // A label as nodes: an italic letter, a subscript, upright values.
 export function labelled({ letter, subscript, values, walls = [] }) {
   if (walls.length) return walls.map(([label, colour, edges]) => wallOf(label, colour, edges));
-  const parts = [/^\p{L}/u.test(letter) ? made("i", {}, letter) : letter];
-  if (subscript) parts.push(made("sub", {}, subscript));
+  const parts = [/^\p{L}/u.test(letter) ? made("i", letter) : letter];
+  if (subscript) parts.push(made("sub", subscript));
   if (values) parts.push(values);
   return parts;
 }
 
-// A wall of a cell, with the edges around it.
 function wallOf(label, colour, edges) {
-  const name = made("b", { class: "lsys-wall" }, label);
+  const name = made("b.lsys-wall", label);
   name.style.setProperty("--symbol", colour);
-  return made("span", { class: "lsys-cycle" }, name, made("i", {}, edges));
+  return made("span.lsys-cycle", name, made("i", edges));
 }
 
 // A number with its noun: "1 module", "2 modules".
 export function counted(number, noun, several = `${noun}s`) {
-  return `${number.toLocaleString("en")} ${number === 1 ? noun : several}`;
+  return `${grouped(number)} ${number === 1 ? noun : several}`;
 }
 
 // The size of a step in words: of cells as the kit says it, of a map its vertices, walls and cells, of a word its modules.

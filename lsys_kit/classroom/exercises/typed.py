@@ -1,0 +1,472 @@
+"""What a person types, in the form that the kit's grammars read: characters, units, numbers, formulas, systems; none is run."""
+
+from __future__ import annotations
+
+import math
+import re
+import tomllib
+import unicodedata
+from collections.abc import Callable, Collection, Iterable, Mapping
+from dataclasses import dataclass
+from decimal import Decimal
+from fractions import Fraction
+from importlib.resources import files
+from typing import Any, TypeVar
+
+from lsys_kit.classroom.exercises.replies import reply
+from lsys_kit.derivation.core.rules import number_from
+from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError, ModelValueError, quotable, shown
+from lsys_kit.notation.model.arithmetic import Value, is_symbolic, normalised
+
+WORDS: Mapping[str, Any] = tomllib.loads((files(__package__) / "typed.toml").read_text("utf-8"))
+"""Words and signs that people type, in English and German."""
+_ASSIGNED = re.compile(r"^\s*+[A-Za-z_]\w*+\s*+(?:\([^()=]*\)\s*+)?=(?!=)\s*")
+"""The beginning of `N(12) = 21` or `t = d - s`."""
+ARROW = r"(?<![-=])[-=]++>|→"
+"""An arrow, however long."""
+_OUTSIDE = re.compile(r"[^()]++\)?")
+"""What stands between two parentheses, with the second if it closes one."""
+_RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹"
+_RAISED_NUMBER = re.compile(rf"([⁺⁻]?)([{_RAISED}]+)")
+_DIGITS = str.maketrans(_RAISED, "0123456789")
+_ROOT_SIGN = re.compile(r"√\s*(?=\()|√\s*(\d+(?:\.\d+)?|[A-Za-z]\w*)")
+_SIGNS = str.maketrans(WORDS["signs"])
+
+
+def text_answer(answer: object, what: str, example: str) -> str:
+    """An answer that must be a text."""
+    if not isinstance(answer, str):
+        raise ModelValueError(reply("typed.must_be_text", what=what, example=example, kind=type(answer).__name__))
+    return answer
+
+
+def keyboard_text(text: str) -> str:
+    """A text in the characters of a keyboard: signs, raised digits, fractions and letters that have another form there.
+
+    >>> keyboard_text("2·x² ≤ ½"), keyboard_text("2⁶−1"), keyboard_text("√169 + 1½"), keyboard_text("７０９")
+    ('2*x^2 <= (1/2)', '2^6-1', 'sqrt(169) + (1+1/2)', '709')
+    """
+    text = _RAISED_NUMBER.sub(_power, text.translate(_SIGNS))
+    text = re.sub(r"(?<!\d)(\d+)\s*([¼-¾⅐-⅞])", lambda found: f"({found[1]}+{_fraction(found[2])})", text)
+    text = re.sub(r"[¼-¾⅐-⅞]", lambda found: f"({_fraction(found[0])})", text)
+    text = _ROOT_SIGN.sub(lambda found: f"sqrt({found[1]})" if found[1] else "sqrt", text)
+    return "".join(unicodedata.normalize("NFKC", each) if each not in "…" else each for each in text)
+
+
+def _power(found: re.Match[str]) -> str:
+    digits = found[2].translate(_DIGITS)
+    return f"^(-{digits})" if found[1] == "⁻" else f"^{digits}"
+
+
+def _fraction(sign: str) -> str:
+    return unicodedata.normalize("NFKC", sign).replace("⁄", "/")
+
+
+def unassigned(text: str) -> str:
+    """A text without the name that it is assigned to.
+
+    >>> unassigned("N(12) = 21"), unassigned("t == 5")
+    ('21', 't == 5')
+    """
+    return _ASSIGNED.sub("", text, count=1)
+
+
+def assigned_name(text: str) -> str:
+    """The name to which a formula is assigned, or nothing.
+
+    >>> assigned_name("t = d - s"), assigned_name("t == 5")
+    ('t', '')
+    """
+    found = _ASSIGNED.match(text.strip().strip("$"))
+    return found[0].partition("=")[0].partition("(")[0].strip() if found else ""
+
+
+_LABEL = re.compile(r"(?<![\w.)\]])(?:[^\W\d]\w*(?:\s*\([^()]*\)|\s+\d+)?|\d+)\s*(?::|=(?![=>]))\s*")
+
+
+def unlabelled(text: str) -> str:
+    """A row without the names of its parts.
+
+    >>> unlabelled("N(8) = 7, N(9) = 10"), unlabelled("0: 2, 1: 3"), unlabelled("a: 1 2, b: 1 0")
+    ('7, 10', '2, 3', '1 2, 1 0')
+    """
+    return _LABEL.sub("", text)
+
+
+def without_commas(text: str) -> str:
+    """A text with blanks for the commas between its modules, which are outside parentheses.
+
+    >>> without_commas("A(1, 2), b,b")
+    'A(1, 2) b b'
+    """
+    return _OUTSIDE.sub(lambda found: found[0] if found[0].endswith(")") else re.sub(r",[ \t]*", " ", found[0]), text)
+
+
+def unquoted(text: str) -> str:
+    """A text without the quotation marks around it.
+
+    >>> unquoted("`br -> ar`"), unquoted("'a'"), unquoted("don't")
+    ('br -> ar', 'a', "don't")
+    """
+    text = text.strip()
+    while len(text) > 1 and text[0] == text[-1] and text[0] in "\"'`":
+        text = text[1:-1].strip()
+    return text
+
+
+def quoted(answer: object) -> str:
+    """What was typed, as a message quotes it."""
+    return quotable(" ".join(answer.split())) if isinstance(answer, str) else shown(answer)
+
+
+# Units
+
+
+UNITS: Mapping[str, tuple[str, Value]] = {name: tuple(unit) for names, unit in WORDS["units"].items() for name in names.split()}
+"""For each name of a unit what it measures, and how much of the first unit of that it is."""
+
+
+def converted(number: Value, given: str, wanted: str) -> Value | None:
+    """A number in another unit, exactly where the two are in proportion; None where they measure different things.
+
+    >>> converted(2, "dm", "cm"), converted(1, "turn", "degrees"), converted(1, "cm", "degrees")
+    (20, 360, None)
+    """
+    one, other = UNITS.get(given.lower()), UNITS.get(wanted.lower())
+    if one is None or other is None or one[0] != other[0]:
+        return None
+    if one[1] == other[1]:
+        return number
+    if isinstance(one[1], int) and isinstance(other[1], int):
+        return normalised(number * Fraction(one[1], other[1]))
+    return float(number) * float(one[1]) / float(other[1])
+
+
+def names_of(unit: str) -> frozenset[str]:
+    """All names of a unit."""
+    known = (frozenset(names.split()) for names in WORDS["units"])
+    return next((names for names in known if unit.lower() in names), frozenset([unit.lower()]))
+
+
+def means_the_same(one: str, other: str) -> bool:
+    """Whether two nouns stand for the same thing that is counted.
+
+    >>> means_the_same("cells", "letter"), means_the_same("cells", "walls")
+    (True, False)
+    """
+    both = {one.lower().rstrip("s"), other.lower().rstrip("s")}
+    return len(both) == 1 or any(both <= {*group.split()} for group in WORDS["same_thing"])
+
+
+# Numbers in words
+
+
+_NUMBERS = WORDS["numbers"]
+_VALUES = {word: number for number, word in enumerate(_NUMBERS["small"].split())}
+_VALUES |= {word: 10 * number for number, word in enumerate(_NUMBERS["tens"].split(), 2)}
+_FACTORS: Mapping[str, int] = _NUMBERS["factors"]
+_ORDINALS = {word: number for number, word in enumerate(_NUMBERS["ordinals"].split(), 1)}
+_PARTS: Mapping[str, int] = _NUMBERS["parts"]
+_ANY = "|".join([*_VALUES, *_FACTORS])
+_RUN = re.compile(rf"\b(?:{_ANY})(?:(?:[\s-]+(?:and\s+)?)(?:{_ANY}))*\b", re.IGNORECASE)
+_PART = re.compile(rf"\b(\d+|a)\s+({'|'.join(_PARTS)})s?\b", re.IGNORECASE)
+_ORDINAL = re.compile(rf"\b(?:({'|'.join(_ORDINALS)})|(\d+)(?:st|nd|rd|th))\b", re.IGNORECASE)
+
+
+def with_digits(text: str) -> str:
+    """A text with digits for the numbers that are written as words.
+
+    >>> with_digits("twenty-one cells"), with_digits("seven hundred and nine"), with_digits("three quarters")
+    ('21 cells', '709', '3/4')
+    >>> with_digits("2, 3 and 5"), with_digits("the third line"), with_digits("19th step")
+    ('2, 3 and 5', 'the 3 line', '19 step')
+    """
+    text = _PART.sub(lambda found: f"{found[1].lower().replace('a', '1')}/{_PARTS[found[2].lower()]}", _RUN.sub(_digits, text))
+    return _ORDINAL.sub(lambda found: found[2] or str(_ORDINALS[found[1].lower()]), text)
+
+
+def _digits(found: re.Match[str]) -> str:
+    """The value of a run of words; as it stands where it is none, as "two three"."""
+    total = group = 0
+    below = 1_000_000_000
+    for word in re.split(r"[\s-]+", found[0].lower()):
+        if word in _FACTORS:
+            factor = _FACTORS[word]
+            total, group = (total, max(group, 1) * factor) if factor == 100 else (total + max(group, 1) * factor, 0)
+            below = factor
+        elif word != "and":
+            value = _VALUES[word]
+            if value >= below:
+                return found[0]
+            group += value
+            below = 10 if value >= 20 and value < 100 else 1
+    return str(total + group)
+
+
+# Formulas
+
+
+_FRACTION = re.compile(r"\\[dt]?frac\s*\{([^{}]*)\}\s*\{([^{}]*)\}")
+_ROOT = re.compile(r"\\sqrt\s*\{([^{}]*)\}")
+_POWER = re.compile(r"\^\s*\{([^{}]*)\}")
+_JOINED = (("and", "&&"), ("or", "||"), ("not", "!"))
+_IMPLICIT = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?)\s*(?=[A-Za-z_(])|(?<=\))\s*(?=[\w(])")
+_WORD = re.compile(r"[A-Za-z_]\w*")
+MOST_NESTED = 20
+"""Fractions within fractions that are read."""
+
+
+def formula_text(text: str, names: Collection[str] = ()) -> str:
+    """A formula as the kit writes it, from simple LaTeX, from Python's powers, without the name that it is assigned to.
+
+    >>> formula_text("t = d - s**2"), formula_text(r"$\\frac{d + 1}{2} \\cdot s$"), formula_text("2s + 2(d - s)")
+    ('d - s^2', '((d + 1)/(2)) * s', '2*s + 2*(d - s)')
+    >>> formula_text("u n < vm or not m < 2", ["u", "n", "v", "m"])
+    'u*n < v*m || ! m < 2'
+    """
+    text = unassigned(keyboard_text(text).strip().strip("$").strip())
+    for _ in range(MOST_NESTED):
+        before = text
+        for pattern, form in ((_FRACTION, r"((\1)/(\2))"), (_ROOT, r"sqrt(\1)"), (_POWER, r"^(\1)")):
+            text = pattern.sub(form, text)
+        if text == before:
+            break
+    for latex, plain in WORDS["latex"].items():
+        text = text.replace(latex, plain)
+    text = with_operators(text.replace("**", "^"), names)
+    return _IMPLICIT.sub(lambda found: f"{found[1] or ''}*", _products_of(text, names)).strip()
+
+
+def with_operators(text: str, names: Collection[str] = ()) -> str:
+    """A condition with signs for its words.
+
+    >>> with_operators("s > 5 and not s > 7 | s == 1")
+    's > 5 && ! s > 7 || s == 1'
+    """
+    for word, sign in _JOINED:
+        if word not in names:
+            text = re.sub(rf"\b{word}\b", sign, text, flags=re.IGNORECASE)
+    return re.sub(r"(?<!\|)\|(?!\|)", "||", re.sub(r"(?<!&)&(?!&)", "&&", text))
+
+
+def _products_of(text: str, names: Collection[str]) -> str:
+    """A formula with a sign between names of one letter that stand side by side."""
+    if not names or not all(len(name) == 1 for name in names):
+        return text
+    spread = _WORD.sub(lambda found: "*".join(found[0]) if set(found[0]) <= set(names) else found[0], text)
+    letters = "".join(map(re.escape, names))
+    return re.sub(rf"(?<![A-Za-z_])([{letters}]|\d)\s+(?=[{letters}](?!\w))", r"\1*", spread)
+
+
+# Numbers
+
+
+_EQUALS = re.compile(r"(?<![<>=!])=(?!=)|≈")
+_GROUPED = re.compile(r"[+-]?\d{1,3}([ ']\d{3})+")
+_COMMAS = re.compile(r"[+-]?\d{1,3}(,\d{3})+")
+_DECIMAL_COMMA = re.compile(r"[+-]?(\d+,\d{1,2}|\d+,\d{4,}|0,\d+)")
+_SCIENTIFIC = re.compile(r"(?<!\w)(\d+(?:\.\d+)?)[eE]([+-]?\d{1,3})(?!\w)")
+_SENTENCE = re.compile(
+    r"^(?P<before>(?:(?!pi\b)[^\W\d_]++(?:[\s:]|\.(?!(?<=[\s:]\.)\d))++)*+)"
+    r"(?P<number>(?:.*(?:[^\w\s°%]|[°%](?!$)))?+(?:(?<=[)}])|[\w\s]*?(?:\d|(?<![A-Za-z])pi\b)))\s*"
+    r"(?P<after>(?!pi\b)[^\W\d_][^\W\d]*(?:\s[\w\s]*)?|°|%)?$",
+    re.DOTALL,
+)
+"""Words, a number, words: whatever has other signs belongs to the number."""
+_REPLACED = (
+    (re.compile(r"\bper\s+cent\b", re.IGNORECASE), "percent"),
+    (re.compile(r"\b(?:no|nr)\.\s*(?=\d)", re.IGNORECASE), ""),
+    (re.compile(r"°(?=\s*[-+*/:])"), ""),
+    (re.compile(r"(?<=\d)\s+out of\s+(?=\d)"), "/"),
+    (re.compile(r"(?<=[\d)])\s*:\s*(?=[\d(])"), "/"),
+    (re.compile(r"(?<=\d)\s*x\s*(?=\d)"), "*"),
+)
+
+
+@dataclass(frozen=True)
+class TypedNumber:
+    """A number, and the words around it.
+
+    Attributes
+    ----------
+    value
+        The number, exactly where it was written exactly.
+    before, after
+        The words in front of it and behind it; what is behind it may be a unit.
+    of_pi
+        Whether it was written as a multiple of pi.
+    """
+
+    value: Value
+    before: tuple[str, ...] = ()
+    after: tuple[str, ...] = ()
+    of_pi: bool = False
+
+
+def typed_number(answer: object, decimal_comma: bool = False) -> TypedNumber:
+    """A number as a person writes it, with the words around it; `decimal_comma` says what the comma in 1,272 is.
+
+    >>> typed_number("N(12) = 21 cells").value, typed_number("1,000").value, typed_number(Decimal("0.5")).value
+    (21, 1000, Fraction(1, 2))
+    >>> typed_number("about .5").value, typed_number("No.5 .").value
+    (Fraction(1, 2), 5)
+    >>> typed_number("at step twenty-one"), typed_number("2π/5 rad").after
+    (TypedNumber(value=21, before=('at', 'step'), after=(), of_pi=False), ('rad',))
+    """
+    if isinstance(answer, Decimal) and answer.is_finite():
+        return TypedNumber(number_from(Fraction(answer)))
+    if not isinstance(answer, str):
+        return TypedNumber(_known(number_from(answer, "answer")))
+    text = with_digits(unquoted(keyboard_text(answer)).strip("$ "))
+    for pattern, plain in _REPLACED:
+        text = pattern.sub(plain, text)
+    fault: LSystemError | None = None
+    for part in reversed(_EQUALS.split(text)):
+        try:
+            return _in_sentence(part.strip(" \t\n!~$").rstrip(" ."), answer, decimal_comma)
+        except (ModelSyntaxError, ModelNameError, ModelValueError) as mistake:
+            fault = fault or mistake
+    raise fault or ModelValueError(reply("typed.number_needed"))
+
+
+def _in_sentence(text: str, answer: str, decimal_comma: bool) -> TypedNumber:
+    found = _SENTENCE.match(text)
+    if not found:
+        raise ModelValueError(reply("typed.no_number", answer=quoted(answer)), hint=reply("typed.digits"))
+    number = formula_text(_plain(found["number"].strip(), decimal_comma))
+    value = _value(re.sub(r"\bpi\b", f"({math.pi!r})", number), answer)
+    before, after = (tuple(re.findall(r"[^\W\d_]+|[°%]", found[part] or "")) for part in ("before", "after"))
+    return TypedNumber(value, before, after, "pi" in number)
+
+
+def _value(number: str, answer: str) -> Value:
+    try:
+        return _known(number_from(number, "answer"))
+    except (ModelSyntaxError, ModelNameError):
+        raise ModelValueError(reply("typed.unreadable", answer=quoted(answer)), hint=reply("typed.alone")) from None
+
+
+def _plain(text: str, decimal_comma: bool) -> str:
+    text = _SCIENTIFIC.sub(r"\1*10^(\2)", text)
+    if _DECIMAL_COMMA.fullmatch(text) or (decimal_comma and text.count(",") == 1 and _COMMAS.fullmatch(text)):
+        return text.replace(",", ".")
+    return re.sub(r"[, ']", "", text) if _COMMAS.fullmatch(text) or _GROUPED.fullmatch(text) else text
+
+
+def _known(number: Value) -> Value:
+    if is_symbolic(number):
+        raise ModelValueError(reply("typed.no_value", text=quotable(str(number))))
+    return number
+
+
+# Rows
+
+_MATRIX = re.compile(r"\\(?:begin|end)\s*\{[^{}]*\}|\b(?:np\.)?(?:Matrix|matrix|array)\b")
+_BETWEEN = re.compile(rf"\\\\|{ARROW}|\band\b|(?<=\s)/(?=\s)")
+
+
+def parts(answer: object, what: str) -> list[object]:
+    """The parts of a row or table, in order: of a text what stands between commas, semicolons, bars, brackets, blanks.
+
+    >>> parts("[[1, 1], [1, 0]]", "Numbers"), parts((1, 2), "Numbers")
+    (['1', '1', '1', '0'], [1, 2])
+    >>> parts("N(0) = one, N(1) = 2 and N(2) = 3", "Numbers")
+    ['1', '2', '3']
+    """
+    if isinstance(answer, str):
+        text = _BETWEEN.sub(",", _MATRIX.sub(" ", with_digits(unquoted(keyboard_text(answer)))))
+        return [part for part in re.split(r"[\s,;|\[\](){}&]+", unlabelled(text)) if part.strip(".")]
+    return list(_flat(answer, what))
+
+
+def _flat(answer: object, what: str, depth: int = 0) -> Iterable[object]:
+    if hasattr(answer, "tolist") and callable(answer.tolist):
+        answer = answer.tolist()
+    if isinstance(answer, Mapping):
+        answer = list(answer.values())
+    if depth > 3 or isinstance(answer, str | bytes) or not isinstance(answer, Iterable):
+        if depth == 0:
+            raise ModelValueError(reply("typed.parts_needed", what=what, kind=type(answer).__name__))
+        yield answer
+        return
+    for number, part in enumerate(answer):
+        if number > 10_000:
+            raise ModelValueError(reply("typed.too_many_parts", what=what))
+        yield from _flat(part, what, depth + 1)
+
+
+# Systems
+
+
+Read = TypeVar("Read")
+_ERASED = re.compile(r"(->|→)[ \t]*(?:\"\"|''|\\(?:var)?epsilon\b|\bepsilon\b|λ|∅)[ \t]*$", re.MULTILINE)
+_IN_A_WORD = re.compile(r"(->|→)[ \t]*(?:empty|nothing)[ \t]*$", re.MULTILINE | re.IGNORECASE)
+_NOTHING = re.compile(r"(->|→)[ \t]*$", re.MULTILINE)
+_FULL_STOP = re.compile(r"(?<=[\w\])])\.[ \t]*$", re.MULTILINE)
+_NEXT_LINE = re.compile(r";[ \t]*(?!\n)|,[ \t]*+(?=[^,;\n]*?(?:->|→))")
+_SETTING = re.compile(r"^([ \t]*(?:axiom|angle|heading|length))[ \t]*=", re.MULTILINE | re.IGNORECASE)
+_ARROW_OR_END = re.compile(r"->|→|$")
+_ARGUMENTS = re.compile(r"\([^()\n]*\)")
+_PRODUCT = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?)(?=[A-Za-z])")
+_FIRST_WORD = re.compile(r"^\s*+[^\n:=>→]++\n(?=[^\n]*(?:->|→))")
+
+
+def read_typed(text: str, reader: Callable[[str], Read], known: str = "") -> Read:
+    """What a reader makes of a system; where it cannot be read as it stands, in the form that the kit writes.
+
+    `known` is what the question itself says, whose symbols mean themselves.
+
+    >>> from lsys_kit.notation.read import read
+    >>> print(read_typed("axiom = F; F => F[+F]F.", read))
+    axiom: F
+    F -> F[+F]F
+    """
+    text = _cleaned(text, known)
+    try:
+        return reader(text)
+    except LSystemError as mistake:
+        try:
+            return reader(_spelt_out(text))
+        except LSystemError:
+            raise mistake from None
+
+
+def _cleaned(text: str, known: str) -> str:
+    """A text without what no notation means: quotation marks around it, full stops at the ends of its lines."""
+    text = unquoted(text).replace(r"\rightarrow", "->").replace(r"\to", "->").replace("−>", "->").replace("–>", "->")
+    text = _ERASED.sub(r"\1 ε", text)
+    if not re.search(r"\b(empty|nothing)\b", known):
+        text = _IN_A_WORD.sub(r"\1 ε", text)
+    return text if _FULL_STOP.search(known) else _FULL_STOP.sub("", text)
+
+
+def _spelt_out(text: str) -> str:
+    """A text as the kit writes it.
+
+    >>> _spelt_out("axiom: M(1), M(x) : x > 1 and x < 3 -> M(2x)")
+    'axiom: M(1)\\nM(x) : x > 1 && x < 3 -> M(2*x)'
+    >>> _spelt_out("a\\na -> a, b\\nb ->")
+    'axiom: a\\na -> a b\\nb -> ε'
+    """
+    text = re.sub(ARROW, "->", text).replace("°", "").strip()
+    text = _SETTING.sub(r"\1:", _NEXT_LINE.sub("\n", text))
+    text = without_commas(_NOTHING.sub(r"\1 ε", text))
+    text = "\n".join(map(_with_signs, text.split("\n")))
+    return f"axiom: {text}" if _FIRST_WORD.match(text) else text
+
+
+def _with_signs(line: str) -> str:
+    """A line with signs for the words and the products in its arguments and its condition."""
+    arrow = _ARROW_OR_END.search(line)
+    assert arrow
+    before, colon, condition = line[: arrow.start()].partition(":") if arrow[0] else (line, "", "")
+    made = _in_arguments(line[arrow.start() :]) if arrow[0] else ""
+    return _in_arguments(before) + _signs(colon + condition) + made
+
+
+def _in_arguments(text: str) -> str:
+    return _ARGUMENTS.sub(lambda found: _signs(found[0]), text)
+
+
+def _signs(formula: str) -> str:
+    return _PRODUCT.sub(r"\1*", with_operators(formula))

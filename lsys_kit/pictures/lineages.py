@@ -1,0 +1,377 @@
+"""Lineages as trees in continuous time (P. Prusinkiewicz, "Introduction to Modeling with L-systems",
+figures 5 and 6).
+
+Time runs down. A line is a cell from its birth to its division, thin until the first word that has it, so that what happens
+within a step is told from what the words show. Cells have the colour of their symbol, as in the filament; those that began
+alike have the same dashes. A flag shows where a cell points. Where a cell divides late, a broad band begins at the time at
+which it should have divided. Below the tree stands the last word, each cell at the end of its line.
+
+A line stands above its cell in the filament of the last word; that of a mother half-way between her first and last daughter.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import cycle, pairwise
+from typing import TYPE_CHECKING
+
+from lsys_kit.budget import current
+from lsys_kit.derivation.core.interpretation import interpretation_of, is_cell
+from lsys_kit.derivation.core.rules import number_from
+from lsys_kit.derivation.petri.net import Place as Stage
+from lsys_kit.derivation.timed.lineage import Lineage
+from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown
+from lsys_kit.geometry.filament import filament
+from lsys_kit.notation.model.arithmetic import Value
+from lsys_kit.notation.model.modules import CELLS, Module
+from lsys_kit.pictures.filaments import DrawnCell, drawn_cells, filament_shapes, tenths, time_text
+from lsys_kit.pictures.formats.notebook import SVGPicture
+from lsys_kit.pictures.rendering.frames import MARGIN, WIDTH
+from lsys_kit.pictures.shapes import Drawing, Group, Look, Path, Place, Shape, Span, Text
+from lsys_kit.pictures.sizes import document
+from lsys_kit.pictures.style.labels import label_parts, label_spans, place_parts, polar_symbols, values_text
+from lsys_kit.pictures.style.palette import VERMILION, colour_of, tinted
+from lsys_kit.pictures.style.themes import line, theme
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
+
+
+AXIS, HEAD, TREE = 54, 22, 300
+"""Room for the axis of time, its heading and the tree, in pixels."""
+BROADEST, APART = 30.0, 60.0
+"""The most pixels for a unit of length of the filament below the tree; between lines where there is no filament."""
+MOST_KINDS = 4
+"""The greatest number of kinds of cells that are distinguished."""
+DASHES = ("", "80 45", "1 45", "120 40 1 40")
+"""The dash pattern of each kind of cells, in tenths of a pixel."""
+
+
+@dataclass(frozen=True)
+class CellKind:
+    """Cells that were alike at birth: what they were, in pieces of text of so many characters; the look of their lines."""
+
+    label: Sequence[str | Span]
+    characters: int
+    colour: str
+    dash: str
+
+    @property
+    def broken(self) -> Look:
+        """How lines are broken."""
+        return Look(stroke_dasharray=self.dash) if self.dash else Look()
+
+
+@dataclass(frozen=True)
+class Tree:
+    """The layout of a lineage, in pixels: the horizontal position of the line of each cell; the cells of the filament below, or
+    none; the kinds of cells, and for each cell the number of its kind; for each cell of the last word its colour; and where the
+    tree ends to the right."""
+
+    lineage: Lineage
+    x: Mapping[int, float]
+    row: Sequence[DrawnCell]
+    kinds: Sequence[CellKind]
+    kind_of: Sequence[int]
+    colours: Mapping[int, str]
+    right: float
+
+    def y(self, time: Value) -> float:
+        """The vertical position of a time."""
+        end = float(self.lineage.times[-1])
+        return MARGIN + HEAD + (TREE * float(time) / end if end else 0.0)
+
+
+def tree_of(lineage: Lineage, right: int = 0) -> Tree:
+    """The tree of a lineage, with some room left free to its right."""
+    right = WIDTH - MARGIN - right
+    x, row = _line_positions(lineage, right)
+    return Tree(lineage, x, row, *_kinds(lineage), right)
+
+
+def _line_positions(lineage: Lineage, right: int) -> tuple[dict[int, float], list[DrawnCell]]:
+    """The horizontal position of the line of each cell, and the filament below."""
+    ends = list(_leaves(lineage))
+    row = _filament(lineage, right) if ends == list(lineage.words[-1]) else []
+    if row:
+        x = {cell.state: cell.x for cell in row}
+    else:
+        apart = min(APART, (right - AXIS - 2 * MARGIN) / max(1, len(ends) - 1))
+        left = (right + AXIS - apart * (len(ends) - 1)) / 2
+        x = {cell: left + apart * place for place, cell in enumerate(ends)}
+    for cell in range(len(lineage.cells) - 1, -1, -1):  # daughters stand behind their mothers
+        if daughters := lineage.daughters(cell):
+            x[cell] = (x[daughters[0]] + x[daughters[-1]]) / 2
+    return x, row
+
+
+def _leaves(lineage: Lineage) -> Iterator[int]:
+    todo = [cell for cell in range(len(lineage.cells) - 1, -1, -1) if lineage.cells[cell].mother is None]
+    while todo:
+        cell = todo.pop()
+        daughters = lineage.daughters(cell)
+        todo += reversed(daughters)
+        if not daughters:
+            yield cell
+
+
+def _filament(lineage: Lineage, right: int) -> list[DrawnCell]:
+    """The cells of the last word as they are drawn, each with the number of its cell; none where it is no filament."""
+    scene = filament(lineage.last)
+    if len(scene.cells) != len(lineage.words[-1]):
+        return []
+    scale = min((right - AXIS - MARGIN) / scene.width, BROADEST / scene.height) if len(scene.cells) else 1.0
+    left = (right + AXIS - scene.width * scale) / 2
+    return [
+        cell._replace(x=left + cell.x, state=number)
+        for number, cell in zip(lineage.words[-1], drawn_cells(scene.cells, scale), strict=True)
+    ]
+
+
+def _kinds(lineage: Lineage) -> tuple[list[CellKind], list[int], dict[int, str]]:
+    """The kinds of cells, for each cell the number of its kind, and the colours of the cells in the last word.
+
+    Cells that look alike at birth are of one kind; if there are too many kinds, cells of one symbol are. The colour of a kind
+    is that of its symbol, as in every other picture; dashes distinguish the kinds of one symbol.
+    """
+    births = [cell.at_birth for cell in lineage.cells]
+    keys = [(_base(lineage, module), _drawn_shape(lineage, module)) for module in births]
+    if len(set(keys)) > MOST_KINDS:
+        keys = [(base, None) for base, _ in keys]
+    members: dict[tuple[str, object], dict[Module, None]] = {}
+    for key, module in zip(keys, births, strict=True):
+        members.setdefault(key, {})[module] = None
+    numbers = {key: number for number, key in enumerate(members)}
+    system, kinds = lineage.states.system, []
+    for modules, dash in zip(members.values(), cycle(DASHES), strict=False):
+        symbol = next(iter(modules)).symbol
+        letter, subscript, values = place_parts(Stage(symbol, tuple(modules)), system)
+        name = f"{letter}_{subscript}" if subscript else letter
+        kinds.append(
+            CellKind(label_spans(*label_parts(name, system), values), len(name + values), colour_of(symbol, system), dash)
+        )
+    colours = {cell: colour_of(lineage.cells[cell].modules[-1][1].symbol, system) for cell in lineage.words[-1]}
+    return kinds, [numbers[key] for key in keys], colours
+
+
+def _base(lineage: Lineage, module: Module) -> str:
+    return polar_symbols(lineage.states.system).get(module.symbol, (module.symbol, ""))[0]
+
+
+def _drawn_shape(lineage: Lineage, module: Module) -> object:
+    """The drawn shape of a module without its polarity; its arguments, if it is not drawn as a cell."""
+    return tuple(made.arguments for made in interpretation_of(lineage.states, module) if is_cell(made)) or module.arguments
+
+
+def polarity_of(lineage: Lineage, module: Module) -> int:
+    """The polarity of a cell: -1 to the left, 1 to the right, 0 for none."""
+    drawn = [made for made in interpretation_of(lineage.states, module) if is_cell(made)]
+    if drawn:
+        return CELLS[drawn[0].symbol]
+    return {"l": -1, "r": 1}.get(polar_symbols(lineage.states.system).get(module.symbol, ("", ""))[1], 0)
+
+
+TAIL, BEND, BRACKET = 14.0, 6.0, 46
+"""The length of lines below the last time, the radius of corners, and the width of an interval, in pixels."""
+THICK, THIN, LATE = 24, 11, 90
+"""Widths of lines, in tenths of a pixel."""
+LABEL = 6
+"""How far the figures of a time reach below its line, in pixels."""
+MOST_LINES, MOST_TICKS = 400, 14
+"""The greatest numbers of cells at the end, and of times on the axis."""
+
+
+@dataclass(frozen=True)
+class LineagePicture(SVGPicture):
+    """A picture of a lineage, perhaps with intervals of time marked beside the tree, with times and the modules of the last
+    word written, and with a legend."""
+
+    lineage: Lineage
+    intervals: tuple[tuple[Value, Value], ...] = ()
+    labels: bool = True
+    legend: bool = True
+
+    def shown(self, most: int, enlarged: float) -> Drawing:
+        """The tree, with what stands beside and below it."""
+        return drawn_lineage(self.lineage, self.intervals, self.labels, self.legend)
+
+    def film_images(self) -> Sequence[Image]:
+        """The tree as it grows, one time after another; at the end with what stands below it."""
+        from PIL import Image
+
+        whole, tree = self.image(), tree_of(self.lineage, BRACKET * len(self.intervals))
+        enlarged, images = whole.width / WIDTH, []
+        for time in self.lineage.times[:-1]:
+            image = Image.new("RGB", whole.size, theme().ground)
+            image.paste(whole.crop((0, 0, whole.width, round((tree.y(time) + LABEL) * enlarged))))
+            images.append(image)
+        return [*images, whole]
+
+    def __repr__(self) -> str:
+        return f"lineage of {self.lineage}"
+
+
+def _interval(given: object) -> tuple[Value, Value]:
+    if not isinstance(given, Sequence) or len(given) != 2:
+        raise ModelValueError(f"An interval is a pair of times, not {shown(given)}")
+    return number_from(given[0], "interval"), number_from(given[1], "interval")
+
+
+def lineage_picture(
+    lineage: Lineage, intervals: Iterable[tuple[object, object]] = (), *, labels: bool = True, legend: bool = True
+) -> LineagePicture:
+    """The picture of a lineage, with some intervals of time marked that lie within its time."""
+    living, cells, most = len(lineage.words[-1]), len(lineage.cells), current().segments
+    if living > MOST_LINES:
+        message = f"{living:,} cells are too many for a picture of their lineage; it can have {MOST_LINES}"
+        raise ModelLimitError(message, limit=MOST_LINES, needed=living, hint="Take fewer steps.")
+    if cells > most:
+        message = f"The tree of this lineage would have {cells:,} lines; a picture may have {most:,}"
+        raise ModelLimitError(message, limit=most, needed=cells, hint="Take fewer steps, or set limits(segments=...).")
+    require(intervals, Iterable, "A list of intervals, each a pair of times,")
+    found = tuple(map(_interval, intervals))
+    for first, last in found:
+        if not 0 <= first < last <= lineage.times[-1]:
+            raise ModelValueError(
+                f"No interval from {time_text(first)} to {time_text(last)} can be marked",
+                hint=f"The lineage lasts from 0 to {time_text(lineage.times[-1])}.",
+            )
+    return LineagePicture(lineage, found, labels, legend)
+
+
+def drawn_lineage(
+    lineage: Lineage, intervals: Sequence[tuple[Value, Value]] = (), labels: bool = True, legend: bool = True
+) -> Drawing:
+    """A lineage as shapes."""
+    tree = tree_of(lineage, BRACKET * len(intervals))
+    half = max((cell.width for cell in tree.row), default=8.0)
+    middle = tree.y(lineage.times[-1]) + TAIL + half
+    meaning, parts = _legend(tree) if legend else [], middle + half + 24
+    body: list[Shape] = [
+        *([_axis(tree)] if labels else []),
+        *(shape for place, interval in enumerate(intervals) for shape in _bracket(tree, place, *interval)),
+        *(shape for cell in range(len(lineage.cells)) for shape in _line(tree, cell)),
+        _flags(tree),
+        *_last_word(tree, middle, labels),
+        Group(meaning, Look(font_family="sans-serif", font_size=13), place=Place(1, AXIS * 10, tenths(parts))),
+    ]
+    height = round(parts) + (MARGIN if meaning else -MARGIN)
+    return document(body, WIDTH, height, f"Lineage of {lineage}")
+
+
+def _axis(tree: Tree) -> Group:
+    """The axis of time: a fine line through the tree at each time on it."""
+    lineage = tree.lineage
+    whole = lineage.stepwise and lineage.times == tuple(range(len(lineage.times)))
+    name = "step" if whole else [Span("t", Look(font_style="italic"))]
+    quiet, fine = theme().quiet, Look(stroke=tinted(theme().quiet, 0.3), stroke_width=8)
+    parts: list[Shape] = [Text(tenths(AXIS - 10), tenths(MARGIN + HEAD - 16), name, Look(font_size=110, fill=quiet))]
+    for time in _ticks(lineage):
+        y = tenths(tree.y(time))
+        parts += [
+            Path(f"M{tenths(AXIS)} {y}H{tenths(WIDTH - MARGIN)}", fine),
+            Text(tenths(AXIS - 10), y + 42, time_text(time), Look(font_size=120, fill=quiet)),
+        ]
+    return Group(parts, Look(text_anchor="end", font_family="sans-serif"))
+
+
+def _ticks(lineage: Lineage) -> Sequence[Value]:
+    """The times on the axis: those of steps, or whole ones."""
+    if lineage.stepwise:
+        return lineage.times[:: -(-len(lineage.times) // MOST_TICKS)]
+    end = lineage.times[-1]
+    return range(0, int(end) + 1, max(1, -(-int(end) // MOST_TICKS)))
+
+
+def _bracket(tree: Tree, place: int, first: Value, last: Value) -> list[Shape]:
+    """An interval beside the tree, with its length."""
+    x, top, bottom = tree.right + BRACKET * place + 18, tree.y(first), tree.y(last)
+    data = f"M{tenths(x - 5)} {tenths(top)}h100M{tenths(x)} {tenths(top)}V{tenths(bottom)}m-50 0h100"
+    look = Look(font_size=130, font_family="sans-serif", fill=theme().ink)
+    return [
+        Path(data, Look(fill="none", stroke=theme().ink, stroke_width=14)),
+        Text(tenths(x + 8), tenths((top + bottom) / 2 + 4.5), time_text(last - first), look),
+    ]
+
+
+def _line(tree: Tree, number: int) -> list[Path]:
+    """A cell's line, from its mother's; broad behind it the time by which it divides late."""
+    cell, kind, x = tree.lineage.cells[number], tree.kinds[tree.kind_of[number]], tree.x[number]
+    bottom = tree.y(tree.lineage.times[-1]) + TAIL if cell.ended is None else tree.y(cell.ended)
+    seen = tree.y(tree.lineage.times[cell.modules[0][0]]) if cell.modules else bottom
+    found = []
+    if cell.due is not None:
+        data = f"M{tenths(x)} {tenths(tree.y(max(cell.due, cell.born)))}V{tenths(bottom)}"
+        found.append(Path(data, {**_late_look(), "fill": "none"}))
+    start, turned = _branch_path(tree, number, bottom)
+    look: Look = {"fill": "none", "stroke": line(kind.colour), "stroke_linecap": "round", **kind.broken}
+    thick, thin = (look | Look(stroke_width=width) for width in (THICK, THIN))
+    if seen <= turned or not tree.lineage.stepwise:
+        return [*found, Path(f"{start}V{tenths(bottom)}", thick)]
+    found.append(Path(f"{start}V{tenths(seen)}", thin))
+    return [*found, *([Path(f"M{tenths(x)} {tenths(seen)}V{tenths(bottom)}", thick)] if bottom > seen else [])]
+
+
+def _late_look() -> Look:
+    """How the time is shown by which a cell divides late."""
+    return Look(stroke=line(VERMILION), stroke_width=LATE, stroke_opacity=0.35)
+
+
+def _branch_path(tree: Tree, number: int, bottom: float) -> tuple[str, float]:
+    """The beginning of a cell's line, from that of its mother round a corner, and how far down it leads."""
+    cell, x = tree.lineage.cells[number], tree.x[number]
+    top = tree.y(cell.born)
+    if cell.mother is None:
+        return f"M{tenths(x)} {tenths(top)}", top
+    away = x - tree.x[cell.mother]
+    bend = min(BEND, abs(away), bottom - top)
+    return (
+        f"M{tenths(x - away)} {tenths(top)}H{tenths(x - (bend if away > 0 else -bend))}"
+        f"Q{tenths(x)} {tenths(top)} {tenths(x)} {tenths(top + bend)}"
+    ), top + bend
+
+
+def _flags(tree: Tree) -> Path:
+    """A flag at the beginning of each line, to the side to which the cell points."""
+    parts = []
+    for number, cell in enumerate(tree.lineage.cells):
+        way = polarity_of(tree.lineage, cell.at_birth)
+        top, end = tree.y(cell.born), tree.y(tree.lineage.times[-1] if cell.ended is None else cell.ended)
+        if way and end - top > 16:
+            x, y = tenths(tree.x[number]), tenths(top + 7)
+            parts.append(f"M{x} {y}L{x + way * 65} {y + 32}L{x} {y + 64}Z")
+    return Path("".join(parts), Look(fill=theme().ink))
+
+
+def _last_word(tree: Tree, middle: float, labels: bool) -> list[Shape]:
+    """The last word below the tree: its cells as they are drawn, else their names where there is room."""
+    lineage, system = tree.lineage, tree.lineage.states.system
+    if tree.row:
+        return filament_shapes(tree.row, system.cells, middle, tree.colours)
+    modules = [lineage.cells[cell].modules[-1][1] for cell in lineage.words[-1]]
+    places = [tree.x[cell] for cell in lineage.words[-1]]
+    longest = max((len(str(module)) for module in modules), default=0)
+    if not labels or any(after - before < 7 * longest for before, after in pairwise(places)):
+        return []
+    look = Look(font_size=13, text_anchor="middle", font_family="sans-serif", fill=theme().ink)
+    names = [label_spans(*label_parts(module.symbol, system), values_text(module)) for module in modules]
+    spots = [Place(10, tenths(x), tenths(middle + 6)) for x in places]
+    return [Text(None, None, name, look, place=place) for name, place in zip(names, spots, strict=True)]
+
+
+def _legend(tree: Tree) -> list[Shape]:
+    """What the lines mean: kinds of cells by what they are at birth; what is not in a word yet, what is late."""
+    cells, entries = tree.lineage.cells, list[tuple[Look, str | Sequence[str | Span], int]]()
+    for kind in tree.kinds if len(tree.kinds) > 1 else ():
+        look = Look(stroke=line(kind.colour), stroke_width=THICK, stroke_linecap="round")
+        entries.append((look | kind.broken, kind.label, kind.characters))
+    if tree.lineage.stepwise and any(not cell.modules or tree.lineage.times[cell.modules[0][0]] > cell.born for cell in cells):
+        entries.append((Look(stroke=theme().quiet, stroke_width=THIN), "within a step", 13))
+    if any(cell.due is not None for cell in cells):
+        entries.append((_late_look(), "should have divided", 19))
+    parts, x = list[Shape](), 0
+    for look, label, characters in entries:
+        parts += [Path(f"M{x} 0h280", look), Text(None, None, label, Look(fill=theme().ink), place=Place(10, x + 360, 45))]
+        x += 360 + 65 * characters + 280
+    return parts
