@@ -62,14 +62,13 @@ SHARED: Mapping[str, Mapping[str, str]] = {
         "MARKED_CELL": "MARKED",
     },
     "pictures.multiples": {"LARGEST_SCALE": "LARGEST_SCALE"},
-    "pictures.rendering.cylinders": {"TONED": "TONED", "LIT": "LIT", "DARK": "DARK", "RIM": "RIM"},
     "pictures.rendering.frames": {
+        "BROADEST_PART": "MOST_OF_A_PICTURE",
         "PICTURE_WIDTH": "WIDTH",
         "PICTURE_HEIGHT": "HEIGHT",
         "PICTURE_MARGIN": "MARGIN",
         "LABEL_GAP": "LABEL_GAP",
     },
-    "pictures.rendering.line_widths": {"BROADEST_PART": "MOST_OF_A_PICTURE"},
     "pictures.rendering.looks": {
         "ORDER_WIDTHS": "STROKES",
         "LEAST_WIDTHS": "LEAST",
@@ -80,7 +79,11 @@ SHARED: Mapping[str, Mapping[str, str]] = {
         "STURDY": "STURDY",
         "BOLDEST": "BOLDEST",
     },
-    "pictures.rendering.painters_order": {
+    "pictures.rendering.display_list": {
+        "TONED": "TONED",
+        "LIT": "LIT",
+        "DARK": "DARK",
+        "RIM": "RIM",
         "FILLED": "FILLED",
         "LEAST_CASING": "LEAST_CASING",
         "CASING": "CASING",
@@ -109,7 +112,7 @@ SHARED: Mapping[str, Mapping[str, str]] = {
     },
     "pictures.style.palette": {"SIGN_COLOUR": "GREEN", "PALEST": "PALEST", "STRONGEST": "STRONGEST", "OLDEST": "OLDEST"},
     "pictures.style.themes": {"CONTRAST": "LINE", "FINER": "FINER"},
-    "pictures.svg": {"FACE_EDGE": "_AREAS", "RING": "_ROUNDS", "SMALLEST_RADIUS": "SMALLEST"},
+    "pictures.rendering.scene_shapes": {"FACE_EDGE": "AREAS", "RING": "ROUNDS", "SMALLEST_RADIUS": "SMALLEST"},
     "classroom.lessons.vote": {"LETTERS": "LETTERS"},
     "classroom.lessons.lesson": {"LONGEST_ENTRY": "MOST_CHARACTERS"},
     "classroom.panel.word_view": {"MOST_MODULES_SHOWN": "MOST_MODULES_SHOWN"},

@@ -20,12 +20,11 @@ from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.cells import CellSystem, CellworkSystem, MapSystem
 from lsys_kit.notation.model.system import USUAL_STEPS, LSystem
-from lsys_kit.pictures.filaments.folding import FilamentRow
-from lsys_kit.pictures.filaments.painting import LOOKS
+from lsys_kit.pictures.filaments import LOOKS, FilamentRow
 from lsys_kit.pictures.formats.axes import new_axes, set_ground
 from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.legends import legend_of, letters_of
-from lsys_kit.pictures.lineages.picture import LineagePicture, lineage_picture
+from lsys_kit.pictures.lineages import LineagePicture, lineage_picture
 from lsys_kit.pictures.multiples import SmallMultiples
 from lsys_kit.pictures.options import (
     CELLWORK,

@@ -229,7 +229,7 @@ def coloured_symbols(what: object) -> Symbols:
 def named_symbols(system: LSystem) -> Symbols:
     """The symbols of a system by their names.
 
-    >>> from lsys_kit import read
+    >>> from lsys_kit.notation.read import read
     >>> named_symbols(read("axiom: ar b\\nar -> al"))
     {'a': ('ar', 'al'), 'ar': ('ar',), 'b': ('b',), 'al': ('al',)}
     """

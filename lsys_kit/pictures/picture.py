@@ -17,9 +17,7 @@ from lsys_kit.geometry.meshes.mesh import OWN_WIDTHS, Mesh, mesh_of
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.geometry.turtle.surfaces import passed_over
 from lsys_kit.notation.model.arithmetic import Value
-from lsys_kit.pictures.filaments.folding import FilamentRow
-from lsys_kit.pictures.filaments.layout import filament_layout
-from lsys_kit.pictures.filaments.painting import LOOKS, letters_fit, row_shapes
+from lsys_kit.pictures.filaments import LOOKS, FilamentRow, filament_layout, letters_fit, row_shapes
 from lsys_kit.pictures.formats.axes import plot_turtle
 from lsys_kit.pictures.formats.mesh_files import glb, mtl, obj
 from lsys_kit.pictures.formats.notebook import FILMS, Encoders, SVGPicture, described, listed

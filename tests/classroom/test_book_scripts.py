@@ -20,8 +20,7 @@ from lsys_kit.geometry.filament import filament
 from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
 from lsys_kit.notation.registry import dialect_named
 from lsys_kit.pictures.draw import MOST_ROWS
-from lsys_kit.pictures.filaments.folding import MOST_CELLS, FilamentRow
-from lsys_kit.pictures.filaments.layout import filament_layout
+from lsys_kit.pictures.filaments import MOST_CELLS, FilamentRow, filament_layout
 from lsys_kit.pictures.style.labels import visible
 from tests.classroom.front_end import called, joined
 from tests.derivation.random_systems import KINDS, systems_with

@@ -12,7 +12,7 @@ from lsys_kit import derive, draw, lineage, read, stages, system
 from lsys_kit.classroom.panel.word_view import word_html
 from lsys_kit.pictures.draw import state_colours
 from lsys_kit.pictures.formats.svg import svg as written
-from lsys_kit.pictures.lineages.tree import tree_of
+from lsys_kit.pictures.lineages import tree_of
 from lsys_kit.pictures.nets.diagram import drawn_stages
 from lsys_kit.pictures.style.labels import html_label
 from lsys_kit.pictures.style.palette import SERIES, colour_of, colours

@@ -10,7 +10,7 @@ import pytest
 from PIL import Image
 
 from lsys_kit import ModelValueError, animate, derive, draw, figure, read, system
-from lsys_kit.pictures.filaments.layout import DrawnCell, FilamentLayout, filament_layout
+from lsys_kit.pictures.filaments import DrawnCell, FilamentLayout, filament_layout
 from lsys_kit.pictures.picture import Picture
 from lsys_kit.pictures.rendering.frames import WIDTH
 

@@ -11,8 +11,7 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from lsys_kit import ModelFileError, ModelLimitError, ModelValueError, draw, figure, lineage, read, system, timed
-from lsys_kit.pictures.lineages.picture import LineagePicture
-from lsys_kit.pictures.lineages.tree import tree_of
+from lsys_kit.pictures.lineages import LineagePicture, tree_of
 from lsys_kit.pictures.style.palette import colour_of
 
 SVG = "{http://www.w3.org/2000/svg}"

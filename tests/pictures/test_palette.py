@@ -17,7 +17,7 @@ from lsys_kit import stages, system
 from lsys_kit.classroom.panel.bundle import style
 from lsys_kit.geometry.turtle.commands import RAMP_END, RAMP_START
 from lsys_kit.pictures.legends import MOST_WITHOUT_LETTERS
-from lsys_kit.pictures.lineages.tree import DASHES
+from lsys_kit.pictures.lineages import DASHES
 from lsys_kit.pictures.nets.parts import parts_of, steering_of
 from lsys_kit.pictures.style.palette import (
     CHOSEN,

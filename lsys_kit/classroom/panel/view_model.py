@@ -26,7 +26,7 @@ from lsys_kit.geometry.turtle.plane import Path, place_path, trace
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.draw import MOST_ROWS, filament_picture, state_colours
-from lsys_kit.pictures.filaments.folding import FilamentRow
+from lsys_kit.pictures.filaments import FilamentRow
 from lsys_kit.pictures.formats.lettering import advance
 from lsys_kit.pictures.formats.painting import PixelPainter, Sheet, label_width
 from lsys_kit.pictures.nets.diagram import drawn_stages

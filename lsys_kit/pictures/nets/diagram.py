@@ -69,20 +69,12 @@ def drawn_stages(
     steering: Collection[str] | None = None,
     labels: bool = True,
 ) -> Drawing:
-    """A stage diagram as shapes.
+    """A stage diagram as shapes, with numbers of tokens, one for each place, if they are given, and some places highlighted.
 
     Arcs may be labelled with the positions of their modules in the successor, rather than with their number. Places of symbols
     that only steer the turtle, or of others that are given, are omitted if they are never rewritten.
 
-    Raises
-    ------
-    ModelValueError
-        The tokens are not one number for each place.
-
-    Examples
-    --------
-    >>> from lsys_kit.derivation.petri.stages import stages
-    >>> from lsys_kit.notation.read import read
+    >>> from lsys_kit import read, stages
     >>> [*drawn_stages(stages(read("axiom: a\\na -> ab\\nb -> a")), (2, 1)).shapes[1].shapes][-1].tags
     {'class': 'token'}
     """

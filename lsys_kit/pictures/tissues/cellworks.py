@@ -18,7 +18,7 @@ from lsys_kit.errors import ModelLimitError, ModelValueError, whole_number
 from lsys_kit.geometry.scene import Floats
 from lsys_kit.geometry.tissues.layout import cellwork_scene, place_cellworks
 from lsys_kit.notation.model.cells import CellworkSystem
-from lsys_kit.pictures.filaments.folding import FilamentRow
+from lsys_kit.pictures.filaments import FilamentRow
 from lsys_kit.pictures.formats.notebook import described
 from lsys_kit.pictures.legends import Entry, Legend
 from lsys_kit.pictures.picture import Picture

@@ -56,7 +56,7 @@ from lsys_kit.notation.model.system import USUAL_STEPS, LSystem
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 from lsys_kit.notation.registry import dialect_named
 from lsys_kit.notation.write import as_written
-from lsys_kit.pictures.filaments.painting import time_text
+from lsys_kit.pictures.filaments import time_text
 from lsys_kit.pictures.nets.parts import steering_of
 from lsys_kit.pictures.style.labels import label_parts, values_text, visible
 from lsys_kit.pictures.style.palette import CHOSEN, colours

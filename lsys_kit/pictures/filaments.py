@@ -1,25 +1,200 @@
 """Filaments as pictures: the rows of a developmental sequence below one another, with a common scale.
 
 Cells are ellipses, as in the figures of C. Jacob ("Modeling Growth with L-Systems & Mathematica"), or rectangles with round
-ends, as in those of P. Prusinkiewicz ("Introduction to Modeling with L-systems"), in which the smallest cells are round; arrows
-show their polarity. Walls are bars, thicker and darker with age, with their age in figures.
+ends, as in those of P. Prusinkiewicz ("Introduction to Modeling with L-systems"), in which the smallest cells are round;
+arrows show their polarity. Walls are bars, thicker and darker with age, with their age in figures. Long filaments are folded
+into lines, as a text is: in one line their cells would be too narrow to be seen.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, fields, replace
 from itertools import pairwise
 from types import MappingProxyType
+from typing import Any, NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
+from lsys_kit.geometry.scene import Cells, Floats, Scene, Walls
 from lsys_kit.notation.model.arithmetic import Value, normalised, number_text
-from lsys_kit.pictures.filaments.folding import FilamentRow
-from lsys_kit.pictures.filaments.layout import STEPS, TIMES, DrawnCell, DrawnWall, FilamentLayout
-from lsys_kit.pictures.rendering.frames import MARGIN, WIDTH
+from lsys_kit.pictures.rendering.frames import HEIGHT, MARGIN, WIDTH
 from lsys_kit.pictures.shapes import Ellipse, Group, Look, Path, Raster, Rectangle, Shape, Span, Text
 from lsys_kit.pictures.style.colour_values import mixed
 from lsys_kit.pictures.style.palette import GREEN, OLDEST, cell_fill
 from lsys_kit.pictures.style.themes import edge_colour, line, theme
+
+MOST_CELLS, A_LINE = 100, 60
+"""The greatest number of cells of a row that is not folded, and about how many stand in a line then."""
+SLACK = 0.2
+"""A row that is longer than a line by no more than this part is not folded for its last cells."""
+MOST_LINES = 60
+"""What would have more lines than this is not folded: a person wants to see it as a whole."""
+
+
+@dataclass(frozen=True)
+class FilamentRow:
+    """One step of a developmental sequence; or one line of it, if it is folded, with its number from 0."""
+
+    step: int
+    scene: Scene
+    part: int | None = None
+
+
+def folded(rows: Sequence[FilamentRow]) -> Sequence[FilamentRow]:
+    """Some rows, each in as many lines as it needs, which are equally long.
+
+    >>> from lsys_kit import derive
+    >>> from lsys_kit.geometry.filament import filament
+    >>> from lsys_kit import read
+    >>> growing = derive(read("axiom: a\\na -> a b\\nb -> a\\ninterpretation:\\na -> R(2,1)\\nb -> L(1,1)"), 10)
+    >>> lines = folded([FilamentRow(step, filament(growing[step])) for step in (0, 10)])
+    >>> [(line.step, line.part, len(line.scene.cells)) for line in lines]
+    [(0, None, 1), (10, 0, 48), (10, 1, 48), (10, 2, 48)]
+    """
+    longest = max(rows, key=lambda row: len(row.scene.cells))
+    if len(longest.scene.cells) <= MOST_CELLS:
+        return rows
+    length = longest.scene.width / math.ceil(len(longest.scene.cells) / A_LINE)
+    lines = [max(1, math.ceil(row.scene.width / length - SLACK)) for row in rows]
+    if sum(lines) > MOST_LINES:
+        return rows
+    return [line for row, many in zip(rows, lines, strict=True) for line in (_lines(row, many) if many > 1 else [row])]
+
+
+def _lines(row: FilamentRow, many: int) -> Iterator[FilamentRow]:
+    cells, walls, length = row.scene.cells, row.scene.walls, row.scene.width / many
+    where = np.minimum(cells.centres[:, 0] // length, many - 1)
+    ends = cells.centres[:, 0] + cells.sizes[:, 0] / 2
+    before = np.maximum(np.searchsorted(ends, walls.places + 1e-9 * length, side="right") - 1, 0)
+    for part in range(many):
+        yield FilamentRow(row.step, _piece(row.scene, where == part, where[before] == part), part)
+
+
+def _piece(scene: Scene, in_line: NDArray[np.bool_], wall_in_line: NDArray[np.bool_]) -> Scene:
+    """Some cells and walls of a filament, from 0 on."""
+    cells, walls = scene.cells, scene.walls
+    start = float(cells.centres[in_line, 0][0] - cells.sizes[in_line, 0][0] / 2)
+    some = Cells(*(getattr(cells, each.name)[in_line] for each in fields(cells)))
+    few = Walls(*(getattr(walls, each.name)[wall_in_line] for each in fields(walls)))
+    return replace(
+        scene, cells=replace(some, centres=some.centres - [start, 0.0]), walls=replace(few, places=few.places - start)
+    )
+
+
+HEAD, STEPS, TIMES, AGES = 18, 34, 46, 12
+"""Room for the heading, the column of steps, that of times, and the ages of walls, in pixels."""
+TALLEST, NEAREST, FILLED = 46.0, 14.0, 0.66
+"""The greatest and the least distance of rows, in pixels, and the part of it that cells fill."""
+LEGIBLE = 28
+"""Ages of walls are written where the distance of rows is greater than this, in pixels."""
+
+
+class DrawnCell(NamedTuple):
+    """A cell in the picture: its centre, half its length and width, its polarity, shade and state."""
+
+    x: float
+    length: float
+    width: float
+    way: int
+    shade: float
+    state: int
+
+
+class DrawnWall(NamedTuple):
+    """A wall in the picture: its position, half its height, its age in figures, its shade and state."""
+
+    x: float
+    height: float
+    age: str
+    shade: float
+    state: int
+
+
+def drawn_cells(cells: Cells, scale: float, some: Any = slice(None)) -> Iterator[DrawnCell]:
+    """Some cells of a filament in a picture of a scale, whose left end is at 0."""
+    columns = (cells.centres[some, 0] * scale, *(cells.sizes[some] * scale / 2).T)
+    rest = cells.polarities[some], cells.shades[some], cells.states[some]
+    return map(DrawnCell, *(column.tolist() for column in (*columns, *rest)))
+
+
+@dataclass(frozen=True)
+class FilamentLayout:
+    """The layout of the rows of a picture, in pixels: whether they are labelled with their steps, and with times (then the
+    duration of a step); pixels per unit of length; room to the left of all rows, above them all, and above each row's cells;
+    the distance of rows, and the length of the longest."""
+
+    rows: Sequence[FilamentRow]
+    numbered: bool
+    time: Value | None
+    scale: float
+    gutter: int
+    head: int
+    above: int
+    pitch: float
+    longest: float
+
+    @property
+    def height(self) -> int:
+        """The height of the picture."""
+        return round(self.pitch * len(self.rows)) + self.head + 2 * MARGIN
+
+    def middle(self, place: int) -> float:
+        """The vertical position of the cells of a row."""
+        return MARGIN + self.head + self.pitch * (place + 0.5) + self.above / 2
+
+    def cells(self, row: FilamentRow, most: float = math.inf) -> Iterator[DrawnCell]:
+        """The cells of a row; no more than so many in a pixel."""
+        some, left = self._seen(row.scene.cells.centres[:, 0], most), self._left(row)
+        return (cell._replace(x=left + cell.x) for cell in drawn_cells(row.scene.cells, self.scale, some))
+
+    def walls(self, row: FilamentRow, most: float = math.inf) -> Iterator[DrawnWall]:
+        """The walls of a row; no more than so many in a pixel."""
+        walls, left = row.scene.walls, self._left(row)
+        some = self._seen(walls.places, most)
+        return (
+            DrawnWall(left + x, height / 2, "" if math.isnan(age) else f"{age:.4g}", shade, state)
+            for x, height, age, shade, state in zip(
+                (walls.places[some] * self.scale).tolist(),
+                (walls.heights[some] * self.scale).tolist(),
+                walls.ages[some].tolist(),
+                walls.shades[some].tolist(),
+                walls.states[some].tolist(),
+                strict=True,
+            )
+        )
+
+    def _seen(self, places: Floats, most: float) -> Any:
+        """Which of the shapes at some places are drawn, if no more than so many can be seen in a pixel: the first at each."""
+        if len(places) <= WIDTH * most:
+            return slice(None)
+        return np.unique(np.floor(places * self.scale * most), return_index=True)[1]
+
+    def _left(self, row: FilamentRow) -> float:
+        """The left end of a row: all rows are centred; the lines of a folded one begin at the same place."""
+        length = row.scene.width if row.part is None else self.longest
+        return self.gutter + (WIDTH - self.gutter - MARGIN - length * self.scale) / 2
+
+
+def filament_layout(
+    rows: Sequence[FilamentRow], numbered: bool = False, time: Value | None = None, written: bool = True
+) -> FilamentLayout:
+    """The layout of some rows, the long ones folded; labelled with their steps, and with times if that of a step is not 1;
+    without room for any text unless it is written."""
+    time, rows = time if numbered and time != 1 else None, folded(rows)
+    gutter, head = MARGIN + STEPS * numbered + TIMES * (time is not None), HEAD * numbered
+    longest = max(max(row.scene.width for row in rows), 1e-9)
+    tallest = max(max(row.scene.height for row in rows), 1e-9)
+    most = min(TALLEST, (HEIGHT - 2 * MARGIN - head) / len(rows))
+    if any(row.part for row in rows):
+        most = max(most, NEAREST)
+    above = AGES if written and most > LEGIBLE and any(len(row.scene.walls) for row in rows) else 0
+    scale = min((WIDTH - gutter - 2 * MARGIN) / longest, (FILLED * most - above) / tallest)
+    pitch = max(NEAREST, min(most, (tallest * scale + above) / FILLED))
+    return FilamentLayout(rows, numbered, time, scale, gutter, head, above, pitch, longest)
+
 
 LOOKS = ("rectangles", "ellipses")
 """The shapes in which cells can be drawn."""

@@ -5,32 +5,172 @@ Time runs down. A line is a cell from its birth to its division, thin until the 
 within a step is told from what the words show. Cells have the colour of their symbol, as in the filament; those that began
 alike have the same dashes. A flag shows where a cell points. Where a cell divides late, a broad band begins at the time at
 which it should have divided. Below the tree stands the last word, each cell at the end of its line.
+
+A line stands above its cell in the filament of the last word; that of a mother half-way between her first and last daughter.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import cycle, pairwise
 from typing import TYPE_CHECKING
 
 from lsys_kit.budget import current
+from lsys_kit.derivation.core.interpretation import interpretation_of, is_cell
 from lsys_kit.derivation.core.rules import number_from
+from lsys_kit.derivation.petri.net import Place as Stage
 from lsys_kit.derivation.timed.lineage import Lineage
 from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown
+from lsys_kit.geometry.filament import filament
 from lsys_kit.notation.model.arithmetic import Value
-from lsys_kit.pictures.filaments.painting import filament_shapes, tenths, time_text
+from lsys_kit.notation.model.modules import CELLS, Module
+from lsys_kit.pictures.filaments import DrawnCell, drawn_cells, filament_shapes, tenths, time_text
 from lsys_kit.pictures.formats.notebook import SVGPicture
-from lsys_kit.pictures.lineages.tree import AXIS, HEAD, Tree, polarity_of, tree_of
 from lsys_kit.pictures.rendering.frames import MARGIN, WIDTH
 from lsys_kit.pictures.shapes import Drawing, Group, Look, Path, Place, Shape, Span, Text
 from lsys_kit.pictures.sizes import document
-from lsys_kit.pictures.style.labels import label_parts, label_spans, values_text
-from lsys_kit.pictures.style.palette import VERMILION, tinted
+from lsys_kit.pictures.style.labels import label_parts, label_spans, place_parts, polar_symbols, values_text
+from lsys_kit.pictures.style.palette import VERMILION, colour_of, tinted
 from lsys_kit.pictures.style.themes import line, theme
 
 if TYPE_CHECKING:
     from PIL.Image import Image
+
+
+AXIS, HEAD, TREE = 54, 22, 300
+"""Room for the axis of time, its heading and the tree, in pixels."""
+BROADEST, APART = 30.0, 60.0
+"""The most pixels for a unit of length of the filament below the tree; between lines where there is no filament."""
+MOST_KINDS = 4
+"""The greatest number of kinds of cells that are distinguished."""
+DASHES = ("", "80 45", "1 45", "120 40 1 40")
+"""The dash pattern of each kind of cells, in tenths of a pixel."""
+
+
+@dataclass(frozen=True)
+class CellKind:
+    """Cells that were alike at birth: what they were, in pieces of text of so many characters; the look of their lines."""
+
+    label: Sequence[str | Span]
+    characters: int
+    colour: str
+    dash: str
+
+    @property
+    def broken(self) -> Look:
+        """How lines are broken."""
+        return Look(stroke_dasharray=self.dash) if self.dash else Look()
+
+
+@dataclass(frozen=True)
+class Tree:
+    """The layout of a lineage, in pixels: the horizontal position of the line of each cell; the cells of the filament below, or
+    none; the kinds of cells, and for each cell the number of its kind; for each cell of the last word its colour; and where the
+    tree ends to the right."""
+
+    lineage: Lineage
+    x: Mapping[int, float]
+    row: Sequence[DrawnCell]
+    kinds: Sequence[CellKind]
+    kind_of: Sequence[int]
+    colours: Mapping[int, str]
+    right: float
+
+    def y(self, time: Value) -> float:
+        """The vertical position of a time."""
+        end = float(self.lineage.times[-1])
+        return MARGIN + HEAD + (TREE * float(time) / end if end else 0.0)
+
+
+def tree_of(lineage: Lineage, right: int = 0) -> Tree:
+    """The tree of a lineage, with some room left free to its right."""
+    right = WIDTH - MARGIN - right
+    x, row = _line_positions(lineage, right)
+    return Tree(lineage, x, row, *_kinds(lineage), right)
+
+
+def _line_positions(lineage: Lineage, right: int) -> tuple[dict[int, float], list[DrawnCell]]:
+    """The horizontal position of the line of each cell, and the filament below."""
+    ends = list(_leaves(lineage))
+    row = _filament(lineage, right) if ends == list(lineage.words[-1]) else []
+    if row:
+        x = {cell.state: cell.x for cell in row}
+    else:
+        apart = min(APART, (right - AXIS - 2 * MARGIN) / max(1, len(ends) - 1))
+        left = (right + AXIS - apart * (len(ends) - 1)) / 2
+        x = {cell: left + apart * place for place, cell in enumerate(ends)}
+    for cell in range(len(lineage.cells) - 1, -1, -1):  # daughters stand behind their mothers
+        if daughters := lineage.daughters(cell):
+            x[cell] = (x[daughters[0]] + x[daughters[-1]]) / 2
+    return x, row
+
+
+def _leaves(lineage: Lineage) -> Iterator[int]:
+    todo = [cell for cell in range(len(lineage.cells) - 1, -1, -1) if lineage.cells[cell].mother is None]
+    while todo:
+        cell = todo.pop()
+        daughters = lineage.daughters(cell)
+        todo += reversed(daughters)
+        if not daughters:
+            yield cell
+
+
+def _filament(lineage: Lineage, right: int) -> list[DrawnCell]:
+    """The cells of the last word as they are drawn, each with the number of its cell; none where it is no filament."""
+    scene = filament(lineage.last)
+    if len(scene.cells) != len(lineage.words[-1]):
+        return []
+    scale = min((right - AXIS - MARGIN) / scene.width, BROADEST / scene.height) if len(scene.cells) else 1.0
+    left = (right + AXIS - scene.width * scale) / 2
+    return [
+        cell._replace(x=left + cell.x, state=number)
+        for number, cell in zip(lineage.words[-1], drawn_cells(scene.cells, scale), strict=True)
+    ]
+
+
+def _kinds(lineage: Lineage) -> tuple[list[CellKind], list[int], dict[int, str]]:
+    """The kinds of cells, for each cell the number of its kind, and the colours of the cells in the last word.
+
+    Cells that look alike at birth are of one kind; if there are too many kinds, cells of one symbol are. The colour of a kind
+    is that of its symbol, as in every other picture; dashes distinguish the kinds of one symbol.
+    """
+    births = [cell.at_birth for cell in lineage.cells]
+    keys = [(_base(lineage, module), _drawn_shape(lineage, module)) for module in births]
+    if len(set(keys)) > MOST_KINDS:
+        keys = [(base, None) for base, _ in keys]
+    members: dict[tuple[str, object], dict[Module, None]] = {}
+    for key, module in zip(keys, births, strict=True):
+        members.setdefault(key, {})[module] = None
+    numbers = {key: number for number, key in enumerate(members)}
+    system, kinds = lineage.states.system, []
+    for modules, dash in zip(members.values(), cycle(DASHES), strict=False):
+        symbol = next(iter(modules)).symbol
+        letter, subscript, values = place_parts(Stage(symbol, tuple(modules)), system)
+        name = f"{letter}_{subscript}" if subscript else letter
+        kinds.append(
+            CellKind(label_spans(*label_parts(name, system), values), len(name + values), colour_of(symbol, system), dash)
+        )
+    colours = {cell: colour_of(lineage.cells[cell].modules[-1][1].symbol, system) for cell in lineage.words[-1]}
+    return kinds, [numbers[key] for key in keys], colours
+
+
+def _base(lineage: Lineage, module: Module) -> str:
+    return polar_symbols(lineage.states.system).get(module.symbol, (module.symbol, ""))[0]
+
+
+def _drawn_shape(lineage: Lineage, module: Module) -> object:
+    """The drawn shape of a module without its polarity; its arguments, if it is not drawn as a cell."""
+    return tuple(made.arguments for made in interpretation_of(lineage.states, module) if is_cell(made)) or module.arguments
+
+
+def polarity_of(lineage: Lineage, module: Module) -> int:
+    """The polarity of a cell: -1 to the left, 1 to the right, 0 for none."""
+    drawn = [made for made in interpretation_of(lineage.states, module) if is_cell(made)]
+    if drawn:
+        return CELLS[drawn[0].symbol]
+    return {"l": -1, "r": 1}.get(polar_symbols(lineage.states.system).get(module.symbol, ("", ""))[1], 0)
+
 
 TAIL, BEND, BRACKET = 14.0, 6.0, 46
 """The length of lines below the last time, the radius of corners, and the width of an interval, in pixels."""
@@ -44,19 +184,8 @@ MOST_LINES, MOST_TICKS = 400, 14
 
 @dataclass(frozen=True)
 class LineagePicture(SVGPicture):
-    """A picture of a lineage.
-
-    Attributes
-    ----------
-    lineage
-        The lineage.
-    intervals
-        Intervals of time that are marked beside the tree.
-    labels
-        Whether times and the modules of the last word are written.
-    legend
-        Whether it is said what lines mean.
-    """
+    """A picture of a lineage, perhaps with intervals of time marked beside the tree, with times and the modules of the last
+    word written, and with a legend."""
 
     lineage: Lineage
     intervals: tuple[tuple[Value, Value], ...] = ()
@@ -92,29 +221,14 @@ def _interval(given: object) -> tuple[Value, Value]:
 def lineage_picture(
     lineage: Lineage, intervals: Iterable[tuple[object, object]] = (), *, labels: bool = True, legend: bool = True
 ) -> LineagePicture:
-    """The picture of a lineage, with some intervals of time marked.
-
-    Raises
-    ------
-    ModelLimitError
-        The cells, or those that are alive at the end, are more than fit into a picture.
-    ModelValueError
-        An interval does not lie within the time of the lineage.
-    """
-    if len(lineage.words[-1]) > MOST_LINES:
-        raise ModelLimitError(
-            f"{len(lineage.words[-1]):,} cells are too many for a picture of their lineage; it can have {MOST_LINES}",
-            limit=MOST_LINES,
-            needed=len(lineage.words[-1]),
-            hint="Take fewer steps.",
-        )
-    if len(lineage.cells) > current().segments:
-        raise ModelLimitError(
-            f"The tree of this lineage would have {len(lineage.cells):,} lines; a picture may have {current().segments:,}",
-            limit=current().segments,
-            needed=len(lineage.cells),
-            hint="Take fewer steps, or set limits(segments=...).",
-        )
+    """The picture of a lineage, with some intervals of time marked that lie within its time."""
+    living, cells, most = len(lineage.words[-1]), len(lineage.cells), current().segments
+    if living > MOST_LINES:
+        message = f"{living:,} cells are too many for a picture of their lineage; it can have {MOST_LINES}"
+        raise ModelLimitError(message, limit=MOST_LINES, needed=living, hint="Take fewer steps.")
+    if cells > most:
+        message = f"The tree of this lineage would have {cells:,} lines; a picture may have {most:,}"
+        raise ModelLimitError(message, limit=most, needed=cells, hint="Take fewer steps, or set limits(segments=...).")
     require(intervals, Iterable, "A list of intervals, each a pair of times,")
     found = tuple(map(_interval, intervals))
     for first, last in found:
