@@ -25,6 +25,8 @@ PARTS = (
     "lsys_kit.notation.model.",
     "lsys_kit.derivation.core.states",
     "lsys_kit.derivation.core.rules",
+    "lsys_kit.derivation.tissues.edges",
+    "lsys_kit.pictures.shapes",
     "lsys_kit.classroom.catalogue",
     "lsys_kit.budget",
 )
