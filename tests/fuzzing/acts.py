@@ -557,6 +557,8 @@ LEFT_OUT: Mapping[str, str] = {
         "lsys-kit list",
         "ExerciseList.__repr__",
         "lsys-kit site",
+        "Place.__repr__",
+        "Place.within",
         "VoteBox.close",
         "VoteBox.page_data",
         "VoteBox.__repr__",

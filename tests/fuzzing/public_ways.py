@@ -26,7 +26,6 @@ PARTS = (
     "lsys_kit.derivation.core.states",
     "lsys_kit.derivation.core.rules",
     "lsys_kit.derivation.tissues.edges",
-    "lsys_kit.pictures.shapes",
     "lsys_kit.classroom.catalogue",
     "lsys_kit.budget",
 )
