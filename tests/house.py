@@ -1,16 +1,15 @@
-"""The picture of the house in `.github/CONTRIBUTING.md`, made from the import contracts in `pyproject.toml`.
+"""The list of the house in `.github/CONTRIBUTING.md`, made from the import contracts in `pyproject.toml`.
 
     python -m tests.house
 
 Each contract lists the files or folders of a room, from the last to the first: an arrow leads from one to what it may import.
-What stands in one box, separated by bars, knows nothing of its neighbours there. A test compares the guide with this picture.
+A test compares the guide with this list.
 """
 
 from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Iterator
 from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
@@ -30,28 +29,14 @@ def layers() -> dict[str, list[str]]:
 
 
 def house() -> str:
-    """A diagram of the rooms and of what stands in them, and a list of what stands deeper."""
-    every = layers()
-    deeper = [f"- `{room}`: {' → '.join(f'`{layer}`' for layer in every[room])}" for room in every if "." in room]
-    return "\n".join(["```mermaid", "flowchart TB", *_rooms(every), "```", "", "One level deeper:", "", *deeper, ""])
-
-
-def _rooms(every: dict[str, list[str]]) -> Iterator[str]:
-    for room in every[""]:
-        if room not in every:
-            yield f'    {room}["{room}"]'
-            continue
-        yield f'    subgraph {room}["{room}/"]'
-        names = [f"{room}_{number}" for number in range(len(every[room]))]
-        yield from (f'        {name}["{layer}"]' for name, layer in zip(names, every[room], strict=True))
-        if len(names) > 1:
-            yield f"        {' --> '.join(names)}"
-        yield "    end"
-    yield f"    {' --> '.join(every[''])}"
+    """A line for each room: what stands in it, from the last to the first."""
+    return "".join(
+        f"- `{room or 'lsys_kit'}`: {' → '.join(f'`{each}`' for each in there)}\n" for room, there in layers().items()
+    )
 
 
 def with_house(guide: str) -> str:
-    """The guide with its picture renewed."""
+    """The guide with its list renewed."""
     return re.sub(f"{re.escape(BEGIN)}.*?{re.escape(END)}", lambda _: f"{BEGIN}{house()}{END}", guide, flags=re.DOTALL)
 
 

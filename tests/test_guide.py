@@ -13,14 +13,14 @@ from tests.house import BEGIN, END, GUIDE, ROOT, house, layers, with_house
 TEXT = GUIDE.read_text("utf-8")
 
 
-def test_the_picture_is_the_one_that_the_contracts_make() -> None:
+def test_the_list_is_the_one_that_the_contracts_make() -> None:
     """If not: python -m tests.house."""
     assert TEXT.count(BEGIN) == TEXT.count(END) == 1
     assert with_house(TEXT) == TEXT
 
 
 @pytest.mark.parametrize("room", sorted(layers()))
-def test_each_room_of_the_picture_is_a_folder_whose_layers_stand_there(room: str) -> None:
+def test_each_room_of_the_list_is_a_folder_whose_layers_stand_there(room: str) -> None:
     folder = ROOT / "lsys_kit" / room.replace(".", "/")
     for layer in layers()[room]:
         for name in re.split(r" [|:] ", layer):

@@ -73,7 +73,7 @@ export function relaxing(changed) {
   function tell() {
     const page = book.data.maps[step], { iteration, farthest, end: ended } = way?.now ?? { iteration: page.iterations, end: page.settled ? "rest" : "unsettled" };
     said.textContent = (SAID[ended] ?? SAID[""])(iteration, farthest);
-    legend.replaceChildren(sample(PULL, ""), ` pulls, at most with ${most.toPrecision(2)}; `, sample(PUSH, "6 4"), " pushes; arrows: the pressure on a wall, or the difference of two");
+    legend.replaceChildren(sample(PULL, ""), ` pulls, at most with ${strongest(forcesNow().tensions).toPrecision(2)}; `, sample(PUSH, "6 4"), " pushes; arrows: the pressure on a wall, or the difference of two");
   }
 
   function toggle() {
