@@ -675,7 +675,7 @@ def left_alone(doing: str, **limits: float) -> subprocess.CompletedProcess[str]:
     """The command `list` as a process of its own, where it does something that looks at no budget."""
     code = (
         f"import sys\nfrom lsys_kit import __main__ as shell, limits\ndef endless(_):\n    {doing}\n"
-        f"shell.models.list_systems = endless\nsys.argv = ['lsys-kit', 'list']\n"
+        f"shell.commands.list_systems = endless\nsys.argv = ['lsys-kit', 'list']\n"
         f"with limits(**{limits}):\n    sys.exit(shell.run())"
     )
     return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=300, check=False)

@@ -36,10 +36,8 @@ AnySystem: TypeAlias = LSystem | MapSystem | CellworkSystem
 """A system of any kind."""
 CELL_READERS: Mapping[str, Callable[[str], MapSystem | CellworkSystem]] = {MAP.name: read_map, CELLWORK.name: read_cellwork}
 """What reads systems of cells, by their notations."""
-_BEGINNINGS = {
-    MAP.name: re.compile(rf"\s*(?:map|sphere)[ \t]*:(?!.*(?:{ARROW.pattern}))", re.IGNORECASE),
-    CELLWORK.name: re.compile(r"\s*cellwork[ \t]*:", re.IGNORECASE),
-}
+_MAP = re.compile(rf"(?:map|sphere)[ \t]*:(?!.*(?:{ARROW.pattern}))", re.IGNORECASE)
+_CELLWORK = re.compile(r"cellwork[ \t]*:", re.IGNORECASE)
 """How their texts begin."""
 
 
@@ -121,7 +119,8 @@ def cells_notation(text: str) -> str | None:
     """
     if is_link(text):
         return name if (name := unpacked(text).notation) in CELL_READERS else None
-    return next((name for name, begins in _BEGINNINGS.items() if begins.match(text.removeprefix("\ufeff"))), None)
+    start = text.removeprefix("\ufeff").lstrip()
+    return MAP.name if _MAP.match(start) else CELLWORK.name if _CELLWORK.match(start) else None
 
 
 def read_any(text: str) -> AnySystem:

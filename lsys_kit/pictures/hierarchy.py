@@ -71,7 +71,7 @@ class HierarchyPicture(SVGPicture):
         examples = "; ".join(f"{each.text}: {', '.join(sorted(each.classes))}" for each in LANGUAGES)
         return f"{_TOLD['description']}{examples}."
 
-    def shown(self, most: int, enlarged: float) -> Drawing:
+    def _shown(self, most: int, enlarged: float) -> Drawing:
         """The ellipses, their names, and the languages."""
         classes, points = (*CHOMSKY, *PARALLEL), (shape for each in LANGUAGES for shape in _point(each))
         return document([*map(_ellipse, classes), *map(_class_name, classes), *points], WIDTH, HEIGHT, self.text)

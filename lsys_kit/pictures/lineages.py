@@ -192,7 +192,7 @@ class LineagePicture(SVGPicture):
     labels: bool = True
     legend: bool = True
 
-    def shown(self, most: int, enlarged: float) -> Drawing:
+    def _shown(self, most: int, enlarged: float) -> Drawing:
         """The tree, with what stands beside and below it."""
         return drawn_lineage(self.lineage, self.intervals, self.labels, self.legend)
 

@@ -73,9 +73,9 @@ class SmallMultiples(SVGPicture):
         return described([f"{self.captions[0]} to {self.captions[-1]}", f"the last: {self.pictures[-1].text}"])
 
     def _image(self, enlarged: float) -> Image:
-        return painted(resized(self.shown(0, enlarged), self.pixels), enlarged)
+        return painted(resized(self._shown(0, enlarged), self.pixels), enlarged)
 
-    def shown(self, most: int, enlarged: float) -> Drawing:
+    def _shown(self, most: int, enlarged: float) -> Drawing:
         """The drawings with their captions; if they have more shapes than the most, they are pixels."""
         captions = self.captions if self.labels else [""] * len(self.captions)
         broadest = max(advance(caption, TEXT) for caption in captions)

@@ -100,7 +100,7 @@ class Picture(SVGPicture):
     def _image(self, enlarged: float) -> Image:
         if len(self.scene.cells) or self.legend or len(self.scene.labels):
             most = MOST_PAINTED if len(self.scene.cells) else 0
-            return painted(resized(self.shown(most, enlarged), self.pixels), enlarged)
+            return painted(resized(self._shown(most, enlarged), self.pixels), enlarged)
         return turtle_picture(self.scene, self.colour_of, self.pixels, enlarged)
 
     def _plot_into(self, ax: Axes) -> None:
@@ -118,7 +118,7 @@ class Picture(SVGPicture):
             if self.legend is not None:
                 plot_legend(ax, self.legend)
 
-    def shown(self, most: int, enlarged: float) -> Drawing:
+    def _shown(self, most: int, enlarged: float) -> Drawing:
         """The last scene, or the rows of a filament; if they have more shapes than the most, these are pixels."""
         if len(self.scene.cells):
             return self._sequence(self.size > most, enlarged)
@@ -201,7 +201,7 @@ class NetPicture(SVGPicture):
     positions: bool = False
     labels: bool = True
 
-    def shown(self, most: int, enlarged: float) -> Drawing:
+    def _shown(self, most: int, enlarged: float) -> Drawing:
         """The diagram."""
         return drawn_stages(self.net, self.tokens, positions=self.positions, labels=self.labels)
 

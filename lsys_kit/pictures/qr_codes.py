@@ -42,7 +42,7 @@ class QRCode(SVGPicture):
         """Its width and height with the margin, in pixels."""
         return (len(self.rows) + 2 * QUIET_ZONE) * SIDE
 
-    def shown(self, most: int, enlarged: float) -> Drawing:
+    def _shown(self, most: int, enlarged: float) -> Drawing:
         """The dark modules."""
         path = "".join(f"M{10 * x} {10 * y}h{10 * wide}v{10 * SIDE}h{-10 * wide}z" for x, y, wide in self._dark)
         return document([Path(path, Look(fill=BLACK))], self.size, self.size, f"QR code: {self.text}")

@@ -557,8 +557,6 @@ LEFT_OUT: Mapping[str, str] = {
         "lsys-kit list",
         "ExerciseList.__repr__",
         "lsys-kit site",
-        "Exercise.__repr__",
-        "ModuleOutcome.__repr__",
         "Place.__repr__",
         "Place.within",
         "VoteBox.close",

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from functools import cache, cached_property
 from importlib import import_module
 from pathlib import Path
-from typing import Any, get_args
+from typing import Any, get_args, get_origin
 
 import traitlets
 
@@ -92,8 +92,14 @@ def results() -> dict[str, type]:
         if one.__name__ not in found and (one.__name__ in SYSTEMS or not one.__module__.startswith(PARTS)):
             found[one.__name__] = one
             todo += [each for _, member in _public(one) for each in _returned(member)]
-            todo += [each for base in getattr(one, "__orig_bases__", ()) for each in get_args(base) if isinstance(each, type)]
-    return {name: each for name, each in found.items() if each.__module__.startswith("lsys_kit")}
+            todo += [
+                each for base in getattr(one, "__orig_bases__", ()) if _is_ours(get_origin(base)) for each in get_args(base)
+            ]
+    return found
+
+
+def _is_ours(found: Any) -> bool:
+    return isinstance(found, type) and found.__module__.startswith("lsys_kit")
 
 
 def members(result: str) -> list[str]:

@@ -36,7 +36,7 @@ class CellDevelopment(Sequence[F], Generic[S, F]):
 
     def up_to(self, step: int) -> Self:
         """The same up to an earlier step."""
-        return type(self)(self.system, self._found[: step + 1])
+        return type(self)(self.system, self._found[: whole_number(step, "The step") + 1])
 
     def __len__(self) -> int:
         return len(self._found)

@@ -98,7 +98,7 @@ class SVGPicture(ABC):
     theme: Theme = field(default=LIGHT, kw_only=True, repr=False)
 
     @abstractmethod
-    def shown(self, most: int, enlarged: float) -> Drawing:
+    def _shown(self, most: int, enlarged: float) -> Drawing:
         """What the picture shows, in its usual size; if it has more shapes than the most, these are pixels, so many in each
         direction of its own."""
 
@@ -106,7 +106,7 @@ class SVGPicture(ABC):
     def svg(self) -> str:
         """The picture as SVG text."""
         with Task("The picture was not drawn"), drawn_on(self.theme):
-            return svg(resized(self.shown(current().segments, SHARP), self.pixels))
+            return svg(resized(self._shown(current().segments, SHARP), self.pixels))
 
     @cached_property
     def png(self) -> bytes:
@@ -135,7 +135,7 @@ class SVGPicture(ABC):
     def drawing(self, enlarged: float = 1.0) -> Drawing:
         """The shapes of the picture; what of it is pixels has so many in each direction of its own."""
         with Task("The picture was not drawn"), drawn_on(self.theme):
-            return resized(self.shown(current().figure, enlargement_from(enlarged)), self.pixels)
+            return resized(self._shown(current().figure, enlargement_from(enlarged)), self.pixels)
 
     def plot_into(self, ax: Axes) -> None:
         """Paint the picture into axes of a matplotlib figure, whose units are pixels or those of its turtle."""

@@ -78,7 +78,7 @@ class Plot(SVGPicture):
     def text(self) -> str:
         return self.chart.text
 
-    def shown(self, most: int, enlarged: float) -> Drawing:
+    def _shown(self, most: int, enlarged: float) -> Drawing:
         """The chart with its axes."""
         with Task("The plot was not drawn"):
             return document([self._shapes], WIDTH, self.chart.height, self.text)

@@ -86,7 +86,7 @@ class MapPicture(SVGPicture):
         steps = f"steps {self.numbers[0]} to {self.numbers[-1]}" if len(self.numbers) > 1 else ""
         return described([steps, ("the last: " if steps else "") + last, _unsettled_text(self.unsettled)])
 
-    def shown(self, most: int, enlarged: float) -> Drawing:
+    def _shown(self, most: int, enlarged: float) -> Drawing:
         """The maps side by side."""
         panels = arranged(self.scenes)
         shown = zip(self.maps, self.places, self.scenes, panels, self.numbers, strict=True)

@@ -83,7 +83,7 @@ class PhasesPicture(SVGPicture):
         cells = "1 cell" if len(self.maps[2].cells) == 1 else f"{len(self.maps[2].cells):,} cells"
         return f"step {self.step} in {PHASES} pictures: {matched} of {len(self.stubs)} markers match; at the end {cells}"
 
-    def shown(self, most: int, enlarged: float) -> Drawing:
+    def _shown(self, most: int, enlarged: float) -> Drawing:
         """The phases side by side."""
         scale = min((WIDTH - 2 * MARGIN - (PHASES - 1) * GAP) / (PHASES * self._room[0]), HIGHEST / self._room[1])
         return self._drawn(range(PHASES), scale)

@@ -64,7 +64,7 @@ class SpherePicture(MapPicture):
 
     views: Sequence[SphereView] = ()
 
-    def shown(self, most: int, enlarged: float) -> Drawing:
+    def _shown(self, most: int, enlarged: float) -> Drawing:
         """The spheres side by side."""
         return self._side_by_side(range(len(self.views)))
 
