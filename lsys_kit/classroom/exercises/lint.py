@@ -27,11 +27,7 @@ HINTS = 3
 
 
 def problems_in(folder: str | Path = QUESTIONS) -> list[Problem]:
-    """All that is wrong with the exercises in a folder, by default the kit's.
-
-    >>> problems_in()
-    []
-    """
+    """All that is wrong with the exercises in a folder, by default the kit's."""
     path = Path(folder)
     found = kit_questions() if path == QUESTIONS else questions_in(path)
     problems = [*found.problems, *_lesson_problems(found)]
