@@ -158,9 +158,8 @@ CHOICES: Mapping[str, tuple[str, ...]] = {
     "draw a map": ("iterations", "stiffness", "rest", "pressure", "damping"),
 }
 """The arguments that a function takes beside those of its signature; `c` is a constant."""
-NO_QUESTIONS = {"close", "save", "__getitem__", "within"}
-"""Methods that are no law of this kind: files have one of their own, an index is refused as Python's lists refuse it, and
-places lie within places."""
+NO_QUESTIONS = {"close", "save", "__getitem__"}
+"""Methods that are no law of this kind: files have one of their own, and an index is refused as Python's lists refuse it."""
 MADE_IN_OTHER_WAYS: tuple[Callable[[], object], ...] = (
     lambda: lsys_kit.draw(GROWING, steps=[0, 1]),
     lambda: lsys_kit.draw(map_system("K30"), 1, phases=True),

@@ -25,15 +25,16 @@ class Place(NamedTuple):
     x: float = 0
     y: float = 0
 
-    def within(self, inner: Place | None) -> Place:
-        """The place of units that lie in these.
 
-        >>> Place(0.1, 5, 6).within(Place(10, 20, 30))
-        Place(scale=1.0, x=7.0, y=9.0)
-        """
-        if inner is None:
-            return self
-        return Place(self.scale * inner.scale, self.x + self.scale * inner.x, self.y + self.scale * inner.y)
+def place_within(outer: Place, inner: Place | None) -> Place:
+    """The place of units that lie in others, which have a place themselves.
+
+    >>> place_within(Place(0.1, 5, 6), Place(10, 20, 30))
+    Place(scale=1.0, x=7.0, y=9.0)
+    """
+    if inner is None:
+        return outer
+    return Place(outer.scale * inner.scale, outer.x + outer.scale * inner.x, outer.y + outer.scale * inner.y)
 
 
 class Stop(NamedTuple):

@@ -230,7 +230,7 @@ def rules(draw: st.DrawFn, kinds: Collection[str]) -> list[Production]:
     """A rule, or two between which chance decides."""
     symbol = draw(st.sampled_from(("S", *LIVELY, "S", "+")))
     asked = Number(draw(st.integers(0, 2))) if draw(st.integers(0, 7)) == 0 else Name("x")
-    more = draw(others(kinds)) if SEVERAL in kinds and draw(st.booleans()) else ()
+    more = draw(others(kinds)) if SEVERAL in kinds and draw(st.integers(0, 3)) else ()
     own = (Pattern(symbol, (asked,) * ARITIES[symbol]), *more)
     sides = draw(st.sampled_from(("left", "right", "right", "both", ""))) if CONTEXT in kinds else ""
     left = draw(patterns("lm", branches=False)) if sides in ("left", "both") else ()

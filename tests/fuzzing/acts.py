@@ -558,7 +558,6 @@ LEFT_OUT: Mapping[str, str] = {
         "ExerciseList.__repr__",
         "lsys-kit site",
         "Place.__repr__",
-        "Place.within",
         "VoteBox.close",
         "VoteBox.page_data",
         "VoteBox.__repr__",

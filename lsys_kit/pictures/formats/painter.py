@@ -35,6 +35,7 @@ from lsys_kit.pictures.shapes import (
     Strokes,
     Text,
     Title,
+    place_within,
 )
 from lsys_kit.pictures.style.labels import visible
 
@@ -107,9 +108,9 @@ class Painter(ABC):
                 shape = Rectangle(*self._box, look=Look(fill=shape.colour))
             own: Look = {**look, **shape.look}
             if isinstance(shape, Group):
-                self.paint(shape.shapes, own, place.within(shape.place))
+                self.paint(shape.shapes, own, place_within(place, shape.place))
             elif isinstance(shape, Text):
-                self.text(lettering(shape, own), place.within(shape.place))
+                self.text(lettering(shape, own), place_within(place, shape.place))
             elif isinstance(shape, Raster):
                 self.raster(shape, place)
             else:

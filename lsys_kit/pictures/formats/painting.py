@@ -19,7 +19,7 @@ from lsys_kit.geometry.scene import Floats
 from lsys_kit.pictures.formats.lettering import advance, glyph
 from lsys_kit.pictures.formats.painter import Ink, Lettering, Painter, Subpath, dashed, subpaths
 from lsys_kit.pictures.formats.raster import FINE, spread
-from lsys_kit.pictures.shapes import Circle, Drawing, Ellipse, Gradient, Outlined, Place, Raster, Rectangle
+from lsys_kit.pictures.shapes import Circle, Drawing, Ellipse, Gradient, Outlined, Place, Raster, Rectangle, place_within
 from lsys_kit.pictures.style.colour_values import BLACK, WHITE
 from lsys_kit.pictures.style.themes import drawn_on, theme
 
@@ -146,7 +146,7 @@ class PixelPainter(Painter):
         self._sheet, self._place = sheet, place
 
     def _on_grid(self, place: Place) -> Place:
-        return Place(*(FINE * each for each in self._place.within(place)))
+        return Place(*(FINE * each for each in place_within(self._place, place)))
 
     def outline(self, shape: Outlined, ink: Ink, place: Place) -> None:
         """Fill an outline, then draw its line."""
