@@ -152,6 +152,9 @@ def test_a_kernel_that_is_gone_is_told_of_and_the_rest_goes_on(shown):
     expect(panel.locator("canvas.lsys-canvas")).to_have_attribute("data-angle", "25.8")
     slider(panel, "step").press("ArrowRight")
     expect(panel.locator(".lsys-status")).to_contain_text("step 4")
+    panel.get_by_role("button", name="page", exact=True).click()  # which the kernel writes
+    expect(panel).to_contain_text("The kernel does not answer")
+    assert notebook.console == []
 
 
 @pytest.mark.parametrize(("width", "zoom"), [(1440, 1), (900, 1), (400, 1), (1440, 2)])

@@ -13,13 +13,23 @@ export function hostOf(model) {
   }
 
   function ask(content) {
-    if (model.comm_live === false) return Promise.resolve({ mistake: GONE });
     const number = ++last;
     return new Promise((resolve) => {
       waiting.set(number, resolve);
-      model.send({ ...content, number });
+      if (!sent({ ...content, number })) answered({ number, mistake: GONE });
       setTimeout(() => answered({ number, mistake: GONE }), PATIENCE);
     });
+  }
+
+  // Whether a message left: Jupyter throws where a kernel has been shut down and the model was not told.
+  function sent(content) {
+    if (model.comm_live === false) return false;
+    try {
+      model.send(content);
+    } catch {
+      return false;
+    }
+    return true;
   }
 
   model.on("msg:custom", answered);
