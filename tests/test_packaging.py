@@ -71,6 +71,7 @@ def test_an_installed_wheel_copies_its_own_course(wheel, tmp_path):
     assert copied == set(course_files())
 
 
+@pytest.mark.slow
 def test_the_wheel_brings_its_licence_along(wheel):
     names = zipfile.ZipFile(wheel).namelist()
     assert "lsys_kit/LICENSE" in names

@@ -132,6 +132,7 @@ def test_what_has_no_slider_gets_none_when_rules_are_typed(monkeypatch):
     assert panel.model["fixed"] == "Fixed: lifeTimeB = 4."
 
 
+@pytest.mark.slow
 def test_sliders_of_both_sides_are_chosen_at_once():
     both = compare("P5", "P6", step=4, sliders=["dt"])
     assert [*both.left.settings] == [*both.right.settings] == ["dt"]

@@ -137,6 +137,7 @@ def test_all_roots_of_a_polynomial_are_found(planted: list[Fraction]) -> None:
     assert sorted(float(root) for root in roots(polynomial)) == pytest.approx(sorted({float(root) for root in planted}))
 
 
+@pytest.mark.slow
 @settings(max_examples=30)
 @given(
     st.lists(st.fractions(Fraction(1, 5), 5, max_denominator=6), min_size=1, max_size=4),

@@ -132,6 +132,7 @@ def test_nothing_is_painted_at_the_border(picture: Any) -> None:
         assert edge.min() == 255
 
 
+@pytest.mark.slow
 def test_the_text_of_a_page_can_be_found(picture: Any) -> None:
     text = page_of(picture.pdf).get_textpage()
     found = sorted("".join(text.get_text_range().split()))

@@ -64,6 +64,7 @@ def test_a_branch_without_flow_that_stays_takes_nothing_from_the_one_that_bears_
     assert flow == pytest.approx(2 + 0 + 3 - 0.32 * 35**0.75)
 
 
+@pytest.mark.slow
 def test_two_trees_lean_away_from_one_another(two) -> None:
     centres = trace_in_space(two[15]).discs.centres[:, 0]
     assert centres.min() < -4 < 4 + 4 < centres.max(), "crowns are wider on the outer sides"

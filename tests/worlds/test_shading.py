@@ -158,6 +158,7 @@ def test_an_open_bud_is_drawn_with_its_cone_and_an_idle_one_in_grey() -> None:
         assert (strokes.colours == colour).sum() == 2 * (len(buds) + len(tops)) > 0
 
 
+@pytest.mark.slow
 def test_the_same_seed_gives_the_same_trees() -> None:
     assert str(derive(system("K22"), 14, seed=2)[-1]) == str(derive(system("K22"), 14, seed=2)[-1])
     assert str(draw(system("K22"), 14, seed=2)) != str(draw(system("K22"), 14, seed=3))

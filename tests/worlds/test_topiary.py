@@ -203,6 +203,7 @@ def test_a_query_module_may_have_productions_of_its_own() -> None:
     assert str(derive(counting, 5)[-1]) == "F F F F K(4)"
 
 
+@pytest.mark.slow
 def test_the_shell_and_the_explorer_look_around(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["derive", "K24", "-n", "6"]) == 0
     assert capsys.readouterr().out.splitlines()[-1] == "B F@o F/(180)@o F/(180)@o F/(180)@o S/(180)"
