@@ -379,8 +379,7 @@ def check_exercises(options: argparse.Namespace) -> None:
 def write_exercises(options: argparse.Namespace) -> None:
     from lsys_kit.classroom.exercises.notebooks import write_notebooks
 
-    for path in write_notebooks(options.output, options.folder):
-        print(path)
+    print(write_notebooks(options.output, options.folder))
 
 
 def write_package(options: argparse.Namespace) -> None:
@@ -402,7 +401,7 @@ def open_lab(options: argparse.Namespace) -> None:
 
     folder = Path(options.folder or FOLDER)
     copied = copy_course(folder)
-    print(copy_report(folder, copied), flush=True)
+    print(copy_report("The course is", folder, copied), flush=True)
     if importlib.util.find_spec("jupyterlab") is None:
         raise LSystemError("JupyterLab is not installed", hint="Install it with: pip install 'lsys-kit[lab]'")
     from jupyterlab.labapp import LabApp
