@@ -23,13 +23,14 @@ STYLE = f"""
 @media (prefers-color-scheme: dark) {{ .lsys-page {{ background: {DARK.paper}; color: {DARK.ink}; }} }}
 """
 _CELLS, _STROKES, _TISSUES = frozenset(("filament",)), frozenset(("turtle", "painter", "projection")), frozenset(("tissue",))
+_SPACE = frozenset(("turtle_space",))
 _MAPS = frozenset(("map", "relaxation", "relaxing", "tension"))
 _NOT_NEEDED = {
-    "filament": _STROKES | _MAPS | _TISSUES,
-    "plane": _CELLS | _MAPS | _TISSUES,
+    "filament": _STROKES | _SPACE | _MAPS | _TISSUES,
+    "plane": _CELLS | _SPACE | _MAPS | _TISSUES,
     "space": _CELLS | _MAPS | _TISSUES,
-    "map": _CELLS | _TISSUES | {"turtle"},
-    "tissue": _CELLS | _MAPS | {"turtle"},
+    "map": _CELLS | _SPACE | _TISSUES | {"turtle"},
+    "tissue": _CELLS | _SPACE | _MAPS | {"turtle"},
 }
 """The scripts that draw other systems than that of a page, by the way in which it is drawn."""
 
@@ -53,9 +54,10 @@ def page(title: str, data: Mapping[str, Any], description: str, language: str = 
     >>> text.startswith("<!doctype html>"), text.count("<script"), "://" in text.partition("<script>")[0]
     (True, 2, False)
     """
-    body = f"""<h1>{escaped(title)}</h1>
-<main id="lsys-here"></main>
+    body = f"""<main id="lsys-here">
+<h1>{escaped(title)}</h1>
 <noscript><p>Without JavaScript the panel cannot be moved. It shows: {escaped(description)}</p></noscript>
+</main>
 """
     script = f'"use strict";\n{compact("page", not_needed(data["mode"]))}\nopenPage();\n'
     return document(title, body, STYLE, description, Program(script, style(), data), language)
@@ -65,7 +67,7 @@ def not_needed(*modes: str) -> frozenset[str]:
     """The scripts that are not called on a page of panels that draw in these ways.
 
     >>> sorted(not_needed("plane", "filament"))
-    ['map', 'relaxation', 'relaxing', 'tension', 'tissue']
+    ['map', 'relaxation', 'relaxing', 'tension', 'tissue', 'turtle_space']
     """
     return frozenset.intersection(*(_NOT_NEEDED[mode] for mode in modes))
 
@@ -97,5 +99,5 @@ def shared(books: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
 
 
 def deflated(content: object) -> str:
-    """Anything as JSON, deflated (RFC 1950), in base 64."""
+    """Anything as JSON, deflated, as `deflated_text` has it."""
     return deflated_text(json.dumps(content, separators=(",", ":")))
