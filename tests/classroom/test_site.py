@@ -29,8 +29,8 @@ from lsys_kit.classroom.site.contents import index_page
 from lsys_kit.classroom.site.markdown import PLAIN_TAGS, address_on_site, markdown_html, mathml
 from lsys_kit.classroom.site.pages import Entry, cells_html, data_html, headings, notebook_page, title_of
 from lsys_kit.classroom.site.requests import notes
-from lsys_kit.classroom.site.showing import PART, SMALL_WIDTH, light_or_dark, part, small_picture
-from lsys_kit.pictures.style.themes import DARK
+from lsys_kit.classroom.site.showing import PART, SMALL_WIDTH, THEMES, light_or_dark, part, small_picture
+from lsys_kit.pictures.picture import Picture
 from tests.classroom.front_end import joined
 from tests.classroom.test_page import Parts
 from tests.test_hostile_names import HOSTILE
@@ -267,7 +267,8 @@ def test_a_small_picture_has_the_colours_of_the_dark_where_it_is_dark(browser: B
     tab.set_content(small_picture(drawn))
     seen = "(all) => all.map((each) => getComputedStyle(each).fill + getComputedStyle(each).stroke)"
     found = tab.locator("svg *:not(style)").evaluate_all(seen)
-    tab.set_content(replace(drawn, pixels=(SMALL_WIDTH, None), theme=DARK).svg)
+    bare = replace(drawn, labels=False, current=None) if isinstance(drawn, Picture) else drawn
+    tab.set_content(replace(bare, pixels=(SMALL_WIDTH, None), theme=THEMES[1]).svg)
     assert found == tab.locator("svg *").evaluate_all(seen)
     tab.emulate_media(color_scheme="light")
     tab.set_content(small_picture(drawn))

@@ -78,7 +78,7 @@ _LITERAL = re.compile(
 """A text, a template or a regular expression in a line of JavaScript."""
 _NESTED = re.compile(r"`[^`]*\$\{[^}`]*`")
 """How a template begins that has another one in it."""
-_COMMENT = re.compile(r"(?:^| )//")
+_COMMENT, _TYPES = re.compile(r"(?:^| )//"), re.compile(r"/\*\*.*\*/")
 _BLANKS = re.compile(r"(?<![\w$+-]) +| +(?![\w$+-])|(?<=[+-]) +(?![+-])|(?<![+-]) +(?=[+-])")
 """Blanks but for those between words, and between two signs, which would be one."""
 
@@ -90,6 +90,8 @@ def tightened(line: str) -> str:
     'if(a+ +b>2)return"a // b";'
     """
     line, kept = line.strip(" \t"), ""
+    if _TYPES.fullmatch(line):
+        return ""
     if _NESTED.search(line):
         return line
     for number, part in enumerate(_LITERAL.split(line)):

@@ -23,14 +23,13 @@ STYLE = f"""
 @media (prefers-color-scheme: dark) {{ .lsys-page {{ background: {DARK.paper}; color: {DARK.ink}; }} }}
 """
 _CELLS, _STROKES, _TISSUES = frozenset(("filament",)), frozenset(("turtle", "painter", "projection")), frozenset(("tissue",))
-_SPACE = frozenset(("turtle_space",))
 _MAPS = frozenset(("map", "relaxation", "relaxing", "tension"))
 _NOT_NEEDED = {
-    "filament": _STROKES | _SPACE | _MAPS | _TISSUES,
-    "plane": _CELLS | _SPACE | _MAPS | _TISSUES,
+    "filament": _STROKES | _MAPS | _TISSUES,
+    "plane": _CELLS | _MAPS | _TISSUES | {"turtle_space"},
     "space": _CELLS | _MAPS | _TISSUES,
-    "map": _CELLS | _SPACE | _TISSUES | {"turtle"},
-    "tissue": _CELLS | _SPACE | _MAPS | {"turtle"},
+    "map": _CELLS | _TISSUES | {"turtle"},
+    "tissue": _CELLS | _MAPS | {"turtle"},
 }
 """The scripts that draw other systems than that of a page, by the way in which it is drawn."""
 
@@ -67,7 +66,7 @@ def not_needed(*modes: str) -> frozenset[str]:
     """The scripts that are not called on a page of panels that draw in these ways.
 
     >>> sorted(not_needed("plane", "filament"))
-    ['map', 'relaxation', 'relaxing', 'tension', 'tissue', 'turtle_space']
+    ['map', 'relaxation', 'relaxing', 'tension', 'tissue']
     """
     return frozenset.intersection(*(_NOT_NEEDED[mode] for mode in modes))
 

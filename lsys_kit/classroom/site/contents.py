@@ -57,11 +57,8 @@ def _row(entry: Entry, entries: Sequence[Entry], picture: str) -> str:
     """A lesson in the list; its picture leads to it, too, for those who point."""
     exercises = next((each for each in entries if each.name == f"exercises/{PurePosixPath(entry.name).name}"), None)
     told, address = entry.lesson, escaped(entry.page)
-    facts = (
-        [f"{told.minutes} minutes", *(f'<span class="track" title="{TRACKS[each]}">{each}</span>' for each in told.track)]
-        if told
-        else []
-    )
+    tracks = " ".join(f'<span class="track" title="{TRACKS[each]}">{each}</span>' for each in told.track) if told else ""
+    facts = [f"{told.minutes} minutes", tracks] if told else []
     also = [f'<a href="{escaped(exercises.page)}">exercises</a>'] if exercises else []
     asked = f"<p>{prose_html(told.question)}</p>" if told else ""
     number = f"<span>{told.number}</span> " if told else ""

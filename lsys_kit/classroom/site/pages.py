@@ -13,6 +13,7 @@ from typing import Any
 from urllib.parse import quote
 
 from lsys_kit.classroom.course import is_lesson
+from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.classroom.lessons.lesson import Lesson
 from lsys_kit.classroom.lessons.widget import escaped_lines, html, prose_html, prose_text
 from lsys_kit.classroom.panel.bundle import Data, compact, style
@@ -34,8 +35,10 @@ _HOW = """<div class="note"><p><strong>How to answer.</strong> This page is for 
 <code>lsys-kit lab</code>, and open <code>{name}</code> in JupyterLab: there a cell below each question takes the answer, and
 checks it when it is run, with hints after a try.</p></div>
 """
-_ROOM = '<div class="room" aria-hidden="true"></div>\n'
-"""Room for an answer on paper."""
+_ROOM = f'<div class="room" aria-hidden="true">{3 * "<i></i>"}</div>\n'
+"""Lines for an answer on paper."""
+_IN_JUPYTER = reply("notebook.how", id="\0").partition("\0")[0]
+"""How a notebook begins to say how its cells are used."""
 _ABOUT_ANSWERS = re.compile(r"check|progress\(|score\(")
 """What stands in cells of exercises that get ready for answers, ask for hints, or sum up."""
 
@@ -69,8 +72,10 @@ def notebook_page(entry: Entry, cells: Sequence[Any], entries: Sequence[Entry]) 
     """The page of a notebook; of exercises the questions, with room on paper for each answer."""
     links, parts = partial(address_on_site, entry.name, {each.name for each in entries}), Parts()
     if entry.folder == "exercises":
-        title, end, rest = "".join(_question_html(each, links) for each in cells).partition("</h1>\n")
+        head, *questions = re.split("(?=<h2)", "".join(_question_html(each, links) for each in cells))
+        title, end, rest = head.partition("</h1>\n")
         begin = title + end + _HOW.format(name=escaped(entry.name)) + rest
+        begin += "".join(f'<div class="question">\n{each}</div>\n' for each in questions)
     else:
         note = _KEPT if is_lesson(entry.name) else ""
         begin = cells_html(cells[:1], links, parts) + note + cells_html(cells[1:], links, parts) + _place_for_done(entry)
@@ -86,7 +91,7 @@ def notebook_page(entry: Entry, cells: Sequence[Any], entries: Sequence[Entry]) 
 def _question_html(cell: Any, links: Links) -> str:
     """A cell of exercises: its text, but not what is there for marks alone; room in the place of a cell for an answer."""
     if cell.cell_type == "markdown":
-        return "" if cell.get("id") == "marks" else markdown_html(cell.source, links)
+        return "" if cell.get("id") == "marks" else markdown_html(cell.source.partition(_IN_JUPYTER)[0], links)
     if any(line.startswith("check(") for line in cell.source.splitlines()):
         return _ROOM
     return "" if _ABOUT_ANSWERS.search(cell.source) or not cell.source.strip() else _code_html(cell, [])
