@@ -126,7 +126,9 @@ def cases() -> Iterator[Any]:
     for command, (readable, typed) in COMMANDS.items():
         for role, places in ((READ, readable), (WRITTEN, ANY)):
             if role in typed:
-                yield from (pytest.param(command, role, name, id=f"{command}, {role}: {name}") for name in places)
+                for name in places:
+                    slow = [pytest.mark.slow] if "too many" in name or name == "no name" else []
+                    yield pytest.param(command, role, name, id=f"{command}, {role}: {name}", marks=slow)
 
 
 @pytest.fixture(autouse=True)

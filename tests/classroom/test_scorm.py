@@ -193,7 +193,7 @@ def test_exercises_that_only_the_kit_can_check_are_named(first):
 # What a page says
 
 
-SAYING = f"""async cases => {{ {joined("controls", "numbers", "typed")}
+SAYING = f"""async cases => {{ {joined("controls", "numbers", "packed", "typed")}
 return Promise.all(cases.map(async ([data, text]) => {{
   const {{ key, unreadable }} = read(data, text);
   if (unreadable) return {{ said: "Not readable yet", message: unreadable }};

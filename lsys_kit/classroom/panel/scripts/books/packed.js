@@ -4,7 +4,7 @@ const DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#
 const LAST = "~"; // stands for the digits that a group lacks
 
 // Five digits are a number of four bytes.
-function bytesOf(text) {
+function bytesIn(text) {
   const whole = text.padEnd(Math.ceil(text.length / 5) * 5, LAST), bytes = new DataView(new ArrayBuffer((whole.length / 5) * 4));
   const values = new Map([...DIGITS].map((digit, value) => [digit, value]));
   for (let i = 0, group = 0; i < whole.length; i += 1) {
@@ -16,4 +16,4 @@ function bytesOf(text) {
   return bytes.buffer.slice(0, Math.floor((text.length * 4) / 5));
 }
 
-export const unpacked = (text) => new Response(new Blob([bytesOf(text)]).stream().pipeThrough(new DecompressionStream("deflate"))).text();
+export const unpacked = (text) => new Response(new Blob([bytesIn(text)]).stream().pipeThrough(new DecompressionStream("deflate"))).text();
