@@ -1,13 +1,13 @@
 // Which lessons are done, kept by the browser for all pages of the course.
 
 import { made } from "../views/controls.js";
-import { keep, kept } from "./keeping.js";
+import { keepAnswer, keptAnswer } from "./keeping.js";
 
 const keyOf = (lesson) => `done ${lesson}`;
 
-export const isDone = (lesson) => kept(keyOf(lesson)) === true;
+export const isDone = (lesson) => keptAnswer(keyOf(lesson)) === true;
 
-export const markDone = (lesson, done) => keep(keyOf(lesson), done || null);
+export const markDone = (lesson, done) => keepAnswer(keyOf(lesson), done || null);
 
 // A box to be ticked for a lesson, with a text beside it and a name of its own; `show` looks whether it is done. `changed` is called
 // when a person has ticked it.
