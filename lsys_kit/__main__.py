@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from lsys_kit import commands
-from lsys_kit.errors import LSystemError, printable
+from lsys_kit.errors import LSystemError, printable, quotable
 
 BAD_INPUT, INTERRUPTED, BROKEN_PIPE = 2, 130, 141
 """Exit statuses: a mistake in the input; interrupted; the reader of the output has gone (the last two as in shells)."""
@@ -57,6 +57,9 @@ def _carried_out(arguments: Sequence[str], prepare: Callable[[str], None]) -> in
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return BROKEN_PIPE
+    except OSError as fault:  # a disk that is full, a folder without rights, a stick that was pulled out
+        name = f'"{quotable(str(fault.filename))}": ' if fault.filename else ""
+        return _refused(f"{name}{fault.strerror or fault}.")
     return 0
 
 

@@ -341,10 +341,8 @@ def collect_marks(options: argparse.Namespace) -> None:
     marks = collect(options.folder, options.exercises)
     _write_new(options.output, marks_table(marks))
     unread = sum(not each.scores for each in marks)
-    print(
-        f"{len(marks)} students in {quotable(options.output)}, {unread} without an answer. A check is no examination: the "
-        "answers come with the kit."
-    )
+    told = f"{counted_as(len(marks), 'student')} in {quotable(options.output)}, {unread or 'none'} without an answer"
+    print(f"{told}. A check is no examination: the answers come with the kit.")
 
 
 def write_wall(options: argparse.Namespace) -> None:
@@ -354,7 +352,17 @@ def write_wall(options: argparse.Namespace) -> None:
     tiles = wall(options.folder)
     save_page(options.output, wall_page(options.title or Path(options.folder).resolve().name, tiles))
     missing = sum(bool(tile.mistake) for tile in tiles)
-    print(f"{len(tiles)} plants, {missing} of which cannot be drawn. Open {quotable(options.output)} in a browser.")
+    lacking = f", {missing} of which cannot be drawn" if missing else ""
+    print(f"{counted_as(len(tiles), 'plant')}{lacking}. Open {quotable(options.output)} in a browser.")
+
+
+def counted_as(many: int, noun: str) -> str:
+    """A number of things.
+
+    >>> counted_as(1, "plant"), counted_as(2, "plant")
+    ('1 plant', '2 plants')
+    """
+    return f"{many} {noun}{'s' * (many != 1)}"
 
 
 def _exists(name: str) -> ModelFileError:
@@ -379,8 +387,7 @@ def check_exercises(options: argparse.Namespace) -> None:
 def write_exercises(options: argparse.Namespace) -> None:
     from lsys_kit.classroom.exercises.notebooks import write_notebooks
 
-    for path in write_notebooks(options.output, options.folder):
-        print(path)
+    print(write_notebooks(options.output, options.folder))
 
 
 def write_package(options: argparse.Namespace) -> None:
@@ -402,7 +409,7 @@ def open_lab(options: argparse.Namespace) -> None:
 
     folder = Path(options.folder or FOLDER)
     copied = copy_course(folder)
-    print(copy_report(folder, copied), flush=True)
+    print(copy_report("The course is", folder, copied), flush=True)
     if importlib.util.find_spec("jupyterlab") is None:
         raise LSystemError("JupyterLab is not installed", hint="Install it with: pip install 'lsys-kit[lab]'")
     from jupyterlab.labapp import LabApp

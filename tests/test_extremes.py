@@ -9,6 +9,7 @@ import pytest
 import sympy
 
 from lsys_kit import ModelLimitError, ModelValueError, check, draw, limits, read
+from tests.endings import MESHES
 
 
 @pytest.mark.parametrize(
@@ -34,10 +35,10 @@ def test_a_picture_has_finite_numbers_in_every_format(text: str, tmp_path: Path)
 
 
 @pytest.mark.parametrize("text", ["axiom: F(1e49)&(30)F(1)", "axiom: F(1e39)"])
-@pytest.mark.parametrize("ending", ["glb", "obj"])
+@pytest.mark.parametrize("ending", MESHES)
 def test_a_mesh_that_its_format_cannot_hold_is_refused(text: str, ending: str, tmp_path: Path) -> None:
     with pytest.raises(ModelValueError, match="too large for a mesh"):
-        draw(read(text), 0).save(tmp_path / f"a.{ending}")
+        draw(read(text), 0).save(tmp_path / f"a{ending}")
 
 
 ANSWERS = {

@@ -13,20 +13,21 @@ import pytest
 from lsys_kit import animate, draw, lineage, map_system, stages, system
 from lsys_kit.errors import ModelFileError
 from lsys_kit.files import create_file, file_stem, made_by_the_kit, replace_file, save_file
+from tests.endings import DRAWINGS, FILMS, NETS
 
 SAVED: dict[str, Callable[[Path], None]] = {
-    **{ending: lambda path: draw(system("K5"), 2).save(path) for ending in ("svg", "png", "pdf", "glb", "obj")},
-    **{f"film.{ending}": lambda path: animate(system("K5"), 2).save(path) for ending in ("gif", "apng", "png")},
-    **{f"net.{ending}": lambda path: draw(stages(system("P2"))).save(path) for ending in ("svg", "pnml")},
-    "map.svg": lambda path: draw(map_system("K28"), 2).save(path),
-    "lineage.svg": lambda path: draw(lineage(system("P6"), 2)).save(path),
+    **{ending: lambda path: draw(system("K5"), 2).save(path) for ending in DRAWINGS},
+    **{f".film{ending}": lambda path: animate(system("K5"), 2).save(path) for ending in (*FILMS, ".png")},
+    **{f".net{ending}": lambda path: draw(stages(system("P2"))).save(path) for ending in NETS},
+    ".map.svg": lambda path: draw(map_system("K28"), 2).save(path),
+    ".lineage.svg": lambda path: draw(lineage(system("P6"), 2)).save(path),
 }
 """Everything that can be saved, by the name of its file."""
 
 
 @pytest.mark.parametrize("name", SAVED)
 def test_what_the_kit_has_saved_may_be_saved_again(name: str, tmp_path: Path) -> None:
-    path = tmp_path / f"a.{name}"
+    path = tmp_path / f"a{name}"
     SAVED[name](path)
     first = path.read_bytes()
     SAVED[name](path)
@@ -37,12 +38,12 @@ def test_what_the_kit_has_saved_may_be_saved_again(name: str, tmp_path: Path) ->
 @pytest.mark.parametrize("name", SAVED)
 @pytest.mark.parametrize("strange", ["file", "empty", "folder", "link", "dead link"])
 def test_what_somebody_else_made_is_not_replaced(name: str, strange: str, tmp_path: Path) -> None:
-    path, elsewhere = tmp_path / f"a.{name}", tmp_path / "elsewhere"
+    path, elsewhere = tmp_path / f"a{name}", tmp_path / "elsewhere"
     if strange == "folder":
         path.mkdir()
     elif strange == "link":
-        SAVED[name](tmp_path / f"own.{name}")
-        path.symlink_to(tmp_path / f"own.{name}")
+        SAVED[name](tmp_path / f"own{name}")
+        path.symlink_to(tmp_path / f"own{name}")
     elif strange == "dead link":
         path.symlink_to(elsewhere)
     else:

@@ -31,6 +31,7 @@ from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.notation.model.system import Constant, LSystem, Production
 from lsys_kit.notation.read import read_word
 from lsys_kit.notation.registry import DIALECTS
+from tests.endings import DRAWINGS, FILMS, MESHES
 
 HOSTILE = [
     "<script>alert(1)</script>",
@@ -358,9 +359,9 @@ def test_files_for_other_programs_hold_no_names(text, tmp_path):
     picture = refused(lambda: draw(made(text), 2))
     if picture is None:
         return
-    for ending in ("glb", "obj", "pdf", "png", "svg"):
-        picture.save(tmp_path / f"a.{ending}")
-        content = (tmp_path / f"a.{ending}").read_bytes()
+    for ending in DRAWINGS:
+        picture.save(tmp_path / f"a{ending}")
+        content = (tmp_path / f"a{ending}").read_bytes()
         assert len(text) < 4 or text.encode("utf-8", "replace") not in content
     content = (tmp_path / "a.glb").read_bytes()
     tree = json.loads(content[20 : 20 + struct.unpack("<I", content[12:16])[0]])
@@ -369,7 +370,7 @@ def test_files_for_other_programs_hold_no_names(text, tmp_path):
 
 @pytest.mark.parametrize("text", HOSTILE, ids=ascii)
 def test_a_file_may_have_any_name_or_is_refused(text, tmp_path):
-    for ending in (".obj", ".svg", ".glb", ".gif"):
+    for ending in (".svg", *MESHES, FILMS[0]):
         refused(lambda ending=ending: draw(system("T2"), 1).save(tmp_path / f"{text.replace('/', '-')}{ending}"))
     for path in tmp_path.glob("*.obj"):
         lines = path.read_text().splitlines()

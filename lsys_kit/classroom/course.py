@@ -16,7 +16,7 @@ import hashlib
 import json
 import os
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import count
 from pathlib import Path, PurePosixPath
@@ -95,27 +95,38 @@ def copy_course(folder: str | Path = FOLDER, source: Path | None = None) -> tupl
     source
         Where the course comes from; by default what came with the kit.
     """
-    folder, files = Path(folder), course_files(source)
+    contents = ((name, _content(name, path)) for name, path in course_files(source).items())
     with file_errors(f"The course cannot be copied to {folder}", hint="Choose another folder: lsys-kit lab FOLDER."):
-        for part in dict.fromkeys(str(parent) for name in files for parent in reversed(PurePosixPath(name).parents)):
-            _made_folder(folder / part)
-        manifest = _manifest(folder)
-        copied = tuple(_copied(folder, name, _content(name, path), manifest) for name, path in files.items())
-        replace_file(folder / MANIFEST, json.dumps({"files": manifest}, indent=1, sort_keys=True).encode())
+        return put_files(Path(folder), dict(contents))
+
+
+def put_files(folder: Path, contents: Mapping[str, bytes]) -> tuple[Copied, ...]:
+    """Put files into a folder that belongs to the user, where what was changed since an earlier time is kept.
+
+    Raises
+    ------
+    OSError
+        The folder or a file cannot be written.
+    """
+    for part in dict.fromkeys(str(parent) for name in contents for parent in reversed(PurePosixPath(name).parents)):
+        _made_folder(folder / part)
+    manifest = _manifest(folder)
+    copied = tuple(_copied(folder, name, content, manifest) for name, content in contents.items())
+    replace_file(folder / MANIFEST, json.dumps({"files": manifest}, indent=1, sort_keys=True).encode())
     return copied
 
 
-def copy_report(folder: str | Path, copied: tuple[Copied, ...]) -> str:
-    """What became of the course, in words.
+def copy_report(what: str, folder: str | Path, copied: tuple[Copied, ...]) -> str:
+    """What became of some files, in words.
 
-    >>> print(copy_report("course", (Copied("notebooks/01.ipynb", "new"), Copied("notebooks/02.ipynb", "kept"))))
-    The course is in course: 1 file new, 1 file kept as you changed it.
+    >>> print(copy_report("Lessons are", "course", (Copied("notebooks/01.ipynb", "new"), Copied("notebooks/02.ipynb", "kept"))))
+    Lessons are in course: 1 file new, 1 file kept as you changed it.
     """
     words = {"new": "new", "renewed": "updated", "same": "unchanged", "kept": "kept as you changed it"}
     numbers = {word: sum(file.what == what for file in copied) for what, word in words.items()}
     parts = [f"{number} file{'s' * (number > 1)} {word}" for word, number in numbers.items() if number]
     news = [f"You have changed {file.name}; its new version is {file.beside}." for file in copied if file.beside]
-    return "\n".join([f"The course is in {folder}{': ' * bool(parts)}{', '.join(parts)}.", *news])
+    return "\n".join([f"{what} in {folder}{': ' * bool(parts)}{', '.join(parts)}.", *news])
 
 
 def _content(name: str, path: Path) -> bytes:

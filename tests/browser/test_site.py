@@ -35,7 +35,7 @@ PAGES = ["index.html", *(name.replace(".ipynb", ".html") for name in course_file
 LESSONS = [name.replace(".ipynb", ".html") for name in course_files() if is_lesson(name)]
 
 
-ALWAYS = "notebooks/gallery.html", *LESSONS[:2]
+ALWAYS = "notebooks/gallery.html", *LESSONS[:2], LESSONS[1].replace("notebooks", "exercises")
 """The pages that tests without variants open."""
 
 
@@ -189,6 +189,15 @@ def test_no_page_is_larger_than_a_photograph(site: Path) -> None:
     assert {page.name: size for page in pages if (size := page.stat().st_size) > 1_200_000} == {}
 
 
+def test_a_printed_sheet_of_exercises_has_lines_for_answers(opened: Callable[..., Page]) -> None:
+    page = opened(LESSONS[1].replace("notebooks", "exercises"), reduced_motion="reduce")
+    page.emulate_media(media="print")
+    questions = page.locator(".question:visible")
+    assert questions.count() == page.locator(".room:visible").count() == 5
+    assert "score(" not in page.locator("main").inner_text()
+    assert "run its cell" not in page.locator("main").inner_text()
+
+
 def test_a_printed_lesson_is_a_worksheet(opened: Callable[..., Page]) -> None:
     page = opened(LESSONS[1], reduced_motion="reduce")  # a tab of its own, which stays paper
     page.emulate_media(media="print")
@@ -260,11 +269,45 @@ def test_a_page_fits_a_phone_and_axe_finds_nothing_serious(opened, pytestconfig,
         page.emulate_media(color_scheme=scheme)
         assert page.evaluate("document.documentElement.scrollWidth") <= 400
         found = page.evaluate("""async () => (await axe.run({ resultTypes: ["violations"] })).violations
-            .filter(({ impact }) => impact === "critical" || impact === "serious")
+            .filter(({ impact, id }) => impact === "critical" || impact === "serious" || id === "region")
             .map((each) => [each.id, ...each.nodes.slice(0, 3).map((node) => node.html.slice(0, 200))])""")
         assert found == [], f"{scheme}: {json.dumps(found, indent=1)}"
         shot(page, f"{name}-{scheme}", pytestconfig)
     page.emulate_media(color_scheme="dark")
+    labels = page.locator(".lsys-lesson").evaluate_all("(all) => all.map((each) => each.ariaLabel)")
+    assert len(labels) == len({*labels})
+
+
+def test_a_lesson_is_done_with_its_second_vote_and_the_first_page_knows(opened: Callable[..., Page]) -> None:
+    page = opened(LESSONS[0])
+    page.evaluate("localStorage.clear()")
+    page = opened(LESSONS[0])
+    all_parts_open(page)
+    box = page.get_by_role("checkbox", name="I have done this lesson")
+    cast_votes(page)
+    expect(box).to_be_checked()
+    page = opened("index.html")
+    rows, told = page.locator("[data-lesson]"), page.get_by_role("status")
+    expect(told).to_have_text(f"You have done 1 of {rows.count()} lessons. Go on with 1 · All at once.")
+    assert rows.evaluate_all("(all) => all.map((each) => each.hasAttribute('data-done'))").count(True) == 1
+    page.get_by_role("checkbox", name="All at once: done").check()
+    page.get_by_role("checkbox", name="Five characters, one plant: done").uncheck()
+    page.reload()
+    expect(told).to_contain_text("You have done 1 of")
+    expect(page.get_by_role("checkbox", name="All at once: done")).to_be_checked()
+    page = opened(LESSONS[0])
+    all_parts_open(page)
+    expect(page.get_by_role("checkbox", name="I have done this lesson")).not_to_be_checked()
+    page.evaluate("localStorage.clear()")
+
+
+def test_the_first_page_has_a_picture_of_each_lesson_in_its_own_colours(opened: Callable[..., Page]) -> None:
+    page = opened("index.html", color_scheme="dark")
+    all_parts_open(page)
+    pictures = page.locator("[data-lesson] img")
+    assert pictures.count() == page.locator("[data-lesson]").count()
+    page.evaluate("Promise.all([...document.images].map((each) => each.decode()))")
+    assert all(width > 100 for width in pictures.evaluate_all("(all) => all.map((each) => each.naturalWidth)"))
 
 
 @pytest.mark.parametrize("name", PAGES)

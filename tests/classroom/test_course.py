@@ -109,7 +109,7 @@ def test_news_of_a_changed_lesson_stand_beside_it_once(kit, mine):
     copied = copy_course(mine, kit)
     beside = LESSON.replace(".ipynb", ".new.ipynb")
     assert contents(mine) == {LESSON: "my work", beside: "version 2", EXERCISE: "version 1"}
-    assert f"You have changed {LESSON}; its new version is {beside}." in copy_report(mine, copied)
+    assert f"You have changed {LESSON}; its new version is {beside}." in copy_report("The course is", mine, copied)
     (mine / beside).unlink()
     assert what(copy_course(mine, kit))[LESSON] == "kept"
     assert beside not in contents(mine)

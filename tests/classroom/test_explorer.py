@@ -4,13 +4,13 @@ import base64
 import io
 import json
 import math
-import zlib
 
 import pytest
 from ipywidgets import FloatSlider, IntSlider, link
 from PIL import Image
 
 from lsys_kit import LSystemError, ModelNameError, ModelValueError, compare, derive, explore, limits, linked, read, system
+from lsys_kit.classroom.panel.document import inflated_text
 from lsys_kit.classroom.panel.word_view import MOST_MODULES_SHOWN, word_html
 
 GROWING = "axiom: A(0)\nA(t) : t < 3 -> A(t+1)[B]\nA(t) -> A(t/(t-3))"
@@ -58,7 +58,7 @@ def test_symbols_are_unfolded_in_the_diagram_as_long_as_they_can_be(monkeypatch)
 
 def books_of(panel):
     """The books of the page of a panel."""
-    kept = json.loads(zlib.decompress(base64.b64decode(panel.page_data()["books"])))
+    kept = json.loads(inflated_text(panel.page_data()["books"]))
     return [
         {name: kept["parts"][column][number] for column, (name, number) in enumerate(zip(kept["names"], row, strict=True))}
         for row in kept["rows"]

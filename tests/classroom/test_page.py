@@ -6,7 +6,6 @@ import base64
 import hashlib
 import json
 import re
-import zlib
 from fractions import Fraction
 from html.parser import HTMLParser
 from itertools import product
@@ -33,6 +32,8 @@ from lsys_kit import (
     systems,
 )
 from lsys_kit.classroom.panel.books.book import book
+from lsys_kit.classroom.panel.bundle import tightened
+from lsys_kit.classroom.panel.document import deflated_text, inflated_text
 from lsys_kit.classroom.panel.opened.opened import Viewing
 from lsys_kit.classroom.panel.opened.systems import OpenedSystem
 from lsys_kit.classroom.panel.page import deflated, page, save_page, shared
@@ -93,7 +94,7 @@ def page_data(
 
 def books_of(data: dict[str, Any]) -> list[dict[str, Any]]:
     """The books of a page, as its script reads them."""
-    found = json.loads(zlib.decompress(base64.b64decode(data["books"])))
+    found = json.loads(inflated_text(data["books"]))
     return [
         {name: part[number] for name, part, number in zip(found["names"], found["parts"], row, strict=True) if number >= 0}
         for row in found["rows"]
@@ -106,10 +107,6 @@ def j4() -> str:
 
 
 # --- what stands in it ------------------------------------------------------------------------------------------------------
-
-
-def inflated(text: str) -> str:
-    return zlib.decompress(base64.b64decode(text)).decode()
 
 
 def hashed(script: str) -> str:
@@ -125,7 +122,7 @@ def test_it_points_to_nothing_outside_and_runs_the_scripts_of_the_kit_alone(id: 
     assert not [name for name, _ in parts.attributes if name.startswith("on") or name == "style"]
     data, first = json.loads(parts.inside["script"][0]), parts.inside["script"][1]
     assert data["model"]["step"] == 3
-    script, style = inflated(data["script"]), inflated(data["style"])
+    script, style = inflated_text(data["script"]), inflated_text(data["style"])
     policy = next(value for _, value in parts.attributes if value and value.startswith("default-src"))
     assert policy.split("; ")[:2] == ["default-src 'none'", f"script-src {hashed(first)} {hashed(script)}"]
     assert "unsafe-eval" not in policy
@@ -143,7 +140,12 @@ def test_all_settings_of_the_life_spans_are_in_few_bytes(j4: str) -> None:
     for (a, b), made_book in zip(spans, found, strict=True):
         assert made_book == json.loads(json.dumps(book(system("J4"), {"lifeTimeA": a, "lifeTimeB": b}, 0, title="J4", least=9)))
     assert len(data["books"]) < 15_000
-    assert len(j4) < 60_000
+
+
+@pytest.mark.parametrize(("id", "most"), [("J4", 55_000), ("K5", 60_000)])
+def test_a_page_is_light(tmp_path: Path, id: str, most: int) -> None:
+    explore(id).save(tmp_path / "a.html")
+    assert (tmp_path / "a.html").stat().st_size < most
 
 
 ENTRIES = st.one_of(st.integers(), st.text(), st.lists(st.integers()))
@@ -429,6 +431,63 @@ def test_a_link_of_the_model_opens_its_settings(opened, j4: str, settings: dict[
 )
 def test_another_link_changes_nothing(opened, j4: str, fragment: str) -> None:
     status(opened(j4, fragment)).to_contain_text("step 9: 9 modules")
+
+
+@pytest.mark.parametrize(
+    ("fragment", "said"),
+    [
+        ("", ""),
+        ("#top", ""),
+        (link(system("J4"), {"step": 7, "lifeTimeA": 5}), ""),
+        (link(system("J4"), {"seed": 5}), ""),
+        (link(system("J5"), {"step": 2}), "The link in the address leads to another model"),
+        (link(system("J4"), {"step": 2})[:-3], "The link in the address is broken"),
+        ("#lsys=", "is broken"),
+        (link(system("J4"), {"step": 3, "lifeTimeA": 77}), "This page does not hold all that the link in its address says"),
+        (link(system("J4"), {"step": 10**8}), "does not hold all"),
+    ],
+)
+def test_a_page_says_what_it_cannot_show_of_a_link(opened, j4: str, fragment: str, said: str) -> None:
+    shown = opened(j4, fragment)
+    status(shown).to_contain_text("step ")
+    expect(shown.locator(".lsys-message")).to_contain_text(said) if said else expect(
+        shown.locator(".lsys-message")
+    ).to_be_hidden()
+    press(shown, "lifeTimeB", "ArrowRight")
+    expect(shown.locator(".lsys-message")).to_be_hidden()
+
+
+@given(st.text())
+def test_what_is_deflated_has_no_markup_and_is_the_same_text(text: str) -> None:
+    packed = deflated_text(text)
+    assert inflated_text(packed) == text
+    assert not set(packed) & set('<"\\')
+
+
+def test_a_browser_unpacks_what_was_packed(browser: Browser) -> None:
+    texts = [*("x" * many for many in range(12)), "ü€🌱" * 99, "".join(map(chr, range(256))) * 9]
+    shown = browser.new_page()
+    code = f"given => {{ {joined('packed')}\nreturn Promise.all(given.map(unpacked)); }}"
+    assert shown.evaluate(code, [*map(deflated_text, texts)]) == texts
+    shown.close()
+
+
+@pytest.mark.parametrize(
+    ("line", "tight"),
+    [
+        ("  const a = b + c; // a reason", "const a=b+c;"),
+        ("// a reason", ""),
+        ('say("a // b", \'c  d\'); // e "f"', "say(\"a // b\",'c  d');"),
+        ("x = y + +z - -w + v++ + 1;", "x=y+ +z- -w+v++ +1;"),
+        ("return /[ /] x/.test(a) ? `b ${c} d` : null;", "return /[ /] x/.test(a)?`b ${c} d`:null;"),
+        ("a = b / c / d;", "a=b/c/d;"),
+        ("t = `a ${b ? `c  d` : 1}`; // kept as it is", "t = `a ${b ? `c  d` : 1}`; // kept as it is"),
+        ('export default "://";', 'export default"://";'),
+        ("for (const each of of) yield * each;", "for(const each of of)yield*each;"),
+    ],
+)
+def test_a_script_is_written_without_what_says_nothing(line: str, tight: str) -> None:
+    assert tightened(line) == tight
 
 
 def test_a_plant_keeps_its_angle_in_its_link(opened) -> None:

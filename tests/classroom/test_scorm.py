@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import base64
 import io
 import json
 import re
 import zipfile
-import zlib
 from collections.abc import Callable, Iterator
 from fractions import Fraction
 from functools import cache
@@ -23,6 +21,7 @@ from lsys_kit import ModelFileError, ModelNameError, ModelValueError, check
 from lsys_kit.__main__ import main
 from lsys_kit.classroom.exercises.exercise import Exercise, Lesson
 from lsys_kit.classroom.exercises.registry import lessons
+from lsys_kit.classroom.panel.document import inflated_text
 from lsys_kit.classroom.scorm.package import ADL, CONTENT, MANIFEST, lessons_of, manifest, package, page_names, write_package
 from lsys_kit.classroom.scorm.page import exercise_page, page_data, rounded_key
 from tests.classroom.answers import EXERCISES, as_typed, of_each_kind_added, right_answers, wrong_answers_to
@@ -169,7 +168,7 @@ def test_all_exercises_of_five_kinds_are_checked_in_a_page():
 def test_neither_solutions_nor_explanations_can_be_read_in_a_page(first):
     lesson, page = first
     packed = json.loads(re.search(r'id="lsys-data">(.*?)</script>', page)[1])
-    scripts = "".join(zlib.decompress(base64.b64decode(packed[name])).decode() for name in ("style", "script"))
+    scripts = "".join(inflated_text(packed[name]) for name in ("style", "script"))
     for exercise in lesson.exercises:
         assert exercise.explanation[:30] not in page + scripts
     assert "bl ar bl ar ar" not in page + scripts + json.dumps(packed["exercises"])
@@ -194,11 +193,11 @@ def test_exercises_that_only_the_kit_can_check_are_named(first):
 # What a page says
 
 
-SAYING = f"""async cases => {{ {joined("controls", "numbers", "typed")}
+SAYING = f"""async cases => {{ {joined("controls", "numbers", "packed", "typed")}
 return Promise.all(cases.map(async ([data, text]) => {{
   const {{ key, unreadable }} = read(data, text);
   if (unreadable) return {{ said: "Not readable yet", message: unreadable }};
-  const [said, message] = JSON.parse(await inflated(bytesOf(data.replies), "deflate"))[key] ?? [];
+  const [said, message] = JSON.parse(await unpacked(data.replies))[key] ?? [];
   return said ? {{ said, message }} : null;
 }})); }}"""
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import base64
 import itertools
 import json
 import re
 import sys
-import zlib
+from collections import Counter
+from dataclasses import replace
+from html import escape
 from pathlib import Path
 from urllib.parse import unquote
 
@@ -15,13 +16,21 @@ import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output, writes
 from playwright.sync_api import Browser
 
-from lsys_kit import LSystemError, ModelFileError, compare, draw, explore, predict, system, vote, worksheet
+from lsys_kit import LSystemError, ModelFileError, compare, draw, explore, map_system, predict, system, vote, worksheet
+from lsys_kit.classroom.course import course_files
+from lsys_kit.classroom.exercises.registry import lessons
 from lsys_kit.classroom.lessons.lesson import declared, names
+from lsys_kit.classroom.lessons.widget import prose_html
 from lsys_kit.classroom.lessons.worksheet import marked, summary
-from lsys_kit.classroom.site.build import build_site, run
+from lsys_kit.classroom.panel.document import inflated_text
+from lsys_kit.classroom.scorm.package import manifest
+from lsys_kit.classroom.site.build import build_site, read_notebook, run
+from lsys_kit.classroom.site.contents import index_page
 from lsys_kit.classroom.site.markdown import PLAIN_TAGS, address_on_site, markdown_html, mathml
-from lsys_kit.classroom.site.pages import Entry, cells_html, data_html, index_page, notebook_page, title_of
-from lsys_kit.classroom.site.showing import PART, part
+from lsys_kit.classroom.site.pages import Entry, cells_html, data_html, headings, notebook_page, title_of
+from lsys_kit.classroom.site.requests import notes
+from lsys_kit.classroom.site.showing import PART, SMALL_WIDTH, THEMES, light_or_dark, part, small_picture
+from lsys_kit.pictures.picture import Picture
 from tests.classroom.front_end import joined
 from tests.classroom.test_page import Parts
 from tests.test_hostile_names import HOSTILE
@@ -159,7 +168,7 @@ def test_links_lead_to_pages_of_the_site_or_nowhere(address: str, leads: str | N
 # --- pages ------------------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("text", [lesson_page(), index_page(ENTRIES)], ids=["lesson", "index"])
+@pytest.mark.parametrize("text", [lesson_page(), index_page(ENTRIES, {})], ids=["lesson", "index"])
 def test_a_page_has_no_address_outside_and_runs_nothing_but_the_kits_script(text: str) -> None:
     parts = Parts(text)
     policy = next(value for _, value in parts.attributes if value and value.startswith("default-src 'none'"))
@@ -189,7 +198,7 @@ def test_code_that_gives_an_answer_away_is_folded() -> None:
 def test_a_picture_is_kept_deflated_and_its_place_has_its_size() -> None:
     data, parts = draw(system("K5"), 4)._repr_mimebundle_(), []
     shown, svg = data_html(data, parts), data["image/svg+xml"]
-    assert zlib.decompress(base64.b64decode(parts[0]["data"]["drawing"])).decode() == svg
+    assert inflated_text(parts[0]["data"]["drawing"]) == svg
     place = Parts(shown).attributes
     assert ("data-part", "0") in place
     empty = unquote(next(value for name, value in place if name == "src"))
@@ -199,7 +208,7 @@ def test_a_picture_is_kept_deflated_and_its_place_has_its_size() -> None:
 
 def test_exercises_are_shown_without_the_cells_that_check_them() -> None:
     cells = [
-        new_markdown_cell("# Exercises"),
+        new_markdown_cell("# Exercises\n\nAll of them."),
         ran("from lsys_kit import check"),
         new_markdown_cell("## 1.1 By hand"),
         ran('answer = ...\ncheck("1.1", answer)'),
@@ -209,7 +218,8 @@ def test_exercises_are_shown_without_the_cells_that_check_them() -> None:
     ]
     text = notebook_page(ENTRIES[2], cells, ENTRIES)
     assert [each for each in ("check(", "score(", "For a class") if each in text] == []
-    assert "lsys-kit lab" in text
+    assert text.index("</h1>") < text.index("lsys-kit lab") < text.index("All of them.")
+    assert text.count('<div class="room"') == 1
     assert "draw(" in text
     assert '<a class="also" href="../notebooks/01_all_at_once.html">' in text
 
@@ -227,15 +237,110 @@ def test_pages_lead_on_and_back() -> None:
     assert 'class="before"' not in text
 
 
-def test_the_first_page_has_each_lesson_with_what_it_asks_and_how_long_it_takes() -> None:
-    text = index_page(ENTRIES)
-    for said in ("All at once", "who is right?", "50 minutes", "More &amp; more", 'href="exercises/01_all_at_once.html"'):
+def test_the_first_page_has_each_lesson_with_what_it_asks_and_what_one_can_do_then() -> None:
+    lesson = declared("01_all_at_once")
+    text = index_page(ENTRIES, {LESSON: "<svg/>"})
+    objectives = [prose_html(each) for each in lesson.objectives]
+    for said in (
+        "All at once",
+        "who is right?",
+        "50 minutes",
+        "More &amp; more",
+        'href="exercises/01_all_at_once.html"',
+        *objectives,
+    ):
         assert said in text
+    assert [part["kind"] for part in json.loads(Parts(text).inside["script"][0])["parts"]] == ["picture"]
+    assert text.count("<img") == 1
+
+
+@pytest.mark.parametrize(
+    "picture",
+    [
+        pytest.param(lambda: draw(system("K5"), 3), id="plant"),
+        pytest.param(lambda: draw(system("J4"), 5), id="filament"),
+        pytest.param(lambda: draw(map_system("K29"), 2), id="map"),
+    ],
+)
+def test_a_small_picture_has_the_colours_of_the_dark_where_it_is_dark(browser: Browser, picture) -> None:
+    drawn, tab = picture(), browser.new_page(color_scheme="dark")
+    tab.set_content(small_picture(drawn))
+    seen = "(all) => all.map((each) => getComputedStyle(each).fill + getComputedStyle(each).stroke)"
+    found = tab.locator("svg *:not(style)").evaluate_all(seen)
+    bare = replace(drawn, labels=False, current=None) if isinstance(drawn, Picture) else drawn
+    tab.set_content(replace(bare, pixels=(SMALL_WIDTH, None), theme=THEMES[1]).svg)
+    assert found == tab.locator("svg *").evaluate_all(seen)
+    tab.emulate_media(color_scheme="light")
+    tab.set_content(small_picture(drawn))
+    assert tab.locator("svg *:not(style)").evaluate_all(seen) != found
+    tab.close()
+
+
+def test_a_picture_in_which_a_colour_would_have_to_be_two_stays_light() -> None:
+    light = '<svg><a fill="#111111"/><b fill="#111111"/></svg>'
+    assert light_or_dark(light, light.replace("#111111", "#eeeeee", 1)) == light
+
+
+@pytest.mark.parametrize("name", names())
+def test_exercises_are_called_as_their_lesson_is(name: str) -> None:
+    files, title = course_files(), declared(name).title
+    readme = (Path(__file__).parents[2] / "README.md").read_text("utf-8")
+    assert next(lesson.title for lesson in lessons() if lesson.name == name) == title
+    for file, heading in ((f"notebooks/{name}.ipynb", f"# {title}"), (f"exercises/{name}.ipynb", f"# Exercises: {title}")):
+        assert next(headings(read_notebook(files[file]).cells)) == heading
+    assert f"[{title}](notebooks/{name}.ipynb)" in readme
+    assert f"<title>{escape(title)}</title>" in manifest([lesson for lesson in lessons() if lesson.name == name], ["a.html"])
+
+
+# --- what a page cannot do ----------------------------------------------------------------------------------------------------
+
+
+def asked_for(text: str) -> list[str]:
+    """The kinds of requests below which a page says that it cannot do it."""
+    return re.findall(r'data-cannot="(\w+)"', markdown_html(text, lambda address: address, notes()))
+
+
+@pytest.mark.parametrize(
+    ("text", "kinds"),
+    [
+        ("Press *rules*, change a character, and watch.", ["rules"]),
+        ("Press **rules** in the panel and delete the line `br -> ar`.\n\nPress *rules* again.", ["rules"]),
+        ("1. Look.\n2. Let a cell that points right stay for ever: `B -> B`.", ["rules"]),
+        ("In the last line write `1+t` in place of `a^t`.", ["rules"]),
+        ("Then change one line in the panel.", ["rules"]),
+        ("Write 10000 in place of 1000 and run the cell again, if you like.", ["cells"]),
+        ("Change the two numbers in the next cell, run it again with **Shift+Enter**.", ["cells"]),
+        ("In the rule that begins with `copies`, write `T(s/3)` for `T(s/2)`, and run it and the next.", ["cells"]),
+        ("Try it in a new cell.", ["cells"]),
+        ("Run the next cell and vote.", []),
+        ("Look at the four division rules once more.", []),
+        ("Now grow the filament with a pencil. For each step, write the word in a row.", []),
+        ("- change a rule, and say beforehand what will become of the filament", []),
+        ("Let *p* be the life span of A.", []),
+        ("<details><summary>Answer</summary>\n\nPress rules.\n\n</details>\n\nRun it again.", ["cells"]),
+    ],
+)
+def test_a_page_says_below_a_request_that_it_cannot_be_done_there(text: str, kinds: list[str]) -> None:
+    assert asked_for(text) == kinds
+
+
+def test_in_every_lesson_what_asks_for_other_rules_or_another_run_is_found() -> None:
+    found = Counter[str]()
+    for name in names():
+        for cell in read_notebook(course_files()[f"notebooks/{name}.ipynb"]).cells:
+            if cell.cell_type != "markdown":
+                continue
+            kinds, text = asked_for(cell.source), re.sub(r"[*`]", "", cell.source)
+            assert "rules" in kinds or not re.search(r"\b[Pp]ress\s+rules\b", text), cell.source
+            assert "cells" in kinds or not re.search(r"\brun\s+(it|the\s+cell)\b[^.]*\bagain\b", text), cell.source
+            found.update(kinds)
+    assert found["rules"] >= 30
+    assert found["cells"] >= 8
 
 
 def test_the_gallery_is_on_the_first_page_and_is_no_lesson() -> None:
     gallery = Entry("notebooks/gallery.ipynb", "Gallery")
-    lessons, others = index_page([*ENTRIES, gallery]).split('<h2 id="reference">')
+    lessons, others = index_page([*ENTRIES, gallery], {}).split('<h2 id="reference">')
     assert 'href="notebooks/gallery.html"' in others
     assert "gallery" not in lessons
     page = notebook_page(gallery, [new_markdown_cell("# Gallery")], [*ENTRIES, gallery])
@@ -380,6 +485,21 @@ def test_a_cell_that_fails_is_said_with_its_lesson(course: Path, tmp_path: Path)
     (course / OTHER).write_text(writes(new_notebook(cells=[new_markdown_cell("# Title"), new_code_cell("1 / 0")])))
     with pytest.raises(LSystemError, match=r"A cell of notebooks/02_more\.ipynb fails: ZeroDivisionError"):
         build_site(tmp_path / "site", course)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "shown",
+    ["panel", "predict('How many?', panel)", "worksheet('01', 'counts', panel)", "display(panel)"],
+    ids=lambda shown: shown[:9],
+)
+def test_a_panel_that_cannot_be_put_on_its_page_ends_the_site(course: Path, tmp_path: Path, shown: str) -> None:
+    """A notebook passes over what fails only when it is shown."""
+    source = f"from lsys_kit import *\n\npanel = explore('J1', 3)\npanel.page_data = lambda asked: 1 / 0\n{shown}"
+    (course / LESSON).write_text(writes(new_notebook(cells=[new_markdown_cell("# Title"), new_code_cell(source)])))
+    with pytest.raises(LSystemError, match=r"notebooks/01_all_at_once\.ipynb cannot have .* shows: ZeroDivisionError"):
+        build_site(tmp_path / "site", course)
+    assert not (tmp_path / "site" / LESSON.replace("ipynb", "html")).exists()
 
 
 @pytest.mark.slow

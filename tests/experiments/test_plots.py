@@ -32,6 +32,7 @@ from lsys_kit import (
     timed,
 )
 from lsys_kit.pictures.plots.chart import Axis, CurveChart, GridChart, HistogramChart, Plot, ShareChart, class_edges, spread
+from tests.endings import FLAT, beginnings
 from tests.pictures.test_seed_figures import alike
 
 GOLDEN = Path(__file__).parent / "golden"
@@ -218,7 +219,7 @@ class TestRefusals:
 class TestFormats:
     def test_files(self, tmp_path: Path) -> None:
         shown = plot(system("J1"), 6)
-        for ending, beginning in ((".svg", b"<svg"), (".png", b"\x89PNG"), (".pdf", b"%PDF")):
+        for ending, beginning in beginnings(*FLAT):
             shown.save(tmp_path / f"plot{ending}")
             shown.save(tmp_path / f"plot{ending}")  # what the kit has made it replaces
             assert (tmp_path / f"plot{ending}").read_bytes().startswith(beginning)

@@ -13,6 +13,7 @@ from lsys_kit import draw, stages, system
 from lsys_kit.__main__ import main
 from lsys_kit.classroom.course import copy_course
 from lsys_kit.files import create_file, save_file
+from tests.endings import DRAWINGS
 from tests.faults.injection import FAULTS, break_off, lines_of
 
 Write: TypeAlias = Callable[[Path], object]
@@ -53,11 +54,11 @@ WRITERS: dict[str, tuple[Write, Write, tuple[str, ...]]] = {
     ),
     **{
         ending: (
-            lambda folder, ending=ending: SMALL.save(folder / f"a.{ending}"),  # type: ignore[misc]
-            lambda folder, ending=ending: LARGE.save(folder / f"a.{ending}"),  # type: ignore[misc]
+            lambda folder, ending=ending: SMALL.save(folder / f"a{ending}"),  # type: ignore[misc]
+            lambda folder, ending=ending: LARGE.save(folder / f"a{ending}"),  # type: ignore[misc]
             ("files.py", "pictures/formats/notebook.py"),
         )
-        for ending in ("svg", "png", "glb", "obj")
+        for ending in DRAWINGS
     },
     "pnml": (nothing, lambda folder: draw(stages(system("P2"))).save(folder / "a.pnml"), ("files.py",)),
 }

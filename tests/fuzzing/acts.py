@@ -17,6 +17,7 @@ from typing import Any, TypeAlias
 import lsys_kit as kit
 from lsys_kit.__main__ import main
 from lsys_kit.notation.registry import DIALECTS
+from tests.endings import DRAWINGS, FILMS
 from tests.fuzzing.models import BOMBS, CELLWORKS, MAPS, TEXTS, VALUES, WORDS
 from tests.fuzzing.public_ways import members
 
@@ -205,14 +206,8 @@ def acts(folder: Path) -> Mapping[str, Calls]:
         "draw: longest": (longest, kit.draw, SVG),
         "draw: many seeds": (lambda system: kit.draw(system, seeds=range(9), n=6), SVG),
         "draw: large": (lambda system: kit.draw(system, 9, size=(4_000, 4_000)), saved(folder / "large.png")),
-        **{
-            f"save: {ending}": (longest_drawn, saved(folder / f"picture{ending}"))
-            for ending in (".svg", ".png", ".pdf", ".glb", ".obj")
-        },
-        **{
-            f"save: {ending}": (lambda system: kit.animate(system, 9), saved(folder / f"film{ending}"))
-            for ending in (".gif", ".apng", ".mp4")
-        },
+        **{f"save: {ending}": (longest_drawn, saved(folder / f"picture{ending}")) for ending in DRAWINGS},
+        **{f"save: {ending}": (lambda system: kit.animate(system, 9), saved(folder / f"film{ending}")) for ending in FILMS},
         "save: .pnml": (kit.stages, kit.draw, saved(folder / "net.pnml")),
         "figure": (lambda system: kit.figure(system, n=6),),
         "animate": (lambda system: kit.animate(system, 9), lambda film: film.gif),

@@ -28,6 +28,7 @@ import numpy as np
 import sympy
 
 from lsys_kit.errors import shown
+from tests.endings import BEGINNINGS
 
 SECONDS = 0.5
 """The limit of a call, in seconds of the processor."""
@@ -394,7 +395,7 @@ def use(result: Any, chance: random.Random, folder: Path, told: list[str]) -> No
         if chance.random() < 0.3 and callable(getattr(type(result), method, None)):
             value = chance.choice((*range(6), *EXTREME))
             if method == "save":
-                value = folder / f"file{chance.choice(('.svg', '.png', '.pdf', '.glb', '.obj', '.gif', '.pnml', '.x', ''))}"
+                value = folder / f"file{chance.choice((*BEGINNINGS, '.pnml', '.x', ''))}"
             told.append(f".{method}({shown(value)})")
             odd = method == "counts_of" or not isinstance(value, int | Path)  # it has a second argument
             with contextlib.suppress(LSystemError, *[TypeError] * odd):  # whatever one refuses, the next is tried

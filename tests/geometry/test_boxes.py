@@ -14,6 +14,7 @@ from lsys_kit import derive, draw, read
 from lsys_kit.geometry.meshes.mesh import mesh_of
 from lsys_kit.geometry.scene import OWN
 from lsys_kit.geometry.turtle.plane import place_path, trace
+from tests.endings import MESHES
 from tests.geometry.test_curves import PlainTurtle, scales, steps, turns
 from tests.geometry.test_curves import drawn as drawn_modules
 from tests.geometry.test_space import drawn
@@ -52,10 +53,10 @@ def test_its_mesh_is_closed_and_its_normals_point_outwards(way, length, width):
     assert solid.volume == pytest.approx(abs(length) * width**2, rel=1e-4)
 
 
-@pytest.mark.parametrize("ending", ["glb", "obj"])
+@pytest.mark.parametrize("ending", MESHES)
 def test_files_hold_it(ending, tmp_path):
-    draw(read("axiom: F(2)&(30)@B(3,2)"), 0).save(tmp_path / f"box.{ending}")
-    parts = trimesh.load(tmp_path / f"box.{ending}", force="scene").to_geometry().split(only_watertight=False)
+    draw(read("axiom: F(2)&(30)@B(3,2)"), 0).save(tmp_path / f"box{ending}")
+    parts = trimesh.load(tmp_path / f"box{ending}", force="scene").to_geometry().split(only_watertight=False)
     boxes = trimesh.util.concatenate([part for part in parts if len(part.faces) <= 12])
     boxes.merge_vertices(merge_norm=True)
     assert boxes.is_watertight

@@ -15,6 +15,7 @@ from lsys_kit import ModelLimitError, ModelNameError, ModelValueError, cellwork_
 from lsys_kit.pictures.rendering.view import axes
 from lsys_kit.pictures.style.lighting import LIGHT, brightness
 from lsys_kit.pictures.tissues.cellworks import CellworkPicture
+from tests.endings import DRAWINGS
 
 K33 = cellwork_system("K33")
 
@@ -91,9 +92,9 @@ def test_steps_are_chosen_when_a_system_is_derived() -> None:
 
 def test_a_cellwork_is_kept_in_every_format(tmp_path: Path) -> None:
     picture = draw(K33, 3)
-    for ending in ("svg", "png", "pdf", "glb", "obj"):
-        picture.save(tmp_path / f"cells.{ending}")
-        assert (tmp_path / f"cells.{ending}").stat().st_size > 400
+    for ending in DRAWINGS:
+        picture.save(tmp_path / f"cells{ending}")
+        assert (tmp_path / f"cells{ending}").stat().st_size > 400
     assert Image.open(io.BytesIO(picture.png)).size[0] > 100
     mesh = trimesh.load(tmp_path / "cells.glb", force="mesh")
     assert len(mesh.faces) == 2 * 24

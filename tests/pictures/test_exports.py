@@ -32,6 +32,7 @@ from lsys_kit.__main__ import main
 from lsys_kit.geometry.meshes.mesh import mesh_of
 from lsys_kit.pictures.formats.mesh_files import channels
 from lsys_kit.pictures.style.palette import CHOSEN, colours
+from tests.endings import DRAWINGS, FILMS, MESHES, SAID_OF_DRAWINGS, SAID_OF_FILMS, beginnings
 
 BUSH = read("""angle: 22.5
 axiom: !(0.4)A
@@ -66,24 +67,24 @@ def rgb(colour):
 # --- meshes -----------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("ending", ["glb", "obj"])
+@pytest.mark.parametrize("ending", MESHES)
 def test_another_program_reads_every_vertex_and_triangle(tmp_path, ending):
     picture = draw(BUSH, 4)
-    parts = kept(picture, tmp_path / f"bush.{ending}").geometry.values()
+    parts = kept(picture, tmp_path / f"bush{ending}").geometry.values()
     assert sum(len(part.faces) for part in parts) == len(picture.mesh.triangles)
     count = (
-        sum(len(part.vertices) for part in parts) if ending == "glb" else (tmp_path / "bush.obj").read_text().count("\nv ")
+        sum(len(part.vertices) for part in parts) if ending == ".glb" else (tmp_path / "bush.obj").read_text().count("\nv ")
     )  # trimesh joins vertices of an .obj file
     assert count == len(picture.mesh.vertices)
 
 
-@pytest.mark.parametrize("ending", ["glb", "obj"])
+@pytest.mark.parametrize("ending", MESHES)
 def test_a_kept_mesh_is_as_large_as_the_scene_and_stands_upright(tmp_path, ending):
     picture = draw(BUSH, 4)
     (left, front, bottom), (right, back, top) = (mine.tolist() for mine in picture.mesh.corners)
     for mine, its in zip((picture.mesh.corners[0], picture.mesh.corners[1]), picture.solid.corners, strict=True):
         assert mine == pytest.approx(its, abs=0.2)  # half a stem's width
-    bounds = kept(picture, tmp_path / f"bush.{ending}").bounds
+    bounds = kept(picture, tmp_path / f"bush{ending}").bounds
     assert bounds.ravel() == pytest.approx([left, bottom, -back, right, top, -front], rel=1e-5)
 
 
@@ -147,9 +148,8 @@ def test_a_filament_is_kept_as_a_row_of_round_cells(tmp_path):
 
 def test_meshes_are_the_same_every_time(tmp_path):
     for name in ("one", "two"):
-        for ending in ("glb", "obj", "mtl"):
-            if ending != "mtl":
-                draw(BUSH, 3).save(tmp_path / f"{name}.{ending}")
+        for ending in MESHES:
+            draw(BUSH, 3).save(tmp_path / f"{name}{ending}")
     assert (tmp_path / "one.glb").read_bytes() == (tmp_path / "two.glb").read_bytes()
     assert (tmp_path / "one.mtl").read_bytes() == (tmp_path / "two.mtl").read_bytes()
     assert (tmp_path / "one.obj").read_bytes().replace(b"one", b"two") == (tmp_path / "two.obj").read_bytes()
@@ -298,25 +298,12 @@ def test_a_notebook_shows_a_film():
 # --- from the shell ---------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("ending", "head"),
-    [
-        ("svg", b"<svg"),
-        ("png", b"\x89PNG"),
-        ("pdf", b"%PDF"),
-        ("glb", b"glTF"),
-        ("obj", b"# A drawing"),
-        ("gif", b"GIF89a"),
-        ("apng", b"\x89PNG"),
-    ],
-)
+@pytest.mark.parametrize(("ending", "head"), beginnings(*DRAWINGS, *(each for each in FILMS if each != ".mp4")))
 @pytest.mark.parametrize("id", ["K5", "J1", "K14"])
 def test_the_shell_writes_each_format(tmp_path, capsys, id, ending, head):
-    assert main(["draw", id, "-n", "2", "-o", str(tmp_path / f"out.{ending}")]) == 0
-    assert (tmp_path / f"out.{ending}").read_bytes().startswith(head)
-    assert capsys.readouterr().out.startswith(
-        "steps 0 to 2" if ending in ("gif", "apng") or id == "J1" else str(draw(system(id), 2))
-    )
+    assert main(["draw", id, "-n", "2", "-o", str(tmp_path / f"out{ending}")]) == 0
+    assert (tmp_path / f"out{ending}").read_bytes().startswith(head)
+    assert capsys.readouterr().out.startswith("steps 0 to 2" if ending in FILMS or id == "J1" else str(draw(system(id), 2)))
 
 
 def test_the_shell_chooses_the_pace_of_a_film(tmp_path, capsys):
@@ -326,7 +313,7 @@ def test_the_shell_chooses_the_pace_of_a_film(tmp_path, capsys):
 
 def test_the_shell_names_the_formats(tmp_path, capsys):
     assert main(["draw", "K5", "-n", "2", "-o", str(tmp_path / "out.stl")]) == 2
-    assert ".svg, .png, .pdf, .glb or .obj. Films end in .gif, .apng or .mp4" in capsys.readouterr().err
+    assert f"{SAID_OF_DRAWINGS}. Films end in {SAID_OF_FILMS}" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("name", ["", ".", "..", "out", ".obj", "a\0b.svg", "x" * 300 + ".glb", "nowhere/out.obj"])
@@ -394,11 +381,11 @@ def test_no_window_and_no_pyplot_is_opened_by_an_export(tmp_path):
     assert done.stdout == "False\n"
 
 
-@pytest.mark.parametrize("ending", ["glb", "obj"])
+@pytest.mark.parametrize("ending", MESHES)
 def test_a_mesh_is_written_within_the_limit_of_bytes(tmp_path, ending):
     with limits(bytes=2_400), pytest.raises(ModelLimitError, match="The file was not written: it would take"):
-        draw(read("axiom: &F")).save(tmp_path / f"stroke.{ending}")
-    draw(read("axiom: &F")).save(tmp_path / f"stroke.{ending}")
+        draw(read("axiom: &F")).save(tmp_path / f"stroke{ending}")
+    draw(read("axiom: &F")).save(tmp_path / f"stroke{ending}")
 
 
 def test_what_a_picture_or_a_file_is_made_of_is_given_up_in_time(tmp_path):

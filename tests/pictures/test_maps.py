@@ -12,6 +12,7 @@ from lsys_kit import ModelFileError, ModelLimitError, ModelNameError, ModelValue
 from lsys_kit.notation.dialects.map.dialect import read_map
 from lsys_kit.pictures.style.palette import SERIES
 from lsys_kit.pictures.tissues.maps import FILLS, MOST_MAPS, MapPicture, cell_colour
+from tests.endings import SAID_OF_FLAT
 
 SVG = "{http://www.w3.org/2000/svg}"
 K28 = read_map("map: ABAB\nA -> B[-A][+A]B\nB -> A")
@@ -153,7 +154,7 @@ def test_a_picture_is_kept_as_svg(tmp_path) -> None:  # type: ignore[no-untyped-
     picture.save(tmp_path / "map.svg")
     assert (tmp_path / "map.svg").read_text().startswith(f"{picture.svg}\n")
     assert picture._repr_mimebundle_()["text/plain"] == str(picture)
-    with pytest.raises(ModelFileError, match=re.escape("Let the name end in .svg, .png or .pdf")):
+    with pytest.raises(ModelFileError, match=re.escape(f"Let the name end in {SAID_OF_FLAT}")):
         picture.save(tmp_path / "map.glb")
 
 

@@ -13,6 +13,7 @@ from contextlib import suppress
 from dataclasses import MISSING, dataclass, fields, replace
 from functools import partial
 from importlib.resources import files
+from itertools import islice
 from pathlib import Path
 from typing import Any, NamedTuple, TypeAlias
 
@@ -21,8 +22,10 @@ from lsys_kit.classroom.exercises.asked import ASKED_OF_KIND, MORE_ASKED, is_ask
 from lsys_kit.classroom.exercises.exercise import Exercise, Lesson, Option, Slip
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
+from lsys_kit.classroom.handed_in import content_of
 from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.errors import LSystemError, ModelFileError, quotable
+from lsys_kit.files import file_errors
 from lsys_kit.notation.analysis.checks import suggestion
 
 # Mistakes and their places
@@ -276,6 +279,8 @@ def read_exercise(declared: Mapping[str, Any]) -> Exercise:
 
 QUESTIONS = Path(__file__).parent / "questions"
 """The kit's own files."""
+MOST_FILES, MOST_BYTES = 1_000, 1_000_000
+"""So many files of exercises are read of a folder, and a file may have so many bytes."""
 
 
 @dataclass(frozen=True)
@@ -301,10 +306,11 @@ def questions_in(folder: Path) -> Questions:
     ModelFileError
         There is no such folder, or no file of exercises in it.
     """
-    try:
-        paths = sorted(path for path in folder.iterdir() if path.suffix == ".toml")
-    except (OSError, ValueError) as fault:
-        raise ModelFileError(f'"{quotable(str(folder))}" cannot be read: {getattr(fault, "strerror", None) or fault}') from None
+    with file_errors(f'"{quotable(str(folder))}" cannot be read'):
+        found_paths = (path for path in folder.iterdir() if path.suffix == ".toml")
+        paths = sorted(islice(found_paths, MOST_FILES + 1))
+    if len(paths) > MOST_FILES:
+        raise ModelFileError(f'There are more than {MOST_FILES:,} files of exercises in "{quotable(str(folder))}"')
     if not paths:
         raise ModelFileError(f'There are no files of exercises in "{quotable(str(folder))}"', hint="Their names end in .toml.")
     lessons, problems, sources = [], [], []
@@ -330,13 +336,15 @@ def _duplicates(found: Questions) -> Iterator[Problem]:
 def _file(path: Path) -> tuple[Lesson | None, tuple[tuple[int, Exercise], ...], Source, list[Problem]]:
     source = Source(path.name, "")
     try:
-        source = Source(path.name, path.read_text(encoding="utf-8"))
+        source = Source(path.name, content_of(path, MOST_BYTES).decode().replace("\r\n", "\n"))
         declared = tomllib.loads(source.text)
     except tomllib.TOMLDecodeError as fault:
         line = re.search(r"line (\d+)", str(fault))
         return None, (), source, [source.problem("file.no_toml", int(line[1]) if line else 1, fault=quotable(str(fault)))]
-    except (OSError, UnicodeDecodeError) as fault:
-        return None, (), source, [source.problem("file.unreadable", fault=fault)]
+    except ModelFileError as fault:
+        return None, (), source, [source.problem("file.unreadable", fault=fault.message)]
+    except UnicodeDecodeError as fault:
+        return None, (), source, [source.problem("file.no_text", fault=fault)]
     problems = [*counted(lesson_problems(source, declared), 1)]
     exercises: list[tuple[int, Exercise]] = []
     each_declared = declared.get("exercise", ())

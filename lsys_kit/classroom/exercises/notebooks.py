@@ -13,6 +13,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, TypeAlias
 
+from lsys_kit.classroom.course import copy_report, put_files
 from lsys_kit.classroom.exercises.check import check
 from lsys_kit.classroom.exercises.declarations import QUESTIONS, questions_in
 from lsys_kit.classroom.exercises.exercise import Exercise, Lesson
@@ -21,7 +22,8 @@ from lsys_kit.classroom.exercises.progress import Progress, Record, progress_of
 from lsys_kit.classroom.exercises.registry import exercises, translated_lesson
 from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.classroom.exercises.verdict import Verdict
-from lsys_kit.files import replace_file
+from lsys_kit.errors import quotable
+from lsys_kit.files import file_errors, replace_file
 from lsys_kit.translation import ENGLISH, language
 
 NotebookCell: TypeAlias = dict[str, Any]
@@ -46,8 +48,8 @@ def exercise_notebook(lesson: Lesson, folder: str = "") -> str:
     return json.dumps(notebook, indent=1, ensure_ascii=False, sort_keys=True) + "\n"
 
 
-def write_notebooks(folder: str | Path, questions: str | Path = QUESTIONS) -> list[Path]:
-    """Write the notebooks of all lessons whose questions are in a folder, by default the kit's, into another folder.
+def exercise_notebooks(questions: str | Path = QUESTIONS) -> dict[str, bytes]:
+    """The notebooks of all lessons whose questions are in a folder, by default the kit's, by the names of their files.
 
     Raises
     ------
@@ -57,11 +59,17 @@ def write_notebooks(folder: str | Path, questions: str | Path = QUESTIONS) -> li
     own = "" if Path(questions) == QUESTIONS else str(questions)
     if own:
         exercises(own)
-    paths = []
-    for lesson in map(translated_lesson, questions_in(Path(questions)).lessons):
-        paths.append(Path(folder) / f"{lesson.name}.ipynb")
-        replace_file(paths[-1], exercise_notebook(lesson, own).encode())
-    return paths
+    lessons = map(translated_lesson, questions_in(Path(questions)).lessons)
+    return {f"{lesson.name}.ipynb": exercise_notebook(lesson, own).encode() for lesson in lessons}
+
+
+def write_notebooks(folder: str | Path, questions: str | Path) -> str:
+    """Write the notebooks of a folder of questions into another one, and say what became of them. A notebook in which
+    somebody has worked is kept, and its new version put beside it.
+    """
+    notebooks = exercise_notebooks(questions)
+    with file_errors(f'The notebooks cannot be written to "{quotable(str(folder))}"'):
+        return copy_report("The notebooks are", folder, put_files(Path(folder), notebooks))
 
 
 def _cells(lesson: Lesson, folder: str) -> Iterator[NotebookCell]:
@@ -150,5 +158,5 @@ def _source_lines(text: str) -> list[str]:
 
 
 if __name__ == "__main__":
-    for path in write_notebooks(sys.argv[1] if len(sys.argv) > 1 else "exercises"):
-        print(path)
+    for name, content in exercise_notebooks().items():
+        replace_file(Path(sys.argv[1] if len(sys.argv) > 1 else "exercises") / name, content)

@@ -20,7 +20,7 @@ from lsys_kit.classroom.lessons.widget import LessonWidget, boxed_html, prose_ht
 from lsys_kit.classroom.panel.bundle import Data, bundled, style
 from lsys_kit.errors import require
 from lsys_kit.notation.read import read
-from lsys_kit.pictures.draw import draw
+from lsys_kit.pictures.draw import AnyPicture, draw
 from lsys_kit.pictures.formats.notebook import svg_bundle
 from lsys_kit.translation import gettext
 
@@ -129,17 +129,29 @@ class VoteBox(LessonWidget):
         return "\n".join([prose_text(self._vote.question), *described, *options])
 
 
-def _picture(choices: Mapping[str, Any]) -> Data:
+def drawn(choices: Mapping[str, Any]) -> AnyPicture | None:
+    """The picture of a vote, from what its lesson declares of it; None where it has none.
+
+    >>> drawn({"system": "J1", "step": 2})
+    steps 0 to 2; the last: 3 cells, width 5, height 1
+    """
     if not choices:
-        return {}
-    drawn = draw(
+        return None
+    found: AnyPicture = draw(
         read(choices["rules"]) if "rules" in choices else catalogued(choices["system"]),
         choices.get("step"),
         **choices.get("constants", {}),
         **{name: value for name, value in choices.items() if name in ("angle", "cells", "view")},
     )
+    return found
+
+
+def _picture(choices: Mapping[str, Any]) -> Data:
+    picture = drawn(choices)
+    if picture is None:
+        return {}
     with limits(segments=min(MOST_SHAPES, current().segments)):
-        return svg_bundle(drawn.svg, repr(drawn))
+        return svg_bundle(picture.svg, repr(picture))
 
 
 def _address(picture: Mapping[str, Any]) -> str:

@@ -62,12 +62,44 @@ def _enclosed(name: str, left_out: bool) -> str:
 
 @cache
 def compact(name: str, without: frozenset[str] = frozenset()) -> str:
-    """As `bundled`, without comments that fill a line and without indentation.
+    """As `bundled`, without comments, indentation, and the blanks that part nothing.
 
-    >>> len(compact("widget")) < 0.9 * len(bundled("widget"))
+    >>> len(compact("widget")) < 0.85 * len(bundled("widget"))
     True
     """
-    return re.sub(r"^[ \t]*(?://.*)?(?:\n|$)|^[ \t]+", "", bundled(name, without), flags=re.MULTILINE)
+    return "\n".join(filter(None, map(tightened, bundled(name, without).split("\n"))))
+
+
+_IN_PATTERN = r"(?:\\.|\[(?:\\.|[^]\\])*\]|[^/\\\[])"
+_LITERAL = re.compile(
+    r"""("(?:\\.|[^"\\])*"|'(?:\\.|[^'\\])*'|`(?:\\.|[^`\\])*`"""
+    rf"""|(?:(?<=[\[({{}},;=:?!&|])|(?<=\breturn)) */(?!\*){_IN_PATTERN}+/)"""
+)
+"""A text, a template or a regular expression in a line of JavaScript."""
+_NESTED = re.compile(r"`[^`]*\$\{[^}`]*`")
+"""How a template begins that has another one in it."""
+_COMMENT, _TYPES = re.compile(r"(?:^| )//"), re.compile(r"/\*\*.*\*/")
+_BLANKS = re.compile(r"(?<![\w$+-]) +| +(?![\w$+-])|(?<=[+-]) +(?![+-])|(?<![+-]) +(?=[+-])")
+"""Blanks but for those between words, and between two signs, which would be one."""
+
+
+def tightened(line: str) -> str:
+    """A line of JavaScript without a comment at its end, and without blanks that part nothing; in texts all stays as it is.
+
+    >>> tightened('  if (a + +b > 2) return "a // b"; // a reason')
+    'if(a+ +b>2)return"a // b";'
+    """
+    line, kept = line.strip(" \t"), ""
+    if _TYPES.fullmatch(line):
+        return ""
+    if _NESTED.search(line):
+        return line
+    for number, part in enumerate(_LITERAL.split(line)):
+        code, *comment = [part] if number % 2 else _COMMENT.split(part, maxsplit=1)
+        kept += code if number % 2 else _BLANKS.sub("", code)
+        if comment:
+            break
+    return kept
 
 
 @cache

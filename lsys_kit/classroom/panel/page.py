@@ -26,7 +26,7 @@ _CELLS, _STROKES, _TISSUES = frozenset(("filament",)), frozenset(("turtle", "pai
 _MAPS = frozenset(("map", "relaxation", "relaxing", "tension"))
 _NOT_NEEDED = {
     "filament": _STROKES | _MAPS | _TISSUES,
-    "plane": _CELLS | _MAPS | _TISSUES,
+    "plane": _CELLS | _MAPS | _TISSUES | {"turtle_space"},
     "space": _CELLS | _MAPS | _TISSUES,
     "map": _CELLS | _TISSUES | {"turtle"},
     "tissue": _CELLS | _MAPS | {"turtle"},
@@ -53,9 +53,10 @@ def page(title: str, data: Mapping[str, Any], description: str, language: str = 
     >>> text.startswith("<!doctype html>"), text.count("<script"), "://" in text.partition("<script>")[0]
     (True, 2, False)
     """
-    body = f"""<h1>{escaped(title)}</h1>
-<main id="lsys-here"></main>
+    body = f"""<main id="lsys-here">
+<h1>{escaped(title)}</h1>
 <noscript><p>Without JavaScript the panel cannot be moved. It shows: {escaped(description)}</p></noscript>
+</main>
 """
     script = f'"use strict";\n{compact("page", not_needed(data["mode"]))}\nopenPage();\n'
     return document(title, body, STYLE, description, Program(script, style(), data), language)
@@ -97,5 +98,5 @@ def shared(books: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
 
 
 def deflated(content: object) -> str:
-    """Anything as JSON, deflated (RFC 1950), in base 64."""
+    """Anything as JSON, deflated, as `deflated_text` has it."""
     return deflated_text(json.dumps(content, separators=(",", ":")))

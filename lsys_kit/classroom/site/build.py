@@ -6,7 +6,7 @@ Lessons are run in real kernels, several at a time, so that their pages know wha
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 from threading import Event
@@ -17,10 +17,11 @@ from tqdm import tqdm
 from lsys_kit.classroom.course import course_files
 from lsys_kit.classroom.lessons.lesson import declared, names
 from lsys_kit.classroom.site import showing
+from lsys_kit.classroom.site.contents import index_page
 from lsys_kit.classroom.site.markdown import missing
-from lsys_kit.classroom.site.pages import INDEX, Entry, index_page, notebook_page, title_of
+from lsys_kit.classroom.site.pages import INDEX, Entry, notebook_page, title_of
 from lsys_kit.errors import LSystemError, ModelFileError, quotable
-from lsys_kit.files import made_by_the_kit, save_file
+from lsys_kit.files import file_errors, made_by_the_kit, save_file
 
 
 def build_site(folder: str | Path, source: Path | None = None) -> tuple[Path, ...]:
@@ -36,10 +37,11 @@ def build_site(folder: str | Path, source: Path | None = None) -> tuple[Path, ..
     entries = [Entry(name, title_of(stored[name].cells, name), told.get(name)) for name in files]
     places = {INDEX: folder / INDEX, **{each.name: folder / each.page for each in entries}}
     _make_room(folder, places)
-    save_file(places[INDEX], index_page(entries).encode())
-    known = {each.name: each for each in entries}
+    known, pictures = {each.name: each for each in entries}, dict[str, str]()
     for name, notebook in _run(files, stored):
         save_file(places[name], notebook_page(known[name], notebook.cells, entries).encode())
+        pictures.update((name, each) for each in found_in(notebook.cells, showing.SMALL))
+    save_file(places[INDEX], index_page(entries, pictures).encode())
     return tuple(places.values())
 
 
@@ -58,11 +60,8 @@ def _run(files: Mapping[str, Path], stored: Mapping[str, Any]) -> Iterator[tuple
 def _make_room(folder: Path, places: Mapping[str, Path]) -> None:
     """Make the folders of the pages, and see before anything is run that no page would replace what the kit did not make."""
     for place in places.values():
-        try:
+        with file_errors(f'The site cannot be written to "{quotable(str(folder))}"'):
             place.parent.mkdir(parents=True, exist_ok=True)
-        except OSError as fault:
-            name = quotable(str(folder))
-            raise ModelFileError(f'The site cannot be written to "{name}": {fault.strerror or fault}') from None
         if os.path.lexists(place) and not made_by_the_kit(place):
             raise ModelFileError(
                 f'"{quotable(str(place))}" is there already, and was not made by the kit',
@@ -70,6 +69,7 @@ def _make_room(folder: Path, places: Mapping[str, Path]) -> None:
             )
 
 
+_RUN_IT = "Run the lesson in JupyterLab to see which: lsys-kit lab."
 SECONDS = 300
 """How long a cell may take."""
 _FIRST = f"from {showing.__name__} import show_for_pages\nshow_for_pages({{!r}})"
@@ -117,12 +117,31 @@ def run(name: str, path: Path, stopped: Event | None = None) -> Any:
         except RuntimeError:  # the kernel did not start: another program took one of its ports before it could
             client.execute(env=environment)
     except nbclient.exceptions.CellExecutionError as failed:
-        raise LSystemError(
-            f"A cell of {name} fails: {failed.ename}: {failed.evalue}",
-            hint="Run the lesson in JupyterLab to see which: lsys-kit lab.",
-        ) from None
+        raise LSystemError(f"A cell of {name} fails: {failed.ename}: {failed.evalue}", hint=_RUN_IT) from None
     del notebook.cells[0]
+    for cell in notebook.cells:
+        _check_shown(name, cell)
     return notebook
+
+
+def _check_shown(name: str, cell: Any) -> None:
+    """See that all that a cell shows is there: what fails only when it is shown does not stop a notebook."""
+    outputs = cell.get("outputs", ())
+    failed = [f"{each.ename}: {each.evalue}" for each in outputs if each.output_type == "error"]
+    for fault in [*found_in([cell], showing.FAULT), *failed]:
+        if "raises-exception" not in cell.metadata.get("tags", ()):
+            shown = cell.source.strip().splitlines()[-1]
+            raise LSystemError(f"A page of {name} cannot have what {quotable(shown)} shows: {fault}".rstrip("."), hint=_RUN_IT)
+
+
+def found_in(cells: Sequence[Any], kind: str) -> Iterator[Any]:
+    """What cells show of a media type, also within something else."""
+    todo = [each.get("data", {}) for cell in reversed(cells) for each in reversed(cell.get("outputs", ()))]
+    while todo:
+        data = todo.pop()
+        if kind in data:
+            yield data[kind]
+        todo += [each for each in data.values() if isinstance(each, dict)]
 
 
 def read_notebook(path: Path) -> Any:

@@ -5,7 +5,7 @@ only a few plain tags pass.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Container
+from collections.abc import Callable, Container, Iterable
 from html import escape, unescape
 from pathlib import PurePosixPath
 from posixpath import normpath
@@ -23,8 +23,9 @@ PLAIN_TAGS = ("br", "details", "sub", "summary", "sup")
 _PLAIN_TAG = re.compile(rf"&lt;(/?(?:{'|'.join(PLAIN_TAGS)}))&gt;")
 
 
-def markdown_html(text: str, links: Links) -> str:
-    """A cell of Markdown as HTML. Of HTML in it no more passes than the plain tags of `PLAIN_TAGS`.
+def markdown_html(text: str, links: Links, after: Callable[[str], str] = lambda block: "") -> str:
+    """A cell of Markdown as HTML. Of HTML in it no more passes than the plain tags of `PLAIN_TAGS`. After each of its blocks
+    stands what a function makes of the HTML of that.
 
     >>> markdown_html("## An *alga*\\n\\n`a -> ab`", lambda address: address)
     '<h2 id="An-alga">An <em>alga</em></h2>\\n<p><code>a -&gt; ab</code></p>\\n'
@@ -36,6 +37,10 @@ def markdown_html(text: str, links: Links) -> str:
     mistune = _mistune()
 
     class Renderer(mistune.HTMLRenderer):  # type: ignore[misc, name-defined]
+        def __call__(self, tokens: Iterable[Any], state: Any) -> str:
+            blocks = (self.render_token(each, state) for each in tokens)
+            return "".join(block + after(block) for block in blocks)
+
         def text(self, text: str) -> str:
             return escape(unescape(text))
 

@@ -1,4 +1,4 @@
-"""The pages of the site: a lesson, its exercises, the gallery, a reference, and the course with all of them."""
+"""The pages of the site: a lesson, its exercises, the gallery, a reference."""
 
 from __future__ import annotations
 
@@ -13,12 +13,14 @@ from typing import Any
 from urllib.parse import quote
 
 from lsys_kit.classroom.course import is_lesson
-from lsys_kit.classroom.lessons.lesson import TRACKS, Lesson
+from lsys_kit.classroom.exercises.replies import reply
+from lsys_kit.classroom.lessons.lesson import Lesson
 from lsys_kit.classroom.lessons.widget import escaped_lines, html, prose_html, prose_text
 from lsys_kit.classroom.panel.bundle import Data, compact, style
 from lsys_kit.classroom.panel.document import Program, deflated_text, document
 from lsys_kit.classroom.panel.page import not_needed
 from lsys_kit.classroom.site.markdown import Links, address_on_site, markdown_html, mathml
+from lsys_kit.classroom.site.requests import notes
 from lsys_kit.classroom.site.showing import PART
 from lsys_kit.pictures.style.labels import escaped
 
@@ -29,14 +31,16 @@ _KEPT = """<p class="note">The cells of this page have been run, and its panels 
 rules and code, open the lesson in Jupyter: <code>lsys-kit lab</code>. Votes and tables are checked on the page itself: what is
 right stands in it, and is no secret.</p>
 """
-_ALL_KEPT = """<p class="note">These pages need neither Python nor a network. Their panels move, and votes, predictions and
-tables are answered on the page. To change rules and code, and to work on the exercises, type <code>lsys-kit lab</code>: it
-opens the course in Jupyter.</p>
+_HOW = """<div class="note"><p><strong>How to answer.</strong> This page is for reading and for printing. Type
+<code>lsys-kit lab</code>, and open <code>{name}</code> in JupyterLab: there a cell below each question takes the answer, and
+checks it when it is run, with hints after a try.</p></div>
 """
-_HOW = """<div class="note"><p><strong>How to answer.</strong> Type <code>lsys-kit lab</code>, and open <code>{name}</code> in
-JupyterLab. There is a cell below each question for the answer, which is checked when the cell is run, with hints after a
-try.</p></div>
-"""
+_ROOM = f'<div class="room" aria-hidden="true">{3 * "<i></i>"}</div>\n'
+"""Lines for an answer on paper."""
+_IN_JUPYTER = reply("notebook.how", id="\0").partition("\0")[0]
+"""How a notebook begins to say how its cells are used."""
+_ABOUT_ANSWERS = re.compile(r"check|progress\(|score\(")
+"""What stands in cells of exercises that get ready for answers, ask for hints, or sum up."""
 
 
 _PANELS = frozenset({"panel", "compare"})
@@ -65,13 +69,16 @@ class Entry:
 
 
 def notebook_page(entry: Entry, cells: Sequence[Any], entries: Sequence[Entry]) -> str:
-    """The page of a notebook; cells of exercises are shown without the code that checks answers."""
-    links, parts, [head, *rest] = (
-        partial(address_on_site, entry.name, {each.name for each in entries}),
-        Parts(),
-        _seen(entry, cells),
-    )
-    begin = cells_html([head], links, parts) + _note(entry) + cells_html(rest, links, parts)
+    """The page of a notebook; of exercises the questions, with room on paper for each answer."""
+    links, parts = partial(address_on_site, entry.name, {each.name for each in entries}), Parts()
+    if entry.folder == "exercises":
+        head, *questions = re.split("(?=<h2)", "".join(_question_html(each, links) for each in cells))
+        title, end, rest = head.partition("</h1>\n")
+        begin = title + end + _HOW.format(name=escaped(entry.name)) + rest
+        begin += "".join(f'<div class="question">\n{each}</div>\n' for each in questions)
+    else:
+        note = _KEPT if is_lesson(entry.name) else ""
+        begin = cells_html(cells[:1], links, parts) + note + cells_html(cells[1:], links, parts) + _place_for_done(entry)
     row = _neighbours(entry, entries)
     body = (
         f'<a class="skip" href="#main">Skip to the text</a>\n<header>{_above(entry)}</header>\n'
@@ -81,68 +88,24 @@ def notebook_page(entry: Entry, cells: Sequence[Any], entries: Sequence[Entry]) 
     return document(entry.title, body, style("course"), described, _program(parts))
 
 
-def index_page(entries: Sequence[Entry]) -> str:
-    """The first page: the lessons with their questions, and what belongs to them."""
-    lessons = [each for each in entries if is_lesson(each.name)]
-    others = [each for each in entries if each.folder != "exercises" and each not in lessons]
-    rows = "".join(_lesson_row(each, entries) for each in lessons)
-    references = "".join(f'<li><a href="{escaped(each.page)}">{escaped(each.title)}</a></li>\n' for each in others)
-    tracks = ", ".join(f'<span class="track">{letter}</span> {text}' for letter, text in TRACKS.items())
-    body = f"""<a class="skip" href="#main">Skip to the lessons</a>
-<main id="main" class="index">
-<h1>{COURSE}</h1>
-<p class="lead">Short rules can grow a plant. These lessons show how, from a row of cells to a hedge in the light: predict,
-look, move a slider, change a rule.</p>
-{_ALL_KEPT}
-<h2 id="lessons">Lessons</h2>
-<p class="quiet">Each lesson belongs to a way through the course: {tracks}.</p>
-<ol class="lessons">
-{rows}</ol>
-<h2 id="reference">To look at, and to look things up</h2>
-<ul>
-{references}</ul>
-</main>
-"""
-    return document(COURSE, body, style("course"), "Lessons on L-systems with panels to move")
-
-
-def _lesson_row(entry: Entry, entries: Sequence[Entry]) -> str:
-    exercises = next((each for each in entries if each.name == f"exercises/{PurePosixPath(entry.name).name}"), None)
-    told = entry.lesson
-    facts = (
-        [f"{told.minutes} minutes", *(f'<span class="track" title="{TRACKS[each]}">{each}</span>' for each in told.track)]
-        if told
-        else []
-    )
-    also = [f'<a href="{escaped(exercises.page)}">exercises</a>'] if exercises else []
-    asked = f"<p>{prose_html(told.question)}</p>" if told else ""
-    number = f"<span>{told.number}</span> " if told else ""
-    return (
-        f'<li><h3>{number}<a href="{escaped(entry.page)}">{escaped(entry.title)}</a></h3>{asked}'
-        f'<p class="quiet">{" · ".join([*facts, *also])}</p></li>\n'
-    )
-
-
-def _seen(entry: Entry, cells: Sequence[Any]) -> list[Any]:
-    return [each for each in cells if not (entry.folder == "exercises" and _checks(each))]
-
-
-def _checks(cell: Any) -> bool:
-    """Whether a cell of exercises asks for an answer, gets ready for that, or is there for marks alone."""
-    if cell.cell_type != "code":
-        return bool(cell.get("id") == "marks")
-    return any(called in cell.source for called in ("check", "progress(", "score(")) or not cell.source.strip()
-
-
-def _note(entry: Entry) -> str:
-    if entry.folder == "exercises":
-        return _HOW.format(name=escaped(entry.name))
-    return _KEPT if is_lesson(entry.name) else ""
+def _question_html(cell: Any, links: Links) -> str:
+    """A cell of exercises: its text, but not what is there for marks alone; room in the place of a cell for an answer."""
+    if cell.cell_type == "markdown":
+        return "" if cell.get("id") == "marks" else markdown_html(cell.source.partition(_IN_JUPYTER)[0], links)
+    if any(line.startswith("check(") for line in cell.source.splitlines()):
+        return _ROOM
+    return "" if _ABOUT_ANSWERS.search(cell.source) or not cell.source.strip() else _code_html(cell, [])
 
 
 def _above(entry: Entry) -> str:
     home = relpath(INDEX, entry.folder)
     return f'<nav aria-label="the course"><a href="{home}">{COURSE}</a></nav>'
+
+
+def _place_for_done(entry: Entry) -> str:
+    """Where the script of a lesson's page offers a box to be ticked when it is done."""
+    name = escaped(PurePosixPath(entry.name).stem)
+    return f'<p data-lesson="{name}"></p>\n' if is_lesson(entry.name) else ""
 
 
 def _neighbours(entry: Entry, entries: Sequence[Entry]) -> str:
@@ -201,10 +164,10 @@ _PICTURE = re.compile(r'src="data:image/svg\+xml;base64,([A-Za-z0-9+/=]{4000,})"
 _SIZE = re.compile(r'<svg(?: (?!width)[\w:]+="[^"]*")*( width="[^"]*" height="[^"]*")')
 
 
-def cells_html(cells: list[Any], links: Links, parts: Parts) -> str:
+def cells_html(cells: Sequence[Any], links: Links, parts: Parts) -> str:
     """Cells of a notebook as HTML; what the script of the page has to know is added to `parts`."""
     return "".join(
-        markdown_html(cell.source, links) if cell.cell_type == "markdown" else _code_html(cell, parts)
+        markdown_html(cell.source, links, notes()) if cell.cell_type == "markdown" else _code_html(cell, parts)
         for cell in cells
         if cell.cell_type in ("markdown", "code") and cell.source.strip()
     )
@@ -243,12 +206,13 @@ def data_html(data: Mapping[str, Any], parts: Parts) -> str:
         return _part_html(data[PART], data["text/plain"], parts)
     if "text/latex" in data and "text/html" not in data:
         return _block(mathml(data["text/latex"], "block"))
-    return _block(_PICTURE.sub(lambda found: _kept_picture(found[1], parts), html(data)))
+    return _block(_PICTURE.sub(lambda found: kept_picture(base64.b64decode(found[1]).decode(), parts), html(data)))
 
 
-def _kept_picture(packed: str, parts: Parts) -> str:
-    """The place of a picture: an empty one of its size, which the script of the page fills before it comes into view."""
-    drawing = base64.b64decode(packed).decode()
+def kept_picture(drawing: str, parts: Parts) -> str:
+    """The attributes of a picture in SVG: an empty one of its size, which the script of the page fills before it comes into
+    view.
+    """
     size = _SIZE.search(drawing)
     empty = f'<svg xmlns="http://www.w3.org/2000/svg"{size[1] if size else ""}/>'
     number = len(parts)

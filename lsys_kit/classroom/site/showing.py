@@ -1,20 +1,29 @@
-"""In the kernel of a lesson that is run for the site: what a cell shows is not a widget but the data of one."""
+"""In the kernel of a lesson that is run for the site: what a cell shows is not a widget but the data of one.
+
+The first picture of a lesson, a drawing or that of its vote, comes with a small one for the first page. What fails is told: a
+notebook would pass over it, and the page would lack it without a word.
+"""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator, Mapping, Sequence
-from functools import partial
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
+from lsys_kit.budget import current, limits
 from lsys_kit.classroom.lessons.lesson import Lesson, declared, names, number_of
 from lsys_kit.classroom.lessons.predict import Prediction
 from lsys_kit.classroom.lessons.rule_finder import RuleFinder
-from lsys_kit.classroom.lessons.vote import VoteBox
+from lsys_kit.classroom.lessons.vote import VoteBox, drawn
 from lsys_kit.classroom.lessons.widget import html, prose_text
 from lsys_kit.classroom.lessons.worksheet import PanelWithWorksheet, Worksheet
 from lsys_kit.classroom.panel.explorer import Comparison, Explorer
 from lsys_kit.notation.model.arithmetic import Value, normalised
+from lsys_kit.pictures.formats.notebook import SVGPicture
+from lsys_kit.pictures.picture import Picture
+from lsys_kit.pictures.style.colour_values import luminance, mixed
+from lsys_kit.pictures.style.themes import DARK, LIGHT, NOTHING, drawn_on, text_colour
 
 PART = "application/vnd.lsys-kit.page-part+json"
 """The media type of what a page has to know of a panel, a question or a table to open it: its kind, its data, its words."""
@@ -30,17 +39,93 @@ KINDS: Mapping[type, str] = {
 """What the script of a page calls the widgets of the kit."""
 
 
+SMALL, FAULT = "application/vnd.lsys-kit.small-picture", "application/vnd.lsys-kit.page-fault"
+"""The media types of a picture for the first page, in SVG, and of what has failed, in words."""
+
+
 def show_for_pages(lesson: str = "") -> None:
     """Let this kernel show the widgets of the kit as data for a page; the panels of a lesson hold what it asks for."""
     from IPython.core.interactiveshell import InteractiveShell
 
     formatter: Any = InteractiveShell.instance().display_formatter
     asking = declared(lesson) if lesson in names() else None
+    first = iter([small_picture])  # the first picture alone is made small
+
+    def with_small(shown: dict[str, Any], picture: Callable[[], Any]) -> dict[str, Any]:
+        make = next(first, None)
+        return shown if make is None else shown | {SMALL: make(picture())}
+
+    def show_part(widget: Any, include: object = None, exclude: object = None) -> dict[str, Any]:
+        shown, choices = part(widget, asking), asking.vote.picture if asking and isinstance(widget, VoteBox) else {}
+        return with_small(shown, lambda: drawn(choices)) if choices else shown
+
+    def show_picture(picture: SVGPicture, include: object = None, exclude: object = None) -> dict[str, Any]:
+        return with_small(picture._repr_mimebundle_(), lambda: picture)
+
     for kind in KINDS:
-        formatter.mimebundle_formatter.for_type(kind, partial(part, lesson=asking))
+        formatter.mimebundle_formatter.for_type(kind, or_fault(show_part))
+    formatter.mimebundle_formatter.for_type(SVGPicture, or_fault(show_picture))
 
 
-def part(widget: Any, include: object = None, exclude: object = None, lesson: Lesson | None = None) -> dict[str, Any]:
+def or_fault(show: Callable[..., dict[str, Any]]) -> Callable[..., dict[str, Any]]:
+    """A function that shows something, with what it fails of as what it shows.
+
+    >>> or_fault(lambda widget: 1 / 0)(None)
+    {'application/vnd.lsys-kit.page-fault': 'ZeroDivisionError: division by zero', 'text/plain': ''}
+    """
+
+    def safely(*given: Any, **options: Any) -> dict[str, Any]:
+        try:
+            return show(*given, **options)
+        except Exception as fault:
+            return {FAULT: f"{type(fault).__name__}: {fault}", "text/plain": ""}
+
+    return safely
+
+
+SMALL_WIDTH, MOST_SHAPES = 320, 20_000
+"""The width of a small picture in pixels; one of more shapes is of pixels."""
+NEARLY_PAPER = 0.7
+"""A colour of a greater luminance is paper, or a line that shall hardly be seen on it."""
+THEMES = replace(LIGHT, ground=NOTHING), replace(DARK, ground=NOTHING)
+_COLOURED = re.compile(r'(fill|stroke|stop-color)="(#[0-9A-Fa-f]{3,8})"')
+
+
+def small_picture(picture: SVGPicture) -> str:
+    """A picture in SVG for the first page, without paper and labels, which is light or dark as the page is.
+
+    >>> from lsys_kit import draw, system
+    >>> small_picture(draw(system("J1"), 2)).count("@media (prefers-color-scheme:dark)")
+    1
+    """
+    bare = replace(picture, labels=False, current=None) if isinstance(picture, Picture) else picture
+    with limits(segments=min(MOST_SHAPES, current().segments)):
+        light, dark = (replace(bare, pixels=(SMALL_WIDTH, None), theme=theme).svg for theme in THEMES)
+    if light == dark:  # a plot, which is always light
+        dark = _COLOURED.sub(lambda found: f'{found[1]}="{_in_the_dark(found[2])}"', light)
+    return light_or_dark(light, dark)
+
+
+def _in_the_dark(colour: str) -> str:
+    """A colour on dark paper of what has one on light paper alone."""
+    if luminance(colour) > NEARLY_PAPER:
+        return DARK.paper if colour.lower() == LIGHT.paper.lower() else mixed(DARK.paper, DARK.quiet, 0.8)
+    with drawn_on(DARK):
+        return text_colour(colour)
+
+
+def light_or_dark(light: str, dark: str) -> str:
+    """A light picture that has the colours of a dark one where the page is dark; it stays light where colours part."""
+    pairs = [*zip(_COLOURED.findall(light), _COLOURED.findall(dark), strict=False)]
+    changed = {before: after[1] for before, after in pairs if before != after}
+    if any(changed.get(before, before[1]) != after[1] for before, after in pairs):
+        return light
+    rules = "".join(f'[{name}="{colour}"]{{{name}:{seen}}}' for (name, colour), seen in changed.items())
+    begin, rest = light.split(">", 1)
+    return f"{begin}><style>@media (prefers-color-scheme:dark){{{rules}}}</style>{rest}"
+
+
+def part(widget: Any, lesson: Lesson | None = None) -> dict[str, Any]:
     """What a page has to know of a widget, by media types.
 
     >>> from lsys_kit import worksheet

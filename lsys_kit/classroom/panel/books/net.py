@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Collection, Mapping
 from contextlib import suppress
 from typing import Any, TypeAlias
@@ -17,6 +18,8 @@ from lsys_kit.pictures.style.labels import place_text, visible
 Unfolding: TypeAlias = bool | str | Collection[str]
 """Which symbols of a stage diagram are unfolded, as `stages` takes it."""
 _PIXELS = frozenset(("x", "y", "half", "tx", "ty", "width"))
+_PATHS, _WHOLE = frozenset(("path", "band", "head", "line")), re.compile(r"\.0(?!\d)")
+"""Parts that are paths of SVG, and what of their numbers is left out."""
 NARROW, LOW = 320, 40
 """The size of a diagram that has nothing but a sentence, in pixels."""
 
@@ -75,12 +78,17 @@ def _diagram(parts: Parts, names: list[str]) -> Data:
 
 
 def _written(part: Any) -> Data:
-    """A part, without the number of an arc or a transition, which nobody asks for; texts are visible, and pixels in tenths."""
+    """A part, without the number of an arc or a transition, which nobody asks for; texts are visible, paths without zeros that
+    say nothing, and pixels in tenths."""
     found = {name: value for name, value in part._asdict().items() if name not in ("arc", "transition")}
     return {
-        name: visible(value) if isinstance(value, str) else _tenths(value) if name in _PIXELS else value
+        name: _short(visible(value), name) if isinstance(value, str) else _tenths(value) if name in _PIXELS else value
         for name, value in found.items()
     }
+
+
+def _short(text: str, name: str) -> str:
+    return _WHOLE.sub("", text) if name in _PATHS else text
 
 
 def _tenths(pixels: float) -> float:

@@ -1,7 +1,7 @@
-// A page of the course without a kernel: its panels, votes, predictions, tables, rules and pictures, each where its data belong.
+// A page of the course without a kernel: its panels, votes, predictions, tables, rules and pictures.
 
-import { bytesOf, inflated } from "./books/numbers.js";
 import { checked } from "./lessons/checking.js";
+import { doneBox, markDone, whenMarked } from "./lessons/done.js";
 import { askForEntries } from "./lessons/filling.js";
 import { showRules } from "./lessons/finding.js";
 import { askForPrediction } from "./lessons/predicting.js";
@@ -9,40 +9,25 @@ import { askForVote } from "./lessons/voting.js";
 import { cannot, hostWith, store } from "./page.js";
 import { openComparison } from "./panels/compare.js";
 import { openPanel } from "./panels/panel.js";
+import { openPart, openParts } from "./parts.js";
 import { made } from "./views/controls.js";
 
-const KINDS = { panel, comparison, vote, prediction, worksheet, beside, rules, picture };
-const NEAR = "50%"; // of a window's height: so near to it something is opened at once
+const KINDS = { panel, comparison, vote, prediction, worksheet, beside, rules };
 
-// What comes into view is opened first; then all the rest, one after another, so that a page can be printed and searched.
-export async function openCoursePage() {
-  const { parts, books } = JSON.parse(document.getElementById("lsys-data").textContent), page = { parts, books, ballots: new Map() };
-  const places = [...document.querySelectorAll("[data-part]")].filter((place) => !place.parentElement.closest("[data-part]"));
-  const closed = new Set(places);
-  const openOnce = async (place) => { if (closed.delete(place)) await open(place, page); };
-  const watcher = new IntersectionObserver((seen) => {
-    for (const { isIntersecting, target } of seen) if (isIntersecting) openOnce(target);
-  }, { rootMargin: NEAR });
-  for (const place of places) watcher.observe(place);
-  for (const place of places) {
-    if (closed.has(place)) await idle();
-    await openOnce(place);
-  }
-  watcher.disconnect();
+export function openCoursePage() {
+  return openParts(KINDS, cannot, { ballots: new Map(), finished: offerDone(document.querySelector("[data-lesson]")) });
 }
 
-// When the browser has nothing else to do; one that does not tell is given a moment.
-const idle = () => new Promise((done) => ("requestIdleCallback" in window ? requestIdleCallback(done) : setTimeout(done, 50)));
-
-// Put a part in its place, instead of what stands there for readers without scripts.
-async function open(place, page) {
-  const { kind, data } = page.parts[Number(place.dataset.part)];
-  try {
-    await KINDS[kind](place, data, page);
-    place.dataset.open = "";
-  } catch (fault) {
-    place.append(cannot(fault));
-  }
+// At the end of a lesson a box to be ticked when it is done; the second vote ticks it, too.
+function offerDone(place) {
+  if (!place) return () => {};
+  const { lesson } = place.dataset, text = "I have done this lesson", box = doneBox(lesson, text, text);
+  place.append(box.element);
+  whenMarked(box.show);
+  return () => {
+    markDone(lesson, true);
+    box.show();
+  };
 }
 
 // Panels of the same books have them in common.
@@ -52,10 +37,6 @@ async function panel(place, data, page) {
   const host = await hostOf(data, page);
   place.replaceChildren();
   openPanel(place, host);
-}
-
-async function picture(place, { drawing }) {
-  place.src = URL.createObjectURL(new Blob([await inflated(bytesOf(drawing), "deflate")], { type: "image/svg+xml" }));
 }
 
 async function comparison(place, { left, right, shared }, page) {
@@ -74,13 +55,14 @@ function asked(ask, place, values, saved) {
 }
 
 // Both votes on a question know of one another.
-function vote(place, { asked: question, again, said }, { ballots }) {
+function vote(place, { asked: question, again, said }, { ballots, finished }) {
   const key = JSON.stringify([question.question, question.options]), ballot = ballots.get(key) ?? { votes: [-1, -1], tellers: [] };
   ballots.set(key, ballot);
   const saying = () => ({ said: said[ballot.votes[0] + 1][ballot.votes[1] + 1] });
   const model = asked(askForVote, place, { asked: question, chosen: -1, ...saying() }, ({ get }) => {
     ballot.votes[Number(again)] = get("chosen");
     for (const tell of ballot.tellers) tell();
+    if (again) finished();
   });
   ballot.tellers.push(() => model.tell(saying()));
 }
@@ -89,7 +71,7 @@ function prediction(place, { question }, page) {
   const answer = place.querySelector("[data-answer]");
   asked(askForPrediction, place, { question, typed: "", revealed: false }, () => {
     place.append(answer);
-    for (const each of answer.querySelectorAll("[data-part]")) open(each, page);
+    for (const each of answer.querySelectorAll("[data-part]")) openPart(each, page);
   });
 }
 

@@ -1,8 +1,8 @@
 // The host of a panel on a page without a kernel: the books of all settings are in the page.
 
 import { heldSettings } from "./books/held.js";
-import { packedLink, unpackedLink } from "./books/link.js";
-import { bytesOf, inflated } from "./books/numbers.js";
+import { hasLink, packedLink, unpackedLink } from "./books/link.js";
+import { unpacked } from "./books/packed.js";
 import { relaxedBook } from "./drawing/relaxation.js";
 import { openPanel } from "./panels/panel.js";
 
@@ -14,7 +14,7 @@ export async function openPage() {
     openPanel(here, await hostWith(data, true));
     addEventListener("hashchange", () => location.reload());
   } catch (fault) {
-    here.textContent = cannot(fault);
+    here.append(cannot(fault));
   }
 }
 
@@ -22,8 +22,8 @@ export const cannot = (fault) => `This browser cannot show the panel; a newer on
 
 // The host of a panel with the books that are in its data. `alone` on a page it keeps what is seen in the page's address.
 export async function hostWith(data, alone) {
-  const books = JSON.parse(await inflated(bytesOf(data.books), "deflate"));
-  return pageHost(data, books, await linkedSettings(data), alone);
+  const books = JSON.parse(await unpacked(data.books)), linked = await linkedSettings(data);
+  return pageHost(data, books, { ...linked, notice: alone ? linked.notice : null }, alone);
 }
 
 // Values by their names, told to whoever listens when they are set.
@@ -50,10 +50,11 @@ function pageHost(data, books, linked, alone = true) {
   const first = Object.fromEntries(data.model.constants.map((each) => [each.name, each.texts[each.index]]));
   const values = { step, angle, around, above, seed, mark: "", ...linked.others, settings: { ...first, ...linked.settings } };
   const asked = () => ({ constants: values.settings, seed: values.seed });
-  if (!answer(asked()).book) Object.assign(values, { settings: first, seed });
+  const there = Boolean(answer(asked()).book);
+  if (!there) Object.assign(values, { settings: first, seed });
   values.model = { ...data.model, asked: asked(), book: answer(asked()).book };
+  let notice = linked.notice ?? (linked.asked && (!there || isLost(linked.asked, values, data.fixed)) ? NOT_HELD : null);
   const { get, tell, on } = store(values);
-  let notice = null;
 
   // Whatever the page does not hold together with what was moved goes back to its first value.
   function settle(before) {
@@ -97,16 +98,27 @@ function bookAt({ names, parts, rows }, at) {
   return found.mistake ? found : { book: found };
 }
 
-// The settings of the address, if it has a link of this model.
+const BROKEN = { message: "The link in the address is broken, and this page shows its own settings", hint: "Copy the whole link again." };
+const ANOTHER = { message: "The link in the address leads to another model than that of this page", hint: "In Jupyter explore(\"...\") opens it." };
+const NOT_HELD = { message: "This page does not hold all that the link in its address says", hint: "What it lacks stands at its first value, or at the last step." };
+
+// The settings of the address, if it has a link of this model; and what of it the page cannot show.
 async function linkedSettings({ model, system }) {
   const content = await unpackedLink(location.href), others = {}, settings = {};
-  if (content?.notation !== system.notation || content.text !== system.text) return { others, settings };
+  if (!content) return { others, settings, notice: hasLink(location.href) ? BROKEN : null };
+  if (content.notation !== system.notation || content.text !== system.text) return { others, settings, notice: ANOTHER };
   const { step, angle, seed = "0" } = content.settings, turn = numberOf(angle);
   if (model.chance && model.seeds.includes(seed)) others.seed = Number(seed);
   if (/^\d{1,9}$/.test(step)) others.step = Number(step);
   if (turn >= 0 && turn <= 180) others.angle = Math.round(turn * 10) / 10;
   for (const { name, texts } of model.constants) if (texts.includes(content.settings[name])) settings[name] = content.settings[name];
-  return { others, settings };
+  return { others, settings, notice: null, asked: { ...content.settings, seed } };
+}
+
+// Whether something of a link is not shown: a later step than there is, or a value that the page does not hold.
+function isLost({ step, angle, seed, ...constants }, { settings, model: { book }, ...values }, fixed) {
+  const shown = { ...fixed, ...settings };
+  return Number(step) > book.steps || (book.chance && seed !== String(values.seed)) || Object.entries(constants).some(([name, text]) => shown[name] !== text);
 }
 
 function numberOf(text = "") {

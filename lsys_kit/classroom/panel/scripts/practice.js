@@ -1,6 +1,6 @@
 // A page of exercises that needs no kernel: answers are checked on it, and a learning platform is told how many are solved.
 
-import { bytesOf, inflated } from "./books/numbers.js";
+import { unpacked } from "./books/packed.js";
 import { connected, platformOf } from "./practice/platform.js";
 import { read } from "./practice/typed.js";
 import { made, speak, worded } from "./views/controls.js";
@@ -65,7 +65,7 @@ function openExercise(place, data, before, typed, tried) {
   });
 }
 
-const repliesOf = async ({ replies }) => new Map(Object.entries(JSON.parse(await inflated(bytesOf(replies), "deflate"))));
+const repliesOf = async ({ replies }) => new Map(Object.entries(JSON.parse(await unpacked(replies))));
 
 function verdictOn(data, replies, text) {
   if (!text.trim() || /\.\.\.|…/.test(text)) return { said: "Not answered yet", message: "" };

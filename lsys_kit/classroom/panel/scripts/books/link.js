@@ -5,6 +5,8 @@ import { bytesOf, inflated } from "./numbers.js";
 
 const MOST_BYTES = 4_000_000; // of a model in a link
 
+export const hasLink = (address) => address.includes(LINK_MARK);
+
 // What an address says: { notation, settings, text }; null where it has no link, or a broken one.
 export async function unpackedLink(address) {
   const at = address.indexOf(LINK_MARK + LINK_VERSION), digits = address.slice(at + LINK_MARK.length + LINK_VERSION.length);

@@ -21,7 +21,7 @@ export function plain(text) {
 // of the model; `render` returns how all of it is undone.
 export function question(model, el, name, traits, build) {
   speak(model.get("words"));
-  const root = made("section.lsys-lesson", { "aria-label": worded(name) });
+  const root = made("section.lsys-lesson", { "aria-label": nameOfItsOwn(worded(name)) });
   el.append(root);
   const tell = build(root), release = ownKeys(root);
   for (const trait of traits) model.on(`change:${trait}`, tell);
@@ -31,6 +31,14 @@ export function question(model, el, name, traits, build) {
     release();
     root.remove();
   };
+}
+
+// A name that no other question on the page has: the first of them goes without a number.
+function nameOfItsOwn(name) {
+  const taken = new Set([...document.querySelectorAll(".lsys-lesson")].map((each) => each.ariaLabel));
+  let found = name;
+  for (let number = 2; taken.has(found); number += 1) found = `${name} ${number}`;
+  return found;
 }
 
 // Tell the kernel what was done, or say in `status` that there is none.

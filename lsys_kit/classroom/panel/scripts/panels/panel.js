@@ -287,6 +287,7 @@ export function openPanel(element, host, compared = null) {
   offs.push(whenRecoloured(root, recoloured));
   offs.push(ownKeys(root));
   openModel();
+  say(host.notice?.() ?? null);
 
   return { differ: word.differ, close };
 

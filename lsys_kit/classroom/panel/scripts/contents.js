@@ -1,0 +1,32 @@
+// The first page of the course: a picture of each lesson, and which of them are done.
+
+import { doneBox, isDone, whenMarked } from "./lessons/done.js";
+import { openParts } from "./parts.js";
+import { made } from "./views/controls.js";
+
+export function openContents() {
+  const found = /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("[data-lesson]"));
+  showDone(document.getElementById("done"), [...found]);
+  return openParts({}, (fault) => String(fault));
+}
+
+function showDone(told, rows) {
+  const boxes = rows.map((row) => doneBox(row.dataset.lesson, "done", `${row.dataset.title}: done`, show));
+  rows.forEach((row, i) => row.querySelector(".facts").append(" · ", boxes[i].element));
+
+  function show() {
+    for (const box of boxes) box.show();
+    for (const row of rows) row.toggleAttribute("data-done", isDone(row.dataset.lesson));
+    const many = rows.filter((row) => row.hasAttribute("data-done")).length, next = rows.find((row) => !row.hasAttribute("data-done"));
+    told.hidden = !many;
+    told.replaceChildren(`You have done ${many} of ${rows.length} lessons.`, ...(next ? [" Go on with ", linkTo(next), "."] : []));
+  }
+
+  whenMarked(show);
+  show();
+}
+
+function linkTo(row) {
+  const link = row.querySelector("h3 a");
+  return made("a", { href: link.getAttribute("href") }, `${row.querySelector("h3 span").textContent} · ${link.textContent}`);
+}

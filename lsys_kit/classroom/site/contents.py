@@ -1,0 +1,72 @@
+"""The first page of the site: each lesson with a picture from it, what it asks, and what one can do after it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import PurePosixPath
+
+from lsys_kit.classroom.course import is_lesson
+from lsys_kit.classroom.lessons.lesson import TRACKS
+from lsys_kit.classroom.lessons.widget import prose_html, prose_text
+from lsys_kit.classroom.panel.bundle import compact, style
+from lsys_kit.classroom.panel.document import Program, document
+from lsys_kit.classroom.site.pages import COURSE, Entry, Parts, kept_picture
+from lsys_kit.pictures.style.labels import escaped
+
+_NOTE = """<p class="note">These pages need neither Python nor a network. Their panels move, and votes, predictions and
+tables are answered on the page. To change rules and code, and to work on the exercises, type <code>lsys-kit lab</code>: it
+opens the course in Jupyter.</p>
+"""
+
+
+def index_page(entries: Sequence[Entry], pictures: Mapping[str, str]) -> str:
+    """The first page: the lessons, some of them with a picture in SVG, and what belongs to them."""
+    parts: Parts = []
+    lessons = [each for each in entries if is_lesson(each.name)]
+    others = [each for each in entries if each.folder != "exercises" and each not in lessons]
+    rows = "".join(_row(each, entries, _picture(pictures.get(each.name), parts)) for each in lessons)
+    references = "".join(f'<li><a href="{escaped(each.page)}">{escaped(each.title)}</a></li>\n' for each in others)
+    tracks = ", ".join(f'<span class="track">{letter}</span> {text}' for letter, text in TRACKS.items())
+    body = f"""<a class="skip" href="#main">Skip to the lessons</a>
+<main id="main" class="index">
+<h1>{COURSE}</h1>
+<p class="lead">Short rules can grow a plant. These lessons show how, from a row of cells to a hedge in the light: predict,
+look, move a slider, change a rule.</p>
+{_NOTE}
+<h2 id="lessons">Lessons</h2>
+<p class="quiet">Each lesson belongs to a way through the course: {tracks}.</p>
+<p class="quiet" id="done" role="status" hidden></p>
+<ol class="lessons">
+{rows}</ol>
+<h2 id="reference">To look at, and to look things up</h2>
+<ul>
+{references}</ul>
+</main>
+"""
+    script = f'"use strict";\n{compact("contents")}\nopenContents();\n'
+    return document(
+        COURSE, body, style("course"), "Lessons on L-systems with panels to move", Program(script, "", {"parts": parts})
+    )
+
+
+def _picture(drawing: str | None, parts: Parts) -> str:
+    return f'<img alt="" {kept_picture(drawing, parts)}>' if drawing else ""
+
+
+def _row(entry: Entry, entries: Sequence[Entry], picture: str) -> str:
+    """A lesson in the list; its picture leads to it, too, for those who point."""
+    exercises = next((each for each in entries if each.name == f"exercises/{PurePosixPath(entry.name).name}"), None)
+    told, address = entry.lesson, escaped(entry.page)
+    tracks = " ".join(f'<span class="track" title="{TRACKS[each]}">{each}</span>' for each in told.track) if told else ""
+    facts = [f"{told.minutes} minutes", tracks] if told else []
+    also = [f'<a href="{escaped(exercises.page)}">exercises</a>'] if exercises else []
+    asked = f"<p>{prose_html(told.question)}</p>" if told else ""
+    number = f"<span>{told.number}</span> " if told else ""
+    able = "".join(f"<li>{prose_html(each)}</li>\n" for each in told.objectives) if told else ""
+    objectives = f'<div class="able"><p>Afterwards you can</p>\n<ul>\n{able}</ul></div>' if able else ""
+    name, title = escaped(PurePosixPath(entry.name).stem), escaped(prose_text(entry.title))
+    return (
+        f'<li data-lesson="{name}" data-title="{title}"><a class="picture" href="{address}" tabindex="-1" aria-hidden="true">'
+        f'{picture}</a><div><h3>{number}<a href="{address}">{escaped(entry.title)}</a></h3>{asked}'
+        f'<p class="quiet facts">{" · ".join([*facts, *also])}</p></div>{objectives}</li>\n'
+    )
