@@ -34,7 +34,7 @@ def options(page: Page, again: bool = False):
 def test_a_vote_is_kept_and_judged_only_the_second_time(home):
     page = home
     first, second = (page.get_by_role("region", name="vote").nth(n) for n in (0, 1))
-    expect(second.locator(".lsys-before")).to_have_text("You have not voted the first time.")
+    expect(second.locator(".lsys-before")).to_have_text("You did not vote the first time.")
     options(page).nth(0).press("Enter")
     expect(options(page).nth(0)).to_have_attribute("aria-pressed", "true")
     expect(first.get_by_role("status")).to_have_text(

@@ -112,6 +112,22 @@ def test_no_page_for_the_teacher_is_left_over() -> None:
 
 
 @every_lesson
+def test_of_each_prediction_it_is_declared_what_came_out(name: str) -> None:
+    named = {
+        target.id: node.value.value
+        for source in code(name)
+        if not source.startswith("%")
+        for node in ast.walk(ast.parse(source))
+        if isinstance(node, ast.Assign) and isinstance(node.value, ast.Constant)
+        for target in node.targets
+        if isinstance(target, ast.Name)
+    }
+    asked = [call.args[0] for _, call in calls(name, "predict")]
+    questions = [named.get(each.id) if isinstance(each, ast.Name) else ast.literal_eval(each) for each in asked]
+    assert questions == [each.question for each in declared(name).predictions]
+
+
+@every_lesson
 def test_it_begins_with_title_question_minutes_and_objectives(name: str) -> None:
     lesson, head = declared(name), one_line(prose(name).partition("\n## ")[0])
     assert head.startswith(f"# {lesson.title}")

@@ -1,0 +1,26 @@
+// What was typed into a page without a kernel, kept by the browser: it is there again when the page is opened once more. Where the
+// browser keeps nothing it lasts as long as the page.
+
+const PREFIX = "lsys-kit: ", here = new Map();
+
+export function kept(question) {
+  try {
+    return here.get(question) ?? JSON.parse(localStorage.getItem(PREFIX + question));
+  } catch {
+    return null;
+  }
+}
+
+// Nothing takes back what was kept.
+export function keep(question, answer) {
+  here.set(question, answer);
+  try {
+    if (answer) localStorage.setItem(PREFIX + question, JSON.stringify(answer));
+    else localStorage.removeItem(PREFIX + question);
+  } catch {
+    // it is full, or not allowed
+  }
+}
+
+// Some texts, so many as there are boxes.
+export const texts = (given, many) => Array.from({ length: many }, (_, at) => String(given?.[at] ?? "").slice(0, 1000));
