@@ -4,7 +4,7 @@ import { bytesOf, inflated } from "./books/numbers.js";
 import { checked, isRight } from "./lessons/checking.js";
 import { askForEntries } from "./lessons/filling.js";
 import { showRules } from "./lessons/finding.js";
-import { keep, kept, texts } from "./lessons/keeping.js";
+import { fitted, keepAnswer, keptAnswer } from "./lessons/keeping.js";
 import { askForPrediction } from "./lessons/predicting.js";
 import { askForVote } from "./lessons/voting.js";
 import { cannot, hostWith, store } from "./page.js";
@@ -81,13 +81,13 @@ function vote(place, { asked: question, again, said }, page) {
   const own = Number(again), saying = () => ({ said: { ...said[ballot.votes[0] + 1][ballot.votes[1] + 1], predicted: again ? predictedOn(page) : [] } });
   const model = asked(askForVote, place, { asked: question, chosen: ballot.votes[own], ...saying() }, ({ get }) => {
     ballot.votes[own] = get("chosen");
-    keep(key, ballot.votes.some((each) => each >= 0) ? ballot.votes : null);
+    keepAnswer(key, ballot.votes.some((each) => each >= 0) ? ballot.votes : null);
     for (const tell of ballot.tellers) tell();
   });
   ballot.tellers.push(() => model.tell(saying()));
 }
 
-const votesOf = (key) => [0, 1].map((place) => ([0, 1, 2, 3].includes(kept(key)?.[place]) ? kept(key)[place] : -1));
+const votesOf = (key) => [0, 1].map((place) => ([0, 1, 2, 3].includes(keptAnswer(key)?.[place]) ? keptAnswer(key)[place] : -1));
 
 const keyOf = (question) => `prediction ${question}`;
 
@@ -98,16 +98,16 @@ function outcomeOf(known, typed, atTheEnd = false) {
 
 function predictedOn({ parts }) {
   return parts.filter(({ kind }) => kind === "prediction").flatMap(({ data: { question, known } }) => {
-    const [typed] = texts(kept(keyOf(question)), 1);
+    const [typed] = fitted(keptAnswer(keyOf(question)), 1);
     return known && typed ? [{ question, typed, ...outcomeOf(known, typed, true) }] : [];
   });
 }
 
 function prediction(place, { question, known }, page) {
-  const answer = place.querySelector("[data-answer]"), key = keyOf(question), before = kept(key), [said] = texts(before, 1);
+  const answer = place.querySelector("[data-answer]"), key = keyOf(question), before = keptAnswer(key), [said] = fitted(before, 1);
   const show = ({ get, tell }) => {
     const revealed = get("revealed");
-    keep(key, revealed ? [get("typed")] : null);
+    keepAnswer(key, revealed ? [get("typed")] : null);
     tell({ outcome: revealed ? outcomeOf(known, get("typed")) : {} });
     for (const { tellers } of page.ballots.values()) for (const each of tellers) each();
     if (!revealed) return answer.remove();
@@ -119,15 +119,15 @@ function prediction(place, { question, known }, page) {
 }
 
 function worksheet(place, data) {
-  const { title, columns } = data.sheet, key = `table ${[title, ...columns].join(" ")}`, many = data.blanks.length, before = kept(key);
-  const [typed, entries, first] = ["typed", "entries", "first"].map((name) => texts(before?.[name], many));
+  const { title, columns } = data.sheet, key = `table ${[title, ...columns].join(" ")}`, many = data.blanks.length, before = keptAnswer(key);
+  const [typed, entries, first] = ["typed", "entries", "first"].map((name) => fitted(before?.[name], many));
   const done = entries.some(Boolean) ? { number: 0, first, ...checked(data, entries) } : {};
   asked(askForEntries, place, { sheet: data.sheet, typed, asked: done.marks ? { number: 0, entries } : {}, result: done }, ({ get, tell }) => {
     const now = get("asked"), was = get("result");
     if (!now.entries) tell({ result: {} });
     else if (now.number !== was.number) tell({ result: { number: now.number, first: now.entries.map((entry, at) => was.first?.[at] || entry), ...checked(data, now.entries) } });
     const { first: earliest } = get("result");
-    keep(key, get("typed").some(Boolean) ? { typed: get("typed"), entries: now.entries, first: earliest } : null);
+    keepAnswer(key, get("typed").some(Boolean) ? { typed: get("typed"), entries: now.entries, first: earliest } : null);
   });
 }
 

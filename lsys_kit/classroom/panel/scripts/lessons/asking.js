@@ -50,7 +50,7 @@ export const againButton = (pressed) => made("button.lsys-again", { type: "butto
 
 // What was predicted, and beside it what came out, if that is known.
 /** @param {string} typed @param {{ answer?: string, right?: boolean }} outcome */
-export function beside(typed, { answer, right }) {
+export function predictedBeside(typed, { answer, right }) {
   const said = typed ? made("div", `${worded("You said:")} `, typedText(typed)) : made("div", worded("You wanted to see it."));
   return answer ? [said, made("div", right ? made("b.lsys-came", "✓ ") : "", `${worded("It is:")} `, made("b", prose(answer)))] : [said];
 }

@@ -3,7 +3,7 @@
 
 const PREFIX = "lsys-kit: ", here = new Map();
 
-export function kept(question) {
+export function keptAnswer(question) {
   try {
     return here.get(question) ?? JSON.parse(localStorage.getItem(PREFIX + question));
   } catch {
@@ -12,7 +12,7 @@ export function kept(question) {
 }
 
 // Nothing takes back what was kept.
-export function keep(question, answer) {
+export function keepAnswer(question, answer) {
   here.set(question, answer);
   try {
     if (answer) localStorage.setItem(PREFIX + question, JSON.stringify(answer));
@@ -23,4 +23,4 @@ export function keep(question, answer) {
 }
 
 // Some texts, so many as there are boxes.
-export const texts = (given, many) => Array.from({ length: many }, (_, at) => String(given?.[at] ?? "").slice(0, 1000));
+export const fitted = (given, many) => Array.from({ length: many }, (_, at) => String(given?.[at] ?? "").slice(0, 1000));

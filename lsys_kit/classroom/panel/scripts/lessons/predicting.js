@@ -1,7 +1,7 @@
 // The question of a prediction, with its box. What answers it is not here: the model is told when it may be seen.
 
 import { freshId, made, worded } from "../views/controls.js";
-import { againButton, beside, prose, question, tellModel } from "./asking.js";
+import { againButton, predictedBeside, prose, question, tellModel } from "./asking.js";
 
 export function askForPrediction({ model, el }) {
   return question(model, el, "prediction", ["typed", "revealed", "outcome"], (root) => {
@@ -32,7 +32,7 @@ export function askForPrediction({ model, el }) {
         show.disabled = true;
       }
       form.toggleAttribute("data-revealed", revealed);
-      if (revealed) status.replaceChildren(...beside(typed, model.get("outcome")));
+      if (revealed) status.replaceChildren(...predictedBeside(typed, model.get("outcome")));
       else status.replaceChildren();
     };
   });

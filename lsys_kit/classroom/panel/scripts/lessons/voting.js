@@ -2,7 +2,7 @@
 
 import { LETTERS } from "../drawing/constants.js";
 import { freshId, made, worded } from "../views/controls.js";
-import { againButton, beside, prose, question, tellModel } from "./asking.js";
+import { againButton, predictedBeside, prose, question, tellModel } from "./asking.js";
 
 const NONE = -1;
 const VERDICTS = { "Right": ["✓", "lsys-right"], "Not right": ["✗", "lsys-wrong"] };
@@ -43,7 +43,7 @@ function showPredictions(element, predicted) {
   const known = predicted.filter(({ right }) => right !== undefined), right = known.filter((each) => each.right).length;
   const count = worded("{right} of {number} came out as you said", { right, number: known.length });
   element.replaceChildren(made("summary", `${worded("What you predicted in this lesson")} (${count})`),
-    made("ul", ...predicted.map(({ question: text, typed, ...outcome }) => made("li", made("div", prose(text)), ...beside(typed, outcome)))));
+    made("ul", ...predicted.map(({ question: text, typed, ...outcome }) => made("li", made("div", prose(text)), ...predictedBeside(typed, outcome)))));
 }
 
 export default { render: askForVote };
