@@ -24,7 +24,7 @@ def asked(notebook: OpenNotebook, number: int, name: str) -> Locator:
 def expect_all(notebook: OpenNotebook) -> None:
     """All that was typed is there."""
     expect(asked(notebook, 1, "vote").get_by_role("button").nth(3)).to_have_attribute("aria-pressed", "true")
-    expect(asked(notebook, 2, "prediction").get_by_role("status")).to_have_text("You said: 21It is: 34")
+    expect(asked(notebook, 2, "prediction").get_by_role("status")).to_have_text("You said: 21The answer: 34")
     expect(notebook.output(2).locator(".widget-html img")).to_be_visible()
     sheet = asked(notebook, 3, "table to fill")
     expect(sheet.get_by_role("textbox", name="step 1: all at once")).to_have_value("2")

@@ -152,10 +152,10 @@ def test_what_was_typed_is_there_again_when_a_page_is_loaded_once_more(opened: C
     all_parts_open(page)
     expect(first.get_by_role("button").nth(3)).to_have_attribute("aria-pressed", "true")
     expect(second.locator(".lsys-before")).to_have_text("Your first vote was D.")
-    expect(asked.get_by_role("status")).to_have_text("You said: 21It is: 34")
+    expect(asked.get_by_role("status")).to_have_text("You said: 21The answer: 34")
     second.locator("summary").click()
     expect(second.locator(".lsys-predicted li")).to_have_text(
-        "Step 6 has 13 long cells and 8 short ones. How long is the filament?You said: 21It is: 34"
+        "Step 6 has 13 long cells and 8 short ones. How long is the filament?You said: 21The answer: 34"
     )
     box = sheet.get_by_role("textbox", name="step 1: all at once")
     expect(box).to_have_value("2")

@@ -137,10 +137,10 @@ def _belongs(table: Table, row: int, place: tuple[int, int]) -> str:
         return gettext('That belongs in the column "{column}".', column=prose_text(table.columns[place[1]]))
     name = row_name(table, place[0])
     if place[0] == row - 1:
-        return gettext("That belongs in the row above, {row}.", row=name)
+        return gettext("That belongs to {row}, the row above.", row=name)
     if place[0] == row + 1:
-        return gettext("That belongs in the row below, {row}.", row=name)
-    return gettext("That belongs in the row {row}.", row=name)
+        return gettext("That belongs to {row}, the row below.", row=name)
+    return gettext("That belongs to {row}.", row=name)
 
 
 def row_name(table: Table, row: int) -> str:

@@ -52,7 +52,7 @@ export const againButton = (pressed) => made("button.lsys-again", { type: "butto
 /** @param {string} typed @param {{ answer?: string, right?: boolean }} outcome */
 export function predictedBeside(typed, { answer, right }) {
   const said = typed ? made("div", `${worded("You said:")} `, typedText(typed)) : made("div", worded("You wanted to see it."));
-  return answer ? [said, made("div", right ? made("b.lsys-came", "✓ ") : "", `${worded("It is:")} `, made("b", prose(answer)))] : [said];
+  return answer ? [said, made("div", right ? made("b.lsys-came", "✓ ") : "", `${worded("The answer:")} `, made("b", prose(answer)))] : [said];
 }
 
 const typedText = (text) => made("b.mathjax_ignore.tex2jax_ignore", text);
