@@ -128,6 +128,14 @@ def test_of_each_prediction_it_is_declared_what_came_out(name: str) -> None:
 
 
 @every_lesson
+def test_code_that_gives_an_answer_away_is_folded(name: str) -> None:
+    cells = [cell for cell in notebook(name).cells if cell.cell_type == "code"]
+    folded = [cell.metadata.get("jupyter") == {"source_hidden": True} for cell in cells]
+    giving_away = {number for number, call in calls(name, "predict") if isinstance(call.args[1], ast.Constant)}
+    assert {number for number, each in enumerate(folded) if each} == giving_away
+
+
+@every_lesson
 def test_it_begins_with_title_question_minutes_and_objectives(name: str) -> None:
     lesson, head = declared(name), one_line(prose(name).partition("\n## ")[0])
     assert head.startswith(f"# {lesson.title}")

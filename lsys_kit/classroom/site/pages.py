@@ -27,7 +27,7 @@ COURSE = "L-systems: a course"
 """The title of the first page."""
 _KEPT = """<p class="note">The cells of this page have been run, and its panels move; nothing has to be installed. To change
 rules and code, open the lesson in Jupyter: <code>lsys-kit lab</code>. Votes and tables are checked on the page itself: what is
-right stands in it, and is no secret.</p>
+right stands in it, and is no secret. What you type is kept by this browser alone.</p>
 """
 _ALL_KEPT = """<p class="note">These pages need neither Python nor a network. Their panels move, and votes, predictions and
 tables are answered on the page. To change rules and code, and to work on the exercises, type <code>lsys-kit lab</code>: it
