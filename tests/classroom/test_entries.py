@@ -98,7 +98,7 @@ def test_a_wrong_number_no_number_and_nothing_are_three_things() -> None:
     assert marked(table("01", "counts"), ["3", "abc", " ", "4"])[:4] == ["not yet", "no number", "not filled in yet", "right"]
     said = checked(table("01", "counts"), ["2", "abc"])
     assert said["notes"] == [
-        'Step 1, rule after rule: "abc" cannot be read as a number. Write it in digits, such as 21, 0.5 or 3/4.'
+        "Step 1, rule after rule: That cannot be read as a number. Write it in digits, such as 21, 0.5 or 3/4."
     ]
     said = checked(table("04", "angles"), ["90", "perhaps"])
     assert said["notes"] == ['Angle 45, closed at step 0? (yes or no): Answer "yes" or "no".']
@@ -142,7 +142,9 @@ def test_no_slip_is_right_and_each_says_something(number: str, id: str) -> None:
         (("03", "price"), 0, "22285", "belongs to [B], the row below"),
         (("04", "state"), 0, "0", "belongs to "),
         (("04", "state"), 5, "0", "opposite direction"),
-        (("04", "angles"), 0, "270", "opposite direction"),
+        (("04", "angles"), 0, "45", "each of them is a turn"),
+        (("05", "ratio"), 2, "150", "in per cent of a long one"),
+        (("12", "jump"), 0, "1.3", "The age is the power"),
         (("05", "ratio"), 0, "1", "belongs to L, the row above"),
         (("02", "rates"), 0, "1.625", "is close"),
         (("02", "rates"), 0, "1.6", "rounded too far"),
@@ -223,6 +225,16 @@ def test_nothing_typed_is_lost_when_the_kernel_is_restarted() -> None:
     assert vote("01").chosen == 3
     again = predict("Step 6 has 13 long cells and 8 short ones. How long is the filament?", "34")
     assert (again.prompt.typed, again.prompt.revealed, len(again.children)) == ("21", True, 2)
+
+
+@pytest.mark.usefixtures("course")
+def test_a_prediction_that_was_not_shown_yet_is_kept_and_counts_for_nothing() -> None:
+    question = "Step 6 has 13 long cells and 8 short ones. How long is the filament?"
+    predict(question, "34").prompt.typed = "2"
+    begin_anew()
+    again = predict(question, "34")
+    assert (again.prompt.typed, again.prompt.revealed, len(again.children)) == ("2", False, 1)
+    assert predictions_of(lesson("01")) == []
 
 
 @pytest.mark.usefixtures("course")

@@ -9,7 +9,7 @@ import traitlets
 from ipywidgets import VBox, Widget
 
 from lsys_kit.classroom.lessons.kept import answered, keep
-from lsys_kit.classroom.lessons.predicted import asked_of, key_of, outcome
+from lsys_kit.classroom.lessons.predicted import OPEN, asked_of, key_of, outcome
 from lsys_kit.classroom.lessons.widget import (
     MOST_TYPED,
     LessonWidget,
@@ -80,13 +80,13 @@ class Prompt(LessonWidget):
     def __init__(self, question: str, what: str = "") -> None:
         self._key = key_of(question, what)
         kept = answered(self._key)
-        super().__init__(question=question, typed="".join(kept[:1]), revealed=bool(kept))
+        super().__init__(question=question, typed="".join(kept[:1]), revealed=len(kept) == 1)
         self._tell()
         self.observe(self._tell, ["typed", "revealed"])
 
     def _tell(self, _: object = None) -> None:
         self.outcome = outcome(self.question, self.typed) if self.revealed else {}
-        keep(self._key, [self.typed] if self.revealed else [])
+        keep(self._key, [self.typed] if self.revealed else [self.typed, OPEN] if self.typed else [])
 
     @traitlets.validate("typed")
     def _shortened(self, proposal: Any) -> str:

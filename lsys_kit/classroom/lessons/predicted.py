@@ -9,6 +9,9 @@ from lsys_kit.classroom.lessons.kept import answered
 from lsys_kit.classroom.lessons.lesson import Asked, Lesson, declared, names
 from lsys_kit.classroom.panel.bundle import Data
 
+OPEN = "open"
+"""Kept behind what was typed, where its answer was not asked for yet."""
+
 
 def key_of(question: str, what: str = "") -> str:
     """Under what a prediction is kept; a question that is none of the lessons' may be asked of several things."""
@@ -44,5 +47,5 @@ def predictions_of(lesson: Lesson) -> list[Data]:
     return [
         {"question": question, "typed": typed[0], **outcome(question, typed[0], at_the_end=True)}
         for question, typed in kept
-        if typed and typed[0]
+        if len(typed) == 1 and typed[0]
     ]

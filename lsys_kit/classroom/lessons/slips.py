@@ -70,7 +70,7 @@ def _slips_of(table: Table, number: int, _: str) -> tuple[Known, ...]:
 
 def _all(table: Table, number: int) -> Iterator[Known]:
     row, column, blank = table.blanks[number]
-    yield from (Known(answer, slip.says) for slip in blank.slips for answer in slip.answer)
+    yield from (Known(answer, slip.says, blank.within) for slip in blank.slips for answer in slip.answer)
     yield from _of_the_system(table, row, column, blank)
     yield from _of_other_cells(table, row, column, blank)
     if (right := number_of(blank.right[0])) is not None:

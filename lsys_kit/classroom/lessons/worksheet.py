@@ -251,7 +251,7 @@ def _notes(table: Table, entries: Sequence[str], marks: Sequence[str]) -> tuple[
 def _shown(table: Table, number: int, entry: str, mark: str) -> str:
     blank, nouns = table.blanks[number][2], nouns_of(table)
     if mark == NO_NUMBER:
-        return gettext('"{entry}" cannot be read as a number. Write it in digits, such as 21, 0.5 or 3/4.', entry=entry.strip())
+        return gettext("That cannot be read as a number. Write it in digits, such as 21, 0.5 or 3/4.")
     if {*blank.right} & {"yes", "no"} and not is_right(entry, ["yes", "no"]):
         return gettext('Answer "yes" or "no".')
     return next((known.says for known in slips_of(table, number) if is_right(entry, [known.answer], known.within, nouns)), "")

@@ -89,6 +89,8 @@ function vote(place, { asked: question, again, said }, page) {
 
 const votesOf = (key) => [0, 1].map((place) => ([0, 1, 2, 3].includes(keptAnswer(key)?.[place]) ? keptAnswer(key)[place] : -1));
 
+const OPEN = "open"; // behind what was typed, where its answer was not asked for yet
+
 const keyOf = (question) => `prediction ${question}`;
 
 function outcomeOf(known, typed, atTheEnd = false) {
@@ -98,8 +100,8 @@ function outcomeOf(known, typed, atTheEnd = false) {
 
 function predictedOn({ parts }) {
   return parts.filter(({ kind }) => kind === "prediction").flatMap(({ data: { question, known } }) => {
-    const [typed] = fitted(keptAnswer(keyOf(question)), 1);
-    return known && typed ? [{ question, typed, ...outcomeOf(known, typed, true) }] : [];
+    const before = keptAnswer(keyOf(question)), [typed] = fitted(before, 1);
+    return known && typed && before.length === 1 ? [{ question, typed, ...outcomeOf(known, typed, true) }] : [];
   });
 }
 
@@ -107,15 +109,15 @@ function prediction(place, { question, known }, page) {
   const answer = place.querySelector("[data-answer]"), key = keyOf(question), before = keptAnswer(key), [said] = fitted(before, 1);
   const show = ({ get, tell }) => {
     const revealed = get("revealed");
-    keepAnswer(key, revealed ? [get("typed")] : null);
+    keepAnswer(key, revealed ? [get("typed")] : get("typed") ? [get("typed"), OPEN] : null);
     tell({ outcome: revealed ? outcomeOf(known, get("typed")) : {} });
     for (const { tellers } of page.ballots.values()) for (const each of tellers) each();
     if (!revealed) return answer.remove();
     place.append(answer);
     for (const each of answer.querySelectorAll("[data-part]:not([data-open])")) open(each, page);
   };
-  const model = asked(askForPrediction, place, { question, typed: said, revealed: Boolean(before), outcome: {} }, show);
-  if (before) show(model);
+  const model = asked(askForPrediction, place, { question, typed: said, revealed: before?.length === 1, outcome: {} }, show);
+  if (model.get("revealed")) show(model);
 }
 
 function worksheet(place, data) {

@@ -45,6 +45,19 @@ export function tellModel(model, values, status) {
   if (!told) status.replaceChildren(worded("The kernel does not answer. Run the cell again."));
 }
 
+const PAUSE = 300; // milliseconds without a key after which what is typed is kept
+
+// A function that calls another when nothing was typed for a while.
+export function afterPause(handler) {
+  let waiting = 0;
+  const later = () => {
+    clearTimeout(waiting);
+    waiting = setTimeout(handler, PAUSE);
+  };
+  later.cancel = () => clearTimeout(waiting);
+  return later;
+}
+
 // A quiet button that takes back what was answered; it is there where something was.
 export const againButton = (pressed) => made("button.lsys-again", { type: "button", hidden: true, onclick: pressed }, worded("Start again"));
 

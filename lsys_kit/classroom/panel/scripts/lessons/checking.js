@@ -38,7 +38,7 @@ function markOf(entry, { right, within }, nouns) {
 }
 
 function shownBy(entry, mark, { right, slips }, nouns, says) {
-  if (mark === NO_NUMBER) return `"${entry.trim()}" cannot be read as a number. Write it in digits, such as 21, 0.5 or 3/4.`;
+  if (mark === NO_NUMBER) return "That cannot be read as a number. Write it in digits, such as 21, 0.5 or 3/4.";
   if (right.some((each) => each === "yes" || each === "no") && !isRight(entry, ["yes", "no"])) return 'Answer "yes" or "no".';
   const known = slips.find(([answer, within]) => isRight(entry, [answer], within, nouns));
   return known ? says[known[2]] : "";

@@ -2,23 +2,22 @@
 
 import { LONGEST_ENTRY } from "../drawing/constants.js";
 import { freshId, made, worded } from "../views/controls.js";
-import { againButton, plain, prose, question, tellModel } from "./asking.js";
+import { afterPause, againButton, plain, prose, question, tellModel } from "./asking.js";
 
 const SIGNS = { "right": "✓", "not yet": "✗", "no number": "?", "not filled in yet": "○" };
-const PAUSE = 300; // milliseconds without a key after which what is typed is kept
 
 export function askForEntries({ model, el }) {
   return question(model, el, "table to fill", ["typed", "result"], (root) => {
     const { title, columns, rows } = model.get("sheet"), boxes = [], marks = [];
     const status = made("div.lsys-said", { role: "status" });
-    let waiting = 0;
-
     const entries = () => boxes.map((box) => box.value);
 
     function keep() {
-      clearTimeout(waiting);
+      later.cancel();
       tellModel(model, { typed: entries() }, status);
     }
+
+    const later = afterPause(keep);
 
     function filled(row, column) {
       const mark = made("span.lsys-mark", { id: freshId() });
@@ -27,8 +26,7 @@ export function askForEntries({ model, el }) {
         "aria-label": `${plain(columns[0])} ${plain(row[0])}: ${plain(columns[column])}`,
         oninput: () => {
           shown(box, mark, "");
-          clearTimeout(waiting);
-          waiting = setTimeout(keep, PAUSE);
+          later();
         },
         onchange: keep,
       });
@@ -43,14 +41,14 @@ export function askForEntries({ model, el }) {
       made("thead", made("tr", ...columns.map((name) => made("th", { scope: "col" }, prose(name))))),
       made("tbody", ...lines));
     const again = againButton(() => {
-      clearTimeout(waiting);
+      later.cancel();
       for (const box of boxes) box.value = "";
       tellModel(model, { typed: entries(), asked: {} }, status);
       boxes[0].focus();
     });
     const form = made("form.lsys-sheet", { onsubmit: (event) => {
       event.preventDefault();
-      clearTimeout(waiting);
+      later.cancel();
       const number = (model.get("result").number ?? 0) + 1;
       tellModel(model, { typed: entries(), asked: { number, entries: entries() } }, status);
     } }, made("div.lsys-scroll", table), made("div.lsys-actions", made("button", { type: "submit" }, worded("Check")), again));

@@ -1,13 +1,18 @@
 // The question of a prediction, with its box. What answers it is not here: the model is told when it may be seen.
 
 import { freshId, made, worded } from "../views/controls.js";
-import { againButton, predictedBeside, prose, question, tellModel } from "./asking.js";
+import { afterPause, againButton, predictedBeside, prose, question, tellModel } from "./asking.js";
 
 export function askForPrediction({ model, el }) {
   return question(model, el, "prediction", ["typed", "revealed", "outcome"], (root) => {
     const id = freshId(), status = made("div.lsys-said", { role: "status", tabindex: -1 });
-    const box = made("input", { type: "text", id, maxlength: 1000, autocomplete: "off", oninput: () => { show.disabled = !box.value.trim(); } });
+    const keep = () => tellModel(model, { typed: box.value }, status), later = afterPause(keep);
+    const box = made("input", { type: "text", id, maxlength: 1000, autocomplete: "off", onchange: keep, oninput: () => {
+      show.disabled = !box.value.trim();
+      later();
+    } });
     const reveal = (typed) => {
+      later.cancel();
       tellModel(model, { typed, revealed: true }, status);
       if (model.get("revealed")) status.focus();
     };
@@ -27,11 +32,8 @@ export function askForPrediction({ model, el }) {
       const revealed = model.get("revealed"), typed = model.get("typed");
       form.hidden = revealed;
       again.hidden = !revealed;
-      if (!revealed && form.hasAttribute("data-revealed")) {
-        box.value = "";
-        show.disabled = true;
-      }
-      form.toggleAttribute("data-revealed", revealed);
+      if (document.activeElement !== box) box.value = typed;
+      show.disabled = !box.value.trim();
       if (revealed) status.replaceChildren(...predictedBeside(typed, model.get("outcome")));
       else status.replaceChildren();
     };
