@@ -37,6 +37,9 @@ MOST_SHAPES = 6_000
 def vote(number: str, again: bool = False) -> VoteBox:
     """The question of a lesson with its four options, to vote for one of them.
 
+    Votes are kept, as are predictions and the entries of tables: in a copy of the course in its file `answers.jsonl`. Whoever
+    deletes that begins anew.
+
     Parameters
     ----------
     number
