@@ -54,6 +54,7 @@ TABLES_OF_SCRIPTS = (
     "Not right",
     "right",
     "not yet",
+    "no number",
     "not filled in yet",
     "slow",
     "normal",

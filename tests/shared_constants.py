@@ -114,7 +114,7 @@ SHARED: Mapping[str, Mapping[str, str]] = {
     "pictures.style.themes": {"CONTRAST": "LINE", "FINER": "FINER"},
     "pictures.rendering.scene_shapes": {"FACE_EDGE": "AREAS", "RING": "ROUNDS", "SMALLEST_RADIUS": "SMALLEST"},
     "classroom.lessons.vote": {"LETTERS": "LETTERS"},
-    "classroom.lessons.lesson": {"LONGEST_ENTRY": "MOST_CHARACTERS"},
+    "classroom.lessons.entries": {"LONGEST_ENTRY": "MOST_CHARACTERS"},
     "classroom.panel.word_view": {"MOST_MODULES_SHOWN": "MOST_MODULES_SHOWN"},
 }
 """For each module of the kit the names of its constants there, by their names in the scripts."""

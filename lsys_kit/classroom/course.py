@@ -205,8 +205,9 @@ def _has_content(path: Path, version: str) -> bool:
 
 HOW_TO_RUN = """\
 **How to work with this page.** Click into a grey box, a *cell*, and press **Shift + Enter**: the cell is run, and what it shows
-appears below it. Run the cells one after another, from the top. To change something, type in the cell and run it again. If
-nothing helps, choose *Kernel* and then *Restart Kernel* in the menu, and begin at the top."""
+appears below it. Run the cells one after another, from the top. To change something, type in the cell and run it again. A cell
+of which one pale line is seen is folded, as its code would give an answer away: it is run in the same way. If nothing helps,
+choose *Kernel* and then *Restart Kernel* in the menu, and begin at the top."""
 """The text that a student's copy has after its title."""
 HOW_TO_RUN_ID = "how-to-run-a-cell"
 

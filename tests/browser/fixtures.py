@@ -1,5 +1,5 @@
 """JupyterLab and what kernels are forked from once for all tests, Chromium once a file; each test opens notebooks of its own in
-the tab of its file."""
+the tab of its file, of which nothing was answered before."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 from playwright.sync_api import Browser, Page, expect, sync_playwright
 
+from lsys_kit.classroom.lessons.kept import FILE
 from tests.browser.homes import show
 from tests.browser.lab import VIEWPORT, Lab, OpenNotebook, Tab, launched, started, tab_of
 from tests.notebooks.kernels import ARE_FORKED, forked
@@ -62,6 +63,7 @@ def open_notebook(
     def open_one(name: str, viewport: Mapping[str, int] = VIEWPORT, **context: Any) -> OpenNotebook:
         if context:
             own.append(tab_of(browser, lab, _shots(pytestconfig), **context))
+        (lab.folder / FILE).unlink(missing_ok=True)
         used.append((own[-1] if context else lab_tab).open(name, viewport))
         return used[-1]
 
@@ -100,6 +102,7 @@ def open_at_home(
     def open_one(
         home: Callable[[Page, Lab, str], None], *sources: str, name: str = "panel", viewport: Mapping[str, int] = VIEWPORT
     ) -> Page:
+        (lab.folder / FILE).unlink(missing_ok=True)
         page = browser.new_context(viewport={"width": viewport["width"], "height": viewport["height"]}).new_page()
         pages.append((page, f"{name}-{home.__name__}"))
         home(page, lab, write_notebook(f"{name}_{home.__name__}.ipynb", *map(show, sources)))

@@ -35,6 +35,11 @@ VIEWPORT = {"width": 1400, "height": 1000}
 NOISE = re.compile(r"favicon|ResizeObserver loop|/api/(me|terminals|kernels|sessions|contents)|/lsp/|net::ERR_ABORTED")
 """What JupyterLab itself may write to the console."""
 
+OPENED = """name => {
+    const panel = window.jupyterapp?.shell?.currentWidget;
+    return panel?.context?.path === name && panel.sessionContext?.session?.kernel != null;
+}"""
+"""Whether a notebook is open, with a kernel."""
 CONFIGURATION = {
     "ServerApp": {"ip": "127.0.0.1", "port_retries": 0, "open_browser": False, "log_level": "WARN"},
     "IdentityProvider": {"token": ""},
@@ -120,6 +125,17 @@ class OpenNotebook:
     def run_all(self) -> None:
         """Run all cells, from a fresh kernel, until the kernel is idle."""
         self._ask("await app.commands.execute('notebook:run-all-cells'); await idle();")
+
+    def reload(self) -> None:
+        """Save the notebook and load the page anew, while the kernel lives on."""
+        path = self._ask("await panel.context.save(); return panel.context.path;")
+        self.page.reload()
+        self.page.wait_for_function(OPENED, arg=path)
+        self.idle()
+
+    def restart(self) -> None:
+        """Restart the kernel, which forgets all that it knew."""
+        self._ask("await panel.sessionContext.session.kernel.restart(); await idle();")
 
     def idle(self) -> None:
         """Wait until the kernel has nothing to do."""
@@ -222,13 +238,7 @@ class Tab:
             }""",
                 name,
             )
-        self.page.wait_for_function(
-            """name => {
-            const panel = window.jupyterapp?.shell?.currentWidget;
-            return panel?.context?.path === name && panel.sessionContext?.session?.kernel != null;
-        }""",
-            arg=name,
-        )
+        self.page.wait_for_function(OPENED, arg=name)
         self.notebook.idle()
         return self.notebook
 

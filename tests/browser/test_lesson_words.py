@@ -34,7 +34,7 @@ def options(page: Page, again: bool = False):
 def test_a_vote_is_kept_and_judged_only_the_second_time(home):
     page = home
     first, second = (page.get_by_role("region", name="vote").nth(n) for n in (0, 1))
-    expect(second.locator(".lsys-before")).to_have_text("You have not voted the first time.")
+    expect(second.locator(".lsys-before")).to_have_text("You did not vote the first time.")
     options(page).nth(0).press("Enter")
     expect(options(page).nth(0)).to_have_attribute("aria-pressed", "true")
     expect(first.get_by_role("status")).to_have_text(
@@ -74,7 +74,8 @@ def test_a_table_says_which_cells_are_right_and_gives_none_away(home):
     page.get_by_role("textbox", name="step 2: all at once").press("Enter")
     sheet = page.get_by_role("region", name="table to fill")
     expect(sheet.get_by_role("status")).to_have_text(
-        "2 of 8 cells are right, 5 are not filled in yet. Look again at row 2, all at once."
+        "2 of 8 cells are right, 5 are not filled in yet.Step 2, all at once: Did you apply one production after another, "
+        "the second to what the first has made, or add where it multiplies, or double the number in every step?"
     )
     expect(sheet.locator('[data-mark="right"]')).to_have_text(["✓ right"] * 2)
     expect(sheet.locator('[data-mark="not yet"]')).to_have_text("✗ not yet")

@@ -27,7 +27,7 @@ from lsys_kit.classroom.site.build import build_site
 from lsys_kit.classroom.site.showing import asked_settings
 from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.system import LSystem
-from tests.browser.test_lessons import ONE_SCREEN, height_of, move_every_slider
+from tests.browser.test_lessons import NOT_RIGHT, ONE_SCREEN, height_of, move_every_slider
 
 pytestmark = [pytest.mark.slow, pytest.mark.browser]
 AXE = Path(axe_playwright_python.__file__).parent / "axe.min.js"
@@ -82,7 +82,7 @@ class Tab:
 
 @pytest.fixture(scope="module")
 def tabs(browser: Browser) -> Callable[..., Tab]:
-    """A tab for each choice of a context; pages keep nothing in the browser."""
+    """A tab for each choice of a context; what a page keeps in the browser is gone after each test."""
 
     @lru_cache
     def tab(is_phone: bool = False, **choices: Any) -> Tab:
@@ -108,6 +108,7 @@ def opened(tabs: Callable[..., Tab], site: Path) -> Iterator[Callable[..., Page]
 
     yield open_one
     for tab in used:
+        tab.page.evaluate("localStorage.clear()")
         tab.page.goto("about:blank")
         faults, asked = [*tab.faults], [*tab.asked]
         tab.faults.clear()
@@ -131,6 +132,44 @@ def test_every_picture_is_shown_in_its_place(opened: Callable[..., Page]) -> Non
     page.evaluate("Promise.all([...document.images].map((each) => each.decode()))")
     assert pictures.evaluate_all("(all) => all.map((each) => [each.width, each.height])") == sizes
     assert all(src.startswith("blob:") for src in pictures.evaluate_all("(all) => all.map((each) => each.src)"))
+
+
+def test_what_was_typed_is_there_again_when_a_page_is_loaded_once_more(opened: Callable[..., Page]) -> None:
+    page = opened("notebooks/01_all_at_once.html")
+    all_parts_open(page)
+    first, second = (page.get_by_role("region", name="vote").nth(place) for place in (0, 1))
+    first.get_by_role("button").nth(3).click()
+    asked = page.get_by_role("region", name="prediction").filter(has_text="How long is the filament?")
+    asked.get_by_role("textbox").fill("21")
+    asked.get_by_role("button", name="Show", exact=True).click()
+    sheet = page.get_by_role("region", name="table to fill").first
+    for name, entry in (("step 1: all at once", "3"), ("step 1: rule after rule", "2"), ("step 2: all at once", "abc")):
+        sheet.get_by_role("textbox", name=name).fill(entry)
+    sheet.get_by_role("button", name="Check").click()
+    sheet.get_by_role("textbox", name="step 1: all at once").fill("2")
+    page.wait_for_timeout(600)
+    page.reload()
+    all_parts_open(page)
+    expect(first.get_by_role("button").nth(3)).to_have_attribute("aria-pressed", "true")
+    expect(second.locator(".lsys-before")).to_have_text("Your first vote was D.")
+    expect(asked.get_by_role("status")).to_have_text("You said: 21The answer: 34")
+    second.locator("summary").click()
+    expect(second.locator(".lsys-predicted li")).to_have_text(
+        "Step 6 has 13 long cells and 8 short ones. How long is the filament?You said: 21The answer: 34"
+    )
+    box = sheet.get_by_role("textbox", name="step 1: all at once")
+    expect(box).to_have_value("2")
+    expect(sheet.locator("[data-mark='no number']")).to_have_text("? no number")
+    sheet.get_by_role("button", name="Check").click()
+    expect(sheet.locator(".lsys-mark").first).to_have_text("✓ right; first you said 3")
+    sheet.get_by_role("button", name="Start again").click()
+    asked.get_by_role("button", name="Start again").click()
+    first.get_by_role("button", name="Start again").click()
+    page.reload()
+    all_parts_open(page)
+    expect(box).to_have_value("")
+    expect(asked.get_by_role("textbox")).to_have_value("")
+    expect(second.locator(".lsys-before")).to_have_text("You did not vote the first time.")
 
 
 def shot(page: Page, name: str, config: pytest.Config) -> None:
@@ -234,7 +273,7 @@ def answer_predictions(page: Page) -> None:
         else:
             asked.nth(place).get_by_role("textbox").fill("21")
             asked.nth(place).get_by_role("button", name="Show", exact=True).click()
-            expect(asked.nth(place).get_by_role("status")).to_have_text("You said: 21")
+            expect(asked.nth(place).get_by_role("status")).to_contain_text("You said: 21")
         expect(shown).to_be_visible()
 
 
@@ -255,7 +294,7 @@ def check_tables(page: Page) -> None:
     for place in range(sheets.count()):
         sheets.nth(place).get_by_role("textbox").first.fill("no idea")
         sheets.nth(place).get_by_role("button", name="Check").click()
-        expect(sheets.nth(place).get_by_role("status")).to_contain_text("Look again at row")
+        expect(sheets.nth(place).get_by_role("status")).to_contain_text(NOT_RIGHT)
 
 
 @pytest.mark.parametrize("name", PAGES)

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from lsys_kit import explore, read, system, systems
+from lsys_kit import compare, explore, read, system, systems
 from lsys_kit.classroom.panel.view_model import BETWEEN, LINES, MARGIN, WIDEST, StepView, ViewModel, composite_png, lines_of
 from lsys_kit.pictures.style.palette import MARK, MARK_EDGE, tinted
 from tests.test_hostile_names import HOSTILE, made, refused
@@ -129,3 +129,29 @@ def test_names_of_any_kind_are_painted(text: str) -> None:
     view = refused(lambda: ViewModel(made(text)).sight(1, {}))
     if view is not None:
         assert pixels(composite_png(view)).shape[1] <= WIDEST
+
+
+def stored(widget: object) -> np.ndarray:
+    return pixels(base64.b64decode(widget._repr_mimebundle_()["image/png"]))
+
+
+@pytest.mark.slow
+def test_a_comparison_is_stored_with_both_sides_and_the_views_that_are_asked_for() -> None:
+    both = stored(compare("J4", {}, {"lifeTimeA": 2}, step=7))
+    left, right = (
+        pixels(composite_png(ViewModel(system("J4")).sight(7, given), ("word", "drawing"))) for given in ({}, {"lifeTimeA": 2})
+    )
+    assert (both[: left.shape[0], : left.shape[1]] == left).all()
+    assert (both[: right.shape[0], -right.shape[1] :] == right).all()
+    assert stored(compare("K5", "L1", step=3, show="drawing")).shape[0] < stored(compare("K5", "L1", step=3)).shape[0]
+    high, wide, _ = stored(explore("J4", 9)).shape  # two of them are too wide to stand side by side
+    assert stored(compare("J4", "J4", step=9, show=["word", "stages", "drawing"])).shape == (2 * high, wide, 3)
+    assert stored(compare("K28", "K29", step=1)).size
+
+
+@pytest.mark.slow
+def test_a_panel_is_stored_with_the_views_that_are_asked_for() -> None:
+    view = sight("J4", 7)
+    assert (stored(explore("J4", 7, show="drawing")) == pixels(composite_png(view, ("drawing",)))).all()
+    assert (stored(explore("J4", 7, show="rules")) == pixels(composite_png(view, ("drawing",)))).all()
+    assert (stored(explore("J4", 7)) == pixels(composite_png(view))).all()

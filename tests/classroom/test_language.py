@@ -271,8 +271,8 @@ def test_practice_is_the_same_exercise_in_the_language(topic):
 def test_the_labels_of_a_lesson_are_in_the_language():
     assert vote("01").words["Check"] == worksheet("01", "counts").words["Check"] == "Prüfen"
     sheet = table("01", "counts")
-    assert summary(sheet, marked(sheet, ["2", "2", "3", "5"])) == (
-        "3 von 8 Feldern sind richtig, 4 sind noch nicht ausgefüllt. Sieh dir noch einmal an: Zeile 2, rule after rule."
+    assert summary(sheet, marked(sheet, ["2", "2", "3", "77"]), [3]) == (
+        "3 von 8 Feldern sind richtig, 4 sind noch nicht ausgefüllt. Sieh dir noch einmal an: step 2, rule after rule."
     )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import tomllib
 from fractions import Fraction
+from itertools import count
 from typing import Any
 
 import matplotlib.pyplot as plt
@@ -27,24 +28,25 @@ from lsys_kit import (
     worksheet,
 )
 from lsys_kit.budget import in_task
-from lsys_kit.classroom.lessons.lesson import (
-    FOLDER,
-    Blank,
-    Option,
-    Table,
-    Vote,
-    is_right,
-    lesson,
-    lesson_from,
-    names,
-    number_of,
-    table,
-)
-from lsys_kit.classroom.lessons.vote import Ballot, VoteBox
+from lsys_kit.classroom.lessons import kept
+from lsys_kit.classroom.lessons.entries import is_right, number_of
+from lsys_kit.classroom.lessons.lesson import FOLDER, Blank, Option, Table, Vote, lesson, lesson_from, names, table
+from lsys_kit.classroom.lessons.vote import Ballot, VoteBox, _ballot
 from lsys_kit.classroom.lessons.widget import html, media, prose_html, prose_text
 from lsys_kit.classroom.lessons.worksheet import Worksheet, marked, summary
 
 ONE = "01_all_at_once"
+
+
+@pytest.fixture(autouse=True)
+def nothing_answered(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nothing was typed before."""
+    for name in ("_known", "_not_written"):
+        monkeypatch.setattr(kept, name, {})
+    monkeypatch.setattr(kept, "_read", [])
+    _ballot.cache_clear()
+
+
 DECLARED = tomllib.loads((FOLDER / f"{ONE}.toml").read_text("utf-8"))
 
 
@@ -102,6 +104,11 @@ def test_every_lesson_can_be_read(name):
         (("tables", 0, "rows", 1, 1), {"right": []}, '"right" is empty'),
         (("tables", 0, "rows", 1, 1), {"right": "1", "within": "near"}, '"within" must be a number'),
         (("tables", 0, "rows", 1, 1), {"right": "1", "within": -1}, '"within" must be a number from 0 on'),
+        (("tables", 0, "rows", 1, 1), {"right": "1", "slips": [{"answer": "2"}]}, 'column 2, slip 1 has no "says"'),
+        (("tables", 0, "of"), [{}], 'table 1: "of" must have an entry for each of the 3 columns'),
+        (("tables", 0, "of"), [{}, {"ask": "length"}, {}], 'of 2 has an unknown entry "ask"'),
+        (("predictions",), [{"question": "Why?"}], 'prediction 1 has no "answer"'),
+        (("predictions",), [{"question": "Why?", "answer": "3", "later": "yes"}], '"later" must be true or false'),
         (("settings",), [["dt"]], "settings 1 must be a table of entries"),
         (("settings",), [{"dt": "near"}], 'settings 1, "dt" must be a number'),
         (("tables", 0, "rows", 1, 1), True, "column 2 must be a text"),
@@ -231,7 +238,7 @@ def test_the_first_vote_is_kept_and_says_nothing_of_what_is_right(both):
 
 def test_the_second_vote_shows_the_first_and_says_nothing_before_it_is_cast(both):
     first, again = both
-    assert again.said == {"before": "You have not voted the first time."}
+    assert again.said == {"before": "You did not vote the first time."}
     first.chosen = 3
     assert again.said == {"before": "Your first vote was D."}
 
@@ -272,7 +279,7 @@ def test_a_closed_vote_hears_of_no_more_votes(both):
     first, again = both
     again.close()
     first.chosen = 2
-    assert again.said == {"before": "You have not voted the first time."}
+    assert again.said == {"before": "You did not vote the first time."}
 
 
 def test_only_true_and_false_say_whether_a_vote_is_the_second():
@@ -321,9 +328,12 @@ class Own:
         return "<own>"
 
 
+NUMBERS = count()
+
+
 def revealed(what: object, typed: str = "21") -> Any:
     """The widget that appears after a prediction."""
-    asked = predict("How many?", what)
+    asked = predict(f"How many? ({next(NUMBERS)})", what)
     assert len(asked.children) == 1
     asked.prompt.typed = typed
     assert len(asked.children) == 1
@@ -429,7 +439,7 @@ def check(sheet: Worksheet, *entries: str) -> dict[str, Any]:
 def test_every_cell_is_right_not_yet_or_missing():
     sheet = Worksheet(SHEET)
     assert check(sheet, "2", "ba", " ")["marks"] == ["right", "not yet", "not filled in yet"]
-    assert sheet.result["text"] == "1 of 3 cells is right, 1 is not filled in yet. Look again at row 1, word."
+    assert sheet.result["text"] == "1 of 3 cells is right, 1 is not filled in yet. Look again at step 1, word."
     assert check(sheet, "2", "AB", "1.45")["text"] == "All cells are right."
     assert check(sheet)["marks"] == ["not filled in yet"] * 3
     assert check(sheet, "2", "", "")["text"] == "1 of 3 cells is right, 2 are not filled in yet."
@@ -438,7 +448,7 @@ def test_every_cell_is_right_not_yet_or_missing():
 def test_a_table_of_one_cell_is_spoken_of_as_one():
     one = Table("t", "t", ("a", "b"), (("1", Blank(("2",))),))
     assert summary(one, marked(one, ["2"])) == "The cell is right."
-    assert summary(one, marked(one, ["3"])) == "0 of 1 cell is right. Look again at row 1, b."
+    assert summary(one, marked(one, ["3"]), [0]) == "0 of 1 cell is right. Look again at a 1, b."
 
 
 def test_no_answer_is_sent_before_or_after_a_check():

@@ -20,8 +20,9 @@ from lsys_kit import LSystemError, ModelFileError, compare, draw, explore, map_s
 from lsys_kit.classroom.course import course_files
 from lsys_kit.classroom.exercises.registry import lessons
 from lsys_kit.classroom.lessons.lesson import declared, names
+from lsys_kit.classroom.lessons.slips import Known, slips_of
 from lsys_kit.classroom.lessons.widget import prose_html
-from lsys_kit.classroom.lessons.worksheet import marked, summary
+from lsys_kit.classroom.lessons.worksheet import checked
 from lsys_kit.classroom.panel.document import inflated_text
 from lsys_kit.classroom.scorm.package import manifest
 from lsys_kit.classroom.site.build import build_site, read_notebook, run
@@ -385,6 +386,27 @@ TYPED = [
     "½",
     "1,5",
     "12,345.5",
+    "2.500",
+    "2'500",
+    "2.500,5",
+    ".5",
+    ",5",
+    "2,5 %",
+    "5^2",
+    "5·5",
+    "2 × 500",
+    "N = 2",
+    "≈2",
+    "about 2",
+    "2 cells",
+    "1000 Walls",
+    "25°",
+    "1½",
+    "n",
+    "Nein",
+    "l",
+    "constructor",
+    "5^99*9^99",
 ]
 CELLS = [
     (["2"], "0"),
@@ -396,16 +418,18 @@ CELLS = [
     (["12345.5"], "1/2"),
     (["1/2"], "1%"),
     (["no", "none"], "0"),
+    (["left"], "0"),
+    (["2500", "2000.5"], "0"),
 ]
 
 
 def test_a_page_finds_right_what_the_kernel_finds_right(browser: Browser) -> None:
-    from lsys_kit.classroom.lessons.lesson import is_right
+    from lsys_kit.classroom.lessons.entries import is_right
 
     tab = browser.new_page()
-    cases = [[typed, *cell] for typed, cell in itertools.product(TYPED, CELLS) if typed != "٢"]
+    cases = [[typed, *cell, ["cell", "wall", "°"]] for typed, cell in itertools.product(TYPED, CELLS) if typed != "٢"]
     found = tab.evaluate(
-        f"cases => {{ {joined('constants', 'checking')}\nreturn cases.map((each) => isRight(...each)); }}", cases
+        f"cases => {{ {joined('constants', 'asking', 'checking')}\nreturn cases.map((each) => isRight(...each)); }}", cases
     )
     assert found == [is_right(*case) for case in cases]
     assert len(set(found)) == 2
@@ -421,11 +445,20 @@ def test_a_page_says_of_a_table_what_the_kernel_says(browser: Browser, name: str
     for table in declared(name).tables:
         right = [blank.right[0] for _, _, blank in table.blanks]
         data = worksheet(name[:2], table.id).page_data
-        for entries in (right, right[:1], [], ["?", *right[1:]], [*right[:-1], "?"], ["?"] * len(right)):
+        slipped = [each.answer for number in range(len(right)) for each in slips_of(table, number)[:1] or [Known("7", "")]]
+        for entries in (
+            right,
+            right[:1],
+            [],
+            ["?", *right[1:]],
+            [*right[:-1], "?"],
+            ["?"] * len(right),
+            slipped,
+            ["7"] * len(right),
+        ):
             found = tab.evaluate(code, [data, entries])
             padded = [*entries, *[""] * (len(right) - len(entries))]
-            marks = marked(table, padded)
-            assert found == {"marks": marks, "text": summary(table, marks)}
+            assert found == checked(table, padded)
     tab.close()
 
 

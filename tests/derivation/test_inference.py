@@ -302,7 +302,7 @@ def test_nothing_comes_from_the_empty_word() -> None:
 
 def test_systems_that_make_the_same_words_are_told_so() -> None:
     said = str(infer(derive(system("J1"), 2)))
-    assert said.splitlines()[0] == "2 systems fit these 3 words; as far as was looked, later words are the same:"
+    assert said.splitlines()[0] == "2 systems fit these 3 words; if bl stays as it is, their words are the same up to step 13:"
     assert "all have\n  ar -> al br\n" in said
 
 
@@ -315,7 +315,12 @@ def test_many_systems_are_not_all_shown() -> None:
 def test_words_too_large_to_be_looked_at_are_not_compared() -> None:
     with limits(modules=100):
         fits = infer(["ab", "abaab" * 15])
-        assert "as far as was looked, later words are the same" in str(fits)
+        assert "later words are too long to be compared" in str(fits)
+
+
+def test_what_is_not_known_of_the_last_word_is_a_condition_of_what_is_said_of_later_ones() -> None:
+    said = str(infer(["A", "Bd", "cAA"])).splitlines()[0]
+    assert said == "2 systems fit these 3 words; if c stays as it is, their words are the same up to step 13:"
 
 
 def test_of_letters_that_only_the_last_word_has_nothing_is_known() -> None:

@@ -32,7 +32,7 @@ METADATA = {
     "kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"},
     "language_info": {"name": "python"},
 }
-CELL_METADATA = ("deletable", "editable", "nbgrader", "tags")
+CELL_METADATA = ("deletable", "editable", "jupyter", "nbgrader", "tags")
 """What a cell's metadata may say; the rest is how somebody's screen looked."""
 
 

@@ -112,6 +112,30 @@ def test_no_page_for_the_teacher_is_left_over() -> None:
 
 
 @every_lesson
+def test_of_each_prediction_it_is_declared_what_came_out(name: str) -> None:
+    named = {
+        target.id: node.value.value
+        for source in code(name)
+        if not source.startswith("%")
+        for node in ast.walk(ast.parse(source))
+        if isinstance(node, ast.Assign) and isinstance(node.value, ast.Constant)
+        for target in node.targets
+        if isinstance(target, ast.Name)
+    }
+    asked = [call.args[0] for _, call in calls(name, "predict")]
+    questions = [named.get(each.id) if isinstance(each, ast.Name) else ast.literal_eval(each) for each in asked]
+    assert questions == [each.question for each in declared(name).predictions]
+
+
+@every_lesson
+def test_code_that_gives_an_answer_away_is_folded(name: str) -> None:
+    cells = [cell for cell in notebook(name).cells if cell.cell_type == "code"]
+    folded = [cell.metadata.get("jupyter") == {"source_hidden": True} for cell in cells]
+    giving_away = {number for number, call in calls(name, "predict") if isinstance(call.args[1], ast.Constant)}
+    assert {number for number, each in enumerate(folded) if each} == giving_away
+
+
+@every_lesson
 def test_it_begins_with_title_question_minutes_and_objectives(name: str) -> None:
     lesson, head = declared(name), one_line(prose(name).partition("\n## ")[0])
     assert head.startswith(f"# {lesson.title}")

@@ -176,6 +176,17 @@ def judged(exercise: Exercise, answer: object) -> tuple[Verdict, bool]:
     return Verdict("Almost" if near else "Not yet", message, mark), bool(fitting) or kind.honest(exercise, own, solution)
 
 
+def shown_by(exercise: Exercise, wrong: Any) -> str:
+    """What a wrong answer shows, where misconceptions yield it; nothing where none does.
+
+    >>> exercise = Exercise("1", "", "number", "", "5", "", (), system="axiom: a\\na -> ab\\nb -> a", steps=3, asks="length")
+    >>> shown_by(exercise, 3), shown_by(exercise, 77)
+    ('Did you replace one module in each step, or stop one step too early, or call the axiom step 1?', '')
+    """
+    fitting = [each for each in wrong_answers(exercise) if _alike(exercise, wrong, each.answer)]
+    return _explained(fitting, Difference("")) if fitting else ""
+
+
 def _parts_right(exercise: Exercise, own: Any, solution: Any) -> tuple[str, float]:
     """Which parts of a wrong answer are right, in words, and the mark for them: nothing where none is."""
     kind = ANSWER_KINDS[exercise.kind]

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 from importlib.resources import files
+from numbers import Number
 from typing import Any, TypeVar
 
 from lsys_kit.classroom.exercises.replies import reply
@@ -370,8 +371,8 @@ def parts(answer: object, what: str) -> list[object]:
 
     >>> parts("[[1, 1], [1, 0]]", "Numbers"), parts((1, 2), "Numbers")
     (['1', '1', '1', '0'], [1, 2])
-    >>> parts("N(0) = one, N(1) = 2 and N(2) = 3", "Numbers")
-    ['1', '2', '3']
+    >>> parts("N(0) = one, N(1) = 2 and N(2) = 3", "Numbers"), parts(21, "Numbers")
+    (['1', '2', '3'], [21])
     """
     if isinstance(answer, str):
         text = _BETWEEN.sub(",", _MATRIX.sub(" ", with_digits(unquoted(keyboard_text(answer)))))
@@ -385,7 +386,7 @@ def _flat(answer: object, what: str, depth: int = 0) -> Iterable[object]:
     if isinstance(answer, Mapping):
         answer = list(answer.values())
     if depth > 3 or isinstance(answer, str | bytes) or not isinstance(answer, Iterable):
-        if depth == 0:
+        if depth == 0 and (not isinstance(answer, Number) or isinstance(answer, bool)):
             raise ModelValueError(reply("typed.parts_needed", what=what, kind=type(answer).__name__))
         yield answer
         return

@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from fractions import Fraction
 from functools import cache
 from importlib.resources import files
 from typing import Any
 
+from lsys_kit.classroom.lessons.entries import is_number_asked, number_of
 from lsys_kit.errors import ModelFileError, ModelNameError, ModelValueError, quotable, shown
 from lsys_kit.notation.analysis.checks import suggestion
 
@@ -43,21 +43,45 @@ class Vote:
 
 
 @dataclass(frozen=True)
+class Slip:
+    """Wrong entries of a cell, and what is true of whoever makes them."""
+
+    answer: tuple[str, ...]
+    says: str
+
+
+@dataclass(frozen=True)
 class Blank:
-    """A cell of a table that the student fills: the answers that are right, and how far a number may be from them."""
+    """A cell of a table that the student fills: the answers that are right, how far a number may be from them, and slips that
+    are known beside those that are computed."""
 
     right: tuple[str, ...]
     within: str = "0"
+    slips: tuple[Slip, ...] = ()
+
+
+@dataclass(frozen=True)
+class Counted:
+    """What a column counts: what it asks of a system, as an exercise does ("length", "count a", "strokes"), with values of some
+    constants. In the text of the system `{row}` stands for the first cell of a row."""
+
+    system: str = ""
+    asks: str = ""
+    constants: Mapping[str, object] = field(default_factory=dict, hash=False)
 
 
 @dataclass(frozen=True)
 class Table:
-    """A table to fill; the first cell of a row names the row, and a cell is a text that is given or a blank."""
+    """A table to fill; the first cell of a row names the row, and a cell is a text that is given or a blank.
+
+    What some columns count of a system is in `of`, one entry for each column, or empty.
+    """
 
     id: str
     title: str
     columns: tuple[str, ...]
     rows: tuple[tuple[str | Blank, ...], ...]
+    of: tuple[Counted, ...] = ()
 
     @property
     def blanks(self) -> tuple[tuple[int, int, Blank], ...]:
@@ -68,6 +92,17 @@ class Table:
             for column, cell in enumerate(cells)
             if isinstance(cell, Blank)
         )
+
+
+@dataclass(frozen=True)
+class Asked:
+    """A question of `predict`, what its answer is in a few words, and what may be typed for that; nothing where a prediction is
+    only set beside the answer. Where the answer has still to be found in what is shown, it comes later, at the second vote."""
+
+    question: str
+    answer: str
+    right: tuple[str, ...] = ()
+    later: bool = False
 
 
 @dataclass(frozen=True)
@@ -91,7 +126,7 @@ class Lesson:
         catalogue's `WORKS`: "000: columns, centred columns".
     misconceptions
         What students are likely to believe.
-    vote, tables
+    vote, tables, predictions
         What the notebook asks.
     settings
         What its text asks of the sliders of a panel, beside its tables: values that are set together, by the sliders' names.
@@ -110,66 +145,8 @@ class Lesson:
     misconceptions: tuple[str, ...]
     vote: Vote
     tables: tuple[Table, ...]
+    predictions: tuple[Asked, ...] = ()
     settings: tuple[Mapping[str, str], ...] = field(default=(), hash=False)
-
-
-MOST_CHARACTERS = 200
-"""Longer entries are not looked at."""
-_NUMBER = re.compile(r"([+-]?(?=\.?\d)\d{0,30}(?:\.\d{1,30})?)(?:/(\d{1,30}))?(%?)")
-_THOUSANDS = re.compile(r"[+-]?\d{1,3}(,\d{3})+(\.\d+)?")
-_DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+")
-
-
-def number_of(text: str) -> Fraction | None:
-    """The number that a text is, or None: a whole number, a decimal, a fraction, a percentage.
-
-    >>> number_of("3/4"), number_of(" 0.75 "), number_of("75 %"), number_of("al br")
-    (Fraction(3, 4), Fraction(3, 4), Fraction(3, 4), None)
-    """
-    found = _NUMBER.fullmatch(_without_blanks(text).replace("−", "-"))
-    if not found or (found[2] and not int(found[2])):
-        return None
-    return Fraction(found[1]) / int(found[2] or 1) / (100 if found[3] else 1)
-
-
-def is_right(entry: str, right: Sequence[str], within: str = "0") -> bool:
-    """Whether an entry is one of the right answers, up to blanks and capitals; numbers may be off by a given distance.
-
-    A comma may part thousands, or stand for the decimal point.
-
-    >>> is_right("0.5", ["1/2"]), is_right("10,946", ["10946"]), is_right("1,618", ["1.6180"]), is_right("AL  br", ["al br"])
-    (True, True, True, True)
-    >>> is_right("1.62", ["1.618"]), is_right("1.62", ["1.618"], within="0.01"), is_right("21 cells", ["21"])
-    (False, True, False)
-    >>> is_right(".9", ["0.9"]), is_right(",9", ["0.9"])
-    (True, True)
-    """
-    if len(entry) > MOST_CHARACTERS:
-        return False
-    near = number_of(within) or 0
-    return any(
-        _without_blanks(entry).casefold() == _without_blanks(each).casefold()
-        or any(abs(number - wanted) <= near for number in _readings(entry) for wanted in _numbers(each))
-        for each in right
-    )
-
-
-def _readings(entry: str) -> Iterator[Fraction]:
-    text = _without_blanks(entry)
-    yield from _numbers(text)
-    if _THOUSANDS.fullmatch(text):
-        yield from _numbers(text.replace(",", ""))
-    if _DECIMAL_COMMA.fullmatch(text):
-        yield from _numbers(text.replace(",", "."))
-
-
-def _numbers(text: str) -> Iterator[Fraction]:
-    if (number := number_of(text)) is not None:
-        yield number
-
-
-def _without_blanks(text: str) -> str:
-    return "".join(text.split())
 
 
 # From the text of a file to the record of its lesson
@@ -190,9 +167,16 @@ def lesson_from(name: str, entries: Mapping[str, Any]) -> Lesson:
     _demand(found["number"] == number, f'{where}: "number" must be {number}, as in its name, not {found["number"]}')
     _demand(not unknown, f'{where}: "track" has letters of {", ".join(TRACKS)}, not {unknown[:1]}')
     vote, tables = _vote(f"{where}, vote", found.pop("vote")), _each(f"{where}, table", found.pop("tables"), _table)
+    predictions = _each(f"{where}, prediction", found.pop("predictions"), _asked)
     _demand(len({each.id for each in tables}) == len(tables), f"{where}: two tables have the same id")
     settings = _each(f"{where}, settings", found.pop("settings"), _settings)
-    return Lesson(name=name, vote=vote, tables=tables, settings=settings, **found)
+    return Lesson(name=name, vote=vote, tables=tables, predictions=predictions, settings=settings, **found)
+
+
+def _asked(where: str, entries: object) -> Asked:
+    found = _taken(where, entries, _ASKED)
+    right = found["right"] or (found["answer"],) * is_number_asked([found["answer"]])
+    return Asked(**{**found, "right": right})
 
 
 def _settings(where: str, row: object) -> dict[str, str]:
@@ -218,7 +202,9 @@ def _table(where: str, entries: object) -> Table:
     _demand(_ID.fullmatch(found["id"]), f'{where}: "id" must have small letters, digits and hyphens only')
     columns = found["columns"]
     rows = _each(f"{where}, row", found["rows"], lambda place, cells: _row(place, cells, len(columns)))
-    table = Table(found["id"], found["title"], columns, rows)
+    of = _each(f"{where}, of", found["of"], lambda place, each: Counted(**_taken(place, each, _COUNTED)))
+    _demand(len(of) in (0, len(columns)), f'{where}: "of" must have an entry for each of the {len(columns)} columns')
+    table = Table(found["id"], found["title"], columns, rows, of)
     _demand(table.blanks, f"{where} has no cell to fill", 'A cell to fill is { right = "3" }.')
     return table
 
@@ -236,7 +222,9 @@ def _cell(where: str, cell: object) -> str | Blank:
         return _text(where, cell)
     found = _taken(where, cell, _BLANK)
     _demand(found["right"] and all(map(str.strip, found["right"])), f'{where}: "right" is empty')
-    return Blank(**found)
+    return Blank(
+        **{**found, "slips": _each(f"{where}, slip", found["slips"], lambda at, each: Slip(**_taken(at, each, _SLIP)))}
+    )
 
 
 def _each(where: str, rows: Any, read: Callable[[str, Any], Any]) -> tuple[Any, ...]:
@@ -310,12 +298,16 @@ _LESSON: Shape = {
     **dict.fromkeys(("systems", "points", "misconceptions"), (_texts, ...)),
     "vote": (_entries, ...),
     "tables": (_list, ...),
+    "predictions": (_list, []),
     "settings": (_list, []),
 }
 _VOTE: Shape = {"question": (_text, ...), "options": (_list, ...), "picture": (_entries, {})}
 _OPTION: Shape = {"text": (_text, ...), "reply": (_text, ...), "right": (_truth, False)}
-_TABLE: Shape = {"id": (_text, ...), "title": (_text, ...), "columns": (_texts, ...), "rows": (_list, ...)}
-_BLANK: Shape = {"right": (_answers, ...), "within": (_distance, "0")}
+_TABLE: Shape = {"id": (_text, ...), "title": (_text, ...), "columns": (_texts, ...), "rows": (_list, ...), "of": (_list, [])}
+_BLANK: Shape = {"right": (_answers, ...), "within": (_distance, "0"), "slips": (_list, [])}
+_SLIP: Shape = {"answer": (_answers, ...), "says": (_text, ...)}
+_COUNTED: Shape = {"system": (_text, ""), "asks": (_text, ""), "constants": (_entries, {})}
+_ASKED: Shape = {"question": (_text, ...), "answer": (_text, ...), "right": (_answers, ()), "later": (_truth, False)}
 
 
 def _taken(where: str, entries: object, shape: Shape) -> dict[str, Any]:

@@ -8,6 +8,8 @@ from typing import Any
 import traitlets
 from ipywidgets import VBox, Widget
 
+from lsys_kit.classroom.lessons.kept import answered, keep
+from lsys_kit.classroom.lessons.predicted import OPEN, asked_of, key_of, outcome
 from lsys_kit.classroom.lessons.widget import (
     MOST_TYPED,
     LessonWidget,
@@ -29,7 +31,8 @@ _STORED = ("image/svg+xml", "image/png", "text/latex")
 def predict(question: str, what: object) -> Prediction:
     """Ask a question, and show what answers it only after something was typed, or on request.
 
-    Whatever is typed will do, and none of it is judged: it stays beside what is then shown.
+    Whatever is typed will do: it is kept, and stays beside what is then shown. Of a question of the lessons it is said in a
+    few words what came out, too, and again at the second vote.
 
     Parameters
     ----------
@@ -63,6 +66,8 @@ class Prompt(LessonWidget):
         The prediction; empty before there is one, or where there was none.
     revealed
         Whether the answer is to be shown.
+    outcome
+        What came out, in a few words, and whether it was predicted; empty before that, and where it is not known.
     """
 
     _esm = bundled("predicting")
@@ -70,6 +75,18 @@ class Prompt(LessonWidget):
     question = traitlets.Unicode().tag(sync=True)
     typed = traitlets.Unicode().tag(sync=True)
     revealed = traitlets.Bool(False).tag(sync=True)
+    outcome = traitlets.Dict().tag(sync=True)
+
+    def __init__(self, question: str, what: str = "") -> None:
+        self._key = key_of(question, what)
+        kept = answered(self._key)
+        super().__init__(question=question, typed="".join(kept[:1]), revealed=len(kept) == 1)
+        self._tell()
+        self.observe(self._tell, ["typed", "revealed"])
+
+    def _tell(self, _: object = None) -> None:
+        self.outcome = outcome(self.question, self.typed) if self.revealed else {}
+        keep(self._key, [self.typed] if self.revealed else [self.typed, OPEN] if self.typed else [])
 
     @traitlets.validate("typed")
     def _shortened(self, proposal: Any) -> str:
@@ -89,16 +106,17 @@ class Prediction(Unfinalized, VBox):  # type: ignore[misc]
     """
 
     def __init__(self, question: str, what: object) -> None:
-        self.prompt, self._what = Prompt(question=question), what
-        self._media, self._shown = media(what), tuple[Any, ...]()
+        self._what, self._media, self._shown = what, media(what), tuple[Any, ...]()
+        self.prompt = Prompt(question, str(self._media["text/plain"]))
         forget_figure(what)
         super().__init__([self.prompt], _dom_classes=("lsys-prediction",))
         self.prompt.observe(self._reveal, "revealed")
+        self._reveal()
 
-    def _reveal(self, _: object) -> None:
-        if not self._shown:
+    def _reveal(self, _: object = None) -> None:
+        if self.prompt.revealed and not self._shown:
             self._shown = (widget(self._what),)
-            self.children = (self.prompt, *self._shown)
+        self.children = (self.prompt, *self._shown) if self.prompt.revealed else (self.prompt,)
 
     @property
     def answer(self) -> Mapping[str, Any]:
@@ -108,7 +126,9 @@ class Prediction(Unfinalized, VBox):  # type: ignore[misc]
     @property
     def page_data(self) -> Data:
         """What a page without a kernel has to know of the question; what answers it stands beside it there."""
-        return {"question": self.prompt.question}
+        asked = asked_of(self.prompt.question)
+        known = {"known": {"answer": asked.answer, "right": list(asked.right), "later": asked.later}} if asked else {}
+        return {"question": self.prompt.question, **known}
 
     def _repr_mimebundle_(self, **options: object) -> Data:
         bundle = super()._repr_mimebundle_(**options)

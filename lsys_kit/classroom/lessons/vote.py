@@ -1,7 +1,7 @@
 """Voting: the question with which a lesson begins, asked again at its end.
 
-The first time nothing says whether the choice is right. It is kept as long as the kernel lives, and shown when the question
-comes again; only then is there a reply.
+The first time nothing says whether the choice is right. It is kept, and shown when the question comes again, together with what
+was predicted in between; only then is there a reply.
 """
 
 from __future__ import annotations
@@ -15,7 +15,9 @@ import traitlets
 
 from lsys_kit.budget import current, limits
 from lsys_kit.classroom.catalogue import catalogued
-from lsys_kit.classroom.lessons.lesson import Vote, lesson
+from lsys_kit.classroom.lessons.kept import CHANGES, answered, keep
+from lsys_kit.classroom.lessons.lesson import Lesson, Vote, lesson
+from lsys_kit.classroom.lessons.predicted import predictions_of
 from lsys_kit.classroom.lessons.widget import LessonWidget, boxed_html, prose_html, prose_text
 from lsys_kit.classroom.panel.bundle import Data, bundled, style
 from lsys_kit.errors import require
@@ -35,12 +37,15 @@ MOST_SHAPES = 6_000
 def vote(number: str, again: bool = False) -> VoteBox:
     """The question of a lesson with its four options, to vote for one of them.
 
+    Votes are kept, as are predictions and the entries of tables: in a copy of the course in its file `answers.jsonl`. Whoever
+    deletes that begins anew.
+
     Parameters
     ----------
     number
         The number of the lesson, such as "01".
     again
-        Whether this is the second vote, which shows the first one and replies to the choice.
+        Whether this is the second vote, which shows the first one and what was predicted, and replies to the choice.
 
     Raises
     ------
@@ -60,7 +65,7 @@ through the same hour. One of the programs drew this picture. Which program is r
     """
     found = lesson(number)
     require(again, bool, 'True or False for "again"')
-    return VoteBox(found.vote, _ballot(found.number), again)
+    return VoteBox(found.vote, _ballot(found.number), again, found)
 
 
 class Ballot(traitlets.HasTraits):
@@ -71,8 +76,17 @@ class Ballot(traitlets.HasTraits):
 
 
 @cache
-def _ballot(_: int) -> Ballot:
-    return Ballot()
+def _ballot(number: int) -> Ballot:
+    """The votes on the question of a lesson, which are kept by their letters."""
+    key = f"{number:02} vote"
+    kept = [LETTERS.find(each) if each else NONE for each in answered(key)] + [NONE, NONE]
+    ballot = Ballot(first=kept[0], second=kept[1])
+    ballot.observe(lambda _: keep(key, [*map(_letter, votes)] if max(votes := (ballot.first, ballot.second)) > NONE else []))
+    return ballot
+
+
+def _letter(vote: int) -> str:
+    return LETTERS[vote] if vote != NONE else ""
 
 
 class VoteBox(LessonWidget):
@@ -90,13 +104,15 @@ class VoteBox(LessonWidget):
     chosen = traitlets.Int(NONE, min=NONE, max=len(LETTERS) - 1).tag(sync=True)
     said = traitlets.Dict().tag(sync=True)
 
-    def __init__(self, vote: Vote, ballot: Ballot, again: bool) -> None:
-        self._vote, self._ballot, self._again = vote, ballot, again
+    def __init__(self, vote: Vote, ballot: Ballot, again: bool, of: Lesson | None = None) -> None:
+        self._vote, self._ballot, self._again, self._of = vote, ballot, again, of
         self._picture = _picture(vote.picture)
         image = {"picture": _address(self._picture), "described": self._picture["text/plain"]} if self._picture else {}
         super().__init__(asked={"question": vote.question, "options": [each.text for each in vote.options], **image})
         traitlets.link((ballot, "second" if again else "first"), (self, "chosen"))
         ballot.observe(self._tell)
+        if again:
+            CHANGES.observe(self._tell)
         self._tell()
 
     @property
@@ -106,11 +122,12 @@ class VoteBox(LessonWidget):
         said = [[self._said(Ballot(first=first, second=second)) for second in votes] for first in votes]
         return {"asked": self.asked, "again": self._again, "said": said}
 
-    def _said(self, ballot: Ballot) -> dict[str, str]:
+    def _said(self, ballot: Ballot) -> Data:
         return _reply(self._vote, ballot) if self._again else _receipt(ballot)
 
     def _tell(self, _: object = None) -> None:
-        self.said = self._said(self._ballot)
+        predicted = predictions_of(self._of) if self._again and self._of else []
+        self.said = {**self._said(self._ballot), **({"predicted": predicted} if predicted else {})}
 
     def _stored(self) -> Data:
         options = "".join(f"<li>{prose_html(each.text)}</li>" for each in self._vote.options)
@@ -121,6 +138,8 @@ class VoteBox(LessonWidget):
     def close(self) -> None:
         """Close the widget, and hear of no more votes."""
         self._ballot.unobserve(self._tell)
+        if self._again:
+            CHANGES.unobserve(self._tell)
         super().close()
 
     def __repr__(self) -> str:
@@ -158,7 +177,7 @@ def _address(picture: Mapping[str, Any]) -> str:
     return f"data:image/svg+xml;base64,{base64.b64encode(picture['image/svg+xml'].encode()).decode()}"
 
 
-def _receipt(ballot: Ballot) -> dict[str, str]:
+def _receipt(ballot: Ballot) -> Data:
     """What is said after the first vote: nothing of what is right."""
     if ballot.first == NONE:
         return {}
@@ -169,11 +188,11 @@ def _receipt(ballot: Ballot) -> dict[str, str]:
     }
 
 
-def _reply(vote: Vote, ballot: Ballot) -> dict[str, str]:
+def _reply(vote: Vote, ballot: Ballot) -> Data:
     before = (
         gettext("Your first vote was {letter}.", letter=LETTERS[ballot.first])
         if ballot.first != NONE
-        else gettext("You have not voted the first time.")
+        else gettext("You did not vote the first time.")
     )
     if ballot.second == NONE:
         return {"before": before}

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from itertools import islice
-from typing import overload
+from typing import Any, overload
 
 import traitlets
 from ipywidgets import HBox, Layout
 
-from lsys_kit.classroom.lessons.lesson import MOST_CHARACTERS, Blank, Table, is_right, table
+from lsys_kit.classroom.lessons.entries import MOST_CHARACTERS, is_number_asked, is_right, nouns_in, readings
+from lsys_kit.classroom.lessons.kept import answered, keep
+from lsys_kit.classroom.lessons.lesson import Blank, Table, lesson, table
+from lsys_kit.classroom.lessons.slips import row_name, slips_of
 from lsys_kit.classroom.lessons.widget import LessonWidget, html, prose_html, prose_text, table_html
 from lsys_kit.classroom.panel.bundle import Data, bundled, style
 from lsys_kit.classroom.panel.explorer import Comparison, Explorer
@@ -17,8 +20,10 @@ from lsys_kit.classroom.widget import Unfinalized
 from lsys_kit.errors import require
 from lsys_kit.translation import gettext, ngettext
 
-RIGHT, NOT_YET, MISSING = "right", "not yet", "not filled in yet"
+RIGHT, NOT_YET, NO_NUMBER, MISSING = "right", "not yet", "no number", "not filled in yet"
 """What is said of a cell."""
+MOST_NOTES = 3
+"""So many notes are shown at once."""
 
 
 @overload
@@ -57,46 +62,89 @@ def worksheet(number: str, id: str, beside: Explorer | Comparison | None = None)
       4     ____         ____
     """
     require(beside, (Explorer, Comparison, type(None)), "A panel of explore or compare")
-    sheet = Worksheet(table(number, id))
+    found = table(number, id)
+    sheet = Worksheet(found, f"{lesson(number).number:02} {found.id}")
     return sheet if beside is None else PanelWithWorksheet(beside, sheet)
 
 
 class Worksheet(LessonWidget):
     """The table that `worksheet` shows.
 
+    What is typed into it is kept, with the first entry of each cell that was checked.
+
     Attributes
     ----------
+    typed
+        What is in the cells to be filled, row by row.
     entries
-        What is in the cells to be filled, row by row, when they were last checked.
+        What was in them when they were last checked.
     """
 
     _esm = bundled("filling")
     _css = style("lessons")
     sheet = traitlets.Dict().tag(sync=True)
+    typed: traitlets.List[Any] = traitlets.List().tag(sync=True)
     asked = traitlets.Dict().tag(sync=True)
     result = traitlets.Dict().tag(sync=True)
 
-    def __init__(self, table: Table) -> None:
-        self._table = table
+    def __init__(self, table: Table, name: str = "") -> None:
+        self._table, self._name = table, name
         rows = [[None if isinstance(cell, Blank) else cell for cell in row] for row in table.rows]
-        super().__init__(sheet={"title": table.title, "columns": list(table.columns), "rows": rows})
+        typed, checked = (self._fitting(self._kept(what)) for what in ("typed", "checked"))
+        super().__init__(sheet={"title": table.title, "columns": list(table.columns), "rows": rows}, typed=typed)
         self.observe(self._check, "asked")
+        self.observe(self._keep_typed, "typed")
+        if any(checked):
+            self.asked = {"number": 0, "entries": checked}
 
     @property
     def entries(self) -> list[str]:
-        """What is in the cells to be filled, row by row, when they were last checked."""
-        given = [str(each)[: MOST_CHARACTERS + 1] for each in islice(self.asked.get("entries", ()), len(self._table.blanks))]
-        return (given + [""] * len(self._table.blanks))[: len(self._table.blanks)]
+        """What was in the cells to be filled, row by row, when they were last checked."""
+        return self._fitting(self.asked.get("entries", ()))
 
     @property
     def page_data(self) -> Data:
-        """What a page without a kernel has to know: the table, and the right answers, which are no secret there."""
-        blanks = [{"right": list(blank.right), "within": blank.within} for _, _, blank in self._table.blanks]
-        return {"sheet": self.sheet, "blanks": blanks}
+        """What a page without a kernel has to know: the table, and the right answers and known slips, no secret there."""
+        slips = [slips_of(self._table, number) for number in range(len(self._table.blanks))]
+        says = list(dict.fromkeys(each.says for known in slips for each in known))
+        blanks = [
+            {
+                "right": list(blank.right),
+                "within": blank.within,
+                "slips": [[each.answer, each.within, says.index(each.says)] for each in known],
+            }
+            for (_, _, blank), known in zip(self._table.blanks, slips, strict=True)
+        ]
+        return {"sheet": self.sheet, "blanks": blanks, "says": says}
+
+    def _fitting(self, given: Iterable[object]) -> list[str]:
+        """Texts for the cells to be filled, so many as there are."""
+        texts = [str(each)[: MOST_CHARACTERS + 1] for each in islice(given, len(self._table.blanks))]
+        return texts + [""] * (len(self._table.blanks) - len(texts))
+
+    def _kept(self, what: str) -> tuple[str, ...]:
+        return answered(f"{self._name} {what}") if self._name else ()
+
+    def _keep(self, what: str, entries: Sequence[str]) -> None:
+        if self._name:
+            keep(f"{self._name} {what}", entries if any(entries) else ())
+
+    def _keep_typed(self, _: object) -> None:
+        self._keep("typed", self._fitting(self.typed))
 
     def _check(self, _: object) -> None:
-        marks = marked(self._table, self.entries)
-        self.result = {"number": self.asked.get("number", 0), "marks": marks, "text": summary(self._table, marks)}
+        if not self.asked:  # begun anew
+            self.result = {}
+            for what in ("checked", "first"):
+                self._keep(what, ())
+            return
+        first = [before or now for before, now in zip(self._first(), self.entries, strict=True)]
+        self.result = {"number": self.asked.get("number", 0), "first": first, **checked(self._table, self.entries)}
+        self._keep("checked", self.entries)
+        self._keep("first", first)
+
+    def _first(self) -> list[str]:
+        return self._fitting(self.result.get("first", ()) or self._kept("first"))
 
     def _stored(self) -> Data:
         rows = (map(_cell_html, row) for row in self._table.rows)
@@ -146,24 +194,79 @@ class PanelWithWorksheet(Unfinalized, HBox):  # type: ignore[misc]
         return f"{self.panel!r}\n{self.sheet!r}"
 
 
+def checked(table: Table, entries: Sequence[str]) -> Data:
+    """What is said of each cell and of the whole table, and notes on wrong cells: what their entries show.
+
+    >>> found = checked(table("01", "counts"), ["2", "2", "3", "9"])
+    >>> found["text"]
+    '3 of 8 cells are right, 4 are not filled in yet.'
+    >>> found["notes"]
+    ['Step 2, rule after rule: That is what comes out if you write what the modules become behind the old word. A step \
+replaces the whole word: nothing of the old one is left beside the new.']
+    """
+    marks = marked(table, entries)
+    notes, unexplained = _notes(table, entries, marks)
+    return {"marks": marks, "text": summary(table, marks, unexplained), "notes": notes}
+
+
 def marked(table: Table, entries: Sequence[str]) -> list[str]:
     """What is said of each cell that was to be filled.
 
-    >>> marked(table("01", "counts"), ["2", "2", "3", "5"])
-    ['right', 'right', 'right', 'not yet', 'not filled in yet', 'not filled in yet', 'not filled in yet', 'not filled in yet']
+    >>> marked(table("01", "counts"), ["2", "2", "3", "abc"])[:5]
+    ['right', 'right', 'right', 'no number', 'not filled in yet']
     """
     given = [*entries, *[""] * len(table.blanks)]
-    return [
-        MISSING if not entry.strip() else RIGHT if is_right(entry, blank.right, blank.within) else NOT_YET
-        for entry, (_, _, blank) in zip(given, table.blanks, strict=False)
-    ]
+    return [_mark(table, number, entry) for number, entry in zip(range(len(table.blanks)), given, strict=False)]
 
 
-def summary(table: Table, marks: Sequence[str]) -> str:
-    """What is said of the whole table: how much is right, and the first cell that is not.
+def _mark(table: Table, number: int, entry: str) -> str:
+    blank, nouns = table.blanks[number][2], nouns_of(table)
+    if not entry.strip():
+        return MISSING
+    if is_right(entry, blank.right, blank.within, nouns):
+        return RIGHT
+    return NOT_YET if readings(entry, nouns) or not is_number_asked(blank.right) else NO_NUMBER
 
-    >>> summary(table("01", "counts"), marked(table("01", "counts"), ["2", "2", "3", "5"]))
-    '3 of 8 cells are right, 4 are not filled in yet. Look again at row 2, rule after rule.'
+
+def nouns_of(table: Table) -> frozenset[str]:
+    """What may stand behind a number in a table: the words of its titles."""
+    return nouns_in(table.title, *table.columns)
+
+
+def _notes(table: Table, entries: Sequence[str], marks: Sequence[str]) -> tuple[list[str], list[int]]:
+    """What the entries of wrong cells show, each note with its cells; and the wrong cells of which nothing is known."""
+    places: dict[str, list[str]] = {}
+    unexplained: list[int] = []
+    for number, mark in enumerate(marks):
+        if mark in (RIGHT, MISSING):
+            continue
+        if says := _shown(table, number, entries[number], mark):
+            places.setdefault(says, []).append(_place(table, number))
+        else:
+            unexplained.append(number)
+    notes = [f"{capital('; '.join(where))}: {says}" for says, where in islice(places.items(), MOST_NOTES)]
+    return notes, unexplained
+
+
+def _shown(table: Table, number: int, entry: str, mark: str) -> str:
+    blank, nouns = table.blanks[number][2], nouns_of(table)
+    if mark == NO_NUMBER:
+        return gettext("That cannot be read as a number. Write it in digits, such as 21, 0.5 or 3/4.")
+    if {*blank.right} & {"yes", "no"} and not is_right(entry, ["yes", "no"]):
+        return gettext('Answer "yes" or "no".')
+    return next((known.says for known in slips_of(table, number) if is_right(entry, [known.answer], known.within, nouns)), "")
+
+
+def capital(text: str) -> str:
+    """A text with a capital letter at its beginning."""
+    return text[:1].upper() + text[1:]
+
+
+def summary(table: Table, marks: Sequence[str], unexplained: Sequence[int] = ()) -> str:
+    """What is said of the whole table: how much is right, and the first wrong cell of which nothing else is said.
+
+    >>> summary(table("01", "counts"), marked(table("01", "counts"), ["2", "2", "3", "77"]), [3])
+    '3 of 8 cells are right, 4 are not filled in yet. Look again at step 2, rule after rule.'
     """
     right, missing, total = marks.count(RIGHT), marks.count(MISSING), len(marks)
     if right == total:
@@ -175,15 +278,14 @@ def summary(table: Table, marks: Sequence[str]) -> str:
     ]
     if missing:
         parts.append(ngettext("{number} is not filled in yet", "{number} are not filled in yet", missing))
-    again = gettext("Look again at {place}.", place=_place(table, marks.index(NOT_YET))) if NOT_YET in marks else ""
+    again = gettext("Look again at {place}.", place=_place(table, unexplained[0])) if unexplained else ""
     return f"{', '.join(parts)}. {again}".rstrip()
 
 
 def _place(table: Table, number: int) -> str:
     """Where a cell stands, by the names of its row and column."""
     row, column, _ = table.blanks[number]
-    name = prose_text(_cell_text(table.rows[row][0]))
-    return gettext("row {row}, {column}", row=name, column=prose_text(table.columns[column]))
+    return f"{row_name(table, row)}, {prose_text(table.columns[column])}"
 
 
 def _cell_text(cell: str | Blank) -> str:

@@ -7,6 +7,7 @@ sliders have come to rest, so that other widgets can be linked to the panel."""
 
 from __future__ import annotations
 
+import base64
 import re
 from collections.abc import Collection, Mapping, Sequence
 from contextlib import AbstractContextManager
@@ -28,6 +29,7 @@ from lsys_kit.classroom.panel.labels import translated_labels
 from lsys_kit.classroom.panel.opened.kinds import opened
 from lsys_kit.classroom.panel.opened.opened import Opened, Sight, Viewing
 from lsys_kit.classroom.panel.page import page, save_page
+from lsys_kit.classroom.panel.view_model import STILL, both_png
 from lsys_kit.classroom.widget import KitWidget
 from lsys_kit.derivation.petri.stages import stages
 from lsys_kit.errors import LSystemError, ModelNameError, ModelValueError, every, quotable, require, shown, whole_number
@@ -141,7 +143,13 @@ class Explorer(KitWidget):
     def still(self) -> Mapping[str, str]:
         """What the panel shows as a picture, by the type of the data, in base 64 or as text."""
         with self._limited(), Task("The picture was not made"):
-            return self._opened.still(self._chosen)
+            return self._opened.still(self._chosen, STILL if self._show is None else self._show)
+
+    def _still_png(self, usual: Collection[str]) -> bytes:
+        """That picture, with some views where none were asked for, in pixels."""
+        with self._limited(), Task("The picture was not made"):
+            found = self._opened.still(self._chosen, usual if self._show is None else self._show)
+            return base64.b64decode(found["image/png"]) if "image/png" in found else self.sight.picture.png
 
     @property
     def link(self) -> str:
@@ -508,6 +516,10 @@ def _named(settings: Mapping[str, object]) -> Data:
     return dict(settings)
 
 
+COMPARED = ("word", "drawing")
+"""The views that are open on both sides at first."""
+
+
 class Comparison(KitWidget):
     """The two panels that `compare` shows.
 
@@ -546,7 +558,8 @@ class Comparison(KitWidget):
         return {"left": self.left.page_data(asked), "right": self.right.page_data(asked), "shared": self.shared}
 
     def _stored(self) -> Data:
-        return {"text/plain": self.text, **self.left.still}
+        picture = both_png(*(each._still_png(COMPARED) for each in (self.left, self.right)))
+        return {"text/plain": self.text, "image/png": base64.b64encode(picture).decode()}
 
     def close(self) -> None:
         """Close both panels, and what the browser keeps of them."""

@@ -6,7 +6,7 @@ notebooks are.
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any, NamedTuple
@@ -178,31 +178,56 @@ class Chip(NamedTuple):
     marked: bool = False
 
 
-def composite_png(view: StepView) -> bytes:
-    """The word, the stage diagram and the drawing of a step as one PNG picture.
+STILL = ("word", "stages", "drawing")
+"""The views of which there are still pictures."""
+BESIDE = 1400
+"""Two pictures stand side by side if they are no wider together, else one above the other."""
+
+
+def composite_png(view: StepView, show: Collection[str] = STILL) -> bytes:
+    """The word, the stage diagram and the drawing of a step as one PNG picture, or those of them that are to be shown; where
+    none is, the drawing.
 
     >>> from lsys_kit.classroom.catalogue import system
     >>> from lsys_kit.classroom.panel.view_model import ViewModel
     >>> Image.open(io.BytesIO(composite_png(ViewModel(system("J4")).sight(9, {})))).size
     (968, 595)
     """
-    net = parts_of(view.net, False, steering_of(view.net.system))
-    drawing = Image.open(io.BytesIO(view.picture.png))
-    most, together = WIDEST - 2 * MARGIN, net.width + GAP + drawing.width
+    shown = [each for each in STILL if each in show] or [STILL[-1]]
+    net = parts_of(view.net, False, steering_of(view.net.system)) if "stages" in shown else None
+    drawing = Image.open(io.BytesIO(view.picture.png)) if "drawing" in shown else None
+    across, down = (net.width, net.height) if net else (0, 0)
+    wide, high = drawing.size if drawing else (0, 0)
+    gap = GAP if net and drawing else 0
+    most, together = WIDEST - 2 * MARGIN, across + gap + wide
     beside = together <= most
-    inner = min(most, max(NARROWEST, together if beside else net.width, drawing.width))
-    unit = min(1.0, inner / net.width)
-    lines, across = lines_of(view, inner), (net.width + GAP, 0.0) if beside else (0.0, net.height * unit + GAP)
-    top = MARGIN + ABOVE + LINE * len(lines) + GAP
-    bottom = max(net.height * unit, across[1] + drawing.height)
-    sheet = Sheet(inner + 2 * MARGIN, round(top + bottom + MARGIN))
+    inner = min(most, max(NARROWEST, together if beside else across, wide))
+    unit = min(1.0, inner / across) if net else 1.0
+    lines, place = lines_of(view, inner) if "word" in shown else [], (across + gap, 0.0) if beside else (0.0, down * unit + gap)
+    top = MARGIN + ABOVE + (LINE * len(lines) + GAP if lines else 0)
+    sheet = Sheet(inner + 2 * MARGIN, round(top + max(down * unit, place[1] + high) + MARGIN))
     _paint_title(sheet.part(MARGIN, MARGIN), view, inner)
-    _paint_word(sheet.part(MARGIN, MARGIN + ABOVE), lines)
-    _paint_heading(sheet.part(MARGIN, top), "stages")
-    marked = {view.net.place_of(view.word.states.modules[state]) for state in view.marked}
-    PixelPainter(sheet, Place(unit, MARGIN, top)).draw(drawn_stages(view.net, view.tokens, marked=marked))
-    _paint_heading(sheet.part(MARGIN + across[0], top + across[1]), "drawing")
-    sheet.picture(MARGIN + across[0], top + across[1], drawing)
+    if lines:
+        _paint_heading(sheet.part(MARGIN, MARGIN + ABOVE), "word")
+        _paint_word(sheet.part(MARGIN, MARGIN + ABOVE), lines)
+    if net:
+        _paint_heading(sheet.part(MARGIN, top), "stages")
+        marked = {view.net.place_of(view.word.states.modules[state]) for state in view.marked}
+        PixelPainter(sheet, Place(unit, MARGIN, top)).draw(drawn_stages(view.net, view.tokens, marked=marked))
+    if drawing:
+        _paint_heading(sheet.part(MARGIN + place[0], top + place[1]), "drawing")
+        sheet.picture(MARGIN + place[0], top + place[1], drawing)
+    return sheet.png
+
+
+def both_png(left: bytes, right: bytes) -> bytes:
+    """Two pictures as one, side by side where there is room, else the left one above the right one."""
+    pictures = [Image.open(io.BytesIO(each)).convert("RGB") for each in (left, right)]
+    (wide, high), (width, height) = (each.size for each in pictures)
+    beside = wide + width <= BESIDE
+    sheet = Sheet(wide + width if beside else max(wide, width), max(high, height) if beside else high + height)
+    sheet.picture(0, 0, pictures[0])
+    sheet.picture(*((wide, 0) if beside else (0, high)), pictures[1])
     return sheet.png
 
 
@@ -213,7 +238,6 @@ def _paint_title(sheet: Sheet, view: StepView, width: float) -> None:
     while start + advance(said, STATUS) > width:
         said = f"{said[:-2]}…"
     sheet.text(start, TITLE, said, STATUS, QUIET)
-    _paint_heading(sheet.part(0, ABOVE), "word")
 
 
 def _paint_heading(sheet: Sheet, text: str) -> None:

@@ -29,7 +29,7 @@ COURSE = "L-systems: a course"
 """The title of the first page."""
 _KEPT = """<p class="note">The cells of this page have been run, and its panels move; nothing has to be installed. To change
 rules and code, open the lesson in Jupyter: <code>lsys-kit lab</code>. Votes and tables are checked on the page itself: what is
-right stands in it, and is no secret.</p>
+right stands in it, and is no secret. What you type is kept by this browser alone.</p>
 """
 _HOW = """<div class="note"><p><strong>How to answer.</strong> This page is for reading and for printing. Type
 <code>lsys-kit lab</code>, and open <code>{name}</code> in JupyterLab: there a cell below each question takes the answer, and

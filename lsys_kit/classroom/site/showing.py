@@ -7,16 +7,18 @@ notebook would pass over it, and the page would lack it without a word.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
 from lsys_kit.budget import current, limits
-from lsys_kit.classroom.lessons.lesson import Lesson, declared, names, number_of
+from lsys_kit.classroom.lessons.entries import number_of
+from lsys_kit.classroom.lessons.lesson import Lesson, declared, names
 from lsys_kit.classroom.lessons.predict import Prediction
+from lsys_kit.classroom.lessons.rows import set_by
 from lsys_kit.classroom.lessons.rule_finder import RuleFinder
 from lsys_kit.classroom.lessons.vote import VoteBox, drawn
-from lsys_kit.classroom.lessons.widget import html, prose_text
+from lsys_kit.classroom.lessons.widget import html
 from lsys_kit.classroom.lessons.worksheet import PanelWithWorksheet, Worksheet
 from lsys_kit.classroom.panel.explorer import Comparison, Explorer
 from lsys_kit.notation.model.arithmetic import Value, normalised
@@ -152,9 +154,6 @@ def _data(widget: Any, lesson: Lesson | None) -> Any:
     return widget.page_data([*asked_settings(lesson, sliders)] if lesson else [])
 
 
-_SET = re.compile(r"\b(\w++) = ([\d./]+\d|\d)")
-
-
 def asked_settings(lesson: Lesson, sliders: Collection[str]) -> Iterator[dict[str, Value]]:
     """What the tables of a lesson say of the sliders of a panel, row by row, and then what its text says.
 
@@ -170,20 +169,7 @@ def asked_settings(lesson: Lesson, sliders: Collection[str]) -> Iterator[dict[st
     dict_keys(['dt', 't_div', 't_l'])
     """
     for table in lesson.tables:
-        for row in table.rows:
-            titled = ((_named(column, sliders), cell) for column, cell in zip(table.columns, row, strict=True))
-            found = _values([*_SET.findall(prose_text(table.title)), *titled], sliders)
-            if found:
-                yield found
+        yield from filter(None, (set_by(table, row, sliders) for row in range(len(table.rows))))
     for together in lesson.settings:
         if set(together) <= set(sliders):
-            yield _values([*together.items()], sliders)
-
-
-def _named(title: str, sliders: Collection[str]) -> str:
-    return next((word for word in re.findall(r"\w+", prose_text(title)) if word in sliders), "")
-
-
-def _values(cells: Sequence[tuple[str, object]], sliders: Collection[str]) -> dict[str, Value]:
-    numbers = ((name, number_of(cell)) for name, cell in cells if name in sliders and isinstance(cell, str))
-    return {name: normalised(number) for name, number in numbers if number is not None}
+            yield {name: normalised(number_of(text) or 0) for name, text in together.items()}

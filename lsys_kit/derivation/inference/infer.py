@@ -185,7 +185,7 @@ def explanation(fits: Fits) -> Explanation:
         return Explanation(f"One system fits these {len(fits.words)} words", common, notes=tuple(_unknown(fits)))
     step = parting_step(fits[:MOST_COMPARED], len(fits.words))
     later = (
-        "as far as was looked, later words are the same"
+        _alike_so_far(fits)
         if step is None
         else f"they part {'at' if step == len(fits.words) or len(fits) <= MOST_COMPARED else 'by'} step {step}"
     )
@@ -200,6 +200,19 @@ def explanation(fits: Fits) -> Explanation:
     )
 
 
+def _alike_so_far(fits: Fits) -> str:
+    """That later words are the same up to the step that was looked at, as long as letters that only the last word has stay as
+    they are."""
+    last, derivation = len(fits.words) - 1, derive(fits[0], 0)
+    while last < len(fits.words) + STEPS_AHEAD and _small(derivation, last + 1):
+        last += 1
+    if last < len(fits.words):
+        return "later words are too long to be compared"
+    unknown = _only_last(fits)
+    condition = f"if {_some(unknown)} {'stays as it is' if len(unknown) == 1 else 'stay as they are'}, " if unknown else ""
+    return f"{condition}their words are the same up to step {last}"
+
+
 def _lines(productions: Sequence[Production], margin: str) -> Iterator[str]:
     return (f"{margin}{production}" for production in productions)
 
@@ -208,10 +221,14 @@ def _unknown(fits: Fits) -> Iterator[str]:
     """What the words leave open: what becomes of letters of the last word alone, and where a threshold lies exactly."""
     if any(rule.condition is not None for system in fits for rule in system.productions):
         yield "The number that a condition compares with could lie anywhere between the values that occur on its two sides."
-    before = {module.symbol for word in fits.words[:-1] for module in word} | fits.conditions.unchanged
-    unknown = [*dict.fromkeys(module.symbol for module in fits.words[-1] if module.symbol not in before)]
-    if unknown:
+    if unknown := _only_last(fits):
         yield f"Nothing is known of what becomes of {_some(unknown)}: only the last word has it."
+
+
+def _only_last(fits: Fits) -> list[str]:
+    """The letters that only the last word has."""
+    before = {module.symbol for word in fits.words[:-1] for module in word} | fits.conditions.unchanged
+    return [*dict.fromkeys(module.symbol for module in fits.words[-1] if module.symbol not in before)]
 
 
 def parting_step(fits: Sequence[LSystem], start: int) -> int | None:

@@ -188,7 +188,7 @@ class OpenedCells:
         picture, cells = self._of.picture(found, step, (chosen.around, chosen.above)), found.steps[step]
         return CellSight(step, picture.text if self._of.flat else size_text(cells), cells, picture)
 
-    def still(self, chosen: Viewing) -> Mapping[str, str]:
+    def still(self, chosen: Viewing, show: Collection[str] = ()) -> Mapping[str, str]:
         return {"image/svg+xml": self.sight(chosen).svg}
 
     def page_data(self, chosen: Viewing, asked: Sequence[Mapping[str, object]] = ()) -> dict[str, Any]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -31,6 +31,11 @@ class Sight(Protocol):
     @property
     def svg(self) -> str:
         """Its picture as SVG text."""
+        ...
+
+    @property
+    def picture(self) -> Any:
+        """Its picture."""
         ...
 
 
@@ -92,8 +97,9 @@ class Opened(Protocol):
         """What there is to see."""
         ...
 
-    def still(self, chosen: Viewing) -> Mapping[str, str]:
-        """A picture of it for a page without a kernel, by the type of the data: in base 64, or SVG text."""
+    def still(self, chosen: Viewing, show: Collection[str] = ...) -> Mapping[str, str]:
+        """A picture of it for a page without a kernel, by the type of the data: in base 64, or SVG text; of an L-system with
+        those of its word, stages and drawing that are to be shown."""
         ...
 
     def page_data(self, chosen: Viewing, asked: Sequence[Mapping[str, object]] = ()) -> dict[str, Any]:

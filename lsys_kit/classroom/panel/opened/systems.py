@@ -17,7 +17,7 @@ from lsys_kit.classroom.panel.controls import slider, slider_ranges, slider_valu
 from lsys_kit.classroom.panel.labels import translated_labels
 from lsys_kit.classroom.panel.opened.opened import Viewing
 from lsys_kit.classroom.panel.page import deflated, shared
-from lsys_kit.classroom.panel.view_model import StepView, ViewModel, composite_png
+from lsys_kit.classroom.panel.view_model import STILL, StepView, ViewModel, composite_png
 from lsys_kit.classroom.variants import variants
 from lsys_kit.derivation.core.rules import constants_of, number_from
 from lsys_kit.errors import LSystemError, ModelValueError
@@ -113,8 +113,8 @@ class OpenedSystem:
         place = names.index(chosen.mark) if chosen.mark in names else -1
         return view.sight(chosen.step, constants, chosen.angle, place, chosen.around, chosen.above)
 
-    def still(self, chosen: Viewing) -> Mapping[str, str]:
-        return {"image/png": base64.b64encode(composite_png(self.sight(chosen))).decode()}
+    def still(self, chosen: Viewing, show: Collection[str] = STILL) -> Mapping[str, str]:
+        return {"image/png": base64.b64encode(composite_png(self.sight(chosen), show)).decode()}
 
     def page_data(self, chosen: Viewing, asked: Sequence[Mapping[str, object]] = ()) -> Data:
         start: dict[str, Value] = {**self.given, **chosen.values}

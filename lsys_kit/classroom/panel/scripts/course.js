@@ -1,9 +1,10 @@
 // A page of the course without a kernel: its panels, votes, predictions, tables, rules and pictures.
 
-import { checked } from "./lessons/checking.js";
+import { checked, isRight } from "./lessons/checking.js";
 import { doneBox, markDone, whenMarked } from "./lessons/done.js";
 import { askForEntries } from "./lessons/filling.js";
 import { showRules } from "./lessons/finding.js";
+import { fitted, keepAnswer, keptAnswer } from "./lessons/keeping.js";
 import { askForPrediction } from "./lessons/predicting.js";
 import { askForVote } from "./lessons/voting.js";
 import { cannot, hostWith, store } from "./page.js";
@@ -54,31 +55,63 @@ function asked(ask, place, values, saved) {
   return model;
 }
 
-// Both votes on a question know of one another.
-function vote(place, { asked: question, again, said }, { ballots, finished }) {
-  const key = JSON.stringify([question.question, question.options]), ballot = ballots.get(key) ?? { votes: [-1, -1], tellers: [] };
-  ballots.set(key, ballot);
-  const saying = () => ({ said: said[ballot.votes[0] + 1][ballot.votes[1] + 1] });
-  const model = asked(askForVote, place, { asked: question, chosen: -1, ...saying() }, ({ get }) => {
-    ballot.votes[Number(again)] = get("chosen");
+// Both votes on a question know of one another; the second one knows what was predicted on the page, too.
+function vote(place, { asked: question, again, said }, page) {
+  const key = `vote ${question.question}`, ballot = page.ballots.get(key) ?? { votes: votesOf(key), tellers: [] };
+  page.ballots.set(key, ballot);
+  const own = Number(again), saying = () => ({ said: { ...said[ballot.votes[0] + 1][ballot.votes[1] + 1], predicted: again ? predictedOn(page) : [] } });
+  const model = asked(askForVote, place, { asked: question, chosen: ballot.votes[own], ...saying() }, ({ get }) => {
+    ballot.votes[own] = get("chosen");
+    keepAnswer(key, ballot.votes.some((each) => each >= 0) ? ballot.votes : null);
     for (const tell of ballot.tellers) tell();
-    if (again) finished();
+    if (again && ballot.votes[own] >= 0) page.finished();
   });
   ballot.tellers.push(() => model.tell(saying()));
 }
 
-function prediction(place, { question }, page) {
-  const answer = place.querySelector("[data-answer]");
-  asked(askForPrediction, place, { question, typed: "", revealed: false }, () => {
-    place.append(answer);
-    for (const each of answer.querySelectorAll("[data-part]")) openPart(each, page);
+const votesOf = (key) => [0, 1].map((place) => ([0, 1, 2, 3].includes(keptAnswer(key)?.[place]) ? keptAnswer(key)[place] : -1));
+
+const OPEN = "open"; // behind what was typed, where its answer was not asked for yet
+
+const keyOf = (question) => `prediction ${question}`;
+
+function outcomeOf(known, typed, atTheEnd = false) {
+  if (!known || (known.later && !atTheEnd)) return {};
+  return { answer: known.answer, ...(known.right.length ? { right: isRight(typed, known.right) } : {}) };
+}
+
+function predictedOn({ parts }) {
+  return parts.filter(({ kind }) => kind === "prediction").flatMap(({ data: { question, known } }) => {
+    const before = keptAnswer(keyOf(question)), [typed] = fitted(before, 1);
+    return known && typed && before.length === 1 ? [{ question, typed, ...outcomeOf(known, typed, true) }] : [];
   });
 }
 
+function prediction(place, { question, known }, page) {
+  const answer = place.querySelector("[data-answer]"), key = keyOf(question), before = keptAnswer(key), [said] = fitted(before, 1);
+  const show = ({ get, tell }) => {
+    const revealed = get("revealed");
+    keepAnswer(key, revealed ? [get("typed")] : get("typed") ? [get("typed"), OPEN] : null);
+    tell({ outcome: revealed ? outcomeOf(known, get("typed")) : {} });
+    for (const { tellers } of page.ballots.values()) for (const each of tellers) each();
+    if (!revealed) return answer.remove();
+    place.append(answer);
+    for (const each of answer.querySelectorAll("[data-part]:not([data-open])")) openPart(each, page);
+  };
+  const model = asked(askForPrediction, place, { question, typed: said, revealed: before?.length === 1, outcome: {} }, show);
+  if (model.get("revealed")) show(model);
+}
+
 function worksheet(place, data) {
-  asked(askForEntries, place, { sheet: data.sheet, asked: {}, result: {} }, ({ get, tell }) => {
-    const { number, entries } = get("asked");
-    tell({ result: { number, ...checked(data, entries) } });
+  const { title, columns } = data.sheet, key = `table ${[title, ...columns].join(" ")}`, many = data.blanks.length, before = keptAnswer(key);
+  const [typed, entries, first] = ["typed", "entries", "first"].map((name) => fitted(before?.[name], many));
+  const done = entries.some(Boolean) ? { number: 0, first, ...checked(data, entries) } : {};
+  asked(askForEntries, place, { sheet: data.sheet, typed, asked: done.marks ? { number: 0, entries } : {}, result: done }, ({ get, tell }) => {
+    const now = get("asked"), was = get("result");
+    if (!now.entries) tell({ result: {} });
+    else if (now.number !== was.number) tell({ result: { number: now.number, first: now.entries.map((entry, at) => was.first?.[at] || entry), ...checked(data, now.entries) } });
+    const { first: earliest } = get("result");
+    keepAnswer(key, get("typed").some(Boolean) ? { typed: get("typed"), entries: now.entries, first: earliest } : null);
   });
 }
 

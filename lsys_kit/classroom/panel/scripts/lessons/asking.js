@@ -44,6 +44,36 @@ function nameOfItsOwn(name) {
 // Tell the kernel what was done, or say in `status` that there is none.
 export function tellModel(model, values, status) {
   for (const [name, value] of Object.entries(values)) model.set(name, value);
-  model.save_changes();
-  if (model.comm_live === false) status.replaceChildren(worded("The kernel does not answer. Run the cell again."));
+  let told = model.comm_live !== false;
+  try {
+    model.save_changes();
+  } catch { // Jupyter throws where a kernel has been shut down and the model was not told
+    told = false;
+  }
+  if (!told) status.replaceChildren(worded("The kernel does not answer. Run the cell again."));
 }
+
+const PAUSE = 300; // milliseconds without a key after which what is typed is kept
+
+// A function that calls another when nothing was typed for a while.
+export function afterPause(handler) {
+  let waiting = 0;
+  const later = () => {
+    clearTimeout(waiting);
+    waiting = setTimeout(handler, PAUSE);
+  };
+  later.cancel = () => clearTimeout(waiting);
+  return later;
+}
+
+// A quiet button that takes back what was answered; it is there where something was.
+export const againButton = (pressed) => made("button.lsys-again", { type: "button", hidden: true, onclick: pressed }, worded("Start again"));
+
+// What was predicted, and beside it what came out, if that is known.
+/** @param {string} typed @param {{ answer?: string, right?: boolean }} outcome */
+export function predictedBeside(typed, { answer, right }) {
+  const said = typed ? made("div", `${worded("You said:")} `, typedText(typed)) : made("div", worded("You wanted to see it."));
+  return answer ? [said, made("div", right ? made("b.lsys-came", "✓ ") : "", `${worded("The answer:")} `, made("b", prose(answer)))] : [said];
+}
+
+const typedText = (text) => made("b.mathjax_ignore.tex2jax_ignore", text);

@@ -1,45 +1,99 @@
-// When what was typed into the cells of a table is right, where no kernel says so: as lessons/lesson.py and lessons/worksheet.py
-// have it. Numbers are exact fractions.
+// What the entries of a table are worth, where no kernel says so: as lessons/entries.py and lessons/worksheet.py have it. Numbers
+// are exact fractions.
 
 import { LONGEST_ENTRY } from "../drawing/constants.js";
 import { plain } from "./asking.js";
 
 const NUMBER = /^([+-]?)(?=\.?\d)(\d{0,30})(?:\.(\d{1,30}))?(?:\/(\d{1,30}))?(%?)$/;
-const THOUSANDS = /^[+-]?\d{1,3}(,\d{3})+(\.\d+)?$/, DECIMAL_COMMA = /^[+-]?\d*,\d+$/;
-const RIGHT = "right", NOT_YET = "not yet", MISSING = "not filled in yet";
+const PRODUCT = /^\d{1,9}(?:\^\d{1,2})?(?:[*·×]\d{1,9}(?:\^\d{1,2})?){0,9}$/;
+/** @type {[RegExp, Record<string, string>][]} */
+const OTHER_FORMS = [
+  [/^[+-]?\d{1,3}(?:[,']\d{3})+(?:\.\d+)?$/, { ",": "", "'": "" }],
+  [/^[+-]?\d{1,3}(?:\.\d{3})+(?:,\d+)?$/, { ".": "", ",": "." }],
+  [/^[+-]?\d*,\d+%?$/, { ",": "." }],
+];
+const BEFORE = /^(?:.*[=≈~]|(?:about|approx\.?|ca\.?)(?=\s))/is;
+const NOUNS = /\s*(?:\p{L}+|°)(?:\s+\p{L}+){0,9}$/u, NOUN = /\p{L}+|°/gu;
+const SHORT = { y: "yes", j: "yes", ja: "yes", n: "no", nein: "no", l: "left", links: "left", r: "right", rechts: "right" };
+const RIGHT = "right", NOT_YET = "not yet", NO_NUMBER = "no number", MISSING = "not filled in yet";
+const MOST_NOTES = 3;
 
-export function checked({ sheet, blanks }, entries) {
-  const marks = blanks.map(({ right, within }, number) => markOf(entries[number] ?? "", right, within));
-  return { marks, text: summary(sheet, marks) };
+export function checked({ sheet, blanks, says }, entries) {
+  const nouns = nounsIn(sheet.title, ...sheet.columns), marks = blanks.map((blank, number) => markOf(entries[number] ?? "", blank, nouns));
+  const places = new Map(), unexplained = [];
+  marks.forEach((mark, number) => {
+    if (mark === RIGHT || mark === MISSING) return;
+    const shown = shownBy(entries[number], mark, blanks[number], nouns, says);
+    if (shown) places.set(shown, [...(places.get(shown) ?? []), placeOf(sheet, number)]);
+    else unexplained.push(number);
+  });
+  const notes = [...places].slice(0, MOST_NOTES).map(([shown, where]) => `${capital(where.join("; "))}: ${shown}`);
+  return { marks, text: summary(sheet, marks, unexplained), notes };
 }
 
-function markOf(entry, right, within) {
+function markOf(entry, { right, within }, nouns) {
   if (!entry.trim()) return MISSING;
-  return isRight(entry, right, within) ? RIGHT : NOT_YET;
+  if (isRight(entry, right, within, nouns)) return RIGHT;
+  return readings(entry, nouns).length || !right.some(numberOf) ? NOT_YET : NO_NUMBER;
 }
 
-export function isRight(entry, right, within = "0") {
+function shownBy(entry, mark, { right, slips }, nouns, says) {
+  if (mark === NO_NUMBER) return "That cannot be read as a number. Write it in digits, such as 21, 0.5 or 3/4.";
+  if (right.some((each) => each === "yes" || each === "no") && !isRight(entry, ["yes", "no"])) return 'Answer "yes" or "no".';
+  const known = slips.find(([answer, within]) => isRight(entry, [answer], within, nouns));
+  return known ? says[known[2]] : "";
+}
+
+export function isRight(entry, right, within = "0", nouns = []) {
   if ([...entry].length > LONGEST_ENTRY) return false;
-  const near = numberOf(within) ?? numberOf("0");
-  return right.some((each) => bare(entry).toLowerCase() === bare(each).toLowerCase()
-    || readings(entry).some((number) => isNear(number, numberOf(each), near)));
+  const near = numberOf(within) ?? numberOf("0"), numbers = readings(entry, nouns);
+  return right.some((each) => word(entry) === word(each) || numbers.some((number) => isNear(number, numberOf(each), near)));
 }
 
-// The number that a text is, { above, below }, or null: a whole number, a decimal, a fraction, a percentage.
+function word(text) {
+  const found = text.replace(/\s+/g, "").toLowerCase();
+  return Object.hasOwn(SHORT, found) ? SHORT[found] : found;
+}
+
+// The number that a text is, { above, below }, or null: a whole number, a decimal, a fraction, a percentage, a product of powers.
 function numberOf(text) {
-  const found = NUMBER.exec(bare(text).replaceAll("\u2212", "-"));
+  const signs = bare(text);
+  if (PRODUCT.test(signs)) {
+    const powers = signs.split(/[*·×]/).map((factor) => factor.split("^").map(BigInt));
+    return { above: powers.reduce((product, [base, power = 1n]) => product * base ** power, 1n), below: 1n };
+  }
+  const found = NUMBER.exec(signs);
   if (!found || (found[4] && !BigInt(found[4]))) return null;
   const [, sign, whole, part = "", below = "1", percent] = found;
   const above = BigInt(whole + part) * (sign === "-" ? -1n : 1n);
   return { above, below: 10n ** BigInt(part.length) * BigInt(below) * (percent ? 100n : 1n) };
 }
 
-// The numbers that an entry may mean: a comma parts thousands, or stands for the decimal point.
-function readings(entry) {
-  const text = bare(entry), found = [numberOf(text)];
-  if (THOUSANDS.test(text)) found.push(numberOf(text.replaceAll(",", "")));
-  if (DECIMAL_COMMA.test(text)) found.push(numberOf(text.replace(",", ".")));
-  return found.filter(Boolean);
+// The numbers that an entry may mean; some nouns may stand behind it.
+function readings(entry, nouns) {
+  if ([...entry].length > LONGEST_ENTRY) return [];
+  const signs = bare(alone(entry, nouns)), texts = [signs, signs.replace(/%$/, "")];
+  for (const [form, marks] of OTHER_FORMS) {
+    if (!form.test(signs)) continue;
+    const other = [...signs].map((sign) => marks[sign] ?? sign).join("");
+    texts.push(other, other.replace(/%$/, ""));
+  }
+  return texts.map(numberOf).filter(Boolean);
+}
+
+function alone(entry, nouns) {
+  const text = entry.trim().replace(BEFORE, ""), behind = NOUNS.exec(text);
+  const known = behind && behind[0].match(NOUN).every((each) => nouns.includes(singular(each)));
+  return known ? text.slice(0, behind.index) : text;
+}
+
+const singular = (noun) => noun.toLowerCase().replace(/s$/, "");
+const nounsIn = (...texts) => [...texts.flatMap((text) => (text.match(NOUN) ?? []).map(singular)), "°"];
+
+// Without blanks, with the minus sign and the fractions of a keyboard.
+function bare(text) {
+  const signs = text.replace(/\s+/g, "").replace(/[\u2212\u2013]/g, "-");
+  return signs.replace(/(?<![\d.,])[¼-¾⅐-⅞]/g, (sign) => sign.normalize("NFKC").replace("\u2044", "/"));
 }
 
 function isNear(one, other, near) {
@@ -48,19 +102,19 @@ function isNear(one, other, near) {
   return (apart < 0n ? -apart : apart) * near.below <= near.above * unit;
 }
 
-const bare = (text) => text.replace(/\s+/g, "");
+const capital = (text) => text.slice(0, 1).toUpperCase() + text.slice(1);
 
-function summary(sheet, marks) {
-  const count = (word) => marks.filter((each) => each === word).length, right = count(RIGHT), missing = count(MISSING), total = marks.length;
+function summary(sheet, marks, unexplained) {
+  const count = (mark) => marks.filter((each) => each === mark).length, right = count(RIGHT), missing = count(MISSING), total = marks.length;
   if (right === total) return total > 1 ? "All cells are right." : "The cell is right.";
   const parts = [`${right} of ${total} cell${total > 1 ? "s" : ""} ${right === 1 || total === 1 ? "is" : "are"} right`];
   if (missing) parts.push(`${missing} ${missing === 1 ? "is" : "are"} not filled in yet`);
-  const wrong = marks.indexOf(NOT_YET), again = wrong < 0 ? "" : ` Look again at ${placeOf(sheet, wrong)}.`;
+  const again = unexplained.length ? ` Look again at ${placeOf(sheet, unexplained[0])}.` : "";
   return `${parts.join(", ")}.${again}`;
 }
 
 function placeOf({ columns, rows }, number) {
   const places = rows.flatMap((cells) => cells.flatMap((cell, column) => (cell === null ? [[cells[0], column]] : [])));
-  const [row, column] = places[number];
-  return `row ${plain(row)}, ${plain(columns[column])}`;
+  const [row, column] = places[number], name = plain(row);
+  return `${numberOf(name) ? `${plain(columns[0])} ${name}` : name}, ${plain(columns[column])}`;
 }
