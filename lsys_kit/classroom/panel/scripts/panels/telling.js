@@ -82,14 +82,13 @@ function by(book, number) {
 
 const rounded = (size, digits = 2) => Number((size + 1e-9).toFixed(digits));
 
-// A step with its tokens, and the width and height of its drawing, if there is one.
+// A step, its tokens where the stages are shown, and the width and height of its drawing and its strokes, if there are any.
 export function caption(book, now, tokens, measured) {
-  const occupied = book.data.net.places.filter((each) => tokens[each.place] > 0).length, stages = book.data.net.places.length;
-  const parts = [`step ${now}: ${sizeOf(book, now)}`];
-  if (stages > 1) parts.push(`${occupied} of ${counted(stages, "stage")} occupied`);
+  const stages = book.data.net.places, parts = [`step ${now}: ${sizeOf(book, now, measured?.strokes)}`];
+  if (tokens && stages.length > 1) parts.push(`${stages.filter((each) => tokens[each.place] > 0).length} of ${counted(stages.length, "stage")} occupied`);
   if (changesNothing(book, now)) parts.push("this step changes nothing");
   if (book.data.mode === "filament") parts.push(`length ${rounded(filamentLength(book, now), 4)}`);
-  if (measured) parts.push(`width ${rounded(measured[0])}, height ${rounded(measured[1])}`);
+  if (measured?.size) parts.push(`width ${rounded(measured.size[0])}, height ${rounded(measured.size[1])}`);
   if (book.data.said) parts.push(book.data.said);
   if (now === book.steps && book.data.end) parts.push(book.data.end);
   return parts.join("; ");
@@ -99,6 +98,15 @@ function changesNothing(book, now) {
   if (!now || ["map", "tissue"].includes(book.data.mode) || book.length(now) !== book.length(now - 1)) return false;
   const before = book.word(now - 1);
   return book.word(now).every((state, position) => state === before[position]);
+}
+
+// What a panel is called: after its system, with a number where others of the document are called so, too.
+export function nameOf(root, { title, file }) {
+  const others = [...document.querySelectorAll(".lsys-panel[aria-label]")].filter((each) => each !== root).map((each) => each.getAttribute("aria-label"));
+  for (let number = 1; ; number++) {
+    const name = `${title ? `L-system ${title}` : file}${number > 1 ? ` (${number})` : ""}`;
+    if (!others.includes(name)) return name;
+  }
 }
 
 // The line of code that makes a panel as it stands; `turns` says whether its angle has a slider.
