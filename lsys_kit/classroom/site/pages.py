@@ -20,6 +20,7 @@ from lsys_kit.classroom.panel.document import Program, deflated_text, document
 from lsys_kit.classroom.panel.page import not_needed
 from lsys_kit.classroom.site.markdown import Links, address_on_site, markdown_html, mathml
 from lsys_kit.classroom.site.showing import PART
+from lsys_kit.pictures.formats.notebook import DARKENED
 from lsys_kit.pictures.style.labels import escaped
 
 INDEX = "index.html"
@@ -243,7 +244,7 @@ def data_html(data: Mapping[str, Any], parts: Parts) -> str:
         return _part_html(data[PART], data["text/plain"], parts)
     if "text/latex" in data and "text/html" not in data:
         return _block(mathml(data["text/latex"], "block"))
-    return _block(_PICTURE.sub(lambda found: _kept_picture(found[1], parts), html(data)))
+    return _block(_PICTURE.sub(lambda found: _kept_picture(found[1], parts), html(data).replace(DARKENED, "")))
 
 
 def _kept_picture(packed: str, parts: Parts) -> str:
