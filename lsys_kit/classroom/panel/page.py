@@ -26,7 +26,7 @@ _CELLS, _STROKES, _TISSUES = frozenset(("filament",)), frozenset(("turtle", "pai
 _MAPS = frozenset(("map", "relaxation", "relaxing", "tension"))
 _NOT_NEEDED = {
     "filament": _STROKES | _MAPS | _TISSUES,
-    "plane": _CELLS | _MAPS | _TISSUES,
+    "plane": _CELLS | _MAPS | _TISSUES | {"turtle_space"},
     "space": _CELLS | _MAPS | _TISSUES,
     "map": _CELLS | _TISSUES | {"turtle"},
     "tissue": _CELLS | _MAPS | {"turtle"},
@@ -57,7 +57,10 @@ def page(title: str, data: Mapping[str, Any], description: str, language: str = 
 <main id="lsys-here"></main>
 <noscript><p>Without JavaScript the panel cannot be moved. It shows: {escaped(description)}</p></noscript>
 """
-    script = f'"use strict";\n{compact("page", not_needed(data["mode"]))}\nopenPage();\n'
+    others = frozenset(
+        () if data["model"]["chance"] else ("gallery",)
+    )  # of a page's panels these have other seeds, and none variants
+    script = f'"use strict";\n{compact("page", not_needed(data["mode"]) | others)}\nopenPage();\n'
     return document(title, body, STYLE, description, Program(script, style(), data), language)
 
 

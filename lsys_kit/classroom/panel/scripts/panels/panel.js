@@ -73,7 +73,7 @@ export function openPanel(element, host, compared = null) {
     pointed: (at, position) => point({ step: at, position }),
   });
   const counts = countsView(view.counts.body, goTo);
-  const seeds = seedsView(view.seeds.body, sow, say), variants = variantsView(view.variants.body, (text) => rules.put(text), say);
+  const seeds = seedsView?.(view.seeds.body, sow, say), variants = variantsView?.(view.variants.body, (text) => rules.put(text), say);
   const kept = keeping(host, { canvas: drawing.canvas, file: () => book.data.file, code: () => code(seen, book, turns()), state: () => state() });
   const less = made("div.lsys-tabs", { role: "toolbar", "aria-label": worded("more views") }, ...others, large), ofSteps = compared && !compared.bar ? [] : play.tools;
   const more = moreOf(less, scale.element, mark.element, ...ofSteps, ...(compared ? [] : [kept]));
@@ -155,7 +155,7 @@ export function openPanel(element, host, compared = null) {
     view.seeds.offer(model.chance);
     view.variants.offer(host.editable && !["map", "tissue"].includes(model.book.mode));
     for (const group of groups) group.refresh();
-    variants.forget();
+    variants?.forget();
     const first = books.keep(model.asked, model.book);
     boxed = Math.min(model.step, first.steps);
     rules.open(model.book.text, host.editable, model.book.notes);
