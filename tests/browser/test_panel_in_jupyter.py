@@ -148,13 +148,13 @@ def test_every_control_by_mouse_in_light_and_dark(shown, dark):
 
 def test_a_kernel_that_is_gone_is_told_of_and_the_rest_goes_on(shown):
     notebook = shown("explore('K5', 3)")
-    notebook._ask("await panel.sessionContext.shutdown();")
     panel = panel_of(notebook.page)
+    show_more(panel)
+    notebook._ask("await panel.sessionContext.shutdown();")
     slider(panel, "angle").press("ArrowRight")
     expect(panel.locator("canvas.lsys-canvas")).to_have_attribute("data-angle", "25.8")
     slider(panel, "step").press("ArrowRight")
     expect(panel.locator(".lsys-status")).to_contain_text("step 4")
-    show_more(panel)
     panel.get_by_role("button", name="page", exact=True).click()  # which the kernel writes
     expect(panel).to_contain_text("The kernel does not answer")
     assert notebook.console == []
