@@ -19,10 +19,11 @@ import { keeping, player } from "../views/bars.js";
 import { button, eachFrame, list, made, ownKeys, slider, speak, worded } from "../views/controls.js";
 import { countsView } from "../views/counts.js";
 import { folding, moreOf, roving } from "../views/folding.js";
+import { ownName } from "../views/landmarks.js";
 import { netView } from "../views/net.js";
 import { rulesView } from "../views/rules.js";
 import { wordView } from "../views/word.js";
-import { caption, code, litAt, nameOf, placesOf, told } from "./telling.js";
+import { caption, code, litAt, placesOf, told } from "./telling.js";
 
 const REST = 400; // milliseconds after which a movement has come to rest, and the kernel is told
 const ANGLES = times(1801, (i) => (i / 10).toString());
@@ -133,7 +134,7 @@ export function openPanel(element, host, compared = null) {
   // A book belongs to a model: what was asked about the one before is not shown.
   function openModel() {
     model = seen.model;
-    root.setAttribute("aria-label", nameOf(root, model.book));
+    root.setAttribute("aria-label", ownName(root, model.book.title ? `L-system ${model.book.title}` : model.book.file));
     root.removeAttribute("data-stale");
     asking += 1;
     root.ariaBusy = "false";

@@ -100,15 +100,6 @@ function changesNothing(book, now) {
   return book.word(now).every((state, position) => state === before[position]);
 }
 
-// What a panel is called: after its system, with a number where others of the document are called so, too.
-export function nameOf(root, { title, file }) {
-  const others = [...document.querySelectorAll(".lsys-panel[aria-label]")].filter((each) => each !== root).map((each) => each.getAttribute("aria-label"));
-  for (let number = 1; ; number++) {
-    const name = `${title ? `L-system ${title}` : file}${number > 1 ? ` (${number})` : ""}`;
-    if (!others.includes(name)) return name;
-  }
-}
-
 // The line of code that makes a panel as it stands; `turns` says whether its angle has a slider.
 export function code(seen, book, turns) {
   const { model, settings, step, angle, seed } = seen, { title, text, notation } = book.data, named = (name, value) => `${name}=${value}`;
