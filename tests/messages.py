@@ -64,6 +64,8 @@ TABLES_OF_SCRIPTS = (
     "Point at a part or click it to trace it; N and P go to the next and previous one.",
     "Point at a wall or click it to trace it; N and P go to the next and previous one.",
     "Point at a cell or click it to trace it; N and P go to the next and previous one.",
+    "Tap a part to trace it; two fingers bring it nearer.",
+    "A finger turns it; tap a part to trace it.",
     "Correct",
     "Almost",
     "Not yet",

@@ -13,6 +13,7 @@ from playwright.sync_api import Locator, Page, expect
 
 from tests.browser.homes import HOMES, show
 from tests.browser.lab import OpenNotebook
+from tests.classroom.panel_page import show_more
 from tests.classroom.test_panel import SETTLED
 
 LOOKED_AT = (
@@ -106,7 +107,7 @@ def test_rules_that_are_typed_are_the_systems_of_python_too(open_notebook, write
     notebook = open_notebook(write_notebook("rules.ipynb", show("panel = explore('J4', 9)\npanel"), asked))
     notebook._ask("panel.content.activeCellIndex = 1; await app.commands.execute('notebook:run-cell'); await idle();")
     panel = panel_of(notebook.page)
-    panel.get_by_role("group", name="views").get_by_role("button", name="rules", exact=True).click()
+    panel.locator(".lsys-tabs").get_by_role("button", name="rules", exact=True).click()
     rules = panel.get_by_label("rules of the model")
     rules.fill("c = 2 in 1 .. 5\naxiom: A(1)\nA(t) : t < c -> A(t+1)\nA(t) -> A(1)A(")
     expect(panel.locator("mark.lsys-wrong")).to_have_count(1)
@@ -128,15 +129,16 @@ def test_every_control_by_mouse_in_light_and_dark(shown, dark):
         notebook._ask("await app.commands.execute('apputils:change-theme', { theme: 'JupyterLab Dark' });")
         expect(notebook.page.locator("body")).to_have_attribute("data-jp-theme-light", "false")
     panel = panel_of(notebook.page)
+    show_more(panel)
     for title in ("rules", "how many", "nine variants"):
-        panel.get_by_role("group", name="views").get_by_role("button", name=title, exact=True).click()
+        panel.locator(".lsys-tabs").get_by_role("button", name=title, exact=True).click()
     expect(panel.locator(".lsys-tile-button")).to_have_count(9)
     for name in ("one step back", "one step on", "to step 0", "play"):
         panel.get_by_role("button", name=name, exact=True).click()
     expect(panel.locator(".lsys-status")).to_contain_text("step 2")
     panel.get_by_role("button", name="pause", exact=True).click()
     panel.locator('.lsys-module[data-position="0"]').click()
-    expect(panel.locator(".lsys-sentence")).to_contain_text("Module 1 of step")
+    expect(panel.locator(".lsys-sentence")).to_contain_text("Cell 1 of step")
     notebook.shot(f"panel-{'dark' if dark else 'light'}")
     panel.get_by_role("button", name="reset", exact=True).click()
     expect(panel.locator(".lsys-status")).to_contain_text("step 9")
@@ -146,8 +148,9 @@ def test_every_control_by_mouse_in_light_and_dark(shown, dark):
 
 def test_a_kernel_that_is_gone_is_told_of_and_the_rest_goes_on(shown):
     notebook = shown("explore('K5', 3)")
-    notebook._ask("await panel.sessionContext.shutdown();")
     panel = panel_of(notebook.page)
+    show_more(panel)
+    notebook._ask("await panel.sessionContext.shutdown();")
     slider(panel, "angle").press("ArrowRight")
     expect(panel.locator("canvas.lsys-canvas")).to_have_attribute("data-angle", "25.8")
     slider(panel, "step").press("ArrowRight")
@@ -181,7 +184,7 @@ def test_compare_has_one_slider_and_marks_differences(shown):
     for status in page.locator(".lsys-side .lsys-status").all():
         expect(status).to_contain_text("step 6")
     said = page.locator(".lsys-both > .lsys-sentence")
-    expect(said).to_contain_text(re.compile("the words have 4 and . modules; they differ first at module"))
+    expect(said).to_contain_text(re.compile("the words have 4 and . cells; they differ first at cell"))
     assert page.locator(".lsys-different").count() > 0
     notebook.shot("compare")
     assert notebook.console == []
@@ -228,6 +231,7 @@ def test_every_control_by_the_keyboard(home):
         panel.get_by_role("button", name=name, exact=True).press("Enter")
         expect(status).to_contain_text(told)
     panel.get_by_role("button", name="pause", exact=True).press("Enter")
+    show_more(panel)
     panel.get_by_label("mark", exact=True).press("ArrowDown")
     expect(panel.locator('[data-place][aria-pressed="true"]')).to_have_count(1)
     panel.locator("[data-place]").last.press("Enter")
@@ -237,11 +241,11 @@ def test_every_control_by_the_keyboard(home):
     panel.get_by_label("loop", exact=True).press(" ")
     expect(panel.get_by_label("loop", exact=True)).to_be_checked()
     panel.locator(".lsys-word").press("ArrowRight")
-    expect(panel.locator(".lsys-sentence")).to_contain_text("Module 1 of step")
+    expect(panel.locator(".lsys-sentence")).to_contain_text("Cell 1 of step")
     panel.locator("canvas.lsys-canvas").press("+")
     expect(panel.locator("canvas.lsys-canvas")).to_have_attribute("data-near", "1.25")
     for title in ("rules", "how many", "word", "class"):
-        tab = panel.get_by_role("group", name="views").get_by_role("button", name=title, exact=True)
+        tab = panel.locator(".lsys-tabs").get_by_role("button", name=title, exact=True)
         before = tab.get_attribute("aria-pressed")
         tab.press("Enter")
         expect(tab).to_have_attribute("aria-pressed", "false" if before == "true" else "true")
@@ -273,16 +277,17 @@ def test_every_control_by_the_mouse(home):
         expect(status).to_contain_text(told)
     panel.get_by_role("button", name="pause", exact=True).click()
     panel.get_by_role("button", name="reset", exact=True).click()
-    expect(status).to_contain_text("step 9: 9 modules")
+    expect(status).to_contain_text("step 9: 9 cells")
     panel.locator("[data-place]").first.click()
     expect(panel.locator("[data-place]").first).to_have_attribute("aria-pressed", "true")
     panel.locator('.lsys-module[data-position="2"]').click()
-    expect(panel.locator(".lsys-sentence")).to_contain_text("Module 3 of step 9")
+    expect(panel.locator(".lsys-sentence")).to_contain_text("Cell 3 of step 9")
     canvas = panel.locator("canvas.lsys-canvas")
     canvas.click(position={"x": canvas.bounding_box()["width"] / 2 + 17, "y": 42})
-    expect(panel.locator(".lsys-sentence")).to_contain_text("Module 1 of step 0")
+    expect(panel.locator(".lsys-sentence")).to_contain_text("Cell 1 of step 0")
+    show_more(panel)
     for title in ("rules", "how many", "nine variants", "class"):
-        panel.get_by_role("group", name="views").get_by_role("button", name=title, exact=True).click()
+        panel.locator(".lsys-tabs").get_by_role("button", name=title, exact=True).click()
     expect(panel.locator(".lsys-tile-button")).to_have_count(9)
     plot = panel.locator(".lsys-counts")
     plot.click(position={"x": plot.bounding_box()["width"] * 53 / 380, "y": 20})
@@ -298,7 +303,7 @@ def test_every_control_by_the_mouse(home):
 @HOMES
 def test_nine_seeds_and_two_systems(home):
     panel = home(2)
-    panel.get_by_role("group", name="views").get_by_role("button", name="nine seeds", exact=True).click()
+    panel.locator(".lsys-tabs").get_by_role("button", name="nine seeds", exact=True).click()
     expect(panel.locator(".lsys-tile-button")).to_have_count(9)
     panel.locator(".lsys-tile-button").nth(5).click()
     expect(panel.get_by_label("seed", exact=True)).to_have_value("5")
@@ -318,8 +323,9 @@ def test_axe_finds_nothing(open_notebook, write_notebook):
         output = notebook.output(number).locator(".jp-OutputArea-output:has(.lsys-panel, svg, img)").first
         expect(output.locator("canvas[data-drawn], svg, img").first).to_be_visible()
         if "explore" in source:
+            show_more(output)
             for title in ("rules", "how many"):
-                output.get_by_role("group", name="views").get_by_role("button", name=title, exact=True).click()
+                output.locator(".lsys-tabs").get_by_role("button", name=title, exact=True).click()
         found = output.evaluate("""async (output) => {
             const { violations, incomplete } = await axe.run(output);
             return [...violations, ...incomplete].filter(({ impact }) => impact === "critical" || impact === "serious")

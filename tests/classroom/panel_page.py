@@ -83,11 +83,23 @@ class PanelPage:
 
     def view(self, title: str) -> None:
         """Show or hide a view."""
-        self.page.get_by_role("group", name="views").get_by_role("button", name=title, exact=True).click()
+        show_more(self.at(".lsys-panel").first)
+        self.at(".lsys-tabs").get_by_role("button", name=title, exact=True).click()
+
+    def more(self) -> None:
+        """Show what stands behind "more"."""
+        show_more(self.at(".lsys-panel").first)
 
     def shot(self, path: Any) -> None:
         """Keep a picture of the whole page."""
         self.page.screenshot(path=path, full_page=True)
+
+
+def show_more(panel: Locator) -> None:
+    """Show what stands behind "more" in a panel, where it is not shown already."""
+    opener = panel.get_by_role("button", name="more", exact=True)
+    if opener.get_attribute("aria-expanded") == "false":
+        opener.click()
 
 
 @dataclass

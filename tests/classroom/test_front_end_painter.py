@@ -224,3 +224,30 @@ def test_in_a_frame_that_stays_a_plant_grows(page):
     ends = [answers(page, code, {"book": book, "theme": THEME, "step": step, "boxed": 3}, *PAINTER) for step in range(4)]
     assert [bottom for _, bottom in ends] == pytest.approx([ends[0][1]] * 4)
     assert [bottom - top for top, bottom in ends] == pytest.approx([(SIZE - 28) / 8 * 2**step for step in range(4)])
+
+
+ROOM = """
+const shapes = placed(traced(bookOf(given), 0), given.turtle.angle), box = boundsOf(shapes), found = [];
+for (const above of [-90, -40, 0, 15, 60, 90]) {
+  let share = 0;
+  for (let around = -180; around < 180; around += 5) {
+    const { x, y } = seenIn(frameOf(shapes, 600, 400, { around, above, box }), shapes);
+    const seen = shapes.strokes.n ? [...shapes.strokes.from, ...shapes.strokes.to] : [];
+    for (const point of seen) {
+      const reach = Math.max(Math.abs(x[point] - 300) / 300, Math.abs(y[point] - 200) / 200);
+      share = Math.max(share, reach);
+    }
+  }
+  found.push(share);
+}
+return found;
+"""
+
+
+@pytest.mark.parametrize("id", ["K13", "K19", "L1", "K15"])
+def test_no_turn_leads_a_plant_out_of_its_frame_and_some_turn_nearly_fills_it(page, id):
+    plant = system(id)
+    shares = answers(page, ROOM, book_of([derive(plant, min(6, plant.steps or 4))[-1]]), *PAINTER)
+    assert max(shares) <= 1
+    if drawing_mode(plant) is DrawingMode.SPACE:
+        assert min(shares) > 0.75

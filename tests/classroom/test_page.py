@@ -316,10 +316,10 @@ def press(shown: Page, control: str, key: str) -> None:
 
 def test_steps_and_constants_are_moved_without_a_kernel(opened, j4: str) -> None:
     shown = opened(j4)
-    status(shown).to_contain_text("step 9: 9 modules; 5 of 5 stages occupied")
+    status(shown).to_contain_text("step 9: 9 cells; 5 of 5 stages occupied")
     expect(shown.locator(".lsys-word")).to_have_text("Al(1)Br(1)Bl(2)Ar(2)Al(3)Bl(1)Ar(1)Bl(2)Ar(2)")
     press(shown, "step", "ArrowRight")
-    status(shown).to_contain_text("step 10: 12 modules")
+    status(shown).to_contain_text("step 10: 12 cells")
     for moved, a, b in (("lifeTimeA", 4, 2), ("lifeTimeB", 4, 3), ("lifeTimeA", 5, 3)):
         press(shown, moved, "ArrowRight")
         word = str(derive(system("J4"), 10, lifeTimeA=a, lifeTimeB=b)[-1])
@@ -348,10 +348,10 @@ def test_a_slider_without_its_book_takes_the_others_back_to_their_first_values(m
 def test_seeds_are_sown_without_a_kernel_and_stand_in_the_address(opened) -> None:
     shown = opened(page("K8", page_data(system("K8"), title="K8", step=9), ""))
     press(shown, "seed", "ArrowRight")
-    status(shown).to_contain_text(f"step 9: {len(derive(system('K8'), 9, seed=1)[-1])} modules")
+    status(shown).to_contain_text(f"{len(derive(system('K8'), 9, seed=1)[-1])} modules")
     shown.get_by_role("button", name="nine seeds").click()
     shown.get_by_role("button", name="seed 2: ").click()
-    status(shown).to_contain_text(f"step 9: {len(derive(system('K8'), 9, seed=2)[-1])} modules")
+    status(shown).to_contain_text(f"{len(derive(system('K8'), 9, seed=2)[-1])} modules")
     shown.wait_for_url(lambda url: "#lsys=" in url and linked(url).settings.get("seed") == 2)
     shown.reload()
     expect(shown.get_by_role("slider", name="seed, slider")).to_have_attribute("aria-valuetext", "2")
@@ -371,7 +371,7 @@ def test_texts_and_counts_of_a_page_are_those_of_the_kernel(opened, tmp_path: Pa
         shown.get_by_label("step", exact=True).press("Enter")
         texts = [wall.label for wall in word.walls] if id == "K28" else [*map(str, word)]
         status(shown).to_contain_text(f"step {step}: ")
-        many = f"{len(texts):,} {'wall' if id == 'K28' else 'module'}{'s' * (len(texts) != 1)}"
+        many = f"{len(texts):,} {'wall' if id == 'K28' else panel.model['book']['noun']}{'s' * (len(texts) != 1)}"
         status(shown).to_contain_text(many)
         if len(texts) <= 240:
             chips = shown.locator(".lsys-word [data-position]").all_inner_texts()
@@ -399,17 +399,17 @@ def test_the_address_keeps_what_is_seen_and_gives_it_back(opened, j4: str) -> No
     assert there.system == system("J4")
     assert there.settings == {"step": 8, "lifeTimeA": 4, "lifeTimeB": 2}
     shown.reload()
-    status(shown).to_contain_text("step 8: 5 modules")
+    status(shown).to_contain_text("step 8: 5 cells")
     expect(shown.get_by_role("slider", name="lifeTimeA, slider")).to_have_attribute("aria-valuetext", "4")
 
 
 @pytest.mark.parametrize(
     ("settings", "seen"),
     [
-        ({"step": 7, "lifeTimeA": 5, "lifeTimeB": 1}, "step 7: 4 modules"),
-        ({"step": 10**8}, "step 20: 200 modules"),
-        ({"step": 3, "lifeTimeA": 77}, "step 3: 2 modules"),
-        ({"angle": "77/3", "seed": 5}, "step 9: 9 modules"),
+        ({"step": 7, "lifeTimeA": 5, "lifeTimeB": 1}, "step 7: 4 cells"),
+        ({"step": 10**8}, "step 20: 200 cells"),
+        ({"step": 3, "lifeTimeA": 77}, "step 3: 2 cells"),
+        ({"angle": "77/3", "seed": 5}, "step 9: 9 cells"),
     ],
 )
 def test_a_link_of_the_model_opens_its_settings(opened, j4: str, settings: dict[str, Any], seen: str) -> None:
@@ -430,7 +430,7 @@ def test_a_link_of_the_model_opens_its_settings(opened, j4: str, settings: dict[
     ],
 )
 def test_another_link_changes_nothing(opened, j4: str, fragment: str) -> None:
-    status(opened(j4, fragment)).to_contain_text("step 9: 9 modules")
+    status(opened(j4, fragment)).to_contain_text("step 9: 9 cells")
 
 
 @pytest.mark.parametrize(
@@ -492,7 +492,7 @@ def test_a_script_is_written_without_what_says_nothing(line: str, tight: str) ->
 
 def test_a_plant_keeps_its_angle_in_its_link(opened) -> None:
     shown = opened(page("K5", page_data(system("K5"), title="K5", angle=40), ""))
-    status(shown).to_contain_text("step 4: 1,561 modules")
+    status(shown).to_contain_text("step 4: 625 strokes, 1,561 characters")
     press(shown, "angle", "ArrowRight")
     shown.wait_for_url(re.compile("#lsys="))
     assert float(linked(shown.url).settings["angle"]) == 40.1

@@ -31,7 +31,7 @@ def test_step_angle_view_and_mark_never_ask_the_kernel(explored, id):
         panel.at("[data-place]").first.press("Enter")
         expect(panel.at("[data-place]").first).to_have_attribute("aria-pressed", "true")
     panel.at("canvas").press("n")
-    expect(panel.at(".lsys-sentence")).to_contain_text("Module 1 of step")
+    expect(panel.at(".lsys-sentence")).to_contain_text(" 1 of step")
     panel.page.wait_for_function("asked.length > 0")  # where they come to rest the kernel is told, and answers nothing
     assert set(panel.asked) == {"save"}
 
@@ -40,7 +40,7 @@ def test_the_slider_of_the_step_changes_word_tokens_and_drawing(explored):
     panel = explored("J4", 3)
     assert word_in(panel) == "Al(1)Br(1)"
     panel.control("step").press("ArrowRight")
-    expect(panel.at(".lsys-status")).to_contain_text("step 4: 2 modules; 2 of 5 stages occupied")
+    expect(panel.at(".lsys-status")).to_contain_text("step 4: 2 cells; 2 of 5 stages occupied")
     expect(panel.at(".lsys-word")).to_have_text("Al(2)Br(2)")
     expect(panel.at('[data-place="1"]')).to_have_attribute("aria-label", "stage A(2), 1 token")
     expect(panel.at("canvas")).to_have_attribute("data-step", "4")
@@ -49,7 +49,7 @@ def test_the_slider_of_the_step_changes_word_tokens_and_drawing(explored):
 def test_a_panel_opens_with_the_views_that_are_asked_for(explored):
     panel = explored("K7", 3, show=["rules", "drawing"])
     assert [each.get_attribute("data-view") for each in panel.at(".lsys-view:not([hidden])").all()] == ["rules", "drawing"]
-    pressed = panel.page.get_by_role("group", name="views").locator("[aria-pressed=true]")
+    pressed = panel.page.get_by_role("toolbar", name="views", exact=True).locator("[aria-pressed=true]")
     assert pressed.all_inner_texts() == ["rules", "drawing"]
 
 
@@ -90,7 +90,7 @@ def test_a_step_that_changes_nothing_is_said_to_do_so(explored):
 def test_the_length_of_a_filament_is_said(explored, id, step, length):
     panel = explored(id, step)
     assert f"width {round(float(length), 2):g}, height 1" in panel.explorer.text
-    expect(panel.at(".lsys-status")).to_contain_text(re.compile(rf"(occupied|modules); length {re.escape(length)}$"))
+    expect(panel.at(".lsys-status")).to_contain_text(re.compile(rf"(occupied|cells); length {re.escape(length)}$"))
 
 
 def test_a_number_is_typed_as_a_person_writes_it(explored):
@@ -121,6 +121,7 @@ def test_a_constant_asks_once_for_each_setting_and_neighbours_are_fetched_ahead(
 
 def test_a_changed_constant_keeps_the_mark(explored):
     panel = explored("J4", 9)
+    panel.more()
     panel.page.get_by_label("mark", exact=True).select_option("B(1)")
     panel.control("lifeTimeA").press("ArrowRight")
     expect(panel.at(".lsys-status")).to_contain_text("of 6 stages")
@@ -170,7 +171,7 @@ def test_a_module_is_traced_through_all_views(explored):
     panel.view("rules")
     panel.at('.lsys-module[data-position="2"]').click()
     expect(panel.at(".lsys-sentence")).to_have_text(
-        "Module 3 of step 10, Al(1) comes from Bl(2), module 3 of step 9, by production 3, Bl(lifeTimeB) -> Al(1) Br(1); "
+        "Cell 3 of step 10, Al(1) comes from Bl(2), cell 3 of step 9, by production 3, Bl(lifeTimeB) -> Al(1) Br(1); "
         "it becomes Al(2) at step 11."
     )
     expect(panel.at('[data-traced="self"]')).to_have_attribute("data-position", "2")
@@ -198,9 +199,7 @@ def test_a_cell_of_the_drawing_is_traced_by_the_pointer(explored):
     canvas = panel.at("canvas")
     box = canvas.bounding_box()
     canvas.click(position={"x": box["width"] / 2 + 17, "y": 38})
-    expect(panel.at(".lsys-sentence")).to_have_text(
-        "Module 1 of step 0, Al(1) stands in the axiom; it becomes Al(2) at step 1."
-    )
+    expect(panel.at(".lsys-sentence")).to_have_text("Cell 1 of step 0, Al(1) stands in the axiom; it becomes Al(2) at step 1.")
 
 
 def test_what_the_mouse_is_on_is_lit_until_it_leaves(explored):
@@ -210,9 +209,9 @@ def test_what_the_mouse_is_on_is_lit_until_it_leaves(explored):
     for position in (2, 5):
         panel.at(f'.lsys-module[data-position="{position}"]').hover()
         expect(panel.at('[data-traced="self"]')).to_have_attribute("data-position", str(position))
-        expect(panel.at(".lsys-sentence")).to_contain_text(f"Module {position + 1} of step 10")
+        expect(panel.at(".lsys-sentence")).to_contain_text(f"Cell {position + 1} of step 10")
     canvas.hover(position={"x": box["width"] / 2 + 17, "y": 38})
-    expect(panel.at(".lsys-sentence")).to_contain_text("Module 1 of step 0, Al(1) stands in the axiom")
+    expect(panel.at(".lsys-sentence")).to_contain_text("Cell 1 of step 0, Al(1) stands in the axiom")
     panel.at(".lsys-status").hover()
     expect(panel.at(".lsys-sentence")).to_have_text("")
     expect(panel.at("[data-traced]")).to_have_count(0)
@@ -239,17 +238,18 @@ def test_long_numbers_of_a_word_are_shown_shorter_and_told_whole(explored):
 
 def test_a_small_stage_diagram_leaves_its_room_to_the_drawing(explored):
     wide = {view: explored("K5").at(f'[data-view="{view}"]').bounding_box()["width"] for view in ("stages", "drawing")}
-    assert wide["stages"] <= 246
-    assert wide["drawing"] > 600
+    assert wide["stages"] <= 420
+    assert wide["drawing"] > 900
 
 
 def test_the_word_of_an_empty_drawing_says_so(explored):
     panel = explored(read("axiom: A\nA -> A A"), 2)
-    expect(panel.at("canvas")).to_have_attribute("aria-label", re.compile("Drawing of step 2: 4 modules"))
+    expect(panel.at("canvas")).to_have_attribute("aria-label", re.compile("Drawing of step 2: 4 letters"))
 
 
 def test_play_goes_on_stops_and_begins_again(explored):
     panel = explored("J1", 8)
+    panel.more()
     panel.page.get_by_label("speed", exact=True).select_option("fast")
     panel.page.get_by_role("button", name="play", exact=True).click()
     expect(panel.page.get_by_role("button", name="pause", exact=True)).to_be_visible()
@@ -306,12 +306,14 @@ def test_nine_variants_of_which_one_is_taken_on(explored):
 
 def test_the_code_that_is_taken_along_unfolds_the_same_stages(explored):
     panel = explored("K19", 3, unfold=("A", "I"))
+    panel.more()
     panel.page.get_by_role("button", name="code").click()
     expect(panel.page.get_by_label("to be copied")).to_have_value('explore("K19", 3, unfold=["A","I"])')
 
 
 def test_what_is_taken_along(explored):
     panel = explored("J4", 7)
+    panel.more()
     panel.page.get_by_role("button", name="code").click()
     code = panel.page.get_by_label("to be copied")
     expect(code).to_have_value('explore("J4", 7)')
@@ -338,6 +340,7 @@ def test_what_is_taken_along(explored):
 )
 def test_a_file_that_is_taken_along_is_called_after_its_system(explored, what: str, name: str) -> None:
     panel = explored(what, 1)
+    panel.more()
     for kind, suffix in (("SVG", "svg"), ("page", "html"), ("PNG", "png")):
         with panel.page.expect_download() as kept:
             panel.page.get_by_role("button", name=kind, exact=True).click()

@@ -137,6 +137,7 @@ def test_the_angle_turns_in_the_browser(opened):
 
 def test_with_one_scale_growth_is_seen(opened):
     panel = opened("K5", 4)
+    panel.more()
     panel.page.get_by_label("size", exact=True).select_option("same")
     canvas = canvas_of(panel)
     heights = []
@@ -189,4 +190,4 @@ def test_a_turn_changes_the_width_that_is_said(opened):
 
 def test_what_has_no_drawing_has_no_width(opened):
     panel = opened(read("axiom: a\na -> ab\nb -> a"), 4)
-    expect(panel.at(".lsys-status")).to_have_text("step 4: 8 modules; 2 of 2 stages occupied")
+    expect(panel.at(".lsys-status")).to_have_text("step 4: 8 letters; 2 of 2 stages occupied")

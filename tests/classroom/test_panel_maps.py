@@ -214,6 +214,7 @@ def test_rules_of_a_map_are_broken_and_mended_in_the_editor(explored):
 def test_marked_walls_are_marked_in_word_and_drawing(explored, dark):
     panel = explored("K32", 8, dark=dark)
     before = panel.page.evaluate(PIXELS)
+    panel.more()
     panel.page.get_by_label("mark", exact=True).select_option("V")
     expect(panel.at(".lsys-marked")).to_have_text(["V>"] * 4)
     panel.page.wait_for_function(f"{PIXELS} !== {before!r}")

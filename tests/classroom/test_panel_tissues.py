@@ -216,6 +216,7 @@ def test_a_cell_is_traced_by_a_click_by_keys_and_in_the_word(explored):
 def test_a_marked_stage_is_marked_in_the_drawing(explored, id):
     panel = explored(id, 2)
     before = panel.page.evaluate(PIXELS)
+    panel.more()
     panel.page.get_by_label("mark", exact=True).select_option(index=1)
     panel.page.wait_for_function(f"{PIXELS} !== {before!r}")
 
@@ -298,6 +299,7 @@ def test_a_page_without_a_kernel_shows_cells_that_can_be_turned(browser, tmp_pat
 @pytest.mark.parametrize("id", ["K33", "K34"])
 def test_code_of_the_panel_names_its_reader(explored, id):
     panel = explored(str(explore(id, 0).system), 1)
+    panel.more()
     panel.page.get_by_role("button", name="code", exact=True).click()
     code = panel.at(".lsys-code").input_value()
     assert code.startswith({"K33": 'explore(read_cellwork("cellwork:', "K34": 'explore(read_map("sphere:'}[id])

@@ -133,9 +133,15 @@ def _texts(names: tuple[str, ...]) -> tuple[str, ...]:
 
 @cache
 def style(name: str = "panel") -> str:
-    """The style of a sheet, after the colours that all share, which are those of the themes of pictures."""
+    """The style of a sheet, after the colours that all share, which are those of the themes of pictures; without comments and
+    line breaks.
+
+    >>> "\\n" in style(), "/*" in style()
+    (False, False)
+    """
     colours, own = ((files(__package__) / "scripts" / f"{each}.css").read_text(encoding="utf-8") for each in ("colours", name))
-    return Template(colours).substitute(light=_variables(LIGHT), dark=_variables(DARK)) + own
+    sheet = Template(colours).substitute(light=_variables(LIGHT), dark=_variables(DARK)) + own
+    return re.sub(r" ?([{};]) ?", r"\1", re.sub(r"\s+", " ", re.sub(r"/\*.*?\*/", "", sheet)))
 
 
 def _variables(theme: Theme) -> str:

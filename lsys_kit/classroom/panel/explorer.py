@@ -357,7 +357,8 @@ def explore(
         A symbol, or several, whose stages the diagram shows one by one, or True for all, as for `stages`.
     show
         The views that are open at first, one or a list of `rules`, `word`, `stages`, `drawing`, `counts`, `seeds` and
-        `variants`; by default the word, the stages and the drawing. The others are a click away.
+        `variants`; by default the word, the stages and the drawing. The rules are a click away, and the others stand with the
+        tools behind a button.
     **constants
         First values of declared constants; of a map or cellwork system those of its forces: `stiffness`, `rest`, `pressure`,
         `damping`.

@@ -22,6 +22,7 @@ from lsys_kit.classroom.panel.page import not_needed
 from lsys_kit.classroom.site.markdown import Links, address_on_site, markdown_html, mathml
 from lsys_kit.classroom.site.requests import notes
 from lsys_kit.classroom.site.showing import PART
+from lsys_kit.pictures.formats.notebook import DARKENED
 from lsys_kit.pictures.style.labels import escaped
 
 INDEX = "index.html"
@@ -206,7 +207,8 @@ def data_html(data: Mapping[str, Any], parts: Parts) -> str:
         return _part_html(data[PART], data["text/plain"], parts)
     if "text/latex" in data and "text/html" not in data:
         return _block(mathml(data["text/latex"], "block"))
-    return _block(_PICTURE.sub(lambda found: kept_picture(base64.b64decode(found[1]).decode(), parts), html(data)))
+    drawing = html(data).replace(DARKENED, "")
+    return _block(_PICTURE.sub(lambda found: kept_picture(base64.b64decode(found[1]).decode(), parts), drawing))
 
 
 def kept_picture(drawing: str, parts: Parts) -> str:

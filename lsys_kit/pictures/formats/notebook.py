@@ -181,7 +181,7 @@ class SVGPicture(ABC):
         }, ""
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
-        return svg_bundle(self.svg, repr(self))
+        return svg_bundle(self.svg, repr(self), on_light=self.theme.ground == LIGHT.ground)
 
 
 def described(parts: Iterable[str]) -> str:
@@ -210,13 +210,14 @@ def dots_from(value: object, path: Path) -> float | None:
     return dots
 
 
-def svg_bundle(svg: str, text: str) -> dict[str, Any]:
-    """A picture in SVG with its text alternative, by media types.
+def svg_bundle(svg: str, text: str, on_light: bool = False) -> dict[str, Any]:
+    """A picture in SVG with its text alternative, by media types; one on light paper gets dark paper where the notebook has.
 
     >>> svg_bundle("<svg/>", "a <plant>")["text/html"]
     '<img alt="a &lt;plant&gt;" src="data:image/svg+xml;base64,PHN2Zy8+">'
     """
-    return {"text/html": _image("svg+xml", svg.encode(), text), "image/svg+xml": svg, "text/plain": text}
+    image = _image("svg+xml", svg.encode(), text, "lsys-picture" if on_light else "")
+    return {"text/html": f"{image}{DARKENED}" if on_light else image, "image/svg+xml": svg, "text/plain": text}
 
 
 def film_bundle(moving: bytes, still: Callable[[], bytes], text: str) -> dict[str, Any]:
@@ -228,14 +229,18 @@ def film_bundle(moving: bytes, still: Callable[[], bytes], text: str) -> dict[st
     return {"text/html": html, "image/gif": base64.b64encode(moving).decode(), "text/plain": text}
 
 
+DARKENED = (
+    '<style>body[data-jp-theme-light="false"] .lsys-picture {filter: invert(.9) hue-rotate(180deg); border-radius: 4px}</style>'
+)
+"""In a dark notebook light and dark change places, and hues stay."""
 _STYLE = (
     "<style>.lsys-film:has(input:checked) .lsys-still, .lsys-film:has(input:not(:checked)) .lsys-moving {display: none}</style>"
 )
 
 
 def _image(form: str, data: bytes, text: str, kind: str = "") -> str:
-    named = f'class="{kind}" ' if kind else ""
-    return f'<img {named}alt="{escape(text)}" src="data:image/{form};base64,{base64.b64encode(data).decode()}">'
+    named = f' class="{kind}"' if kind else ""
+    return f'<img alt="{escape(text)}"{named} src="data:image/{form};base64,{base64.b64encode(data).decode()}">'
 
 
 def enlargement_from(given: object) -> float:

@@ -114,7 +114,7 @@ def book(
             "text": system.source,
             "notation": system.notation,
             "notes": [*map(visible, system.notes)],
-            "noun": "module",
+            "noun": _noun(states, pages),
             "settings": {c.name: number_text(value) for c, value in zip(system.constants, states.constants, strict=True)},
             "chance": _has_chance(states),
             "symbols": symbols,
@@ -132,6 +132,17 @@ def book(
             **drawing_entries(states, [*pages.numbers], pages.drawn, pages.last),
             "growth": growth_entry(system, given),
         }
+
+
+def _noun(states: States, pages: _Pages) -> str:
+    """What one module of the words is called: a cell where it is drawn as one, a letter or character where it is no more than
+    that."""
+    symbols = {states.modules[state].symbol for state in pages.numbers}
+    if drawing_mode(states.system) is DrawingMode.FILAMENT and all(len(row) == 1 and not row[0][0] for row in pages.drawn):
+        return "cell"
+    if any(len(symbol) > 1 for symbol in symbols) or any(states.modules[state].arguments for state in pages.numbers):
+        return "module"
+    return "letter" if all(map(str.isalpha, symbols)) else "character"
 
 
 @dataclass

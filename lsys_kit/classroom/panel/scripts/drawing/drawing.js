@@ -2,6 +2,7 @@
 
 import { clamped } from "../books/numbers.js";
 import { eachFrame, made, onKey, onMouse, worded } from "../views/controls.js";
+import { remember, remembered } from "../views/folding.js";
 import { relaxing } from "../views/relaxing.js";
 import { cellAt, paintSequence, sequence } from "./filament.js";
 import { grownShapes, mapShapes, paintCells, paintMapScale, paintWallSigns, wallSigns } from "./map.js";
@@ -12,6 +13,7 @@ import { LONGEST_ARROW, paintForces } from "./tension.js";
 import { cellUnder, litCells, paintTissue, tissueFrame, tissueShapes } from "./tissue.js";
 import { placed, traced } from "./turtle.js";
 
+const TOUCHED = { plane: "Tap a part to trace it; two fingers bring it nearer.", space: "A finger turns it; tap a part to trace it." };
 const IN_THE_PLANE = "+, − or, after a click, the wheel zooms; arrows move it, Home puts it back.";
 const IN_SPACE = "Drag or arrow keys turn it. +, − or, after a click, the wheel zooms; Shift and arrows move it, Home puts it back.";
 const CELL = "Point at a cell or click it to trace it; N and P go to the next and previous one.";
@@ -32,9 +34,9 @@ const NEARER = { "+": ZOOM, "=": ZOOM, "-": 1 / ZOOM };
 // `told` has { view(), front(), turned(around, above), traced(step, position), pointed(step, position) }; position -1 is nothing.
 export function drawingView(parent, told) {
   const canvas = made("canvas.lsys-canvas", { tabindex: 0, role: "img" });
-  const hint = made("div.lsys-hint", { "aria-hidden": "true" });
-  parent.append(canvas, hint);
-  const pen = canvas.getContext("2d"), pointers = new Map(), draw = eachFrame(paintNow);
+  const hint = made("div.lsys-hint", { "aria-hidden": "true", hidden: Boolean(remembered("drawn")) });
+  parent.append(made("div.lsys-sheet", canvas, hint));
+  const touched = matchMedia("(hover: none)").matches, pen = canvas.getContext("2d"), pointers = new Map(), draw = eachFrame(paintNow);
   let book, now, look, fault = "", shapes, frame, sheet, glide = null;
   let near = 1, shift = [0, 0], pull = [0, 0], pressed = null, spread = 0;
   let isFilament, isMap, isTissue, inSpace; // how the book is drawn
@@ -45,15 +47,16 @@ export function drawingView(parent, told) {
     [isFilament, isMap, isTissue] = ["filament", "map", "tissue"].map((mode) => mode === book.data.mode);
     inSpace = isTissue || book.data.mode === "space";
     [near, shift, glide] = [1, [0, 0], null];
-    hint.textContent = [inSpace ? IN_SPACE : IN_THE_PLANE, TRACED[book.data.mode] ?? TRACED.plane].map((text) => worded(text)).join(" ");
+    canvas.ariaDescription = [inSpace ? IN_SPACE : IN_THE_PLANE, TRACED[book.data.mode] ?? TRACED.plane].map((text) => worded(text)).join(" ");
+    hint.textContent = touched ? worded(inSpace ? TOUCHED.space : TOUCHED.plane) : canvas.ariaDescription;
     canvas.classList.toggle("lsys-turned", inSpace);
     if (isMap && !signs) {
       [signs, relaxed] = [wallSigns(draw), relaxing(draw)];
-      hint.before(signs.element, relaxed.element);
+      parent.append(signs.element, relaxed.element);
     }
     signs?.offer(book);
     relaxed?.offer(book);
-    if (isTissue && !choice) hint.before((choice = litCells(draw)).element);
+    if (isTissue && !choice) parent.append((choice = litCells(draw)).element);
     choice?.offer(book, 0);
   }
 
@@ -185,6 +188,7 @@ export function drawingView(parent, told) {
     const arrow = ARROWS[event.key], nearer = NEARER[event.key], next = { n: 1, N: 1, p: -1, P: -1 }[event.key];
     if (event.ctrlKey || event.metaKey || event.altKey || !(arrow || nearer || next || event.key === "Home" || event.key === "Escape")) return;
     event.preventDefault();
+    used();
     if (next) told.traced(null, next);
     else if (event.key === "Escape") told.traced(now.step, -1);
     else if (nearer) come(nearer);
@@ -207,6 +211,13 @@ export function drawingView(parent, told) {
   function placeOf(event) {
     const box = canvas.getBoundingClientRect();
     return { x: event.clientX - box.left, y: event.clientY - box.top };
+  }
+
+  // How the drawing is used is told until somebody has used it.
+  function used() {
+    if (hint.hidden) return;
+    hint.hidden = true;
+    remember("drawn", "once");
   }
 
   onKey(canvas, press);
@@ -243,6 +254,7 @@ export function drawingView(parent, told) {
   const released = (event) => {
     pointers.delete(event.pointerId);
     if (event.type === "pointerup" && pressed?.still) told.traced(...moduleAt(event));
+    used();
     pressed = null;
   };
   onMouse(canvas, (event) => now && !glide && told.pointed(...(event ? moduleAt(event) : [now.step, -1])));
@@ -259,7 +271,7 @@ export function drawingView(parent, told) {
   return {
     open, show, canvas, home,
     describe: (text) => canvas.setAttribute("aria-label", text),
-    measured: () => (isFilament || isMap || isTissue || fault ? null : widthAndHeight(shapes)),
+    measured: () => (isFilament || isMap || isTissue || fault ? null : { size: widthAndHeight(shapes), strokes: shapes.strokes.n }),
     light(nextLook) {
       look = nextLook;
       draw();

@@ -3,6 +3,7 @@
 import { openBook } from "../books/book.js";
 import { grouped } from "../books/numbers.js";
 import { made } from "../views/controls.js";
+import { roving } from "../views/folding.js";
 import { paintSequence, sequence } from "./filament.js";
 import { cleared } from "./outlines.js";
 import { paint } from "./painter.js";
@@ -65,7 +66,9 @@ function galleryView(parent, chosen) {
       const tile = made("button.lsys-button.lsys-tile-button", { type: "button", onclick: () => chosen(number) }, canvas, made("span", entry.label));
       return { ...entry, canvas, tile };
     });
-    parent.replaceChildren(made("div.lsys-gallery", ...tiles.map(({ tile }) => tile)));
+    const sheet = made("div.lsys-gallery", { role: "group" }, ...tiles.map(({ tile }) => tile));
+    roving(sheet);
+    parent.replaceChildren(sheet);
   }
 
   // Each at the step that is shown, or at its last one where it has fewer; `current` is the number of the one in the panel.

@@ -1,7 +1,7 @@
 // Where shapes lie on a canvas: fitted into a frame, and in space seen in perspective.
 //
 // In space x grows to the right, z upwards, and y away from a viewer who stands at the front, at 0 degrees around and 0 above,
-// and looks at the middle of an upright cylinder around all shapes. A frame belongs to a view, not to the shapes: whatever else is
+// and looks at the middle of an upright cylinder around all shapes, of which those parts count that some turn fills. A frame belongs to a view, not to the shapes: whatever else is
 // painted in it keeps its place and its size.
 //
 // Then in which order they are painted, and how broad strokes are, as in the pictures that stay.
@@ -14,6 +14,7 @@ const FRAME_MARGIN = 14;
 const NOTHING_WIDE = 1e-9;
 const FINEST_IN_SPACE = 0.6; // how much finer strokes become where they are short and too many to be seen each by itself
 const RADIANS = Math.PI / 180;
+const RINGS = 48; // into so many slices of the cylinder shapes are sorted by their height
 const edgesOfFaces = new WeakMap();
 
 // The room that shapes take, with the round ends of broad strokes: in the plane a box, in space the upright cylinder around
@@ -33,11 +34,25 @@ export function boundsOf(shapes) {
   const spans = axes.map((_, axis) => Math.max(0, most[axis] - least[axis]));
   const middle = axes.map((_, axis) => (least[axis] <= most[axis] ? (least[axis] + most[axis]) / 2 : 0));
   if (!inSpace) return { middle, pixel, extent: 0, across: spans[0] / 2, up: spans[1] / 2 };
-  let across = 0;
-  eachPoint(shapes, (i) => {
-    across = Math.max(across, Math.hypot(shapes.x[i] - middle[0], shapes.y[i] - middle[1]));
+  const slices = times(RINGS, () => [Infinity, -Infinity, 0]); // the lowest and the highest place of each, and how far it reaches
+  eachPoint(shapes, (i, reach) => {
+    const z = shapes.z[i] - middle[2], slice = slices[clamped(0, RINGS - 1, Math.floor(RINGS * (z / (spans[2] || 1) + 0.5)))];
+    const far = Math.hypot(shapes.x[i] - middle[0], shapes.y[i] - middle[1]) + reach;
+    [slice[0], slice[1], slice[2]] = [Math.min(slice[0], z - reach), Math.max(slice[1], z + reach), Math.max(slice[2], far)];
   });
-  return { middle, pixel, extent: Math.max(...spans), across: across + bulge, up: spans[2] / 2 + bulge };
+  const rings = slices.filter(([low, high]) => low <= high).flatMap(([low, high, far]) => [[low, far], [high, far]]);
+  return { middle, pixel, extent: Math.max(...spans), across: Math.max(0, ...rings.map(([, far]) => far)), up: spans[2] / 2 + bulge, rings };
+}
+
+// How far to the side, and up or down, rings around an upright axis are seen, each a height and a radius.
+function reachOf(rings, distance, level, steep) {
+  let [wide, high] = [0, 0];
+  for (const [z, far] of rings) {
+    const away = distance - z * steep;
+    wide = Math.max(wide, distance === Infinity ? far : (distance * far) / Math.sqrt(away ** 2 - (far * level) ** 2));
+    for (const ahead of [far, -far]) high = Math.max(high, Math.abs(z * level - ahead * steep) * magnified(distance, ahead * level + z * steep));
+  }
+  return [wide, high];
 }
 
 // Width and height from the front, in the units of the model, however broad the strokes are; null if nothing is drawn.
@@ -65,11 +80,10 @@ function eachPoint({ strokes, faces, rounds, labels }, visit, broad = 1) {
 // The frame of a view, into which a box fits where it is not brought nearer: by default that of the shapes. Where the eye is
 // infinitely far away, nothing is magnified.
 export function frameOf(shapes, width, height, { around = 0, above = 0, near = 1, shift = [0, 0], box = null, far = false } = {}) {
-  const { middle, extent, across, up, pixel } = box ?? boundsOf(shapes), inSpace = shapes.dimension === 3;
+  const { middle, extent, across, up, pixel, rings = [[up, across], [-up, across]] } = box ?? boundsOf(shapes), inSpace = shapes.dimension === 3;
   const level = Math.cos(above * RADIANS), steep = Math.sin(above * RADIANS), reach = across * level + up * Math.abs(steep);
   const distance = inSpace && !far ? DISTANCE * Math.hypot(across, up) || 1 : Infinity;
-  const high = inSpace ? (up * level + across * Math.abs(steep)) * magnified(distance, reach) : up;
-  const wide = inSpace ? across * magnified(distance, up * Math.abs(steep) + (across * across * level) / distance) : across;
+  const [wide, high] = inSpace ? reachOf(rings, distance, level, steep) : [across, up];
   const scale = near * Math.min((width / 2 - FRAME_MARGIN) / Math.max(wide, NOTHING_WIDE),
     (height / 2 - FRAME_MARGIN) / Math.max(high, NOTHING_WIDE), LARGEST_SCALE);
   const detailed = inSpace && shapes.strokes.n <= MOST_CYLINDERS;

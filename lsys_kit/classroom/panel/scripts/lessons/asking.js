@@ -1,6 +1,7 @@
 // What the questions of a lesson share: their frame, their texts, of which all becomes text nodes, and a kernel that may be gone.
 
 import { made, ownKeys, speak, worded } from "../views/controls.js";
+import { ownName } from "../views/landmarks.js";
 
 export function prose(text) {
   const found = made("span.mathjax_ignore.tex2jax_ignore");
@@ -21,7 +22,8 @@ export function plain(text) {
 // of the model; `render` returns how all of it is undone.
 export function question(model, el, name, traits, build) {
   speak(model.get("words"));
-  const root = made("section.lsys-lesson", { "aria-label": nameOfItsOwn(worded(name)) });
+  const root = made("section.lsys-lesson");
+  root.setAttribute("aria-label", ownName(root, worded(name)));
   el.append(root);
   const tell = build(root), release = ownKeys(root);
   for (const trait of traits) model.on(`change:${trait}`, tell);
@@ -31,14 +33,6 @@ export function question(model, el, name, traits, build) {
     release();
     root.remove();
   };
-}
-
-// A name that no other question on the page has: the first of them goes without a number.
-function nameOfItsOwn(name) {
-  const taken = new Set([...document.querySelectorAll(".lsys-lesson")].map((each) => each.ariaLabel));
-  let found = name;
-  for (let number = 2; taken.has(found); number += 1) found = `${name} ${number}`;
-  return found;
 }
 
 // Tell the kernel what was done, or say in `status` that there is none.

@@ -9,7 +9,7 @@ const SHARED = ["step", "angle", "around", "above"];
 
 // `hosts` are those of the two panels; `shared` names the constants that one slider moves on both sides.
 export function openComparison(element, hosts, shared) {
-  const bar = made("div.lsys-controls"), root = made("div.lsys-panel.lsys-both", bar);
+  const bar = made("div.lsys-top"), root = made("div.lsys-panel.lsys-both", bar);
   const said = made("div.lsys-sentence", { role: "status" }), sides = made("div.lsys-comparison");
   const seen = [null, null], panels = [], offs = [];
   element.append(root);

@@ -15,9 +15,11 @@ import { clamped, times } from "../books/numbers.js";
 import { themeOf, whenRecoloured } from "../drawing/colours.js";
 import { drawingView } from "../drawing/drawing.js";
 import { seedsView, variantsView } from "../drawing/gallery.js";
-import { folding, keeping, player } from "../views/bars.js";
+import { keeping, player } from "../views/bars.js";
 import { button, eachFrame, list, made, ownKeys, slider, speak, worded } from "../views/controls.js";
 import { countsView } from "../views/counts.js";
+import { folding, moreOf, roving } from "../views/folding.js";
+import { ownName } from "../views/landmarks.js";
 import { netView } from "../views/net.js";
 import { rulesView } from "../views/rules.js";
 import { wordView } from "../views/word.js";
@@ -33,7 +35,7 @@ const SEEDS = DEGREES(0, 999);
 export function openPanel(element, host, compared = null) {
   const seen = new Proxy(/** @type {any} */ ({}), { get: (_, name) => host.get(name) }); // what is chosen, and the model
   speak(seen.model.words);
-  const root = made("div.lsys-panel", { role: "region", "aria-label": "L-system" });
+  const root = made("div.lsys-panel", { role: "region" });
   element.append(root);
   const offs = [], still = matchMedia("(prefers-reduced-motion: reduce)");
   let model, books, book, theme, resting = 0, asking = 0, typing = 0, idle = 0, wanted = seen.step, traced = null, pointed = null, shownTheme = "", boxed = null, underway = null;
@@ -51,19 +53,19 @@ export function openPanel(element, host, compared = null) {
   const die = button("die", worded("another seed, at random"), () => sow(Number(seedTexts()[Math.floor(Math.random() * seedTexts().length)])));
   const play = player(() => ({ now: seen.step, most: book.steps }), goTo, () => show());
   const reset = button(worded("reset"), worded("back to the first settings"), goBack);
-  const bottom = made("div.lsys-controls"), views = made("div.lsys-views");
-  const top = made("div.lsys-controls", step.element, play.element, reset, scale.element, mark.element);
-  root.append(top, message, status, views, sentence, bottom);
-  const shared = [step.element, play.element], turning = [angle.element, around.element, above.element];
-  if (compared) compared.bar ? compared.bar.append(...shared) : [...shared, ...turning].forEach((each) => (each.hidden = true));
-
+  const bottom = made("div.lsys-controls"), views = made("div.lsys-views"), top = made("div.lsys-top", step.element, play.element);
   const titles = { rules: worded("rules"), word: worded("word"), stages: worded("stages"), drawing: worded("drawing"), counts: worded("how many"),
     seeds: worded("nine seeds"), variants: worded("nine variants") };
   const opening = seen.model.show ?? ["word", "drawing", ...(compared ? [] : ["stages"])];
-  const view = folding(views, root, Object.entries(titles).map(([name, title]) => [name, title, opening.includes(name)]), () => show());
+  const atHand = ["rules", "seeds", ...(seen.model.show ?? ["word", "stages", "drawing"])];
+  const { view, tabs, others } = folding(views, Object.entries(titles).map(([name, title]) => [name, title, opening.includes(name), atHand.includes(name)]), () => show());
+  const large = button(worded("class"), worded("larger, for a projector"), () => {
+    large.setAttribute("aria-pressed", String(root.classList.toggle("lsys-class")));
+    show();
+  }, { "aria-pressed": "false", class: "lsys-button lsys-tab" });
   const rules = rulesView(view.rules.body, (text) => newRules(text));
   const word = wordView(view.word.body, (position, way) => trace(seen.step, position, way), (position) => point({ step: seen.step, position }));
-  const net = netView(view.stages.body, (place) => toggleMark(place), (place) => point({ place }));
+  const net = netView(view.stages.body, (place) => toggleMark(place), (place) => point({ place }), () => view.stages.enlarge());
   const drawing = drawingView(view.drawing.body, {
     view: () => [seen.around, seen.above],
     front: () => [model.around, model.above],
@@ -72,8 +74,16 @@ export function openPanel(element, host, compared = null) {
     pointed: (at, position) => point({ step: at, position }),
   });
   const counts = countsView(view.counts.body, goTo);
-  const seeds = seedsView(view.seeds.body, sow, say), variants = variantsView(view.variants.body, (text) => rules.put(text), say);
-  if (!compared) root.append(keeping(host, { canvas: drawing.canvas, file: () => book.data.file, code: () => code(seen, book, turns()), state: () => state() }));
+  const seeds = seedsView?.(view.seeds.body, sow, say), variants = variantsView?.(view.variants.body, (text) => rules.put(text), say);
+  const kept = keeping(host, { canvas: drawing.canvas, file: () => book.data.file, code: () => code(seen, book, turns()), state: () => state() });
+  const less = made("div.lsys-tabs", { role: "toolbar", "aria-label": worded("more views") }, ...others, large), ofSteps = compared && !compared.bar ? [] : play.tools;
+  const more = moreOf(less, scale.element, mark.element, ...ofSteps, ...(compared ? [] : [kept]));
+  const bar = made("div.lsys-tabs", { role: "toolbar", "aria-label": worded("views") }, ...tabs, more.opener), groups = [bar, less].map((group) => roving(group));
+  top.append(bar);
+  views.prepend(bottom, status);
+  root.append(top, more.element, message, views, sentence);
+  const shared = [step.element, play.element], turning = [angle.element, around.element, above.element];
+  if (compared) compared.bar ? compared.bar.append(...shared) : [...shared, ...turning].forEach((each) => (each.hidden = true));
 
   // What happens.
 
@@ -116,6 +126,7 @@ export function openPanel(element, host, compared = null) {
   async function newRules(text) {
     const number = ++typing, answer = await host.rules(text, request().constants);
     if (number !== typing || answer === null) return;
+    root.toggleAttribute("data-stale", Boolean(answer.mistake)); // what is shown is still that of the rules before
     if (answer.mistake) rules.mistaken(answer.mistake); // otherwise the kernel has set another model
     else rules.understood();
   }
@@ -123,6 +134,8 @@ export function openPanel(element, host, compared = null) {
   // A book belongs to a model: what was asked about the one before is not shown.
   function openModel() {
     model = seen.model;
+    root.setAttribute("aria-label", ownName(root, model.book.title ? `L-system ${model.book.title}` : model.book.file));
+    root.removeAttribute("data-stale");
     asking += 1;
     root.ariaBusy = "false";
     books?.close();
@@ -138,11 +151,12 @@ export function openPanel(element, host, compared = null) {
     const ofBoth = constants.filter((each) => compared?.shared.includes(each.name)), own = constants.filter((each) => !ofBoth.includes(each));
     compared?.bar?.append(...ofBoth.map((each) => each.control.element));
     bottom.replaceChildren(...own.map((each) => each.control.element), ...(turns() ? [angle.element] : []),
-      ...(["space", "tissue"].includes(model.book.mode) ? [around.element, above.element] : []), ...(model.chance ? [seed.element, die] : []), ...fixed);
+      ...(["space", "tissue"].includes(model.book.mode) ? [around.element, above.element] : []), ...(model.chance ? [seed.element, die] : []), reset, ...fixed);
     seed.offer(seedTexts(), Math.max(0, seedTexts().indexOf(String(seen.seed))));
     view.seeds.offer(model.chance);
     view.variants.offer(host.editable && !["map", "tissue"].includes(model.book.mode));
-    variants.forget();
+    for (const group of groups) group.refresh();
+    variants?.forget();
     const first = books.keep(model.asked, model.book);
     boxed = Math.min(model.step, first.steps);
     rules.open(model.book.text, host.editable, model.book.notes);
@@ -213,7 +227,7 @@ export function openPanel(element, host, compared = null) {
     counts.show(now);
     const kept = play.playing || scale.select.value === "same" ? boxed : null, looks = look();
     drawing.show({ ...sides(), step: now, boxed: kept, glides: play.playing && !still.matches }, looks);
-    status.textContent = caption(book, now, tokens, drawing.measured());
+    status.textContent = caption(book, now, view.stages.open ? tokens : null, drawing.measured());
     drawing.describe(`Drawing of ${status.textContent}`);
     lightAround(looks);
     if (view.seeds.open) seeds.show(books, request(), sides(), looks);

@@ -82,14 +82,13 @@ function by(book, number) {
 
 const rounded = (size, digits = 2) => Number((size + 1e-9).toFixed(digits));
 
-// A step with its tokens, and the width and height of its drawing, if there is one.
+// A step, its tokens where the stages are shown, and the width and height of its drawing and its strokes, if there are any.
 export function caption(book, now, tokens, measured) {
-  const occupied = book.data.net.places.filter((each) => tokens[each.place] > 0).length, stages = book.data.net.places.length;
-  const parts = [`step ${now}: ${sizeOf(book, now)}`];
-  if (stages > 1) parts.push(`${occupied} of ${counted(stages, "stage")} occupied`);
+  const stages = book.data.net.places, parts = [`step ${now}: ${sizeOf(book, now, measured?.strokes)}`];
+  if (tokens && stages.length > 1) parts.push(`${stages.filter((each) => tokens[each.place] > 0).length} of ${counted(stages.length, "stage")} occupied`);
   if (changesNothing(book, now)) parts.push("this step changes nothing");
   if (book.data.mode === "filament") parts.push(`length ${rounded(filamentLength(book, now), 4)}`);
-  if (measured) parts.push(`width ${rounded(measured[0])}, height ${rounded(measured[1])}`);
+  if (measured?.size) parts.push(`width ${rounded(measured.size[0])}, height ${rounded(measured.size[1])}`);
   if (book.data.said) parts.push(book.data.said);
   if (now === book.steps && book.data.end) parts.push(book.data.end);
   return parts.join("; ");

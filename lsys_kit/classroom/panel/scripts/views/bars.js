@@ -1,47 +1,13 @@
-// What stands around the views: tabs to fold them away, or to let one fill the screen; step after step by itself; and what can be
-// taken along: the pictures, the page, the link, and the line of code that makes the panel as it stands.
+// What stands around the views: step after step by itself; and what can be taken along: the pictures, the page, the link, and the
+// line of code that makes the panel as it stands.
 
 import { clamped } from "../books/numbers.js";
 import { button, face, freshId, list, made, worded } from "./controls.js";
-
-// `views` are triples of a name, a title and whether the view is open at first. Of each its body is returned, whether it is open,
-// and `offer`, which says whether there is anything to show in it.
-export function folding(parent, root, views, changed) {
-  const found = {}, tabs = made("div.lsys-tabs", { role: "group", "aria-label": worded("views") });
-  for (const [name, title, open] of views) {
-    const body = made("div.lsys-body");
-    const section = made("section.lsys-view", { "data-view": name, "aria-label": title, hidden: !open });
-    const tab = button(title, worded("show or hide: {title}", { title }), () => {
-      section.hidden = !section.hidden;
-      tab.setAttribute("aria-pressed", String(!section.hidden));
-      changed();
-    }, { "aria-pressed": String(open), class: "lsys-button lsys-tab" });
-    const wide = button("wide", worded("{title} on the whole screen", { title }), () => (document.fullscreenElement ? document.exitFullscreen() : section.requestFullscreen()));
-    section.append(made("div.lsys-title", title, wide), body);
-    parent.append(section);
-    tabs.append(tab);
-    found[name] = {
-      body,
-      get open() { return !section.hidden; },
-      offer(offered) {
-        tab.hidden = !offered;
-        if (!offered) section.hidden = true;
-        tab.setAttribute("aria-pressed", String(!section.hidden));
-      },
-    };
-  }
-  const large = button(worded("class"), worded("larger, for a projector"), () => {
-    large.setAttribute("aria-pressed", String(root.classList.toggle("lsys-class")));
-    changed();
-  }, { "aria-pressed": "false", class: "lsys-button lsys-tab" });
-  tabs.append(large);
-  parent.before(tabs);
-  return found;
-}
+import { roving } from "./folding.js";
 
 const SPEEDS = [["1200", "slow"], ["600", "normal"], ["250", "fast"]]; // milliseconds a step
 
-// `steps` tells { now, most }; `go` goes to a step.
+// `steps` tells { now, most }; `go` goes to a step. `tools` are what few need of it: how fast, and whether again and again.
 export function player(steps, go, moved) {
   let timer = 0, pause = 600;
   const play = button("play", worded("play"), toggle, { class: "lsys-button lsys-play" });
@@ -52,8 +18,9 @@ export function player(steps, go, moved) {
     pause = Number(value);
     if (timer) start();
   }, worded("speed"));
-  const element = made("div.lsys-player", { role: "group", "aria-label": worded("play") }, first, back, play, forward, speed.element,
-    made("label.lsys-check", { for: loop.id }, loop, worded("loop")));
+  const element = made("div.lsys-player", { role: "toolbar", "aria-label": worded("play") }, first, back, play, forward);
+  const tools = [speed.element, made("label.lsys-check", { for: loop.id }, loop, worded("loop"))];
+  roving(element);
 
   function one(way) {
     stop();
@@ -90,13 +57,13 @@ export function player(steps, go, moved) {
     start();
   }
 
-  return { element, stop, get playing() { return timer !== 0; } };
+  return { element, tools, stop, get playing() { return timer !== 0; } };
 }
 
 // `panel` has { canvas, file(), code(), state() }, the host perhaps a name of its own for files; `host.keep(kind, state)` gives { name, type, text or bytes }, or null.
 export function keeping(host, { canvas, file, code, state }) {
   const said = made("output.lsys-hint"), field = made("input.lsys-code", { type: "text", readonly: true, hidden: true, "aria-label": worded("to be copied") });
-  const element = made("div.lsys-controls.lsys-keep", { role: "group", "aria-label": worded("take along") }, made("span.lsys-hint", worded("take along:")));
+  const element = made("div.lsys-keep", { role: "toolbar", "aria-label": worded("take along") }, made("span.lsys-hint", worded("take along:")));
 
   async function keep(kind) {
     const kept = await host.keep(kind, state());
@@ -126,5 +93,6 @@ export function keeping(host, { canvas, file, code, state }) {
     if (host.keeps.includes(kind)) element.append(button(text, worded("take along: {text}", { text }), () => keep(kind)));
   }
   element.append(button(worded("code"), worded("the line of Python that makes this panel as it stands"), () => show(code())), field, said);
+  roving(element);
   return element;
 }

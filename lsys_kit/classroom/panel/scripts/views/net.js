@@ -3,25 +3,25 @@
 import { grouped } from "../books/numbers.js";
 import { fillColour, lineColour } from "../drawing/colours.js";
 import { drawn, onKey, onMouse } from "./controls.js";
+import { roving } from "./folding.js";
 
-const LEGIBLE = { terms: 0.82, labels: 0.65 }; // a diagram is made no smaller than this: its smallest text is 9 pixels high then
+const LEGIBLE = { terms: 0.82, labels: 0.65 }; // where there is room, a diagram is no smaller: its smallest text is 9 pixels high then
+const TINY = 0.4; // of a diagram that is smaller no stage can be hit
 const DOTS = [[], [[0, 0]], [[-5, 0], [5, 0]], [[0, -5.5], [-5, 3.5], [5, 3.5]], [[-5, -5], [5, -5], [-5, 5], [5, 5]]];
 
-// `chosen` learns of the place that was clicked, `pointed` of the one that the mouse is on, or of -1.
-export function netView(parent, chosen, pointed) {
+// `chosen` learns of the place that was clicked, `pointed` of the one that the mouse is on, or of -1; `enlarge` is called where
+// the diagram itself is clicked, which is shown whole, however small that is.
+export function netView(parent, chosen, pointed, enlarge) {
   let net, places = new Map();
 
   function open(next, theme) {
     net = next;
     places = new Map();
-    const least = leastScale(net), needed = `${Math.round(least * net.width)}px`;
     const sheet = drawn("svg.lsys-net", {
       viewBox: `0 0 ${net.width} ${net.height}`, width: net.width, height: net.height, role: "group",
-      style: `min-width:${needed};min-height:${Math.round(least * net.height)}px`, "aria-label": net.description,
+      "aria-label": net.description,
     });
-    const view = parent.closest(".lsys-view").style;
-    view.setProperty("--lsys-needed", needed);
-    view.setProperty("--lsys-widest", `${net.width}px`);
+    parent.closest(".lsys-views").style.setProperty("--lsys-needed", `${Math.round(leastScale(net) * net.width)}px`);
     for (const place of net.places) sheet.append(stage(place, theme));
     for (const arc of net.arcs) sheet.append(
       drawn("path.lsys-band", { d: arc.band }), drawn("path.lsys-arc", { d: arc.path }), drawn("path.lsys-head", { d: arc.head }));
@@ -35,6 +35,17 @@ export function netView(parent, chosen, pointed) {
       drawn("rect.lsys-band-note", { x: x - width / 2, y: y - 6, width, height: 12 }),
       drawn("text.lsys-terms", { x, y: y + 4, "text-anchor": "middle" }, text));
     for (const line of net.footnotes) sheet.append(drawn("text.lsys-terms", { x: line.x, y: line.y }, line.text));
+    const { press } = roving(sheet, ".lsys-stage"), under = (event) => Number(event.target.closest(".lsys-stage")?.dataset.place ?? -1);
+    sheet.addEventListener("click", (event) => {
+      const tiny = sheet.getBoundingClientRect().width < TINY * net.width;
+      if (under(event) < 0 || (tiny && event.detail)) enlarge();
+      else chosen(under(event));
+    });
+    onKey(sheet, (event) => {
+      if (event.key !== "Enter" && event.key !== " ") return press(event);
+      event.preventDefault();
+      chosen(under(event));
+    });
     parent.replaceChildren(sheet);
   }
 
@@ -46,16 +57,9 @@ export function netView(parent, chosen, pointed) {
     });
     const label = drawn("text.lsys-label", { x, y: y + radius + 17, "text-anchor": "middle" }, ...tspans(place));
     const tokens = drawn("g.lsys-tokens");
-    const group = drawn("g.lsys-stage", { "data-place": place.place, role: "button", tabindex: 0, "aria-pressed": "false" },
+    const group = drawn("g.lsys-stage", { "data-place": place.place, role: "button", tabindex: -1, "aria-pressed": "false" },
       drawn("title", place.name), ring, circle, label, tokens);
-    const toggle = () => chosen(place.place);
-    group.addEventListener("click", toggle);
     onMouse(group, (event) => pointed(event ? place.place : -1));
-    onKey(group, (event) => {
-      if (event.key !== "Enter" && event.key !== " ") return;
-      event.preventDefault();
-      toggle();
-    });
     places.set(place.place, { group, tokens, place, shown: -1 });
     return group;
   }

@@ -5,6 +5,7 @@ import { boundsOf } from "../drawing/projection.js";
 import { relaxation, startOf, tissueOf } from "../drawing/relaxation.js";
 import { forcesOf, PULL, PUSH, strongest } from "../drawing/tension.js";
 import { button, drawn, face, list, made } from "./controls.js";
+import { roving } from "./folding.js";
 import { counted } from "./word.js";
 
 const SPEEDS = [["1", "slow"], ["4", "normal"], ["20", "fast"]]; // iterations a frame
@@ -21,8 +22,10 @@ export function relaxing(changed) {
   const speed = list("relaxation", "how fast the relaxation is shown", SPEEDS, "4", (value) => { perFrame = Number(value); });
   const forces = made("input", { type: "checkbox", "data-control": "forces", onchange: () => { legend.hidden = !forces.checked; changed(); } });
   const said = made("span.lsys-relaxed", { role: "status" }), legend = made("div.lsys-caption", { hidden: true });
+  const player = made("div.lsys-player", first, play, forward, end);
   const element = made("div", made("div.lsys-controls.lsys-relaxation", { role: "group", "aria-label": "relaxation" },
-    made("label.lsys-check", forces, "forces"), speed.element, made("div.lsys-player", first, play, forward, end), said), legend);
+    made("label.lsys-check", forces, "forces"), speed.element, player, said), legend);
+  roving(player);
 
   function offer(next) {
     stop();

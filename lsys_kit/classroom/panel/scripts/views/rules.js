@@ -70,7 +70,8 @@ export function rulesView(parent, asked) {
       notes.replaceChildren();
       spans = start === null || start === undefined ? [] : [{ start, end: end ?? start + 1, kind: "wrong" }];
       const where = line && area.value.includes("\n") ? `Line ${line}: ` : "";
-      said.replaceChildren(made("strong", `${where}${message}.`), hint ? ` ${hint}` : "");
+      said.replaceChildren(made("strong", `${where}${message}.`), hint ? ` ${hint}` : "",
+        made("div.lsys-caption", worded("What is shown is still that of the rules before.")));
       area.setAttribute("aria-invalid", "true");
       paint();
     },

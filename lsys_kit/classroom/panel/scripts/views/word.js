@@ -2,13 +2,19 @@
 
 import { grouped } from "../books/numbers.js";
 import { MOST_MODULES_SHOWN } from "../drawing/constants.js";
-import { made, onKey, onMouse } from "./controls.js";
+import { button, eachFrame, made, onKey, onMouse, worded } from "./controls.js";
 
 // `told` learns of the module that was chosen, `pointed` of the one that the mouse is on, or of -1.
 export function wordView(parent, told, pointed) {
   const box = made("div.lsys-word", { tabindex: 0, role: "application", "aria-roledescription": "word" });
-  const help = "Arrow keys go from module to module; Escape ends that.";
-  parent.append(box);
+  const help = "Arrow keys go from one to the next; Escape ends that.";
+  const all = button(worded("show all"), worded("the whole word, or its first lines"), () => {
+    all.setAttribute("aria-expanded", String(box.classList.toggle("lsys-all")));
+    all.textContent = box.classList.contains("lsys-all") ? worded("show less") : worded("show all");
+  }, { "aria-expanded": "false", hidden: true });
+  const fold = eachFrame(() => (all.hidden = !(box.classList.contains("lsys-all") || box.scrollHeight > box.clientHeight + 2)));
+  new ResizeObserver(fold).observe(box);
+  parent.append(box, all);
   let book, word, chips = new Map();
 
   function chip(position) {
@@ -32,6 +38,7 @@ export function wordView(parent, told, pointed) {
     }
     if (!n) parts.push(made("span.lsys-gap", "The word is empty."));
     box.replaceChildren(...parts);
+    fold();
     box.setAttribute("aria-label", `Word of step ${step}, ${counted(n, book.data.noun)}. ${help}`);
   }
 
@@ -86,9 +93,16 @@ export function counted(number, noun, several = `${noun}s`) {
   return `${grouped(number)} ${number === 1 ? noun : several}`;
 }
 
-// The size of a step in words: of cells as the kit says it, of a map its vertices, walls and cells, of a word its modules.
-export function sizeOf(book, step) {
+// The size of a step in words: of cells as the kit says it, of a map its vertices, walls and cells, of a word its modules, and what of
+// them is seen: the strokes of the turtle, so many, or the cells of a filament in which there is more.
+export function sizeOf(book, step, strokes = 0) {
   if (book.data.sizes) return book.data.sizes[step];
-  if (book.data.mode !== "map") return counted(book.length(step), book.data.noun);
+  if (book.data.mode !== "map") return [...seenOf(book, step, strokes), counted(book.length(step), book.data.noun)].join(", ");
   return [["vertex", "vertices"], ["wall"], ["cell"]].map((nouns, i) => counted(book.data.counts[step][i], ...nouns)).join(", ");
+}
+
+function seenOf(book, step, strokes) {
+  if (book.data.mode !== "filament" || book.data.noun === "cell") return strokes ? [counted(strokes, "stroke")] : [];
+  const cells = book.data.cells.map((row) => row.filter(([wall]) => !wall).length);
+  return [counted(book.word(step).reduce((sum, state) => sum + cells[state], 0), "cell")];
 }
