@@ -62,7 +62,7 @@ def test_no_message_goes_to_the_kernel_while_anything_moves(shown):
     expect(panels).to_have_count(len(SETTLED))
     notebook.page.evaluate("""() => {
         for (const range of document.querySelectorAll(".lsys-panel .lsys-range")) {
-            if (!["step", "angle", "around", "above"].includes(range.parentElement.dataset.control)) continue;
+            if (!["step", "angle", "around", "above"].includes(range.closest(".lsys-control").dataset.control)) continue;
             for (const value of [0, 3, 1, 2]) {
                 range.value = value;
                 range.dispatchEvent(new Event("input", { bubbles: true }));

@@ -87,7 +87,7 @@ def tabs(browser: Browser) -> Callable[..., Tab]:
     @lru_cache
     def tab(is_phone: bool = False, **choices: Any) -> Tab:
         size = {"width": 400, "height": 800} if is_phone else {"width": 1440, "height": 900}
-        return Tab(browser.new_context(viewport=size, has_touch=is_phone, **choices).new_page())
+        return Tab(browser.new_context(**{"viewport": size, "has_touch": is_phone, **choices}).new_page())
 
     return tab
 

@@ -130,9 +130,9 @@ def test_the_angle_turns_in_the_browser(opened):
     canvas = canvas_of(panel)
     before = canvas.screenshot()
     panel.control("angle").press("ArrowRight")
-    expect(canvas).to_have_attribute("data-angle", "25.8")
+    expect(canvas).to_have_attribute("data-angle", "26")
     assert canvas.screenshot() != before
-    expect(panel.page.get_by_label("angle", exact=True)).to_have_value("25.8")
+    expect(panel.page.get_by_label("angle", exact=True)).to_have_value("26")
 
 
 def test_with_one_scale_growth_is_seen(opened):

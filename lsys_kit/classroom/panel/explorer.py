@@ -42,6 +42,8 @@ from lsys_kit.notation.read import AnySystem, read_any
 
 _BROKEN_OFF = LSystemError("The kernel was interrupted before this was finished", hint="Try it again.")
 
+_MOVED = {"sync": True, "echo_update": False}
+"""What a hand moves: an echo of where it was would take it back from where it is by now."""
 VIEWS = ("rules", "word", "stages", "drawing", "counts", "seeds", "variants")
 """The views of a panel, from left to right."""
 
@@ -66,13 +68,13 @@ class Explorer(KitWidget):
     _esm = bundled("widget")
     _css = style()
     model = traitlets.Dict().tag(sync=True)
-    step = traitlets.Int().tag(sync=True)
-    angle = traitlets.Float().tag(sync=True)
-    around = traitlets.Int().tag(sync=True)
-    above = traitlets.Int().tag(sync=True)
-    mark = traitlets.Unicode().tag(sync=True)
-    seed = traitlets.Int().tag(sync=True)
-    settings = traitlets.Dict().tag(sync=True)
+    step = traitlets.Int().tag(**_MOVED)
+    angle = traitlets.Float().tag(**_MOVED)
+    around = traitlets.Int().tag(**_MOVED)
+    above = traitlets.Int().tag(**_MOVED)
+    mark = traitlets.Unicode().tag(**_MOVED)
+    seed = traitlets.Int().tag(**_MOVED)
+    settings = traitlets.Dict().tag(**_MOVED)
 
     def __init__(
         self,

@@ -28,6 +28,7 @@ import { caption, code, litAt, placesOf, told } from "./telling.js";
 const REST = 400; // milliseconds after which a movement has come to rest, and the kernel is told
 const ANGLES = times(1801, (i) => (i / 10).toString());
 const DEGREES = (least, most) => times(most - least + 1, (i) => String(least + i));
+const MARKED = [18, 22.5, 25.7, 30, 36, 45, 60, 72, 90, 108, 120, 137.5, 144]; // degrees at which the slider of the angle stops in any case
 const SEEDS = DEGREES(0, 999);
 
 // Of two panels beside each other `compared` has { bar, shared, shown(book, step) }: where the sliders of both are, or null in the
@@ -44,13 +45,14 @@ export function openPanel(element, host, compared = null) {
   const status = made("div.lsys-status", { role: "status" }), sentence = made("div.lsys-sentence", { role: "status" });
   const message = made("div.lsys-message", { role: "alert", hidden: true });
   const step = slider("step", worded("the step of the derivation"), ["0"], 0, goTo, worded("step"));
-  const angle = slider("angle", worded("degrees by which the turtle turns"), ANGLES, 900, (at) => change({ angle: at / 10 }), worded("angle"));
-  const around = slider("around", worded("the side from which it is seen: 0 is the front, 90 the right"), DEGREES(-180, 180), 180, (at) => change({ around: at - 180 }), worded("around"));
-  const above = slider("above", worded("the height from which it is seen: 0 is the side, 90 the top"), DEGREES(-90, 90), 90, (at) => change({ above: at - 90 }), worded("above"));
+  const angle = slider("angle", worded("degrees by which the turtle turns"), ANGLES, 900, (at) => change({ angle: at / 10 }), worded("angle"), { least: 50, pace: 10 });
+  const around = slider("around", worded("the side from which it is seen: 0 is the front, 90 the right"), DEGREES(-180, 180), 180, (at) => change({ around: at - 180 }), worded("around"), { least: 5 });
+  const above = slider("above", worded("the height from which it is seen: 0 is the side, 90 the top"), DEGREES(-90, 90), 90, (at) => change({ above: at - 90 }), worded("above"), { least: 5 });
   const mark = list("mark", worded("the stage that is marked in all views"), [["", worded("no stage")]], "", (name) => change({ mark: name }), worded("mark"));
   const scale = list("size", worded("one scale for all steps, or each step as large as it fits"), [["fit", worded("fit each step")], ["same", worded("one scale")]], "fit", () => show(), worded("size"));
-  const seed = slider("seed", worded("the seed of the random numbers"), SEEDS, seen.seed, (at) => host.set("seed", Number(seedTexts()[at])), worded("seed"));
+  const seed = slider("seed", worded("the seed of the random numbers"), SEEDS, 0, (_, text) => host.set("seed", Number(text)), worded("seed"), { bar: false, whole: !seen.model.seeds });
   const die = button("die", worded("another seed, at random"), () => sow(Number(seedTexts()[Math.floor(Math.random() * seedTexts().length)])));
+  seed.element.append(die);
   const play = player(() => ({ now: seen.step, most: book.steps }), goTo, () => show());
   const reset = button(worded("reset"), worded("back to the first settings"), goBack);
   const bottom = made("div.lsys-controls"), views = made("div.lsys-views"), top = made("div.lsys-top", step.element, play.element);
@@ -143,16 +145,19 @@ export function openPanel(element, host, compared = null) {
     for (const each of constants) each.control.element.remove();
     constants = model.constants.map((each) => ({
       ...each,
-      control: slider(each.name, each.hint, each.texts, Math.max(0, each.texts.indexOf(seen.settings[each.name])), (at) => {
-        host.set("settings", { ...seen.settings, [each.name]: each.texts[at] });
+      control: slider(each.name, each.hint, each.texts, each.index, (_, text) => {
+        host.set("settings", { ...seen.settings, [each.name]: text });
       }),
     }));
+    for (const { control, texts, index, name } of constants) control.offer(texts, Math.max(0, texts.indexOf(seen.settings[name])), [index]);
+    angle.offer(ANGLES, Math.round(seen.angle * 10), [...MARKED, model.angle].map((degrees) => Math.round(degrees * 10)));
     const fixed = model.fixed ? [made("span.lsys-hint", model.fixed)] : [];
     const ofBoth = constants.filter((each) => compared?.shared.includes(each.name)), own = constants.filter((each) => !ofBoth.includes(each));
     compared?.bar?.append(...ofBoth.map((each) => each.control.element));
     bottom.replaceChildren(...own.map((each) => each.control.element), ...(turns() ? [angle.element] : []),
-      ...(["space", "tissue"].includes(model.book.mode) ? [around.element, above.element] : []), ...(model.chance ? [seed.element, die] : []), reset, ...fixed);
-    seed.offer(seedTexts(), Math.max(0, seedTexts().indexOf(String(seen.seed))));
+      ...(["space", "tissue"].includes(model.book.mode) ? [around.element, above.element] : []), ...(model.chance ? [seed.element] : []), reset, ...fixed);
+    seed.offer(seedTexts(), 0);
+    showSeed();
     view.seeds.offer(model.chance);
     view.variants.offer(host.editable && !["map", "tissue"].includes(model.book.mode));
     for (const group of groups) group.refresh();
@@ -237,7 +242,7 @@ export function openPanel(element, host, compared = null) {
 
   const sides = () => ({ step: seen.step, angle: seen.angle, around: seen.around, above: seen.above });
 
-  const seedTexts = () => model.seeds?.length ? model.seeds : (SEEDS.includes(String(model.seed)) ? SEEDS : [String(model.seed), ...SEEDS]), showSeed = () => seed.show(seedTexts().indexOf(String(seen.seed)));
+  const seedTexts = () => (model.seeds?.length ? model.seeds : SEEDS), showSeed = () => seed.find(String(seen.seed));
 
   function sow(number) {
     host.set("seed", number);

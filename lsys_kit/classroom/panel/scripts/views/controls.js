@@ -2,6 +2,7 @@
 // and texts in the language of a panel or page; in the scripts they stand in English, which is the id of their translation.
 
 import { clamped } from "../books/numbers.js";
+import { amongStops, stopsOf } from "./stops.js";
 
 const words = {};
 
@@ -81,27 +82,40 @@ export function freshId() {
   return `lsys-${Math.random().toString(36).slice(2)}`;
 }
 
-// A slider over some texts of numbers, with a box in which one can be typed. `chosen` is called with the index.
-export function slider(name, hint, texts, index, chosen, label = name) {
+const PITCH = { mouse: 4, finger: 7 }; // pixels between two stops of a slider
+const THUMB = 16; // pixels
+const NARROW = 150; // pixels of a slider that has not been laid out
+
+const fits = new WeakMap(), sizes = new ResizeObserver((all) => all.forEach(({ target }) => fits.get(target)()));
+
+// A slider over some texts of numbers, with a box in which one can be typed; `chosen` is called with the index and the text.
+// It stops where a hand can stop it (stops.js): at every `least` value at least. An arrow key goes on to the next of every `pace`
+// values, one with Shift to the next, Page Up and Down to the next stop; moved with Shift held, each pixel is a value. Where it has
+// values between its stops, or no `bar`, buttons go to the next. `whole`: any whole number may be typed.
+export function slider(name, hint, texts, index, chosen, label = name, { least = 1, pace = 1, bar = true, whole = false } = {}) {
   const id = freshId();
   const box = made("input.lsys-box", { id, type: "text", inputmode: "decimal", autocomplete: "off", spellcheck: "false" });
-  const range = made("input.lsys-range", { type: "range", "aria-label": worded("{name}, slider", { name: label }), min: 0, step: 1 });
-  const element = made("div.lsys-control", { "data-control": name },
-    made("label", { for: id, title: hint }, label), box, range);
-  let numbers = [];
+  const range = made("input.lsys-range", { type: "range", "aria-label": worded("{name}, slider", { name: label }), min: 0, step: "any" });
+  const track = made("span.lsys-track", range); // browsers paint nothing behind a native slider
+  const beside = (sign, hint, way) => button(sign, hint, () => choose(way(false)), { "aria-label": hint, tabindex: -1, class: "lsys-button lsys-next" });
+  const less = beside("\u2212", worded("{name}: the value before", { name: label }), back), more = beside("+", worded("{name}: the next value", { name: label }), on);
+  const element = made("div.lsys-control", { "data-control": name }, made("label", { for: id, title: hint }, label), less, box, more, ...(bar ? [track] : []));
+  let numbers = [], stops = [0], marked = [], grip = null;
 
   function show(at) {
     index = clamped(0, numbers.length - 1, at);
-    range.value = index;
+    range.value = amongStops(stops, index);
     range.setAttribute("aria-valuetext", texts[index]);
     if (document.activeElement !== box) box.value = texts[index];
     box.removeAttribute("aria-invalid");
+    less.disabled = !index;
+    more.disabled = index === numbers.length - 1;
   }
 
   function choose(at) {
     const before = index;
     show(at);
-    if (index !== before) chosen(index);
+    if (index !== before) chosen(index, texts[index]);
   }
 
   function typed() {
@@ -110,32 +124,85 @@ export function slider(name, hint, texts, index, chosen, label = name) {
       box.setAttribute("aria-invalid", "true");
       return;
     }
+    take(wanted);
     choose(nearest(numbers, wanted));
     box.value = texts[index];
   }
 
-  function offer(others, at) {
-    texts = others;
-    numbers = texts.map(valueOf);
-    range.max = texts.length - 1;
-    box.style.width = `${clamped(3, 12, Math.max(...[texts[0], texts.at(-1), texts[1] ?? ""].map((text) => text.length))) + 2}ch`;
-    show(at);
+  // Any whole number is among the values of some sliders as soon as somebody wants it.
+  function take(number) {
+    if (!whole || !Number.isSafeInteger(number) || numbers.includes(number)) return;
+    const now = numbers[index], all = [...numbers, number].sort((one, other) => one - other);
+    offer(all.map(String), all.indexOf(now));
   }
 
-  range.addEventListener("input", () => choose(Number(range.value)));
-  onKey(box, (event) => {
-    const way = { ArrowUp: 1, ArrowDown: -1, PageUp: 10, PageDown: -10 }[event.key];
-    if (way) {
-      event.preventDefault();
-      choose(index + way);
-      box.value = texts[index];
-    } else if (event.key === "Enter") typed();
-  });
+  // `marks` are the indices of values that matter: the slider stops there in any case.
+  function offer(others, at, marks = []) {
+    texts = others;
+    numbers = texts.map(valueOf);
+    marked = marks;
+    track.style.setProperty("--lsys-stops", String(stopsOf(numbers, marked, Infinity, least).length));
+    box.style.width = `${clamped(3, 12, Math.max(...[texts[0], texts.at(-1), texts[1] ?? ""].map((text) => text.length))) + 2}ch`;
+    index = at;
+    fit();
+  }
+
+  function fit() {
+    const pitch = matchMedia("(pointer: coarse)").matches ? PITCH.finger : PITCH.mouse;
+    stops = stopsOf(numbers, marked, Math.floor(((range.clientWidth || NARROW) - THUMB) / pitch) + 1, least);
+    range.max = Math.max(1, stops.length - 1);
+    track.style.background = marked.map((at) => tick(stops.indexOf(at) / (stops.length - 1))).join();
+    less.hidden = more.hidden = bar && stops.length === numbers.length;
+    show(index);
+  }
+
+  // Where keys and buttons lead: to the next of every `pace` values, or of all.
+  function on(ofAll) {
+    return ofAll ? index + 1 : (Math.floor(index / pace) + 1) * pace;
+  }
+
+  function back(ofAll) {
+    return ofAll ? index - 1 : (Math.ceil(index / pace) - 1) * pace;
+  }
+
+  const keys = { ArrowUp: on, ArrowDown: back, PageUp: () => stops.find((stop) => stop > index), PageDown: () => stops.findLast((stop) => stop < index) };
+  const keysOfBar = { ...keys, ArrowRight: on, ArrowLeft: back, Home: () => 0, End: () => numbers.length - 1 };
+
+  const keyed = (known) => (event) => {
+    if (event.key === "Enter") return typed();
+    if (!known[event.key]) return;
+    event.preventDefault();
+    choose(known[event.key](event.shiftKey) ?? index);
+    box.value = texts[index];
+  };
+
+  // With Shift held a movement goes on from where it is, by a value for each pixel.
+  function held(event) {
+    if (!event.shiftKey || !(event.buttons & 1)) return (grip = null);
+    grip ??= { x: event.clientX, index };
+    choose(grip.index + Math.round(event.clientX - grip.x));
+  }
+
+  range.addEventListener("input", () => (grip ? show(index) : choose(stops[Math.round(Number(range.value))])));
+  for (const each of ["pointerdown", "pointermove", "pointerup"]) range.addEventListener(each, held);
+  onKey(range, keyed(keysOfBar));
+  onKey(box, keyed(keys));
   box.addEventListener("change", typed);
   box.addEventListener("blur", () => show(index));
   offer(texts, index);
-  return { element, range, box, show, offer, get index() { return index; } };
+  fits.set(range, () => range.clientWidth && fit());
+  sizes.observe(range);
+  return {
+    element, box, show, offer, get index() { return index; },
+    find(text) {
+      take(Number(text));
+      show(texts.indexOf(text));
+    },
+  };
 }
+
+// A small line below a slider, at a part of the way of its thumb.
+const tick = (part) => `linear-gradient(var(--lsys-quiet), var(--lsys-quiet)) calc(${(THUMB - 1) / 2}px + (100% - ${THUMB - 1}px) * ${part}) 100% / 1px 4px no-repeat`;
 
 // The value of a number as a person writes it: 0.7, 0,7 or 7/10.
 function valueOf(text) {

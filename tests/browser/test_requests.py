@@ -1,0 +1,366 @@
+"""Whatever a lesson's text asks for can be done, and is seen: each sentence that asks for something has a row in
+`requests.toml`, and the rows are done one after another, with a real mouse, in JupyterLab; what they ask of sliders on the
+site's pages, too, with a mouse and with a finger, on a wide and on a narrow screen.
+
+A row is a sentence, and what is done: `panel 0 left`, the panel of the lesson that the next words are about, counted from 0,
+and perhaps its side; `slide NAME VALUE`; `press NAME`, a button; `rules OLD => NEW`, perhaps several joined by `;;`; and so on,
+as the methods of `Reader` say. `on paper` is done away from the screen; `no request` only sounds like one.
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Callable
+from itertools import groupby
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Locator, Page, expect
+
+from lsys_kit.classroom.lessons.lesson import lesson as declared
+from tests.browser.hands import Finger, Mouse, control, reach
+from tests.browser.lab import OpenNotebook
+from tests.browser.requests import lessons, requests
+from tests.browser.test_lessons import PATIENCE, SEEN
+from tests.browser.test_site import all_parts_open, opened, site, tabs  # noqa: F401
+
+ROWS: dict[str, list[list[str]]] = tomllib.loads((Path(__file__).parent / "requests.toml").read_text("utf-8"))
+NAMES = [path.stem for path in lessons()]
+NOTHING = {"on paper", "no request", "link", "open"}
+READ = 400
+"""Milliseconds after the last key in which rules that were typed are sent to be read."""
+VIEWS = {"rules": "rules", "stages": "stages", "how many": "counts", "nine seeds": "seeds", "nine variants": "variants"}
+"""The views by the names of their buttons."""
+SEVERAL, BECOMES = " ;; ", " => "
+
+
+def test_each_sentence_that_asks_for_something_has_a_row_in_the_order_of_the_lessons():
+    for number, asked in groupby(requests(), key=lambda each: each.lesson):
+        assert [each.says for each in asked] == [row[0] for row in ROWS[number]], f"lesson {number}"
+
+
+def test_each_row_is_understood():
+    words = {name.replace("_", " ") for name in vars(Reader) if not name.startswith("_")} | NOTHING
+    for row in (row for rows in ROWS.values() for row in rows):
+        assert len(row) > 1, row
+        for act in row[1:]:
+            assert any(act == word or act.startswith(f"{word} ") for word in words), act
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", NAMES)
+def test_what_a_lesson_asks_for_is_done_with_a_mouse(open_notebook: Callable[..., OpenNotebook], name: str) -> None:
+    notebook = open_notebook(f"notebooks/{name}.ipynb", {"width": 1440, "height": 900})
+    notebook.run_all()
+    reader = Reader(notebook, name[:2])
+    reader._reveal()
+    for said, *acts in ROWS[name[:2]]:
+        for act in acts:
+            try:
+                reader._do(act)
+            except Exception as fault:
+                fault.add_note(f"Lesson {name[:2]}, {said!r}: {act}")
+                notebook.shot(f"request-{name[:2]}")
+                raise
+    assert notebook.console == []
+
+
+class Reader:
+    """Somebody who does what a lesson says, in JupyterLab; each method is a word of the rows."""
+
+    def __init__(self, notebook: OpenNotebook, lesson: str) -> None:
+        self._notebook, self._lesson, self._hand = notebook, lesson, Mouse(notebook.page)
+
+    def _do(self, act: str) -> None:
+        if act in NOTHING:
+            return
+        word = max((name for name in vars(Reader) if f"{act} ".startswith(f"{name.replace('_', ' ')} ")), key=len)
+        rest = act[len(word) + 1 :]
+        method = getattr(self, word)
+        method(rest) if rest else method()
+
+    def _reveal(self) -> None:
+        for number in self._notebook.cells_showing("predict("):
+            asked = self._notebook.output(number).get_by_role("region", name="prediction")
+            asked.get_by_role("button", name="I have no idea, show me").click()
+
+    def _output(self, source: str, at: int = 0) -> Locator:
+        return self._notebook.output(self._notebook.cells_showing(source)[at])
+
+    def _see(self) -> str:
+        """What the views show."""
+        return str(self._panel.evaluate(SEEN))
+
+    def _await_change(self, before: str) -> None:
+        expect(self._panel.locator("canvas[data-drawn]").first).to_be_visible()
+        for _ in range(PATIENCE):
+            if self._see() != before:
+                return
+            self._notebook.page.wait_for_timeout(50)
+        raise AssertionError(f"Nothing has changed:\n{before}")
+
+    # -- panels
+
+    def panel(self, which: str) -> None:
+        """The panel of a number, of a comparison perhaps one side."""
+        number, _, side = which.partition(" ")
+        cells = sorted({*self._notebook.cells_showing("explore("), *self._notebook.cells_showing("compare(")})
+        whole = self._notebook.output(cells[int(number)]).locator(".lsys-panel").first
+        expect(whole.locator("canvas[data-drawn]").first).to_be_visible()
+        self._panel = whole.locator(".lsys-side").nth(["left", "right"].index(side)) if side else whole
+
+    def slide(self, asked: str) -> None:
+        """Bring a slider to a value, which changes what is seen."""
+        name, value = asked.split()
+        before, was = self._see(), control(self._panel, name).get_by_label(name, exact=True).input_value()
+        reach(self._hand, self._panel, name, value)
+        if was != value:
+            self._await_change(before)
+        expect(self._panel.locator('[aria-busy="true"]')).to_have_count(0)
+        expect(self._panel.locator(".lsys-message:visible")).to_have_count(0)
+
+    def type(self, asked: str) -> None:
+        """Type a value into the box of a slider."""
+        name, value = asked.split()
+        before, box = self._see(), control(self._panel, name).get_by_label(name, exact=True)
+        box.fill(value)
+        box.press("Enter")
+        expect(box).to_have_value(value)
+        self._await_change(before)
+
+    def press(self, name: str) -> None:
+        """Press a button; one that stays pressed stays so."""
+        button = self._panel.get_by_role("button", name=name, exact=True).first
+        if button.get_attribute("aria-pressed") == "true":
+            return
+        before = self._see()
+        button.click()
+        if button.get_attribute("aria-pressed") == "true":
+            expect(self._panel.locator(f'[data-view="{VIEWS[name]}"]').first).to_be_visible()
+        else:
+            self._await_change(before)
+
+    def play(self) -> None:
+        """Let the steps go by to the last one."""
+        self._panel.get_by_role("button", name="to step 0", exact=True).click()
+        self._panel.get_by_role("button", name="play", exact=True).click()
+        expect(self._panel.locator(".lsys-status")).to_contain_text("step 2: ")
+        self._panel.get_by_role("button", name="pause", exact=True).click()
+
+    def choose(self, asked: str) -> None:
+        """Choose from a list."""
+        name, value = asked.split()
+        self._panel.get_by_label(name, exact=True).select_option(value)
+
+    def tick(self, name: str) -> None:
+        canvas, box = self._panel.locator("canvas.lsys-canvas"), self._panel.get_by_label(name)
+        if box.is_checked():
+            return
+        before = canvas.screenshot()
+        box.check()
+        for _ in range(PATIENCE):
+            if canvas.screenshot() != before:
+                return
+        raise AssertionError("Nothing has changed")
+
+    def click(self, what: str) -> None:
+        """Click a stage, a tile of a gallery, or cells of the drawing until one is hit; it is lit."""
+        if what == "stage":
+            self._panel.locator("[data-place]").first.click()
+            expect(self._panel.locator("[data-place]").first).to_have_attribute("aria-pressed", "true")
+        elif what == "drawing":
+            canvas = self._panel.locator("canvas.lsys-canvas")
+            size = canvas.bounding_box()
+            assert size
+            for part in range(2, 10):
+                canvas.click(position={"x": size["width"] / 2 + 17, "y": size["height"] * part / 12})
+                if self._panel.locator(".lsys-sentence").first.inner_text():
+                    break
+            expect(self._panel.locator(".lsys-sentence").first).to_contain_text("comes from")
+        else:
+            tile = self._panel.locator(".lsys-tile-button").nth(int(what.removeprefix("tile ")))
+            tile.click()
+            expect(tile).to_have_attribute("aria-pressed", "true")
+
+    def drag(self, _: str) -> None:
+        """Turn the drawing."""
+        canvas = self._panel.locator("canvas.lsys-canvas")
+        canvas.scroll_into_view_if_needed()
+        size, before = canvas.bounding_box(), canvas.get_attribute("data-around")
+        assert size
+        with self._hand.pressed(size["x"] + size["width"] / 2, size["y"] + size["height"] / 2) as move:
+            for part in range(1, 6):
+                move(size["x"] + size["width"] / 2 + 20 * part, size["y"] + size["height"] / 2)
+        expect(canvas).not_to_have_attribute("data-around", before or "")
+
+    def scroll(self, _: str) -> None:
+        """Move the stages sideways, where they are wider than their view."""
+        body = self._panel.locator('[data-view="stages"] .lsys-body')
+        if body.evaluate("body => body.scrollWidth > body.clientWidth + 1"):
+            body.hover()
+            self._notebook.page.mouse.wheel(200, 0)
+            self._notebook.page.wait_for_timeout(200)
+            assert body.evaluate("body => body.scrollLeft") > 0
+
+    # -- rules
+
+    def rules(self, asked: str) -> None:
+        """Put something in the place of something in the rules; or `back`, the first ones."""
+        before, back = self._see(), self._panel.get_by_role("button", name="back to the first rules").first
+        if asked == "back":
+            back.click()
+            expect(back).to_be_hidden()
+        else:
+            self._edit(asked)
+            self._await_change(before)
+        self._notebook.page.wait_for_timeout(READ)
+        self._notebook.idle()
+        expect(self._panel.locator(".lsys-mistake").first).to_have_text("")
+
+    def mistake(self, asked: str) -> None:
+        """A change of the rules that the panel does not accept, and says why."""
+        self._edit(asked)
+        expect(self._panel.locator(".lsys-mistake").first).not_to_have_text("")
+
+    def same_word(self, asked: str) -> None:
+        """A change of the rules that changes no word."""
+        before = self._panel.locator(".lsys-word").inner_text()
+        self._edit(asked)
+        self._notebook.page.wait_for_timeout(600)
+        expect(self._panel.locator(".lsys-mistake").first).to_have_text("")
+        assert self._panel.locator(".lsys-word").inner_text() == before
+
+    @property
+    def _area(self) -> Locator:
+        return self._panel.get_by_label("rules of the model").first
+
+    def _edit(self, asked: str) -> None:
+        if not self._area.is_visible():
+            self.press("rules")
+        for change in asked.split(SEVERAL):
+            old, new = change.split(BECOMES)
+            self._area.click()
+            at = self._area.input_value().find(old)
+            assert at >= 0, f"The rules have no {old!r}:\n{self._area.input_value()}"
+            self._area.evaluate("(area, [at, end]) => area.setSelectionRange(at, end)", [at, at + len(old)])
+            self._keys(new)
+
+    def _keys(self, text: str) -> None:
+        if text:
+            self._notebook.page.keyboard.insert_text(text)
+        else:
+            self._notebook.page.keyboard.press("Delete")
+
+    # -- questions
+
+    def vote(self, again: str = "") -> None:
+        """Vote for the first option."""
+        box = self._output("vote(", -1 if again else 0).get_by_role("region", name="vote")
+        box.get_by_role("button").first.click()
+        expect(box.get_by_role("button").first).to_have_attribute("aria-pressed", "true")
+
+    def predict(self) -> None:
+        """A prediction has been asked for; what answers it is there."""
+        expect(self._output("predict(").get_by_role("region", name="prediction").get_by_role("status")).not_to_have_text("")
+
+    def fill(self, id: str) -> None:
+        """Fill the first cell of a table with what is right, and let it be checked."""
+        table = next(each for each in declared(self._lesson).tables if each.id == id)
+        sheet = self._output(f'worksheet("{self._lesson}", "{id}"').get_by_role("region", name="table to fill")
+        sheet.get_by_role("textbox").first.fill(table.blanks[0][2].right[0])
+        sheet.get_by_role("button", name="Check").click()
+        expect(sheet.locator('[data-mark="right"]').first).to_be_visible()
+
+    def finder(self, step: str) -> None:
+        """Move the slider of the steps of the rules that fit."""
+        found = self._notebook.page.get_by_role("region", name="rules that fit")
+        self._output("rule_finder(")
+        for _ in range(int(step)):
+            found.get_by_role("slider", name="Step").press("ArrowRight")
+        expect(found.get_by_role("slider", name="Step")).to_have_attribute("aria-valuetext", re.compile(f"step {step} "))
+
+    # -- cells
+
+    def run(self) -> None:
+        """The cells have been run, and nothing is wrong with them."""
+        assert self._notebook.cell_errors() == []
+
+    def cell(self, asked: str) -> None:
+        """Put something in the place of something in a cell of code, and run it."""
+        old, new = asked.split(BECOMES)
+        number = self._notebook.cells_showing(old)[0]
+        self._notebook.cell(number)
+        self._notebook._ask(
+            """const cell = panel.content.widgets[given[0]], editor = cell.editor;
+            const at = cell.model.sharedModel.getSource().indexOf(given[1]);
+            panel.content.activeCellIndex = given[0];
+            panel.content.mode = 'edit';
+            editor.setSelection({ start: editor.getPositionAt(at), end: editor.getPositionAt(at + given[1].length) });
+            editor.focus();""",
+            [number, old],
+        )
+        self._keys(new)
+        self._notebook.page.keyboard.press("Shift+Enter")
+        self._notebook.idle()
+        assert self._notebook.cells_showing(new)[0] == number
+        assert self._notebook.cell_errors() == []
+
+    def new_cell(self, source: str) -> None:
+        """A new cell at the end is run."""
+        self._notebook._ask(
+            """panel.content.activeCellIndex = panel.content.widgets.length - 1;
+            await app.commands.execute('notebook:insert-cell-below');
+            panel.content.mode = 'edit';
+            panel.content.activeCell.editor.focus();"""
+        )
+        self._keys(source)
+        self._notebook.page.keyboard.press("Shift+Enter")
+        self._notebook.idle()
+        assert self._notebook.cell_errors() == []
+
+    def untick(self) -> None:
+        """Take away the tick of a film."""
+        film = self._output("animate(").locator('input[type="checkbox"]').first
+        film.uncheck()
+        expect(film).not_to_be_checked()
+
+
+def asked_of(lesson: str) -> dict[int, list[tuple[str, str]]]:
+    """By the numbers of its panels, the values that a lesson's text asks for while the rules are those of the panel."""
+    found: dict[int, list[tuple[str, str]]] = {}
+    for number, name, value in slides(lesson):
+        found.setdefault(number, []).append((name, value))
+    return found
+
+
+def slides(lesson: str) -> list[tuple[int, str, str]]:
+    panel, edited, found = 0, set[int](), []
+    for _, *acts in ROWS[lesson]:
+        for act in acts:
+            if act.startswith("panel "):
+                panel = int(act.split()[1])
+            elif act == "rules back":
+                edited.discard(panel)
+            elif act.startswith("rules "):
+                edited.add(panel)
+            elif act.startswith("slide ") and panel not in edited:
+                found.append((panel, *act.split()[1:]))
+    return found
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", [f"notebooks/{name}.html" for name in NAMES])
+@pytest.mark.parametrize(("hand", "width"), [(Finger, 400), (Mouse, 400), (Finger, 1440), (Mouse, 1440)])
+def test_each_value_that_a_lesson_asks_for_is_reached_by_hand_on_its_page(opened, hand, width, name) -> None:  # noqa: F811
+    page: Page = opened(name, is_phone=width == 400, has_touch=hand is Finger)
+    all_parts_open(page)
+    hidden = page.get_by_role("button", name="I have no idea, show me")
+    while hidden.count():
+        hidden.first.click()
+    all_parts_open(page)
+    panels = page.locator(".part .lsys-panel:not(.lsys-both .lsys-panel)")
+    for number, values in asked_of(Path(name).stem[:2]).items():
+        for setting, value in values:
+            if control(panels.nth(number), setting).count():
+                reach(hand(page), panels.nth(number), setting, value)
