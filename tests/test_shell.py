@@ -323,7 +323,7 @@ def test_the_rules_behind_words_are_found_and_what_must_be_mended(shell, tmp_pat
     words.write_text("a\nab\naba\nabbab\n", "utf-8")
     assert "letter 3 of step 3, b, were a" in shell("infer", str(words)).out
     words.write_text("ab\naab\naaab\n", "utf-8")
-    assert "One system fits" in shell("infer", str(words), "--context", "0,1").out
+    assert "  a > b -> a a" in shell("infer", str(words), "--context", "0,1").out
     words.write_text("a\nab\n\na\nb\n\na\nab\n", "utf-8")
     assert "a -> a b  (0.667" in shell("infer", str(words), "--stochastic").out
     assert "The context is two whole numbers" in shell("infer", str(words), "--context", "1").err

@@ -55,7 +55,7 @@ def test_of_a_deterministic_system_there_is_no_doubt() -> None:
     fits = infer(["a", "ab", "aba", "abaab"], stochastic=True)
     assert [str(rule) for rule in fits[0].productions] == ["a -> a b", "b -> a"]
     assert "±" not in str(fits)
-    assert str(fits).splitlines()[0] == "The stochastic system that fits this derivation of together 3 steps best:"
+    assert str(fits).splitlines()[0] == "The stochastic system that fits this derivation (3 steps) best:"
 
 
 def test_constants_stay_and_brackets_are_nested() -> None:

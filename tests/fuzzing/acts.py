@@ -222,6 +222,7 @@ def acts(folder: Path) -> Mapping[str, Calls]:
         "growth: symbols": (lambda system: kit.growth(system, **symbols(system)), repr),
         "infer": (lambda system: kit.infer(kit.derive(system, 4)), repr),
         "infer: drawings": (lambda system: kit.infer([kit.draw(system, step) for step in range(4)]), repr),
+        "infer: stochastic": (lambda system: kit.infer([kit.derive(system, 3)] * 2, stochastic=True), repr),
         "infer: contexts": (lambda system: kit.infer(kit.derive(system, 4), context=(1, 1), erasing=True), repr),
         "rule_finder": (lambda system: kit.rule_finder(kit.derive(system, 4)), repr),
         "stages": (kit.stages, kit.draw, SVG),

@@ -439,7 +439,7 @@ class StochasticFits(SystemsFound):
         """The explanation, line by line."""
         many = len(self.derivations)
         steps = sum(len(words) - 1 for words in self.derivations)
-        these = f"{'this derivation' if many == 1 else f'these {many} derivations'} of together {steps} steps"
+        these = f"{'this derivation' if many == 1 else f'these {many} derivations'} ({steps} step{'s' * (steps > 1)})"
         if not self.systems:
             yield f"No stochastic system without contexts fits {these}."
             return
@@ -467,7 +467,7 @@ def infer_stochastic(given: object, constants: Iterable[str] = ("+", "-"), erasi
     """The stochastic system that several derivations of it suggest.
 
     >>> infer_stochastic([["a", "ab", "abb"], ["a", "b", "b"], ["a", "ab", "bb"]])
-    The stochastic system that fits these 3 derivations of together 6 steps best:
+    The stochastic system that fits these 3 derivations (6 steps) best:
       a -> a b  (0.6 ± 0.22, 3 of 5)
       a -> b  (0.4 ± 0.22, 2 of 5)
       b -> b  (all 3)

@@ -5,8 +5,8 @@ which letter before is not seen, so that all ways to cut a word into successors 
 successors give their probabilities, and these the counts (the EM algorithm: A. P. Dempster, N. M. Laird and D. B. Rubin, 1977;
 forward and backward along a word as L. E. Baum and others, 1970). Of the systems to which that leads from several beginnings
 the one is taken that describes itself and the words in the fewest bits (J. Rissanen, Modeling by shortest data description,
-1978); its probabilities are those of maximum likelihood. The question is that of J. Bernard and I. McQuillan, Stochastic L-system
-inference from multiple string sequence inputs, 2023.
+1978); its probabilities are those of maximum likelihood. The question is that of J. Bernard and I. McQuillan, Stochastic
+L-system inference from multiple string sequence inputs, 2023.
 """
 
 from __future__ import annotations
