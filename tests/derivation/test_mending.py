@@ -8,7 +8,7 @@ from itertools import product
 from typing import Any
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from lsys_kit import ModelLimitError, ModelValueError, derive, infer, read, system
@@ -34,6 +34,8 @@ LETTERS = st.sampled_from("ab")
 
 
 @given(st.text(LETTERS, max_size=7), st.text(LETTERS, max_size=7), st.integers(0, 2))
+@example("abb", "bab", 1)
+@example("aab", "abaa", 2)
 def test_a_word_is_near_another_if_so_many_edits_lie_between(word: str, other: str, most: int) -> None:
     assert is_one_of(other, Near(word, most)) == (distance(word, other) <= most)
 
@@ -137,6 +139,16 @@ def test_all_systems_that_fit_with_an_unknown_word_are_those_that_trying_all_fin
             str(fit) for other in map("".join, _all_words(3)) if other for fit in infer([*words[:at], other, *words[at + 1 :]])
         }
         assert {str(fit) for fit in infer(words)} == tried
+
+
+def test_a_misprint_beside_an_unknown_word_is_found() -> None:
+    fits = infer(["a", "ab", "aba", None, "abbababa", "abaababaabaab"])
+    assert not fits
+    assert [in_letters(each) for each in fits.mended] == [FIBONACCI[:6]]
+    assert str(fits).splitlines()[0] == (
+        "No system fits these 6 words. A system without contexts would fit if letter 3 of step 4, b, were a. One system fits the "
+        "mended words:"
+    )
 
 
 def test_systems_that_fill_in_different_words_are_told_so() -> None:

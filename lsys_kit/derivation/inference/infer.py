@@ -389,7 +389,7 @@ def _with_unknown_words(rows: tuple[Row, ...], conditions: Conditions) -> Fits:
         )
     found: list[tuple[Table, tuple[Row, ...]]] = []
     try:
-        found += islice(filled_words(rows, conditions, Effort(MOST_READ // 3)), MOST_FITS + 1)
+        found += islice(filled_words(rows, conditions, Effort(MOST_READ // 8)), MOST_FITS + 1)
     except GivenUp:
         raise ModelLimitError(
             f"What is unknown of these {len(rows)} words is out of reach",
@@ -401,7 +401,7 @@ def _with_unknown_words(rows: tuple[Row, ...], conditions: Conditions) -> Fits:
             f"More than {MOST_FITS:,} systems fit these {len(rows)} words", limit=MOST_FITS, hint="Give more of the words."
         )
     if not found:
-        return Fits(rows, (), conditions, Refusal(None), rows)
+        return Fits(rows, (), conditions, _refusal_with_unknown_words(rows, conditions), rows)
     fits = [_fits(words, [table], conditions).systems for table, words in found]
     kept = dict.fromkeys(system for systems in fits for system in systems)
     filled = [words for _, words in found]
@@ -558,6 +558,14 @@ def _refusal(rows: tuple[Row, ...], conditions: Conditions) -> Refusal:
         with suppress(ModelLimitError):  # what was found is known all the same
             wider = next(_wider(rows, conditions, trials), None)
     return Refusal(where, tuple(found), wider, effort.missed and not found)
+
+
+def _refusal_with_unknown_words(rows: tuple[Row, ...], conditions: Conditions) -> Refusal:
+    effort, known = Effort(), [*rows]
+    while len(known) > 1 and known[-1] == (GAP,):
+        known.pop()
+    found = mendings(known, len(known) - 1, conditions, effort)
+    return Refusal(None, tuple(_with_systems(each, conditions) for each in found), None, effort.missed and not found)
 
 
 def _with_systems(mending: Mending, conditions: Conditions) -> Mending:

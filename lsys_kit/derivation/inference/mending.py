@@ -225,6 +225,11 @@ class Texts:
         return chr(FIRST_CHARACTER + self.modules.index(GAP)) if GAP in self.modules else ""
 
     @property
+    def given(self) -> list[Given]:
+        """What is known of each word."""
+        return [Stretches(word, self.gap) if self.gap and self.gap in word else word for word in self.words]
+
+    @property
     def alphabet(self) -> tuple[str, ...]:
         return tuple(chr(FIRST_CHARACTER + number) for number, module in enumerate(self.modules) if module != GAP)
 
@@ -510,7 +515,7 @@ def mendings(words: Sequence[Row], step: int, conditions: Conditions, effort: Ef
     ['letter 3 of step 3, b, were a']
     """
     texts = texts_of(words, conditions)
-    suspects = range(min(step, len(words) - 1), -1, -1)
+    suspects = [at for at in range(min(step, len(words) - 1), -1, -1) if GAP not in words[at]]
     for tried in (_one_edit, _one_step, _two_edits, _other_words):
         with suppress(GivenUp):
             found = {mending.words: mending for mending in islice(_found(tried(texts, suspects), effort), MOST_MENDINGS)}
@@ -549,20 +554,21 @@ def _one_step(texts: Texts, suspects: Sequence[int]) -> Iterator[Tried]:
 
 
 def _with_a_step_more(texts: Texts, at: int, effort: Effort) -> Iterator[Mending]:
-    for filled in completed(texts, [*texts.words[:at], _ANYTHING, *texts.words[at:]], effort):
+    for filled in completed(texts, [*texts.given[:at], _ANYTHING, *texts.given[at:]], effort):
         yield Mending((OtherWord(at, texts.row(filled.words[at]), True),), tuple(map(texts.row, filled.words)))
 
 
 def _with_a_step_less(texts: Texts, at: int, effort: Effort) -> Iterator[Mending]:
-    fewer = [*texts.words[:at], *texts.words[at + 1 :]]
-    if next(completed(texts, fewer, effort), None) is not None:
-        yield Mending((OtherWord(at, None),), tuple(map(texts.row, fewer)))
+    fewer = [*texts.given[:at], *texts.given[at + 1 :]]
+    for filled in islice(completed(texts, fewer, effort), 1):
+        yield Mending((OtherWord(at, None),), tuple(map(texts.row, filled.words)))
 
 
 def _two_edits(texts: Texts, suspects: Sequence[int]) -> Iterator[Tried]:
     words = texts.words
     yield from (partial(_mended, texts, {at: Near(words[at], 2)}) for at in suspects)
-    pairs = ((one, other) for one in suspects for other in range(one + 1, len(words)))
+    known = [at for at, word in enumerate(texts.given) if isinstance(word, str)]
+    pairs = ((one, other) for one in suspects for other in known if other > one)
     yield from (partial(_mended, texts, {at: Near(words[at], 1) for at in pair}) for pair in pairs)
 
 
@@ -582,7 +588,7 @@ def _mended(texts: Texts, partly: dict[int, Near], effort: Effort) -> Iterator[M
 
 
 def _with(texts: Texts, partly: Mapping[int, Partly]) -> list[Given]:
-    return [partly.get(at, word) for at, word in enumerate(texts.words)]
+    return [partly.get(at, word) for at, word in enumerate(texts.given)]
 
 
 # Unknown words
@@ -591,7 +597,7 @@ def _with(texts: Texts, partly: Mapping[int, Partly]) -> list[Given]:
 def filled_words(words: Sequence[Row], conditions: Conditions, effort: Effort) -> Iterator[tuple[Table, tuple[Row, ...]]]:
     """The systems that fit words with unknown stretches, as tables, each with the words of all steps."""
     texts = texts_of(words, conditions)
-    given = [Stretches(word, texts.gap) if texts.gap and texts.gap in word else word for word in texts.words]
+    given = texts.given
     while given and isinstance(last := given[-1], Stretches) and last.text == texts.gap:  # of it nothing is known, nor asked
         given.pop()
     for filled in completed(texts, given, effort):
