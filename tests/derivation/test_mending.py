@@ -146,8 +146,8 @@ def test_a_misprint_beside_an_unknown_word_is_found() -> None:
     assert not fits
     assert [in_letters(each) for each in fits.mended] == [FIBONACCI[:6]]
     assert str(fits).splitlines()[0] == (
-        "No system fits these 6 words. A system without contexts would fit if letter 3 of step 4, b, were a. One system fits the "
-        "mended words:"
+        "No system fits these 6 words. A system without contexts would fit if letter 3 of step 4, b, were a. One system fits "
+        "the mended words:"
     )
 
 

@@ -63,6 +63,12 @@ def test_constants_stay_and_brackets_are_nested() -> None:
     assert [str(rule) for rule in fits[0].productions] == ["F -> F[+F]F : 2/3", "F -> F F : 1/3"]
 
 
+def test_of_letters_that_only_last_words_have_nothing_is_known() -> None:
+    assert str(infer([["a", "bc"], ["a", "ba"]], stochastic=True)).splitlines()[-1] == (
+        "Nothing is known of what becomes of b, c: only last words have it."
+    )
+
+
 def test_where_no_stochastic_system_fits_none_is_given() -> None:
     assert str(infer([["ab", "a"]], stochastic=True)).startswith("No stochastic system without contexts fits")
     assert infer([["ab", "a"]], stochastic=True, erasing=True)

@@ -96,6 +96,7 @@ MAKERS: Mapping[str, Callable[[Any], Any]] = {
     "Stages": kit.stages,
     "Timed": kit.timed,
     "Fits": lambda system: kit.infer(kit.derive(system, 4)),
+    "StochasticFits": lambda system: kit.infer([kit.derive(system, 3)] * 2, stochastic=True),
     "Lineage": lambda system: kit.lineage(system, 9),
     "RuleFinder": lambda system: kit.rule_finder(kit.derive(system, 4)),
     "DrawingFits": lambda system: kit.infer([kit.draw(system, step) for step in range(4)]),
@@ -222,7 +223,6 @@ def acts(folder: Path) -> Mapping[str, Calls]:
         "growth: symbols": (lambda system: kit.growth(system, **symbols(system)), repr),
         "infer": (lambda system: kit.infer(kit.derive(system, 4)), repr),
         "infer: drawings": (lambda system: kit.infer([kit.draw(system, step) for step in range(4)]), repr),
-        "infer: stochastic": (lambda system: kit.infer([kit.derive(system, 3)] * 2, stochastic=True), repr),
         "infer: contexts": (lambda system: kit.infer(kit.derive(system, 4), context=(1, 1), erasing=True), repr),
         "rule_finder": (lambda system: kit.rule_finder(kit.derive(system, 4)), repr),
         "stages": (kit.stages, kit.draw, SVG),
@@ -354,6 +354,8 @@ def text_acts(folder: Path) -> Mapping[str, Calls]:
         "Worksheet.asked": (lambda text: (kit.worksheet("01", "counts"), {"number": 1, "entries": [text]}), put("asked")),
         "Prompt.typed": (lambda text: (kit.predict("What comes?", "21").prompt, text), put("typed")),
         "lsys-kit convert: text": (kept, typed("convert", str(path), "--to", "abop")),
+        "lsys-kit infer: text": (kept, typed("infer", str(path))),
+        "lsys-kit infer: derivations": (kept, typed("infer", str(path), "--stochastic")),
         "lsys-kit wall: text": (kept, typed("wall", str(folder), "-o", str(folder / "wall.html"))),
         "lsys-kit collect": (
             lambda text: (folder / "book.ipynb").write_text(text, errors="replace"),
@@ -454,6 +456,7 @@ ASKED: Mapping[str, tuple[str, ...]] = {
     "LSystem": ("picture",),
     "Continuity": ("solve",),
     "Fits": ("__getitem__",),
+    "StochasticFits": ("__getitem__",),
     "Practice": ("check",),
 }
 """Members of results that get a value."""
@@ -572,6 +575,7 @@ LEFT_OUT: Mapping[str, str] = {
         "Progress.state",
         "Progress.__repr__",
         "Verdict.__repr__",
+        "Mending.__repr__",
         "Practice.next",
         "Practice.__repr__",
         "Comparison.left",

@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import partial
 from itertools import islice
 from typing import Protocol, TypeAlias
@@ -445,7 +445,7 @@ class OtherWord:
 Edit: TypeAlias = "Slip | OtherWord"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Mending:
     """What is changed in words so that some system fits.
 
@@ -460,11 +460,13 @@ class Mending:
     """
 
     edits: tuple[Edit, ...]
-    words: tuple[Row, ...] = field(repr=False)
-    systems: tuple[LSystem, ...] = field(default=(), repr=False)
+    words: tuple[Row, ...]
+    systems: tuple[LSystem, ...] = ()
 
     def __str__(self) -> str:
         return " and ".join(map(str, self.edits))
+
+    __repr__ = __str__
 
 
 def edits_between(step: int, given: str, wanted: str, texts: Texts) -> tuple[Slip, ...] | None:
