@@ -23,12 +23,15 @@ from numpy.typing import NDArray
 
 from lsys_kit.budget import check_budget
 from lsys_kit.derivation.inference.problem import Conditions, Row, text_of, well_nested
+from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.model.modules import Module
 
 LONGEST = 24
 """Successors have up to so many modules."""
 MOST_SEARCHED, MOST_COUNTED = 600, 30_000
 """In words of so many modules together, the shortest ones, successors are looked for, and in so many they are counted."""
+MOST_CELLS = 4_000_000
+"""So many pairs of a module before a step and a place behind it are looked at, and of a letter and a stretch."""
 MOST_SEARCHES = 5
 """So often they are looked for again, with a step that the successors found do not make."""
 PRUNINGS = (0.0, 0.3, 0.9)
@@ -133,9 +136,17 @@ def _steps(derivations: Sequence[Sequence[Row]]) -> list[tuple[Row, Row]]:
     kept, left = list[tuple[Row, Row]](), MOST_COUNTED
     for before, after in sorted(pairs, key=lambda pair: len(pair[1])):
         left -= len(before) + len(after)
-        if left >= 0 or not kept:
+        if left >= 0 and len(before) * len(after) <= MOST_CELLS:
             kept.append((before, after))
+    if not kept:
+        raise _too_long()
     return kept
+
+
+def _too_long() -> ModelLimitError:
+    return ModelLimitError(
+        "These words are too long for a stochastic system to be found", limit=MOST_CELLS, hint="Give the first steps alone."
+    )
 
 
 def _found(steps: Sequence[tuple[Row, Row]], conditions: Conditions) -> Found | None:
@@ -176,6 +187,8 @@ def _question(steps: Sequence[tuple[Row, Row]], conditions: Conditions, found: F
     numbers: dict[Row, int] = {}
     read = tuple(_step(before, after, numbers, longest, usable) for before, after in steps)
     letters = dict.fromkeys(module for before, _ in steps for module in before if module.symbol not in conditions.unchanged)
+    if len(letters) * len(numbers) > MOST_CELLS:
+        raise _too_long()
     lengths = np.array([len(stretch) for stretch in numbers], np.int64)
     return _Question(read, tuple(letters), tuple(numbers), lengths, conditions.unchanged)
 
