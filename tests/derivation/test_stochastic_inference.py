@@ -92,6 +92,7 @@ def test_a_rare_successor_that_only_a_long_word_has_is_found() -> None:
         ([["a", "b"]], {"context": (1, 0)}, "Angles and contexts are not for stochastic systems"),
         ([["a", "b"]], {"angle": 60}, "Angles and contexts are not for stochastic systems"),
         ([["a", "b"]], {"stochastic": 1}, 'True or False for "stochastic" is needed'),
+        ([["ab" * 900, "ba" * 900]], {}, "too long for a stochastic system"),
         ([["a" * 4_000, "b" * 4_000]], {}, "too long for a stochastic system"),
         ([[[f"a{at}" for at in range(500)], [f"b{at}" for at in range(500)]]], {}, "too long for a stochastic system"),
         ([["a", "b"]] * 1_001, {}, "There are more than 1,000 derivations"),

@@ -35,7 +35,7 @@ from lsys_kit.derivation.inference.problem import (
 )
 from lsys_kit.derivation.inference.productions import general_productions, productions_of, row_of, system_of
 from lsys_kit.derivation.inference.refusals import Contradiction, contradiction
-from lsys_kit.derivation.inference.stochastic import Choice, choices_of
+from lsys_kit.derivation.inference.stochastic import LONGEST, Choice, choices_of
 from lsys_kit.derivation.inference.word_equations import Count, GivenUp
 from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown, whole_number
 from lsys_kit.notation.model.expressions import Apply, Expression, Number
@@ -441,7 +441,7 @@ class StochasticFits(SystemsFound):
         steps = sum(len(words) - 1 for words in self.derivations)
         these = f"{'this derivation' if many == 1 else f'these {many} derivations'} ({steps} step{'s' * (steps > 1)})"
         if not self.systems:
-            yield f"No stochastic system without contexts fits {these}."
+            yield f"No stochastic system without contexts fits {these}, with successors of up to {LONGEST} modules."
             return
         yield f"The stochastic system that fits {these} best:"
         yield from (f"  {choice}" for choice in self.choices)

@@ -32,6 +32,8 @@ MOST_SEARCHED, MOST_COUNTED = 600, 30_000
 """In words of so many modules together, the shortest ones, successors are looked for, and in so many they are counted."""
 MOST_CELLS = 4_000_000
 """So many pairs of a module before a step and a place behind it are looked at, and of a letter and a stretch."""
+MOST_SURE = 200
+"""Of so many letters before a step doubles can tell whether any way to cut the word behind it is possible."""
 MOST_SEARCHES = 5
 """So often they are looked for again, with a step that the successors found do not make."""
 PRUNINGS = (0.0, 0.3, 0.9)
@@ -155,6 +157,8 @@ def _found(steps: Sequence[tuple[Row, Row]], conditions: Conditions) -> Found | 
     settled = (_settled(question, _first(question, conditions), amount) for amount in PRUNINGS)
     found = [_without_needless(question, each) for each in settled if each is not None]
     if not found:
+        if any(len(before) > MOST_SURE for before, _ in steps):
+            raise _too_long()
         return None
     best = min(found, key=lambda each: _bits(question, each))
     return {letter: [question.stretches[at] for at in np.flatnonzero(best[row])] for row, letter in enumerate(question.letters)}
