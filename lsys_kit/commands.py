@@ -17,7 +17,7 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
-from itertools import islice
+from itertools import groupby, islice
 from pathlib import Path
 from types import FrameType
 from typing import TYPE_CHECKING, Any, BinaryIO
@@ -253,6 +253,27 @@ def draw_stages(options: argparse.Namespace) -> None:
     otherwise = played_otherwise(net) if Path(options.output).suffix.lower() == ".pnml" else ""
     if otherwise:
         print(f"lsys-kit: note: {otherwise}", file=sys.stderr)
+
+
+def print_inferred(options: argparse.Namespace) -> None:
+    """Print the systems that fit words, or why none does."""
+    from lsys_kit.derivation.inference.infer import infer, infer_stochastic
+
+    if len(options.context) != 2:
+        raise ModelValueError("The context is two whole numbers, as in --context 1,0")
+    text = _decoded(sys.stdin.buffer, "the standard input") if options.words == "-" else _words_file(options.words)
+    lines = [line.strip() for line in text.strip("\n").split("\n")]
+    if options.stochastic:
+        derivations = [[*group] for filled, group in groupby(lines, bool) if filled]
+        print(infer_stochastic(derivations, options.constants, options.erasing))
+        return
+    words = [line for line in lines if line or options.erasing]
+    print(infer(words, options.constants, options.erasing, tuple(options.context)))
+
+
+def _words_file(name: str) -> str:
+    with file_errors(f'"{quotable(name)}" cannot be read'), Path(name).open("rb") as file:
+        return _decoded(file, f'"{quotable(name)}"')
 
 
 def convert(options: argparse.Namespace) -> None:

@@ -8,7 +8,7 @@ caret under the place, and suggests what to try. Faults of the kit itself are ne
 from __future__ import annotations
 
 import unicodedata
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 from itertools import islice
 from numbers import Integral
 from reprlib import Repr
@@ -19,8 +19,17 @@ _LINE = 80
 
 FARTHEST = 10**18
 """The greatest number of a step, or of anything that is counted."""
+PLACE = "line {line}, column {column}"
+"""Where a mistake is, in a text."""
+_translated: list[Callable[..., str]] = [str.format]
+"""What writes that in the language that is chosen; languages are below this room, and say so themselves."""
 _LONGEST = 20_000
 """The most characters of a message."""
+
+
+def speak_by(translated: Callable[..., str]) -> None:
+    """Write places by a function that translates texts."""
+    _translated[:] = [translated]
 
 
 class LSystemError(Exception):
@@ -89,7 +98,7 @@ class LSystemError(Exception):
         return self
 
     def _text(self) -> str:
-        where = f" (line {self.line}, column {self.column})" if self.line else ""
+        where = f" ({_translated[0](PLACE, line=self.line, column=self.column)})" if self.line else ""
         text = f"{self.message}{where}." + (f" {self.hint}" if self.hint else "")
         return text + self._quotation()
 

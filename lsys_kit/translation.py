@@ -9,11 +9,13 @@ what is displayed is the same on every machine.
 from __future__ import annotations
 
 import os
+import re
+from collections.abc import Mapping
 from functools import cache
 from gettext import GNUTranslations, NullTranslations
 from pathlib import Path
 
-from lsys_kit.errors import ModelNameError, quotable, shown
+from lsys_kit.errors import ModelNameError, quotable, shown, speak_by
 
 LOCALE = Path(__file__).parent / "locale"
 ENGLISH = "en"
@@ -26,8 +28,8 @@ def language(name: str | None = None) -> str:
     """The language in which exercises are asked and answers are replied to; with a name, choose it.
 
     The names of the views and controls of panels that are made from then on, and the pages for learning platforms, are in it,
-    too. What the kit says of a model stays in English: the line with its size in a panel, and mistakes in its rules. So no
-    sentence is in two languages.
+    too, and mistakes in systems in the kit's own notation and in maps and cellworks. What else the kit says of a model stays in
+    English: the line with its size in a panel, and mistakes in listings of other programs.
 
     Parameters
     ----------
@@ -91,7 +93,7 @@ def gettext(message: str, /, **values: object) -> str:
     'You have 3 words'
     """
     found = _catalogue(language()).gettext(message) if message else message
-    return found.format(**values) if values else found
+    return found.format(**_written(values)) if values else found
 
 
 def ngettext(singular: str, plural: str, number: int, /, **values: object) -> str:
@@ -100,4 +102,29 @@ def ngettext(singular: str, plural: str, number: int, /, **values: object) -> st
     >>> ngettext("{number} place", "{number} places", 1), ngettext("{number} place", "{number} places", 2)
     ('1 place', '2 places')
     """
-    return _catalogue(language()).ngettext(singular, plural, number).format(number=number, **values)
+    return _catalogue(language()).ngettext(singular, plural, number).format(number=number, **_written(values))
+
+
+NUMBER = "1,234.5"
+"""How a number is written: its translation shows the signs between thousands and before decimals."""
+_NUMBER = re.compile(r"-?\d[\d,]*(?:\.\d+)?(?:e[+-]?\d+)?(?= [^\W\d]|$)")
+
+
+def number_text(text: str) -> str:
+    """A number in the chosen language, perhaps with a unit behind it; any other text as it is.
+
+    >>> number_text("1,234.5 cm"), number_text("A(0.5)")
+    ('1,234.5 cm', 'A(0.5)')
+    """
+    signs = gettext(NUMBER)
+    if signs == NUMBER or not (found := _NUMBER.match(text)):
+        return text
+    return found[0].translate(str.maketrans(",.", signs[1] + signs[-2])) + text[found.end() :]
+
+
+def _written(values: Mapping[str, object]) -> dict[str, object]:
+    """Values as they are written in the chosen language."""
+    return {name: number_text(value) if isinstance(value, str) else value for name, value in values.items()}
+
+
+speak_by(gettext)

@@ -5,7 +5,8 @@
 
 A translator fills in the `msgstr` of a .po file, with an editor of one's choice, and runs it again. What is translated: the
 constant texts that stand in calls of `gettext` and `ngettext`, and of `worded` in scripts, those of the tables of
-misconceptions, kinds of answers and topics, and what a student reads in the files of exercises. A test finds what is missing.
+misconceptions, kinds of answers and topics, what readers say of mistakes in the kit's own notations, and what a student reads
+in the files of exercises. A test finds what is missing.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ import io
 import re
 import string
 import sys
+import tomllib
 from collections.abc import Iterator
 from datetime import UTC, datetime
 from pathlib import Path
@@ -30,9 +32,12 @@ from lsys_kit.classroom.exercises.practice.makers import DIRECTIONS, TYPES
 from lsys_kit.classroom.exercises.progress import SIGNS
 from lsys_kit.classroom.exercises.registry import texts
 from lsys_kit.classroom.exercises.replies import REPLIES
+from lsys_kit.classroom.exercises.typed import KINDS_OF_VALUES
 from lsys_kit.classroom.exercises.verdict import SIGNS_AND_COLOURS
 from lsys_kit.classroom.scorm.page import ASKED, DIFFERENT
-from lsys_kit.translation import LOCALE
+from lsys_kit.errors import PLACE
+from lsys_kit.notation.syntax.failure import TOKEN_NAMES
+from lsys_kit.translation import LOCALE, NUMBER
 
 PACKAGE = LOCALE.parent
 TEMPLATE = LOCALE / "lsys_kit.pot"
@@ -123,12 +128,37 @@ def _in_tables() -> Iterator[tuple[str, str | tuple[str, str]]]:
     yield from (("scripts", text) for text in (*TABLES_OF_SCRIPTS, *in_scripts()))
     yield from (("pages of learning platforms", text) for text in (*ASKED.values(), DIFFERENT))
     yield from (("progress", state) for state in SIGNS)
+    yield from (("readers", text) for text in (*TOKEN_NAMES.values(), *map(str, KINDS_OF_VALUES.values()), *_of_readers()))
+    yield from (("numbers and places", text) for text in (NUMBER, PLACE))
     yield from (("practice", text) for text in (*TYPES, *DIRECTIONS.values(), *_texts_in(TOPICS)))
     yield from (("replies", _one_text(text)) for place in REPLIES.values() for text in place.values())
 
 
 def _one_text(text: str | list[str]) -> str | tuple[str, str]:
     return text if isinstance(text, str) else (text[0], text[1])
+
+
+READERS = ("syntax", "dialects/abop", "dialects/plant_string", "dialects/map", "dialects/cellwork")
+"""The folders of `notation` whose mistakes a student meets: those of the kit's own notations."""
+
+
+def _of_readers() -> Iterator[str]:
+    """What readers say of mistakes, and the words of which that is made."""
+    for folder in READERS:
+        tables = tomllib.loads((PACKAGE / "notation" / folder / "mistakes.toml").read_text("utf-8"))
+        yield from _said_in({name: tables.get(name, {}) for name in ("problems", "mistakes")})
+        yield from tables.get("words", {}).values()
+
+
+def _said_in(rows: object) -> Iterator[str]:
+    if isinstance(rows, list):
+        yield from (text for each in rows for text in _said_in(each))
+    elif isinstance(rows, dict):
+        for key, value in rows.items():
+            if key in ("says", "hint") and isinstance(value, str):
+                yield from [value] if value else []
+            else:
+                yield from _said_in(value)
 
 
 def _texts_in(said: object) -> Iterator[str]:

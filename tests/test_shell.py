@@ -317,6 +317,20 @@ def test_page_refuses_what_it_cannot_show(shell, tmp_path):
 # --- other notations --------------------------------------------------------------------------------------------------
 
 
+def test_the_rules_behind_words_are_found_and_what_must_be_mended(shell, tmp_path):
+    words = tmp_path / "words.txt"
+    words.write_text("a\nab\n?\nabaab\n", "utf-8")
+    assert shell("infer", str(words)).out.splitlines()[1:] == ["  a -> a b", "  b -> a", "The word of step 2 is a b a."]
+    words.write_text("a\nab\naba\nabbab\n", "utf-8")
+    assert "letter 3 of step 3, b, were a" in shell("infer", str(words)).out
+    words.write_text("ab\naab\naaab\n", "utf-8")
+    assert "  a > b -> a a" in shell("infer", str(words), "--context", "0,1").out
+    words.write_text("a\nab\n\na\nb\n\na\nab\n", "utf-8")
+    assert "a -> a b  (0.667" in shell("infer", str(words), "--stochastic").out
+    assert "The context is two whole numbers" in shell("infer", str(words), "--context", "1").err
+    assert "cannot be read" in shell("infer", str(tmp_path / "none.txt")).err
+
+
 def test_convert_prints_the_same_system_in_another_notation(shell):
     from lsys_kit import read, system
 

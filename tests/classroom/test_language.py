@@ -8,27 +8,42 @@ import re
 import subprocess
 import sys
 from collections.abc import Iterator
+from fractions import Fraction
 
 import pytest
 from babel.messages.catalog import Catalog
 from babel.messages.mofile import read_mo
 
-from lsys_kit import ModelNameError, check, exercises, explore, language, practice, predict, vote, worksheet
+from lsys_kit import (
+    ModelNameError,
+    ModelSyntaxError,
+    check,
+    exercises,
+    explore,
+    language,
+    practice,
+    predict,
+    read,
+    read_map,
+    vote,
+    worksheet,
+)
 from lsys_kit.classroom.exercises.check import checked
 from lsys_kit.classroom.exercises.declarations import QUESTIONS, questions_in
 from lsys_kit.classroom.exercises.kinds.choices import letters
-from lsys_kit.classroom.exercises.kinds.numbers import FORMULA
+from lsys_kit.classroom.exercises.kinds.numbers import FORMULA, with_values
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
 from lsys_kit.classroom.exercises.notebooks import exercise_notebook
 from lsys_kit.classroom.exercises.practice.drafts import TOPICS
 from lsys_kit.classroom.exercises.progress import Record, Try, progress_of
 from lsys_kit.classroom.exercises.registry import lessons, texts, translated, translated_lesson
+from lsys_kit.classroom.exercises.typed import typed_number, with_digits
 from lsys_kit.classroom.lessons.lesson import table
 from lsys_kit.classroom.lessons.worksheet import marked, summary
 from lsys_kit.classroom.panel.bundle import translated_words
 from lsys_kit.classroom.scorm.package import manifest
 from lsys_kit.classroom.scorm.page import exercise_page
-from lsys_kit.translation import gettext, ngettext
+from lsys_kit.translation import gettext, ngettext, number_text
 from tests.messages import (
     SCRIPTS,
     TABLES_OF_SCRIPTS,
@@ -162,6 +177,78 @@ def test_a_number_is_read_with_thewords_of_page_of_the_question():
     assert check("4.2", "etwa 72°") == 1
     assert check("0.2", "mehr als 64").said == "Not readable yet"
     assert "Einheit" in check("0.2", "64 Katzen").message
+
+
+@pytest.mark.usefixtures("german")
+@pytest.mark.parametrize("answer", ["vierundsechzig", "Vierundsechzig Striche", "gleich 64", "es sind 64"])
+def test_numbers_are_read_in_german_words(answer):
+    assert check("0.2", answer) == 1
+
+
+@pytest.mark.parametrize("number", [*range(13), 16, 17, 21, 30, 66, 99, 100, 101, 240, 999, 1003, 28_500])
+def test_german_number_words_are_read(number):
+    assert with_digits(_in_german(number)) == str(number)
+
+
+_SMALL = ["null", "eins", "zwei", "drei", "vier", "fünf", "sechs", "sieben", "acht", "neun", "zehn", "elf", "zwölf"]
+
+
+def _in_german(number):
+    """A number in words."""
+    for factor, name in ((1000, "tausend"), (100, "hundert")):
+        many, rest = divmod(number, factor)
+        if many:
+            return ("ein" if many == 1 else _in_german(many)) + name + (_in_german(rest) if rest else "")
+    if number < 13:
+        return _SMALL[number]
+    stems = {2: "zwan", 6: "sech", 7: "sieb"}
+    if number < 20:
+        return f"{stems.get(number - 10, _SMALL[number - 10])}zehn"
+    tens = stems.get(number // 10, _SMALL[number // 10]) + ("ßig" if number // 10 == 3 else "zig")
+    return tens if number % 10 == 0 else f"{'ein' if number % 10 == 1 else _SMALL[number % 10]}und{tens}"
+
+
+@pytest.mark.parametrize("text", ["Eine Zelle und ein Strich", "undundund", "einzweidrei", "Siebenschläfer"])
+def test_what_is_no_german_number_stays(text):
+    assert with_digits(text) == text
+
+
+@pytest.mark.usefixtures("german")
+@pytest.mark.parametrize(
+    ("typed", "value"), [("1.000", 1000), ("1.234,5", Fraction(12345, 10)), ("0,25", Fraction(1, 4)), ("12.5", Fraction(25, 2))]
+)
+def test_numbers_are_read_with_german_signs(typed, value):
+    assert typed_number(typed).value == value
+
+
+@pytest.mark.usefixtures("german")
+def test_numbers_are_written_with_german_signs():
+    assert [number_text(each) for each in ("1,234.5", "1.123 cm", "A(0.5)", "3/4", "0.1 0.2")] == [
+        "1.234,5",
+        "1,123 cm",
+        "A(0.5)",
+        "3/4",
+        "0.1 0.2",
+    ]
+    assert "1,3" in practice("slices", 2, 3).exercise.question
+    assert "0,3333" in with_values("Das ist {1/answer}.", 3)
+
+
+@pytest.mark.usefixtures("german")
+def test_mistakes_that_readers_find_are_in_the_language():
+    assert '"bx" (Zeile 1, Spalte 7). Die Symbole sind' in str(check("1.1", "al al bx"))
+    with pytest.raises(ModelSyntaxError, match=r'^Dieses "\[" wird nie geschlossen \(Zeile 2, Spalte 7\). Jeder Zweig endet'):
+        read("axiom: F\nF -> F[+F")
+    with pytest.raises(ModelNameError, match=r'^Den Namen "tt" kenne ich nicht \(Zeile 2, Spalte 12\)'):
+        read("axiom: A(1)\nA(x) : x > tt -> A(x+1)")
+    with pytest.raises(ModelSyntaxError, match=r"^Eine Wand hat keine Werte"):
+        read_map("map: ABAB\nA(1) -> B")
+
+
+@pytest.mark.usefixtures("german")
+def test_kinds_of_values_are_named_in_the_language():
+    for exercise, answer in (("0.1", ["A"]), ("0.2", ["64"]), ("1.1", [1.5]), ("7.3", ["4"]), ("10.5", ["t"])):
+        assert "nicht eine Liste." in str(check(exercise, answer))
 
 
 @pytest.mark.usefixtures("german")

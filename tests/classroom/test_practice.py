@@ -6,21 +6,33 @@ from random import Random
 
 import pytest
 
-from lsys_kit import ModelNameError, ModelValueError, infer, practice
+from lsys_kit import ModelNameError, ModelValueError, infer, language, practice, progress
+from lsys_kit.classroom.exercises import progress as kept
 from lsys_kit.classroom.exercises.exercise import Exercise
-from lsys_kit.classroom.exercises.judging import is_right_by_mistake, right_by_mistake, wrong_answers
+from lsys_kit.classroom.exercises.judging import is_right_by_mistake, judged, right_by_mistake, wrong_answers
 from lsys_kit.classroom.exercises.kinds.choices import letters
 from lsys_kit.classroom.exercises.lint import HINTS
 from lsys_kit.classroom.exercises.practice.drafts import TOPICS, Draft
 from lsys_kit.classroom.exercises.practice.makers import DIRECTIONS, TYPES, end_of, growth_type, heading_after
-from lsys_kit.classroom.exercises.practice.practice import LEVELS, _made
+from lsys_kit.classroom.exercises.practice.practice import _made
+from lsys_kit.classroom.exercises.practice.schedule import INTERVALS, LEVELS, Practised, due, practised
+from lsys_kit.classroom.exercises.progress import FILE, Try, record_so_far
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.notation.read import read
 from lsys_kit.worlds.derive import derive
 from tests.classroom.answers import as_typed
 
 each_topic = pytest.mark.parametrize("topic", TOPICS)
-OF_EACH = 500
+each_level = pytest.mark.parametrize("level", range(1, LEVELS + 1))
+SEEDS, DISTINCT = 60, 40
+
+
+@pytest.fixture(autouse=True)
+def new_session(monkeypatch):
+    """As if Python had just begun."""
+    for name in ("_seen", "_said"):
+        monkeypatch.setattr(kept, name, set())
+    monkeypatch.setattr(kept, "_not_kept", [])
 
 
 def _is_worth_solving(asked):
@@ -33,15 +45,30 @@ def _is_worth_solving(asked):
     assert len(exercise.hints) == HINTS
 
 
+def _has_one_right_answer(asked):
+    """None of the wrong answers that are understood is right, and no other option."""
+    exercise = asked.exercise
+    for wrong in wrong_answers(exercise):
+        assert judged(exercise, as_typed(exercise, wrong.answer))[0].said != "Correct"
+    right = [letter for letter in letters(exercise) if judged(exercise, letter)[0].said == "Correct"]
+    assert len(right) == bool(exercise.options)
+
+
 @pytest.mark.slow
 @each_topic
-def test_five_hundred_of_each_kind_are_solved(topic):
-    for seed in range(OF_EACH):
-        _is_worth_solving(practice(topic, 1 + seed % LEVELS, seed))
+@each_level
+def test_of_sixty_exercises_of_a_level_forty_are_different_and_each_has_one_right_answer(topic, level):
+    questions = set()
+    for seed in range(SEEDS):
+        asked = practice(topic, level, seed)
+        _is_worth_solving(asked)
+        _has_one_right_answer(asked)
+        questions.add(asked.exercise.question)
+    assert len(questions) >= DISTINCT
 
 
 @each_topic
-@pytest.mark.parametrize("level", range(1, LEVELS + 1))
+@each_level
 def test_a_misconception_has_its_own_reply(topic, level):
     asked = practice(topic, level, 3)
     _is_worth_solving(asked)
@@ -52,13 +79,6 @@ def test_a_misconception_has_its_own_reply(topic, level):
         assert 0 <= float(verdict) < 1
         reply = wrong.says or (wrong.misconception.do if wrong.misconception else "")
         assert reply in verdict.message or verdict.message.count(", or ") == 2
-
-
-@pytest.mark.slow
-@each_topic
-def test_no_two_of_the_first_twelve_are_the_same(topic):
-    questions = {practice(topic, 2, seed).exercise.question for seed in range(12)}
-    assert len(questions) > 9
 
 
 @each_topic
@@ -146,8 +166,9 @@ def test_a_hedge_grown_step_by_step_has_as_many_shoots(seed):
 def test_walls_cells_and_corners_are_those_of_a_map(seed):
     """Euler: corners - walls + cells = 1."""
     question, answer, exercise = _numbers("walls", 1 + seed % 3, seed)
-    sides, steps = question[0], int(question[-1])
-    cells, corners = (2, 2 * sides - 2) if "two cells" in exercise.question else (1, sides)
+    cells = question[0] if "row of" in exercise.question else 2 if "two cells" in exercise.question else 1
+    sides, steps = question[1 if cells > 2 else 0], int(question[-1])
+    corners = cells * sides - 2 * (cells - 1)
     for _ in range(steps):
         cells, corners = 2 * cells, corners + 2 * cells
     assert corners - answer + cells == 1
@@ -219,3 +240,114 @@ def test_what_there_is_not_is_said():
         practice("derive", 4)
     with pytest.raises(ModelValueError, match="seed"):
         practice("derive", 1, "x")
+
+
+# What comes next
+
+
+def _answered(asked, *rights):
+    """An exercise with answers that are right or wrong."""
+    for number, right in enumerate(rights):
+        asked.check(asked.exercise.solution if right else 9_000_001 + number)
+    return asked
+
+
+def test_two_right_answers_at_once_lead_to_the_next_level_and_it_says_so():
+    first = _answered(practice("walls", 1, 3), True)
+    second = first.next()
+    assert (second.level, second.note) == (1, "")
+    third = _answered(second, True).next()
+    assert (third.topic, third.level, third.note) == ("walls", 2, "Two right at once: this is level 2.")
+    assert repr(third).startswith("Two right at once: this is level 2.\n\nThe walls of a tissue\n\n")
+    assert third._repr_markdown_().startswith("*Two right at once: this is level 2.*\n\n**The walls")
+
+
+def test_two_wrong_answers_lead_to_the_level_before():
+    assert _answered(practice("walls", 2, 3), False, False).next().level == 1
+
+
+def test_two_wrong_answers_may_be_to_different_exercises():
+    one = _answered(practice("hedge", 2, 3), False)
+    other = _answered(one.next(), False)
+    assert (other.level, other.next().level, other.next().note) == (2, 1, "Two wrong: this is level 1 again.")
+
+
+def test_a_right_answer_between_wrong_ones_keeps_the_level():
+    assert _answered(practice("walls", 3, 3), False, False, True).next().level == 3
+
+
+def test_right_answers_after_a_wrong_one_do_not_count_as_at_once():
+    one = _answered(practice("walls", 1, 3), False, True)
+    assert _answered(one.next(), True).next().level == 1
+
+
+@pytest.mark.parametrize(("level", "rights"), [(LEVELS, (True,)), (1, (False, False))])
+def test_there_is_no_level_beyond_the_last_one_on_either_side(level, rights):
+    asked = _answered(practice("walls", level, 3), *rights)
+    assert _answered(asked.next(), *rights).next().level == level
+
+
+def test_a_topic_that_was_missed_comes_again_and_then_the_other_goes_on():
+    _answered(practice("hedge", 1, 0), False, True)
+    asked = _answered(practice("walls", 1, 3), True)
+    asked = _answered(asked.next(), False, True)
+    again = asked.next()
+    assert (again.topic, again.level, again.seed) == ("hedge", 1, 1)
+    assert again.note == 'Once more "Cut again and again", which you missed not long ago.'
+    back = _answered(again, True).next()
+    assert (back.topic, back.seed, back.note) == ("walls", asked.seed + 1, 'Back to "The walls of a tissue".')
+
+
+def test_what_is_solved_again_and_again_comes_after_more_and_more_others():
+    done, often, number = [Practised("chance", 1, 0, [False])], [], 0
+    while number < 40:
+        number += 1
+        if due(done, "walls") == "chance":
+            often.append(number)
+            done.append(Practised("chance", 1, number, [True]))
+        else:
+            done.append(Practised("walls", 1, number, [True]))
+    assert [later - earlier - 1 for earlier, later in zip([0, *often], often, strict=False)] == [*INTERVALS]
+
+
+def test_an_exercise_that_was_solved_does_not_come_again():
+    asked = practice("hedge", 1, 4)
+    _answered(practice("hedge", 1, 5), True)
+    assert asked.next().seed == 6
+
+
+def test_tries_are_kept_with_the_progress_and_go_on_from_there(tmp_path, monkeypatch):
+    (tmp_path / kept.MANIFEST).write_text("", "utf-8")
+    monkeypatch.chdir(tmp_path)
+    _answered(practice("life spans", 1, 0), False, True)
+    _answered(practice("walls", 1, 0), True)
+    lines = (tmp_path / FILE).read_text("utf-8").splitlines()[1:]
+    assert [line.partition(",")[2] for line in lines] == [
+        "practice: life spans 1 0,tried",
+        "practice: life spans 1 0,solved",
+        "practice: walls 1 0,solved",
+    ]
+    assert [(each.topic, each.tries) for each in practised(record_so_far().tries)] == [
+        ("life spans", [False, True]),
+        ("walls", [True]),
+    ]
+    assert "Practised: 2 exercises, 1 of them right at once." in repr(progress())
+    assert repr(progress(1)).count("Practised") == 0
+
+
+def test_a_record_with_what_there_is_not_any_more_is_no_obstacle(monkeypatch):
+    names = ("practice: gone 1 0", "practice: walls 9 0", "practice: walls 1 x", "1.1")
+    monkeypatch.setattr(kept, "_not_kept", [Try(name, False) for name in names])
+    asked = practice("hedge", 1, 0)
+    for _ in range(4):
+        asked = _answered(asked, True).next()
+    assert asked.topic == "hedge"
+
+
+def test_notes_are_in_the_chosen_language():
+    language("de")
+    try:
+        asked = _answered(_answered(practice("walls", 1, 3), True).next(), True).next()
+        assert asked.note == "Zwei auf Anhieb richtig: Das ist Stufe 2."
+    finally:
+        language("en")

@@ -49,11 +49,20 @@ def test_it_is_stored_with_all_its_steps() -> None:
 
 
 def test_words_that_nothing_fits_say_why() -> None:
-    steps = rule_finder(["a", "ab", "abb", "abba", "abbaa"]).found["steps"]
-    assert [step["count"] for step in steps] == ["1", "1", "0", "0"]
+    steps = rule_finder(["a", "ab", "abb", "abba", "abbbb", "abbbbb"]).found["steps"]
+    assert [step["count"] for step in steps] == ["1", "1", "0", "0", "0"]
     assert steps[2]["heading"].startswith("No system fits these 4 words. Step 3 cannot come from step 2")
     assert steps[3]["heading"] == "No system fits these 5 words, since none fits those up to step 3."
+    assert "A system without contexts would fit if letter 4 of step 3, a, were b." in steps[4]["heading"]
+    assert steps[4]["common"] == ["a -> a b"]
     assert counts(derive(system("J2"), 3), context=(1, 1))[-1] == "1"
+
+
+def test_a_word_that_is_not_known_is_filled_in() -> None:
+    finder = rule_finder(["a", None, "aba", "abaab"])
+    assert finder.found["words"][1] == "?"
+    assert counts(["a", None, "aba", "abaab"])[-1] == "1"
+    assert finder.found["steps"][-1]["notes"] == ["The word of step 1 is a b."]
 
 
 @pytest.mark.slow

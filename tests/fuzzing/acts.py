@@ -97,6 +97,7 @@ MAKERS: Mapping[str, Callable[[Any], Any]] = {
     "Stages": kit.stages,
     "Timed": kit.timed,
     "Fits": lambda system: kit.infer(kit.derive(system, 4)),
+    "StochasticFits": lambda system: kit.infer([kit.derive(system, 3)] * 2, stochastic=True),
     "Lineage": lambda system: kit.lineage(system, 9),
     "RuleFinder": lambda system: kit.rule_finder(kit.derive(system, 4)),
     "DrawingFits": lambda system: kit.infer([kit.draw(system, step) for step in range(4)]),
@@ -348,6 +349,8 @@ def text_acts(folder: Path) -> Mapping[str, Calls]:
         "Worksheet.asked": (lambda text: (kit.worksheet("01", "counts"), {"number": 1, "entries": [text]}), put("asked")),
         "Prompt.typed": (lambda text: (kit.predict("What comes?", "21").prompt, text), put("typed")),
         "lsys-kit convert: text": (kept, typed("convert", str(path), "--to", "abop")),
+        "lsys-kit infer: text": (kept, typed("infer", str(path))),
+        "lsys-kit infer: derivations": (kept, typed("infer", str(path), "--stochastic")),
         "lsys-kit wall: text": (kept, typed("wall", str(folder), "-o", str(folder / "wall.html"))),
         "lsys-kit collect": (
             lambda text: (folder / "book.ipynb").write_text(text, errors="replace"),
@@ -448,6 +451,7 @@ ASKED: Mapping[str, tuple[str, ...]] = {
     "LSystem": ("picture",),
     "Continuity": ("solve",),
     "Fits": ("__getitem__",),
+    "StochasticFits": ("__getitem__",),
     "Practice": ("check",),
 }
 """Members of results that get a value."""
@@ -566,6 +570,7 @@ LEFT_OUT: Mapping[str, str] = {
         "Progress.state",
         "Progress.__repr__",
         "Verdict.__repr__",
+        "Mending.__repr__",
         "Practice.next",
         "Practice.__repr__",
         "Comparison.left",

@@ -30,7 +30,11 @@ IMPORT = "from lsys_kit import *"
 
 def built() -> dict[str, NotebookNode]:
     """The reference notebooks by the names of their files, not yet run."""
-    return {"commands.ipynb": _notebook(_command_cells()), "notation.ipynb": _notebook(_notation_cells())}
+    return {
+        "commands.ipynb": _notebook(_command_cells()),
+        "notation.ipynb": _notebook(_notation_cells()),
+        "practice.ipynb": _notebook(_practice_cells()),
+    }
 
 
 def symbols_of(row: Row) -> dict[str, list[str]]:
@@ -105,6 +109,16 @@ def _notation_cells() -> Iterator[NotebookNode]:
     yield new_markdown_cell(texts["tissues"].strip())
     for part in texts["of_tissues"]:
         yield new_markdown_cell(f"### {part['title']}\n\n{part['says'].strip()}")
+        for shown in part["shows"]:
+            yield new_code_cell(shown.strip())
+
+
+def _practice_cells() -> Iterator[NotebookNode]:
+    texts = EXAMPLES["practice"]
+    yield new_markdown_cell(texts["introduction"].strip())
+    yield new_code_cell(IMPORT)
+    for part in texts["parts"]:
+        yield new_markdown_cell(f"## {part['title']}\n\n{part['says'].strip()}")
         for shown in part["shows"]:
             yield new_code_cell(shown.strip())
 

@@ -36,6 +36,8 @@ FILE = "progress.csv"
 """The record, in the folder of the course."""
 HEAD = "time,exercise,result"
 SOLVED, TRIED = "solved", "tried"
+PRACTICE = "practice: "
+"""So the names of exercises begin that were made at random."""
 MOST_BYTES = 1_000_000
 """A record is not made longer than that: some 30,000 tries."""
 _TRIES = ("Correct", "Almost", "Not yet")
@@ -323,8 +325,11 @@ def _count(page: Progress, lesson: Lesson) -> str:
 
 
 def _notes(page: Progress) -> Iterator[str]:
-    """What to do next, what is wrong, and, where all lessons are shown, what becomes of it."""
+    """What to do next, what was practised, what is wrong, and, where all lessons are shown, what becomes of it."""
     yield f"{reply('progress.next')} {_named_next(page)}." if page.next else reply("progress.all_solved")
+    practised = {each.exercise: each.solved for each in reversed(page.record.tries) if each.exercise.startswith(PRACTICE)}
+    if practised and len(page.lessons) > 1:
+        yield reply("progress.practised", number=len(practised), right=sum(practised.values()))
     if page.record.problem:
         yield page.record.problem
     if len(page.lessons) > 1:

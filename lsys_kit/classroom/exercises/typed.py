@@ -18,6 +18,7 @@ from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError, ModelValueError, quotable, shown
 from lsys_kit.notation.model.arithmetic import Value, is_symbolic, normalised
+from lsys_kit.translation import NUMBER, gettext
 
 WORDS: Mapping[str, Any] = tomllib.loads((files(__package__) / "typed.toml").read_text("utf-8"))
 """Words and signs that people type, in English and German."""
@@ -34,10 +35,33 @@ _ROOT_SIGN = re.compile(r"√\s*(?=\()|√\s*(\d+(?:\.\d+)?|[A-Za-z]\w*)")
 _SIGNS = str.maketrans(WORDS["signs"])
 
 
+KINDS_OF_VALUES: Mapping[type, str] = {
+    bool: "True or False",
+    int: "a whole number",
+    float: "a number",
+    Fraction: "a number",
+    Decimal: "a number",
+    str: "a text",
+    list: "a list",
+    tuple: "a list",
+    dict: "a table of names and values",
+}
+"""What values are called in replies."""
+
+
+def kind_of(value: object) -> str:
+    """What a value is, in the words of a reply.
+
+    >>> kind_of([1, 2]), kind_of(None)
+    ('a list', 'NoneType')
+    """
+    return gettext(KINDS_OF_VALUES.get(type(value), "")) or type(value).__name__
+
+
 def text_answer(answer: object, what: str, example: str) -> str:
     """An answer that must be a text."""
     if not isinstance(answer, str):
-        raise ModelValueError(reply("typed.must_be_text", what=what, example=example, kind=type(answer).__name__))
+        raise ModelValueError(reply("typed.must_be_text", what=what, example=example, kind=kind_of(answer)))
     return answer
 
 
@@ -170,8 +194,35 @@ _ORDINALS = {word: number for number, word in enumerate(_NUMBERS["ordinals"].spl
 _PARTS: Mapping[str, int] = _NUMBERS["parts"]
 _ANY = "|".join([*_VALUES, *_FACTORS])
 _RUN = re.compile(rf"\b(?:{_ANY})(?:(?:[\s-]+(?:and\s+)?)(?:{_ANY}))*\b", re.IGNORECASE)
-_PART = re.compile(rf"\b(\d+|a)\s+({'|'.join(_PARTS)})s?\b", re.IGNORECASE)
+_PART = re.compile(rf"\b(\d+|a|ein)\s+({'|'.join(_PARTS)})s?\b", re.IGNORECASE)
 _ORDINAL = re.compile(rf"\b(?:({'|'.join(_ORDINALS)})|(\d+)(?:st|nd|rd|th))\b", re.IGNORECASE)
+_GERMAN = _NUMBERS["german"]
+_UNITS = {word: number for number, words in enumerate(_GERMAN["small"]) for word in words.split()}
+_TENS = {word: 10 * number for number, words in enumerate(_GERMAN["tens"], 2) for word in words.split()}
+_GERMAN_ORDINALS = {
+    word + end: number for number, word in enumerate(_GERMAN["ordinals"].split(), 1) for end in ("e", "er", "es", "en", "em")
+}
+_COMPOUND = re.compile(rf"\b(?:{'|'.join([*_UNITS, *_TENS, 'hundert', 'tausend', 'und'])})+\b", re.IGNORECASE)
+_GERMAN_ORDINAL = re.compile(rf"\b(?:{'|'.join(_GERMAN_ORDINALS)})\b", re.IGNORECASE)
+
+
+def _of_compound(word: str) -> int | None:
+    """The value of a German number in one word; None where it is none, as "ein", which is an article.
+
+    >>> _of_compound("einundzwanzig"), _of_compound("zweihundertvierzig"), _of_compound("und"), _of_compound("tausenddrei")
+    (21, 240, None, 1003)
+    """
+    for factor, name in ((1000, "tausend"), (100, "hundert")):
+        before, found, after = word.partition(name)
+        if found:
+            many = 1 if before in ("", "ein") else _of_compound(before)
+            rest = _of_compound(after.removeprefix("und")) if after else 0
+            return None if many is None or rest is None else factor * many + rest
+    before, found, after = word.partition("und")
+    if found:
+        one, ten = _UNITS.get(before, 0), _TENS.get(after, 0)
+        return ten + one if 0 < one < 10 and ten else None
+    return None if word == "ein" else _UNITS.get(word, _TENS.get(word))
 
 
 def with_digits(text: str) -> str:
@@ -181,8 +232,14 @@ def with_digits(text: str) -> str:
     ('21 cells', '709', '3/4')
     >>> with_digits("2, 3 and 5"), with_digits("the third line"), with_digits("19th step")
     ('2, 3 and 5', 'the 3 line', '19 step')
+    >>> with_digits("einundzwanzig Zellen"), with_digits("drei Viertel"), with_digits("im vierten Schritt")
+    ('21 Zellen', '3/4', 'im 4 Schritt')
     """
-    text = _PART.sub(lambda found: f"{found[1].lower().replace('a', '1')}/{_PARTS[found[2].lower()]}", _RUN.sub(_digits, text))
+    text = _COMPOUND.sub(lambda found: found[0] if (value := _of_compound(found[0].lower())) is None else str(value), text)
+    text = _GERMAN_ORDINAL.sub(lambda found: str(_GERMAN_ORDINALS[found[0].lower()]), text)
+    text = _PART.sub(
+        lambda found: f"{found[1] if found[1].isdigit() else 1}/{_PARTS[found[2].lower()]}", _RUN.sub(_digits, text)
+    )
     return _ORDINAL.sub(lambda found: found[2] or str(_ORDINALS[found[1].lower()]), text)
 
 
@@ -317,7 +374,12 @@ def typed_number(answer: object, decimal_comma: bool = False) -> TypedNumber:
     if isinstance(answer, Decimal) and answer.is_finite():
         return TypedNumber(number_from(Fraction(answer)))
     if not isinstance(answer, str):
-        return TypedNumber(_known(number_from(answer, "answer")))
+        try:
+            return TypedNumber(_known(number_from(answer, "answer")))
+        except ModelValueError:
+            if isinstance(answer, Number):
+                raise
+            raise ModelValueError(reply("typed.no_number_but", kind=kind_of(answer))) from None
     text = with_digits(unquoted(keyboard_text(answer)).strip("$ "))
     for pattern, plain in _REPLACED:
         text = pattern.sub(plain, text)
@@ -347,8 +409,17 @@ def _value(number: str, answer: str) -> Value:
         raise ModelValueError(reply("typed.unreadable", answer=quoted(answer)), hint=reply("typed.alone")) from None
 
 
+_POINTS = re.compile(r"[+-]?\d{1,3}(\.\d{3})+")
+_POINTS_AND_COMMA = re.compile(r"[+-]?\d{1,3}(\.\d{3})+,\d+")
+
+
 def _plain(text: str, decimal_comma: bool) -> str:
     text = _SCIENTIFIC.sub(r"\1*10^(\2)", text)
+    if gettext(NUMBER)[-2] == ",":  # as in 1.234,5
+        if _POINTS_AND_COMMA.fullmatch(text) or (_POINTS.fullmatch(text) and not decimal_comma):
+            text = text.replace(".", "")
+        if text.count(",") == 1 and re.fullmatch(r"[+-]?\d+,\d+", text):
+            return text.replace(",", ".")
     if _DECIMAL_COMMA.fullmatch(text) or (decimal_comma and text.count(",") == 1 and _COMMAS.fullmatch(text)):
         return text.replace(",", ".")
     return re.sub(r"[, ']", "", text) if _COMMAS.fullmatch(text) or _GROUPED.fullmatch(text) else text
@@ -387,7 +458,7 @@ def _flat(answer: object, what: str, depth: int = 0) -> Iterable[object]:
         answer = list(answer.values())
     if depth > 3 or isinstance(answer, str | bytes) or not isinstance(answer, Iterable):
         if depth == 0 and (not isinstance(answer, Number) or isinstance(answer, bool)):
-            raise ModelValueError(reply("typed.parts_needed", what=what, kind=type(answer).__name__))
+            raise ModelValueError(reply("typed.parts_needed", what=what, kind=kind_of(answer)))
         yield answer
         return
     for number, part in enumerate(answer):

@@ -14,6 +14,7 @@ from lsys_kit.classroom.lessons.widget import LessonWidget, table_html
 from lsys_kit.classroom.panel.bundle import Data, bundled, style
 from lsys_kit.derivation.derive import derive
 from lsys_kit.derivation.inference.infer import MOST_FITS, Explanation, conditions_of, explanation, infer
+from lsys_kit.derivation.inference.mending import MOST_READ
 from lsys_kit.derivation.inference.problem import Row, read_words
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.model.modules import joined
@@ -35,7 +36,7 @@ def rule_finder(
     Parameters
     ----------
     words
-        The words of steps 0, 1, 2, ...: what `derive` gives, or a list of words, as for `infer`.
+        The words of steps 0, 1, 2, ...: what `derive` gives, or a list of words, as for `infer`; None is one that is not known.
     constants, erasing, context
         What systems are looked for, as for `infer`.
 
@@ -131,10 +132,11 @@ class RuleFinder(LessonWidget):
 
 
 def _all_found(rows: Sequence[Row], constants: Iterable[str], erasing: bool, context: tuple[int, int]) -> Iterator[Found]:
-    """What the words up to each step tell, from step 1 on; where none fits some words, none fits more."""
+    """What the words up to each step tell, from step 1 on; where no system fits some words, none fits more of them, and all of
+    them together tell what may have to be mended."""
     none = 0
     for step in range(1, len(rows)):
-        if none:
+        if none and step < len(rows) - 1:
             yield Found("0", Explanation(f"No system fits these {step + 1} words, since none fits those up to step {none}."))
             continue
         yield (found := _found(rows[: step + 1], constants, erasing, context))
@@ -145,6 +147,8 @@ def _found(rows: Sequence[Row], constants: Iterable[str], erasing: bool, context
     try:
         fits = infer(rows, constants, erasing, context)
     except ModelLimitError as error:
+        if error.limit == MOST_READ:
+            return Found("?", Explanation(str(error)))
         if error.limit != MOST_FITS:
             raise
         return Found(f"{error.needed:,}" if error.needed else f"more than {MOST_FITS:,}", Explanation(str(error)))

@@ -11,13 +11,16 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from itertools import islice
 from typing import overload
 
 from lsys_kit.budget import Task, check_budget, counted
 from lsys_kit.derivation.derive import Derivation, derive
+from lsys_kit.derivation.inference.mending import MOST_READ, Effort, Mending, filled_words, mendings
 from lsys_kit.derivation.inference.problem import (
+    GAP,
     Conditions,
     Problem,
     Row,
@@ -27,18 +30,21 @@ from lsys_kit.derivation.inference.problem import (
     read_words,
     table_of,
     tables,
+    text_of,
     well_nested,
 )
-from lsys_kit.derivation.inference.productions import general_productions, productions_of, system_of
-from lsys_kit.derivation.inference.refusals import Contradiction, Slip, contradiction, doubtful_words, slips
+from lsys_kit.derivation.inference.productions import general_productions, productions_of, row_of, system_of
+from lsys_kit.derivation.inference.refusals import Contradiction, contradiction
+from lsys_kit.derivation.inference.stochastic import LONGEST, Choice, choices_of
 from lsys_kit.derivation.inference.word_equations import Count, GivenUp
 from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown, whole_number
+from lsys_kit.notation.model.expressions import Apply, Expression, Number
 from lsys_kit.notation.model.system import LSystem, Production
 
 MOST_SHOWN = 20
 """So many systems are shown, and so many letters and productions named."""
-MOST_SLIPS_SHOWN = 6
-"""So many slips are shown."""
+MOST_MENDINGS_SHOWN = 6
+"""So many ways to mend words are shown."""
 MOST_COMPARED, STEPS_AHEAD, MODULES_AHEAD = 100, 10, 100_000
 """So many systems, steps, and words of so many modules, are looked at to see where systems part."""
 
@@ -72,25 +78,23 @@ class Wider:
 
 @dataclass(frozen=True)
 class Refusal:
-    """Why no system fits: the first step that cannot come from the one before, if it was found; single letters that may be
-    wrong, missing or too many, and neighbours that may have changed places; where there are none, the steps whose words alone
-    contradict the others; and contexts with which some system fits."""
+    """Why no system fits: the first step that cannot come from the one before, if it was found; the ways to mend the words with
+    the fewest edits, and whether all of them were looked for; and contexts with which some system fits."""
 
     contradiction: Contradiction | None
-    slips: tuple[Slip, ...] = ()
-    doubtful: tuple[int, ...] = ()
+    mendings: tuple[Mending, ...] = ()
     wider: Wider | None = None
+    out_of_reach: bool = False
 
     def __str__(self) -> str:
-        slips = [str(slip) for slip in self.slips[:MOST_SLIPS_SHOWN]]
         found = [str(self.contradiction)] if self.contradiction else []
-        if slips:
-            more = len(self.slips) - len(slips)
-            slips += [f"one of {more} other changes were made" if more > 1 else "one other change were made"] if more else []
-            found.append(f"A system without contexts would fit if {', or if '.join(slips)}.")
-        if self.doubtful:
-            steps = " or ".join(map(str, self.doubtful))
-            found.append(f"A system without contexts would fit if the word of step {steps} were another.")
+        if self.mendings:
+            ways = [str(mending) for mending in self.mendings[:MOST_MENDINGS_SHOWN]]
+            more = len(self.mendings) - len(ways)
+            ways += [f"one of {more} other changes were made" if more > 1 else "one other change were made"] if more else []
+            found.append(f"A system without contexts would fit if {', or if '.join(ways)}.")
+        elif self.out_of_reach:
+            found.append("What would have to be another letter or word is out of reach: too much is possible.")
         if self.wider:
             found.append(str(self.wider))
         return " ".join(found)
@@ -127,19 +131,33 @@ class Fits(SystemsFound):
     Attributes
     ----------
     words
-        The words of steps 0, 1, 2, ...
+        The words of steps 0, 1, 2, ...; what was unknown of them as all systems have it, where they agree.
     systems
         The systems: each derives the words exactly.
     conditions
         What systems were looked for.
     refusal
         Why there is none; None where there is one.
+    given
+        The words as they were given, where some of them were unknown.
     """
 
     words: tuple[Row, ...]
     systems: tuple[LSystem, ...]
     conditions: Conditions
     refusal: Refusal | None = None
+    given: tuple[Row, ...] = ()
+
+    @property
+    def mended(self) -> tuple[Mending, ...]:
+        """Where no system fits, the ways to mend the words with the fewest edits: each has its `edits`, `words`, `systems`.
+
+        >>> from lsys_kit.derivation.inference.infer import infer
+        >>> mending = infer(["a", "ab", "aba", "abbab"]).mended[0]
+        >>> str(mending), str(mending.systems[0].productions[0])
+        ('letter 3 of step 3, b, were a', 'a -> a b')
+        """
+        return self.refusal.mendings if self.refusal else ()
 
     def lines(self) -> Iterator[str]:
         """The explanation, line by line."""
@@ -179,7 +197,7 @@ def explanation(fits: Fits) -> Explanation:
     ('2 systems fit these 3 words; they part at step 3', 3)
     """
     if fits.refusal is not None:
-        return Explanation(f"No system fits these {len(fits.words)} words. {fits.refusal}".strip())
+        return _refused(fits)
     common = tuple(rule for rule in fits[0].productions if all(rule in system.productions for system in fits))
     if len(fits) == 1:
         return Explanation(f"One system fits these {len(fits.words)} words", common, notes=tuple(_unknown(fits)))
@@ -213,6 +231,16 @@ def _alike_so_far(fits: Fits) -> str:
     return f"{condition}their words are the same up to step {last}"
 
 
+def _refused(fits: Fits) -> Explanation:
+    """Why no system fits; where the words can be mended in one way, with what fits them then."""
+    said = f"No system fits these {len(fits.words)} words. {fits.refusal}".strip()
+    if len(fits.mended) != 1 or not (systems := fits.mended[0].systems):
+        return Explanation(said)
+    if len(systems) == 1:
+        return Explanation(f"{said} One system fits the mended words", systems[0].productions)
+    return Explanation(f"{said} {'Several' if len(systems) > 2 else 'Two'} systems fit the mended words.")
+
+
 def _lines(productions: Sequence[Production], margin: str) -> Iterator[str]:
     return (f"{margin}{production}" for production in productions)
 
@@ -221,14 +249,28 @@ def _unknown(fits: Fits) -> Iterator[str]:
     """What the words leave open: what becomes of letters of the last word alone, and where a threshold lies exactly."""
     if any(rule.condition is not None for system in fits for rule in system.productions):
         yield "The number that a condition compares with could lie anywhere between the values that occur on its two sides."
+    for step, given in enumerate(fits.given):
+        if GAP in given and GAP not in fits.words[step]:
+            yield f"The word of step {step} is {text_of(fits.words[step])}."
+    if unclear := [str(step) for step, word in enumerate(_words_known(fits)) if GAP in word]:
+        yield f"The systems have different words of step {_some(unclear)}."
     if unknown := _only_last(fits):
         yield f"Nothing is known of what becomes of {_some(unknown)}: only the last word has it."
 
 
 def _only_last(fits: Fits) -> list[str]:
     """The letters that only the last word has."""
-    before = {module.symbol for word in fits.words[:-1] for module in word} | fits.conditions.unchanged
-    return [*dict.fromkeys(module.symbol for module in fits.words[-1] if module.symbol not in before)]
+    *words, last = _words_known(fits)
+    before = {module.symbol for word in words for module in word} | fits.conditions.unchanged | {GAP.symbol}
+    return [*dict.fromkeys(module.symbol for module in last if module.symbol not in before)]
+
+
+def _words_known(fits: Fits) -> list[Any]:
+    """The words up to the last that is not wholly unknown."""
+    words = [*fits.words]
+    while words[-1] == (GAP,):
+        words.pop()
+    return words
 
 
 def parting_step(fits: Sequence[LSystem], start: int) -> int | None:
@@ -316,8 +358,8 @@ MOST_FITS = 1_000
 """So many systems are listed; more are refused."""
 MOST_SUCCESSORS_TRIED = 4_000
 """So many successors are tried to count the systems with contexts where none fits without."""
-MOST_TRIED_WITH_SLIPS = 100
-"""So many, where a slip is the more likely reason."""
+MOST_TRIED_WITH_MENDINGS, MOST_MODULES_WITH_MENDINGS = 100, 60
+"""So many, and only of words with so many modules together, where a few edits are the more likely reason."""
 CONTEXTS = ((1, 0), (0, 1), (1, 1), (2, 0), (0, 2), (2, 1), (1, 2), (2, 2))
 """The contexts that are tried where no system fits, the smallest first."""
 
@@ -338,6 +380,8 @@ def infer(
     with Task(lambda: f"The search for systems was not finished, with {len(found)} found,"):
         asked = conditions_of(constants, erasing, context)
         rows = read_words(words)
+        if any(GAP in row for row in rows):
+            return _with_unknown_words(rows, asked)
         for step, row in enumerate(rows if asked.context != (0, 0) else ()):  # contexts follow branches
             if not well_nested(row):
                 raise ModelValueError(
@@ -358,6 +402,139 @@ def infer(
             return Fits(rows, (), asked, _refusal(rows, asked))
         except ModelLimitError:  # that none fits is known all the same
             return Fits(rows, (), asked, Refusal(None))
+
+
+def _with_unknown_words(rows: tuple[Row, ...], conditions: Conditions) -> Fits:
+    """All systems that fit words of which something is not known."""
+    if conditions.context != (0, 0):
+        raise ModelValueError(
+            "With contexts all words must be known", hint="Leave out the context, or the words from the first unknown one on."
+        )
+    found: list[tuple[Table, tuple[Row, ...]]] = []
+    try:
+        found += islice(filled_words(rows, conditions, Effort(MOST_READ // 8)), MOST_FITS + 1)
+    except GivenUp:
+        raise ModelLimitError(
+            f"What is unknown of these {len(rows)} words is out of reach",
+            limit=MOST_READ,
+            hint="Give more words behind those that are unknown, or more of their letters.",
+        ) from None
+    if len(found) > MOST_FITS:
+        raise ModelLimitError(
+            f"More than {MOST_FITS:,} systems fit these {len(rows)} words", limit=MOST_FITS, hint="Give more of the words."
+        )
+    if not found:
+        return Fits(rows, (), conditions, _refusal_with_unknown_words(rows, conditions), rows)
+    fits = [_fits(words, [table], conditions).systems for table, words in found]
+    kept = dict.fromkeys(system for systems in fits for system in systems)
+    filled = [words for _, words in found]
+    words = tuple(
+        filled[0][step] if step < len(filled[0]) and all(each[step] == filled[0][step] for each in filled) else row
+        for step, row in enumerate(rows)
+    )
+    return Fits(words, tuple(kept), conditions, None, rows)
+
+
+@dataclass(frozen=True, repr=False)
+class StochasticFits(SystemsFound):
+    """The stochastic system that several derivations of it suggest: a sequence of one system, or none, which prints as an
+    explanation.
+
+    Attributes
+    ----------
+    derivations
+        The words of steps 0, 1, 2, ... of each derivation.
+    systems
+        The system; none where no stochastic system makes all steps.
+    choices
+        Its productions, each with its `letter`, its `successor`, its `probability` with the standard `error` of that, and how
+        many `times` it was used, `of` so many times that the letter was replaced.
+    conditions
+        What was looked for.
+    """
+
+    derivations: tuple[tuple[Row, ...], ...]
+    systems: tuple[LSystem, ...] = ()
+    choices: tuple[Choice, ...] = ()
+    conditions: Conditions = field(default_factory=Conditions)
+
+    def lines(self) -> Iterator[str]:
+        """The explanation, line by line."""
+        many = len(self.derivations)
+        steps = sum(len(words) - 1 for words in self.derivations)
+        these = f"{'this derivation' if many == 1 else f'these {many} derivations'} ({steps} step{'s' * (steps > 1)})"
+        if not self.systems:
+            yield f"No stochastic system without contexts fits {these}, with successors of up to {LONGEST} modules."
+            return
+        yield f"The stochastic system that fits {these} best:"
+        yield from (f"  {choice}" for choice in self.choices)
+        if any(choice.error for choice in self.choices):
+            yield "Behind each probability stands its standard error, and how often the production was used."
+        known = {choice.letter for choice in self.choices}
+        last = dict.fromkeys(module for words in self.derivations for module in words[-1])
+        unknown = [str(module) for module in last if module not in known and module.symbol not in self.conditions.unchanged]
+        if unknown:
+            yield f"Nothing is known of what becomes of {_some(unknown)}: only last words have it."
+
+
+def _quotient(share: Fraction) -> Expression:
+    """A share as a production writes it."""
+    return Apply("/", (Number(share.numerator), Number(share.denominator)))
+
+
+MOST_DERIVATIONS = 1_000
+"""So many derivations of a stochastic system are read."""
+
+
+def infer_stochastic(given: object, constants: Iterable[str] = ("+", "-"), erasing: bool = False) -> StochasticFits:
+    """The stochastic system that several derivations of it suggest.
+
+    >>> infer_stochastic([["a", "ab", "abb"], ["a", "b", "b"], ["a", "ab", "bb"]])
+    The stochastic system that fits these 3 derivations (6 steps) best:
+      a -> a b  (0.6 ± 0.22, 3 of 5)
+      a -> b  (0.4 ± 0.22, 2 of 5)
+      b -> b  (all 3)
+    Behind each probability stands its standard error, and how often the production was used.
+    """
+    with Task("The search for a stochastic system was not finished"):
+        asked = conditions_of(constants, erasing, (0, 0))
+        derivations = _derivations(given)
+        if not any(row for words in derivations for row in words):
+            raise ModelValueError("All these words are empty")
+        choices = choices_of(derivations, asked)
+        if not choices:
+            return StochasticFits(derivations, (), (), asked)
+        several = {choice.letter for choice in choices if choice.error}
+        productions = [
+            Production(
+                row_of((choice.letter,)),
+                row_of(choice.successor),
+                probability=_quotient(choice.probability) if choice.letter in several else None,
+            )
+            for choice in choices
+            if choice.letter in several or choice.successor != (choice.letter,)
+        ]
+        return StochasticFits(derivations, (system_of(derivations[0][0], productions, asked),), choices, asked)
+
+
+def _derivations(given: object) -> tuple[tuple[Row, ...], ...]:
+    """Several derivations, or one."""
+    hint = 'Give each derivation as a list of words: infer([["a", "ab"], ["a", "ba"]], stochastic=True).'
+    if isinstance(given, str) or not isinstance(given, Iterable):
+        raise ModelValueError(f"Several derivations are needed, not {type(given).__name__}", hint=hint)
+    several = [given] if isinstance(given, Derivation) else [*islice(counted(given, 1), MOST_DERIVATIONS + 1)]
+    if len(several) > MOST_DERIVATIONS:
+        raise ModelLimitError(f"There are more than {MOST_DERIVATIONS:,} derivations", limit=MOST_DERIVATIONS)
+    if several and all(isinstance(word, str) for word in several):
+        several = [several]
+    if not several:
+        raise ModelValueError("Several derivations are needed; there are none", hint=hint)
+    found = tuple(read_words(words) for words in several)
+    if any(GAP in row for words in found for row in words):
+        raise ModelValueError(
+            "Where letters choose among successors all words must be known", hint="Leave out the unknown ones."
+        )
+    return found
 
 
 def conditions_of(constants: object, erasing: object, context: object) -> Conditions:
@@ -393,12 +570,33 @@ def _fits(rows: tuple[Row, ...], found: Sequence[Table], conditions: Conditions)
 
 def _refusal(rows: tuple[Row, ...], conditions: Conditions) -> Refusal:
     where = contradiction(rows, conditions)
-    if where is None or conditions.context != (0, 0):
+    if conditions.context != (0, 0):
         return Refusal(where, wider=next(_wider(rows, conditions, MOST_SUCCESSORS_TRIED), None))
-    wrong = tuple(slips(rows, where, conditions))
-    doubtful = () if wrong else tuple(doubtful_words(rows, where, conditions))
-    trials = MOST_TRIED_WITH_SLIPS if wrong else MOST_SUCCESSORS_TRIED
-    return Refusal(where, wrong, doubtful, next(_wider(rows, conditions, trials), None))
+    effort = Effort()
+    found = mendings(rows, where.step if where else len(rows) - 1, conditions, effort)
+    found = [*(_with_systems(each, conditions) for each in found[:MOST_MENDINGS_SHOWN]), *found[MOST_MENDINGS_SHOWN:]]
+    trials = MOST_TRIED_WITH_MENDINGS if found else MOST_SUCCESSORS_TRIED
+    wider = None
+    if not found or sum(map(len, rows)) <= MOST_MODULES_WITH_MENDINGS:
+        with suppress(ModelLimitError):  # what was found is known all the same
+            wider = next(_wider(rows, conditions, trials), None)
+    return Refusal(where, tuple(found), wider, effort.missed and not found)
+
+
+def _refusal_with_unknown_words(rows: tuple[Row, ...], conditions: Conditions) -> Refusal:
+    effort, known = Effort(), [*rows]
+    while len(known) > 1 and known[-1] == (GAP,):
+        known.pop()
+    found = mendings(known, len(known) - 1, conditions, effort)
+    return Refusal(None, tuple(_with_systems(each, conditions) for each in found), None, effort.missed and not found)
+
+
+def _with_systems(mending: Mending, conditions: Conditions) -> Mending:
+    """A mending with some of the systems that fit its words."""
+    some: list[Table] = []
+    with suppress(GivenUp):
+        some += islice(tables(problem_of(mending.words, conditions), MOST_TRIED_FOR_ONE), MOST_SHOWN)
+    return replace(mending, systems=_fits(mending.words, some, conditions).systems)
 
 
 def _wider(rows: tuple[Row, ...], conditions: Conditions, trials: int) -> Iterator[Wider]:

@@ -33,6 +33,8 @@ from lsys_kit.notation.model.modules import CLOSING, OPENING, Module, joined
 
 Row: TypeAlias = tuple[Module, ...]
 """A word."""
+GAP = Module("?")
+"""It stands for a stretch of a word of which nothing is known."""
 MOST_MODULES = 100_000
 """So many modules may all words have together."""
 NUMBER = r"-?\d+(?:\.\d+)?(?:/0*[1-9]\d*|[eE][-+]?\d{1,3})?"
@@ -45,12 +47,15 @@ def read_words(given: object) -> tuple[Row, ...]:
     """The words of steps 0, 1, 2, ... as rows of modules.
 
     A text is a row of one-letter symbols. Where one of the texts has a blank, or numbers in parentheses behind a symbol, all
-    are read as `derive` prints words.
+    are read as `derive` prints words. A question mark is a stretch of which nothing is known, and None a word of which nothing
+    is.
 
     >>> [len(word) for word in read_words(["ar", "albr"])]
     [2, 4]
     >>> [len(word) for word in read_words(["ar", "al br", "bl(1) ar ar"])]
     [1, 2, 3]
+    >>> read_words(["a", None])[1] == (GAP,)
+    True
     """
     hint = 'Give the words of steps 0, 1, 2, ... in a list, as in infer(["a", "ab", "aba"]).'
     if isinstance(given, str) or not isinstance(given, Iterable):
@@ -76,6 +81,8 @@ def read_words(given: object) -> tuple[Row, ...]:
 
 
 def _row(word: object, step: int, printed: bool, valued: bool) -> Row:
+    if word is None:
+        return (GAP,)
     if isinstance(word, str):
         if valued and (stray := re.search(r"\([^()]*\)?|\)", VALUE.sub(" ", word))):  # no symbol, where symbols have values
             raise ModelValueError(

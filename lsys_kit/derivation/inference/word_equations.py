@@ -350,24 +350,43 @@ def trials_of(group: tuple[Equation, ...], known: Known, effort: Effort) -> Iter
         effort.left -= 1
         if effort.left < 0:
             raise GivenUp
-        rest = _all_put_in(group, {letter: word})
+        rest = all_put_in(group, {letter: word})
         if rest is not None:
             yield letter, word, rest
 
 
-def _all_put_in(equations: Sequence[Equation], known: Solution) -> tuple[Equation, ...] | None:
+def all_put_in(equations: Sequence[Equation], known: Solution) -> tuple[Equation, ...] | None:
+    """Equations with known successors in place of their letters; None where one of them contradicts these."""
     found = [put_in(equation, known) for equation in equations]
     return None if None in found else tuple(dict.fromkeys(each for each in found if each and each.items))
+
+
+SHORT = (60, 1_000)
+"""What follows from equations whose known words have up to so many letters is put into the longer ones first."""
 
 
 def deduced(equations: tuple[Equation, ...], bounds: Bounds) -> Known | None:
     """What follows without trying; None where the equations contradict one another."""
     known: Solution = {}
+    for most in SHORT:
+        short = tuple(equation for equation in equations if len(equation.target) <= most)
+        if 0 < len(short) < len(equations):
+            found = _deduced(short, bounds)
+            rest = None if found is None else all_put_in(equations, found.successors)
+            if found is None or rest is None:
+                return None
+            known, equations, bounds = known | found.successors, rest, found.bounds
+    found = _deduced(equations, bounds)
+    return found and Known(known | found.successors, found.equations, found.bounds, found.choices)
+
+
+def _deduced(equations: tuple[Equation, ...], bounds: Bounds) -> Known | None:
+    known: Solution = {}
     while True:
         once = _deduced_once(equations, bounds)
         if once is None:
             return None
-        rest = _all_put_in(once.equations, once.successors)
+        rest = all_put_in(once.equations, once.successors)
         if rest is None:
             return None
         known |= once.successors
@@ -411,11 +430,11 @@ def _at_the_ends(equation: Equation, gaps: Sequence[int], bounds: Bounds) -> Ite
     first, last, target = equation.items[0], equation.items[-1], equation.target
     assert isinstance(first, int)
     assert isinstance(last, int)
-    yield first, {word for end in counted(bits(gaps[1]), 1) if _possible(first, word := target[:end], bounds)}
-    yield last, {word for begin in counted(bits(gaps[-2]), 1) if _possible(last, word := target[begin:], bounds)}
+    yield first, {word for end in counted(bits(gaps[1]), 1) if possible(first, word := target[:end], bounds)}
+    yield last, {word for begin in counted(bits(gaps[-2]), 1) if possible(last, word := target[begin:], bounds)}
 
 
-def _possible(letter: int, word: str, bounds: Bounds) -> bool:
+def possible(letter: int, word: str, bounds: Bounds) -> bool:
     """Whether a successor has as many letters of each kind as it must."""
     if not bounds.shortest(letter) <= len(word) <= bounds.longest(letter):
         return False

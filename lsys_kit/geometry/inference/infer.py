@@ -8,14 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, overload
+from typing import Any, Literal, overload
 
 from lsys_kit.budget import Task, check_budget, counted
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.derive import derive
 from lsys_kit.derivation.inference import infer as words_alone
-from lsys_kit.derivation.inference.infer import MOST_FITS, Fits, SystemsFound
-from lsys_kit.errors import ModelLimitError, ModelValueError
+from lsys_kit.derivation.inference.infer import MOST_FITS, Fits, StochasticFits, SystemsFound
+from lsys_kit.errors import ModelLimitError, ModelValueError, require
 from lsys_kit.geometry.drawing import ANGLE_HINT, scene_of
 from lsys_kit.geometry.inference.edge_rewriting import edge_rules, factor_of
 from lsys_kit.geometry.inference.node_rewriting import node_rules
@@ -114,6 +114,15 @@ def infer(
     erasing: bool = ...,
     context: tuple[int, int] = ...,
     *,
+    stochastic: Literal[True],
+) -> StochasticFits: ...
+@overload
+def infer(
+    words: Iterable[object],
+    constants: Iterable[str] = ...,
+    erasing: bool = ...,
+    context: tuple[int, int] = ...,
+    *,
     angle: object = ...,
 ) -> Fits | DrawingFits: ...
 def infer(
@@ -123,18 +132,21 @@ def infer(
     context: tuple[int, int] = (0, 0),
     *,
     angle: object = None,
-) -> Fits | DrawingFits:
-    """All systems that fit a sequence of words, or that draw a sequence of pictures.
+    stochastic: bool = False,
+) -> Fits | DrawingFits | StochasticFits:
+    """All systems that fit a sequence of words, or that draw a sequence of pictures; or the stochastic system of derivations.
 
     Parameters
     ----------
     words
         The words of steps 0, 1, 2, ...: what `derive` gives, or a list of words. A word is a text of one-letter symbols, a
         `Word`, or a row of modules or names. Texts with blanks between letters, or numbers in parentheses behind them, are read
-        as `derive` prints words.
+        as `derive` prints words. A word that is not known is None, and a stretch of letters that is not known is written as a
+        question mark, as in "ab?ba".
         Or the pictures of these steps, in the plane: what `draw` gives, or the strokes of each as rows of four numbers, x and y
         of one end and of the other. Strokes may be in any order, and begin at either end; a picture may be moved, turned and
         enlarged, but not mirrored.
+        Or, of a stochastic system, several such lists of words, one for each derivation.
     constants
         The symbols that stay as they are; contexts pass over them. The brackets [ and ] always do.
     erasing
@@ -143,16 +155,22 @@ def infer(
         How many neighbours to the left and to the right a production may look at; of words only.
     angle
         The turning angle of the pictures in degrees; by default that of which all angles between strokes are multiples.
+    stochastic
+        Whether letters choose among several successors (S0L). Several derivations of one system are needed then.
 
     Returns
     -------
     Fits
         The systems, in a sequence that prints as an explanation. It is empty where no system fits, and then says why: the first
-        step and letter that contradict those before, what may be wrong with single letters or words, contexts with which some
-        system fits. Letters that only the last word has are left as they are, since nothing is known of them. Where modules
-        have parameters and no contexts are asked for, the systems are those with the fewest productions: conditions compare
-        parameters with numbers, and values are affine functions of parameters. With contexts no laws are looked for: a module
-        with other values is another letter.
+        step and letter that contradict those before, and contexts with which some system fits. Its `mended` are the fewest
+        changes with which some system fits: of one or two letters, of a step that is missing or one too many, or of a whole
+        word; each has its `edits`, `words` and `systems`. What was not known of words is filled in. Letters that only the last
+        word has are left as they are, since nothing is known of them. Where modules have parameters and no contexts are asked
+        for, the systems are those with the fewest productions: conditions compare parameters with numbers, and values are
+        affine functions of parameters. With contexts no laws are looked for: a module with other values is another letter.
+    StochasticFits
+        Of several derivations the system whose successors explain all steps in the fewest bits. Its `choices` are the
+        productions, with probabilities of maximum likelihood and their standard errors.
     DrawingFits
         For pictures the systems that draw them, in the same form: each was drawn and compared. All strokes must be equally
         long. If the first picture has strokes, F is the only letter, and its successor is a word of F, + and - with brackets;
@@ -185,7 +203,25 @@ def infer(
       G -> G G
     >>> print(infer(["a", "ab", "abb", "abba"]))
     No system fits these 4 words. Step 3 cannot come from step 2: letter 3 of step 2, b, would have to become b, and there is \
-a. A system without contexts would fit if letter 4 of step 3, a, were b. With context=(1, 0) one system fits.
+a. A system without contexts would fit if letter 4 of step 3, a, were b. With context=(1, 0) one system fits. One system fits \
+the mended words:
+      a -> a b
+
+    A step is missing, and one word has a stretch that nobody can read:
+
+    >>> infer(["a", None, "aba", "aba?"])
+    One system fits these 4 words:
+      a -> a b
+      b -> a
+    The word of step 1 is a b.
+    The word of step 3 is a b a a b.
+
+    Three derivations of a system in which letters choose:
+
+    >>> infer([["a", "ab", "abb"], ["a", "b", "b"], ["a", "ab", "bb"]], stochastic=True)[0]
+    axiom: a
+    a -> a b : 3/5
+    a -> b : 2/5
 
     A plant from its pictures:
 
@@ -199,7 +235,13 @@ a. A system without contexts would fit if letter 4 of step 3, a, were b. With co
       F -> F[+F]F
     """
     with Task("The search for systems was not finished"):
-        return _inferred([*counted(words)] if isinstance(words, list | tuple) else words, constants, erasing, context, angle)
+        given = [*counted(words)] if isinstance(words, list | tuple) else words
+        require(stochastic, bool, 'True or False for "stochastic"')
+        if stochastic:
+            if angle is not None or not (isinstance(context, tuple) and context == (0, 0)):
+                raise ModelValueError("Angles and contexts are not for stochastic systems", hint="Leave them out.")
+            return words_alone.infer_stochastic(given, constants, erasing)
+        return _inferred(given, constants, erasing, context, angle)
 
 
 def _inferred(

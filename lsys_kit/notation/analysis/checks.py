@@ -216,7 +216,7 @@ def check_field(field: Pattern, constants: Collection[str]) -> None:
             "number of arguments",
             field.at,
             name=field.symbol,
-            wanted=f"{wanted} value{'s' * (wanted != '1')}",
+            wanted=gettext("one value") if wanted == "1" else gettext("{number} values", number=wanted),
             given=len(field.arguments),
         )
     for argument in field.arguments:

@@ -13,6 +13,7 @@ from typing import Any, TypeAlias
 
 from lsys_kit.budget import current
 from lsys_kit.supervision import supervised
+from lsys_kit.translation import gettext
 
 Value: TypeAlias = int | Fraction | float
 """A parameter's value: whole, rational, or a double."""
@@ -201,7 +202,7 @@ def finite(value: Value) -> Value:
     """The value, unless it is too large for a double or not a number."""
     if is_symbolic(value) or math.isfinite(value):  # an OverflowError by itself, where a rational number is past that
         return value
-    raise ValueError("the result is not a number") if math.isnan(value) else OverflowError
+    raise ValueError(gettext("the result is not a number")) if math.isnan(value) else OverflowError
 
 
 def divide(left: Value, right: Value) -> Value:
@@ -222,7 +223,7 @@ def power(base: Value, exponent: Value) -> Value:
     if isinstance(base, float) or not isinstance(exponent, int):
         result: float | complex = float(base) ** float(exponent)
         if isinstance(result, complex):
-            raise ValueError(f"({short_text(base)})^({short_text(exponent)}) is not a number")
+            raise ValueError(gettext("{value} is not a number", value=f"({short_text(base)})^({short_text(exponent)})"))
         return result
     if abs(exponent) > current().exponent:
         raise OverflowError
@@ -255,7 +256,7 @@ def partial_function(name: str, function: Callable[[Value], Value]) -> Callable[
         try:
             return function(x)
         except ValueError:
-            raise ValueError(f"{name}({short_text(x)}) is not a number") from None
+            raise ValueError(gettext("{value} is not a number", value=f"{name}({short_text(x)})")) from None
 
     return value
 
@@ -267,7 +268,7 @@ def reason_of(fault: Exception) -> str:
     'division by zero'
     """
     if isinstance(fault, ZeroDivisionError):
-        return "division by zero"
+        return gettext("division by zero")
     if isinstance(fault, OverflowError):
-        return "the result is too large"
+        return gettext("the result is too large")
     return str(fault)

@@ -21,6 +21,7 @@ from lsys_kit.notation.model.arithmetic import PLAIN, literal_text, normalised
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number, TextSpan
 from lsys_kit.notation.model.modules import Pattern, Repeat
 from lsys_kit.notation.model.system import Constant, MetaRule, Production
+from lsys_kit.translation import gettext
 
 _SPELLINGS = {
     "∨": "||",
@@ -108,7 +109,8 @@ def check_arity(name: Token, operator: str, operands: Sequence[Expression]) -> N
     """A function gets as many values as it takes."""
     least, most = OPERATORS[operator].arity
     if not least <= len(operands) <= most:
-        wanted = f"{least if least == most else f'{least} or more'} value{'s' * (most > 1)}"
+        number = str(least) if least == most else gettext("{least} or more", least=least)
+        wanted = gettext("{number} values", number=number) if most > 1 else gettext("one value")
         raise problem("number of arguments", place_of(name), name=name, wanted=wanted, given=len(operands))
 
 

@@ -42,7 +42,8 @@ from lsys_kit.notation.analysis.problems import Problem
 from lsys_kit.notation.syntax.dialect import Diagnostic, Grammar
 from lsys_kit.notation.syntax.failure import ParseFailure, excerpt, expected_hint, parse_failure, quoted, unclosed_bracket
 from lsys_kit.notation.syntax.text.statements import blank_parentheses
-from lsys_kit.notation.syntax.wording import KIT_SPELLING, Spelling, worded
+from lsys_kit.notation.syntax.wording import KIT_SPELLING, Spelling, translated, worded
+from lsys_kit.translation import gettext
 
 Row: TypeAlias = Mapping[str, Any]
 BRACKETS = "[](){}"
@@ -203,11 +204,11 @@ def _keyword(typed: str, tables: Mapping[str, Any], likeness: float) -> dict[str
 
 def _error(row: Row, failure: ParseFailure, seen: _Seen) -> ModelSyntaxError:
     parts = {**seen.parts, "found": failure.found, "before": failure.before, "possible": expected_hint(failure.accepted) or ""}
-    words = {**failure.spelling.words, **{name: _Piece(part) for name, part in parts.items()}}
+    words = {**translated(failure.spelling.words), **{name: _Piece(part) for name, part in parts.items()}}
     start, end = _span(row, failure, seen)
     end = {"here": failure.at + 1, "place": failure.at}.get(row.get("to", ""), end)
-    hint = row.get("hint", "").format_map(words) or None
-    return failure.error(row["says"].format_map(words), hint, start, row.get("length") or max(0, end - start))
+    says, hint = (gettext(row.get(part, "")).format_map(words) for part in ("says", "hint"))
+    return failure.error(says, hint or None, start, row.get("length") or max(0, end - start))
 
 
 def _span(row: Row, failure: ParseFailure, seen: _Seen) -> tuple[int, int]:

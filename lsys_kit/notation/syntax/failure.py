@@ -10,8 +10,9 @@ from lark.exceptions import UnexpectedCharacters, UnexpectedInput, UnexpectedTok
 from lsys_kit.errors import ModelSyntaxError, named, printable
 from lsys_kit.notation.syntax.text.statements import ARROW
 from lsys_kit.notation.syntax.wording import Spelling
+from lsys_kit.translation import gettext
 
-_TOKEN_NAMES = {
+TOKEN_NAMES = {
     "ARROW": "an arrow",
     "NAME": "a name",
     "SYMBOL": "a symbol",
@@ -24,6 +25,7 @@ _TOKEN_NAMES = {
     "RANGE": '".."',
     "IN": '"in"',
 }
+"""What kinds of tokens are called in messages."""
 
 
 @dataclass(frozen=True)
@@ -121,7 +123,9 @@ def excerpt(text: str) -> str:
 
 def expected_hint(accepted: frozenset[str]) -> str | None:
     """A hint that lists what is possible at the place, if that is not too much."""
-    words = sorted({_TOKEN_NAMES[name] for name in accepted if name in _TOKEN_NAMES})
+    words = [gettext(word) for word in sorted({TOKEN_NAMES[name] for name in accepted if name in TOKEN_NAMES})]
     if not words or len(words) > 4:
         return None
-    return "Possible here: " + " or ".join((", ".join(words[:-1]), words[-1]) if len(words) > 1 else words) + "."
+    if len(words) == 1:
+        return gettext("Possible here: {one}.", one=words[0])
+    return gettext("Possible here: {some} or {last}.", some=", ".join(words[:-1]), last=words[-1])

@@ -21,6 +21,7 @@ from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
 from lsys_kit.notation.model.modules import Module, Pattern, joined
 from lsys_kit.notation.model.system import Production
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS, quoted_dialects
+from lsys_kit.translation import gettext
 
 ModelError: TypeAlias = ModelSyntaxError | ModelNameError | ModelValueError
 """What a mistake in the text of a model is."""
@@ -129,9 +130,16 @@ def worded(problem: Problem, spelling: Spelling) -> tuple[str, str | None]:
     ('I do not know the name "dT"', 'Did you mean "dt"?')
     """
     wording = spelling.wording(problem)
-    words = {**spelling.words, **{name: spelling.shown(value) for name, value in problem.subject.items()}}
-    hint = f'Did you mean "{problem.suggestion}"?' if problem.suggestion else (wording.hint or "").format(**words)
-    return wording.message.format(**words), hint or None
+    words = {**translated(spelling.words), **{name: spelling.shown(value) for name, value in problem.subject.items()}}
+    hint = gettext(wording.hint or "").format(**words)
+    if problem.suggestion:
+        hint = gettext('Did you mean "{name}"?', name=problem.suggestion)
+    return gettext(wording.message).format(**words), hint or None
+
+
+def translated(words: Mapping[str, str]) -> Mapping[str, str]:
+    """The words of messages, in the chosen language."""
+    return {name: gettext(word) for name, word in words.items()}
 
 
 def error_of(problem: Problem, source: str, spelling: Spelling) -> LSystemError:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from numbers import Integral
 from string import ascii_uppercase
 
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
 from lsys_kit.classroom.exercises.replies import reply
-from lsys_kit.classroom.exercises.typed import WORDS, keyboard_text, quoted, text_answer, unquoted, with_digits
-from lsys_kit.errors import ModelNameError, ModelValueError, whole_number
+from lsys_kit.classroom.exercises.typed import WORDS, keyboard_text, kind_of, quoted, text_answer, unquoted, with_digits
+from lsys_kit.errors import ModelNameError, ModelValueError
 
 # One of some options
 
@@ -156,7 +157,9 @@ def _read_line(exercise: Exercise, answer: object) -> int:
         if not number:
             raise ModelValueError(reply("line.what_is_none", text=quoted(text)), hint=reply("line.choose", last=len(lines)))
         answer = int(number[1])
-    found = whole_number(answer, reply("line.what"))
+    if isinstance(answer, bool) or not isinstance(answer, Integral):
+        raise ModelValueError(reply("line.needed", kind=kind_of(answer)))
+    found = int(answer)
     if not 1 <= found <= len(lines):
         raise ModelValueError(reply("line.lines", last=len(lines)))
     return found

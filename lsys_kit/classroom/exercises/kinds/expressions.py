@@ -12,7 +12,7 @@ from typing import TypeAlias
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
 from lsys_kit.classroom.exercises.replies import reply
-from lsys_kit.classroom.exercises.typed import assigned_name, formula_text, text_answer
+from lsys_kit.classroom.exercises.typed import assigned_name, formula_text, kind_of, text_answer
 from lsys_kit.errors import LSystemError, ModelValueError
 from lsys_kit.notation.analysis.checks import check_expression
 from lsys_kit.notation.model.arithmetic import Value, number_text, reason_of, shortest_decimal
@@ -202,7 +202,7 @@ def from_sympy(formula: object, depth: int = 0) -> Expression:
     import sympy
 
     if not isinstance(formula, sympy.Basic) or depth > 50:
-        raise ModelValueError(reply("expression.must_be_text", kind=type(formula).__name__))
+        raise ModelValueError(reply("expression.must_be_text", kind=kind_of(formula)))
     if isinstance(formula, sympy.Symbol):
         return Name(str(formula.name))
     if isinstance(formula, sympy.Rational):

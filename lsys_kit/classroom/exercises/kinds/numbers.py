@@ -17,6 +17,7 @@ from lsys_kit.notation.model.arithmetic import Value, number_text
 from lsys_kit.notation.model.expressions import Function, function_of
 from lsys_kit.notation.read import checked_expression
 from lsys_kit.translation import gettext
+from lsys_kit.translation import number_text as written
 
 FORMULA = re.compile(r"\{([^{}]+)\}")
 """A formula in a reply, of which the value is shown."""
@@ -144,7 +145,7 @@ def formula_in_reply(text: str) -> Function:
 
 def _rounded(value: Value) -> str:
     double = float(value)
-    return f"{double:.4g}" if abs(double) < 10_000 else f"{double:,.0f}"
+    return written(f"{double:.4g}" if abs(double) < 10_000 else f"{double:,.0f}")
 
 
 def _try_small(exercise: Exercise) -> str:

@@ -82,6 +82,19 @@ Maker: TypeAlias = Callable[[Random, int, Draft], Exercise | None]
 """From a source of chance, a level and what is said there to an exercise, which may be too easy, or None if there is none."""
 
 
+ALPHABETS = ("abcde", "kmnps", "pqrst", "uvwxy", "rstuv", "bcdeh", "wxyzu", "ABCDE", "LMSTK", "PQRST")
+"""Letters for systems, in which none is a command of the turtle, and none is easily taken for another."""
+
+
+def random_letters(chance: Random, number: int) -> str:
+    """So many letters for a system.
+
+    >>> random_letters(Random(1), 3)
+    'pqr'
+    """
+    return chance.choice(ALPHABETS)[:number]
+
+
 def random_rules(chance: Random, letters: Sequence[str], longest: int) -> Rules:
     """A production for each letter, with 1 to `longest` letters.
 

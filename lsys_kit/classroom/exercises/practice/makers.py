@@ -21,6 +21,7 @@ from lsys_kit.classroom.exercises.practice.drafts import (
     Draft,
     Maker,
     derivation_text,
+    random_letters,
     random_rules,
     size_of,
     system_text,
@@ -46,16 +47,20 @@ def _word(draft: Draft, system: str, steps: int, longest: int = MOST_WRITTEN) ->
 
 
 def _derive(chance: Random, level: int, draft: Draft) -> Exercise | None:
-    rules = random_rules(chance, "abcd"[: 2 + (level > 1)], 2 + (level > 2))
+    rules = random_rules(chance, random_letters(chance, 2 + (level > 1)), 2 + (level != 2))
     return _word(draft, system_text(chance.choice([*rules]), rules), 3 + (level > 1), 12 + 8 * level)
 
 
 def _brackets(chance: Random, level: int, draft: Draft) -> Exercise | None:
-    branch = ["[", chance.choice("+-"), "X", "]"]
-    parts = [["F"], branch, ["X"]] if level == 1 else [["F"], branch, ["F"], ["[", chance.choice("+-"), "X", "]"], ["X"]]
+    bud = chance.choice("XABK")
+    branch = ["[", chance.choice("+-"), bud, "]"]
+    parts = [["F"], branch, [bud]] if level == 1 else [["F"], branch, ["F"], ["[", chance.choice("+-"), bud, "]"], [bud]]
     chance.shuffle(parts)
-    rules = {"X": [*chain.from_iterable(parts)], "F": ["F", "F"] if level > 1 else [*chance.choice(["FF", "XF", "FX"])]}
-    return _word(draft, system_text("X", rules), 2)
+    rules = {
+        bud: [*chain.from_iterable(parts)],
+        "F": ["F", "F"] if level > 1 else chance.choice([["F", "F"], [bud, "F"], ["F", bud]]),
+    }
+    return _word(draft, system_text(bud, rules), 2)
 
 
 def _conditions(chance: Random, level: int, draft: Draft) -> Exercise | None:
@@ -72,9 +77,9 @@ def _conditions(chance: Random, level: int, draft: Draft) -> Exercise | None:
 
 
 def _context(chance: Random, level: int, draft: Draft) -> Exercise | None:
-    letters = "abc"[: 2 + (level > 1)]
+    letters = random_letters(chance, 2 + (level > 1))
     left, old = chance.sample(letters, 2)
-    new = [chance.choice(letters) for _ in range(chance.randint(1, 1 + (level > 1)))]
+    new = [chance.choice(letters) for _ in range(chance.randint(1, 2))]
     lines = [f"{left} < {old} -> {' '.join(new)}"]
     if level > 1:
         other = chance.choice(letters)
@@ -82,7 +87,7 @@ def _context(chance: Random, level: int, draft: Draft) -> Exercise | None:
     if level > 2:
         one, right = chance.sample(letters, 2)
         lines.insert(1, f"{one} > {right} -> {chance.choice(letters)}")
-    axiom = " ".join(chance.choice(letters) for _ in range(4 + level))
+    axiom = " ".join(chance.choice(letters) for _ in range(4 + level + chance.randint(0, 2)))
     if f"{left} {old}" not in axiom or new == [old]:  # nothing would happen in the first step
         return None
     return _word(draft, "\n".join([f"axiom: {axiom}", *lines]), 2 + (level > 1), 24)
@@ -92,8 +97,8 @@ def _context(chance: Random, level: int, draft: Draft) -> Exercise | None:
 
 
 def _misprint(chance: Random, level: int, draft: Draft) -> Exercise | None:
-    letters = "abc"[: 2 + (level > 1)]
-    system = system_text("a", random_rules(chance, letters, 2))
+    letters = random_letters(chance, 2 + (level > 1))
+    system = system_text(chance.choice(letters), random_rules(chance, letters, 2 + (level == 1)))
     steps = 4 + (level > 1)
     words = words_of(system, steps)
     wrong = chance.randint(2, steps)
@@ -132,9 +137,9 @@ def _with_first_departures(exercise: Exercise, system: str, printed: list[str], 
 
 
 def _language(chance: Random, level: int, draft: Draft) -> Exercise | None:
-    letters = "abc"[: 2 + (level > 1)]
-    system = system_text("a", random_rules(chance, letters, 2 + (level > 2)))
-    words = words_of(system, 9)
+    letters = random_letters(chance, 2 + (level > 1))
+    system = system_text(chance.choice(letters), random_rules(chance, letters, 2 + (level != 2)))
+    words = words_of(system, 7 + 2 * (level > 1))
     at = 2 + (level > 1) + chance.randint(0, 1)
     right = words[at]
     if not 3 <= len(right.split()) <= 14 or len(words[-1].split()) < 2 * len(right.split()):
@@ -160,7 +165,7 @@ def _wrong_words(step: WrongStep, system: str, steps: int) -> list[str]:
 
 
 def _rules(chance: Random, level: int, draft: Draft) -> Exercise | None:
-    letters = "abc"[: 2 + (level > 1)]
+    letters = random_letters(chance, 2 + (level > 1))
     rules = random_rules(chance, letters, 2 + (level > 2))
     words = words_of(system_text(chance.choice(letters), rules), 3 + (level == 1))
     asked = chance.choice(letters)
@@ -186,8 +191,8 @@ def _listed(numbers: Sequence[int]) -> str:
 
 
 def _counts(chance: Random, level: int, draft: Draft) -> Exercise | None:
-    letters = "abc"[: 2 + (level > 1)]
-    system, steps = system_text("a", random_rules(chance, letters, 2 + (level > 1))), 3 + level
+    letters = random_letters(chance, 2 + (level > 1))
+    system, steps = system_text(_some_of(chance, letters), random_rules(chance, letters, 3)), 3 + level
     growing = growth(system_of(system))
     found = [growing.counts_of(letter, steps)[steps] for letter in letters if f"\n{letter} ->" in system]
     if not 6 < sum(found) < 200 or 0 in found or len(set(found)) < len(found):
@@ -197,8 +202,8 @@ def _counts(chance: Random, level: int, draft: Draft) -> Exercise | None:
 
 
 def _matrix(chance: Random, level: int, draft: Draft) -> Exercise | None:
-    letters = "abc"[: 2 + (level > 1)]
-    system = system_text("a", random_rules(chance, letters, 2 + level))
+    letters = random_letters(chance, 2 + (level > 1))
+    system = system_text(letters[0], random_rules(chance, letters, 2 + level))
     entries = list(map(int, growth(system_of(system)).matrix))
     size = len(letters)
     if len(entries) != size * size or len(set(entries)) < 2:
@@ -207,17 +212,24 @@ def _matrix(chance: Random, level: int, draft: Draft) -> Exercise | None:
     return draft.exercise(rows, {"system": system}, order=", ".join(letters))
 
 
+def _some_of(chance: Random, letters: str) -> str:
+    """An axiom of one letter or two."""
+    return " ".join(chance.choices(letters, k=chance.randint(1, 2)))
+
+
 def _length(chance: Random, level: int, draft: Draft) -> Exercise | None:
-    system = system_text("a", random_rules(chance, "abc"[: 2 + (level > 1)], 2))
-    steps = 6 + 2 * level + chance.randint(0, 3)
+    letters = random_letters(chance, 2 + (level > 1))
+    system = system_text(_some_of(chance, letters), random_rules(chance, letters, 2 + (level == 1)))
+    steps = 4 + 3 * level + chance.randint(0, 3)
     found = growth(system_of(system)).lengths(steps)
-    if found[3] < 3 or not 12 < found[-1] < 100 * 3**level:
+    if found[3] < 3 or not 12 < found[-1] < 300 * 2**level:
         return None
     return draft.exercise(found[-1], {"system": system, "steps": steps}, _listed(found))
 
 
 def _first_past(chance: Random, level: int, draft: Draft) -> Exercise | None:
-    system = system_text("a", random_rules(chance, "abc"[: 2 + (level > 1)], 3))
+    letters = random_letters(chance, 2 + (level > 1))
+    system = system_text(chance.choice(letters), random_rules(chance, letters, 3))
     bound = 10 ** (1 + level)
     lengths = growth(system_of(system)).lengths(40)
     first = next((step for step, length in enumerate(lengths) if length > bound), 0)
@@ -229,10 +241,12 @@ def _first_past(chance: Random, level: int, draft: Draft) -> Exercise | None:
 
 def _strokes(chance: Random, level: int, draft: Draft) -> Exercise | None:
     stem = ["F"] * chance.randint(1, 2)
+    bud = chance.choice("XABK")
     for _ in range(chance.randint(1, 2)):
-        stem += ["[", chance.choice("+-"), "F" if level < 3 else chance.choice("FX"), "]", *["F"] * chance.randint(0, 1)]
-    rules = {"F": stem} if level < 3 else {"X": [*stem, "X"], "F": ["F", "F"]}
-    axiom = {1: "F", 2: chance.choice(["F F", "F [ + F ] F", "F + F + F"]), 3: "X"}[level]
+        branch = chance.choice(["F", "FF"] if level < 3 else ["F", bud, f"F{bud}"])
+        stem += ["[", chance.choice("+-"), *branch, "]", *["F"] * chance.randint(0, 1)]
+    rules = {"F": stem} if level < 3 else {bud: [*stem, bud], "F": ["F", "F"]}
+    axiom = {1: "F", 2: chance.choice(["F F", "F [ + F ] F", "F + F + F"]), 3: bud}[level]
     system, steps = system_text(axiom, rules), 2 + chance.randint(0, 1)
     found = growth(system_of(system)).counts_of("F", steps)
     if not 6 < found[steps] < 700:
@@ -278,7 +292,7 @@ def _ageing(cell: str, life: int, daughters: Sequence[str]) -> list[str]:
 
 
 def _stages(chance: Random, level: int, draft: Draft) -> Exercise | None:
-    letters = "abcde"[: 2 + level]
+    letters = random_letters(chance, 2 + level)
     rules = {letter: [following] for letter, following in pairwise(letters)}
     rules[letters[-1]] = last = [chance.choice(letters) for _ in range(3)]
     if level > 2:
@@ -297,13 +311,15 @@ def _sum(letters: Sequence[str]) -> str:
 
 
 def _chance(chance: Random, level: int, draft: Draft) -> Exercise | None:
-    weight = Fraction(chance.randint(1, 6), chance.randint(7, 10))
-    rules = {"A": [(["A", "B"], weight), (["B"] if level > 1 else ["A"], 1 - weight)]}
+    weight = Fraction(chance.randint(1, 6), chance.randint(7, 12))
+    one, other = [*random_letters(chance, 2)]
+    rules = {one: [([one, other], weight), ([other] if level > 1 else [one], 1 - weight)]}
     if level > 2:
-        rules["B"] = [(["A"], Fraction(1, 3)), (["B"], Fraction(2, 3))]
-    axiom, steps = (["A", "A"], 1) if level == 1 else (["A"], 2)
+        share = chance.choice([Fraction(1, 3), Fraction(1, 4), Fraction(2, 5)])
+        rules[other] = [([one], share), ([other], 1 - share)]
+    axiom, steps = ([one, one], 1) if level == 1 else ([one], 2)
     if level == 1 and chance.random() < 0.5:
-        axiom = ["A", "B", "A", "A"]
+        axiom = [one, other, one, one]
     outcomes = _after(rules, axiom, steps)
     word = chance.choice(sorted(outcomes))
     share = outcomes[word]
@@ -375,7 +391,7 @@ def _looking(chance: Random, level: int, draft: Draft) -> Exercise | None:
     return draft.number(
         heights[-1],
         [sum(lengths), limit, others[-1]],
-        after=f"Its heights: {_listed(heights)}.",
+        heights=_listed(heights),
         first=first,
         shorter=draft.text("shorter" if shrinks else "equal", shrinks=shrinks),
         looks=draft.text("looks_first" if looks_first else "looks_ahead", limit=limit),
@@ -410,15 +426,15 @@ def _hedge(chance: Random, level: int, draft: Draft) -> Exercise | None:
 
 
 def _walls(chance: Random, level: int, draft: Draft) -> Exercise | None:
-    sides, steps = chance.randint(3, 12), level + chance.randint(1, 2)
-    neighbours = chance.choice([0, 0, 1]) if level > 1 else 0
-    cells, walls = 1 + neighbours, sides + neighbours * (sides - 1)
+    sides, steps = chance.randint(3, 18), level + chance.randint(0, 2)
+    cells = chance.randint(1, 2 + level)
+    walls = cells * sides - (cells - 1)
     made = cells * (2**steps - 1)
     wanted = walls + 3 * made
     return draft.number(
         wanted,
         [walls + made, walls + 3 * cells * steps, walls * 2**steps],
-        begin=draft.text("two_cells" if neighbours else "one_cell", sides=sides),
+        begin=draft.text("one_cell" if cells == 1 else "two_cells" if cells == 2 else "row", sides=sides, cells=cells),
         steps=steps,
         made=made,
         walls=walls,
@@ -430,9 +446,9 @@ def _walls(chance: Random, level: int, draft: Draft) -> Exercise | None:
 
 
 def _slices(chance: Random, level: int, draft: Draft) -> Exercise | None:
-    slice_ = Fraction(chance.choice([3, 4, 6, 7, 8, 9, 11, 12, 13, 14]), 10)
-    life = 1 if level == 1 else chance.choice([1, 2, 3])
-    newborn = Fraction(chance.randint(1, 4), 10) if level > 1 else Fraction(0)
+    slice_ = Fraction(chance.randint(6, 34), 20)
+    life = chance.randint(1, 5)
+    newborn = Fraction(chance.randint(1, 9), 10) if level > 1 else Fraction(0)
     slices = ceil(life / slice_)
     left = slices * slice_ - life
     if left + newborn >= life or not left or (level > 1 and slices < 2):
@@ -475,10 +491,16 @@ def _shares(chance: Random, draft: Draft) -> Exercise | None:
     return draft.number(length * Fraction(short, parts), wrong, length=length, short=short, long=long, parts=parts)
 
 
+MOST_POWER = 20_000
+"""The greatest power that is to be computed by hand."""
+
+
 def _other_daughter(chance: Random, draft: Draft) -> Exercise | None:
-    base, life = chance.choice([2, 3, 4, 5]), chance.randint(2, 6)
+    base, life = chance.randint(2, 12), chance.randint(2, 7)
     age = chance.randint(0, life - 1)
     mother, daughter = base**life, base**age
+    if mother > MOST_POWER:
+        return None
     wrong = [base ** (life - age), base * life - base * age, mother]
     return draft.number(mother - daughter, wrong, base=base, life=life, age=age, mother=mother, daughter=daughter)
 
@@ -515,14 +537,15 @@ def growth_type(lengths: Sequence[int]) -> str:
 
 
 def _growth_type(chance: Random, level: int, draft: Draft) -> Exercise | None:
-    letters = "abcd"[: 2 + (level > 1)]
+    letters = random_letters(chance, 2 + (level > 1))
     wanted = chance.choice(TYPES[: 3 + (level > 1)] if level > 1 else ("bounded", "linear", "exponential"))
     rules = {
-        letter: [chance.choice(letters[max(0, at - (level > 2)) :]) for _ in range(chance.randint(1, 2 + (level > 1)))]
+        letter: [chance.choice(letters[max(0, at - (level > 2)) :]) for _ in range(chance.randint(1, 3))]
         for at, letter in enumerate(letters)
     }
-    rules["a"] = ["a", *rules["a"]] if wanted == "quadratic" else rules["a"]
-    system = system_text("a", rules)
+    first = letters[0]
+    rules[first] = [first, *rules[first]] if wanted == "quadratic" else rules[first]
+    system = system_text(first, rules)
     lengths = growth(system_of(system)).lengths(48)
     if growth_type(lengths) != wanted or (wanted == "bounded" and lengths[1] == 1):
         return None
@@ -627,8 +650,9 @@ def heading_after(word: str) -> Vector:
 
 
 def _heading(chance: Random, level: int, draft: Draft) -> Exercise | None:
-    commands = [chance.choice("+-&^/\\") for _ in range(1 + level)]
-    if not {*commands} & {*"/\\"} or {*commands} <= {*"/\\"}:
+    commands = [chance.choice("+-&^/\\") for _ in range(max(3, level + chance.randint(1, 2)))]
+    rolls = sum(command in "/\\" for command in commands)
+    if not 0 < rolls < len(commands) or (level == 1 and rolls > 1):
         return None
     word = "F" + "".join(command + ("F" if chance.random() < 0.5 else "") for command in commands[:-1]) + commands[-1] + "F"
     right = heading_after(word)

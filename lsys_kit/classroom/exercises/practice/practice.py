@@ -1,4 +1,7 @@
-"""`practice`: exercises without end, made at random. One that a misconception would answer rightly is thrown away."""
+"""`practice`: exercises without end, made at random. One that a misconception would answer rightly is thrown away.
+
+Tries are kept in the record of progress, and say which exercise comes next.
+"""
 
 from __future__ import annotations
 
@@ -13,13 +16,22 @@ from lsys_kit.classroom.exercises.judging import is_right_by_mistake, wrong_answ
 from lsys_kit.classroom.exercises.kinds.choices import listing
 from lsys_kit.classroom.exercises.practice.drafts import TOPICS, Draft
 from lsys_kit.classroom.exercises.practice.makers import MAKERS
+from lsys_kit.classroom.exercises.practice.schedule import (
+    LEVELS,
+    Practised,
+    due,
+    kept_name,
+    last_level,
+    level_after,
+    new_seed,
+    practised,
+)
+from lsys_kit.classroom.exercises.progress import keep_try, record_so_far
+from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.classroom.exercises.verdict import Verdict
 from lsys_kit.errors import ModelNameError, ModelValueError, quotable, require, whole_number
 from lsys_kit.notation.analysis.checks import suggestion
-from lsys_kit.translation import language
-
-LEVELS = 3
-"""How many levels there are."""
+from lsys_kit.translation import gettext, language
 
 
 @dataclass(frozen=True, repr=False)
@@ -32,31 +44,64 @@ class Practice:
         What it was made from.
     exercise
         What is asked, with the right answer.
+    note
+        Why this exercise comes, where that is to be said.
+    then
+        Where to go on after this one, as topic, level and seed: it is one of another topic, which was missed.
     """
 
     topic: str
     level: int
     seed: int
     exercise: Exercise
+    note: str = ""
+    then: tuple[str, int, int] | None = None
 
     def check(self, answer: object = None, hint: int = 0, solution: bool = False) -> Verdict:
         """The verdict on an answer; after a try a hint or the solution can be shown, as `check` does.
 
-        >>> practice("derive", seed=17).check("a")
+        The try is kept with the progress, without the answer.
+
+        >>> practice("derive", seed=9).check("a")
         Not yet. That is what comes out if you leave out one of the productions. Every kind of module that changes needs a
         production.
         """
-        return checked(self.exercise, answer, hint, solution, "check(answer")
+        verdict = checked(self.exercise, answer, hint, solution, "check(answer")
+        problem = keep_try(kept_name(self.topic, self.level, self.seed), answer, verdict)
+        return Verdict(verdict.said, f"{verdict.message}\n{problem}".strip(), float(verdict)) if problem else verdict
 
     def next(self) -> Practice:
-        """Another exercise of the same kind and level."""
-        return practice(self.topic, self.level, self.seed + 1)
+        """Another exercise: after two right answers at once one of the next level, after two wrong ones of the one before.
+
+        A topic that was missed comes again after two others, and when it is solved at once then, after four and after eight.
+
+        >>> practice("walls", seed=7).next().seed
+        8
+        """
+        done = [each for each in practised(record_so_far().tries) if each.topic in TOPICS and each.level <= LEVELS]
+        topic, level, seed = self.then or (self.topic, self.level, self.seed)
+        found = level_after(done, topic, level)
+        missed = None if self.then or found.why else due(done, topic)
+        if missed is not None:
+            return self._again(missed, done)
+        why = found.why or ("back" if self.then else "")
+        title = gettext(TOPICS[topic]["title"])
+        note = reply(f"practice.{why}", level=found.level, title=title) if why else ""
+        return replace(practice(topic, found.level, new_seed(done, topic, found.level, seed + 1)), note=note)
+
+    def _again(self, missed: str, done: list[Practised]) -> Practice:
+        """An exercise of a topic that was missed; then this one goes on."""
+        level = level_after(done, missed, last_level(done, missed)).level
+        note = reply("practice.again", title=gettext(TOPICS[missed]["title"]))
+        then = self.topic, self.level, self.seed
+        return replace(practice(missed, level, new_seed(done, missed, level, 0)), note=note, then=then)
 
     def _repr_markdown_(self) -> str:
-        return f"**{self.exercise.title}**\n\n{self.exercise.question.strip()}{listing(self.exercise)}"
+        note = f"*{self.note}*\n\n" if self.note else ""
+        return f"{note}**{self.exercise.title}**\n\n{self.exercise.question.strip()}{listing(self.exercise)}"
 
     def __repr__(self) -> str:
-        return self._repr_markdown_().replace("**", "")
+        return self._repr_markdown_().replace("**", "").replace(f"*{self.note}*", self.note)
 
 
 def practice(topic: str, level: int = 1, seed: int = 0) -> Practice:
@@ -78,7 +123,8 @@ def practice(topic: str, level: int = 1, seed: int = 0) -> Practice:
     -------
     Practice
         The exercise, which displays as its question. Its `check(answer, hint=0, solution=False)` says whether an answer is
-        right; its `next()` is another exercise. No misconception that is looked for leads to the right answer.
+        right; its `next()` is another exercise, at a level that follows the answers, and now and then of a topic that was
+        missed. No misconception that is looked for leads to the right answer.
 
     Raises
     ------
@@ -89,21 +135,21 @@ def practice(topic: str, level: int = 1, seed: int = 0) -> Practice:
 
     Examples
     --------
-    >>> exercise = practice("derive", seed=17)
+    >>> exercise = practice("derive", seed=9)
     >>> exercise
     A word by hand
     <BLANKLINE>
     Derive by hand:
     <BLANKLINE>
-        axiom: a
-        a -> b a
-        b -> a b
+        axiom: b
+        a -> a a b
+        b -> a
     <BLANKLINE>
     Write the word of step 3.
-    >>> exercise.check("a b b a")
+    >>> exercise.check("a a b")
     Almost. That is what comes out if you stop one step too early, or call the axiom step 1. The axiom is step 0, and step 1 is
     what its modules become.
-    >>> exercise.check("b a a b a b b a")
+    >>> exercise.check("a a b a a b a")
     Correct.
     """
     require(topic, str, 'A topic such as "derive"')
