@@ -265,7 +265,7 @@ def _only_last(fits: Fits) -> list[str]:
     return [*dict.fromkeys(module.symbol for module in last if module.symbol not in before)]
 
 
-def _words_known(fits: Fits) -> list[Any]:
+def _words_known(fits: Fits) -> list[Row]:
     """The words up to the last that is not wholly unknown."""
     words = [*fits.words]
     while words[-1] == (GAP,):
