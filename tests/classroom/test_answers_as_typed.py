@@ -103,6 +103,7 @@ U, N, V, M, X, Y, L = sympy.symbols("u n v m x y L")
         ("8.1", sympy.Rational(27, 256)),
         ("8.1", 0.105),
         ("8.6", Decimal("0.8")),
+        ("7.2", sympy.sqrt((1 + sympy.sqrt(5)) / 2)),
         ("10.5", U * N < V * M),
         ("10.5", V * M - U * N > 0),
         ("12.2", 2.618034),

@@ -76,6 +76,8 @@ class Exercise:
     given, probes, settings, names, drawn
         Of a system, or the first of a map: the part that the question gives; further axioms and constants for which it must be
         right; how its symbols may be renamed ("new", "any" or "fixed"); whether angle, heading and length count.
+    behind
+        Of a system: whether what is typed stands behind what the question gives, and need not be right in front of it.
     values
         Of an expression: its names, each with the values for which it is asked.
     """
@@ -108,6 +110,7 @@ class Exercise:
     settings: tuple[Mapping[str, Value], ...] = field(default=(), hash=False)
     names: str = "new"
     drawn: bool = False
+    behind: bool = False
     values: Mapping[str, Sequence[Value]] = field(default_factory=dict, hash=False)
 
     def __repr__(self) -> str:

@@ -15,6 +15,8 @@ from lsys_kit.classroom.exercises.kinds.choices import letters
 from lsys_kit.classroom.exercises.kinds.kind import Difference
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS, solution_of
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS, Misconception
+from lsys_kit.classroom.exercises.repairs.repair import Repair
+from lsys_kit.classroom.exercises.repairs.table import repaired
 from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.classroom.exercises.verdict import Verdict
 from lsys_kit.errors import LSystemError
@@ -58,7 +60,7 @@ def wrong_answers(exercise: Exercise) -> tuple[WrongAnswer, ...]:
 
     >>> fibonacci = "axiom: a\\na -> ab\\nb -> a"
     >>> exercise = Exercise("1", "", "word", "", "abaab", "", (), system=fibonacci, steps=3)
-    >>> [wrong.misconception.name for wrong in wrong_answers(exercise)][:3]
+    >>> list(dict.fromkeys(wrong.misconception.name for wrong in wrong_answers(exercise)))[:3]
     ['sequential', 'one production a step', 'leftmost only']
     """
     return (*_declared(exercise), *_computed(exercise))
@@ -170,10 +172,19 @@ def judged(exercise: Exercise, answer: object) -> tuple[Verdict, bool]:
         return Verdict("Correct", kind.praise(exercise, own, solution)), True
     fitting = [wrong for wrong in wrong_answers(exercise) if _alike(exercise, own, wrong.answer)]
     found = kind.difference(exercise, own, solution)
-    near = found.near or (bool(fitting) and all(wrong.near for wrong in fitting))
+    repair = None if fitting or found.explains else repaired(exercise, own, solution)
+    near = found.near or (repair is not None and repair.near) or (bool(fitting) and all(wrong.near for wrong in fitting))
     said, mark = _parts_right(exercise, own, solution)
-    message = f"{said} {_explained(fitting, found) if fitting else found.message}".lstrip()
+    explained = _explained(fitting, found) if fitting else _said_of(repair, found)
+    message = f"{said} {explained}".lstrip()
     return Verdict("Almost" if near else "Not yet", message, mark), bool(fitting) or kind.honest(exercise, own, solution)
+
+
+def _said_of(repair: Repair | None, found: Difference) -> str:
+    """What is to be changed, and, if that does not say it, where the answer differs first."""
+    if repair is None:
+        return found.message
+    return repair.said() if not (repair.case and found.at_a_case) else f"{repair.said()} {found.message}"
 
 
 def _parts_right(exercise: Exercise, own: Any, solution: Any) -> tuple[str, float]:
@@ -194,6 +205,8 @@ def _explained(fitting: Sequence[WrongAnswer], found: Difference) -> str:
         others.pop(own.misconception.name if own.misconception else "", None)
         asked = reply("reply.or_did_you", do=_any_of(list(others.values()))) if others else ""
         return f"{own.says.strip()} {asked}".rstrip()
+    if found.explains:
+        return f"{found.message} {reply('reply.or_did_you', do=_any_of(list(others.values())))}"
     if len(others) == 1:
         only = next(iter(others.values()))
         if found.likeness >= MOST_RIGHT and found.at_a_place and not only.near:

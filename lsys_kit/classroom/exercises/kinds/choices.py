@@ -41,6 +41,10 @@ _LETTER = re.compile(
     re.IGNORECASE,
 )
 _LETTER_AND_TEXT = re.compile(r"^\W*([A-Za-z])\s*[:.)\]-]+\s+(\S.*)$", re.DOTALL)
+_LETTER_AND_REASON = re.compile(
+    r"^\W*([A-Za-z])\s*(?:,|;|-|–|\bbecause\b|\bsince\b|\bas\b|\bweil\b|\bda\b)\s*[^\W\d_]{2,}.*$", re.DOTALL | re.IGNORECASE
+)
+"""A letter, and why."""
 _EXCLUDING = frozenset(WORDS["excluding"].split())
 MOST_WORDS = 3
 """So many words has an answer that names an option of one word."""
@@ -56,6 +60,10 @@ def _plain(text: str) -> str:
 
 
 def _read_choice(exercise: Exercise, answer: object) -> str:
+    if isinstance(answer, list | tuple) and all(isinstance(each, str) for each in answer):
+        if len(answer) != 1:
+            raise ModelValueError(reply("choice.one_needed", number=len(answer)))
+        answer = answer[0]
     text = " ".join(text_answer(answer, reply("choice.what"), '"A"').split())
     known = letters(exercise)
     texts = {letter: _plain(option.text) for option, letter in zip(exercise.options, known, strict=True)}
@@ -65,7 +73,13 @@ def _read_choice(exercise: Exercise, answer: object) -> str:
         meant = [named[1].upper()]
     if both and both[1].upper() in known and not meant:
         meant = [letter for letter in _with_part(texts, _plain(both[2])) if letter == both[1].upper()]
+    reason = _LETTER_AND_REASON.match(text)
+    if reason and reason[1].upper() in known and not meant:
+        meant = [reason[1].upper()]
     meant = meant or _with_part(texts, _plain(text)) or _named_in(texts, text)
+    if len(meant) > 1:
+        several = reply("choice.several", text=quoted(text))
+        raise ModelNameError(several, hint=reply("choice.choose", options=", ".join(meant)))
     if len(meant) != 1:
         raise ModelNameError(
             reply("choice.none_of_these", text=quoted(text)), hint=reply("choice.choose", options=", ".join(known))
@@ -74,16 +88,17 @@ def _read_choice(exercise: Exercise, answer: object) -> str:
 
 
 def _with_part(texts: Mapping[str, str], part: str) -> list[str]:
+    """The options whose texts contain a part, as whole words in one of them; figures and signs may go on."""
     before = r"(?<!\w)" if part[:1].isalnum() else ""
-    whole = rf"{before}{re.escape(part)}(?!\w)"
+    after = r"(?!\w)" if part[-1:].isalnum() else ""
     enough = len(part) >= _SHORTEST_PART or part.isdigit()
-    return [letter for letter, text in texts.items() if enough and re.search(whole, text)]
+    return [letter for letter, text in texts.items() if enough and re.search(before + re.escape(part) + after, text)]
 
 
 def _named_in(texts: Mapping[str, str], text: str) -> list[str]:
     """The options that a short answer names: those of one word, or that begin with one and a colon."""
     words = re.findall(r"\w+", _plain(text))
-    if len(words) > MOST_WORDS or _EXCLUDING & set(words):
+    if len(words) > MOST_WORDS or (_EXCLUDING | {"and", "und"}) & set(words):
         return []
     return [letter for letter, own in texts.items() if own.partition(":")[0] in words]
 
@@ -137,7 +152,8 @@ SYMBOL = AnswerKind(_read_symbol, _symbol_difference, _same_symbol)
 
 
 _LINE_NUMBER = re.compile(
-    r"^\W*(?:(?:it|is|the|in|line|number|no|nr|l|es|ist|die|zeile|nummer)\b\W*|l)*(\d{1,8})(?:\W+line)?\W*$", re.IGNORECASE
+    r"^\W*(?:(?:it|is|the|in|line|number|no|nr|l|es|ist|die|zeile|nummer)\b\W*|l)*(\d{1,8})(?:\W+line)?(?:\W*$|\s*[:,;]\s*[^\W\d].*$)",
+    re.IGNORECASE | re.DOTALL,
 )
 
 

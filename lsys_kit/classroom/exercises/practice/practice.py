@@ -43,8 +43,7 @@ class Practice:
         """The verdict on an answer; after a try a hint or the solution can be shown, as `check` does.
 
         >>> practice("derive", seed=17).check("a")
-        Not yet. That is what comes out if you leave out one of the productions. Every kind of module that changes needs a
-        production.
+        Not yet. That is the word of step 0. Or did you leave out one of the productions?
         """
         return checked(self.exercise, answer, hint, solution, "check(answer")
 
