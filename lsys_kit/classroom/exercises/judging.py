@@ -172,12 +172,22 @@ def judged(exercise: Exercise, answer: object) -> tuple[Verdict, bool]:
         return Verdict("Correct", kind.praise(exercise, own, solution)), True
     fitting = [wrong for wrong in wrong_answers(exercise) if _alike(exercise, own, wrong.answer)]
     found = kind.difference(exercise, own, solution)
-    repair = None if fitting or found.explains else repaired(exercise, own, solution)
-    near = found.near or (repair is not None and repair.near) or (bool(fitting) and all(wrong.near for wrong in fitting))
+    repair = _repair(exercise, own, fitting, found)
+    near = found.near or bool(repair and repair.near) or (bool(fitting) and all(wrong.near for wrong in fitting))
     said, mark = _parts_right(exercise, own, solution)
-    explained = _explained(fitting, found) if fitting else _said_of(repair, found)
-    message = f"{said} {explained}".lstrip()
-    return Verdict("Almost" if near else "Not yet", message, mark), bool(fitting) or kind.honest(exercise, own, solution)
+    explained = _explained(fitting, found) if fitting else ""
+    changed = _said_of(repair, found) if repair or not fitting else ""
+    message = " ".join(filter(None, (said, explained, changed)))
+    tried = bool(fitting or repair) or kind.honest(exercise, own, solution)
+    return Verdict("Almost" if near else "Not yet", message, mark), tried
+
+
+def _repair(exercise: Exercise, own: Any, fitting: Sequence[WrongAnswer], found: Difference) -> Repair | None:
+    """The repair of which a reply speaks: where nothing else explains the answer, and of a system also where its mistake is."""
+    if found.explains or any(wrong.says for wrong in fitting) or (fitting and exercise.kind != "system"):
+        return None
+    repair = repaired(exercise, own, solution_of(exercise))
+    return None if fitting and repair and repair.changes > 1 else repair
 
 
 def _said_of(repair: Repair | None, found: Difference) -> str:

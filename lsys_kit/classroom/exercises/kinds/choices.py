@@ -88,11 +88,12 @@ def _read_choice(exercise: Exercise, answer: object) -> str:
 
 
 def _with_part(texts: Mapping[str, str], part: str) -> list[str]:
-    """The options whose texts contain a part, as whole words in one of them; figures and signs may go on."""
-    before = r"(?<!\w)" if part[:1].isalnum() else ""
-    after = r"(?!\w)" if part[-1:].isalnum() else ""
-    enough = len(part) >= _SHORTEST_PART or part.isdigit()
-    return [letter for letter, text in texts.items() if enough and re.search(before + re.escape(part) + after, text)]
+    """The options whose texts contain a part; none where no text has it as whole words."""
+    before, after = (r"(?<!\w)" if part[:1].isalnum() else ""), (r"(?!\w)" if part[-1:].isalnum() else "")
+    whole = [letter for letter, text in texts.items() if re.search(before + re.escape(part) + after, text)]
+    if part.isdigit() or not whole:
+        return whole
+    return [letter for letter, text in texts.items() if part in text] if len(part) >= _SHORTEST_PART else []
 
 
 def _named_in(texts: Mapping[str, str], text: str) -> list[str]:

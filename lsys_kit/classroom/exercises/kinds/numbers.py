@@ -11,7 +11,7 @@ from typing import Any
 
 from lsys_kit.classroom.exercises.asked import asked_steps, bound_of, last_step, right_history, what_is_asked
 from lsys_kit.classroom.exercises.exercise import Exercise
-from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference, first_difference, one_apart
+from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference, one_apart
 from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.classroom.exercises.typed import (
     UNITS,
@@ -233,7 +233,7 @@ def _honest_number(_: Exercise, number: Value, solution: Value) -> bool:
     if not solution:
         return bool(0 < _distance(number, 0) <= MOST_APART)
     size, wanted = _distance(number, 0), _distance(solution, 0)
-    return bool((number > 0) == (solution > 0) and number and wanted <= MOST_APART * size and size <= MOST_APART * wanted)
+    return bool(number and wanted <= MOST_APART * size and size <= MOST_APART * wanted)
 
 
 NUMBER = AnswerKind(_read_number, _number_difference, same_number, _honest_number)
@@ -316,8 +316,7 @@ def _look_at(exercise: Exercise, at: int, own: str) -> str:
 
 
 def _honest_table(_: Exercise, own: tuple[Value, ...], solution: tuple[Value, ...]) -> bool:
-    begun = 2 * len(own) >= len(solution) and first_difference(own, solution) > 0
-    return begun or (len(own) == len(solution) and any(own))
+    return any(own) or own == solution[: len(own)]
 
 
 TABLE = AnswerKind(_read_table, _table_difference, _same_table, _honest_table, parts_right=_numbers_right)

@@ -222,7 +222,7 @@ def _words_right(_: Exercise, own: Sequence[Modules], solution: Sequence[Modules
 
 
 def _honest_words(_: Exercise, own: Sequence[Modules], solution: Sequence[Modules]) -> bool:
-    return 2 * len(own) >= len(solution)
+    return 2 * len(own) >= len(solution) or any(word in solution for word in own)
 
 
 WORDS = AnswerKind(_read_words, _words_difference, honest=_honest_words, parts_right=_words_right)

@@ -13,9 +13,10 @@ from lsys_kit.classroom.exercises.asked import written
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.drawings import Drawn, drawn
 from lsys_kit.classroom.exercises.repairs.of_systems import repairs_of
-from lsys_kit.classroom.exercises.repairs.repair import Repair, said_of_row
+from lsys_kit.classroom.exercises.repairs.repair import Repair, row_change, said_of_row
 from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import LSystem
 
 Row: TypeAlias = tuple[Module, ...]
 MOST_MODULES = 60
@@ -31,19 +32,26 @@ def of_drawings(exercise: Exercise, mine: Drawn, wanted: Drawn) -> Iterator[Repa
         word, right = tuple(mine.derivation[0]), tuple(wanted.derivation[-1])
         if not exercise.system and system.angle != target.angle:
             turned = replace(system, angle=target.angle)
-            yield Repair(Drawn(written(turned, word)), partial(reply, "repair.angle"))
+            yield Repair(partial(_drawn, turned, word), partial(reply, "repair.angle"))
         for changed in _towards(word, right):
-            yield Repair(Drawn(written(system, changed)), partial(said_of_row, word, changed), case=True)
+            yield Repair(partial(_drawn, system, changed), partial(said_of_row, word, changed), case=True)
         for one, other in _word_pairs(word, right):
-            yield Repair(Drawn(written(system, other)), partial(_two_said, word, one), near=False, case=True)
+            yield Repair(partial(_drawn, system, other), partial(_two_said, word, one, other), near=False, case=True, changes=2)
         for changed in _words(word, right):
-            yield Repair(Drawn(written(system, changed)), partial(said_of_row, word, changed), case=True)
+            yield Repair(partial(_drawn, system, changed), partial(said_of_row, word, changed), case=True)
     else:
         yield from repairs_of(system, target, partial(drawn, exercise), settings=("angle",))
 
 
-def _two_said(word: Row, changed: Row) -> str:
-    return f"{reply('repair.two')} {said_of_row(word, changed)}"
+def _drawn(system: LSystem, word: Row) -> Drawn:
+    return Drawn(written(system, word))
+
+
+def _two_said(word: Row, one: Row, both: Row) -> str:
+    """What is said of two changes: that they are one of a pair of brackets, or of one of them."""
+    if row_change(word, both).startswith("brackets"):
+        return said_of_row(word, both)
+    return f"{reply('repair.two')} {said_of_row(word, one)}"
 
 
 def _words(word: Row, right: Row) -> Iterator[Row]:
@@ -83,5 +91,3 @@ def _word_pairs(word: Row, right: Row) -> Iterator[tuple[Row, Row]]:
     operations = _operations(word, right)
     for one, other in combinations(operations, 2):
         yield _made(word, right, [one]), _made(word, right, [one, other])
-    if len(operations) > 2:
-        yield _made(word, right, operations[:1]), right

@@ -18,6 +18,8 @@ from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number,
 _COMPARISONS = ("<", "<=", ">", ">=", "==", "!=")
 _JOINED = ("&&", "||")
 _OF_NUMBERS = ("+", "-", "*", "/")
+KINDS = ("extra", "number", "name", "comparison", "joined", "operator", "sign", "power", "order", "missing", "part")
+"""The kinds of changes, in the order in which they are tried."""
 MOST_PAIRS = 2_000
 """So many pairs of changes are tried."""
 
@@ -31,23 +33,28 @@ def of_expressions(exercise: Exercise, own: Expression, solution: Expression) ->
     def simple(part: Expression) -> Iterator[tuple[Expression, str]]:
         yield from _variants(part, names, numbers)
 
-    def variants(part: Expression) -> Iterator[tuple[Expression, str]]:
-        yield from simple(part)
+    def of_the_solution(part: Expression) -> Iterator[tuple[Expression, str]]:
         kind = expression_type(part)
         others = [other for other in parts if expression_type(other) == kind and other != part]
         yield from ((other, "part") for other in others)
         if kind == "truth":
             yield from ((Apply(sign, (part, other)), "missing") for other in others for sign in _JOINED)
 
-    small = dict(reversed([*changed_once(own, variants)]))
-    for changed, kind in reversed(small.items()):
+    small: dict[Expression, str] = {}
+    for changed, kind in (*changed_once(own, simple), *changed_once(own, of_the_solution)):
+        small.setdefault(changed, kind)
+    for changed, kind in sorted(small.items(), key=lambda each: KINDS.index(each[1])):
         if agrees(changed):
-            yield Repair(changed, partial(reply, f"repair.formula_{kind}"), case=True)
+            yield Repair(partial(_as_it_is, changed), partial(reply, f"repair.formula_{kind}"), case=True)
     once = dict(changed_once(own, simple))
     twice = ((other, kind) for changed, kind in once.items() for other, _ in changed_once(changed, simple))
     for changed, kind in islice(twice, MOST_PAIRS):
         if agrees(changed):
-            yield Repair(changed, partial(_two_said, kind), near=False, case=True)
+            yield Repair(partial(_as_it_is, changed), partial(_two_said, kind), near=False, case=True, changes=2)
+
+
+def _as_it_is(changed: Expression) -> Expression:
+    return changed
 
 
 def _two_said(kind: str) -> str:

@@ -25,18 +25,22 @@ def of_maps(exercise: Exercise, mine: MapAnswer, wanted: MapAnswer) -> Iterator[
             if not (successor and isinstance(successor[0], Edge) and isinstance(successor[-1], Edge)):
                 continue
             rules = (*mine.own[:at], replace(rule, successor=successor), *mine.own[at + 1 :])
-            yield Repair(_made(exercise, mine, rules), partial(_said, kind, rule))
+            yield Repair(partial(_made, exercise, mine, rules), partial(_said, kind, rule))
         for other in wanted.own:
             rules = (*mine.own[:at], replace(rule, predecessor=other.predecessor), *mine.own[at + 1 :])
-            yield Repair(_made(exercise, mine, rules), partial(_said, "predecessor", rule))
+            yield Repair(partial(_made, exercise, mine, rules), partial(_said, "predecessor", rule))
             yield Repair(
-                _made(exercise, mine, (*mine.own[:at], other, *mine.own[at + 1 :])), partial(_whole, rule, other), near=False
+                partial(_made, exercise, mine, (*mine.own[:at], other, *mine.own[at + 1 :])),
+                partial(_whole, rule, other),
+                near=False,
             )
-        yield Repair(_made(exercise, mine, (*mine.own[:at], *mine.own[at + 1 :])), partial(_said, "extra_production", rule))
+        yield Repair(
+            partial(_made, exercise, mine, (*mine.own[:at], *mine.own[at + 1 :])), partial(_said, "extra_production", rule)
+        )
     for other in wanted.own:
         if other.predecessor not in {rule.predecessor for rule in mine.own}:
             said = partial(reply, "repair.missing_production", module=other.predecessor)
-            yield Repair(_made(exercise, mine, (*mine.own, other)), said)
+            yield Repair(partial(_made, exercise, mine, (*mine.own, other)), said)
 
 
 def _made(exercise: Exercise, mine: MapAnswer, rules: Sequence[EdgeProduction]) -> MapAnswer:

@@ -23,24 +23,24 @@ def of_nets(exercise: Exercise, mine: Net, wanted: Net) -> Iterator[Repair]:
     """Repairs of a net: of one arrow, of one stage, of the names that the question fixes."""
     places = sorted({*places_of(mine)})
     if mine.start != wanted.start and wanted.start is not None:
-        yield Repair(replace(mine, start=wanted.start), partial(reply, "net.start"))
+        yield Repair(partial(replace, mine, start=wanted.start), partial(reply, "net.start"))
     for at, firing in enumerate(mine.firings):
         for made, kind in _other_targets(firing, [*places, NEW]):
             said = partial(reply, f"repair.net_{kind}", place=firing.place)
-            yield Repair(_with(mine, at, replace(firing, made=made)), said)
-        yield Repair(_with(mine, at), partial(reply, "repair.net_extra_transition", place=firing.place))
+            yield Repair(partial(_with, mine, at, replace(firing, made=made)), said)
+        yield Repair(partial(_with, mine, at), partial(reply, "repair.net_extra_transition", place=firing.place))
         if len(firing.made) == 1 and firing.made[0][1] == 1:
             target = firing.made[0][0]
             others = _with(mine, at)
             if target != firing.place:
-                yield Repair(with_places(others, {firing.place: target}), partial(reply, "repair.net_extra_stage"))
+                yield Repair(partial(with_places, others, {firing.place: target}), partial(reply, "repair.net_extra_stage"))
     emptied = {firing.place for firing in mine.firings}
     for place in places:
         if place not in emptied:
             for other in places:
                 new = Firing(place, ((other, 1),))
                 said = partial(reply, "repair.net_missing_transition", place=place)
-                yield Repair(replace(mine, firings=(*mine.firings, new)), said)
+                yield Repair(partial(replace, mine, firings=(*mine.firings, new)), said)
     yield from _stages_between(mine)
     yield from _other_names(exercise, mine, places)
 
@@ -72,10 +72,11 @@ def _stages_between(net: Net) -> Iterator[Repair]:
         for place, copies in firing.made:
             made = Counter(dict(firing.made)) - Counter({place: copies}) + Counter({NEW: copies})
             longer = _with(net, at, replace(firing, made=_sorted(made)), Firing(NEW, ((place, 1),)))
-            yield Repair(longer, partial(reply, "repair.net_missing_stage"))
+            yield Repair(partial(replace, longer), partial(reply, "repair.net_missing_stage"))
         before = [replace(f, made=tuple((NEW if p == firing.place else p, n) for p, n in f.made)) for f in net.firings]
         yield Repair(
-            replace(net, firings=(*before, Firing(NEW, ((firing.place, 1),)))), partial(reply, "repair.net_missing_stage")
+            partial(replace, net, firings=(*before, Firing(NEW, ((firing.place, 1),)))),
+            partial(reply, "repair.net_missing_stage"),
         )
 
 
@@ -91,6 +92,6 @@ def _other_names(exercise: Exercise, net: Net, places: Sequence[str]) -> Iterato
         free = [place for place in fixed if place in places and place not in chosen]
         names |= {place: f"{NEW}{place}" for place in free}
         if any(own != other for own, other in names.items()):
-            yield Repair(with_places(net, names), said)
+            yield Repair(partial(with_places, net, names), said)
     for one, other in combinations(places, 2):
-        yield Repair(with_places(net, {one: other, other: one}), partial(reply, "repair.net_names"))
+        yield Repair(partial(with_places, net, {one: other, other: one}), partial(reply, "repair.net_names"))

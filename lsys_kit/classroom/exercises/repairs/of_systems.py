@@ -97,12 +97,12 @@ def of_systems(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) -> 
     if joined:
         split = rules_with(mine.own, lambda symbol: joined.get(symbol, symbol).split())
         name, letters = next(iter(joined.items()))
-        yield Repair(make(split), partial(reply, "system.joined", name=name, letters=letters))
+        yield Repair(partial(make, split), partial(reply, "system.joined", name=name, letters=letters))
         return
     others = names_in_other_case(exercise, mine)
     if others:
         own, name = next(iter(others.items()))
-        yield Repair(make(with_names(mine.own, others)), partial(reply, "repair.other_case", own=own, name=name))
+        yield Repair(partial(make, with_names(mine.own, others)), partial(reply, "repair.other_case", own=own, name=name))
     reached = _modules(exercise, mine, wanted)
     blamed = _blamed(exercise, mine, wanted, reached)
     given = () if is_whole or not exercise.given else system_of(exercise.given).productions
@@ -171,7 +171,7 @@ def repairs_of(
 def _repairs(own: LSystem, make: Callable[[LSystem], Any], edit: Edit) -> Iterator[Repair]:
     changed = applied(own, edit)
     if is_sensible(changed):
-        yield Repair(make(changed), edit.said, edit.near)
+        yield Repair(partial(make, changed), edit.said, edit.near)
 
 
 def _pairs(own: LSystem, make: Callable[[LSystem], Any], edits: Sequence[Edit]) -> Iterator[Repair]:
@@ -180,7 +180,7 @@ def _pairs(own: LSystem, make: Callable[[LSystem], Any], edits: Sequence[Edit]) 
             changed = applied(own, one, other)
             if is_sensible(changed):
                 first, second = (other, one) if one.slot[0] == "axiom" else (one, other)
-                yield Repair(make(changed), partial(_two_said, first, second), near=False)
+                yield Repair(partial(make, changed), partial(_two_said, first, second), near=False, changes=2)
 
 
 def _two_said(one: Edit, other: Edit) -> str:
@@ -429,7 +429,7 @@ def _reordered(own: LSystem, make: Callable[[LSystem], Any]) -> Iterator[Repair]
     for one, other in combinations(range(len(rules)), 2):
         if rules[one].predecessor.symbol == rules[other].predecessor.symbol:
             moved = [*rules[:one], rules[other], *rules[one:other], *rules[other + 1 :]]
-            yield Repair(make(replace(own, productions=tuple(moved))), partial(reply, "repair.rule_order"))
+            yield Repair(partial(make, replace(own, productions=tuple(moved))), partial(reply, "repair.rule_order"))
 
 
 def _exchanged(own: LSystem, make: Callable[[LSystem], Any]) -> Iterator[Repair]:
@@ -441,7 +441,7 @@ def _exchanged(own: LSystem, make: Callable[[LSystem], Any]) -> Iterator[Repair]
             swapped[one] = replace(rules[one], successor=rules[other].successor)
             swapped[other] = replace(rules[other], successor=rules[one].successor)
             modules = {"one": rules[one].predecessor, "other": rules[other].predecessor}
-            yield Repair(make(replace(own, productions=tuple(swapped))), partial(reply, "repair.exchanged", **modules))
+            yield Repair(partial(make, replace(own, productions=tuple(swapped))), partial(reply, "repair.exchanged", **modules))
 
 
 def _in_the_other_block(own: LSystem, make: Callable[[LSystem], Any]) -> Iterator[Repair]:
@@ -451,7 +451,7 @@ def _in_the_other_block(own: LSystem, make: Callable[[LSystem], Any]) -> Iterato
             rest = getattr(own, block)[:at] + getattr(own, block)[at + 1 :]
             moved: dict[str, Any] = {block: rest, other: (*getattr(own, other), rule)}
             said = partial(_said, f"in_{other}", partial(typed_rule, rule, own))
-            yield Repair(make(replace(own, **moved)), said)
+            yield Repair(partial(make, replace(own, **moved)), said)
 
 
 # Where the answer is written in another way

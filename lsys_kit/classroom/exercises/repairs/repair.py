@@ -19,19 +19,22 @@ class Repair:
     Attributes
     ----------
     answer
-        The answer with the change.
+        Makes the answer with the change; it may fail, where that is no answer at all.
     said
         What is said if it is right then: what kind of thing is to be changed, and where; never what should stand there.
     near
         Whether it is a small change, so that the answer is nearly right.
     case
         Whether the place at which the answer first differs, or a case in which it does, says more.
+    changes
+        How many changes it is made of.
     """
 
-    answer: Any
+    answer: Callable[[], Any]
     said: Callable[[], str]
     near: bool = True
     case: bool = False
+    changes: int = 1
 
 
 Repairs: TypeAlias = Callable[[Exercise, Any, Any], Iterator[Repair]]
@@ -71,16 +74,18 @@ def row_change(own: Sequence[object], right: Sequence[object]) -> str:
     while last < min(len(own), len(right)) - first and own[-1 - last] == right[-1 - last]:
         last += 1
     mine, wanted = list(own[first : len(own) - last]), list(right[first : len(right) - last])
+    if abs(len(own) - len(right)) > 1 and _has_more_brackets(right, own):
+        return "brackets_missing"
+    if abs(len(own) - len(right)) > 1 and _has_more_brackets(own, right):
+        return "brackets_extra"
     if len(mine) + len(wanted) == 1:
         return f"missing_{_class(wanted[0])}" if wanted else f"extra_{_class(mine[0])}"
+    if not mine or not wanted:
+        return "missing_several" if wanted else "extra_several"
     if len(mine) == len(wanted) == 1:
         return _changed(mine[0], wanted[0])
     if Counter(map(str, mine)) == Counter(map(str, wanted)):
         return "order"
-    if not any(map(_is_bracket, own)) and _without_brackets(right) == list(own):
-        return "brackets_missing"
-    if not any(map(_is_bracket, right)) and _without_brackets(own) == list(right):
-        return "brackets_extra"
     return "several"
 
 
@@ -96,8 +101,16 @@ def _is_bracket(part: object) -> bool:
     return _class(part) == "bracket"
 
 
-def _without_brackets(row: Sequence[object]) -> list[object]:
-    return [part for part in row if not _is_bracket(part)]
+def _has_more_brackets(longer: Sequence[object], shorter: Sequence[object]) -> bool:
+    """Whether a row is another one with more brackets."""
+    rest = iter(shorter)
+    part = next(rest, None)
+    for each in longer:
+        if each == part:
+            part = next(rest, None)
+        elif not _is_bracket(each):
+            return False
+    return part is None
 
 
 def _changed(mine: object, wanted: object) -> str:

@@ -46,10 +46,10 @@ def repaired(exercise: Exercise, own: Any, solution: Any) -> Repair | None:
     tried = repairs(exercise, own, solution)
     with limits(modules=min(MOST_MODULES, current().modules)):
         while processor_time() < until:
+            each = next(tried, None)
+            if each is None:
+                return None
             with suppress(LSystemError, ArithmeticError):
-                each = next(tried, None)
-                if each is None:
-                    return None
-                if same(exercise, each.answer, solution):
+                if same(exercise, each.answer(), solution):
                     return each
     return None
