@@ -66,7 +66,7 @@ class Exercise:
     system, constants, steps, at, asks
         The system that the question is about, values for its constants, the step, the steps of a table, and what is asked.
     symbols
-        The letters of a word without a system; the order of counts in a table.
+        The letters of a word without a system; the order of counts in a table; the places of a net that the question names.
     text
         The word or program of which a symbol or line is asked.
     unit, tolerance

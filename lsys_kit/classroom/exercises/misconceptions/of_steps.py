@@ -10,6 +10,7 @@ from typing import Any, TypeAlias
 
 from lsys_kit.classroom.exercises.asked import (
     History,
+    answer_by,
     asked_steps,
     asked_system,
     beginning_with,
@@ -76,11 +77,17 @@ MOST_ORDERED = 3
 
 @misconception("sequential")
 def sequential_in_each_order(exercise: Exercise) -> Iterator[Any]:
-    """Each production is applied everywhere, one after another, the second to what the first has made; in any order."""
-    number = len(asked_system(exercise).productions) if is_derived(exercise) else 0
+    """Each production is applied everywhere, one after another, the second to what the first has made.
+
+    In the order in which they are written, or in another; one that happens to lead to the right answer shows nothing.
+    """
+    if not is_derived(exercise):
+        return
+    yield from by_steps(sequential, exercise)
+    number, right = len(asked_system(exercise).productions), answer_by(exercise, right_history(exercise))
     rules = range(number)
-    for order in permutations(rules) if number <= MOST_ORDERED else (rules, rules[::-1]):
-        yield from by_steps(partial(sequential, order=order), exercise)
+    for order in permutations(rules) if number <= MOST_ORDERED else (rules[::-1],):
+        yield from (answer for answer in by_steps(partial(sequential, order=order), exercise) if answer != right)
 
 
 def sequential(states: States, word: list[int], order: Sequence[int] | None = None) -> list[int]:
