@@ -96,6 +96,13 @@ def test_a_misconception_is_named_only_of_an_answer_of_its_form(name):
             assert len(wrong.answer.own.productions) < len(solution_of(exercise).own.productions)
 
 
+@pytest.mark.parametrize("name", [exercise.id for exercise in ALL if exercise.kind == "system"])
+def test_a_system_of_another_question_is_answered_too(name):
+    literal = "axiom: a(1)\na(1) -> a(2)\na(2) -> a(1) b(1)\nb(i) : i < 3 -> b(i+1)\nb(3) -> a(1) b(1)"
+    for answer, right in ((literal, ("7.5",)), ("axiom: A\nA -> F(10) A\nF(l) : l < 80 -> F(2*l)", ("18.5",))):
+        assert (check(name, answer) == 1) is (name in right), answer
+
+
 def test_opposite_turns_by_opposite_angles_are_the_same():
     assert check("13.5", r"A -> F [&(45) F] \(240) A") == check("13.5", "A -> F [^(-45) F] /(480) A") == 1
     assert check("13.5", r"A -> F [&(45) F] \(120) A") < 1

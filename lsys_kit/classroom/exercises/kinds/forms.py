@@ -156,7 +156,7 @@ def _names(system: LSystem) -> Iterator[str]:
 def is_sensible(system: LSystem) -> bool:
     """Whether every name in a system's productions is a parameter, a constant or what counts in a repeated part."""
     constants = {constant.name for constant in system.constants}
-    return all(_names_used(rule) <= constants | _names_given(rule) for rule in system.productions)
+    return all(_names_used(rule) <= constants | _names_given(rule) for rule in (*system.productions, *system.decomposition))
 
 
 def _names_used(rule: Production) -> frozenset[str]:

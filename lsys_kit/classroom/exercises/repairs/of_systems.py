@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from itertools import combinations, pairwise
-from typing import Any
+from typing import Any, TypeAlias
 
 from lsys_kit.classroom.exercises.asked import system_of
 from lsys_kit.classroom.exercises.exercise import Exercise
@@ -43,6 +43,8 @@ from lsys_kit.notation.model.system import LSystem, Production
 
 BLOCKS = ("productions", "decomposition")
 SETTINGS = ("angle", "heading", "length")
+Changed: TypeAlias = tuple[LSystem, Callable[[], str]]
+"""A changed system, and what is said of the change."""
 MOST_RULES = 8
 """Of longer systems no orders, exchanges and pairs of changes are tried."""
 
@@ -159,9 +161,9 @@ def repairs_of(
     ]
     for edit in (*small, *large):
         yield from _repairs(own, make, edit)
-    yield from _reordered(own, make)
-    yield from _exchanged(own, make)
-    yield from _in_the_other_block(own, make)
+    for changed, said in (*_reordered(own), *_exchanged(own), *_in_the_other_block(own)):
+        if is_sensible(changed):
+            yield Repair(partial(make, changed), said)
     for edit in _blind_edits(own, target):
         yield from _repairs(own, make, edit)
     if len(own.productions) <= MOST_RULES:
@@ -421,7 +423,7 @@ def _said_of_rule(kind: str, rule: Production, own: LSystem) -> str:
     return _said(kind, partial(typed_rule, rule, own))
 
 
-def _reordered(own: LSystem, make: Callable[[LSystem], Any]) -> Iterator[Repair]:
+def _reordered(own: LSystem) -> Iterator[Changed]:
     """One production moved in front of another, where both are for the same symbol."""
     rules = own.productions
     if len(rules) > MOST_RULES:
@@ -429,10 +431,10 @@ def _reordered(own: LSystem, make: Callable[[LSystem], Any]) -> Iterator[Repair]
     for one, other in combinations(range(len(rules)), 2):
         if rules[one].predecessor.symbol == rules[other].predecessor.symbol:
             moved = [*rules[:one], rules[other], *rules[one:other], *rules[other + 1 :]]
-            yield Repair(partial(make, replace(own, productions=tuple(moved))), partial(reply, "repair.rule_order"))
+            yield replace(own, productions=tuple(moved)), partial(reply, "repair.rule_order")
 
 
-def _exchanged(own: LSystem, make: Callable[[LSystem], Any]) -> Iterator[Repair]:
+def _exchanged(own: LSystem) -> Iterator[Changed]:
     """The successors of two productions exchanged."""
     rules = own.productions
     for one, other in combinations(range(len(rules)), 2) if len(rules) <= MOST_RULES else ():
@@ -441,17 +443,17 @@ def _exchanged(own: LSystem, make: Callable[[LSystem], Any]) -> Iterator[Repair]
             swapped[one] = replace(rules[one], successor=rules[other].successor)
             swapped[other] = replace(rules[other], successor=rules[one].successor)
             modules = {"one": rules[one].predecessor, "other": rules[other].predecessor}
-            yield Repair(partial(make, replace(own, productions=tuple(swapped))), partial(reply, "repair.exchanged", **modules))
+            yield replace(own, productions=tuple(swapped)), partial(reply, "repair.exchanged", **modules)
 
 
-def _in_the_other_block(own: LSystem, make: Callable[[LSystem], Any]) -> Iterator[Repair]:
+def _in_the_other_block(own: LSystem) -> Iterator[Changed]:
     """A production written as a decomposition rule, or the other way round."""
     for block, other in (BLOCKS, BLOCKS[::-1]):
         for at, rule in enumerate(getattr(own, block)):
             rest = getattr(own, block)[:at] + getattr(own, block)[at + 1 :]
             moved: dict[str, Any] = {block: rest, other: (*getattr(own, other), rule)}
             said = partial(_said, f"in_{other}", partial(typed_rule, rule, own))
-            yield Repair(partial(make, replace(own, **moved)), said)
+            yield replace(own, **moved), said
 
 
 # Where the answer is written in another way

@@ -49,7 +49,7 @@ def repaired(exercise: Exercise, own: Any, solution: Any) -> Repair | None:
             each = next(tried, None)
             if each is None:
                 return None
-            with suppress(LSystemError, ArithmeticError):
+            with suppress(LSystemError, ArithmeticError, LookupError, ValueError):  # a change may make no answer at all
                 if same(exercise, each.answer(), solution):
                     return each
     return None
