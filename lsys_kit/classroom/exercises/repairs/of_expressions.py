@@ -18,7 +18,7 @@ from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number,
 _COMPARISONS = ("<", "<=", ">", ">=", "==", "!=")
 _JOINED = ("&&", "||")
 _OF_NUMBERS = ("+", "-", "*", "/")
-KINDS = ("extra", "number", "name", "comparison", "joined", "operator", "sign", "power", "order", "missing", "part")
+KINDS = ("extra", "number", "name", "comparison", "joined", "operator", "sign", "power", "order", "part", "missing")
 """The kinds of changes, in the order in which they are tried."""
 MOST_PAIRS = 2_000
 """So many pairs of changes are tried."""
