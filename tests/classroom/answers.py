@@ -124,7 +124,7 @@ def _drawing(exercise: Exercise, text: str) -> list[object]:
 
 def _net(exercise: Exercise, text: str) -> list[object]:
     lines = text.splitlines()
-    renamed = re.sub(r"\b([A-Za-z]\w*)\b(?!:)", r"\1_1", text)
+    renamed = re.sub(r"\b([A-Za-z]\w*)\b(?!:)", lambda place: place[1] + "_1" * (place[1] not in exercise.symbols), text)
     return [text, "; ".join(lines), "\n".join(reversed(lines)), text.replace("->", "→"), renamed]
 
 
@@ -147,7 +147,7 @@ _FORMS: dict[str, Any] = {
 def as_typed(exercise: Exercise, answer: Any) -> object:
     """A wrong answer as somebody gives it."""
     if exercise.kind == "system":
-        if exercise.given and answer.front is not answer.behind:
+        if exercise.given and answer.front is not answer.own:
             return "\n".join(map(str, answer.own.productions))
         return answer.own
     if exercise.kind == "map":

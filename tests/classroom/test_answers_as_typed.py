@@ -18,18 +18,40 @@ from lsys_kit import check, derive, exercises, read
 from lsys_kit.classroom.exercises import registry
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.judging import wrong_answers
-from lsys_kit.classroom.exercises.kinds.numbers import FORMULA
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
+from lsys_kit.classroom.exercises.replies import REPLIES
 
 DATA = Path(__file__).parent / "data"
 WRONG = tomllib.loads((DATA / "wrong_answers.toml").read_text(encoding="utf-8"))
 RIGHT = tomllib.loads((DATA / "right_answers.toml").read_text(encoding="utf-8"))
 KIT = {exercise.id: exercise for exercise in exercises() if exercise.id in WRONG}
-NUMBER_IS_WRONG = re.compile(r"is not the number that is asked for\. (What is counted|A probability lies)")
+NAMING = "repair", "system.joined", "system.given_already", "word.of_step", "word.erased", "number.one_off", "number.of_step"
+NAMING += "number.decimals", "number.close", "number.whole", "number.not_negative", "number.probability", "table.late"
+NAMING += "table.early", "table.exchanged", "net.start", "system.never_used", "map.no_rule", "drawing.nothing"
+"""The replies that name what is wrong, by their places in the table of replies."""
+
+
+def _pattern(text: str) -> str:
+    """A reply as a pattern, with anything for its values."""
+    return re.sub(r"\\\{\w+\\\}", ".+?", re.escape(text))
+
+
+def _naming() -> re.Pattern[str]:
+    texts = []
+    for name in NAMING:
+        place, _, part = name.partition(".")
+        found = [REPLIES[place][part]] if part else [*REPLIES[place].values()]
+        texts += [form for text in found for form in ([text] if isinstance(text, str) else text)]
+    return re.compile("|".join(map(_pattern, texts)))
+
+
+NAMES = _naming()
+IS_NOT = re.compile(r"^\S+( \w+)? is not the number that is asked for\.")
+SAME_FOR_ALL = re.compile(r"^(Try your way on step \d+: does it give \d+ there\?)?$")
 
 
 def reply_class(exercise: Exercise, verdict) -> str:
-    """What a reply does."""
+    """What a reply does: it names the mistake, shows where or by what the answer is wrong, or says nothing of it."""
     if verdict == 1:
         return "accepted"
     if verdict.said == "Not readable yet":
@@ -39,12 +61,13 @@ def reply_class(exercise: Exercise, verdict) -> str:
         *(option.says for option in exercise.options),
         *(misconception.do for misconception in MISCONCEPTIONS.values()),
     ]
-    if any(sentence.strip() in verdict.message for sentence in said if sentence):
+    if any(sentence.strip() in verdict.message for sentence in said if sentence) or NAMES.search(verdict.message):
         return "names"
     if exercise.kind == "line":
         return "verdict"
     if exercise.kind == "number":
-        return "shows" if NUMBER_IS_WRONG.search(verdict.message) or FORMULA.search(exercise.otherwise) else "verdict"
+        rest = IS_NOT.sub("", verdict.message).strip()
+        return "verdict" if rest == exercise.otherwise or SAME_FOR_ALL.match(rest) else "shows"
     return "verdict" if exercise.kind == "drawing" and "stroke" not in verdict.message else "shows"
 
 
@@ -55,11 +78,11 @@ def test_there_are_answers_to_every_exercise():
     assert min(sum(map(len, answers.values())) for answers in WRONG.values()) >= 2
 
 
-def test_at_most_one_wrong_answer_in_five_gets_only_a_verdict():
+def test_at_most_three_wrong_answers_in_a_hundred_get_only_a_verdict():
     shares = Counter(does for answers in WRONG.values() for does, several in answers.items() for _ in several)
-    assert set(shares) == {"names", "shows", "verdict", "form"}
-    assert shares["verdict"] <= 0.2 * shares.total()
-    assert shares["names"] >= 0.4 * shares.total()
+    assert set(shares) <= {"names", "shows", "verdict", "form"}
+    assert shares["verdict"] <= 0.03 * shares.total()
+    assert shares["names"] >= 0.5 * shares.total()
 
 
 @pytest.mark.slow
@@ -103,6 +126,7 @@ U, N, V, M, X, Y, L = sympy.symbols("u n v m x y L")
         ("8.1", sympy.Rational(27, 256)),
         ("8.1", 0.105),
         ("8.6", Decimal("0.8")),
+        ("7.2", sympy.sqrt((1 + sympy.sqrt(5)) / 2)),
         ("10.5", U * N < V * M),
         ("10.5", V * M - U * N > 0),
         ("12.2", 2.618034),

@@ -113,6 +113,22 @@ def test_a_mistake_is_told_with_file_line_and_what_to_try(folder, was, becomes, 
     assert any(says in problem and f"good.toml, line {line}" in problem for problem in found), found
 
 
+def test_names_that_a_net_must_have_are_places_of_its_solution(folder):
+    text = GOOD[: GOOD.index("[[exercise.slips]]")]
+    for was, becomes in (
+        ('"number"', '"net"'),
+        ('system = "axiom: a\\na -> ab\\nb -> a"\nasks = "length"\nsteps = 6\n', 'symbols = ["S", "M"]\n'),
+        ('"21"', '"S -> L\\nL -> L + S"'),
+        ('["sequential"]', '["one daughter"]'),
+    ):
+        assert was in text
+        text = text.replace(was, becomes)
+    (folder / "good.toml").write_text(text, encoding="utf-8")
+    assert "The solution has no place with one of these names" in str(problems_in(folder))
+    (folder / "good.toml").write_text(text.replace('"M"]', '"L"]'), encoding="utf-8")
+    assert problems_in(folder) == []
+
+
 @pytest.mark.parametrize(
     ("successor", "solution", "said"),
     [("ab", "abaab", []), ("a[b]", "a[b][a][a[b]]", ['"word reversed" yields no wrong answer here'])],

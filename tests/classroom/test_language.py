@@ -247,8 +247,8 @@ def test_mistakes_that_readers_find_are_in_the_language():
 
 @pytest.mark.usefixtures("german")
 def test_kinds_of_values_are_named_in_the_language():
-    for exercise, answer in (("0.1", ["A"]), ("0.2", ["64"]), ("1.1", [1.5]), ("7.3", ["4"]), ("10.5", ["t"])):
-        assert "nicht eine Liste." in str(check(exercise, answer))
+    for exercise in ("0.1", "0.2", "1.1", "7.3", "10.5"):
+        assert "nicht eine Liste." in str(check(exercise, [[1, 2], [3]]))
 
 
 @pytest.mark.usefixtures("german")

@@ -10,6 +10,7 @@ import pytest
 from lsys_kit import check, map_system
 from lsys_kit.classroom.exercises.kinds.maps import same_maps
 from lsys_kit.classroom.exercises.registry import exercise_of
+from lsys_kit.classroom.exercises.repairs import table
 from lsys_kit.derivation.tissues.development import develop
 from lsys_kit.derivation.tissues.edges import Side
 from lsys_kit.derivation.tissues.maps import Map
@@ -65,7 +66,12 @@ def test_the_order_of_two_markers_at_one_vertex_does_not_matter():
     assert check("16.5", "A -> A[-C][+C]A") == check("16.5", "A -> A[+C][-C]A") == 1
 
 
-def test_a_reply_names_the_cell_that_should_not_be_there():
+def test_a_reply_names_the_part_of_the_rule_that_is_wrong():
+    assert check("16.5", "A -> A[-D][+D]A").message == "The label of a marker is not right:\n  A -> A[-D][+D]A"
+
+
+def test_a_reply_names_the_cell_that_should_not_be_there_where_no_part_is_found(monkeypatch):
+    monkeypatch.setattr(table, "SECONDS", 0)
     reply = check("16.5", "A -> A[-D][+D]A")
     assert "the walls A B A D" in reply.message
     assert "C" not in reply.message.split("clockwise")[1].split("Follow")[0]

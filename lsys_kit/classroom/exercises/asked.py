@@ -225,6 +225,11 @@ def what_is_asked(exercise: Exercise) -> str:
     return exercise.asks.partition(" ")[0] or (usual[0] if len(usual) == 1 else "")
 
 
+def is_derived(exercise: Exercise) -> bool:
+    """Whether steps must be taken to find the answer; a drawing says so, since it may be that of a word that is asked for."""
+    return bool(what_is_asked(exercise)) and (exercise.kind != "drawing" or exercise.asks == "drawing")
+
+
 def answer_by(exercise: Exercise, history: History) -> Any:
     """The answer to a question that somebody with these words in mind gives; None where there is none."""
     return ASKED[what_is_asked(exercise)](exercise, history)

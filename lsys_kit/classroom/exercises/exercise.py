@@ -66,7 +66,7 @@ class Exercise:
     system, constants, steps, at, asks
         The system that the question is about, values for its constants, the step, the steps of a table, and what is asked.
     symbols
-        The letters of a word without a system; the order of counts in a table.
+        The letters of a word without a system; the order of counts in a table; the places of a net that the question names.
     text
         The word or program of which a symbol or line is asked.
     unit, tolerance
@@ -76,6 +76,8 @@ class Exercise:
     given, probes, settings, names, drawn
         Of a system, or the first of a map: the part that the question gives; further axioms and constants for which it must be
         right; how its symbols may be renamed ("new", "any" or "fixed"); whether angle, heading and length count.
+    behind
+        Of a system: whether what is typed stands behind what the question gives, and need not be right in front of it.
     values
         Of an expression: its names, each with the values for which it is asked.
     """
@@ -108,6 +110,7 @@ class Exercise:
     settings: tuple[Mapping[str, Value], ...] = field(default=(), hash=False)
     names: str = "new"
     drawn: bool = False
+    behind: bool = False
     values: Mapping[str, Sequence[Value]] = field(default_factory=dict, hash=False)
 
     def __repr__(self) -> str:

@@ -15,6 +15,8 @@ from lsys_kit.classroom.exercises.kinds.choices import letters
 from lsys_kit.classroom.exercises.kinds.kind import Difference
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS, solution_of
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS, Misconception
+from lsys_kit.classroom.exercises.repairs.repair import Repair
+from lsys_kit.classroom.exercises.repairs.table import repaired
 from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.classroom.exercises.verdict import Verdict
 from lsys_kit.errors import LSystemError
@@ -58,7 +60,7 @@ def wrong_answers(exercise: Exercise) -> tuple[WrongAnswer, ...]:
 
     >>> fibonacci = "axiom: a\\na -> ab\\nb -> a"
     >>> exercise = Exercise("1", "", "word", "", "abaab", "", (), system=fibonacci, steps=3)
-    >>> [wrong.misconception.name for wrong in wrong_answers(exercise)][:3]
+    >>> list(dict.fromkeys(wrong.misconception.name for wrong in wrong_answers(exercise)))[:3]
     ['sequential', 'one production a step', 'leftmost only']
     """
     return (*_declared(exercise), *_computed(exercise))
@@ -170,10 +172,29 @@ def judged(exercise: Exercise, answer: object) -> tuple[Verdict, bool]:
         return Verdict("Correct", kind.praise(exercise, own, solution)), True
     fitting = [wrong for wrong in wrong_answers(exercise) if _alike(exercise, own, wrong.answer)]
     found = kind.difference(exercise, own, solution)
-    near = found.near or (bool(fitting) and all(wrong.near for wrong in fitting))
+    repair = _repair(exercise, own, fitting, found)
+    near = found.near or bool(repair and repair.near) or (bool(fitting) and all(wrong.near for wrong in fitting))
     said, mark = _parts_right(exercise, own, solution)
-    message = f"{said} {_explained(fitting, found) if fitting else found.message}".lstrip()
-    return Verdict("Almost" if near else "Not yet", message, mark), bool(fitting) or kind.honest(exercise, own, solution)
+    explained = _explained(fitting, found) if fitting else ""
+    changed = _said_of(repair, found) if repair or not fitting else ""
+    message = " ".join(filter(None, (said, explained, changed)))
+    tried = bool(fitting or repair) or kind.honest(exercise, own, solution)
+    return Verdict("Almost" if near else "Not yet", message, mark), tried
+
+
+def _repair(exercise: Exercise, own: Any, fitting: Sequence[WrongAnswer], found: Difference) -> Repair | None:
+    """The repair of which a reply speaks: where nothing else explains the answer, and of a system also where its mistake is."""
+    if found.explains or any(wrong.says for wrong in fitting) or (fitting and exercise.kind != "system"):
+        return None
+    repair = repaired(exercise, own, solution_of(exercise))
+    return None if fitting and repair and repair.changes > 1 else repair
+
+
+def _said_of(repair: Repair | None, found: Difference) -> str:
+    """What is to be changed, and, if that does not say it, where the answer differs first."""
+    if repair is None:
+        return found.message
+    return repair.said() if not (repair.case and found.at_a_case) else f"{repair.said()} {found.message}"
 
 
 def shown_by(exercise: Exercise, wrong: Any) -> str:
@@ -205,6 +226,8 @@ def _explained(fitting: Sequence[WrongAnswer], found: Difference) -> str:
         others.pop(own.misconception.name if own.misconception else "", None)
         asked = reply("reply.or_did_you", do=_any_of(list(others.values()))) if others else ""
         return f"{own.says.strip()} {asked}".rstrip()
+    if found.explains:
+        return f"{found.message} {reply('reply.or_did_you', do=_any_of(list(others.values())))}"
     if len(others) == 1:
         only = next(iter(others.values()))
         if found.likeness >= MOST_RIGHT and found.at_a_place and not only.near:

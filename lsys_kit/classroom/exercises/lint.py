@@ -14,6 +14,7 @@ from lsys_kit.classroom.exercises.declarations import QUESTIONS, MakeProblem, Pr
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.judging import judged, wrong_answers
 from lsys_kit.classroom.exercises.kinds.choices import letters
+from lsys_kit.classroom.exercises.kinds.nets import places_of
 from lsys_kit.classroom.exercises.kinds.numbers import FORMULA, formula_in_reply
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS, solution_of
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
@@ -125,6 +126,8 @@ def _text_problems(problem: MakeProblem, exercise: Exercise) -> Iterator[Problem
         yield problem("id", "exercise.no_misconception")
     if exercise.kind == "expression" and not exercise.values:
         yield problem("kind", "exercise.values")
+    if exercise.kind == "net" and not {*exercise.symbols} <= {*places_of(solution_of(exercise))}:
+        yield problem("symbols", "exercise.places")
     if exercise.kind in ("symbol", "line") and not exercise.text:
         yield problem("kind", "exercise.text")
 

@@ -7,6 +7,7 @@ import re
 import tomllib
 import unicodedata
 from collections.abc import Callable, Collection, Iterable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
@@ -324,6 +325,13 @@ _GROUPED = re.compile(r"[+-]?\d{1,3}([ ']\d{3})+")
 _COMMAS = re.compile(r"[+-]?\d{1,3}(,\d{3})+")
 _DECIMAL_COMMA = re.compile(r"[+-]?(\d+,\d{1,2}|\d+,\d{4,}|0,\d+)")
 _SCIENTIFIC = re.compile(r"(?<!\w)(\d+(?:\.\d+)?)[eE]([+-]?\d{1,3})(?!\w)")
+_CONSTANTS: Mapping[str, float] = {"pi": math.pi, "phi": (1 + math.sqrt(5)) / 2, "π": math.pi, "φ": (1 + math.sqrt(5)) / 2}
+_HYPOTENUSE = re.compile(r"\bhypot\(([^(),]+),([^(),]+)\)")
+_COMPARISON = re.compile(r"[<>]|==|!=")
+_SEVERAL = re.compile(r"\d\s*(?:and|und)\s*\d")
+_EQUATION = re.compile(r"[^=]*[^\W\d_]\b[^=]*=[^=]*$")
+_GLUED = re.compile(r"\d([a-zA-Z])\s*$")
+"""A number with one letter directly behind it, which is a product and no unit."""
 _SENTENCE = re.compile(
     r"^(?P<before>(?:(?!pi\b)[^\W\d_]++(?:[\s:]|\.(?!(?<=[\s:]\.)\d))++)*+)"
     r"(?P<number>(?:.*(?:[^\w\s°%]|[°%](?!$)))?+(?:(?<=[)}])|[\w\s]*?(?:\d|(?<![A-Za-z])pi\b)))\s*"
@@ -375,7 +383,7 @@ def typed_number(answer: object, decimal_comma: bool = False) -> TypedNumber:
         return TypedNumber(number_from(Fraction(answer)))
     if not isinstance(answer, str):
         try:
-            return TypedNumber(_known(number_from(answer, "answer")))
+            return TypedNumber(_known(number_from(_evaluated(answer), "answer")))
         except ModelValueError:
             if isinstance(answer, Number):
                 raise
@@ -383,13 +391,25 @@ def typed_number(answer: object, decimal_comma: bool = False) -> TypedNumber:
     text = with_digits(unquoted(keyboard_text(answer)).strip("$ "))
     for pattern, plain in _REPLACED:
         text = pattern.sub(plain, text)
+    if _SEVERAL.search(text):
+        raise ModelValueError(reply("typed.one_needed", answer=quoted(answer)), hint=reply("typed.alone"))
     fault: LSystemError | None = None
-    for part in reversed(_EQUALS.split(text)):
+    for part in reversed([text] if _COMPARISON.search(text) else _EQUALS.split(text)):
         try:
             return _in_sentence(part.strip(" \t\n!~$").rstrip(" ."), answer, decimal_comma)
         except (ModelSyntaxError, ModelNameError, ModelValueError) as mistake:
             fault = fault or mistake
+    if _EQUATION.match(text):
+        raise ModelValueError(reply("typed.equation", answer=quoted(answer)), hint=reply("typed.alone"))
     raise fault or ModelValueError(reply("typed.number_needed"))
+
+
+def _evaluated(answer: object) -> object:
+    """A number made with sympy, such as the root of 2, as a double; whole numbers and fractions are read as they are."""
+    if getattr(answer, "is_number", False) is True and getattr(answer, "is_Rational", True) is False:
+        with suppress(TypeError, ValueError, OverflowError):
+            return float(answer)  # type: ignore[arg-type]
+    return answer
 
 
 def _in_sentence(text: str, answer: str, decimal_comma: bool) -> TypedNumber:
@@ -397,9 +417,17 @@ def _in_sentence(text: str, answer: str, decimal_comma: bool) -> TypedNumber:
     if not found:
         raise ModelValueError(reply("typed.no_number", answer=quoted(answer)), hint=reply("typed.digits"))
     number = formula_text(_plain(found["number"].strip(), decimal_comma))
-    value = _value(re.sub(r"\bpi\b", f"({math.pi!r})", number), answer)
+    of_pi = "pi" in number
+    if _COMPARISON.search(number):
+        raise ModelValueError(reply("typed.condition", answer=quoted(answer)), hint=reply("typed.alone"))
+    letter = _GLUED.search(text)
+    if letter and letter[1].lower() not in UNITS:
+        raise ModelValueError(reply("typed.letter", answer=quoted(answer), letter=letter[1]), hint=reply("typed.its_value"))
+    for name, constant in _CONSTANTS.items():
+        number = re.sub(rf"\b{name}\b", f"({constant!r})", number)
+    value = _value(_HYPOTENUSE.sub(r"sqrt((\1)^2+(\2)^2)", number), answer)
     before, after = (tuple(re.findall(r"[^\W\d_]+|[°%]", found[part] or "")) for part in ("before", "after"))
-    return TypedNumber(value, before, after, "pi" in number)
+    return TypedNumber(value, before, after, of_pi)
 
 
 def _value(number: str, answer: str) -> Value:
@@ -434,6 +462,8 @@ def _known(number: Value) -> Value:
 # Rows
 
 _MATRIX = re.compile(r"\\(?:begin|end)\s*\{[^{}]*\}|\b(?:np\.)?(?:Matrix|matrix|array)\b")
+_RANGE = re.compile(r"^[^\W\d]+\s+\d+\s*(?:to|bis|-|\.\.)\s*\d+\s*:\s*")
+"""What a row is of, as in "steps 0 to 5:"."""
 _BETWEEN = re.compile(rf"\\\\|{ARROW}|\band\b|(?<=\s)/(?=\s)")
 
 
@@ -446,7 +476,7 @@ def parts(answer: object, what: str) -> list[object]:
     (['1', '2', '3'], [21])
     """
     if isinstance(answer, str):
-        text = _BETWEEN.sub(",", _MATRIX.sub(" ", with_digits(unquoted(keyboard_text(answer)))))
+        text = _BETWEEN.sub(",", _MATRIX.sub(" ", _RANGE.sub("", with_digits(unquoted(keyboard_text(answer))))))
         return [part for part in re.split(r"[\s,;|\[\](){}&]+", unlabelled(text)) if part.strip(".")]
     return list(_flat(answer, what))
 
@@ -456,6 +486,9 @@ def _flat(answer: object, what: str, depth: int = 0) -> Iterable[object]:
         answer = answer.tolist()
     if isinstance(answer, Mapping):
         answer = list(answer.values())
+    if depth and isinstance(answer, str) and re.search(r"\d[\s,]+\d", answer):
+        yield from parts(answer, what)
+        return
     if depth > 3 or isinstance(answer, str | bytes) or not isinstance(answer, Iterable):
         if depth == 0 and (not isinstance(answer, Number) or isinstance(answer, bool)):
             raise ModelValueError(reply("typed.parts_needed", what=what, kind=kind_of(answer)))
@@ -479,7 +512,7 @@ _NEXT_LINE = re.compile(r";[ \t]*(?!\n)|,[ \t]*+(?=[^,;\n]*?(?:->|→))")
 _SETTING = re.compile(r"^([ \t]*(?:axiom|angle|heading|length))[ \t]*=", re.MULTILINE | re.IGNORECASE)
 _ARROW_OR_END = re.compile(r"->|→|$")
 _ARGUMENTS = re.compile(r"\([^()\n]*\)")
-_PRODUCT = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?)(?=[A-Za-z])")
+_PRODUCT = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?)[ \t]*(?=[A-Za-z(])|(?<=\))[ \t]*(?=[A-Za-z(])")
 _FIRST_WORD = re.compile(r"^\s*+[^\n:=>→]++\n(?=[^\n]*(?:->|→))")
 
 
@@ -541,4 +574,4 @@ def _in_arguments(text: str) -> str:
 
 
 def _signs(formula: str) -> str:
-    return _PRODUCT.sub(r"\1*", with_operators(formula))
+    return _PRODUCT.sub(lambda found: f"{found[1] or ''}*", with_operators(formula))

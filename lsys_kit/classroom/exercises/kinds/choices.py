@@ -42,6 +42,10 @@ _LETTER = re.compile(
     re.IGNORECASE,
 )
 _LETTER_AND_TEXT = re.compile(r"^\W*([A-Za-z])\s*[:.)\]-]+\s+(\S.*)$", re.DOTALL)
+_LETTER_AND_REASON = re.compile(
+    r"^\W*([A-Za-z])\s*(?:,|;|-|–|\bbecause\b|\bsince\b|\bas\b|\bweil\b|\bda\b)\s*[^\W\d_]{2,}.*$", re.DOTALL | re.IGNORECASE
+)
+"""A letter, and why."""
 _EXCLUDING = frozenset(WORDS["excluding"].split())
 MOST_WORDS = 3
 """So many words has an answer that names an option of one word."""
@@ -57,6 +61,10 @@ def _plain(text: str) -> str:
 
 
 def _read_choice(exercise: Exercise, answer: object) -> str:
+    if isinstance(answer, list | tuple) and all(isinstance(each, str) for each in answer):
+        if len(answer) != 1:
+            raise ModelValueError(reply("choice.one_needed", number=len(answer)))
+        answer = answer[0]
     text = " ".join(text_answer(answer, reply("choice.what"), '"A"').split())
     known = letters(exercise)
     texts = {letter: _plain(option.text) for option, letter in zip(exercise.options, known, strict=True)}
@@ -66,7 +74,13 @@ def _read_choice(exercise: Exercise, answer: object) -> str:
         meant = [named[1].upper()]
     if both and both[1].upper() in known and not meant:
         meant = [letter for letter in _with_part(texts, _plain(both[2])) if letter == both[1].upper()]
+    reason = _LETTER_AND_REASON.match(text)
+    if reason and reason[1].upper() in known and not meant:
+        meant = [reason[1].upper()]
     meant = meant or _with_part(texts, _plain(text)) or _named_in(texts, text)
+    if len(meant) > 1:
+        several = reply("choice.several", text=quoted(text))
+        raise ModelNameError(several, hint=reply("choice.choose", options=", ".join(meant)))
     if len(meant) != 1:
         raise ModelNameError(
             reply("choice.none_of_these", text=quoted(text)), hint=reply("choice.choose", options=", ".join(known))
@@ -75,16 +89,18 @@ def _read_choice(exercise: Exercise, answer: object) -> str:
 
 
 def _with_part(texts: Mapping[str, str], part: str) -> list[str]:
-    before = r"(?<!\w)" if part[:1].isalnum() else ""
-    whole = rf"{before}{re.escape(part)}(?!\w)"
-    enough = len(part) >= _SHORTEST_PART or part.isdigit()
-    return [letter for letter, text in texts.items() if enough and re.search(whole, text)]
+    """The options whose texts contain a part; none where no text has it as whole words."""
+    before, after = (r"(?<!\w)" if part[:1].isalnum() else ""), (r"(?!\w)" if part[-1:].isalnum() else "")
+    whole = [letter for letter, text in texts.items() if re.search(before + re.escape(part) + after, text)]
+    if part.isdigit() or not whole:
+        return whole
+    return [letter for letter, text in texts.items() if part in text] if len(part) >= _SHORTEST_PART else []
 
 
 def _named_in(texts: Mapping[str, str], text: str) -> list[str]:
     """The options that a short answer names: those of one word, or that begin with one and a colon."""
     words = re.findall(r"\w+", _plain(text))
-    if len(words) > MOST_WORDS or _EXCLUDING & set(words):
+    if len(words) > MOST_WORDS or (_EXCLUDING | {"and", "und"}) & set(words):
         return []
     return [letter for letter, own in texts.items() if own.partition(":")[0] in words]
 
@@ -138,7 +154,8 @@ SYMBOL = AnswerKind(_read_symbol, _symbol_difference, _same_symbol)
 
 
 _LINE_NUMBER = re.compile(
-    r"^\W*(?:(?:it|is|the|in|line|number|no|nr|l|es|ist|die|zeile|nummer)\b\W*|l)*(\d{1,8})(?:\W+line)?\W*$", re.IGNORECASE
+    r"^\W*(?:(?:it|is|the|in|line|number|no|nr|l|es|ist|die|zeile|nummer)\b\W*|l)*(\d{1,8})(?:\W+line)?(?:\W*$|\s*[:,;]\s*[^\W\d].*$)",
+    re.IGNORECASE | re.DOTALL,
 )
 
 

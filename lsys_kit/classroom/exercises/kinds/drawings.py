@@ -12,6 +12,7 @@ import numpy as np
 from lsys_kit.budget import check_budget
 from lsys_kit.classroom.exercises.asked import asked_system, written
 from lsys_kit.classroom.exercises.exercise import Exercise
+from lsys_kit.classroom.exercises.kinds.forms import form_of
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
 from lsys_kit.classroom.exercises.kinds.words import read_modules, unnamed_word
 from lsys_kit.classroom.exercises.replies import reply
@@ -153,20 +154,28 @@ def _read(exercise: Exercise, answer: object) -> Drawn:
     if isinstance(answer, str) and (not exercise.system or _SYSTEM.search(unnamed_word(answer))):
         return read_typed(answer, lambda text: drawn(exercise, read(text)), exercise.solution)
     system = asked_system(exercise)
-    return Drawn(written(system, read_modules(system, answer)))
+    return Drawn(written(system, read_modules(system, answer, drawn=True)))
 
 
 def _same(_: Exercise, mine: Drawn, wanted: Drawn) -> bool:
     return same_strokes(mine.strokes, wanted.strokes)
 
 
+def _alike(exercise: Exercise, mine: Drawn, other: Drawn) -> bool:
+    """Whether an answer is a wrong one that is understood, in its form: the same may be drawn by mistake of another kind."""
+    own, theirs = mine.derivation, other.derivation
+    if len(own) == 1 or len(theirs) == 1:
+        return tuple(own[-1]) == tuple(theirs[-1]) and own.states.system.angle == theirs.states.system.angle
+    return form_of(own.states.system, drawn=True) == form_of(theirs.states.system, drawn=True)
+
+
 def _difference(_: Exercise, mine: Drawn, wanted: Drawn) -> Difference:
     own, other = len(mine.strokes), len(wanted.strokes)
     if not own:
-        return Difference(reply("drawing.nothing"))
+        return Difference(reply("drawing.nothing"), explains=True)
     likeness = min(own, other) / max(own, other) / 2 if own != other else 0.6
     if mine.ends.shape[1] == 4 and wanted.ends.shape[1] == 4 and max(len(mine.ends), len(wanted.ends)) <= MOST_FOLLOWED:
-        return Difference(_stroke_by_stroke(mine, wanted), likeness)
+        return Difference(_stroke_by_stroke(mine, wanted), likeness, at_a_case=True)
     return Difference(reply("drawing.beside_the_picture"), likeness)
 
 
@@ -180,4 +189,4 @@ def _stroke_by_stroke(mine: Drawn, wanted: Drawn) -> str:
     return reply("drawing.missing_strokes" if missing else "drawing.other_strokes")
 
 
-DRAWING = AnswerKind(_read, _difference, _same, lambda _, mine, wanted: len(mine.strokes) > 1)
+DRAWING = AnswerKind(_read, _difference, _same, lambda _, mine, wanted: len(mine.strokes) > 1, alike=_alike)

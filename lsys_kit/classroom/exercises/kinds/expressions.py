@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import suppress
 from fractions import Fraction
 from functools import reduce
 from typing import TypeAlias
@@ -58,11 +59,7 @@ def differing_values(mine: Expression, wanted: Expression, cases: Iterable[Valua
 
 
 def _value_or_reason(expression: Expression, case: Valuations) -> Value | str:
-    try:
-        run = function_of(expression, {name: i for i, name in enumerate(case)})
-        return run(tuple(case.values()))  # type: ignore[no-any-return]
-    except (ArithmeticError, ValueError) as fault:
-        return reason_of(fault)
+    return _value(expression, {name: i for i, name in enumerate(case)}, tuple(case.values()))
 
 
 def _equal_values(own: Value | str, right: Value | str) -> bool:
@@ -234,13 +231,34 @@ def _same(exercise: Exercise, own: Expression, wanted: Expression) -> bool:
     return proved_equal(own, wanted) or not (is_rational(own) and is_rational(wanted))
 
 
+def agreement(exercise: Exercise, wanted: Expression) -> Callable[[Expression], bool]:
+    """Whether an expression has the same values as another in all cases of the question; they are computed once."""
+    order = {name: i for i, name in enumerate(exercise.values)}
+    cases = [(case, _value(wanted, order, case)) for case in itertools.product(*exercise.values.values())]
+
+    def agrees(own: Expression) -> bool:
+        run = function_of(own, order)
+        with suppress(ArithmeticError, ValueError):
+            return all(_equal_values(run(case), right) for case, right in cases)
+        return False
+
+    return agrees
+
+
+def _value(expression: Expression, order: Mapping[str, int], case: tuple[Value, ...]) -> Value | str:
+    try:
+        return function_of(expression, order)(case)  # type: ignore[no-any-return]
+    except (ArithmeticError, ValueError) as fault:
+        return reason_of(fault)
+
+
 def _difference(exercise: Exercise, own: Expression, solution: Expression) -> Difference:
     cases = list(_cases(exercise))
     right = sum(differing_values(own, solution, [case]) is None for case in cases)
     message = differing_values(own, solution, cases)
     if message is None:
-        return Difference(reply("expression.another_formula"), 1)
-    return Difference(message, right / len(cases))
+        return Difference(reply("expression.another_formula"), 1, explains=True)
+    return Difference(message, right / len(cases), at_a_case=True)
 
 
 def _praise(_: Exercise, own: Expression, solution: Expression) -> str:

@@ -23,12 +23,18 @@ class Difference:
         Whether it is right but for one thing.
     at_a_place
         Whether the message names the place of a word at which it differs.
+    at_a_case
+        Whether it shows a case, or a place, that goes with whatever else is said.
+    explains
+        Whether it says how the answer came about: a misconception is asked about at most, and no repair is looked for.
     """
 
     message: str
     likeness: float = 0
     near: bool = False
     at_a_place: bool = False
+    at_a_case: bool = False
+    explains: bool = False
 
 
 @dataclass(frozen=True)

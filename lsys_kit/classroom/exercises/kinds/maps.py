@@ -149,7 +149,7 @@ def _difference(exercise: Exercise, mine: MapAnswer, wanted: MapAnswer) -> Diffe
     mine_cells, wanted_cells = cells_of(own), cells_of(other)
     likeness = (mine_cells & wanted_cells).total() / max(mine_cells.total(), wanted_cells.total())
     if not _has_rule(mine.system):
-        return Difference(reply("map.no_rule", walls=" ".join(map(str, mine.system.axiom))), likeness)
+        return Difference(reply("map.no_rule", walls=" ".join(map(str, mine.system.axiom))), likeness, explains=True)
     return Difference(_in_words(step, own, other), likeness)
 
 

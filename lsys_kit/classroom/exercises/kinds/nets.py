@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
 from lsys_kit.classroom.exercises.exercise import Exercise
@@ -125,15 +125,15 @@ def _read(exercise: Exercise, answer: object) -> Net:
     return read_net(text_answer(answer, reply("net.what"), '"A -> B + 2 C"'))
 
 
-def isomorphic(mine: Net, wanted: Net) -> bool:
-    """Whether two nets are the same but for the names of their places."""
+def isomorphic(mine: Net, wanted: Net, fixed: Collection[str] = ()) -> bool:
+    """Whether two nets are the same but for the names of their places; those that are fixed name the same place in both."""
     import networkx
 
     def graph(net: Net) -> networkx.DiGraph:
         found: networkx.DiGraph = networkx.DiGraph()
         tokens = dict(net.start if net.start is not None and wanted.start is not None else ())
-        for place in _places(net):
-            found.add_node(place, label=("place", tokens.get(place, 0)))
+        for place in places_of(net):
+            found.add_node(place, label=("place", tokens.get(place, 0), place if place in fixed else ""))
         for number, firing in enumerate(net.firings):
             found.add_node(number, label=("transition", firing.terms))
             found.add_edge(firing.place, number, copies=1)
@@ -148,15 +148,33 @@ def isomorphic(mine: Net, wanted: Net) -> bool:
     )
 
 
-def _places(net: Net) -> Iterator[str]:
+def places_of(net: Net) -> Iterator[str]:
+    """The places of a net, each as often as it is named."""
     for firing in net.firings:
         yield firing.place
         yield from (place for place, _ in firing.made)
     yield from (place for place, _ in net.start or ())
 
 
-def _same(_: Exercise, mine: Net, wanted: Net) -> bool:
-    return (wanted.start is None or mine.start is not None) and isomorphic(mine, wanted)
+def with_places(net: Net, names: Mapping[str, str]) -> Net:
+    """A net with other names for its places; places that get the same name become one.
+
+    >>> with_places(read_net("A -> B + C"), {"B": "D", "C": "D"}).firings
+    (Firing(place='A', made=(('D', 2),), terms=''),)
+    """
+
+    def renamed(made: Iterable[tuple[str, int]]) -> tuple[tuple[str, int], ...]:
+        found: Counter[str] = Counter()
+        for place, copies in made:
+            found[names.get(place, place)] += copies
+        return _sorted(found)
+
+    firings = tuple(replace(f, place=names.get(f.place, f.place), made=renamed(f.made)) for f in net.firings)
+    return Net(firings, None if net.start is None else renamed(net.start))
+
+
+def _same(exercise: Exercise, mine: Net, wanted: Net) -> bool:
+    return (wanted.start is None or mine.start is not None) and isomorphic(mine, wanted, exercise.symbols)
 
 
 def _transitions_right(_: Exercise, mine: Net, wanted: Net) -> tuple[int, int]:
@@ -166,11 +184,14 @@ def _transitions_right(_: Exercise, mine: Net, wanted: Net) -> tuple[int, int]:
     return right, max(len(mine.firings), len(wanted.firings)) + asked
 
 
-def _difference(_: Exercise, mine: Net, wanted: Net) -> Difference:
-    right, all = _transitions_right(_, mine, wanted)
+def _difference(exercise: Exercise, mine: Net, wanted: Net) -> Difference:
+    right, all = _transitions_right(exercise, mine, wanted)
     likeness, near = right / all, len(wanted.firings) > 2 and right >= len(wanted.firings) - 1
+    unnamed = next((place for place in exercise.symbols if place not in {*places_of(mine)}), None)
+    if unnamed is not None:
+        return Difference(reply("repair.net_unnamed", place=unnamed), likeness, near)
     for what, (own, asked) in {
-        "places": [len({*_places(net)}) for net in (mine, wanted)],
+        "places": [len({*places_of(net)}) for net in (mine, wanted)],
         "transitions": [len(net.firings) for net in (mine, wanted)],
     }.items():
         if own != asked:

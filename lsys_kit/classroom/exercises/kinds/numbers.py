@@ -4,14 +4,26 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Sequence
 from contextlib import suppress
+from itertools import takewhile
 from typing import Any
 
-from lsys_kit.classroom.exercises.asked import asked_steps, right_history, what_is_asked
+from lsys_kit.classroom.exercises.asked import asked_steps, bound_of, last_step, right_history, what_is_asked
 from lsys_kit.classroom.exercises.exercise import Exercise
-from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference, first_difference, one_apart
+from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference, one_apart
 from lsys_kit.classroom.exercises.replies import reply
-from lsys_kit.classroom.exercises.typed import UNITS, WORDS, converted, means_the_same, names_of, parts, quoted, typed_number
+from lsys_kit.classroom.exercises.typed import (
+    UNITS,
+    WORDS,
+    TypedNumber,
+    converted,
+    means_the_same,
+    names_of,
+    parts,
+    quoted,
+    typed_number,
+)
 from lsys_kit.errors import LSystemError, ModelNameError, ModelValueError, quotable
 from lsys_kit.notation.model.arithmetic import Value, number_text
 from lsys_kit.notation.model.expressions import Function, function_of
@@ -21,10 +33,15 @@ from lsys_kit.translation import number_text as written
 
 FORMULA = re.compile(r"\{([^{}]+)\}")
 """A formula in a reply, of which the value is shown."""
-MOST_APART = 10
+MOST_APART = 1_000_000
 """How many times too large or too small a number may be that counts as a try."""
 _FILLING, _DOUBTFUL = (frozenset(WORDS[kind].split()) for kind in ("filling", "doubtful"))
 """Words that may stand around any number, and words by which it is another number, or none."""
+_PREPOSITIONS = frozenset(
+    ["after", "at", "by", "for", "from", "in", "of", "on", "per", "to", "nach", "bei", "für", "von", "pro"]
+)
+_TIMES = frozenset(["times", "unit", "units", "mal"])
+"""What may stand behind a number that counts nothing."""
 
 
 def _words_of(exercise: Exercise) -> frozenset[str]:
@@ -36,10 +53,9 @@ def _is_in_place(exercise: Exercise, word: str) -> bool:
     """Whether a word beside a number says no more than the question does."""
     noun = word.lower().removesuffix("s")
     return (
-        word.lower() in _FILLING
+        word.lower() in _FILLING | _PREPOSITIONS | _TIMES
         or noun in _words_of(exercise) - _DOUBTFUL
         or (bool(exercise.unit) and means_the_same(word, exercise.unit))
-        or (noun == "unit" and not exercise.unit)
     )
 
 
@@ -49,12 +65,30 @@ def _read_number(exercise: Exercise, answer: object) -> Value:
     if any(word.lower() in _DOUBTFUL for word in words):
         raise ModelValueError(reply("number.one_needed"), hint=reply("number.alone"))
     unit = next((word for word in found.after[:1] if word.lower() in UNITS), "")
+    if counted := _other_thing(exercise, found):
+        raise _other_unit(exercise, counted)
     odd = next((word for word in words if word != unit and not _is_in_place(exercise, word)), "")
     if odd:
         raise _other_unit(exercise, odd)
     if not unit and found.of_pi and exercise.unit.lower() in names_of("degrees"):
         unit = "radians"
     return _in_the_unit(exercise, found.value, unit) if unit else found.value
+
+
+def _other_thing(exercise: Exercise, found: TypedNumber) -> str:
+    """The noun beside a number, where it is not what the question counts; of one without a unit a noun that is counted."""
+    phrase = list(takewhile(lambda word: word.lower() not in _PREPOSITIONS, found.after))
+    if not phrase and len(found.before) == 1 and found.before[0].lower().endswith("s"):
+        phrase = list(found.before)  # as in "cells: 9"
+    nouns = [word for word in phrase if word.lower() not in _FILLING | _TIMES and word.lower() not in UNITS]
+    if exercise.kind != "number" or not nouns or any(_is_of_the_unit(exercise, word) for word in nouns):
+        return ""
+    return nouns[-1] if exercise.unit or nouns[-1].lower().endswith("s") else ""
+
+
+def _is_of_the_unit(exercise: Exercise, word: str) -> bool:
+    units = (exercise.unit, gettext(exercise.unit))
+    return bool(exercise.unit) and any(means_the_same(word, unit) for unit in units)
 
 
 def _in_the_unit(exercise: Exercise, number: Value, unit: str) -> Value:
@@ -118,24 +152,64 @@ def _number_difference(exercise: Exercise, number: Value, solution: Value) -> Di
         return Difference(f"{said} {reply('number.not_negative' if number < 0 else 'number.whole')}")
     if exercise.tolerance and _distance(number, solution) <= 3 * exercise.tolerance:
         return Difference(f"{said} {reply('number.close')}", 1, True)
-    return Difference(f"{said} {with_values(exercise.otherwise, number) or _try_small(exercise)}".rstrip())
+    if decimals := _too_few_decimals(exercise, number, solution):
+        return Difference(f"{said} {reply('number.decimals', number=decimals)}", 1, True)
+    related = _related(exercise, number, solution)
+    shown = f"{_with_this(exercise, number)} {with_values(exercise.otherwise, number)}".strip()
+    return Difference(" ".join(filter(None, (said, related, shown or _try_small(exercise)))), near=bool(related and counted))
+
+
+def _too_few_decimals(exercise: Exercise, number: Value, solution: Value) -> int:
+    """How many decimals a number has that is the right one, rounded to fewer than are asked for; 0 where it is not that."""
+    if not exercise.tolerance or number == int(number):
+        return 0
+    found = (places for places in range(1, 6) if _distance(number, round(float(solution), places)) < 1e-12)
+    return next(found, 0)
+
+
+def _related(exercise: Exercise, number: Value, solution: Value) -> str:
+    """What is said of a number that is one off, where things are counted."""
+    counts = what_is_asked(exercise) != "first" and exercise.unit.lower() not in UNITS and not exercise.tolerance
+    return reply("number.one_off") if counts and _distance(number, solution) == 1 < _distance(solution, 0) - 2 else ""
+
+
+def _with_this(exercise: Exercise, number: Value) -> str:
+    """What the system has at the step that is answered, or what it would need for the number that is answered."""
+    what, asked = what_is_asked(exercise), exercise.asks
+    if not isinstance(number, int) or what not in ("first", "length", "count", "strokes"):
+        return ""
+    history = right_history(exercise)
+    if what == "first":
+        if not 0 <= number <= last_step(exercise):
+            return reply("number.a_length") if number > 0 else ""
+        length = history.values(exercise, number)[number]
+        kind = "step_is_past" if length > bound_of(exercise) else "step_is_not_past"
+        return reply(f"number.{kind}", step=number, number=f"{length:,}", bound=f"{bound_of(exercise):,}")
+    if exercise.steps < 2 or number < 0:
+        return ""
+    values = history.values(exercise, exercise.steps)
+    before, same = values[exercise.steps - 1], [step for step, value in enumerate(values) if value == number]
+    if same:
+        return reply("number.of_step", step=same[-1], number=number)
+    if asked == what and 0 < before < number:
+        return reply("number.more_made", step=exercise.steps - 1, before=before, number=number, more=number - before)
+    if number < before and sorted(values) == values:
+        return reply("number.fewer", step=exercise.steps - 1, before=before)
+    return ""
 
 
 def with_values(text: str, number: Value) -> str:
-    """A reply with the values of the formulas in braces, in which `answer` is the number; without those that have no value.
+    """A reply with the values of the formulas in braces, in which `answer` is the number; another one if one has no value.
 
-    >>> with_values("Twice that is {2*answer}. Its root is {sqrt(answer)}. And now?", -3)
-    'Twice that is -6. And now?'
+    >>> with_values("Twice that is {2*answer}. Its root is {sqrt(answer)}. And now?", 9)
+    'Twice that is 18. Its root is 3. And now?'
+    >>> with_values("The root of it is {sqrt(answer)}. Is that right?", -3)
+    'Put it into the formulas of the question: there it has no value.'
     """
-    sentences = re.split(r"(?<=[.?!])\s+(?=[A-ZÄÖÜ])", text)
-    return " ".join(filter(None, (_with_values(sentence, number) for sentence in sentences)))
-
-
-def _with_values(sentence: str, number: Value) -> str:
     try:
-        return FORMULA.sub(lambda found: _rounded(formula_in_reply(found[1])((number,))), sentence)
+        return FORMULA.sub(lambda found: _rounded(formula_in_reply(found[1])((number,))), text)
     except (ArithmeticError, ValueError, LSystemError):
-        return ""
+        return reply("number.no_value")
 
 
 def formula_in_reply(text: str) -> Function:
@@ -160,7 +234,7 @@ def _honest_number(_: Exercise, number: Value, solution: Value) -> bool:
     if not solution:
         return bool(0 < _distance(number, 0) <= MOST_APART)
     size, wanted = _distance(number, 0), _distance(solution, 0)
-    return bool((number > 0) == (solution > 0) and number and wanted <= MOST_APART * size and size <= MOST_APART * wanted)
+    return bool(number and wanted <= MOST_APART * size and size <= MOST_APART * wanted)
 
 
 NUMBER = AnswerKind(_read_number, _number_difference, same_number, _honest_number)
@@ -171,6 +245,8 @@ NUMBER = AnswerKind(_read_number, _number_difference, same_number, _honest_numbe
 
 def _read_table(exercise: Exercise, answer: object) -> tuple[Value, ...]:
     found = [part for part in parts(answer, reply("table.what")) if not _is_a_word_in_place(exercise, part)]
+    if not found:
+        raise ModelValueError(reply("table.none"))
     return tuple(_read_number(exercise, part) for part in found)
 
 
@@ -195,7 +271,17 @@ def _table_difference(exercise: Exercise, own: tuple[Value, ...], solution: tupl
     last = min(len(own), len(solution))
     at = next((i for i, (a, b) in enumerate(pairs) if not same_number(exercise, a, b)), last)
     said = [] if len(own) == len(solution) else [reply("table.count", number=len(own), asked=len(solution))]
-    if at == last:
+    exchanged = _exchanged(exercise, own, solution)
+    in_steps = len(own) == len(solution) > 2 and bool(_steps_of(exercise))
+    if in_steps and _same_table(exercise, own[1:], solution[:-1]):
+        said.append(reply("table.late"))
+    elif in_steps and _same_table(exercise, own[:-1], solution[1:]):
+        said.append(reply("table.early"))
+    elif len(own) == 1 < len(solution):
+        pass
+    elif exchanged:
+        said.append(reply("table.exchanged", one=exchanged[0], other=exchanged[1]))
+    elif at == last:
         said.append(reply("table.agree"))
     else:
         said += [reply("table.first_right", number=at)] if at > 1 else []
@@ -203,16 +289,35 @@ def _table_difference(exercise: Exercise, own: tuple[Value, ...], solution: tupl
     return Difference(" ".join(said), at / max(len(own), len(solution), 1), one_apart(own, solution))
 
 
+def _exchanged(exercise: Exercise, own: Sequence[Value], solution: Sequence[Value]) -> list[int]:
+    """The two places whose numbers are exchanged, from 1, where nothing else is wrong."""
+    if len(own) != len(solution):
+        return []
+    wrong = [at for at, (a, b) in enumerate(zip(own, solution, strict=True)) if not same_number(exercise, a, b)]
+    is_swap = len(wrong) == 2 and own[wrong[0]] == solution[wrong[1]] and own[wrong[1]] == solution[wrong[0]]
+    return [at + 1 for at in wrong] if is_swap else []
+
+
+def _steps_of(exercise: Exercise) -> Sequence[int]:
+    """The steps whose numbers stand in a row, if it is one of steps."""
+    return asked_steps(exercise) if what_is_asked(exercise) in ("lengths", "counts") and not exercise.symbols else ()
+
+
 def _look_at(exercise: Exercise, at: int, own: str) -> str:
-    steps = asked_steps(exercise) if what_is_asked(exercise) in ("lengths", "counts") and not exercise.symbols else ()
+    what, names = what_is_asked(exercise), exercise.symbols
+    if what == "matrix" and names and at < len(names) ** 2:
+        symbol, row = names[at % len(names)], names[at // len(names)]
+        return reply("table.number_of_entry", at=at + 1, symbol=symbol, row=row, number=own)
+    if what == "counts" and at < len(names):
+        return reply("table.number_of_symbol", at=at + 1, symbol=names[at], number=own)
+    steps = _steps_of(exercise)
     if at < len(steps):
         return reply("table.number_of_step", at=at + 1, step=steps[at], number=own)
     return reply("table.number", at=at + 1, number=own)
 
 
 def _honest_table(_: Exercise, own: tuple[Value, ...], solution: tuple[Value, ...]) -> bool:
-    begun = 2 * len(own) >= len(solution) and first_difference(own, solution) > 0
-    return begun or (len(own) == len(solution) and any(own))
+    return any(own) or own == solution[: len(own)]
 
 
 TABLE = AnswerKind(_read_table, _table_difference, _same_table, _honest_table, parts_right=_numbers_right)

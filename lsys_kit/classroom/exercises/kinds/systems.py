@@ -8,27 +8,28 @@ a production must itself say to which modules it applies.
 from __future__ import annotations
 
 import re
-from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from itertools import islice, zip_longest
 
 from lsys_kit.budget import counted
-from lsys_kit.classroom.exercises.asked import beginning_with, with_constants
+from lsys_kit.classroom.exercises.asked import beginning_with, system_of, with_constants
 from lsys_kit.classroom.exercises.exercise import Exercise
+from lsys_kit.classroom.exercises.kinds.forms import form_of, in_names_of, with_names
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
 from lsys_kit.classroom.exercises.replies import reply
-from lsys_kit.classroom.exercises.typed import read_typed, text_answer
+from lsys_kit.classroom.exercises.typed import formula_text, quoted, read_typed, text_answer
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.petri.net import all_outcomes, outcomes_of
-from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError
+from lsys_kit.errors import LSystemError, ModelValueError
 from lsys_kit.notation.analysis.lint import warnings
 from lsys_kit.notation.model.arithmetic import Value
-from lsys_kit.notation.model.expressions import Apply, Number
+from lsys_kit.notation.model.expressions import Number, expression_type, walk
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem, Production, symbols
-from lsys_kit.notation.read import read, read_word
+from lsys_kit.notation.read import read, read_expression, read_word
 from lsys_kit.worlds.derive import derive
 
 # Words that are the same but for the names of their symbols
@@ -62,12 +63,10 @@ class Renaming:
     def first_difference(self, mine: Sequence[Module], wanted: Sequence[Module]) -> int | None:
         """The first position at which a word of the answer is not that of the solution, or None."""
         for at, (own, other) in enumerate(zip_longest(mine, wanted)):
-            if (
-                own is None
-                or other is None
-                or own.arguments != other.arguments
-                or not self._may_stand(own.symbol, other.symbol)
-            ):
+            if own is None or other is None:
+                return at
+            own, other = one_way_round(own), one_way_round(other)
+            if own.arguments != other.arguments or not self._may_stand(own.symbol, other.symbol):
                 return at
         return None
 
@@ -89,9 +88,31 @@ class Renaming:
         """A module of the solution as the answer calls it."""
         return replace(module, symbol=self._own.get(module.symbol, module.symbol))
 
+    @property
+    def found(self) -> Mapping[str, str]:
+        """For symbols of the solution what they are called in the answer, as far as that is known."""
+        return self._own
+
     def wanted(self, module: Module) -> Module:
         """A module of the answer as the solution calls it."""
         return replace(module, symbol=self._wanted.get(module.symbol, module.symbol))
+
+
+_OTHER_WAY = {"-": "+", "^": "&", "\\": "/"}
+"""Turns, and those that lead the other way."""
+
+
+def one_way_round(module: Module) -> Module:
+    """A module; if it is a turn by an angle, that which does the same in the direction of +, & or /.
+
+    >>> one_way_round(Module("-", (60,))), one_way_round(Module("/", (480,))), one_way_round(Module("F", (-1,)))
+    (+(300), /(120), F(-1))
+    """
+    if len(module.arguments) != 1 or not (module.symbol in _OTHER_WAY or module.symbol in _OTHER_WAY.values()):
+        return module
+    (angle,) = module.arguments
+    other = _OTHER_WAY.get(module.symbol)
+    return Module(other, (-angle % 360,)) if other else replace(module, arguments=(angle % 360,))
 
 
 # Two systems compared
@@ -121,10 +142,11 @@ class SystemAnswer:
 def completed(exercise: Exercise, own: LSystem) -> SystemAnswer:
     """A part of a system with what the question gives."""
     if not exercise.given:
-        return _whole(own)
-    given = read(exercise.given)
+        return whole(own)
+    given = system_of(exercise.given)
     rest = tuple(rule for rule in given.productions if rule not in own.productions)
-    return SystemAnswer(replace(own, productions=own.productions + rest), replace(own, productions=rest + own.productions), own)
+    behind = replace(own, productions=rest + own.productions)
+    return SystemAnswer(behind if exercise.behind else replace(own, productions=own.productions + rest), behind, own)
 
 
 @dataclass(frozen=True)
@@ -154,7 +176,7 @@ def parting(exercise: Exercise, mine: LSystem, wanted: LSystem) -> Parting | Non
 def _parting(exercise: Exercise, mine: LSystem, wanted: LSystem) -> Parting | None:
     names = renaming(exercise, wanted)
     certain = not States(wanted).traits.stochastic and not States(mine).traits.stochastic
-    found = _words_parting(mine, wanted, names, exercise.steps if certain else 0)
+    found = words_parting(mine, wanted, names, exercise.steps if certain else 0)
     if found is not None and found.step == 0:
         return found
     wrong = next(wrongly_replaced(exercise, mine, wanted, names), None)
@@ -165,13 +187,14 @@ def _parting(exercise: Exercise, mine: LSystem, wanted: LSystem) -> Parting | No
     for probe in exercise.probes:
         word = read_word(probe, "abop", wanted)
         own_word = [names.own(module) for module in word]
-        found = _words_parting(beginning_with(mine, own_word), beginning_with(wanted, word), names, min(exercise.steps, 5))
+        found = words_parting(beginning_with(mine, own_word), beginning_with(wanted, word), names, min(exercise.steps, 5))
         if found is not None:
             return Parting(found.step, found.position, setting=reply("system.axiom_is", word=probe))
     return None
 
 
-def _words_parting(mine: LSystem, wanted: LSystem, names: Renaming, steps: int) -> Parting | None:
+def words_parting(mine: LSystem, wanted: LSystem, names: Renaming, steps: int) -> Parting | None:
+    """Where the words of two systems first part; which names stand for one another is found on the way."""
     own, other = derive(mine, steps), derive(wanted, steps)
     for step, (a, b) in enumerate(zip(own, other, strict=True)):
         at = names.first_difference(a, b)
@@ -200,14 +223,15 @@ def wrongly_replaced(exercise: Exercise, mine: LSystem, wanted: LSystem, names: 
             yield called
 
 
-def _fates(states: States, module: Module, names: Renaming | None) -> Counter[tuple[object, ...]]:
+def _fates(states: States, module: Module, names: Renaming | None) -> Mapping[tuple[object, ...], Value]:
     """What may become of a module, and how likely, in the symbols of the solution."""
     state = states.number(module.symbol, module.arguments)
-    found: Counter[tuple[object, ...]] = Counter()
+    found: dict[tuple[object, ...], Value] = {}
     outcomes = [(outcome.successor, outcome.chance) for outcome in outcomes_of(states, state)] or [((state,), 1)]
     for successor, chance in outcomes:
         word = [states.modules[number] for number in successor]
-        found[tuple(map(names.wanted, word)) if names else tuple(word)] += chance  # type: ignore[assignment]
+        word = [one_way_round(names.wanted(each) if names else each) for each in word]
+        found[tuple(word)] = found.get(tuple(word), 0) + chance
     return found
 
 
@@ -220,9 +244,9 @@ def unused(own: LSystem) -> Production | None:
 def same(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) -> bool:
     return (
         (not exercise.drawn or mine.front.angle == wanted.front.angle)
-        and unused(mine.own) == unused(wanted.own)
         and parting(exercise, mine.front, wanted.behind) is None
         and (mine.front is mine.behind or parting(exercise, mine.behind, wanted.behind) is None)
+        and unused(mine.own) == unused(wanted.own)
     )
 
 
@@ -248,68 +272,57 @@ def tests_passed(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) -
 def _agreeing_steps(exercise: Exercise, mine: LSystem, wanted: LSystem, setting: Mapping[str, Value]) -> int:
     try:
         names, each = renaming(exercise, wanted), [with_constants(system, setting) for system in (mine, wanted)]
-        found = _words_parting(each[0], each[1], names, exercise.steps)
+        found = words_parting(each[0], each[1], names, exercise.steps)
     except LSystemError:
         return 0
     return exercise.steps if found is None else max(found.step - 1, 0)
 
 
-def alike(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) -> bool:
-    """Whether an answer is that which a misconception leads to: also for modules that the question does not reach."""
-    exercise = replace(exercise, probes=(), settings=())
-    if (mine.own.angle, mine.own.heading) != (wanted.own.angle, wanted.own.heading) or unused(mine.own) != unused(wanted.own):
-        return False
-    if len(_replaced(mine.own)) != len(_replaced(wanted.own)) or not _for_the_same(exercise, mine, wanted):
-        return False
-    try:
-        return all(
-            parting(exercise, one, other) is None for one, other in ((mine.behind, wanted.behind), (mine.front, wanted.front))
-        ) and _alone(exercise, mine, wanted)
-    except ModelLimitError:
-        return False
+def alike(exercise: Exercise, mine: SystemAnswer, other: SystemAnswer) -> bool:
+    """Whether an answer is that which a misconception leads to, in its form: what does the same may be another mistake."""
+    own = in_names_of(mine.own, other.own, symbols(solution_front(exercise)), exercise.names)
+    given = system_of(exercise.given).productions if exercise.given else ()
+    return form_of(own, given, exercise.drawn) == form_of(other.own, given, exercise.drawn)
 
 
-def _replaced(system: LSystem) -> set[tuple[str, ...]]:
-    return {tuple(module.symbol for module in rule.predecessors) for rule in system.productions}
+@lru_cache(maxsize=128)
+def solution_front(exercise: Exercise) -> LSystem:
+    """The whole system of the solution."""
+    return _read(exercise, exercise.solution).front
 
 
-def _for_the_same(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) -> bool:
-    """Whether what was typed has productions for the same symbols, as far as these are those of the question."""
-    known = set(symbols(wanted.front)) if exercise.names != "any" else set()
-    own, other = ({symbol for each in _replaced(system) for symbol in each} for system in (mine.own, wanted.own))
-    return own & known == other & known or not own <= known
+def renamed_as_in(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer, system: LSystem) -> LSystem:
+    """A system of the solution's symbols with the names that they have in an answer, as far as these are known."""
+    names = renaming(exercise, wanted.behind)
+    replaced = {module.symbol for rule in mine.own.productions for module in rule.predecessors}
+    if names.names != "fixed" and not replaced <= names.known:
+        with suppress(LSystemError):
+            words_parting(mine.behind, wanted.behind, names, exercise.steps)
+    return with_names(system, names.found)
 
 
-def _alone(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) -> bool:
-    """Whether what was typed does the same without what is given, to modules with neighbouring values too."""
-    own, other = States(mine.own), States(wanted.own)
-    if not (own.traits.d0l and other.traits.d0l):
-        return True
-    names = renaming(exercise, wanted.front)
-    names.first_difference(derive(mine.behind, 0)[0], derive(wanted.behind, 0)[0])
-    modules = asked_modules(exercise, wanted.behind)
-    nearby = [
-        replace(module, arguments=tuple(a + by for a in module.arguments))
-        for module in modules
-        for by in (-2, -1, 1, 2)
-        if module.arguments
-    ]
-    bounds = {number + by for number in _numbers_compared(mine.own, wanted.own) for by in (-1, 0, 1)}
-    at_bounds = [replace(module, arguments=(bound,)) for module in modules if len(module.arguments) == 1 for bound in bounds]
-    return all(
-        _fates(own, names.own(module), names) == _fates(other, module, None)
-        for module in list(dict.fromkeys([*at_bounds, *modules, *nearby]))[:MOST_MODULES]
-    )
+def numbers_compared(*rules: Production) -> set[Value]:
+    """The numbers in the conditions of productions."""
+    conditions = [rule.condition for rule in rules if rule.condition is not None]
+    return {part.value for condition in conditions for part in walk(condition) if isinstance(part, Number)}
 
 
-def _numbers_compared(*systems: LSystem) -> set[Value]:
-    found: set[Value] = set()
-    waiting = [rule.condition for system in systems for rule in system.productions if rule.condition is not None]
-    while waiting:
-        part = waiting.pop()
-        found |= {part.value} if isinstance(part, Number) else set()
-        waiting += part.operands if isinstance(part, Apply) else ()
-    return found
+def joined_names(exercise: Exercise, mine: SystemAnswer) -> Mapping[str, str]:
+    """Names without a production that are letters of the question written together, each with these letters."""
+    known = [each for each in symbols(solution_front(exercise)) if each[:1].isalpha()]
+    letters = "|".join(map(re.escape, sorted(known, key=len, reverse=True)))
+    replaced = {module.symbol for rule in mine.front.productions for module in rule.predecessors}
+    own = [each for each in symbols(mine.own) if each not in known and each not in replaced]
+    return {name: " ".join(re.findall(letters, name)) for name in own if letters and re.fullmatch(f"(?:{letters})+", name)}
+
+
+def names_in_other_case(exercise: Exercise, mine: SystemAnswer) -> Mapping[str, str]:
+    """Names that the question has in capital letters for small ones, or the other way round, with its own."""
+    known = symbols(solution_front(exercise))
+    if exercise.names != "fixed" and not exercise.given:
+        return {}
+    others = (each for each in symbols(mine.own) if each not in known and each not in ("F", "f"))
+    return {each: each.swapcase() for each in others if each.swapcase() in known}
 
 
 # As it was typed
@@ -318,26 +331,48 @@ def _numbers_compared(*systems: LSystem) -> set[Value]:
 _AXIOM_LINE = re.compile(r"^[ \t]*(axiom|omega|ω)[ \t]*:", re.IGNORECASE | re.MULTILINE)
 """An answer with an axiom of its own is the whole system."""
 _ARROW = re.compile(r"->|→")
+_ARROWS = re.compile(r"->|=>|→|⇒|\\to\b|\\rightarrow")
+_SETTING = re.compile(r"^[^\n=]*(?::|(?<![<>=!])=(?!=))", re.MULTILINE)
 MOST_QUOTED = 200
 """How many characters of a production a reply quotes."""
 
 
 def _read(exercise: Exercise, answer: object) -> SystemAnswer:
     if isinstance(answer, LSystem):
-        return _whole(answer)
+        return whole(answer)
     text = text_answer(answer, reply("system.what"), '"axiom: a"')
+    _refuse_part_of_production(exercise, text)
     return read_typed(text, lambda typed: _read_text(exercise, typed), f"{exercise.given}\n{exercise.solution}")
+
+
+def _refuse_part_of_production(exercise: Exercise, text: str) -> None:
+    """Refuse what is no production, but part of one, and say what it is."""
+    if _ARROWS.search(text) or _SETTING.search(text):
+        return
+    what = ""
+    with suppress(LSystemError):
+        formula = read_expression(formula_text(text))
+        what = (
+            "condition_alone" if expression_type(formula) == "truth" else "number_alone" if isinstance(formula, Number) else ""
+        )
+    with suppress(LSystemError):
+        known = symbols(solution_front(exercise))
+        if not what and all(module.symbol in known for module in read_word(text, "abop", solution_front(exercise))):
+            what = "word_alone"
+    if what:
+        hint = reply("system.form_with_condition" if "condition" in what else "system.form")
+        raise ModelValueError(reply(f"system.{what}", text=quoted(text)), hint=hint)
 
 
 def _read_text(exercise: Exercise, text: str) -> SystemAnswer:
     if not exercise.given or _AXIOM_LINE.search(text):
-        return _whole(read(text))
-    given = read(exercise.given)
+        return whole(read(text))
+    given = system_of(exercise.given)
     with suppress(LSystemError):  # in another notation
-        whole = read(text)
+        found = read(text)
         if not all(_ARROW.search(line) for line in text.splitlines() if line.strip()):
-            return _whole(whole)
-        return completed(exercise, replace(given, productions=whole.productions, source=whole.source))
+            return whole(found)
+        return completed(exercise, replace(given, productions=found.productions, source=found.source))
     together = read(f"{text}\n{exercise.given}")
     own = [rule for rule in together.productions if rule.at and rule.at[1] <= len(text) and rule not in given.productions]
     if not own:
@@ -345,7 +380,7 @@ def _read_text(exercise: Exercise, text: str) -> SystemAnswer:
     return completed(exercise, replace(together, productions=tuple(own)))
 
 
-def _whole(system: LSystem) -> SystemAnswer:
+def whole(system: LSystem) -> SystemAnswer:
     return SystemAnswer(system, system, system)
 
 
@@ -353,14 +388,19 @@ def _whole(system: LSystem) -> SystemAnswer:
 
 
 def _difference(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) -> Difference:
+    joined = joined_names(exercise, mine)
+    if joined:
+        name, letters = next(iter(joined.items()))
+        return Difference(reply("system.joined", name=name, letters=letters))
     behind = parting(exercise, mine.behind, wanted.behind)
     front = parting(exercise, mine.front, wanted.behind) if mine.front is not mine.behind else behind
     likeness, near = _likeness(exercise, mine, wanted)
     if front is None and behind is None:
         return _difference_in_writing(mine)
     if behind is None and front is not None:
-        said = reply("system.not_by_itself", module=_applied_too(front, mine.front))
-        return Difference(said, likeness * 0.9, near)
+        module = _applied_too(front, mine.front)
+        said = "not_by_itself" if any(rule.predecessor.arguments for rule in mine.own.productions) else "given_already"
+        return Difference(reply(f"system.{said}", module=module), likeness * 0.9, near)
     found = behind or front
     assert found is not None
     return Difference(_in_words(found, mine, mine.behind if behind else mine.front, wanted.behind), likeness, near)
@@ -368,7 +408,9 @@ def _difference(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) ->
 
 def _difference_in_writing(mine: SystemAnswer) -> Difference:
     never = unused(mine.own)
-    return Difference(reply("system.angle") if never is None else reply("system.never_used") + _typed(never, mine), 1, True)
+    if never is None:
+        return Difference(reply("system.angle"), 1, True)
+    return Difference(reply("system.never_used") + _typed(never, mine), 1, True, explains=True)
 
 
 def _applied_too(found: Parting, system: LSystem) -> str:
@@ -429,9 +471,13 @@ def _production_for(module: Module, mine: SystemAnswer, system: LSystem) -> str:
 
 
 def _typed(rule: Production, mine: SystemAnswer) -> str:
+    return typed_rule(rule, mine.own)
+
+
+def typed_rule(rule: Production, system: LSystem) -> str:
     """A production as it was typed, as a quoted line; as the kit writes it, where it was not typed."""
-    source = mine.own.source
-    own = next((found for found in mine.own.rules if found == rule and found.at), None)
+    source = system.source
+    own = next((found for found in system.rules if found == rule and found.at), None)
     text = source[own.at[0] : own.at[1]] if own and own.at and source and own.at[1] <= len(source) else str(rule)
     line = " ".join(text.split())
     return f"\n  {line if len(line) <= MOST_QUOTED else f'{line[:MOST_QUOTED]}...'}"

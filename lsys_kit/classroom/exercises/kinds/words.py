@@ -23,6 +23,7 @@ from lsys_kit.notation.registry import DIALECTS
 Modules = tuple[Module, ...]
 _MISTAKABLE = {"+": "-", "-": "+", "[": "(", "]": ")", "(": "[", ")": "]", "F": "f", "f": "F"}
 """Symbols that are taken for one another: where one occurs the other is an answer, if a wrong one."""
+_TURTLE = "Ff+-[]|"
 _BRACES = re.compile(r"^\s*[{\[]([^{}\[\]]*,[^{}\[\]]*)[}\]]\s*$", re.DOTALL)
 """A word written as a list, whose brackets are no branches."""
 _TUPLE = re.compile(r"^\s*\(([^()]*,[^()]*)\)\s*$", re.DOTALL)
@@ -41,8 +42,8 @@ def system_of_words(exercise: Exercise) -> LSystem:
     return LSystem(tuple(map(Pattern, exercise.symbols or sorted({*re.findall(r"\w", exercise.solution)}))), ())
 
 
-def read_modules(system: LSystem, answer: object) -> Modules:
-    """A word of a system, as it was typed or made by the kit.
+def read_modules(system: LSystem, answer: object, drawn: bool = False) -> Modules:
+    """A word of a system, as it was typed or made by the kit; one that is drawn may hold any command of the turtle.
 
     >>> from lsys_kit.notation.read import read
     >>> fibonacci = read("axiom: a\\na -> ab\\nb -> a")
@@ -58,11 +59,11 @@ def read_modules(system: LSystem, answer: object) -> Modules:
     bare = bare if system.notation == "plant-string" else _TUPLE.sub(r"\1", bare)
     plain = bare if system.notation == "plant-string" else without_commas(bare)
     try:
-        return _of_the_system(system, plain, read_word(plain, system.notation, system))
+        return _of_the_system(system, plain, read_word(plain, system.notation, system), drawn)
     except LSystemError:
         for notation in DIALECTS:
             with suppress(LSystemError):
-                return _of_the_system(system, plain, read_word(plain, notation, system))
+                return _of_the_system(system, plain, read_word(plain, notation, system), drawn)
         raise
 
 
@@ -96,9 +97,11 @@ def _unlabelled(system: LSystem, text: str) -> str:
     return _NAME.sub(lambda found: plain if (plain := found[0].replace("_", "")) in known else found[0], text)
 
 
-def _of_the_system(system: LSystem, text: str, word: Modules) -> Modules:
+def _of_the_system(system: LSystem, text: str, word: Modules, drawn: bool) -> Modules:
     known = symbols(system)
     allowed = {*known, *(_MISTAKABLE[symbol] for symbol in known if symbol in _MISTAKABLE)}
+    if drawn and system.notation != "plant-string":
+        allowed |= {*_TURTLE}
     for module in word:
         if module.symbol not in allowed:
             hint = suggestion(module.symbol, known) or reply("word.symbols", symbols=", ".join(known))
@@ -113,8 +116,40 @@ def _read_word(exercise: Exercise, answer: object) -> Modules:
 
 def _word_difference(exercise: Exercise, word: Modules, solution: Modules) -> Difference:
     at = first_difference(word, solution)
-    said = reply("word.too_many", right=at) if at == len(solution) else f"{_parting(word, at)} {_mother(exercise, at)}".rstrip()
+    earlier = _step_of(exercise, word)
+    if earlier is not None:
+        return Difference(reply("word.of_step", step=earlier), explains=True)
+    said = _erased(exercise, word, solution, at)
+    if not said:
+        said = (
+            reply("word.too_many", right=at)
+            if at == len(solution)
+            else f"{_parting(word, at)} {_mother(exercise, at)}".rstrip()
+        )
     return Difference(said, at / max(len(solution), len(word), 1), one_apart(word, solution), at_a_place=True)
+
+
+def _step_of(exercise: Exercise, word: Modules) -> int | None:
+    """The step before the last whose word an answer is."""
+    if not exercise.system:
+        return None
+    words = right_history(exercise).words
+    return next((step for step in range(exercise.steps - 1) if tuple(words[step]) == word), None)
+
+
+def _erased(exercise: Exercise, word: Modules, solution: Modules, at: int) -> str:
+    """What is said where a module of the step before, which should vanish, is there still."""
+    if not exercise.system or not exercise.steps or at >= len(word):
+        return ""
+    words = right_history(exercise).words
+    assert isinstance(words, Derived)
+    parents, before = words.derivation.origins(exercise.steps).parents, words[exercise.steps - 1]
+    first = parents[at - 1] + 1 if at else 0
+    last = parents[at] if at < len(solution) else len(before)
+    for place in range(first, last):
+        if before[place] == word[at] and word[at + 1 : at + 2] == solution[at : at + 1]:
+            return reply("word.erased", right=at, at=at + 1, module=word[at], place=place + 1, step=exercise.steps - 1)
+    return ""
 
 
 def _parting(word: Modules, at: int) -> str:
@@ -187,7 +222,7 @@ def _words_right(_: Exercise, own: Sequence[Modules], solution: Sequence[Modules
 
 
 def _honest_words(_: Exercise, own: Sequence[Modules], solution: Sequence[Modules]) -> bool:
-    return 2 * len(own) >= len(solution)
+    return 2 * len(own) >= len(solution) or any(word in solution for word in own)
 
 
 WORDS = AnswerKind(_read_words, _words_difference, honest=_honest_words, parts_right=_words_right)

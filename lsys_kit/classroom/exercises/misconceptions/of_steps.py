@@ -5,16 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
-from itertools import count, islice
+from itertools import count, islice, permutations
 from typing import Any, TypeAlias
 
 from lsys_kit.classroom.exercises.asked import (
     History,
+    answer_by,
     asked_steps,
     asked_system,
     beginning_with,
     bound_of,
     first_past,
+    is_derived,
     last_step,
     right_history,
     what_is_asked,
@@ -57,7 +59,7 @@ def words_by(step: WrongStep, system: LSystem, steps: int) -> Iterator[list[Modu
 
 def by_words(words: Callable[[LSystem, int], Iterable[Sequence[Module]]], trait: str, exercise: Exercise) -> Iterator[Any]:
     """The answers of somebody who derives other words, of systems that have a trait."""
-    system = asked_system(exercise) if what_is_asked(exercise) else None
+    system = asked_system(exercise) if is_derived(exercise) else None
     if system is not None and getattr(States(system).traits, trait):
         found = list(words(system, last_step(exercise)))
         if len(found) > last_step(exercise):
@@ -69,10 +71,36 @@ def by_steps(step: WrongStep, exercise: Exercise) -> Iterator[Any]:
     return by_words(partial(words_by, step), "d0l", exercise)
 
 
-@misconception("sequential", by_steps)
-def sequential(states: States, word: list[int]) -> list[int]:
-    """Each production is applied everywhere, one after another, the second to what the first has made."""
-    return _each_by(lambda state: _one_after_another(states, state), word)
+MOST_ORDERED = 3
+"""Of so many productions all orders are tried, of more that in which they are written and the reverse."""
+
+
+@misconception("sequential")
+def sequential_in_each_order(exercise: Exercise) -> Iterator[Any]:
+    """Each production is applied everywhere, one after another, the second to what the first has made.
+
+    In the order in which they are written, or in another; one that happens to lead to the right answer shows nothing.
+    """
+    if not is_derived(exercise):
+        return
+    yield from by_steps(sequential, exercise)
+    number, right = len(asked_system(exercise).productions), answer_by(exercise, right_history(exercise))
+    rules = range(number)
+    for order in permutations(rules) if number <= MOST_ORDERED else (rules[::-1],):
+        yield from (answer for answer in by_steps(partial(sequential, order=order), exercise) if answer != right)
+
+
+def sequential(states: States, word: list[int], order: Sequence[int] | None = None) -> list[int]:
+    """A step in which the productions are applied one after another, in an order of their numbers.
+
+    >>> from lsys_kit.notation.read import read
+    >>> states = States(read("axiom: a\\na -> ab\\nb -> a"))
+    >>> a, b = (states.number(symbol, ()) for symbol in "ab")
+    >>> sequential(states, [a, b]) == [a, a, a], sequential(states, [a, b], (1, 0)) == [a, b, a, b]
+    (True, True)
+    """
+    rules = range(len(states.system.productions)) if order is None else order
+    return _each_by(lambda state: _one_after_another(states, state, rules), word)
 
 
 def _each_by(successor: Callable[[int], Sequence[int]], word: list[int]) -> list[int]:
@@ -81,9 +109,9 @@ def _each_by(successor: Callable[[int], Sequence[int]], word: list[int]) -> list
     return [after for state in word for after in made[state]]
 
 
-def _one_after_another(states: States, state: int) -> list[int]:
+def _one_after_another(states: States, state: int, order: Sequence[int]) -> list[int]:
     word = [state]
-    for number in range(len(states.system.productions)):
+    for number in order:
         word = [after for each in word for after in (states.successor(each) if states.production(each) == number else (each,))]
         if len(word) > MOST_MODULES:
             break
@@ -181,8 +209,7 @@ def context_in_new_word(system: LSystem, steps: int) -> Iterator[list[Module]]:
 
 def _shifted(offset: int, exercise: Exercise) -> Iterator[Any]:
     """The answers of somebody who counts the steps from another one."""
-    asked = what_is_asked(exercise)
-    if asked not in ("", "first") and not (asked == "drawing" and exercise.steps < 2):
+    if is_derived(exercise) and what_is_asked(exercise) != "first":
         yield from by_history(exercise, replace(right_history(exercise), offset=offset))
 
 

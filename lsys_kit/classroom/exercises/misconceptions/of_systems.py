@@ -12,12 +12,13 @@ from typing import Any, TypeAlias
 from lsys_kit.classroom.exercises.asked import Derived, History, asked_system, last_step, what_is_asked
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.drawings import Drawn
+from lsys_kit.classroom.exercises.kinds.forms import is_sensible
 from lsys_kit.classroom.exercises.kinds.systems import completed
 from lsys_kit.classroom.exercises.kinds.table import solution_of
 from lsys_kit.classroom.exercises.misconceptions.misconception import by_history, misconception
 from lsys_kit.classroom.exercises.misconceptions.of_solutions import OTHER_STRICTNESS, changed, substituted, with_operator
-from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number, names_in
-from lsys_kit.notation.model.modules import CLOSING, OPENING, Item, Pattern, Repeat, expressions_of
+from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
+from lsys_kit.notation.model.modules import CLOSING, OPENING, Item, Pattern, Repeat
 from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.worlds.derive import derive
 
@@ -49,29 +50,6 @@ def in_mind(change: ChangeOfSystem, exercise: Exercise) -> Iterator[Any]:
 def by_turns(change: ChangeOfSystem, exercise: Exercise) -> Iterator[Any]:
     """The same of a system with another angle, in questions that do not give it."""
     return iter(()) if exercise.kind == "drawing" and exercise.system else by_systems(change, exercise)
-
-
-def is_sensible(system: LSystem) -> bool:
-    """Whether every name in a system's productions is a parameter, a constant or what counts in a repeated part."""
-    constants = {constant.name for constant in system.constants}
-    return all(_names_used(rule) <= constants | _names_given(rule) for rule in system.productions)
-
-
-def _names_used(rule: Production) -> frozenset[str]:
-    others = [part for part in (rule.condition, rule.probability) if part is not None]
-    return frozenset().union(*map(names_in, [*expressions_of(rule.successor), *others]))
-
-
-def _names_given(rule: Production) -> set[str]:
-    formal = {a.name for module in rule.parameters for a in module.arguments if isinstance(a, Name)}
-    return formal | set(_indices(rule.successor))
-
-
-def _indices(items: Items) -> Iterator[str]:
-    for item in items:
-        if isinstance(item, Repeat):
-            yield item.index
-            yield from _indices(item.body)
 
 
 # All productions, or one of them

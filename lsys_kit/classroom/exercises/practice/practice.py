@@ -63,8 +63,7 @@ class Practice:
         The try is kept with the progress, without the answer.
 
         >>> practice("derive", seed=9).check("a")
-        Not yet. That is what comes out if you leave out one of the productions. Every kind of module that changes needs a
-        production.
+        Not yet. That is the word of step 1. Or did you leave out one of the productions?
         """
         verdict = checked(self.exercise, answer, hint, solution, "check(answer")
         problem = keep_try(kept_name(self.topic, self.level, self.seed), answer, verdict)

@@ -1,0 +1,93 @@
+"""Repairs of drawings: a character of the word, or a part of the system, from which they were drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from difflib import SequenceMatcher
+from functools import partial
+from itertools import combinations
+from typing import Any, TypeAlias
+
+from lsys_kit.classroom.exercises.asked import written
+from lsys_kit.classroom.exercises.exercise import Exercise
+from lsys_kit.classroom.exercises.kinds.drawings import Drawn, drawn
+from lsys_kit.classroom.exercises.repairs.of_systems import repairs_of
+from lsys_kit.classroom.exercises.repairs.repair import Repair, row_change, said_of_row
+from lsys_kit.classroom.exercises.replies import reply
+from lsys_kit.notation.model.modules import Module
+from lsys_kit.notation.model.system import LSystem
+
+Row: TypeAlias = tuple[Module, ...]
+MOST_MODULES = 60
+"""In longer words only what is to be changed towards the solution is looked for."""
+ALIKE = ("+-", "Ff", "[]", "()", "[(", "])")
+"""Symbols that are easily taken for one another."""
+
+
+def of_drawings(exercise: Exercise, mine: Drawn, wanted: Drawn) -> Iterator[Repair]:
+    """Repairs of a drawing: of its word, where a word was typed, else of its system."""
+    system, target = mine.derivation.states.system, wanted.derivation.states.system
+    if len(mine.derivation) == 1:
+        word, right = tuple(mine.derivation[0]), tuple(wanted.derivation[-1])
+        if not exercise.system and system.angle != target.angle:
+            turned = replace(system, angle=target.angle)
+            yield Repair(partial(_drawn, turned, word), partial(reply, "repair.angle"))
+        for changed in _towards(word, right):
+            yield Repair(partial(_drawn, system, changed), partial(said_of_row, word, changed), case=True)
+        for one, other in _word_pairs(word, right):
+            yield Repair(partial(_drawn, system, other), partial(_two_said, word, one, other), near=False, case=True, changes=2)
+        for changed in _words(word, right):
+            yield Repair(partial(_drawn, system, changed), partial(said_of_row, word, changed), case=True)
+    else:
+        yield from repairs_of(system, target, partial(drawn, exercise), settings=("angle",))
+
+
+def _drawn(system: LSystem, word: Row) -> Drawn:
+    return Drawn(written(system, word))
+
+
+def _two_said(word: Row, one: Row, both: Row) -> str:
+    """What is said of two changes: that they are one of a pair of brackets, or of one of them."""
+    if row_change(word, both).startswith("brackets"):
+        return said_of_row(word, both)
+    return f"{reply('repair.two')} {said_of_row(word, one)}"
+
+
+def _words(word: Row, right: Row) -> Iterator[Row]:
+    """A word with one thing changed anywhere."""
+    if len(word) > MOST_MODULES:
+        return
+    for at, module in enumerate(word):
+        yield (*word[:at], *word[at + 1 :])
+        for pair in ALIKE:
+            if module.symbol in pair:
+                yield (*word[:at], replace(module, symbol=pair[1 - pair.index(module.symbol)]), *word[at + 1 :])
+        if at + 1 < len(word) and word[at + 1] != module:
+            yield (*word[:at], word[at + 1], module, *word[at + 2 :])
+    for new in dict.fromkeys((*word, *right)):
+        for at in range(len(word) + 1):
+            yield (*word[:at], new, *word[at:])
+
+
+def _operations(word: Row, right: Row) -> list[tuple[str, int, int, int, int]]:
+    return [each for each in SequenceMatcher(None, word, right, autojunk=False).get_opcodes() if each[0] != "equal"]
+
+
+def _made(word: Row, right: Row, operations: Sequence[tuple[str, int, int, int, int]]) -> Row:
+    row: list[Any] = list(word)
+    for _, start, end, first, last in reversed(operations):
+        row[start:end] = right[first:last]
+    return tuple(row)
+
+
+def _towards(word: Row, right: Row) -> Iterator[Row]:
+    for operation in _operations(word, right):
+        yield _made(word, right, [operation])
+
+
+def _word_pairs(word: Row, right: Row) -> Iterator[tuple[Row, Row]]:
+    """Two changes towards the solution: the word with one of them, and with both."""
+    operations = _operations(word, right)
+    for one, other in combinations(operations, 2):
+        yield _made(word, right, [one]), _made(word, right, [one, other])

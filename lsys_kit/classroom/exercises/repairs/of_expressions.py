@@ -1,0 +1,91 @@
+"""Repairs of formulas: a number, a name, a sign, a comparison, a power of them changed, left out or added."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import partial
+from itertools import islice
+
+from lsys_kit.classroom.exercises.exercise import Exercise
+from lsys_kit.classroom.exercises.kinds.expressions import agreement
+from lsys_kit.classroom.exercises.repairs.of_systems import changed_once
+from lsys_kit.classroom.exercises.repairs.repair import Repair
+from lsys_kit.classroom.exercises.replies import reply
+from lsys_kit.notation.model.arithmetic import Value
+from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number, expression_type, walk
+
+_COMPARISONS = ("<", "<=", ">", ">=", "==", "!=")
+_JOINED = ("&&", "||")
+_OF_NUMBERS = ("+", "-", "*", "/")
+KINDS = ("extra", "number", "name", "comparison", "joined", "operator", "sign", "power", "order", "part", "missing")
+"""The kinds of changes, in the order in which they are tried."""
+MOST_PAIRS = 2_000
+"""So many pairs of changes are tried."""
+
+
+def of_expressions(exercise: Exercise, own: Expression, solution: Expression) -> Iterator[Repair]:
+    """Repairs of a formula: those of one part, then those of two."""
+    names, agrees = list(exercise.values), agreement(exercise, solution)
+    parts = [part for part in walk(solution) if isinstance(part, Apply) and part != solution]
+    numbers = {part.value for part in walk(solution) if isinstance(part, Number)}
+
+    def simple(part: Expression) -> Iterator[tuple[Expression, str]]:
+        yield from _variants(part, names, numbers)
+
+    def of_the_solution(part: Expression) -> Iterator[tuple[Expression, str]]:
+        kind = expression_type(part)
+        others = [other for other in parts if expression_type(other) == kind and other != part]
+        yield from ((other, "part") for other in others)
+        if kind == "truth":
+            yield from ((Apply(sign, (part, other)), "missing") for other in others for sign in _JOINED)
+
+    small: dict[Expression, str] = {}
+    for changed, kind in (*changed_once(own, simple), *changed_once(own, of_the_solution)):
+        small.setdefault(changed, kind)
+    for changed, kind in sorted(small.items(), key=lambda each: KINDS.index(each[1])):
+        if agrees(changed):
+            yield Repair(partial(_as_it_is, changed), partial(reply, f"repair.formula_{kind}"), case=True)
+    once = dict(changed_once(own, simple))
+    twice = ((other, kind) for changed, kind in once.items() for other, _ in changed_once(changed, simple))
+    for changed, kind in islice(twice, MOST_PAIRS):
+        if agrees(changed):
+            yield Repair(partial(_as_it_is, changed), partial(_two_said, kind), near=False, case=True, changes=2)
+
+
+def _as_it_is(changed: Expression) -> Expression:
+    return changed
+
+
+def _two_said(kind: str) -> str:
+    return f"{reply('repair.two')} {reply(f'repair.formula_{kind}')}"
+
+
+def _variants(part: Expression, names: list[str], numbers: set[Value]) -> Iterator[tuple[Expression, str]]:
+    """What may be meant in place of a part of a formula, and what kind of change that is."""
+    if isinstance(part, Number):
+        values = dict.fromkeys([part.value + 1, part.value - 1, *numbers, -part.value])
+        yield from ((Number(value), "number") for value in values if value != part.value)
+    elif isinstance(part, Name):
+        yield from ((Name(name), "name") for name in names if name != part.name)
+    else:
+        yield from _other_operators(part)
+        yield from ((operand, "extra") for operand in part.operands if expression_type(operand) == expression_type(part))
+    if expression_type(part) == "number":
+        for number in (Number(1), Number(2)):
+            yield from ((Apply(operator, (part, number)), "missing") for operator in ("+", "-", "*", "/"))
+        yield Apply("^", (part, Number(2))), "power"
+        yield Apply("-x", (part,)), "sign"
+        for name in names:
+            yield from ((Apply(operator, (part, Name(name))), "missing") for operator in ("*", "+", "-", "/"))
+
+
+def _other_operators(part: Apply) -> Iterator[tuple[Expression, str]]:
+    operator = part.operator
+    for group, kind in ((_COMPARISONS, "comparison"), (_JOINED, "joined"), (_OF_NUMBERS, "operator")):
+        if operator in group:
+            yield from ((replace(part, operator=other), kind) for other in group if other != operator)
+    if operator in ("-", "/", "^"):
+        yield replace(part, operands=part.operands[::-1]), "order"
+    if operator in ("*", "^"):
+        yield replace(part, operator="^" if operator == "*" else "*"), "power"

@@ -1,0 +1,337 @@
+"""Repairs: a wrong answer is answered by the smallest change that makes it right, and by nothing that is not true of it."""
+
+import re
+from dataclasses import replace
+from itertools import combinations
+from random import Random
+
+import pytest
+
+from lsys_kit import check, exercises, language
+from lsys_kit.classroom.exercises.exercise import Exercise
+from lsys_kit.classroom.exercises.judging import judged, wrong_answers
+from lsys_kit.classroom.exercises.kinds.choices import letters
+from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS, solution_of
+from lsys_kit.classroom.exercises.repairs import table
+from lsys_kit.classroom.exercises.repairs.table import REPAIRS, repaired
+from lsys_kit.classroom.exercises.typed import means_the_same
+from lsys_kit.errors import LSystemError
+
+FIBONACCI = "axiom: a\na -> a b\nb -> a"
+AGES = "axiom: A(0)\nA(t) : t < 3 -> A(t+1)\nA(t) : t == 3 -> A(0) A(1)"
+ALL = exercises()
+
+
+def asked(kind, solution, **keys):
+    return Exercise("t", "", kind, "q", solution, "e", ("1", "2", "3"), **keys)
+
+
+def said(exercise, answer):
+    return judged(exercise, answer)[0].message
+
+
+@pytest.fixture(autouse=True)
+def enough_time(monkeypatch):
+    """What is found must not depend on how fast the machine is."""
+    monkeypatch.setattr(table, "SECONDS", 60)
+
+
+# Systems
+
+
+@pytest.mark.parametrize(
+    ("answer", "words"),
+    [
+        ("axiom: a\na -> a b", "One production is missing: what becomes of b?"),
+        ("axiom: a\na -> a b\nb -> a\nb -> b a", "One of your productions is never used"),
+        ("axiom: b\na -> a b\nb -> a", "The productions are right, and the axiom is not"),
+        ("axiom: a\na -> a\nb -> a", "One module is missing. Look at this production:\n  a -> a"),
+        ("axiom: a\na -> a b b\nb -> a", "There is one module too many. Look at this production:\n  a -> a b b"),
+        ("axiom: a\na -> b a\nb -> a", "write the daughters in the reverse order"),
+        ("axiom: a\na -> a b\nb -> b", "One module is not right. Look at this production:\n  b -> b"),
+        ("axiom: a\na -> a\nb -> a b", "exchange what two kinds of modules become"),
+        ("axiom: a\na -> ab", 'Without blanks "ab" is read as one name'),
+        ("axiom: b\na -> a a b\nb -> a", "Two things are not right yet."),
+    ],
+)
+def test_what_is_to_be_changed_in_a_system_is_said(answer, words):
+    assert words in said(asked("system", FIBONACCI, steps=6), answer)
+
+
+@pytest.mark.parametrize(
+    ("condition", "words"),
+    [
+        (": t < 5", "Only one bound is not right. Try this production with A(3)"),
+        (": t < 1", "Only one bound is not right. Try this production with A(1)"),
+        (": t != 3 || t > 9", None),
+        (": t != 2", "Try this production with A(2)"),
+        (": t > 3", "Only one comparison is not right. Try this production with A(0)"),
+    ],
+)
+def test_a_condition_is_answered_with_a_module_for_which_it_is_not_right(condition, words):
+    answer = AGES.replace(": t < 3", condition)
+    message = said(asked("system", AGES, steps=8), answer)
+    assert words is None or words in message
+    if words:
+        assert message.endswith(f"\n  A(t) {condition} -> A(t+1)")
+
+
+def test_a_right_production_is_not_blamed_for_one_that_is_missing():
+    literal = "axiom: M(1)\nM(1) -> M(2)\nM(2) -> M(3)\nM(3) -> M(1) M(2)"
+    assert "\n  M(1) -> M(2)" not in check("6.5", literal).message
+    assert "\n  M(2) -> M(3)" not in check("6.5", literal).message
+
+
+def test_a_production_of_the_question_is_not_blamed():
+    for answer in ("F(l) : l <= 40 -> F(2*l)", "F(l) : l < 90 -> F(2*l)", "F(l) -> F(3*l)"):
+        assert "A -> F(10)" not in check("18.5", answer).message
+
+
+@pytest.mark.parametrize("name", [exercise.id for exercise in ALL if exercise.kind in ("system", "drawing")])
+def test_a_misconception_is_named_only_of_an_answer_of_its_form(name):
+    """No complete system is said to lack a production, and none without conditions to have left one out."""
+    exercise = next(each for each in ALL if each.id == name)
+    for wrong in wrong_answers(exercise):
+        if exercise.kind == "system" and wrong.misconception and wrong.misconception.name == "production missing":
+            assert len(wrong.answer.own.productions) < len(solution_of(exercise).own.productions)
+
+
+@pytest.mark.parametrize("name", [exercise.id for exercise in ALL if exercise.kind == "system"])
+def test_a_system_of_another_question_is_answered_too(name):
+    literal = "axiom: a(1)\na(1) -> a(2)\na(2) -> a(1) b(1)\nb(i) : i < 3 -> b(i+1)\nb(3) -> a(1) b(1)"
+    for answer, right in ((literal, ("7.5",)), ("axiom: A\nA -> F(10) A\nF(l) : l < 80 -> F(2*l)", ("18.5",))):
+        assert (check(name, answer) == 1) is (name in right), answer
+
+
+def test_opposite_turns_by_opposite_angles_are_the_same():
+    assert check("13.5", r"A -> F [&(45) F] \(240) A") == check("13.5", "A -> F [^(-45) F] /(480) A") == 1
+    assert check("13.5", r"A -> F [&(45) F] \(120) A") < 1
+
+
+def test_what_stands_behind_the_given_productions_need_not_be_right_in_front_of_them():
+    given = "axiom: M(1)\nM(s) : s < 4 -> M(s+1)"
+    last = asked("system", "M(s) : s == 4 -> M(2) M(1)", given=given, steps=9)
+    answer = "M(s) -> M(2) M(1)"
+    assert judged(last, answer)[0] < 1
+    assert judged(replace(last, behind=True), answer)[0] == 1
+
+
+@pytest.mark.parametrize(
+    ("answer", "what"),
+    [("s == 6", "is a condition"), ("s>5 and s<7", "is a condition"), ("6", "is a number"), ("M(3) M(1)", "is a word")],
+)
+def test_a_part_of_a_production_is_taken_for_what_it_is(answer, what):
+    verdict = check("6.3", answer)
+    assert (verdict.said, what in verdict.message) == ("Not readable yet", True)
+
+
+# Drawings, formulas, nets, maps
+
+
+@pytest.mark.parametrize(
+    ("answer", "words"),
+    [
+        ("F[-F]F[-FF]F", "One sign is not right."),
+        ("F[-F]F[+F]F", "One stroke is missing."),
+        ("F[-F]F[+FFF]F", "There is one stroke too many."),
+        ("F[-F]F+FFF", "Brackets are missing."),
+        ("f[-F]F[+FF]F", "One of F and f is taken for the other."),
+        ("F[+F]F[-FF]F", "take + for -"),
+        ("FF[-F]F[+FF]F", "There is one stroke too many."),
+        ("F[-F]F", "Several characters in a row are missing."),
+    ],
+)
+def test_what_is_to_be_changed_in_a_drawn_word_is_said(answer, words):
+    message = check("4.3", answer).message
+    assert words in message
+    assert "old word" not in message  # nothing is rewritten
+
+
+def test_an_angle_is_told_from_rules():
+    assert check("0.5", "angle: 45\naxiom: F\nF -> F[+F]F[+F]F").message == "The rules are right, and the angle is not."
+
+
+@pytest.mark.parametrize(
+    ("answer", "words"),
+    [
+        ("y < 1 || x^2 + y^2 > L^2", "Only one number is not right."),
+        ("x < 0 || x^2 + y^2 > L^2 ", "exchange two of the names"),
+        ("y < 0 || x^2 + x^2 > L^2", "Only one name is not right."),
+        ("y < 0 && x^2 + y^2 > L^2", "Only && and || are exchanged."),
+        ("x^2 + y^2 > L^2", "Only one part is missing."),
+        ("y < 0 || x^2 + y^2 > L^2 || x < 0", "Only one part should not be there."),
+        ("y <= -1 || x^2 + y^2 > L^2", "With x = "),
+    ],
+)
+def test_what_is_to_be_changed_in_a_formula_is_said(answer, words):
+    assert words in check("15.5", answer).message
+
+
+@pytest.mark.parametrize(
+    ("answer", "words"),
+    [
+        ("L -> S\nS -> A\nA -> B\nB -> L + S", "The diagram is right, but not the names of its stages"),
+        ("A -> B\nB -> C\nC -> D\nD -> A + B", "The question names a stage S"),
+        ("L -> A\nA -> B\nB -> L + S", "One transition is missing: what becomes of a token in S?"),
+        ("S -> L\nL -> A\nA -> B\nB -> L + L", "One arrow leads to the wrong place. Look at the transition that empties B."),
+        ("S -> L\nL -> A\nA -> B\nB -> L + 2 S", "how many tokens does it put into each place?"),
+        ("S -> X\nX -> L\nL -> A\nA -> B\nB -> L + S", "There is one stage too many."),
+        ("S -> L\nL -> Y\nY -> Z\nZ -> L + S", ""),
+    ],
+)
+def test_a_net_holds_the_names_that_the_question_gives(answer, words):
+    assert check("5.5", answer).message.endswith(words) or words in check("5.5", answer).message
+    assert (check("5.5", answer) == 1) is (words == "")
+
+
+@pytest.mark.parametrize(
+    ("answer", "words"),
+    [
+        ("A -> A[-D][+D]A", "The label of a marker is not right:"),
+        ("A -> A[-C][+C]A[-C][+C]A", ""),
+        ("C -> A[-C][+C]A", "None of your rules is for a wall of the first cell"),
+    ],
+)
+def test_what_is_to_be_changed_in_a_rule_for_walls_is_said(answer, words):
+    verdict = check("16.5", answer)
+    assert verdict < 1
+    assert words in verdict.message
+
+
+# Laws
+
+
+REPAIRED = [exercise for exercise in ALL if exercise.kind in REPAIRS]
+
+
+def _changed_solutions(exercise):
+    """The solution with one thing changed: its own repairs towards the wrong answers that are understood."""
+    solution = solution_of(exercise)
+    for wrong in wrong_answers(exercise):
+        for repair in REPAIRS[exercise.kind](exercise, solution, wrong.answer):
+            try:
+                answer = repair.answer()
+                if not ANSWER_KINDS[exercise.kind].same(exercise, answer, solution):
+                    yield answer
+            except LSystemError:
+                continue
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("exercise", REPAIRED, ids=lambda each: each.id)
+def test_a_solution_with_one_thing_changed_is_repaired_and_the_repair_is_right(exercise):
+    kind, solution = ANSWER_KINDS[exercise.kind], solution_of(exercise)
+    alike = kind.alike or kind.same
+    changed = [answer for answer, _ in zip(_changed_solutions(exercise), range(400), strict=False)]
+    for answer in Random(1).sample(changed, min(len(changed), 20)):
+        found = repaired(exercise, answer, solution)
+        assert found is not None or any(alike(exercise, answer, wrong.answer) for wrong in wrong_answers(exercise)), answer
+        if found is not None:
+            assert kind.same(exercise, found.answer(), solution)
+            assert exercise.solution not in found.said()
+
+
+def test_no_repair_is_looked_for_when_the_time_is_over(monkeypatch):
+    monkeypatch.setattr(table, "SECONDS", 0)
+    assert "One production is missing" not in said(asked("system", FIBONACCI, steps=6), "axiom: a\na -> a b\nc -> a")
+    assert said(asked("system", FIBONACCI, steps=6), "axiom: a\na -> a b\nc -> a")
+
+
+NOUNS = "cells walls steps strokes letters words leaves shoots ants families buds moves systems tips rules branches".split()  # noqa: SIM905
+
+
+@pytest.mark.parametrize("exercise", [each for each in ALL if each.kind == "number"], ids=lambda each: each.id)
+def test_a_number_of_other_things_is_not_the_right_one(exercise):
+    for noun in NOUNS:
+        is_unit = bool(exercise.unit) and means_the_same(noun, exercise.unit)
+        assert (check(exercise.id, f"{exercise.solution} {noun}") == 1) is is_unit, noun
+    for form in ("about {}", "It is {}.", "x = {}", "{}!", f"{{}} {exercise.unit}"):
+        assert check(exercise.id, form.format(exercise.solution)) == 1, form
+
+
+@pytest.mark.parametrize("exercise", [each for each in ALL if each.kind == "choice"], ids=lambda each: each.id)
+def test_words_that_several_options_have_are_asked_about(exercise):
+    texts = [" ".join(option.text.replace("`", "").split()).casefold() for option in exercise.options]
+    words = [text.split() for text in texts]
+    for own in words:
+        for first, last in combinations(range(len(own) + 1), 2):
+            part = " ".join(own[first:last]).strip(".,:")
+            if len(part) > 4 and part[0].isalpha() and sum(part in text for text in texts) > 1 and part not in texts:
+                assert check(exercise.id, part).said == "Not readable yet", part
+
+
+@pytest.mark.parametrize("exercise", [each for each in ALL if each.kind == "choice"], ids=lambda each: each.id)
+def test_an_option_with_a_reason_is_that_option(exercise):
+    for letter in letters(exercise):
+        assert (check(exercise.id, f"{letter}, because I think so") == 1) is (letter == exercise.solution)
+        assert (check(exercise.id, [letter]) == 1) is (letter == exercise.solution)
+    assert check(exercise.id, ["A", "B"]).said == check(exercise.id, "A and B").said == "Not readable yet"
+
+
+# Numbers, tables, words
+
+
+def test_decimals_that_are_wanted_must_be_given():
+    assert "more decimals are asked for" in check("12.3", 0.4).message
+    assert [check("12.3", number) == 1 for number in (0.38, 0.382, 0.38197)] == [False, True, True]
+
+
+def test_an_answer_that_is_a_step_is_shown_what_there_is_at_it():
+    assert "At step 18 the length" in check("2.4", 18).message or "not yet past it" in check("2.4", 18).message
+    assert "At step 21 the length of the word is 4,194,303, which is more than 1,000,000." in check("2.4", 21).message
+
+
+@pytest.mark.parametrize("answer", ["2w", "x < 3", "s == 6", "a = 1 + a^0.5", "3 and 1"])
+def test_what_is_no_number_is_taken_for_what_it_is(answer):
+    assert check("9.3", answer).said == "Not readable yet"
+
+
+def test_no_sentence_of_a_reply_hangs_in_the_air():
+    for name, answer in (("12.2", -1), ("7.2", 0), ("8.6", -1), ("15.2", 0), ("15.2", -3)):
+        message = check(name, answer).message
+        assert not re.search(r"Which of the two|If the sum|that share|-\d", re.sub(r"^-?\d+ ", "", message)), message
+
+
+@pytest.mark.parametrize(
+    ("name", "answer"), [("18.1", "20"), ("2.4", "1048575"), ("8.5", "160000"), ("17.5", "axiom: C\nC -> A C B")]
+)
+def test_a_real_try_earns_hints(name, answer):
+    assert "Hint 1 of 3" in check(name, answer, hint=1).message
+
+
+def test_what_should_vanish_is_pointed_at_and_not_what_stands_behind_it():
+    message = check("10.1", "F S [ + F S B ] F S A").message
+    assert "Look at what becomes of the S at position 2 of step 1" in message
+
+
+def test_numbers_in_the_order_of_another_step_are_told():
+    assert "one place too late" in check("2.1", "1, 2, 3, 5, 8, 13").message
+    assert "stand in each other's place" in check("2.1", "2, 3, 8, 5, 13, 21").message
+    assert "And what? " not in check("2.1", 21).message
+    assert "You have 1 number" in check("2.1", 21).message
+
+
+@pytest.mark.parametrize("order", ["XF", "FX"])
+def test_sequential_rewriting_is_named_in_either_order_of_the_productions(order):
+    rules = {"F": "FX", "X": "F[+X]"}
+    word = "F"
+    for _ in range(3):
+        for symbol in order:
+            word = "".join(rules[symbol] if each == symbol else each for each in word)
+    text = "angle: 30\naxiom: F\nF -> F X\nX -> F[+X]"
+    for asks, answer in (("", " ".join(word)), ("length", len(word)), ("strokes", word.count("F"))):
+        exercise = asked("number" if asks else "word", "1" if asks else "F", system=text, steps=3, asks=asks)
+        assert "apply one production after another" in said(exercise, answer)
+
+
+# Both languages
+
+
+def test_repairs_are_said_in_german():
+    language("de")
+    try:
+        assert check("1.3", "axiom: bl\nar -> al br\nal -> bl ar\nbr -> ar\nbl -> al").message.startswith(
+            "Die Produktionen stimmen"
+        )
+    finally:
+        language("en")
