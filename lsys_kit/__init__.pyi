@@ -41,6 +41,8 @@ from lsys_kit.experiments.plot import plot as plot
 from lsys_kit.experiments.runs import ensemble as ensemble
 from lsys_kit.experiments.runs import sweep as sweep
 from lsys_kit.experiments.table import Table as Table
+from lsys_kit.experiments.totals import Total as Total
+from lsys_kit.experiments.totals import total as total
 from lsys_kit.geometry.inference.infer import infer as infer
 from lsys_kit.notation.dialects.cellwork.dialect import read_cellwork as read_cellwork
 from lsys_kit.notation.dialects.cpfg.surface_files import with_surface as with_surface

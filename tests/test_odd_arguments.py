@@ -109,6 +109,7 @@ FITTING: Mapping[str, Callable[[], tuple[object, ...]]] = {
     "explore": lambda: (GROWING, 1),
     "figure": lambda: (GROWING, Figure().subplots()),
     "growth": lambda: (GROWING,),
+    "total": lambda: (GROWING, "b", 1),
     "limits": tuple,
     "lineage": lambda: (GROWING, 1),
     "map_system": lambda: ("K30",),

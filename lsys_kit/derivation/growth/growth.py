@@ -43,18 +43,20 @@ MERSENNE = (61, 127, 521, 1279, 4423)
 """2 to each of these, less 1, is a prime number: a rule is found modulo one of them, and then proved in whole numbers."""
 
 
-def shortest_rule(terms: Sequence[int]) -> tuple[Fraction, ...]:
+def shortest_rule(terms: Sequence[Any]) -> tuple[Any, ...]:
     """The shortest rule that a sequence obeys from its first terms on, which are as many as the rule has coefficients.
+
+    The terms are whole numbers, or elements of any field, as are the coefficients.
 
     >>> [int(c) for c in shortest_rule([3, 0, 0, 0])]
     [0]
     """
-    for exponent in MERSENNE:
+    for exponent in MERSENNE if all(isinstance(term, int) for term in terms) else ():
         prime = 2**exponent - 1
         rule = tuple(c - prime if c > prime // 2 else c for c in _massey(terms, prime))
         if _obeyed(rule, terms):
             return tuple(map(Fraction, rule))
-    return tuple(map(Fraction, _massey(terms, 0)))
+    return tuple(Fraction(c) if isinstance(c, int) else c for c in _massey(terms, 0))
 
 
 def shortest_recurrence(terms: Sequence[int]) -> list[Fraction]:
@@ -81,7 +83,7 @@ def _massey(terms: Sequence[int], prime: int) -> list[Any]:
     best_end, best_error = -1, 1
     for t, term in enumerate(counted(terms, 1)):
         error: Any = term - sum(c * terms[t - k] for k, c in enumerate(rule, 1) if c)
-        error = error % prime if prime else Fraction(error)
+        error = error % prime if prime else Fraction(error) if isinstance(error, int) else error
         if not error:
             continue
         if best_end < 0:
@@ -235,7 +237,7 @@ def closed_form(rule: Sequence[int], terms: Sequence[int]) -> sympy.Expr | None:
     """A formula for the terms of a sequence; its t is a whole number from 0 on.
 
     Roots of degree two and less are written out, others are summed over as roots of their polynomial; None where such a
-    root is a multiple one.
+    root is a multiple one, or has letters. The coefficients are whole numbers, or sympy's expressions in letters.
 
     >>> closed_form((0, 4), [1, 6])
     -(-2)**t + 2*2**t
@@ -248,27 +250,25 @@ def closed_form(rule: Sequence[int], terms: Sequence[int]) -> sympy.Expr | None:
     whole = polynomial(rule)
     series = sympy.Poly(list(terms[: len(rule)]) or [0], x)  # the terms as digits behind the point, in powers of 1/x
     above, _ = (whole * series).div(sympy.Poly(x ** len(rule), x))
-    total = sympy.Integer(0)
-    for factor, times in whole.factor_list()[1]:
-        part = _part(above, whole, factor, times, t)
-        if part is None:
-            return None
-        total += part
-    return total
+    factors = [(factor.to_field().monic(), times) for factor, times in whole.factor_list()[1]]
+    if any(factor.degree() > 2 and (times > 1 or factor.free_symbols_in_domain) for factor, times in factors):
+        return None
+    return sum((_part(above, whole, factor, times, t) for factor, times in factors), sympy.Integer(0))
 
 
-def _part(above: sympy.Poly, whole: sympy.Poly, factor: sympy.Poly, times: int, t: sympy.Symbol) -> sympy.Expr | None:
+def _part(above: sympy.Poly, whole: sympy.Poly, factor: sympy.Poly, times: int, t: sympy.Symbol) -> sympy.Expr:
     """What the roots of one factor of the polynomial contribute: the residues of above/whole x^t there."""
     import sympy
 
     x = whole.gen
-    if factor == sympy.Poly(x, x):
+    if factor.as_expr() == x:
         return _beginning(above, whole, times, t)
-    if times == 1 and factor.degree() > 2:
+    if factor.degree() > 2:
         weight = sympy.rem((above * sympy.invert(whole.diff(x), factor)), factor).as_expr()
         return sympy.RootSum(factor.as_expr(), sympy.Lambda(x, weight * x**t))
-    if factor.degree() > 2:
-        return None
+    if times == factor.degree() == 1:
+        root = -factor.nth(0)
+        return sympy.cancel(above.as_expr() / whole.quo(factor).as_expr()).subs(x, root) * root**t
     roots = list(sympy.roots(factor))
     rest = whole.quo(factor**times).as_expr()
     total = sympy.Integer(0)

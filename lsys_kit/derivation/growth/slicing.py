@@ -20,8 +20,9 @@ ArgumentPosition: TypeAlias = tuple[str, int, int]
 UnitT = TypeVar("UnitT", Module, Pattern)
 
 
-def slice_system(system: LSystem) -> LSystem:
-    """The system with only those parameters that decide which production rewrites a module, or how many modules it makes.
+def slice_system(system: LSystem, wanted: Set[ArgumentPosition] = frozenset()) -> LSystem:
+    """The system with only those parameters that decide which production rewrites a module, or how many modules it makes, and
+    those from which wanted ones are computed.
 
     How many modules of each symbol a word holds is the same in both, at every step of the first that has values.
     Interpretation rules, which only draw, are left out.
@@ -33,7 +34,7 @@ def slice_system(system: LSystem) -> LSystem:
     A(t) -> A(0)L
     L -> L
     """
-    kept = deciding_positions(system)
+    kept = deciding_positions(system, wanted)
     return replace(
         system,
         axiom=tuple(without_arguments(module, kept) for module in system.axiom),
@@ -44,8 +45,9 @@ def slice_system(system: LSystem) -> LSystem:
     )
 
 
-def deciding_positions(system: LSystem) -> frozenset[ArgumentPosition]:
-    """The parameters that decide something: those that a rule tests, and those from which such a parameter is computed.
+def deciding_positions(system: LSystem, wanted: Set[ArgumentPosition] = frozenset()) -> frozenset[ArgumentPosition]:
+    """The parameters that decide something: those that a rule tests, or that are wanted, and those from which such a parameter
+    is computed.
 
     Where two kinds of modules with the same symbol would become one, they keep all their parameters.
 
@@ -55,12 +57,16 @@ def deciding_positions(system: LSystem) -> frozenset[ArgumentPosition]:
     """
     rules = (*system.productions, *system.decomposition)
     constants = frozenset(constant.name for constant in system.constants)
-    found = {position for rule in rules for position in _deciding(rule, constants)} | {
-        (module.symbol, len(module.arguments), i)
-        for rule in system.meta
-        for module in (*rule.predecessors, *flat(rule.successor))
-        for i in range(len(module.arguments))
-    }
+    found = (
+        {*wanted}
+        | {position for rule in rules for position in _deciding(rule, constants)}
+        | {
+            (module.symbol, len(module.arguments), i)
+            for rule in system.meta
+            for module in (*rule.predecessors, *flat(rule.successor))
+            for i in range(len(module.arguments))
+        }
+    )
     while True:
         more = {position for rule in rules for position in _sources(rule, found)} | _clashes(system, found)
         if more <= found:

@@ -1,0 +1,448 @@
+"""Systems whose values change by affine maps: what the values of all modules add up to obeys a linear recurrence.
+
+A production `A(x) -> F(x) A(q*x + 1)` makes of every x a value that is a sum of multiples of the parameters and of a constant.
+What all x of all modules A add up to at a step, and how many of these there are, then depends linearly on the same numbers a
+step before: on the vector of all such sums and counts, one growth matrix works, as on the counts alone (see `growth`). Its
+entries are rational functions of the constants that are left unknown.
+
+Parameters that decide which production is applied keep their values: modules with different ones are different kinds. Where
+productions are chosen by chance, the vector is the mean.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import nullcontext, suppress
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from itertools import count
+from typing import Any, TypeAlias
+
+from lsys_kit.budget import check_budget
+from lsys_kit.derivation.core.chance import splitmix64
+from lsys_kit.derivation.core.rules import Rule, kind_of
+from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.core.traits import S0L
+from lsys_kit.derivation.growth.growth import remainder_of_power, shortest_rule
+from lsys_kit.derivation.growth.slicing import ArgumentPosition, deciding_positions, slice_system
+from lsys_kit.errors import ModelNameError, ModelValueError
+from lsys_kit.notation.analysis.checks import suggestion
+from lsys_kit.notation.model.arithmetic import Value, divide, expanded_value, is_symbolic, normalised
+from lsys_kit.notation.model.modules import CLOSING, OPENING, Module
+from lsys_kit.notation.model.system import LSystem, symbols
+from lsys_kit.supervision import supervised
+
+Kind: TypeAlias = tuple[str, tuple[Value | None, ...]]
+"""A symbol, and the values of its parameters that decide something; None stands for the others."""
+Sum: TypeAlias = tuple[Kind, int]
+"""The sum of the parameter at a place over all modules of a kind; at place -1, how many there are."""
+Combination: TypeAlias = dict[Sum, Any]
+"""A sum of multiples of such sums."""
+MOST_SUMS = 200
+"""So many sums at most: their recurrence is found from twice as many steps."""
+
+
+class NotAffine(ModelValueError):
+    """There is no linear recurrence for what is to be added up; the message says why."""
+
+
+@dataclass(frozen=True)
+class AffineSums:
+    """What the values of the modules of a symbol add up to, step by step, as a linear recurrence says.
+
+    Attributes
+    ----------
+    letters
+        The constants that are left unknown, as sympy's symbols.
+    rule
+        The shortest rule of the sums from the first on: a(t) = c1 a(t-1) + c2 a(t-2) + ...
+    first
+        As many sums as the rule has coefficients, from step 0 on.
+    """
+
+    letters: tuple[Any, ...]
+    rule: tuple[Any, ...]
+    first: tuple[Any, ...]
+
+    def at(self, step: int) -> Any:
+        """The sum at a step: a number, or an expression in the letters."""
+        with supervised() if self.letters else nullcontext():
+            weights = remainder_of_power(self.rule, step)
+            return self.shown(sum((c * term for c, term in zip(weights, self.first, strict=True)), self._field(0)))
+
+    @cached_property
+    def _field(self) -> Any:
+        return field_of(self.letters)
+
+    def shown(self, element: Any) -> Any:
+        """An element of the field of coefficients as a number or as sympy's expression."""
+        return shown_element(element, self._field)
+
+
+def field_of(letters: Sequence[Any]) -> Any:
+    """The rational numbers, or the rational functions of some letters: a field as sympy has it."""
+    if not letters:
+        return Fraction
+    import sympy
+
+    return sympy.QQ.frac_field(*letters)
+
+
+def shown_element(element: Any, field: Any) -> Any:
+    """An element of a field of coefficients as a number or as sympy's expression."""
+    if field is Fraction:
+        return normalised(Fraction(element))
+    found = field.to_sympy(field.convert(element))
+    return normalised(Fraction(int(found.p), int(found.q))) if found.is_Rational else found
+
+
+def affine_sums(system: LSystem, symbol: str, place: int | None, on_axis: bool, constants: Mapping[str, Any]) -> AffineSums:
+    """The recurrence of what a parameter adds up to over all modules of a symbol.
+
+    Parameters
+    ----------
+    system
+        Any L-system.
+    symbol
+        The symbol of the modules.
+    place
+        Which parameter, from 0; a module that has none counts as 1. None: how many modules there are.
+    on_axis
+        Whether only modules outside all brackets are taken.
+    constants
+        New values of declared constants; a letter stands for itself.
+
+    Raises
+    ------
+    NotAffine
+        The values are not sums of multiples of values, or depend on neighbours or on random numbers.
+
+    Examples
+    --------
+    >>> from lsys_kit import read
+    >>> found = affine_sums(read("q = 1/2\\naxiom: A(1)\\nA(x) -> F(x) A(q*x)"), "F", 0, False, {"q": "q"})
+    >>> found.at(3), found.rule, found.first
+    (q**2 + q + 1, (q + 1, -q), (0, 1))
+    """
+    kinds = {kind_of(module) for module in system.modules if module.symbol == symbol}
+    if not kinds:
+        hint = suggestion(symbol, symbols(system)) or f"Its symbols are: {' '.join(symbols(system))}."
+        raise ModelNameError(f'The system has no symbol "{symbol}"', hint=hint)
+    wanted = frozenset((symbol, size, place) for _, size in kinds if place is not None and place < size)
+    if place and not wanted:
+        raise ModelNameError(f"No module {symbol} has a parameter number {place + 1}")
+    return _Maps(system, wanted, on_axis, constants).sums(symbol, place)
+
+
+class _Maps:
+    """What becomes of each kind of module, as a linear map of counts and sums."""
+
+    def __init__(self, system: LSystem, wanted: frozenset[ArgumentPosition], on_axis: bool, constants: Mapping[str, Any]):
+        self.system, self.on_axis = slice_system(system, wanted), on_axis
+        self.places = _places_kept(system, wanted)
+        self.states = States(self.system, dict(constants))
+        _refuse_interactions(self.states)
+        self.deciding = deciding_positions(self.system)
+        self.letters = tuple(
+            sorted({each for value in self.states.constants for each in getattr(value, "free_symbols", ())}, key=str)
+        )
+        self.field = field_of(self.letters)
+
+    def sums(self, symbol: str, place: int | None) -> AffineSums:
+        """Follow the kinds from the axiom on; where values are not affine, the parameters behind them decide something too."""
+        bent: frozenset[ArgumentPosition] = frozenset()
+        while True:
+            try:
+                with supervised() if self.letters else nullcontext():
+                    return self._recurrence(symbol, place)
+            except _Bent as found:
+                bent |= found.positions
+                self.deciding |= found.positions
+            except ModelValueError as error:
+                if not bent:
+                    raise
+                names = ", ".join(sorted({name for name, _, _ in bent}))
+                raise NotAffine(
+                    f"There is no formula: values of {names} are multiplied by one another, or are put into a function"
+                ) from error
+
+    def _recurrence(self, symbol: str, place: int | None) -> AffineSums:
+        rows, start = self._closed()
+        if not self.letters:
+            rule = shortest_rule([*self._terms(rows, start, symbol, place, 2 * len(rows) + 2)])
+        else:
+            rule = self._rule_in_letters(rows, start, symbol, place)
+        return AffineSums(self.letters, rule, tuple(self._terms(rows, start, symbol, place, len(rule))))
+
+    def _terms(
+        self,
+        rows: Mapping[Sum, Combination],
+        vector: Combination,
+        symbol: str,
+        place: int | None,
+        many: int,
+        values: Sequence[Fraction] = (),
+    ) -> Iterator[Any]:
+        """What is asked for at the first steps."""
+        for _ in range(many):
+            yield self._asked(vector, symbol, place, values)
+            vector = _applied(rows, vector)
+            check_budget()
+
+    def _rule_in_letters(
+        self, rows: Mapping[Sum, Combination], start: Combination, symbol: str, place: int | None
+    ) -> tuple[Any, ...]:
+        """The shortest rule: a product of factors of the matrix's characteristic polynomial, of which numbers in place of the
+        letters show which are needed. The numbers are large, so that no two factors are likely to become alike by chance."""
+        from sympy.polys.matrices import DomainMatrix
+
+        numbers = {source: number for number, source in enumerate(rows)}
+        entries: dict[int, dict[int, Any]] = {number: {} for number in range(len(rows))}
+        for source, row in rows.items():
+            for key, factor in row.items():
+                if factor:
+                    entries[numbers[source]][numbers[key]] = factor
+        shape = len(rows), len(rows)
+        matrix = DomainMatrix({n: row for n, row in entries.items() if row}, shape, self.field)
+        factors = [
+            ([self.field.convert(c) / self.field.convert(coefficients[0]) for c in coefficients], times)
+            for coefficients, times in matrix.charpoly_factor_list()
+        ]
+        for trial in count(1):
+            check_budget()
+            values = [Fraction(splitmix64(trial * 1_000 + place) % 2**31) for place in range(len(self.letters))]
+            try:
+                known = {source: {key: _valued(factor, values) for key, factor in row.items()} for source, row in rows.items()}
+                begun = {key: _valued(amount, values) for key, amount in start.items()}
+                terms = [*self._terms(known, begun, symbol, place, 2 * len(rows) + 2, values)]
+                left = [Fraction(1), *(-c for c in shortest_rule(terms))]
+                needed: list[Any] = [self.field(1)]
+                for coefficients, times in factors:
+                    divisor = [_valued(c, values) for c in coefficients]
+                    for _ in range(times):
+                        quotient = _quotient(left, divisor)
+                        if quotient is None:
+                            break
+                        left, needed = quotient, _product(needed, coefficients)
+            except ZeroDivisionError:
+                continue
+            if len(left) == 1:
+                return tuple(-self.field.convert(c) for c in needed[1:])
+        raise AssertionError
+
+    def _asked(self, vector: Combination, symbol: str, place: int | None, values: Sequence[Fraction] = ()) -> Any:
+        """What is asked for, of the sums at a step; with values of the letters, where the sums are numbers."""
+        total: Any = 0
+        for (kind, at), amount in vector.items():
+            if kind[0] != symbol:
+                continue
+            kept = None if place is None else self.places.get((symbol, len(kind[1])), {}).get(place)
+            if kept is None:
+                total += amount if at == -1 else 0
+            elif kind[1][kept] is None:
+                total += amount if at == kept else 0
+            elif at == -1:
+                own = self._element(kind[1][kept])
+                total += amount * (_valued(own, values) if values else own)
+        return int(total) if isinstance(total, Fraction) and total.denominator == 1 else total
+
+    def _closed(self) -> tuple[dict[Sum, Combination], Combination]:
+        """What each sum adds to the sums of the next step, and the sums of the axiom."""
+        start: Combination = {}
+        for module in self._outside(self.states.modules[state] for state in self.states.axiom):
+            _add(start, self._made(module, {}, None), self.field(1))
+        rows: dict[Sum, Combination] = {}
+        waiting = list(dict.fromkeys(kind for kind, _ in start))
+        met = set(waiting)
+        while waiting:
+            kind = waiting.pop()
+            own = self._rows_of(kind)
+            rows |= own
+            if len(rows) > MOST_SUMS:
+                raise NotAffine(
+                    f"More than {MOST_SUMS} kinds of modules would have to be told apart",
+                    hint=f"The last one was {_kind_text(kind)}: a parameter that decides something takes ever new values.",
+                )
+            new = dict.fromkeys(made for row in own.values() for made, _ in row if made not in met)
+            waiting += new
+            met |= set(new)
+        return rows, start
+
+    def _rows_of(self, kind: Kind) -> dict[Sum, Combination]:
+        """What the count of a kind, and the sum of each of its parameters that decide nothing, add to the next step."""
+        import sympy
+
+        unknown = {place: sympy.Dummy(f"x{place}", real=True) for place, value in enumerate(kind[1]) if value is None}
+        arguments: Any = tuple(unknown.get(place, value) for place, value in enumerate(kind[1]))
+        module = Module(kind[0], arguments)
+        positions = {symbol: (kind[0], len(kind[1]), place) for place, symbol in unknown.items()}
+        rows: dict[Sum, Combination] = {(kind, place): {} for place in (-1, *unknown)}
+        for share, made in self._successors(module):
+            for each in self._outside(made):
+                for key, parts in self._made(each, positions, kind).items():
+                    for source, factor in parts.items():
+                        row = rows[kind, source]
+                        row[key] = row.get(key, self.field(0)) + share * factor
+        return rows
+
+    def _successors(self, module: Module) -> Iterator[tuple[Any, list[Module]]]:
+        """What may replace a module, and how likely that is."""
+        states = self.states
+        matched = states.matching_rules(module, states.rules)
+        weighted: list[tuple[Rule | None, Value]] = [(matched[0][0] if matched else None, 1)]
+        if matched and matched[0][0].probability is not None:
+            weighted = [*states.weighted(matched)]
+        whole = sum((weight for _, weight in weighted), 0)
+        if not is_symbolic(whole) and not whole > 0:
+            raise NotAffine(f"The probabilities of what becomes of {module.symbol} add up to nothing")
+        for rule, weight in weighted:
+            row = states.decompose(module) if rule is None else states.replacement(rule, module)
+            yield self._element(divide(weight, whole)), [states.modules[state] for state in row]
+
+    def _outside(self, modules: Any) -> Iterator[Module]:
+        """The modules that are followed: all, or those outside brackets."""
+        depth = 0
+        for module in modules:
+            depth += (module.symbol in OPENING) - (module.symbol in CLOSING)
+            if not (self.on_axis and (depth or module.symbol in CLOSING)):
+                yield module
+
+    def _made(
+        self, module: Module, positions: Mapping[Any, ArgumentPosition], source: Kind | None
+    ) -> dict[Sum, dict[int, Any]]:
+        """The sums to which a module adds: for each, how much one module of its source does, and each of its parameters."""
+        size = len(module.arguments)
+        kept = tuple(
+            value if (module.symbol, size, place) in self.deciding else None for place, value in enumerate(module.arguments)
+        )
+        for value in kept:
+            found: set[Any] = getattr(value, "free_symbols", set()) & set(positions)
+            if found:
+                raise _Bent(frozenset(positions[symbol] for symbol in found))
+        kind = module.symbol, kept
+        made: dict[Sum, dict[int, Any]] = {(kind, -1): {-1: self.field(1)}}
+        for place, value in enumerate(module.arguments):
+            if kept[place] is None:
+                made[kind, place] = self._parts(value, positions)
+        return made
+
+    def _parts(self, value: Any, positions: Mapping[Any, ArgumentPosition]) -> dict[int, Any]:
+        """A value as a constant, at place -1, and a multiple of each parameter."""
+        if not is_symbolic(value):
+            return {-1: self._element(value)}
+        own = value.free_symbols & set(positions)
+        with supervised():
+            factors = {symbol: value.diff(symbol) for symbol in own}
+            bent = {symbol for symbol, factor in factors.items() if factor.free_symbols & set(positions)}
+            rest = value.subs(dict.fromkeys(own, 0)) if not bent else value
+        if bent:
+            raise _Bent(frozenset(positions[symbol] for symbol in own))
+        return {-1: self._element(rest)} | {positions[symbol][2]: self._element(factors[symbol]) for symbol in own}
+
+    def _element(self, value: Any) -> Any:
+        """A number, or an expression in the letters, as an element of the field."""
+        value = expanded_value(value) if is_symbolic(value) else value
+        if isinstance(value, float):
+            raise NotAffine(
+                f"The value {value:.6g} is not known exactly",
+                hint="Roots, sines and most powers of numbers have no exact form.",
+            )
+        if not is_symbolic(value):
+            return self.field(value.numerator) / self.field(value.denominator)
+        import sympy
+
+        with supervised(), suppress(sympy.CoercionFailed):
+            if self.field is not Fraction:
+                return self.field.from_sympy(value)
+        raise NotAffine(f"{value} is no quotient of polynomials")
+
+
+class _Bent(Exception):
+    """Some values are not affine: the parameters from which they are computed decide something."""
+
+    def __init__(self, positions: frozenset[ArgumentPosition]) -> None:
+        super().__init__()
+        self.positions = positions
+
+
+def _places_kept(system: LSystem, wanted: frozenset[ArgumentPosition]) -> dict[tuple[str, int], dict[int, int]]:
+    """Where each parameter that is kept stands among those of its module that are."""
+    kept = deciding_positions(system, wanted)
+    places: dict[tuple[str, int], dict[int, int]] = {}
+    for symbol, size in dict.fromkeys(map(kind_of, system.modules)):
+        own = [place for place in range(size) if (symbol, size, place) in kept]
+        places[symbol, len(own)] = {place: new for new, place in enumerate(own)}
+    return places
+
+
+def _refuse_interactions(states: States) -> None:
+    """Refuse a system in which more than a module's own values and a choice by chance decides what becomes of it."""
+    if states.traits.within(S0L._replace(meta=False)):
+        return
+    asked = {
+        "context": "what becomes of a module depends on its neighbours",
+        "predecessor": "several neighbours are replaced together",
+        "random": "random numbers are drawn",
+        "sensitive": "it depends on what the turtle sees",
+        "cut": "branches are cut off",
+        "meta": "meta-rules shorten the words",
+    }
+    why = next(
+        (text for name, text in asked.items() if getattr(states.traits, name) > getattr(S0L, name)), "a step depends on more"
+    )
+    raise NotAffine(f"There is no formula: {why}")
+
+
+def _valued(element: Any, values: Sequence[Fraction]) -> Fraction:
+    """An element of a field of rational functions where its letters have values."""
+    above, below = (_polynomial_value(part, values) for part in (element.numer, element.denom))
+    return above / below
+
+
+def _polynomial_value(polynomial: Any, values: Sequence[Fraction]) -> Fraction:
+    whole = Fraction(0)
+    for exponents, coefficient in polynomial.terms():
+        part = Fraction(int(coefficient.numerator), int(coefficient.denominator))
+        for value, exponent in zip(values, exponents, strict=True):
+            part *= value**exponent
+        whole += part
+    return whole
+
+
+def _quotient(dividend: Sequence[Fraction], divisor: Sequence[Fraction]) -> list[Fraction] | None:
+    """A polynomial divided by one whose first coefficient is 1, or None where something is left."""
+    left = [*dividend]
+    for place in range(len(dividend) - len(divisor) + 1):
+        for k, c in enumerate(divisor[1:], 1):
+            left[place + k] -= left[place] * c
+    size = max(0, len(dividend) - len(divisor) + 1)
+    return left[:size] if size and not any(left[size:]) else None
+
+
+def _product(one: Sequence[Any], other: Sequence[Any]) -> list[Any]:
+    made: list[Any] = [0] * (len(one) + len(other) - 1)
+    for i, a in enumerate(one):
+        for j, b in enumerate(other):
+            made[i + j] += a * b
+    return made
+
+
+def _add(whole: Combination, made: Mapping[Sum, Mapping[int, Any]], share: Any) -> None:
+    for key, parts in made.items():
+        whole[key] = whole.get(key, 0 * share) + share * parts[-1]
+
+
+def _applied(rows: Mapping[Sum, Combination], vector: Combination) -> Combination:
+    """The sums a step later."""
+    found: Combination = {}
+    for source, amount in vector.items():
+        for key, factor in rows[source].items():
+            found[key] = found[key] + amount * factor if key in found else amount * factor
+    return {key: amount for key, amount in found.items() if amount}
+
+
+def _kind_text(kind: Kind) -> str:
+    symbol, values = kind
+    shown = ",".join("·" if value is None else str(value) for value in values)
+    return f"{symbol}({shown})" if values else symbol

@@ -1,0 +1,337 @@
+"""Totals: what the values of all modules of a symbol add up to, as a formula in the step and in letters."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from lsys_kit.budget import Task, counted
+from lsys_kit.derivation.core.rules import constants_of, number_from
+from lsys_kit.derivation.growth.affine import AffineSums, NotAffine, affine_sums
+from lsys_kit.derivation.growth.growth import closed_form, generating_function, polynomial
+from lsys_kit.errors import ModelNameError, ModelValueError, require, whole_number
+from lsys_kit.experiments.table import Table, column_label
+from lsys_kit.notation.model.arithmetic import Value, is_symbolic, number_text
+from lsys_kit.notation.model.modules import CLOSING, OPENING
+from lsys_kit.notation.model.system import LSystem
+from lsys_kit.pictures.plots.chart import Axis, Curve, CurveChart, Plot
+from lsys_kit.pictures.style.palette import colour_of
+from lsys_kit.supervision import supervised
+from lsys_kit.worlds.derive import derive
+
+if TYPE_CHECKING:
+    import sympy
+
+FIRST, POINTS, MOST_STEPS = 6, 60, 10_000
+"""How many totals are shown in a line; how many points a curve over a letter has; the latest step."""
+
+
+@dataclass(frozen=True)
+class Total:
+    """What a parameter adds up to over all modules of a symbol, at every step.
+
+    Attributes
+    ----------
+    system, symbol, parameter, axis, constants
+        What was asked for; see `total`.
+    sums
+        The linear recurrence of the totals, or None where there is none.
+    reason
+        Why there is none, or None.
+    """
+
+    system: LSystem
+    symbol: str
+    parameter: int
+    axis: bool
+    constants: dict[str, Any] = field(hash=False)
+    sums: AffineSums | None = field(compare=False)
+    reason: str | None = field(default=None, compare=False)
+
+    def at(self, n: int) -> Value:
+        """The total at step n, exactly: a number, or an expression in the letters.
+
+        >>> from lsys_kit import read
+        >>> total(read("q = 1/2\\naxiom: A(1)\\nA(x) -> F(x) A(q*x)"), "F", q="q").at(3)
+        q**2 + q + 1
+        """
+        step = whole_number(n, "The step")
+        if step > MOST_STEPS:
+            raise ModelValueError(f"The step must be at most {MOST_STEPS:,}")
+        with Task(f"The total of step {step:,} was not found"):
+            return self._derived(step)[-1] if self.sums is None else self.sums.at(step)
+
+    def values(self, steps: int) -> list[Value]:
+        """The totals at steps 0 to `steps`."""
+        last = whole_number(steps, "The step")
+        with Task("The totals were not found"):
+            return self._derived(last) if self.sums is None else [self.sums.at(n) for n in counted(range(last + 1), 1)]
+
+    def _derived(self, steps: int) -> list[Value]:
+        """The totals of derived words."""
+        found = derive(self.system, steps, **self.constants)
+        return [sum(self._of_word(found.to(step)[step]), 0) for step in counted(range(steps + 1), 1)]
+
+    def _of_word(self, word: Any) -> Iterator[Any]:
+        depth = 0
+        for module in counted(word, 1):
+            depth += (module.symbol in OPENING) - (module.symbol in CLOSING)
+            if module.symbol == self.symbol and not (self.axis and depth):
+                here = len(module.arguments) >= self.parameter > 0
+                yield module.arguments[self.parameter - 1] if here else 1
+
+    @property
+    def letters(self) -> tuple[str, ...]:
+        """The letters in the formula."""
+        return tuple(map(str, self.sums.letters)) if self.sums else ()
+
+    @cached_property
+    def _rule(self) -> tuple[list[sympy.Expr], list[sympy.Expr]]:
+        """The coefficients of the recurrence and the first totals, as sympy has them."""
+        if self.sums is None:
+            raise ModelValueError(f"{self.reason}", hint="`values(n)` has the numbers themselves.")
+        return [self._expression(self.sums.shown(c)) for c in self.sums.rule], [
+            self._expression(self.sums.shown(term)) for term in self.sums.first
+        ]
+
+    @staticmethod
+    def _expression(value: Any) -> sympy.Expr:
+        import sympy
+
+        return value if is_symbolic(value) else sympy.Rational(value.numerator, value.denominator)
+
+    @cached_property
+    def formula(self) -> sympy.Expr | None:
+        """The total at step n, as a formula in n and the letters; None where there is none in powers and roots.
+
+        >>> from lsys_kit import read
+        >>> total(read("q = 1/2\\naxiom: A(1)\\nA(x) -> F(x) A(q*x)"), "F", q="q").formula
+        (q**n - 1)/(q - 1)
+        """
+        if self.sums is None:
+            return None
+        import sympy
+
+        with Task("The formula was not found"), supervised():
+            found = closed_form(*self._rule)
+            if found is None:
+                return None
+            found = found.subs(sympy.Symbol("t"), self.n)
+            return sympy.factor(sympy.together(found)) if self.sums.letters else found
+
+    @property
+    def n(self) -> sympy.Symbol:
+        """The step in the formula."""
+        import sympy
+
+        return sympy.Symbol("n", integer=True, nonnegative=True)
+
+    @property
+    def generating_function(self) -> sympy.Expr:
+        """The function whose power series in x has the totals as coefficients."""
+        with Task("The generating function was not found"), supervised():
+            return generating_function(*self._rule)
+
+    @cached_property
+    def _limit(self) -> tuple[sympy.Expr | None, Any]:
+        """What the totals come to in the long run, and the condition under which they do."""
+        import sympy
+
+        with Task("The limit was not found"), supervised():
+            whole = polynomial(self._rule[0])
+            condition: Any = sympy.true
+            for factor, times in whole.factor_list()[1]:
+                x = factor.gen
+                if factor.degree() == 1 and sympy.simplify(factor.as_expr().subs(x, 1)) == 0:
+                    if times > 1:
+                        return None, sympy.false
+                    continue
+                if factor.degree() <= 2:
+                    inside = [sympy.Abs(root) < 1 for root in sympy.roots(factor)]
+                elif factor.free_symbols_in_domain:
+                    return None, None
+                else:
+                    inside = [sympy.true if all(abs(root) < 1 for root in factor.nroots()) else sympy.false]
+                condition = sympy.And(condition, *inside)
+            if condition == sympy.false:
+                return None, condition
+            x = sympy.Symbol("x")
+            return sympy.factor(sympy.cancel(generating_function(*self._rule) * (1 - x)).subs(x, 1)), condition
+
+    @property
+    def limit(self) -> sympy.Expr | None:
+        """What the totals come to for ever larger n, if the condition of `limit_condition` holds; None where they do not.
+
+        >>> from lsys_kit import read
+        >>> found = total(read("q = 1/2\\naxiom: A(1)\\nA(x) -> F(x) A(q*x)"), "F", q="q")
+        >>> found.limit, found.limit_condition
+        (-1/(q - 1), Abs(q) < 1)
+        """
+        return self._limit[0]
+
+    @property
+    def limit_condition(self) -> Any:
+        """The condition for a limit: sympy's true or false, or a comparison; None where it is not known."""
+        return self._limit[1]
+
+    def derivative(self, letter: str) -> sympy.Expr:
+        """How the formula changes with a letter.
+
+        >>> from lsys_kit import read
+        >>> total(read("s = 2\\naxiom: A\\nA -> F(s) A"), "F", s="s").derivative("s")
+        n
+        """
+        if self.formula is None:
+            raise ModelValueError(self.reason or "The totals have no formula in powers and roots")
+        with Task("The derivative was not found"), supervised():
+            return self.formula.diff(self._letter(letter)).factor()
+
+    def solve(self, letter: str, value: object, n: int | None = None) -> list[sympy.Expr]:
+        """The values of a letter for which the total is as given, at step n or in the long run.
+
+        >>> from lsys_kit import read
+        >>> found = total(read("q = 1/2\\naxiom: A(1)\\nA(x) -> F(x) A(q*x)"), "F", q="q")
+        >>> found.solve("q", 3), found.solve("q", 3, n=2)
+        ([2/3], [2])
+        """
+        unknown, wanted = self._letter(letter), self._expression(number_from(value))
+        found = self.limit if n is None else self.at(n)
+        if found is None:
+            raise ModelValueError("The totals have no limit that is known", hint="Name a step: n=10.")
+        import sympy
+
+        with Task("The equation was not solved"), supervised():
+            equation, _ = sympy.fraction(sympy.together(found - wanted))
+            if not equation.has(unknown):
+                raise ModelValueError(f"The total does not depend on {letter}")
+            if equation.free_symbols == {unknown}:
+                roots = sympy.Poly(equation, unknown).real_roots(multiple=False)
+                roots = [root for root, _ in roots]
+            else:
+                roots = [*sympy.roots(sympy.Poly(equation, unknown))]
+            condition = self.limit_condition if n is None else sympy.true
+            return [root for root in roots if condition.subs(unknown, root) != sympy.false]
+
+    def _letter(self, letter: str) -> sympy.Symbol:
+        require(letter, str, "A letter")
+        for each in self.sums.letters if self.sums else ():
+            if str(each) == letter:
+                return each
+        said = (
+            f"Its letters are: {', '.join(self.letters)}."
+            if self.letters
+            else f'Ask for it: total(system, "{self.symbol}", {letter}="{letter}").'
+        )
+        raise ModelNameError(f'There is no letter "{letter}" in the formula', hint=said)
+
+    def table(self, steps: int = 8) -> Table:
+        """The totals at steps 0 to `steps`, as a table.
+
+        >>> from lsys_kit import read
+        >>> total(read("axiom: A(1)\\nA(x) -> F(x) A(x+2)"), "F").table(3).rows
+        ((0, 0), (1, 1), (2, 4), (3, 9))
+        """
+        return Table(("step", self._name), tuple(enumerate(map(_cell, self.values(steps)))), 1)
+
+    @property
+    def _name(self) -> str:
+        return f"total of {self.symbol}"
+
+    def plot(self, steps: int = 10, **letters: object) -> Plot:
+        """The totals at steps 0 to `steps` as points on the curve of the formula.
+
+        Letters take the values that are given, or else those of the model.
+
+        >>> from lsys_kit import read
+        >>> total(read("q = 1/2\\naxiom: A(1)\\nA(x) -> F(x) A(q*x)"), "F", q="q").plot(8, q=0.8)
+        1 curve of total of F, step n from 0 to 8, largest 4.16114
+        """
+        last = whole_number(steps, "The step")
+        with Task("The plot was not made"):
+            found = total(self.system, self.symbol, self.parameter, axis=self.axis, **self._numbers(letters))
+            points = tuple((float(n), float(value)) for n, value in enumerate(found.values(last)))
+            curve = Curve(points, colour_of(self.symbol, self.system), "")
+            return Plot(CurveChart((curve,), Axis(column_label("step"), True), Axis(self._name)))
+
+    def _numbers(self, letters: dict[str, Any]) -> dict[str, Any]:
+        """The constants of the system, with numbers for the letters."""
+        chosen = {name: value for name, value in self.constants.items() if name not in self.letters} | letters
+        constants_of(self.system, chosen)
+        return chosen
+
+    @property
+    def latex(self) -> str:
+        """The formula in LaTeX."""
+        import sympy
+
+        return str(sympy.latex(self.formula)) if self.formula is not None else ""
+
+    def _repr_latex_(self) -> str | None:
+        return f"$\\displaystyle {self.latex}$" if self.formula is not None else None
+
+    def __repr__(self) -> str:
+        steps = ", ".join(number_text(value) for value in self.values(FIRST - 1))
+        if self.formula is None:
+            why = f"; {self.reason}" if self.reason else ""
+            return f"{steps}, ...{why}"
+        return f"{number_text(self.formula)}; {steps}, ..."
+
+
+def _cell(value: Any) -> Any:
+    return number_text(value) if is_symbolic(value) else value
+
+
+def total(system: LSystem, symbol: str, parameter: int = 1, *, axis: bool = False, **constants: object) -> Total:
+    """What the values of all modules of a symbol add up to, at every step: a formula in n and in letters.
+
+    The whole length of a plant is the total of `F`, where `F(x)` draws a line of length x; its height, where the main axis
+    stands upright, that of the axis. Where chance chooses among productions, it is the mean.
+
+    Parameters
+    ----------
+    system
+        Any L-system.
+    symbol
+        Whose values are added up; a module without that parameter counts as 1.
+    parameter
+        Which parameter, from 1; 0 counts the modules.
+    axis
+        Whether only modules outside brackets are taken: those of the main axis.
+    **constants
+        New values of declared constants; a letter, as in `q="q"`, stays in the formula.
+
+    Returns
+    -------
+    Total
+        It is displayed as mathematics, and has `.formula`, `.at(n)`, `.values(n)`, `.limit`, `.derivative("q")`,
+        `.solve("q", 3)`, `.table(n)`, `.plot(n)` and `.latex`. Where no formula exists, its `reason` says why, and the exact
+        numbers are there all the same.
+
+    Raises
+    ------
+    ModelNameError
+        There is no such symbol, parameter or constant.
+
+    Examples
+    --------
+    >>> from lsys_kit import read
+    >>> total(read("q = 1/2\\naxiom: A(1)\\nA(x) -> F(x) A(q*x)"), "F", q="q")
+    (q^n - 1)/(q - 1); 0, 1, q + 1, q^2 + q + 1, q^3 + q^2 + q + 1, q^4 + q^3 + q^2 + q + 1, ...
+    >>> total(read("axiom: A(2)\\nA(x) -> A(x*x)"), "A").reason
+    'There is no formula: values of A are multiplied by one another, or are put into a function.'
+    """
+    require(system, LSystem, "An L-system")
+    require(symbol, str, "A symbol")
+    require(axis, bool, 'True or False for "axis"')
+    number = whole_number(parameter, "The number of the parameter")
+    if "n" in constants and constants["n"] == "n":
+        raise ModelNameError('The letter "n" is the step', hint="Give the constant another name in the model.")
+    with Task("The total was not found"):
+        constants_of(system, constants)
+        try:
+            sums = affine_sums(system, symbol, number - 1 if number else None, axis, constants)
+        except NotAffine as reason:
+            return Total(system, symbol, number, axis, constants, None, str(reason))
+    return Total(system, symbol, number, axis, constants, sums)

@@ -1,0 +1,194 @@
+"""Totals: the formula at every step is what the derived word adds up to."""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+from typing import Any
+
+import pytest
+import sympy
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from lsys_kit import book_systems, derive, limits, plot, read, system, systems, total
+from lsys_kit.errors import LSystemError, ModelLimitError, ModelNameError, ModelValueError
+from lsys_kit.notation.model.arithmetic import is_symbolic
+from lsys_kit.notation.model.modules import CLOSING, OPENING
+from lsys_kit.notation.model.system import LSystem, symbols
+
+SHOOT = "q = 1/2\naxiom: A(1)\nA(x) -> F(x) A(q*x)"
+Q = sympy.Symbol("q", real=True)
+
+
+def added(word: Any, symbol: str, place: int, axis: bool) -> Any:
+    """What a parameter adds up to in a word, module by module."""
+    whole, depth = Fraction(0), 0
+    for module in word:
+        depth += (module.symbol in OPENING) - (module.symbol in CLOSING)
+        if module.symbol == symbol and not (axis and depth):
+            whole += module.arguments[place - 1] if 0 < place <= len(module.arguments) else 1
+    return whole
+
+
+def valued(found: Any, values: dict[str, Fraction]) -> Fraction:
+    """An expression at some values of its letters."""
+    if not is_symbolic(found):
+        return Fraction(found)
+    at = found.subs({each: sympy.Rational(*values[str(each)].as_integer_ratio()) for each in found.free_symbols})
+    return Fraction(int(at.p), int(at.q))
+
+
+def check(model: LSystem, symbol: str, place: int, axis: bool, values: dict[str, Fraction], steps: int = 8) -> bool:
+    """Whether there is a formula; where there is, it says at each step what the derived word adds up to."""
+    found = total(model, symbol, place, axis=axis, **{name: name for name in values})
+    if found.sums is None:
+        assert found.reason
+        return False
+    words = derive(model, steps, **values)
+    for step in range(steps + 1):
+        assert valued(found.at(step), values) == added(words[step], symbol, place, axis), (symbol, place, step)
+    formula = found.formula if len(found.sums.rule) < 5 else None
+    for step in (0, 1, 4) if formula is not None and formula.count_ops() < 200 and not formula.has(sympy.RootSum) else ():
+        given = {each: sympy.Rational(*values[str(each)].as_integer_ratio()) for each in formula.free_symbols - {found.n}}
+        there = complex(formula.subs(given).subs(found.n, step).evalf(30))
+        assert there == pytest.approx(float(valued(found.at(step), values)), abs=1e-9)
+    return True
+
+
+@st.composite
+def affine_systems(draw: st.DrawFn) -> str:
+    """A system whose values change by affine maps, with a letter q, brackets, and perhaps a delay that decides."""
+    coefficients = st.sampled_from(["0", "1", "2", "-1", "1/2", "q", "q*q", "1 - q", "q/3"])
+
+    def value() -> str:
+        return " + ".join([draw(coefficients), *(f"({draw(coefficients)})*{name}" for name in "xy")])
+
+    def successor() -> str:
+        made = [f"{draw(st.sampled_from('ABF'))}({value()},{value()})" for _ in range(draw(st.integers(1, 3)))]
+        return " ".join(f"[{each}]" if draw(st.booleans()) else each for each in made)
+
+    rules = [f"{symbol}(x,y) -> {successor()}" for symbol in draw(st.lists(st.sampled_from("ABF"), min_size=1, unique=True))]
+    if draw(st.booleans()):
+        rules.append("D(t) : t < 2 -> D(t+1)\nD(t) -> A(1,t) D(0)")
+    return "\n".join(["q = 2", f"axiom: A({draw(st.integers(-2, 2))},1) F(1,q) D(0)", *rules])
+
+
+@given(affine_systems(), st.fractions(-2, 2, max_denominator=5), st.sampled_from("AF"), st.integers(0, 2), st.booleans())
+def test_a_total_is_what_the_word_adds_up_to(text: str, q: Fraction, symbol: str, place: int, axis: bool) -> None:
+    with limits(seconds=600):
+        model = read(text)
+        assert check(model, symbol, place, axis, {"q": q}, 5)
+        assert check(model, symbol, place, axis, {}, 5)
+
+
+CATALOGUE = [*systems(), *book_systems()]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("id", CATALOGUE)
+def test_of_the_catalogue_too(id: str) -> None:
+    model = system(id)
+    letters = [constant.name for constant in model.constants if constant.name != "n"][:1]
+    for symbol in symbols(model):
+        for names in ([], letters):
+            try:
+                check(model, symbol, 1, False, {name: Fraction(7, 5) for name in names}, 4)
+            except (ModelValueError, ModelLimitError) as error:
+                told = "cannot be decided", "has no value", "not reached", "limit", "not found"
+                if not any(said in str(error) for said in told):
+                    raise
+
+
+def test_a_geometric_sum() -> None:
+    found = total(read(SHOOT), "F", q="q")
+    n = found.n
+    assert sympy.simplify(found.formula - (1 - Q**n) / (1 - Q)) == 0
+    assert sympy.simplify(found.limit - 1 / (1 - Q)) == 0
+    assert found.limit_condition == (sympy.Abs(Q) < 1)
+    assert total(read(SHOOT), "F", q=1).formula == n, "also where the ratio is 1"
+    assert total(read(SHOOT), "F", q=2).limit is None
+    assert found.solve("q", 2) == [sympy.Rational(1, 2)], "for which q does the plant come to twice its first length?"
+    assert found.at(200).subs(Q, sympy.Rational(1, 2)) == pytest.approx(2, abs=1e-9)
+
+
+def test_the_sum_of_odd_numbers_is_a_square() -> None:
+    found = total(read("axiom: A(1)\nA(x) -> F(x) A(x+2)"), "F")
+    assert found.formula == found.n**2
+    assert found.limit is None
+
+
+def test_the_mean_where_chance_decides() -> None:
+    """Each bud becomes two with probability p, or dies: (2p)^n are left in the mean."""
+    found = total(read("p = 1/2\naxiom: A\nA -> A A : p\nA -> ε : 1 - p"), "A", p="p")
+    p = sympy.Symbol("p", real=True)
+    assert sympy.simplify(found.formula - (2 * p) ** found.n) == 0
+    assert found.limit == 0
+    assert found.limit_condition == (2 * sympy.Abs(p) < 1)
+
+
+def test_the_axis_alone() -> None:
+    plant = read("q = 1/2\naxiom: A(1)\nA(x) -> F(x) [+A(q*x)] A(q*x)")
+    assert total(plant, "F", axis=True, q="q").formula == total(read(SHOOT), "F", q="q").formula
+
+
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        ("axiom: A(2)\nA(x) -> A(x*x)", "multiplied by one another"),
+        ("axiom: A(2)\nA(x) -> A(1/(x+1))", "multiplied by one another, or are put into a function"),
+        ("axiom: A(2) B\nA(x) > B -> A(x)", "neighbours"),
+        ("axiom: A(2)\nA(x) -> A(uniform(0,1))", "random"),
+        ("axiom: A(2)\nA(x) -> A(x*sqrt(2))", "not known exactly"),
+    ],
+)
+def test_where_there_is_no_formula_the_numbers_are_there(text: str, why: str) -> None:
+    found = total(read(text), "A")
+    assert found.formula is None
+    assert why in found.reason
+    words = derive(read(text), 4)
+    assert found.values(4) == [added(words[n], "A", 1, False) for n in range(5)]
+    with pytest.raises(ModelValueError, match=re.escape(found.reason)):
+        found.derivative("q")
+
+
+def test_what_cannot_be_asked_is_told() -> None:
+    model = read(SHOOT)
+    for call, said in [
+        (lambda: total(model, "G"), 'no symbol "G"'),
+        (lambda: total(model, "F", 2), "parameter number 2"),
+        (lambda: total(model, "F", r=1), 'no constant "r"'),
+        (lambda: total(model, "F").solve("q", 2), 'no letter "q"'),
+        (lambda: total(model, "F", -1), "whole number"),
+        (lambda: total(read("n = 2\naxiom: F(n)"), "F", n="n"), "is the step"),
+        (lambda: total(read("d = 3\naxiom: A(0)\nA(t) : t < d -> A(t+1)"), "A", d="d"), "choose a value for d"),
+        (lambda: total(model, "F", q="q").at(10**9), "at most"),
+    ]:
+        with pytest.raises(LSystemError) as error:
+            call()
+        assert said in str(error.value)
+    assert issubclass(ModelNameError, LSystemError)
+
+
+def test_it_is_shown_as_mathematics_a_table_and_a_plot() -> None:
+    found = total(read(SHOOT), "F", q="q")
+    assert found._repr_latex_() == r"$\displaystyle \frac{q^{n} - 1}{q - 1}$"
+    assert found.table(2).rows == ((0, 0), (1, 1), (2, "q + 1"))
+    assert "largest 1.98438" in repr(found.plot(7))
+    assert "largest 5.21703" in repr(found.plot(7, q=0.9))
+    assert repr(plot(read(SHOOT), 3))
+
+
+def test_a_formula_that_explodes_ends_within_the_limit() -> None:
+    rules = "\n".join(f"A{i}(x) -> A{(i + 1) % 40}(x*q{i % 6} + 1) A{(i * 7) % 40}(x + q{i % 5})" for i in range(40))
+    model = read("\n".join([*(f"q{i} = {i + 1}" for i in range(6)), "axiom: A0(1)", rules]))
+    with limits(seconds=2), pytest.raises(ModelLimitError):
+        total(model, "A1", **{f"q{i}": f"q{i}" for i in range(6)})
+
+
+@settings(max_examples=20)
+@given(st.integers(2, 6), st.integers(1, 6))
+def test_life_spans(a: int, b: int) -> None:
+    model = read(f"axiom: A(1)\nA({a}) -> A(1) B(1)\nB({b}) -> A(1) B(1)\nA(t) -> A(t+1)\nB(t) -> B(t+1)")
+    assert check(model, "A", 0, False, {}, 12)
+    assert check(model, "B", 1, False, {}, 12)
