@@ -337,7 +337,8 @@ def _read_text(exercise: Exercise, text: str) -> SystemAnswer:
         whole = read(text)
         if not all(_ARROW.search(line) for line in text.splitlines() if line.strip()):
             return _whole(whole)
-        return completed(exercise, replace(given, productions=whole.productions, source=whole.source))
+        if whole.notation != given.notation:  # a rule alone is read with its first letter as its axiom
+            return completed(exercise, replace(given, productions=whole.productions, source=whole.source))
     together = read(f"{text}\n{exercise.given}")
     own = [rule for rule in together.productions if rule.at and rule.at[1] <= len(text) and rule not in given.productions]
     if not own:
