@@ -23,7 +23,7 @@ from lsys_kit.notation.formats.reading import FORMATS, LONGEST, read_as, read_fo
 from lsys_kit.notation.model.modules import flat
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read
-from lsys_kit.notation.syntax.text.typography import keyboard_signs, typed
+from lsys_kit.notation.syntax.text.typography import keyboard_signs
 
 KOCH = read("angle: 60\naxiom: F++F++F\nF -> F-F++F-F")
 PLANT = read("angle: 25\naxiom: X\nX -> F+[[X]-X]-F[-F X]+X\nF -> F F")
@@ -286,9 +286,9 @@ def test_signs_of_other_turtles_are_those_of_the_kit() -> None:
 
 
 def test_typography_is_one_for_one_or_known() -> None:
-    assert typed("angle： 25.7◦, oﬃce").text == "angle: 25.7°, office"
+    assert keyboard_signs("angle： 25.7◦, oﬃce").text == "angle: 25.7°, office"
     assert keyboard_signs("F−F &minus; “G” Fₗ p₁").text == 'F-F - "G" F_l p1'
-    assert typed("axiom: F").text == "axiom: F"
+    assert keyboard_signs("axiom: F").text == "axiom: F"
 
 
 @pytest.mark.parametrize("name", FORMATS)

@@ -3,7 +3,7 @@ r"""Typographic signs as they are typed, for all notations, before anything is r
 Books, pages and word processors have many signs for one: full-width letters, thin spaces, rings for degrees, ligatures, soft
 hyphens. What can only mean one thing becomes that, character by character; errors are shown in the text that was pasted.
 
-    >>> typed("angle： 25.7◦, oﬃce").text
+    >>> keyboard_signs("angle： 25.7◦, oﬃce").text
     'angle: 25.7°, office'
 """
 
@@ -13,7 +13,7 @@ import html
 import re
 import unicodedata
 
-from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, as_typed, edited
+from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, edited
 
 _ALIKE = {
     **{code: chr(code - 0xFEE0) for code in range(0xFF01, 0xFF5F)},  # full-width signs
@@ -40,18 +40,6 @@ TAG = re.compile(
 )
 _ENDS = frozenset(("br", "p", "tr", "td", "div", "li", "h1", "h2", "h3", "h4", "h5", "h6", "hr", "pre", "table"))
 """Tags that end a line."""
-
-
-def typed(source: str) -> Transcript:
-    """A text with signs that mean the same in every notation as they are typed."""
-    if source.isascii():
-        return as_typed(source)
-    text = source.translate(_ALIKE)
-    return (
-        edited(source, map(_plain, _NO_MORE.finditer(text)), typed=text)
-        if text != source or _NO_MORE.search(text)
-        else as_typed(source)
-    )
 
 
 def keyboard_signs(source: str) -> Transcript:
