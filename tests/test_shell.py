@@ -549,7 +549,7 @@ def test_a_mistake_in_a_model_is_shown_with_its_place(shell, model, text, words)
 
 
 def test_the_line_quoted_from_a_windows_file_is_as_typed(shell, model):
-    assert shell("derive", model("axiom: A\r\nA = B\r\n"), "-n", "1").err.splitlines()[1:] == ["  A = B", "      ^"]
+    assert shell("derive", model("axiom: A\r\nA -> B(\r\n"), "-n", "1").err.splitlines()[1:] == ["  A -> B(", "         ^"]
 
 
 def test_a_file_that_is_not_there_is_suggested_from_its_neighbours(shell, model):
@@ -568,9 +568,9 @@ def test_what_another_program_wrote_is_called_so_and_the_name_of_a_file_is_a_hin
         '"axiom:"',
     )
     refused(
-        shell("derive", model("A = B\n", "tree.lpy"), "-n", "1"),
+        shell("derive", model("A = (\n", "tree.rgg"), "-n", "1"),
         "line 1",
-        'The name ends in ".lpy": perhaps the file is a model of L-Py, which the kit does not read.',
+        'The name ends in ".rgg": perhaps the file is a model in XL, the language of GroIMP, which the kit does not read.',
     )
     assert shell("derive", model("axiom: A\nA -> A B\n", "fine.lpy"), "-n", "1").out == "A\nA B\n"
     said = shell("derive", model("import turtle\n", "tree.py"), "-n", "1").err
@@ -591,7 +591,7 @@ def test_a_step_past_the_size_limit_says_how_far_one_can_go(shell):
 
 
 def test_a_message_of_a_model_is_no_traceback_in_a_real_process(model):
-    done = process("derive", model("axiom: A\nA = B\n"), "-n", "1")
+    done = process("derive", model("axiom: A\nA -> B(\n"), "-n", "1")
     assert (done.returncode, done.stdout) == (BAD_INPUT, b"")
     assert done.stderr.count(b"\n") == 3
     assert b"Traceback" not in done.stderr

@@ -1,10 +1,8 @@
 r"""Formats of other programs, which the kit does not read: what gives each away, what the kit lacks, and what to try.
 
 A text is asked whose it is only where its reader has failed, so that no text in one of the kit's notations is ever called
-foreign. One format is asked for before: some models of L-Py are letter for letter what cpfg's reader would take for its own,
-and are known by the line `production:`, which L-Py needs and cpfg has not. A sign counts at the beginning of any line, outside
-of `/* comments */`; the name of a file proves nothing. `foreign.toml` has the formats, and the
-sources.
+foreign; in formats that are `tried` systems are looked for before. A sign counts at the beginning of any line, outside of
+`/* comments */`; the name of a file proves nothing. `foreign.toml` has the formats, and the sources.
 """
 
 from __future__ import annotations
@@ -22,8 +20,6 @@ from lsys_kit.notation.syntax.text.statements import without_comments
 _BLANKS = r"[ \t]*+"
 GLANCE = 50_000
 """So many characters of a text are looked at."""
-_EARLY = "production"
-"""What a text holds that is asked for formats before it is read."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -36,7 +32,7 @@ class ForeignFormat:
     advice: str
     suffixes: Sequence[str] = ()
     beside: str = ""
-    early: bool = False
+    tried: bool = False
 
     @cached_property
     def _patterns(self) -> tuple[re.Pattern[str], re.Pattern[str]]:
@@ -68,21 +64,16 @@ def foreign_format(text: str) -> ModelSyntaxError | None:
     return _claim(formats(), text)
 
 
-def mistakable_format(text: str) -> ModelSyntaxError | None:
-    """The same for a text that a reader of the kit may take for its own.
-
-    >>> mistakable_format("Axiom: A\\nA --> A B") is None
-    True
-    """
-    early = [row for row in formats() if row.early] if _EARLY in text else ()
-    return _claim(formats(), text) if _claim(early, text) else None
+def unreadable_format(text: str) -> ModelSyntaxError | None:
+    """The same, but for formats in which systems are looked for."""
+    return _claim([row for row in formats() if not row.tried], text)
 
 
 def name_hint(name: str) -> str | None:
     """A hint at the format in which files with such a name often are.
 
-    >>> name_hint("tree.jff")
-    'The name ends in ".jff": perhaps the file is an L-system of JFLAP, which the kit does not read.'
+    >>> name_hint("tree.rgg")
+    'The name ends in ".rgg": perhaps the file is a model in XL, the language of GroIMP, which the kit does not read.'
     """
     suffix = PurePath(name).suffix.lower()
     found = next((row for row in formats() if suffix in row.suffixes), None)

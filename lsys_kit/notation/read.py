@@ -12,12 +12,15 @@ from dataclasses import replace
 from typing import TypeAlias
 
 from lsys_kit.budget import current
-from lsys_kit.errors import LSystemError, ModelValueError, require
+from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError, require
 from lsys_kit.notation.analysis.checks import check_expression, check_word, value_of
 from lsys_kit.notation.dialects.abop.dialect import ABOP
 from lsys_kit.notation.dialects.cellwork.dialect import CELLWORK, read_cellwork
+from lsys_kit.notation.dialects.fractint.dialect import FRACTINT
 from lsys_kit.notation.dialects.map.dialect import MAP, read_map
-from lsys_kit.notation.foreign import foreign_format, mistakable_format
+from lsys_kit.notation.foreign import foreign_format, unreadable_format
+from lsys_kit.notation.formats.l_py import is_l_py
+from lsys_kit.notation.formats.reading import FORMATS, read_as, read_found
 from lsys_kit.notation.fragments import is_link, unpacked
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.cells import CellworkSystem, MapSystem
@@ -30,6 +33,7 @@ from lsys_kit.notation.syntax.parser import parse
 from lsys_kit.notation.syntax.segmentation import check_digits, segment_word
 from lsys_kit.notation.syntax.systems import system_in
 from lsys_kit.notation.syntax.text.statements import ARROW, check_text
+from lsys_kit.notation.syntax.text.typography import TAG, keyboard_signs
 from lsys_kit.notation.syntax.wording import reporting
 
 AnySystem: TypeAlias = LSystem | MapSystem | CellworkSystem
@@ -49,8 +53,9 @@ def read(text: str, notation: str | None = None, name: str | None = None) -> LSy
     text
         The model: constants, axiom, productions, one a line. `/* ... */` is a comment. Or a link with a model in it.
     notation
-        Its name; by default the notation whose features the text shows most. Unless that is the kit's own, the first note of
-        the system names it.
+        Its name, or that of a format: "list", "page", "data", "xml", "l-py", "lparser". By default the notation whose features
+        the text shows most, or, where its reader fails, the first format that finds an axiom and rules in it. Unless it is the
+        kit's own, the first note of the system names it, and says what was assumed.
     name
         Which system, where a text holds several with names, as files of Fractint's do.
 
@@ -74,6 +79,8 @@ def read(text: str, notation: str | None = None, name: str | None = None) -> LSy
     ar -> al br
     >>> read("Axiom: I\\nI -> I[A]A(I)A").notes
     ('Read as plant-string.',)
+    >>> read("start : F\\nrules : (F → F+F)\\nangle : 60°").notes
+    ('Read as a list of variables and rules, as encyclopaedias have it; angle 60.',)
     >>> print(read("Koch { Angle 6; ...\\nAxiom F\\nF=F+F--F+F }  Line { Angle 4\\nAxiom F }", name="Line"))
     Line {
       Angle 4
@@ -88,13 +95,19 @@ def read(text: str, notation: str | None = None, name: str | None = None) -> LSy
         start, hint = len(text) - len(text.lstrip()), f"{kind.capitalize()}s are read by read_{kind}(text)."
         raise ModelValueError(f"This is a {kind} system, not an L-system", text, start, None, hint)
     require(notation, (str, type(None)), "The name of a notation")
+    if notation is not None and notation in FORMATS:
+        return read_as(FORMATS[notation], text, name)
     if notation:
         return _read_as_named(dialect_named(notation), text, name)
-    chosen, mistakable = recognise(text), mistakable_format(text)
-    if mistakable:
-        raise mistakable
+    if is_l_py(text):
+        return read_as(FORMATS["l-py"], text, name)
+    chosen = recognise(text)
     system = _read_or_claimed(chosen, text, name, _others(chosen, text))
-    return system if chosen is ABOP else replace(system, notes=(f"Read as {chosen.name}.", *system.notes))
+    return (
+        system
+        if chosen is ABOP or system.notation != chosen.name
+        else replace(system, notes=(f"Read as {chosen.name}.", *system.notes))
+    )
 
 
 def _read_link(link: str, notation: str | None, name: str | None) -> LSystem:
@@ -164,7 +177,18 @@ def _read_or_claimed(chosen: Dialect, text: str, name: str | None, others: Itera
     except LSystemError as error:
         other = next((other.name for other in others if _reads(other, text, name)), None)
         if other is None:
-            raise foreign_format(text) or error from None
+            if isinstance(error, ModelLimitError):
+                raise foreign_format(text) or error from None
+            plain = keyboard_signs(text).text  # as one would type it
+            if plain != text and not TAG.search(text) and _reads(chosen, plain, name):
+                return system_in(chosen, plain, name)
+            several = chosen is FRACTINT and isinstance(error, ModelValueError)
+            if unreadable := (error if several else unreadable_format(text)):
+                raise unreadable from None
+            found = read_found(text, name)
+            if found is None:
+                raise foreign_format(text) or error from None
+            return found
         error.with_hint(f'{error.hint or ""} As {other} it can be read: read(text, "{other}").'.strip())
         raise
 

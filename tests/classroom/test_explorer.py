@@ -272,7 +272,7 @@ def test_another_seed_is_another_book(monkeypatch):
     ("text", "told", "place"),
     [
         ("axiom: A\nA -> A(t", "is never closed", (15, 16)),
-        ("axiom: A\nA = B C", 'I did not expect "C" here', (15, 16)),
+        ("axiom: A\nA -> B >", 'I did not expect ">" here', (16, 17)),
         ("axiom: A\nA(t) -> B(u)", 'I do not know the name "u"', (19, 20)),
     ],
 )

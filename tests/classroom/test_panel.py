@@ -67,6 +67,23 @@ def test_notes_on_how_rules_were_read_stand_below_them_and_a_mistake_names_its_l
     expect(notes).to_contain_text("BXB")
 
 
+def test_what_is_pasted_becomes_the_kits_notation_and_one_press_of_undo_brings_it_back(explored):
+    panel = explored("K5", 2, show=["rules", "drawing"])
+    notes, rules = panel.at('[data-view="rules"] .lsys-hint'), panel.at(".lsys-rules")
+    page = "variables : X F\nstart : X\nrules : (X → F[+X]F[−X]+X), (F → FF)\nangle : 20°"
+    rules.fill(page)
+    expect(notes).to_contain_text("Read as a list of variables and rules")
+    expect(rules).to_have_value(page)  # what is typed stays as it was typed
+    rules.press("Control+a")
+    rules.press("Control+x")
+    rules.press("Control+v")
+    expect(rules).to_have_value("angle: 20\naxiom: X\nX -> F[+X]F[-X]+X\nF -> F F\n")
+    expect(notes).to_contain_text("Read as a list of variables and rules, as encyclopaedias have it; angle 20.")
+    rules.press("Control+z")
+    expect(rules).to_have_value(page)
+    expect(notes).to_contain_text("Read as a list of variables and rules")
+
+
 def test_while_a_book_is_fetched_a_panel_is_busy(explored):
     panel = explored("J4", 9)
     panel.page.evaluate("window.delay = () => 2000")

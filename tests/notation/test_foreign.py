@@ -13,12 +13,12 @@ from hypothesis import strategies as st
 
 from lsys_kit.classroom.catalogue import system, systems
 from lsys_kit.errors import LSystemError, ModelSyntaxError
-from lsys_kit.notation.foreign import GLANCE, ForeignFormat, foreign_format, formats, mistakable_format, name_hint
+from lsys_kit.notation.foreign import GLANCE, ForeignFormat, foreign_format, formats, name_hint
 from lsys_kit.notation.read import read
 from lsys_kit.notation.registry import DIALECTS
 from lsys_kit.notation.syntax.systems import lacking
 from lsys_kit.notation.write import write
-from tests.notation.foreign_texts import FOREIGN, L_PY, MENTIONS
+from tests.notation.foreign_texts import FOREIGN, MENTIONS
 from tests.notation.test_any_text import MODELS
 from tests.notation.test_recognised import LISTINGS, SHORT
 
@@ -68,7 +68,7 @@ def test_the_ends_of_lines_change_nothing() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("name", "text", "line"), [row for row in TEXTS if row[0] != L_PY])
+@pytest.mark.parametrize(("name", "text", "line"), TEXTS)
 @pytest.mark.parametrize("notation", DIALECTS)
 def test_where_a_notation_was_asked_for_its_own_reader_says_what_is_wrong_and_the_format_is_a_guess(
     notation: str, name: str, text: str, line: int
@@ -122,7 +122,6 @@ def test_what_is_advised_is_read(text: str) -> None:
 @pytest.mark.parametrize("text", [*OWN, *MENTIONS])
 def test_no_text_in_a_notation_of_the_kit_is_called_foreign(text: str) -> None:
     assert foreign_format(text) is None
-    assert mistakable_format(text) is None
 
 
 @st.composite
@@ -142,7 +141,6 @@ def spoilt(draw: st.DrawFn) -> str:
 @given(spoilt())
 def test_no_text_with_a_slip_is_called_foreign(text: str) -> None:
     assert foreign_format(text) is None
-    assert mistakable_format(text) is None
 
 
 @pytest.mark.parametrize("text", [text for text in MENTIONS if not text.startswith("From")])
@@ -153,10 +151,7 @@ def test_what_only_mentions_another_program_is_read(text: str) -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("axiom: A\nproduction:\nA --> A B", 'I do not know "production:"'),
-        ("A ==> B", "This is not an arrow"),
         ("derivation length: 5 // n; or so\nAxiom: A\nB", "An arrow is missing"),
-        ("Axiom: A\nproduction:\nA -> A B", 'I do not know "production:"'),
         ("# a plant\naxiom: A", "This is not a production"),
         ('axiom: "A"', "Quotation marks are not needed here"),
         ("#defin n 3\nAxiom: A\nA --> B", "This is not a production"),
@@ -169,44 +164,13 @@ def test_a_slip_has_the_message_of_its_notation(text: str, message: str) -> None
     assert "which the kit does not read" not in str(found.value)
 
 
-# --- L-Py and cpfg ----------------------------------------------------------------------------------------------------------
-
-RULES = st.lists(
-    st.sampled_from(["A --> F[+A]A", "F --> FF", "B(x) --> F(x)B(x+1)", "A < B --> C", "A(t) : t > 1 --> F(t)"]),
-    min_size=1,
-    max_size=4,
-).map("\n".join)
-
-
-@given(RULES, st.permutations(["Axiom: A", "derivation length: 3", "/* a plant */", ""]), st.sampled_from(["", "\nendlsystem"]))
-def test_no_model_of_l_py_is_taken_for_one_of_cpfg(rules: str, heading: list[str], end: str) -> None:
-    model = "\n".join(heading) + f"\nproduction:\n{rules}{end}\n"
-    assert claim(model).message.startswith("This is a model of L-Py,")
-    for python in (f"import math\n{model}", f"{model}\n###### INITIALISATION ######\n", f"{model}\nC(x) :\n  produce F"):
-        assert claim(python).message.startswith("This is a model of L-Py,")
-
-
-@given(RULES)
-def test_the_same_rules_in_cpfgs_frame_are_cpfgs(rules: str) -> None:
-    model = f"Lsystem: 1\nderivation length: 3\nAxiom: A\n{rules}\nendlsystem"
-    assert read(model).notation == "cpfg"
-
-
-def test_it_can_be_read_as_cpfgs_all_the_same() -> None:
-    model = "Axiom: A\nproduction:\nA --> F[+A]A\nendlsystem"
-    assert 'read(text, "cpfg")' in (claim(model).hint or "")
-    assert read(model, "cpfg") == read("Axiom: A\nA --> F[+A]A", "cpfg")
-
-
 # --- names and time ---------------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
     ("name", "told"),
     [
-        ("tree.lpy", "a model of L-Py"),
         ("a/b/TREE.RGG", "a model in XL"),
-        ("x.jff", "an L-system of JFLAP"),
         ("x.rkt", "a model in Racket"),
         ("x.ipynb", "a Jupyter notebook"),
         ("x.py", "a program in Python"),
@@ -264,7 +228,6 @@ def test_a_glance_is_short(text: str) -> None:
     long = (text * GLANCE)[: 20 * GLANCE]
     started = time.process_time()
     foreign_format(long)
-    mistakable_format(long)
     assert time.process_time() - started < 0.5 * 3  # half a second on a quick machine
 
 

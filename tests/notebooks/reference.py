@@ -19,6 +19,7 @@ from nbformat import NotebookNode
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 
 from lsys_kit.geometry.turtle.commands import COMMAND_TABLE, COMMANDS, Row
+from lsys_kit.notation.formats.reading import FORMATS
 from lsys_kit.notation.registry import DIALECTS
 from tests.notebooks.rebuild import METADATA, ROOT, rebuilt
 
@@ -100,6 +101,13 @@ def _notation_cells() -> Iterator[NotebookNode]:
         example = EXAMPLES["notations"][name]
         yield new_markdown_cell(f"### {name}\n\n{example['whose'][0].upper()}{example['whose'][1:]}.")
         yield new_code_cell(f'derive(read({_quoted(example["listing"].strip())}, "{name}"), {example["steps"]})')
+    yield new_markdown_cell(texts["pasting"].strip())
+    for name in FORMATS:
+        example = EXAMPLES["formats"][name]
+        yield new_markdown_cell(f"### Pasted: {name}\n\n{example['whose'][0].upper()}{example['whose'][1:]}.")
+        yield new_code_cell(f"found = read({_quoted(example['listing'].strip())})")
+        yield new_code_cell('print(found, *found.notes, sep="\\n")')
+        yield new_code_cell(f"draw(found, {example['steps']})")
     yield new_markdown_cell(texts["writing"].strip())
     yield new_code_cell(texts["written"].strip())
     yield new_markdown_cell(texts["own"].strip())

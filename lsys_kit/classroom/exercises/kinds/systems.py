@@ -372,7 +372,8 @@ def _read_text(exercise: Exercise, text: str) -> SystemAnswer:
         found = read(text)
         if not all(_ARROW.search(line) for line in text.splitlines() if line.strip()):
             return whole(found)
-        return completed(exercise, replace(given, productions=found.productions, source=found.source))
+        if found.notation != given.notation:  # a rule alone is read with its first letter as its axiom
+            return completed(exercise, replace(given, productions=found.productions, source=found.source))
     together = read(f"{text}\n{exercise.given}")
     own = [rule for rule in together.productions if rule.at and rule.at[1] <= len(text) and rule not in given.productions]
     if not own:

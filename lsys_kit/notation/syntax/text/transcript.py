@@ -35,6 +35,7 @@ class Transcript:
     notes: tuple[str, ...] = ()
     _starts: Sequence[int] = field(default=(0,), repr=False)
     _origins: Sequence[int] = field(default=(0,), repr=False)
+    _ends: Sequence[int] = field(default=(), repr=False)
     _before: Transcript | None = field(default=None, repr=False)
 
     def origin(self, offset: int) -> int:
@@ -46,8 +47,7 @@ class Transcript:
         ('steps:3\\n δ=60°\\naxiom: F\\nF → F+F', 17)
         """
         piece = bisect_right(self._starts, offset) - 1
-        end = len(self._before.text if self._before else self.source)
-        last = self._origins[piece + 1] if piece + 1 < len(self._origins) else end
+        last = self._ends[piece] if self._ends else len(self.source)
         origin = min(self._origins[piece] + offset - self._starts[piece], last)
         return self._before.origin(origin) if self._before else origin
 
@@ -87,16 +87,31 @@ def edited(source: str | Transcript, edits: Iterable[Edit], notes: Sequence[str]
     """
     before = source if isinstance(source, Transcript) else as_typed(source)
     typed = before.text if typed is None else typed
-    parts, starts, origins = [], [0], [0]
-    at = length = 0
+    pieces: list[Edit] = []
+    at = 0
     for edit in sorted(set(edits)):
         if edit.start < at:  # within what another edit has replaced
             continue
-        for text, origin in ((typed[at : edit.start], at), (edit.text, edit.start), ("", edit.start)):
-            starts.append(length)
-            origins.append(origin)
-            parts.append(text)
-            length += len(text)
+        pieces += (Edit(at, edit.start, typed[at : edit.start]), Edit(edit.start, edit.start, edit.text))
         at = edit.end
+    return assembled(before, (*pieces, Edit(at, len(typed), typed[at:])), notes)
+
+
+def assembled(before: Transcript, pieces: Iterable[Edit], notes: Sequence[str] = ()) -> Transcript:
+    """A text of pieces, each with its place in what an earlier pass made: in any order, and some of it not at all.
+
+    >>> found = assembled(as_typed("ab"), [Edit(1, 2, "b"), Edit(0, 1, "a")])
+    >>> found.text, [found.origin(at) for at in range(3)]
+    ('ba', [1, 0, 1])
+    """
+    parts, starts, origins, ends = [], [0], [0], [0]
+    length = 0
+    for piece in pieces:
+        if piece.text or piece.start < piece.end:
+            starts.append(length)
+            origins.append(piece.start)
+            ends.append(piece.end)
+            parts.append(piece.text)
+            length += len(piece.text)
     every = tuple(dict.fromkeys((*before.notes, *notes)))
-    return Transcript(before.source, "".join((*parts, typed[at:])), every, (*starts, length), (*origins, at), before)
+    return Transcript(before.source, "".join(parts), every, starts, origins, ends, before)

@@ -94,6 +94,7 @@ _SETTINGS = re.compile(rf"(?:^|[,;])[ \t]*+{_SETTING_NAME}[ \t]*+(=)(?!=)")
 """Settings with the sign of a constant, as many pages on the web have them."""
 _DEGREES = re.compile(r"[ \t]*+(?i:angle|heading)[ \t]*+[:=][ \t]*+[\d./]++([ \t]*+(?:°|degrees?\b|deg\b))[ \t]*+$")
 _STEPS = re.compile(r"\bn[ \t]*+=")
+_DELTA_IN_LETTERS, _DELTA_WORD = re.compile(r"(?<!\\)\bdelta[ \t]*+="), re.compile(r"\bdelta\b")
 _N = re.compile(r"\bn\b")
 _NAMED = re.compile(r"[ \t]*+\\?[A-Za-z_ωδ][\w ]*+(?:\([^()]*+\))?+[ \t]*+[:=]|[ \t]*+#")
 _DEFINED = re.compile(r"([ \t]*+#[ \t]*+define[ \t]++)(\w+)([ \t]++)\S")
@@ -234,6 +235,10 @@ class _Listing:
     def _assignments(self, line: _Line) -> Iterator[Edit]:
         for match in re.finditer(r"[,;]|\.(?=[ \t]*$)", line.text):
             yield Edit(line.start + match.start(), line.start + match.end(), "\n" if line.text[match.end() :].strip() else "")
+        angle = _DELTA_IN_LETTERS.search(line.text)
+        if angle and self.printed and sum(1 for _ in islice(_DELTA_WORD.finditer(self.plain), 2)) == 1:
+            self.notes.append('"delta" is read as the angle.')
+            yield Edit(line.start + angle.start(), line.start + angle.end(), "angle:")
         steps = _STEPS.search(line.text)
         if steps and self.printed and sum(1 for _ in islice(_N.finditer(self.plain), 2)) == 1:
             self.notes.append('"n" is read as the number of steps.')

@@ -12,7 +12,7 @@ export function rulesView(parent, asked) {
   const back = button(worded("back to the first rules"), worded("put back the rules with which the panel was opened"), () => put(first), { hidden: true });
   const notes = made("div.lsys-hint", { role: "status" });
   parent.append(made("div.lsys-editor", backdrop, area), said, notes, back);
-  let first = "", told = [], spans = [], waiting = 0;
+  let first = "", told = [], spans = [], waiting = 0, pasted = false, shown = "";
 
   function paint() {
     const text = area.value, parts = [];
@@ -40,11 +40,24 @@ export function rulesView(parent, asked) {
     typed();
   }
 
-  area.addEventListener("input", typed);
+  // What was pasted is put into the kit's notation as if it were typed, so that one press of undo brings it back.
+  function rewrite(text) {
+    pasted = false;
+    if (text === area.value || document.activeElement !== area) return;
+    area.setSelectionRange(0, area.value.length);
+    if (!document.execCommand("insertText", false, text)) area.value = text;
+    clearTimeout(waiting); // it is what was read
+  }
+
+  area.addEventListener("input", (event) => {
+    pasted = event.inputType === "insertFromPaste" || event.inputType === "insertFromDrop";
+    typed();
+  });
   area.addEventListener("scroll", paint);
 
   // Nothing is wrong with the text; there may be notes on how it was read.
   function understood() {
+    if (pasted && told[0]?.startsWith("Read as ")) rewrite(shown);
     spans = [];
     said.replaceChildren();
     notes.replaceChildren(...told.map((note) => made("div", note)));
@@ -59,6 +72,7 @@ export function rulesView(parent, asked) {
       told = noted;
       if (!first) first = text;
       area.readOnly = !editable;
+      shown = text;
       if (area.value !== text && document.activeElement !== area) area.value = text;
       area.rows = clamped(4, 18, area.value.split("\n").length + 1);
       back.hidden = area.value === first;

@@ -1,0 +1,351 @@
+"""What was found of an L-system in a text that is in no notation of the kit, and the same as a listing in the kit's own.
+
+A reader of a format finds passages: an axiom, rules, an angle. They are written one below another in the kit's notation, each
+character with its place in what was pasted, so that the kit's own reader does the rest, and its errors are shown there.
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from functools import cache
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, assembled
+
+
+@cache
+def tables() -> Mapping[str, Any]:
+    """The words by which the parts of a system are called; `fields.toml` explains its keys."""
+    return tomllib.loads(Path(__file__).with_name("fields.toml").read_text(encoding="utf-8"))
+
+
+class Passage(NamedTuple):
+    """A part of a text, and the offset at which it stands; of what was written otherwise there, with escapes, its beginning."""
+
+    text: str
+    at: int
+    exact: bool = True
+
+    def part(self, start: int, end: int | None = None) -> Passage:
+        """A part of it, without blanks around."""
+        end = len(self.text) if end is None else end
+        said = self.text[start:end]
+        start += len(said) - len(said.lstrip())
+        return Passage(said.strip(), self.at + start if self.exact else self.at, self.exact)
+
+    def piece(self, start: int, end: int, text: str) -> Edit:
+        """What is written for its characters from one offset to another."""
+        return Edit(self.at + start, self.at + end, text) if self.exact else Edit(self.at, self.at, text)
+
+
+@dataclass(frozen=True)
+class Rule:
+    """A production that was found.
+
+    Attributes
+    ----------
+    head
+        Strict predecessor, with contexts and a condition behind a colon.
+    tail
+        The successor, perhaps in several parts.
+    probability
+        A number, or None.
+    section
+        The section in which it stands: "" among the productions, "decomposition" or "interpretation".
+    """
+
+    head: Passage
+    tail: tuple[Passage, ...]
+    probability: Fraction | None = None
+    section: str = ""
+
+
+@dataclass
+class Found:
+    """The parts of an L-system that were found in a text.
+
+    Attributes
+    ----------
+    name
+        Its name, where the text has one.
+    lines
+        Statements in the kit's notation, each as it stands: settings, constants.
+    signs
+        What is written for signs that mean something else than in the kit's notation.
+    drawn
+        Symbols, and the command as which each is drawn.
+    notes
+        What was understood.
+    listing
+        A text in the kit's notation that is all of it, in place of its parts.
+    """
+
+    name: str = ""
+    axiom: tuple[Passage, ...] | None = None
+    rules: list[Rule] = field(default_factory=list)
+    angle: tuple[Fraction, Passage] | None = None
+    steps: tuple[int, Passage] | None = None
+    ignored: Passage | None = None
+    lines: list[Passage] = field(default_factory=list)
+    signs: Mapping[str, str] = field(default_factory=dict)
+    drawn: dict[str, str] = field(default_factory=dict)
+    names: frozenset[str] = frozenset()
+    notes: list[str] = field(default_factory=list)
+    listing: Transcript | None = None
+
+    @property
+    def complete(self) -> bool:
+        """Whether it has an axiom and a rule."""
+        return self.listing is not None or (self.axiom is not None and bool(self.rules))
+
+
+_ARGUMENTS = re.compile(r"[()]")
+_SYMBOL = re.compile(r"[A-Za-z]_\{?[A-Za-z0-9]\}?(?![A-Za-z0-9])|[A-Za-z_]|\d|@[A-Za-z]+|\S")
+
+
+def symbols_in(text: str, names: frozenset[str] = frozenset()) -> Iterator[tuple[int, int, bool]]:
+    """The offsets of the symbols of a word, and of the values of each, for which the third is true.
+
+    >>> [("F(x)[AB]"[start:end], values) for start, end, values in symbols_in("F(x)[AB]")]
+    [('F', False), ('(x)', True), ('[', False), ('A', False), ('B', False), (']', False)]
+    """
+    longest, at = max(map(len, names), default=0), 0
+    while at < len(text):
+        if text[at].isspace():
+            at += 1
+        elif text[at] == "(" and at:
+            end = _closed(text, at)
+            yield at, end, True
+            at = end
+        else:
+            size = next((size for size in range(longest, 1, -1) if text[at : at + size] in names), 0)
+            match = _SYMBOL.match(text, at)
+            end = at + size if size else match.end() if match else at + 1
+            yield at, end, False
+            at = end
+
+
+def _closed(text: str, start: int) -> int:
+    """The offset behind the bracket that closes one."""
+    depth = 0
+    for match in _ARGUMENTS.finditer(text, start):
+        depth += 1 if match[0] == "(" else -1
+        if depth == 0:
+            return match.end()
+    return len(text)
+
+
+def _word(passage: Passage, found: Found) -> Iterator[Edit]:
+    """A word in the kit's spelling: names and digits apart."""
+    before = ""
+    swallowed = False
+    for start, end, values in symbols_in(passage.text, found.names):
+        text = passage.text[start:end]
+        if values:
+            text = "" if swallowed else _numbers(text)
+        else:
+            inner = (
+                passage.text[end + 1 : _closed(passage.text, end) - 1].strip() if passage.text[end : end + 1] == "(" else None
+            )
+            text, swallowed = _sign(text, inner, found.signs)
+        glued = before[-1:].isalnum() or before[-1:] == "_"
+        if (text and glued and (text[0].isalnum() or text[0] == "_")) or (before.isdigit() and values):
+            yield passage.piece(start, start, " ")
+        yield passage.piece(start, end, text)
+        before = text or before
+
+
+def _sign(text: str, values: str | None, signs: Mapping[str, str]) -> tuple[str, bool]:
+    """A symbol in the kit's spelling, and whether its values are in it, or left out."""
+    if re.fullmatch(r"[A-Za-z]_\{\w\}", text):
+        return text.replace("{", "").replace("}", ""), False
+    made = signs.get(f"{text}(") if values is not None else None
+    if made is None:
+        return signs.get(text, text), False
+    return made.removesuffix(" !").replace("{x}", values or ""), "{x}" in made or made.endswith(" !")
+
+
+def _head(passage: Passage, found: Found) -> Iterator[Edit]:
+    """What stands before the arrow: words on both sides of "<" and ">", and a condition as it stands."""
+    colon = passage.text.find(":")
+    end = len(passage.text) if colon < 0 else colon
+    depth, at = 0, 0
+    for index, sign in enumerate(passage.text[:end] + "\0"):
+        depth += (sign == "(") - (sign == ")")
+        if sign == "\0" or (sign in "<>" and depth <= 0):
+            side = passage.text[at:index]
+            if side.strip() not in ("", "*"):
+                yield from _word(passage.part(at, index), found)
+            if sign != "\0":
+                yield passage.piece(index, index + 1, f" {sign} ")
+            at = index + 1
+    if colon >= 0:
+        yield passage.piece(colon, len(passage.text), f" {_condition(passage.text[colon:])}")
+
+
+def _condition(text: str) -> str:
+    """A condition in the kit's spelling; a single "=" compares in some programs."""
+    text = re.sub(r"(?<![<>=!:])=(?!=)", "==", _numbers(text).replace("≤", "<=").replace("≥", ">="))
+    return text.replace(" and ", " && ").replace(" or ", " || ")
+
+
+def _numbers(text: str) -> str:
+    """Expressions with numbers as the kit has them, and not "3." and ".5"; "**" is a power in Python."""
+    return re.sub(r"(?<=\d)\.(?![\d.])", ".0", re.sub(r"(?<![\w.])\.(?=\d)", "0.", text)).replace("**", "^")
+
+
+def _words(passages: Iterable[Passage], found: Found) -> Iterator[Edit]:
+    for passage in passages:
+        for index, edit in enumerate(_word(passage, found)):
+            if index == 0:
+                yield Edit(edit.start, edit.start, " ")
+            yield edit
+
+
+def number_text(value: Fraction) -> str:
+    """A number, as it is typed: with a point, or as a quotient.
+
+    >>> number_text(Fraction(51, 2)), number_text(Fraction(1, 3))
+    ('25.5', '1/3')
+    """
+    decimal = repr(float(value))
+    return str(value) if value.denominator == 1 or "e" in decimal or Fraction(decimal) != value else decimal
+
+
+def _digits(found: Found) -> list[str]:
+    """The digits that are symbols."""
+    heads = (Passage(re.split(":", rule.head.text)[0], 0) for rule in found.rules)
+    words = [*(found.axiom or ()), *heads, *(part for rule in found.rules for part in rule.tail)]
+    seen = {word.text[a:b] for word in words for a, b, values in symbols_in(word.text, found.names) if not values}
+    return sorted({*filter(str.isdigit, seen), *(symbol for symbol in found.drawn if symbol.isdigit())})
+
+
+def _named_or_long(found: Found) -> list[str]:
+    return sorted(name for name in found.names if len(name) > 1)
+
+
+_SECTIONS = ("", "decomposition", "interpretation")
+"""The sections in their order."""
+
+
+def listing(found: Found) -> Iterator[Edit]:
+    """What was found as a listing in the kit's notation, in pieces with their places in the text that was read."""
+    at = found.axiom[0].at if found.axiom else 0
+    alphabet = [*_named_or_long(found), *_digits(found)]
+    if alphabet:
+        yield Edit(at, at, f"alphabet: {' '.join(alphabet)}\n")
+    for line in found.lines:
+        yield line.piece(0, len(line.text), line.text)
+        yield Edit(line.at, line.at, "\n")
+    for name, setting in (("angle", found.angle), ("steps", found.steps)):
+        if setting:
+            value, place = setting
+            yield place.piece(0, len(place.text), f"{name}: {number_text(Fraction(value))}")
+            yield Edit(place.at, place.at, "\n")
+    if found.ignored:
+        yield Edit(found.ignored.at, found.ignored.at, "ignore:")
+        yield from _words([found.ignored], found)
+        yield Edit(found.ignored.at, found.ignored.at, "\n")
+    if found.axiom:
+        yield Edit(at, at, "axiom:")
+        yield from _words(found.axiom, found)
+        yield Edit(at, at, "\n")
+    section = ""
+    for rule in sorted(found.rules, key=lambda rule: _SECTIONS.index(rule.section)):
+        if rule.section != section:
+            section = rule.section
+            yield Edit(rule.head.at, rule.head.at, f"{section}:\n")
+        yield from _head(rule.head, found)
+        yield Edit(rule.head.at, rule.head.at, " ->")
+        tail = [*_words(rule.tail, found)]
+        yield from tail if any(edit.text.strip() for edit in tail) else [Edit(rule.head.at, rule.head.at, " ε")]
+        if rule.probability is not None:
+            yield Edit(rule.head.at, rule.head.at, f" : {number_text(rule.probability)}")
+        yield Edit(rule.head.at, rule.head.at, "\n")
+    if found.drawn:
+        heading = "" if section == "interpretation" else "interpretation:\n"
+        yield Edit(at, at, heading + "\n".join(f"{symbol} -> {command}" for symbol, command in sorted(found.drawn.items())))
+
+
+def transcript_of(found: Found, before: Transcript) -> Transcript:
+    """What was found in a text, in the kit's notation."""
+    return found.listing or assembled(before, listing(found), found.notes)
+
+
+def completed(found: Found) -> Found:
+    """The same, where one rule stands alone with its first letter as its axiom."""
+    if found.listing or found.axiom is not None or len(found.rules) != 1:
+        return found
+    head = found.rules[0].head
+    symbol = next((head.part(start, end) for start, end, values in symbols_in(head.text, found.names) if not values), None)
+    if symbol is None or not symbol.text.isalnum():
+        return found
+    return replace(
+        found, axiom=(symbol,), notes=[*found.notes, f'No axiom is given: it is "{symbol.text}", what the one rule rewrites.']
+    )
+
+
+def unquoted(passage: Passage) -> Passage:
+    """A passage without the quotation marks around it."""
+    text = passage.text
+    if len(text) > 1 and text[0] == text[-1] and text[0] in "\"'`" and text.count(text[0]) == 2:
+        return passage.part(1, len(text) - 1)
+    return passage
+
+
+def chance_of(text: str | None) -> Fraction | None:
+    """A probability as it was written, as in "33%", ".4" or "(1/3)".
+
+    >>> chance_of("(20 %)"), chance_of(".5")
+    (Fraction(1, 5), Fraction(1, 2))
+    """
+    if not text:
+        return None
+    bare = text.strip("() \t").rstrip("%").strip()
+    top, _, bottom = bare.partition("/")
+    value = (
+        Fraction(f"0{top}" if top.startswith(".") else top) / Fraction(bottom or 1)
+        if bottom.strip("0") or not bottom
+        else Fraction(0)
+    )
+    return value / 100 if "%" in text else value
+
+
+_PI = r"(?:[A-Za-z]+\.|M_)?(?:pi|π)"
+_N = r"(-?\d+(?:[.,]\d+)?)"
+_ANGLES: Sequence[tuple[re.Pattern[str], Callable[[Fraction], Fraction]]] = (
+    (re.compile(rf"(?:[A-Za-z]+\.)?(?:to_?)?(?:radians|deg2rad)\s*\(\s*{_N}\s*\)", re.IGNORECASE), lambda n: n),
+    (re.compile(rf"{_N}\s*\*\s*\(?\s*{_PI}\s*/\s*180(?:\.0*)?\s*\)?", re.IGNORECASE), lambda n: n),
+    (re.compile(rf"{_PI}\s*/\s*180(?:\.0*)?\s*\*\s*{_N}", re.IGNORECASE), lambda n: n),
+    (re.compile(rf"{_PI}\s*/\s*{_N}", re.IGNORECASE), lambda n: 180 / n),
+    (re.compile(rf"{_N}\s*\*?\s*{_PI}", re.IGNORECASE), lambda n: 180 * n),
+    (re.compile(rf"360\.?0*\s*/\s*{_N}"), lambda n: 360 / n),
+)
+"""How programs write an angle: as what of which number in degrees."""
+_NUMBER = re.compile(r"(-?(?:\d+(?:[.,]\d+)?|\.\d+)(?:/[1-9]\d*)?)\s*\*?\s*(.*)", re.DOTALL)
+
+
+def angle_of(text: str) -> Fraction | None:
+    """An angle in degrees, as somebody wrote it; None for what is no number.
+
+    >>> [angle_of(text) for text in ("25,7°", "pi/3", "radians(25)", "sixty")]
+    [Fraction(257, 10), Fraction(60, 1), Fraction(25, 1), None]
+    """
+    text = text.strip().rstrip(".;")[:60]
+    for pattern, degrees in _ANGLES:
+        match = pattern.fullmatch(text)
+        if match and (number := Fraction(match[1].replace(",", "."))):
+            return degrees(number)
+    written = _NUMBER.fullmatch(text)
+    if written is None:
+        return None
+    top, _, bottom = written[1].replace(",", ".").partition("/")
+    value = Fraction(top) / Fraction(bottom or 1)
+    unit = re.split(r"[\s.,;)(\]]", written[2].lower().lstrip("\\[ "))[0]
+    factor = tables()["units"].get(unit, 1 if not unit.isalpha() else None)
+    return None if factor is None else value if factor == 1 else Fraction(str(round(float(value) * factor, 6)))

@@ -1,0 +1,547 @@
+"""Data: systems in JSON, TOML and in the literals of programs, as in `axiom = "F"; rules = {"F": "F+F"}`.
+
+Texts, numbers, lists and pairs are recognised as such, whatever language they are in, and nothing is run: a name stands for
+itself, and a call for its name with its values. A rule is a pair of texts of which the first is a symbol, or what names its
+parts as `fields.toml` has them.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from functools import cache
+from itertools import pairwise
+
+from lsys_kit.budget import current
+from lsys_kit.errors import ModelSyntaxError
+from lsys_kit.notation.formats.found import Found, Passage, Rule, angle_of, chance_of, tables
+from lsys_kit.notation.formats.lines import is_word, rules_in_line
+
+_TOKEN = re.compile(
+    r"""(?P<blank>[ \t\r]+|/\*.{0,2000}?\*/|\(\*.{0,2000}?\*\)|<!--.{0,2000}?-->
+        |(?://|(?<![\[({/])\#(?![\w\[(])|(?<![\[({/])\#[ ]+|```|;;|--[ ](?=[A-Za-z|])|(?<![^\s;])%(?!\w*[%=]))[^\n]*)
+    |(?P<end>\n|;)
+    |(?P<text>"(?:[^"\\\n]|\\.)*"|'(?:[^'\\\n]|\\.)*'|`(?:[^`\\]|\\.){0,2000}`)
+    |(?P<number>(?:\d+(?:\.\d+)?|\.\d+)(?:[eE][-+]?\d+)?(?:f(?!\w))?)
+    |(?P<name>[^\W\d][\w$]*(?:(?:\.|::|-(?=[A-Za-z]))[^\W\d][\w$]*)*(?:<[A-Za-z_, :]{1,60}>(?=\s*[\w({=]))?)
+    |(?P<pair><-(?=[ ])|=>|:>|->|→|↦|:=|:|=(?!=))
+    |(?P<open>[\[{(])
+    |(?P<close>[\]})])
+    |(?P<comma>,)
+    |(?P<other>.)""",
+    re.VERBOSE | re.DOTALL,
+)
+_ESCAPE = re.compile(r"\\(u[0-9a-fA-F]{4}|x[0-9a-fA-F]{2}|.)")
+_ESCAPED = {"n": "\n", "t": "\t", "r": "\r"}
+_CLOSING = {"(": ")", "[": "]", "{": "}"}
+_SYMBOL = re.compile(
+    r"(?:[^\s<>()]{1,12}\s*<\s*)?(?:[A-Za-z](?:_?\w)?|[^\w\s(){}\[\]:,;.<>=]|\d|[A-Z][a-z]{2,15})(?:\([^()]*\)(?:\s*:.{1,80})?)?(?:\s*>\s*[^\s<>()]{1,12})?"
+)
+"""What may be the first text of a rule."""
+
+
+@dataclass(frozen=True)
+class Term:
+    """A text, a number or a name."""
+
+    kind: str
+    text: str
+    at: int
+    end: int
+    exact: bool = True
+
+    @property
+    def passage(self) -> Passage:
+        return Passage(self.text, self.at, self.exact)
+
+
+@dataclass
+class Group:
+    """What stands between brackets, with the name before them."""
+
+    head: str
+    opened: str
+    at: int
+    entries: list[Entry] = field(default_factory=list)
+
+
+@dataclass
+class Entry:
+    """A member of a group: the terms of its value, and of its key, where it has one."""
+
+    terms: list[Term | Group]
+    key: list[Term | Group] = field(default_factory=list)
+    sign: str = ""
+    start: int = 0
+    end: int = 0
+
+
+def _text_of(match: re.Match[str]) -> Term:
+    """A literal text, its escapes read."""
+    said = match[0][1:-1]
+    at = match.start() + 1
+    if "\\" not in said:
+        return Term("text", said, at, match.end() - 1)
+    return Term("text", _ESCAPE.sub(_character, said), at, match.end() - 1, False)
+
+
+def _character(match: re.Match[str]) -> str:
+    code = match[1]
+    return chr(int(code[1:], 16)) if len(code) > 1 else _ESCAPED.get(code, code)
+
+
+def _parsed(text: str) -> Group:
+    """All that stands in a text, as a group."""
+    whole = Group("", "", 0)
+    stack = [whole]
+    entry = Entry([])
+
+    def finish(end: int) -> None:
+        nonlocal entry
+        if entry.terms or entry.key:
+            entry.end = end
+            stack[-1].entries.append(entry)
+        entry = Entry([])
+
+    saved: list[Entry] = []
+    for match in _TOKEN.finditer(text):
+        kind, at = match.lastgroup, match.start()
+        if kind == "blank":
+            continue
+        if kind == "open":
+            if len(stack) > current().depth:
+                return Group("", "", 0)  # no data
+            called = _called(entry, match[0], text)
+            group = Group(called.text, match[0], called.at) if called else Group("", match[0], at)
+            if not entry.terms and not entry.key:
+                entry.start = at
+            entry.terms.append(group)
+            saved.append(entry)
+            stack.append(group)
+            entry = Entry([])
+        elif kind == "close":
+            if len(stack) > 1 and _CLOSING[stack[-1].opened] == match[0]:
+                finish(at)
+                stack.pop()
+                entry = saved.pop()
+                entry.end = match.end()
+        elif (
+            kind == "end"
+            and match[0] == "\n"
+            and len(stack) == 1
+            and entry.sign == ":"
+            and not entry.terms
+            and not _kind(_name(entry))
+        ):
+            entry = Entry([])  # the end of a sentence, with a colon
+        elif kind in ("comma", "end"):
+            if (
+                kind == "comma"
+                or match[0] == ";"
+                or (stack[-1].opened in ("", "{") and entry.terms and not _goes_on(text, match.end()))
+            ):
+                finish(at)
+        elif kind == "pair":
+            if entry.terms and not entry.key:
+                entry.key, entry.terms, entry.sign = entry.terms, [], match[0]
+            elif entry.terms and match[0] == "=" and entry.sign == ":":  # axiom: string = "F"
+                entry.terms, entry.sign = [], "="
+            elif len(entry.terms) == 1 and match[0] == ":" and _kind(_name(entry)) == "rules":  # the first rule below "rules:"
+                entry.key, entry.terms = entry.terms, []
+            elif entry.terms and match[0] in ("=>", "->", "→", ":>") and len(entry.terms) == 1:
+                entry.key, entry.terms, entry.sign = entry.terms, [], match[0]
+        else:
+            if not entry.terms and not entry.key:
+                entry.start = at
+            entry.terms.append(_text_of(match) if kind == "text" else Term(kind or "", match[0], at, match.end()))
+            entry.end = match.end()
+    while len(stack) > 1:
+        finish(len(text))
+        stack.pop()
+        entry = saved.pop()
+    finish(len(text))
+    return whole
+
+
+def _called(entry: Entry, opened: str, text: str) -> Term | None:
+    """The name right before a bracket, taken off the entry."""
+    last = entry.terms[-1] if entry.terms else None
+    if (
+        isinstance(last, Term)
+        and last.kind == "name"
+        and opened != "{"
+        and (opened == "(" or (last.text[-1] not in " " and text[last.end : last.end + 1] == "["))
+    ):
+        entry.terms.pop()
+        return last
+    return None
+
+
+_NEXT = re.compile(r"\s{0,200}(?:=|:(?!:)|->|[{)\]}.]|\+)")
+
+
+def _goes_on(text: str, at: int) -> bool:
+    """Whether what stands on the next line goes on with an entry."""
+    return _NEXT.match(text, at) is not None
+
+
+@cache
+def _kinds() -> dict[str, str]:
+    names = tables()["names"]
+    return {
+        re.sub("[ _-]", "", name): kind
+        for kind in ("axiom", "rules", "angle", "steps")
+        for name in names[kind]
+        if len(name) > 1 or not name.isascii() or name == "n"
+    }
+
+
+def _kind(name: str) -> str:
+    """Which part of a system a name calls, in any spelling: "turnAngle", "ANGLE_DEG", "self.axiom"."""
+    last = re.split(r"\.|::", name)[-1]
+    return _kinds().get(re.sub(r"[ _-]|\d+$", "", last).lower(), "")
+
+
+_RULE_NAME = re.compile(r"(?:[Rr]ule|RULE)(?:[_.-](?P<apart>[A-Za-z])|(?<=ule)(?P<joined>[A-Z]))$")
+
+
+def systems_in_literals(text: str) -> list[Found]:
+    """The systems among the literals of a text.
+
+    >>> [found] = systems_in_literals('axiom = "F"; rules = {"F": "F+F"}')
+    >>> found.axiom[0].text, [(rule.head.text, rule.tail[0].text) for rule in found.rules]
+    ('F', [('F', 'F+F')])
+    """
+    return systems_of(_parsed(text), text)
+
+
+def systems_of(whole: Group, text: str) -> list[Found]:
+    """The systems among the members of a group, which is all that stands in a text."""
+    apart = [found for found in _apart(whole, text) if found.axiom and found.rules]
+    if len(apart) > 1:
+        return apart
+    found = Found()
+    _gather(whole, found, text, False)
+    _pair_up(found)
+    if not found.rules:
+        _take_choices(found, text)
+    if found.rules and not found.axiom:
+        _take_unnamed_axiom(whole, found)
+    if found.rules and not found.angle and (angle := _DEGREES.search(text)):
+        found.angle = Fraction(angle[1] or angle[2] or angle[3]), Passage(angle[0], angle.start(), False)
+    if found.axiom and not found.rules and (unclosed := _UNCLOSED.search(text)):
+        raise ModelSyntaxError(
+            "This quotation mark is never closed",
+            text,
+            unclosed.start(1),
+            None,
+            "Every text ends with the sign with which it begins.",
+        )
+    return [found] if found.axiom or found.rules else []
+
+
+_CONSTANT = re.compile(r"var(?:iable)?_?([b-d])")
+_DEGREES = re.compile(
+    r"(?:[Rr]adians|deg2rad)\(\s*(\d+(?:\.\d+)?)\s*\)"
+    r"|\b(\d+(?:\.\d+)?)\s*(?:\\\[Degree\]|°|Degree\b)|angle (\d+(?:\.\d+)?) degrees"
+)
+"""An angle that no name calls so."""
+_UNCLOSED = re.compile(r"[:=]\s*(\")[^\"\n]*,?$", re.MULTILINE)
+
+
+_CHOICE = re.compile(
+    r"""(?:==|=|case|when)[ \t]*["'](?P<head>[A-Za-z])["'][ \t]*\)?[ \t]*[:{\[]?\s{0,40}"""
+    r"""(?:\w{1,30}[ \t]*\+?=|return|report)?[ \t]*["'](?P<tail>[^"'\n]{1,500})["']"""
+)
+"""A program that chooses: if c == "F": new = "F+F"."""
+
+
+def _take_choices(found: Found, text: str) -> None:
+    """The rules that a program chooses among."""
+    for match in _CHOICE.finditer(text):
+        found.rules.append(Rule(Passage(match["head"], match.start("head")), (Passage(match["tail"], match.start("tail")),)))
+
+
+def _take_unnamed_axiom(whole: Group, found: Found) -> None:
+    """The only word that is a value of a call, and no part of a rule, is the axiom."""
+    parts = {part.at for rule in found.rules for part in (rule.head, *rule.tail)}
+    words = [
+        word
+        for word in _values(whole)
+        if word[0].at not in parts and all(is_word(part.text) for part in word) and _has_symbols(word, found)
+    ]
+    if words and len({"".join(part.text for part in word) for word in words}) == 1:
+        found.axiom = words[0]
+        found.notes.append(f'"{"".join(part.text for part in words[0])}" is read as the axiom.')
+
+
+def _has_symbols(word: tuple[Passage, ...], found: Found) -> bool:
+    """Whether a word has a letter, or a symbol that is replaced."""
+    heads = {rule.head.text for rule in found.rules}
+    return any(part.text in heads or re.search("[A-Za-z]", part.text) for part in word)
+
+
+def _values(group: Group) -> Iterator[tuple[Passage, ...]]:
+    """The texts, and the lists of symbols, that are values of calls."""
+    for entry in group.entries:
+        for term in entry.terms:
+            if isinstance(term, Group):
+                if group.head and group.opened != "{" and not entry.key and term.opened == "{" and (word := _symbols(term)):
+                    yield word
+                yield from _values(term)
+            elif term.kind == "text" and group.head and not entry.key and len(entry.terms) == 1:
+                yield (term.passage,)
+
+
+def _apart(group: Group, text: str) -> Iterator[Found]:
+    """The systems of the groups that have an axiom and rules of their own."""
+    for entry in group.entries:
+        for term in entry.terms:
+            if isinstance(term, Group):
+                if any(_kind(_name(inner)) == "axiom" for inner in term.entries):
+                    found = Found(name=_title(term) or _name(entry))
+                    _gather(term, found, text, False)
+                    _pair_up(found)
+                    yield found
+                else:
+                    yield from _apart(term, text)
+
+
+def _title(group: Group) -> str:
+    """What a group says that it is called."""
+    names = ("name", "title", "id")
+    return next(
+        (
+            term.text
+            for entry in group.entries
+            if _name(entry).lower() in names
+            for term in entry.terms
+            if isinstance(term, Term)
+        ),
+        "",
+    )
+
+
+def _name(entry: Entry) -> str:
+    """The name of an entry: the last name of its key."""
+    for term in reversed(entry.key):
+        if isinstance(term, Term) and term.kind in ("name", "text"):
+            return term.text
+        if isinstance(term, Group) and term.head:
+            return term.head
+    return ""
+
+
+def _gather(group: Group, found: Found, text: str, in_rules: bool) -> None:
+    """Take in what a group says."""
+    if group.opened and (rule := _as_rule(group.entries)):
+        found.rules.append(rule)
+        return
+    used: set[int] = set()
+    for first, second in pairwise(group.entries):  # rule(1).before = "F"; rule(1).after = "FF"
+        if not group.opened and len(first.key) > 1 and (rule := _as_rule([first, second])):
+            found.rules.append(rule)
+            used |= {id(first), id(second)}
+    for entry in (entry for entry in group.entries if id(entry) not in used):
+        _take(entry, found, text, in_rules)
+
+
+def _take(entry: Entry, found: Found, text: str, in_rules: bool) -> None:
+    """Take in what an entry says."""
+    value = entry.terms[-1] if entry.terms else None
+    name, keyed = _name(entry), bool(entry.key)
+    if not keyed and isinstance(value, Term) and value.kind in ("text", "number") and len(entry.terms) > 1:
+        before = entry.terms[-2]  # axiom 'F', set axiom "F", initial string "F"
+        further = entry.terms[-3] if len(entry.terms) > 2 else before
+        if isinstance(before, Term) and before.kind == "name" and isinstance(further, Term):
+            two = further.text + before.text if further is not before else ""
+            if _kind(before.text) or _kind(two) or _RULE_NAME.search(before.text):
+                name, keyed = before.text if _kind(before.text) or not _kind(two) else two, True
+                entry = replace(entry, key=[before], terms=[value])
+    kind = _kind(name)
+    said = [term for term in entry.terms if isinstance(term, Term) and term.kind == "text"]
+    alone = entry.terms[0] if len(entry.terms) == 1 else None
+    raw = alone.text if isinstance(alone, Term) else text[_start(entry.terms[0]) : entry.end].strip() if entry.terms else ""
+    if (constant := _CONSTANT.fullmatch(name)) and keyed and angle_of(raw) is not None:
+        found.lines.append(Passage(f"{constant[1]} = {raw}", entry.start, False))
+        return
+    if keyed and kind == "axiom" and said and not in_rules:
+        found.axiom = found.axiom or (said[-1].passage,)
+    elif keyed and kind == "axiom" and isinstance(value, Group) and (word := _symbols(value)) and not in_rules:
+        found.axiom = found.axiom or word
+    elif keyed and kind == "angle" and not in_rules and (angle := angle_of(raw.strip("\"'"))) is not None:
+        if found.angle is None:
+            found.angle = angle, Passage(raw, _start(entry.terms[-1]), False)
+    elif keyed and kind == "steps" and not in_rules and (steps := re.match(r"\d{1,6}$", raw)):
+        found.steps = found.steps or (int(steps[0]), Passage(raw, _start(entry.terms[-1]), False))
+    elif rules := [*_rules_of(entry, in_rules or kind == "rules", name)]:
+        found.rules += rules
+    else:
+        for term in (*entry.key, *entry.terms):
+            if isinstance(term, Group):
+                _gather(term, found, text, in_rules or kind == "rules")
+            elif term.kind == "text" and (in_rules or kind == "rules"):
+                found.rules += rules_in_line(term.passage)
+
+
+def _start(term: Term | Group) -> int:
+    return term.at - (isinstance(term, Term) and term.kind == "text")
+
+
+def _as_rule(entries: list[Entry]) -> Rule | None:
+    """A rule of the members of a group: two texts, or parts with the names of a rule's."""
+    texts = [
+        term
+        for entry in entries
+        if not entry.key and len(entry.terms) == 1
+        for term in entry.terms
+        if isinstance(term, Term) and term.kind in ("text", "number")
+    ]
+    if 2 <= len(texts) == len(entries) <= 3 and texts[0].kind == texts[1].kind == "text":
+        head, tail, *more = (each.passage for each in texts)
+        if _SYMBOL.fullmatch(head.text):
+            chance = chance_of(more[0].text) if more and re.fullmatch(r"[\d.]+", more[0].text) else None
+            return Rule(head, (tail,), chance)
+    parts = _parts(entries)
+    if "predecessor" in parts and "successor" in parts and parts["predecessor"].terms and parts["successor"].terms:
+        head_term, tail_term = parts["predecessor"].terms[-1], parts["successor"].terms[-1]
+        tail_words = (tail_term.passage,) if isinstance(tail_term, Term) else _symbols(tail_term)
+        quoted = isinstance(tail_term, Group) or tail_term.kind == "text"
+        if isinstance(head_term, Term) and tail_words and quoted and _SYMBOL.fullmatch(head_term.text):
+            if head_term.text in ("a", "b") and _name(parts["predecessor"]) == "a":
+                return None  # a and b are symbols themselves
+            return Rule(head_term.passage, tail_words, _chance(parts.get("probability")))
+    return None
+
+
+def _parts(entries: list[Entry]) -> dict[str, Entry]:
+    """The entries that name parts of a rule; of several with the same part the first."""
+    found: dict[str, Entry] = {}
+    for entry in entries:
+        name = _name(entry) if entry.key and entry.terms else ""
+        for kind in ("predecessor", "successor", "probability"):
+            if (name if len(name) == 1 else name.lower()) in tables()["names"][kind]:
+                found.setdefault(kind, entry)
+    return found
+
+
+def _chance(entry: Entry | None) -> Fraction | None:
+    term = entry.terms[-1] if entry and entry.terms else None
+    return chance_of(term.text) if isinstance(term, Term) and re.fullmatch(r"\d+(?:\.\d+)?%?|\.\d+", term.text) else None
+
+
+def _symbols(group: Group) -> tuple[Passage, ...]:
+    """The word of a list of symbols, as in {"+", R, F}; none where it is another list."""
+    terms = [entry.terms[0] for entry in group.entries if not entry.key and len(entry.terms) == 1]
+    if (
+        len(terms) != len(group.entries)
+        or not terms
+        or not all(isinstance(term, Term) and len(term.text) == 1 for term in terms)
+    ):
+        return ()
+    return tuple(term.passage for term in terms if isinstance(term, Term))
+
+
+def _rules_of(entry: Entry, in_rules: bool, name: str) -> Iterator[Rule]:
+    """The rules of an entry with a key: its predecessor is the key, or named in it."""
+    head = _head(entry, in_rules, name)
+    if head is None:
+        return
+    value = entry.terms[-1] if entry.terms else None
+    if isinstance(value, Term) and value.kind == "text":
+        yield Rule(head, (value.passage,))
+    elif (
+        isinstance(value, Group)
+        and value.opened != "("
+        and len(entry.terms) == 1
+        and len(value.entries) > 1
+        and (word := _symbols(value))
+        and not all(len(part.text) > 1 for part in word)
+    ):
+        yield Rule(head, word)
+    elif isinstance(value, Group):
+        yield from _alternatives(head, value)
+
+
+def _head(entry: Entry, in_rules: bool, name: str) -> Passage | None:
+    """The predecessor that a key says."""
+    if not entry.key:
+        return None
+    last = entry.key[-1]
+    if isinstance(last, Group):  # rules["F"] = ..., h('F') = ...
+        inner = last.entries[0].terms[-1] if len(last.entries) == 1 and last.entries[0].terms else None
+        symbol = isinstance(inner, Term) and inner.kind == "text" and _SYMBOL.fullmatch(inner.text)
+        return (
+            inner.passage
+            if symbol and isinstance(inner, Term) and (_kind(last.head) == "rules" or len(last.head) == 1)
+            else None
+        )
+    if last.kind == "text" and _SYMBOL.fullmatch(last.text) and not _is_field(last.text, in_rules):
+        return last.passage
+    if last.kind == "name":
+        if match := _RULE_NAME.search(last.text):
+            return Passage(match[match.lastgroup or 0], last.at + match.start(match.lastgroup or 0))
+        if len(last.text) == 1 and (in_rules or entry.sign in ("->", "→", ":>", "=>")):
+            return last.passage
+    if last.kind in ("other", "number") and (in_rules or entry.sign in ("->", "→")) and len(last.text) == 1:
+        return last.passage
+    return None
+
+
+def _is_field(text: str, in_rules: bool) -> bool:
+    return not in_rules and len(text) > 1
+
+
+def _alternatives(head: Passage, value: Group) -> Iterator[Rule]:
+    """The rules of one predecessor with several successors."""
+    members = value.entries
+    inner = next(
+        (
+            entry.terms[-1]
+            for entry in members
+            if _name(entry).lower() in ("successors", "rules", "options", "choices") and entry.terms
+        ),
+        None,
+    )
+    if isinstance(inner, Group):
+        yield from _alternatives(head, inner)
+        return
+    parts = _parts(members)
+    if "successor" in parts and isinstance(parts["successor"].terms[-1], Term):
+        yield Rule(head, (parts["successor"].terms[-1].passage,), _chance(parts.get("probability")))
+        return
+    texts = [entry for entry in members if not entry.key and len(entry.terms) == 1]
+    if members and len(texts) == len(members):
+        for entry in texts:
+            term = entry.terms[0]
+            if isinstance(term, Group):
+                yield from _pair(head, term)
+            elif term.kind == "text":
+                yield Rule(head, (term.passage,), Fraction(1, len(texts)) if len(texts) > 1 else None)
+
+
+def _pair(head: Passage, group: Group) -> Iterator[Rule]:
+    """A successor with its probability, in either order, or with names."""
+    terms = [entry.terms[-1] for entry in group.entries if not entry.key and entry.terms]
+    word = next((term for term in terms if isinstance(term, Term) and term.kind == "text"), None)
+    number = next((term for term in terms if isinstance(term, Term) and term.kind == "number"), None)
+    if word and number:
+        yield Rule(head, (word.passage,), chance_of(number.text))
+    else:
+        yield from _alternatives(head, group)
+
+
+def _pair_up(found: Found) -> None:
+    """Weights are probabilities where those of a predecessor have another sum than 1."""
+    for head in {rule.head.text for rule in found.rules}:
+        weights = [rule.probability for rule in found.rules if rule.head.text == head and rule.probability is not None]
+        if weights and sum(weights) > 1:
+            total = sum(weights)
+            found.rules = [
+                replace(rule, probability=rule.probability / total)
+                if rule.head.text == head and rule.probability is not None
+                else rule
+                for rule in found.rules
+            ]

@@ -1,0 +1,81 @@
+"""Files of LParser (L. Lapré, 1994): three numbers, an axiom and rules, each on a line of its own.
+
+Recursion, angle and thickness come first; what stands behind "#" says nothing; "@" ends the file. Its signs are a table of
+`fields.toml`.
+"""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+
+from lsys_kit.errors import ModelSyntaxError
+from lsys_kit.notation.formats.found import Found, Passage, Rule, symbols_in, tables
+
+_RULE = re.compile(r"[^\s=]{1,12}[ \t]*=(?!=)")
+_NUMBER = re.compile(r"\d+(?:\.\d*)?")
+
+
+def systems_in_lparser(text: str) -> list[Found]:
+    """The system of a file of LParser.
+
+    >>> [found] = systems_in_lparser("# a bush\\n6\\n22.5 # angle\\n30\\nA\\nA=F[+A]>A\\n@")
+    >>> found.steps[0], float(found.angle[0]), found.axiom[0].text, found.rules[0].tail[0].text
+    (6, 22.5, 'A', 'F[+A]>A')
+    """
+    lines = [
+        Passage(line[0], line.start()).part(0) for line in re.finditer(r"[^#\n]+(?=#|\n|$)", re.sub(r"#[^\n]*", _blank, text))
+    ]
+    lines = [line for line in lines if line.text]
+    numbers = [line for line in lines[:3] if _NUMBER.fullmatch(line.text)]
+    rest = lines[len(numbers) :]
+    if len(numbers) < 2 or numbers != lines[: len(numbers)] or not rest:
+        return []
+    end = next((index for index, line in enumerate(rest) if line.text.startswith("@")), len(rest))
+    rest = rest[:end]
+    if len(rest) < 2 or not all(_RULE.match(line.text) for line in rest[1:]) or rest[0].text.lower().startswith("axiom"):
+        return []
+    if len(numbers) < 3:
+        hint = "Three lines with numbers stand above the axiom: the recursion, the angle and the thickness."
+        raise ModelSyntaxError(
+            "A number is missing above the axiom of this file of LParser",
+            text,
+            rest[0].at,
+            rest[0].at + len(rest[0].text),
+            hint,
+        )
+    signs = tables()["signs"]["lparser"]
+    found = Found(axiom=(rest[0],), signs=signs["signs"])
+    found.steps = int(numbers[0].text.split(".")[0][:6]), numbers[0]
+    found.angle = Fraction(numbers[1].text.rstrip(".")), numbers[1]
+    for line in rest[1:]:
+        head, equals, _ = line.text.partition("=")
+        if equals and head.strip():
+            found.rules.append(Rule(line.part(0, len(head)), (line.part(len(head) + 1),)))
+    words = [*found.axiom, *(part for rule in found.rules for part in rule.tail)] if found.axiom else []
+    _check(words, signs["lacks"], text)
+    heads = {rule.head.text for rule in found.rules}
+    used = {word.text[a:b] for word in words for a, b, values in symbols_in(word.text) if not values}
+    found.drawn = {symbol: command for symbol, command in signs["drawn"].items() if symbol in used - heads}
+    if used & {"t", "!", "?"} - heads:
+        found.notes.append("Widths are 0.7 or 10/7 times as great wherever they change, and gravity (t) is left out.")
+    return [found]
+
+
+def _blank(match: re.Match[str]) -> str:
+    return " " * len(match[0])
+
+
+def _check(words: list[Passage], lacks: dict[str, str], text: str) -> None:
+    """Refuse a sign that the kit's turtle has not."""
+    for word in words:
+        for start, end, values in symbols_in(word.text):
+            if not values and (does := lacks.get(word.text[start:end])):
+                at = word.at + start
+                raise ModelSyntaxError(
+                    f"LParser's \"{text[at]}\" {does}, which the kit's turtle does not",
+                    text,
+                    at,
+                    at + 1,
+                    "Write each turn with its angle: +(30).",
+                )

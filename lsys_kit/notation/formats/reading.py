@@ -1,0 +1,212 @@
+"""A text in a format that is no notation of the kit, read: which format it is in, and the system that it gives.
+
+Each format finds passages in a text; what it finds is written in the kit's notation and read as such. The formats are asked in
+their order, from the one that is surest of its texts to the list of a page; the first that finds an axiom and rules is taken.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError, ModelValueError, quotable
+from lsys_kit.notation.dialects.abop.dialect import ABOP
+from lsys_kit.notation.formats.found import Found, completed, transcript_of
+from lsys_kit.notation.formats.l_py import systems_in_l_py
+from lsys_kit.notation.formats.lines import page_text, systems_in_lines
+from lsys_kit.notation.formats.literals import systems_in_literals
+from lsys_kit.notation.formats.lparser import systems_in_lparser
+from lsys_kit.notation.formats.markup import systems_in_markup
+from lsys_kit.notation.formats.pages import listings_on_a_page
+from lsys_kit.notation.model.system import LSystem
+from lsys_kit.notation.syntax.systems import system_in
+from lsys_kit.notation.syntax.text.transcript import Transcript, as_typed
+from lsys_kit.notation.syntax.text.typography import keyboard_signs
+
+
+@dataclass(frozen=True, kw_only=True)
+class Format:
+    """A format in which systems stand on pages, in programs and files.
+
+    Attributes
+    ----------
+    name
+        Its name in `read(text, name)`.
+    title
+        What it is called in a sentence: "Read as a list of variables and rules, as encyclopaedias have it."
+    prepared
+        A text as its systems are looked for in it.
+    systems
+        The systems in such a text.
+    """
+
+    name: str
+    title: str
+    prepared: Callable[[str], Transcript]
+    systems: Callable[[Transcript], Sequence[Found]]
+
+
+def _without_marks(source: str) -> Transcript:
+    """A text as it would be typed, without the marks of a page."""
+    return page_text(keyboard_signs(source))
+
+
+DATA = Format(
+    name="data",
+    title="data, as in JSON or in the literals of a program",
+    prepared=keyboard_signs,
+    systems=lambda before: systems_in_literals(before.text),
+)
+PAGE = Format(
+    name="page",
+    title="a listing on a page of a book, without what is around it",
+    prepared=_without_marks,
+    systems=lambda before: listings_on_a_page(before.text),
+)
+LIST = Format(
+    name="list",
+    title="a list of variables and rules, as encyclopaedias have it",
+    prepared=_without_marks,
+    systems=lambda before: systems_in_lines(before.text, before.source),
+)
+FORMATS: Mapping[str, Format] = {
+    each.name: each
+    for each in (
+        Format(name="xml", title="XML", prepared=as_typed, systems=lambda before: systems_in_markup(before.text)),
+        Format(
+            name="l-py", title="a model of L-Py", prepared=keyboard_signs, systems=lambda before: systems_in_l_py(before.text)
+        ),
+        Format(
+            name="lparser",
+            title="a file of LParser",
+            prepared=keyboard_signs,
+            systems=lambda before: systems_in_lparser(before.text),
+        ),
+        DATA,
+        PAGE,
+        LIST,
+    )
+}
+"""The formats that are read besides the kit's notations, in the order in which they are asked."""
+
+LONGEST = 100_000
+"""In longer texts no systems are looked for."""
+_CODE = re.compile(
+    r"^[ \t]*(?:(?:def|class|for|while|elif|function|async|#macro|#while)\b[^\n]*[({:]"
+    r"|if\b[ \t]*[(\w][^\n]*[{:\[]|to-report[ ]\w)"
+    r"|\bfunction\b[ \t]*\w*\(|\)[ \t]*=>[ \t]*\{|^[ \t]*(?:void|int|String|float)[ \t]+\w+\([^()\n]*\)[ \t]*\{",
+    re.MULTILINE,
+)
+"""What only programs have."""
+
+
+def read_found(text: str, name: str | None = None) -> LSystem | None:
+    """The system of a text in the first format that finds one in it; None where none does.
+
+    Raises
+    ------
+    ModelSyntaxError, ModelNameError, ModelValueError
+        What was found makes no sense, or there are several systems, and none is named; or it stands in a program.
+    """
+    if len(text) > LONGEST:
+        return None
+    failed: LSystemError | None = None
+    for form in FORMATS.values():
+        before, systems = _found(form, text)
+        if any(found.complete for found in systems):
+            try:
+                return _refusing_code(form, before, _system(form, before, _chosen(systems, text, name)))
+            except LSystemError as error:
+                if form is not PAGE:
+                    raise failed or error from None
+                failed = error  # what is no listing of the book may be a list
+    if failed:
+        raise failed
+    return None
+
+
+def read_as(form: Format, text: str, name: str | None = None) -> LSystem:
+    """The system of a text in a format that somebody named.
+
+    Raises
+    ------
+    ModelSyntaxError, ModelNameError, ModelValueError
+        There is none, or it makes no sense.
+    """
+    before, systems = _found(form, text)
+    return _refusing_code(form, before, _system(form, before, _chosen(systems, text, name)))
+
+
+def _found(form: Format, text: str) -> tuple[Transcript, Sequence[Found]]:
+    """A text as a format looks at it, and the systems that it finds there."""
+    before = form.prepared(text)
+    try:
+        return before, [completed(found) for found in form.systems(before)]
+    except LSystemError as error:
+        raise before.relocated(error) from None
+
+
+def _system(form: Format, before: Transcript, found: Found) -> LSystem:
+    """The system of what was found."""
+    transcript = transcript_of(found, before)
+    try:
+        system = system_in(ABOP, transcript.text)
+    except LSystemError as error:
+        raise transcript.relocated(error) from None
+    notes = system.notes if found.listing else tuple(filter(_is_news, system.notes))
+    return replace(system, notes=(f"Read as {form.title}{_said(found, system)}.", *found.notes, *notes))
+
+
+def _is_news(note: str) -> bool:
+    """Whether a note of the kit's reader says what somebody would not expect who typed single symbols."""
+    return " is read as " not in note and not note.startswith("The digits")
+
+
+def _said(found: Found, system: LSystem) -> str:
+    """What was found of the angle, if something turns by it."""
+    if found.listing and re.search(r"angle|δ|delta", found.listing.text):
+        return ""
+    if found.angle and 0 < found.angle[0] < 4 and found.angle[0].denominator > 10:  # degrees, or perhaps radians
+        return (
+            f"; angle {float(found.angle[0]):g} in degrees; were it in radians, it would be {math.degrees(found.angle[0]):.5g}"
+        )
+    if found.angle:
+        return f"; angle {float(found.angle[0]):g}"
+    turns = any(module.symbol in ("+", "-", "&", "^", "\\", "/") and not module.arguments for module in system.modules)
+    return "; no angle is given: it is 90" if turns else ""
+
+
+def _refusing_code(form: Format, before: Transcript, system: LSystem) -> LSystem:
+    """A system that stands in no program; what a program says of one is offered."""
+    code = _CODE.search(before.text) if form is DATA else None
+    if code is None:
+        return system
+    where = before.origin(code.start() + len(code[0]) - len(code[0].lstrip()))
+    hint = f"Nothing that is given to the kit is run. What its literals say can be read: {' | '.join(str(system).splitlines())}"
+    raise ModelSyntaxError("This is a program", before.source, where, None, hint)
+
+
+def _chosen(systems: Sequence[Found], text: str, name: str | None) -> Found:
+    """The system of a name, or the only one."""
+    if not systems:
+        raise ModelValueError("There is no L-system in this text", hint='An L-system reads "axiom: F", and below "F -> F+F".')
+    names = [each.name or str(number) for number, each in enumerate(systems, 1)]
+    listed = ", ".join(map(quotable, names))
+    if name is not None:
+        found = next((each for each, other in zip(systems, names, strict=True) if other.lower() == name.lower()), None)
+        if found is None and name != names[0]:
+            raise ModelNameError(
+                f'There is no system called "{quotable(name)}" in this text', hint=f"The systems are {listed}."
+            )
+        return found or systems[0]
+    if len(systems) > 1:
+        second = systems[1].axiom
+        choose = (
+            f'Choose one by its name: read(text, name="{quotable(names[0])}"), or --name in a shell. The systems are {listed}.'
+        )
+        raise ModelValueError(
+            f"There are {len(systems)} systems in this text", text, second[0].at if second else None, None, choose
+        )
+    return systems[0]

@@ -1,0 +1,70 @@
+r"""Typographic signs as they are typed, for all notations, before anything is read.
+
+Books, pages and word processors have many signs for one: full-width letters, thin spaces, rings for degrees, ligatures, soft
+hyphens. What can only mean one thing becomes that, character by character; errors are shown in the text that was pasted.
+
+    >>> keyboard_signs("angle： 25.7◦, oﬃce").text
+    'angle: 25.7°, office'
+"""
+
+from __future__ import annotations
+
+import html
+import re
+import unicodedata
+
+from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, edited
+
+_ALIKE = {
+    **{code: chr(code - 0xFEE0) for code in range(0xFF01, 0xFF5F)},  # full-width signs
+    **dict.fromkeys(map(ord, "◦∘º˚⁰"), "°"),
+    **dict.fromkeys(
+        map(ord, "\u00a0\u1680\u2000\u2001\u2002\u2003\u2004\u2005\u2006\u2007\u2008\u2009\u200a\u202f\u205f\u3000"), " "
+    ),
+}
+"""Signs that mean the same in every notation, one for one."""
+_NO_MORE = re.compile("[\u00ad\u200b\u200c\u2060\ufe0e\ufe0f]|[\ufb00-\ufb06]")
+"""What is seen and not typed, and ligatures."""
+_SIGNS = str.maketrans(
+    {**_ALIKE, **dict(zip(map(ord, "−–—‒‐‑﹣∗＊⁎’‘ʼ′ˈ“”„‟«»″ˆ∧⋀∕⁄∼˜"), '-------***\'\'\'\'\'"""""""^^^//~~', strict=True))}
+)
+"""The same, and signs that the notations read each in its own way: minus signs, quotation marks, wedges."""
+_SUBSCRIPTS = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
+_LETTERS_BELOW = re.compile("[ₐₑₒₓₕₖₗₘₙₚₛₜᵢᵣᵤᵥⱼ]")
+"""Subscripts that are letters: F with an l below it is the symbol F_l."""
+_ENTITY = re.compile(r"&(?:#\d{1,7}|#[xX][0-9a-fA-F]{1,6}|[A-Za-z]{2,8});")
+TAG = re.compile(
+    r"<(/?)(b|i|u|tt|td|tr|th|table|tbody|p|br|sub|sup|em|strong|code|pre|div|span|html|head|body|img|font|h[1-6]|li|ul|ol|a|center|hr)"
+    r"\b[^<>]{0,500}>",
+    re.IGNORECASE,
+)
+_ENDS = frozenset(("br", "p", "tr", "td", "div", "li", "h1", "h2", "h3", "h4", "h5", "h6", "hr", "pre", "table"))
+"""Tags that end a line."""
+
+
+def keyboard_signs(source: str) -> Transcript:
+    """A page's text as one would type it: also minus signs, quotation marks and subscripts, and no tags and entities.
+
+    >>> keyboard_signs("F&minus;F &rarr; “G”<br>").text
+    'F-F → "G"\\n'
+    """
+    text = source.translate(_SIGNS).translate(_SUBSCRIPTS).replace("\r", " ")
+    edits = [*map(_plain, _NO_MORE.finditer(text))]
+    if not source.isascii():
+        edits += [Edit(*match.span(), f"_{unicodedata.normalize('NFKC', match[0])}") for match in _LETTERS_BELOW.finditer(text)]
+    if "&" in source:
+        edits += [Edit(*match.span(), html.unescape(match[0]).translate(_SIGNS)) for match in _ENTITY.finditer(text)]
+    if "<" in source:
+        edits += [Edit(*match.span(), _tag(text, match)) for match in TAG.finditer(text)]
+    return edited(source, edits, typed=text)
+
+
+def _tag(text: str, tag: re.Match[str]) -> str:
+    """What is written for a tag: the end of a line, within a table of Markdown a semicolon."""
+    if tag[2].lower() not in _ENDS:
+        return ""
+    return " ; " if text.rfind("|", max(0, tag.start() - 200), tag.start()) > text.rfind("\n", 0, tag.start()) else "\n"
+
+
+def _plain(match: re.Match[str]) -> Edit:
+    return Edit(*match.span(), unicodedata.normalize("NFKC", match[0]) if "\ufb00" <= match[0] <= "\ufb06" else "")

@@ -1,0 +1,418 @@
+"""Systems on pages, in programs and in files of other programs: whatever the wording, the same system is read.
+
+Every plain system of the catalogue is written in each format with random names, order, arrows, blanks and typography, and reads
+back as the same system.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import random
+import re
+import time
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from lsys_kit.classroom.catalogue import system, systems
+from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError, ModelValueError
+from lsys_kit.notation.formats.found import tables
+from lsys_kit.notation.formats.reading import FORMATS, LONGEST, read_as, read_found
+from lsys_kit.notation.model.modules import flat
+from lsys_kit.notation.model.system import LSystem
+from lsys_kit.notation.read import read
+from lsys_kit.notation.syntax.text.typography import keyboard_signs
+
+KOCH = read("angle: 60\naxiom: F++F++F\nF -> F-F++F-F")
+PLANT = read("angle: 25\naxiom: X\nX -> F+[[X]-X]-F[-F X]+X\nF -> F F")
+
+
+def is_plain(model: LSystem) -> bool:
+    """Whether a system has single letters, without values, contexts, conditions and chance, and nothing else."""
+    plain = LSystem(model.axiom, model.productions, angle=model.angle, turtle=model.turtle)
+    symbols = [module for rule in model.productions for module in (*rule.predecessors, *flat(rule.successor))]
+    return (
+        model.turtle == "abop"
+        and plain.productions == model.productions
+        and not (
+            model.constants or model.interpretation or model.decomposition or model.meta or model.ignored or model.considered
+        )
+        and all(re.fullmatch(r"[A-Za-z+\-&^/\\|\[\]]", each.symbol) and not each.arguments for each in (*symbols, *model.axiom))
+        and all(
+            len(rule.predecessors) == 1
+            and rule.predecessor.symbol.isalpha()
+            and rule.successor
+            and not (rule.left or rule.right or rule.condition or rule.probability)
+            and len([*flat(rule.successor)]) == len(rule.successor)
+            for rule in model.productions
+        )
+        and bool(model.productions)
+    )
+
+
+PLAIN = sorted(id for id in systems() if is_plain(system(id)))
+"""The systems of the catalogue that a list of variables and rules can hold."""
+
+
+def word(modules) -> str:
+    return "".join(module.symbol for module in modules)
+
+
+def same(found: LSystem, meant: LSystem) -> bool:
+    """Whether words, rules and the angle are the same."""
+    return (found.axiom, found.productions, found.angle) == (meant.axiom, meant.productions, meant.angle)
+
+
+@st.composite
+def listed(draw: st.DrawFn, meant: LSystem) -> str:
+    """A list of a system, as some page might have it."""
+    names = tables()["names"]
+
+    def name(kind: str) -> str:
+        written = draw(
+            st.sampled_from([each for each in names[kind] if len(each) > 3 and each not in ("base", "root", "init")])
+        )
+        return draw(st.sampled_from([written, written.capitalize(), written.upper()]))
+
+    gap = draw(st.sampled_from(["", " ", "  "]))
+    sign = draw(st.sampled_from([":", " :", " = ", ": ", "："]))
+    arrow = draw(st.sampled_from(["→", "->", "-->", "=>", "⟶", "↦", "&rarr;", " \\to ", "–>"]))
+    angle = str(float(meant.angle))
+    rules = [f"{rule.predecessor.symbol}{gap}{arrow}{gap}{word(rule.successor)}" for rule in meant.productions]
+    layout = draw(st.sampled_from(["parentheses", "lines", "bullets", "semicolons"]))
+    rule = name("rules")
+    if layout == "parentheses":
+        shown = f"{rule}{sign}{', '.join(f'({each})' for each in rules)}"
+    elif layout == "semicolons":
+        shown = f"{rule}{sign}{'; '.join(rules)}"
+    elif layout == "bullets":
+        shown = f"{rule}:\n" + "\n".join(f"• {each}" for each in rules)
+    else:
+        shown = f"{rule}:\n" + "\n".join(f"   {each}" for each in rules)
+    unit = draw(st.sampled_from(["", "°", " degrees", "º", "˚", "◦", " deg"]))
+    written = angle.replace(".", ",") if draw(st.booleans()) and unit else angle
+    parts = draw(
+        st.permutations([f"{name('axiom')}{sign}{gap}{word(meant.axiom)}", shown, f"{name('angle')}{sign}{written}{unit}"])
+    )
+    around = draw(st.sampled_from(["", "Here is a curve that somebody found.\n\n", "Example 3\n\n"]))
+    text = around + "\n".join(parts) + draw(st.sampled_from(["", "\n\nDraw it four times, and look at it again."]))
+    if draw(st.booleans()):
+        text = re.sub(r"(?<=[A-Za-z\]\[+→;])-(?![->])", "−", text)
+    return text.replace("\n", "\r\n") if draw(st.booleans()) else text
+
+
+@st.composite
+def plain_systems(draw: st.DrawFn) -> LSystem:
+    """A system of single letters with turns and branches."""
+    letters = draw(st.lists(st.sampled_from("FXYABG"), min_size=1, max_size=3, unique=True))
+
+    def some_word() -> str:
+        parts = st.sampled_from([*letters, "F", "+F", "-F", "--", "[+F]", "[-X]", "+", f"[{letters[0]}]{letters[-1]}"])
+        return "".join(draw(st.lists(parts, min_size=1, max_size=6)))
+
+    first = draw(st.sampled_from(letters)) + draw(st.sampled_from(["", "+F", "--F", "[+X]F"]))
+    rules = "".join(f"{letter} -> {' '.join(letter + some_word())}\n" for letter in letters)
+    return read(
+        f"angle: {draw(st.sampled_from(['60', '22.5', '25.7', '90', '36']))}\naxiom: {' '.join(first)}\n{rules}", "abop"
+    )
+
+
+@pytest.mark.parametrize("id", PLAIN)
+@given(data=st.data())
+def test_a_system_is_read_from_any_list_of_it(id: str, data: st.DataObject) -> None:
+    meant = system(id)
+    text = data.draw(listed(meant))
+    assert same(read(text), meant), text
+
+
+@st.composite
+def as_data(draw: st.DrawFn, meant: LSystem) -> str:
+    """The literals of a system in some language."""
+    quote = draw(st.sampled_from(['"', "'"]))
+
+    def text(said: str) -> str:
+        return quote + said.replace("\\", "\\\\") + quote
+
+    pairs = [(rule.predecessor.symbol, word(rule.successor)) for rule in meant.productions]
+    axiom, angle = word(meant.axiom), float(meant.angle)
+    kind = draw(st.sampled_from(["json", "pairs", "objects", "arrows", "assignments", "calls"]))
+    first, second = draw(st.sampled_from([("from", "to"), ("predecessor", "successor"), ("before", "after"), ("lhs", "rhs")]))
+    dictionary = "{" + ", ".join(f"{text(a)}: {text(b)}" for a, b in pairs) + "}"
+    if kind == "json":
+        shown = json.dumps({"axiom": axiom, "rules": dict(pairs), "angle": angle}, indent=draw(st.sampled_from([None, 1, 4])))
+        return (
+            shown if len(dict(pairs)) == len(pairs) else f'{{"axiom": {text(axiom)}, "angle": {angle}, "rules": {dictionary}}}'
+        )
+    if kind == "pairs":
+        return f"axiom = {text(axiom)}\nangle = {angle}\nrules = [{', '.join(f'({text(a)}, {text(b)})' for a, b in pairs)}]"
+    if kind == "objects":
+        objects = ",\n".join(f"{{{first}: {text(a)}, {second}: {text(b)}}}" for a, b in pairs)
+        return f"let axiom = {text(axiom)};\nlet rules = [{objects}];\nconst angle = {angle};"
+    if kind == "arrows":
+        return f"axiom {text(axiom)}\n" + "\n".join(f"rule {text(a)} => {text(b)}" for a, b in pairs) + f"\nangle {angle}"
+    if kind == "assignments":
+        return f"angle = {angle}; start = {text(axiom)}; " + "; ".join(f"rules[{text(a)}] = {text(b)}" for a, b in pairs)
+    return f"LSystem(axiom={text(axiom)}, rules={dictionary}, angle={angle}, n=4)"
+
+
+@pytest.mark.parametrize("id", PLAIN)
+@given(data=st.data())
+def test_a_system_is_read_from_literals_of_any_language(id: str, data: st.DataObject) -> None:
+    meant = system(id)
+    text = data.draw(as_data(meant))
+    assert same(read_as(FORMATS["data"], text), meant), text
+
+
+@given(data=st.data(), meant=plain_systems())
+def test_any_system_is_read_from_any_list_of_it(data: st.DataObject, meant: LSystem) -> None:
+    text = data.draw(listed(meant))
+    assert same(read(text), meant), text
+
+
+@given(data=st.data(), meant=plain_systems())
+def test_any_system_is_read_from_literals_of_any_language(data: st.DataObject, meant: LSystem) -> None:
+    text = data.draw(as_data(meant))
+    assert same(read(text), meant), text
+
+
+def test_some_systems_of_the_catalogue_are_plain() -> None:
+    assert len(PLAIN) >= 2
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "variables : F\nconstants : + −\nstart  : F++F++F\nrules  : (F → F−F++F−F)\nangle  : 60°",
+        "60°: angle\nAxiom = F++F++F\nF => F-F++F-F\nTurn: pi/3",
+        "<b>Axiom:</b> F++F++F<br>F &rarr; F&minus;F++F&minus;F<br>&delta; = 60&deg;",
+        "**Axiom:** $F++F++F$\n**Rule:** $F \\to F-F++F-F$\n**Angle:** $60^\\circ$",
+        '{"axiom": "F++F++F", "rules": {"F": "F-F++F-F"}, "angle": 60}',
+        "rules = {'F': 'F-F++F-F'}\naxiom = 'F++F++F'\nangle = 60  # degrees",
+        '<?xml version="1.0"?><plant angle="60"><axiom>F++F++F</axiom><rule pre="F" post="F-F++F-F"/></plant>',
+        "# koch\n4\n60\n10\nF++F++F\nF=F-F++F-F\n@",
+        "Axiom: F++F++F\nproduction:\nF --> F-F++F-F\nendlsystem",
+        "Premise  F++F++F\nRule 1   F=F-F++F-F\nAngle  60",
+        "| Axiom | Rules | Angle |\n|---|---|---|\n| F++F++F | F=F-F++F-F | 60 |",
+        "start with F++F++F, replace every F by F-F++F-F and turn by 60 degrees",
+    ],
+)
+def test_what_each_format_has_is_the_same_system(text: str) -> None:
+    assert same(read(text), KOCH)
+
+
+@pytest.mark.parametrize(
+    ("text", "notes"),
+    [
+        ("rule: F → F[+F]F", ('No axiom is given: it is "F", what the one rule rewrites.',)),
+        (
+            "start : F\nrules : (F → F+F)",
+            ("Read as a list of variables and rules, as encyclopaedias have it; no angle is given: it is 90.",),
+        ),
+        ("start : F\nF → F+F\nangle: 60\nturn: 45", ("Two angles are given: 60 is used, not 45.",)),
+        ("start : F\nstart : X\nF → F+F", ('The axiom is given more than once: "F" is used, not "X".',)),
+        ("Axiom = a\nF => aF\na =>", ("a is erased: nothing stands behind its arrow.",)),
+    ],
+)
+def test_what_is_assumed_is_said(text: str, notes: tuple[str, ...]) -> None:
+    assert set(notes) <= set(read(text).notes)
+
+
+@pytest.mark.parametrize(
+    ("text", "message", "at"),
+    [
+        ("Start: X\nRules:\nX → F[+X]\nF  FF\n", "An arrow is missing", (4, 2)),
+        ("start : X\nrules : ( → F[+X]), (F → FF)", "Nothing stands before this arrow", (2, 11)),
+        ("Start: F\nF → F+F\nAngle: sixty", 'The angle "sixty" is no number', (3, 8)),
+        ('axiom = "X"\nrules = {"X": "F[+X"}', 'This "[" is never closed', (2, 17)),
+        ('{"axiom": "F", "rules": {"F": "F+F}}', "This quotation mark is never closed", None),
+        ("6\n35\nFA\nA=[&FA]A\n@", "A number is missing above the axiom of this file of LParser", (3, 1)),
+        ("6\n35\n9\nFA\nA=F:A\n@", "LParser's \":\" makes all later turns smaller, which the kit's turtle does not", (5, 4)),
+        ("import math\nAxiom: A\nproduction:\nA --> F\n", "This model of L-Py has Python in it", (1, 1)),
+        (
+            '<?xml version="1.0"?><!DOCTYPE a [<!ENTITY b "c">]><axiom>&b;</axiom>',
+            "A document type cannot be read here",
+            (1, 22),
+        ),
+        ('<?xml version="1.0"?><axiom>F', "This is no complete XML: no element found", None),
+    ],
+)
+def test_a_slip_is_shown_where_it_was_pasted(text: str, message: str, at: tuple[int, int] | None) -> None:
+    with pytest.raises(LSystemError) as found:
+        read(text)
+    assert found.value.message == message
+    assert at is None or (found.value.line, found.value.column) == at
+    assert found.value.hint
+
+
+def test_a_program_is_not_run_and_what_its_literals_say_is_offered() -> None:
+    program = 'axiom = "F"\nrules = {"F": "F+F"}\nfor step in range(5):\n    print(axiom)\n'
+    with pytest.raises(ModelSyntaxError, match="This is a program") as found:
+        read(program)
+    assert "axiom: F | F -> F+F" in str(found.value.hint)
+    assert found.value.line == 3
+
+
+def test_of_several_systems_one_is_chosen_by_its_name() -> None:
+    page = "Crystal\n\naxiom = F+F\nF -> FF+F\nangle = 90\n\nKoch\n\naxiom = F++F++F\nF -> F-F++F-F\nangle = 60\n"
+    with pytest.raises(ModelValueError, match="There are 2 systems in this text") as found:
+        read(page)
+    assert "The systems are Crystal, Koch." in str(found.value.hint)
+    assert same(read(page, name="Koch"), KOCH)
+    with pytest.raises(ModelNameError, match='no system called "Hilbert"'):
+        read(page, name="Hilbert")
+
+
+def test_two_columns_of_a_page_are_two_systems() -> None:
+    page = (
+        "Two curves side by side:\n\nn=4, δ=90◦            n=3, δ=60◦\nF−F−F−F               F++F++F\n"
+        "F → FF−F              F → F−F++F−F\n"
+    )
+    with pytest.raises(ModelValueError, match="There are 2 systems"):
+        read(page)
+    assert same(read(page, name="2"), KOCH)
+
+
+def test_what_a_page_says_of_letters_is_drawn() -> None:
+    text = 'start : A\nrules : (A → B−A−B), (B → A+B+A)\nangle : 60°\n\nHere, A and B both mean "draw forward".'
+    assert [str(rule) for rule in read(text).interpretation] == ["A -> F", "B -> F"]
+
+
+def test_signs_of_other_turtles_are_those_of_the_kit() -> None:
+    leaf = read("axiom = a\nF -> >F<\na -> F[+x]\nx -> a\nangle = 45\nlength factor = 1.36")
+    assert str(leaf.productions[0]) == "F -> @Di(1.36) F @Dd(1.36)" or "@Di(1.36)" in str(leaf.productions[0])
+    assert "/(94)" in str(read("5\n20\n9\nA\nA=F>(94)A\n@").productions[0])
+
+
+def test_typography_is_one_for_one_or_known() -> None:
+    assert keyboard_signs("angle： 25.7◦, oﬃce").text == "angle: 25.7°, office"
+    assert keyboard_signs("F−F &minus; “G” Fₗ p₁").text == 'F-F - "G" F_l p1'
+    assert keyboard_signs("axiom: F").text == "axiom: F"
+
+
+@pytest.mark.parametrize("name", FORMATS)
+def test_a_format_is_asked_for_by_its_name(name: str) -> None:
+    with pytest.raises(LSystemError):
+        read("", name)
+
+
+def test_a_longer_text_is_not_searched() -> None:
+    assert read_found("start : F\nrules : (F → FF)\n" + " " * LONGEST) is None
+
+
+TOKENS = (
+    *(
+        "axiom",
+        "start",
+        "rules",
+        "rule 1",
+        "angle",
+        "n",
+        "=",
+        ":",
+        "->",
+        "→",
+        "=>",
+        "F",
+        "X",
+        "A(t)",
+        "A(t):t<5",
+        "[+F]",
+        "(",
+        ")",
+        "[",
+        "]",
+    ),
+    *(
+        "{",
+        "}",
+        '"',
+        "'",
+        '"F"',
+        '"FF"',
+        ",",
+        ";",
+        "\n",
+        "  ",
+        "    ",
+        "25°",
+        "25,7",
+        "50%",
+        "(1/3)",
+        ".5",
+        "<",
+        ">",
+        "&rarr;",
+        "<b>",
+        "<br>",
+    ),
+    *(
+        "**",
+        "`",
+        "```",
+        "$",
+        "\\to",
+        "\\omega",
+        "#",
+        "//",
+        "/*",
+        "*/",
+        "%",
+        "production:",
+        "module A",
+        "Axiom: A",
+        "A --> F",
+        "produce",
+        "@",
+    ),
+    *(
+        "7",
+        "22.5",
+        "A=F[+A]F",
+        '<?xml version="1.0"?>',
+        "<a>",
+        '<rule from="F" to="FF"/>',
+        "</a>",
+        "<!DOCTYPE x>",
+        "Premise",
+        "ω : F",
+        "p1 : F → FF",
+    ),
+    *(
+        "Figure 1: x",
+        "turn 90°",
+        "rules = {",
+        '"F": "FF"',
+        ":>",
+        "rule(1).before='F'",
+        "rule(1).after='FF'",
+        "length factor = 1.3",
+        ">F<",
+        "~(5)",
+    ),
+    *("ﬁ", "é", "\u200b", "\x00", "\ud800", "1e999", "|"),
+)
+
+
+@given(st.randoms(use_true_random=False))
+def test_any_text_is_read_or_refused_by_every_format(chance: random.Random) -> None:
+    text = "".join(chance.choice(TOKENS) + chance.choice(("", " ", "\n")) for _ in range(chance.randint(1, 40)))
+    for form in FORMATS.values():
+        try:
+            assert read_as(form, text).axiom is not None
+        except LSystemError:
+            continue
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "token", [*TOKENS, "\t", " ", "- ", "F → F\n", "(A → AB), ", "'F':", "x:y ", "{aaa", "<!--", "replace every F with ", "1a"]
+)
+def test_no_text_takes_longer_than_its_length(token: str) -> None:
+    """Twice the text takes some twice the time; where that were its square, this would be minutes."""
+    text = ("axiom F start " + token * LONGEST)[:LONGEST]
+    started = time.process_time()
+    with contextlib.suppress(LSystemError):
+        read_found(text)
+    assert time.process_time() - started < 30
