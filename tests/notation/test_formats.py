@@ -395,6 +395,10 @@ TOKENS = (
 )
 
 
+def test_an_empty_text_among_rules_is_none() -> None:
+    assert str(read("axiom = 'F'; rules = ['', 'F -> F+F']").productions[0]) == "F -> F+F"
+
+
 @given(st.randoms(use_true_random=False))
 def test_any_text_is_read_or_refused_by_every_format(chance: random.Random) -> None:
     text = "".join(chance.choice(TOKENS) + chance.choice(("", " ", "\n")) for _ in range(chance.randint(1, 40)))

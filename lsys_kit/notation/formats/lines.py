@@ -130,7 +130,7 @@ def _in_line(text: str, start: int, end: int, line: int, under_rules: bool) -> l
     begun: list[tuple[int, _Item]] = []
     within = _glued(text, start, end)
     for until, at in ((start, start), *((each.start(), each.end()) for each in _BOUNDARY.finditer(text, start, end))):
-        if text[until] == ":" and at > start:
+        if text[until : until + 1] == ":" and at > start:
             at += len(text[at:end]) - len(text[at:end].lstrip())
             if begun or not _is_named(text, at, end):
                 continue
