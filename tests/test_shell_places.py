@@ -102,6 +102,7 @@ COMMANDS: Mapping[str, tuple[Mapping[str, Callable[[Path], Path | str]], str]] =
     "stages": (FILES, f"{READ} -n 1 -o {WRITTEN}.svg"),
     "convert": (FILES, f"{READ} --to abop -o {WRITTEN}"),
     "link": (FILES, f"{READ} --base https://example.org --qr {WRITTEN}.svg"),
+    "infer": (FILES, READ),
     "page": (FILES, f"{READ} -o {WRITTEN}.html"),
     "site": (ANY, f"-o {WRITTEN}"),
     "lab": (ANY, WRITTEN),

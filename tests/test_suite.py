@@ -53,7 +53,7 @@ def test_a_law_has_no_deadline() -> None:
 
 def test_what_needs_a_browser_is_marked(request: pytest.FixtureRequest) -> None:
     for item in request.session.items:
-        if item.path.parent.name == "browser":
+        if item.path.parent.name == "browser" and isinstance(item, pytest.Function):
             assert item.get_closest_marker("browser")
         if item.path.parent.name == "benchmarks":
             assert item.get_closest_marker("slow")

@@ -12,7 +12,6 @@ from __future__ import annotations
 import re
 import tomllib
 from collections.abc import Callable
-from itertools import groupby
 from pathlib import Path
 
 import pytest
@@ -21,7 +20,7 @@ from playwright.sync_api import Locator, Page, expect
 from lsys_kit.classroom.lessons.lesson import lesson as declared
 from tests.browser.hands import Finger, Mouse, control, reach
 from tests.browser.lab import OpenNotebook
-from tests.browser.requests import lessons, requests
+from tests.browser.requests import lessons
 from tests.browser.test_lessons import PATIENCE, SEEN
 from tests.browser.test_site import all_parts_open, opened, site, tabs  # noqa: F401
 
@@ -33,19 +32,6 @@ READ = 400
 VIEWS = {"rules": "rules", "stages": "stages", "how many": "counts", "nine seeds": "seeds", "nine variants": "variants"}
 """The views by the names of their buttons."""
 SEVERAL, BECOMES = " ;; ", " => "
-
-
-def test_each_sentence_that_asks_for_something_has_a_row_in_the_order_of_the_lessons():
-    for number, asked in groupby(requests(), key=lambda each: each.lesson):
-        assert [each.says for each in asked] == [row[0] for row in ROWS[number]], f"lesson {number}"
-
-
-def test_each_row_is_understood():
-    words = {name.replace("_", " ") for name in vars(Reader) if not name.startswith("_")} | NOTHING
-    for row in (row for rows in ROWS.values() for row in rows):
-        assert len(row) > 1, row
-        for act in row[1:]:
-            assert any(act == word or act.startswith(f"{word} ") for word in words), act
 
 
 @pytest.mark.slow

@@ -527,7 +527,7 @@ def value_acts(folder: Path) -> Mapping[str, Calls]:
         },
         **{
             f"Prompt.{name}": (lambda value: (kit.predict("What?", "21").prompt, value), put(name))
-            for name in ("question", "revealed", "words")
+            for name in ("question", "revealed", "outcome", "words")
         },
         **{
             f"RuleFinder.{name}": (lambda value: (kit.rule_finder(["a", "ab"]), value), put(name))
@@ -539,7 +539,7 @@ def value_acts(folder: Path) -> Mapping[str, Calls]:
         },
         **{
             f"Worksheet.{name}": (lambda value: (kit.worksheet("01", "counts"), value), put(name))
-            for name in ("asked", "result", "sheet", "words")
+            for name in ("asked", "result", "sheet", "typed", "words")
         },
         "Worksheet.asked: entries": (lambda value: (kit.worksheet("01", "counts"), {"entries": value}), put("asked")),
     }
