@@ -23,11 +23,12 @@ from lsys_kit.errors import LSystemError, ModelFileError, quotable
 from lsys_kit.files import made_by_the_kit, save_file
 
 
-def build_site(folder: str | Path, source: Path | None = None) -> tuple[Path, ...]:
+def build_site(folder: str | Path, source: Path | None = None, live: bool = False) -> tuple[Path, ...]:
     """Write the course into a folder as pages that need neither Python nor a network, and return them, the first one first.
 
     The folder is made if necessary. Pages of an older site in it are replaced, and nothing else; what the kit did not make is
-    an error, as is a cell that fails. The course is by default what came with the kit.
+    an error, as is a cell that fails. The course is by default what came with the kit. Live pages are
+    for the server of a class.
     """
     folder = Path(folder)
     files = {name: path for name, path in course_files(source).items() if name.endswith(".ipynb")}
@@ -36,10 +37,10 @@ def build_site(folder: str | Path, source: Path | None = None) -> tuple[Path, ..
     entries = [Entry(name, title_of(stored[name].cells, name), told.get(name)) for name in files]
     places = {INDEX: folder / INDEX, **{each.name: folder / each.page for each in entries}}
     _make_room(folder, places)
-    save_file(places[INDEX], index_page(entries).encode())
+    save_file(places[INDEX], index_page(entries, live).encode())
     known = {each.name: each for each in entries}
     for name, notebook in _run(files, stored):
-        save_file(places[name], notebook_page(known[name], notebook.cells, entries).encode())
+        save_file(places[name], notebook_page(known[name], notebook.cells, entries, live).encode())
     return tuple(places.values())
 
 

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import base64
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import PurePosixPath
 from posixpath import relpath
+from types import SimpleNamespace
 from typing import Any
 from urllib.parse import quote
 
 from lsys_kit.classroom.course import is_lesson
+from lsys_kit.classroom.exercises.kinds.choices import letters
+from lsys_kit.classroom.exercises.registry import exercise_of
 from lsys_kit.classroom.lessons.lesson import TRACKS, Lesson
 from lsys_kit.classroom.lessons.widget import escaped_lines, html, prose_html, prose_text
 from lsys_kit.classroom.panel.bundle import Data, compact, style
@@ -64,24 +67,25 @@ class Entry:
         return str(PurePosixPath(self.name).parent)
 
 
-def notebook_page(entry: Entry, cells: Sequence[Any], entries: Sequence[Entry]) -> str:
-    """The page of a notebook; cells of exercises are shown without the code that checks answers."""
+def notebook_page(entry: Entry, cells: Sequence[Any], entries: Sequence[Entry], live: bool = False) -> str:
+    """The page of a notebook; cells of exercises are shown without the code that checks answers. On a live page, which comes
+    from the server of a class, exercises can be answered."""
     links, parts, [head, *rest] = (
         partial(address_on_site, entry.name, {each.name for each in entries}),
         Parts(),
-        _seen(entry, cells),
+        _seen(entry, cells, live),
     )
-    begin = cells_html([head], links, parts) + _note(entry) + cells_html(rest, links, parts)
+    begin = cells_html([head], links, parts) + ("" if live else _note(entry)) + cells_html(rest, links, parts)
     row = _neighbours(entry, entries)
     body = (
         f'<a class="skip" href="#main">Skip to the text</a>\n<header>{_above(entry)}</header>\n'
         f'<main id="main">\n{begin}</main>\n<footer><nav aria-label="other pages">{row}</nav></footer>\n'
     )
     described = prose_text(entry.lesson.question) if entry.lesson else entry.title
-    return document(entry.title, body, style("course"), described, _program(parts))
+    return document(entry.title, body, style("course"), described, _program(parts, live))
 
 
-def index_page(entries: Sequence[Entry]) -> str:
+def index_page(entries: Sequence[Entry], live: bool = False) -> str:
     """The first page: the lessons with their questions, and what belongs to them."""
     lessons = [each for each in entries if is_lesson(each.name)]
     others = [each for each in entries if each.folder != "exercises" and each not in lessons]
@@ -93,7 +97,7 @@ def index_page(entries: Sequence[Entry]) -> str:
 <h1>{COURSE}</h1>
 <p class="lead">Short rules can grow a plant. These lessons show how, from a row of cells to a hedge in the light: predict,
 look, move a slider, change a rule.</p>
-{_ALL_KEPT}
+{"" if live else _ALL_KEPT}
 <h2 id="lessons">Lessons</h2>
 <p class="quiet">Each lesson belongs to a way through the course: {tracks}.</p>
 <ol class="lessons">
@@ -123,14 +127,43 @@ def _lesson_row(entry: Entry, entries: Sequence[Entry]) -> str:
     )
 
 
-def _seen(entry: Entry, cells: Sequence[Any]) -> list[Any]:
+def _seen(entry: Entry, cells: Sequence[Any], live: bool) -> list[Any]:
+    if live and entry.folder == "exercises":
+        cells = [_Answer(found[1]) if (found := _ANSWER.fullmatch(getattr(each, "id", ""))) else each for each in cells]
     return [each for each in cells if not (entry.folder == "exercises" and _checks(each))]
+
+
+_ANSWER = re.compile(r"exercise-([\w-]+)-answer")
+"""The id of the cell in which an exercise is answered."""
+
+
+class _Answer(SimpleNamespace):
+    """The place in which an exercise is answered on a live page."""
+
+    cell_type, source = "answer", "answer"
+
+    def __init__(self, id: str) -> None:
+        super().__init__(exercise=id.replace("-", "."), outputs=[])
+
+
+def _answer_html(cell: Any, parts: Parts) -> str:
+    found = exercise_of(cell.exercise)
+    options = [*letters(found)] if found.kind == "choice" else []
+    data = {
+        "id": found.id,
+        "kind": found.kind,
+        "title": found.title,
+        "template": found.template,
+        "hints": len(found.hints),
+        "options": options,
+    }
+    return _part_html({"kind": "exercise", "data": data}, "", parts)
 
 
 def _checks(cell: Any) -> bool:
     """Whether a cell of exercises asks for an answer, gets ready for that, or is there for marks alone."""
     if cell.cell_type != "code":
-        return bool(cell.get("id") == "marks")
+        return bool(getattr(cell, "id", "") == "marks")
     return any(called in cell.source for called in ("check", "progress(", "score(")) or not cell.source.strip()
 
 
@@ -161,12 +194,15 @@ def _others(entry: Entry, entries: Sequence[Entry]) -> Iterator[tuple[str, str, 
     yield from (("after", "Next", each) for each in alike[place + 1 :][:1])
 
 
-def _program(parts: Parts) -> Program | None:
-    if not parts:
+def _program(parts: Parts, live: bool) -> Program | None:
+    if not parts and not live:
         return None
-    modes = {*_modes(parts)}
-    script = f'"use strict";\n{compact("course", not_needed(*modes) if modes else _PANELS)}\nopenCoursePage();\n'
-    return Program(script, style() + style("lessons"), _with_books_once(parts))
+    if live:  # rules can be edited: a panel may draw anything
+        script = f'"use strict";\n{compact("class_page")}\nopenClassPage();\n'
+    else:
+        modes = {*_modes(parts)}
+        script = f'"use strict";\n{compact("course", not_needed(*modes) if modes else _PANELS)}\nopenCoursePage();\n'
+    return Program(script, style() + style("lessons") + (style("class_page") if live else ""), _with_books_once(parts), live)
 
 
 def _modes(data: Any) -> Iterator[str]:
@@ -204,10 +240,15 @@ _SIZE = re.compile(r'<svg(?: (?!width)[\w:]+="[^"]*")*( width="[^"]*" height="[^
 def cells_html(cells: list[Any], links: Links, parts: Parts) -> str:
     """Cells of a notebook as HTML; what the script of the page has to know is added to `parts`."""
     return "".join(
-        markdown_html(cell.source, links) if cell.cell_type == "markdown" else _code_html(cell, parts)
-        for cell in cells
-        if cell.cell_type in ("markdown", "code") and cell.source.strip()
+        _CELLS[cell.cell_type](cell, links, parts) for cell in cells if cell.cell_type in _CELLS and cell.source.strip()
     )
+
+
+_CELLS: Mapping[str, Callable[[Any, Links, Parts], str]] = {
+    "markdown": lambda cell, links, _: markdown_html(cell.source, links),
+    "code": lambda cell, _, parts: _code_html(cell, parts),
+    "answer": lambda cell, _, parts: _answer_html(cell, parts),
+}
 
 
 def _code_html(cell: Any, parts: Parts) -> str:

@@ -15,8 +15,9 @@ const KINDS = { panel, comparison, vote, prediction, worksheet, beside, rules, p
 const NEAR = "50%"; // of a window's height: so near to it something is opened at once
 
 // What comes into view is opened first; then all the rest, one after another, so that a page can be printed and searched.
-export async function openCoursePage() {
-  const { parts, books } = JSON.parse(document.getElementById("lsys-data").textContent), page = { parts, books, ballots: new Map() };
+// What a page of a class does otherwise is in `outside`: { hostWith, told(kind, asked, round, value), and functions that open parts }.
+export async function openCoursePage(outside = {}) {
+  const { parts, books } = JSON.parse(document.getElementById("lsys-data").textContent), page = { parts, books, ballots: new Map(), outside };
   const places = [...document.querySelectorAll("[data-part]")].filter((place) => !place.parentElement.closest("[data-part]"));
   const closed = new Set(places);
   const openOnce = async (place) => { if (closed.delete(place)) await open(place, page); };
@@ -38,7 +39,7 @@ const idle = () => new Promise((done) => ("requestIdleCallback" in window ? requ
 async function open(place, page) {
   const { kind, data } = page.parts[Number(place.dataset.part)];
   try {
-    await KINDS[kind](place, data, page);
+    await (page.outside[kind] ?? KINDS[kind])(place, data, page);
     place.dataset.open = "";
   } catch (fault) {
     place.append(cannot(fault));
@@ -46,7 +47,7 @@ async function open(place, page) {
 }
 
 // Panels of the same books have them in common.
-const hostOf = (data, { books }) => hostWith({ ...data, books: books[data.books] }, false);
+const hostOf = (data, { books, outside }) => (outside.hostWith ?? hostWith)({ ...data, books: books[data.books] }, false);
 
 async function panel(place, data, page) {
   const host = await hostOf(data, page);
@@ -74,36 +75,39 @@ function asked(ask, place, values, saved) {
 }
 
 // Both votes on a question know of one another.
-function vote(place, { asked: question, again, said }, { ballots }) {
+function vote(place, { asked: question, again, said }, { ballots, outside }) {
   const key = JSON.stringify([question.question, question.options]), ballot = ballots.get(key) ?? { votes: [-1, -1], tellers: [] };
   ballots.set(key, ballot);
   const saying = () => ({ said: said[ballot.votes[0] + 1][ballot.votes[1] + 1] });
   const model = asked(askForVote, place, { asked: question, chosen: -1, ...saying() }, ({ get }) => {
     ballot.votes[Number(again)] = get("chosen");
     for (const tell of ballot.tellers) tell();
+    outside.told?.("vote", "", again ? 2 : 1, get("chosen"));
   });
   ballot.tellers.push(() => model.tell(saying()));
 }
 
 function prediction(place, { question }, page) {
   const answer = place.querySelector("[data-answer]");
-  asked(askForPrediction, place, { question, typed: "", revealed: false }, () => {
+  asked(askForPrediction, place, { question, typed: "", revealed: false }, ({ get }) => {
     place.append(answer);
+    if (get("typed")) page.outside.told?.("prediction", question, 1, get("typed"));
     for (const each of answer.querySelectorAll("[data-part]")) open(each, page);
   });
 }
 
-function worksheet(place, data) {
+function worksheet(place, data, { outside }) {
   asked(askForEntries, place, { sheet: data.sheet, asked: {}, result: {} }, ({ get, tell }) => {
     const { number, entries } = get("asked");
     tell({ result: { number, ...checked(data, entries) } });
+    outside.told?.("table", data.sheet.title, 1, entries);
   });
 }
 
 async function beside(place, { panel: seen, sheet }, page) {
   const [left, right] = [made("div"), made("div")];
   place.replaceChildren(left, right);
-  worksheet(right, sheet);
+  worksheet(right, sheet, page);
   await KINDS[seen.kind](left, seen.data, page);
 }
 
