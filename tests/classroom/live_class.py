@@ -83,6 +83,7 @@ class Process:
     """A server in a process of its own, as `lsys-kit class` starts it."""
 
     process: subprocess.Popen[str]
+    folder: Path
     join: str
     board: str
     code: str
@@ -93,9 +94,19 @@ class Process:
         self.process.wait(SECONDS)
 
 
-def started(folder: Path, port: int = 0, *more: str) -> Process:
-    """A server without the pages of the course, in a process group of its own."""
-    command = [sys.executable, "-m", "lsys_kit", "class", "--folder", str(folder), "--port", str(port), "--no-course", *more]
+def started(folder: Path, port: int = 0, course: bool = False) -> Process:
+    """A server, by default without the pages of the course, in a process group of its own."""
+    command = [
+        sys.executable,
+        "-m",
+        "lsys_kit",
+        "class",
+        "--folder",
+        str(folder),
+        "--port",
+        str(port),
+        "--course" if course else "--no-course",
+    ]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, start_new_session=True)
     said = []
     assert process.stdout
@@ -106,7 +117,7 @@ def started(folder: Path, port: int = 0, *more: str) -> Process:
     text = "".join(said)
     code, join = re.search(r"code ([A-Z]{4}) at (\S+)", text).groups()
     board = re.search(r"alone: (\S+)", text)[1]
-    return Process(process, re.sub(r"//[^:/]+", "//127.0.0.1", join), re.sub(r"//[^:/]+", "//127.0.0.1", board), code)
+    return Process(process, folder, re.sub(r"//[^:/]+", "//127.0.0.1", join), re.sub(r"//[^:/]+", "//127.0.0.1", board), code)
 
 
 class Phone:

@@ -15,7 +15,7 @@ from lsys_kit import LSystemError, ModelFileError, ModelNameError
 from lsys_kit.__main__ import main
 from lsys_kit.classroom.live import serving
 from lsys_kit.classroom.live.events import FILE, LETTERS, TEACHER, ClassEntry, Event, Events, NotKept
-from lsys_kit.classroom.live.game import GAMES, cells_of, game_of, made_by, outcome
+from lsys_kit.classroom.live.game import GAMES, cells_of, game_data, game_of, made_by, outcome
 from lsys_kit.classroom.live.questions import asked_of, named, predictions, question, questions, right_option, value_of
 from lsys_kit.classroom.live.report import report_page, report_table, write_reports
 from lsys_kit.classroom.live.session import CLOSED, GAME, VOTE, Asked, Session, changes
@@ -215,7 +215,7 @@ def test_most_decide_for_a_cell_that_several_are() -> None:
 
 
 def test_phones_keep_their_cells_while_a_step_lasts_whoever_comes_or_goes() -> None:
-    session = Session([teacher(1, "begin", {"what": "K16", "seats": ["p", "q"]}, about="1")])
+    session = Session([teacher(1, "begin", {"game": game_data(game_of("K16")), "seats": ["p", "q"]}, about="1")])
     places = lambda phone: [each["place"] for each in session.phone(phone)["current"]["cells"]]  # noqa: E731
     before = places("p"), places("q")
     assert before == ([0, 2, 4], [1, 3])
@@ -228,7 +228,7 @@ def test_phones_keep_their_cells_while_a_step_lasts_whoever_comes_or_goes() -> N
 
 @pytest.mark.parametrize("value", [{"99": 0}, {"0": 9}, {"0": "a"}, {}, [], {"x": 0}, {"-1": 0}, {"0": True}], ids=repr)
 def test_only_a_choice_of_a_cell_that_is_there_counts(value: object) -> None:
-    session = Session([teacher(1, "begin", {"what": "K16", "seats": []}, about="1")])
+    session = Session([teacher(1, "begin", {"game": game_data(game_of("K16")), "seats": []}, about="1")])
     with pytest.raises(LSystemError):
         session.game_value(Asked(GAME, "1", 1), value)
 

@@ -14,6 +14,9 @@ from lsys_kit.classroom.exercises.check import checked
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.practice.practice import practice
 from lsys_kit.classroom.exercises.registry import exercise_of
+from lsys_kit.classroom.exercises.replies import reply
+from lsys_kit.classroom.live.game import game_data, game_of
+from lsys_kit.classroom.live.questions import asked_of, question
 from lsys_kit.classroom.panel.bundle import Data
 from lsys_kit.classroom.panel.explorer import Explorer
 from lsys_kit.classroom.panel.opened.kinds import opened
@@ -89,11 +92,13 @@ def _check(asked: Mapping[str, Any]) -> Data:
 
 
 def _verdict(exercise: Exercise, asked: Mapping[str, Any]) -> Data:
-    text, hint = str(asked.get("answer", "")), asked.get("hint", 0)
-    verdict = checked(
-        exercise, text, min(hint, len(exercise.hints)) if type(hint) is int else 0, asked.get("solution") is True, ""
-    )
-    return {"said": verdict.said, "message": verdict.message, "score": float(verdict)}
+    verdict = checked(exercise, str(asked.get("answer", "")), 0, asked.get("solution") is True, "")
+    hinted = asked.get("hint", 0) if verdict.said in ("Almost", "Not yet") and type(asked.get("hint")) is int else 0
+    most = len(exercise.hints)
+    hints = [
+        reply("check.hint", number=at, most=most, hint=hint) for at, hint in enumerate(exercise.hints[: max(0, hinted)], 1)
+    ]
+    return {"said": verdict.said, "message": "\n".join([verdict.message, *hints]), "score": float(verdict)}
 
 
 def _practice(asked: Mapping[str, Any]) -> Data:
@@ -115,9 +120,23 @@ def _plant(asked: Mapping[str, Any]) -> Data:
 
 MOST_PICTURE = 400_000
 """The greatest size of a drawing on the wall, in characters."""
+
+
+def _asked(asked: Mapping[str, Any]) -> Data:
+    """What a question of a lesson asks, with its picture."""
+    return asked_of(question(str(asked["of"]), str(asked["about"])))
+
+
+def _game(asked: Mapping[str, Any]) -> Data:
+    """The game with a system."""
+    return game_data(game_of(str(asked["what"])))
+
+
 _KINDS: Mapping[str, Callable[[Mapping[str, Any]], Data]] = {
     **dict.fromkeys(("open", "book", "rules", "variants", "keep"), _panel),
     "check": _check,
     "practice": _practice,
     "plant": _plant,
+    "asked": _asked,
+    "game": _game,
 }

@@ -5,7 +5,7 @@ have, their daughters in a row are the word that the class has made, and beside 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
 from lsys_kit.budget import limits
@@ -93,6 +93,28 @@ def game_of(what: str) -> Game:
     title = f"{what}: {entry(what).title}" if what in GAMES else "A system of your own"
     rules = "\n".join(as_written(played, production) for production in played.productions)
     return Game(title, rules, turns)
+
+
+def game_data(game: Game) -> Data:
+    """A game as JSON has it.
+
+    >>> game_from(game_data(game_of("K16"))) == game_of("K16")
+    True
+    """
+    return asdict(game)
+
+
+def game_from(data: Data) -> Game:
+    """The game that was written so."""
+    turns = (
+        Turn(
+            tuple(Cell(each["text"], tuple(each["choices"]), each["right"]) for each in turn["cells"]),
+            tuple(turn["word"]),
+            tuple((way, tuple(word)) for way, word in turn["others"]),
+        )
+        for turn in data["turns"]
+    )
+    return Game(data["title"], data["rules"], tuple(turns))
 
 
 def _turns(played: LSystem) -> Iterator[Turn]:
@@ -183,7 +205,7 @@ def outcome(turn: Turn, made: Sequence[int | None]) -> Data:
 
     Cells that nobody has played become what is right, and are counted.
     """
-    cells = []
+    cells: list[Data] = []
     for cell, choice in zip(turn.cells, made, strict=True):
         number = cell.right if choice is None else choice
         cells.append(

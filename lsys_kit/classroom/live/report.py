@@ -159,8 +159,8 @@ def _vote_parts(session: Session) -> Iterator[str]:
         yield f"<h3>Lesson {int(number)}: {escaped(lesson(number).title)}</h3>"
         yield f"<table>{_head('answer', 'first vote', 'second vote')}<tbody>{rows}</tbody></table>"
         yield (
-            f"<p>Of {changes['both']} who voted twice {changes['better']} changed from wrong to right, and {changes['worse']} from "
-            f"right to wrong.{gain}{advice}</p>"
+            f"<p>Of {changes['both']} who voted twice {changes['better']} changed from wrong to right, and "
+            f"{changes['worse']} from right to wrong.{gain}{advice}</p>"
         )
 
 

@@ -17,7 +17,6 @@ from collections import deque
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
-from functools import cache
 from gzip import compress
 from hashlib import sha256
 from pathlib import Path
@@ -32,8 +31,7 @@ import tornado.websocket
 
 from lsys_kit.classroom.live import pages
 from lsys_kit.classroom.live.events import LETTERS, TEACHER, ClassEntry, Event, Events, NotKept
-from lsys_kit.classroom.live.game import GAMES, game_of
-from lsys_kit.classroom.live.questions import EXERCISE, ROUNDS, asked_of, named, question, value_of
+from lsys_kit.classroom.live.questions import EXERCISE, ROUNDS, VOTE, named, question, questions, value_of
 from lsys_kit.classroom.live.session import GAME, PLANT, WALL, Asked, Session
 from lsys_kit.classroom.live.workers import Busy, Workers
 from lsys_kit.errors import LSystemError, ModelFileError, ModelLimitError
@@ -213,7 +211,8 @@ class LiveClass:
     async def asks(self, phone: str, content: Mapping[str, Any]) -> bytes:
         """What the kit answers to a phone; a try at an exercise and a plant are kept before the phone hears of it."""
         kind, sent = content.get("kind"), content.get("sent")
-        counted = kind in ("check", PLANT) and type(sent) is int and 0 < sent < _LAST_SENT
+        number = sent if type(sent) is int and 0 < sent < _LAST_SENT else 0
+        counted = number and (kind == PLANT or (kind == "check" and not (content.get("hint") or content.get("solution"))))
         asked = {name: value for name, value in content.items() if name not in ("sent", "phone")}
         answer = await self.server.workers.ask(phone, asked)
         found = json.loads(answer) if counted else {}
@@ -226,7 +225,7 @@ class LiveClass:
             if self.session.refusal(Asked(EXERCISE, known.about, 1)):
                 return answer
             event = (EXERCISE, known.about, 1, {"said": found["said"], "message": found["message"][:MOST_REPLY]})
-        await self.keep(Event(self.entry.code, phone, sent, *event))
+        await self.keep(Event(self.entry.code, phone, number, *event))
         return answer
 
     # What the teacher does
@@ -248,16 +247,12 @@ class LiveClass:
             await self._did(str(done), "", int(content.get("on") is not False), value)
         elif done == "begin":
             what = str(content.get("what", ""))
-            if what not in GAMES:
-                if len(what) > MOST_MESSAGE:
-                    raise ModelLimitError("This model is too long for a game", limit=MOST_MESSAGE)
-                answer = json.loads(
-                    await self.server.workers.ask(TEACHER, {"kind": "open", "panel": {"text": what, "notation": "abop"}})
-                )
-                if "mistake" in answer:
-                    raise LSystemError(answer["mistake"]["message"], hint=answer["mistake"]["hint"] or None)
-            await asyncio.get_running_loop().run_in_executor(None, game_of, what)
-            await self._did("begin", str(len(self.session.games) + 1), 0, {"what": what, "seats": self.present})
+            if len(what) > MOST_MESSAGE:
+                raise ModelLimitError("This model is too long for a game", limit=MOST_MESSAGE)
+            game = json.loads(await self.server.workers.ask(TEACHER, {"kind": "game", "what": what}))
+            if "mistake" in game:
+                raise LSystemError(game["mistake"]["message"].rstrip("."), hint=game["mistake"]["hint"] or None)
+            await self._did("begin", str(len(self.session.games) + 1), 0, {"game": game, "seats": self.present})
         elif done == "mark":
             about, text = str(content.get("about")), str(content.get("text"))[:MOST_REPLY]
             question("prediction", about)
@@ -312,6 +307,8 @@ class ClassServer:
         self.rates, self.asking, self.joining = Rates(20, 4), Rates(12, 3), Rates(400, 20)
         self.course = {name: _Page(content) for name, content in (course or {}).items()}
         self.address = ""
+        self._asked: dict[tuple[str, str], _Page] = {}
+        questions()  # they are read before anybody waits for them
         self._writer = ThreadPoolExecutor(1)
         self._pending: deque[tuple[LiveClass, Event, asyncio.Future[None]]] = deque()
         self._writing = False
@@ -343,6 +340,7 @@ class ClassServer:
         )
         self._server.add_sockets(sockets)
         found = int(sockets[0].getsockname()[1])
+        self._ready = asyncio.get_running_loop().create_task(self._get_ready())
         self.address = (address or f"http://{host or own_address()}:{found}").rstrip("/")
         return found
 
@@ -374,6 +372,20 @@ class ClassServer:
                 if not done.done():
                     done.set_result(None)
         self._writing = False
+
+    async def what_is_asked(self, kind: str, about: str) -> _Page:
+        """What a question asks, as JSON; a worker draws its picture, once."""
+        if (kind, about) not in self._asked:
+            content = await self.workers.ask(f"{kind} {about}", {"kind": "asked", "of": kind, "about": about})
+            self._asked[kind, about] = _Page(content)
+        return self._asked[kind, about]
+
+    async def _get_ready(self) -> None:
+        """Have at hand what every vote asks, so that nobody waits for it in class."""
+        for kind, about in questions():
+            if kind == VOTE:
+                with suppress(Busy):
+                    await self.what_is_asked(kind, about)
 
     def with_secret(self, secret: str) -> LiveClass | None:
         """The class whose board has a secret; all are compared, each in the same time."""
@@ -501,17 +513,10 @@ class _Course(_Handler):
 class _Asked(_Handler):
     """What a question asks, which a phone and the board need once."""
 
-    def get(self, kind: str, about: str) -> None:
-        try:
-            page = _asked_page(kind, about)
-        except LSystemError:
-            raise tornado.web.HTTPError(404) from None
-        self.send(page, "application/json")
-
-
-@cache
-def _asked_page(kind: str, about: str) -> _Page:
-    return _Page(json.dumps(asked_of(question(kind, about))).encode())
+    async def get(self, kind: str, about: str) -> None:
+        if (kind, about) not in questions():
+            raise tornado.web.HTTPError(404)
+        self.send(await self.server.what_is_asked(kind, about), "application/json")
 
 
 class _Ask(_Handler):

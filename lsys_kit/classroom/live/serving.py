@@ -185,18 +185,18 @@ def forget(folder: str, names: Sequence[str] | None = None) -> str:
 
 def course_pages(folder: Path, source: Path | None = None, make: Callable[..., object] = build_site) -> Mapping[str, bytes]:
     """The live pages of the course, by their names; they are made where they are not there, or are those of another kit."""
-    place, version = folder / PAGES, _version(source)
-    if _made(place) != version:
+    place, wanted = folder / PAGES, version(source)
+    if _made(place) != wanted:
         print("The pages of the course are made, once. This takes a minute or two.", flush=True)
         make(place, source, live=True)
         with file_errors(f'"{quotable(str(place))}" cannot be written'):
-            replace_file(place / MADE, json.dumps({KIT_MARK.decode(): version}).encode())
+            replace_file(place / MADE, json.dumps({KIT_MARK.decode(): wanted}).encode())
     return {
         path.relative_to(place).as_posix(): path.read_bytes() for path in sorted(place.rglob("*.html")) if not path.is_symlink()
     }
 
 
-def _version(source: Path | None) -> str:
+def version(source: Path | None = None) -> str:
     """By what pages are known as those of this kit: its course, its scripts and its language."""
     parts = [path.read_bytes() for path in course_files(source).values()]
     package = files("lsys_kit")

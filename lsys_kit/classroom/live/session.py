@@ -8,14 +8,13 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping
-from functools import lru_cache
 from itertools import islice
 from typing import Any, NamedTuple
 
 from lsys_kit.classroom.lessons.lesson import lesson, number_of
 from lsys_kit.classroom.lessons.vote import LETTERS
 from lsys_kit.classroom.live.events import TEACHER, Event
-from lsys_kit.classroom.live.game import Game, cells_of, game_of, made_by, outcome
+from lsys_kit.classroom.live.game import Game, cells_of, game_from, made_by, outcome
 from lsys_kit.classroom.live.questions import (
     EXERCISE,
     PREDICTION,
@@ -51,11 +50,6 @@ class Asked(NamedTuple):
     round: int
 
 
-@lru_cache(maxsize=64)
-def _game(what: str) -> Game:
-    return game_of(what)
-
-
 class Session:
     """What a class has said and done up to now.
 
@@ -78,7 +72,7 @@ class Session:
         self.status: dict[Asked, str] = {}
         self.shown: set[Asked] = set()
         self.marked: dict[str, set[str]] = {}
-        self.games: dict[str, str] = {}
+        self.games: dict[str, Game] = {}
         self.plants: dict[int, Data] = {}
         self._last_plant = -1
         self.tries: Counter[str] = Counter()
@@ -125,7 +119,7 @@ class Session:
         self.seats, self.late = list(event.value["seats"]), {}
 
     def _begin(self, event: Event) -> None:
-        self.games[event.about] = event.value["what"]
+        self.games[event.about] = game_from(event.value["game"])
         self.current = Asked(GAME, event.about, 1)
         self.status[self.current] = OPEN
         self.seats, self.late = list(event.value["seats"]), {}
@@ -244,7 +238,7 @@ class Session:
     # Be the cell
 
     def game(self, about: str) -> Game:
-        return _game(self.games[about])
+        return self.games[about]
 
     def _cells_of(self, phone: str, asked: Asked) -> Data:
         game = self.game(asked.about)

@@ -141,7 +141,7 @@ export function openBoard() {
     const lines = [made("dt", worded("The class has made")), made("dd", word), made("dt", worded("The rules make")), made("dd", rightWord)];
     for (const { way, word: other } of others) lines.push(made("dt", worded(way)), made("dd", other));
     const verdict = parts === null ? `✓ ${worded("All cells are right.")}` : worded("The words part at cell {number}.", { number: parts + 1 });
-    const notes = [...like.map((way) => worded("This is what comes of: {way}.", { way: worded(way) })), ...(unplayed ? [worded("{number} cells were played by the kit.", { number: unplayed })] : [])];
+    const notes = [...like.map((way) => worded("This is what comes of: {way}.", { way: worded(way) })), ...(unplayed ? [worded("Cells that the kit has played: {number}.", { number: unplayed })] : [])];
     return [made("p.board-verdict", { "data-right": String(parts === null) }, [verdict, ...notes].join(" ")), made("dl.board-outcome", ...lines)];
   }
 

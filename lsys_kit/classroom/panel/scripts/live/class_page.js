@@ -93,7 +93,7 @@ function askForAnswer(place, { id, kind, title, template, hints, options }, ask)
     const [sign, look] = SIGNS[verdict] ?? ["", ""];
     said.className = `lsys-said ${look}`.trim();
     said.replaceChildren(made("span", { "aria-hidden": "true" }, `${sign} `), made("b", `${worded(verdict)}. `));
-    for (const line of message.split("\n")) said.append(line.startsWith("  ") ? made("pre", line) : made("span", `${line} `));
+    message.split("\n").forEach((line, at) => said.append(line.startsWith("  ") ? made("pre", line) : made(at ? "div" : "span", line)));
     more.hidden = !["Almost", "Not yet"].includes(verdict);
   }
 

@@ -29,7 +29,7 @@ export function openPhone() {
     told(message, answer) {
       if (answer.kept) status.textContent = `✓ ${worded("kept")}`;
       else if (answer.later) status.textContent = worded("Not kept yet: it is sent again by itself.");
-      else status.textContent = answer.why;
+      else status.textContent = worded(answer.why);
       status.dataset.kept = String(Boolean(answer.kept));
     },
   });
@@ -102,7 +102,7 @@ export function openPhone() {
       const row = made("p.cells", { id }, made("span.cell", before ?? "–"), made("b.cell.own", cell), made("span.cell", behind ?? "–"));
       const buttons = choices.map((text, number) => made("button.choice", {
         type: "button", "data-key": `${place}-${number}`, "aria-pressed": String(chosen[place] === number), disabled: isClosed(), onclick: () => tell({ [place]: number }),
-      }, made("code", text)));
+      }, made("code", text), ...(text === "ε" ? [worded("it vanishes")] : text === cell ? [worded("it stays as it is")] : [])));
       return made("div.one-cell", made("p.phone-kind", worded("Cell {number} of {many}", { number: place + 1, many: state.many })), row,
         made("p", worded("What does your cell become?")), made("div.choices", { role: "group", "aria-label": plain(worded("What does the cell {cell} become?", { cell })) }, ...buttons));
     });
