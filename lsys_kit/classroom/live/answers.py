@@ -11,8 +11,6 @@ from typing import Any
 
 from lsys_kit.budget import limits
 from lsys_kit.classroom.exercises.check import checked
-from lsys_kit.classroom.exercises.exercise import Exercise
-from lsys_kit.classroom.exercises.practice.practice import practice
 from lsys_kit.classroom.exercises.registry import exercise_of
 from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.classroom.live.game import game_data, game_of
@@ -88,26 +86,14 @@ def _state(panel: Explorer) -> Data:
 
 def _check(asked: Mapping[str, Any]) -> Data:
     """The verdict on an answer to an exercise, with the hints up to one, or with the solution."""
-    return _verdict(exercise_of(str(asked["id"])), asked)
-
-
-def _verdict(exercise: Exercise, asked: Mapping[str, Any]) -> Data:
+    exercise = exercise_of(str(asked["id"]))
     verdict = checked(exercise, str(asked.get("answer", "")), 0, asked.get("solution") is True, "")
     hinted = asked.get("hint", 0) if verdict.said in ("Almost", "Not yet") and type(asked.get("hint")) is int else 0
     most = len(exercise.hints)
     hints = [
         reply("check.hint", number=at, most=most, hint=hint) for at, hint in enumerate(exercise.hints[: max(0, hinted)], 1)
     ]
-    return {"said": verdict.said, "message": "\n".join([verdict.message, *hints]), "score": float(verdict)}
-
-
-def _practice(asked: Mapping[str, Any]) -> Data:
-    """An exercise that is made now, or the verdict on an answer to it."""
-    made = practice(str(asked["topic"]), int(asked.get("level", 1)), int(asked.get("seed", 0)))
-    if "answer" in asked:
-        verdict = made.check(str(asked["answer"]), solution=asked.get("solution") is True)
-        return {"said": verdict.said, "message": verdict.message, "score": float(verdict)}
-    return {"question": made.exercise.question}
+    return {"said": verdict.said, "message": "\n".join([verdict.message, *hints])}
 
 
 def _plant(asked: Mapping[str, Any]) -> Data:
@@ -135,7 +121,6 @@ def _game(asked: Mapping[str, Any]) -> Data:
 _KINDS: Mapping[str, Callable[[Mapping[str, Any]], Data]] = {
     **dict.fromkeys(("open", "book", "rules", "variants", "keep"), _panel),
     "check": _check,
-    "practice": _practice,
     "plant": _plant,
     "asked": _asked,
     "game": _game,

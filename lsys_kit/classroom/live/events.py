@@ -11,6 +11,7 @@ import json
 import secrets
 import sqlite3
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -115,7 +116,7 @@ class Events:
             taken = {each.code for each in known}
             code = next(code for code in _codes() if code not in taken)
             found = ClassEntry(code, name, secrets.token_urlsafe(16))
-            with _written():
+            with self._written():
                 self._table.execute("INSERT INTO class VALUES (?, ?, ?)", found)
         return found
 
@@ -129,7 +130,7 @@ class Events:
         """
         rows = [(*each[:6], json.dumps(each.value, ensure_ascii=False, separators=(",", ":"))) for each in events]
         asked = "INSERT OR IGNORE INTO event (code, phone, sent, kind, about, round, value) VALUES (?, ?, ?, ?, ?, ?, ?)"
-        with _written(), self._transaction():
+        with self._written():
             return [self._table.execute(asked, row).rowcount == 1 for row in rows]
 
     def of(self, code: str) -> Iterator[Event]:
@@ -141,52 +142,28 @@ class Events:
     def forget(self, code: str) -> int:
         """Delete all that a class has said, and the class; how many rows there were. Nothing of them is left in the file."""
         self._table.execute("PRAGMA secure_delete = ON")
-        with _written():
-            with self._transaction():
-                many = self._table.execute("DELETE FROM event WHERE code = ?", (code,)).rowcount
-                self._table.execute("DELETE FROM class WHERE code = ?", (code,))
-            self._table.execute("PRAGMA wal_checkpoint(TRUNCATE)")
-            self._table.execute("VACUUM")
-            self._table.execute("PRAGMA wal_checkpoint(TRUNCATE)")
+        with self._written():
+            many = self._table.execute("DELETE FROM event WHERE code = ?", (code,)).rowcount
+            self._table.execute("DELETE FROM class WHERE code = ?", (code,))
+        self._table.execute("VACUUM")
+        self._table.execute("PRAGMA wal_checkpoint(TRUNCATE)")
         return many
 
     def close(self) -> None:
         self._table.close()
 
-    def _transaction(self) -> _Transaction:
-        return _Transaction(self._table)
-
-
-class _Transaction:
-    """A `with` block whose changes are all made, or none."""
-
-    def __init__(self, table: sqlite3.Connection) -> None:
-        self._table = table
-
-    def __enter__(self) -> None:
-        self._table.execute("BEGIN IMMEDIATE")
-
-    def __exit__(self, kind: object, *_: object) -> None:
+    @contextmanager
+    def _written(self) -> Iterator[None]:
+        """A `with` block whose changes are all made, or none; a fault of the table becomes an error of the kit."""
         try:
-            self._table.execute("ROLLBACK" if kind else "COMMIT")
-        except sqlite3.Error:
+            self._table.execute("BEGIN IMMEDIATE")
+            yield
+            self._table.execute("COMMIT")
+        except sqlite3.Error as fault:
             if self._table.in_transaction:
                 self._table.execute("ROLLBACK")
-            if not kind:
-                raise
-
-
-class _written:  # noqa: N801 - used as a function is
-    """A `with` block in which a fault of the table becomes an error of the kit."""
-
-    def __enter__(self) -> None:
-        pass
-
-    def __exit__(self, _: object, fault: BaseException | None, __: object) -> None:
-        if isinstance(fault, sqlite3.Error):
-            raise NotKept(
-                f"Nothing can be kept: {fault}", hint="Make room on the disk; phones send again what was not kept."
-            ) from None
+            hint = "Make room on the disk; phones send again what was not kept."
+            raise NotKept(f"Nothing can be kept: {fault}", hint=hint) from None
 
 
 def _codes() -> Iterator[str]:

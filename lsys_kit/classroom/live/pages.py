@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-from collections.abc import Sequence
 from typing import Any
 
 from lsys_kit.classroom.live.events import ClassEntry
@@ -16,10 +15,8 @@ from lsys_kit.pictures.qr_codes import qr_code
 from lsys_kit.pictures.style.labels import escaped
 from lsys_kit.translation import gettext, language
 
-_SAID = {404: "There is no such page.", 429: "Too many have asked at once. Wait a moment, and try again."}
 
-
-def door_page(codes: Sequence[str]) -> str:
+def door_page() -> str:
     """The page on which the code of a class is typed."""
     body = f"""<main class="door"><h1>{escaped(gettext("Join the class"))}</h1>
 <form id="door"><label for="code">{escaped(gettext("The four letters on the board"))}</label>
@@ -59,10 +56,12 @@ def picture_of(address: str) -> str:
 
 def problem_page(status: int) -> str:
     """What is shown where a page cannot be had."""
-    said = escaped(gettext(_SAID.get(status, "This cannot be done.")))
-    return _document(
-        str(status), f'<main class="door"><h1>{said}</h1><p><a href="/">{escaped(gettext("Join the class"))}</a></p></main>\n'
-    )
+    said = {
+        404: gettext("There is no such page."),
+        429: gettext("Too many have asked at once. Wait a moment, and try again."),
+    }.get(status, gettext("This cannot be done."))
+    join = f'<p><a href="/">{escaped(gettext("Join the class"))}</a></p>'
+    return _document(said, f'<main class="door"><h1>{escaped(said)}</h1>{join}</main>\n')
 
 
 def _document(title: str, body: str, script: str = "", data: dict[str, Any] | None = None) -> str:

@@ -485,7 +485,7 @@ class _Door(_Handler):
     """The page on which a code is typed."""
 
     def get(self) -> None:
-        self.send(_Page(pages.door_page([*self.server.classes]).encode()), "text/html; charset=utf-8")
+        self.send(_Page(pages.door_page().encode()), "text/html; charset=utf-8")
 
 
 class _Phone(_Handler):

@@ -75,7 +75,6 @@ class Session:
         self.games: dict[str, Game] = {}
         self.plants: dict[int, Data] = {}
         self._last_plant = -1
-        self.tries: Counter[str] = Counter()
         self.phones: dict[str, None] = {}
         self.last_done = 0
         self.seats: list[str] = []
@@ -97,7 +96,6 @@ class Session:
             while len(self.plants) > MOST_PLANTS:
                 del self.plants[min(self.plants)]
             return
-        self.tries[event.about] += event.kind == EXERCISE
         before = self.answers.setdefault(asked, {}).get(event.phone)
         if before is None or before[0] < event.sent:
             value = {**before[1], **event.value} if event.kind == GAME and before else event.value

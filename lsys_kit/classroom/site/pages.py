@@ -18,7 +18,7 @@ from lsys_kit.classroom.exercises.kinds.choices import letters
 from lsys_kit.classroom.exercises.registry import exercise_of
 from lsys_kit.classroom.lessons.lesson import TRACKS, Lesson
 from lsys_kit.classroom.lessons.widget import escaped_lines, html, prose_html, prose_text
-from lsys_kit.classroom.panel.bundle import Data, compact, style
+from lsys_kit.classroom.panel.bundle import Data, compact, style, translated_words
 from lsys_kit.classroom.panel.document import Program, deflated_text, document
 from lsys_kit.classroom.panel.page import not_needed
 from lsys_kit.classroom.site.markdown import Links, address_on_site, markdown_html, mathml
@@ -202,7 +202,9 @@ def _program(parts: Parts, live: bool) -> Program | None:
     else:
         modes = {*_modes(parts)}
         script = f'"use strict";\n{compact("course", not_needed(*modes) if modes else _PANELS)}\nopenCoursePage();\n'
-    return Program(script, style() + style("lessons") + (style("class_page") if live else ""), _with_books_once(parts), live)
+    words = {"words": translated_words("class_page", "panel", "filling", "voting")} if live else {}
+    looks = style() + style("lessons") + (style("class_page") if live else "")
+    return Program(script, looks, {**_with_books_once(parts), **words}, live)
 
 
 def _modes(data: Any) -> Iterator[str]:

@@ -2,13 +2,14 @@
 
 import { openCoursePage } from "../course.js";
 import { hostWith, store } from "../page.js";
-import { freshId, made, worded } from "../views/controls.js";
+import { freshId, made, speak, worded } from "../views/controls.js";
 import { askKit, classConnection, nextNumber } from "./outbox.js";
 
 const SEEN = ["step", "angle", "around", "above", "seed", "mark", "settings"];
 const SIGNS = { "Correct": ["✓", "lsys-right"], "Almost": ["≈", "lsys-almost"], "Not yet": ["✗", "lsys-wrong"], "Not readable yet": ["?", ""], "Not answered yet": ["○", ""] };
 
 export function openClassPage() {
+  speak(JSON.parse(document.getElementById("lsys-data").textContent).words);
   const [, code] = location.pathname.split("/"), base = `/${code}/`, [, lesson = ""] = /\/(\d\d)_\w*\.html$/.exec(location.pathname) ?? [];
   const banner = made("a.class-banner", { href: base, hidden: true });
   const status = made("p.class-status", { role: "status" });

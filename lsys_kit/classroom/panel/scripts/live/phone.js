@@ -6,6 +6,8 @@ import { classConnection, whatIsAsked } from "./outbox.js";
 
 const LETTERS = "ABCD";
 
+const boxIn = (place) => /** @type {HTMLInputElement | null} */ (place.querySelector("input[type=text]"));
+
 export function openPhone() {
   const { code, course, words } = JSON.parse(document.getElementById("lsys-data").textContent);
   speak(words);
@@ -53,11 +55,11 @@ export function openPhone() {
     if (seen === shown) return;
     shown = seen;
     const focused = document.activeElement?.getAttribute("data-key");
-    const typed = here.querySelector("input[type=text]")?.value;
+    const typed = boxIn(here)?.value;
     here.replaceChildren(...(state ? [KINDS[state.kind](), status] : [waiting()]), ...lessons());
-    const box = here.querySelector("input[type=text]");
+    const box = boxIn(here);
     if (box && typed && !answered()) box.value = typed;
-    if (focused) here.querySelector(`[data-key="${focused}"]`)?.focus();
+    if (focused) /** @type {HTMLElement | null} */ (here.querySelector(`[data-key="${focused}"]`))?.focus();
   }
 
   const waiting = () => made("section.phone-card", made("h2", worded("You are in.")), made("p", worded("Look at the board. A question appears here when it is opened.")));
