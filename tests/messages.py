@@ -74,11 +74,6 @@ TABLES_OF_SCRIPTS = (
     "The learning platform cannot be read, so that nothing is written there.",
     "No learning platform is there: nobody is told.",
     'The question has no symbol "{symbol}". The symbols are: {symbols}.',
-    "one rule after another",
-    "asking the neighbour too late",
-    "This message cannot be understood.",
-    "Slowly, please.",
-    "The teacher's computer cannot keep it now.",
 )
 """What scripts show in the language that is chosen, and have in tables."""
 

@@ -22,6 +22,7 @@ from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read
 from lsys_kit.notation.registry import dialect_named
 from lsys_kit.notation.write import as_written
+from lsys_kit.translation import gettext
 
 GAMES = ("J1", "P2", "J4", "K16")
 """The systems of the catalogue that are offered: with a polarity, with stages, with life spans, with a signal."""
@@ -30,7 +31,7 @@ STEPS, MOST_CELLS, MOST_CHOICES = 12, 60, 4
 CELLS_A_PHONE = 4
 """A phone is no more cells than this; the kit plays those that nobody is."""
 VANISHES = "ε"
-SEQUENTIALLY, TOO_LATE = "one rule after another", "asking the neighbour too late"
+SEQUENTIALLY, TOO_LATE = "sequentially", "too late"
 """Other ways of making a step."""
 
 
@@ -172,6 +173,11 @@ def _other_ways(played: LSystem, before: Sequence[Module], write: Any) -> Iterat
         yield TOO_LATE, _texts([*context_in_new_word(beginning, 1)][-1], write)
 
 
+def _said(way: str) -> str:
+    """What the board calls another way of working."""
+    return {SEQUENTIALLY: gettext("one rule after another"), TOO_LATE: gettext("asking the neighbour too late")}[way]
+
+
 # Who is which cell
 
 
@@ -226,6 +232,6 @@ def outcome(turn: Turn, made: Sequence[int | None]) -> Data:
         "rightWord": " ".join(turn.word),
         "parts": wrong,
         "unplayed": sum(not each["played"] for each in cells),
-        "others": [{"way": name, "word": " ".join(other)} for name, other in turn.others if other != turn.word],
-        "like": alike,
+        "others": [{"way": _said(name), "word": " ".join(other)} for name, other in turn.others if other != turn.word],
+        "like": [_said(name) for name in alike],
     }

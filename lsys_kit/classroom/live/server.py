@@ -35,6 +35,7 @@ from lsys_kit.classroom.live.questions import EXERCISE, ROUNDS, VOTE, named, que
 from lsys_kit.classroom.live.session import GAME, PLANT, WALL, Asked, Session
 from lsys_kit.classroom.live.workers import Busy, Workers
 from lsys_kit.errors import LSystemError, ModelFileError, ModelLimitError
+from lsys_kit.translation import gettext
 
 PORT = 8765
 MOST_MESSAGE, MOST_ASKED = 16_000, 64_000
@@ -181,19 +182,19 @@ class LiveClass:
         """Keep what a phone says, and answer it: kept, or refused and why, or to be sent again later."""
         sent = message.get("sent")
         if type(sent) is not int or not 0 < sent < _LAST_SENT:
-            return {"refused": 0, "why": "This message cannot be understood."}
+            return {"refused": 0, "why": gettext("This message cannot be understood.")}
         try:
             asked, value = self._understood(message)
         except (LSystemError, TypeError, KeyError, ValueError, AttributeError):
-            return {"refused": sent, "why": "This message cannot be understood."}
+            return {"refused": sent, "why": gettext("This message cannot be understood.")}
         if not self.server.rates.allow(phone):
-            return {"later": sent, "why": "Slowly, please."}
+            return {"later": sent, "why": gettext("Slowly, please.")}
         if why := self.session.refusal(asked):
             return {"refused": sent, "why": why}
         try:
             await self.keep(Event(self.entry.code, phone, sent, *asked, value))
         except NotKept:
-            return {"later": sent, "why": "The teacher's computer cannot keep it now."}
+            return {"later": sent, "why": gettext("The teacher's computer cannot keep it now.")}
         return {"kept": sent}
 
     def _understood(self, message: Mapping[str, Any]) -> tuple[Asked, Any]:

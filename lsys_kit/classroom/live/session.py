@@ -30,6 +30,7 @@ from lsys_kit.classroom.live.questions import (
 )
 from lsys_kit.classroom.panel.bundle import Data
 from lsys_kit.errors import LSystemError
+from lsys_kit.translation import gettext
 
 GAME, PLANT, WALL = "game", "plant", "wall"
 """Be the cell; a plant that was sent to the wall; and the wall, which can be opened like a question."""
@@ -105,7 +106,7 @@ class Session:
         """Why nothing can be said to a question now; None if it can."""
         status = self.status.get(asked)
         if status == CLOSED or (asked.kind == GAME and status is None):
-            return "This question is closed."
+            return gettext("This question is closed.")
         return None
 
     # What the teacher does

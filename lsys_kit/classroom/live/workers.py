@@ -26,10 +26,10 @@ from lsys_kit.cache import Cache
 from lsys_kit.classroom.child_processes import limit_memory, limit_seconds
 from lsys_kit.errors import LSystemError
 
-QUICK, LONGEST = 0.4, 8.0
-"""After so many seconds by the clock on the wall a worker has less of the processor, and after so many it is ended."""
-PROCESSOR = 4
-"""So many seconds of the processor an answer may take."""
+QUICK, PROCESSOR = 0.4, 4
+"""After so many seconds of the processor a worker lets others go first, and after so many it is ended."""
+LONGEST = 15.0
+"""So many seconds by the clock on the wall an answer may take, on a machine that is busy."""
 NICER = 10
 """By so much the priority of what takes long is lowered."""
 STARTING = 60.0
@@ -69,11 +69,6 @@ class _Worker:
             return self.connection.poll(STARTING) and self.connection.recv_bytes() == b"ready"
         return False
 
-    def lower(self) -> None:
-        """Let others go first."""
-        with suppress(OSError, AttributeError):
-            os.setpriority(os.PRIO_PROCESS, self.process.pid, NICER)
-
     def end(self) -> None:
         self.process.kill()
         self.process.join(5)
@@ -99,7 +94,7 @@ class Workers:
         self._threads = ThreadPoolExecutor(self._many)
         self._starters = ThreadPoolExecutor(self._many)
         if sys.platform != "win32":
-            _CONTEXT.set_forkserver_preload(["lsys_kit.classroom.live.answers"])
+            _CONTEXT.set_forkserver_preload(["lsys_kit.classroom.live.ready"])
         for _ in range(self._many):
             self._starters.submit(self._start)
 
@@ -161,16 +156,14 @@ class Workers:
             return _TOO_LONG
         try:
             worker.connection.send_bytes(asked)
-            if worker.connection.poll(QUICK):
-                answer = worker.connection.recv_bytes(MOST_BYTES)
-                self._ready.put(worker)
-                return answer
-            worker.lower()
-            answer = worker.connection.recv_bytes(MOST_BYTES) if worker.connection.poll(LONGEST - QUICK) else _TOO_LONG
+            answer = worker.connection.recv_bytes(MOST_BYTES) if worker.connection.poll(LONGEST) else b""
         except (EOFError, OSError):
-            answer = _TOO_LONG
-        self._replace(worker)  # its priority cannot be raised again
-        return answer
+            answer = b""
+        if answer[:1] == _QUICKLY:
+            self._ready.put(worker)
+        else:
+            self._replace(worker)  # of one that has let others go first the priority cannot be raised again
+        return answer[1:] or _TOO_LONG
 
     def _replace(self, worker: _Worker) -> None:
         self._all.discard(worker)
@@ -199,6 +192,8 @@ class Workers:
 
 
 _TOO_LONG = json.dumps({"mistake": TOO_LONG}).encode()
+_QUICKLY, _SLOWLY = b"+", b"-"
+"""What stands before an answer, by how much of the processor it took."""
 
 
 # In a worker
@@ -206,18 +201,44 @@ _TOO_LONG = json.dumps({"mistake": TOO_LONG}).encode()
 
 def _work(questions: Connection) -> None:
     """Answer one question after another, until nobody asks any more."""
+    from lsys_kit.classroom.live import ready
     from lsys_kit.classroom.live.answers import answer
 
+    assert ready
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # of the terminal: the server ends its workers
-    answer({"kind": "open", "panel": {"notation": "abop", "text": "axiom: a\na -> ab\nb -> a"}})  # loads what panels need
+    patience = _Patience()
     limit_memory()
     questions.send_bytes(b"ready")
     with suppress(EOFError, OSError):
         while True:
             asked = questions.recv_bytes()
             limit_seconds(PROCESSOR)
+            patience.begin()
             try:
                 reply: Any = answer(json.loads(asked))
             except MemoryError:
                 reply = {"mistake": {"message": "It takes too much memory", "hint": "Take fewer steps."}}
-            questions.send_bytes(json.dumps(reply, separators=(",", ":")).encode())
+            patience.end()
+            packed = json.dumps(reply, separators=(",", ":")).encode()
+            questions.send_bytes((_SLOWLY if patience.lost else _QUICKLY) + packed)
+
+
+class _Patience:
+    """Lowers the priority of this process when an answer takes long, where the platform can."""
+
+    def __init__(self) -> None:
+        self.lost = False
+        if hasattr(signal, "SIGPROF"):
+            signal.signal(signal.SIGPROF, self._lose)
+
+    def begin(self) -> None:
+        if hasattr(signal, "setitimer"):
+            signal.setitimer(signal.ITIMER_PROF, QUICK)
+
+    def end(self) -> None:
+        if hasattr(signal, "setitimer"):
+            signal.setitimer(signal.ITIMER_PROF, 0)
+
+    def _lose(self, _: int, __: object) -> None:
+        self.lost = True
+        os.nice(NICER)

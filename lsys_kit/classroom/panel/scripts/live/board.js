@@ -12,7 +12,7 @@ export function openBoard() {
   const { address, code, plan, games, picture, words } = JSON.parse(document.getElementById("lsys-data").textContent);
   speak(words);
   const here = document.getElementById("here"), present = document.getElementById("present"), tools = document.getElementById("tools");
-  let state = { present: 0, current: null }, socket = null, joining = false, seen = "", asked = {}, heard = 0;
+  let state = { present: 0, current: null }, socket = null, joining = false, seen = "", asked = {};
   const said = made("p.board-said", { role: "alert" });
 
   function connect() {
@@ -27,12 +27,10 @@ export function openBoard() {
     });
   }
 
-  async function hear({ state: next, mistake }) {
+  function hear({ state: next, mistake }) {
     if (mistake) said.textContent = mistake;
     if (!next) return;
-    const number = ++heard, current = next.current;
-    asked = current && ["vote", "prediction", "table", "exercise"].includes(current.kind) ? await whatIsAsked(current.kind, current.about).catch(() => ({ question: "" })) : {};
-    if (number !== heard) return;
+    const { current } = next;
     state = next;
     said.textContent = next.fault ? `\u26a0 ${next.fault}` : mistake ?? "";
     if (current && keyOf(current) !== seen) joining = false;
@@ -48,7 +46,8 @@ export function openBoard() {
 
   function show() {
     present.textContent = `${worded("{number} here", { number: state.present })} · ${code}`;
-    const current = joining ? null : state.current;
+    const current = joining ? null : state.current, isAsked = current && current.kind in kinds;
+    if (isAsked) asked = whatIsAsked(current.kind, current.about, notYet(current), show);
     here.dataset.kind = current?.kind ?? "join";
     here.replaceChildren(...(current ? VIEWS[current.kind](current) : join()));
     showTools();
@@ -58,6 +57,12 @@ export function openBoard() {
     const image = picture ? [made("img.board-code", { src: picture, alt: worded("QR code of the address {address}", { address }) })] : [];
     return [made("section.board-join", ...image, made("div", made("p", worded("Join with a phone")), made("p.board-address", address.replace(/^https?:\/\//, "").replace(/\/\w{4}\/$/, "")),
       made("p", worded("and this code")), made("p.board-letters", code), made("p.board-number", worded("{number} here", { number: state.present }))))];
+  }
+
+  // What stands in the place of a question until it is there.
+  function notYet({ kind, about }) {
+    const title = plan.flatMap(({ items: all }) => all).find((each) => each.kind === kind && each.about === about)?.title;
+    return { question: title ?? "", options: ["", "", "", ""], columns: [], rows: [] };
   }
 
   const head = (kind, text, more = []) => [made("p.board-kind", kind), made("h2", prose(text)), ...more];
@@ -139,9 +144,9 @@ export function openBoard() {
 
   function judged({ word, rightWord, parts, unplayed, others, like }) {
     const lines = [made("dt", worded("The class has made")), made("dd", word), made("dt", worded("The rules make")), made("dd", rightWord)];
-    for (const { way, word: other } of others) lines.push(made("dt", worded(way)), made("dd", other));
+    for (const { way, word: other } of others) lines.push(made("dt", way), made("dd", other));
     const verdict = parts === null ? `✓ ${worded("All cells are right.")}` : worded("The words part at cell {number}.", { number: parts + 1 });
-    const notes = [...like.map((way) => worded("This is what comes of: {way}.", { way: worded(way) })), ...(unplayed ? [worded("Cells that the kit has played: {number}.", { number: unplayed })] : [])];
+    const notes = [...like.map((way) => worded("This is what comes of: {way}.", { way })), ...(unplayed ? [worded("Cells that the kit has played: {number}.", { number: unplayed })] : [])];
     return [made("p.board-verdict", { "data-right": String(parts === null) }, [verdict, ...notes].join(" ")), made("dl.board-outcome", ...lines)];
   }
 

@@ -136,13 +136,21 @@ export function classConnection(base, code, heard) {
 
 const asked = new Map();
 
-// What a question asks, fetched once.
-export function whatIsAsked(kind, about) {
+// What a question asks, if it is known already; else something in its place, and `arrived` is called when it is known.
+export function whatIsAsked(kind, about, otherwise, arrived) {
   const place = `/asked/${kind}/${about}`;
   if (!asked.has(place)) {
-    const found = fetch(place).then((answer) => (answer.ok ? answer.json() : Promise.reject(new Error(String(answer.status)))));
-    asked.set(place, found);
-    found.catch(() => asked.delete(place));
+    asked.set(place, otherwise);
+    fetch(place).then((answer) => (answer.ok ? answer.json() : Promise.reject(new Error(String(answer.status))))).then(
+      (found) => {
+        asked.set(place, found);
+        arrived();
+      },
+      () => setTimeout(() => {
+        asked.delete(place);
+        arrived();
+      }, PATIENCE),
+    );
   }
   return asked.get(place);
 }

@@ -12,7 +12,7 @@ export function openPhone() {
   const { code, course, words } = JSON.parse(document.getElementById("lsys-data").textContent);
   speak(words);
   const here = document.getElementById("here"), link = document.getElementById("link"), base = `/${code}/`;
-  let state = null, own = null, shown = "", heard = 0;
+  let told = null, state = null, own = null, shown = "";
   const status = made("p.tick", { role: "status" });
 
   const connection = classConnection(base, code, {
@@ -20,18 +20,15 @@ export function openPhone() {
       link.textContent = isThere ? worded("connected") : worded("not connected: it is tried again, and nothing is lost");
       link.dataset.there = String(isThere);
     },
-    async state({ current }) {
-      const number = ++heard;
-      const more = current && ["vote", "prediction"].includes(current.kind) ? await whatIsAsked(current.kind, current.about).catch(() => null) : {};
-      if (number !== heard) return; // a later one has come
-      state = more && current ? { ...more, ...current } : null;
-      if (state && keyOf(state) !== keyOf(own)) own = null;
+    state({ current }) {
+      told = current;
+      if (told && keyOf(told) !== keyOf(own)) own = null;
       show();
     },
     told(message, answer) {
       if (answer.kept) status.textContent = `✓ ${worded("kept")}`;
       else if (answer.later) status.textContent = worded("Not kept yet: it is sent again by itself.");
-      else status.textContent = worded(answer.why);
+      else status.textContent = answer.why;
       status.dataset.kept = String(Boolean(answer.kept));
     },
   });
@@ -51,6 +48,8 @@ export function openPhone() {
   const answered = () => own?.value ?? state.own;
 
   function show() {
+    const isAsked = told && ["vote", "prediction"].includes(told.kind);
+    state = told && { ...(isAsked ? whatIsAsked(told.kind, told.about, { question: told.title, options: ["", "", "", ""] }, show) : {}), ...told };
     const seen = JSON.stringify([state, own]);
     if (seen === shown) return;
     shown = seen;
