@@ -26,7 +26,7 @@ from tests.classroom.live_class import Process, started
 pytestmark = [pytest.mark.slow, pytest.mark.browser]
 AXE = Path(axe_playwright_python.__file__).parent / "axe.min.js"
 NAMES = ("notebooks/01_all_at_once.ipynb", "exercises/01_all_at_once.ipynb", "notebooks/07_life_spans.ipynb")
-EXPECTED_NOISE = re.compile(r"WebSocket connection to|net::ERR_CONNECTION_REFUSED")
+EXPECTED_NOISE = re.compile(r"WebSocket connection to|net::ERR_(CONNECTION_(REFUSED|RESET)|EMPTY_RESPONSE)")
 """What a browser says of a server that was killed."""
 
 
