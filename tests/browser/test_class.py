@@ -177,6 +177,7 @@ def test_a_lesson_with_two_phones_and_a_server_that_is_killed(live: Class, pytes
     # The second vote
     board.keyboard.press("PageDown")
     expect(phones[0].locator(".choice").first).to_be_disabled()
+    expect(board.locator(".board-kind")).to_contain_text("closed")
     board.keyboard.press("PageDown")
     expect(phones[0].locator(".phone-kind")).to_have_text("Second vote")
     for phone in phones:
@@ -208,10 +209,12 @@ def test_a_lesson_with_two_phones_and_a_server_that_is_killed(live: Class, pytes
         if step < 3:
             board.keyboard.press("n")
 
-    # A prediction, in words
+    # A prediction, in words: of the last answer nothing is left to be seen
     board.keyboard.press("f")
     opens(board, "prediction: Step 3 is")
     for phone, text in zip(phones, ("bl ar bl ar ar", "<b>8</b> cells"), strict=True):
+        expect(phone.locator(".phone-kind")).to_have_text("Prediction")
+        expect(phone.locator(".tick[data-kept=true]")).to_have_count(0)
         phone.locator("input[type=text]").fill(text)
         phone.get_by_role("button", name="Send").tap()
         kept(phone)

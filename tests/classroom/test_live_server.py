@@ -20,7 +20,7 @@ from tornado.websocket import WebSocketClientConnection, websocket_connect
 from lsys_kit.classroom.live.events import Events, NotKept
 from lsys_kit.classroom.live.report import report_table
 from lsys_kit.classroom.live.server import Rates
-from lsys_kit.classroom.live.session import Asked, Session
+from lsys_kit.classroom.live.session import MOST_OF_A_PHONE, Asked, Session
 from tests.classroom.live_class import SECONDS, Phone, Running, run, running, started
 
 PAGES = {"index.html": b"<!doctype html><title>Course</title>"}
@@ -373,8 +373,8 @@ def test_ten_thousand_joins_from_one_phone_are_one_phone(fresh: Running) -> None
     assert run(join_again()) > 40, "strangers that come too fast are refused"
 
 
-def test_slow_requests_are_given_up(fresh: Running, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Slow loris: heads that never end do not keep others from the server."""
+def test_heads_that_never_end_keep_nobody_waiting(fresh: Running) -> None:
+    """Slow loris."""
     host, port = fresh.server.address.removeprefix("http://").split(":")
     slow = [socket.create_connection((host, int(port)), SECONDS) for _ in range(200)]
     for each in slow:
@@ -438,6 +438,12 @@ def test_exercises_are_answered_and_the_class_hears_of_it(fresh: Running) -> Non
     fresh.do(do="show", kind="exercise", about="1.1", round=1)
     seen = fresh.room.session.board(2)["current"]
     assert (seen["solved"], seen["stuck"], seen["replies"][0]["count"]) == (1, 1, 1)
+
+
+def test_a_phone_sends_no_more_plants_than_the_wall_has_room_for(fresh: Running) -> None:
+    fresh.room.session.planted[f"{52:032x}"] = MOST_OF_A_PHONE
+    assert "plants already" in ask(fresh, 52, kind="plant", text="axiom: F", sent=1)["mistake"]["message"]
+    assert "description" in ask(fresh, 53, kind="plant", text="axiom: F", sent=1)
 
 
 def test_plants_come_to_the_wall_and_are_taken_away(fresh: Running) -> None:

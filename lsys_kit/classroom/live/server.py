@@ -32,7 +32,7 @@ import tornado.websocket
 from lsys_kit.classroom.live import pages
 from lsys_kit.classroom.live.events import LETTERS, TEACHER, ClassEntry, Event, Events, NotKept
 from lsys_kit.classroom.live.questions import EXERCISE, ROUNDS, VOTE, named, question, questions, value_of
-from lsys_kit.classroom.live.session import GAME, PLANT, WALL, Asked, Session
+from lsys_kit.classroom.live.session import GAME, MOST_OF_A_PHONE, PLANT, WALL, Asked, Session
 from lsys_kit.classroom.live.workers import Busy, Workers
 from lsys_kit.errors import LSystemError, ModelFileError, ModelLimitError
 from lsys_kit.translation import gettext
@@ -212,6 +212,8 @@ class LiveClass:
     async def asks(self, phone: str, content: Mapping[str, Any]) -> bytes:
         """What the kit answers to a phone; a try at an exercise and a plant are kept before the phone hears of it."""
         kind, sent = content.get("kind"), content.get("sent")
+        if kind == PLANT and self.session.planted[phone] >= MOST_OF_A_PHONE:
+            return _mistake(f"You have sent {MOST_OF_A_PHONE} plants already", "That is all the wall has room for.").encode()
         number = sent if type(sent) is int and 0 < sent < _LAST_SENT else 0
         counted = number and (kind == PLANT or (kind == "check" and not (content.get("hint") or content.get("solution"))))
         asked = {name: value for name, value in content.items() if name not in ("sent", "phone")}

@@ -37,8 +37,8 @@ GAME, PLANT, WALL = "game", "plant", "wall"
 OPEN, CLOSED = "open", "closed"
 MOST_SHOWN, MOST_SAID = 40, 4
 """So many different predictions are shown, and so many replies to an exercise."""
-MOST_PLANTS = 200
-"""So many plants the wall has room for; older ones give way."""
+MOST_PLANTS, MOST_OF_A_PHONE = 200, 30
+"""So many plants the wall has room for, older ones give way; and so many a phone may send."""
 FEW_NUMBERS = 12
 """Predictions that are numbers are bars, if there are no more different ones than this; else a cloud of words."""
 
@@ -76,6 +76,7 @@ class Session:
         self.games: dict[str, Game] = {}
         self.plants: dict[int, Data] = {}
         self._last_plant = -1
+        self.planted: Counter[str] = Counter()
         self.phones: dict[str, None] = {}
         self.last_done = 0
         self.seats: list[str] = []
@@ -93,6 +94,7 @@ class Session:
         self.phones.setdefault(event.phone)
         if event.kind == PLANT:
             self._last_plant += 1
+            self.planted[event.phone] += 1
             self.plants[self._last_plant] = event.value
             while len(self.plants) > MOST_PLANTS:
                 del self.plants[min(self.plants)]

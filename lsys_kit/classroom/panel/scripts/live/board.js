@@ -191,8 +191,9 @@ export function openBoard() {
     }
   }
 
-  const toggleShown = () => state.current && tell({ do: "show", ...named(), on: !state.current.shown });
-  const toggleClosed = () => state.current && tell({ do: state.current.status === "closed" ? "open" : "close", ...named() });
+  const isQuestion = () => state.current && state.current.kind !== "wall";
+  const toggleShown = () => isQuestion() && tell({ do: "show", ...named(), on: !state.current.shown });
+  const toggleClosed = () => isQuestion() && tell({ do: state.current.status === "closed" ? "open" : "close", ...named() });
   const toggleJoin = () => {
     joining = !joining;
     show();
@@ -230,7 +231,8 @@ export function openBoard() {
 
   function showTools() {
     const { current } = state;
-    for (const name of ["show", "close", "finish"]) buttons[name].disabled = !current;
+    for (const name of ["show", "close"]) buttons[name].disabled = !current || current.kind === "wall";
+    buttons.finish.disabled = !current;
     buttons.next.disabled = !hasNext();
     buttons.next.textContent = current?.kind === "game" ? worded("Next step") : worded("Second vote");
     buttons.show.textContent = current?.shown ? worded("Hide") : worded("Show");

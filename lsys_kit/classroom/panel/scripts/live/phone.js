@@ -21,6 +21,10 @@ export function openPhone() {
       link.dataset.there = String(isThere);
     },
     state({ current }) {
+      if (keyOf(told) !== keyOf(current)) {
+        status.textContent = "";
+        status.dataset.kept = "false";
+      }
       told = current;
       if (told && keyOf(told) !== keyOf(own)) own = null;
       show();
