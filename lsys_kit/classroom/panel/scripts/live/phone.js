@@ -37,6 +37,13 @@ export function openPhone() {
     },
   });
 
+  // One element for each picture: a new one would have no size at first, and what is below it would move under the finger.
+  const pictures = new Map();
+  function pictureOf(src, alt) {
+    if (!pictures.has(src)) pictures.set(src, made("img", { src, alt }));
+    return pictures.get(src);
+  }
+
   const keyOf = (each) => (each ? `${each.kind} ${each.about} ${each.round}` : "");
 
   // Send an answer; it is shown as chosen at once, and ticked when it is kept.
@@ -77,7 +84,7 @@ export function openPhone() {
       ...(number === right ? { "data-right": true } : {}),
     }, made("b", LETTERS[number]), prose(option)));
     return made("section.phone-card", made("p.phone-kind", round === 1 ? worded("First vote") : worded("Second vote")), made("h2", { id }, prose(question)),
-      ...(picture ? [made("img", { src: picture, alt: described })] : []), made("div.choices", { role: "group", "aria-labelledby": id }, ...buttons),
+      ...(picture ? [pictureOf(picture, described)] : []), made("div.choices", { role: "group", "aria-labelledby": id }, ...buttons),
       ...(reply ? [made("p.phone-reply", made("b", chosen === right ? `✓ ${worded("Right")}. ` : `${LETTERS[right]} ${worded("is right")}. `), prose(reply))] : []), ...closedNote());
   }
 
