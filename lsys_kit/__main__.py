@@ -153,6 +153,12 @@ def _seed(text: str) -> int:
     raise argparse.ArgumentTypeError(f'the seed must be a whole number, not "{text[:40]}"')
 
 
+def _port(text: str) -> int:
+    if re.fullmatch(r"[0-9]{1,5}", text) and int(text) < 65_536:
+        return int(text)
+    raise argparse.ArgumentTypeError(f'the port must be a whole number from 0 to 65535, not "{text[:40]}"')
+
+
 _READERS: Mapping[str, Any] = {
     "steps": _step_count,
     "several steps": _step_counts,
@@ -161,6 +167,7 @@ _READERS: Mapping[str, Any] = {
     "colours": _colours,
     "constant": _constant_setting,
     "seed": _seed,
+    "port": _port,
     "yes or no": argparse.BooleanOptionalAction,
 }
 """What reads the values of options, by the types in `commands.toml`."""

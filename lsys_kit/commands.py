@@ -425,6 +425,21 @@ def write_site(options: argparse.Namespace) -> None:
     print(f"{len(pages)} pages are written. Open {quotable(str(pages[0]))} in a browser.")
 
 
+def open_class(options: argparse.Namespace) -> None:
+    from lsys_kit.classroom.live import serving
+
+    folder = options.folder or options.place or serving.FOLDER
+    if options.what == "report":
+        from lsys_kit.classroom.live.report import write_reports
+
+        for path in write_reports(folder):
+            print(path)
+    elif options.forget:
+        print(serving.forget(folder, options.class_names))
+    else:
+        serving.serve(folder, options.class_names, options.port, options.public, options.course)
+
+
 def open_lab(options: argparse.Namespace) -> None:
     from lsys_kit.classroom.course import FOLDER, copy_course, copy_report
 
@@ -449,7 +464,7 @@ SECONDS, BYTES = 12, 8
 """These multiples of the kit's own limits: a command has several tasks, and libraries take memory to begin with."""
 MERCY = 30
 """So many seconds of the processor after it was told so a process is ended that goes on."""
-LASTING, UNLIMITED = frozenset({"site", "collect", "wall", "exercises"}), frozenset({"lab"})
+LASTING, UNLIMITED = frozenset({"site", "collect", "wall", "exercises"}), frozenset({"lab", "class"})
 """The commands that have as much time as they need, and those that have memory, too."""
 
 

@@ -165,9 +165,9 @@ def _work_on(work: Callable[[_P], Any], pieces: Sequence[_P], seconds: int, resu
     nowhere = os.open(os.devnull, os.O_RDWR)
     for stream in range(3):
         os.dup2(nowhere, stream)
-    _limit_memory()
+    limit_memory()
     for piece in pieces:
-        _limit_seconds(seconds)
+        limit_seconds(seconds)
         results.send_bytes(json.dumps(_done(work, piece)).encode())
 
 
@@ -180,7 +180,7 @@ def _done(work: Callable[[_P], Any], piece: _P) -> tuple[bool, Any]:
         return False, f"It cannot be worked on ({type(fault).__name__})"
 
 
-def _limit_memory() -> None:
+def limit_memory() -> None:
     """Bound the memory, and write no files, not even of a crash."""
     with suppress(ImportError, OSError, ValueError):  # there is no such module on Windows, and not every limit on macOS
         import resource
@@ -192,7 +192,7 @@ def _limit_memory() -> None:
         resource.setrlimit(resource.RLIMIT_AS, (taken + MEMORY, taken + MEMORY))
 
 
-def _limit_seconds(seconds: int) -> None:
+def limit_seconds(seconds: int) -> None:
     """Let the system end this process when it has taken so much more time of the processor."""
     with suppress(ImportError):
         import resource

@@ -27,11 +27,13 @@ _LANGUAGE = re.compile(r"[A-Za-z]{2,3}(-[A-Za-z0-9]{2,8})*")
 
 @dataclass(frozen=True)
 class Program:
-    """What runs in a page: a script, the style of what it makes, and the data that it reads."""
+    """What runs in a page: a script, the style of what it makes, and the data that it reads; and whether it may ask the server
+    from which it came, and show its pictures."""
 
     script: str
     style: str
     data: Mapping[str, Any]
+    asks: bool = False
 
 
 def document(title: str, body: str, style: str, description: str, program: Program | None = None, language: str = "en") -> str:
@@ -84,9 +86,10 @@ def _first() -> str:
 
 def _policy(program: Program | None) -> str:
     runs = f"script-src {_hashed(_first())} {_hashed(program.script)}; " if program else ""
+    own, also = ("connect-src 'self'; ", "'self' ") if program and program.asks else ("", "")
     return (
-        f"default-src 'none'; {runs}style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'; "
-        "require-trusted-types-for 'script'; trusted-types lsys"
+        f"default-src 'none'; {runs}{own}style-src 'unsafe-inline'; img-src {also}data: blob:; base-uri 'none'; "
+        "form-action 'none'; require-trusted-types-for 'script'; trusted-types lsys"
     )
 
 

@@ -253,16 +253,21 @@ class Explorer(KitWidget):
         return limits(modules=min(MOST_MODULES, current().modules))
 
     def _answer(self, _: object, content: Mapping[str, Any], buffers: object) -> None:
-        """Answer what the browser asks, by its number; a mistake is an answer too."""
-        kinds = {"book": self._book_for, "rules": self._model_for, "variants": self._variants, "keep": self._kept}
+        """Answer what the browser asks, by its number."""
         reply: Data = {"mistake": _mistake(_BROKEN_OFF)}
         try:
-            with self._limited(), Task("It was not finished"):
-                reply = kinds[content["kind"]](content)
-        except LSystemError as error:
-            reply = {"mistake": _mistake(error)}
+            reply = self.answer(content)
         finally:  # the browser waits for an answer, also where the kernel is interrupted
             self.send({"number": content["number"], **reply})
+
+    def answer(self, content: Mapping[str, Any]) -> Data:
+        """What is answered to a question of the panel's script; a mistake is an answer too."""
+        kinds = {"book": self._book_for, "rules": self._model_for, "variants": self._variants, "keep": self._kept}
+        try:
+            with self._limited(), Task("It was not finished"):
+                return kinds[content["kind"]](content)
+        except LSystemError as error:
+            return {"mistake": _mistake(error)}
 
     def _book_for(self, content: Mapping[str, Any]) -> Data:
         return {"book": self._opened.book(self._values(content["constants"]), int(content["seed"]), self.model["step"])}

@@ -24,11 +24,12 @@ from lsys_kit.errors import LSystemError, ModelFileError, quotable
 from lsys_kit.files import file_errors, made_by_the_kit, save_file
 
 
-def build_site(folder: str | Path, source: Path | None = None) -> tuple[Path, ...]:
+def build_site(folder: str | Path, source: Path | None = None, live: bool = False) -> tuple[Path, ...]:
     """Write the course into a folder as pages that need neither Python nor a network, and return them, the first one first.
 
     The folder is made if necessary. Pages of an older site in it are replaced, and nothing else; what the kit did not make is
-    an error, as is a cell that fails. The course is by default what came with the kit.
+    an error, as is a cell that fails. The course is by default what came with the kit. Live pages are
+    for the server of a class.
     """
     folder = Path(folder)
     files = {name: path for name, path in course_files(source).items() if name.endswith(".ipynb")}
@@ -39,9 +40,9 @@ def build_site(folder: str | Path, source: Path | None = None) -> tuple[Path, ..
     _make_room(folder, places)
     known, pictures = {each.name: each for each in entries}, dict[str, str]()
     for name, notebook in _run(files, stored):
-        save_file(places[name], notebook_page(known[name], notebook.cells, entries).encode())
+        save_file(places[name], notebook_page(known[name], notebook.cells, entries, live).encode())
         pictures.update((name, each) for each in found_in(notebook.cells, showing.SMALL))
-    save_file(places[INDEX], index_page(entries, pictures).encode())
+    save_file(places[INDEX], index_page(entries, pictures, live).encode())
     return tuple(places.values())
 
 

@@ -19,7 +19,7 @@ opens the course in Jupyter.</p>
 """
 
 
-def index_page(entries: Sequence[Entry], pictures: Mapping[str, str]) -> str:
+def index_page(entries: Sequence[Entry], pictures: Mapping[str, str], live: bool = False) -> str:
     """The first page: the lessons, some of them with a picture in SVG, and what belongs to them."""
     parts: Parts = []
     lessons = [each for each in entries if is_lesson(each.name)]
@@ -32,7 +32,7 @@ def index_page(entries: Sequence[Entry], pictures: Mapping[str, str]) -> str:
 <h1>{COURSE}</h1>
 <p class="lead">Short rules can grow a plant. These lessons show how, from a row of cells to a hedge in the light: predict,
 look, move a slider, change a rule.</p>
-{_NOTE}
+{"" if live else _NOTE}
 <h2 id="lessons">Lessons</h2>
 <p class="quiet">Each lesson belongs to a way through the course: {tracks}.</p>
 <p class="quiet" id="done" role="status" hidden></p>

@@ -13,10 +13,12 @@ from typing import Any
 from urllib.parse import quote
 
 from lsys_kit.classroom.course import is_lesson
+from lsys_kit.classroom.exercises.kinds.choices import letters
+from lsys_kit.classroom.exercises.registry import exercise_of
 from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.classroom.lessons.lesson import Lesson
 from lsys_kit.classroom.lessons.widget import escaped_lines, html, prose_html, prose_text
-from lsys_kit.classroom.panel.bundle import Data, compact, style
+from lsys_kit.classroom.panel.bundle import Data, compact, style, translated_words
 from lsys_kit.classroom.panel.document import Program, deflated_text, document
 from lsys_kit.classroom.panel.page import not_needed
 from lsys_kit.classroom.site.markdown import Links, address_on_site, markdown_html, mathml
@@ -69,33 +71,58 @@ class Entry:
         return str(PurePosixPath(self.name).parent)
 
 
-def notebook_page(entry: Entry, cells: Sequence[Any], entries: Sequence[Entry]) -> str:
-    """The page of a notebook; of exercises the questions, with room on paper for each answer."""
+def notebook_page(entry: Entry, cells: Sequence[Any], entries: Sequence[Entry], live: bool = False) -> str:
+    """The page of a notebook; of exercises the questions, with room on paper for each answer.
+
+    On a live page, which comes from the server of a class, exercises can be answered and rules changed.
+    """
     links, parts = partial(address_on_site, entry.name, {each.name for each in entries}), Parts()
     if entry.folder == "exercises":
-        head, *questions = re.split("(?=<h2)", "".join(_question_html(each, links) for each in cells))
+        head, *questions = re.split("(?=<h2)", "".join(_question_html(each, links, parts, live) for each in cells))
         title, end, rest = head.partition("</h1>\n")
-        begin = title + end + _HOW.format(name=escaped(entry.name)) + rest
+        begin = title + end + ("" if live else _HOW.format(name=escaped(entry.name))) + rest
         begin += "".join(f'<div class="question">\n{each}</div>\n' for each in questions)
     else:
-        note = _KEPT if is_lesson(entry.name) else ""
-        begin = cells_html(cells[:1], links, parts) + note + cells_html(cells[1:], links, parts) + _place_for_done(entry)
+        note = _KEPT if is_lesson(entry.name) and not live else ""
+        begin = cells_html(cells[:1], links, parts, live) + note + cells_html(cells[1:], links, parts, live)
+        begin += _place_for_done(entry)
     row = _neighbours(entry, entries)
     body = (
         f'<a class="skip" href="#main">Skip to the text</a>\n<header>{_above(entry)}</header>\n'
         f'<main id="main">\n{begin}</main>\n<footer><nav aria-label="other pages">{row}</nav></footer>\n'
     )
     described = prose_text(entry.lesson.question) if entry.lesson else entry.title
-    return document(entry.title, body, style("course"), described, _program(parts))
+    return document(entry.title, body, style("course"), described, _program(parts, live))
 
 
-def _question_html(cell: Any, links: Links) -> str:
-    """A cell of exercises: its text, but not what is there for marks alone; room in the place of a cell for an answer."""
+def _question_html(cell: Any, links: Links, parts: Parts, live: bool) -> str:
+    """A cell of exercises: its text, but not what is there for marks alone; in the place of a cell for an answer room on paper,
+    or on a live page what takes the answer."""
     if cell.cell_type == "markdown":
         return "" if cell.get("id") == "marks" else markdown_html(cell.source.partition(_IN_JUPYTER)[0], links)
+    if live and (found := _ANSWER.fullmatch(cell.get("id", ""))):
+        return _answer_html(found[1].replace("-", "."), parts)
     if any(line.startswith("check(") for line in cell.source.splitlines()):
         return _ROOM
     return "" if _ABOUT_ANSWERS.search(cell.source) or not cell.source.strip() else _code_html(cell, [])
+
+
+_ANSWER = re.compile(r"exercise-([\w-]+)-answer")
+"""The id of the cell in which an exercise is answered."""
+
+
+def _answer_html(id: str, parts: Parts) -> str:
+    """The place in which an exercise is answered on a live page."""
+    found = exercise_of(id)
+    data = {
+        "id": found.id,
+        "kind": found.kind,
+        "title": found.title,
+        "template": found.template,
+        "hints": len(found.hints),
+        "options": [*letters(found)] if found.kind == "choice" else [],
+    }
+    return _part_html({"kind": "exercise", "data": data}, "", parts)
 
 
 def _above(entry: Entry) -> str:
@@ -125,12 +152,17 @@ def _others(entry: Entry, entries: Sequence[Entry]) -> Iterator[tuple[str, str, 
     yield from (("after", "Next", each) for each in alike[place + 1 :][:1])
 
 
-def _program(parts: Parts) -> Program | None:
-    if not parts:
+def _program(parts: Parts, live: bool) -> Program | None:
+    if not parts and not live:
         return None
-    modes = {*_modes(parts)}
-    script = f'"use strict";\n{compact("course", not_needed(*modes) if modes else _PANELS)}\nopenCoursePage();\n'
-    return Program(script, style() + style("lessons"), _with_books_once(parts))
+    if live:  # rules can be edited: a panel may draw anything
+        script = f'"use strict";\n{compact("class_page")}\nopenClassPage();\n'
+    else:
+        modes = {*_modes(parts)}
+        script = f'"use strict";\n{compact("course", not_needed(*modes) if modes else _PANELS)}\nopenCoursePage();\n'
+    words = {"words": translated_words("class_page", "panel", "filling", "voting")} if live else {}
+    looks = style() + style("lessons") + (style("class_page") if live else "")
+    return Program(script, looks, {**_with_books_once(parts), **words}, live)
 
 
 def _modes(data: Any) -> Iterator[str]:
@@ -165,13 +197,20 @@ _PICTURE = re.compile(r'src="data:image/svg\+xml;base64,([A-Za-z0-9+/=]{4000,})"
 _SIZE = re.compile(r'<svg(?: (?!width)[\w:]+="[^"]*")*( width="[^"]*" height="[^"]*")')
 
 
-def cells_html(cells: Sequence[Any], links: Links, parts: Parts) -> str:
+def cells_html(cells: Sequence[Any], links: Links, parts: Parts, live: bool = False) -> str:
     """Cells of a notebook as HTML; what the script of the page has to know is added to `parts`."""
     return "".join(
-        markdown_html(cell.source, links, notes()) if cell.cell_type == "markdown" else _code_html(cell, parts)
+        markdown_html(cell.source, links, _nothing if live else notes())
+        if cell.cell_type == "markdown"
+        else _code_html(cell, parts)
         for cell in cells
         if cell.cell_type in ("markdown", "code") and cell.source.strip()
     )
+
+
+def _nothing(_: str) -> str:
+    """What is said on a live page after a block that asks for something: all can be done there."""
+    return ""
 
 
 def _code_html(cell: Any, parts: Parts) -> str:

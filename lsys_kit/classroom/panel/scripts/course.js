@@ -15,8 +15,10 @@ import { made } from "./views/controls.js";
 
 const KINDS = { panel, comparison, vote, prediction, worksheet, beside, rules };
 
-export function openCoursePage() {
-  return openParts(KINDS, cannot, { ballots: new Map(), finished: offerDone(document.querySelector("[data-lesson]")) });
+// What a page of a class does otherwise is in `outside`: { hostWith, told(kind, asked, round, value), and functions that open parts }.
+export function openCoursePage(outside = {}) {
+  const finished = offerDone(document.querySelector("[data-lesson]"));
+  return openParts({ ...KINDS, ...outside }, cannot, { ballots: new Map(), outside, finished });
 }
 
 // At the end of a lesson a box to be ticked when it is done; the second vote ticks it, too.
@@ -32,7 +34,7 @@ function offerDone(place) {
 }
 
 // Panels of the same books have them in common.
-const hostOf = (data, { books }) => hostWith({ ...data, books: books[data.books] }, false);
+const hostOf = (data, { books, outside }) => (outside.hostWith ?? hostWith)({ ...data, books: books[data.books] }, false);
 
 async function panel(place, data, page) {
   const host = await hostOf(data, page);
@@ -65,6 +67,7 @@ function vote(place, { asked: question, again, said }, page) {
     keepAnswer(key, ballot.votes.some((each) => each >= 0) ? ballot.votes : null);
     for (const tell of ballot.tellers) tell();
     if (again && ballot.votes[own] >= 0) page.finished();
+    page.outside.told?.("vote", "", again ? 2 : 1, ballot.votes[own]);
   });
   ballot.tellers.push(() => model.tell(saying()));
 }
@@ -98,18 +101,24 @@ function prediction(place, { question, known }, page) {
     place.append(answer);
     for (const each of answer.querySelectorAll("[data-part]:not([data-open])")) openPart(each, page);
   };
-  const model = asked(askForPrediction, place, { question, typed: said, revealed: before?.length === 1, outcome: {} }, show);
+  const model = asked(askForPrediction, place, { question, typed: said, revealed: before?.length === 1, outcome: {} }, (changed) => {
+    show(changed);
+    if (changed.get("revealed") && changed.get("typed")) page.outside.told?.("prediction", question, 1, changed.get("typed"));
+  });
   if (model.get("revealed")) show(model);
 }
 
-function worksheet(place, data) {
+function worksheet(place, data, { outside }) {
   const { title, columns } = data.sheet, key = `table ${[title, ...columns].join(" ")}`, many = data.blanks.length, before = keptAnswer(key);
   const [typed, entries, first] = ["typed", "entries", "first"].map((name) => fitted(before?.[name], many));
   const done = entries.some(Boolean) ? { number: 0, first, ...checked(data, entries) } : {};
   asked(askForEntries, place, { sheet: data.sheet, typed, asked: done.marks ? { number: 0, entries } : {}, result: done }, ({ get, tell }) => {
     const now = get("asked"), was = get("result");
     if (!now.entries) tell({ result: {} });
-    else if (now.number !== was.number) tell({ result: { number: now.number, first: now.entries.map((entry, at) => was.first?.[at] || entry), ...checked(data, now.entries) } });
+    else if (now.number !== was.number) {
+      tell({ result: { number: now.number, first: now.entries.map((entry, at) => was.first?.[at] || entry), ...checked(data, now.entries) } });
+      outside.told?.("table", data.sheet.title, 1, now.entries);
+    }
     const { first: earliest } = get("result");
     keepAnswer(key, get("typed").some(Boolean) ? { typed: get("typed"), entries: now.entries, first: earliest } : null);
   });
@@ -118,7 +127,7 @@ function worksheet(place, data) {
 async function beside(place, { panel: seen, sheet }, page) {
   const [left, right] = [made("div"), made("div")];
   place.replaceChildren(left, right);
-  worksheet(right, sheet);
+  worksheet(right, sheet, page);
   await KINDS[seen.kind](left, seen.data, page);
 }
 

@@ -68,6 +68,7 @@ export function keeping(host, { canvas, file, code, state }) {
   async function keep(kind) {
     const kept = await host.keep(kind, state());
     if (!kept || kept.mistake) said.textContent = kept?.mistake ? `${kept.mistake.message}. ${kept.mistake.hint ?? ""}` : "The kernel does not answer.";
+    else if (kept.said) said.textContent = kept.said;
     else if (kept.name) download(kept.name, new Blob([kept.bytes ?? kept.text], { type: kept.type }));
     else show(kept.text);
   }
@@ -87,7 +88,7 @@ export function keeping(host, { canvas, file, code, state }) {
     said.textContent = worded("kept as {name}", { name });
   }
 
-  const kinds = { svg: "SVG", page: worded("page"), link: worded("link") };
+  const kinds = { svg: "SVG", page: worded("page"), link: worded("link"), wall: worded("to the wall") };
   element.append(button("PNG", worded("keep the drawing as a PNG picture"), () => canvas.toBlob((blob) => download(`${host.file || file()}.png`, blob))));
   for (const [kind, text] of Object.entries(kinds)) {
     if (host.keeps.includes(kind)) element.append(button(text, worded("take along: {text}", { text }), () => keep(kind)));

@@ -1,0 +1,127 @@
+"""What pages of a class ask the kit: books and models for their panels, replies to answers, drawings for the wall.
+
+Each is answered from what the question says, and nothing else is kept. A worker process answers, under limits lower than those
+of a kernel: see `workers`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from lsys_kit.budget import limits
+from lsys_kit.classroom.exercises.check import checked
+from lsys_kit.classroom.exercises.registry import exercise_of
+from lsys_kit.classroom.exercises.replies import reply
+from lsys_kit.classroom.live.game import game_data, game_of
+from lsys_kit.classroom.live.questions import asked_of, question
+from lsys_kit.classroom.panel.bundle import Data
+from lsys_kit.classroom.panel.explorer import Explorer
+from lsys_kit.classroom.panel.opened.kinds import opened
+from lsys_kit.classroom.wall import drawn_as
+from lsys_kit.errors import LSystemError, ModelValueError
+from lsys_kit.notation.read import CELL_READERS, read
+
+BUDGET: Mapping[str, float] = {"modules": 100_000, "bytes": 2**27, "seconds": 2.0, "text": 20_000, "rules": 200}
+"""The limits of an answer."""
+SEEN = ("step", "angle", "around", "above", "seed", "mark", "settings")
+"""What is chosen in a panel."""
+_NUMBERS = ("step", "angle", "around", "above", "seed")
+
+
+def answer(asked: Mapping[str, Any]) -> Data:
+    """What is answered to a question; a mistake in a model is an answer too.
+
+    >>> answer({"kind": "check", "id": "1.1", "answer": "bl ar bl ar ar"})["said"]
+    'Correct'
+    >>> panel = {"notation": "abop", "text": "axiom: a\\na -> ab\\nb -> a"}
+    >>> answer({"kind": "rules", "panel": panel, "text": "axiom: a\\na -> b = c"})["mistake"]["line"]
+    2
+    """
+    try:
+        with limits(**BUDGET):
+            return _KINDS[asked["kind"]](asked)
+    except LSystemError as mistake:
+        return {"mistake": {"message": mistake.message, "hint": mistake.hint or ""}}
+    except (KeyError, TypeError, ValueError, AttributeError):  # of a question that no page of the kit asks
+        return {"mistake": {"message": "This question cannot be understood", "hint": ""}}
+
+
+def _panel(asked: Mapping[str, Any]) -> Data:
+    """What a panel asks; where its model or what is chosen has changed, that is told, too."""
+    given = asked["panel"]
+    text, notation = str(given["text"]), str(given["notation"])
+    system = CELL_READERS[notation](text) if notation in CELL_READERS else read(text, notation)
+    chosen = {name: given[name] for name in _NUMBERS if isinstance(given.get(name), int | float)}
+    settings = {str(name): str(value) for name, value in dict(given.get("settings", {})).items()}
+    without = frozenset(map(str, given.get("without", ())))
+    what = opened(system, str(given.get("title", ""))[:100], settings, without, given.get("unfold") or False)
+    panel = Explorer(
+        what, None, chosen.get("angle"), int(chosen.get("seed", 0)), without, given.get("unfold") or False, given.get("show")
+    )
+    try:
+        return _told(panel, asked, chosen)
+    finally:
+        panel.close()
+
+
+def _told(panel: Explorer, asked: Mapping[str, Any], chosen: Mapping[str, Any]) -> Data:
+    panel.step = max(0, min(int(chosen.get("step", panel.step)), panel.model["book"]["steps"]))
+    panel.around, panel.above = (int(chosen.get(name, getattr(panel, name))) for name in ("around", "above"))
+    panel.mark = str(asked["panel"].get("mark", ""))
+    if asked["kind"] == "open":
+        return _state(panel)
+    reply = panel.answer(asked)
+    return {**reply, **_state(panel)} if "opened" in reply else reply
+
+
+def _state(panel: Explorer) -> Data:
+    """The model of a panel, and what is chosen in it."""
+    return {
+        "model": panel.model,
+        "values": {name: getattr(panel, name) for name in SEEN},
+        "system": {"notation": panel.system.notation, "text": str(panel.system)},
+    }
+
+
+def _check(asked: Mapping[str, Any]) -> Data:
+    """The verdict on an answer to an exercise, with the hints up to one, or with the solution."""
+    exercise = exercise_of(str(asked["id"]))
+    verdict = checked(exercise, str(asked.get("answer", "")), 0, asked.get("solution") is True, "")
+    hinted = asked.get("hint", 0) if verdict.said in ("Almost", "Not yet") and type(asked.get("hint")) is int else 0
+    most = len(exercise.hints)
+    hints = [
+        reply("check.hint", number=at, most=most, hint=hint) for at, hint in enumerate(exercise.hints[: max(0, hinted)], 1)
+    ]
+    return {"said": verdict.said, "message": "\n".join([verdict.message, *hints])}
+
+
+def _plant(asked: Mapping[str, Any]) -> Data:
+    """A model or a link drawn for the wall."""
+    drawn = drawn_as(str(asked["text"]), BUDGET["seconds"])
+    if len(drawn.get("picture", "")) > MOST_PICTURE:
+        raise ModelValueError("This drawing is too large for the wall", hint="Take fewer steps.")
+    return drawn or {"mistake": {"message": "It takes too long to draw", "hint": "Take fewer steps."}}
+
+
+MOST_PICTURE = 400_000
+"""The greatest size of a drawing on the wall, in characters."""
+
+
+def _asked(asked: Mapping[str, Any]) -> Data:
+    """What a question of a lesson asks, with its picture."""
+    return asked_of(question(str(asked["of"]), str(asked["about"])))
+
+
+def _game(asked: Mapping[str, Any]) -> Data:
+    """The game with a system."""
+    return game_data(game_of(str(asked["what"])))
+
+
+_KINDS: Mapping[str, Callable[[Mapping[str, Any]], Data]] = {
+    **dict.fromkeys(("open", "book", "rules", "variants", "keep"), _panel),
+    "check": _check,
+    "plant": _plant,
+    "asked": _asked,
+    "game": _game,
+}

@@ -1,0 +1,184 @@
+"""What a class has said, after class: a page to read, and a table of comma-separated values.
+
+Both show numbers of answers; of a phone they show nothing but which of its answers were given by the same one.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+from lsys_kit.classroom.exercises.collecting import cell
+from lsys_kit.classroom.lessons.lesson import lesson
+from lsys_kit.classroom.lessons.vote import LETTERS
+from lsys_kit.classroom.lessons.widget import prose_text
+from lsys_kit.classroom.live.events import FILE, ClassEntry, Events
+from lsys_kit.classroom.live.game import made_by, outcome
+from lsys_kit.classroom.live.questions import EXERCISE, PREDICTION, TABLE, VOTE, question, right_cells, right_option, table_of
+from lsys_kit.classroom.live.session import GAME, Asked, Session
+from lsys_kit.classroom.panel.bundle import style
+from lsys_kit.classroom.panel.document import document
+from lsys_kit.errors import LSystemError, ModelFileError, quotable
+from lsys_kit.files import KIT_MARK, file_stem, save_file
+from lsys_kit.pictures.style.labels import escaped
+
+HEAD = ("question", "kind", "round", "answer", "number", "right", "of")
+"""The columns of the table: a question, an answer to it, how many gave it, whether it is right, and how many answered."""
+SHARES = (
+    (0.3, "few were right: explain it anew"),
+    (0.7, "worth a discussion and a second vote"),
+    (1.01, "most were right: go on"),
+)
+"""What to do after a first vote, by the share of right answers (peer instruction: E. Mazur, 1997)."""
+
+
+def write_reports(folder: str | Path) -> list[Path]:
+    """Write a page and a table for each class of a folder, into the folder; where they are.
+
+    Raises
+    ------
+    ModelFileError
+        No class is kept in the folder, or the files cannot be written.
+    """
+    folder = Path(folder)
+    if not (folder / FILE).is_file():
+        raise ModelFileError(f'No class is kept in "{quotable(str(folder))}"', hint="lsys-kit class --folder FOLDER opens one.")
+    events = Events(folder)
+    written = []
+    try:
+        for entry in events.classes():
+            session = Session(events.of(entry.code))
+            stem = folder / f"report-{file_stem(entry.name, 'class', '')}-{entry.code}"
+            for ending, content in ((".html", report_page(entry, session).encode()), (".csv", report_table(session).encode())):
+                save_file(stem.with_name(stem.name + ending), content)
+                written.append(stem.with_name(stem.name + ending))
+    finally:
+        events.close()
+    return written
+
+
+def rows_of(session: Session) -> Iterator[tuple[Any, ...]]:
+    """The rows of the table, question by question."""
+    for asked in sorted(session.answers):
+        said = session.values(asked)
+        try:
+            yield from _ROWS[asked.kind](session, asked, said)
+        except LSystemError:  # a question that this version of the kit does not have any more
+            yield (asked.about, asked.kind, asked.round, "(no longer in the kit)", len(said), "", len(said))
+
+
+def _votes(session: Session, asked: Asked, said: dict[str, Any]) -> Iterator[tuple[Any, ...]]:
+    counts, right = Counter(said.values()), right_option(asked.about)
+    for place, letter in enumerate(LETTERS):
+        yield (asked.about, VOTE, asked.round, letter, counts[place], "yes" if place == right else "no", len(said))
+
+
+def _predictions(session: Session, asked: Asked, said: dict[str, Any]) -> Iterator[tuple[Any, ...]]:
+    marked = session.marked.get(asked.about, set())
+    for text, count in Counter(said.values()).most_common():
+        yield (asked.about, PREDICTION, asked.round, text, count, "yes" if text in marked else "", len(said))
+
+
+def _tables(session: Session, asked: Asked, said: dict[str, Any]) -> Iterator[tuple[Any, ...]]:
+    table = table_of(question(TABLE, asked.about))
+    marks = [right_cells(table, entries) for entries in said.values()]
+    for place, (row, column, _) in enumerate(table.blanks):
+        name = f"{prose_text(str(table.rows[row][0]))}: {prose_text(table.columns[column])}"
+        for right, word in ((True, "yes"), (False, "no")):
+            yield (asked.about, TABLE, asked.round, name, sum(mark[place] is right for mark in marks), word, len(said))
+
+
+def _exercises(session: Session, asked: Asked, said: dict[str, Any]) -> Iterator[tuple[Any, ...]]:
+    counts = Counter((each["said"], each["message"] if each["said"] != "Correct" else "") for each in said.values())
+    for (verdict, message), count in counts.most_common():
+        right = "yes" if verdict == "Correct" else "no"
+        yield (asked.about, EXERCISE, asked.round, f"{verdict}. {message}".strip(), count, right, len(said))
+
+
+def _games(session: Session, asked: Asked, said: dict[str, Any]) -> Iterator[tuple[Any, ...]]:
+    game = session.game(asked.about)
+    found = outcome(game.turns[asked.round - 1], made_by(game.turns[asked.round - 1], session.chosen(asked)))
+    right = "yes" if found["parts"] is None else "no"
+    yield (f"{asked.about}: {game.title}", GAME, asked.round, found["word"], len(said), right, len(said))
+
+
+_ROWS: dict[str, Any] = {VOTE: _votes, PREDICTION: _predictions, TABLE: _tables, EXERCISE: _exercises, GAME: _games}
+
+
+def report_table(session: Session) -> str:
+    """The table; no text in it is a formula for a spreadsheet.
+
+    >>> report_table(Session())
+    'question,kind,round,answer,number,right,of,lsys-kit\\n'
+    """
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow([*HEAD, KIT_MARK.decode()])
+    for row in rows_of(session):
+        writer.writerow([cell(each) if isinstance(each, str) else each for each in row])
+    return out.getvalue()
+
+
+def report_page(entry: ClassEntry, session: Session) -> str:
+    """The page: the votes with their gains, predictions, tables, exercises and games."""
+    parts = [
+        f"<h1>{escaped(entry.name)}</h1>",
+        f"<p>{len(session.phones)} phones took part. Their numbers are random, and no name is kept.</p>",
+        *_vote_parts(session),
+        *_list_part("Predictions", session, PREDICTION),
+        *_list_part("Tables", session, TABLE),
+        *_list_part("Exercises", session, EXERCISE),
+        *_list_part("Be the cell", session, GAME),
+    ]
+    if session.plants:
+        parts.append(f"<h2>The wall</h2><p>{len(session.plants)} plants.</p>")
+    return document(entry.name, f'<main class="report">{"".join(parts)}</main>\n', style("live"), f"What {entry.name} has said")
+
+
+def _vote_parts(session: Session) -> Iterator[str]:
+    numbers = sorted({asked.about for asked in session.answers if asked.kind == VOTE})
+    if numbers:
+        yield "<h2>Votes</h2>"
+    for number in numbers:
+        first, second = (session.votes(number, round) for round in (1, 2))
+        right, all_first = right_option(number), sum(first["bars"])
+        rows = "".join(
+            f'<tr><th scope="row">{letter}{" ✓" if place == right else ""}</th><td>{first["bars"][place]}</td>'
+            f"<td>{second['bars'][place]}</td></tr>"
+            for place, letter in enumerate(LETTERS)
+        )
+        changes, share = second["changes"], first["bars"][right] / all_first if all_first else None
+        advice = (
+            "" if share is None else f" {share:.0%} were right at first: {next(word for most, word in SHARES if share < most)}."
+        )
+        gain = "" if changes["gain"] is None else f" Normalised gain {changes['gain']:.2f}."
+        yield f"<h3>Lesson {int(number)}: {escaped(lesson(number).title)}</h3>"
+        yield f"<table>{_head('answer', 'first vote', 'second vote')}<tbody>{rows}</tbody></table>"
+        yield (
+            f"<p>Of {changes['both']} who voted twice {changes['better']} changed from wrong to right, and "
+            f"{changes['worse']} from right to wrong.{gain}{advice}</p>"
+        )
+
+
+def _head(*names: str) -> str:
+    return f"<thead><tr>{''.join(f'<th scope=col>{each}</th>' for each in names)}</tr></thead>"
+
+
+def _list_part(title: str, session: Session, kind: str) -> Iterator[str]:
+    rows: Sequence[tuple[Any, ...]] = [row for row in rows_of(session) if row[1] == kind and row[4]]
+    if not rows:
+        return
+    body = "".join(
+        f'<tr><th scope="row">{escaped(str(row[0]))}</th><td>{escaped(_one_line(row[3]))}</td><td>{row[4]} of {row[6]}</td>'
+        f"<td>{row[5]}</td></tr>"
+        for row in rows
+    )
+    yield (f"<h2>{title}</h2><table>{_head('question', 'answer', 'how many', 'right')}<tbody>{body}</tbody></table>")
+
+
+def _one_line(text: object) -> str:
+    return " ".join(str(text).split())
