@@ -106,6 +106,7 @@ COMMANDS: Mapping[str, tuple[Mapping[str, Callable[[Path], Path | str]], str]] =
     "page": (FILES, f"{READ} -o {WRITTEN}.html"),
     "site": (ANY, f"-o {WRITTEN}"),
     "lab": (ANY, WRITTEN),
+    "class": (FOLDERS, f"report {READ}"),
     "collect": (FOLDERS, f"{READ} -o {WRITTEN}.csv"),
     "wall": (FOLDERS, f"{READ} -o {WRITTEN}.html"),
     "exercises check": (FOLDERS, READ),

@@ -584,7 +584,7 @@ LEFT_OUT: Mapping[str, str] = {
         "Comparison.right",
         "Comparison.shared",
     ),
-    "lsys-kit lab": "it serves until it is closed",
+    **dict.fromkeys(("lsys-kit lab", "lsys-kit class"), "it serves until it is closed"),
     **{f"HierarchyPicture.{name}": "it has one picture alone" for name in (*members("HierarchyPicture"), "__repr__")},
 }
 """The public ways that are not tried, and why."""
