@@ -14,7 +14,7 @@ SOLVED = {
     "1.3": (
         "01_all_at_once",
         MIRROR.format("bl ar", "al br"),
-        "Not yet",
+        "Almost",
         "exchange what two kinds of modules become",
         MIRROR.format("al br", "bl ar"),
     ),

@@ -151,7 +151,7 @@ def test_a_kernel_that_is_gone_is_told_of_and_the_rest_goes_on(shown):
     panel = panel_of(notebook.page)
     show_more(panel)
     notebook._ask("await panel.sessionContext.shutdown();")
-    slider(panel, "angle").press("ArrowRight")
+    slider(panel, "angle").press("Shift+ArrowRight")
     expect(panel.locator("canvas.lsys-canvas")).to_have_attribute("data-angle", "25.8")
     slider(panel, "step").press("ArrowRight")
     expect(panel.locator(".lsys-status")).to_contain_text("step 4")

@@ -32,6 +32,8 @@ READ = 400
 VIEWS = {"rules": "rules", "stages": "stages", "how many": "counts", "nine seeds": "seeds", "nine variants": "variants"}
 """The views by the names of their buttons."""
 SEVERAL, BECOMES = " ;; ", " => "
+HANDS = ((Finger, 400), (Mouse, 1440), (Mouse, 400), (Finger, 1440))
+"""With what, and on how wide a screen, lesson after lesson is worked through."""
 
 
 @pytest.mark.slow
@@ -336,8 +338,10 @@ def slides(lesson: str) -> list[tuple[int, str, str]]:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", [f"notebooks/{name}.html" for name in NAMES])
-@pytest.mark.parametrize(("hand", "width"), [(Finger, 400), (Mouse, 400), (Finger, 1440), (Mouse, 1440)])
+@pytest.mark.parametrize(
+    ("name", "hand", "width"),
+    [(f"notebooks/{name}.html", *HANDS[number % len(HANDS)]) for number, name in enumerate(NAMES)],
+)
 def test_each_value_that_a_lesson_asks_for_is_reached_by_hand_on_its_page(opened, hand, width, name) -> None:  # noqa: F811
     page: Page = opened(name, is_phone=width == 400, has_touch=hand is Finger)
     all_parts_open(page)

@@ -108,8 +108,9 @@ def opened(tabs: Callable[..., Tab], site: Path) -> Iterator[Callable[..., Page]
 
     yield open_one
     for tab in used:
-        tab.page.evaluate("localStorage.clear()")
-        tab.page.goto("about:blank")
+        if tab.page.url != "about:blank":  # which has no storage
+            tab.page.evaluate("localStorage.clear()")
+            tab.page.goto("about:blank")
         faults, asked = [*tab.faults], [*tab.asked]
         tab.faults.clear()
         tab.asked.clear()

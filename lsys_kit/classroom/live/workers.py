@@ -13,8 +13,9 @@ import multiprocessing
 import os
 import signal
 import sys
+import time
 from collections import deque
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from hashlib import sha256
@@ -34,6 +35,8 @@ NICER = 10
 """By so much the priority of what takes long is lowered."""
 STARTING = 60.0
 """So many seconds a worker may take to begin, on a busy machine."""
+A_LITTLE = 0.2
+"""Whoever waits looks after so many seconds whether all is being closed."""
 MOST_BYTES = 20_000_000
 """So many bytes an answer has at most."""
 MOST_WAITING, MOST_IN_ALL = 4, 400
@@ -63,10 +66,13 @@ class _Worker:
         self.process.start()
         theirs.close()
 
-    def is_ready(self) -> bool:
-        """Whether it has begun."""
+    def is_ready(self, wanted: Callable[[], bool]) -> bool:
+        """Whether it has begun; that is not waited for when it is wanted no more."""
+        end = time.monotonic() + STARTING
         with suppress(EOFError, OSError):
-            return self.connection.poll(STARTING) and self.connection.recv_bytes() == b"ready"
+            while wanted() and time.monotonic() < end:
+                if self.connection.poll(A_LITTLE):
+                    return self.connection.recv_bytes() == b"ready"
         return False
 
     def end(self) -> None:
@@ -150,10 +156,13 @@ class Workers:
 
     def _answered(self, asked: bytes) -> bytes:
         """The answer of a worker; this waits in a thread."""
-        try:
-            worker = self._ready.get(timeout=STARTING)
-        except Empty:
-            return _TOO_LONG
+        end = time.monotonic() + STARTING
+        while True:
+            with suppress(Empty):
+                worker = self._ready.get(timeout=A_LITTLE)
+                break
+            if self._closed or time.monotonic() > end:
+                return _TOO_LONG
         try:
             worker.connection.send_bytes(asked)
             answer = worker.connection.recv_bytes(MOST_BYTES) if worker.connection.poll(LONGEST) else b""
@@ -176,7 +185,7 @@ class Workers:
             return
         worker = _Worker()
         self._all.add(worker)
-        if worker.is_ready() and not self._closed:
+        if worker.is_ready(lambda: not self._closed) and not self._closed:
             self._ready.put(worker)
         else:
             self._all.discard(worker)
