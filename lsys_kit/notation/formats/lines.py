@@ -20,7 +20,7 @@ from itertools import pairwise
 
 from lsys_kit.errors import ModelSyntaxError
 from lsys_kit.notation.formats.found import Found, Passage, Rule, angle_of, chance_of, tables, unquoted
-from lsys_kit.notation.syntax.text.statements import is_unfinished, surely_goes_on
+from lsys_kit.notation.syntax.text.statements import is_unfinished, pending, surely_goes_on
 from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, assembled, edited
 from lsys_kit.notation.syntax.text.transcription import FULL_STOPS, left_out
 
@@ -506,7 +506,7 @@ def _with_plain_axioms(text: str, items: Sequence[_Item], letters: frozenset[str
             goes_on = named or not following or following.kind != "rule" or len(line.strip()) > 1
         else:
             goes_on = False
-        rule = line if item.kind == "rule" else f"{rule}{line}" if goes_on else rule if item.kind == "" else ""
+        rule = line if item.kind == "rule" else pending(rule + line) if goes_on else rule if item.kind == "" else ""
         if goes_on:
             found.append(replace(item, kind="more"))
         elif (

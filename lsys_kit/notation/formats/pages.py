@@ -10,7 +10,7 @@ import re
 
 from lsys_kit.notation.formats.found import Found
 from lsys_kit.notation.formats.lines import ARROW, OWN_FRAME, is_word
-from lsys_kit.notation.syntax.text.statements import LABEL, is_unfinished
+from lsys_kit.notation.syntax.text.statements import LABEL, is_unfinished, pending
 from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, as_typed, edited
 from lsys_kit.notation.syntax.text.transcription import left_out as note_on
 
@@ -59,7 +59,7 @@ def listings_on_a_page(text: str) -> list[Found]:
             if rule and is_word(said, letters):
                 notes.append(note_on(said))
         if part:
-            rule = said if re.search(ARROW, said) else f"{rule}{said}" if rule else ""
+            rule = said if re.search(ARROW, said) else pending(rule + said) if rule else ""
         before = part if said.strip() else False
     if not left_out and not edits:
         return []

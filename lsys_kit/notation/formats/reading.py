@@ -155,10 +155,8 @@ def what_is_missing(text: str) -> LSystemError | None:
             'A rule reads "F -> F+F": what is replaced, an arrow, what replaces it.',
         )
     if len(systems) == 1 and systems[0].rules and not systems[0].axiom and not _names_of("axiom").search(before.text):
-        where = before.origin(systems[0].rules[0].head.at)
-        return ModelSyntaxError(
-            "There is no axiom in this text", text, where, None, 'Give the first word on a line of its own, as in "axiom: F".'
-        )
+        hint = 'Give the first word on a line of its own, as in "axiom: A".'
+        return ModelSyntaxError("There is no axiom", text, len(text), None, hint)
     if is_prose(before.text):
         return _nothing()
     return None

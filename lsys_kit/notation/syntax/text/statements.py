@@ -82,6 +82,8 @@ def blank_parentheses(text: str) -> str:
     return "".join(kept)
 
 
+_PAIRS = "[]", "{}", "()"
+_DEEPEST = 1_000
 _TURNS = re.compile(r"[-+&^\\/|!\[\]]")
 _UNFINISHED = re.compile(rf"(?:[-+&^\\/|!\[]|{ARROW.pattern})$")
 
@@ -125,7 +127,17 @@ def is_unfinished(rule: str) -> bool:
 
 
 def _is_open(rule: str) -> bool:
-    return any(rule.count(opened) > rule.count(closed) for opened, closed in ("[]", "{}", "()"))
+    return any(rule.count(opened) > rule.count(closed) for opened, closed in _PAIRS)
+
+
+def pending(rule: str) -> str:
+    """What of a production decides whether something must follow: the brackets that are open, and its end.
+
+    >>> pending("F→F[+F[-F]FFFFFFFFFFFFFFFFFFFFF")
+    '[FFFFFFFFFFFFFFFF'
+    """
+    opened = (each[0] * min(rule.count(each[0]) - rule.count(each[1]), _DEEPEST) for each in _PAIRS)
+    return f"{''.join(opened)}{re.sub(r'[][(){}]', '', rule.rstrip()[-16:])}"
 
 
 def check_text(text: str) -> None:

@@ -19,7 +19,15 @@ from itertools import islice
 from typing import NamedTuple
 
 from lsys_kit.budget import current
-from lsys_kit.notation.syntax.text.statements import ARROW, LABEL, OMEGA, blank_parentheses, surely_goes_on, without_comments
+from lsys_kit.notation.syntax.text.statements import (
+    ARROW,
+    LABEL,
+    OMEGA,
+    blank_parentheses,
+    pending,
+    surely_goes_on,
+    without_comments,
+)
 from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, as_typed, edited
 from lsys_kit.notation.syntax.text.typesetting import (
     HEADING,
@@ -236,7 +244,7 @@ class _Listing:
             elif rule and not above and not _NAMED.match(line.text):
                 aside = _REFERENCE if len(line.text) - len(line.text.lstrip()) > indent else _ASIDE
                 if surely_goes_on(line.text, rule, known) or not aside.fullmatch(line.text):
-                    rule += line.text
+                    rule = pending(rule + line.text)
                 else:
                     yield index
 
