@@ -20,7 +20,7 @@ TEXTS = json.loads((Path(__file__).parent / "pasted" / "texts.json").read_text(e
 
 
 @pytest.mark.parametrize("row", TEXTS, ids=[f"{number:03}" for number in range(1, len(TEXTS) + 1)])
-def test_a_text_as_somebody_pasted_it_is_read_as_it_is_meant_or_refused_where_it_is_wrong(row: dict[str, str]) -> None:
+def test_a_text_as_somebody_pasted_it_is_read_as_it_is_meant_or_refused_where_it_is_wrong(row: dict[str, Any]) -> None:
     if "refused" in row:
         with pytest.raises(LSystemError) as found:
             read(row["text"])

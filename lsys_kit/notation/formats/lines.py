@@ -43,7 +43,7 @@ _RULE = (
     rf"(?P<arrow>-*{ARROW}|WORDS|=(?!=)(?![ \t]*\d+(?:\.\d+)?[ \t]*(?:$|[,;:])))"
 )
 _AFTER = re.compile(
-    rf"(?:[ \t]+|(?<=[^\s(]))(?::{_B}(?P<plain>{_CHANCE}|\d(?:\.\d+)?)"
+    rf"(?:(?<![ \t])[ \t]++|(?<=[^\s(]))(?::{_B}(?P<plain>{_CHANCE}|\d(?:\.\d+)?)"
     rf"|[(\[]{_B}(?:p{_B}={_B})?(?P<bracketed>{_CHANCE}){_B}[)\]]"
     rf"|,{_B}p{_B}={_B}(?P<named>{_CHANCE})){_B}$"
 )
@@ -56,9 +56,10 @@ _COMMENT = re.compile(
 """What is said behind a part: a comment, the number of an equation."""
 _NUMBER = re.compile(r"[ \t]*[-+]?(?:\d+(?:[.,]\d+)?|\.\d+)(?:/\d+)?(?P<rest>.*)")
 _BOUNDARY = re.compile(
-    r"[,;|\t({]+[ \t]*(?:(?:and|und|et)[ \t]+)?|[ \t]{2,}|[.][ \t]+|[ \t](?:and|und|y|et|en|e(?=[ \t]+(?:\(|\w{3})))[ \t]+[({]?"
+    r"[,;|\t({]+[ \t]*(?:(?:and|und|et|with|using|by|the|its|an?)[ \t]+){0,3}|[ \t]{2,}|[.][ \t]+|[ \t](?:and|und|y|et|en|e(?=[ \t]+(?:\(|\w{3})))[ \t]+[({]?"
     r"|[ \t]\^[ \t]*\("
-    r"|[ \t](?P<said>with|using|by|the|mit|con|avec|com)[ \t]+|:(?=[ \t])"
+    r"|[ \t](?P<said>with|using|by|the|its|mit|con|avec|com)[ \t]+(?:(?:the|an?)[ \t]+)?"
+    r"|:(?=[ \t])"
 )
 _BULLET = re.compile(
     r"[ \t]*(?:[*•▪‣◦·][ \t]+|-[ \t]+(?=[A-Za-zΑ-ωА-я\"'][^<\n]*(?:[:=→]|->))|\d{1,2}(?:\.\d{1,2})*[.)][ \t]+|[a-z]\)[ \t]+)*"
@@ -217,7 +218,10 @@ def _rule_at(text: str, at: int, end: int, line: int, under_rules: bool) -> _Ite
     if (
         rule
         and _can_be_replaced(rule)
-        and not (rule["arrow"] in ("=", ":=") and _STRICT.search(text, rule.end(), end))
+        and not (
+            rule["arrow"] in ("=", ":=")
+            and (_STRICT.search(text, rule.end(), end) or _CALCULATION.fullmatch(text[rule.end() : end].strip()))
+        )
         and not (
             len(rule["head"].strip()) == 1
             and (_is_prose(text[rule.end() : end]) or (rule["arrow"] in ("=", ":=") and _SET.match(text, rule.end(), end)))
@@ -236,6 +240,8 @@ def _rule_at(text: str, at: int, end: int, line: int, under_rules: bool) -> _Ite
 
 
 _STRICT = re.compile(ARROW)
+_CALCULATION = re.compile(r"\d++(?:\.\d++)?(?:[ ]?[*/^][ ]?\d++(?:\.\d++)?)+")
+"""What a constant is, and no word."""
 _SET = re.compile(r"[ \t]*[{<(⟨][ \t]*\S[ \t]*,")
 """A set of symbols."""
 
@@ -315,7 +321,7 @@ _OWN_STATEMENT = re.compile(
 )
 """Statements of the kit's notations: their readers say what is wrong with a text that has one."""
 _OWN_ARROW = re.compile(r"-->|->|→|⟶|::=")
-_SENTENCE = re.compile(r"[A-Za-zÀ-ÿА-я]{3,}[ ,]+[A-Za-zà-ÿА-я]{3,}")
+_SENTENCE = re.compile(r"(?<![A-Za-zÀ-ÿА-я])[A-Za-zÀ-ÿА-я]{3,}+[ ,]++[A-Za-zà-ÿА-я]{3}")
 _REFERENCE = re.compile(r"\s*(?:\[\d{1,3}\]|\(\d{1,3}\)|\d{2,4}|[-–][ ]?\d{1,4}[ ]?[-–]|/[ ]?[a-z])\s*")
 """The number of a page, of a footnote, a caption's letter, alone on a line."""
 _MARKED = re.compile(r"&(?:\w{2,8}|#\d{1,6});|<(?:b|br|p|tt|td)\b[^<>\n]{0,99}>|\*\*|`|\\begin\{", re.IGNORECASE)
@@ -524,7 +530,7 @@ def _with_plain_axioms(text: str, items: Sequence[_Item], letters: frozenset[str
 
 _ABOVE = re.compile(r"\s*(0?\.\d+|1|1/\d)\s*")
 """A probability over an arrow."""
-_NO_ARROW = re.compile(r"\s*([A-Za-z])([ ]{2,}|\t)\s*(\S+)\s*")
+_NO_ARROW = re.compile(r"\s*+([A-Za-z])([ ]{2,}+|\t)\s*+(\S++)\s*+")
 """A rule that lost its arrow."""
 _LOST = re.compile(rf"[(:,;{{][ \t]*({ARROW})[ \t]*[^\s)]")
 """An arrow that has nothing to its left."""
@@ -566,7 +572,7 @@ def _lost_rules(text: str, items: Sequence[_Item]) -> list[str]:
 
 
 _WRITTEN = re.compile(
-    rf"[A-Za-z\d][ \t]*(?:{ARROW}|[-=:>~]{{1,3}})[ \t]*[A-Za-z\d+\-\[\]&^/\\|(]*[\[\](+&][A-Za-z\d+\-\[\]&^/\\|()\d. :*,]*"
+    rf"[A-Za-z\d][ \t]*(?:{ARROW}|[-=:>~]{{1,3}})[ \t]*[A-Za-z\d\-^/\\|]*+[\[\](+&][A-Za-z\d+\-\[\]&^/\\|()\d. :*,]*+"
 )
 """What one takes for a rule."""
 
@@ -604,9 +610,8 @@ def is_prose(text: str) -> bool:
     )
 
 
-_PATH = re.compile(
-    rf"^[ \t]*(?:[A-Z][\w-]*[ ]?(?:{ARROW}|>|»)[ ]?)(?:[A-Z][\w -]*[ ]?(?:{ARROW}|>|»)[ ]?)+[A-Z][\w -]*$", re.MULTILINE
-)
+_PLACE, _STEP = r"[A-Z]\w*+(?:[ -]\w++)*+", rf"[ ]?(?:{ARROW}|>|»)[ ]?"
+_PATH = re.compile(rf"^[ \t]*+{_PLACE}(?:{_STEP}{_PLACE}){{2,9}}$", re.MULTILINE)
 """Where a page is, as its head says: Home → Fractals → L-systems."""
 
 
@@ -817,7 +822,7 @@ def _macro(match: re.Match[str]) -> str:
     )
 
 
-_COLUMNS = re.compile(r"(?P<left>[ \t]*\S.*?)(?P<gap>[ ]{4,})(?P<right>\S[^\n]*)")
+_COLUMNS = re.compile(r"(?P<left>[ \t]*\S.*?)(?<! )(?P<gap>[ ]{4,}+)(?P<right>\S[^\n]*)")
 
 
 def without_columns(before: Transcript) -> Transcript:

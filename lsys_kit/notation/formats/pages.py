@@ -17,7 +17,7 @@ from lsys_kit.notation.syntax.text.transcription import left_out as note_on
 _LISTING = re.compile(rf"^[ \t]*(?:{LABEL}[ \t]*:|[ωw][ \t]*:|p[ \t]*:|#[ \t]*(?:define|ignore))", re.MULTILINE)
 """What such listings have, and others hardly."""
 _STATEMENT = re.compile(rf".*{ARROW}|[ \t]*(?:#[ \t]*(?:define|ignore|include|consider)\b|[ωw][ \t]*:|n[ \t]*=|δ[ \t]*=)")
-_NUMBERED = re.compile(r"[ \t]{2,}(\(\d+(?:\.\d+)*[a-z]?\))[ \t]*$")
+_NUMBERED = re.compile(r"(?<![ \t])[ \t]{2,}+(\(\d+(?:\.\d+)*[a-z]?\))[ \t]*$")
 _ABOVE = re.compile(r"[ \t]*(?:0?\.\d+|1)[ \t]*")
 _OTHER = re.compile(r"[ \t]*(?:Figure|Fig\.|Table|Section|Chapter)\b", re.IGNORECASE)
 _ANGLE = re.compile(r"(?:angle|δ)[^.\n]{0,40}?(?<![\d.])(\d{1,3}(?:\.\d+)?)[ ]?(?:°|deg)", re.IGNORECASE)

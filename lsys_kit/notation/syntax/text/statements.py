@@ -82,7 +82,7 @@ def blank_parentheses(text: str) -> str:
     return "".join(kept)
 
 
-_PAIRS = "[]", "{}", "()"
+_PAIRS = ("[", "]"), ("{", "}"), ("(", ")")
 _DEEPEST = 1_000
 _TURNS = re.compile(r"[-+&^\\/|!\[\]]")
 _UNFINISHED = re.compile(rf"(?:[-+&^\\/|!\[]|{ARROW.pattern})$")

@@ -113,7 +113,7 @@ _START = re.compile(r"[ \t]*+((?i:Start(?:wort|word)|Start (?:word|symbol))\b[ \
 _NAMED_AXIOM = re.compile(rf"[ \t]*+(?i:axiom)\b|{_START.pattern}|{_OMEGA.pattern}")
 _PROBABILITY = re.compile(rf"(?<![ \t])[ \t]++(\d*\.\d+)[ \t]*+(?={_ARROW})")
 _ABOVE = re.compile(r"[ \t]*+(\d*\.\d+|1)[ \t]*+$")
-_REFERENCE = re.compile(r"\s*+(?:[\[(]\d++[\])]|\d++|[-–][ ]?\d++[ ]?[-–]|/[ ]?[a-z]|\([a-z]\))\s*+")
+_REFERENCE = re.compile(r"[\[(]\d++[\])]|\d++|[-–][ ]?\d++[ ]?[-–]|/[ ]?[a-z]|\([a-z]\)")
 """The number of a page or a note, or a caption's letter: on an indented line, anything else goes on with a production."""
 _ASIDE = re.compile(r"[\W_]*+(?:\w{1,12}(?:\.\d+)?[\W_]*+)?")
 """A line with one name or number, whatever signs are around it."""
@@ -243,7 +243,7 @@ class _Listing:
                 indent = len(rule) - len(rule.lstrip())
             elif rule and not above and not _NAMED.match(line.text):
                 aside = _REFERENCE if len(line.text) - len(line.text.lstrip()) > indent else _ASIDE
-                if surely_goes_on(line.text, rule, known) or not aside.fullmatch(line.text):
+                if surely_goes_on(line.text, rule, known) or not aside.fullmatch(line.text.strip()):
                     rule = pending(rule + line.text)
                 else:
                     yield index
