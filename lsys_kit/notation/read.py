@@ -20,7 +20,7 @@ from lsys_kit.notation.dialects.fractint.dialect import FRACTINT
 from lsys_kit.notation.dialects.map.dialect import MAP, read_map
 from lsys_kit.notation.foreign import foreign_format, unreadable_format
 from lsys_kit.notation.formats.l_py import is_l_py
-from lsys_kit.notation.formats.reading import FORMATS, read_as, read_found
+from lsys_kit.notation.formats.reading import FORMATS, read_as, read_found, what_is_missing
 from lsys_kit.notation.fragments import is_link, unpacked
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.cells import CellworkSystem, MapSystem
@@ -187,7 +187,7 @@ def _read_or_claimed(chosen: Dialect, text: str, name: str | None, others: Itera
                 raise unreadable from None
             found = read_found(text, name)
             if found is None:
-                raise foreign_format(text) or error from None
+                raise foreign_format(text) or what_is_missing(text) or error from None
             return found
         error.with_hint(f'{error.hint or ""} As {other} it can be read: read(text, "{other}").'.strip())
         raise

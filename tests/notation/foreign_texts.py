@@ -10,6 +10,8 @@ LPFG = "a model of lpfg, in the language L+C"
 EXPLORER = "a model of the L-system Explorer by Lowclouds"
 VIEW = "a file that goes with a model of cpfg, and says how it is seen or animated"
 PGF = "an L-system of PGF, for TikZ"
+GRAMMAR = "a grammar of a formal language, and no L-system"
+NUMBERS = "a table of numbers, as of an iterated function system, and no L-system"
 NOTEBOOK = "a Jupyter notebook"
 SVG = "a picture as SVG"
 HTML = "a page as HTML"
@@ -42,6 +44,20 @@ FOREIGN: dict[str, list[tuple[str, int]]] = {
         ("<structure>\n  <type>pda</type>\n</structure>", 2),
         ("<structure>\n  <type>turing</type>\n</structure>", 2),
         ("<structure>\n\t<type>re</type>\n\t<expression>(a+b)*</expression>\n</structure>", 2),
+    ],
+    GRAMMAR: [
+        ("S → aSb | ε\nA → aA | b\n", 1),
+        ("The language a^n b^n:\nS -> a S b | ε\n", 2),
+        ("S → ε | aS\n", 1),
+        ("<expression> ::= <term> | <term> + <expression>\n<term> ::= x\n", 1),
+        ("G = ({S}, {a, b}, P, S)\nS → bS | λ\n", 2),
+    ],
+    NUMBERS: [
+        ("Barnsley fern\nw\ta\tb\tc\td\te\tf\tp\nƒ1\t0\t0\t0\t0.16\t0\t0\t0.01\n", 3),
+        ("ƒ3\t0.20\t−0.26\t0.23\t0.22\t0\t1.60\t0.07\n", 1),
+        ("fern {\n 0 0 0 .16 0 0 .01\n .85 .04 -.04 .85 0 1.6 .85\n}\n", 2),
+        ("a, b, c, d, e, f\n0.5, 0, 0, 0.5, 0, 0\n0.5, 0, 0, 0.5, 0.5, 0\n", 2),
+        ("| 0.5 | 0 | 0 | 0.5 | 1 | 0 | 0.33 |\n", 1),
     ],
     XL: [
         ("module A(float len) extends Sphere(0.1);\nprotected void init ()\n[\n\tAxiom ==> A(1);\n]\n", 1),

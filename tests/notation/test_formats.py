@@ -420,3 +420,101 @@ def test_no_text_takes_longer_than_its_length(token: str) -> None:
     with contextlib.suppress(LSystemError):
         read_found(text)
     assert time.process_time() - started < 30
+
+
+DRAGON = read("angle: 90\naxiom: F X\nX -> X + Y F +\nY -> - F X - Y")
+
+
+@pytest.mark.parametrize(
+    "sentence",
+    [
+        "It can be specified with initial string FX, string rewriting rules X->X+YF+, Y->-FX-Y, and angle 90 degrees.",
+        "The curve has the initial string FX, the string rewriting rules X→X+YF+ and Y→-FX-Y, and angle 90°.",
+        'An L-system with initial string "FX", string rewriting rules "X"->"X+YF+", "Y"->"-FX-Y", and angle 90 degrees.',
+    ],
+)
+def test_a_sentence_has_all_the_parts_that_it_names(sentence: str) -> None:
+    found = read(sentence)
+    assert same(found, DRAGON)
+    assert not any("No axiom" in note or "no angle" in note for note in found.notes)
+
+
+def test_items_of_latex_have_an_axiom_and_an_angle_with_their_letters() -> None:
+    items = (r"\item Axiom: $\omega = F++F++F$", r"\item Production: $F \rightarrow F-F++F-F$", r"\item $\delta = 60^\circ$")
+    assert same(read("\n".join((r"\begin{itemize}", *items, r"\end{itemize}"))), KOCH)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Axiom: F++F++F.\nF → F-F++F-F.\nAngle: 60.",
+        "angle: 60\naxiom: F++F++F\nF → F-F++F-F.",
+        "Start: F++F++F\nRule: F -> F-F++F-F.\nAngle: 60°.",
+    ],
+)
+def test_a_full_stop_at_the_end_of_a_line_is_left_out_and_this_is_said(text: str) -> None:
+    found = read(text)
+    assert same(found, KOCH)
+    assert any("full stop" in note for note in found.notes)
+
+
+def test_the_points_of_a_polygon_are_no_full_stops() -> None:
+    found = read("axiom: F\nF → {.+F.-F.}.")
+    assert word(flat(found.productions[0].successor)).endswith("}.")
+
+
+def test_a_rule_goes_on_below_where_its_symbols_are_those_of_the_system() -> None:
+    found = read("n=4, δ=22.5◦\nF\nF→FF-[-F+F+F]+\n[+F-F-F]\n25")
+    assert word(flat(found.productions[0].successor)) == "FF-[-F+F+F]+[+F-F-F]"
+    assert any(note.startswith('"25" is left out') for note in found.notes)
+
+
+@pytest.mark.parametrize(("first", "second", "said"), [("0.6", "0.4", "as probabilities."), ("0.6", "0.7", "are 1.3, not 1.")])
+def test_a_number_in_brackets_apart_before_an_arrow_is_a_probability(first: str, second: str, said: str) -> None:
+    found = read(f"Axiom: F\nF ({first}) → F[+F]F\nF ({second}) → F[-F]F\nAngle: 25°")
+    assert [str(rule.probability) for rule in found.productions] == [first, second]
+    assert any(note.endswith(said) for note in found.notes)
+
+
+def test_a_value_before_an_arrow_stays_one_where_the_symbol_has_values() -> None:
+    found = read("axiom: F(0.5)\nF (0.5) -> F(1)")
+    assert found.productions[0].probability is None
+
+
+@pytest.mark.parametrize("word", ["initiator", "Axiome", "Startwort"])
+def test_no_note_says_that_no_axiom_is_given_where_the_text_speaks_of_one(word: str) -> None:
+    with pytest.raises(ModelSyntaxError, match="I cannot read this axiom"):
+        read(f"Take as its {word} any closed polygon that you like\nRule: F => F+F--F+F")
+
+
+def test_no_note_says_that_no_angle_is_given_where_the_text_speaks_of_one() -> None:
+    found = read("Start: F\nRule: F => F+F\nWe choose the angle by eye, as always.")
+    assert "the angle cannot be read: it is 90" in found.notes[0]
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("Variables: F\nAxiom: F\nRules:\nAngle: 60°", "There is no rule in this text"),
+        ("X → F[+X]F\nF → FF\nangle 20°", "There is no axiom"),
+        ("Home → Fractals → L-systems\nPosted by Anna", "There is no L-system in this text"),
+        ("S → aSb | ε", "This is a grammar of a formal language, and no L-system"),
+        ("x = 9^9^9^9\naxiom: A", '"9^9^9^9" has no value'),
+    ],
+)
+def test_a_text_without_a_system_is_refused_by_what_it_lacks(text: str, message: str) -> None:
+    with pytest.raises(LSystemError) as found:
+        read(text)
+    assert found.value.message.startswith(message)
+    assert found.value.hint or message.startswith('"')
+
+
+def test_a_rule_that_is_not_read_is_told() -> None:
+    found = read("Start: F\nRule: F => F+G\nLater we also try what Anna found, where G -> G+F holds.")
+    assert [rule.predecessor.symbol for rule in found.productions] == ["F"]
+    assert '"G -> G+F" is not read: it stands in a sentence.' in found.notes
+
+
+def test_a_table_of_symbols_and_what_replaces_them_has_rules() -> None:
+    table = "| Symbol | Replacement |\n|---|---|\n| X | F+[[X]-X]-F[-FX]+X |\n| F | FF |\n\nAxiom: X, angle: 25°"
+    assert same(read(table), PLANT)

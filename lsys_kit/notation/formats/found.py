@@ -81,6 +81,8 @@ class Found:
         Symbols, and the command as which each is drawn.
     notes
         What was understood.
+    assumed
+        Whether the axiom is what the one rule rewrites, since none was found.
     listing
         A text in the kit's notation that is all of it, in place of its parts.
     """
@@ -97,6 +99,7 @@ class Found:
     names: frozenset[str] = frozenset()
     notes: list[str] = field(default_factory=list)
     listing: Transcript | None = None
+    assumed: bool = False
 
     @property
     def complete(self) -> bool:
@@ -286,7 +289,10 @@ def completed(found: Found) -> Found:
     if symbol is None or not symbol.text.isalnum():
         return found
     return replace(
-        found, axiom=(symbol,), notes=[*found.notes, f'No axiom is given: it is "{symbol.text}", what the one rule rewrites.']
+        found,
+        assumed=True,
+        axiom=(symbol,),
+        notes=[*found.notes, f'No axiom is given: it is "{symbol.text}", what the one rule rewrites.'],
     )
 
 

@@ -20,7 +20,9 @@ from itertools import pairwise
 
 from lsys_kit.errors import ModelSyntaxError
 from lsys_kit.notation.formats.found import Found, Passage, Rule, angle_of, chance_of, tables, unquoted
+from lsys_kit.notation.syntax.text.statements import is_unfinished, pending, surely_goes_on
 from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, assembled, edited
+from lsys_kit.notation.syntax.text.transcription import FULL_STOPS, left_out
 
 LONGEST_LINE = 2_000
 """Longer lines are prose."""
@@ -41,7 +43,7 @@ _RULE = (
     rf"(?P<arrow>-*{ARROW}|WORDS|=(?!=)(?![ \t]*\d+(?:\.\d+)?[ \t]*(?:$|[,;:])))"
 )
 _AFTER = re.compile(
-    rf"(?:[ \t]+|(?<=[^\s(]))(?::{_B}(?P<plain>{_CHANCE}|\d(?:\.\d+)?)"
+    rf"(?:(?<![ \t])[ \t]++|(?<=[^\s(]))(?::{_B}(?P<plain>{_CHANCE}|\d(?:\.\d+)?)"
     rf"|[(\[]{_B}(?:p{_B}={_B})?(?P<bracketed>{_CHANCE}){_B}[)\]]"
     rf"|,{_B}p{_B}={_B}(?P<named>{_CHANCE})){_B}$"
 )
@@ -53,7 +55,12 @@ _COMMENT = re.compile(
 )
 """What is said behind a part: a comment, the number of an equation."""
 _NUMBER = re.compile(r"[ \t]*[-+]?(?:\d+(?:[.,]\d+)?|\.\d+)(?:/\d+)?(?P<rest>.*)")
-_BOUNDARY = re.compile(r"[,;|\t({]+[ \t]*|[ \t]{2,}|[.][ \t]+|[ \t](?:and|und|y|et|en)[ \t]+[({]?|:(?=[ \t])")
+_BOUNDARY = re.compile(
+    r"[,;|\t({]+[ \t]*(?:(?:and|und|et|with|using|by|the|its|an?)[ \t]+){0,3}|[ \t]{2,}|[.][ \t]+|[ \t](?:and|und|y|et|en|e(?=[ \t]+(?:\(|\w{3})))[ \t]+[({]?"
+    r"|[ \t]\^[ \t]*\("
+    r"|[ \t](?P<said>with|using|by|the|its|mit|con|avec|com)[ \t]+(?:(?:the|an?)[ \t]+)?"
+    r"|:(?=[ \t])"
+)
 _BULLET = re.compile(
     r"[ \t]*(?:[*•▪‣◦·][ \t]+|-[ \t]+(?=[A-Za-zΑ-ωА-я\"'][^<\n]*(?:[:=→]|->))|\d{1,2}(?:\.\d{1,2})*[.)][ \t]+|[a-z]\)[ \t]+)*"
 )
@@ -75,7 +82,9 @@ def _fields() -> tuple[re.Pattern[str], dict[str, str]]:
         re.escape(each).replace(r"\ ", r"[ _-]?") + (r"(?:[ _]?\d{1,2})?" if each in numbered else "") for each in names
     )
     behind = r"(?![\wÀ-ÿ])(?:[ ]?\([^()\n]{0,40}\))?(?:[ ][ωδθφPVSϕ](?=[ ]?[:=]))?"
-    return re.compile(rf"(?P<name>{every}){behind}(?:{_B}(?P<sep>:=|::?|=(?![=>]))|(?=[ \t]|$)){_B}", re.IGNORECASE), kinds
+    return re.compile(
+        rf"(?P<name>{every}){behind}(?:{_B}(?P<sep>:=|::?|=(?![=>])|→|⟶|-{{1,2}}>)|(?=[ \t]|$)){_B}", re.IGNORECASE
+    ), kinds
 
 
 @cache
@@ -129,7 +138,12 @@ def _in_line(text: str, start: int, end: int, line: int, under_rules: bool) -> l
     start = bullet.end() if bullet else start
     begun: list[tuple[int, _Item]] = []
     within = _glued(text, start, end)
-    for until, at in ((start, start), *((each.start(), each.end()) for each in _BOUNDARY.finditer(text, start, end))):
+    cuts = [
+        (each.start(), each.end())
+        for each in _BOUNDARY.finditer(text, start, end)
+        if not each["said"] or _is_named(text, each.end(), end)
+    ]
+    for until, at in ((start, start), *cuts):
         if text[until : until + 1] == ":" and at > start:
             at += len(text[at:end]) - len(text[at:end].lstrip())
             if begun or not _is_named(text, at, end):
@@ -204,7 +218,10 @@ def _rule_at(text: str, at: int, end: int, line: int, under_rules: bool) -> _Ite
     if (
         rule
         and _can_be_replaced(rule)
-        and not (rule["arrow"] in ("=", ":=") and _STRICT.search(text, rule.end(), end))
+        and not (
+            rule["arrow"] in ("=", ":=")
+            and (_STRICT.search(text, rule.end(), end) or _CALCULATION.fullmatch(text[rule.end() : end].strip()))
+        )
         and not (
             len(rule["head"].strip()) == 1
             and (_is_prose(text[rule.end() : end]) or (rule["arrow"] in ("=", ":=") and _SET.match(text, rule.end(), end)))
@@ -223,7 +240,9 @@ def _rule_at(text: str, at: int, end: int, line: int, under_rules: bool) -> _Ite
 
 
 _STRICT = re.compile(ARROW)
-_SET = re.compile(r"[ \t]*\{[^{}\n]*,")
+_CALCULATION = re.compile(r"\d++(?:\.\d++)?(?:[ ]?[*/^][ ]?\d++(?:\.\d++)?)+")
+"""What a constant is, and no word."""
+_SET = re.compile(r"[ \t]*[{<(⟨][ \t]*\S[ \t]*,")
 """A set of symbols."""
 
 
@@ -240,7 +259,9 @@ def _can_be_replaced(rule: re.Match[str]) -> bool:
 
 def _possible(kind: str, named: re.Match[str], value: str, rule: _Item | None, later: bool) -> bool:
     """Whether a name can begin a part, by what stands behind it."""
-    short, sep = len(named["name"]) == 1, named["sep"]
+    short, sep = len(named["name"]) == 1, named["sep"] or ""
+    if kind != "axiom" and sep[-1:] in (">", "→", "⟶"):
+        return False
     number = _NUMBER.fullmatch(_ALIAS.sub("", value))
     if kind == "steps":
         return bool(
@@ -260,6 +281,8 @@ def _possible(kind: str, named: re.Match[str], value: str, rule: _Item | None, l
     if kind == "axiom":
         if not sep and not value.strip():
             return not later and len(named["name"]) > 4
+        if sep[-1:] in (">", "→", "⟶"):
+            return len(named["name"]) > 4 and not later
         if sep:
             return not short or named["name"] in "ωw"
         said = re.split(r"\t|  |[ ]#|,[ ]", value.strip())[0]
@@ -298,7 +321,9 @@ _OWN_STATEMENT = re.compile(
 )
 """Statements of the kit's notations: their readers say what is wrong with a text that has one."""
 _OWN_ARROW = re.compile(r"-->|->|→|⟶|::=")
-_SENTENCE = re.compile(r"[A-Za-zÀ-ÿА-я]{3,}[ ,]+[A-Za-zà-ÿА-я]{3,}")
+_SENTENCE = re.compile(r"(?<![A-Za-zÀ-ÿА-я])[A-Za-zÀ-ÿА-я]{3,}+[ ,]++[A-Za-zà-ÿА-я]{3}")
+_REFERENCE = re.compile(r"\s*(?:\[\d{1,3}\]|\(\d{1,3}\)|\d{2,4}|[-–][ ]?\d{1,4}[ ]?[-–]|/[ ]?[a-z])\s*")
+"""The number of a page, of a footnote, a caption's letter, alone on a line."""
 _MARKED = re.compile(r"&(?:\w{2,8}|#\d{1,6});|<(?:b|br|p|tt|td)\b[^<>\n]{0,99}>|\*\*|`|\\begin\{", re.IGNORECASE)
 
 
@@ -315,14 +340,16 @@ def _is_on_a_page(text: str, items: Sequence[_Item], source: str) -> bool:
 def _is_foreign(item: _Item, text: str) -> bool:
     """Whether a part is none of the kit's notation."""
     if item.kind in ("", "above"):
-        return _SENTENCE.search(text, item.start, item.end) is not None
+        return (_SENTENCE.search(text, item.start, item.end) or _REFERENCE.fullmatch(text, item.start, item.end)) is not None
     if item.kind == "rule" and item.match:
-        labelled = item.match["label"] and item.match["label"][0] not in "pP"
+        labelled = item.match["label"] and not re.match(r"[pP]_?\d", item.match["label"])
         return _OWN_ARROW.fullmatch(item.match["arrow"]) is None or bool(
             labelled or item.match["first"] or item.match["within"]
         )
     if item.kind in ("axiom", "angle", "steps") and item.match:
-        return item.match["name"].lower() not in (item.kind, "ω", "δ") or item.match["sep"] != ":"
+        said = text[item.start : item.end]
+        named = item.match["name"].lower() not in (item.kind, "ω", "δ") or item.match["sep"] != ":"
+        return named or (said.endswith(".") and item.kind != "steps")
     return item.kind not in ("blank", "ignore", "more")
 
 
@@ -344,11 +371,25 @@ def systems_in_lines(text: str, source: str = "") -> list[Found]:
     _check_left_out(text, items)
     systems = [replace(_system(text, group), names=names) for group in _groups(items)]
     systems = [_without_function(system) for system in systems if system.axiom or system.rules] or [Found()]
-    prose = [Passage(text[item.start : item.end], item.start) for item in items if item.kind in ("", "axiom", "rule")]
+    starts = ((text.rfind("\n", 0, item.start) + 1 if item.kind == "angle" else item.start, item) for item in items)
+    prose = [Passage(text[at : item.end], at) for at, item in starts if item.kind in ("", "axiom", "rule", "angle")]
+    systems = [*{(_all_of(system.axiom), *map(_shown, system.rules)): system for system in reversed(systems)}.values()][::-1]
+    lost = _lost_rules(text, items)
+    for system in systems:
+        system.notes += lost if system.rules else ()
     for system in systems if len(systems) == 1 else ():
         _take_said(system, prose)
         _take_prose(system, prose)
     return [system for system in systems if system.axiom or system.rules]
+
+
+def _all_of(word: Sequence[Passage] | None) -> str:
+    return "".join("".join(part.text for part in word or ()).split())
+
+
+def _shown(rule: Rule) -> str:
+    """A rule without its blanks: a page may show a system twice."""
+    return f"{_all_of((rule.head,))}->{_all_of(rule.tail)} : {rule.probability}"
 
 
 _FUNCTION = re.compile(r"([a-zσφμ])\s*\(\s*(\w)\s*\)")
@@ -444,6 +485,8 @@ def _with_plain_axioms(text: str, items: Sequence[_Item], letters: frozenset[str
     found: list[_Item] = []
     named = any(item.kind == "axiom" for item in items)
     filled = [item for item in items if item.kind != "blank"]
+    known = letters.union(*(text[item.start : item.end] for item in filled if item.kind in ("rule", "axiom")))
+    rule = ""
     for index, item in enumerate(filled):
         following = filled[index + 1] if index + 1 < len(filled) else None
         word = item.kind == "" and is_word(text[item.start : item.end], letters)
@@ -462,14 +505,15 @@ def _with_plain_axioms(text: str, items: Sequence[_Item], letters: frozenset[str
             raise ModelSyntaxError(
                 "An arrow is missing", text, missing.start(2), None, f'A rule reads "{missing[1]} -> {missing[3].strip()}".'
             )
-        goes_on = (
-            word
-            and re.search(r"\w", text[item.start : item.end])
-            and found
-            and found[-1].kind in ("rule", "more")
-            and item.line == found[-1].line + 1
-        )
-        if goes_on and not (not named and following and following.kind == "rule" and len(item.value(text).text) == 1):
+        line = text[item.start : item.end]
+        follows = word and bool(found) and (found[-1].kind in ("rule", "more", "aside") or is_unfinished(rule))
+        near = bool(found) and (item.line == found[-1].line + 1 or is_unfinished(rule))
+        if follows and near and surely_goes_on(line, rule, known):
+            goes_on = named or not following or following.kind != "rule" or len(line.strip()) > 1
+        else:
+            goes_on = False
+        rule = line if item.kind == "rule" else pending(rule + line) if goes_on else rule if item.kind == "" else ""
+        if goes_on:
             found.append(replace(item, kind="more"))
         elif (
             word
@@ -480,13 +524,13 @@ def _with_plain_axioms(text: str, items: Sequence[_Item], letters: frozenset[str
         ):
             found.append(replace(item, kind="axiom"))
         else:
-            found.append(item)
+            found.append(replace(item, kind="aside") if follows and line.strip("{}()[] \t") else item)
     return found
 
 
 _ABOVE = re.compile(r"\s*(0?\.\d+|1|1/\d)\s*")
 """A probability over an arrow."""
-_NO_ARROW = re.compile(r"\s*([A-Za-z])([ ]{2,}|\t)\s*(\S+)\s*")
+_NO_ARROW = re.compile(r"\s*+([A-Za-z])([ ]{2,}+|\t)\s*+(\S++)\s*+")
 """A rule that lost its arrow."""
 _LOST = re.compile(rf"[(:,;{{][ \t]*({ARROW})[ \t]*[^\s)]")
 """An arrow that has nothing to its left."""
@@ -510,8 +554,25 @@ def _check_arrows(text: str, items: Sequence[_Item]) -> None:
                 )
 
 
+_ANY_RULE = re.compile(rf"(?<![\w\])>])[\"']?[A-Za-z0-9][\"']?{_B}{ARROW}{_B}[\"']?[A-Za-z0-9+\-\[\]^&/|]+")
+"""A rule, wherever it stands."""
+
+
+def _lost_rules(text: str, items: Sequence[_Item]) -> list[str]:
+    """The notes on rules that stand in a text, and are no parts of a system."""
+    rules = [(item.match.start("head"), item.end) for item in items if item.kind == "rule" and item.match]
+    read = {re.sub(r"[^\w+\-\[\]]|->", "", text[start:end]) for start, end in rules}
+    notes = []
+    for match in _ANY_RULE.finditer(text):
+        inside = any(start <= match.end() - 1 < end or start == match.start() for start, end in rules)
+        word = is_word(re.split(ARROW, match[0])[-1].strip("\"' "))
+        if word and not inside and re.sub(r"[^\w+\-\[\]]|->", "", match[0]) not in read:
+            notes.append(f'"{match[0]}" is not read: it stands in a sentence.')
+    return notes
+
+
 _WRITTEN = re.compile(
-    rf"[A-Za-z\d][ \t]*(?:{ARROW}|[-=:>~]{{1,3}})[ \t]*[A-Za-z\d+\-\[\]&^/\\|(]*[\[\](+&][A-Za-z\d+\-\[\]&^/\\|()\d. :*,]*"
+    rf"[A-Za-z\d][ \t]*(?:{ARROW}|[-=:>~]{{1,3}})[ \t]*[A-Za-z\d\-^/\\|]*+[\[\](+&][A-Za-z\d+\-\[\]&^/\\|()\d. :*,]*+"
 )
 """What one takes for a rule."""
 
@@ -527,14 +588,43 @@ def _check_left_out(text: str, items: Sequence[_Item]) -> None:
             )
 
 
+def has_unread_words(text: str) -> bool:
+    """Whether a line with an arrow is no rule, or a word stands alone on a line.
+
+    >>> has_unread_words("Axiom: F\nRules:"), has_unread_words("Axiom: F\nF F+F")
+    (False, True)
+    """
+    lines = (text[item.start : item.end] for item in _items(text) if item.kind == "")
+    return _STRICT.search(text) is not None or any(is_word(line) for line in lines)
+
+
+def is_prose(text: str) -> bool:
+    """Whether a text has sentences, or a path through pages, and nothing of a system.
+
+    >>> is_prose("Home → Fractals → L-systems\nPosted by Anna on Monday"), is_prose("axiom: F"), is_prose("Leaf -> Leaf Leaf")
+    (True, False, False)
+    """
+    items = _items(text)
+    return bool(_SENTENCE.search(text) or _PATH.search(text)) and all(
+        item.kind in ("", "blank") or _PATH.match(text, text.rfind("\n", 0, item.start) + 1) for item in items
+    )
+
+
+_PLACE, _STEP = r"[A-Z]\w*+(?:[ -]\w++)*+", rf"[ ]?(?:{ARROW}|>|»)[ ]?"
+_PATH = re.compile(rf"^[ \t]*+{_PLACE}(?:{_STEP}{_PLACE}){{2,9}}$", re.MULTILINE)
+"""Where a page is, as its head says: Home → Fractals → L-systems."""
+
+
 def _groups(items: Sequence[_Item]) -> Iterator[Sequence[_Item]]:
     """The parts of each system: another one begins with another axiom, or with the settings above it."""
     cuts = [0]
     for first, second in pairwise(index for index, item in enumerate(items) if item.kind == "axiom"):
         rules = [index for index in range(first, second) if items[index].kind in ("rule", "more")]
-        if rules:
+        if rules and any(item.kind in ("rule", "rules", "tail") for item in items[second:]):
             said = {item.kind for item in items[cuts[-1] : rules[-1]]} & {"angle", "steps", "other"}
-            cuts.append(next((index for index in range(rules[-1] + 1, second) if items[index].kind in (said | {""})), second))
+            cuts.append(
+                next((index for index in range(rules[-1] + 1, second) if items[index].kind in (said | {"", "aside"})), second)
+            )
     yield from (items[start:end] for start, end in pairwise((*cuts, len(items))))
 
 
@@ -550,13 +640,17 @@ def _system(text: str, items: Sequence[_Item]) -> Found:
         value = item.value(text)
         if item.kind == "above":
             above = value.text
-        if item.kind == "":
+        if item.kind == "aside" and found.rules:
+            found.notes.append(left_out(value.text))
+        elif item.kind in ("", "aside"):
             line = value.text.strip(" #*=_:;{(")
             found.name = found.name or (line if found.axiom is None and 0 < len(line) <= 60 else "")
         elif item.kind == "axiom" and value.text:
             _add_axiom(found, value, item)
         elif item.kind == "rule":
             rule = _rule(text, item)
+            if text[item.start : item.end].endswith(".") and not rule.tail[0].text.endswith("."):
+                found.notes.append(FULL_STOPS)
             if not rule.tail[0].text:
                 found.notes.append(f"{rule.head.text} is erased: nothing stands behind its arrow.")
             found.rules.append(replace(rule, probability=chance_of(above)) if above else rule)
@@ -610,6 +704,8 @@ def _add_axiom(found: Found, value: Passage, item: _Item) -> None:
     if not is_word(passage.text) and (word := re.match(r"(\S+?)[,;.]?\s+[a-z]{2,}\b", passage.text)):
         passage = passage.part(0, word.end(1))
     passage = passage.part(0, _end(passage.text, 0, len(passage.text)))
+    if passage.text.endswith(".") and len(passage.text) > 1 and "{" not in passage.text:
+        passage = passage.part(0, len(passage.text) - 1)
     if found.axiom is not None:
         if found.axiom[0].text.split() != passage.text.split():
             found.notes.append(f'The axiom is given more than once: "{found.axiom[0].text}" is used, not "{passage.text}".')
@@ -646,6 +742,8 @@ def _rule(text: str, item: _Item) -> Rule:
         chance = chance or after["plain"] or after["bracketed"] or after["named"]
         said = said[: after.start()]
     tail = unquoted(Passage(said, item.start).part(0))
+    if tail.text.endswith(".") and len(tail.text) > 1 and "{" not in tail.text:
+        tail = tail.part(0, len(tail.text) - 1)
     if _NOTHING.fullmatch(tail.text):
         tail = tail._replace(text="")
     head = Passage(item.match["head"], item.match.start("head")).part(0)
@@ -675,7 +773,9 @@ def _moved(rule: Rule, passage: Passage) -> Rule:
 _LATEX = re.compile(r"\\(?:begin|end|omega|delta|rightarrow|mapsto|to|theta|circ|text|quad)\b")
 _MACROS = {
     "omega": "ω", "delta": "δ", "theta": "θ", "quad": "  ", "qquad": "  ", "circ": "°", "ldots": "", "left": "", "right": "",
-    "to": "→", "rightarrow": "→",
+    "item": "", "centering": "", "hfill": "  ", "textbf": "", "textit": "", "mathrm": "", "mathbf": "", "mathtt": "",
+    "texttt": "",
+    "to": "→", "rightarrow": "→", "Rightarrow": "→", "longmapsto": "→",
     "longrightarrow": "→", "mapsto": "→", "varepsilon": "ε", "epsilon": "ε", "lbrace": "{", "rbrace": "}",
 }  # fmt: skip
 _MACRO = re.compile(
@@ -722,7 +822,7 @@ def _macro(match: re.Match[str]) -> str:
     )
 
 
-_COLUMNS = re.compile(r"(?P<left>[ \t]*\S.*?)(?P<gap>[ ]{4,})(?P<right>\S[^\n]*)")
+_COLUMNS = re.compile(r"(?P<left>[ \t]*\S.*?)(?<! )(?P<gap>[ ]{4,}+)(?P<right>\S[^\n]*)")
 
 
 def without_columns(before: Transcript) -> Transcript:
@@ -779,6 +879,7 @@ _CELL, _COMMA_CELL = re.compile(r"[^|\t\n]+"), re.compile(r"[^,\n]+")
 
 def _without_tables(before: Transcript) -> Transcript:
     """The same, with each row of a table of systems as a list: the heading of a column before each of its cells."""
+    names = tables()["names"]
     heading: list[str] = []
     pieces: list[Edit] = []
     kinds = _fields()[1]
@@ -787,7 +888,19 @@ def _without_tables(before: Transcript) -> Transcript:
         if len(cells) == 1 and match[0].count(",") > 1:
             cells = [Passage(cell[0], cell.start()).part(0) for cell in _COMMA_CELL.finditer(before.text, *match.span())]
         named = [kinds.get(re.sub(r"[ _-]|\d", "", cell.text.lower()), "") for cell in cells]
-        if len({"axiom", "rules"} & {*named}) == 2:
+        low = [cell.text.lower() for cell in cells if len(cell.text) > 2]
+        if len(low) == len(cells) == 2 and low[0] in names["predecessor"] and low[1] in (*names["successor"], *names["rules"]):
+            heading = ["", "→"]
+        elif heading == ["", "→"] and len(cells) == 2:
+            (at, left), (to, right) = ((cell.at, cell.text) for cell in cells)
+            pieces += (
+                Edit(at, at + len(left), left),
+                Edit(to, to, " → "),
+                Edit(to, to + len(right), right),
+                Edit(to, to, "\n"),
+            )
+            continue
+        elif len({"axiom", "rules"} & {kind for kind, cell in zip(named, cells, strict=True) if len(cell.text) > 2}) == 2:
             heading = [cell.text for cell in cells]
         elif heading and len(cells) == len(heading):
             for name, cell in zip(heading, cells, strict=True):

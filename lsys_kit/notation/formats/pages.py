@@ -10,13 +10,14 @@ import re
 
 from lsys_kit.notation.formats.found import Found
 from lsys_kit.notation.formats.lines import ARROW, OWN_FRAME, is_word
-from lsys_kit.notation.syntax.text.statements import LABEL
+from lsys_kit.notation.syntax.text.statements import LABEL, is_unfinished, pending
 from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, as_typed, edited
+from lsys_kit.notation.syntax.text.transcription import left_out as note_on
 
 _LISTING = re.compile(rf"^[ \t]*(?:{LABEL}[ \t]*:|[ωw][ \t]*:|p[ \t]*:|#[ \t]*(?:define|ignore))", re.MULTILINE)
 """What such listings have, and others hardly."""
 _STATEMENT = re.compile(rf".*{ARROW}|[ \t]*(?:#[ \t]*(?:define|ignore|include|consider)\b|[ωw][ \t]*:|n[ \t]*=|δ[ \t]*=)")
-_NUMBERED = re.compile(r"[ \t]{2,}(\(\d+(?:\.\d+)*[a-z]?\))[ \t]*$")
+_NUMBERED = re.compile(r"(?<![ \t])[ \t]{2,}+(\(\d+(?:\.\d+)*[a-z]?\))[ \t]*$")
 _ABOVE = re.compile(r"[ \t]*(?:0?\.\d+|1)[ \t]*")
 _OTHER = re.compile(r"[ \t]*(?:Figure|Fig\.|Table|Section|Chapter)\b", re.IGNORECASE)
 _ANGLE = re.compile(r"(?:angle|δ)[^.\n]{0,40}?(?<![\d.])(\d{1,3}(?:\.\d+)?)[ ]?(?:°|deg)", re.IGNORECASE)
@@ -36,15 +37,15 @@ def listings_on_a_page(text: str) -> list[Found]:
     edits: list[Edit] = []
     lines = [*re.finditer(r"[^\n]+|(?<=\n)(?=\n)", text)]
     letters = frozenset("".join(_NAME.findall(text)))
-    before = False
-    left_out = []
+    before, rule = False, ""
+    left_out, notes = [], []
     for index, line in enumerate(lines):
         said = line[0]
         above = next((each[0] for each in lines[index + 1 :] if each[0].strip()), "")
         part = bool(_STATEMENT.match(said)) and not _OTHER.match(said) and not _is_sentence(said)
         if not part and said.strip():
             word = is_word(said, letters) and not _OTHER.match(said)
-            part = (word and before) or (
+            part = (word and (before or (is_unfinished(rule) and len(said.strip()) > 3))) or (
                 bool(re.search(ARROW, above))
                 and (word or bool(_ABOVE.fullmatch(said)))
                 and not _LISTING.match(said)
@@ -55,10 +56,14 @@ def listings_on_a_page(text: str) -> list[Found]:
         if not part and said.strip():
             edits.append(Edit(*line.span(), ""))
             left_out.append(said)
+            if rule and is_word(said, letters):
+                notes.append(note_on(said))
+        if part:
+            rule = said if re.search(ARROW, said) else pending(rule + said) if rule else ""
         before = part if said.strip() else False
     if not left_out and not edits:
         return []
-    listing = edited(as_typed(text), edits)
+    listing = edited(as_typed(text), edits, notes)
     prose = "\n".join(left_out)
     return [Found(listing=_with_settings(listing, prose))]
 

@@ -10,12 +10,14 @@ import math
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 
 from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError, ModelValueError, quotable
 from lsys_kit.notation.dialects.abop.dialect import ABOP
-from lsys_kit.notation.formats.found import Found, completed, transcript_of
+from lsys_kit.notation.foreign import foreign_format
+from lsys_kit.notation.formats.found import Found, completed, tables, transcript_of
 from lsys_kit.notation.formats.l_py import systems_in_l_py
-from lsys_kit.notation.formats.lines import page_text, systems_in_lines
+from lsys_kit.notation.formats.lines import has_unread_words, is_prose, page_text, systems_in_lines
 from lsys_kit.notation.formats.literals import systems_in_literals
 from lsys_kit.notation.formats.lparser import systems_in_lparser
 from lsys_kit.notation.formats.markup import systems_in_markup
@@ -120,11 +122,59 @@ def read_found(text: str, name: str | None = None) -> LSystem | None:
                 return _refusing_code(form, before, _system(form, before, _chosen(systems, text, name)))
             except LSystemError as error:
                 if form is not PAGE:
-                    raise failed or error from None
+                    program = foreign_format(text) if form is LIST and _CODE.search(before.text) else None
+                    raise program or failed or error from None
                 failed = error  # what is no listing of the book may be a list
     if failed:
         raise failed
     return None
+
+
+def what_is_missing(text: str) -> LSystemError | None:
+    """What a text lacks in which no format finds a whole system: rules, an axiom, or everything; None where that is not known.
+
+    >>> what_is_missing("Variables: F\nAxiom: F\nRules:\nAngle: 60°").message
+    'There is no rule in this text'
+    """
+    if len(text) > LONGEST:
+        return None
+    before, systems = _found(LIST, text)
+    if (
+        len(systems) == 1
+        and systems[0].axiom
+        and not systems[0].rules
+        and _names_of("rules").search(before.text)
+        and not has_unread_words(before.text)
+    ):
+        where = before.origin(systems[0].axiom[0].at)
+        return ModelSyntaxError(
+            "There is no rule in this text",
+            text,
+            where,
+            None,
+            'A rule reads "F -> F+F": what is replaced, an arrow, what replaces it.',
+        )
+    if len(systems) == 1 and systems[0].rules and not systems[0].axiom and not _names_of("axiom").search(before.text):
+        hint = 'Give the first word on a line of its own, as in "axiom: A".'
+        return ModelSyntaxError("There is no axiom", text, len(text), None, hint)
+    if is_prose(before.text):
+        return _nothing()
+    return None
+
+
+def _nothing() -> ModelValueError:
+    return ModelValueError("There is no L-system in this text", hint='An L-system reads "axiom: F", and below "F -> F+F".')
+
+
+@cache
+def _names_of(kind: str) -> re.Pattern[str]:
+    """The words by which a text speaks of a part, but those that are in any text."""
+    words = [re.escape(word) for word in tables()["names"][kind] if len(word) > 4 and word not in _IN_ANY_TEXT]
+    return re.compile(rf"(?<!\w)(?:{'|'.join(words)})(?!\w)", re.IGNORECASE)
+
+
+_IN_ANY_TEXT = frozenset(("start", "initial", "sentence", "rotation", "degrees", "alpha"))
+_DEGREES = re.compile(r"(?<![\w.])\d{1,3}(?:[.,]\d+)?[ ]?(?:°|degrees|deg\b)")
 
 
 def read_as(form: Format, text: str, name: str | None = None) -> LSystem:
@@ -151,12 +201,21 @@ def _found(form: Format, text: str) -> tuple[Transcript, Sequence[Found]]:
 def _system(form: Format, before: Transcript, found: Found) -> LSystem:
     """The system of what was found."""
     transcript = transcript_of(found, before)
+    spoken = _names_of("axiom").search(before.text) if found.assumed else None
+    if spoken:
+        raise ModelSyntaxError(
+            "I cannot read this axiom",
+            before.source,
+            before.origin(spoken.start()),
+            None,
+            'Write it on a line of its own, as in "axiom: F".',
+        )
     try:
         system = system_in(ABOP, transcript.text)
     except LSystemError as error:
         raise transcript.relocated(error) from None
     notes = system.notes if found.listing else tuple(filter(_is_news, system.notes))
-    return replace(system, notes=(f"Read as {form.title}{_said(found, system)}.", *found.notes, *notes))
+    return replace(system, notes=(f"Read as {form.title}{_said(found, system, before.text)}.", *found.notes, *notes))
 
 
 def _is_news(note: str) -> bool:
@@ -164,7 +223,7 @@ def _is_news(note: str) -> bool:
     return " is read as " not in note and not note.startswith("The digits")
 
 
-def _said(found: Found, system: LSystem) -> str:
+def _said(found: Found, system: LSystem, text: str) -> str:
     """What was found of the angle, if something turns by it."""
     if found.listing and re.search(r"angle|δ|delta", found.listing.text):
         return ""
@@ -175,7 +234,8 @@ def _said(found: Found, system: LSystem) -> str:
     if found.angle:
         return f"; angle {float(found.angle[0]):g}"
     turns = any(module.symbol in ("+", "-", "&", "^", "\\", "/") and not module.arguments for module in system.modules)
-    return "; no angle is given: it is 90" if turns else ""
+    spoken = _names_of("angle").search(text) or _DEGREES.search(text)
+    return "" if not turns else "; the angle cannot be read: it is 90" if spoken else "; no angle is given: it is 90"
 
 
 def _refusing_code(form: Format, before: Transcript, system: LSystem) -> LSystem:
@@ -191,7 +251,7 @@ def _refusing_code(form: Format, before: Transcript, system: LSystem) -> LSystem
 def _chosen(systems: Sequence[Found], text: str, name: str | None) -> Found:
     """The system of a name, or the only one."""
     if not systems:
-        raise ModelValueError("There is no L-system in this text", hint='An L-system reads "axiom: F", and below "F -> F+F".')
+        raise _nothing()
     names = [each.name or str(number) for number, each in enumerate(systems, 1)]
     listed = ", ".join(map(quotable, names))
     if name is not None:

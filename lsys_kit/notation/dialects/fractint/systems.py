@@ -77,7 +77,7 @@ def entries_in(plain: str) -> Iterator[FileEntry]:
     braces = chain((match.start() for match in re.finditer(r"[{}]", plain)), (len(plain),))
     before, at = -1, next(braces)
     for after in braces:
-        if plain[at] == "{":
+        if plain[at] == "{" and plain[max(0, at - 20) : at].rstrip(_BLANKS)[-1:] not in ("=", ":"):  # V = {A, B} is a set
             yield FileEntry(*_name(plain, before + 1, at), at, after, plain[after : after + 1] == "}")
         before, at = at, after
 

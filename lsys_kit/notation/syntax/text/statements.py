@@ -82,6 +82,64 @@ def blank_parentheses(text: str) -> str:
     return "".join(kept)
 
 
+_PAIRS = ("[", "]"), ("{", "}"), ("(", ")")
+_DEEPEST = 1_000
+_TURNS = re.compile(r"[-+&^\\/|!\[\]]")
+_UNFINISHED = re.compile(rf"(?:[-+&^\\/|!\[]|{ARROW.pattern})$")
+
+
+def surely_goes_on(line: str, rule: str, known: frozenset[str]) -> bool:
+    """Whether a line without a name and an arrow is a part of the production above it, and no number of a page or caption.
+
+    Parameters
+    ----------
+    line, rule
+        The line, and the production as far as it was read.
+    known
+        The letters and digits that other lines of the system have.
+
+    Examples
+    --------
+    >>> [surely_goes_on(line, "F→F[+F]F", frozenset("F")) for line in ("[-F]F", "25", "[3]", "/ b", "KOCH")]
+    [True, False, False, False, False]
+    >>> surely_goes_on("FF", "F→FF", frozenset("F")), surely_goes_on("F", "F→FF", frozenset("F"))
+    (True, False)
+    """
+    word = blank_parentheses(line).strip()
+    letters = [sign for sign in word if sign.isalnum()]
+    if _is_open(rule):
+        return not (letters and "".join(letters).isdigit() and not {*letters} <= known)
+    if len(letters) > 1:
+        named = any(sign.isalpha() and sign in known for sign in letters)
+        return ({*letters} <= known and not word.isdigit()) or bool(
+            named and _TURNS.search(word) and not _UNFINISHED.search(rule.rstrip())
+        )
+    return {*letters} <= known and bool(letters) and " " not in word and bool(_TURNS.search(word) or "(" in line)
+
+
+def is_unfinished(rule: str) -> bool:
+    """Whether something must follow what was read of a production: a bracket is open, or a turn stands at its end.
+
+    >>> is_unfinished("F→F[+F"), is_unfinished("F→F-"), is_unfinished("F→F")
+    (True, True, False)
+    """
+    return _is_open(rule) or _UNFINISHED.search(rule.rstrip()) is not None
+
+
+def _is_open(rule: str) -> bool:
+    return any(rule.count(opened) > rule.count(closed) for opened, closed in _PAIRS)
+
+
+def pending(rule: str) -> str:
+    """What of a production decides whether something must follow: the brackets that are open, and its end.
+
+    >>> pending("F→F[+F[-F]FFFFFFFFFFFFFFFFFFFFF")
+    '[FFFFFFFFFFFFFFFF'
+    """
+    opened = (each[0] * min(rule.count(each[0]) - rule.count(each[1]), _DEEPEST) for each in _PAIRS)
+    return f"{''.join(opened)}{re.sub(r'[][(){}]', '', rule.rstrip()[-16:])}"
+
+
 def check_text(text: str) -> None:
     """Refuse anything but text, and text that is too long."""
     if not isinstance(text, str):

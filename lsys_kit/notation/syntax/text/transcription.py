@@ -14,11 +14,20 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Iterator
+from fractions import Fraction
 from itertools import islice
 from typing import NamedTuple
 
 from lsys_kit.budget import current
-from lsys_kit.notation.syntax.text.statements import ARROW, LABEL, OMEGA, blank_parentheses, without_comments
+from lsys_kit.notation.syntax.text.statements import (
+    ARROW,
+    LABEL,
+    OMEGA,
+    blank_parentheses,
+    pending,
+    surely_goes_on,
+    without_comments,
+)
 from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, as_typed, edited
 from lsys_kit.notation.syntax.text.typesetting import (
     HEADING,
@@ -104,6 +113,15 @@ _START = re.compile(r"[ \t]*+((?i:Start(?:wort|word)|Start (?:word|symbol))\b[ \
 _NAMED_AXIOM = re.compile(rf"[ \t]*+(?i:axiom)\b|{_START.pattern}|{_OMEGA.pattern}")
 _PROBABILITY = re.compile(rf"(?<![ \t])[ \t]++(\d*\.\d+)[ \t]*+(?={_ARROW})")
 _ABOVE = re.compile(r"[ \t]*+(\d*\.\d+|1)[ \t]*+$")
+_REFERENCE = re.compile(r"[\[(]\d++[\])]|\d++|[-–][ ]?\d++[ ]?[-–]|/[ ]?[a-z]|\([a-z]\)")
+"""The number of a page or a note, or a caption's letter: on an indented line, anything else goes on with a production."""
+_ASIDE = re.compile(r"[\W_]*+(?:\w{1,12}(?:\.\d+)?[\W_]*+)?")
+"""A line with one name or number, whatever signs are around it."""
+_CHANCE = re.compile(
+    rf"(?:^|:)[ \t]*+(?P<symbol>[A-Za-z])[ \t]++(?P<value>\([ \t]*+(?P<number>\d?\.\d++)[ \t]*+\))[ \t]*+(?={_ARROW})"
+)
+"""A probability in brackets, set apart from the symbol."""
+FULL_STOPS = "The full stop at the end of a rule is left out."
 _ANY = re.compile(rf"(?P<left>\*)[ \t]*+(?=<)|(?<=>)[ \t]*+(?P<right>\*)(?=[ \t]*+(?:{_ARROW}|:))")
 _EQUALS = re.compile(r"(?<![<>=!:])=(?!=)")
 _DIGIT_RULE = re.compile(rf"(?:[^<>:]*+<)?[ \t]*+\d[ \t]*+(?:>[^<>:]*?)?(?:{_ARROW}|:)")
@@ -127,7 +145,8 @@ _SIGNS_OF_PRINT = (
     re.compile(rf"\A\s*+[^:=<>#\n]++\n[^\n]*(?:{_ARROW})"),
     re.compile(r">[ \t]*+\*"),
     re.compile(r"=[ \t]*+[\d.]++[ \t]*+[,;]"),
-    re.compile(rf"\.\d++[ \t]*+(?:{_ARROW})"),
+    re.compile(rf"\.\d++[ \t]*+\)?+[ \t]*+(?:{_ARROW})"),
+    re.compile(r"\.[ \t]*+(?:\n|\Z)"),
     re.compile(rf"\n[ \t]*+{_SETTING_NAME}[ \t]*+(?:=(?!=)|:[^\n]*deg)"),
     re.compile(r"\n(?!\n)[ \t]*+(?:[pP]_?+[\d{]|[Ss][Tt][Aa][Rr][Tt]|[#.\d]|[-*][ \t]|\(\d|[^:<\n]*+<[ \t]*+\d)"),
 )
@@ -175,6 +194,15 @@ def _with_typed_signs(source: str) -> str:
     return "\n".join(lines)
 
 
+def left_out(line: str) -> str:
+    """The note on a line that is left out below a production.
+
+    >>> left_out(" [3] ")
+    '"[3]" is left out: it is not surely a part of the rule above it.'
+    """
+    return f'"{line.strip()}" is left out: it is not surely a part of the rule above it.'
+
+
 class _Line(NamedTuple):
     start: int
     text: str
@@ -199,7 +227,26 @@ class _Listing:
         self.labelled = any(_LABEL.match(line.text) or _OMEGA.match(line.text) for line in self.lines)
         self.printed = self.labelled or bool(_DELTA.search(plain))
         self.first = next((index for index, line in enumerate(self.lines) if line.arrow), len(self.lines))
+        self.asides = {*self._asides()} if self.printed else set()
         self.notes: list[str] = []
+
+    def _asides(self) -> Iterator[int]:
+        """The lines with a number of a page, a caption's letter or a reference, which are no part of a production."""
+        words = " ".join(line.text[line.arrow.end() :] for line in self.lines if line.arrow)
+        heads = " ".join(line.text[: line.arrow.start()].split(":")[-1] for line in self.lines if line.arrow)
+        known = frozenset(re.findall(r"[^\W\d_]", words)) | frozenset(heads)
+        rule, indent = "", 0
+        for index, line in enumerate(self.lines):
+            above = index + 1 < len(self.lines) and self.lines[index + 1].arrow and _ABOVE.match(line.text)
+            if line.arrow:
+                rule = line.text
+                indent = len(rule) - len(rule.lstrip())
+            elif rule and not above and not _NAMED.match(line.text):
+                aside = _REFERENCE if len(line.text) - len(line.text.lstrip()) > indent else _ASIDE
+                if surely_goes_on(line.text, rule, known) or not aside.fullmatch(line.text.strip()):
+                    rule = pending(rule + line.text)
+                else:
+                    yield index
 
     def settings(self) -> Iterator[Edit]:
         """Numbers on one line, constants and inclusions as cpfg has them, and an axiom that is not called so."""
@@ -272,8 +319,13 @@ class _Listing:
     def rules(self) -> Iterator[Edit]:
         """Productions: lines that go on, what stands over the arrow, stars for any neighbour, and "="."""
         above: str | None = None
+        chances: dict[str, list[Fraction]] = {}
         for index, line in enumerate(self.lines):
             arrow = line.arrow
+            if index in self.asides:
+                self.notes.append(left_out(line.text))
+                yield Edit(line.start, line.end, "")
+                continue
             if arrow is None:
                 number = _ABOVE.match(line.text)
                 following = self.lines[index + 1] if index + 1 < len(self.lines) else None
@@ -286,12 +338,27 @@ class _Listing:
             yield from self._head(line, line.text[: arrow.start()])
             condition = ":" in self._bare(line)[: arrow.start()]  # which may end with a number, too
             over = None if condition else _PROBABILITY.search(line.text)
+            if (chance := _CHANCE.match(line.text)) and not self._has_values(chance["symbol"]):
+                yield Edit(line.start + chance.start("value"), line.start + chance.end("value"), "")
+                above = chance["number"]
+                chances.setdefault(chance["symbol"], []).append(Fraction(above))
             if over:
                 yield Edit(line.start + over.start(), line.start + over.end(), "")
             if over or above:
                 end = self._end(index)
                 yield Edit(end, end, f" : {over[1] if over else above}")
             above = None
+            end = self._end(index)
+            if arrow[0] in "→⟶" and self.plain[end - 1] == "." and "{" not in self.plain:
+                self.notes.append(FULL_STOPS)
+                yield Edit(end - 1, end, "")
+        for symbol, each in chances.items():
+            whole = "" if sum(each) == 1 else f"; together they are {float(sum(each)):g}, not 1"
+            self.notes.append(f"The numbers before the arrows of {symbol} are read as probabilities{whole}.")
+
+    def _has_values(self, symbol: str) -> bool:
+        """Whether a symbol has values somewhere but in brackets set apart before an arrow."""
+        return any(f"{symbol}(" in line.text for line in self.lines)
 
     def _head(self, line: _Line, head: str) -> Iterator[Edit]:
         for match in _ANY.finditer(line.text, 0, len(head) + 2):
@@ -306,7 +373,13 @@ class _Listing:
     def _goes_on(self, index: int) -> bool:
         """Whether a line of a printed listing goes on with the production above."""
         line = self.lines[index]
-        return self.printed and index > self.first and not _NAMED.match(line.text) and not _ABOVE.match(line.text)
+        return (
+            self.printed
+            and index > self.first
+            and index not in self.asides
+            and not _NAMED.match(line.text)
+            and not _ABOVE.match(line.text)
+        )
 
     def _end(self, index: int) -> int:
         """Where a production ends that begins on a line."""
