@@ -314,7 +314,7 @@ OWN_FRAME = re.compile(
 )
 """What frames a text in cpfg's notation or GROGRA's: their readers say what is wrong with it."""
 _OWN_STATEMENT = re.compile(
-    r"^[ \t]*(?:surface\b[^\n]*[:(]|(?:decomposition|interpretation|homomorphism)[ \t]*:?[ \t]*$"
+    r"^[ \t]*(?:surface\b[^\n]*[:(]|(?:decomposition|interpretation|homomorphism)[ \t]*+:?[ \t]*+$"
     r"|(?:field|meta|consider|branches|decomposition depth|maximum depth)[ \t]*:"
     r"|(?:cells|widths|colou?rs|turtle)[ \t]*:[ \t]*(?:ellip|rect|pix|unit|nat|symb|abop|grog|plant|fract)"
     r"|\#[ \t]*(?:def|inc|und|if|end)\w*\b|[^\s{}=:\\]+[ \t]*(?:\([^()\n]*\)[ \t]*)?\{[ \t]*(?:;[^\n]*)?$)",
