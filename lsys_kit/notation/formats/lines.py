@@ -590,7 +590,7 @@ def _check_left_out(text: str, items: Sequence[_Item]) -> None:
 
 
 def has_unread_words(text: str) -> bool:
-    """Whether a line with an arrow is no rule, or a word stands alone on a line.
+    r"""Whether a line with an arrow is no rule, or a word stands alone on a line.
 
     >>> has_unread_words("Axiom: F\nRules:"), has_unread_words("Axiom: F\nF F+F")
     (False, True)
@@ -600,7 +600,7 @@ def has_unread_words(text: str) -> bool:
 
 
 def is_prose(text: str) -> bool:
-    """Whether a text has sentences, or a path through pages, and nothing of a system.
+    r"""Whether a text has sentences, or a path through pages, and nothing of a system.
 
     >>> is_prose("Home → Fractals → L-systems\nPosted by Anna on Monday"), is_prose("axiom: F"), is_prose("Leaf -> Leaf Leaf")
     (True, False, False)
