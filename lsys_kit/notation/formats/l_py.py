@@ -15,7 +15,7 @@ from lsys_kit.errors import ModelSyntaxError
 from lsys_kit.notation.formats.found import Found, Passage, Rule, tables
 
 _SIGN = re.compile(
-    r"^(?:production|interpretation|homomorphism|decomposition)[ \t]*:?[ \t]*$|^module[ \t]+[A-Za-z]"
+    r"^(?:production|interpretation|homomorphism|decomposition)[ \t]*+:?[ \t]*+$|^module[ \t]+[A-Za-z]"
     r"|^#{4,}[ ]INIT|^__lpy|\bn?produce\b"
     r"|^(?:import|from)[ \t]+[A-Za-z.]+|^def[ \t]+\w+\(|^extern\(",
     re.MULTILINE,

@@ -56,7 +56,8 @@ _COMMENT = re.compile(
 """What is said behind a part: a comment, the number of an equation."""
 _NUMBER = re.compile(r"[ \t]*[-+]?(?:\d+(?:[.,]\d+)?|\.\d+)(?:/\d+)?(?P<rest>.*)")
 _BOUNDARY = re.compile(
-    r"[,;|\t({]+[ \t]*(?:(?:and|und|et|with|using|by|the|its|an?)[ \t]+){0,3}|[ \t]{2,}|[.][ \t]+|[ \t](?:and|und|y|et|en|e(?=[ \t]+(?:\(|\w{3})))[ \t]+[({]?"
+    r"[,;|\t({]+[ \t]*(?:(?:and|und|et|with|using|by|the|its|an?)[ \t]+){0,3}|[ \t]{2,}|[.][ \t]+"
+    r"|[ \t](?:and|und|y|et|en|e(?=[ \t]+(?:\(|\w{3})))[ \t]+[({]?"
     r"|[ \t]\^[ \t]*\("
     r"|[ \t](?P<said>with|using|by|the|its|mit|con|avec|com)[ \t]+(?:(?:the|an?)[ \t]+)?"
     r"|:(?=[ \t])"
@@ -313,7 +314,7 @@ OWN_FRAME = re.compile(
 )
 """What frames a text in cpfg's notation or GROGRA's: their readers say what is wrong with it."""
 _OWN_STATEMENT = re.compile(
-    r"^[ \t]*(?:surface\b[^\n]*[:(]|(?:decomposition|interpretation|homomorphism)[ \t]*:?[ \t]*$"
+    r"^[ \t]*(?:surface\b[^\n]*[:(]|(?:decomposition|interpretation|homomorphism)[ \t]*+:?[ \t]*+$"
     r"|(?:field|meta|consider|branches|decomposition depth|maximum depth)[ \t]*:"
     r"|(?:cells|widths|colou?rs|turtle)[ \t]*:[ \t]*(?:ellip|rect|pix|unit|nat|symb|abop|grog|plant|fract)"
     r"|\#[ \t]*(?:def|inc|und|if|end)\w*\b|[^\s{}=:\\]+[ \t]*(?:\([^()\n]*\)[ \t]*)?\{[ \t]*(?:;[^\n]*)?$)",
@@ -589,7 +590,7 @@ def _check_left_out(text: str, items: Sequence[_Item]) -> None:
 
 
 def has_unread_words(text: str) -> bool:
-    """Whether a line with an arrow is no rule, or a word stands alone on a line.
+    r"""Whether a line with an arrow is no rule, or a word stands alone on a line.
 
     >>> has_unread_words("Axiom: F\nRules:"), has_unread_words("Axiom: F\nF F+F")
     (False, True)
@@ -599,7 +600,7 @@ def has_unread_words(text: str) -> bool:
 
 
 def is_prose(text: str) -> bool:
-    """Whether a text has sentences, or a path through pages, and nothing of a system.
+    r"""Whether a text has sentences, or a path through pages, and nothing of a system.
 
     >>> is_prose("Home → Fractals → L-systems\nPosted by Anna on Monday"), is_prose("axiom: F"), is_prose("Leaf -> Leaf Leaf")
     (True, False, False)

@@ -131,7 +131,7 @@ def read_found(text: str, name: str | None = None) -> LSystem | None:
 
 
 def what_is_missing(text: str) -> LSystemError | None:
-    """What a text lacks in which no format finds a whole system: rules, an axiom, or everything; None where that is not known.
+    r"""What a text lacks in which no format finds a whole system: rules, an axiom, or everything; None where that is not known.
 
     >>> what_is_missing("Variables: F\nAxiom: F\nRules:\nAngle: 60°").message
     'There is no rule in this text'
