@@ -34,14 +34,16 @@ export function boundsOf(shapes) {
   const spans = axes.map((_, axis) => Math.max(0, most[axis] - least[axis]));
   const middle = axes.map((_, axis) => (least[axis] <= most[axis] ? (least[axis] + most[axis]) / 2 : 0));
   if (!inSpace) return { middle, pixel, extent: 0, across: spans[0] / 2, up: spans[1] / 2 };
+  let across = 0;
   const slices = times(RINGS, () => [Infinity, -Infinity, 0]); // the lowest and the highest place of each, and how far it reaches
   eachPoint(shapes, (i, reach) => {
     const z = shapes.z[i] - middle[2], slice = slices[clamped(0, RINGS - 1, Math.floor(RINGS * (z / (spans[2] || 1) + 0.5)))];
-    const far = Math.hypot(shapes.x[i] - middle[0], shapes.y[i] - middle[1]) + reach;
-    [slice[0], slice[1], slice[2]] = [Math.min(slice[0], z - reach), Math.max(slice[1], z + reach), Math.max(slice[2], far)];
+    const far = Math.hypot(shapes.x[i] - middle[0], shapes.y[i] - middle[1]);
+    [slice[0], slice[1], slice[2]] = [Math.min(slice[0], z - reach), Math.max(slice[1], z + reach), Math.max(slice[2], far + reach)];
+    across = Math.max(across, far);
   });
   const rings = slices.filter(([low, high]) => low <= high).flatMap(([low, high, far]) => [[low, far], [high, far]]);
-  return { middle, pixel, extent: Math.max(...spans), across: Math.max(0, ...rings.map(([, far]) => far)), up: spans[2] / 2 + bulge, rings };
+  return { middle, pixel, extent: Math.max(...spans), across: across + bulge, up: spans[2] / 2 + bulge, rings };
 }
 
 // How far to the side, and up or down, rings around an upright axis are seen, each a height and a radius.
