@@ -339,8 +339,7 @@ def slides(lesson: str) -> list[tuple[int, str, str]]:
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("name", "hand", "width"),
-    [(f"notebooks/{name}.html", *HANDS[number % len(HANDS)]) for number, name in enumerate(NAMES)],
+    ("name", "hand", "width"), [(f"notebooks/{name}.html", *HANDS[number % len(HANDS)]) for number, name in enumerate(NAMES)]
 )
 def test_each_value_that_a_lesson_asks_for_is_reached_by_hand_on_its_page(opened, hand, width, name) -> None:  # noqa: F811
     page: Page = opened(name, is_phone=width == 400, has_touch=hand is Finger)
