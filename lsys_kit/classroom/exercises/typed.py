@@ -25,7 +25,7 @@ WORDS: Mapping[str, Any] = tomllib.loads((files(__package__) / "typed.toml").rea
 """Words and signs that people type, in English and German."""
 _ASSIGNED = re.compile(r"^\s*+[A-Za-z_]\w*+\s*+(?:\([^()=]*\)\s*+)?=(?!=)\s*")
 """The beginning of `N(12) = 21` or `t = d - s`."""
-ARROW = r"(?<![-=])[-=]++>|→"
+ARROW = r"(?<![-=])[-=]++>|[→⟶⇒⟹↦]"
 """An arrow, however long."""
 _OUTSIDE = re.compile(r"[^()]++\)?")
 """What stands between two parentheses, with the second if it closes one."""
@@ -510,6 +510,8 @@ _NOTHING = re.compile(r"(->|→)[ \t]*$", re.MULTILINE)
 _FULL_STOP = re.compile(r"(?<=[\w\])])\.[ \t]*$", re.MULTILINE)
 _NEXT_LINE = re.compile(r";[ \t]*(?!\n)|,[ \t]*+(?=[^,;\n]*?(?:->|→))")
 _SETTING = re.compile(r"^([ \t]*(?:axiom|angle|heading|length))[ \t]*=", re.MULTILINE | re.IGNORECASE)
+_OTHER_ARROW = re.compile(r"(?<![-=<>])=++>|[⟶⇒⟹↦]")
+"""An arrow in a line that has no other one: before an arrow => may be meant as >=."""
 _ARROW_OR_END = re.compile(r"->|→|$")
 _ARGUMENTS = re.compile(r"\([^()\n]*\)")
 _PRODUCT = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?)[ \t]*(?=[A-Za-z(])|(?<=\))[ \t]*(?=[A-Za-z(])")
@@ -539,6 +541,7 @@ def read_typed(text: str, reader: Callable[[str], Read], known: str = "") -> Rea
 def _cleaned(text: str, known: str) -> str:
     """A text without what no notation means: quotation marks around it, full stops at the ends of its lines."""
     text = unquoted(text).replace(r"\rightarrow", "->").replace(r"\to", "->").replace("−>", "->").replace("–>", "->")
+    text = "\n".join(line if re.search("->|→", line) else _OTHER_ARROW.sub("->", line) for line in text.split("\n"))
     text = _ERASED.sub(r"\1 ε", text)
     if not re.search(r"\b(empty|nothing)\b", known):
         text = _IN_A_WORD.sub(r"\1 ε", text)

@@ -157,8 +157,8 @@ def _read(exercise: Exercise, answer: object) -> Drawn:
     return Drawn(written(system, read_modules(system, answer, drawn=True)))
 
 
-def _same(_: Exercise, mine: Drawn, wanted: Drawn) -> bool:
-    return same_strokes(mine.strokes, wanted.strokes)
+def _same(exercise: Exercise, mine: Drawn, wanted: Drawn) -> bool:
+    return same_strokes(mine.strokes, wanted.strokes, turned=not exercise.drawn)
 
 
 def _alike(exercise: Exercise, mine: Drawn, other: Drawn) -> bool:
@@ -169,10 +169,12 @@ def _alike(exercise: Exercise, mine: Drawn, other: Drawn) -> bool:
     return form_of(own.states.system, drawn=True) == form_of(theirs.states.system, drawn=True)
 
 
-def _difference(_: Exercise, mine: Drawn, wanted: Drawn) -> Difference:
+def _difference(exercise: Exercise, mine: Drawn, wanted: Drawn) -> Difference:
     own, other = len(mine.strokes), len(wanted.strokes)
     if not own:
         return Difference(reply("drawing.nothing"), explains=True)
+    if exercise.drawn and same_strokes(mine.strokes, wanted.strokes):
+        return Difference(reply("drawing.turned"), 1, True, explains=True)
     likeness = min(own, other) / max(own, other) / 2 if own != other else 0.6
     if mine.ends.shape[1] == 4 and wanted.ends.shape[1] == 4 and max(len(mine.ends), len(wanted.ends)) <= MOST_FOLLOWED:
         return Difference(_stroke_by_stroke(mine, wanted), likeness, at_a_case=True)

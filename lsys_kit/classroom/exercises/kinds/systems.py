@@ -20,7 +20,7 @@ from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.forms import form_of, in_names_of, with_names
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
 from lsys_kit.classroom.exercises.replies import reply
-from lsys_kit.classroom.exercises.typed import formula_text, quoted, read_typed, text_answer
+from lsys_kit.classroom.exercises.typed import ARROW, formula_text, quoted, read_typed, text_answer
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.petri.net import all_outcomes, outcomes_of
 from lsys_kit.errors import LSystemError, ModelValueError
@@ -331,7 +331,7 @@ def names_in_other_case(exercise: Exercise, mine: SystemAnswer) -> Mapping[str, 
 _AXIOM_LINE = re.compile(r"^[ \t]*(axiom|omega|ω)[ \t]*:", re.IGNORECASE | re.MULTILINE)
 """An answer with an axiom of its own is the whole system."""
 _ARROW = re.compile(r"->|→")
-_ARROWS = re.compile(r"->|=>|→|⇒|\\to\b|\\rightarrow")
+_ARROWS = re.compile(rf"{ARROW}|\\to\b|\\rightarrow")
 _SETTING = re.compile(r"^[^\n=]*(?::|(?<![<>=!])=(?!=))", re.MULTILINE)
 MOST_QUOTED = 200
 """How many characters of a production a reply quotes."""
