@@ -183,11 +183,15 @@ def _difference(exercise: Exercise, mine: Drawn, wanted: Drawn) -> Difference:
 
 def _stroke_by_stroke(mine: Drawn, wanted: Drawn) -> str:
     """Where a drawing first leaves the right one, if both begin with the same stroke."""
-    fitting = strokes_that_fit(mine.ends, wanted.ends)
+    other = np.asarray(wanted.ends * [-1, 1, -1, 1])
+    rights = [wanted.ends]
+    if same_strokes(normalised(joined_strokes(other)), wanted.strokes):
+        rights.append(other)  # the picture is its own mirror image
+    fitting, right = max(((strokes_that_fit(mine.ends, each), each) for each in rights), key=lambda each: each[0])
     if fitting < len(mine.ends):
         where = "drawing.wrong_from_the_start" if fitting < 2 else "drawing.wrong_stroke"
         return reply(where, fitting=fitting, number=fitting + 1)
-    missing = strokes_that_fit(wanted.ends, mine.ends) < len(wanted.ends)
+    missing = strokes_that_fit(right, mine.ends) < len(right)
     return reply("drawing.missing_strokes" if missing else "drawing.other_strokes")
 
 
