@@ -29,8 +29,8 @@ def normalised(ends: Floats) -> Floats:
     return np.asarray(points / (size or 1), dtype=float).reshape(-1, 2 * dimension)
 
 
-def same_strokes(mine: Floats, wanted: Floats, tolerance: float = 100 * TOLERANCE) -> bool:
-    """Whether normalised strokes are the same after a turn, in whatever order and direction.
+def same_strokes(mine: Floats, wanted: Floats, tolerance: float = 100 * TOLERANCE, turned: bool = True) -> bool:
+    """Whether normalised strokes are the same, after a turn unless that counts, in whatever order and direction.
 
     >>> square = normalised(np.array([[0.0, 0, 1, 0], [1, 0, 1, 1], [1, 1, 0, 1], [0, 1, 0, 0]]))
     >>> same_strokes(square @ np.kron(np.eye(2), np.array([[0, 1], [-1, 0]])), square)
@@ -40,8 +40,10 @@ def same_strokes(mine: Floats, wanted: Floats, tolerance: float = 100 * TOLERANC
         return False
     if not len(mine):
         return True
-    if mine.shape[1] == 6:
+    if mine.shape[1] == 6 and turned:
         return _same_in_space(mine, wanted, tolerance)
+    if not turned:
+        return _covers(mine, wanted, tolerance)
     return any(_covers(mine @ np.kron(np.eye(2), turn), wanted, tolerance) for turn in _turns(mine, wanted, tolerance))
 
 
@@ -71,7 +73,7 @@ def _covers(mine: Floats, wanted: Floats, tolerance: float) -> bool:
 
 
 def _both_ways(strokes: Floats) -> cKDTree:
-    return cKDTree(np.concatenate([strokes, strokes[:, [2, 3, 0, 1]]]))
+    return cKDTree(np.concatenate([strokes, np.roll(strokes, strokes.shape[1] // 2, axis=1)]))
 
 
 def _same_in_space(mine: Floats, wanted: Floats, tolerance: float) -> bool:

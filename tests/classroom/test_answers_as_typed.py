@@ -25,7 +25,16 @@ DATA = Path(__file__).parent / "data"
 WRONG = tomllib.loads((DATA / "wrong_answers.toml").read_text(encoding="utf-8"))
 RIGHT = tomllib.loads((DATA / "right_answers.toml").read_text(encoding="utf-8"))
 KIT = {exercise.id: exercise for exercise in exercises() if exercise.id in WRONG}
-NAMING = "repair", "system.joined", "system.given_already", "word.of_step", "word.erased", "number.one_off", "number.of_step"
+NAMING = (
+    "repair",
+    "system.joined",
+    "system.given_already",
+    "word.of_step",
+    "word.erased",
+    "number.one_off",
+    "number.of_step",
+    "drawing.turned",
+)
 NAMING += "number.decimals", "number.close", "number.whole", "number.not_negative", "number.probability", "table.late"
 NAMING += "table.early", "table.exchanged", "net.start", "system.never_used", "map.no_rule", "drawing.nothing"
 """The replies that name what is wrong, by their places in the table of replies."""

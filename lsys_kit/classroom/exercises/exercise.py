@@ -75,7 +75,8 @@ class Exercise:
         Of a choice.
     given, probes, settings, names, drawn
         Of a system, or the first of a map: the part that the question gives; further axioms and constants for which it must be
-        right; how its symbols may be renamed ("new", "any" or "fixed"); whether angle, heading and length count.
+        right; how its symbols may be renamed ("new", "any" or "fixed"); whether angle, heading and length count,
+        and of a drawing the direction in which it stands.
     behind
         Of a system: whether what is typed stands behind what the question gives, and need not be right in front of it.
     values

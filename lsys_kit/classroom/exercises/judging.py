@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
@@ -175,7 +176,7 @@ def judged(exercise: Exercise, answer: object) -> tuple[Verdict, bool]:
     repair = _repair(exercise, own, fitting, found)
     near = found.near or bool(repair and repair.near) or (bool(fitting) and all(wrong.near for wrong in fitting))
     said, mark = _parts_right(exercise, own, solution)
-    explained = _explained(fitting, found) if fitting else ""
+    explained = _explained(fitting, found, _is_worked(exercise, answer)) if fitting else ""
     changed = _said_of(repair, found) if repair or not fitting else ""
     message = " ".join(filter(None, (said, explained, changed)))
     tried = bool(fitting or repair) or kind.honest(exercise, own, solution)
@@ -215,7 +216,15 @@ def _parts_right(exercise: Exercise, own: Any, solution: Any) -> tuple[str, floa
     return (reply(f"{exercise.kind}.parts", right=right, all=all), right / all) if right else ("", 0)
 
 
-def _explained(fitting: Sequence[WrongAnswer], found: Difference) -> str:
+_PRODUCT = re.compile(r"[\d)]\s*[*^·×]\s*[\d(]")
+
+
+def _is_worked(exercise: Exercise, answer: object) -> bool:
+    """Whether a number is written as a product: then it may have come about otherwise than by the misconception it fits."""
+    return exercise.kind == "number" and isinstance(answer, str) and bool(_PRODUCT.search(answer))
+
+
+def _explained(fitting: Sequence[WrongAnswer], found: Difference, worked: bool = False) -> str:
     """What is said of an answer that one or several misconceptions yield: one is named, several are asked about.
 
     Where most of the answer is right, it may be a slip of the pen: then one is asked about too, and its place is shown.
@@ -232,6 +241,8 @@ def _explained(fitting: Sequence[WrongAnswer], found: Difference) -> str:
         only = next(iter(others.values()))
         if found.likeness >= MOST_RIGHT and found.at_a_place and not only.near:
             return f"{_asked([only])} {found.message}"
+        if worked:
+            return f"{_asked([only])} {gettext(only.but)}".strip()
         return reply("reply.comes_out", do=gettext(only.do), but=gettext(only.but))
     return _asked(list(others.values()))
 

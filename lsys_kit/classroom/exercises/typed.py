@@ -25,7 +25,7 @@ WORDS: Mapping[str, Any] = tomllib.loads((files(__package__) / "typed.toml").rea
 """Words and signs that people type, in English and German."""
 _ASSIGNED = re.compile(r"^\s*+[A-Za-z_]\w*+\s*+(?:\([^()=]*\)\s*+)?=(?!=)\s*")
 """The beginning of `N(12) = 21` or `t = d - s`."""
-ARROW = r"(?<![-=])[-=]++>|→"
+ARROW = r"(?<![-=])[-=]++>|[→⟶⇒⟹↦]"
 """An arrow, however long."""
 _OUTSIDE = re.compile(r"[^()]++\)?")
 """What stands between two parentheses, with the second if it closes one."""
@@ -328,7 +328,12 @@ _SCIENTIFIC = re.compile(r"(?<!\w)(\d+(?:\.\d+)?)[eE]([+-]?\d{1,3})(?!\w)")
 _CONSTANTS: Mapping[str, float] = {"pi": math.pi, "phi": (1 + math.sqrt(5)) / 2, "π": math.pi, "φ": (1 + math.sqrt(5)) / 2}
 _HYPOTENUSE = re.compile(r"\bhypot\(([^(),]+),([^(),]+)\)")
 _COMPARISON = re.compile(r"[<>]|==|!=")
-_SEVERAL = re.compile(r"\d\s*(?:and|und)\s*\d")
+_SEVERAL = re.compile(rf"\d\s*(?:and|und|to|bis|{ARROW})\s*\d|[-+*/]\s*\d+\s*=\s*\d+\s*[,;]\s*\d[\d\s+*/-]*=")
+"""Two numbers, a range, a chain, or two sums."""
+_LABELLED = re.compile(
+    rf"^\W*(?:(?:at|in|im|bei|after|nach)\s+)?(?:{'|'.join(WORDS['labels'].split())})\s*\d+\s*:\s*", re.IGNORECASE
+)
+"""What is before the number in "step 3: 64"."""
 _EQUATION = re.compile(r"[^=]*[^\W\d_]\b[^=]*=[^=]*$")
 _GLUED = re.compile(r"\d([a-zA-Z])\s*$")
 """A number with one letter directly behind it, which is a product and no unit."""
@@ -388,7 +393,9 @@ def typed_number(answer: object, decimal_comma: bool = False) -> TypedNumber:
             if isinstance(answer, Number):
                 raise
             raise ModelValueError(reply("typed.no_number_but", kind=kind_of(answer))) from None
-    text = with_digits(unquoted(keyboard_text(answer)).strip("$ "))
+    text = _LABELLED.sub("", with_digits(unquoted(keyboard_text(answer)).strip("$ ")))
+    if is_unsolved(text):
+        raise ModelValueError(reply("typed.equation", answer=quoted(answer)), hint=reply("typed.alone"))
     for pattern, plain in _REPLACED:
         text = pattern.sub(plain, text)
     if _SEVERAL.search(text):
@@ -402,6 +409,22 @@ def typed_number(answer: object, decimal_comma: bool = False) -> TypedNumber:
     if _EQUATION.match(text):
         raise ModelValueError(reply("typed.equation", answer=quoted(answer)), hint=reply("typed.alone"))
     raise fault or ModelValueError(reply("typed.number_needed"))
+
+
+_SINGLE = re.compile(r"(?<![^\W\d_])(?!n\b)[^\W\d_](?!\w)(?!\s*\()")
+_SIGN_BESIDE = re.compile(r"[-+*/^]")
+
+
+def is_unsolved(text: str) -> bool:
+    """Whether a text is one equation with a formula of a name of one letter on its left.
+
+    >>> [is_unsolved(text) for text in ("1-p = 1/4", "50 + 50q = 90", "d^2 = 4", "p = 1/4", "N(3) = 8+13")]
+    [True, True, True, False, False]
+    """
+    left, equals, right = text.partition("=")
+    if not equals or "=" in right or re.search(r"[<>!]$", left):
+        return False
+    return bool(_SINGLE.search(left)) and bool(_SIGN_BESIDE.search(left)) and not re.search(r"[^\W\d_]{2}", left)
 
 
 def _evaluated(answer: object) -> object:
@@ -510,6 +533,8 @@ _NOTHING = re.compile(r"(->|→)[ \t]*$", re.MULTILINE)
 _FULL_STOP = re.compile(r"(?<=[\w\])])\.[ \t]*$", re.MULTILINE)
 _NEXT_LINE = re.compile(r";[ \t]*(?!\n)|,[ \t]*+(?=[^,;\n]*?(?:->|→))")
 _SETTING = re.compile(r"^([ \t]*(?:axiom|angle|heading|length))[ \t]*=", re.MULTILINE | re.IGNORECASE)
+_OTHER_ARROW = re.compile(r"(?<![-=<>])=++>|[⟶⇒⟹↦]")
+"""An arrow in a line that has no other one: before an arrow => may be meant as >=."""
 _ARROW_OR_END = re.compile(r"->|→|$")
 _ARGUMENTS = re.compile(r"\([^()\n]*\)")
 _PRODUCT = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?)[ \t]*(?=[A-Za-z(])|(?<=\))[ \t]*(?=[A-Za-z(])")
@@ -539,6 +564,7 @@ def read_typed(text: str, reader: Callable[[str], Read], known: str = "") -> Rea
 def _cleaned(text: str, known: str) -> str:
     """A text without what no notation means: quotation marks around it, full stops at the ends of its lines."""
     text = unquoted(text).replace(r"\rightarrow", "->").replace(r"\to", "->").replace("−>", "->").replace("–>", "->")
+    text = "\n".join(line if re.search("->|→", line) else _OTHER_ARROW.sub("->", line) for line in text.split("\n"))
     text = _ERASED.sub(r"\1 ε", text)
     if not re.search(r"\b(empty|nothing)\b", known):
         text = _IN_A_WORD.sub(r"\1 ε", text)

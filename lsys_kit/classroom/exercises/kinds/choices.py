@@ -37,7 +37,8 @@ def listing(exercise: Exercise) -> str:
 
 
 _LETTER = re.compile(
-    r"^(?:it\s+is\s++|the\s++)?(?:(?:right|correct|my)\s++)?(?:option|answer|choice|solution|letter)?\s*+(?:is\b)?"
+    r"^(?:(?:i\s+(?:think|guess|say|choose|believe)|ich\s+(?:denke|glaube|meine|nehme|wähle))\s++(?:that\s++)?)?"
+    r"(?:it\s+is\s++|the\s++)?(?:(?:right|correct|my)\s++)?(?:option|answer|choice|solution|letter)?\s*+(?:is\b)?"
     r"\W*+([a-z])\W*$",
     re.IGNORECASE,
 )
@@ -46,7 +47,11 @@ _LETTER_AND_REASON = re.compile(
     r"^\W*([A-Za-z])\s*(?:,|;|-|–|\bbecause\b|\bsince\b|\bas\b|\bweil\b|\bda\b)\s*[^\W\d_]{2,}.*$", re.DOTALL | re.IGNORECASE
 )
 """A letter, and why."""
+_LETTER_AND_WORDS = re.compile(r"^\W*([A-Za-z])\s*(?:[:)\]]|\.(?=\s))\s*(\S.*)$", re.DOTALL)
+_WORDS_AND_LETTER = re.compile(r"^(.*[^\W\d_]{2}.*):\s*([A-Z])\W*$", re.DOTALL)
+"""A letter with words of one's own behind it, or in front of it."""
 _EXCLUDING = frozenset(WORDS["excluding"].split())
+_FILLING = frozenset(WORDS["filling"].split())
 MOST_WORDS = 3
 """So many words has an answer that names an option of one word."""
 _SHORTEST_PART = 3
@@ -77,7 +82,7 @@ def _read_choice(exercise: Exercise, answer: object) -> str:
     reason = _LETTER_AND_REASON.match(text)
     if reason and reason[1].upper() in known and not meant:
         meant = [reason[1].upper()]
-    meant = meant or _with_part(texts, _plain(text)) or _named_in(texts, text)
+    meant = meant or _with_real_part(texts, _plain(text)) or _named_in(texts, text) or _with_own_words(texts, text)
     if len(meant) > 1:
         several = reply("choice.several", text=quoted(text))
         raise ModelNameError(several, hint=reply("choice.choose", options=", ".join(meant)))
@@ -95,6 +100,38 @@ def _with_part(texts: Mapping[str, str], part: str) -> list[str]:
     if part.isdigit() or not whole:
         return whole
     return [letter for letter, text in texts.items() if part in text] if len(part) >= _SHORTEST_PART else []
+
+
+def _with_real_part(texts: Mapping[str, str], part: str) -> list[str]:
+    """The options whose texts contain a part that may tell them apart: a figure, two telling words, or a whole text.
+
+    >>> _with_real_part({"A": "each cell has both ages", "B": "1 cell"}, "ages")
+    []
+    """
+    found = _with_part(texts, part)
+    telling = [word for word in re.findall(r"\w+", part) if word not in _FILLING]
+    signs = re.findall(r"[^\w\s]", part)
+    is_real = len(telling) + len(signs) > 1 or any(map(str.isdigit, part)) or part in texts.values()
+    return found if is_real or len(found) > 1 else []
+
+
+def _with_own_words(texts: Mapping[str, str], text: str) -> list[str]:
+    """The option whose letter stands before a colon or parenthesis and words of one's own, or behind words and a colon.
+
+    >>> _with_own_words({"A": "top", "B": "down"}, "B: it is lower"), _with_own_words({"A": "top", "B": "down"}, "A: down")
+    (['B'], ['A', 'B'])
+    """
+    before, behind = _LETTER_AND_WORDS.match(text), _WORDS_AND_LETTER.match(text)
+    named = [(each[1], each[2]) for each in (before,) if each] + [(each[2], each[1]) for each in (behind,) if each]
+    letters = [letter.upper() for letter, _ in named if letter.upper() in texts]
+    if len(letters) != 1 or len(named) != 1:
+        return []
+    words = named[0][1]
+    others = _with_real_part(texts, _plain(words))
+    excludes = set(re.findall(r"\w+", words.lower())) <= _EXCLUDING | _FILLING
+    if excludes:
+        return []
+    return sorted({*letters, *others})
 
 
 def _named_in(texts: Mapping[str, str], text: str) -> list[str]:

@@ -157,8 +157,8 @@ def _read(exercise: Exercise, answer: object) -> Drawn:
     return Drawn(written(system, read_modules(system, answer, drawn=True)))
 
 
-def _same(_: Exercise, mine: Drawn, wanted: Drawn) -> bool:
-    return same_strokes(mine.strokes, wanted.strokes)
+def _same(exercise: Exercise, mine: Drawn, wanted: Drawn) -> bool:
+    return same_strokes(mine.strokes, wanted.strokes, turned=not exercise.drawn)
 
 
 def _alike(exercise: Exercise, mine: Drawn, other: Drawn) -> bool:
@@ -169,10 +169,12 @@ def _alike(exercise: Exercise, mine: Drawn, other: Drawn) -> bool:
     return form_of(own.states.system, drawn=True) == form_of(theirs.states.system, drawn=True)
 
 
-def _difference(_: Exercise, mine: Drawn, wanted: Drawn) -> Difference:
+def _difference(exercise: Exercise, mine: Drawn, wanted: Drawn) -> Difference:
     own, other = len(mine.strokes), len(wanted.strokes)
     if not own:
         return Difference(reply("drawing.nothing"), explains=True)
+    if exercise.drawn and same_strokes(mine.strokes, wanted.strokes):
+        return Difference(reply("drawing.turned"), 1, True, explains=True)
     likeness = min(own, other) / max(own, other) / 2 if own != other else 0.6
     if mine.ends.shape[1] == 4 and wanted.ends.shape[1] == 4 and max(len(mine.ends), len(wanted.ends)) <= MOST_FOLLOWED:
         return Difference(_stroke_by_stroke(mine, wanted), likeness, at_a_case=True)
@@ -181,11 +183,15 @@ def _difference(_: Exercise, mine: Drawn, wanted: Drawn) -> Difference:
 
 def _stroke_by_stroke(mine: Drawn, wanted: Drawn) -> str:
     """Where a drawing first leaves the right one, if both begin with the same stroke."""
-    fitting = strokes_that_fit(mine.ends, wanted.ends)
+    other = np.asarray(wanted.ends * [-1, 1, -1, 1])
+    rights = [wanted.ends]
+    if same_strokes(normalised(joined_strokes(other)), wanted.strokes):
+        rights.append(other)  # the picture is its own mirror image
+    fitting, right = max(((strokes_that_fit(mine.ends, each), each) for each in rights), key=lambda each: each[0])
     if fitting < len(mine.ends):
         where = "drawing.wrong_from_the_start" if fitting < 2 else "drawing.wrong_stroke"
         return reply(where, fitting=fitting, number=fitting + 1)
-    missing = strokes_that_fit(wanted.ends, mine.ends) < len(wanted.ends)
+    missing = strokes_that_fit(right, mine.ends) < len(right)
     return reply("drawing.missing_strokes" if missing else "drawing.other_strokes")
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
 from fractions import Fraction
@@ -14,7 +15,7 @@ from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
 from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.classroom.exercises.typed import assigned_name, formula_text, kind_of, text_answer
-from lsys_kit.errors import LSystemError, ModelValueError
+from lsys_kit.errors import LSystemError, ModelSyntaxError, ModelValueError
 from lsys_kit.notation.analysis.checks import check_expression
 from lsys_kit.notation.model.arithmetic import Value, number_text, reason_of, shortest_decimal
 from lsys_kit.notation.model.expressions import (
@@ -151,6 +152,9 @@ def _read(exercise: Exercise, answer: object) -> Expression:
         else:
             return _checked(exercise, from_sympy(answer), wanted)
     text = text_answer(answer, reply("expression.what"), '"t + 1"')
+    turned = re.search(r"=[<>](?!=)", text)
+    if turned:
+        raise ModelSyntaxError(reply("expression.comparison"), text, turned.start(), turned.end())
     try:
         return checked_expression(text, exercise.values, wanted)
     except LSystemError:

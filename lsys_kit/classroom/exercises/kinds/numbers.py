@@ -18,6 +18,7 @@ from lsys_kit.classroom.exercises.typed import (
     WORDS,
     TypedNumber,
     converted,
+    keyboard_text,
     means_the_same,
     names_of,
     parts,
@@ -59,7 +60,34 @@ def _is_in_place(exercise: Exercise, word: str) -> bool:
     )
 
 
+_COMPARED = re.compile(r"^(.*(?:[<>]=?|==))\s*([-+]?[\d.]+)$", re.DOTALL)
+_NAMED_LAST = re.compile(r"(?:^\W*|[,;]\s*|\b(?:and|und)\s+)([A-Za-z])\s*(?:\([^()]*\))?\s*=[^=]*$")
+_COUNTED = frozenset("Nnktis")
+"""Names that anybody may give to a number of things, and to a step."""
+_ASKED_FOR = re.compile(r"\*\*(.*?)\*\*", re.DOTALL)
+_NAME = re.compile(r"(?<![A-Za-z])[A-Za-z](?![A-Za-z])")
+
+
+def _alone(exercise: Exercise, answer: str) -> str:
+    """An answer without the part of a condition of the question that stands before its number."""
+    text = keyboard_text(answer)
+    compared = _COMPARED.match(text.strip())
+    unspaced = "".join(exercise.question.split())
+    return compared[2] if compared and f"`{''.join(compared[1].split())}" in unspaced else answer
+
+
+def _refuse_other_name(exercise: Exercise, answer: str) -> None:
+    """Refuse the value of a name that is one of the question, but not the one it asks for."""
+    named = _NAMED_LAST.search(answer)
+    asked = _NAME.findall(" ".join(_ASKED_FOR.findall(exercise.question)))
+    if named and named[1] in {*_NAME.findall(exercise.question)} - {*asked, *_COUNTED}:
+        raise ModelNameError(reply("number.other_name", name=named[1], answer=quoted(answer)), hint=reply("number.only_asked"))
+
+
 def _read_number(exercise: Exercise, answer: object) -> Value:
+    if isinstance(answer, str) and exercise.kind == "number":
+        answer = _alone(exercise, answer)
+        _refuse_other_name(exercise, answer)
     found = typed_number(answer, _asks_for_decimals(exercise, answer))
     words = (*found.before, *found.after)
     if any(word.lower() in _DOUBTFUL for word in words):
@@ -169,7 +197,8 @@ def _too_few_decimals(exercise: Exercise, number: Value, solution: Value) -> int
 
 def _related(exercise: Exercise, number: Value, solution: Value) -> str:
     """What is said of a number that is one off, where things are counted."""
-    counts = what_is_asked(exercise) != "first" and exercise.unit.lower() not in UNITS and not exercise.tolerance
+    counted = bool(exercise.unit) or bool(what_is_asked(exercise))
+    counts = counted and what_is_asked(exercise) != "first" and exercise.unit.lower() not in UNITS and not exercise.tolerance
     return reply("number.one_off") if counts and _distance(number, solution) == 1 < _distance(solution, 0) - 2 else ""
 
 
@@ -245,9 +274,21 @@ NUMBER = AnswerKind(_read_number, _number_difference, same_number, _honest_numbe
 
 def _read_table(exercise: Exercise, answer: object) -> tuple[Value, ...]:
     found = [part for part in parts(answer, reply("table.what")) if not _is_a_word_in_place(exercise, part)]
+    found = _without_symbols(exercise, found)
     if not found:
         raise ModelValueError(reply("table.none"))
     return tuple(_read_number(exercise, part) for part in found)
+
+
+def _without_symbols(exercise: Exercise, found: list[object]) -> list[object]:
+    """The numbers of a row such as 1S, 2L, in the order of the question's symbols."""
+    numbers: dict[str, object] = {}
+    for part in found:
+        counted = re.fullmatch(r"(\d+)\*?([^\W\d]\w*)", part) if isinstance(part, str) else None
+        if counted is None or counted[2] not in exercise.symbols or counted[2] in numbers:
+            return found
+        numbers[counted[2]] = counted[1]
+    return [numbers[symbol] for symbol in exercise.symbols] if len(numbers) == len(exercise.symbols) else found
 
 
 def _is_a_word_in_place(exercise: Exercise, part: object) -> bool:

@@ -20,10 +20,10 @@ from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.forms import form_of, in_names_of, with_names
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
 from lsys_kit.classroom.exercises.replies import reply
-from lsys_kit.classroom.exercises.typed import formula_text, quoted, read_typed, text_answer
+from lsys_kit.classroom.exercises.typed import ARROW, formula_text, quoted, read_typed, text_answer
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.petri.net import all_outcomes, outcomes_of
-from lsys_kit.errors import LSystemError, ModelValueError
+from lsys_kit.errors import LSystemError, ModelSyntaxError, ModelValueError
 from lsys_kit.notation.analysis.lint import warnings
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.expressions import Number, expression_type, walk
@@ -331,7 +331,7 @@ def names_in_other_case(exercise: Exercise, mine: SystemAnswer) -> Mapping[str, 
 _AXIOM_LINE = re.compile(r"^[ \t]*(axiom|omega|ω)[ \t]*:", re.IGNORECASE | re.MULTILINE)
 """An answer with an axiom of its own is the whole system."""
 _ARROW = re.compile(r"->|→")
-_ARROWS = re.compile(r"->|=>|→|⇒|\\to\b|\\rightarrow")
+_ARROWS = re.compile(rf"{ARROW}|\\to\b|\\rightarrow")
 _SETTING = re.compile(r"^[^\n=]*(?::|(?<![<>=!])=(?!=))", re.MULTILINE)
 MOST_QUOTED = 200
 """How many characters of a production a reply quotes."""
@@ -342,7 +342,15 @@ def _read(exercise: Exercise, answer: object) -> SystemAnswer:
         return whole(answer)
     text = text_answer(answer, reply("system.what"), '"axiom: a"')
     _refuse_part_of_production(exercise, text)
-    return read_typed(text, lambda typed: _read_text(exercise, typed), f"{exercise.given}\n{exercise.solution}")
+    try:
+        found = read_typed(text, lambda typed: _read_text(exercise, typed), f"{exercise.given}\n{exercise.solution}")
+    except LSystemError as mistake:
+        _refuse_slip_of_writing(text, mistake)
+        _refuse_without_colon(text)
+        raise
+    if "".join(module.symbol for module in found.own.axiom).lower().startswith("axiom"):
+        _refuse_without_colon(text)
+    return found
 
 
 def _refuse_part_of_production(exercise: Exercise, text: str) -> None:
@@ -362,6 +370,32 @@ def _refuse_part_of_production(exercise: Exercise, text: str) -> None:
     if what:
         hint = reply("system.form_with_condition" if "condition" in what else "system.form")
         raise ModelValueError(reply(f"system.{what}", text=quoted(text)), hint=hint)
+
+
+_NO_COLON = re.compile(r"^[ \t]*(axiom)[ \t]+(?![:=])[^\s:=]", re.IGNORECASE | re.MULTILINE)
+_NO_ARROW = re.compile(
+    r"^[ \t]*[A-Za-z]\w*[ \t]*(?:\([^()\n]*\)[ \t]*)?(-[ \t]+>|(?<![-=])>(?=[ \t]*[^\n>=]*$)|-(?=[ \t]))(?![^\n]*(?:->|→))",
+    re.MULTILINE,
+)
+_ALONE = re.compile(r"(?:->|→)[^\n]*\n[ \t]*([A-Za-z]\w*)[ \t]*(?=\n|$)")
+_FACTOR = re.compile(r"(?:->|→)[ \t]*(\d+[ \t]*\*[ \t]*[A-Za-z]\w*[ \t]*\()")
+"""Slips of writing: an axiom without a colon, an arrow in pieces, a line without one, a factor before a module."""
+
+
+def _refuse_slip_of_writing(text: str, mistake: LSystemError) -> None:
+    """Show a slip of writing, where a reader could not make sense of another line."""
+    if not _ARROWS.search(text):
+        return
+    for pattern, name in ((_NO_ARROW, "no_arrow"), (_ALONE, "line_alone"), (_FACTOR, "factor")):
+        found = pattern.search(text)
+        if found and (name == "factor" or f"(line {text.count(chr(10), 0, found.start(1)) + 1}," not in str(mistake)):
+            raise ModelSyntaxError(reply(f"system.{name}"), text, found.start(1), found.end(1))
+
+
+def _refuse_without_colon(text: str) -> None:
+    """Refuse a text in which the colon behind "axiom" is missing."""
+    if found := _NO_COLON.search(text):
+        raise ModelSyntaxError(reply("system.no_colon"), text, found.start(1), found.end(1))
 
 
 def _read_text(exercise: Exercise, text: str) -> SystemAnswer:

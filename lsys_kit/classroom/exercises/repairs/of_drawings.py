@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from difflib import SequenceMatcher
 from functools import partial
-from itertools import combinations
+from itertools import combinations, pairwise
 from typing import Any, TypeAlias
 
 from lsys_kit.classroom.exercises.asked import written
@@ -15,12 +16,14 @@ from lsys_kit.classroom.exercises.kinds.drawings import Drawn, drawn
 from lsys_kit.classroom.exercises.repairs.of_systems import repairs_of
 from lsys_kit.classroom.exercises.repairs.repair import Repair, row_change, said_of_row
 from lsys_kit.classroom.exercises.replies import reply
-from lsys_kit.notation.model.modules import Module
+from lsys_kit.geometry.sameness import same_strokes
+from lsys_kit.notation.model.modules import CLOSING, OPENING, Module
 from lsys_kit.notation.model.system import LSystem
 
 Row: TypeAlias = tuple[Module, ...]
 MOST_MODULES = 60
 """In longer words only what is to be changed towards the solution is looked for."""
+MIRRORED = {"+": "-", "-": "+"}
 ALIKE = ("+-", "Ff", "[]", "()", "[(", "])")
 """Symbols that are easily taken for one another."""
 
@@ -29,15 +32,19 @@ def of_drawings(exercise: Exercise, mine: Drawn, wanted: Drawn) -> Iterator[Repa
     """Repairs of a drawing: of its word, where a word was typed, else of its system."""
     system, target = mine.derivation.states.system, wanted.derivation.states.system
     if len(mine.derivation) == 1:
-        word, right = tuple(mine.derivation[0]), tuple(wanted.derivation[-1])
+        word, right = tuple(mine.derivation[0]), _nearest(exercise, tuple(mine.derivation[0]), wanted)
         if not exercise.system and system.angle != target.angle:
             turned = replace(system, angle=target.angle)
             yield Repair(partial(_drawn, turned, word), partial(reply, "repair.angle"))
-        for changed in _towards(word, right):
+        for changed in filter(_is_balanced, _towards(word, right)):
+            yield Repair(partial(_drawn, system, changed), partial(said_of_row, word, changed), case=True)
+        for changed in filter(_is_balanced, _alike_words(word)):
             yield Repair(partial(_drawn, system, changed), partial(said_of_row, word, changed), case=True)
         for one, other in _word_pairs(word, right):
+            if not _is_balanced(other):
+                continue
             yield Repair(partial(_drawn, system, other), partial(_two_said, word, one, other), near=False, case=True, changes=2)
-        for changed in _words(word, right):
+        for changed in filter(_is_balanced, _words(word, right)):
             yield Repair(partial(_drawn, system, changed), partial(said_of_row, word, changed), case=True)
     else:
         yield from repairs_of(system, target, partial(drawn, exercise), settings=("angle",))
@@ -47,27 +54,64 @@ def _drawn(system: LSystem, word: Row) -> Drawn:
     return Drawn(written(system, word))
 
 
+def _nearest(exercise: Exercise, word: Row, wanted: Drawn) -> Row:
+    """The right word, or that which turns the other way throughout, where it is right too and more like an answer."""
+    right = tuple(wanted.derivation[-1])
+    other = tuple(replace(each, symbol=MIRRORED.get(each.symbol, each.symbol)) for each in right)
+    system = wanted.derivation.states.system
+    if other == right or len(right) > MOST_MODULES:
+        return right
+    if not same_strokes(_drawn(system, other).strokes, wanted.strokes, turned=not exercise.drawn):
+        return right
+    return max((right, other), key=lambda row: SequenceMatcher(None, word, row, autojunk=False).ratio())
+
+
+def _is_balanced(word: Row) -> bool:
+    """Whether each closing bracket has an opening one, and something in between: the drawing of others may be right by chance.
+
+    >>> _is_balanced(tuple(map(Module, "F[+F]"))), _is_balanced(tuple(map(Module, "F]")))
+    (True, False)
+    """
+    depth = 0
+    if any(one.symbol in OPENING and other.symbol in CLOSING for one, other in pairwise(word)):
+        return False
+    for module in word:
+        depth += (module.symbol in OPENING) - (module.symbol in CLOSING)
+        if depth < 0:
+            return False
+    return depth == 0
+
+
 def _two_said(word: Row, one: Row, both: Row) -> str:
-    """What is said of two changes: that they are one of a pair of brackets, or of one of them."""
-    if row_change(word, both).startswith("brackets"):
-        return said_of_row(word, both)
+    """What is said of two changes: a pair of brackets, the order, or one of them where that is sure."""
+    if row_change(word, both).startswith("brackets") or Counter(map(str, word)) == Counter(map(str, both)):
+        return reply("repair.order") if len(word) == len(both) else said_of_row(word, both)
+    if "several" in row_change(word, one):
+        return reply("repair.two_alone")
     return f"{reply('repair.two')} {said_of_row(word, one)}"
 
 
 def _words(word: Row, right: Row) -> Iterator[Row]:
-    """A word with one thing changed anywhere."""
+    """A word with one thing left out or added anywhere."""
+    if len(word) > MOST_MODULES:
+        return
+    for at in range(len(word)):
+        yield (*word[:at], *word[at + 1 :])
+    for new in dict.fromkeys((*word, *right)):
+        for at in range(len(word) + 1):
+            yield (*word[:at], new, *word[at:])
+
+
+def _alike_words(word: Row) -> Iterator[Row]:
+    """A word with one symbol taken for another, or with two neighbours exchanged."""
     if len(word) > MOST_MODULES:
         return
     for at, module in enumerate(word):
-        yield (*word[:at], *word[at + 1 :])
         for pair in ALIKE:
             if module.symbol in pair:
                 yield (*word[:at], replace(module, symbol=pair[1 - pair.index(module.symbol)]), *word[at + 1 :])
         if at + 1 < len(word) and word[at + 1] != module:
             yield (*word[:at], word[at + 1], module, *word[at + 2 :])
-    for new in dict.fromkeys((*word, *right)):
-        for at in range(len(word) + 1):
-            yield (*word[:at], new, *word[at:])
 
 
 def _operations(word: Row, right: Row) -> list[tuple[str, int, int, int, int]]:

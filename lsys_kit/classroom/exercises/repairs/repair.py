@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -115,10 +116,16 @@ def _has_more_brackets(longer: Sequence[object], shorter: Sequence[object]) -> b
 
 def _changed(mine: object, wanted: object) -> str:
     if _symbol(mine) == _symbol(wanted):
-        return "changed_number"
+        return "changed_number" if _differ_in_a_number(mine, wanted) else "changed_argument"
     if {_symbol(mine), _symbol(wanted)} == {"F", "f"}:
         return "changed_pen"
     return f"changed_{_class(mine)}" if _class(mine) == _class(wanted) != "stroke" else "changed_module"
+
+
+def _differ_in_a_number(mine: object, wanted: object) -> bool:
+    """Whether two modules are the same but for numbers, with the same operators."""
+    forms = [re.sub(r"\d+(?:\.\d+)?(?:/\d+)?", "0", str(each).replace(" ", "")) for each in (mine, wanted)]
+    return forms[0] == forms[1]
 
 
 def said_of_row(own: Sequence[object], right: Sequence[object]) -> str:
