@@ -122,6 +122,21 @@ def test_rules_that_are_typed_are_the_systems_of_python_too(open_notebook, write
     assert notebook.console == []
 
 
+PAPER = "canvas => [...canvas.getContext('2d').getImageData(1, 1, 1, 1).data].slice(0, 3).every(each => each < 80)"
+
+
+def test_drawings_have_the_colours_of_another_theme_at_once(shown):
+    notebook = shown("explore('K8', 5)")
+    panel = panel_of(notebook.page)
+    panel.get_by_role("button", name="nine seeds", exact=True).click()
+    expect(panel.locator(".lsys-tile-button")).to_have_count(9)
+    for theme, dark in (("Dark", True), ("Light", False)):
+        notebook._ask(f"await app.commands.execute('apputils:change-theme', {{ theme: 'JupyterLab {theme}' }});")
+        expect(notebook.page.locator("body")).to_have_attribute("data-jp-theme-light", str(not dark).lower())
+        notebook.page.wait_for_timeout(500)
+        assert [canvas.evaluate(PAPER) for canvas in panel.locator("canvas").all()] == [dark] * 10
+
+
 @pytest.mark.parametrize("dark", [False, True])
 def test_every_control_by_mouse_in_light_and_dark(shown, dark):
     notebook = shown("explore('J4', 9)")

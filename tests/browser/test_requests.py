@@ -165,7 +165,7 @@ class Reader:
                 canvas.click(position={"x": size["width"] / 2 + 17, "y": size["height"] * part / 12})
                 if self._panel.locator(".lsys-sentence").first.inner_text():
                     break
-            expect(self._panel.locator(".lsys-sentence").first).to_contain_text("comes from")
+            expect(self._panel.locator(".lsys-sentence").first).to_contain_text(re.compile("comes from|Mother: "))
         else:
             tile = self._panel.locator(".lsys-tile-button").nth(int(what.removeprefix("tile ")))
             tile.click()

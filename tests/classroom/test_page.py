@@ -535,6 +535,20 @@ def test_a_phone_needs_no_sideways_scrolling_and_the_page_is_dark_in_the_dark(op
     assert shown.evaluate("getComputedStyle(document.body).backgroundColor") == "rgb(22, 27, 32)"
 
 
+def test_rules_of_a_page_are_shown_and_no_box_to_be_filled(opened, j4: str) -> None:
+    shown = opened(j4)
+    shown.get_by_role("button", name="rules", exact=True).click()
+    expect(shown.get_by_text("This page only shows the rules; they can be changed in Jupyter.")).to_be_visible()
+    rules = shown.get_by_label("rules of the model")
+    rules.click()
+    expect(shown.get_by_role("button", name="back to the first rules")).to_be_hidden()
+    looks = rules.evaluate(
+        "area => (({ borderTopWidth, resize, outlineStyle }) => [borderTopWidth, resize, outlineStyle])(getComputedStyle(area))"
+    )
+    assert looks == ["0px", "none", "none"]
+    assert rules.evaluate("area => area.scrollHeight <= area.clientHeight + 1")
+
+
 def test_without_scripts_the_page_says_what_it_would_show(opened, j4: str) -> None:
     assert "It shows: Nine cells." in opened(j4, java_script_enabled=False).inner_text("body")
 

@@ -125,6 +125,79 @@ def test_a_number_is_typed_as_a_person_writes_it(explored):
     expect(box).to_have_attribute("aria-invalid", "true")
 
 
+@pytest.mark.parametrize("touch", [False, True])
+def test_what_is_typed_into_a_number_box_replaces_what_stands_in_it(explored, touch):
+    panel = explored("K5", 2, context={"has_touch": touch})
+    box = panel.page.get_by_label("angle", exact=True)
+    for typed in ("60", "45"):
+        panel.page.get_by_label("step", exact=True).focus()
+        box.tap() if touch else box.click()
+        panel.page.keyboard.type(typed)
+        panel.page.keyboard.press("Enter")
+        expect(box).to_have_value(typed)
+        panel.page.wait_for_function(f"host.get('angle') === {typed}")
+    panel.page.keyboard.type("30")
+    panel.page.keyboard.press("Tab")
+    expect(box).to_have_value("30")
+
+
+@pytest.mark.parametrize("leave", ["Enter", "Tab"])
+@pytest.mark.parametrize("typed", ["200", "-1", "x"])
+def test_a_number_out_of_range_is_refused_and_the_value_stays(explored, typed, leave):
+    panel = explored("K5", 2)
+    box = panel.page.get_by_label("angle", exact=True)
+    box.click()
+    panel.page.keyboard.type(typed)
+    panel.page.keyboard.press(leave)
+    expect(box).to_have_attribute("aria-invalid", "true")
+    expect(box).to_have_accessible_description("0 to 180")
+    expect(box).to_have_value("25.7")
+    assert panel.page.evaluate("host.get('angle')") == 25.7
+    box.click()
+    panel.page.keyboard.type("180")
+    panel.page.keyboard.press(leave)
+    expect(box).not_to_have_attribute("aria-invalid", "true")
+    expect(box).to_have_value("180")
+    expect(panel.at(".lsys-refused").filter(has_text="to")).to_have_count(0)
+
+
+def test_after_a_change_of_the_rules_reset_leads_to_the_first_step_of_the_panel(explored):
+    panel = explored("K5", 2)
+    panel.view("rules")
+    panel.page.get_by_label("rules of the model").fill("angle: 25.7\nsteps: 4\naxiom: F\nF -> F F [- F] F")
+    expect(panel.at(".lsys-status")).to_contain_text("step 2: 16 strokes")
+    panel.control("step").press("End")
+    expect(panel.at(".lsys-status")).not_to_contain_text("step 2:")
+    panel.at('[data-control="step"]').get_by_role("button", name="reset").click()
+    expect(panel.at(".lsys-status")).to_contain_text("step 2: 16 strokes")
+
+
+def test_a_seed_at_which_nothing_grows_is_said_to_be_one(explored):
+    panel = explored("K8", 5, seed=3)
+    assert [str(word) for word in derive(system("K8"), 18, seed=3)[5:]] == ["P2 L10 F"] * 14
+    expect(panel.at(".lsys-status")).to_contain_text("; nothing changes any more at this seed;")
+
+
+def test_rows_of_a_word_are_seen_whole(explored):
+    for height in (600, 700, 900):
+        panel = explored("K5", 4, context={"viewport": {"width": 1440, "height": height}})
+        rows = panel.at(".lsys-word").evaluate("""word => [...word.children]
+            .map(each => each.getBoundingClientRect()).filter(each => each.top < word.getBoundingClientRect().bottom - 0.5)
+            .map(each => each.bottom - word.getBoundingClientRect().bottom)""")
+        assert max(rows) < 1
+
+
+def test_a_hint_stands_below_the_drawing_and_nothing_moves_when_it_goes(explored):
+    panel = explored("J4", 9, context={})
+    boxes = lambda: [panel.at(each).bounding_box() for each in (".lsys-canvas", ".lsys-sentence", ".lsys-panel")]  # noqa: E731
+    before, hint = boxes(), panel.at(".lsys-sheet .lsys-hint")
+    expect(hint).to_be_visible()
+    assert before[0]["y"] + before[0]["height"] <= hint.bounding_box()["y"]
+    panel.at(".lsys-canvas").click(position={"x": 2, "y": 2})
+    expect(hint).to_be_hidden()
+    assert boxes() == before
+
+
 def test_a_constant_asks_once_for_each_setting_and_neighbours_are_fetched_ahead(explored):
     panel = explored("J4", 9)
     panel.control("lifeTimeB").press("ArrowRight")
@@ -190,7 +263,7 @@ def test_a_module_is_traced_through_all_views(explored):
     panel.view("rules")
     panel.at('.lsys-module[data-position="2"]').click()
     expect(panel.at(".lsys-sentence")).to_have_text(
-        "Cell 3 of step 10, Al(1) comes from Bl(2), cell 3 of step 9, by production 3, Bl(lifeTimeB) -> Al(1) Br(1); "
+        "Cell 3 of step 10, Al(1). Mother: Bl(2), cell 3 of step 9; it divided by production 3, Bl(lifeTimeB) -> Al(1) Br(1); "
         "it becomes Al(2) at step 11."
     )
     expect(panel.at('[data-traced="self"]')).to_have_attribute("data-position", "2")

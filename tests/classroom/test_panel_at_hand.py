@@ -125,6 +125,7 @@ def test_on_a_phone_the_drawing_comes_first_and_the_step_stays(browser, tmp_path
     assert box_of(drawing)["bottom"] < 700
     assert box_of(drawing)["bottom"] < box_of(tab.get_by_label("around", exact=True))["top"] < box_of(word)["top"]
     assert word.evaluate("word => word.clientHeight") < 80
+    assert 0 <= box_of(tab.locator(".lsys-sentence"))["top"] - box_of(tab.locator(".lsys-sheet"))["bottom"] < 20
     tab.get_by_role("button", name="show all").click()
     assert word.evaluate("word => word.scrollHeight === word.clientHeight || word.clientHeight > 200")
     tab.evaluate("scrollTo(0, 1e6)")

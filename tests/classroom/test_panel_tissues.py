@@ -193,8 +193,8 @@ def test_a_cell_is_traced_by_a_click_by_keys_and_in_the_word(explored):
     canvas, before = panel.at("canvas.lsys-canvas"), panel.page.evaluate(PIXELS)
     panel.at("[data-position='1']").click()
     expect(panel.at(".lsys-sentence")).to_have_text(
-        "Cell 2 of step 2, QR: QRQR, QR: QRQR, PQ: PQPQ, PR: PRPR, PR: PRPR, PQ: PQPQ comes, with cell 1, "
-        "from cell 1 of step 1, which was divided; at step 3 it is divided into cells 3 and 4."
+        "Cell 2 of step 2, QR: QRQR, QR: QRQR, PQ: PQPQ, PR: PRPR, PR: PRPR, PQ: PQPQ. Mother: cell 1 of step 1, "
+        "which was divided into this cell and cell 1; at step 3 it is divided into cells 3 and 4."
     )
     panel.page.wait_for_function(f"{PIXELS} !== {before!r}")
     canvas.focus()

@@ -92,6 +92,7 @@ class Explorer(KitWidget):
             raise ModelValueError(f"The seed must be a whole number, not {shown(seed)}")
         self._ready, self._opened, self._given, self._without, self._unfold = False, opened, opened, frozenset(without), unfold
         self._show = None if show is None else [view for view in VIEWS if view in show]
+        self._asked = None if step is None else first
         super().__init__(
             step=first,
             angle=round(turn, 1),
@@ -287,7 +288,8 @@ class Explorer(KitWidget):
             new = opened(system, title, given, self._without, self._unfold)
         standing = {name: text for name, text in content.get("constants", {}).items() if name in alike}
         values = {name: nearest(new.values[name], name, standing.get(name, value)) for name, value in new.first.items()}
-        found = {**self._model_of(new, new.steps, values), "angle": new.angle}
+        first = new.steps if self._asked is None else self._asked
+        found = {**self._model_of(new, first, values), "angle": new.angle}
         with self.hold_sync():
             self._opened, self.model = new, found
             self.settings = _texts(values)

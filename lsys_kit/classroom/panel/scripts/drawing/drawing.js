@@ -213,10 +213,10 @@ export function drawingView(parent, told) {
     return { x: event.clientX - box.left, y: event.clientY - box.top };
   }
 
-  // How the drawing is used is told until somebody has used it.
+  // How the drawing is used is told until somebody has used it; its line stays, so that nothing moves.
   function used() {
-    if (hint.hidden) return;
-    hint.hidden = true;
+    if (hint.hidden || hint.style.visibility) return;
+    hint.style.visibility = "hidden";
     remember("drawn", "once");
   }
 

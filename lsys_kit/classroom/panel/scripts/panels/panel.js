@@ -83,7 +83,9 @@ export function openPanel(element, host, compared = null) {
   const bar = made("div.lsys-tabs", { role: "toolbar", "aria-label": worded("views") }, ...tabs, more.opener), groups = [bar, less].map((group) => roving(group));
   top.append(bar);
   views.prepend(bottom, status);
-  root.append(top, more.element, message, views, sentence);
+  views.append(sentence);
+  if (!compared) step.element.append(reset);
+  root.append(top, more.element, message, views);
   const shared = [step.element, play.element], turning = [angle.element, around.element, above.element];
   if (compared) compared.bar ? compared.bar.append(...shared) : [...shared, ...turning].forEach((each) => (each.hidden = true));
 
@@ -155,7 +157,7 @@ export function openPanel(element, host, compared = null) {
     const ofBoth = constants.filter((each) => compared?.shared.includes(each.name)), own = constants.filter((each) => !ofBoth.includes(each));
     compared?.bar?.append(...ofBoth.map((each) => each.control.element));
     bottom.replaceChildren(...own.map((each) => each.control.element), ...(turns() ? [angle.element] : []),
-      ...(["space", "tissue"].includes(model.book.mode) ? [around.element, above.element] : []), ...(model.chance ? [seed.element] : []), reset, ...fixed);
+      ...(["space", "tissue"].includes(model.book.mode) ? [around.element, above.element] : []), ...(model.chance ? [seed.element] : []), ...(compared ? [reset] : []), ...fixed);
     seed.offer(seedTexts(), 0);
     showSeed();
     view.seeds.offer(model.chance);
@@ -301,8 +303,11 @@ export function openPanel(element, host, compared = null) {
   offs.push(host.on("seed", () => { showSeed(); ask(); }));
   offs.push(host.on("model", openModel), host.on("gone", (text) => say({ message: text })));
   const recoloured = () => {
-    if (book && JSON.stringify(themeOf(root)) !== shownTheme) turnTo(book);
+    if (!book || JSON.stringify(themeOf(root)) === shownTheme) return;
+    if (root.clientWidth) turnTo(book);
+    else again(); // Jupyter hides the page while it loads a theme, and nothing can be painted
   };
+  const again = eachFrame(() => root.clientWidth && recoloured());
   offs.push(whenRecoloured(root, recoloured));
   offs.push(ownKeys(root));
   openModel();
@@ -315,7 +320,7 @@ export function openPanel(element, host, compared = null) {
     for (const off of offs) off();
     for (const timer of [resting, idle]) clearTimeout(timer);
     books.close();
-    later.cancel();
+    for (const each of [later, again]) each.cancel();
     drawing.close();
     rules.close();
     root.remove();

@@ -41,28 +41,36 @@ const numbered = (number) => grouped(number + 1); // places are told from 1 on
 // What a module is, where it came from and what it becomes, as a sentence.
 export function told(book, { step, position }) {
   const { noun } = book.data, parts = book.data.mode === "tissue" ? partsOfCell : partsOfModule, text = book.label(book.word(step)[position]).text;
-  const [origin, future] = parts(book, step, position);
-  return `${noun[0].toUpperCase()}${noun.slice(1)} ${numbered(position)} of step ${step}, ${text} ${origin}${future ? `; ${future}` : ""}.`;
+  const [origin, future] = parts(book, step, position), link = origin.startsWith("Mother: ") ? "." : "";
+  return `${noun[0].toUpperCase()}${noun.slice(1)} ${numbered(position)} of step ${step}, ${text}${link} ${origin}${future ? `; ${future}` : ""}.`;
 }
 
 function partsOfModule(book, step, position) {
   const text = (at, where) => book.label(book.word(at)[where]).text, mother = book.mother(step, position), range = book.daughters(step, position);
   const origin = !step ? "stands in the axiom"
     : mother < 0 ? `is new and divides a cell: ${halves(book, { step, position })}`
-    : `comes from ${text(step - 1, mother)}, ${book.data.noun} ${numbered(mother)} of step ${step - 1}, ${by(book, book.production(step, position))}`;
+    : madeFrom(`${text(step - 1, mother)}, ${book.data.noun} ${numbered(mother)} of step ${step - 1}`, divided(book, step, mother), by(book, book.production(step, position)));
   if (!range) return [origin];
   const [from, to] = range, many = to - from, made = Array.from(book.word(step + 1).subarray(from, Math.min(to, from + MOST_TOLD)), (state) => book.label(state).text).join(" ");
   const becomes = many === 1 && book.production(step + 1, from) < 0 ? "stays as it is" : many ? `becomes ${made}${many > MOST_TOLD ? " …" : ""}` : "is gone";
   return [origin, `it ${becomes} at step ${step + 1}`];
 }
 
+const madeFrom = (before, isMother, how) => (isMother ? `Mother: ${before}; it divided ${how}` : `comes from ${before}, ${how}`);
+
+// Whether there is more than one cell of a cell in the next word, which then has it as their mother.
+function divided(book, step, mother) {
+  const [from, to] = book.daughters(step - 1, mother);
+  return book.data.noun === "cell" && to - from > 1;
+}
+
 // How a cell was and will be divided.
 function partsOfCell(book, step, position) {
   const sisters = ([from, to]) => times(to - from, (i) => from + i), listed = (cells) => cells.map(numbered).join(" and ");
   const mother = book.mother(step, position), others = step ? sisters(book.daughters(step - 1, mother)).filter((each) => each !== position) : [];
-  const before = `cell ${numbered(mother)} of step ${step - 1}, which was`, range = book.daughters(step, position);
+  const before = `cell ${numbered(mother)} of step ${step - 1}`, range = book.daughters(step, position);
   const origin = !step ? "is there from the beginning"
-    : others.length ? `comes, with cell ${listed(others)}, from ${before} divided` : `was ${before} not divided`;
+    : others.length ? `Mother: ${before}, which was divided into this cell and cell ${listed(others)}` : `was ${before}, which was not divided`;
   if (!range) return [origin];
   const next = sisters(range);
   return [origin, `at step ${step + 1} it is ${next.length > 1 ? `divided into cells ${listed(next)}` : `cell ${listed(next)}, not divided`}`];
@@ -86,7 +94,7 @@ const rounded = (size, digits = 2) => Number((size + 1e-9).toFixed(digits));
 export function caption(book, now, tokens, measured) {
   const stages = book.data.net.places, parts = [`step ${now}: ${sizeOf(book, now, measured?.strokes)}`];
   if (tokens && stages.length > 1) parts.push(`${stages.filter((each) => tokens[each.place] > 0).length} of ${counted(stages.length, "stage")} occupied`);
-  if (changesNothing(book, now)) parts.push("this step changes nothing");
+  if (changesNothing(book, now)) parts.push(book.data.chance && isAtRest(book, now) ? "nothing changes any more at this seed" : "this step changes nothing");
   if (book.data.mode === "filament") parts.push(`length ${rounded(filamentLength(book, now), 4)}`);
   if (measured?.size) parts.push(`width ${rounded(measured.size[0])}, height ${rounded(measured.size[1])}`);
   if (book.data.said) parts.push(book.data.said);
@@ -98,6 +106,11 @@ function changesNothing(book, now) {
   if (!now || ["map", "tissue"].includes(book.data.mode) || book.length(now) !== book.length(now - 1)) return false;
   const before = book.word(now - 1);
   return book.word(now).every((state, position) => state === before[position]);
+}
+
+// Whether no production was applied, so that none will be.
+function isAtRest(book, now) {
+  return times(book.length(now), (position) => book.production(now, position)).every((number) => number < 0);
 }
 
 // The line of code that makes a panel as it stands; `turns` says whether its angle has a slider.

@@ -91,23 +91,25 @@ const fits = new WeakMap(), sizes = new ResizeObserver((all) => all.forEach(({ t
 // A slider over some texts of numbers, with a box in which one can be typed; `chosen` is called with the index and the text.
 // It stops where a hand can stop it (stops.js): at every `least` value at least. An arrow key goes on to the next of every `pace`
 // values, one with Shift to the next, Page Up and Down to the next stop; moved with Shift held, each pixel is a value. Where it has
-// values between its stops, or no `bar`, buttons go to the next. `whole`: any whole number may be typed.
+// values between its stops, or no `bar`, buttons go to the next. `whole`: any whole number may be typed. What stands in the box is
+// selected where it is entered, so that typing replaces it; a number beyond the ends is refused, and the value stays.
 export function slider(name, hint, texts, index, chosen, label = name, { least = 1, pace = 1, bar = true, whole = false } = {}) {
   const id = freshId();
   const box = made("input.lsys-box", { id, type: "text", inputmode: "decimal", autocomplete: "off", spellcheck: "false" });
+  const said = made("span.lsys-refused", { id: freshId(), role: "status" });
   const range = made("input.lsys-range", { type: "range", "aria-label": worded("{name}, slider", { name: label }), min: 0, step: "any" });
   const track = made("span.lsys-track", range); // browsers paint nothing behind a native slider
   const beside = (sign, hint, way) => button(sign, hint, () => choose(way(false)), { "aria-label": hint, tabindex: -1, class: "lsys-button lsys-next" });
   const less = beside("\u2212", worded("{name}: the value before", { name: label }), back), more = beside("+", worded("{name}: the next value", { name: label }), on);
-  const element = made("div.lsys-control", { "data-control": name }, made("label", { for: id, title: hint }, label), less, box, more, ...(bar ? [track] : []));
-  let numbers = [], stops = [0], marked = [], grip = null;
+  const element = made("div.lsys-control", { "data-control": name }, made("label", { for: id, title: hint }, label), less, box, more, said, ...(bar ? [track] : []));
+  let numbers = [], stops = [0], marked = [], grip = null, typing = false;
 
   function show(at) {
+    if (at !== index) refuse(false);
     index = clamped(0, numbers.length - 1, at);
     range.value = amongStops(stops, index);
     range.setAttribute("aria-valuetext", texts[index]);
     if (document.activeElement !== box) box.value = texts[index];
-    box.removeAttribute("aria-invalid");
     less.disabled = !index;
     more.disabled = index === numbers.length - 1;
   }
@@ -119,14 +121,26 @@ export function slider(name, hint, texts, index, chosen, label = name, { least =
   }
 
   function typed() {
+    if (box.value === texts[index]) return;
     const wanted = valueOf(box.value);
-    if (Number.isNaN(wanted)) {
-      box.setAttribute("aria-invalid", "true");
-      return;
-    }
     take(wanted);
-    choose(nearest(numbers, wanted));
+    const refused = !(wanted >= numbers[0] && wanted <= numbers.at(-1));
+    if (!refused) choose(nearest(numbers, wanted));
+    refuse(refused);
+    write();
+  }
+
+  function write() {
+    typing = false;
     box.value = texts[index];
+    if (document.activeElement === box) box.select();
+  }
+
+  // Say among which numbers one can choose, or no longer.
+  function refuse(refused) {
+    if (!refused && !said.textContent) return;
+    said.textContent = !refused ? "" : whole ? worded("a whole number") : worded("{least} to {most}", { least: texts[0], most: texts.at(-1) });
+    for (const [name, value] of [["aria-invalid", "true"], ["aria-describedby", said.id]]) refused ? box.setAttribute(name, value) : box.removeAttribute(name);
   }
 
   // Any whole number is among the values of some sliders as soon as somebody wants it.
@@ -173,7 +187,7 @@ export function slider(name, hint, texts, index, chosen, label = name, { least =
     if (!known[event.key]) return;
     event.preventDefault();
     choose(known[event.key](event.shiftKey) ?? index);
-    box.value = texts[index];
+    write();
   };
 
   // With Shift held a movement goes on from where it is, by a value for each pixel.
@@ -189,6 +203,17 @@ export function slider(name, hint, texts, index, chosen, label = name, { least =
   onKey(box, keyed(keys));
   box.addEventListener("change", typed);
   box.addEventListener("blur", () => show(index));
+  box.addEventListener("input", () => {
+    typing = true;
+    refuse(false);
+  });
+  box.addEventListener("focus", write);
+  box.addEventListener("mousedown", (event) => { // also after a tap; until something is typed no cursor is put into the number
+    if (event.button || (typing && document.activeElement === box)) return;
+    event.preventDefault();
+    box.focus();
+    box.select();
+  });
   offer(texts, index);
   fits.set(range, () => range.clientWidth && fit());
   sizes.observe(range);

@@ -98,7 +98,7 @@ function tspans({ letter, subscript, values }) {
 
 function tokensAt({ x, y }, count) {
   if (count < 5) return DOTS[count].map(([dx, dy]) => drawn("circle", { cx: x + dx, cy: y + dy, r: 3.6 }));
-  const text = short(count), size = text.length < 3 ? 15 : text.length < 4 ? 13 : 11;
+  const text = short(count), size = text.length < 3 ? 15 : text.length < 4 ? 13 : text.length < 5 ? 11 : 10;
   return [drawn("text", { x, y: y + 0.36 * size, "font-size": size, "font-weight": "bold", "text-anchor": "middle" }, text)];
 }
 

@@ -1,4 +1,4 @@
-// The model's text, to be edited: mistakes are underlined where they stand, traced productions are lit.
+// The model's text, to be edited where the host reads it: mistakes are underlined where they stand, traced productions are lit.
 
 import { clamped } from "../books/numbers.js";
 import { button, made, worded } from "./controls.js";
@@ -11,6 +11,7 @@ export function rulesView(parent, asked) {
   const said = made("div.lsys-mistake", { role: "status", "aria-live": "polite" });
   const back = button(worded("back to the first rules"), worded("put back the rules with which the panel was opened"), () => put(first), { hidden: true });
   const notes = made("div.lsys-hint", { role: "status" });
+  const shownOnly = made("div.lsys-caption", worded("This page only shows the rules; they can be changed in Jupyter."));
   parent.append(made("div.lsys-editor", backdrop, area), said, notes, back);
   let first = "", told = [], spans = [], waiting = 0, pasted = false, shown = "";
 
@@ -70,11 +71,16 @@ export function rulesView(parent, asked) {
     // The text of a model that was opened, and the notes on how it was read; one that was typed stays as it was typed.
     open(text, editable, noted) {
       told = noted;
+      if (!editable) text = text.trimEnd();
       if (!first) first = text;
       area.readOnly = !editable;
+      area.tabIndex = editable ? 0 : -1;
+      said.hidden = !editable;
+      if (!editable) notes.after(shownOnly);
       shown = text;
       if (area.value !== text && document.activeElement !== area) area.value = text;
-      area.rows = clamped(4, 18, area.value.split("\n").length + 1);
+      const lines = area.value.split("\n").length;
+      area.rows = editable ? clamped(4, 18, lines + 1) : lines;
       back.hidden = area.value === first;
       understood();
     },
