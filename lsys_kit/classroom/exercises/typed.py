@@ -394,8 +394,6 @@ def typed_number(answer: object, decimal_comma: bool = False) -> TypedNumber:
                 raise
             raise ModelValueError(reply("typed.no_number_but", kind=kind_of(answer))) from None
     text = _LABELLED.sub("", with_digits(unquoted(keyboard_text(answer)).strip("$ ")))
-    if is_unsolved(text):
-        raise ModelValueError(reply("typed.equation", answer=quoted(answer)), hint=reply("typed.alone"))
     for pattern, plain in _REPLACED:
         text = pattern.sub(plain, text)
     if _SEVERAL.search(text):
@@ -415,8 +413,8 @@ _SINGLE = re.compile(r"(?<![^\W\d_])(?!n\b)[^\W\d_](?!\w)(?!\s*\()")
 _SIGN_BESIDE = re.compile(r"[-+*/^]")
 
 
-def is_unsolved(text: str) -> bool:
-    """Whether a text is one equation with a formula of a name of one letter on its left.
+def is_unsolved(text: str, known: Collection[str] = ()) -> bool:
+    """Whether a text is one equation with a formula of an unknown name of one letter on its left.
 
     >>> [is_unsolved(text) for text in ("1-p = 1/4", "50 + 50q = 90", "d^2 = 4", "p = 1/4", "N(3) = 8+13")]
     [True, True, True, False, False]
@@ -424,7 +422,8 @@ def is_unsolved(text: str) -> bool:
     left, equals, right = text.partition("=")
     if not equals or "=" in right or re.search(r"[<>!]$", left):
         return False
-    return bool(_SINGLE.search(left)) and bool(_SIGN_BESIDE.search(left)) and not re.search(r"[^\W\d_]{2}", left)
+    unknown = set(_SINGLE.findall(left)) - {*known}
+    return bool(unknown) and bool(_SIGN_BESIDE.search(left)) and not re.search(r"[^\W\d_]{2}", left)
 
 
 def _evaluated(answer: object) -> object:

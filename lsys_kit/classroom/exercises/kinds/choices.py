@@ -111,7 +111,8 @@ def _with_real_part(texts: Mapping[str, str], part: str) -> list[str]:
     found = _with_part(texts, part)
     telling = [word for word in re.findall(r"\w+", part) if word not in _FILLING]
     signs = re.findall(r"[^\w\s]", part)
-    is_real = len(telling) + len(signs) > 1 or any(map(str.isdigit, part)) or part in texts.values()
+    is_short = any(len(texts[letter].split()) <= MOST_WORDS for letter in found)
+    is_real = is_short or len(telling) + len(signs) > 1 or any(map(str.isdigit, part)) or part in texts.values()
     return found if is_real or len(found) > 1 else []
 
 

@@ -7,6 +7,7 @@ import re
 from collections.abc import Sequence
 from contextlib import suppress
 from itertools import takewhile
+from string import ascii_letters
 from typing import Any
 
 from lsys_kit.classroom.exercises.asked import asked_steps, bound_of, last_step, right_history, what_is_asked
@@ -18,6 +19,7 @@ from lsys_kit.classroom.exercises.typed import (
     WORDS,
     TypedNumber,
     converted,
+    is_unsolved,
     keyboard_text,
     means_the_same,
     names_of,
@@ -62,8 +64,8 @@ def _is_in_place(exercise: Exercise, word: str) -> bool:
 
 _COMPARED = re.compile(r"^(.*(?:[<>]=?|==))\s*([-+]?[\d.]+)$", re.DOTALL)
 _NAMED_LAST = re.compile(r"(?:^\W*|[,;]\s*|\b(?:and|und)\s+)([A-Za-z])\s*(?:\([^()]*\))?\s*=[^=]*$")
-_COUNTED = frozenset("Nnktis")
-"""Names that anybody may give to a number of things, and to a step."""
+_COORDINATES = frozenset("xyz")
+"""Names that nobody gives to another number of one's own."""
 _ASKED_FOR = re.compile(r"\*\*(.*?)\*\*", re.DOTALL)
 _NAME = re.compile(r"(?<![A-Za-z])[A-Za-z](?![A-Za-z])")
 
@@ -80,7 +82,7 @@ def _refuse_other_name(exercise: Exercise, answer: str) -> None:
     """Refuse the value of a name that is one of the question, but not the one it asks for."""
     named = _NAMED_LAST.search(answer)
     asked = _NAME.findall(" ".join(_ASKED_FOR.findall(exercise.question)))
-    if named and named[1] in {*_NAME.findall(exercise.question)} - {*asked, *_COUNTED}:
+    if named and named[1] in _COORDINATES & {*_NAME.findall(exercise.question)} - {*asked}:
         raise ModelNameError(reply("number.other_name", name=named[1], answer=quoted(answer)), hint=reply("number.only_asked"))
 
 
@@ -88,6 +90,10 @@ def _read_number(exercise: Exercise, answer: object) -> Value:
     if isinstance(answer, str) and exercise.kind == "number":
         answer = _alone(exercise, answer)
         _refuse_other_name(exercise, answer)
+        if is_unsolved(
+            keyboard_text(answer), [name for name in ascii_letters if re.search(rf"\b{name} = \d", exercise.question)]
+        ):
+            raise ModelValueError(reply("typed.equation", answer=quoted(answer)), hint=reply("typed.alone"))
     found = typed_number(answer, _asks_for_decimals(exercise, answer))
     words = (*found.before, *found.after)
     if any(word.lower() in _DOUBTFUL for word in words):
@@ -197,8 +203,7 @@ def _too_few_decimals(exercise: Exercise, number: Value, solution: Value) -> int
 
 def _related(exercise: Exercise, number: Value, solution: Value) -> str:
     """What is said of a number that is one off, where things are counted."""
-    counted = bool(exercise.unit) or bool(what_is_asked(exercise))
-    counts = counted and what_is_asked(exercise) != "first" and exercise.unit.lower() not in UNITS and not exercise.tolerance
+    counts = what_is_asked(exercise) != "first" and exercise.unit.lower() not in UNITS and not exercise.tolerance
     return reply("number.one_off") if counts and _distance(number, solution) == 1 < _distance(solution, 0) - 2 else ""
 
 

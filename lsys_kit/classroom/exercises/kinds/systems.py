@@ -341,6 +341,8 @@ def _read(exercise: Exercise, answer: object) -> SystemAnswer:
     if isinstance(answer, LSystem):
         return whole(answer)
     text = text_answer(answer, reply("system.what"), '"axiom: a"')
+    if not exercise.given and _is_without_axiom(text):
+        raise ModelValueError(reply("system.no_axiom"))
     _refuse_part_of_production(exercise, text)
     try:
         found = read_typed(text, lambda typed: _read_text(exercise, typed), f"{exercise.given}\n{exercise.solution}")
@@ -370,6 +372,12 @@ def _refuse_part_of_production(exercise: Exercise, text: str) -> None:
     if what:
         hint = reply("system.form_with_condition" if "condition" in what else "system.form")
         raise ModelValueError(reply(f"system.{what}", text=quoted(text)), hint=hint)
+
+
+def _is_without_axiom(text: str) -> bool:
+    """Whether a text has productions alone: a reader would take the first letter for the axiom, which nobody has said."""
+    lines = [line for line in re.split(r"[;\n]", text) if line.strip()]
+    return bool(lines) and "axiom" not in text.lower() and "ω" not in text and all(map(_ARROWS.search, lines))
 
 
 _NO_COLON = re.compile(r"^[ \t]*(axiom)[ \t]+(?![:=])[^\s:=]", re.IGNORECASE | re.MULTILINE)
