@@ -274,7 +274,7 @@ def test_every_control_by_the_keyboard(home):
     panel.get_by_role("button", name="code", exact=True).press("Enter")
     expect(panel.get_by_label("to be copied")).to_have_value(re.compile(r'^explore\("J4", '))
     panel.get_by_role("button", name="reset", exact=True).press("Enter")
-    expect(status).to_contain_text("step 10")  # the system's own: its rules were typed again
+    expect(status).to_contain_text("step 9")  # the first one of the panel, whatever rules were typed
 
 
 @HOMES
