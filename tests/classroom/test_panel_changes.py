@@ -7,6 +7,7 @@ tokens; and its word is the one that is derived.
 from __future__ import annotations
 
 import random
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -155,7 +156,7 @@ def assert_is_what_a_new_panel_shows(text: str, found: dict[str, Any], tab: Tab,
     if isinstance(system, LSystem):
         opened = explore(system, found["step"], seed=found["seed"], angle=found["angle"], **settings)
         words = derive(system, found["step"], seed=found["seed"], **settings)
-        assert f"{len(words[-1]):,} module" in found["status"], done
+        assert re.search(rf"\b{len(words[-1]):,} (module|cell|letter|character)", found["status"]), done
     else:
         opened = explore(system, found["step"], **settings)
     other = open_panel(tab, opened)
