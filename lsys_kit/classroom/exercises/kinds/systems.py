@@ -288,7 +288,7 @@ def alike(exercise: Exercise, mine: SystemAnswer, other: SystemAnswer) -> bool:
 @lru_cache(maxsize=128)
 def solution_front(exercise: Exercise) -> LSystem:
     """The whole system of the solution."""
-    return _read(exercise, exercise.solution).front
+    return _read_typed(exercise, exercise.solution).front
 
 
 def renamed_as_in(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer, system: LSystem) -> LSystem:
@@ -342,6 +342,10 @@ def _read(exercise: Exercise, answer: object) -> SystemAnswer:
         return whole(answer)
     text = text_answer(answer, reply("system.what"), '"axiom: a"')
     _refuse_part_of_production(exercise, text)
+    return _read_typed(exercise, text)
+
+
+def _read_typed(exercise: Exercise, text: str) -> SystemAnswer:
     return read_typed(text, lambda typed: _read_text(exercise, typed), f"{exercise.given}\n{exercise.solution}")
 
 
