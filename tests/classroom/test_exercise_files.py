@@ -148,6 +148,28 @@ def test_a_word_with_brackets_is_not_read_backwards(folder, successor, solution,
     assert [problem.what for problem in problems_in(folder)] == said
 
 
+@pytest.mark.parametrize(
+    ("solution", "said"),
+    [
+        ("21", '"21" is a number, and a whole production is needed'),
+        ("s < 5", '"s < 5" is a condition, and a whole production is needed'),
+        ("a b", "An arrow is missing here"),
+    ],
+)
+def test_a_solution_that_is_part_of_a_production_is_told(folder, solution, said):
+    text = GOOD[: GOOD.index("[[exercise.slips]]")]
+    for was, becomes in (
+        ('"number"', '"system"'),
+        ('system = "axiom: a\\na -> ab\\nb -> a"\nasks = "length"\n', ""),
+        ('"21"', f'"{solution}"'),
+    ):
+        assert was in text
+        text = text.replace(was, becomes)
+    (folder / "good.toml").write_text(text, encoding="utf-8")
+    (problem,) = problems_in(folder)
+    assert problem.what == f'"solution" cannot be read: {said}'
+
+
 def test_a_duplicate_id_is_an_error_that_names_both_places(folder):
     (folder / "other.toml").write_text(GOOD.replace("mine.1", "mine.1"), encoding="utf-8")
     assert [str(problem) for problem in problems_in(folder)] == [

@@ -118,17 +118,36 @@ def as_text(answer: object) -> str:
         ("kinds.lengths", "1, 2, 3, 5, 9, 13", 5 / 6, "Right: 5 of 6 numbers. The first 4"),
         ("kinds.symbol", "1", 0, "Count the brackets"),
         ("kinds.line", 1, 0, "It is not line 1."),
-        ("kinds.system", "axiom: S\nL -> L S\nS -> L L", 0, "Of S something else should become"),
+        ("1.3", "axiom: al\nal -> bl al\nbl -> ar\nar -> ar br\nbr -> al", 0, "Of al something else should become"),
+        ("1.3", "axiom: al\nal -> bl ar\nbl -> ar\nar -> ar br\nbr -> al", 1 / 9, "Passed: 1 of 9 tests. Up to step 1"),
         ("kinds.expression", "d + 7", 0, "With d = 1 and n = 0 your expression gives 8"),
-        ("kinds.drawing", "F[+F]FF", 0, "Your first 3 strokes are right"),
+        ("kinds.drawing", "FFFFF", 0, "Your first 2 strokes are right"),
         ("kinds.net", "S -> L\nL -> A\nA -> L + 3 S", 2 / 3, "Right: 2 of 3 transitions. Look"),
         ("kinds.net", "S -> S\nL -> L\nA -> A", 0, "Look at the transition that empties S"),
-        ("kinds.map", "A> -> B>[-A>]D>", 0, "At step 1 the number of cells is right."),
+        (
+            "kinds.map",
+            "map: A> B> C> D>\nA> -> B>[-A>]D>\nB> -> B>\nC> -> B>[-A<]B>\nD> -> A>",
+            0,
+            "At step 1 the number of cells is right.",
+        ),
     ],
 )
 def test_a_wrong_answer_that_nothing_explains_earns_the_parts_that_are_right(exercise, answer, mark, said):
     verdict = check(exercise, answer)
     assert (float(verdict), verdict.message[: len(said)]) == (mark, said)
+
+
+@pytest.mark.parametrize(
+    ("exercise", "answer", "said"),
+    [
+        ("kinds.system", "axiom: S\nL -> L S\nS -> L L", "There is one module too many. Look at this production:\n  S -> L L"),
+        ("kinds.drawing", "F[+F]FF", "There is one stroke too many. Your first 3 strokes are right"),
+        ("kinds.map", "A> -> B>[-A>]D>", "All parts are right, but not their order.\n  A> -> B>[-A>]D>"),
+    ],
+)
+def test_a_wrong_answer_that_one_change_makes_right_is_almost_right_and_earns_no_more(exercise, answer, said):
+    verdict = check(exercise, answer)
+    assert (verdict.said, float(verdict), verdict.message[: len(said)]) == ("Almost", 0, said)
 
 
 IN_PARTS = {"table", "words", "system", "map", "net"}

@@ -288,7 +288,7 @@ def alike(exercise: Exercise, mine: SystemAnswer, other: SystemAnswer) -> bool:
 @lru_cache(maxsize=128)
 def solution_front(exercise: Exercise) -> LSystem:
     """The whole system of the solution."""
-    return _read(exercise, exercise.solution).front
+    return _read_typed(exercise, exercise.solution).front
 
 
 def renamed_as_in(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer, system: LSystem) -> LSystem:
@@ -345,7 +345,7 @@ def _read(exercise: Exercise, answer: object) -> SystemAnswer:
         raise ModelValueError(reply("system.no_axiom"))
     _refuse_part_of_production(exercise, text)
     try:
-        found = read_typed(text, lambda typed: _read_text(exercise, typed), f"{exercise.given}\n{exercise.solution}")
+        found = _read_typed(exercise, text)
     except LSystemError as mistake:
         _refuse_slip_of_writing(text, mistake)
         _refuse_without_colon(text)
@@ -353,6 +353,10 @@ def _read(exercise: Exercise, answer: object) -> SystemAnswer:
     if "".join(module.symbol for module in found.own.axiom).lower().startswith("axiom"):
         _refuse_without_colon(text)
     return found
+
+
+def _read_typed(exercise: Exercise, text: str) -> SystemAnswer:
+    return read_typed(text, lambda typed: _read_text(exercise, typed), f"{exercise.given}\n{exercise.solution}")
 
 
 def _refuse_part_of_production(exercise: Exercise, text: str) -> None:
