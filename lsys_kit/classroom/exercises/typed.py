@@ -329,7 +329,7 @@ _CONSTANTS: Mapping[str, float] = {"pi": math.pi, "phi": (1 + math.sqrt(5)) / 2,
 _HYPOTENUSE = re.compile(r"\bhypot\(([^(),]+),([^(),]+)\)")
 _COMPARISON = re.compile(r"[<>]|==|!=")
 _SEVERAL = re.compile(r"\d\s*(?:and|und)\s*\d")
-_EQUATION = re.compile(r"[^=]*[^\W\d_]\b[^=]*=[^=]*$")
+_EQUATION = re.compile(r"(?=[^=]*+=[^=]*+\Z)[^=]*[^\W\d_]\b")
 _GLUED = re.compile(r"\d([a-zA-Z])\s*$")
 """A number with one letter directly behind it, which is a product and no unit."""
 _SENTENCE = re.compile(
