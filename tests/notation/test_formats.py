@@ -54,6 +54,8 @@ def is_plain(model: LSystem) -> bool:
 
 PLAIN = sorted(id for id in systems() if is_plain(system(id)))
 """The systems of the catalogue that a list of variables and rules can hold."""
+NO_HEADINGS = frozenset(("base", "root", "init", "homomorphism"))
+"""Names with other meanings on a line of their own: under "homomorphism" are rules of interpretation."""
 
 
 def word(modules) -> str:
@@ -71,9 +73,7 @@ def listed(draw: st.DrawFn, meant: LSystem) -> str:
     names = tables()["names"]
 
     def name(kind: str) -> str:
-        written = draw(
-            st.sampled_from([each for each in names[kind] if len(each) > 3 and each not in ("base", "root", "init")])
-        )
+        written = draw(st.sampled_from([each for each in names[kind] if len(each) > 3 and each not in NO_HEADINGS]))
         return draw(st.sampled_from([written, written.capitalize(), written.upper()]))
 
     gap = draw(st.sampled_from(["", " ", "  "]))
@@ -175,6 +175,13 @@ def test_any_system_is_read_from_any_list_of_it(data: st.DataObject, meant: LSys
 def test_any_system_is_read_from_literals_of_any_language(data: st.DataObject, meant: LSystem) -> None:
     text = data.draw(as_data(meant))
     assert same(read(text), meant), text
+
+
+@pytest.mark.parametrize("rules", ["rules: F->F-F++F-F", "rules:\n   F->F-F++F-F", "Rules: (F → F-F++F-F)"])
+@pytest.mark.parametrize("last", ["angle:60", "Angle: 60", "angle: 60°"])
+def test_rules_under_a_heading_with_turns_are_no_definitions(rules: str, last: str) -> None:
+    for text in (f"axiom:F++F++F\n{rules}\n{last}", f"{last}\nAxiom: F++F++F\n{rules}"):
+        assert same(read(text), KOCH), text
 
 
 def test_some_systems_of_the_catalogue_are_plain() -> None:

@@ -328,13 +328,13 @@ _SCIENTIFIC = re.compile(r"(?<!\w)(\d+(?:\.\d+)?)[eE]([+-]?\d{1,3})(?!\w)")
 _CONSTANTS: Mapping[str, float] = {"pi": math.pi, "phi": (1 + math.sqrt(5)) / 2, "π": math.pi, "φ": (1 + math.sqrt(5)) / 2}
 _HYPOTENUSE = re.compile(r"\bhypot\(([^(),]+),([^(),]+)\)")
 _COMPARISON = re.compile(r"[<>]|==|!=")
-_SEVERAL = re.compile(rf"\d\s*(?:and|und|to|bis|{ARROW})\s*\d|[-+*/]\s*\d+\s*=\s*\d+\s*[,;]\s*\d[\d\s+*/-]*=")
+_SEVERAL = re.compile(rf"\d\s*+(?:and|und|to|bis|{ARROW})\s*\d|[-+*/]\s*+\d++\s*+=\s*+\d++\s*+[,;]\s*+\d[\d\s+*/-]*+=")
 """Two numbers, a range, a chain, or two sums."""
 _LABELLED = re.compile(
     rf"^\W*(?:(?:at|in|im|bei|after|nach)\s+)?(?:{'|'.join(WORDS['labels'].split())})\s*\d+\s*:\s*", re.IGNORECASE
 )
 """What is before the number in "step 3: 64"."""
-_EQUATION = re.compile(r"[^=]*[^\W\d_]\b[^=]*=[^=]*$")
+_EQUATION = re.compile(r"(?=[^=]*+=[^=]*+\Z)[^=]*[^\W\d_]\b")
 _GLUED = re.compile(r"\d([a-zA-Z])\s*$")
 """A number with one letter directly behind it, which is a product and no unit."""
 _SENTENCE = re.compile(

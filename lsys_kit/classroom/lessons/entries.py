@@ -20,11 +20,11 @@ _SMALL_FRACTION = re.compile(r"(?<![\d.,])[¼-¾⅐-⅞]")
 _OTHER_FORMS = (
     (re.compile(r"[+-]?\d{1,3}(?:[,']\d{3})+(?:\.\d+)?", re.ASCII), {",": "", "'": ""}),
     (re.compile(r"[+-]?\d{1,3}(?:\.\d{3})+(?:,\d+)?", re.ASCII), {".": "", ",": "."}),
-    (re.compile(r"[+-]?\d*,\d+%?", re.ASCII), {",": "."}),
+    (re.compile(r"\A[+-]?\d*,\d+%?", re.ASCII), {",": "."}),
 )
 """Numbers with marks between thousands, or with a decimal comma, and what is put in place of their marks."""
 _BEFORE = re.compile(r".*[=≈~]|(?:about|approx\.?|ca\.?)(?=\s)", re.IGNORECASE | re.DOTALL)
-_NOUNS = re.compile(r"\s*(?:[^\W\d_]+|°)(?:\s+[^\W\d_]+){0,9}$")
+_NOUNS = re.compile(r"(?<!\s)\s*+(?:(?<![^\W\d_])[^\W\d_]++|°)(?:\s++[^\W\d_]++){0,9}$")
 _NOUN = re.compile(r"[^\W\d_]+|°")
 _SHORT: Mapping[str, str] = {
     **dict.fromkeys(("y", "j", "ja"), "yes"),

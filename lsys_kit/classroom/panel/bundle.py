@@ -70,12 +70,13 @@ def compact(name: str, without: frozenset[str] = frozenset()) -> str:
     return "\n".join(filter(None, map(tightened, bundled(name, without).split("\n"))))
 
 
-_IN_PATTERN = r"(?:\\.|\[(?:\\.|[^]\\])*\]|[^/\\\[])"
+_IN_PATTERN = r"(?:\\.?|\[(?:\\.?|[^]\\])*+\]?|[^/\\\[])"
 _LITERAL = re.compile(
-    r"""("(?:\\.|[^"\\])*"|'(?:\\.|[^'\\])*'|`(?:\\.|[^`\\])*`"""
-    rf"""|(?:(?<=[\[({{}},;=:?!&|])|(?<=\breturn)) */(?!\*){_IN_PATTERN}+/)"""
+    r"""("(?:\\.?|[^"\\])*+"?|'(?:\\.?|[^'\\])*+'?|`(?:\\.?|[^`\\])*+`?"""
+    rf"""|(?:(?<=[\[({{}},;=:?!&|])|(?<=\breturn)) *+/(?!\*){_IN_PATTERN}++/?)""",
+    re.DOTALL,
 )
-"""A text, a template or a regular expression in a line of JavaScript."""
+"""A text, a template or a regular expression in a line of JavaScript; to the end of the line, where it is not closed in it."""
 _NESTED = re.compile(r"`[^`]*\$\{[^}`]*`")
 """How a template begins that has another one in it."""
 _COMMENT, _TYPES = re.compile(r"(?:^| )//"), re.compile(r"/\*\*.*\*/")
@@ -141,7 +142,7 @@ def style(name: str = "panel") -> str:
     """
     colours, own = ((files(__package__) / "scripts" / f"{each}.css").read_text(encoding="utf-8") for each in ("colours", name))
     sheet = Template(colours).substitute(light=_variables(LIGHT), dark=_variables(DARK)) + own
-    return re.sub(r" ?([{};]) ?", r"\1", re.sub(r"\s+", " ", re.sub(r"/\*.*?\*/", "", sheet)))
+    return re.sub(r" ?([{};]) ?", r"\1", re.sub(r"\s+", " ", re.sub(r"(?s)/\*.*?(?:\*/|\Z)", "", sheet)))
 
 
 def _variables(theme: Theme) -> str:

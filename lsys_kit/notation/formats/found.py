@@ -322,15 +322,15 @@ def chance_of(text: str | None) -> Fraction | None:
     return value / 100 if "%" in text else value
 
 
-_PI = r"(?:[A-Za-z]+\.|M_)?(?:pi|π)"
-_N = r"(-?\d+(?:[.,]\d+)?)"
+_PI = r"(?:[A-Za-z]++\.|M_)?(?:pi|π)"
+_N = r"(-?\d++(?:[.,]\d++)?)"
 _ANGLES: Sequence[tuple[re.Pattern[str], Callable[[Fraction], Fraction]]] = (
-    (re.compile(rf"(?:[A-Za-z]+\.)?(?:to_?)?(?:radians|deg2rad)\s*\(\s*{_N}\s*\)", re.IGNORECASE), lambda n: n),
-    (re.compile(rf"{_N}\s*\*\s*\(?\s*{_PI}\s*/\s*180(?:\.0*)?\s*\)?", re.IGNORECASE), lambda n: n),
-    (re.compile(rf"{_PI}\s*/\s*180(?:\.0*)?\s*\*\s*{_N}", re.IGNORECASE), lambda n: n),
-    (re.compile(rf"{_PI}\s*/\s*{_N}", re.IGNORECASE), lambda n: 180 / n),
-    (re.compile(rf"{_N}\s*\*?\s*{_PI}", re.IGNORECASE), lambda n: 180 * n),
-    (re.compile(rf"360\.?0*\s*/\s*{_N}"), lambda n: 360 / n),
+    (re.compile(rf"\A(?:[A-Za-z]++\.)?(?:to_?)?(?:radians|deg2rad)\s*\(\s*{_N}\s*\)", re.IGNORECASE), lambda n: n),
+    (re.compile(rf"\A{_N}\s*\*\s*+\(?\s*{_PI}\s*/\s*180(?:\.0*)?\s*+\)?", re.IGNORECASE), lambda n: n),
+    (re.compile(rf"\A{_PI}\s*/\s*180(?:\.0*)?\s*\*\s*{_N}", re.IGNORECASE), lambda n: n),
+    (re.compile(rf"\A{_PI}\s*/\s*{_N}", re.IGNORECASE), lambda n: 180 / n),
+    (re.compile(rf"\A{_N}\s*+\*?\s*{_PI}", re.IGNORECASE), lambda n: 180 * n),
+    (re.compile(rf"\A360\.?0*\s*/\s*{_N}"), lambda n: 360 / n),
 )
 """How programs write an angle: as what of which number in degrees."""
 _NUMBER = re.compile(r"(-?(?:\d+(?:[.,]\d+)?|\.\d+)(?:/[1-9]\d*)?)\s*\*?\s*(.*)", re.DOTALL)

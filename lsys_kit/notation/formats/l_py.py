@@ -24,7 +24,7 @@ _AXIOM = re.compile(r"^[ \t]*(?:Axiom[ \t]*:|production[ \t]*:[ \t]*$)", re.MULT
 _OTHERS = re.compile(r"^[ \t]*(?:[Ll]system[ \t]*:|#include\b)|;[ \t]*$|==>|/\*", re.MULTILINE)
 _END = re.compile(r"^#{4,}[ ]*INITIALISATION[^\n]*|^endlsystem[^\n]*", re.MULTILINE)
 _SECTION = re.compile(
-    r"(production|interpretation|homomorphism|decomposition|group\s+\d+|endgroup)[ \t]*:?(?:[ \t]*maximum depth[^\n]*)?"
+    r"(production|interpretation|homomorphism|decomposition|group\s+\d+|endgroup)[ \t]*+:?(?:[ \t]*+maximum depth[^\n]*)?"
 )
 _SECTIONS = {
     "production": "",
@@ -32,7 +32,7 @@ _SECTIONS = {
     "interpretation": "interpretation",
     "decomposition": "decomposition",
 }
-_RULE = re.compile(r"(?P<head>[^\n]*?)(?:-{1,3}>)(?P<tail>[^\n]*)")
+_RULE = re.compile(r"(?>(?P<head>[^\n]*?)-{1,3}>)(?P<tail>[^\n]*+)")
 _CONSTANT = re.compile(r"(?P<name>[A-Za-z_]\w*)[ \t]*=[ \t]*(?P<value>[-+]?[\d.][\d.eE]*(?:[ \t]*[-+*/][ \t]*[\d.]+)*)")
 _EXTERN = re.compile(r"extern\((?P<name>\w+)[ \t]*=[ \t]*(?P<value>[-\d.]+)\)")
 _SCALAR = re.compile(
@@ -84,7 +84,7 @@ def systems_in_l_py(text: str) -> list[Found]:
                     False,
                 )
             )
-        elif match := re.fullmatch(r"module[ \t]+(.*?)(?::.*)?", said):
+        elif match := re.fullmatch(r"module[ \t]++([^:\n]*+)(?::.*)?", said):
             names |= {name for name in re.findall(r"[A-Za-z_]\w*", re.sub(r"\([^()]*\)", "", match[1])) if len(name) > 1}
         elif (match := _RULE.fullmatch(said)) and match["head"].strip():
             tail = line.part(match.start("tail"))

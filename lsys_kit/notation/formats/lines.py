@@ -50,11 +50,12 @@ _AFTER = re.compile(
 """A probability behind a successor."""
 _NOTHING = re.compile(r"\([a-z ]{5,}\)|empty|nothing|none|ε|λ|\*")
 _COMMENT = re.compile(
-    r"(?<![ \t])(?:[ \t]{2,}\(\d+(?:\.\d+)*[a-z]?\)|[ \t]+(?:#|//|%|;|←)[ \t].*"
-    r"|[ \t]+\{(?=[^{}\n]*?[a-z]{3})[^{}\n]*\}|[ \t]+\((?=[^()\n]*?[a-z]{3})[^()\n]*\)[.]?)$"
+    r"(?<![ \t])(?:[ \t]{2,}+\(\d+(?:\.\d+)*[a-z]?\)|[ \t]++(?:#|//|%|;|←)[ \t].*"
+    r"|[ \t]++\{(?=[^{}\n]*?[a-z]{3})[^{}\n]*\}|[ \t]++\((?=[^()\n]*?[a-z]{3})[^()\n]*\)[.]?)$",
+    re.MULTILINE,
 )
 """What is said behind a part: a comment, the number of an equation."""
-_NUMBER = re.compile(r"[ \t]*[-+]?(?:\d+(?:[.,]\d+)?|\.\d+)(?:/\d+)?(?P<rest>.*)")
+_NUMBER = re.compile(r"[ \t]*+[-+]?(?:\d++(?:[.,]\d++)?+|\.\d++)(?:/\d++)?+(?P<rest>.*)")
 _BOUNDARY = re.compile(
     r"[,;|\t({]+[ \t]*(?:(?:and|und|et|with|using|by|the|its|an?)[ \t]+){0,3}|[ \t]{2,}|[.][ \t]+"
     r"|[ \t](?:and|und|y|et|en|e(?=[ \t]+(?:\(|\w{3})))[ \t]+[({]?"
@@ -69,6 +70,12 @@ _SIGNS_ONLY = re.compile(r"[A-Za-z0-9+\-&^\\/|\[\]{}$!'\"#~;.%@<>_?*, \t]+")
 _RUN = re.compile(r"[A-Za-z]{2,}")
 _USUAL = frozenset("FfGgSXYZLRABW")
 _ALIAS = re.compile(r"\A[ \t]*(?:[ωδθφαPS]|w(?=[ \t]*=[ \t]*\S))[ \t]*[:=](?!=)[ \t]*")
+
+
+def _without_comment(text: str) -> str:
+    """A part without what is said behind it, at the end of its last line."""
+    last = text.rfind("\n", 0, len(text) - text.endswith("\n")) + 1
+    return text[:last] + _COMMENT.sub("", text[last:])
 
 
 @cache
@@ -203,7 +210,7 @@ def _item_at(text: str, at: int, end: int, line: int, later: bool, under_rules: 
     if later and _BARE_ANGLE.match(text, at, end):
         return _Item("angle", at, end, _BARE_ANGLE.match(text, at, end), line)
     if named and not (rule and rule.match and rule.match["label"]):
-        kind = kinds[re.sub(r"[ _-]|\d+$", "", named["name"].lower())]
+        kind = kinds[re.sub(r"[ _-]|(?<!\d)\d++$", "", named["name"].lower())]
         if _possible(kind, named, text[named.end() : end], rule, later):
             return _Item(kind, named.end(), end, named, line)
     return rule
@@ -419,9 +426,11 @@ _SAID_ANGLE = re.compile(
     r"|\((\d{1,3}(?:\.\d+)?)[ ]?(?:°|deg)\w*\)|(?<![\d.])(\d{1,3}(?:[.,]\d+)?)°[ ](?:to the |nach |turn)",
     re.IGNORECASE,
 )
-_SYMBOLS = r"[A-Za-z0-9](?:(?:,[ ]?|[ ](?:and|und)[ ])[A-Za-z0-9])*"
+_SYMBOLS = r"[A-Za-z0-9](?:(?:,[ ]?|[ ](?:and|und)[ ])[A-Za-z0-9])*+"
+_FIRST = "".join(rf"(?<!(?<![\w\"'])(?<!(?:draw|move)[ ])[A-Za-z0-9]{gap})" for gap in (",", ",[ ]", "[ ]and[ ]", "[ ]und[ ]"))
+"""Behind nothing that is one of the symbols of a list, from which the list has been tried."""
 _SAID_DRAWS = re.compile(
-    rf"(?<![\w\"'])[\"']?({_SYMBOLS})[\"']?[ ]?(?:(?:both[ ])?(?:means?|bedeute[nt])|:)"
+    rf"(?<![\w\"'])(?:[\"']|{_FIRST})({_SYMBOLS})[\"']?[ ]?(?:(?:both[ ])?(?:means?|bedeute[nt])|:)"
     rf"[ ]+(?:both[ ])?[\"']?(draw|move)[ ](?:a[ ]|forward)",
     re.IGNORECASE,
 )
@@ -673,7 +682,7 @@ def _system(text: str, items: Sequence[_Item]) -> Found:
             found.ignored = value
         elif item.kind == "scale" and (scale := angle_of(value.text)):
             found.signs = {**found.signs, ">": f"@Di({float(scale):g})", "<": f"@Dd({float(scale):g})"}
-        elif item.kind == "constant" and item.match and (number := angle_of(_COMMENT.sub("", value.text))) is not None:
+        elif item.kind == "constant" and item.match and (number := angle_of(_without_comment(value.text))) is not None:
             found.lines.append(Passage(f"{item.match['name'][-1]} = {float(number):g}", value.at, False))
         for signs in tables()["signs"].values():
             if item.match and item.kind not in ("rule", "") and item.match["name"].lower() in signs["by"]:
@@ -701,7 +710,7 @@ def _with_chances(rules: list[Rule]) -> list[Rule]:
 def _add_axiom(found: Found, value: Passage, item: _Item) -> None:
     alias = _ALIAS.match(value.text)
     said = value.part(alias.end() if alias else 0)
-    passage = unquoted(Passage(_COMMENT.sub("", said.text), said.at).part(0))
+    passage = unquoted(Passage(_without_comment(said.text), said.at).part(0))
     if not is_word(passage.text) and (word := re.match(r"(\S+?)[,;.]?\s+[a-z]{2,}\b", passage.text)):
         passage = passage.part(0, word.end(1))
     passage = passage.part(0, _end(passage.text, 0, len(passage.text)))
@@ -717,7 +726,7 @@ def _add_axiom(found: Found, value: Passage, item: _Item) -> None:
 
 
 def _add_setting(found: Found, kind: str, value: Passage, text: str) -> None:
-    said = _COMMENT.sub("", _ALIAS.sub("", value.text))
+    said = _without_comment(_ALIAS.sub("", value.text))
     if kind == "steps":
         if found.steps is None and (number := re.match(r"\d{1,6}", said)):
             found.steps = int(number[0]), value
@@ -736,7 +745,7 @@ def _add_setting(found: Found, kind: str, value: Passage, text: str) -> None:
 def _rule(text: str, item: _Item) -> Rule:
     """The rule of a part."""
     assert item.match is not None
-    said = _COMMENT.sub("", text[item.start : item.end])
+    said = _without_comment(text[item.start : item.end])
     after = _AFTER.search(said)
     chance = next((chance for name in ("first", "over", "within") if (chance := item.match[name])), None)
     if after:
@@ -823,7 +832,7 @@ def _macro(match: re.Match[str]) -> str:
     )
 
 
-_COLUMNS = re.compile(r"(?P<left>[ \t]*\S.*?)(?<! )(?P<gap>[ ]{4,}+)(?P<right>\S[^\n]*)")
+_COLUMNS = re.compile(r"(?>(?P<left>[ \t]*+\S.*?)(?<! )(?P<gap>[ ]{4,}+)(?=\S))(?P<right>[^\n]*+)")
 
 
 def without_columns(before: Transcript) -> Transcript:

@@ -20,7 +20,7 @@ from lsys_kit.notation.formats.found import Found, Passage, Rule, angle_of, chan
 from lsys_kit.notation.formats.lines import is_word, rules_in_line
 
 _TOKEN = re.compile(
-    r"""(?P<blank>[ \t\r]+|/\*.{0,2000}?\*/|\(\*.{0,2000}?\*\)|<!--.{0,2000}?-->
+    r"""(?P<blank>[ \t\r]+
         |(?://|(?<![\[({/])\#(?![\w\[(])|(?<![\[({/])\#[ ]+|```|;;|--[ ](?=[A-Za-z|])|(?<![^\s;])%(?!\w*[%=]))[^\n]*)
     |(?P<end>\n|;)
     |(?P<text>"(?:[^"\\\n]|\\.)*"|'(?:[^'\\\n]|\\.)*'|`(?:[^`\\]|\\.){0,2000}`)
@@ -33,6 +33,9 @@ _TOKEN = re.compile(
     |(?P<other>.)""",
     re.VERBOSE | re.DOTALL,
 )
+_COMMENT = re.compile(r"/\*|\(\*|<!--")
+_COMMENT_ENDS = {"/*": "*/", "(*": "*)", "<!--": "-->"}
+_LONGEST_COMMENT = 2_000
 _ESCAPE = re.compile(r"\\(u[0-9a-fA-F]{4}|x[0-9a-fA-F]{2}|.)")
 _ESCAPED = {"n": "\n", "t": "\t", "r": "\r"}
 _CLOSING = {"(": ")", "[": "]", "{": "}"}
@@ -92,6 +95,22 @@ def _character(match: re.Match[str]) -> str:
     return chr(int(code[1:], 16)) if len(code) > 1 else _ESCAPED.get(code, code)
 
 
+def _tokens(text: str) -> Iterator[re.Match[str]]:
+    """The tokens of a text without blanks and comments."""
+    at = 0
+    while at < len(text):
+        if comment := _COMMENT.match(text, at):
+            closing = _COMMENT_ENDS[comment[0]]
+            end = text.find(closing, comment.end(), comment.end() + _LONGEST_COMMENT + len(closing))
+            if end >= 0:
+                at = end + len(closing)
+                continue
+        if match := _TOKEN.match(text, at):
+            if match.lastgroup != "blank":
+                yield match
+            at = match.end()
+
+
 def _parsed(text: str) -> Group:
     """All that stands in a text, as a group."""
     whole = Group("", "", 0)
@@ -106,10 +125,8 @@ def _parsed(text: str) -> Group:
         entry = Entry([])
 
     saved: list[Entry] = []
-    for match in _TOKEN.finditer(text):
+    for match in _tokens(text):
         kind, at = match.lastgroup, match.start()
-        if kind == "blank":
-            continue
         if kind == "open":
             if len(stack) > current().depth:
                 return Group("", "", 0)  # no data
@@ -201,7 +218,7 @@ def _kinds() -> dict[str, str]:
 def _kind(name: str) -> str:
     """Which part of a system a name calls, in any spelling: "turnAngle", "ANGLE_DEG", "self.axiom"."""
     last = re.split(r"\.|::", name)[-1]
-    return _kinds().get(re.sub(r"[ _-]|\d+$", "", last).lower(), "")
+    return _kinds().get(re.sub(r"[ _-]|(?<!\d)\d++$", "", last).lower(), "")
 
 
 _RULE_NAME = re.compile(r"(?:[Rr]ule|RULE)(?:[_.-](?P<apart>[A-Za-z])|(?<=ule)(?P<joined>[A-Z]))$")
@@ -252,8 +269,8 @@ _UNCLOSED = re.compile(r"[:=]\s*(\")[^\"\n]*,?$", re.MULTILINE)
 
 
 _CHOICE = re.compile(
-    r"""(?:==|=|case|when)[ \t]*["'](?P<head>[A-Za-z])["'][ \t]*\)?[ \t]*[:{\[]?\s{0,40}"""
-    r"""(?:\w{1,30}[ \t]*\+?=|return|report)?[ \t]*["'](?P<tail>[^"'\n]{1,500})["']"""
+    r"""(?:==|=|case|when)[ \t]*["'](?P<head>[A-Za-z])["'][ \t]*+\)?[ \t]*+[:{\[]?\s{0,40}+"""
+    r"""(?:\w{1,30}+[ \t]*+\+?=|return|report)?[ \t]*+["'](?P<tail>[^"'\n]{1,500})["']"""
 )
 """A program that chooses: if c == "F": new = "F+F"."""
 

@@ -7,6 +7,7 @@ has an arrow, names the axiom or a constant, is a word above a production, a num
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 
 from lsys_kit.notation.formats.found import Found
 from lsys_kit.notation.formats.lines import ARROW, OWN_FRAME, is_word
@@ -22,7 +23,8 @@ _ABOVE = re.compile(r"[ \t]*(?:0?\.\d+|1)[ \t]*")
 _OTHER = re.compile(r"[ \t]*(?:Figure|Fig\.|Table|Section|Chapter)\b", re.IGNORECASE)
 _ANGLE = re.compile(r"(?:angle|δ)[^.\n]{0,40}?(?<![\d.])(\d{1,3}(?:\.\d+)?)[ ]?(?:°|deg)", re.IGNORECASE)
 _STEPS = re.compile(r"(?<![\w.])n[ ]?=[ ]?(\d{1,4})(?![\d.])")
-_NAME = re.compile(rf"(?:{LABEL}[ \t]*:[ \t]*|^[ \t]*)([a-z]\w+)[^\n]*?{ARROW}", re.MULTILINE)
+_NAME = re.compile(rf"(?:{LABEL}[ \t]*:[ \t]*|^[ \t]*)([a-z]\w+)", re.MULTILINE)
+_ARROW = re.compile(ARROW)
 
 
 def listings_on_a_page(text: str) -> list[Found]:
@@ -36,7 +38,7 @@ def listings_on_a_page(text: str) -> list[Found]:
         return []
     edits: list[Edit] = []
     lines = [*re.finditer(r"[^\n]+|(?<=\n)(?=\n)", text)]
-    letters = frozenset("".join(_NAME.findall(text)))
+    letters = frozenset("".join(_names(text)))
     before, rule = False, ""
     left_out, notes = [], []
     for index, line in enumerate(lines):
@@ -85,3 +87,15 @@ def _with_settings(listing: Transcript, prose: str) -> Transcript:
         settings += f"steps: {number}\n"
         notes.append(f"The number of steps, {number}, is that of the text around.")
     return edited(listing, [Edit(0, 0, settings)] if settings else [], notes)
+
+
+def _names(text: str) -> Iterator[str]:
+    """The names of several letters that begin a line or follow a label, with an arrow behind them in their line."""
+    at = 0
+    while match := _NAME.search(text, at):
+        end = text.find("\n", match.end())
+        end = len(text) if end < 0 else end
+        arrow = _ARROW.search(text, match.end(), end)
+        if arrow:
+            yield match[1]
+        at = arrow.end() if arrow else end

@@ -113,14 +113,22 @@ def _unmatched_comment(text: str, at: int, sign: str) -> ModelSyntaxError:
     return ModelSyntaxError("This comment is never closed", text, at, at + 2, 'A comment ends with "*)".')
 
 
-_MARKS = re.compile(
-    r"\b(?:LRule|LRULES|AXIOM|LSystem|run\w*System)\s*\[|\w_\s*/;|^[^\S\n]*+Rules\s*+:", re.IGNORECASE | re.MULTILINE
-)
+_MARKS = re.compile(r"\b(?:LRule|LRULES|AXIOM|LSystem|run\w*System)\s*\[|\w_\s*/;", re.IGNORECASE)
 """What is found in texts of this notation, and in no others."""
+_HEADING = re.compile(r"^[^\S\n]*+Rules\s*+:", re.IGNORECASE | re.MULTILINE)
+_NOT_PRINTED = re.compile(
+    r"^[^\S\n]*+(?:(?:angle|heading|steps|turtle)[^\S\n]*+:|axiom[^\S\n]*+:[^\n\"\[]*?[-+])", re.IGNORECASE | re.MULTILINE
+)
+"""What a printed list of rules does not have: a setting with a colon, or a turn without quotation marks."""
 _RULE_PARTS = HEADS[:4]
 _HEAD = re.compile(rf"(?:{'|'.join(HEADS)})(?=\s*\[)", re.IGNORECASE)
 _SETTING_NAMES = frozenset(("angle", "heading", "length", "seed", "steps", "turtle", "skippattern"))
 """What a definition sets, so that no constant can have that name."""
+
+
+def _likely(text: str) -> int:
+    headings = 0 if _NOT_PRINTED.search(text) else len(_HEADING.findall(text))
+    return 3 * (len(_MARKS.findall(text)) + headings)
 
 
 def _own_lacks(system: LSystem) -> Iterator[str]:
@@ -237,7 +245,7 @@ MATHEMATICA = Dialect(
         "field",
     ),
     missing_feature=lambda system: next(_own_lacks(system), None),
-    likely=lambda text: 3 * len(_MARKS.findall(text)),
+    likely=_likely,
     spelling=Spelling(Path(__file__).parent, expression=expression_text, module=module_text, joined=" ".join),
     bare=_bare,
     transcribe=_transcribe,
