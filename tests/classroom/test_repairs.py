@@ -16,6 +16,7 @@ from lsys_kit.classroom.exercises.repairs import table
 from lsys_kit.classroom.exercises.repairs.table import REPAIRS, repaired
 from lsys_kit.classroom.exercises.typed import means_the_same
 from lsys_kit.errors import LSystemError
+from tests.classroom.answers import as_typed
 
 FIBONACCI = "axiom: a\na -> a b\nb -> a"
 AGES = "axiom: A(0)\nA(t) : t < 3 -> A(t+1)\nA(t) : t == 3 -> A(0) A(1)"
@@ -93,7 +94,8 @@ def test_a_misconception_is_named_only_of_an_answer_of_its_form(name):
     exercise = next(each for each in ALL if each.id == name)
     for wrong in wrong_answers(exercise):
         if exercise.kind == "system" and wrong.misconception and wrong.misconception.name == "production missing":
-            assert len(wrong.answer.own.productions) < len(solution_of(exercise).own.productions)
+            changing = [rule for rule in wrong.answer.own.productions if rule.successor != rule.predecessors]
+            assert len(changing) < len(solution_of(exercise).own.productions)
 
 
 @pytest.mark.parametrize("name", [exercise.id for exercise in ALL if exercise.kind == "system"])
@@ -223,7 +225,11 @@ def test_a_solution_with_one_thing_changed_is_repaired_and_the_repair_is_right(e
     kind, solution = ANSWER_KINDS[exercise.kind], solution_of(exercise)
     alike = kind.alike or kind.same
     changed = [answer for answer, _ in zip(_changed_solutions(exercise), range(400), strict=False)]
-    for answer in Random(1).sample(changed, min(len(changed), 20)):
+    for each in Random(1).sample(changed, min(len(changed), 20)):
+        try:
+            answer = kind.read(exercise, as_typed(exercise, each))
+        except LSystemError:  # nobody can type that
+            continue
         found = repaired(exercise, answer, solution)
         assert found is not None or any(alike(exercise, answer, wrong.answer) for wrong in wrong_answers(exercise)), answer
         if found is not None:
@@ -249,6 +255,10 @@ def test_a_number_of_other_things_is_not_the_right_one(exercise):
         assert check(exercise.id, form.format(exercise.solution)) == 1, form
 
 
+def _words_of(text):
+    return " ".join(word.strip(".,:") for word in text.split())
+
+
 @pytest.mark.parametrize("exercise", [each for each in ALL if each.kind == "choice"], ids=lambda each: each.id)
 def test_words_that_several_options_have_are_asked_about(exercise):
     texts = [" ".join(option.text.replace("`", "").split()).casefold() for option in exercise.options]
@@ -256,7 +266,12 @@ def test_words_that_several_options_have_are_asked_about(exercise):
     for own in words:
         for first, last in combinations(range(len(own) + 1), 2):
             part = " ".join(own[first:last]).strip(".,:")
-            if len(part) > 4 and part[0].isalpha() and sum(part in text for text in texts) > 1 and part not in texts:
+            if (
+                len(part) > 4
+                and part[0].isalpha()
+                and sum(f" {part} " in f" {_words_of(text)} " for text in texts) > 1
+                and part not in texts
+            ):
                 assert check(exercise.id, part).said == "Not readable yet", part
 
 

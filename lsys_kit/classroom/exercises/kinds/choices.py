@@ -48,7 +48,7 @@ _LETTER_AND_REASON = re.compile(
 )
 """A letter, and why."""
 _LETTER_AND_WORDS = re.compile(r"^\W*([A-Za-z])\s*(?:[:)\]]|\.(?=\s))\s*(\S.*)$", re.DOTALL)
-_WORDS_AND_LETTER = re.compile(r"^(.*[^\W\d_]{2}.*):\s*([A-Z])\W*$", re.DOTALL)
+_WORDS_AND_LETTER = re.compile(r"(?=.*?[^\W\d_]{2})([^:]*+(?::[^:]*+)*?):\s*+([A-Z])\W*+\Z", re.DOTALL)
 """A letter with words of one's own behind it, or in front of it."""
 _EXCLUDING = frozenset(WORDS["excluding"].split())
 _FILLING = frozenset(WORDS["filling"].split())

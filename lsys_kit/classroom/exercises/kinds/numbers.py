@@ -63,7 +63,7 @@ def _is_in_place(exercise: Exercise, word: str) -> bool:
 
 
 _COMPARED = re.compile(r"^(.*(?:[<>]=?|==))\s*([-+]?[\d.]+)$", re.DOTALL)
-_NAMED_LAST = re.compile(r"(?:^\W*|[,;]\s*|\b(?:and|und)\s+)([A-Za-z])\s*(?:\([^()]*\))?\s*=[^=]*$")
+_NAMED_LAST = re.compile(r"(?:^\W*+|[,;]\s*+|\b(?:and|und)\s++)([A-Za-z])\s*+(?:\([^()]*+\)\s*+)?+=[^=]*+\Z")
 _COORDINATES = frozenset("xyz")
 """Names that nobody gives to another number of one's own."""
 _ASKED_FOR = re.compile(r"\*\*(.*?)\*\*", re.DOTALL)
