@@ -389,7 +389,7 @@ _NO_ARROW = re.compile(
     r"^[ \t]*[A-Za-z]\w*[ \t]*(?:\([^()\n]*\)[ \t]*)?(-[ \t]+>|(?<![-=])>(?=[ \t]*[^\n>=]*$)|-(?=[ \t]))(?![^\n]*(?:->|→))",
     re.MULTILINE,
 )
-_ALONE = re.compile(r"(?:->|→)[^\n]*+\n[ \t]*+([A-Za-z]\w*+)[ \t]*+(?=\n|$)")
+_ALONE = re.compile(r"^(?>[^\n]*?(?:->|→))[^\n]*+\n[ \t]*+([A-Za-z]\w*+)[ \t]*+$", re.MULTILINE)
 _FACTOR = re.compile(r"(?:->|→)[ \t]*(\d+[ \t]*\*[ \t]*[A-Za-z]\w*[ \t]*\()")
 """Slips of writing: an axiom without a colon, an arrow in pieces, a line without one, a factor before a module."""
 
