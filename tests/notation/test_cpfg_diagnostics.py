@@ -37,7 +37,7 @@ UNREADABLE = [
     ("Axiom: A\nA --> [B", 'This "[" is never closed', 2, 7, 'Every branch ends with "]".'),
     ("Axiom: A\nA --> B]", 'This "]" closes nothing', 2, 8, 'Every branch begins with "[".'),
     ("Axiom: A\nA -->", "There is nothing after the arrow", 2, 3, 'To erase A, write "*" there.'),
-    ("Axiom: A(0)\nA(t) --> A(sqrt(t,2))", "sqrt(...) takes 1 value, not 2", 2, 12, None),
+    ("Axiom: A(0)\nA(t) --> A(sqrt(t,2))", "sqrt(...) takes one value, not 2", 2, 12, None),
     ("Axiom: A(0)\nA(t) : 1<t<3 --> B", "This is a second comparison", 2, 11, 'Compare twice, as in "1 < t && t < 3".'),
     ("Axiom: A\nА --> B", 'I cannot read the character "А" (CYRILLIC CAPITAL LETTER A)', 2, 1, LETTERS),
     ("Axiom: A\nA --> B --> C", "This is a second arrow in one production", 2, 9, "Write one production per line."),

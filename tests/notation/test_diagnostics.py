@@ -27,7 +27,7 @@ UNREADABLE = [
     ("axiom: A\nA -> [B", 'This "[" is never closed', 2, 6, 'Every branch ends with "]".'),
     ("axiom: A\nA -> B]", 'This "]" closes nothing', 2, 7, 'Every branch begins with "[".'),
     ("axiom: A\nA ->", "There is nothing after the arrow", 2, 3, 'To erase A, write "ε" or "*" there.'),
-    ("axiom: A(0)\nA(t) -> A(sqrt(t, 2))", "sqrt(...) takes 1 value, not 2", 2, 11, None),
+    ("axiom: A(0)\nA(t) -> A(sqrt(t, 2))", "sqrt(...) takes one value, not 2", 2, 11, None),
     ("axiom: A(0)\nA(t) -> A(max(t))", "max(...) takes 2 or more values, not 1", 2, 11, None),
     (
         "axiom: A(0)\nA(t) -> A(sqrt())",

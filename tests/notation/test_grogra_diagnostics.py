@@ -144,7 +144,7 @@ LINES = [
         'Type "\\var x distribution 0.2 0.3 0.5,".',
     ),
     ("\\var i index 0 1, a # b", 'A variable of the kind "index" takes up to 1 value, not 2', 1, 8, 'Type "\\var i index 0,".'),
-    ("\\var f function 2 1, a # b(f(1, 2))", "f(...) takes 1 value, not 2", 1, 28, None),
+    ("\\var f function 2 1, a # b(f(1, 2))", "f(...) takes one value, not 2", 1, 28, None),
     ("\\var f function 2 1, a # b(f)", '"f" is a function, and its values are missing', 1, 28, 'It is called as in "f(1)".'),
     ("\\angle 30", "There is no axiom and no rule", 1, 10, 'Give the first word, as in "\\axiom a,".'),
 ]

@@ -473,7 +473,7 @@ VALUES = [
         44,
         'Did you mean "Sqrt"?',
     ),
-    (AXIOM + "LRule[LEFT[], PRED[a[i_]], RIGHT[], SUCC[a[Sqrt[i, 2]]]]", "Sqrt[...] takes 1 value, not 2", 2, 44, None),
+    (AXIOM + "LRule[LEFT[], PRED[a[i_]], RIGHT[], SUCC[a[Sqrt[i, 2]]]]", "Sqrt[...] takes one value, not 2", 2, 44, None),
     (AXIOM + "LRule[LEFT[], PRED[a[i_]], RIGHT[], SUCC[a[Max[i]]]]", "Max[...] takes 2 or more values, not 1", 2, 44, None),
     (
         AXIOM + "LRule[LEFT[], PRED[a[i_]], RIGHT[], SUCC[a[Sin[i]]]]",
