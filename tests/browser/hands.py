@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator
 from fractions import Fraction
 
@@ -16,19 +17,19 @@ SLOP = 24
 """Pixels that a finger moves before the browser takes it for a movement."""
 
 
-class Pointer:
+class Pointer(ABC):
     """What a hand does on a page: a press at a place, movements to others, and the end of it."""
 
     def __init__(self, page: Page) -> None:
         self.page = page
 
-    @contextlib.contextmanager
-    def pressed(self, x: float, y: float) -> Iterator[Callable[[float, float], None]]:
+    @abstractmethod
+    def pressed(self, x: float, y: float) -> contextlib.AbstractContextManager[Callable[[float, float], None]]:
         """Press at a place; what is given moves on from there."""
-        raise NotImplementedError
 
+    @abstractmethod
     def tap(self, button: Locator) -> None:
-        raise NotImplementedError
+        """Press a button."""
 
     def _seen(self, _: None) -> None:
         """Wait until what was done is seen."""

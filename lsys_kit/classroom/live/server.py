@@ -436,8 +436,8 @@ class _Page:
 # What is asked over HTTP
 
 
-class _Handler(tornado.web.RequestHandler):
-    """What all requests share."""
+class _OfTheClass(tornado.web.RequestHandler):
+    """What requests and sockets share: the server of the class, and the headers of all that it sends."""
 
     application: _Application
 
@@ -448,6 +448,10 @@ class _Handler(tornado.web.RequestHandler):
     def set_default_headers(self) -> None:
         for name, value in SECURE.items():
             self.set_header(name, value)
+
+
+class _Handler(_OfTheClass):
+    """What all requests share."""
 
     def room(self, code: str) -> LiveClass:
         found = self.server.classes.get(code.upper())
@@ -580,24 +584,14 @@ class _Plant(_Handler):
 # Sockets
 
 
-class Socket(tornado.websocket.WebSocketHandler):
+class Socket(_OfTheClass, tornado.websocket.WebSocketHandler):
     """A phone or a board that is there. It is sent what was acknowledged, and the last state; older states are not sent."""
-
-    application: _Application
 
     def initialize(self) -> None:
         self._messages: deque[str] = deque()
         self._state: str | None = None
         self._last_state = ""
         self._sending = False
-
-    @property
-    def server(self) -> ClassServer:
-        return self.application.class_server
-
-    def set_default_headers(self) -> None:
-        for name, value in SECURE.items():
-            self.set_header(name, value)
 
     def check_origin(self, origin: str) -> bool:
         return urlsplit(origin).netloc.lower() == str(self.request.host).lower()
