@@ -151,3 +151,28 @@ def test_more_and_what_was_learnt_are_remembered(browser, tmp_path) -> None:
     expect(second.locator(".lsys-more")).to_be_visible()
     expect(second.locator(".lsys-sheet .lsys-hint")).to_be_hidden()
     browser.contexts[-1].close()
+
+
+@pytest.mark.parametrize("on_a_page", [False, True])
+def test_what_is_lit_in_the_rules_lies_behind_their_text(explored, browser, tmp_path, on_a_page):
+    """The text and what lies behind it are laid out alike, whether it can be changed or not."""
+    if on_a_page:
+        explore("J4", 9, show=["rules", "drawing"]).save(tmp_path / "a.html")
+        shown = browser.new_page()
+        shown.goto((tmp_path / "a.html").as_uri())
+        editor = shown.locator(".lsys-editor")
+    else:
+        panel = explored("J4", 9)
+        panel.view("rules")
+        editor = panel.at(".lsys-editor")
+    expect(editor.locator("textarea")).to_be_visible()
+    text, behind = (
+        editor.locator(each).evaluate(
+            """each => { const { padding, borderWidth, font, lineHeight, whiteSpace } = getComputedStyle(each);
+            return [padding, borderWidth, font, lineHeight, whiteSpace, each.clientWidth]; }"""
+        )
+        for each in ("textarea", ".lsys-backdrop")
+    )
+    if on_a_page:
+        editor.page.close()
+    assert text == behind
