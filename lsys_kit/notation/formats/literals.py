@@ -23,7 +23,7 @@ _TOKEN = re.compile(
     r"""(?P<blank>[ \t\r]+
         |(?://|(?<![\[({/])\#(?![\w\[(])|(?<![\[({/])\#[ ]+|```|;;|--[ ](?=[A-Za-z|])|(?<![^\s;])%(?!\w*[%=]))[^\n]*)
     |(?P<end>\n|;)
-    |(?P<text>"(?:[^"\\\n]|\\.)*"|'(?:[^'\\\n]|\\.)*'|`(?:[^`\\]|\\.){0,2000}`)
+    |(?P<text>"(?:[^"\\\n]|\\.)*+"|'(?:[^'\\\n]|\\.)*+'|`(?:[^`\\]|\\.){0,2000}`)
     |(?P<number>(?:\d+(?:\.\d+)?|\.\d+)(?:[eE][-+]?\d+)?(?:f(?!\w))?)
     |(?P<name>[^\W\d][\w$]*(?:(?:\.|::|-(?=[A-Za-z]))[^\W\d][\w$]*)*(?:<[A-Za-z_, :]{1,60}>(?=\s*[\w({=]))?)
     |(?P<pair><-(?=[ ])|=>|:>|->|→|↦|:=|:|=(?!=))
@@ -33,6 +33,9 @@ _TOKEN = re.compile(
     |(?P<other>.)""",
     re.VERBOSE | re.DOTALL,
 )
+_SIGN = re.compile(r"(?P<other>.)", re.DOTALL)
+_INSIDE = {sign: re.compile(rf"(?:[^{sign}\\\n]|\\.)*+", re.DOTALL) for sign in "\"'"}
+"""What a text may have between its quotation marks."""
 _COMMENT = re.compile(r"/\*|\(\*|<!--")
 _COMMENT_ENDS = {"/*": "*/", "(*": "*)", "<!--": "-->"}
 _LONGEST_COMMENT = 2_000
@@ -98,6 +101,7 @@ def _character(match: re.Match[str]) -> str:
 def _tokens(text: str) -> Iterator[re.Match[str]]:
     """The tokens of a text without blanks and comments."""
     at = 0
+    unclosed = dict.fromkeys(_INSIDE, 0)  # up to where such a sign begins no text
     while at < len(text):
         if comment := _COMMENT.match(text, at):
             closing = _COMMENT_ENDS[comment[0]]
@@ -105,10 +109,14 @@ def _tokens(text: str) -> Iterator[re.Match[str]]:
             if end >= 0:
                 at = end + len(closing)
                 continue
-        if match := _TOKEN.match(text, at):
-            if match.lastgroup != "blank":
-                yield match
-            at = match.end()
+        sign = text[at]
+        begins_none = at < unclosed.get(sign, 0)
+        match = next((_SIGN if begins_none else _TOKEN).finditer(text, at))
+        if match.lastgroup == "other" and sign in _INSIDE and not begins_none:
+            unclosed[sign] = next(_INSIDE[sign].finditer(text, at + 1)).end()
+        if match.lastgroup != "blank":
+            yield match
+        at = match.end()
 
 
 def _parsed(text: str) -> Group:
