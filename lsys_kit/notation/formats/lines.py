@@ -251,7 +251,7 @@ def _rule_at(text: str, at: int, end: int, line: int, under_rules: bool) -> _Ite
 _FURTHER = re.compile(rf"[,;]{_B}(?={_COLON_RULE.pattern})".replace("?P<", "?P<_"))
 """Where another rule with a colon begins."""
 _STRICT = re.compile(ARROW)
-_CALCULATION = re.compile(r"\d++(?:\.\d++)?(?:[ ]?[*/^][ ]?\d++(?:\.\d++)?)+")
+_CALCULATION = re.compile(r"\d++(?:\.\d++)?(?:[ ]?[*/^][ ]?\d++(?:\.\d++)?)+|[a-z][ ]?[-+*/^][ ]?\d++(?:\.\d++)?")
 """What a constant is, and no word."""
 _SET = re.compile(r"[ \t]*[{<(⟨][ \t]*\S[ \t]*,")
 """A set of symbols."""
@@ -796,6 +796,7 @@ _MACRO = re.compile(
     r"|\\text\{([^{}\n]*)\}|\\([A-Za-z]+)(?![A-Za-z])|\\([#{}%&$_])|\\[;,:! ]|\\\\|(?<!\\)&|\$+|\\[\[\]()]"
 )
 _MARKS = re.compile(r"^[ \t]*```.*$|\*\*|`|^(?=[^\n|]*\|)[ \t|:-]++$|^#+[ ]", re.MULTILINE)
+_RULE_OF_TIKZ = re.compile(r"\\rule\{([^{}\n]*)\}")
 _STRONG = re.compile(r"'''([\w -]{1,60})'''")
 _DOLLARS = re.compile(r"\$(?=[^\s$])([^$\n]*[^\s$\\])\$(?!\w)")
 
@@ -812,6 +813,7 @@ def page_text(before: Transcript) -> Transcript:
         before = edited(before, (Edit(*match.span(), _macro(match)) for match in _MACRO.finditer(text)))
     edits = [Edit(*match.span(), "") for match in _MARKS.finditer(before.text)]
     edits += [Edit(*match.span(), match[1]) for match in _STRONG.finditer(before.text)]
+    edits += [Edit(*match.span(), f"\n{match[1]}\n") for match in _RULE_OF_TIKZ.finditer(before.text)]
     for match in _DOLLARS.finditer(before.text):
         edits += [Edit(match.start(), match.start() + 1, ""), Edit(match.end() - 1, match.end(), "")]
     return without_columns(_without_tables(edited(before, edits) if edits else before))

@@ -435,10 +435,14 @@ def _as_rule(entries: list[Entry]) -> Rule | None:
         tail_words = (tail_term.passage,) if isinstance(tail_term, Term) else _symbols(tail_term)
         quoted = isinstance(tail_term, Group) or tail_term.kind == "text"
         if isinstance(head_term, Term) and tail_words and quoted and _SYMBOL.fullmatch(head_term.text):
-            if head_term.text in ("a", "b") and _name(parts["predecessor"]) == "a":
+            if _name(parts["predecessor"]) == "a" and re.search("[ab]", head_term.text + "".join(part.text for part in tail_words)):
                 return None  # a and b are symbols themselves
             return Rule(head_term.passage, tail_words, _chance(parts.get("probability")))
     return None
+
+
+_PARTS = "predecessor", "successor", "probability"
+"""The parts of a rule."""
 
 
 def _parts(entries: list[Entry]) -> dict[str, Entry]:
@@ -446,7 +450,7 @@ def _parts(entries: list[Entry]) -> dict[str, Entry]:
     found: dict[str, Entry] = {}
     for entry in entries:
         name = _name(entry) if entry.key and entry.terms else ""
-        for kind in ("predecessor", "successor", "probability"):
+        for kind in _PARTS:
             if (name if len(name) == 1 else name.lower()) in tables()["names"][kind]:
                 found.setdefault(kind, entry)
     return found
@@ -516,7 +520,8 @@ def _head(entry: Entry, in_rules: bool, name: str) -> Passage | None:
 
 
 def _is_field(text: str, in_rules: bool) -> bool:
-    return not in_rules and len(text) > 1
+    """Whether a key names something: outside of rules, or a part of one."""
+    return len(text) > 1 and (not in_rules or any(text.lower() in tables()["names"][kind] for kind in _PARTS))
 
 
 def _alternatives(head: Passage, value: Group) -> Iterator[Rule]:

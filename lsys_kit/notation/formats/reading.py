@@ -218,7 +218,7 @@ def _system(form: Format, before: Transcript, found: Found) -> LSystem:
     except LSystemError as error:
         raise transcript.relocated(error) from None
     notes = system.notes if found.listing else tuple(filter(_is_news, system.notes))
-    return replace(system, notes=(f"Read as {form.title}{_said(found, system, before.text)}.", *found.notes, *notes))
+    return replace(system, notes=(f"Read as {form.title}{_said(found, system, before.text)}.", *transcript.notes, *notes))
 
 
 def _is_news(note: str) -> bool:
