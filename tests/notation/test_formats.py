@@ -220,6 +220,7 @@ def test_what_each_format_has_is_the_same_system(text: str) -> None:
         ("start : F\nF → F+F\nangle: 60\nturn: 45", ("Two angles are given: 60 is used, not 45.",)),
         ("start : F\nstart : X\nF → F+F", ('The axiom is given more than once: "F" is used, not "X".',)),
         ("Axiom = a\nF => aF\na =>", ("a is erased: nothing stands behind its arrow.",)),
+        ("Axiom: F\nF => FF\n@", ('"@" is left out: it is not surely a part of the rule above it.',)),
         ('rules = {"F": "F+F"}', ('No axiom is given: it is "F", what the one rule rewrites.',)),
         ("Initiator: F\nGenerator: F+F--F+F", ("The generator replaces F.",)),
         ("Axiom: A\nproduction:\nA --> A,A", ('"," without a value, the colour before, is left out.',)),
@@ -233,8 +234,8 @@ def test_what_each_format_has_is_the_same_system(text: str) -> None:
         (
             "angle: 1.5707963\nstart : F\nF => F+F",
             (
-                "Read as a list of variables and rules, as encyclopaedias have it; angle 1.5708 in degrees; were it in radians, "
-                "it would be 90.",
+                "Read as a list of variables and rules, as encyclopaedias have it; "
+                "angle 1.5708 in degrees; were it in radians, it would be 90.",
             ),
         ),
     ],
@@ -325,10 +326,7 @@ READ = {
     "a and b as symbols": ('axiom = "a"; rules = {"a": "ab", "b": "a"}', "axiom: a\na -> a b\nb -> a"),
     "a and b as names": ('axiom = "X"; rules = [{a: "X", b: "XY"}, {a: "Y", b: "X"}]', "axiom: X\nX -> X Y\nY -> X"),
     "a rule among ways": ('axiom = "F"; way = {"from": "here", "to": "there"}; rules = {"F": "FF"}', "axiom: F\nF -> F F"),
-    "weights": (
-        'axiom = "F"; rules = {"F": [("FF", 2), (3, "F")]}',
-        "axiom: F\nF -> F F : 0.4\nF -> F : 0.6",
-    ),
+    "weights": ('axiom = "F"; rules = {"F": [("FF", 2), (3, "F")]}', "axiom: F\nF -> F F : 0.4\nF -> F : 0.6"),
     "named weights": (
         'axiom = "F"; rules = {"F": [{"successor": "FF", "probability": 0.4}, {"successor": "F", "probability": 0.6}]}',
         "axiom: F\nF -> F F : 0.4\nF -> F : 0.6",

@@ -44,6 +44,7 @@ def test_a_marker_has_a_short_text() -> None:
     assert Marker("-", Edge("A", ">")).short == "[-A>]"
     marker = EdgeMarker("PQ", Edge("P"), ("PR", "QR"), "PQ")
     assert (marker.short, str(marker.turned)) == ("[PQ: P]", "[PQ: QR|P|PR, PQ]")
+    assert marker.turned.halves == marker.halves[::-1]
 
 
 @pytest.mark.parametrize(

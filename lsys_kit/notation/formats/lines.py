@@ -232,7 +232,10 @@ def _rule_at(text: str, at: int, end: int, line: int, under_rules: bool) -> _Ite
         )
         and not (
             len(rule["head"].strip()) == 1
-            and (_is_prose(text[rule.end() : end].strip(" \t,;.)")) or (rule["arrow"] in ("=", ":=") and _SET.match(text, rule.end(), end)))
+            and (
+                _is_prose(text[rule.end() : end].strip(" \t,;.)"))
+                or (rule["arrow"] in ("=", ":=") and _SET.match(text, rule.end(), end))
+            )
         )
     ):
         return _Item("rule", rule.end(), end, rule, line)
@@ -259,7 +262,9 @@ _SET = re.compile(r"[ \t]*[{<(⟨][ \t]*\S[ \t]*,")
 
 def _is_prose(text: str) -> bool:
     """Whether a text is a word or two of a language, and none of symbols."""
-    return re.fullmatch(r"[A-Z]?[a-z]{4,}(?:[ ][a-z]+)*", text) is not None and len(set(text)) > 3 and not _NOTHING.fullmatch(text)
+    return (
+        re.fullmatch(r"[A-Z]?[a-z]{4,}(?:[ ][a-z]+)*", text) is not None and len(set(text)) > 3 and not _NOTHING.fullmatch(text)
+    )
 
 
 def _can_be_replaced(rule: re.Match[str]) -> bool:

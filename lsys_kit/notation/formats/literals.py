@@ -435,7 +435,9 @@ def _as_rule(entries: list[Entry]) -> Rule | None:
         tail_words = (tail_term.passage,) if isinstance(tail_term, Term) else _symbols(tail_term)
         quoted = isinstance(tail_term, Group) or tail_term.kind == "text"
         if isinstance(head_term, Term) and tail_words and quoted and _SYMBOL.fullmatch(head_term.text):
-            if _name(parts["predecessor"]) == "a" and re.search("[ab]", head_term.text + "".join(part.text for part in tail_words)):
+            if _name(parts["predecessor"]) == "a" and re.search(
+                "[ab]", head_term.text + "".join(part.text for part in tail_words)
+            ):
                 return None  # a and b are symbols themselves
             return Rule(head_term.passage, tail_words, _chance(parts.get("probability")))
     return None
