@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from re import _compiler, _constants, _parser  # type: ignore[attr-defined]
 from typing import Any
 
-CHARACTERS = "aA1 _\t\n(-,*.\\=!#<[{ε"
+CHARACTERS = 'aA1 "_\t\n(-,*.\\=!#<[{ε'
 """What sets of characters are tried with."""
-MOST = 8
+MOST = 9
 """So many samples of a part, and the most repetitions that are no repetition without end."""
 REPEATS = (_constants.MAX_REPEAT, _constants.MIN_REPEAT, _constants.POSSESSIVE_REPEAT)
 

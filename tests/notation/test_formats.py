@@ -558,7 +558,23 @@ def test_any_text_is_read_or_refused_by_every_format(chance: random.Random) -> N
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    "token", [*TOKENS, "\t", " ", "- ", "F → F\n", "(A → AB), ", "'F':", "x:y ", "{aaa", "<!--", "replace every F with ", "1a"]
+    "token",
+    [
+        *TOKENS,
+        "\t",
+        " ",
+        "- ",
+        "F → F\n",
+        "(A → AB), ",
+        "'F':",
+        "x:y ",
+        "{aaa",
+        "<!--",
+        "replace every F with ",
+        "1a",
+        '\\"',
+        "\\'",
+    ],
 )
 def test_no_text_takes_longer_than_its_length(token: str) -> None:
     """Twice the text takes some twice the time; where that were its square, this would be minutes."""

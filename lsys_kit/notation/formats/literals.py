@@ -111,9 +111,12 @@ def _tokens(text: str) -> Iterator[re.Match[str]]:
                 continue
         sign = text[at]
         begins_none = at < unclosed.get(sign, 0)
-        match = next((_SIGN if begins_none else _TOKEN).finditer(text, at))
+        match = _SIGN.match(text, at) if begins_none else _TOKEN.match(text, at)
+        assert match is not None
         if match.lastgroup == "other" and sign in _INSIDE and not begins_none:
-            unclosed[sign] = next(_INSIDE[sign].finditer(text, at + 1)).end()
+            inside = _INSIDE[sign].match(text, at + 1)
+            assert inside is not None
+            unclosed[sign] = inside.end()
         if match.lastgroup != "blank":
             yield match
         at = match.end()
