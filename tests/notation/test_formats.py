@@ -338,6 +338,7 @@ READ = {
     "rules with colons in one line": ("Start: F\nRules: {F: F+G, G: GG}", "axiom: F\nF -> F+G\nG -> G G"),
     "a dictionary of rules": ('axiom = A\nrules = {"A": "AB", "B": "A"}', "axiom: A\nA -> A B\nB -> A"),
     "a homomorphism": ("h(a) = ab\nh(b) = a\naxiom: a", "axiom: a\na -> a b\nb -> a"),
+    "an axiom with blanks": ("axiom F + F\nF => FF", "axiom: F + F\nF -> F F"),
     "an axiom below its name": ("Axiom:\nF++F\nRules:\nF => F-F", "axiom: F++F\nF -> F-F"),
     "quotients above arrows": (
         "Here it is: start = F\n1/3\nF → F[+F]\n2/3\nF → F[-F]",

@@ -47,6 +47,7 @@ def is_l_py(text: str) -> bool:
     >>> is_l_py("Axiom: A\\nproduction:\\nA --> A A"), is_l_py("Axiom: A\\nA --> A A")
     (True, False)
     """
+    text = text.replace("\r\n", "\n")
     return "xiom" in text and bool(_AXIOM.search(text) and _SIGN.search(text)) and not _OTHERS.search(text)
 
 

@@ -302,7 +302,7 @@ def _possible(kind: str, named: re.Match[str], value: str, rule: _Item | None, l
         if sep:
             return not short or named["name"] in "ωw"
         said = re.split(r"\t|  |[ ]#|,[ ]", value.strip())[0]
-        return len(named["name"]) > 4 and is_word(said) and " " not in said.strip()
+        return len(named["name"]) > 4 and is_word(said) and re.fullmatch(r"\S+|\S(?:[ ]\S)+", said.strip()) is not None
     if kind in ("head", "tail"):
         return bool(sep and value.strip()) and not later and rule is None
     if kind in ("scale", "constant"):
