@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from itertools import zip_longest
 from re import _compiler, _constants, _parser  # type: ignore[attr-defined]
 from typing import Any
 
-CHARACTERS = "aA1 _\t\n(-,*.\\=!#<[{ε"
+CHARACTERS = 'a"A1 _\t\n(-,*.\\=!#<[{ε'
 """What sets of characters are tried with."""
-MOST = 8
+MOST = 9
 """So many samples of a part, and the most repetitions that are no repetition without end."""
 REPEATS = (_constants.MAX_REPEAT, _constants.MIN_REPEAT, _constants.POSSESSIVE_REPEAT)
 
@@ -59,7 +60,8 @@ def _of_one(operator: Any, operand: Any) -> list[str]:
         return _of_set(operator, operand)
     if operator in (_constants.ASSERT, _constants.ASSERT_NOT, _constants.AT, _constants.GROUPREF):
         return [""]
-    found = [*dict.fromkeys(one for part in _parts(operator, operand) for one in _samples(part))]
+    alternatives = zip_longest(*map(_samples, _parts(operator, operand)))  # some of each
+    found = [*dict.fromkeys(one for each in alternatives for one in each if one is not None)]
     if operator in REPEATS:
         return ([] if operand[0] else [""]) + [one * max(operand[0], 1) for one in found]
     return found

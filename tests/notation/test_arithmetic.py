@@ -359,3 +359,8 @@ def test_the_exponent_may_be_as_great_as_the_limit_and_no_greater(base: Value, s
 
 def test_depth_counts_nested_operations() -> None:
     assert Apply("+", (Apply("-x", (Name("t"),)), Number(1))).depth == 2
+
+
+def test_a_power_of_an_unknown_is_written_with_a_caret() -> None:
+    unknown: Any = sympy.Symbol("t")
+    assert number_text(power(unknown, 2)) == "t^2"

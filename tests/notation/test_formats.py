@@ -19,7 +19,7 @@ from hypothesis import strategies as st
 from lsys_kit.classroom.catalogue import system, systems
 from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError, ModelValueError
 from lsys_kit.notation.formats.found import tables
-from lsys_kit.notation.formats.reading import FORMATS, LONGEST, read_as, read_found
+from lsys_kit.notation.formats.reading import FORMATS, LONGEST, read_as, read_found, what_is_missing
 from lsys_kit.notation.model.modules import flat
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read
@@ -220,6 +220,24 @@ def test_what_each_format_has_is_the_same_system(text: str) -> None:
         ("start : F\nF → F+F\nangle: 60\nturn: 45", ("Two angles are given: 60 is used, not 45.",)),
         ("start : F\nstart : X\nF → F+F", ('The axiom is given more than once: "F" is used, not "X".',)),
         ("Axiom = a\nF => aF\na =>", ("a is erased: nothing stands behind its arrow.",)),
+        ("Axiom: F\nF => FF\n@", ('"@" is left out: it is not surely a part of the rule above it.',)),
+        ('rules = {"F": "F+F"}', ('No axiom is given: it is "F", what the one rule rewrites.',)),
+        ("Initiator: F\nGenerator: F+F--F+F", ("The generator replaces F.",)),
+        ("Axiom: A\nproduction:\nA --> A,A", ('"," without a value, the colour before, is left out.',)),
+        (
+            "It is drawn with n = 4.\nω : F\np1 : F → F+F\n\nFF\nFigure 1: A line\n",
+            (
+                '"FF" is left out: it is not surely a part of the rule above it.',
+                "The number of steps, 4, is that of the text around.",
+            ),
+        ),
+        (
+            "angle: 1.5707963\nstart : F\nF => F+F",
+            (
+                "Read as a list of variables and rules, as encyclopaedias have it; "
+                "angle 1.5708 in degrees; were it in radians, it would be 90.",
+            ),
+        ),
     ],
 )
 def test_what_is_assumed_is_said(text: str, notes: tuple[str, ...]) -> None:
@@ -236,6 +254,14 @@ def test_what_is_assumed_is_said(text: str, notes: tuple[str, ...]) -> None:
         ('{"axiom": "F", "rules": {"F": "F+F}}', "This quotation mark is never closed", None),
         ("6\n35\nFA\nA=[&FA]A\n@", "A number is missing above the axiom of this file of LParser", (3, 1)),
         ("6\n35\n9\nFA\nA=F:A\n@", "LParser's \":\" makes all later turns smaller, which the kit's turtle does not", (5, 4)),
+        ("k = k + 1\naxiom: A(k)", 'The constant "k" cannot be calculated from itself', (1, 1)),
+        ("4\n20\n8\nF\n@", "An arrow is missing here", (1, 2)),
+        ("start = F(1\nF = FF", 'This "(" is never closed', (1, 10)),
+        ("Start: F\nF => FF\nX == F[+X]\nX => F", "I cannot read this line", (3, 1)),
+        ("rule: + → -", "There is no axiom", (1, 12)),
+        ("ω : F(\np1 : F → F+F   (1.2)\nFigure 1: A line\n", "A value is missing here", (1, 7)),
+        ('<?xml version="1.0"?><axiom>é</axim>', "This is no complete XML: mismatched tag", (1, 32)),
+        ('<?xml version="1.0"?>' + "<a>" * 200 + "<axiom>F", "These elements are too deep", None),
         ("import math\nAxiom: A\nproduction:\nA --> F\n", "This model of L-Py has Python in it", (1, 1)),
         (
             '<?xml version="1.0"?><!DOCTYPE a [<!ENTITY b "c">]><axiom>&b;</axiom>',
@@ -286,6 +312,109 @@ def test_what_a_page_says_of_letters_is_drawn() -> None:
     assert [str(rule) for rule in read(text).interpretation] == ["A -> F", "B -> F"]
 
 
+READ = {
+    "a subscript in braces": ('axiom = "a"; rules = {"a": "a b_{r}"}', "axiom: a\na -> a b_r"),
+    "numbers of characters in place of characters": (
+        r'axiom = "\u0046"; rules = {"F": "F\x2bF"}; angle = 60',
+        "angle: 60\naxiom: F\nF -> F+F",
+    ),
+    "a comment that never ends": ('axiom = "F"; rules = {"F": "FF"} /* and so on', "axiom: F\nF -> F F"),
+    "a constant in a program": (
+        'axiom = "F(1)"; var_b = 0.5; rules = {"F(x)": "F(x*b)"}',
+        "b = 0.5\naxiom: F(1)\nF(x) -> F(x * b)",
+    ),
+    "a and b as symbols": ('axiom = "a"; rules = {"a": "ab", "b": "a"}', "axiom: a\na -> a b\nb -> a"),
+    "a and b as names": ('axiom = "X"; rules = [{a: "X", b: "XY"}, {a: "Y", b: "X"}]', "axiom: X\nX -> X Y\nY -> X"),
+    "a rule among ways": ('axiom = "F"; way = {"from": "here", "to": "there"}; rules = {"F": "FF"}', "axiom: F\nF -> F F"),
+    "weights": ('axiom = "F"; rules = {"F": [("FF", 2), (3, "F")]}', "axiom: F\nF -> F F : 0.4\nF -> F : 0.6"),
+    "named weights": (
+        'axiom = "F"; rules = {"F": [{"successor": "FF", "probability": 0.4}, {"successor": "F", "probability": 0.6}]}',
+        "axiom: F\nF -> F F : 0.4\nF -> F : 0.6",
+    ),
+    "a list of successors": (
+        'axiom = "F"; rules = {"F": {"successors": ["FF", "F"]}}',
+        "axiom: F\nF -> F F : 0.5\nF -> F : 0.5",
+    ),
+    "rules with colons in one line": ("Start: F\nRules: {F: F+G, G: GG}", "axiom: F\nF -> F+G\nG -> G G"),
+    "a dictionary of rules": ('axiom = A\nrules = {"A": "AB", "B": "A"}', "axiom: A\nA -> A B\nB -> A"),
+    "a homomorphism": ("h(a) = ab\nh(b) = a\naxiom: a", "axiom: a\na -> a b\nb -> a"),
+    "an axiom with blanks": ("axiom F + F\nF => FF", "axiom: F + F\nF -> F F"),
+    "an axiom below its name": ("Axiom:\nF++F\nRules:\nF => F-F", "axiom: F++F\nF -> F-F"),
+    "quotients above arrows": (
+        "Here it is: start = F\n1/3\nF → F[+F]\n2/3\nF → F[-F]",
+        "axiom: F\nF -> F[+F] : 1/3\nF -> F[-F] : 2/3",
+    ),
+    "an initiator and a generator": (
+        "Initiator: F++F++F\nGenerator: F-F++F-F\nAngle: 60",
+        "angle: 60\naxiom: F++F++F\nF -> F-F++F-F",
+    ),
+    "what is replaced on a line of its own": (
+        "Axiom = F\nPredecessor = F\nSuccessor = F+F\nAngle = 60",
+        "angle: 60\naxiom: F\nF -> F+F",
+    ),
+    "a constant of Houdini": (
+        "Premise: F(b)\nRule 1: F(x)=F(x*b)+F\nVariable b: 0.5\n",
+        "b = 0.5\naxiom: F(b)\nF(x) -> F(x * b)+F",
+    ),
+    "probabilities in brackets": (
+        "Axiom: F\nF (0.3) => F+F\nF (0.7) => F-F\nX => F",
+        "axiom: F\nF -> F+F : 0.3\nF -> F-F : 0.7\nX -> F",
+    ),
+    "one value in brackets": ("Start: F(0.3)\nF (0.3) => F+F\nX => F", "axiom: F(0.3)\nF(0.3) -> F+F\nX -> F"),
+    "nothing, in a word": ("Start: X\nX -> nothing\nF -> F+X", "axiom: X\nX -> ε\nF -> F+X"),
+    "nothing, in a list": ("Start: X\nX => empty, F => F+X", "axiom: X\nX -> ε\nF -> F+X"),
+    "dollars": ("Start: $F$\nRule: F => F+F", "axiom: F\nF -> F+F"),
+    "symbols that a context passes over": (
+        "Start: A B\nIgnore: +-F\nRules:\nA < B => A\nA => B",
+        "ignore: + - F\naxiom: A B\nA < B -> A\nA -> B",
+    ),
+    "rules of TikZ on one line": (
+        "\\pgfdeclarelindenmayersystem{Cantor}{\\symbol{f}{\\pgflsystemmoveforward}\\rule{F -> FfF}\\rule{f -> fff}}\n"
+        "\\draw [lindenmayer system={Cantor, axiom=F, order=3}];",
+        "axiom: F\nF -> F f F\nf -> f f f",
+    ),
+    "contexts of L-Py": (
+        "Axiom: AB\nproduction:\n* < A > B --> AB\nA < B > * --> A\n",
+        "angle: 60\naxiom: A B\nA > B -> A B\nA < B -> A",
+    ),
+    "sections, modules and constants of L-Py": (
+        "r = 0.5\nextern(q = 3)\nderivation length: n - 1\nn = 4\nAxiom: A(q)\nmodule A(x): scale = 1\nmodule Leaf(a), Bud\n"
+        "ignore: +/\nproduction:\n\n# the growth\nA(x) --> F(x)[+A(x*r)]Leaf(n),(2),\ndecomposition:\nmaximum depth: 3\n"
+        "Leaf(a) --> Bud\n",
+        "r = 0.5\nq = 3\nn = 4\nalphabet: Bud Leaf\nangle: 60\nsteps: 3\ndecomposition depth: 3\nignore: + /\naxiom: A(q)\n"
+        "A(x) -> F(x)[+A(x * r)]Leaf(n);(2)\ndecomposition:\nLeaf(a) -> Bud",
+    ),
+    "a parameter in L-Py's own part": (
+        "Axiom: A(s)\nproduction:\nA(x) --> F(x)A(x/2)\nendlsystem\n###### INITIALISATION ######\n"
+        "def __initialiseContext__(context):\n\tscalars = [('s', 'Float', 3.5, 0.0, 10.0, 2)]\n",
+        "s = 3.5\nangle: 60\naxiom: A(s)\nA(x) -> F(x)A(x/2)",
+    ),
+    "steps of L-Py that nothing says": (
+        "derivation length: n\nAxiom: A\nproduction:\nA --> AB",
+        "angle: 60\naxiom: A\nA -> A B",
+    ),
+}
+"""Texts, and the systems that they mean."""
+
+
+@pytest.mark.parametrize(("text", "meant"), READ.values(), ids=READ)
+def test_a_text_is_the_system_that_it_means(text: str, meant: str) -> None:
+    found, wanted = read(text), read(meant)
+    assert (str(found), found.steps) == (str(wanted), wanted.steps)
+
+
+@pytest.mark.parametrize("name", ["A", "b"])
+@pytest.mark.parametrize(
+    "page",
+    [
+        'all = [{"name": "A", "axiom": "A", "rules": {"A": "AA"}}, {"name": "b", "axiom": "b", "rules": {"b": "bb"}}]',
+        "a) Start: A\nA => AA\n\nb) Start: b\nb => bb\n",
+    ],
+)
+def test_each_of_several_systems_has_its_name(page: str, name: str) -> None:
+    assert word(read(page, name=name).axiom) == name
+
+
 def test_signs_of_other_turtles_are_those_of_the_kit() -> None:
     leaf = read("axiom = a\nF -> >F<\na -> F[+x]\nx -> a\nangle = 45\nlength factor = 1.36")
     assert str(leaf.productions[0]) == "F -> @Di(1.36) F @Dd(1.36)" or "@Di(1.36)" in str(leaf.productions[0])
@@ -304,7 +433,19 @@ def test_a_format_is_asked_for_by_its_name(name: str) -> None:
         read("", name)
 
 
+def test_a_list_that_has_no_axiom_is_refused_where_a_list_was_asked_for() -> None:
+    with pytest.raises(LSystemError, match="There is no axiom"):
+        read("X → F[+X]F\nF → FF\nangle 20°", "list")
+
+
+@pytest.mark.parametrize("rules", ['{"rules": {"F": "F+F", "G": "GG"}}', 'rules = {"F": "F+F",\n "G": "GG"}'])
+def test_no_axiom_is_assumed_where_another_format_finds_more_rules(rules: str) -> None:
+    with pytest.raises(LSystemError, match="which the kit does not read"):
+        read(rules)
+
+
 def test_a_longer_text_is_not_searched() -> None:
+    assert what_is_missing("Axiom: F\nRules:" + " " * LONGEST) is None
     assert read_found("start : F\nrules : (F → FF)\n" + " " * LONGEST) is None
 
 
@@ -418,7 +559,23 @@ def test_any_text_is_read_or_refused_by_every_format(chance: random.Random) -> N
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    "token", [*TOKENS, "\t", " ", "- ", "F → F\n", "(A → AB), ", "'F':", "x:y ", "{aaa", "<!--", "replace every F with ", "1a"]
+    "token",
+    [
+        *TOKENS,
+        "\t",
+        " ",
+        "- ",
+        "F → F\n",
+        "(A → AB), ",
+        "'F':",
+        "x:y ",
+        "{aaa",
+        "<!--",
+        "replace every F with ",
+        "1a",
+        '\\"',
+        "\\'",
+    ],
 )
 def test_no_text_takes_longer_than_its_length(token: str) -> None:
     """Twice the text takes some twice the time; where that were its square, this would be minutes."""

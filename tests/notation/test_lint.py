@@ -411,3 +411,7 @@ def test_a_timed_system_stays_as_it_is_in_steps(text: str, waits: str) -> None:
 )
 def test_what_happens_in_steps_is_no_timed_system(text: str) -> None:
     assert not any("wait for an age" in note for note in read(text).notes)
+
+
+def test_nothing_is_said_of_an_age_that_has_no_value() -> None:
+    assert not read("axiom: A(1/0)\nA(2) -> B").notes

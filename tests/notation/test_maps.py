@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelNameError, ModelSyntaxError, ModelValueError
 from lsys_kit.notation.dialects.map.dialect import read_map
-from lsys_kit.notation.model.cells import Edge, EdgeProduction, MapSystem, Marker
+from lsys_kit.notation.model.cells import Edge, EdgeMarker, EdgeProduction, MapSystem, Marker
 from lsys_kit.notation.read import read
 from tests.derivation.random_maps import map_systems
 
@@ -38,6 +38,13 @@ def test_what_is_read_is_a_record() -> None:
     )
     assert found.steps == 3
     assert str(found) == "map: A>BC2<\nsteps: 3\nA> -> B[-A>][+C2]A<"
+
+
+def test_a_marker_has_a_short_text() -> None:
+    assert Marker("-", Edge("A", ">")).short == "[-A>]"
+    marker = EdgeMarker("PQ", Edge("P"), ("PR", "QR"), "PQ")
+    assert (marker.short, str(marker.turned)) == ("[PQ: P]", "[PQ: QR|P|PR, PQ]")
+    assert marker.turned.halves == marker.halves[::-1]
 
 
 @pytest.mark.parametrize(

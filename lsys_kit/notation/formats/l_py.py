@@ -47,6 +47,7 @@ def is_l_py(text: str) -> bool:
     >>> is_l_py("Axiom: A\\nproduction:\\nA --> A A"), is_l_py("Axiom: A\\nA --> A A")
     (True, False)
     """
+    text = text.replace("\r\n", "\n")
     return "xiom" in text and bool(_AXIOM.search(text) and _SIGN.search(text)) and not _OTHERS.search(text)
 
 
@@ -63,13 +64,14 @@ def systems_in_l_py(text: str) -> list[Found]:
     end = _END.search(text)
     python: list[tuple[int, int]] = []
     names: set[str] = set()
+    lengths: list[tuple[re.Match[str], Passage]] = []
     section = ""
     for line in _lines(text[: end.start()] if end else text):
         said = line.text
         if re.match(r"Axiom[ \t]*:", said):
             found.axiom = (line.part(said.index(":") + 1),)
-        elif match := re.fullmatch(r"derivation[ \t]+length[ \t]*:[ \t]*(\w+(?:[ \t]*[-+][ \t]*\d+)?)", said):
-            _take_length(found, match[1], line)
+        elif match := re.fullmatch(r"derivation[ \t]+length[ \t]*:[ \t]*(\w+)(?:[ \t]*([-+])[ \t]*(\d{1,9}))?", said):
+            lengths.append((match, line))
         elif match := re.fullmatch(r"(ignore|consider)[ \t]*:(.*)", said):
             found.lines.append(Passage(f"{match[1]}: {' '.join(match[2].replace('/', ' / '))}", line.at, False))
         elif match := _SECTION.fullmatch(said):
@@ -102,7 +104,8 @@ def systems_in_l_py(text: str) -> list[Found]:
         | _names_in(found)
         | {name for rule in found.rules for name in re.findall(r"(?<![\w(,])[A-Z][a-z]\w+", rule.head.text.split(":")[0])}
     )
-    _resolve_length(found, text)
+    for match, line in lengths:
+        _take_length(found, match, line)
     found.angle = Fraction(60), Passage("", found.axiom[0].at if found.axiom else 0)
     words = "".join(part.text for part in (*(found.axiom or ()), *(part for rule in found.rules for part in rule.tail)))
     if re.search(r"[-+&^/\\](?!\()", words):
@@ -143,19 +146,9 @@ def _check_python(lines: list[tuple[int, int]], text: str) -> None:
         raise ModelSyntaxError("This model of L-Py has Python in it", text, lines[0][0], lines[0][0] + lines[0][1], hint)
 
 
-def _take_length(found: Found, said: str, line: Passage) -> None:
-    if said.isdigit():
-        found.steps = int(said), line._replace(exact=False)
-    else:
-        found.notes.append(said)  # a name, until all constants are known
-
-
-def _resolve_length(found: Found, text: str) -> None:
-    """The number of steps, where it is a constant."""
-    values = dict(line.text.split(" = ") for line in found.lines if " = " in line.text)
-    for said in found.notes:
-        name, _, more = said.partition("+")
-        value = values.get(name.strip(), "")
-        if value.isdigit():
-            found.steps = int(value) + int(more or 0), Passage(said, found.axiom[0].at if found.axiom else 0, False)
-    found.notes = []
+def _take_length(found: Found, said: re.Match[str], line: Passage) -> None:
+    """The number of steps, which may be a constant, and some more or less."""
+    values = dict(each.text.split(" = ") for each in found.lines if " = " in each.text)
+    value = values.get(said[1], said[1])
+    if re.fullmatch(r"\d{1,9}", value):
+        found.steps = max(0, int(value) + int(f"{said[2] or '+'}{said[3] or 0}")), line._replace(exact=False)

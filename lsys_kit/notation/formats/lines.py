@@ -232,23 +232,29 @@ def _rule_at(text: str, at: int, end: int, line: int, under_rules: bool) -> _Ite
         )
         and not (
             len(rule["head"].strip()) == 1
-            and (_is_prose(text[rule.end() : end]) or (rule["arrow"] in ("=", ":=") and _SET.match(text, rule.end(), end)))
+            and (
+                _is_prose(text[rule.end() : end].strip(" \t,;.)"))
+                or (rule["arrow"] in ("=", ":=") and _SET.match(text, rule.end(), end))
+            )
         )
     ):
         return _Item("rule", rule.end(), end, rule, line)
     colon = _COLON_RULE.match(text, at, end)
-    tail = text[colon.end() : end].strip(" \"'") if colon else ""
-    if (
-        colon
-        and is_word(tail)
-        and (colon["label"] or under_rules or (len(tail) > 1 and colon["head"].isupper() and "," not in tail))
+    if colon is None:
+        return None
+    further = _FURTHER.search(text, colon.end(), end)
+    tail = text[colon.end() : further.start() if further else end].strip(" \"'")
+    if is_word(tail) and (
+        colon["label"] or under_rules or (len(tail) > 1 and colon["head"].isupper() and "," not in tail and not further)
     ):
         return _Item("rule", colon.end(), end, colon, line)
     return None
 
 
+_FURTHER = re.compile(rf"[,;]{_B}(?={_COLON_RULE.pattern})".replace("?P<", "?P<_"))
+"""Where another rule with a colon begins."""
 _STRICT = re.compile(ARROW)
-_CALCULATION = re.compile(r"\d++(?:\.\d++)?(?:[ ]?[*/^][ ]?\d++(?:\.\d++)?)+")
+_CALCULATION = re.compile(r"\d++(?:\.\d++)?(?:[ ]?[*/^][ ]?\d++(?:\.\d++)?)+|[a-z][ ]?[-+*/^][ ]?\d++(?:\.\d++)?")
 """What a constant is, and no word."""
 _SET = re.compile(r"[ \t]*[{<(⟨][ \t]*\S[ \t]*,")
 """A set of symbols."""
@@ -256,7 +262,9 @@ _SET = re.compile(r"[ \t]*[{<(⟨][ \t]*\S[ \t]*,")
 
 def _is_prose(text: str) -> bool:
     """Whether a text is a word or two of a language, and none of symbols."""
-    return re.fullmatch(r"[ \t]*[A-Z]?[a-z]{4,}(?:[ ][a-z]+)*[.]?[ \t]*", text) is not None and len(set(text.strip())) > 3
+    return (
+        re.fullmatch(r"[A-Z]?[a-z]{4,}(?:[ ][a-z]+)*", text) is not None and len(set(text)) > 3 and not _NOTHING.fullmatch(text)
+    )
 
 
 def _can_be_replaced(rule: re.Match[str]) -> bool:
@@ -294,7 +302,7 @@ def _possible(kind: str, named: re.Match[str], value: str, rule: _Item | None, l
         if sep:
             return not short or named["name"] in "ωw"
         said = re.split(r"\t|  |[ ]#|,[ ]", value.strip())[0]
-        return len(named["name"]) > 4 and is_word(said) and " " not in said.strip()
+        return len(named["name"]) > 4 and is_word(said) and re.fullmatch(r"\S+|\S(?:[ ]\S)+", said.strip()) is not None
     if kind in ("head", "tail"):
         return bool(sep and value.strip()) and not later and rule is None
     if kind in ("scale", "constant"):
@@ -400,7 +408,7 @@ def _shown(rule: Rule) -> str:
     return f"{_all_of((rule.head,))}->{_all_of(rule.tail)} : {rule.probability}"
 
 
-_FUNCTION = re.compile(r"([a-zσφμ])\s*\(\s*(\w)\s*\)")
+_FUNCTION = re.compile(r"([a-z])\s*\(\s*(\w)\s*\)")
 
 
 def _without_function(found: Found) -> Found:
@@ -465,12 +473,12 @@ def _take_said(found: Found, prose: Sequence[Passage]) -> None:
 
 def _take_prose(found: Found, prose: Sequence[Passage]) -> None:
     """What sentences around the list say: an angle, and which letters draw."""
-    angles = {angle_of(match[match.lastindex or 1]): match for each in prose for match in _SAID_ANGLE.finditer(each.text)}
+    said = [match for each in prose for match in _SAID_ANGLE.finditer(each.text)]
+    angles = {angle: match for match in said if (angle := angle_of(match[match.lastindex or 1])) is not None}
     if found.angle is None and len(angles) == 1:
         [(angle, match)] = angles.items()
-        if angle is not None:
-            found.angle = angle, Passage(match[0], prose[0].at, False)
-            found.notes.append(f'The angle is that of the text: "{match[0]}".')
+        found.angle = angle, Passage(match[0], prose[0].at, False)
+        found.notes.append(f'The angle is that of the text: "{match[0]}".')
     used = {
         symbol for rule in found.rules for symbol in re.findall(r"\w", "".join(part.text for part in (rule.head, *rule.tail)))
     }
@@ -486,8 +494,8 @@ def _take_prose(found: Found, prose: Sequence[Passage]) -> None:
         if match[1] not in "Ff"
     }
     if found.drawn:
-        said = ", ".join(f"{symbol} is drawn as {command}" for symbol, command in sorted(found.drawn.items()))
-        found.notes.append(f"As the text says, {said}.")
+        drawn = ", ".join(f"{symbol} is drawn as {command}" for symbol, command in sorted(found.drawn.items()))
+        found.notes.append(f"As the text says, {drawn}.")
 
 
 def _with_plain_axioms(text: str, items: Sequence[_Item], letters: frozenset[str]) -> list[_Item]:
@@ -538,7 +546,7 @@ def _with_plain_axioms(text: str, items: Sequence[_Item], letters: frozenset[str
     return found
 
 
-_ABOVE = re.compile(r"\s*(0?\.\d+|1|1/\d)\s*")
+_ABOVE = re.compile(r"\s*(0?\.\d+|1|[1-9]/[1-9])\s*")
 """A probability over an arrow."""
 _NO_ARROW = re.compile(r"\s*+([A-Za-z])([ ]{2,}+|\t)\s*+(\S++)\s*+")
 """A rule that lost its arrow."""
@@ -793,6 +801,7 @@ _MACRO = re.compile(
     r"|\\text\{([^{}\n]*)\}|\\([A-Za-z]+)(?![A-Za-z])|\\([#{}%&$_])|\\[;,:! ]|\\\\|(?<!\\)&|\$+|\\[\[\]()]"
 )
 _MARKS = re.compile(r"^[ \t]*```.*$|\*\*|`|^(?=[^\n|]*\|)[ \t|:-]++$|^#+[ ]", re.MULTILINE)
+_RULE_OF_TIKZ = re.compile(r"\\rule\{([^{}\n]*)\}")
 _STRONG = re.compile(r"'''([\w -]{1,60})'''")
 _DOLLARS = re.compile(r"\$(?=[^\s$])([^$\n]*[^\s$\\])\$(?!\w)")
 
@@ -809,6 +818,7 @@ def page_text(before: Transcript) -> Transcript:
         before = edited(before, (Edit(*match.span(), _macro(match)) for match in _MACRO.finditer(text)))
     edits = [Edit(*match.span(), "") for match in _MARKS.finditer(before.text)]
     edits += [Edit(*match.span(), match[1]) for match in _STRONG.finditer(before.text)]
+    edits += [Edit(*match.span(), f"\n{match[1]}\n") for match in _RULE_OF_TIKZ.finditer(before.text)]
     for match in _DOLLARS.finditer(before.text):
         edits += [Edit(match.start(), match.start() + 1, ""), Edit(match.end() - 1, match.end(), "")]
     return without_columns(_without_tables(edited(before, edits) if edits else before))
@@ -852,8 +862,7 @@ def without_columns(before: Transcript) -> Transcript:
     while index < len(lines):
         right: list[Edit] = []
         while (
-            index < len(lines)
-            and (match := split[index])
+            (match := split[index])
             and abs(match.start("right") - lines[index].start() - (at := right_of(split, lines, two))) <= 12
             and at >= 0
         ):
@@ -866,10 +875,8 @@ def without_columns(before: Transcript) -> Transcript:
                 Edit(match.end("right"), match.end("right"), "\n"),
             )
             index += 1
-        pieces += right
-        if index < len(lines):
-            pieces.append(Edit(*lines[index].span(), lines[index][0]))
-            index += 1
+        pieces += (*right, Edit(*lines[index].span(), lines[index][0]))  # the last line is empty, and in no columns
+        index += 1
     return assembled(before, pieces)
 
 

@@ -23,7 +23,7 @@ _TOKEN = re.compile(
     r"""(?P<blank>[ \t\r]+
         |(?://|(?<![\[({/])\#(?![\w\[(])|(?<![\[({/])\#[ ]+|```|;;|--[ ](?=[A-Za-z|])|(?<![^\s;])%(?!\w*[%=]))[^\n]*)
     |(?P<end>\n|;)
-    |(?P<text>"(?:[^"\\\n]|\\.)*"|'(?:[^'\\\n]|\\.)*'|`(?:[^`\\]|\\.){0,2000}`)
+    |(?P<text>"(?:[^"\\\n]|\\.)*+"|'(?:[^'\\\n]|\\.)*+'|`(?:[^`\\]|\\.){0,2000}`)
     |(?P<number>(?:\d+(?:\.\d+)?|\.\d+)(?:[eE][-+]?\d+)?(?:f(?!\w))?)
     |(?P<name>[^\W\d][\w$]*(?:(?:\.|::|-(?=[A-Za-z]))[^\W\d][\w$]*)*(?:<[A-Za-z_, :]{1,60}>(?=\s*[\w({=]))?)
     |(?P<pair><-(?=[ ])|=>|:>|->|→|↦|:=|:|=(?!=))
@@ -33,6 +33,9 @@ _TOKEN = re.compile(
     |(?P<other>.)""",
     re.VERBOSE | re.DOTALL,
 )
+_SIGN = re.compile(r"(?P<other>.)", re.DOTALL)
+_INSIDE = {sign: re.compile(rf"(?:[^{sign}\\\n]|\\.)*+", re.DOTALL) for sign in "\"'"}
+"""What a text may have between its quotation marks."""
 _COMMENT = re.compile(r"/\*|\(\*|<!--")
 _COMMENT_ENDS = {"/*": "*/", "(*": "*)", "<!--": "-->"}
 _LONGEST_COMMENT = 2_000
@@ -98,6 +101,7 @@ def _character(match: re.Match[str]) -> str:
 def _tokens(text: str) -> Iterator[re.Match[str]]:
     """The tokens of a text without blanks and comments."""
     at = 0
+    unclosed = dict.fromkeys(_INSIDE, 0)  # up to where such a sign begins no text
     while at < len(text):
         if comment := _COMMENT.match(text, at):
             closing = _COMMENT_ENDS[comment[0]]
@@ -105,10 +109,17 @@ def _tokens(text: str) -> Iterator[re.Match[str]]:
             if end >= 0:
                 at = end + len(closing)
                 continue
-        if match := _TOKEN.match(text, at):
-            if match.lastgroup != "blank":
-                yield match
-            at = match.end()
+        sign = text[at]
+        begins_none = at < unclosed.get(sign, 0)
+        match = _SIGN.match(text, at) if begins_none else _TOKEN.match(text, at)
+        assert match is not None
+        if match.lastgroup == "other" and sign in _INSIDE and not begins_none:
+            inside = _INSIDE[sign].match(text, at + 1)
+            assert inside is not None
+            unclosed[sign] = inside.end()
+        if match.lastgroup != "blank":
+            yield match
+        at = match.end()
 
 
 def _parsed(text: str) -> Group:
@@ -427,10 +438,16 @@ def _as_rule(entries: list[Entry]) -> Rule | None:
         tail_words = (tail_term.passage,) if isinstance(tail_term, Term) else _symbols(tail_term)
         quoted = isinstance(tail_term, Group) or tail_term.kind == "text"
         if isinstance(head_term, Term) and tail_words and quoted and _SYMBOL.fullmatch(head_term.text):
-            if head_term.text in ("a", "b") and _name(parts["predecessor"]) == "a":
+            if _name(parts["predecessor"]) == "a" and re.search(
+                "[ab]", head_term.text + "".join(part.text for part in tail_words)
+            ):
                 return None  # a and b are symbols themselves
             return Rule(head_term.passage, tail_words, _chance(parts.get("probability")))
     return None
+
+
+_PARTS = "predecessor", "successor", "probability"
+"""The parts of a rule."""
 
 
 def _parts(entries: list[Entry]) -> dict[str, Entry]:
@@ -438,7 +455,7 @@ def _parts(entries: list[Entry]) -> dict[str, Entry]:
     found: dict[str, Entry] = {}
     for entry in entries:
         name = _name(entry) if entry.key and entry.terms else ""
-        for kind in ("predecessor", "successor", "probability"):
+        for kind in _PARTS:
             if (name if len(name) == 1 else name.lower()) in tables()["names"][kind]:
                 found.setdefault(kind, entry)
     return found
@@ -508,7 +525,8 @@ def _head(entry: Entry, in_rules: bool, name: str) -> Passage | None:
 
 
 def _is_field(text: str, in_rules: bool) -> bool:
-    return not in_rules and len(text) > 1
+    """Whether a key names something: outside of rules, or a part of one."""
+    return len(text) > 1 and (not in_rules or any(text.lower() in tables()["names"][kind] for kind in _PARTS))
 
 
 def _alternatives(head: Passage, value: Group) -> Iterator[Rule]:

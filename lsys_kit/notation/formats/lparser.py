@@ -49,10 +49,9 @@ def systems_in_lparser(text: str) -> list[Found]:
     found.steps = int(numbers[0].text.split(".")[0][:6]), numbers[0]
     found.angle = Fraction(numbers[1].text.rstrip(".")), numbers[1]
     for line in rest[1:]:
-        head, equals, _ = line.text.partition("=")
-        if equals and head.strip():
-            found.rules.append(Rule(line.part(0, len(head)), (line.part(len(head) + 1),)))
-    words = [*found.axiom, *(part for rule in found.rules for part in rule.tail)] if found.axiom else []
+        head = line.text.partition("=")[0]
+        found.rules.append(Rule(line.part(0, len(head)), (line.part(len(head) + 1),)))
+    words = [rest[0], *(part for rule in found.rules for part in rule.tail)]
     _check(words, signs["lacks"], text)
     heads = {rule.head.text for rule in found.rules}
     used = {word.text[a:b] for word in words for a, b, values in symbols_in(word.text) if not values}

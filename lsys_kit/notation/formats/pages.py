@@ -22,7 +22,7 @@ _NUMBERED = re.compile(r"(?<![ \t])[ \t]{2,}+(\(\d+(?:\.\d+)*[a-z]?\))[ \t]*$")
 _ABOVE = re.compile(r"[ \t]*(?:0?\.\d+|1)[ \t]*")
 _OTHER = re.compile(r"[ \t]*(?:Figure|Fig\.|Table|Section|Chapter)\b", re.IGNORECASE)
 _ANGLE = re.compile(r"(?:angle|δ)[^.\n]{0,40}?(?<![\d.])(\d{1,3}(?:\.\d+)?)[ ]?(?:°|deg)", re.IGNORECASE)
-_STEPS = re.compile(r"(?<![\w.])n[ ]?=[ ]?(\d{1,4})(?![\d.])")
+_STEPS = re.compile(r"(?<![\w.])n[ ]?=[ ]?(\d{1,4})(?!\d|\.\d)")
 _NAME = re.compile(rf"(?:{LABEL}[ \t]*:[ \t]*|^[ \t]*)([a-z]\w+)", re.MULTILINE)
 _ARROW = re.compile(ARROW)
 

@@ -115,9 +115,11 @@ def read_found(text: str, name: str | None = None) -> LSystem | None:
     if len(text) > LONGEST:
         return None
     failed: LSystemError | None = None
+    rules = 0
     for form in FORMATS.values():
         before, systems = _found(form, text)
-        if any(found.complete for found in systems):
+        most = max((len(found.rules) for found in systems), default=0)
+        if any(found.complete and not (found.assumed and most < rules) for found in systems):
             try:
                 return _refusing_code(form, before, _system(form, before, _chosen(systems, text, name)))
             except LSystemError as error:
@@ -125,6 +127,7 @@ def read_found(text: str, name: str | None = None) -> LSystem | None:
                     program = foreign_format(text) if form is LIST and _CODE.search(before.text) else None
                     raise program or failed or error from None
                 failed = error  # what is no listing of the book may be a list
+        rules = max(rules, most)  # of which the first is no axiom
     if failed:
         raise failed
     return None
@@ -215,7 +218,7 @@ def _system(form: Format, before: Transcript, found: Found) -> LSystem:
     except LSystemError as error:
         raise transcript.relocated(error) from None
     notes = system.notes if found.listing else tuple(filter(_is_news, system.notes))
-    return replace(system, notes=(f"Read as {form.title}{_said(found, system, before.text)}.", *found.notes, *notes))
+    return replace(system, notes=(f"Read as {form.title}{_said(found, system, before.text)}.", *transcript.notes, *notes))
 
 
 def _is_news(note: str) -> bool:

@@ -109,9 +109,13 @@ def check_arity(name: Token, operator: str, operands: Sequence[Expression]) -> N
     """A function gets as many values as it takes."""
     least, most = OPERATORS[operator].arity
     if not least <= len(operands) <= most:
-        number = str(least) if least == most else gettext("{least} or more", least=least)
-        wanted = gettext("{number} values", number=number) if most > 1 else gettext("one value")
-        raise problem("number of arguments", place_of(name), name=name, wanted=wanted, given=len(operands))
+        wanted = least if least == most else gettext("{least} or more", least=least)
+        raise problem("number of arguments", place_of(name), name=name, wanted=values_text(wanted), given=len(operands))
+
+
+def values_text(number: int | str) -> str:
+    """So many values, in words."""
+    return gettext("one value") if number == 1 else gettext("{number} values", number=number)
 
 
 def _is_named(part: Any) -> bool:

@@ -24,6 +24,7 @@ from lsys_kit.notation.model.expressions import (
     is_random,
     styled_text,
 )
+from lsys_kit.notation.syntax.actions import values_text
 
 SAME = ("sin", "cos", "tan", "asin", "acos", "atan", "exp", "log", "sqrt", "floor", "ceil")
 """The functions that cpfg and the kit call alike."""
@@ -114,7 +115,7 @@ def resolve_call(name: str, operands: tuple[Expression, ...], at: TextSpan) -> A
         raise problem("unknown function", place, name=name, hint=hint)
     count = 1 if name in BUILT else OPERATORS[_FUNCTIONS[name]].arity[0]
     if len(operands) != count:
-        raise problem("number of arguments", place, name=name, wanted=f"{count} value{'s' * (count > 1)}", given=len(operands))
+        raise problem("number of arguments", place, name=name, wanted=values_text(count), given=len(operands))
     if name not in BUILT:
         return Apply(_FUNCTIONS[name], wanted(_FUNCTIONS[name], operands), at)
     if name != "ran" and is_random(operands[0]):

@@ -97,7 +97,9 @@ def _number(token: Token, digits: str) -> Number:
 
 _SAID = re.compile(r"angle(?:\s*=)?\s*\d|axiom(?:\s*=\s*|\s+)[^\s:=]", re.IGNORECASE)
 """A line that gives an angle or an axiom, without a colon."""
-_OTHER = re.compile(r"(?![^\s=]\s*=|axiom|angle).*?(?:->|→|⟶|::=|:\s|\\rightarrow|\w{3}\s*=)|axiom\s*=\s*AXIOM", re.IGNORECASE)
+_OTHER = re.compile(
+    r"(?![^\s=]\s*=(?!\s*\{)|axiom|angle).*?(?:->|→|⟶|::=|:\s|\\rightarrow|\w{3}\s*=)|axiom\s*=\s*AXIOM", re.IGNORECASE
+)
 """A line that no system of Fractint's has."""
 SAMPLED_SYSTEMS = 50
 """So many systems of a file show in which notation it is."""

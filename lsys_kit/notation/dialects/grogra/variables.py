@@ -18,6 +18,7 @@ from lsys_kit.notation.model.arithmetic import normalised
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number, TextSpan, names_in, transform
 from lsys_kit.notation.model.modules import Item, Repeat, expressions_of
 from lsys_kit.notation.model.system import Production
+from lsys_kit.notation.syntax.actions import values_text
 
 VARIABLE_KINDS: Mapping[str, tuple[int, int, str]] = {
     "uniform": (2, 2, "0 360"),
@@ -191,7 +192,7 @@ def _sensed_call(expression: Apply, name: Name, values: list[Expression], scope:
         raise problem("unknown function", name.at, name=name, hint=hint)
     number, count = variable.numbers
     if len(values) != count:
-        raise problem("number of arguments", name.at, name=name, wanted=f"{count} value{'s' * (count != 1)}", given=len(values))
+        raise problem("number of arguments", name.at, name=name, wanted=values_text(count), given=len(values))
     return Apply("sensed", (Number(number), *values), expression.at)
 
 
