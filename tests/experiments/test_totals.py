@@ -27,11 +27,8 @@ def check(model: LSystem, symbol: str, place: int, axis: bool, values: dict[str,
         return False
     words = derive(model, steps, **values)
     for step in range(steps + 1):
-        assert valued(found.at(step), values) == added(words[step], symbol, place - 1 if place else None, axis), (
-            symbol,
-            place,
-            step,
-        )
+        wanted = added(words[step], symbol, place - 1 if place else None, axis)
+        assert valued(found.at(step), values) == wanted, (symbol, place, step)
     formula = found.formula if len(found.sums.rule) < 5 else None
     for step in (0, 1, 4) if formula is not None and formula.count_ops() < 200 and not formula.has(sympy.RootSum) else ():
         given = {each: sympy.Rational(*values[str(each)].as_integer_ratio()) for each in formula.free_symbols - {found.n}}
