@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from fractions import Fraction
 from itertools import islice
+from typing import Any
 
 import pytest
 import sympy
@@ -16,6 +17,7 @@ from lsys_kit.budget import Task, limits
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.growth.growth import (
     Growth,
+    closed_form,
     counts_of_steps,
     growth,
     leading_weights,
@@ -251,3 +253,42 @@ def test_counting_step_after_step_ends_with_its_budget() -> None:
     assert len(list(islice(counts_of_steps(states), 3))) == 3
     with limits(seconds=1e-9), pytest.raises(ModelLimitError), Task("The counts were not found"):
         list(islice(counts_of_steps(states), 3))
+
+
+P, Q, T = sympy.symbols("p q t")
+
+
+@pytest.mark.parametrize(
+    ("rule", "first"),
+    [
+        ((P, Q), (0, 1)),  # two roots of degree two
+        ((2 * P, Q - P * P), (1, P)),
+        ((2 * P, -P * P), (1, Q)),  # a root that is a double one
+        ((0, 0, Q), (1, 2, 3)),  # of degree three
+        ((P, 0, 0), (1, 2, P)),  # the first terms stand apart
+    ],
+)
+def test_a_closed_form_has_letters_in_roots_of_degree_two_and_less(rule: tuple[Any, ...], first: tuple[Any, ...]) -> None:
+    rule, terms = tuple(sympy.Integer(0) + c for c in rule), [*first]
+    found = closed_form(rule, first)
+    if len(rule) == 3 and rule[-1]:
+        assert found is None
+        return
+    while len(terms) < 7:
+        terms.append(sum(c * terms[-k] for k, c in enumerate(rule, 1)))
+    for step, term in enumerate(terms):
+        difference = (found.subs(T, step) - term).subs({P: sympy.Rational(2, 3), Q: 5})
+        assert abs(difference.evalf(30)) < 1e-20, step
+
+
+def test_a_closed_form_sums_over_roots_of_the_third_degree() -> None:
+    """Each of the numbers 1, 1, 2, 4, 7, 13 is the sum of the three before; two terms before them obey no rule."""
+    found = closed_form((1, 1, 1, 0, 0), (5, 9, 1, 1, 2))
+    assert found.has(sympy.RootSum)
+    assert found.has(sympy.KroneckerDelta)
+    written_out = found.replace(
+        lambda part: isinstance(part, sympy.RootSum),
+        lambda part: sympy.Add(*(part.fun(root) for root in part.poly.nroots(n=40))),
+    )
+    for step, term in enumerate((5, 9, 1, 1, 2, 4, 7, 13, 24, 44)):
+        assert abs(written_out.subs(T, step).evalf(30) - term) < 1e-20

@@ -151,6 +151,24 @@ def test_a_misprint_beside_an_unknown_word_is_found() -> None:
     )
 
 
+def test_a_misprint_before_a_last_word_that_is_not_known_is_found() -> None:
+    (only,) = infer(["a", "ab", "aba", "abbab", None]).mended
+    assert str(only) == "letter 3 of step 3, b, were a"
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["aa", "bcbc", "aaaaaa", "bcbcbcbcbcbd"], "Two systems fit the mended words."),
+        (["bc", "bcbc", "bcbcbcbc", "bcbcbcbcbcbcbcbd"], "Several systems fit the mended words."),
+    ],
+)
+def test_of_several_systems_that_fit_mended_words_none_is_named(words: list[str], said: str) -> None:
+    fits = infer(words)
+    assert len(fits.mended[0].systems) == {"Two": 2}.get(said.split()[0], 3)
+    assert str(fits).endswith(said)
+
+
 def test_systems_that_fill_in_different_words_are_told_so() -> None:
     said = str(infer(["a", None, "abaab"]))
     assert said.splitlines()[0] == "2 systems fit these 3 words; they part at step 3:"

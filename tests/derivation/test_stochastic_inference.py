@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from fractions import Fraction
+from itertools import pairwise
 from typing import Any
 
 import pytest
 
-from lsys_kit import LSystemError, derive, infer, read
+from lsys_kit import LSystemError, ModelLimitError, derive, infer, read
+from lsys_kit.derivation.inference import stochastic
 from lsys_kit.derivation.inference.infer import StochasticFits
 
 SYSTEMS = {
@@ -74,11 +77,54 @@ def test_where_no_stochastic_system_fits_none_is_given() -> None:
     assert infer([["ab", "a"]], stochastic=True, erasing=True)
 
 
-@pytest.mark.slow
 def test_a_rare_successor_that_only_a_long_word_has_is_found() -> None:
     short = [["a", "aa"]] * 40
     fits = infer([*short, ["a" * 60, "aa" * 30 + "ac" + "aa" * 29]], stochastic=True)
     assert "a -> a c" in str(fits)
+
+
+def test_where_too_many_rare_successors_would_have_to_be_looked_for_that_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each search finds what one more long word has; `No system fits` would be wrong."""
+    monkeypatch.setattr(stochastic, "MOST_SEARCHED", 6)
+    derivations = [["a", "b"], ["aaa", "bbcb"]]
+    assert "a -> c b" in str(infer(derivations, stochastic=True))
+    monkeypatch.setattr(stochastic, "MOST_SEARCHES", 1)
+    with pytest.raises(ModelLimitError, match="too long for a stochastic system"):
+        infer(derivations, stochastic=True)
+
+
+def made(before: str, after: str, successors: Mapping[str, set[str]]) -> bool:
+    """Whether a word becomes another where each letter has one of its successors; a constant has itself."""
+    if not before:
+        return not after
+    ways = successors.get(before[0], {before[0]})
+    return any(after.startswith(way) and made(before[1:], after[len(way) :], successors) for way in ways)
+
+
+@pytest.mark.parametrize(
+    "derivations",
+    [
+        [["aa", "aaa"]] * 3,  # no successor can be done without, though each is rare
+        [["b", "a", "a", "bbb", "baab"]],
+        [["b", "aab"], ["b", "aab", "aaaab", "a" * 12 + "b", "a" * 29 + "b"], ["a", "a", "aaa"]],  # slow to settle
+        [["a+b", "ab+c"], ["a+b", "a+b"]],
+        [["+-", "+-"], ["a-", "b-"]],
+    ],
+)
+def test_the_productions_make_every_step(derivations: list[list[str]]) -> None:
+    fits = infer(derivations, stochastic=True)
+    successors: dict[str, set[str]] = {}
+    for each in fits.choices:
+        successors.setdefault(str(each.letter), set()).add("".join(map(str, each.successor)))
+    assert all(made(*step, successors) for words in derivations for step in pairwise(words))
+    for letter in successors:
+        whole = sum(each.probability for each in fits.choices if str(each.letter) == letter)
+        assert whole == pytest.approx(1, abs=1e-6)
+
+
+@pytest.mark.parametrize("words", [["a+", "a"], ["a+", "+a"], ["+a", "a+"]])
+def test_constants_that_do_not_stay_are_in_no_system(words: list[str]) -> None:
+    assert not infer([words], stochastic=True)
 
 
 @pytest.mark.parametrize(

@@ -4,39 +4,19 @@ from __future__ import annotations
 
 import re
 from fractions import Fraction
-from typing import Any
 
 import pytest
 import sympy
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
-from lsys_kit import book_systems, derive, limits, plot, read, stages, system, systems, total
+from lsys_kit import book_systems, derive, limits, plot, read, system, systems, total
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelNameError, ModelValueError
-from lsys_kit.notation.model.arithmetic import is_symbolic
-from lsys_kit.notation.model.modules import CLOSING, OPENING
 from lsys_kit.notation.model.system import LSystem, symbols
+from tests.derivation.test_affine import added, valued
 
 SHOOT = "q = 1/2\naxiom: A(1)\nA(x) -> F(x) A(q*x)"
 Q = sympy.Symbol("q", real=True)
-
-
-def added(word: Any, symbol: str, place: int, axis: bool) -> Any:
-    """What a parameter adds up to in a word, module by module."""
-    whole, depth = Fraction(0), 0
-    for module in word:
-        depth += (module.symbol in OPENING) - (module.symbol in CLOSING)
-        if module.symbol == symbol and not (axis and depth):
-            whole += module.arguments[place - 1] if 0 < place <= len(module.arguments) else 1
-    return whole
-
-
-def valued(found: Any, values: dict[str, Fraction]) -> Fraction:
-    """An expression at some values of its letters."""
-    if not is_symbolic(found):
-        return Fraction(found)
-    at = found.subs({each: sympy.Rational(*values[str(each)].as_integer_ratio()) for each in found.free_symbols})
-    return Fraction(int(at.p), int(at.q))
 
 
 def check(model: LSystem, symbol: str, place: int, axis: bool, values: dict[str, Fraction], steps: int = 8) -> bool:
@@ -47,7 +27,8 @@ def check(model: LSystem, symbol: str, place: int, axis: bool, values: dict[str,
         return False
     words = derive(model, steps, **values)
     for step in range(steps + 1):
-        assert valued(found.at(step), values) == added(words[step], symbol, place, axis), (symbol, place, step)
+        wanted = added(words[step], symbol, place - 1 if place else None, axis)
+        assert valued(found.at(step), values) == wanted, (symbol, place, step)
     formula = found.formula if len(found.sums.rule) < 5 else None
     for step in (0, 1, 4) if formula is not None and formula.count_ops() < 200 and not formula.has(sympy.RootSum) else ():
         given = {each: sympy.Rational(*values[str(each)].as_integer_ratio()) for each in formula.free_symbols - {found.n}}
@@ -129,17 +110,6 @@ def test_the_mean_where_chance_decides() -> None:
     assert found.limit_condition == (2 * sympy.Abs(p) < 1)
 
 
-@pytest.mark.parametrize("id", ["K7", "K8", "ABOP-1.27", "ABOP-1.28"])
-def test_the_mean_is_that_of_the_stages(id: str) -> None:
-    """The tokens that stage diagrams expect are counted by other code."""
-    net = stages(system(id))
-    for symbol in symbols(system(id)):
-        for n in range(5):
-            tokens = zip(net.expected(n), net.places, strict=True)
-            mean = sum(amount for amount, place in tokens if place.symbol == symbol)
-            assert float(total(system(id), symbol, 0).at(n)) == pytest.approx(float(mean))
-
-
 def test_the_axis_alone() -> None:
     plant = read("q = 1/2\naxiom: A(1)\nA(x) -> F(x) [+A(q*x)] A(q*x)")
     assert total(plant, "F", axis=True, q="q").formula == total(read(SHOOT), "F", q="q").formula
@@ -160,7 +130,7 @@ def test_where_there_is_no_formula_the_numbers_are_there(text: str, why: str) ->
     assert found.formula is None
     assert why in found.reason
     words = derive(read(text), 4)
-    assert found.values(4) == [added(words[n], "A", 1, False) for n in range(5)]
+    assert found.values(4) == [added(words[n], "A", 0, False) for n in range(5)]
     with pytest.raises(ModelValueError, match=re.escape(found.reason)):
         found.derivative("q")
 
@@ -197,11 +167,3 @@ def test_a_formula_that_explodes_ends_within_the_limit() -> None:
     model = read("\n".join([*(f"q{i} = {i + 1}" for i in range(6)), "axiom: A0(1)", rules]))
     with limits(seconds=2), pytest.raises(ModelLimitError):
         total(model, "A1", **{f"q{i}": f"q{i}" for i in range(6)})
-
-
-@settings(max_examples=20)
-@given(st.integers(2, 6), st.integers(1, 6))
-def test_life_spans(a: int, b: int) -> None:
-    model = read(f"axiom: A(1)\nA({a}) -> A(1) B(1)\nB({b}) -> A(1) B(1)\nA(t) -> A(t+1)\nB(t) -> B(t+1)")
-    assert check(model, "A", 0, False, {}, 12)
-    assert check(model, "B", 1, False, {}, 12)

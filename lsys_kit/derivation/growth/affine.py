@@ -16,7 +16,6 @@ from contextlib import nullcontext, suppress
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from itertools import count
 from typing import Any, TypeAlias
 
 from lsys_kit.budget import check_budget
@@ -209,8 +208,10 @@ class _Maps:
             ([self.field.convert(c) / self.field.convert(coefficients[0]) for c in coefficients], times)
             for coefficients, times in matrix.charpoly_factor_list()
         ]
-        for trial in count(1):
+        trial = 0
+        while True:
             check_budget()
+            trial += 1
             values = [Fraction(splitmix64(trial * 1_000 + place) % 2**31) for place in range(len(self.letters))]
             try:
                 known = {source: {key: _valued(factor, values) for key, factor in row.items()} for source, row in rows.items()}
@@ -229,7 +230,6 @@ class _Maps:
                 continue
             if len(left) == 1:
                 return tuple(-self.field.convert(c) for c in needed[1:])
-        raise AssertionError
 
     def _asked(self, vector: Combination, symbol: str, place: int | None, values: Sequence[Fraction] = ()) -> Any:
         """What is asked for, of the sums at a step; with values of the letters, where the sums are numbers."""
@@ -350,9 +350,7 @@ class _Maps:
             )
         if not is_symbolic(value):
             return self.field(value.numerator) / self.field(value.denominator)
-        import sympy
-
-        with supervised(), suppress(sympy.CoercionFailed):
+        with supervised(), suppress(ValueError):
             if self.field is not Fraction:
                 return self.field.from_sympy(value)
         raise NotAffine(f"{value} is no quotient of polynomials")

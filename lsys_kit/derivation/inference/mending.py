@@ -469,19 +469,16 @@ class Mending:
     __repr__ = __str__
 
 
-def edits_between(step: int, given: str, wanted: str, texts: Texts) -> tuple[Slip, ...] | None:
-    """The fewest changes of letters that turn a word into another; None where they are more than are looked for.
+def edits_between(step: int, given: str, wanted: str, texts: Texts) -> tuple[Slip, ...]:
+    """The fewest changes of letters that turn a word into another, which is near it.
 
     >>> from lsys_kit.derivation.inference.problem import read_words
     >>> texts = texts_of(read_words(["abac", "aacd"]), Conditions())
     >>> [str(slip) for slip in edits_between(0, texts.words[0], texts.words[1], texts)]
     ['letter 2 of step 0, b, were left out', 'd stood behind letter 4 of step 0']
     """
-    for most in range(MOST_EDITS + 1):
-        found = _changes(given, wanted, 0, most)
-        if found is not None:
-            return tuple(Slip(step, place + 1, texts.row(old), texts.row(new)) for place, old, new in found)
-    return None
+    found = next(found for most in range(MOST_EDITS + 1) if (found := _changes(given, wanted, 0, most)) is not None)
+    return tuple(Slip(step, place + 1, texts.row(old), texts.row(new)) for place, old, new in found)
 
 
 def _changes(given: str, wanted: str, at: int, most: int) -> list[tuple[int, str, str]] | None:
@@ -585,7 +582,7 @@ def _with_another_word(texts: Texts, at: int, effort: Effort) -> Iterator[Mendin
 
 def _mended(texts: Texts, partly: dict[int, Near], effort: Effort) -> Iterator[Mending]:
     for filled in completed(texts, _with(texts, partly), effort):
-        each = [edits_between(at, texts.words[at], filled.words[at], texts) or () for at in sorted(partly)]
+        each = [edits_between(at, texts.words[at], filled.words[at], texts) for at in sorted(partly)]
         yield Mending(tuple(edit for edits in each for edit in edits), tuple(map(texts.row, filled.words)))
 
 

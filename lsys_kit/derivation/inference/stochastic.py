@@ -125,7 +125,7 @@ def choices_of(derivations: Sequence[Sequence[Row]], conditions: Conditions) -> 
             assert settled is not None
             return tuple(_choices(whole, settled, _expected(whole, settled)[0]))
         some.append((strange.before, strange.after))
-    return ()
+    raise _too_long()
 
 
 Found: TypeAlias = Mapping[Module, Sequence[Row]]
