@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from lsys_kit.budget import Task, counted
 from lsys_kit.derivation.core.rules import constants_of, number_from
 from lsys_kit.derivation.growth.affine import AffineSums, NotAffine, affine_sums
-from lsys_kit.derivation.growth.growth import closed_form, generating_function, polynomial
+from lsys_kit.derivation.growth.growth import closed_form, generating_function, polynomial, unknown
 from lsys_kit.errors import ModelNameError, ModelValueError, require, whole_number
 from lsys_kit.experiments.table import Table, column_label
 from lsys_kit.notation.model.arithmetic import Value, is_symbolic, number_text
@@ -115,11 +115,8 @@ class Total:
         import sympy
 
         with Task("The formula was not found"), supervised():
-            found = closed_form(*self._rule)
-            if found is None:
-                return None
-            found = found.subs(sympy.Symbol("t"), self.n)
-            return sympy.factor(sympy.together(found)) if self.sums.letters else found
+            found = closed_form(*self._rule, self.n)
+            return sympy.factor(sympy.together(found)) if found is not None and self.sums.letters else found
 
     @property
     def n(self) -> sympy.Symbol:
@@ -157,7 +154,7 @@ class Total:
                 condition = sympy.And(condition, *inside)
             if condition == sympy.false:
                 return None, condition
-            x = sympy.Symbol("x")
+            x = unknown("x", *self._rule)
             return sympy.factor(sympy.cancel(generating_function(*self._rule) * (1 - x)).subs(x, 1)), condition
 
     @property

@@ -87,8 +87,11 @@ def test_python_sees_what_the_panel_shows(open_notebook, write_notebook):
     slider(panel, "step").press("ArrowRight")
     slider(panel, "lifeTimeB").press("ArrowRight")
     panel.locator("[data-place]").first.press("Enter")
-    notebook.page.wait_for_timeout(1000)
-    notebook._ask("panel.content.activeCellIndex = 2; await app.commands.execute('notebook:run-cell'); await idle();")
+    for _ in range(40):  # what is chosen is sent when the kernel has taken what was chosen before
+        notebook.page.wait_for_timeout(500)
+        notebook._ask("panel.content.activeCellIndex = 2; await app.commands.execute('notebook:run-cell'); await idle();")
+        if "A(1)" in notebook.output(2).inner_text():
+            break
     expect(notebook.output(2)).to_contain_text("10 {'lifeTimeA': '3', 'lifeTimeB': '3'} A(1)")
 
 

@@ -264,9 +264,13 @@ class Explorer(KitWidget):
     def answer(self, content: Mapping[str, Any]) -> Data:
         """What is answered to a question of the panel's script; a mistake is an answer too."""
         kinds = {"book": self._book_for, "rules": self._model_for, "variants": self._variants, "keep": self._kept}
+        require(content, Mapping, "A question of the panel")
+        kind = kinds.get(str(content.get("kind")))
+        if kind is None:
+            raise ModelValueError("This question cannot be understood")
         try:
             with self._limited(), Task("It was not finished"):
-                return kinds[content["kind"]](content)
+                return kind(content)
         except LSystemError as error:
             return {"mistake": _mistake(error)}
 

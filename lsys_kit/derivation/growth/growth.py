@@ -28,6 +28,7 @@ from lsys_kit.derivation.core.states import States, check_d0l, closure
 from lsys_kit.derivation.engines.counting import next_counts
 from lsys_kit.derivation.growth.slicing import slice_system
 from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown, whole_number
+from lsys_kit.notation.model.arithmetic import is_symbolic
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.supervision import supervised
@@ -124,15 +125,22 @@ def remainder_of_power(rule: Sequence[int], exponent: int) -> list[int]:
     return found
 
 
-def polynomial(rule: Sequence[int]) -> sympy.Poly:
-    """The polynomial of a rule.
+def polynomial(rule: Sequence[int], terms: Sequence[int] = ()) -> sympy.Poly:
+    """The polynomial of a rule; its x is none of the letters in the rule and in the terms.
 
     >>> polynomial((1, 1)).as_expr()
     x**2 - x - 1
     """
     import sympy
 
-    return sympy.Poly([1, *(-c for c in rule)], sympy.Symbol("x"))
+    return sympy.Poly([1, *(-c for c in rule)], unknown("x", rule, terms))
+
+
+def unknown(name: str, *coefficients: Sequence[object]) -> sympy.Symbol:
+    """A symbol of this name, or, where coefficients have a letter that is called so, of this name and a number."""
+    from sympy.core.symbol import uniquely_named_symbol
+
+    return uniquely_named_symbol(name, [c for each in coefficients for c in each if is_symbolic(c)])
 
 
 def generating_function(rule: Sequence[int], terms: Sequence[int]) -> sympy.Expr:
@@ -143,7 +151,7 @@ def generating_function(rule: Sequence[int], terms: Sequence[int]) -> sympy.Expr
     """
     import sympy
 
-    x = sympy.Symbol("x")
+    x = unknown("x", rule, terms)
     above = [a - sum(c * terms[t - k] for k, c in enumerate(rule[:t], 1)) for t, a in enumerate(terms[: len(rule)])]
     below = [1, *(-c for c in rule)]
     return sympy.Poly(above[::-1] or [0], x).as_expr() / sympy.Poly(below[::-1], x).as_expr()
@@ -233,7 +241,7 @@ def _refined(row: Sequence[int], root: int, places: int) -> int:
     return root
 
 
-def closed_form(rule: Sequence[int], terms: Sequence[int]) -> sympy.Expr | None:
+def closed_form(rule: Sequence[int], terms: Sequence[int], t: sympy.Symbol | None = None) -> sympy.Expr | None:
     """A formula for the terms of a sequence; its t is a whole number from 0 on.
 
     Roots of degree two and less are written out, others are summed over as roots of their polynomial; None where such a
@@ -246,8 +254,8 @@ def closed_form(rule: Sequence[int], terms: Sequence[int]) -> sympy.Expr | None:
     """
     import sympy
 
-    x, t = sympy.Symbol("x"), sympy.Symbol("t")
-    whole = polynomial(rule)
+    whole = polynomial(rule, terms)
+    x, t = whole.gen, t or unknown("t", rule, terms)
     series = sympy.Poly(list(terms[: len(rule)]) or [0], x)  # the terms as digits behind the point, in powers of 1/x
     above, _ = (whole * series).div(sympy.Poly(x ** len(rule), x))
     factors = [(factor.to_field().monic(), times) for factor, times in whole.factor_list()[1]]

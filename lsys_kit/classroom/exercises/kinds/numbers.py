@@ -68,6 +68,7 @@ _COORDINATES = frozenset("xyz")
 """Names that nobody gives to another number of one's own."""
 _ASKED_FOR = re.compile(r"\*\*(.*?)\*\*", re.DOTALL)
 _NAME = re.compile(r"(?<![A-Za-z])[A-Za-z](?![A-Za-z])")
+_CODE = re.compile(r"`[^`]*`|^ {4}.*$", re.MULTILINE)
 
 
 def _alone(exercise: Exercise, answer: str) -> str:
@@ -79,10 +80,11 @@ def _alone(exercise: Exercise, answer: str) -> str:
 
 
 def _refuse_other_name(exercise: Exercise, answer: str) -> None:
-    """Refuse the value of a name that is one of the question, but not the one it asks for."""
+    """Refuse the value of a name that the words of the question use, but not for what it asks for."""
     named = _NAMED_LAST.search(answer)
+    told = _NAME.findall(_CODE.sub("", exercise.question))
     asked = _NAME.findall(" ".join(_ASKED_FOR.findall(exercise.question)))
-    if named and named[1] in _COORDINATES & {*_NAME.findall(exercise.question)} - {*asked}:
+    if named and named[1] in _COORDINATES & {*told} - {*asked}:
         raise ModelNameError(reply("number.other_name", name=named[1], answer=quoted(answer)), hint=reply("number.only_asked"))
 
 
