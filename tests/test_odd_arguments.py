@@ -165,6 +165,8 @@ MADE_IN_OTHER_WAYS: tuple[Callable[[], object], ...] = (
     lambda: lsys_kit.draw(GROWING, steps=[0, 1]),
     lambda: lsys_kit.draw(map_system("K30"), 1, phases=True),
     lambda: lsys_kit.animate(read("axiom: F"), 1),
+    lambda: lsys_kit.infer([["a", "ab", "abb"], ["a", "b", "b"], ["a", "ab", "bb"]], stochastic=True),
+    lambda: lsys_kit.infer(["a", "ab", "aba", "abaab", "abaabaxa"]).mended[0],
     lambda: derive(map_system("K30"), 1)[1],
     lambda: derive(cellwork_system("K33"), 1)[1],
 )

@@ -255,7 +255,8 @@ class Total:
     def _numbers(self, letters: dict[str, Any]) -> dict[str, Any]:
         """The constants of the system, with numbers for the letters."""
         chosen = {name: value for name, value in self.constants.items() if name not in self.letters} | letters
-        constants_of(self.system, chosen)
+        if any(map(is_symbolic, constants_of(self.system, chosen))):
+            raise ModelValueError("Points can only be drawn where each letter has a value")
         return chosen
 
     @property

@@ -23,6 +23,7 @@ from tests.browser.lab import OpenNotebook
 from tests.browser.requests import lessons
 from tests.browser.test_lessons import PATIENCE, SEEN
 from tests.browser.test_site import all_parts_open, opened, site, tabs  # noqa: F401
+from tests.classroom.panel_page import show_more
 
 ROWS: dict[str, list[list[str]]] = tomllib.loads((Path(__file__).parent / "requests.toml").read_text("utf-8"))
 NAMES = [path.stem for path in lessons()]
@@ -137,8 +138,9 @@ class Reader:
         self._panel.get_by_role("button", name="pause", exact=True).click()
 
     def choose(self, asked: str) -> None:
-        """Choose from a list."""
+        """Choose from a list, which may stand behind *more*."""
         name, value = asked.split()
+        show_more(self._panel)
         self._panel.get_by_label(name, exact=True).select_option(value)
 
     def tick(self, name: str) -> None:
