@@ -7,11 +7,13 @@ import json
 import os
 import re
 import signal
+import socket
 import subprocess
 import sys
 import threading
+import time
 from collections.abc import Awaitable, Callable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -176,6 +178,38 @@ class Phone:
         """Say something, and hear what becomes of it."""
         number = await self.say(kind, about, round, value, **more)
         return await self.told(lambda each: number in (each.get("kept"), each.get("refused"), each.get("later")))
+
+
+def wait_for(wanted: Callable[[], object]) -> None:
+    """Wait until something is so."""
+    end = time.monotonic() + SECONDS
+    while not wanted():
+        assert time.monotonic() < end
+        time.sleep(0.02)
+
+
+def is_dropped(raw: socket.socket, bytewise: bytes) -> bool:
+    """Whether somebody is dropped who sends some bytes one by one, again and again."""
+    end, number = time.monotonic() + SECONDS / 2, 0
+    raw.settimeout(0.05)
+    while time.monotonic() < end:
+        try:
+            raw.sendall(bytewise[number % len(bytewise) :][:1])
+            number += 1
+            if not raw.recv(4096):
+                return True
+        except TimeoutError:
+            continue
+        except OSError:
+            return True
+    return False
+
+
+def flooded(raw: socket.socket, frame: bytes) -> None:
+    """Send a frame again and again, and read nothing, until that is not possible any more."""
+    with suppress(OSError):
+        while True:
+            raw.sendall(frame * 1000)
 
 
 def run(work: Awaitable[Any]) -> Any:

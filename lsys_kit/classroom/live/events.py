@@ -3,6 +3,8 @@
 The table is an SQLite file in WAL mode, and a row is on the disk before anybody hears that it was kept (synchronous = FULL). A
 row has the number of its phone's message, so that a message that is sent again is counted once; what counts is the order of
 these numbers and of the rows, never a clock. Of a phone nothing is kept but a random number.
+
+Several programs may have the same table: each reads what the others have written, in the order of the rows.
 """
 
 from __future__ import annotations
@@ -28,17 +30,16 @@ SECONDS = 5.0
 _VERSION = 1
 _MARK = 0x4C535953
 """By which a file of the kit is known (PRAGMA application_id): "LSYS"."""
-_TABLES = f"""
-BEGIN;
-CREATE TABLE class (code TEXT PRIMARY KEY, name TEXT NOT NULL, secret TEXT NOT NULL);
-CREATE TABLE event (
+_TABLES = (
+    "CREATE TABLE class (code TEXT PRIMARY KEY, name TEXT NOT NULL, secret TEXT NOT NULL)",
+    """CREATE TABLE event (
   number INTEGER PRIMARY KEY, code TEXT NOT NULL, phone TEXT NOT NULL, sent INTEGER NOT NULL, kind TEXT NOT NULL,
   about TEXT NOT NULL, round INTEGER NOT NULL, value TEXT NOT NULL, UNIQUE (code, phone, sent)
-);
-PRAGMA application_id = {_MARK};
-PRAGMA user_version = {_VERSION};
-COMMIT;
-"""
+)""",
+    f"PRAGMA application_id = {_MARK}",
+    f"PRAGMA user_version = {_VERSION}",
+)
+_EVENTS = "SELECT number, code, phone, sent, kind, about, round, value FROM event"
 
 
 class Event(NamedTuple):
@@ -84,6 +85,7 @@ class Events:
 
     def __init__(self, folder: str | Path) -> None:
         self.path = Path(folder) / FILE
+        self._seen = 0
         name = quotable(str(self.path))
         try:
             self.path.parent.mkdir(parents=True, exist_ok=True)
@@ -95,13 +97,14 @@ class Events:
     def _begin(self, name: str) -> None:
         self._table.execute("PRAGMA journal_mode = WAL")
         self._table.execute("PRAGMA synchronous = FULL")
-        mark, version, there = (
-            self._table.execute(asked).fetchone()[0]
-            for asked in ("PRAGMA application_id", "PRAGMA user_version", "SELECT count(*) FROM sqlite_master")
-        )
-        if not there:
-            self._table.executescript(_TABLES)
-        elif (mark, version) != (_MARK, _VERSION):
+        with self._together():  # of several programs that begin at once, one makes the table
+            mark, version, there = (
+                self._table.execute(asked).fetchone()[0]
+                for asked in ("PRAGMA application_id", "PRAGMA user_version", "SELECT count(*) FROM sqlite_master")
+            )
+            for each in () if there else _TABLES:
+                self._table.execute(each)
+        if there and (mark, version) != (_MARK, _VERSION):
             raise ModelFileError(f'"{name}" is not a table of this version of the kit', hint="Choose another --folder.")
 
     def classes(self) -> list[ClassEntry]:
@@ -110,13 +113,13 @@ class Events:
 
     def named(self, name: str) -> ClassEntry:
         """The class of a name, begun now if there is none."""
-        known = self.classes()
-        found = next((each for each in known if each.name == name), None)
-        if found is None:
-            taken = {each.code for each in known}
-            code = next(code for code in _codes() if code not in taken)
-            found = ClassEntry(code, name, secrets.token_urlsafe(16))
-            with self._written():
+        with self._written():
+            known = self.classes()
+            found = next((each for each in known if each.name == name), None)
+            if found is None:
+                taken = {each.code for each in known}
+                code = next(code for code in _codes() if code not in taken)
+                found = ClassEntry(code, name, secrets.token_urlsafe(16))
                 self._table.execute("INSERT INTO class VALUES (?, ?, ?)", found)
         return found
 
@@ -135,9 +138,15 @@ class Events:
 
     def of(self, code: str) -> Iterator[Event]:
         """The events of a class, in the order in which they were kept."""
-        asked = "SELECT code, phone, sent, kind, about, round, value FROM event WHERE code = ? ORDER BY number"
-        for of, phone, sent, kind, about, round, value in self._table.execute(asked, (code,)):
-            yield Event(of, phone, sent, kind, about, round, json.loads(value))
+        for row in self._table.execute(f"{_EVENTS} WHERE code = ? ORDER BY number", (code,)):
+            yield _event(row)
+
+    def news(self) -> list[Event]:
+        """The events of all classes that this has not told of before, in their order, whatever program has kept them."""
+        last = self._table.execute("SELECT coalesce(max(number), 0) FROM event").fetchone()[0]
+        rows = self._table.execute(f"{_EVENTS} WHERE number > ? ORDER BY number", (min(self._seen, last),)).fetchall()
+        self._seen = rows[-1][0] if rows else last
+        return [*map(_event, rows)]
 
     def forget(self, code: str) -> int:
         """Delete all that a class has said, and the class; how many rows there were. Nothing of them is left in the file."""
@@ -153,17 +162,29 @@ class Events:
         self._table.close()
 
     @contextmanager
-    def _written(self) -> Iterator[None]:
-        """A `with` block whose changes are all made, or none; a fault of the table becomes an error of the kit."""
+    def _together(self) -> Iterator[None]:
+        """A `with` block whose changes are all made, or none."""
         try:
             self._table.execute("BEGIN IMMEDIATE")
             yield
             self._table.execute("COMMIT")
-        except sqlite3.Error as fault:
+        finally:
             if self._table.in_transaction:
                 self._table.execute("ROLLBACK")
+
+    @contextmanager
+    def _written(self) -> Iterator[None]:
+        """The same; a fault of the table becomes an error of the kit."""
+        try:
+            with self._together():
+                yield
+        except sqlite3.Error as fault:
             hint = "Make room on the disk; phones send again what was not kept."
             raise NotKept(f"Nothing can be kept: {fault}", hint=hint) from None
+
+
+def _event(row: Sequence[Any]) -> Event:
+    return Event(*row[1:-1], json.loads(row[-1]))
 
 
 def _codes() -> Iterator[str]:

@@ -12,6 +12,7 @@ import hmac
 import json
 import re
 import socket
+import sqlite3
 import time
 from collections import deque
 from collections.abc import Mapping
@@ -44,8 +45,12 @@ MOST_SOCKETS, MOST_OF_ONE, MOST_PHONES = 1_500, 4, 2_000
 """So many sockets are open at a time; so many of one phone; and so many phones take part in a class."""
 PATIENCE = 15.0
 """Who has not read for so many seconds is dropped; the page of a phone comes back by itself."""
+MOST_UNREAD = 500
+"""Who has not read so many messages is dropped, too."""
 BETWEEN_STATES = 0.1
 """The board is drawn anew no more often than this, in seconds."""
+BETWEEN_LOOKS = 0.25
+"""What other servers of the same table have kept is looked for again after so many seconds."""
 MOST_REPLY = 400
 """So many characters of a reply to an answer are kept."""
 _PHONE = re.compile(r"[0-9a-f]{32}")
@@ -100,14 +105,73 @@ class Rates:
         return self._of.setdefault(name, Rate(*self._limits)).allows()
 
 
+class Audience:
+    """Somebody who is told of a class: what was acknowledged, and the last state; older states are not sent."""
+
+    def __init__(self) -> None:
+        self._messages: deque[str] = deque()
+        self._state: str | None = None
+        self._last_state = ""
+        self._sending = False
+
+    async def send_text(self, text: str) -> None:
+        """Send a text, and wait until there is room for the next.
+
+        Raises
+        ------
+        OSError, TimeoutError
+            Nobody is there any more, or nobody reads.
+        """
+        raise NotImplementedError
+
+    def drop(self) -> None:
+        """Let go of somebody who does not read."""
+        raise NotImplementedError
+
+    def show(self, state: str) -> None:
+        """Send a state, in place of one that has not been sent yet."""
+        if state != self._last_state:
+            self._state = state
+            self._send_soon()
+
+    def say(self, message: Mapping[str, Any]) -> None:
+        """Send a message; who does not read is dropped."""
+        self._messages.append(json.dumps(message))
+        if len(self._messages) > MOST_UNREAD:
+            self.drop()
+        else:
+            self._send_soon()
+
+    def _send_soon(self) -> None:
+        if not self._sending:
+            self._sending = True
+            asyncio.get_running_loop().create_task(self._send())
+
+    async def _send(self) -> None:
+        try:
+            while self._messages or self._state is not None:
+                if self._messages:
+                    text = self._messages.popleft()
+                else:
+                    text, self._state = self._state or "", None
+                    self._last_state = text
+                await self.send_text(text)
+        except TimeoutError:
+            self.drop()
+        except OSError:
+            pass
+        finally:
+            self._sending = False
+
+
 class LiveClass:
     """A class with whoever is there: its session, its board and its phones."""
 
     def __init__(self, entry: ClassEntry, server: ClassServer) -> None:
         self.entry, self.server = entry, server
-        self.session = Session(server.events.of(entry.code))
-        self.boards: set[Socket] = set()
-        self.phones: dict[str, set[Socket]] = {}
+        self.session = Session()
+        self.boards: set[Audience] = set()
+        self.phones: dict[str, set[_Socket]] = {}
         self.fault = ""
         self._behind: set[str] | None = set()
         self._board_behind, self._telling = False, False
@@ -118,8 +182,8 @@ class LiveClass:
         """The phones that are there, in the order in which they came."""
         return [*self.phones]
 
-    async def keep(self, event: Event) -> None:
-        """Keep an event; then it counts, and is seen.
+    async def keep(self, event: Event) -> bool:
+        """Keep an event; then it counts, and is seen. Whether its number is new.
 
         Raises
         ------
@@ -127,15 +191,18 @@ class LiveClass:
             It could not be written.
         """
         try:
-            await self.server.keep(self, event)
+            is_new = await self.server.keep(event)
         except NotKept as fault:
             self.fault = str(fault)
             self.behind(event.phone)
             raise
-        self.fault = ""
+        if self.fault:
+            self.fault = ""
+            self.behind(event.phone)
+        return is_new
 
     def take(self, event: Event) -> None:
-        """Let an event count that is kept now for the first time."""
+        """Let an event count that is kept."""
         self.session.take(event)
         self.behind(None if event.phone == TEACHER else event.phone)
 
@@ -233,6 +300,13 @@ class LiveClass:
 
     # What the teacher does
 
+    async def told_by(self, board: Audience, content: Mapping[str, Any]) -> None:
+        """Do what the teacher asks for at a board; a board hears of what cannot be done."""
+        try:
+            await self.does(content)
+        except LSystemError as fault:
+            board.say({"mistake": f"{fault.message}. {fault.hint or ''}".strip()})
+
     async def does(self, content: Mapping[str, Any]) -> None:
         """Keep and do what the teacher asks for.
 
@@ -282,8 +356,10 @@ class LiveClass:
         return asked
 
     async def _did(self, kind: str, about: str, round: int, value: Any) -> None:
-        self._number = max(self._number, self.session.last_done) + 1
-        await self.keep(Event(self.entry.code, TEACHER, self._number, kind, about, round, value))
+        is_new = False
+        while not is_new:  # another server of this class may have taken the number
+            self._number = max(self._number, self.session.last_done) + 1
+            is_new = await self.keep(Event(self.entry.code, TEACHER, self._number, kind, about, round, value))
 
 
 class ClassServer:
@@ -313,11 +389,15 @@ class ClassServer:
         self._asked: dict[tuple[str, str], _Page] = {}
         questions()  # they are read before anybody waits for them
         self._writer = ThreadPoolExecutor(1)
-        self._pending: deque[tuple[LiveClass, Event, asyncio.Future[None]]] = deque()
+        self._pending: deque[tuple[Event, asyncio.Future[bool]]] = deque()
+        self._tasks: list[asyncio.Task[None]] = []
         self._writing = False
         self.sockets = 0
         self._server: tornado.httpserver.HTTPServer | None = None
         self.classes = {entry.code: LiveClass(entry, self) for entry in entries}
+        for event in self.events.news():
+            if event.code in self.classes:
+                self.classes[event.code].session.take(event)
 
     def listen(self, port: int = PORT, host: str = "", address: str | None = None, behind_a_proxy: bool = False) -> int:
         """Begin to listen, and return the port; 0 lets the system choose one.
@@ -343,43 +423,64 @@ class ClassServer:
         )
         self._server.add_sockets(sockets)
         found = int(sockets[0].getsockname()[1])
-        self._ready = asyncio.get_running_loop().create_task(self._get_ready())
+        self._tasks = [asyncio.get_running_loop().create_task(each) for each in (self._get_ready(), self._follow())]
         self.address = (address or f"http://{host or own_address()}:{found}").rstrip("/")
         return found
 
-    async def keep(self, room: LiveClass, event: Event) -> None:
-        """Write an event together with all that wait at the same time."""
-        done: asyncio.Future[None] = asyncio.get_running_loop().create_future()
-        self._pending.append((room, event, done))
+    async def keep(self, event: Event) -> bool:
+        """Write an event together with all that wait at the same time; whether its number is new."""
+        done: asyncio.Future[bool] = asyncio.get_running_loop().create_future()
+        self._pending.append((event, done))
         if not self._writing:
             self._writing = True
             asyncio.get_running_loop().create_task(self._write())
-        await done
+        return await done
 
     async def _write(self) -> None:
         while self._pending:
             batch = [*self._pending]
             self._pending.clear()
             try:
-                new = await asyncio.get_running_loop().run_in_executor(
-                    self._writer, self.events.keep, [each for _, each, _ in batch]
-                )
+                events = [each for each, _ in batch]
+                new, news = await asyncio.get_running_loop().run_in_executor(self._writer, self._keep, events)
             except Exception as fault:
-                for _, _, done in batch:
+                for _, done in batch:
                     if not done.done():
                         done.set_exception(fault if isinstance(fault, NotKept) else NotKept(f"Nothing can be kept: {fault}"))
                 continue
-            for (room, event, done), is_new in zip(batch, new, strict=True):
-                if is_new:
-                    room.take(event)
+            self._take(news)
+            for (_, done), is_new in zip(batch, new, strict=True):
                 if not done.done():
-                    done.set_result(None)
+                    done.set_result(is_new)
         self._writing = False
 
+    def _keep(self, events: list[Event]) -> tuple[list[bool], list[Event]]:
+        return self.events.keep(events), self.events.news()
+
+    def _take(self, news: list[Event]) -> None:
+        for event in news:
+            if event.code in self.classes:
+                self.classes[event.code].take(event)
+
+    async def _follow(self) -> None:
+        """Take in what other servers of the same table have kept."""
+        while True:
+            await asyncio.sleep(BETWEEN_LOOKS)
+            with suppress(sqlite3.Error):  # it is looked for again
+                self._take(await asyncio.get_running_loop().run_in_executor(self._writer, self.events.news))
+
     async def what_is_asked(self, kind: str, about: str) -> _Page:
-        """What a question asks, as JSON; a worker draws its picture, once."""
+        """What a question asks, as JSON; a worker draws its picture, once.
+
+        Raises
+        ------
+        Busy
+            It cannot be answered now.
+        """
         if (kind, about) not in self._asked:
             content = await self.workers.ask(f"{kind} {about}", {"kind": "asked", "of": kind, "about": about})
+            if "mistake" in json.loads(content):
+                raise Busy("Too much is asked at once", hint="Try it again in a moment.")
             self._asked[kind, about] = _Page(content)
         return self._asked[kind, about]
 
@@ -406,6 +507,8 @@ class ClassServer:
 
     async def close(self) -> None:
         """Stop to listen, and end all workers."""
+        for task in self._tasks:
+            task.cancel()
         if self._server is not None:
             self._server.stop()
             with suppress(TimeoutError):
@@ -523,7 +626,11 @@ class _Asked(_Handler):
     async def get(self, kind: str, about: str) -> None:
         if (kind, about) not in questions():
             raise tornado.web.HTTPError(404)
-        self.send(await self.server.what_is_asked(kind, about), "application/json")
+        try:
+            found = await self.server.what_is_asked(kind, about)
+        except Busy:
+            raise tornado.web.HTTPError(503) from None
+        self.send(found, "application/json")
 
 
 class _Ask(_Handler):
@@ -584,58 +691,25 @@ class _Plant(_Handler):
 # Sockets
 
 
-class Socket(_OfTheClass, tornado.websocket.WebSocketHandler):
-    """A phone or a board that is there. It is sent what was acknowledged, and the last state; older states are not sent."""
+class _Socket(_OfTheClass, tornado.websocket.WebSocketHandler, Audience):
+    """A phone or a board that is there."""
 
     def initialize(self) -> None:
-        self._messages: deque[str] = deque()
-        self._state: str | None = None
-        self._last_state = ""
-        self._sending = False
+        Audience.__init__(self)
 
     def check_origin(self, origin: str) -> bool:
         return urlsplit(origin).netloc.lower() == str(self.request.host).lower()
 
-    def show(self, state: str) -> None:
-        """Send a state, in place of one that has not been sent yet."""
-        if state != self._last_state:
-            self._state = state
-            self._send_soon()
-
-    def say(self, message: Mapping[str, Any]) -> None:
-        """Send a message; who does not read is dropped."""
-        self._messages.append(json.dumps(message))
-        if len(self._messages) > 500:
-            self.drop()
-        else:
-            self._send_soon()
+    async def send_text(self, text: str) -> None:
+        try:
+            await asyncio.wait_for(self.write_message(text), PATIENCE)
+        except tornado.websocket.WebSocketClosedError as gone:
+            raise OSError from gone
 
     def drop(self) -> None:
-        """Let go of somebody who does not read."""
         stream = getattr(self.ws_connection, "stream", None)
         if stream is not None:
             stream.close()
-
-    def _send_soon(self) -> None:
-        if not self._sending:
-            self._sending = True
-            asyncio.get_running_loop().create_task(self._send())
-
-    async def _send(self) -> None:
-        try:
-            while self._messages or self._state is not None:
-                if self._messages:
-                    text = self._messages.popleft()
-                else:
-                    text, self._state = self._state or "", None
-                    self._last_state = text
-                await asyncio.wait_for(self.write_message(text), PATIENCE)
-        except TimeoutError:
-            self.drop()
-        except (tornado.websocket.WebSocketClosedError, tornado.iostream.StreamClosedError):
-            pass
-        finally:
-            self._sending = False
 
     def read(self, message: str | bytes) -> dict[str, Any]:
         """What a message says; nothing, where it cannot be understood."""
@@ -646,7 +720,7 @@ class Socket(_OfTheClass, tornado.websocket.WebSocketHandler):
         return found if isinstance(found, dict) else {}
 
 
-class _PhoneSocket(Socket):
+class _PhoneSocket(_Socket):
     """A phone."""
 
     room: LiveClass | None = None
@@ -687,7 +761,7 @@ class _PhoneSocket(Socket):
             self.room.behind("")
 
 
-class _BoardSocket(Socket):
+class _BoardSocket(_Socket):
     """A board."""
 
     room: LiveClass | None = None
@@ -703,12 +777,8 @@ class _BoardSocket(Socket):
             self.show(self.room.board_state())
 
     async def on_message(self, message: str | bytes) -> None:
-        if self.room is None:
-            return
-        try:
-            await self.room.does(self.read(message))
-        except LSystemError as fault:
-            self.say({"mistake": f"{fault.message}. {fault.hint or ''}".strip()})
+        if self.room is not None:
+            await self.room.told_by(self, self.read(message))
 
     def on_close(self) -> None:
         if self.room is not None:

@@ -118,9 +118,9 @@ class Workers:
         if known is not None:
             return known
         if key not in self._asked:
-            waiting = self._waiting.setdefault(phone, deque())
-            if len(waiting) >= MOST_WAITING or len(self._asked) >= MOST_IN_ALL:
+            if len(self._waiting.get(phone, ())) >= MOST_WAITING or len(self._asked) >= MOST_IN_ALL:
                 raise Busy("Too much is asked at once", hint="Try it again in a moment.")
+            waiting = self._waiting.setdefault(phone, deque())
             job = _Job(packed, asyncio.get_running_loop().create_future())
             self._asked[key] = job.done
             job.done.add_done_callback(lambda _: self._asked.pop(key, None))
@@ -217,8 +217,8 @@ def _work(questions: Connection) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # of the terminal: the server ends its workers
     patience = _Patience()
     limit_memory()
-    questions.send_bytes(b"ready")
     with suppress(EOFError, OSError):
+        questions.send_bytes(b"ready")
         while True:
             asked = questions.recv_bytes()
             limit_seconds(PROCESSOR)
