@@ -17,6 +17,7 @@ import pytest
 from tornado.httpclient import HTTPClientError, HTTPRequest
 from tornado.websocket import WebSocketClientConnection, websocket_connect
 
+from lsys_kit import practice
 from lsys_kit.classroom.live.events import Events, NotKept
 from lsys_kit.classroom.live.report import report_table
 from lsys_kit.classroom.live.server import Rates
@@ -344,16 +345,17 @@ def test_one_phone_cannot_flood_a_class(fresh: Running) -> None:
     run(flood())
 
 
-def test_ten_thousand_joins_from_one_phone_are_one_phone(fresh: Running) -> None:
-    """It is counted once, has few sockets, and the others vote meanwhile."""
-
+@pytest.mark.slow
+def test_ten_thousand_joins_from_one_phone_are_one_phone(fresh: Running, pytestconfig: pytest.Config) -> None:
+    """It is counted once, has few sockets, and the others vote meanwhile; a quick check tries three hundred."""
+    joins = 10_000 if pytestconfig.getoption("--thorough") else 300
     fresh.server.joining = Rates(50, 0.001)
 
     async def join_again() -> int:
         refused = 0
         other = Phone(fresh.join, 1)
         await other.connect()
-        for number in range(300):
+        for number in range(joins):
             try:
                 socket = await websocket_connect(f"{fresh.join.replace('http', 'ws', 1)}live?phone={2:032x}")
                 if number % 3:
@@ -444,6 +446,23 @@ def test_a_phone_sends_no_more_plants_than_the_wall_has_room_for(fresh: Running)
     fresh.room.session.planted[f"{52:032x}"] = MOST_OF_A_PHONE
     assert "plants already" in ask(fresh, 52, kind="plant", text="axiom: F", sent=1)["mistake"]["message"]
     assert "description" in ask(fresh, 53, kind="plant", text="axiom: F", sent=1)
+
+
+def test_exercises_without_end_follow_what_was_right(live: Running) -> None:
+    wanted = {"topic": "derive", "level": 1, "seed": 3}
+    first = ask(live, 54, kind="practice", **wanted)
+    assert (first["level"], first["note"]) == (1, "")
+    exercise = practice("derive", 1, 3).exercise
+    assert exercise.question.strip() == first["question"]
+    assert exercise.solution not in json.dumps(first)
+    assert ask(live, 54, kind="practice check", answer=exercise.solution, **wanted)["said"] == "Correct"
+    assert "Hint 1" in ask(live, 54, kind="practice check", answer="a", hint=1, **wanted)["message"]
+    tries = [[first["name"], True], ["practice: derive 1 4", True]]
+    assert ask(live, 54, kind="practice", **wanted, tries=tries)["level"] == 2
+    choice = ask(live, 55, kind="practice", topic="turtle", level=1, seed=1)
+    assert [each["letter"] for each in choice["options"]] == [*"ABCD"]
+    for odd in ({"topic": "?"}, {"level": 9}, {"level": True}, {"seed": -1}, {"seed": 10**9}, {"tries": [1]}, {"tries": 5}):
+        assert "mistake" in ask(live, 56 + len(str(odd)), kind="practice", **{**wanted, **odd})
 
 
 def test_plants_come_to_the_wall_and_are_taken_away(fresh: Running) -> None:

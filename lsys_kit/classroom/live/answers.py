@@ -11,6 +11,11 @@ from typing import Any
 
 from lsys_kit.budget import limits
 from lsys_kit.classroom.exercises.check import checked
+from lsys_kit.classroom.exercises.exercise import Exercise
+from lsys_kit.classroom.exercises.kinds.choices import letters, listing
+from lsys_kit.classroom.exercises.practice.practice import practice
+from lsys_kit.classroom.exercises.practice.schedule import kept_name, level_after, practised
+from lsys_kit.classroom.exercises.progress import Try
 from lsys_kit.classroom.exercises.registry import exercise_of
 from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.classroom.live.game import game_data, game_of
@@ -85,8 +90,12 @@ def _state(panel: Explorer) -> Data:
 
 
 def _check(asked: Mapping[str, Any]) -> Data:
-    """The verdict on an answer to an exercise, with the hints up to one, or with the solution."""
-    exercise = exercise_of(str(asked["id"]))
+    """The verdict on an answer to an exercise of the course."""
+    return _verdict(exercise_of(str(asked["id"])), asked)
+
+
+def _verdict(exercise: Exercise, asked: Mapping[str, Any]) -> Data:
+    """The verdict on an answer, with the hints up to one, or with the solution."""
     verdict = checked(exercise, str(asked.get("answer", "")), 0, asked.get("solution") is True, "")
     hinted = asked.get("hint", 0) if verdict.said in ("Almost", "Not yet") and type(asked.get("hint")) is int else 0
     most = len(exercise.hints)
@@ -94,6 +103,43 @@ def _check(asked: Mapping[str, Any]) -> Data:
         reply("check.hint", number=at, most=most, hint=hint) for at, hint in enumerate(exercise.hints[: max(0, hinted)], 1)
     ]
     return {"said": verdict.said, "message": "\n".join([verdict.message, *hints])}
+
+
+def _practice(asked: Mapping[str, Any]) -> Data:
+    """An exercise made at random, at a level that follows the tries so far: names of exercises, and whether each was right."""
+    topic, level, seed = _practised(asked)
+    tries = [Try(str(name), solved is True) for name, solved in asked.get("tries", ())][-MOST_TRIES:]
+    found = level_after(practised(tries), topic, level)
+    exercise = practice(topic, found.level, seed).exercise
+    return {
+        "level": found.level,
+        "note": reply(f"practice.{found.why}", level=found.level, title=exercise.title) if found.why else "",
+        "name": kept_name(topic, found.level, seed),
+        "title": exercise.title,
+        "question": exercise.question.strip() + ("" if exercise.options else listing(exercise)),
+        "options": [
+            {"letter": letter, "text": each.text} for letter, each in zip(letters(exercise), exercise.options, strict=True)
+        ],
+        "kind": exercise.kind,
+        "template": exercise.template,
+        "hints": len(exercise.hints),
+    }
+
+
+def _practice_check(asked: Mapping[str, Any]) -> Data:
+    """The verdict on an answer to such an exercise."""
+    return _verdict(practice(*_practised(asked)).exercise, asked)
+
+
+def _practised(asked: Mapping[str, Any]) -> tuple[str, int, int]:
+    level, seed = asked["level"], asked["seed"]
+    if type(level) is not int or type(seed) is not int or not 0 <= seed < MOST_SEED:
+        raise ValueError
+    return str(asked["topic"]), level, seed
+
+
+MOST_TRIES, MOST_SEED = 50, 10**6
+"""So many tries at most say which level comes next; exercises made at random are numbered up to here."""
 
 
 def _plant(asked: Mapping[str, Any]) -> Data:
@@ -121,6 +167,8 @@ def _game(asked: Mapping[str, Any]) -> Data:
 _KINDS: Mapping[str, Callable[[Mapping[str, Any]], Data]] = {
     **dict.fromkeys(("open", "book", "rules", "variants", "keep"), _panel),
     "check": _check,
+    "practice": _practice,
+    "practice check": _practice_check,
     "plant": _plant,
     "asked": _asked,
     "game": _game,

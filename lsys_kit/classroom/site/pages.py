@@ -14,6 +14,7 @@ from urllib.parse import quote
 
 from lsys_kit.classroom.course import is_lesson
 from lsys_kit.classroom.exercises.kinds.choices import letters
+from lsys_kit.classroom.exercises.practice.drafts import TOPICS
 from lsys_kit.classroom.exercises.registry import exercise_of
 from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.classroom.lessons.lesson import Lesson
@@ -26,6 +27,7 @@ from lsys_kit.classroom.site.requests import notes
 from lsys_kit.classroom.site.showing import PART
 from lsys_kit.pictures.formats.notebook import DARKENED
 from lsys_kit.pictures.style.labels import escaped
+from lsys_kit.translation import gettext
 
 INDEX = "index.html"
 COURSE = "L-systems: a course"
@@ -82,6 +84,7 @@ def notebook_page(entry: Entry, cells: Sequence[Any], entries: Sequence[Entry], 
         title, end, rest = head.partition("</h1>\n")
         begin = title + end + ("" if live else _HOW.format(name=escaped(entry.name))) + rest
         begin += "".join(f'<div class="question">\n{each}</div>\n' for each in questions)
+        begin += _practice_html(entry, parts) if live else ""
     else:
         note = _KEPT if is_lesson(entry.name) and not live else ""
         begin = cells_html(cells[:1], links, parts, live) + note + cells_html(cells[1:], links, parts, live)
@@ -123,6 +126,15 @@ def _answer_html(id: str, parts: Parts) -> str:
         "options": [*letters(found)] if found.kind == "choice" else [],
     }
     return _part_html({"kind": "exercise", "data": data}, "", parts)
+
+
+def _practice_html(entry: Entry, parts: Parts) -> str:
+    """Below the exercises of a lesson, on a live page: exercises without end on what it is about."""
+    number = PurePosixPath(entry.name).name[:2]
+    topics = [[name, gettext(said["title"])] for name, said in TOPICS.items() if f"{said['lesson']:02}" == number]
+    if not topics:
+        return ""
+    return f"<h2>Practice</h2>\n{_part_html({'kind': 'practice', 'data': {'topics': topics}}, '', parts)}"
 
 
 def _above(entry: Entry) -> str:

@@ -1,8 +1,9 @@
 // A page of the course on the server of a class: rules can be edited, exercises are answered, and the class hears of votes.
 
 import { openCoursePage } from "../course.js";
+import { prose } from "../lessons/asking.js";
 import { hostWith, store } from "../page.js";
-import { freshId, made, speak, worded } from "../views/controls.js";
+import { freshId, list, made, speak, worded } from "../views/controls.js";
 import { askKit, classConnection, nextNumber } from "./outbox.js";
 
 const SEEN = ["step", "angle", "around", "above", "seed", "mark", "settings"];
@@ -26,7 +27,8 @@ export function openClassPage() {
   openCoursePage({
     hostWith: (data) => classHost(data, ask, code),
     told: (kind, asked, round, value) => lesson && connection.tell(kind, lesson, round, value, { asked }),
-    exercise: (place, data) => askForAnswer(place, data, (question) => ask({ ...question, sent: nextNumber(code) })),
+    exercise: (place, data) => askForAnswer(place, data, (question) => ask({ ...question, kind: "check", id: data.id, sent: nextNumber(code) })),
+    practice: (place, data) => practise(place, data, ask),
   });
 }
 
@@ -79,14 +81,48 @@ async function classHost(data, ask, code) {
 
 const LINES = ["system", "drawing", "map", "net"]; // kinds that are answered in several lines
 
-// The box of an exercise, with hints and the solution after a try.
-function askForAnswer(place, { id, kind, title, template, hints, options }, ask) {
+// Exercises without end, made at random: the class is asked for the next one, at a level that follows the tries.
+function practise(place, { topics }, ask) {
+  const SEEDS = 1_000_000, tries = [];
+  let [[topic]] = topics, level = 1, seed = Math.floor(Math.random() * SEEDS);
+  const here = made("div"), status = made("p", { role: "status" });
+  const chosen = list(worded("Topic"), "", topics, topic, (value) => {
+    [topic, level] = [value, 1];
+    another();
+  });
+
+  async function another() {
+    seed = (seed + 1) % SEEDS;
+    status.textContent = worded("The next exercise is made");
+    const wanted = { topic, level, seed }, found = await ask({ kind: "practice", ...wanted, tries: tries.slice(-20) });
+    if (topic !== wanted.topic || seed !== wanted.seed) return;
+    status.textContent = found.mistake ? `${found.mistake.message}. ${found.mistake.hint ?? ""}` : found.note;
+    if (found.mistake) return here.replaceChildren();
+    level = found.level;
+    const box = made("div"), options = found.options.map(({ letter, text }) => made("li", made("b", letter), " ", prose(text)));
+    here.replaceChildren(made("h3", `${found.title} · ${worded("level {level}", { level })}`), ...paragraphs(found.question), made("ul.class-options", { hidden: !options.length }, ...options), box);
+    askForAnswer(box, { ...found, id: "", options: found.options.map(({ letter }) => letter) }, (question) => ask({ ...question, kind: "practice check", topic, level, seed }),
+      (said) => ["Correct", "Almost", "Not yet"].includes(said) && tries.push([found.name, said === "Correct"]));
+  }
+
+  place.replaceChildren(made("section.lsys-lesson.class-practice", { "aria-label": worded("Practice") }, chosen.element, here, status, made("button", { type: "button", onclick: another }, worded("Another exercise"))));
+  another();
+}
+
+// A text with paragraphs, and lines that are indented by four blanks.
+function paragraphs(text) {
+  return text.split(/\n{2,}/).map((part) => (/^ {4}/.test(part) ? made("pre", part.replace(/^ {4}/gm, "")) : made("p", prose(part))));
+}
+
+// The box of an exercise, with hints and the solution after a try; `tried` hears of each verdict.
+function askForAnswer(place, { id, kind, title, template, hints, options }, ask, tried = (said) => void said) {
   const said = made("p.lsys-said", { role: "status" }), more = made("div.class-more", { hidden: true });
   let answer = "", hinted = 0;
 
   async function check(extra = {}) {
     said.replaceChildren(worded("It is looked at"));
-    const found = await ask({ kind: "check", id, answer, ...extra });
+    const found = await ask({ answer, ...extra });
+    tried(found.said);
     show(found.mistake ? { said: "Not readable yet", message: `${found.mistake.message}. ${found.mistake.hint ?? ""}` } : found);
   }
 
@@ -118,5 +154,5 @@ function askForAnswer(place, { id, kind, title, template, hints, options }, ask)
 
   const hint = made("button", { type: "button", hidden: !hints, onclick: () => check({ hint: (hinted = Math.min(hints, hinted + 1)) }) }, worded("A hint"));
   more.append(hint, made("button", { type: "button", onclick: () => check({ solution: true }) }, worded("The solution")));
-  place.replaceChildren(made("section.lsys-lesson", { "aria-label": `${worded("Exercise")} ${id}` }, form(), said, more));
+  place.replaceChildren(made("section.lsys-lesson", { "aria-label": `${worded("Exercise")} ${id || title}` }, form(), said, more));
 }
