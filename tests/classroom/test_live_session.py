@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import csv
 import io
+import re
 import sqlite3
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lsys_kit import LSystemError, ModelFileError, ModelNameError
+from lsys_kit import LSystemError, ModelFileError, ModelNameError, language
 from lsys_kit.__main__ import main
+from lsys_kit.classroom.lessons.lesson import lesson
 from lsys_kit.classroom.live import serving
 from lsys_kit.classroom.live.events import FILE, LETTERS, TEACHER, ClassEntry, Event, Events, NotKept
 from lsys_kit.classroom.live.game import GAMES, cells_of, game_data, game_of, made_by, outcome
@@ -244,6 +247,13 @@ def test_a_model_that_no_class_can_be_is_refused(text: str) -> None:
 # Reports
 
 
+@pytest.fixture
+def german() -> Iterator[None]:
+    language("de")
+    yield
+    language("en")
+
+
 def a_class() -> Session:
     said = [vote(f"{number}", 1, number % 4) for number in range(8)] + [vote(f"{number}", 2, 2, round=2) for number in range(8)]
     hostile = [Event("ABCD", f"{number}", 3, "prediction", "01:1", 1, text[:100]) for number, text in enumerate(HOSTILE)]
@@ -270,9 +280,40 @@ def test_no_cell_of_a_report_is_a_formula_and_every_answer_is_in_it() -> None:
 def test_the_page_of_a_report_shows_gains_and_only_text() -> None:
     page = report_page(ClassEntry("ABCD", "<b>10b</b>", "s"), a_class())
     assert "6 changed from wrong to right" in page
-    assert "Normalised gain 1.00" in page
+    assert "Normalised gain: 1.00." in page
     assert "<script" not in page
     assert "<b>10b" not in page
+
+
+@pytest.mark.parametrize(
+    ("right", "advice"),
+    [
+        (1, "10 % were right at first, which is few"),
+        (5, "50 % were right at first: worth"),
+        (8, "80 % were right at first, which"),
+    ],
+)
+def test_a_report_says_what_a_first_vote_is_worth(right: int, advice: str) -> None:
+    first = [vote(f"{number}", 1, right_option("01") if number < right else 0) for number in range(10)]
+    assert advice in report_page(ClassEntry("ABCD", "10b", "s"), Session(first))
+
+
+def test_a_report_in_german_is_german_and_its_table_has_the_same_columns(german: None) -> None:
+    page, table = report_page(ClassEntry("ABCD", "10b", "s"), a_class()), report_table(a_class())
+    assert '<html lang="de">' in page
+    for text in (
+        "Ihre Nummern sind zufällig",
+        "sind 6 von falsch zu richtig gewechselt",
+        "Normierter Zuwachs: 1,00.",
+        "25 % lagen zuerst richtig",
+        "<td>1 von 1</td>",
+        "Fast richtig. =cmd()",
+        "<h2>Vorhersagen</h2>",
+    ):
+        assert text in page
+    left = re.findall(r">([^<>]*\b(?:of|the|were|changed|votes?|right|question|answer)\b[^<>]*)<", page.partition("<body")[2])
+    assert {*left} <= {f"Lektion 1: {lesson('01').title}"} | {text for text in left if text in str(HOSTILE)}
+    assert table.startswith("question,kind,round,answer,number,right,of,")
 
 
 def test_the_shell_writes_reports_and_forgets(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

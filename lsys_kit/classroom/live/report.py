@@ -25,15 +25,13 @@ from lsys_kit.classroom.panel.document import document
 from lsys_kit.errors import LSystemError, ModelFileError, quotable
 from lsys_kit.files import KIT_MARK, file_stem, save_file
 from lsys_kit.pictures.style.labels import escaped
+from lsys_kit.translation import gettext, language, ngettext
 
 HEAD = ("question", "kind", "round", "answer", "number", "right", "of")
-"""The columns of the table: a question, an answer to it, how many gave it, whether it is right, and how many answered."""
-SHARES = (
-    (0.3, "few were right: explain it anew"),
-    (0.7, "worth a discussion and a second vote"),
-    (1.01, "most were right: go on"),
-)
-"""What to do after a first vote, by the share of right answers (peer instruction: E. Mazur, 1997)."""
+"""The columns of the table: a question, an answer to it, how many gave it, whether it is right, and how many answered. They are
+called so in every language, for programs that read the table."""
+FEW, MANY = 0.3, 0.7
+"""Below and above these shares of right answers a vote is not worth a discussion (peer instruction: E. Mazur, 1997)."""
 
 
 def write_reports(folder: str | Path) -> list[Path]:
@@ -68,7 +66,7 @@ def rows_of(session: Session) -> Iterator[tuple[Any, ...]]:
         try:
             yield from _ROWS[asked.kind](session, asked, said)
         except LSystemError:  # a question that this version of the kit does not have any more
-            yield (asked.about, asked.kind, asked.round, "(no longer in the kit)", len(said), "", len(said))
+            yield (asked.about, asked.kind, asked.round, gettext("(no longer in the kit)"), len(said), "", len(said))
 
 
 def _votes(session: Session, asked: Asked, said: dict[str, Any]) -> Iterator[tuple[Any, ...]]:
@@ -96,7 +94,7 @@ def _exercises(session: Session, asked: Asked, said: dict[str, Any]) -> Iterator
     counts = Counter((each["said"], each["message"] if each["said"] != "Correct" else "") for each in said.values())
     for (verdict, message), count in counts.most_common():
         right = "yes" if verdict == "Correct" else "no"
-        yield (asked.about, EXERCISE, asked.round, f"{verdict}. {message}".strip(), count, right, len(said))
+        yield (asked.about, EXERCISE, asked.round, f"{gettext(verdict)}. {message}".strip(), count, right, len(said))
 
 
 def _games(session: Session, asked: Asked, said: dict[str, Any]) -> Iterator[tuple[Any, ...]]:
@@ -127,22 +125,33 @@ def report_page(entry: ClassEntry, session: Session) -> str:
     """The page: the votes with their gains, predictions, tables, exercises and games."""
     parts = [
         f"<h1>{escaped(entry.name)}</h1>",
-        f"<p>{len(session.phones)} phones took part. Their numbers are random, and no name is kept.</p>",
+        _paragraph(_took_part(len(session.phones)), gettext("Their numbers are random, and no name is kept.")),
         *_vote_parts(session),
-        *_list_part("Predictions", session, PREDICTION),
-        *_list_part("Tables", session, TABLE),
-        *_list_part("Exercises", session, EXERCISE),
-        *_list_part("Be the cell", session, GAME),
+        *_list_part(gettext("Predictions"), session, PREDICTION),
+        *_list_part(gettext("Tables"), session, TABLE),
+        *_list_part(gettext("Exercises"), session, EXERCISE),
+        *_list_part(gettext("Be the cell"), session, GAME),
     ]
     if session.plants:
-        parts.append(f"<h2>The wall</h2><p>{len(session.plants)} plants.</p>")
-    return document(entry.name, f'<main class="report">{"".join(parts)}</main>\n', style("live"), f"What {entry.name} has said")
+        many = len(session.plants)
+        plants = ngettext("{number} plant was sent to the wall.", "{number} plants were sent to the wall.", many)
+        parts += [f"<h2>{escaped(gettext('The wall'))}</h2>", _paragraph(plants)]
+    body = f'<main class="report">{"".join(parts)}</main>\n'
+    return document(entry.name, body, style("live"), gettext("What {name} has said", name=entry.name), language=language())
+
+
+def _took_part(many: int) -> str:
+    return ngettext("{number} phone took part.", "{number} phones took part.", many)
+
+
+def _paragraph(*sentences: str) -> str:
+    return f"<p>{escaped(' '.join(filter(None, sentences)))}</p>"
 
 
 def _vote_parts(session: Session) -> Iterator[str]:
     numbers = sorted({asked.about for asked in session.answers if asked.kind == VOTE})
     if numbers:
-        yield "<h2>Votes</h2>"
+        yield f"<h2>{escaped(gettext('Votes'))}</h2>"
     for number in numbers:
         first, second = (session.votes(number, round) for round in (1, 2))
         right, all_first = right_option(number), sum(first["bars"])
@@ -151,33 +160,50 @@ def _vote_parts(session: Session) -> Iterator[str]:
             f"<td>{second['bars'][place]}</td></tr>"
             for place, letter in enumerate(LETTERS)
         )
-        changes, share = second["changes"], first["bars"][right] / all_first if all_first else None
-        advice = (
-            "" if share is None else f" {share:.0%} were right at first: {next(word for most, word in SHARES if share < most)}."
-        )
-        gain = "" if changes["gain"] is None else f" Normalised gain {changes['gain']:.2f}."
-        yield f"<h3>Lesson {int(number)}: {escaped(lesson(number).title)}</h3>"
-        yield f"<table>{_head('answer', 'first vote', 'second vote')}<tbody>{rows}</tbody></table>"
-        yield (
-            f"<p>Of {changes['both']} who voted twice {changes['better']} changed from wrong to right, and "
-            f"{changes['worse']} from right to wrong.{gain}{advice}</p>"
-        )
+        title = gettext("Lesson {lesson}: {title}", lesson=int(number), title=lesson(number).title)
+        columns = _head(gettext("answer"), gettext("first vote"), gettext("second vote"))
+        yield f"<h3>{escaped(title)}</h3><table>{columns}<tbody>{rows}</tbody></table>"
+        yield _paragraph(_changed(second["changes"]), _advice(first["bars"][right] / all_first) if all_first else "")
+
+
+def _changed(changes: dict[str, Any]) -> str:
+    """How many have changed their minds, and the gain."""
+    told = gettext(
+        "Of {both} who voted twice {better} changed from wrong to right, and {worse} from right to wrong.",
+        both=changes["both"],
+        better=changes["better"],
+        worse=changes["worse"],
+    )
+    gain = "" if changes["gain"] is None else gettext("Normalised gain: {gain}.", gain=f"{changes['gain']:.2f}")
+    return f"{told} {gain}".strip()
+
+
+def _advice(share: float) -> str:
+    """What to do after a first vote, by the share of right answers."""
+    percent = round(100 * share)
+    if share < FEW:
+        return gettext("{percent} % were right at first, which is few: explain it anew.", percent=percent)
+    if share < MANY:
+        return gettext("{percent} % were right at first: worth a discussion and a second vote.", percent=percent)
+    return gettext("{percent} % were right at first, which is most: go on.", percent=percent)
 
 
 def _head(*names: str) -> str:
-    return f"<thead><tr>{''.join(f'<th scope=col>{each}</th>' for each in names)}</tr></thead>"
+    return f"<thead><tr>{''.join(f'<th scope=col>{escaped(each)}</th>' for each in names)}</tr></thead>"
 
 
 def _list_part(title: str, session: Session, kind: str) -> Iterator[str]:
     rows: Sequence[tuple[Any, ...]] = [row for row in rows_of(session) if row[1] == kind and row[4]]
     if not rows:
         return
+    said = {"yes": gettext("yes"), "no": gettext("no"), "": ""}
     body = "".join(
-        f'<tr><th scope="row">{escaped(str(row[0]))}</th><td>{escaped(_one_line(row[3]))}</td><td>{row[4]} of {row[6]}</td>'
-        f"<td>{row[5]}</td></tr>"
+        f'<tr><th scope="row">{escaped(str(row[0]))}</th><td>{escaped(_one_line(row[3]))}</td>'
+        f"<td>{escaped(gettext('{number} of {all}', number=row[4], all=row[6]))}</td><td>{escaped(said[row[5]])}</td></tr>"
         for row in rows
     )
-    yield (f"<h2>{title}</h2><table>{_head('question', 'answer', 'how many', 'right')}<tbody>{body}</tbody></table>")
+    columns = _head(gettext("question"), gettext("answer"), gettext("how many"), gettext("right"))
+    yield f"<h2>{escaped(title)}</h2><table>{columns}<tbody>{body}</tbody></table>"
 
 
 def _one_line(text: object) -> str:
