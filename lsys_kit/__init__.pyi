@@ -21,6 +21,7 @@ from lsys_kit.classroom.lessons.vote import vote as vote
 from lsys_kit.classroom.lessons.worksheet import worksheet as worksheet
 from lsys_kit.classroom.link import link as link
 from lsys_kit.classroom.link import linked as linked
+from lsys_kit.classroom.live.notebook import open_class as open_class
 from lsys_kit.classroom.panel.explorer import compare as compare
 from lsys_kit.classroom.panel.explorer import explore as explore
 from lsys_kit.classroom.variants import variants as variants

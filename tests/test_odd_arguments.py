@@ -6,6 +6,8 @@ import inspect
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from functools import cache, partial
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
@@ -68,6 +70,7 @@ ODD: Mapping[str, object] = {
     "numbers by numbers": {1: 2},
 }
 """Values that hardly anything can be done with."""
+_FOLDER = TemporaryDirectory()
 GROWING = read("c = 1\naxiom: a\na -> a b(c)\nb(x) -> b(x)")
 SURFACE = "\n".join(
     (
@@ -116,6 +119,7 @@ FITTING: Mapping[str, Callable[[], tuple[object, ...]]] = {
     "map_systems": tuple,
     "progress": lambda: (1,),
     "pnml": lambda: (stages(GROWING), None),
+    "open_class": lambda: ("10b", _FOLDER.name, 0, False),
     "predict": lambda: ("How many?", "21"),
     "read": lambda: ("axiom: a", "abop", "x"),
     "read_map": lambda: ("map: A>A>",),
@@ -159,7 +163,7 @@ CHOICES: Mapping[str, tuple[str, ...]] = {
     "draw a map": ("iterations", "stiffness", "rest", "pressure", "damping"),
 }
 """The arguments that a function takes beside those of its signature; `c` is a constant."""
-NO_QUESTIONS = {"close", "save", "__getitem__"}
+NO_QUESTIONS = {"close", "end", "hear", "save", "__getitem__"}
 """Methods that are no law of this kind: files have one of their own, and an index is refused as Python's lists refuse it."""
 MADE_IN_OTHER_WAYS: tuple[Callable[[], object], ...] = (
     lambda: lsys_kit.draw(GROWING, steps=[0, 1]),
@@ -197,6 +201,12 @@ def arguments(name: str) -> list[str]:
 def test_every_public_function_is_tried() -> None:
     errors = {name for name in lsys_kit.__all__ if isinstance(getattr(lsys_kit, name), type)}
     assert {*lsys_kit.__all__} - errors <= FITTING.keys()
+
+
+@pytest.fixture(autouse=True)
+def in_a_folder_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A folder that is named by an odd value is made there."""
+    monkeypatch.chdir(tmp_path)
 
 
 @pytest.mark.slow

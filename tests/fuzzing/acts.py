@@ -584,7 +584,15 @@ LEFT_OUT: Mapping[str, str] = {
         "Comparison.right",
         "Comparison.shared",
     ),
-    **dict.fromkeys(("lsys-kit lab", "lsys-kit class"), "it serves until it is closed"),
+    **dict.fromkeys(
+        (
+            "lsys-kit lab",
+            "lsys-kit class",
+            "open_class",
+            *(f"ClassBoard.{name}" for name in (*members("ClassBoard"), "__repr__", "about", "state", "ended")),
+        ),
+        "it serves until it is closed",
+    ),
     **{f"HierarchyPicture.{name}": "it has one picture alone" for name in (*members("HierarchyPicture"), "__repr__")},
 }
 """The public ways that are not tried, and why."""

@@ -9,6 +9,7 @@ import traitlets
 from ipywidgets import VBox, Widget
 
 from lsys_kit.classroom.lessons.kept import answered, keep
+from lsys_kit.classroom.lessons.opening import announce
 from lsys_kit.classroom.lessons.predicted import OPEN, asked_of, key_of, outcome
 from lsys_kit.classroom.lessons.widget import (
     MOST_TYPED,
@@ -54,7 +55,9 @@ def predict(question: str, what: object) -> Prediction:
     """
     if not isinstance(question, str) or not question.strip():
         raise ModelValueError(f'A question must be a text such as "How many cells has step 6?", not {shown(question)}')
-    return Prediction(question.strip(), what)
+    found = Prediction(question.strip(), what)
+    announce("prediction", question.strip())
+    return found
 
 
 class Prompt(LessonWidget):

@@ -17,6 +17,7 @@ from lsys_kit.budget import current, limits
 from lsys_kit.classroom.catalogue import catalogued
 from lsys_kit.classroom.lessons.kept import CHANGES, answered, keep
 from lsys_kit.classroom.lessons.lesson import Lesson, Vote, lesson
+from lsys_kit.classroom.lessons.opening import announce
 from lsys_kit.classroom.lessons.predicted import predictions_of
 from lsys_kit.classroom.lessons.widget import LessonWidget, boxed_html, prose_html, prose_text
 from lsys_kit.classroom.panel.bundle import Data, bundled, style
@@ -65,7 +66,9 @@ through the same hour. One of the programs drew this picture. Which program is r
     """
     found = lesson(number)
     require(again, bool, 'True or False for "again"')
-    return VoteBox(found.vote, _ballot(found.number), again, found)
+    box = VoteBox(found.vote, _ballot(found.number), again, found)
+    announce("vote", f"{found.number:02}", 2 if again else 1)
+    return box
 
 
 class Ballot(traitlets.HasTraits):

@@ -41,8 +41,12 @@ def board_page(entry: ClassEntry, address: str) -> str:
 <main id="here" class="board"></main>
 <footer id="tools" class="board-tools"></footer>
 """
-    data = {"address": address, "code": entry.code, "plan": plan(), "games": list(GAMES), "picture": picture_of(address)}
-    return _document(entry.name, body, "board", data)
+    return _document(entry.name, body, "board", board_data(entry, address), style("board"))
+
+
+def board_data(entry: ClassEntry, address: str) -> dict[str, Any]:
+    """What a board has to know of a class."""
+    return {"address": address, "code": entry.code, "plan": plan(), "games": list(GAMES), "picture": picture_of(address)}
 
 
 def picture_of(address: str) -> str:
@@ -58,16 +62,16 @@ def problem_page(status: int) -> str:
     """What is shown where a page cannot be had."""
     said = {
         404: gettext("There is no such page."),
-        429: gettext("Too many have asked at once. Wait a moment, and try again."),
+        **dict.fromkeys((429, 503), gettext("Too many have asked at once. Wait a moment, and try again.")),
     }.get(status, gettext("This cannot be done."))
     join = f'<p><a href="/">{escaped(gettext("Join the class"))}</a></p>'
     return _document(said, f'<main class="door"><h1>{escaped(said)}</h1>{join}</main>\n')
 
 
-def _document(title: str, body: str, script: str = "", data: dict[str, Any] | None = None) -> str:
+def _document(title: str, body: str, script: str = "", data: dict[str, Any] | None = None, more: str = "") -> str:
     opening = f"open{script.capitalize()}();"
     words = {"words": translated_words(script, "panel", "filling", "predicting", "voting")} if script else {}
     program = (
         Program(f'"use strict";\n{compact(script)}\n{opening}\n', "", {**(data or {}), **words}, asks=True) if script else None
     )
-    return document(title, body, style("live"), title, program, language())
+    return document(title, body, style("live") + more, title, program, language())

@@ -80,6 +80,16 @@ def predictions(name: str) -> tuple[str, ...]:
     return tuple(asked for source in sources for asked in _asked_in(source))
 
 
+def about_prediction(text: str) -> str | None:
+    """What names a prediction that a lesson asks for; None where none does.
+
+    >>> about_prediction("Step 3 is `al al br al br`. What is the word of step 4?")
+    '01:1'
+    """
+    found = (f"{name[:2]}:{place}" for name in names() for place, each in enumerate(predictions(name), 1) if each == text)
+    return next(found, None)
+
+
 def _asked_in(source: str) -> Iterator[str]:
     """The questions of the calls of `predict` in a cell, which is read and not run."""
     try:

@@ -183,11 +183,13 @@ def forget(folder: str, names: Sequence[str] | None = None) -> str:
 # The pages of the course
 
 
-def course_pages(folder: Path, source: Path | None = None, make: Callable[..., object] = build_site) -> Mapping[str, bytes]:
+def course_pages(
+    folder: Path, source: Path | None = None, make: Callable[..., object] = build_site, say: Callable[[str], object] = print
+) -> Mapping[str, bytes]:
     """The live pages of the course, by their names; they are made where they are not there, or are those of another kit."""
     place, wanted = folder / PAGES, version(source)
     if _made(place) != wanted:
-        print("The pages of the course are made, once. This takes a minute or two.", flush=True)
+        say("The pages of the course are made, once. This takes a minute or two.")
         make(place, source, live=True)
         with file_errors(f'"{quotable(str(place))}" cannot be written'):
             replace_file(place / MADE, json.dumps({KIT_MARK.decode(): wanted}).encode())

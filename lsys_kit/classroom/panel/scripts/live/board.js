@@ -1,31 +1,42 @@
-// The board for the projector: who is there, what is open, and what the class thinks of it. Whatever is seen is a view of what the
-// server tells; a board that was gone is soon as it was.
+// The board: who is there, what is open, and what the class thinks of it. Whatever is seen is a view of what the server tells; a
+// board that was gone is soon as it was. On the projector it speaks with the server itself, below a cell the kernel does so.
 
 import { prose } from "../lessons/asking.js";
 import { made, speak, worded } from "../views/controls.js";
 import { whatIsAsked } from "./outbox.js";
 
 const LETTERS = "ABCD", AGAIN = 800; // milliseconds before the server is looked for again
-const OWN = "own";
+const OWN = "own", EMPTY = "data:,";
 
+// The board for the projector.
 export function openBoard() {
-  const { address, code, plan, games, picture, words } = JSON.parse(document.getElementById("lsys-data").textContent);
+  const { words, ...data } = JSON.parse(document.getElementById("lsys-data").textContent), [here, present, tools] = ["here", "present", "tools"].map((id) => document.getElementById(id));
   speak(words);
-  const here = document.getElementById("here"), present = document.getElementById("present"), tools = document.getElementById("tools");
-  let state = { present: 0, current: null }, socket = null, joining = false, seen = "", asked = {};
-  const said = made("p.board-said", { role: "alert" });
+  let socket = null;
+  const tell = (message) => socket.readyState === WebSocket.OPEN && socket.send(JSON.stringify(message));
+  const board = showBoard({ here, present, tools }, data, { tell, asked: whatIsAsked, plant: (number) => `plants/${number}` });
 
   function connect() {
     const place = new URL("live", location.href);
     place.protocol = place.protocol === "https:" ? "wss:" : "ws:";
     socket = new WebSocket(place);
-    socket.addEventListener("open", () => (said.textContent = ""));
-    socket.addEventListener("message", ({ data }) => hear(JSON.parse(data)));
+    socket.addEventListener("open", () => board.say(""));
+    socket.addEventListener("message", ({ data: text }) => board.hear(JSON.parse(text)));
     socket.addEventListener("close", () => {
-      said.textContent = worded("The server does not answer. It is looked for again.");
+      board.say(worded("The server does not answer. It is looked for again."));
       setTimeout(connect, AGAIN);
     });
   }
+
+  addEventListener("keydown", board.keyed);
+  connect();
+}
+
+// A board in some elements. A carrier has tell(message), asked(kind, about, otherwise, arrived), as in outbox.js, and plant(number,
+// arrived), the address of the picture of a plant, or nothing until it has arrived. What is told in turn is given to `hear`.
+export function showBoard({ here, present, tools }, { address, code, plan, games, picture }, { tell, asked: whatIsAskedBy, plant }) {
+  let state = { present: 0, current: null }, joining = false, seen = "", asked = {};
+  const said = made("p.board-said", { role: "alert" });
 
   function hear({ state: next, mistake }) {
     if (mistake) said.textContent = mistake;
@@ -39,7 +50,6 @@ export function openBoard() {
   }
 
   const keyOf = ({ kind, about, round }) => `${kind} ${about} ${round}`;
-  const tell = (message) => socket.readyState === WebSocket.OPEN && socket.send(JSON.stringify(message));
   const named = () => (({ kind, about, round }) => ({ kind, about, round }))(state.current);
 
   // What is seen.
@@ -47,7 +57,7 @@ export function openBoard() {
   function show() {
     present.textContent = `${worded("{number} here", { number: state.present })} · ${code}`;
     const current = joining ? null : state.current, isAsked = current && current.kind in kinds;
-    if (isAsked) asked = whatIsAsked(current.kind, current.about, notYet(current), show);
+    if (isAsked) asked = whatIsAskedBy(current.kind, current.about, notYet(current), show);
     here.dataset.kind = current?.kind ?? "join";
     here.replaceChildren(...(current ? VIEWS[current.kind](current) : join()));
     showTools();
@@ -151,7 +161,7 @@ export function openBoard() {
   }
 
   function wall({ plants }) {
-    const tiles = plants.map(({ number, description }) => made("li", made("img", { src: `plants/${number}`, alt: description, loading: "lazy" }),
+    const tiles = plants.map(({ number, description }) => made("li", made("img", { src: plant(number, show) || EMPTY, alt: description, loading: "lazy" }),
       made("button", { type: "button", "aria-label": worded("take away: {what}", { what: description }), onclick: () => tell({ do: "remove", number }) }, "×")));
     return [...head(worded("The wall"), plants.length ? "" : worded("No plant yet")), made("ul.board-wall", ...tiles.reverse())];
   }
@@ -242,15 +252,16 @@ export function openBoard() {
 
   const KEYS = { ArrowRight: advance, PageDown: advance, ArrowLeft: () => state.current?.shown && toggleShown(), PageUp: () => state.current?.shown && toggleShown(),
     o: openChosen, s: toggleShown, c: toggleClosed, j: toggleJoin, f: () => tell({ do: "finish" }), n: () => hasNext() && next() };
-  addEventListener("keydown", (event) => {
+  function keyed(event) {
     const done = KEYS[event.key.length === 1 ? event.key.toLowerCase() : event.key], typing = /^(TEXTAREA|SELECT|INPUT)$/.test(/** @type {HTMLElement} */ (event.target).tagName);
     if (!done || typing || event.ctrlKey || event.metaKey || event.altKey || event.repeat) return;
     event.preventDefault();
     done();
-  });
+  }
+
   offer();
   lessons.value = "01";
   offer();
   show();
-  connect();
+  return { hear, keyed, say: (text) => (said.textContent = text) };
 }

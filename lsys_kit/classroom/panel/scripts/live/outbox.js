@@ -134,26 +134,32 @@ export function classConnection(base, code, heard) {
   };
 }
 
-const asked = new Map();
-
-// What a question asks, if it is known already; else something in its place, and `arrived` is called when it is known.
-export function whatIsAsked(kind, about, otherwise, arrived) {
-  const place = `/asked/${kind}/${about}`;
-  if (!asked.has(place)) {
-    asked.set(place, otherwise);
-    fetch(place).then((answer) => (answer.ok ? answer.json() : Promise.reject(new Error(String(answer.status))))).then(
-      (found) => {
-        asked.set(place, found);
-        arrived();
-      },
-      () => setTimeout(() => {
-        asked.delete(place);
-        arrived();
-      }, PATIENCE),
-    );
-  }
-  return asked.get(place);
+// A function that has things brought once: it returns what is known by a name, or else something in its place, and calls `arrived`
+// when it is known. What cannot be brought is asked for again later.
+export function broughtOnce(bring) {
+  const known = new Map();
+  return (name, otherwise, arrived) => {
+    if (!known.has(name)) {
+      known.set(name, otherwise);
+      bring(name).then(
+        (found) => {
+          known.set(name, found);
+          arrived();
+        },
+        () => setTimeout(() => {
+          known.delete(name);
+          arrived();
+        }, PATIENCE),
+      );
+    }
+    return known.get(name);
+  };
 }
+
+const fetched = broughtOnce((place) => fetch(place).then((answer) => (answer.ok ? answer.json() : Promise.reject(new Error(String(answer.status))))));
+
+// What a question asks.
+export const whatIsAsked = (kind, about, otherwise, arrived) => fetched(`/asked/${kind}/${about}`, otherwise, arrived);
 
 // Ask the kit itself, on the server: what it answers, or a mistake.
 export async function askKit(base, question) {

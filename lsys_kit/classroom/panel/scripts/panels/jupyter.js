@@ -3,6 +3,17 @@
 const PATIENCE = 20_000; // milliseconds after which a kernel that does not answer is taken to be gone
 const GONE = { message: "The kernel does not answer. Restart it and run the cell again; what the panel has already shown goes on working" };
 
+// Whether a message left: Jupyter throws where a kernel has been shut down and the model was not told.
+export function tellsKernel(model, content) {
+  if (model.comm_live === false) return false;
+  try {
+    model.send(content);
+  } catch {
+    return false;
+  }
+  return true;
+}
+
 export function hostOf(model) {
   const waiting = new Map();
   let last = Math.floor(Math.random() * 1e9); // two views of one model hear each other's answers
@@ -16,20 +27,9 @@ export function hostOf(model) {
     const number = ++last;
     return new Promise((resolve) => {
       waiting.set(number, resolve);
-      if (!sent({ ...content, number })) answered({ number, mistake: GONE });
+      if (!tellsKernel(model, { ...content, number })) answered({ number, mistake: GONE });
       setTimeout(() => answered({ number, mistake: GONE }), PATIENCE);
     });
-  }
-
-  // Whether a message left: Jupyter throws where a kernel has been shut down and the model was not told.
-  function sent(content) {
-    if (model.comm_live === false) return false;
-    try {
-      model.send(content);
-    } catch {
-      return false;
-    }
-    return true;
   }
 
   model.on("msg:custom", answered);

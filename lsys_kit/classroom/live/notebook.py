@@ -1,0 +1,258 @@
+"""`open_class`: a class that is opened in a cell of a notebook, and the board of it below the cell.
+
+The server is a child process (`kernel_board`), so that a long cell keeps no phone waiting. What it tells comes by a pipe, for
+which a thread waits here.
+"""
+
+from __future__ import annotations
+
+import atexit
+import json
+import multiprocessing
+from collections.abc import Mapping
+from contextlib import suppress
+from multiprocessing.connection import Connection
+from pathlib import Path
+from threading import Lock, Thread
+from typing import Any
+from weakref import WeakSet
+
+import traitlets
+
+from lsys_kit.classroom.lessons.opening import LISTENERS
+from lsys_kit.classroom.live.questions import about_prediction
+from lsys_kit.classroom.live.serving import FOLDER, NAME, checked_names, missing_library
+from lsys_kit.classroom.panel.bundle import bundled, style, translated_words
+from lsys_kit.classroom.widget import KitWidget
+from lsys_kit.errors import LSystemError, ModelFileError, ModelValueError, quotable, require, whole_number
+from lsys_kit.pictures.style.labels import escaped
+from lsys_kit.translation import language
+
+A_LITTLE = 0.2
+"""Whoever waits for a class looks after so many seconds whether it is still coming."""
+ENDING = 15.0
+"""So many seconds a class has to end."""
+LAST_PORT = 65_535
+_CONTEXT = multiprocessing.get_context("spawn")
+
+
+def open_class(name: str = NAME, folder: str | Path = FOLDER, port: int | None = None, course: bool = True) -> ClassBoard:
+    """Open a class, as `lsys-kit class` does in a shell, and show its board below the cell.
+
+    Phones join by the QR code or the address. `vote` and `predict` in later cells of the notebook open their questions for the
+    whole class. The class ends with the kernel; the same call, in this kernel or in another one, finds it where it was.
+
+    Parameters
+    ----------
+    name
+        What the class is called.
+    folder
+        Where what the class says is kept, and the pages of the course.
+    port
+        Where the server listens; by default at 8765, or at another port if that is taken. 0 lets the system choose.
+    course
+        Whether the phones have the pages of the course. They are made the first time, which takes a minute or two.
+
+    Returns
+    -------
+    ClassBoard
+        The board. `end()` ends the class.
+
+    Raises
+    ------
+    ModelValueError
+        No class can be called so, or there is no such port.
+    ModelFileError
+        The folder or the port cannot be used.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     board = open_class("10b", folder, port=0, course=False)
+    ...     board.name, len(board.code), open_class("10b", folder).code == board.code
+    ...     board.end()
+    ('10b', 4, True)
+    """
+    require(name, str, "The name of a class")
+    require(course, bool, 'True or False for "course"')
+    place = _folder(folder)
+    if port is not None and not 0 <= (port := whole_number(port, "The port")) <= LAST_PORT:
+        raise ModelValueError(f"A port is a number from 0 to {LAST_PORT}")
+    [name] = checked_names([name])
+    found = _OPEN.get((place, name))
+    if found is None or not found.is_open:
+        found = _OPEN[place, name] = _Class(place, name, port, course)
+    return ClassBoard(found)
+
+
+def _folder(folder: object) -> str:
+    if not isinstance(folder, str | Path):
+        require(folder, str, "The folder of a class")
+    try:
+        return str(Path(str(folder)).resolve())
+    except (OSError, ValueError, RuntimeError):
+        raise ModelFileError(f'"{quotable(str(folder))}" cannot be used for a class', hint="Choose another folder.") from None
+
+
+class _Class:
+    """A class that was opened in this kernel: the child process that serves it, and its boards in the notebook."""
+
+    def __init__(self, folder: str, name: str, port: int | None, course: bool) -> None:
+        self._folder = folder
+        self._pipe, theirs = _CONTEXT.Pipe()
+        self._process = _CONTEXT.Process(target=_serve, args=(theirs, folder, name, port, course, language()))
+        self._lock, self.boards = Lock(), WeakSet[ClassBoard]()
+        self.state: dict[str, Any] = {}
+        self.is_open = True
+        self._process.start()
+        theirs.close()
+        try:
+            self.about = self._opened()
+        except BaseException:
+            self.end()
+            raise
+        Thread(target=self._listen, daemon=True).start()
+
+    def _opened(self) -> dict[str, Any]:
+        """What the server says of itself when it has begun; until then what it says is printed."""
+        while True:
+            while not self._pipe.poll(A_LITTLE):
+                if not self._process.is_alive():
+                    raise LSystemError("The class could not be opened", hint="Run the cell again.")
+            try:
+                told = json.loads(self._pipe.recv_bytes())
+            except (EOFError, OSError):
+                raise LSystemError("The class could not be opened", hint="Run the cell again.") from None
+            if "mistake" in told:
+                raise ModelFileError(told["mistake"]["message"], hint=told["mistake"]["hint"] or None)
+            if "about" in told:
+                return dict(told["about"])
+            print(told["said"], flush=True)
+
+    def _listen(self) -> None:
+        with suppress(EOFError, OSError):
+            while True:
+                told = json.loads(self._pipe.recv_bytes())
+                self.state = told.get("state", self.state)
+                for board in [*self.boards]:
+                    board.hear(told)
+        self.is_open = False
+        for board in [*self.boards]:
+            board.ended = True
+
+    def tell(self, content: Mapping[str, Any]) -> None:
+        """Tell the server something; one that is gone hears nothing."""
+        with self._lock, suppress(OSError):
+            self._pipe.send_bytes(json.dumps(content).encode())
+
+    def end(self) -> None:
+        """End the server, and wait until it is gone."""
+        self.tell({"end": True})
+        self._process.join(ENDING)
+        if self._process.is_alive():
+            self._process.kill()
+            self._process.join()
+        self.is_open = False
+
+
+def _serve(*given: Any) -> None:
+    """In the child process: serve."""
+    pipe: Connection = given[0]
+    try:
+        import tornado  # noqa: F401
+    except ImportError:
+        pipe.send_bytes(json.dumps({"mistake": {"message": missing_library("tornado").message, "hint": ""}}).encode())
+        return
+    from lsys_kit.classroom.live.kernel_board import serve_kernel
+
+    serve_kernel(*given)
+
+
+_OPEN: dict[tuple[str, str], _Class] = {}
+"""The classes that were opened in this kernel, by their folders and names."""
+
+
+@atexit.register
+def _end_all() -> None:
+    for each in _OPEN.values():
+        if each.is_open:
+            each.end()
+
+
+def _open_for_all(kind: str, about: str, round: int) -> None:
+    """Let all classes of this kernel answer a question that a cell asks."""
+    if kind == "prediction":
+        about = about_prediction(about) or ""
+    for each in _OPEN.values():
+        if about and each.is_open:
+            each.tell({"do": "open", "kind": kind, "about": about, "round": round})
+
+
+LISTENERS.append(_open_for_all)
+
+
+class ClassBoard(KitWidget):
+    """The board of a class, as `open_class` shows it.
+
+    Attributes
+    ----------
+    about, state
+        What the board says of the class, and what it shows now.
+    ended
+        Whether the class has ended.
+    """
+
+    _esm = bundled("class_board")
+    _css = style("lessons") + style("board")
+    about = traitlets.Dict().tag(sync=True)
+    state = traitlets.Dict().tag(sync=True)
+    ended = traitlets.Bool(False).tag(sync=True)
+
+    def __init__(self, of: _Class) -> None:
+        self._class = of
+        super().__init__(about={**of.about, "words": translated_words("class_board")}, state=of.state, ended=not of.is_open)
+        self.on_msg(lambda _, content, __: isinstance(content, dict) and of.tell(content))
+        of.boards.add(self)
+
+    @property
+    def name(self) -> str:
+        """What the class is called."""
+        return str(self._class.about["name"])
+
+    @property
+    def code(self) -> str:
+        """The four letters by which phones join."""
+        return str(self._class.about["code"])
+
+    @property
+    def address(self) -> str:
+        """The address at which phones join."""
+        return str(self._class.about["address"])
+
+    @property
+    def projected(self) -> str:
+        """The secret address of the board for the projector."""
+        return str(self._class.about["board"])
+
+    def end(self) -> None:
+        """End the class; `open_class` opens it again where it was."""
+        self._class.end()
+
+    def hear(self, told: Mapping[str, Any]) -> None:
+        """Show what the class tells."""
+        if "state" in told:
+            self.state = told["state"]
+        else:
+            self.send(dict(told))
+
+    def close(self) -> None:
+        """Close the board; the class goes on."""
+        self._class.boards.discard(self)
+        super().close()
+
+    def _stored(self) -> dict[str, Any]:
+        return {"text/html": f"<p>{escaped(repr(self))}</p>", "text/plain": repr(self)}
+
+    def __repr__(self) -> str:
+        return f"{self.name}: join with the code {self.code} at {self.address}"
