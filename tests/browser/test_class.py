@@ -15,13 +15,13 @@ import axe_playwright_python
 import pytest
 import zxingcpp
 from PIL import Image
-from playwright.sync_api import Browser, Page, Request, expect
+from playwright.sync_api import Browser, Locator, Page, Request, expect
 
 from lsys_kit.classroom.course import course_files
 from lsys_kit.classroom.live import serving
 from lsys_kit.classroom.site.build import build_site
 from lsys_kit.files import KIT_MARK
-from tests.classroom.live_class import Process, started
+from tests.classroom.live_class import Network, Process, started
 
 pytestmark = [pytest.mark.slow, pytest.mark.browser]
 AXE = Path(axe_playwright_python.__file__).parent / "axe.min.js"
@@ -32,11 +32,12 @@ EXPECTED_NOISE = re.compile(r"WebSocket connection to|net::ERR_(CONNECTION_(REFU
 
 @dataclass
 class Visitor:
-    """A tab, what it asked for, and what it complained of."""
+    """A tab, what it asked for, what it complained of, and the address of the server as it knows it, if that is another one."""
 
     page: Page
     asked: list[str] = field(default_factory=list)
     faults: list[str] = field(default_factory=list)
+    own: str = ""
 
     def __post_init__(self) -> None:
         self.page.on("request", lambda request: self.asked.append(_address(request)))
@@ -96,7 +97,9 @@ def live(browser: Browser, pages: Path, tmp_path: Path) -> Iterator[Class]:
         url
         for each in found.all
         for url in each.asked
-        if not url.startswith((own, own.replace("http", "ws"), "data:", "blob:"))
+        if not url.startswith(
+            (own, own.replace("http", "ws"), each.own or own, (each.own or own).replace("http", "ws"), "data:", "blob:")
+        )
     ]
     assert strange == []
 
@@ -256,6 +259,69 @@ def test_a_lesson_with_two_phones_and_a_server_that_is_killed(live: Class, pytes
     board.keyboard.press("s")
     expect(board.locator(".board-replies")).to_contain_text("one step too early")
     shot(board, "board-exercise", pytestconfig)
+
+
+def test_a_phone_whose_network_is_gone_for_a_while_loses_nothing(live: Class, pytestconfig: pytest.Config) -> None:
+    """The network goes without a word: the phone finds out, and sends again when it is back. A thorough test waits a minute."""
+    board, phone = live.board.page, live.phones[0].page
+    network = Network(int(live.server.join.split(":")[2].split("/")[0]))
+    join = f"http://127.0.0.1:{network.port}/{live.server.code}/"
+    live.phones[0].own = join.removesuffix(f"/{live.server.code}/")
+    try:
+        phone.goto(join)
+        expect(phone.locator("#link[data-there=true]")).to_be_visible()
+        board.keyboard.press("PageDown")
+        expect(phone.locator(".choice")).to_have_count(4)
+        network.is_there(False)
+        phone.locator(".choice").nth(2).tap()
+        expect(phone.locator("#link[data-there=false]")).to_be_visible()
+        expect(phone.locator(".choice").nth(2)).to_have_attribute("aria-pressed", "true")
+        phone.wait_for_timeout(60_000 if pytestconfig.getoption("--thorough") else 7_000)
+        expect(phone.locator(".tick[data-kept=true]")).to_have_count(0)
+        shot(phone, "phone-no-network", pytestconfig)
+        network.is_there(True)
+        kept(phone)
+        expect(board.locator(".board-count strong")).to_have_text("1")
+        expect(board.locator("#present")).to_have_text(re.compile("1 here"))
+    finally:
+        phone.goto("about:blank")
+        network.close()
+
+
+def test_one_practises_on_the_page_of_exercises(live: Class, pytestconfig: pytest.Config) -> None:
+    phone = live.phones[0].page
+    phone.goto(f"{live.server.join}course/exercises/01_all_at_once.html")
+    place = phone.locator(".class-practice")
+    place.scroll_into_view_if_needed()
+    expect(place.locator("h3")).to_contain_text("level 1", timeout=60_000)
+    for level in (1, 1, 2):
+        expect(place.locator("h3")).to_contain_text(f"level {level}", timeout=60_000)
+        word, rules, steps = asked_by(place)
+        for _ in range(steps):
+            word = " ".join(rules.get(each, each) for each in word.split())
+        place.locator("input").fill(word)
+        place.get_by_role("button", name="Check").tap()
+        expect(place.locator(".lsys-said")).to_contain_text("Correct", timeout=60_000)
+        before = place.locator("pre").inner_text()
+        place.get_by_role("button", name="Another exercise").tap()
+        expect(place.locator("pre")).not_to_have_text(before, timeout=60_000)
+    place.locator("input").fill("x")
+    place.get_by_role("button", name="Check").tap()
+    place.get_by_role("button", name="A hint").tap()
+    expect(place.locator(".lsys-said")).to_contain_text("Hint 1 of 3", timeout=60_000)
+    shot(phone, "phone-practice", pytestconfig)
+    place.locator("select").select_option("misprint")
+    expect(place.locator("h3")).to_contain_text("misprint", timeout=60_000)
+    assert serious(phone) == []
+
+
+def asked_by(place: Locator) -> tuple[str, dict[str, str], int]:
+    """The axiom, the rules and the number of steps of an exercise on words by hand."""
+    lines = [line.strip() for line in place.locator("pre").inner_text().splitlines() if line.strip()]
+    rules = dict(re.split(" +-> +", line, maxsplit=1) for line in lines[1:])
+    steps = re.search(r"word of step (\d+)", place.inner_text())
+    assert steps
+    return lines[0].removeprefix("axiom:").strip(), rules, int(steps[1])
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])

@@ -122,6 +122,46 @@ def started(folder: Path, port: int = 0, course: bool = False) -> Process:
     return Process(process, folder, re.sub(r"//[^:/]+", "//127.0.0.1", join), re.sub(r"//[^:/]+", "//127.0.0.1", board), code)
 
 
+class Network:
+    """A network between phones and a server, which can be cut off without a word to anybody."""
+
+    def __init__(self, port: int) -> None:
+        self._port, self._ready = port, threading.Event()
+        self._thread = threading.Thread(target=lambda: asyncio.run(self._serve()), daemon=True)
+        self._thread.start()
+        assert self._ready.wait(SECONDS)
+
+    async def _serve(self) -> None:
+        self._loop, self._end, self._there = asyncio.get_running_loop(), asyncio.Event(), asyncio.Event()
+        self._there.set()
+        server = await asyncio.start_server(self._pass_on, "127.0.0.1", 0)
+        self.port = server.sockets[0].getsockname()[1]
+        self._ready.set()
+        await self._end.wait()
+
+    async def _pass_on(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        await self._there.wait()
+        with suppress(OSError):
+            others = await asyncio.open_connection("127.0.0.1", self._port)
+            await asyncio.gather(self._pump(reader, others[1]), self._pump(others[0], writer))
+
+    async def _pump(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        with suppress(OSError):
+            while data := await reader.read(65_536):
+                await self._there.wait()
+                writer.write(data)
+                await writer.drain()
+        writer.close()
+
+    def is_there(self, there: bool) -> None:
+        """Cut it off, or let it be there again."""
+        self._loop.call_soon_threadsafe(self._there.set if there else self._there.clear)
+
+    def close(self) -> None:
+        self._loop.call_soon_threadsafe(self._end.set)
+        self._thread.join(SECONDS)
+
+
 class Phone:
     """A phone: it sends again what was not acknowledged, as the page does."""
 

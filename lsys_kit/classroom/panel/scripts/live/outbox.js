@@ -65,13 +65,22 @@ export function classConnection(base, code, heard) {
     const place = new URL(`${base}live?phone=${phone}`, location.href);
     place.protocol = place.protocol === "https:" ? "wss:" : "ws:";
     const opened = (socket = new WebSocket(place));
+    silent = setTimeout(() => leave(opened), PATIENCE);
     opened.addEventListener("open", () => {
+      clearTimeout(silent);
       wait = SOONEST;
       heard.linked(true);
       waiting().forEach(send);
     });
     opened.addEventListener("message", ({ data }) => hear(JSON.parse(data)));
     opened.addEventListener("close", () => gone(opened));
+  }
+
+  // A network that is gone does not say so.
+  function leave(which) {
+    if (socket !== which) return;
+    which.close();
+    gone(which);
   }
 
   function gone(which) {
@@ -93,11 +102,7 @@ export function classConnection(base, code, heard) {
   function expect() {
     clearTimeout(silent);
     const asked = socket;
-    silent = setTimeout(() => {
-      if (!waiting().length || socket !== asked) return;
-      asked.close();
-      gone(asked); // a network that is gone does not say so
-    }, PATIENCE);
+    silent = setTimeout(() => waiting().length && leave(asked), PATIENCE);
   }
 
   function hear(answer) {
