@@ -132,8 +132,9 @@ KERNEL = """
 import sys, time
 from lsys_kit import open_class
 if __name__ == "__main__":
-    print(open_class("10b", sys.argv[1], port=0, course=False).address, flush=True)
+    board = open_class("10b", sys.argv[1], port=0, course=False)
     try:
+        print(board.address, flush=True)
         time.sleep(600)
     except KeyboardInterrupt:
         print("interrupted", flush=True)

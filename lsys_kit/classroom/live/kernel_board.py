@@ -17,6 +17,7 @@ from pathlib import Path
 from threading import Thread
 from typing import Any
 
+from lsys_kit.classroom.live.notebook import mistake_told
 from lsys_kit.classroom.live.pages import board_data
 from lsys_kit.classroom.live.server import PORT, Audience, ClassServer, LiveClass
 from lsys_kit.classroom.live.serving import course_pages
@@ -34,7 +35,7 @@ def serve_kernel(pipe: Connection, folder: str, name: str, port: int | None, cou
         pages = course_pages(Path(folder), say=lambda text: tell({"said": text})) if course else {}
         asyncio.run(_serve(kernel, ClassServer(folder, [name], pages), port, tell))
     except LSystemError as fault:
-        tell({"mistake": {"message": fault.message, "hint": fault.hint or ""}})
+        tell(mistake_told(fault))
     os._exit(0)  # all is kept; workers that are still beginning are not waited for
 
 

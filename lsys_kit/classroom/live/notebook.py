@@ -125,7 +125,8 @@ class _Class:
             except (EOFError, OSError):
                 raise LSystemError("The class could not be opened", hint="Run the cell again.") from None
             if "mistake" in told:
-                raise ModelFileError(told["mistake"]["message"], hint=told["mistake"]["hint"] or None)
+                kind = ModelFileError if told["of_file"] else LSystemError
+                raise kind(told["mistake"], hint=told["hint"])
             if "about" in told:
                 return dict(told["about"])
             print(told["said"], flush=True)
@@ -156,13 +157,18 @@ class _Class:
         self.is_open = False
 
 
+def mistake_told(fault: LSystemError) -> dict[str, Any]:
+    """An error of the kit, as the server tells of it."""
+    return {"mistake": fault.message, "hint": fault.hint, "of_file": isinstance(fault, ModelFileError)}
+
+
 def _serve(*given: Any) -> None:
     """In the child process: serve."""
     pipe: Connection = given[0]
     try:
         import tornado  # noqa: F401
     except ImportError:
-        pipe.send_bytes(json.dumps({"mistake": {"message": missing_library("tornado").message, "hint": ""}}).encode())
+        pipe.send_bytes(json.dumps(mistake_told(missing_library("tornado"))).encode())
         return
     from lsys_kit.classroom.live.kernel_board import serve_kernel
 
