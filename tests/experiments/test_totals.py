@@ -162,6 +162,28 @@ def test_it_is_shown_as_mathematics_a_table_and_a_plot() -> None:
     assert repr(plot(read(SHOOT), 3))
 
 
+def test_a_curve_over_a_letter_has_the_totals_of_its_values() -> None:
+    model = read("q = 0.8 in 0 .. 1.2 by 0.1\nr = 2\naxiom: A(1)\nA(x) -> F(r*x) A(q*x)")
+    found = total(model, "F", q="q", r="r")
+    for plot_of, wanted in [
+        (found.plot(10, over="q"), lambda q: 2 * sum(q**k for k in range(10))),
+        (found.plot(3, over="q", between=("1/2", 1), r=3), lambda q: 3 * (1 + q + q * q)),
+        (found.plot(2, over="r", q=1), lambda r: 2 * r),
+    ]:
+        (curve,) = plot_of.chart.curves
+        assert all(y == pytest.approx(float(wanted(x))) for x, y in curve.points)
+    assert "q from 0 to 1.2" in repr(found.plot(10, over="q"))
+    assert "r from 0 to 4" in repr(found.plot(10, over="r"))
+    for call, said in [
+        (lambda: found.plot(3, over="p"), 'no letter "p"'),
+        (lambda: found.plot(3, over="q", between=(1, 0)), "the smaller one first"),
+        (lambda: found.plot(3, over="q", between=(1,)), "two numbers"),
+        (lambda: total(model, "F").plot(3, over="q"), 'no letter "q"'),
+    ]:
+        with pytest.raises(LSystemError, match=said):
+            call()
+
+
 def test_a_formula_that_explodes_ends_within_the_limit() -> None:
     rules = "\n".join(f"A{i}(x) -> A{(i + 1) % 40}(x*q{i % 6} + 1) A{(i * 7) % 40}(x + q{i % 5})" for i in range(40))
     model = read("\n".join([*(f"q{i} = {i + 1}" for i in range(6)), "axiom: A0(1)", rules]))
