@@ -118,7 +118,9 @@ class Total:
 
         with Task("The formula was not found"), supervised():
             found = closed_form(*self._rule, self.n)
-            return sympy.factor(sympy.together(found)) if found is not None and self.sums.letters else found
+            if found is None or not self.sums.letters:
+                return found
+            return sympy.powsimp(sympy.factor(sympy.together(found)), combine="base", force=True)
 
     @property
     def n(self) -> sympy.Symbol:
