@@ -63,6 +63,16 @@ def test_a_total_is_what_the_word_adds_up_to(text: str, q: Fraction, symbol: str
         assert check(model, symbol, place, axis, {}, 5)
 
 
+@given(affine_systems(), st.fractions(-2, 2, max_denominator=5), st.sampled_from("AF"), st.integers(0, 2))
+def test_a_limit_is_what_late_steps_come_to(text: str, q: Fraction, symbol: str, place: int) -> None:
+    with limits(seconds=600):
+        found = total(read(text), symbol, place, q=q)
+        late = [float(found.at(step)) for step in (200, 201, 400)]
+        if found.limit is not None:
+            slow = abs(late[1] - late[0]) > 1e-12  # a root is near the unit circle
+            assert abs(late[2] - float(found.limit)) <= (abs(late[0] - float(found.limit)) if slow else 1e-9)
+
+
 CATALOGUE = [*systems(), *book_systems()]
 
 
