@@ -23,13 +23,14 @@ from itertools import combinations, pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from lsys_kit.budget import Task, check_budget
-from lsys_kit.derivation.core.rules import constants_of, number_from, unknown_constant
+from lsys_kit.derivation.core.rules import constants_of, number_from, unknown_constant, with_constants
 from lsys_kit.derivation.timed.ages import StepAges
 from lsys_kit.derivation.timed.timed import timed
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelNameError, ModelValueError, require
 from lsys_kit.experiments.table import Table
+from lsys_kit.experiments.totals import slider_range
 from lsys_kit.notation.model.arithmetic import Value, is_symbolic, normalised, number_text
-from lsys_kit.notation.model.expressions import Number
+from lsys_kit.notation.model.expressions import names_in
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.plots.chart import Axis, Level, LevelChart, Plot, name_label
@@ -79,7 +80,7 @@ class LifeSpans:
     Attributes
     ----------
     system
-        The system, with the constants that were given.
+        The system.
     letters
         The constants that the life spans depend on and that were given no value.
     kinds
@@ -201,8 +202,6 @@ class LifeSpans:
         return spans
 
     def _rate(self, spans: Sequence[float]) -> float:
-        if not self._grows_faster(0.0, spans):
-            return 0.0  # all die
         high = math.log(FASTEST)
         if self._grows_faster(high, spans):
             raise ModelValueError(f"The cells grow by more than {FASTEST:g} in a unit of time")
@@ -339,12 +338,8 @@ class LifeSpans:
 
     def _range(self, name: str) -> tuple[Value, Value]:
         """The range of a constant's slider; where it has none, from half its value to twice that."""
-        constant = next(each for each in self.system.constants if each.name == name)
-        if constant.range and all(isinstance(end, Number) for end in constant.range[:2]):
-            low, high = (end.value for end in constant.range[:2] if isinstance(end, Number))
-            return low, high
         value = Fraction(self._values[name]) or Fraction(1)
-        return normalised(value / 2), normalised(2 * value)
+        return slider_range(self.system, name) or (normalised(value / 2), normalised(2 * value))
 
     @property
     def latex(self) -> str:
@@ -419,11 +414,13 @@ def life_spans(system: LSystem, **constants: object) -> LifeSpans:
     """
     require(system, LSystem, "An L-system")
     with Task("The life spans were not found"):
-        names = [constant.name for constant in system.constants]
-        own = dict(zip(names, constants_of(system, constants), strict=True))
-        if any(map(is_symbolic, own.values())):
+        values = constants_of(system, constants)
+        if any(map(is_symbolic, values)):
             raise ModelValueError("Letters need no value here", hint="Leave them out: what has no value is a letter.")
-        free, steps = [name for name in names if name not in constants], _in_steps(system, own)
+        free = [each.name for each in system.constants if each.name not in constants and not names_in(each.value)]
+        chosen = {each.name: value for each, value in zip(system.constants, values, strict=True)}
+        own = {name: chosen[name] for name in (*constants, *free)}  # the others follow from these
+        steps = _in_steps(system, own)
         near = own if steps else _told_apart(system, own, free)
         cells = _cells(system, near)
         letters, slopes = _slopes(system, near, free, cells, steps)
@@ -434,8 +431,7 @@ def life_spans(system: LSystem, **constants: object) -> LifeSpans:
         kinds = _kinds(cells, spans, [_nearest(cell.module, born) for cell in cells])
         if not kinds:
             raise ModelValueError("No cell has descendants of its own kind, so that their number does not grow for ever")
-        values = {name: own[name] for name in letters}
-        return LifeSpans(system, letters, kinds, values)
+        return LifeSpans(system, letters, kinds, {name: own[name] for name in letters})
 
 
 def _less(span: Value, row: Sequence[Value], values: Sequence[Value]) -> Value:
@@ -467,13 +463,13 @@ def _told_apart(system: LSystem, own: Mapping[str, Value], names: Sequence[str])
 
 def _in_steps(system: LSystem, values: Mapping[str, Value]) -> bool:
     """Whether lives last whole steps."""
-    ages = timed(system, **values).ages
+    ages = timed(with_constants(system, values)).ages
     return isinstance(ages, StepAges) and not ages.even
 
 
 def _cells(system: LSystem, values: Mapping[str, Value]) -> list[_Cell]:
     """The modules that are born and whose lives end, in the order in which they are met."""
-    growing = timed(system, **values)
+    growing = timed(with_constants(system, values))
     ages, numbers = growing.ages, dict[Module, int]()
     order: list[tuple[Module, Value, list[Module]]] = []
     todo = [growing.states.modules[state] for state in growing.states.axiom]

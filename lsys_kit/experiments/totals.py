@@ -286,13 +286,9 @@ class Total:
 
     def _range(self, letter: str) -> tuple[Value, Value]:
         """The range of a constant's slider; where it has none, from 0 to twice its value."""
-        constant = next(each for each in self.system.constants if each.name == letter)
-        if constant.range and all(isinstance(end, Number) for end in constant.range[:2]):
-            low, high = (end.value for end in constant.range[:2] if isinstance(end, Number))
-            return low, high
         values = constants_of(self.system, {})
         value = values[[each.name for each in self.system.constants].index(letter)]
-        return (0, 2 * abs(value)) if value else (0, 1)
+        return slider_range(self.system, letter) or ((0, 2 * max(value, -value)) if value else (0, 1))
 
     def _numbers(self, letters: dict[str, Any]) -> dict[str, Any]:
         """The constants of the system, with numbers for the letters."""
@@ -317,6 +313,18 @@ class Total:
             why = f"; {self.reason}" if self.reason else ""
             return f"{steps}, ...{why}"
         return f"{number_text(self.formula)}; {steps}, ..."
+
+
+def slider_range(system: LSystem, name: str) -> tuple[Value, Value] | None:
+    """The numbers between which the slider of a constant moves it; None where it has no slider.
+
+    >>> from lsys_kit import read
+    >>> slider_range(read("q = 1/2 in 0 .. 2\\naxiom: A"), "q")
+    (0, 2)
+    """
+    constant = next(each for each in system.constants if each.name == name)
+    ends = [end.value for end in constant.range or () if isinstance(end, Number)]
+    return (ends[0], ends[1]) if len(ends) == 3 else None
 
 
 def _cell(value: Any) -> Any:

@@ -91,6 +91,15 @@ def test_in_continuous_time_it_grows_as_a_cell_must_that_hides_its_division() ->
     assert math.log(len(word)) / 9 == pytest.approx(math.log(found.rate()), rel=0.1)
 
 
+def test_constants_that_follow_from_others_follow_them() -> None:
+    text = "half = 2\nwhole = 2*half\nsystem = 1\naxiom: A(1)\nA(whole) -> A(1) B(1)\nA(i) : i < whole -> A(i+1)\n"
+    text += "B(half) -> A(1) B(1)\nB(i) : i < half -> B(i+1)"
+    found = life_spans(read(text))
+    assert found.letters == ("half",)
+    assert found.recurrence == "N(t) = N(t - 2*half) + N(t - half)"
+    assert found.rate() == pytest.approx(growth(read(text)).rate)
+
+
 def test_cells_that_stop_dividing_do_not_matter() -> None:
     text = "d = 3\naxiom: A(1)\nA(d) -> A(1) B\nA(i) : i < d -> A(i+1)"
     assert repr(life_spans(read(text))) == "N(t) = N(t - d); 1 = x^(-d); growth 1.0000"
