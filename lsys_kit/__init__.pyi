@@ -38,6 +38,8 @@ from lsys_kit.errors import ModelLimitError as ModelLimitError
 from lsys_kit.errors import ModelNameError as ModelNameError
 from lsys_kit.errors import ModelSyntaxError as ModelSyntaxError
 from lsys_kit.errors import ModelValueError as ModelValueError
+from lsys_kit.experiments.closing import closing_angles as closing_angles
+from lsys_kit.experiments.life_spans import life_spans as life_spans
 from lsys_kit.experiments.plot import plot as plot
 from lsys_kit.experiments.runs import ensemble as ensemble
 from lsys_kit.experiments.runs import sweep as sweep

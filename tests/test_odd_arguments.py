@@ -114,6 +114,8 @@ FITTING: Mapping[str, Callable[[], tuple[object, ...]]] = {
     "growth": lambda: (GROWING,),
     "total": lambda: (GROWING, "b", 1),
     "limits": tuple,
+    "life_spans": lambda: (GROWING,),
+    "closing_angles": lambda: (GROWING, 1),
     "lineage": lambda: (GROWING, 1),
     "map_system": lambda: ("K30",),
     "map_systems": tuple,

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -14,9 +15,10 @@ from lsys_kit.derivation.growth.growth import closed_form, generating_function, 
 from lsys_kit.errors import ModelNameError, ModelValueError, require, whole_number
 from lsys_kit.experiments.table import Table, column_label
 from lsys_kit.notation.model.arithmetic import Value, is_symbolic, number_text
+from lsys_kit.notation.model.expressions import Number
 from lsys_kit.notation.model.modules import CLOSING, OPENING
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.pictures.plots.chart import Axis, Curve, CurveChart, Plot
+from lsys_kit.pictures.plots.chart import Axis, Curve, CurveChart, Plot, finite, name_label
 from lsys_kit.pictures.style.palette import colour_of
 from lsys_kit.supervision import supervised
 from lsys_kit.worlds.derive import derive
@@ -116,7 +118,9 @@ class Total:
 
         with Task("The formula was not found"), supervised():
             found = closed_form(*self._rule, self.n)
-            return sympy.factor(sympy.together(found)) if found is not None and self.sums.letters else found
+            if found is None or not self.sums.letters:
+                return found
+            return sympy.powsimp(sympy.factor(sympy.together(found)), combine="base", force=True)
 
     @property
     def n(self) -> sympy.Symbol:
@@ -236,21 +240,55 @@ class Total:
     def _name(self) -> str:
         return f"total of {self.symbol}"
 
-    def plot(self, steps: int = 10, **letters: object) -> Plot:
-        """The totals at steps 0 to `steps` as points on the curve of the formula.
+    def plot(self, steps: int = 10, over: str | None = None, between: Sequence[object] = (), **letters: object) -> Plot:
+        """The totals at steps 0 to `steps` as points; or, over a letter, the total at step `steps` as a curve.
 
-        Letters take the values that are given, or else those of the model.
+        Other letters take the values that are given, or else those of the model. The curve goes over the values between two
+        numbers, by default those of the letter's slider, or else from 0 to twice the value of the model.
 
         >>> from lsys_kit import read
         >>> total(read("q = 1/2\\naxiom: A(1)\\nA(x) -> F(x) A(q*x)"), "F", q="q").plot(8, q=0.8)
         1 curve of total of F, step n from 0 to 8, largest 4.16114
+        >>> total(read("q = 1/2\\naxiom: A(1)\\nA(x) -> F(x) A(q*x)"), "F", q="q").plot(8, over="q")
+        1 curve of total of F at step 8, q from 0 to 1, largest 8
         """
         last = whole_number(steps, "The step")
         with Task("The plot was not made"):
+            if over is not None:
+                return self._plot_over(str(self._letter(over)), last, between, letters)
             found = total(self.system, self.symbol, self.parameter, axis=self.axis, **self._numbers(letters))
             points = tuple((float(n), float(value)) for n, value in enumerate(found.values(last)))
             curve = Curve(points, colour_of(self.symbol, self.system), "")
             return Plot(CurveChart((curve,), Axis(column_label("step"), True), Axis(self._name)))
+
+    def _plot_over(self, letter: str, step: int, between: Sequence[Any], letters: dict[str, Any]) -> Plot:
+        """The total at a step for many values of a letter."""
+        import sympy
+
+        ends: list[Any] = [number_from(end, letter) for end in between] if between else [*self._range(letter)]
+        if len(ends) != 2 or any(map(is_symbolic, ends)) or not ends[0] < ends[1]:
+            raise ModelValueError(f"The values of {letter} must lie between two numbers, the smaller one first")
+        values = constants_of(self.system, self._numbers(letters))
+        given = {each.name: self._expression(value) for each, value in zip(self.system.constants, values, strict=True)}
+        unknown, found = self._letter(letter), []
+        with supervised():
+            formula = self._expression(self.at(step))
+            formula = formula.subs({each: given[str(each)] for each in formula.free_symbols - {unknown}})
+            above, below = (sympy.Poly(part, unknown) for part in sympy.fraction(sympy.together(formula)))
+            for k in range(POINTS + 1):
+                place = Fraction(ends[0] + (ends[1] - ends[0]) * Fraction(k, POINTS))
+                divisor = below.eval(self._expression(place))
+                if divisor != 0:
+                    found.append((float(place), above.eval(self._expression(place)) / divisor))
+        points = tuple(zip([x for x, _ in found], finite([y for _, y in found], f"The {self._name}"), strict=True))
+        colour = colour_of(self.symbol, self.system)
+        return Plot(CurveChart((Curve(points, colour),), Axis(name_label(letter)), Axis(f"{self._name} at step {step}")))
+
+    def _range(self, letter: str) -> tuple[Value, Value]:
+        """The range of a constant's slider; where it has none, from 0 to twice its value."""
+        values = constants_of(self.system, {})
+        value = values[[each.name for each in self.system.constants].index(letter)]
+        return slider_range(self.system, letter) or ((0, 2 * max(value, -value)) if value else (0, 1))
 
     def _numbers(self, letters: dict[str, Any]) -> dict[str, Any]:
         """The constants of the system, with numbers for the letters."""
@@ -275,6 +313,18 @@ class Total:
             why = f"; {self.reason}" if self.reason else ""
             return f"{steps}, ...{why}"
         return f"{number_text(self.formula)}; {steps}, ..."
+
+
+def slider_range(system: LSystem, name: str) -> tuple[Value, Value] | None:
+    """The numbers between which the slider of a constant moves it; None where it has no slider.
+
+    >>> from lsys_kit import read
+    >>> slider_range(read("q = 1/2 in 0 .. 2\\naxiom: A"), "q")
+    (0, 2)
+    """
+    constant = next(each for each in system.constants if each.name == name)
+    ends = [end.value for end in constant.range or () if isinstance(end, Number)]
+    return (ends[0], ends[1]) if len(ends) == 3 else None
 
 
 def _cell(value: Any) -> Any:

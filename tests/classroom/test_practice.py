@@ -18,7 +18,8 @@ from lsys_kit.classroom.exercises.practice.practice import _made
 from lsys_kit.classroom.exercises.practice.schedule import INTERVALS, LEVELS, Practised, due, practised
 from lsys_kit.classroom.exercises.progress import FILE, Try, record_so_far
 from lsys_kit.geometry.drawing import scene_of
-from lsys_kit.notation.read import read
+from lsys_kit.notation.model.expressions import function_of
+from lsys_kit.notation.read import read, read_expression
 from lsys_kit.worlds.derive import derive
 from tests.classroom.answers import as_typed
 
@@ -351,3 +352,14 @@ def test_notes_are_in_the_chosen_language():
         assert asked.note == "Zwei auf Anhieb richtig: Das ist Stufe 2."
     finally:
         language("en")
+
+
+@pytest.mark.parametrize("level", range(1, LEVELS + 1))
+def test_the_formula_of_a_total_is_that_of_the_words(level):
+    for seed in range(10):
+        exercise = practice("formulas", level, seed).exercise
+        words = derive(read(exercise.system), 5)
+        solution = function_of(read_expression(exercise.solution), {"n": 0, "q": 1})
+        for step in range(6):
+            pieces = sum(module.arguments[0] for module in words[step] if module.symbol == "F")
+            assert solution((step, Fraction(1, 5))) == pieces

@@ -63,6 +63,16 @@ def test_a_total_is_what_the_word_adds_up_to(text: str, q: Fraction, symbol: str
         assert check(model, symbol, place, axis, {}, 5)
 
 
+@given(affine_systems(), st.fractions(-2, 2, max_denominator=5), st.sampled_from("AF"), st.integers(0, 2))
+def test_a_limit_is_what_late_steps_come_to(text: str, q: Fraction, symbol: str, place: int) -> None:
+    with limits(seconds=600):
+        found = total(read(text), symbol, place, q=q)
+        late = [float(found.at(step)) for step in (200, 201, 400)]
+        if found.limit is not None:
+            slow = abs(late[1] - late[0]) > 1e-12  # a root is near the unit circle
+            assert abs(late[2] - float(found.limit)) <= (abs(late[0] - float(found.limit)) if slow else 1e-9)
+
+
 CATALOGUE = [*systems(), *book_systems()]
 
 
@@ -160,6 +170,28 @@ def test_it_is_shown_as_mathematics_a_table_and_a_plot() -> None:
     assert "largest 1.98438" in repr(found.plot(7))
     assert "largest 5.21703" in repr(found.plot(7, q=0.9))
     assert repr(plot(read(SHOOT), 3))
+
+
+def test_a_curve_over_a_letter_has_the_totals_of_its_values() -> None:
+    model = read("q = 0.8 in 0 .. 1.2 by 0.1\nr = 2\naxiom: A(1)\nA(x) -> F(r*x) A(q*x)")
+    found = total(model, "F", q="q", r="r")
+    for plot_of, wanted in [
+        (found.plot(10, over="q"), lambda q: 2 * sum(q**k for k in range(10))),
+        (found.plot(3, over="q", between=("1/2", 1), r=3), lambda q: 3 * (1 + q + q * q)),
+        (found.plot(2, over="r", q=1), lambda r: 2 * r),
+    ]:
+        (curve,) = plot_of.chart.curves
+        assert all(y == pytest.approx(float(wanted(x))) for x, y in curve.points)
+    assert "q from 0 to 1.2" in repr(found.plot(10, over="q"))
+    assert "r from 0 to 4" in repr(found.plot(10, over="r"))
+    for call, said in [
+        (lambda: found.plot(3, over="p"), 'no letter "p"'),
+        (lambda: found.plot(3, over="q", between=(1, 0)), "the smaller one first"),
+        (lambda: found.plot(3, over="q", between=(1,)), "two numbers"),
+        (lambda: total(model, "F").plot(3, over="q"), 'no letter "q"'),
+    ]:
+        with pytest.raises(LSystemError, match=said):
+            call()
 
 
 def test_a_formula_that_explodes_ends_within_the_limit() -> None:

@@ -34,7 +34,8 @@ def built() -> dict[str, NotebookNode]:
     return {
         "commands.ipynb": _notebook(_command_cells()),
         "notation.ipynb": _notebook(_notation_cells()),
-        "practice.ipynb": _notebook(_practice_cells()),
+        "practice.ipynb": _notebook(_cells_of("practice")),
+        "formulas.ipynb": _notebook(_cells_of("formulas")),
     }
 
 
@@ -121,8 +122,8 @@ def _notation_cells() -> Iterator[NotebookNode]:
             yield new_code_cell(shown.strip())
 
 
-def _practice_cells() -> Iterator[NotebookNode]:
-    texts = EXAMPLES["practice"]
+def _cells_of(name: str) -> Iterator[NotebookNode]:
+    texts = EXAMPLES[name]
     yield new_markdown_cell(texts["introduction"].strip())
     yield new_code_cell(IMPORT)
     for part in texts["parts"]:

@@ -53,6 +53,8 @@ class Path:
         Polygons, circles and discs, and labels; their places are numbers of steps, at whose ends they are.
     unknown
         As of `Scene`.
+    end
+        The number of the step at whose end the turtle stops.
     """
 
     turns: Floats
@@ -68,6 +70,7 @@ class Path:
     rounds: tuple[RoundShape, ...] = ()
     written: tuple[Writing, ...] = ()
     unknown: tuple[str, ...] = ()
+    end: int = -1
 
     def __len__(self) -> int:
         return len(self.turns)
@@ -165,6 +168,7 @@ def trace(word: Word) -> Path:
         rounds=tuple(turtle.rounds),
         written=tuple(turtle.labels),
         unknown=tuple(turtle.unknown),
+        end=turtle.position,
     )
 
 

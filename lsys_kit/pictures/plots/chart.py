@@ -478,3 +478,55 @@ def ceil_ratio(needed: float, room: float) -> int:
     (2, 1)
     """
     return max(1, -int(-needed // room))
+
+
+class Level(NamedTuple):
+    """A curve on which a quantity of two variables has one value: the value, the points of the curve from left to right, points
+    that are marked, and whether it is the one that matters most."""
+
+    value: float
+    points: tuple[Point, ...]
+    marked: tuple[Point, ...] = ()
+    loud: bool = False
+
+
+@dataclass(frozen=True)
+class LevelChart(Chart):
+    """Curves of equal growth over two variables, each with its growth beside it; the box is the range of both."""
+
+    levels: tuple[Level, ...]
+    across: Axis
+    up: Axis
+    box: tuple[tuple[float, float], tuple[float, float]]
+
+    @cached_property
+    def text(self) -> str:
+        (left, right), (low, high) = self.box
+        values = [level.value for level in self.levels]
+        loud = next((f", marked: {level.value:.4g}" for level in self.levels if level.loud), "")
+        ranges = (
+            f"{plain(axis.label)} from {tick_text(first)} to {tick_text(last)}"
+            for axis, first, last in ((self.across, left, right), (self.up, low, high))
+        )
+        return f"{len(values)} curves of equal growth, {min(values):.4g} to {max(values):.4g}{loud}; {', '.join(ranges)}"
+
+    @property
+    def margins(self) -> tuple[float, float, float, float]:
+        return LEFT, 60, ABOVE, BELOW
+
+    def paint(self, ax: Axes) -> None:
+        """Draw the curves, and the growth of each where it is nearest to the diagonal."""
+        set_paper(ax, self.across, self.up)
+        (left, right), (low, high) = self.box
+        for level in self.levels:
+            colour = VERMILION if level.loud else BLUE
+            if level.points:
+                xs, ys = zip(*level.points, strict=True)
+                ax.plot(xs, ys, color=colour, linewidth=2.4 if level.loud else 1.4, clip_on=False)
+                at = min(level.points, key=lambda p: abs((p[0] - left) / (right - left) - (p[1] - low) / (high - low)))
+                _write(ax, f"{level.value:.4g}", at, (7, 3), "left", "bottom", shaded(colour, 0.7))
+            for point in level.marked:
+                ax.plot(*point, marker="o", color=colour, markersize=7, clip_on=False)
+        _write(ax, "growth on each curve", (1, 1), (0, 14), "right", "bottom", xycoords="axes fraction")
+        ax.set_xlim(left, right)
+        ax.set_ylim(low, high)

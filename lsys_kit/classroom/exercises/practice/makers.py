@@ -93,6 +93,49 @@ def _context(chance: Random, level: int, draft: Draft) -> Exercise | None:
     return _word(draft, "\n".join([f"axiom: {axiom}", *lines]), 2 + (level > 1), 24)
 
 
+# Totals as formulas
+
+
+FACTORS = (*map(Fraction, (2, 3, 4, 5)), Fraction(1, 2), Fraction(1, 3), Fraction(2, 3), Fraction(3, 2))
+"""By how much pieces are longer than those before."""
+
+
+def _formulas(chance: Random, level: int, draft: Draft) -> Exercise | None:
+    first, buds = chance.randint(1, 6) * chance.randint(1, 4), 1 if level == 1 else chance.randint(2, 3)
+    factor, letter = (Fraction(chance.randint(1, 3)), "q") if level == 3 else (chance.choice(FACTORS), "")
+    if factor * buds == 1:
+        return None
+    bud = f"A({_multiple(factor, letter)}*x)"
+    branches = "".join(f" [{turn}{bud}]" for turn in "+-"[: buds - 1])
+    system = f"{'q = 1/5' if letter else ''}\naxiom: A({first})\nA(x) -> F(x){branches} {bud}".strip()
+    names: dict[str, Sequence[Fraction | int]] = {"q": (2, 3, Fraction(1, 5))} if letter else {}
+    ratio = _multiple(factor * buds, letter)
+
+    def summed(power: str, by: str = ratio) -> str:
+        return f"{first}*({by}^{power} - 1)/({by} - 1)"
+
+    alone = summed("n", _multiple(factor, letter)) if level > 1 and (letter or factor != 1) else f"{first}*n"
+    wrong = f"{first}*{ratio}^(n - 1)", summed("(n + 1)"), summed("(n - 1)"), f"{first}/(1 - {ratio})", alone
+    slips = tuple(Slip(each, gettext(says)) for each, says in zip(wrong, draft.said["replies"], strict=True))
+    return draft.exercise(
+        summed("n"),
+        {"values": {**names, "n": (2, 3, 4, 5)}, "slips": slips, "system": system},
+        letters=draft.text("letters"),
+        first=first,
+        second=f"{first}*{ratio}",
+        third=f"{first}*{ratio}^2",
+        ratio=ratio,
+        whole=summed("n"),
+    )
+
+
+def _multiple(factor: Fraction, letter: str) -> str:
+    """A number, or a multiple of a letter, as a factor of a formula."""
+    if not letter:
+        return f"{factor}" if factor.denominator == 1 else f"({factor})"
+    return letter if factor == 1 else f"({factor}*{letter})"
+
+
 # A misprint
 
 
@@ -680,6 +723,7 @@ MAKERS: dict[str, Maker] = {
     "length": _length,
     "first": _first_past,
     "stages": _stages,
+    "formulas": _formulas,
     "life spans": _life_spans,
     "chance": _chance,
     "turtle": _turtle,
