@@ -139,6 +139,8 @@ def _written(values: Mapping[str, object]) -> dict[str, object]:
 FORMS = LOCALE / "errors.json"
 """What errors say, with names in braces for the values: `python -m tests.messages` finds it in the places where they are raised."""
 _PLACEHOLDER = re.compile(r"\{(\w+)\}")
+_QUOTED = re.compile(r"\"\{(\w+)\}")
+"""What was typed, and stands between quotation marks."""
 
 
 @cache
@@ -188,7 +190,13 @@ def _retold(said: str) -> str:
         return said
     for longest, form in _forms():
         if longest in said and (found := _pattern(form).fullmatch(said)) and (values := found.groupdict()):
-            return gettext(form, **{name: _retold(value) for name, value in values.items()})
+            typed = _QUOTED.findall(form)
+            return gettext(form, **{name: value if name in typed else _retold(value) for name, value in values.items()})
+    for end in (":", "."):
+        head, there, rest = said.partition(f"{end} ")
+        mark = end * (end == ".")
+        if there and (told := _retold(head + mark)) != head + mark:
+            return f"{told.removesuffix(mark)}{there}{_retold(rest)}"
     return said
 
 

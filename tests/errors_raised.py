@@ -1,7 +1,7 @@
 """What errors say, found in the places where they are raised.
 
 The first argument and the hint of each call of a class of errors are texts with values in them: constants, f-strings, what is
-chosen by a condition, what a name of the function or the module stands for. A function that hands a parameter of its own on to
+chosen by a condition, what a name of the function or the module stands for, what another function returns. A function that hands a parameter of its own on to
 an error is called with such a text, too. Each text becomes a form, with the names of its values in braces.
 """
 
@@ -15,10 +15,14 @@ from itertools import product
 from pathlib import Path
 
 FIRST_ERROR = "LSystemError"
+LEAST_LETTERS = 5
+"""So many letters of its own has a form with values: one with fewer would be found in other texts."""
 MOST_FORMS = 64
 """So many forms one text may have, by its conditions; of more the parts are taken alone."""
 _CALLED = {"shown", "quotable", "named", "str", "len", "repr", "sorted", "min", "max", "next", "iter", "number_text", "_capital"}
 """Functions whose value has the name of what they are given."""
+_TRANSLATING = {"gettext", "ngettext", "reply"}
+"""Functions whose texts are translated already."""
 _STRIPPED = {"strip", "rstrip", "lstrip", "removesuffix", "removeprefix"}
 
 
@@ -89,7 +93,7 @@ def has_words(form: Form) -> bool:
     """Whether a form has words of its own, and not the values alone; a single small word is a name, which is not translated."""
     if len(form) == 1 and isinstance(form[0], str):
         return bool(re.match(r"[A-Z][a-z]+$|.*\s", form[0]))
-    return any(isinstance(part, str) and re.search(r"[^\W\d_]{2}", part) for part in form)
+    return sum(len(re.findall(r"[^\W\d_]", part)) for part in form if isinstance(part, str)) >= LEAST_LETTERS
 
 
 def form_text(form: Form) -> str:
@@ -160,7 +164,7 @@ class _Said:
             yield from call.args[4:5] if name != "ModelLimitError" else ()
         elif name in ("with_hint", "Task"):
             yield from call.args[:1]
-        for function in self._called(name, call):
+        for function in self.called(name, call):
             places = function.parameters[function.is_method :]
             for parameter, given in [
                 *zip(places, call.args, strict=False),
@@ -169,8 +173,10 @@ class _Said:
                 if parameter in function.reaching:
                     yield given
 
-    def _called(self, name: str, call: ast.Call) -> list[_Function]:
+    def called(self, name: str, call: ast.Call) -> list[_Function]:
         """The functions that a name may stand for: those of the module, or those that have it alone."""
+        if name in _TRANSLATING:
+            return []
         several = self.functions.get(name, []) if isinstance(call.func, ast.Name) else []
         several = several or [each for each in self.functions.get(name, []) if each.is_method and each.module is self.module]
         return [each for each in several if each.module is self.module] or several
@@ -195,8 +201,7 @@ class _Reading:
 
     def forms(self, expression: ast.expr) -> Iterator[Form]:
         found = [*dict.fromkeys(self._forms(expression))]
-        yield from map(_joined, found)
-        yield from self.more
+        yield from map(_joined, [*found, *self.more])
 
     def _forms(self, expression: ast.expr) -> list[Form]:
         match expression:
@@ -220,6 +225,9 @@ class _Reading:
                 return self._of_name(name)
             case ast.Call(func=ast.Name(id=name), args=[]) if any(name in _names_of(owner) for owner in self.owners):
                 self.said.reach(self.owners, name)
+            case ast.Call(func=ast.Name(id=name)) if name not in self.seen:
+                for function in self.said.called(name, expression):
+                    self._follow(function)
             case ast.Name(id=name):
                 return self._of_name(name)
             case ast.Subscript(value=ast.Name(id=name)):
@@ -227,6 +235,14 @@ class _Reading:
                 if isinstance(table, ast.Dict):
                     self.more += [form for each in table.values for form in self._forms(each) if has_words(form)]
         return [(Value(_name(expression)),)]
+
+    def _follow(self, function: _Function) -> None:
+        """Take the texts that a function returns for further forms."""
+        there = _Said(function.module, self.said.errors, self.said.functions)
+        inner = _Reading(there, [function.node], self.seen | {function.node.name}, self.more)
+        for node in ast.walk(function.node):
+            if isinstance(node, ast.Return) and node.value is not None:
+                self.more += [form for form in map(_joined, inner._forms(node.value)) if has_words(form)]
 
     def _of_name(self, name: str) -> list[Form]:
         if name in self.seen:
