@@ -23,13 +23,15 @@ PLACE = "line {line}, column {column}"
 """Where a mistake is, in a text."""
 _translated: list[Callable[..., str]] = [str.format]
 """What writes that in the language that is chosen; languages are below this room, and say so themselves."""
+_retold: list[Callable[[str], str]] = [str]
+"""What says a whole message, or a hint, in that language."""
 _LONGEST = 20_000
 """The most characters of a message."""
 
 
-def speak_by(translated: Callable[..., str]) -> None:
-    """Write places by a function that translates texts."""
-    _translated[:] = [translated]
+def speak_by(translated: Callable[..., str], retold: Callable[[str], str]) -> None:
+    """Write places by a function that translates texts, messages by one that finds out first what text they are of."""
+    _translated[:], _retold[:] = [translated], [retold]
 
 
 class LSystemError(Exception):
@@ -64,8 +66,8 @@ class LSystemError(Exception):
     def __init__(
         self, message: str, source: str | None = None, start: int | None = None, end: int | None = None, hint: str | None = None
     ) -> None:
-        self.message = _printable_text(message)
-        self.hint = None if hint is None else _printable_text(hint)
+        self.message = _printable_text(_retold[0](message))
+        self.hint = None if hint is None else _printable_text(_retold[0](hint))
         self._locate(source, start, end)
         super().__init__(self._text())
 
@@ -93,7 +95,7 @@ class LSystemError(Exception):
 
     def with_hint(self, hint: str) -> Self:
         """The same error with another hint."""
-        self.hint = _printable_text(hint)
+        self.hint = _printable_text(_retold[0](hint))
         self.args = (self._text(),)
         return self
 

@@ -8,6 +8,7 @@ what is displayed is the same on every machine.
 
 from __future__ import annotations
 
+import json
 import os
 import re
 from collections.abc import Mapping
@@ -28,8 +29,8 @@ def language(name: str | None = None) -> str:
     """The language in which exercises are asked and answers are replied to; with a name, choose it.
 
     The names of the views and controls of panels that are made from then on, and the pages for learning platforms, are in it,
-    too, and mistakes in systems in the kit's own notation and in maps and cellworks. What else the kit says of a model stays in
-    English: the line with its size in a panel, and mistakes in listings of other programs.
+    too, and what is said of mistakes in systems and in commands. What is printed of a system that is right stays in English: the
+    line with its size in a panel, explanations, the systems that `infer` finds.
 
     Parameters
     ----------
@@ -60,7 +61,12 @@ def language(name: str | None = None) -> str:
     if name is not None:
         _chosen[:] = [_known(name)]
     if not _chosen:
-        _chosen[:] = [_known(os.environ.get(VARIABLE) or ENGLISH)]
+        _chosen[:] = [ENGLISH]  # in which it is said that the variable names no language
+        try:
+            _chosen[:] = [_known(os.environ.get(VARIABLE) or ENGLISH)]
+        except ModelNameError:
+            _chosen.clear()
+            raise
     return _chosen[0]
 
 
@@ -127,4 +133,71 @@ def _written(values: Mapping[str, object]) -> dict[str, object]:
     return {name: number_text(value) if isinstance(value, str) else value for name, value in values.items()}
 
 
-speak_by(gettext)
+# What errors say
+
+
+FORMS = LOCALE / "errors.json"
+"""What errors say, with names in braces for the values: `python -m tests.messages` finds it in the places where they are raised."""
+_PLACEHOLDER = re.compile(r"\{(\w+)\}")
+_QUOTED = re.compile(r"\"\{(\w+)\}")
+"""What was typed, and stands between quotation marks."""
+
+
+@cache
+def _forms() -> tuple[tuple[str, str], ...]:
+    """Each form with the longest of its texts; those with the most text of their own first, which say most of a message."""
+    found = [(form, _PLACEHOLDER.split(form)[::2]) for form in json.loads(FORMS.read_text("utf-8"))]
+    found.sort(key=lambda each: -sum(map(len, each[1])))
+    return tuple((_unescaped(max(texts, key=len)), form) for form, texts in found)
+
+
+@cache
+def _fixed() -> Mapping[str, str]:
+    """The forms without values, by what they say."""
+    return {_unescaped(form): form for _, form in _forms() if not _PLACEHOLDER.search(form)}
+
+
+def _unescaped(text: str) -> str:
+    return text.replace("{{", "{").replace("}}", "}")
+
+
+@cache
+def _pattern(form: str) -> re.Pattern[str]:
+    parts = _PLACEHOLDER.split(form)
+    texts, names = [re.escape(_unescaped(text)) for text in parts[::2]], [f"(?P<{name}>.*?)" for name in parts[1::2]]
+    return re.compile("".join(part for both in zip(texts, [*names, ""], strict=True) for part in both), re.DOTALL)
+
+
+MOST_RETOLD = 2_000
+"""The most characters of a message of which it is found out which one it is."""
+
+
+def retold(said: str) -> str:
+    """What an error says, in the chosen language: it is found out of which form it is, and that is translated.
+
+    So a place that raises an error writes its text, and need not know of languages.
+
+    >>> retold("There is no arithmetic called \"real\"")
+    'There is no arithmetic called "real"'
+    """
+    return said if language() == ENGLISH or len(said) > MOST_RETOLD else _retold(said)
+
+
+def _retold(said: str) -> str:
+    if form := _fixed().get(said):
+        return _unescaped(gettext(form))
+    if " " not in said:
+        return said
+    for longest, form in _forms():
+        if longest in said and (found := _pattern(form).fullmatch(said)) and (values := found.groupdict()):
+            typed = _QUOTED.findall(form)
+            return gettext(form, **{name: value if name in typed else _retold(value) for name, value in values.items()})
+    for end in (":", "."):
+        head, there, rest = said.partition(f"{end} ")
+        mark = end * (end == ".")
+        if there and (told := _retold(head + mark)) != head + mark:
+            return f"{told.removesuffix(mark)}{there}{_retold(rest)}"
+    return said
+
+
+speak_by(gettext, retold)

@@ -5,14 +5,15 @@
 
 A translator fills in the `msgstr` of a .po file, with an editor of one's choice, and runs it again. What is translated: the
 constant texts that stand in calls of `gettext` and `ngettext`, and of `worded` in scripts, those of the tables of
-misconceptions, kinds of answers and topics, what readers say of mistakes in the kit's own notations, and what a student reads
-in the files of exercises. A test finds what is missing.
+misconceptions, kinds of answers and topics, what readers say of mistakes, what errors say where they are raised, and what a
+student reads in the files of exercises. A test finds what is missing.
 """
 
 from __future__ import annotations
 
 import ast
 import io
+import json
 import re
 import string
 import sys
@@ -37,7 +38,8 @@ from lsys_kit.classroom.exercises.verdict import SIGNS_AND_COLOURS
 from lsys_kit.classroom.scorm.page import ASKED, DIFFERENT
 from lsys_kit.errors import PLACE
 from lsys_kit.notation.syntax.failure import TOKEN_NAMES
-from lsys_kit.translation import LOCALE, NUMBER
+from lsys_kit.translation import FORMS, LOCALE, NUMBER
+from tests.errors_raised import forms_of_errors
 
 PACKAGE = LOCALE.parent
 TEMPLATE = LOCALE / "lsys_kit.pot"
@@ -99,6 +101,8 @@ def messages() -> Iterator[tuple[str | tuple[str, str], str]]:
             yield message, path.relative_to(PACKAGE.parent).as_posix()
     for name, text in _in_tables():
         yield text, f"{name} (table)"
+    for form, path in forms_of_errors(PACKAGE):
+        yield form, path.relative_to(PACKAGE.parent).as_posix()
     for lesson in questions_in(QUESTIONS).lessons:
         for text in texts(lesson):
             if text:
@@ -138,14 +142,10 @@ def _one_text(text: str | list[str]) -> str | tuple[str, str]:
     return text if isinstance(text, str) else (text[0], text[1])
 
 
-READERS = ("syntax", "dialects/abop", "dialects/plant_string", "dialects/map", "dialects/cellwork")
-"""The folders of `notation` whose mistakes a student meets: those of the kit's own notations."""
-
-
 def _of_readers() -> Iterator[str]:
     """What readers say of mistakes, and the words of which that is made."""
-    for folder in READERS:
-        tables = tomllib.loads((PACKAGE / "notation" / folder / "mistakes.toml").read_text("utf-8"))
+    for path in sorted((PACKAGE / "notation").rglob("mistakes.toml")):
+        tables = tomllib.loads(path.read_text("utf-8"))
         yield from _said_in({name: tables.get(name, {}) for name in ("problems", "mistakes")})
         yield from tables.get("words", {}).values()
 
@@ -170,6 +170,11 @@ def _texts_in(said: object) -> Iterator[str]:
     elif isinstance(said, dict):
         for key, value in said.items():
             yield from () if key in ("kind", "asks", "expects", "unlikely") else _texts_in(value)
+
+
+def forms_text() -> str:
+    """The forms of what errors say, as their file has them."""
+    return json.dumps(sorted({form for form, _ in forms_of_errors(PACKAGE)}), ensure_ascii=False, indent=0) + "\n"
 
 
 def template() -> Catalog:
@@ -253,6 +258,7 @@ def _write(path: Path, content: bytes) -> None:
 
 
 if __name__ == "__main__":
+    FORMS.write_text(forms_text(), encoding="utf-8")
     _write(TEMPLATE, po_text(template()))
     for code in sys.argv[1:] or codes():
         catalogue = renewed(code)

@@ -65,6 +65,8 @@ class Exercise:
         What the cell shows before anything is typed.
     system, constants, steps, at, asks
         The system that the question is about, values for its constants, the step, the steps of a table, and what is asked.
+    also
+        Further right answers, as a student would type them.
     symbols
         The letters of a word without a system; the order of counts in a table; the places of a net that the question names.
     text
@@ -90,6 +92,7 @@ class Exercise:
     solution: str
     explanation: str
     hints: tuple[str, ...]
+    also: tuple[str, ...] = ()
     objective: int = 0
     slips: tuple[Slip, ...] = ()
     expects: tuple[str, ...] = ()

@@ -169,7 +169,7 @@ def judged(exercise: Exercise, answer: object) -> tuple[Verdict, bool]:
     """
     kind, solution = ANSWER_KINDS[exercise.kind], solution_of(exercise)
     own = kind.read(exercise, answer)
-    if kind.same(exercise, own, solution):
+    if kind.same(exercise, own, solution) or any(kind.same(exercise, own, kind.read(exercise, each)) for each in exercise.also):
         return Verdict("Correct", kind.praise(exercise, own, solution)), True
     fitting = [wrong for wrong in wrong_answers(exercise) if _alike(exercise, own, wrong.answer)]
     found = kind.difference(exercise, own, solution)

@@ -86,6 +86,7 @@ def _unread(exercise: Exercise) -> Iterator[tuple[str, LSystemError]]:
     readers: dict[str, Callable[[], object]] = {
         "system": lambda: exercise.system and asked_system(exercise),
         "given": lambda: exercise.given and (read_map if exercise.kind == "map" else read)(exercise.given),
+        "also": lambda: [ANSWER_KINDS[exercise.kind].read(exercise, each) for each in exercise.also],
         "solution": lambda: judged(exercise, exercise.solution),
         "steps": lambda: what_is_asked(exercise) and answer_by(exercise, right_history(exercise)),
     }

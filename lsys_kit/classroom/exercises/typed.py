@@ -196,6 +196,7 @@ _PARTS: Mapping[str, int] = _NUMBERS["parts"]
 _ANY = "|".join([*_VALUES, *_FACTORS])
 _RUN = re.compile(rf"\b(?:{_ANY})(?:(?:[\s-]+(?:and\s+)?)(?:{_ANY}))*\b", re.IGNORECASE)
 _PART = re.compile(rf"\b(\d+|a|ein)\s+({'|'.join(_PARTS)})s?\b", re.IGNORECASE)
+_DOZEN = re.compile(rf"\b(\d+|an?|ein)\s+(?:{'|'.join(_NUMBERS['dozens'])})s?\b", re.IGNORECASE)
 _ORDINAL = re.compile(rf"\b(?:({'|'.join(_ORDINALS)})|(\d+)(?:st|nd|rd|th))\b", re.IGNORECASE)
 _GERMAN = _NUMBERS["german"]
 _UNITS = {word: number for number, words in enumerate(_GERMAN["small"]) for word in words.split()}
@@ -231,8 +232,8 @@ def with_digits(text: str) -> str:
 
     >>> with_digits("twenty-one cells"), with_digits("seven hundred and nine"), with_digits("three quarters")
     ('21 cells', '709', '3/4')
-    >>> with_digits("2, 3 and 5"), with_digits("the third line"), with_digits("19th step")
-    ('2, 3 and 5', 'the 3 line', '19 step')
+    >>> with_digits("2, 3 and 5"), with_digits("the third line"), with_digits("19th step"), with_digits("a dozen leaves")
+    ('2, 3 and 5', 'the 3 line', '19 step', '12 leaves')
     >>> with_digits("einundzwanzig Zellen"), with_digits("drei Viertel"), with_digits("im vierten Schritt")
     ('21 Zellen', '3/4', 'im 4 Schritt')
     """
@@ -241,6 +242,7 @@ def with_digits(text: str) -> str:
     text = _PART.sub(
         lambda found: f"{found[1] if found[1].isdigit() else 1}/{_PARTS[found[2].lower()]}", _RUN.sub(_digits, text)
     )
+    text = _DOZEN.sub(lambda found: str(12 * (int(found[1]) if found[1].isdigit() else 1)), text)
     return _ORDINAL.sub(lambda found: found[2] or str(_ORDINALS[found[1].lower()]), text)
 
 

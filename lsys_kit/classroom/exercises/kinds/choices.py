@@ -38,7 +38,7 @@ def listing(exercise: Exercise) -> str:
 
 _LETTER = re.compile(
     r"^(?:(?:i\s+(?:think|guess|say|choose|believe)|ich\s+(?:denke|glaube|meine|nehme|wähle))\s++(?:that\s++)?)?"
-    r"(?:it\s+is\s++|the\s++)?(?:(?:right|correct|my)\s++)?(?:option|answer|choice|solution|letter)?\s*+(?:is\b)?"
+    r"(?:(?:it|that|es|das)(?:\s+is|['’]s|\s+ist)\s++)?(?:the\s++|die\s++)?(?:(?:right|correct|my)\s++)?(?:option|answer|choice|solution|letter)?\s*+(?:is\b)?"
     r"\W*+([a-z])\W*$",
     re.IGNORECASE,
 )
@@ -47,6 +47,8 @@ _LETTER_AND_REASON = re.compile(
     r"^\W*([A-Za-z])\s*(?:,|;|-|–|\bbecause\b|\bsince\b|\bas\b|\bweil\b|\bda\b)\s*[^\W\d_]{2,}.*$", re.DOTALL | re.IGNORECASE
 )
 """A letter, and why."""
+_CONTRARY = re.compile(r"^\W*[A-Za-z]\W+(?:but|except|however|only|aber|außer|nur|sondern)\b", re.IGNORECASE)
+"""A letter, and in what it is not so."""
 _LETTER_AND_WORDS = re.compile(r"^\W*([A-Za-z])\s*(?:[:)\]]|\.(?=\s))\s*(\S.*)$", re.DOTALL)
 _WORDS_AND_LETTER = re.compile(r"(?=.*?[^\W\d_]{2})([^:]*+(?::[^:]*+)*?):\s*+([A-Z])\W*+\Z", re.DOTALL)
 """A letter with words of one's own behind it, or in front of it."""
@@ -80,7 +82,7 @@ def _read_choice(exercise: Exercise, answer: object) -> str:
     if both and both[1].upper() in known and not meant:
         meant = [letter for letter in _with_part(texts, _plain(both[2])) if letter == both[1].upper()]
     reason = _LETTER_AND_REASON.match(text)
-    if reason and reason[1].upper() in known and not meant:
+    if reason and reason[1].upper() in known and not meant and not _CONTRARY.match(text):
         meant = [reason[1].upper()]
     meant = meant or _with_real_part(texts, _plain(text)) or _named_in(texts, text) or _with_own_words(texts, text)
     if len(meant) > 1:

@@ -26,6 +26,8 @@ from lsys_kit.classroom.exercises.typed import (
     parts,
     quoted,
     typed_number,
+    unquoted,
+    with_digits,
 )
 from lsys_kit.errors import LSystemError, ModelNameError, ModelValueError, quotable
 from lsys_kit.notation.model.arithmetic import Value, number_text
@@ -53,13 +55,64 @@ def _words_of(exercise: Exercise) -> frozenset[str]:
 
 
 def _is_in_place(exercise: Exercise, word: str) -> bool:
-    """Whether a word beside a number says no more than the question does."""
+    """Whether a word beside a number says no more than the question does; a single letter, than what it asks for."""
     noun = word.lower().removesuffix("s")
+    if exercise.kind == "number" and len(word) == 1 and word.isalpha() and word not in _FILLING:
+        return word in _NAME.findall(" ".join(_ASKED_FOR.findall(exercise.question))) or word in exercise.asks.split()
     return (
         word.lower() in _FILLING | _PREPOSITIONS | _TIMES
         or noun in _words_of(exercise) - _DOUBTFUL
         or (bool(exercise.unit) and means_the_same(word, exercise.unit))
     )
+
+
+# Numbers of steps
+
+
+_OF_STEP = rf"(?:{'|'.join(WORDS['labels'].split())})"
+_AT = r"(?:at|in|im|bei|after|nach)\s+(?:the\s+)?"
+_BEHIND_NUMBER = re.compile(rf"^(?P<number>.*\d.*?)\s+{_AT}{_OF_STEP}\s+(?:no\.\s*)?(?P<step>\d+)\W*$", re.IGNORECASE | re.DOTALL)
+_BEFORE_NUMBER = re.compile(
+    rf"^\W*(?:(?:{_AT})?{_OF_STEP}\s+(?P<step>\d+)\s*(?:[:=,]|\b(?:has|it\s+is|hat|ist)\b)\s*|[A-Za-z]\w*\s*\((?P<value>\d+)\)\s*=\s*)"
+    r"(?P<number>.*\d.*)$",
+    re.IGNORECASE | re.DOTALL,
+)
+"""A number with the step that it is of, as in "64 at step 3", "step 3: 64" and "N(3) = 64"."""
+_SEPARATED = re.compile(r"[,;\n]\s*(?:and\s+|und\s+)?|\s+(?:and|und|then|dann)\s+(?=.*\d)")
+_BESIDE_A_STEP = re.compile(
+    rf"^\W*(?:(?:it\s+is\s+)?(?:at|in|im|bei)\s+)?(?:the\s+|der\s+|dem\s+)?(?:(?P<number>\d+)\s+)?(?:steps?|schritte?n?)\s+"
+    rf"(?P<way>after|before|nach|vor)\s+(?:the\s+)?(?:{_OF_STEP}\s+)?(?P<step>\d+)\W*$",
+    re.IGNORECASE,
+)
+"""A step that is told by another one, as in "the step after 19"."""
+_COUNTED = ("length", "count", "strokes")
+
+
+def _of_the_step(exercise: Exercise, answer: str) -> str:
+    """An answer without the step that it names; of numbers of several steps that of the one that is asked for."""
+    text = with_digits(unquoted(keyboard_text(answer)))
+    beside = _BESIDE_A_STEP.match(text)
+    if beside and (what_is_asked(exercise) == "first" or means_the_same(exercise.unit, "steps")):
+        by = int(beside["number"] or 1)
+        return str(int(beside["step"]) + (by if beside["way"].lower() in ("after", "nach") else -by))
+    if what_is_asked(exercise) not in _COUNTED:
+        return answer
+    found: dict[int, str] = {}
+    for part in _SEPARATED.split(text):
+        named = _BEHIND_NUMBER.match(part) or _BEFORE_NUMBER.match(part)
+        if not named:
+            return answer
+        step = named.groupdict().get("value") or named["step"]
+        found[int(step)] = named["number"]
+    if exercise.steps not in found:
+        other = max(found)
+        raise ModelValueError(
+            reply("number.other_step", answer=quoted(answer), step=other, asked=exercise.steps), hint=reply("number.only_asked")
+        )
+    return found[exercise.steps]
+
+
+# One number
 
 
 _COMPARED = re.compile(r"^(.*(?:[<>]=?|==))\s*([-+]?[\d.]+)$", re.DOTALL)
@@ -68,6 +121,8 @@ _COORDINATES = frozenset("xyz")
 """Names that nobody gives to another number of one's own."""
 _ASKED_FOR = re.compile(r"\*\*(.*?)\*\*", re.DOTALL)
 _NAME = re.compile(r"(?<![A-Za-z])[A-Za-z](?![A-Za-z])")
+_CONDITION = re.compile(r"\b(?:when|if|where|wenn|falls|wo)\s++([A-Za-z])\s*+=[^=]*+\Z")
+_PARAMETER = re.compile(r"\w\(([A-Za-z])\)")
 _CODE = re.compile(r"`[^`]*`|^ {4}.*$", re.MULTILINE)
 
 
@@ -84,13 +139,18 @@ def _refuse_other_name(exercise: Exercise, answer: str) -> None:
     named = _NAMED_LAST.search(answer)
     told = _NAME.findall(_CODE.sub("", exercise.question))
     asked = _NAME.findall(" ".join(_ASKED_FOR.findall(exercise.question)))
-    if named and named[1] in _COORDINATES & {*told} - {*asked}:
-        raise ModelNameError(reply("number.other_name", name=named[1], answer=quoted(answer)), hint=reply("number.only_asked"))
+    parameters = [name for code in _CODE.findall(exercise.question) for name in _PARAMETER.findall(code)]
+    condition = _CONDITION.search(answer)
+    other = (named and named[1] in _COORDINATES & {*told} - {*asked} and named) or (
+        condition and condition[1] in {*parameters} - {*asked} and condition
+    )
+    if other:
+        raise ModelNameError(reply("number.other_name", name=other[1], answer=quoted(answer)), hint=reply("number.only_asked"))
 
 
 def _read_number(exercise: Exercise, answer: object) -> Value:
     if isinstance(answer, str) and exercise.kind == "number":
-        answer = _alone(exercise, answer)
+        answer = _of_the_step(exercise, _alone(exercise, answer))
         _refuse_other_name(exercise, answer)
         if is_unsolved(
             keyboard_text(answer), [name for name in ascii_letters if re.search(rf"\b{name} = \d", exercise.question)]
@@ -104,6 +164,8 @@ def _read_number(exercise: Exercise, answer: object) -> Value:
     if counted := _other_thing(exercise, found):
         raise _other_unit(exercise, counted)
     odd = next((word for word in words if word != unit and not _is_in_place(exercise, word)), "")
+    if len(odd) == 1 and odd.isalpha():
+        raise ModelNameError(reply("number.other_name", name=odd, answer=quoted(answer)), hint=reply("number.only_asked"))
     if odd:
         raise _other_unit(exercise, odd)
     if not unit and found.of_pi and exercise.unit.lower() in names_of("degrees"):

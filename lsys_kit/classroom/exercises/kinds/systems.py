@@ -340,7 +340,7 @@ MOST_QUOTED = 200
 def _read(exercise: Exercise, answer: object) -> SystemAnswer:
     if isinstance(answer, LSystem):
         return whole(answer)
-    text = text_answer(answer, reply("system.what"), '"axiom: a"')
+    text = text_answer(answer, reply("system.what"), '"axiom: a"').strip()
     if not exercise.given and _is_without_axiom(text):
         raise ModelValueError(reply("system.no_axiom"))
     _refuse_part_of_production(exercise, text)
@@ -390,14 +390,23 @@ _NO_ARROW = re.compile(
     re.MULTILINE,
 )
 _ALONE = re.compile(r"^(?>[^\n]*?(?:->|→))[^\n]*+\n[ \t]*+([A-Za-z]\w*+)[ \t]*+$", re.MULTILINE)
+_NO_MODULE = re.compile(
+    r"^[ \t]*(?:[A-Za-z]\w*[ \t]*(?:[<>]=|==|!=|≤|≥|≠)[^\n:]*?|[A-Za-z]\w*[ \t]*[<>][ \t]*[\d.]+[ \t]*)(?=->|→)", re.MULTILINE
+)
+_TURNED = re.compile(r":[^\n]*?(=[<>])(?!=)(?=[^\n]*(?:->|→))")
 _FACTOR = re.compile(r"(?:->|→)[ \t]*(\d+[ \t]*\*[ \t]*[A-Za-z]\w*[ \t]*\()")
-"""Slips of writing: an axiom without a colon, an arrow in pieces, a line without one, a factor before a module."""
+"""Slips of writing: an axiom without a colon, an arrow in pieces, a line without one, a condition without its module, => for >=,
+a factor before a module."""
 
 
 def _refuse_slip_of_writing(text: str, mistake: LSystemError) -> None:
     """Show a slip of writing, where a reader could not make sense of another line."""
     if not _ARROWS.search(text):
         return
+    if turned := _TURNED.search(text):
+        raise ModelSyntaxError(reply("expression.comparison"), text, *turned.span(1))
+    if condition := _NO_MODULE.search(text):
+        raise ModelSyntaxError(reply("system.no_module"), text, *condition.span(), hint=reply("system.form_with_condition"))
     for pattern, name in ((_NO_ARROW, "no_arrow"), (_ALONE, "line_alone"), (_FACTOR, "factor")):
         found = pattern.search(text)
         if found and (name == "factor" or f"(line {text.count(chr(10), 0, found.start(1)) + 1}," not in str(mistake)):

@@ -13,7 +13,7 @@ from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.classroom.exercises.typed import ARROW, keyboard_text, text_answer, unlabelled, unquoted, without_commas
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
-from lsys_kit.errors import LSystemError, ModelNameError
+from lsys_kit.errors import LSystemError, ModelNameError, ModelValueError
 from lsys_kit.notation.analysis.checks import span, suggestion
 from lsys_kit.notation.model.modules import Module, Pattern
 from lsys_kit.notation.model.system import LSystem, symbols
@@ -23,6 +23,8 @@ from lsys_kit.notation.registry import DIALECTS
 Modules = tuple[Module, ...]
 _MISTAKABLE = {"+": "-", "-": "+", "[": "(", "]": ")", "(": "[", ")": "]", "F": "f", "f": "F"}
 """Symbols that are taken for one another: where one occurs the other is an answer, if a wrong one."""
+_ONE_BRACKET = frozenset("[](){}")
+"""What is no word."""
 _TURTLE = "Ff+-[]|"
 _BRACES = re.compile(r"^\s*[{\[]([^{}\[\]]*,[^{}\[\]]*)[}\]]\s*$", re.DOTALL)
 """A word written as a list, whose brackets are no branches."""
@@ -55,6 +57,8 @@ def read_modules(system: LSystem, answer: object, drawn: bool = False) -> Module
     if isinstance(answer, list | tuple) and all(isinstance(part, str | Module) for part in answer):
         answer = " ".join(map(str, answer))
     text = _unlabelled(system, text_answer(answer, reply("word.what"), '"al br"'))
+    if text in _ONE_BRACKET:
+        raise ModelValueError(reply("word.one_character", text=text))
     bare = _BRACES.sub(lambda found: found[1], text)
     bare = bare if system.notation == "plant-string" else _TUPLE.sub(r"\1", bare)
     plain = bare if system.notation == "plant-string" else without_commas(bare)

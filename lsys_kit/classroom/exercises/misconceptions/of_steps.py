@@ -9,6 +9,7 @@ from itertools import count, islice, permutations
 from typing import Any, TypeAlias
 
 from lsys_kit.classroom.exercises.asked import (
+    Derived,
     History,
     answer_by,
     asked_steps,
@@ -26,7 +27,7 @@ from lsys_kit.classroom.exercises.kinds.table import solution_of
 from lsys_kit.classroom.exercises.misconceptions.misconception import by_history, misconception
 from lsys_kit.derivation.core.states import States
 from lsys_kit.notation.model.modules import CLOSING, OPENING, Module
-from lsys_kit.notation.model.system import LSystem
+from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.worlds.derive import derive
 
 WrongStep: TypeAlias = Callable[[States, list[int]], list[int]]
@@ -328,6 +329,56 @@ def added_up(values: Sequence[int]) -> list[int]:
     [11, 10]
     """
     return [sum(values), sum(values[1:])]
+
+
+@misconception("old word kept")
+def kept_in_the_last_step(exercise: Exercise) -> Iterator[int]:
+    """The old word beside the new one in the last step alone, with what stays counted once or twice."""
+    if _is_counted(exercise):
+        before, last = right_history(exercise).values(exercise, exercise.steps)[-2:]
+        yield before + last
+        yield from (before + last - staying for staying in [_counted_in(exercise, None)] if 0 < staying < before)
+
+
+@misconception("symbols miscounted")
+def miscounted(exercise: Exercise) -> Iterator[int]:
+    """One symbol too few or too many in what a module becomes: in the last step alone, or in all."""
+    if not _is_counted(exercise):
+        return
+    system, right = asked_system(exercise), right_history(exercise).values(exercise, exercise.steps)[-1]
+    for rule in system.productions:
+        if len(rule.successor) > 1:
+            many = _counted_in(exercise, rule)
+            yield from (right + by for by in (-many, many) if many)
+            for changed in _one_more_or_fewer(system, rule):
+                found = History(changed, Derived(changed, exercise.steps)).values(exercise, exercise.steps)[-1]
+                if found != right:
+                    yield found
+
+
+def _is_counted(exercise: Exercise) -> bool:
+    """Whether something is counted that growth tells: no chance, no neighbours."""
+    counted = exercise.kind == "number" and what_is_asked(exercise) in _COUNTED and exercise.steps > 0
+    return counted and States(asked_system(exercise)).traits.d0l
+
+
+def _counted_in(exercise: Exercise, rule: Production | None) -> int:
+    """How many modules of the word before the last step a production replaces; without one, how many stay. 0 if it is long."""
+    history = right_history(exercise)
+    if history.values(exercise, exercise.steps)[-2] > MOST_MODULES:
+        return 0
+    states, rules = States(history.system), history.system.productions
+    used = (states.production(states.number(each.symbol, each.arguments)) for each in history.word(exercise.steps - 1))
+    return sum((None if number is None else rules[number]) == rule for number in used)
+
+
+def _one_more_or_fewer(system: LSystem, rule: Production) -> Iterator[LSystem]:
+    """A system with a letter of a production left out, and with it written twice, for each of its letters."""
+    made = rule.successor
+    for at in {str(part): at for at, part in enumerate(made) if str(part)[:1].isalpha()}.values():
+        for successor in ((*made[:at], *made[at + 1 :]), (*made[: at + 1], *made[at:])):
+            rules = tuple(replace(each, successor=successor) if each is rule else each for each in system.productions)
+            yield replace(system, productions=rules)
 
 
 @misconception("rows and columns")

@@ -14,7 +14,7 @@ from lsys_kit.classroom.exercises.asked import written
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.drawings import Drawn, drawn
 from lsys_kit.classroom.exercises.repairs.of_systems import repairs_of
-from lsys_kit.classroom.exercises.repairs.repair import Repair, row_change, said_of_row
+from lsys_kit.classroom.exercises.repairs.repair import Repair, class_of, row_change, said_of_row
 from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.geometry.sameness import same_strokes
 from lsys_kit.notation.model.modules import CLOSING, OPENING, Module
@@ -23,7 +23,11 @@ from lsys_kit.notation.model.system import LSystem
 Row: TypeAlias = tuple[Module, ...]
 MOST_MODULES = 60
 """In longer words only what is to be changed towards the solution is looked for."""
+MOST_AT_ONCE = 2
+"""So many modules are changed at one place where another place is changed too."""
 MIRRORED = {"+": "-", "-": "+"}
+PAIRS = ("[]", "()")
+"""Brackets that belong together."""
 ALIKE = ("+-", "Ff", "[]", "()", "[(", "])")
 """Symbols that are easily taken for one another."""
 
@@ -67,28 +71,38 @@ def _nearest(exercise: Exercise, word: Row, wanted: Drawn) -> Row:
 
 
 def _is_balanced(word: Row) -> bool:
-    """Whether each closing bracket has an opening one, and something in between: the drawing of others may be right by chance.
+    """Whether each closing bracket has its opening one, and something in between: others may be drawn right by chance.
 
     >>> _is_balanced(tuple(map(Module, "F[+F]"))), _is_balanced(tuple(map(Module, "F]")))
     (True, False)
     """
-    depth = 0
     if any(one.symbol in OPENING and other.symbol in CLOSING for one, other in pairwise(word)):
         return False
+    opened: list[str] = []
     for module in word:
-        depth += (module.symbol in OPENING) - (module.symbol in CLOSING)
-        if depth < 0:
+        if module.symbol in OPENING:
+            opened.append(module.symbol)
+        elif module.symbol in CLOSING and (not opened or f"{opened.pop()}{module.symbol}" not in PAIRS):
             return False
-    return depth == 0
+    return not opened
 
 
 def _two_said(word: Row, one: Row, both: Row) -> str:
     """What is said of two changes: a pair of brackets, the order, or one of them where that is sure."""
+    changed = [(a.symbol, b.symbol) for a, b in zip(word, both, strict=False) if a != b]
+    if len(word) == len(both) and len(changed) == 2 and all(class_of(each) == "bracket" for pair in changed for each in pair):
+        return reply("repair.changed_brackets")
     if row_change(word, both).startswith("brackets") or Counter(map(str, word)) == Counter(map(str, both)):
         return reply("repair.order") if len(word) == len(both) else said_of_row(word, both)
+    if _brackets_in(word) - _brackets_in(both) > 1:
+        return f"{reply('repair.two')} {reply('repair.brackets_extra')}"
     if "several" in row_change(word, one):
         return reply("repair.two_alone")
     return f"{reply('repair.two')} {said_of_row(word, one)}"
+
+
+def _brackets_in(word: Row) -> int:
+    return sum(class_of(module.symbol) == "bracket" for module in word)
 
 
 def _words(word: Row, right: Row) -> Iterator[Row]:
@@ -131,7 +145,9 @@ def _towards(word: Row, right: Row) -> Iterator[Row]:
 
 
 def _word_pairs(word: Row, right: Row) -> Iterator[tuple[Row, Row]]:
-    """Two changes towards the solution: the word with one of them, and with both."""
-    operations = _operations(word, right)
-    for one, other in combinations(operations, 2):
-        yield _made(word, right, [one]), _made(word, right, [one, other])
+    """Two changes towards the solution, small ones or an exchange: the word with one of them, and with both."""
+    for one, other in combinations(_operations(word, right), 2):
+        both = _made(word, right, [one, other])
+        are_small = all(max(each[2] - each[1], each[4] - each[3]) <= MOST_AT_ONCE for each in (one, other))
+        if are_small or Counter(map(str, word)) == Counter(map(str, both)):
+            yield _made(word, right, [one]), both

@@ -100,7 +100,7 @@ def of_systems(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) -> 
         split = rules_with(mine.own, lambda symbol: joined.get(symbol, symbol).split())
         name, letters = next(iter(joined.items()))
         yield Repair(partial(make, split), partial(reply, "system.joined", name=name, letters=letters))
-        return
+        mine = make(split)  # what else is wrong with it is looked for as if the letters stood apart
     others = names_in_other_case(exercise, mine)
     if others:
         own, name = next(iter(others.items()))
@@ -161,7 +161,7 @@ def repairs_of(
     ]
     for edit in (*small, *large):
         yield from _repairs(own, make, edit)
-    for changed, said in (*_reordered(own), *_exchanged(own), *_in_the_other_block(own)):
+    for changed, said in (*_reordered(own), *_exchanged(own), *_in_the_other_block(own, target)):
         if is_sensible(changed):
             yield Repair(partial(make, changed), said)
     for edit in _blind_edits(own, target):
@@ -197,7 +197,8 @@ def _two_said(one: Edit, other: Edit) -> str:
 def _setting_edits(own: LSystem, target: LSystem, settings: Sequence[str]) -> Iterator[Edit]:
     for name in settings:
         if getattr(own, name) != getattr(target, name):
-            yield Edit((name, 0), getattr(target, name), partial(reply, f"repair.{name}"))
+            said, besides = partial(reply, f"repair.{name}"), partial(reply, f"repair.{name}_too")
+            yield Edit((name, 0), getattr(target, name), said, besides=besides)
 
 
 def _axiom_edits(own: LSystem, target: LSystem) -> Iterator[Edit]:
@@ -446,10 +447,13 @@ def _exchanged(own: LSystem) -> Iterator[Changed]:
             yield replace(own, productions=tuple(swapped)), partial(reply, "repair.exchanged", **modules)
 
 
-def _in_the_other_block(own: LSystem) -> Iterator[Changed]:
-    """A production written as a decomposition rule, or the other way round."""
+def _in_the_other_block(own: LSystem, target: LSystem) -> Iterator[Changed]:
+    """A production written as a decomposition rule, or the other way round, where the solution has such a rule there."""
     for block, other in (BLOCKS, BLOCKS[::-1]):
+        there = {each.predecessor.symbol for each in getattr(target, other)}
         for at, rule in enumerate(getattr(own, block)):
+            if rule.predecessor.symbol not in there:
+                continue
             rest = getattr(own, block)[:at] + getattr(own, block)[at + 1 :]
             moved: dict[str, Any] = {block: rest, other: (*getattr(own, other), rule)}
             said = partial(_said, f"in_{other}", partial(typed_rule, rule, own))
