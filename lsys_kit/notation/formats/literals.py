@@ -17,7 +17,8 @@ from itertools import pairwise
 from lsys_kit.budget import current
 from lsys_kit.errors import ModelSyntaxError
 from lsys_kit.notation.formats.found import Found, Passage, Rule, angle_of, chance_of, tables
-from lsys_kit.notation.formats.lines import is_word, rules_in_line
+from lsys_kit.notation.formats.lines import rules_in_line
+from lsys_kit.notation.formats.parts import is_word
 
 _TOKEN = re.compile(
     r"""(?P<blank>[ \t\r]+

@@ -17,7 +17,8 @@ from lsys_kit.notation.dialects.abop.dialect import ABOP
 from lsys_kit.notation.foreign import foreign_format
 from lsys_kit.notation.formats.found import Found, completed, tables, transcript_of
 from lsys_kit.notation.formats.l_py import systems_in_l_py
-from lsys_kit.notation.formats.lines import has_unread_words, is_prose, page_text, systems_in_lines
+from lsys_kit.notation.formats.layout import page_text
+from lsys_kit.notation.formats.lines import has_unread_words, is_prose, systems_in_lines
 from lsys_kit.notation.formats.literals import systems_in_literals
 from lsys_kit.notation.formats.lparser import systems_in_lparser
 from lsys_kit.notation.formats.markup import systems_in_markup
