@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from lsys_kit.notation.formats.found import Passage, tables
+from lsys_kit.notation.formats.found import Passage, tables, unquoted
 from lsys_kit.notation.formats.parts import ARROW, fields
 from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, assembled, edited
 
@@ -21,6 +21,18 @@ _MACRO = re.compile(
     r"\\(?:begin|end)\{[^{}\n]*\}(?:\{[^{}\n]*\})?|\^?\{?\\circ\}?"
     r"|\\text\{([^{}\n]*)\}|\\([A-Za-z]+)(?![A-Za-z])|\\([#{}%&$_])|\\[;,:! ]|\\\\|(?<!\\)&|\$+|\\[\[\]()]"
 )
+_DISPLAYED = re.compile(
+    r"\{\\displaystyle[ ]*+(?P<shown>(?:[^{}\n]|\{[^{}\n]*\})*+)\}(?:\{\\displaystyle[ ]*+(?P=shown)\})*+(?:(?P=shown))?+"
+)
+"""What an encyclopaedia gives of a formula besides its picture: its LaTeX, perhaps more than once, and the same as text."""
+_SET = re.compile(
+    r"^[ \t]*set[ ]\[(?:(?P<rule>rule)[ ](?P<head>\S)|(?P<name>[^\[\]\n]{1,30}))[ ]v\][ ]to[ ][\[(](?P<value>.*)[\])][ \t]*$",
+    re.MULTILINE,
+)
+"""A block of Scratch that sets a variable."""
+_BROKEN_ARROW = re.compile(r"^[ \t]*p_?\d*[ \t]*:[ \t]*\w[ \t]+(?P<arrow>-{1,2}[+*~])[ \t]", re.MULTILINE)
+_BROKEN_DELTA = re.compile(r"(?<=,[ ])8(?=[ ]?=[ ]?\d{1,3}(?:\.\d+)?[ ]?°)")
+"""What the recognition of characters makes of an arrow, and of a δ."""
 _MARKS = re.compile(r"^[ \t]*```.*$|\*\*|`|^(?=[^\n|]*\|)[ \t|:-]++$|^#+[ ]", re.MULTILINE)
 _RULE_OF_TIKZ = re.compile(r"\\rule\{([^{}\n]*)\}")
 _STRONG = re.compile(r"'''([\w -]{1,60})'''")
@@ -35,6 +47,18 @@ def page_text(before: Transcript) -> Transcript:
     'Rule: F → FF'
     """
     text = before.text
+    edits = [Edit(*match.span(), match["shown"]) for match in _DISPLAYED.finditer(text)]
+    edits += [Edit(*match.span(), _as_set(match)) for match in _SET.finditer(text)]
+    notes = []
+    for match in _BROKEN_ARROW.finditer(text):
+        edits.append(Edit(*match.span("arrow"), "→"))
+        notes.append(f'"{match["arrow"]}" is read as an arrow.')
+    for match in _BROKEN_DELTA.finditer(text):
+        edits.append(Edit(*match.span(), "δ"))
+        notes.append('"8" is read as δ, the angle.')
+    if edits:
+        before = edited(before, edits, notes)
+        text = before.text
     if _LATEX.search(text):
         before = edited(before, (Edit(*match.span(), _macro(match)) for match in _MACRO.finditer(text)))
     edits = [Edit(*match.span(), "") for match in _MARKS.finditer(before.text)]
@@ -43,6 +67,11 @@ def page_text(before: Transcript) -> Transcript:
     for match in _DOLLARS.finditer(before.text):
         edits += [Edit(match.start(), match.start() + 1, ""), Edit(match.end() - 1, match.end(), "")]
     return without_columns(_without_tables(edited(before, edits) if edits else before))
+
+
+def _as_set(match: re.Match[str]) -> str:
+    """What a block sets, as a line of a list."""
+    return f"{match['head']} → {match['value']}" if match["rule"] else f"{match['name']}: {match['value']}"
 
 
 def _macro(match: re.Match[str]) -> str:
@@ -112,7 +141,7 @@ def _is_part(text: str) -> bool:
     return re.match(rf"[ \t]*(?:[a-z]\)[ \t]+)?(?:\S{{1,12}}[ \t]*{ARROW}[ \t]*\S|(?:n|δ)[ \t]*=)", text) is not None
 
 
-_CELL, _COMMA_CELL = re.compile(r"[^|\t\n]+"), re.compile(r"[^,\n]+")
+_CELL, _COMMA_CELL = re.compile(r"[^|\t\n]+"), re.compile(r"\"[^\"\n]*\"|[^,\n]+")
 
 
 def _without_tables(before: Transcript) -> Transcript:
@@ -124,7 +153,9 @@ def _without_tables(before: Transcript) -> Transcript:
     for match in re.finditer(r"[^\n]*\n?", before.text):
         cells = [Passage(cell[0], cell.start()).part(0) for cell in _CELL.finditer(before.text, *match.span())]
         if len(cells) == 1 and match[0].count(",") > 1:
-            cells = [Passage(cell[0], cell.start()).part(0) for cell in _COMMA_CELL.finditer(before.text, *match.span())]
+            cells = [
+                unquoted(Passage(cell[0], cell.start()).part(0)) for cell in _COMMA_CELL.finditer(before.text, *match.span())
+            ]
         named = [kinds.get(re.sub(r"[ _-]|\d", "", cell.text.lower()), "") for cell in cells]
         low = [cell.text.lower() for cell in cells if len(cell.text) > 2]
         if len(low) == len(cells) == 2 and low[0] in names["predecessor"] and low[1] in (*names["successor"], *names["rules"]):
@@ -140,10 +171,18 @@ def _without_tables(before: Transcript) -> Transcript:
             continue
         elif len({"axiom", "rules"} & {kind for kind, cell in zip(named, cells, strict=True) if len(cell.text) > 2}) == 2:
             heading = [cell.text for cell in cells]
+        elif len(cells) == 2 and named[0] in ("axiom", "angle", "steps") and "|" in match[0] and ":" not in match[0]:
+            pieces += (
+                Edit(cells[0].at, cells[0].at + len(cells[0].text), cells[0].text),
+                Edit(cells[1].at, cells[1].at, ": "),
+                Edit(cells[1].at, cells[1].at + len(cells[1].text), cells[1].text),
+                Edit(cells[1].at, cells[1].at, "\n"),
+            )
+            continue
         elif heading and len(cells) == len(heading):
             for name, cell in zip(heading, cells, strict=True):
                 at = cell.at
                 pieces += (Edit(at, at, f"{name}: "), Edit(at, at + len(cell.text), cell.text), Edit(at, at, "\n"))
             continue
         pieces.append(Edit(*match.span(), match[0]))
-    return assembled(before, pieces) if heading else before
+    return assembled(before, pieces)

@@ -12,7 +12,7 @@ from fractions import Fraction
 from itertools import pairwise
 
 from lsys_kit.errors import ModelSyntaxError
-from lsys_kit.notation.formats.found import Found, Passage, Rule, angle_of, chance_of, tables, unquoted
+from lsys_kit.notation.formats.found import Found, Passage, Rule, angle_of, chance_of, symbols_in, tables, unquoted
 from lsys_kit.notation.formats.parts import (
     AFTER,
     ALIAS,
@@ -45,7 +45,7 @@ _OWN_STATEMENT = re.compile(
 )
 """Statements of the kit's notations: their readers say what is wrong with a text that has one."""
 _OWN_ARROW = re.compile(r"-->|->|→|⟶|::=")
-_SENTENCE = re.compile(r"(?<![A-Za-zÀ-ÿА-я])[A-Za-zÀ-ÿА-я]{3,}+[ ,]++[A-Za-zà-ÿА-я]{3}")
+_SENTENCE = re.compile(r"(?<![A-Za-zÀ-ÿА-я])[A-Za-zÀ-ÿА-я]{3,}+[ ,&]++[A-Za-zà-ÿА-я]{3}")
 _REFERENCE = re.compile(r"\s*(?:\[\d{1,3}\]|\(\d{1,3}\)|\d{2,4}|[-–][ ]?\d{1,4}[ ]?[-–]|/[ ]?[a-z])\s*")
 """The number of a page, of a footnote, a caption's letter, alone on a line."""
 _MARKED = re.compile(r"&(?:\w{2,8}|#\d{1,6});|<(?:b|br|p|tt|td)\b[^<>\n]{0,99}>|\*\*|`|\\begin\{", re.IGNORECASE)
@@ -101,10 +101,25 @@ def systems_in_lines(text: str, source: str = "") -> list[Found]:
     lost = _lost_rules(text, items)
     for system in systems:
         system.notes += lost if system.rules else ()
+        system.notes += _told_names(system)
     for system in systems if len(systems) == 1 else ():
         _take_said(system, prose)
         _take_prose(system, prose)
     return [system for system in systems if system.axiom or system.rules]
+
+
+def _told_names(found: Found) -> list[str]:
+    """A note on the first word in which a name of several letters stands beside other letters: they might be single symbols."""
+    for word in (*(found.axiom or ()), *(part for rule in found.rules for part in rule.tail)):
+        symbols = [(start, end) for start, end, values in symbols_in(word.text, found.names) if not values]
+        pieces = [word.text[start:end] for start, end in symbols]
+        if any(
+            left[1] == right[0] and max(left[1] - left[0], right[1] - right[0]) > 1
+            for left, right in pairwise(symbols)
+            if word.text[left[0]].isalnum() and word.text[right[0]].isalnum()
+        ):
+            return [f'What stands before an arrow is one symbol: "{word.text}" is read as {" ".join(pieces)}.']
+    return []
 
 
 def _all_of(word: Sequence[Passage] | None) -> str:
@@ -138,7 +153,8 @@ def _without_function(found: Found) -> Found:
 
 
 _SAID_ANGLE = re.compile(
-    r"(?:turn|angle|rotat|dreh|gir|winkel)[^.\n]{0,40}?(?<![\d.])(\d{1,3}(?:[.,]\d+)?)[ ]?(?:°|deg)"
+    r"(?:turn|angle|rotat|dreh|winkel|tourn|gir|ruot|draai|obr[oó]|поворо|поверн|旋转|回転)"
+    r"[^.\n]{0,40}?(?<![\d.])(\d{1,3}(?:[.,]\d+)?)[ ]?(?:°|deg)"
     r"|\((\d{1,3}(?:\.\d+)?)[ ]?(?:°|deg)\w*\)|(?<![\d.])(\d{1,3}(?:[.,]\d+)?)°[ ](?:to the |nach |turn)",
     re.IGNORECASE,
 )
@@ -155,8 +171,8 @@ _SAID_DRAWS = re.compile(
 _SYMBOL_OF_TIKZ = re.compile(r"\\symbol\{(\w)\}\{\\pgflsystem(draw|move)forward")
 _W = r"[\"'`]?([A-Za-z0-9+\-\[\]|&^/!]{1,80})[\"'`]?(?=[\s,.;)]|$)"
 _SAID_AXIOM = re.compile(
-    rf"(?:start(?:s|ing)?[ ](?:with|from)|(?:axiom|initial string|start word)[ ](?:is|of|being)?)"
-    rf"[ ]?(?:the[ ])?(?:axiom[ ]|word[ ]|string[ ])?{_W}",
+    rf"(?:(?:start|begin)(?:s|n?ing)?[ ](?:with|from)|(?:axiom|initial string|start word)[ ](?:is|of|being)?)"
+    rf"[ ]?(?:the[ ])?(?:axiom[ ]|word[ ]|string[ ]|(?:axiom|word|string):[ ]|an?[ ]\w+,[ ])?{_W}",
     re.IGNORECASE,
 )
 _SAID_RULE = re.compile(
@@ -173,7 +189,13 @@ def _take_said(found: Found, prose: Sequence[Passage]) -> None:
         for match in _SAID_RULE.finditer(each.text):
             first = 1 if match[1] else 3
             found.rules.append(Rule(each.part(*match.span(first)), (each.part(*match.span(first + 1)),)))
-    axioms = [each.part(*match.span(1)) for each in prose for match in _SAID_AXIOM.finditer(each.text) if is_word(match[1])]
+    heads = {rule.head.text for rule in found.rules}
+    axioms = [
+        each.part(*match.span(1))
+        for each in prose
+        for match in _SAID_AXIOM.finditer(each.text)
+        if is_word(match[1]) and not heads.isdisjoint(match[1])
+    ]
     if found.axiom is None and found.rules and len({axiom.text for axiom in axioms}) == 1:
         found.axiom = (axioms[0],)
         found.notes.append(f'The axiom is that of the text: "{axioms[0].text}".')

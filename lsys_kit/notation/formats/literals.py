@@ -510,7 +510,9 @@ def _head(entry: Entry, in_rules: bool, name: str) -> Passage | None:
         symbol = isinstance(inner, Term) and inner.kind == "text" and _SYMBOL.fullmatch(inner.text)
         return (
             inner.passage
-            if symbol and isinstance(inner, Term) and (_kind(last.head) == "rules" or len(last.head) == 1)
+            if symbol
+            and isinstance(inner, Term)
+            and (_kind(last.head) == "rules" or len(last.head) == 1 or (in_rules and last.opened == "["))
             else None
         )
     if last.kind == "text" and _SYMBOL.fullmatch(last.text) and not _is_field(last.text, in_rules):

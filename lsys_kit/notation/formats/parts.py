@@ -61,10 +61,11 @@ _BOUNDARY = re.compile(
     r"|[ \t](?:and|und|y|et|en|e(?=[ \t]+(?:\(|\w{3})))[ \t]+[({]?"
     r"|[ \t]\^[ \t]*\("
     r"|[ \t](?P<said>with|using|by|the|its|mit|con|avec|com)[ \t]+(?:(?:the|an?)[ \t]+)?"
-    r"|:(?=[ \t])"
+    r"|:(?=[ \t])|[ \t](?=(?:axiom|rules?|angle|iterations)[ \t])"
 )
 _BULLET = re.compile(
-    r"[ \t]*(?:[*•▪‣◦·][ \t]+|-[ \t]+(?=[A-Za-zΑ-ωА-я\"'][^<\n]*(?:[:=→]|->))|\d{1,2}(?:\.\d{1,2})*[.)][ \t]+|[a-z]\)[ \t]+)*"
+    r"[ \t]*(?:[*•▪‣◦·][ \t]+(?!<)"
+    r"|-[ \t]+(?=[A-Za-zΑ-ωА-я\"'][^<\n]*(?:[:=→]|->))|\d{1,2}(?:\.\d{1,2})*[.)][ \t]+|[a-z]\)[ \t]+)*"
 )
 _SIGNS_ONLY = re.compile(r"[A-Za-z0-9+\-&^\\/|\[\]{}$!'\"#~;.%@<>_?*, \t]+")
 _RUN = re.compile(r"[A-Za-z]{2,}")
@@ -234,7 +235,7 @@ def _rule_at(text: str, at: int, end: int, line: int, under_rules: bool) -> Part
         and not (
             len(rule["head"].strip()) == 1
             and (
-                _is_prose(text[rule.end() : end].strip(" \t,;.)"))
+                _is_prose(_SAID.split(text[rule.end() : end].strip(" \t"), 1)[0])
                 or (rule["arrow"] in ("=", ":=") and _SET.match(text, rule.end(), end))
             )
         )
@@ -260,6 +261,10 @@ _CALCULATION = re.compile(r"\d++(?:\.\d++)?(?:[ ]?[*/^][ ]?\d++(?:\.\d++)?)+|[a-
 """What a constant is, and no word."""
 _SET = re.compile(r"[ \t]*[{<(⟨][ \t]*\S[ \t]*,")
 """A set of symbols."""
+
+
+_SAID = re.compile(r"[ \t]*(?:[,;()]|\.(?:\s|$))")
+"""Where what is said of a symbol ends."""
 
 
 def _is_prose(text: str) -> bool:
@@ -303,7 +308,7 @@ def _possible(kind: str, named: re.Match[str], value: str, rule: Part | None, la
             return len(named["name"]) > 4 and not later
         if sep:
             return not short or named["name"] in "ωw"
-        said = re.split(r"\t|  |[ ]#|,[ ]", value.strip())[0]
+        said = re.split(r"\t|  |[ ]#|,[ ]|[ ](?=(?:rules?|angle|iterations)[ ])", value.strip())[0]
         return len(named["name"]) > 4 and is_word(said) and re.fullmatch(r"\S+|\S(?:[ ]\S)+", said.strip()) is not None
     if kind in ("head", "tail"):
         return bool(sep and value.strip()) and not later and rule is None

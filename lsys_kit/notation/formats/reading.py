@@ -25,7 +25,7 @@ from lsys_kit.notation.formats.markup import systems_in_markup
 from lsys_kit.notation.formats.pages import listings_on_a_page
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.syntax.systems import system_in
-from lsys_kit.notation.syntax.text.transcript import Transcript, as_typed
+from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, as_typed, edited
 from lsys_kit.notation.syntax.text.typography import keyboard_signs
 
 
@@ -56,10 +56,20 @@ def _without_marks(source: str) -> Transcript:
     return page_text(keyboard_signs(source))
 
 
+_PROMPTS = re.compile(r"^[ \t]*(?:In[ ]?\[\d*\]:?=?|>>>|\.\.\.(?=[ ]))[ \t]?|^[ \t]*Out[ ]?\[\d*\][:=].*$", re.MULTILINE)
+"""What an interactive session shows before what is typed, and its answers."""
+
+
+def _without_prompts(source: str) -> Transcript:
+    before = keyboard_signs(source)
+    prompts = [Edit(*match.span(), "") for match in _PROMPTS.finditer(before.text)]
+    return edited(before, prompts) if prompts else before
+
+
 DATA = Format(
     name="data",
     title="data, as in JSON or in the literals of a program",
-    prepared=keyboard_signs,
+    prepared=_without_prompts,
     systems=lambda before: systems_in_literals(before.text),
 )
 PAGE = Format(
@@ -173,11 +183,11 @@ def _nothing() -> ModelValueError:
 @cache
 def _names_of(kind: str) -> re.Pattern[str]:
     """The words by which a text speaks of a part, but those that are in any text."""
-    words = [re.escape(word) for word in tables()["names"][kind] if len(word) > 4 and word not in _IN_ANY_TEXT]
+    words = [re.escape(word) for word in tables()["names"][kind] if len(word) > 3 and word not in _IN_ANY_TEXT]
     return re.compile(rf"(?<!\w)(?:{'|'.join(words)})(?!\w)", re.IGNORECASE)
 
 
-_IN_ANY_TEXT = frozenset(("start", "initial", "sentence", "rotation", "degrees", "alpha"))
+_IN_ANY_TEXT = frozenset(("start", "initial", "init", "base", "root", "sentence", "turn", "rotation", "degrees", "alpha"))
 _DEGREES = re.compile(r"(?<![\w.])\d{1,3}(?:[.,]\d+)?[ ]?(?:°|degrees|deg\b)")
 
 
