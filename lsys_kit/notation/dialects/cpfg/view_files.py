@@ -284,7 +284,7 @@ def _straightened(curve: Curve) -> Curve:
     kept = [0, len(curve) - 1]
     while len(kept) <= MOST_PIECES:
         far, index = max(_distances(curve, kept))
-        if far <= CLOSE * height:
+        if far <= CLOSE * height + 1e-9:
             break
         kept = sorted([*kept, index])
     return [curve[index] for index in kept]
