@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from lsys_kit.commands import named_system
 from lsys_kit.derivation.derive import derive
 from lsys_kit.errors import LSystemError, ModelFileError, ModelLimitError, ModelSyntaxError, ModelValueError
 from lsys_kit.notation import folders
@@ -270,3 +271,11 @@ def test_a_text_never_opens_a_file(text: str) -> None:
 
 def test_the_files_of_a_folder_are_known_by_their_endings(made) -> None:
     assert opened_folder(made(OBJECT)).named(".func") == ["even.func", "steep.func"]
+
+
+def test_the_shell_reads_a_folder_and_an_archive(made, tmp_path: Path) -> None:
+    folder = made(OBJECT)
+    with zipfile.ZipFile(tmp_path / "object.ZIP", "w") as archive:
+        for name, text in OBJECT.items():
+            archive.writestr(name, text)
+    assert named_system(str(folder), None, None) == named_system(str(tmp_path / "object.ZIP"), None, None) == read(folder)
