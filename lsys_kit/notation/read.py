@@ -121,7 +121,7 @@ def read(text: str | PurePath, notation: str | None = None, name: str | None = N
 
 
 _MODEL = re.compile(r"^[ \t]*axiom\b", re.MULTILINE | re.IGNORECASE)
-_PATH = re.compile(r"\s*+(?:[\w.~: -]*[/\\][^\n<>=|]*|[\w -]+\.(?:l|ls|lpy|txt|zip|json|jff|frm))\s*+")
+_PATH = re.compile(r"[\w.~: -]*+[/\\][^\n<>=|]*+|[\w -]++\.(?:l|ls|lpy|txt|zip|json|jff|frm)")
 """What looks like the path of a file."""
 _LONGEST_PATH = 300
 
@@ -230,7 +230,7 @@ def _read_or_claimed(chosen: Dialect, text: str, name: str | None, others: Itera
             if unreadable := (error if several else unreadable_format(text)):
                 raise unreadable from None
             found = read_found(text, name)
-            if found is None and len(text) < _LONGEST_PATH and _PATH.fullmatch(text):
+            if found is None and len(text) < _LONGEST_PATH and _PATH.fullmatch(text.strip()):
                 raise ModelValueError(
                     "This is the name of a file or a folder, and a text never opens one",
                     hint=f'Give it as a path: from pathlib import Path, and then read(Path("{quotable(text.strip())}")).',

@@ -279,3 +279,12 @@ def test_the_shell_reads_a_folder_and_an_archive(made, tmp_path: Path) -> None:
         for name, text in OBJECT.items():
             archive.writestr(name, text)
     assert named_system(str(folder), None, None) == named_system(str(tmp_path / "object.ZIP"), None, None) == read(folder)
+
+
+def test_curves_of_curves_do_not_grow_without_end(made) -> None:
+    value = "t"
+    for _ in range(8):
+        value = f"func(2,{value})"
+    with pytest.raises(ModelLimitError, match="With its curve this value is longer than 2,000 characters") as caught:
+        read(made({**OBJECT, "plant.l": PLANT.replace("func(2,t)", value)}))
+    assert caught.value.line == 6

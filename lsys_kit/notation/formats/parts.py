@@ -235,7 +235,7 @@ def _rule_at(text: str, at: int, end: int, line: int, under_rules: bool) -> Part
         and not (
             len(rule["head"].strip()) == 1
             and (
-                _is_prose(_SAID.split(text[rule.end() : end].strip(" \t"), 1)[0])
+                _is_prose(_SAID.split(text[rule.end() : end], maxsplit=1)[0].strip(" \t"))
                 or (rule["arrow"] in ("=", ":=") and _SET.match(text, rule.end(), end))
             )
         )
@@ -263,7 +263,7 @@ _SET = re.compile(r"[ \t]*[{<(⟨][ \t]*\S[ \t]*,")
 """A set of symbols."""
 
 
-_SAID = re.compile(r"[ \t]*(?:[,;()]|\.(?:\s|$))")
+_SAID = re.compile(r"[,;()]|\.(?:\s|$)")
 """Where what is said of a symbol ends."""
 
 

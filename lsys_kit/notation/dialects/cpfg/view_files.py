@@ -15,11 +15,12 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from functools import cache
 from itertools import pairwise
 from pathlib import PurePosixPath
 
-from lsys_kit.budget import current
-from lsys_kit.errors import LSystemError, ModelFileError, ModelSyntaxError, ModelValueError, quotable
+from lsys_kit.budget import Task, counted, current
+from lsys_kit.errors import LSystemError, ModelFileError, ModelLimitError, ModelSyntaxError, ModelValueError, quotable
 from lsys_kit.notation.analysis.checks import SETTINGS
 from lsys_kit.notation.dialects.cpfg.dialect import CPFG
 from lsys_kit.notation.dialects.cpfg.surface_files import with_surface
@@ -35,11 +36,11 @@ from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, as_typed,
 
 CLOSE = 1 / 400
 """How far straight pieces may be from a curve, as a part of its height."""
-MOST_PIECES = 16
-"""So many straight pieces a curve is made of at most."""
+MOST_POINTS, MOST_PIECES = 1_000, 16
+"""So many control points a curve has at most, and so many straight pieces it is made of."""
 _SAMPLES = 400
 _COMMAND = re.compile(r"^[ \t]*(?:lc|cpfg)\b(.*)$", re.MULTILINE)
-_SETTING = re.compile(r"^[ \t]*(?P<name>[a-z][a-z ]*?)[ \t]*:[ \t]*(?P<value>[^\n]*?)[ \t]*$", re.MULTILINE | re.IGNORECASE)
+_SETTING = re.compile(r"^[ \t]*+(?P<name>[a-z][a-z \t]*+):[ \t]*+(?P<value>[^\n]*+)", re.MULTILINE | re.IGNORECASE)
 _PROSE = re.compile(r"//[^\n]*")
 _INCLUDE = re.compile(r"^[ \t]*#[ \t]*include[ \t]*[<\"]([^<>\"\n]+)[>\"][^\n]*$", re.MULTILINE)
 _CALL = re.compile(r"\bfunc\s*\(")
@@ -71,6 +72,11 @@ def commands(folder: Folder) -> list[list[str]]:
 
 def read_object(folder: Folder, model: str) -> LSystem:
     """The system of a model's text and what stands beside it."""
+    with Task("The model was not read"):
+        return _read_object(folder, model)
+
+
+def _read_object(folder: Folder, model: str) -> LSystem:
     view_name, notes = _view_name(folder, model)
     view = _view(folder, view_name) if view_name else View()
     text = _with_functions(_with_included(as_typed(folder.text(model)), folder), view.functions)
@@ -80,7 +86,7 @@ def read_object(folder: Folder, model: str) -> LSystem:
         raise text.relocated(error) from None
     told = [note for note in system.notes if not (view.angle and note.startswith("cpfg keeps the angle"))]
     system = replace(system, angle=view.angle) if view.angle and not re.search(r"/\*[ \t]*angle:", text.text) else system
-    for symbol, name, size in view.surfaces:
+    for symbol, name, size in counted(view.surfaces):
         if name in folder.files:
             system = _with_surface(system, symbol, folder, name, size)
         else:
@@ -127,7 +133,8 @@ def _view(folder: Folder, name: str) -> View:
     text = _PROSE.sub("", without_comments(folder.text(name)))
     found = View()
     numbered = 0
-    for match in _SETTING.finditer(text):
+    curve_in = cache(lambda name: _curve(folder.text(name), name))
+    for match in counted(_SETTING.finditer(text)):
         keyword, words = " ".join(match["name"].lower().split()), match["value"].split()
         if keyword == "angle factor":
             found.angle = _turn(text, match)
@@ -136,9 +143,9 @@ def _view(folder: Folder, name: str) -> View:
             found.surfaces.append((words[0], words[1], size))
         elif keyword == "function" and words and words[0] in folder.files:
             numbered += 1
-            found.functions[str(numbered)] = _curve(folder.text(words[0]), words[0])
+            found.functions[str(numbered)] = curve_in(words[0])
         elif keyword == "function set" and words and words[0] in folder.files:
-            for part in re.split(r"^fver\b[^\n]*$", folder.text(words[0]), flags=re.MULTILINE)[1:]:
+            for part in counted(re.split(r"^fver\b[^\n]*$", folder.text(words[0]), flags=re.MULTILINE)[1:]):
                 numbered += 1
                 curve, called = _curve(part, words[0]), _NAME_OF_FUNCTION.search(part)
                 found.functions |= dict.fromkeys((str(numbered), called[1] if called else ""), curve)
@@ -149,7 +156,7 @@ def _view(folder: Folder, name: str) -> View:
 
 def _turn(text: str, match: re.Match[str]) -> Value:
     """The angle of which a full turn has so many."""
-    value = match["value"]
+    value = match["value"].strip()
     if not re.fullmatch(r"\d{1,6}(?:\.\d{1,6})?", value) or not float(value):
         start, end = match.span("value")
         hint = 'It says how many turns make a full one, as in "angle factor: 16".'
@@ -196,7 +203,13 @@ def _with_functions(before: Transcript, functions: Mapping[str, Curve]) -> Trans
                 raise ModelValueError(
                     "The value of this function cannot be random here", before.source, before.origin(start), None, hint
                 )
-            edits.append(Edit(start, end, _pieces(curve, value)))
+            made = _pieces(curve, value)
+            if len(made) > current().expression:
+                message = f"With its curve this value is longer than {current().expression:,} characters"
+                raise ModelLimitError(
+                    message, limit=current().expression, needed=len(made), source=before.source, start=before.origin(start)
+                )
+            edits.append(Edit(start, end, made))
             used[f"func({number}, ...) is a curve, here of {_counted(len(curve) - 1)}."] = None
         if not edits:
             break
@@ -210,7 +223,7 @@ def _counted(pieces: int) -> str:
 
 def _calls(text: str) -> Iterator[tuple[int, int, str, str]]:
     """Where functions are called: from where to where, which, and of what."""
-    for call in _CALL.finditer(text):
+    for call in counted(_CALL.finditer(text)):
         depth, comma = 0, 0
         for sign in re.finditer(r"[(),\n]", text[call.end() : call.end() + current().expression]):
             at = call.end() + sign.start()
@@ -251,7 +264,7 @@ def _curve(text: str, name: str) -> Curve:
     points = [(float(x), float(y)) for x, y, times in _POINT.findall(text) for _ in range(int(times or 1))]
     rising = all(left[0] <= right[0] for left, right in pairwise(points))
     if (
-        len(points) < 4
+        not 4 <= len(points) <= MOST_POINTS
         or not rising
         or points[0][0] != 0
         or points[-1][0] != 1

@@ -94,7 +94,7 @@ def _at(token: Token) -> tuple[int, int]:
     return token.start_pos or 0, token.end_pos or 0
 
 
-_FACTOR = re.compile(r"([*/]?)[ \t]*(pi|[\d.]+)", re.IGNORECASE)
+_FACTOR = re.compile(r"(?:([*/])[ \t]*+)?(pi|[\d.]++)", re.IGNORECASE)
 _MOST_FACTORS, _FINEST = 8, 10**LONGEST
 
 
