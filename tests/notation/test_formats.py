@@ -494,6 +494,38 @@ READ = {
         "def __initialiseContext__(context):\n\tscalars = [('s', 'Float', 3.5, 0.0, 10.0, 2)]\n",
         "s = 3.5\nangle: 60\naxiom: A(s)\nA(x) -> F(x)A(x/2)",
     ),
+    "a table of HTML": (
+        "<table><tr><th>Axiom</th><td>F++F</td></tr><tr><th>Rule</th><td>F &rarr; F-F</td></tr><tr><th>Angle</th>"
+        "<td>60&deg;</td></tr></table>",
+        "angle: 60\naxiom: F++F\nF -> F-F",
+    ),
+    "prompts": (
+        "In [1]: axiom = 'F'\n\nIn [2]: rules = {'F': 'F+F'}\n   ...: angle = 60\nOut[2]: {'F': 'G'}\n",
+        "angle: 60\naxiom: F\nF -> F+F",
+    ),
+    "formulas as text and as LaTeX": (
+        "Axiom: F++F {\\displaystyle F++F}\nRule: F → F - F {\\displaystyle F\\rightarrow F-F}\n"
+        "Angle: 60 ∘ {\\displaystyle 60^{\\circ }}",
+        "angle: 60\naxiom: F++F\nF -> F-F",
+    ),
+    "cells between semicolons": ("axiom;angle;rules\nF;60;F=F+F", "angle: 60\naxiom: F\nF -> F+F"),
+    "blocks": ("set [axiom v] to [X]\nset [rule X v] to [F+X]\nset [rule F v] to [FF]", "axiom: X\nX -> F+X\nF -> F F"),
+    "sentences in French": (
+        "On part de l'axiome F. On remplace chaque F par F+F et on tourne de 60°.",
+        "angle: 60\naxiom: F\nF -> F+F",
+    ),
+    "a sentence in German": ("Startwort F++F, jedes F wird durch F-F ersetzt, Winkel 60°", "angle: 60\naxiom: F++F\nF -> F-F"),
+    "what symbols mean": (
+        "F = draw forward, + = turn left 60°, - = turn right 60°\nAxiom F\nF → F+F",
+        "angle: 60\naxiom: F\nF -> F+F",
+    ),
+    "rules with names of their parts": (
+        "axiom: X\nrules:\n  - from: X\n    to: F+X\n  - from: F\n    to: FF",
+        "axiom: X\nX -> F+X\nF -> F F",
+    ),
+    "numbers of footnotes": ("Axiom: F[1]\nRules: F → F+F[2][3]", "axiom: F\nF -> F+F"),
+    "branches with digits": ("Axiom: F[1]\nRules: F → F+F[2], 1 → 2", "axiom: F[1]\nalphabet: 1 2\nF -> F+F[2]\n1 -> 2"),
+    "a δ that was taken for a digit": ("n = 4, 6 = 25°\nw : F\np : F --+ F+F", "steps: 4\nangle: 25\naxiom: F\nF -> F+F"),
     "steps of L-Py that nothing says": (
         "derivation length: n\nAxiom: A\nproduction:\nA --> AB",
         "angle: 60\naxiom: A\nA -> A B",

@@ -31,7 +31,7 @@ _SET = re.compile(
 )
 """A block of Scratch that sets a variable."""
 _BROKEN_ARROW = re.compile(r"^[ \t]*p_?\d*[ \t]*:[ \t]*\w[ \t]+(?P<arrow>-{1,2}[+*~])[ \t]", re.MULTILINE)
-_BROKEN_DELTA = re.compile(r"(?<=,[ ])8(?=[ ]?=[ ]?\d{1,3}(?:\.\d+)?[ ]?°)")
+_BROKEN_DELTA = re.compile(r"(?<=,[ ])[68](?=[ ]?=[ ]?\d{1,3}(?:\.\d+)?[ ]?°)")
 """What the recognition of characters makes of an arrow, and of a δ."""
 _MARKS = re.compile(r"^[ \t]*```.*$|\*\*|`|^(?=[^\n|]*\|)[ \t|:-]++$|^#+[ ]", re.MULTILINE)
 _RULE_OF_TIKZ = re.compile(r"\\rule\{([^{}\n]*)\}")
@@ -47,7 +47,10 @@ def page_text(before: Transcript) -> Transcript:
     'Rule: F → FF'
     """
     text = before.text
-    edits = [Edit(*match.span(), match["shown"]) for match in _DISPLAYED.finditer(text)]
+    edits = [
+        Edit(*match.span(), "" if _is_shown(text, match.start(), match["shown"]) else match["shown"])
+        for match in _DISPLAYED.finditer(text)
+    ]
     edits += [Edit(*match.span(), _as_set(match)) for match in _SET.finditer(text)]
     notes = []
     for match in _BROKEN_ARROW.finditer(text):
@@ -55,7 +58,7 @@ def page_text(before: Transcript) -> Transcript:
         notes.append(f'"{match["arrow"]}" is read as an arrow.')
     for match in _BROKEN_DELTA.finditer(text):
         edits.append(Edit(*match.span(), "δ"))
-        notes.append('"8" is read as δ, the angle.')
+        notes.append(f'"{match[0]}" is read as δ, the angle.')
     if edits:
         before = edited(before, edits, notes)
         text = before.text
@@ -67,6 +70,17 @@ def page_text(before: Transcript) -> Transcript:
     for match in _DOLLARS.finditer(before.text):
         edits += [Edit(match.start(), match.start() + 1, ""), Edit(match.end() - 1, match.end(), "")]
     return without_columns(_without_tables(edited(before, edits) if edits else before))
+
+
+_NO_SIGN = re.compile(r"\\[a-z]+|[^\w+\-\[\]]")
+
+
+def _is_shown(text: str, end: int, shown: str) -> bool:
+    """Whether a formula stands before its LaTeX, as text."""
+    sign = _NO_SIGN.sub("", shown)
+    return bool(sign) and _NO_SIGN.sub("", text[max(text.rfind("\n", 0, end) + 1, end - 4 * len(shown) - 9) : end]).endswith(
+        sign
+    )
 
 
 def _as_set(match: re.Match[str]) -> str:
@@ -141,7 +155,14 @@ def _is_part(text: str) -> bool:
     return re.match(rf"[ \t]*(?:[a-z]\)[ \t]+)?(?:\S{{1,12}}[ \t]*{ARROW}[ \t]*\S|(?:n|δ)[ \t]*=)", text) is not None
 
 
-_CELL, _COMMA_CELL = re.compile(r"[^|\t\n]+"), re.compile(r"\"[^\"\n]*\"|[^,\n]+")
+_CELL, _QUOTED_CELLS = (
+    re.compile(r"[^|\t\n]+"),
+    {",": re.compile(r"\"[^\"\n]*\"|[^,\n]+"), ";": re.compile(r"\"[^\"\n]*\"|[^;\n]+")},
+)
+
+
+_DIVIDED = re.compile(r"^[^:=\n]*[|\t][^:\n]*$")
+"""A row with a name and a value."""
 
 
 def _without_tables(before: Transcript) -> Transcript:
@@ -152,9 +173,11 @@ def _without_tables(before: Transcript) -> Transcript:
     kinds = fields()[1]
     for match in re.finditer(r"[^\n]*\n?", before.text):
         cells = [Passage(cell[0], cell.start()).part(0) for cell in _CELL.finditer(before.text, *match.span())]
-        if len(cells) == 1 and match[0].count(",") > 1:
+        comma = max(_QUOTED_CELLS, key=match[0].count)
+        if len(cells) == 1 and match[0].count(comma) > 1:
             cells = [
-                unquoted(Passage(cell[0], cell.start()).part(0)) for cell in _COMMA_CELL.finditer(before.text, *match.span())
+                unquoted(Passage(cell[0], cell.start()).part(0))
+                for cell in _QUOTED_CELLS[comma].finditer(before.text, *match.span())
             ]
         named = [kinds.get(re.sub(r"[ _-]|\d", "", cell.text.lower()), "") for cell in cells]
         low = [cell.text.lower() for cell in cells if len(cell.text) > 2]
@@ -171,7 +194,7 @@ def _without_tables(before: Transcript) -> Transcript:
             continue
         elif len({"axiom", "rules"} & {kind for kind, cell in zip(named, cells, strict=True) if len(cell.text) > 2}) == 2:
             heading = [cell.text for cell in cells]
-        elif len(cells) == 2 and named[0] in ("axiom", "angle", "steps") and "|" in match[0] and ":" not in match[0]:
+        elif len(cells) == 2 and named[0] in ("axiom", "angle", "steps") and _DIVIDED.search(match[0]):
             pieces += (
                 Edit(cells[0].at, cells[0].at + len(cells[0].text), cells[0].text),
                 Edit(cells[1].at, cells[1].at, ": "),

@@ -48,7 +48,10 @@ _OWN_ARROW = re.compile(r"-->|->|→|⟶|::=")
 _SENTENCE = re.compile(r"(?<![A-Za-zÀ-ÿА-я])[A-Za-zÀ-ÿА-я]{3,}+[ ,&]++[A-Za-zà-ÿА-я]{3}")
 _REFERENCE = re.compile(r"\s*(?:\[\d{1,3}\]|\(\d{1,3}\)|\d{2,4}|[-–][ ]?\d{1,4}[ ]?[-–]|/[ ]?[a-z])\s*")
 """The number of a page, of a footnote, a caption's letter, alone on a line."""
-_MARKED = re.compile(r"&(?:\w{2,8}|#\d{1,6});|<(?:b|br|p|tt|td)\b[^<>\n]{0,99}>|\*\*|`|\\begin\{", re.IGNORECASE)
+_MARKED = re.compile(
+    r"&(?:\w{2,8}|#\d{1,6});|<(?:b|br|p|tt|td)\b[^<>\n]{0,99}>|\*\*|`|\\begin\{|\\displaystyle|^[ \t]*set[ ]\[",
+    re.IGNORECASE | re.MULTILINE,
+)
 
 
 def _is_on_a_page(text: str, items: Sequence[Part], source: str) -> bool:
@@ -94,9 +97,9 @@ def systems_in_lines(text: str, source: str = "") -> list[Found]:
     _check_arrows(text, items)
     _check_left_out(text, items)
     systems = [replace(_system(text, group), names=names) for group in _groups(items)]
-    systems = [_without_function(system) for system in systems if system.axiom or system.rules] or [Found()]
+    systems = [_without_references(_without_function(each)) for each in systems if each.axiom or each.rules] or [Found()]
     starts = ((text.rfind("\n", 0, item.start) + 1 if item.kind == "angle" else item.start, item) for item in items)
-    prose = [Passage(text[at : item.end], at) for at, item in starts if item.kind in ("", "axiom", "rule", "angle")]
+    prose = [Passage(text[at : item.end], at) for at, item in starts if item.kind in ("", "axiom", "rule", "angle", "other")]
     systems = [*{(_all_of(system.axiom), *map(_shown, system.rules)): system for system in reversed(systems)}.values()][::-1]
     lost = _lost_rules(text, items)
     for system in systems:
@@ -106,6 +109,25 @@ def systems_in_lines(text: str, source: str = "") -> list[Found]:
         _take_said(system, prose)
         _take_prose(system, prose)
     return [system for system in systems if system.axiom or system.rules]
+
+
+_FOOTNOTE = re.compile(r"(?:\[\d{1,3}\])+$")
+
+
+def _without_references(found: Found) -> Found:
+    """The same without the numbers of footnotes behind words, F+F[1], where no digit is a symbol otherwise."""
+    words = [*(found.axiom or ()), *(part for rule in found.rules for part in (rule.head, *rule.tail))]
+    marks = [mark[0] for word in words if (mark := _FOOTNOTE.search(word.text))]
+    rest = "".join(re.sub(r"\([^()]*\)", "", _FOOTNOTE.sub("", word.text)) for word in words)
+    if not marks or any(map(str.isdigit, rest)):
+        return found
+
+    def bare(words: tuple[Passage, ...]) -> tuple[Passage, ...]:
+        return tuple(word.part(0, len(_FOOTNOTE.sub("", word.text))) for word in words)
+
+    rules = [replace(rule, tail=bare(rule.tail)) for rule in found.rules]
+    note = f"Behind words, {' and '.join(dict.fromkeys(marks))} are left out: numbers of footnotes."
+    return replace(found, axiom=bare(found.axiom) if found.axiom else None, rules=rules, notes=[*found.notes, note])
 
 
 def _told_names(found: Found) -> list[str]:
@@ -171,14 +193,16 @@ _SAID_DRAWS = re.compile(
 _SYMBOL_OF_TIKZ = re.compile(r"\\symbol\{(\w)\}\{\\pgflsystem(draw|move)forward")
 _W = r"[\"'`]?([A-Za-z0-9+\-\[\]|&^/!]{1,80})[\"'`]?(?=[\s,.;)]|$)"
 _SAID_AXIOM = re.compile(
-    rf"(?:(?:start|begin)(?:s|n?ing)?[ ](?:with|from)|(?:axiom|initial string|start word)[ ](?:is|of|being)?)"
+    rf"(?:(?:start|begin)(?:s|n?ing)?[ ](?:with|from)"
+    rf"|(?:axiome?|initial string|start[ ]?word|startwort|axioma)[ ](?:is|of|being)?)"
     rf"[ ]?(?:the[ ])?(?:axiom[ ]|word[ ]|string[ ]|(?:axiom|word|string):[ ]|an?[ ]\w+,[ ])?{_W}",
     re.IGNORECASE,
 )
 _SAID_RULE = re.compile(
     rf"replac(?:e|ing)[ ](?:every|each|all|any)[ ]?[\"'`]?([A-Za-z0-9])[\"'`]?s?"
     rf"[ ](?:with|by)[ ](?:the[ ](?:word|string)[ ])?{_W}"
-    rf"|(?:every|each)[ ][\"'`]?([A-Za-z0-9])[\"'`]?[ ](?:becomes|is[ ]replaced[ ](?:by|with))[ ]{_W}",
+    rf"|(?:every|each|jedes|chaque|cada|ogni)[ ][\"'`]?([A-Za-z0-9])[\"'`]?"
+    rf"[ ](?:becomes|is[ ]replaced[ ](?:by|with)|wird[ ]durch|par|por|con)[ ]{_W}",
     re.IGNORECASE,
 )
 
@@ -188,6 +212,8 @@ def _take_said(found: Found, prose: Sequence[Passage]) -> None:
     for each in prose if not found.rules else ():
         for match in _SAID_RULE.finditer(each.text):
             first = 1 if match[1] else 3
+            if any(rule.head.at == each.part(*match.span(first)).at for rule in found.rules):
+                continue
             found.rules.append(Rule(each.part(*match.span(first)), (each.part(*match.span(first + 1)),)))
     heads = {rule.head.text for rule in found.rules}
     axioms = [

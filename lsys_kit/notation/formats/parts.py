@@ -270,7 +270,9 @@ _SAID = re.compile(r"[,;()]|\.(?:\s|$)")
 def _is_prose(text: str) -> bool:
     """Whether a text is a word or two of a language, and none of symbols."""
     return (
-        re.fullmatch(r"[A-Z]?[a-z]{4,}(?:[ ][a-z]+)*", text) is not None and len(set(text)) > 3 and not NOTHING.fullmatch(text)
+        re.fullmatch(r"[A-Z]?[a-z]{4,}(?:[ ](?:[a-z]+|\d[\d.]*+[ ]?°?))*", text) is not None
+        and len(set(text)) > 3
+        and not NOTHING.fullmatch(text)
     )
 
 
@@ -308,7 +310,7 @@ def _possible(kind: str, named: re.Match[str], value: str, rule: Part | None, la
             return len(named["name"]) > 4 and not later
         if sep:
             return not short or named["name"] in "ωw"
-        said = re.split(r"\t|  |[ ]#|,[ ]|[ ](?=(?:rules?|angle|iterations)[ ])", value.strip())[0]
+        said = re.split(r"\t|  |[ ]#|[,;][ ]|[ ](?=(?:rules?|angle|iterations)[ ])", value.strip())[0]
         return len(named["name"]) > 4 and is_word(said) and re.fullmatch(r"\S+|\S(?:[ ]\S)+", said.strip()) is not None
     if kind in ("head", "tail"):
         return bool(sep and value.strip()) and not later and rule is None

@@ -56,7 +56,9 @@ def _without_marks(source: str) -> Transcript:
     return page_text(keyboard_signs(source))
 
 
-_PROMPTS = re.compile(r"^[ \t]*(?:In[ ]?\[\d*\]:?=?|>>>|\.\.\.(?=[ ]))[ \t]?|^[ \t]*Out[ ]?\[\d*\][:=].*$", re.MULTILINE)
+_PROMPTS = re.compile(
+    r"^[ \t]*(?:In[ ]?\[\d*\]:?=?|>>>|\.\.\.(?=[ ])|\.\.\.:)[ \t]?|^[ \t]*Out[ ]?\[\d*\][:=].*$", re.MULTILINE
+)
 """What an interactive session shows before what is typed, and its answers."""
 
 
@@ -157,7 +159,7 @@ def what_is_missing(text: str) -> LSystemError | None:
         len(systems) == 1
         and systems[0].axiom
         and not systems[0].rules
-        and _names_of("rules").search(before.text)
+        and (_names_of("rules").search(before.text) or _UNREAD_RULE.search(before.text))
         and not has_unread_words(before.text)
     ):
         where = before.origin(systems[0].axiom[0].at)
@@ -183,11 +185,13 @@ def _nothing() -> ModelValueError:
 @cache
 def _names_of(kind: str) -> re.Pattern[str]:
     """The words by which a text speaks of a part, but those that are in any text."""
-    words = [re.escape(word) for word in tables()["names"][kind] if len(word) > 3 and word not in _IN_ANY_TEXT]
+    words = [re.escape(word) for word in tables()["names"][kind] if len(word) > 4 and word not in _IN_ANY_TEXT]
     return re.compile(rf"(?<!\w)(?:{'|'.join(words)})(?!\w)", re.IGNORECASE)
 
 
-_IN_ANY_TEXT = frozenset(("start", "initial", "init", "base", "root", "sentence", "turn", "rotation", "degrees", "alpha"))
+_UNREAD_RULE = re.compile(r"^[ \t]*(?:rule|regel)[ \t]*[:=][ \t]*+(?=\S)", re.MULTILINE | re.IGNORECASE)
+"""What is called a rule, and is none."""
+_IN_ANY_TEXT = frozenset(("start", "initial", "sentence", "rotation", "degrees", "alpha"))
 _DEGREES = re.compile(r"(?<![\w.])\d{1,3}(?:[.,]\d+)?[ ]?(?:°|degrees|deg\b)")
 
 

@@ -38,8 +38,10 @@ TAG = re.compile(
     r"\b[^<>]{0,500}>",
     re.IGNORECASE,
 )
-_ENDS = frozenset(("br", "p", "tr", "td", "div", "li", "dt", "h1", "h2", "h3", "h4", "h5", "h6", "hr", "pre", "table"))
+_ENDS = frozenset(("br", "p", "tr", "div", "li", "dt", "h1", "h2", "h3", "h4", "h5", "h6", "hr", "pre", "table"))
 """Tags that end a line."""
+_BEHIND = {"dt": ": ", "td": "\t", "th": "\t"}
+"""What stands behind a term, and behind a cell."""
 
 
 def keyboard_signs(source: str) -> Transcript:
@@ -60,9 +62,9 @@ def keyboard_signs(source: str) -> Transcript:
 
 
 def _tag(text: str, tag: re.Match[str]) -> str:
-    """What is written for a tag: the end of a line, behind a term a colon, within a table of Markdown a semicolon."""
-    if tag[1] and tag[2].lower() == "dt":
-        return ": "
+    """What is written for a tag: the end of a line, or a sign; within a table of Markdown a semicolon."""
+    if tag[1] and (sign := _BEHIND.get(tag[2].lower())):
+        return sign
     if tag[2].lower() not in _ENDS:
         return ""
     return " ; " if text.rfind("|", max(0, tag.start() - 200), tag.start()) > text.rfind("\n", 0, tag.start()) else "\n"
