@@ -401,6 +401,12 @@ def test_a_rule_for_half_of_a_symbol_gets_a_note(text: str, noted: bool) -> None
     assert any("is one symbol here" in note for note in read(text, "cpfg").notes) == noted
 
 
+def test_a_rule_for_the_word_axiom_is_no_axiom() -> None:
+    system = read("Lsystem: 1\nAxiom: AXIOM\nAXIOM : 1 --> B")
+    assert [module.symbol for module in system.productions[0].predecessors] == [*"AXIOM"]
+    assert str(derive(system, 1)[-1]) == "B"
+
+
 @pytest.mark.parametrize(
     ("word", "meant", "note"),
     [

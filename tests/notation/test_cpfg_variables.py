@@ -111,7 +111,7 @@ ROWS = [[10 * row + column for column in range(5)] for row in range(3)]
 @pytest.mark.parametrize("column", [-1, 0, 3, 7])
 def test_an_array_may_have_rows(row: int, column: int) -> None:
     elements = ", ".join(str(element) for each in ROWS for element in each)
-    array = f"Define: {{array a[M][N] = {{{elements}}}, b[2] = {{1, 2}};}}"
+    array = f"Define: {{ // rows\narray a[M][N] = {{{elements}}}, b[2] = {{1, 2}};}}"
     text = f"#define M 3\n#define N 5\nLsystem: 1\n{array}\nAxiom: A({row},{column})\nA(i,j) --> B(a[i][j])C(a[2][4])D(b[1])"
     nearest = ROWS[min(max(row, 0), 2)][min(max(column, 0), 4)]
     assert [module.arguments for module in derive(read(text), 1)[-1]] == [(nearest,), (24,), (2,)]

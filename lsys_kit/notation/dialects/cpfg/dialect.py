@@ -52,7 +52,7 @@ _KEYWORD = re.compile(
     re.IGNORECASE,
 )
 _PHASE = re.compile(r"(start|end)[ \t]*+(each)?[ \t]*+:", re.IGNORECASE)
-_AXIOM_START = re.compile(r"axiom[ \t]*:", re.IGNORECASE)
+_AXIOM_START = re.compile(r"axiom[ \t]*:(?![^\n]*-->)", re.IGNORECASE)
 _BEGIN = re.compile(r"lsystem[ \t]*:", re.IGNORECASE)
 _END = re.compile(r"endlsystem\b", re.IGNORECASE)
 

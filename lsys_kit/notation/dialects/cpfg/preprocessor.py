@@ -33,6 +33,7 @@ _ARRAY = re.compile(r"\b([A-Za-z_]\w*+)\s*+(?:\[[^\[\]{}]*+\]\s*+)?\[([^\[\]{}]*
 _TWO = re.compile(r"\]\s*+\[")
 _CHANGED = re.compile(r"\b([A-Za-z_]\w*+)\s*+(?:\[[^\[\]=]*+\]\s*+){1,2}=(?![={]|\s*\{)")
 _SIZE = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(\w+)[ \t]+(\d{1,4})[ \t]*$", re.MULTILINE)
+_LINE_COMMENT = re.compile(r"//[^\n]*")
 _DIGITS = re.compile(r"[\d.,\s]+")
 _PARAMETERS = re.compile(r"\(\s*+((?:[A-Za-z_]\w*+\s*+(?:,\s*+)?)*+)\)")
 
@@ -223,7 +224,7 @@ def arrays_in(text: str, plain: str) -> dict[str, Macro] | None:
     >>> [(name, array.elements, array.columns) for name, array in found.items()]
     [('a', ('1', '2', '3'), 0), ('b', ('4', '5'), 2)]
     """
-    sizes = dict(_SIZE.findall(plain))
+    text, sizes = _LINE_COMMENT.sub("", text), dict(_SIZE.findall(plain))
     found = {}
     for each in _ARRAY.finditer(text):
         elements = tuple(value.strip() for value in each[3].split(","))
