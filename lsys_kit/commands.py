@@ -79,6 +79,8 @@ def _system_in(name: str, notation: str | None, entry: str | None) -> LSystem:
     from lsys_kit.notation.foreign import name_hint
     from lsys_kit.notation.read import read
 
+    if Path(name).is_dir() or name.lower().endswith(".zip"):
+        return read(Path(name), notation, entry)
     text = _file(name)
     try:
         return read(text, notation, entry)

@@ -9,15 +9,19 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import replace
+from pathlib import Path, PurePath
 from typing import TypeAlias
 
 from lsys_kit.budget import current
-from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError, require
+from lsys_kit.errors import LSystemError, ModelFileError, ModelLimitError, ModelValueError, quotable, require
 from lsys_kit.notation.analysis.checks import check_expression, check_word, value_of
 from lsys_kit.notation.dialects.abop.dialect import ABOP
 from lsys_kit.notation.dialects.cellwork.dialect import CELLWORK, read_cellwork
+from lsys_kit.notation.dialects.cpfg.dialect import CPFG
+from lsys_kit.notation.dialects.cpfg.view_files import commands, read_object
 from lsys_kit.notation.dialects.fractint.dialect import FRACTINT
 from lsys_kit.notation.dialects.map.dialect import MAP, read_map
+from lsys_kit.notation.folders import Folder, opened_folder
 from lsys_kit.notation.foreign import foreign_format, unreadable_format
 from lsys_kit.notation.formats.l_py import is_l_py
 from lsys_kit.notation.formats.reading import FORMATS, read_as, read_found, what_is_missing
@@ -45,25 +49,29 @@ _CELLWORK = re.compile(r"cellwork[ \t]*:", re.IGNORECASE)
 """How their texts begin."""
 
 
-def read(text: str, notation: str | None = None, name: str | None = None) -> LSystem:
+def read(text: str | PurePath, notation: str | None = None, name: str | None = None) -> LSystem:
     """Read a system.
 
     Parameters
     ----------
     text
-        The model: constants, axiom, productions, one a line. `/* ... */` is a comment. Or a link with a model in it.
+        The model: constants, axiom, productions, one a line. `/* ... */` is a comment. Or a link with a model in it. Or, as a
+        `Path`, its file, its folder, or a .zip of that: of a model of cpfg the view, the surfaces and the functions beside it
+        are read, too. A text never opens a file.
     notation
         Its name, or that of a format: "list", "page", "data", "xml", "l-py", "lparser". By default the notation whose features
         the text shows most, or, where its reader fails, the first format that finds an axiom and rules in it. Unless it is the
         kit's own, the first note of the system names it, and says what was assumed.
     name
-        Which system, where a text holds several with names, as files of Fractint's do.
+        Which system, where a text holds several with names, as files of Fractint's do; or which model of a folder.
 
     Raises
     ------
     ModelSyntaxError, ModelNameError, ModelValueError
         The text makes no sense; the error gives the place and a hint, perhaps that another notation fits, or that the text is
         in the format of another program. Or it holds several systems, and none is named.
+    ModelFileError
+        A file cannot be read.
     ModelLimitError
         The text is too long.
 
@@ -87,6 +95,8 @@ def read(text: str, notation: str | None = None, name: str | None = None) -> LSy
       Axiom F
       }
     """
+    if isinstance(text, PurePath):
+        return _read_path(Path(text), notation, name)
     check_text(text)
     if is_link(text):
         return _read_link(text, notation, name)
@@ -107,6 +117,40 @@ def read(text: str, notation: str | None = None, name: str | None = None) -> LSy
         system
         if chosen is ABOP or system.notation != chosen.name
         else replace(system, notes=(f"Read as {chosen.name}.", *system.notes))
+    )
+
+
+_MODEL = re.compile(r"^[ \t]*axiom\b", re.MULTILINE | re.IGNORECASE)
+_PATH = re.compile(r"[\w.~: -]*+[/\\][^\n<>=|]*+|[\w -]++\.(?:l|ls|lpy|txt|zip|json|jff|frm)")
+"""What looks like the path of a file."""
+_LONGEST_PATH = 300
+
+
+def _read_path(path: Path, notation: str | None, name: str | None) -> LSystem:
+    """The system of a file, of a folder or of an archive; a model of cpfg with what is beside it."""
+    folder = opened_folder(path)
+    model, entry = (path.name, name) if path.is_file() and path.name in folder.files else _model_in(folder, name)
+    text = folder.text(model)
+    if notation == CPFG.name or (notation is None and recognise(text) is CPFG):
+        return read_object(folder, model)
+    return read(text, notation, entry)
+
+
+def _model_in(folder: Folder, name: str | None) -> tuple[str, str | None]:
+    """The model of a folder, and the name of a system that is still to be looked for in it."""
+    models = [word for words in commands(folder) for word in words if word.endswith(".l")]
+    models = [*dict.fromkeys(models)] or [each for each in folder.named(".l") if _MODEL.search(folder.text(each))]
+    chosen = next((model for model in models if name in (model, model.removesuffix(".l"))), None)
+    if chosen or len(models) == 1:
+        return chosen or models[0], None if chosen else name
+    if not models:
+        raise ModelFileError(
+            f'There is no model in "{quotable(folder.title)}"',
+            hint="A folder has its model in a file whose name ends in .l; any other file can be given by its own path.",
+        )
+    raise ModelValueError(
+        f'There are {len(models)} models in "{quotable(folder.title)}"',
+        hint=f"Choose one: read(path, name={models[0]!r}). They are {', '.join(map(quotable, models))}.",
     )
 
 
@@ -186,6 +230,11 @@ def _read_or_claimed(chosen: Dialect, text: str, name: str | None, others: Itera
             if unreadable := (error if several else unreadable_format(text)):
                 raise unreadable from None
             found = read_found(text, name)
+            if found is None and len(text) < _LONGEST_PATH and _PATH.fullmatch(text.strip()):
+                raise ModelValueError(
+                    "This is the name of a file or a folder, and a text never opens one",
+                    hint=f'Give it as a path: from pathlib import Path, and then read(Path("{quotable(text.strip())}")).',
+                ) from None
             if found is None:
                 raise foreign_format(text) or what_is_missing(text) or error from None
             return found

@@ -401,6 +401,28 @@ def test_a_rule_for_half_of_a_symbol_gets_a_note(text: str, noted: bool) -> None
     assert any("is one symbol here" in note for note in read(text, "cpfg").notes) == noted
 
 
+def test_a_rule_for_the_word_axiom_is_no_axiom() -> None:
+    system = read("Lsystem: 1\nAxiom: AXIOM\nAXIOM : 1 --> B")
+    assert [module.symbol for module in system.productions[0].predecessors] == [*"AXIOM"]
+    assert str(derive(system, 1)[-1]) == "B"
+
+
+@pytest.mark.parametrize(
+    ("word", "meant", "note"),
+    [
+        ('F@L("leaf %f", 2)A', "F@L(2)A", 'Labels have no texts here: "leaf %f".'),
+        ('F@L("leaf")@L("leaf")@L("stem")', "F@L@L@L", 'Labels have no texts here: "leaf", "stem".'),
+        ("F@#(1)F", "F@#(1)F", "Stems are round: @#, which give contours to those of cpfg, draw nothing here."),
+        ("@!(2)F@#", "@!(2)F@#", "Stems are round: @! and @#, which give contours to those of cpfg, draw nothing here."),
+    ],
+)
+def test_labels_and_contours_are_told_and_draw_nothing(word: str, meant: str, note: str) -> None:
+    system = read(f"Lsystem: 1\nAxiom: {word}")
+    assert system == read(f"Lsystem: 1\nAxiom: {meant}")
+    assert note in system.notes
+    assert read(write(system)) == system
+
+
 def test_a_macro_is_a_number_and_not_its_text() -> None:
     system = read("#define a 1\n#define b a+1\n#define c (a+1)\n#define d -a\nAxiom: F(2*b)", "cpfg")
     assert system.notes == ('The macro "b" is a number here; cpfg puts its text in place: write "(a+1)".',)

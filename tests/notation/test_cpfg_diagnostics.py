@@ -99,7 +99,13 @@ UNREADABLE = [
         1,
         "Write their values where they are used.",
     ),
-    ("#include <x.h>\nAxiom: A", 'The file "x.h" is not part of this text', 1, 1, "Put what it says in place of this line."),
+    (
+        "#include <x.h>\nAxiom: A",
+        'The file "x.h" is not part of this text',
+        1,
+        1,
+        "Put what it says in place of this line, or read the folder that has it.",
+    ),
     ("#ifdef X\nAxiom: A", 'This condition has no "#endif"', 1, 1, "Every #if ends with one."),
     ("Axiom: A\n#endif", 'This "#endif" belongs to no condition', 2, 1, 'A condition begins with "#if".'),
     (
@@ -224,7 +230,14 @@ UNKNOWN = [
         "The kit has no curveX(...)",
         2,
         12,
-        "Its values are in a file of curves, which is not part of this text: write an expression in its place.",
+        "Its values are in a file of contours, which the kit does not read: write an expression in its place.",
+    ),
+    (
+        "Axiom: A(0)\nA(t) --> F(func(1,t))",
+        "The kit has no func(...)",
+        2,
+        12,
+        "Its values are in a file beside the model: read its folder, or write an expression in its place.",
     ),
     ("Axiom: A(0)\nA(t) --> A(sqtr(t))", 'I do not know the function "sqtr"', 2, 12, 'Did you mean "sqrt"?'),
     ("Axiom: A(0)\nA(t) --> A(max(t,1))", 'I do not know the function "max"', 2, 12, 'Type "x > y ? x : y".'),
@@ -267,7 +280,7 @@ UNKNOWN = [
 WITHOUT_VALUE = [
     ("Axiom: A\nderivation length: 2.5", '"2.5" is not a number of steps', 2, 20, "Steps are counted from 0: 0, 1, 2, ..."),
     (
-        "Axiom: A(1)\nA(t) : 1 {x=ran(1);} --> A(x)B(x)",
+        "Axiom: A(1)\nA(t) : 1 {x=ran(1);} --> A(x) : x",
         'The random number "x" would be drawn anew at each of its uses',
         2,
         11,

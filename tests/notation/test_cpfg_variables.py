@@ -60,7 +60,9 @@ def test_an_element_is_the_one_with_its_number(size: int) -> None:
     ("text", "name", "place"),
     [
         ("Start: {c=1;}\nAxiom: AB\nA : 1 {c=2;} --> F\nB --> F(c)", "c", (5, 9)),
-        ("Start: {c=1;}\nEndEach: {c=c+1;}\nAxiom: A\nhomomorphism\nA --> F(c)", "c", (6, 9)),
+        ("Start: {c=1;}\nStartEach: {c=c+1;}\nAxiom: A\nhomomorphism\nA --> F(c)", "c", (6, 9)),
+        ("EndEach: {c=c+1;}\nAxiom: A\nhomomorphism\nA --> F(c)\nB --> A", "c", (5, 9)),
+        ("EndEach: {c=c+1;}\nAxiom: A\nA : c>2 --> B\nhomomorphism\nB --> A", "c", (4, 5)),
         ("Start: {c=1;}\nEndEach: {c=c+1;}\nAxiom: A\nA : c>2 --> B\ndecomposition\nB --> A", "c", (5, 5)),
         ("Start: {c=1;}\nEndEach: {c=c+1;}\nAxiom: A(c)", "c", (4, 10)),
         ("EndEach: {c=c+ran(1);}\nAxiom: A\nA : c>2 --> B", "c", (4, 5)),
@@ -90,6 +92,80 @@ def test_a_variable_that_changes_is_named_where_it_is_used(text: str, name: str,
 def test_what_no_constant_can_be_is_said(text: str, error: type[Exception], said: str) -> None:
     with pytest.raises(error, match=said):
         read(f"#define k 3\nLsystem: 1\n{text}")
+
+
+def test_a_counter_is_read_where_a_word_is_drawn() -> None:
+    """As it is after the step: what is drawn of step 2 has counted twice."""
+    text = "Lsystem: 1\nStart: {t=0;}\nEndEach: {t=t+0.5;}\nAxiom: AB\nA --> AB\nhomomorphism\nB --> F(t)\nC(x) --> f(x)F(x)"
+    system = read(text)
+    assert "To follow the steps A, B carry t as a parameter." in system.notes
+    assert str(derive(system, 2)[-1]) == "A(1)B(1)B(1)B(1)"
+    assert [str(rule) for rule in system.interpretation] == ["B(t) -> F(t)", "C(x) -> f(x)F(x)"]
+    assert read(write(system)) == system
+
+
+ROWS = [[10 * row + column for column in range(5)] for row in range(3)]
+
+
+@pytest.mark.parametrize("row", range(-1, 5))
+@pytest.mark.parametrize("column", [-1, 0, 3, 7])
+def test_an_array_may_have_rows(row: int, column: int) -> None:
+    elements = ", ".join(str(element) for each in ROWS for element in each)
+    array = f"Define: {{ // rows\narray a[M][N] = {{{elements}}}, b[2] = {{1, 2}};}}"
+    text = f"#define M 3\n#define N 5\nLsystem: 1\n{array}\nAxiom: A({row},{column})\nA(i,j) --> B(a[i][j])C(a[2][4])D(b[1])"
+    nearest = ROWS[min(max(row, 0), 2)][min(max(column, 0), 4)]
+    assert [module.arguments for module in derive(read(text), 1)[-1]] == [(nearest,), (24,), (2,)]
+
+
+@pytest.mark.parametrize(
+    "definition", ["a[2][K] = {1, 2}", "a[2][3] = {1, 2, 3, 4}", "a[2][2] = {1, 2, 3, 4}; b[2]", "a[2][2]"]
+)
+def test_an_array_whose_rows_are_not_known_is_refused(definition: str) -> None:
+    with pytest.raises(ModelSyntaxError, match="no arrays that change, or have no values"):
+        read(f"Lsystem: 1\nDefine: {{array {definition};}}\nAxiom: A(a[0][0])")
+
+
+def test_an_array_without_its_second_index_is_refused() -> None:
+    with pytest.raises(ModelSyntaxError):
+        read("Lsystem: 1\nDefine: {array a[2][2] = {1, 2, 3, 4};}\nAxiom: A(a[0])")
+
+
+@pytest.mark.parametrize(
+    ("rule", "carrier"),
+    [
+        ("A(t) : 1 {x=ran(1);} --> B(x,t)C(x)", "Z(t,x)"),
+        ("A(t) : 1 {x=t+ran(1);} --> B(x-t,t)C(x-t)", "Z(t,drawn_1)"),
+        ("A(t) : 1 {t=ran(1);} --> B(t,5)C(t)", "Z(t,t_1)"),
+        ("A(t) : t>1 {x=ran(1); if (x<0) {y=1-x;} else {y=x;}} --> B(y,t)C(y)", "Z(t,x)"),
+    ],
+)
+def test_what_is_drawn_once_is_used_more_than_once(rule: str, carrier: str) -> None:
+    system = read(f"Lsystem: 1\nAxiom: A(5)A(5)\n{rule}")
+    assert f"{carrier} carries what is drawn once and used more than once." in system.notes
+    for seed in range(5):
+        first, second, third, fourth = derive(system, 1, seed=seed)[-1]
+        assert first.arguments == pytest.approx((*second.arguments, 5))
+        assert third.arguments == pytest.approx((*fourth.arguments, 5))
+        assert 0 <= first.arguments[0] < 1
+        assert first.arguments != third.arguments
+    assert read(write(system)) == system
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "A : {x=ran(1);} x<0.5 --> F(x)",
+        "A : 1 {x=ran(1);} --> FF(x) : x",
+        "A : 1 {x=ran(1); y=ran(x);} --> F(x)F(y)F(y)",
+        "A : 1 {x=ran(1);} --> F(x)F(x)\ndecomposition\nmaximum depth: 2\nB --> C",
+        "homomorphism\nA : 1 {x=ran(1);} --> F(x)F(x)",
+        "decomposition\nA : 1 {x=ran(1);} --> F(x)F(x)",
+        "".join(f"{letter} --> F\n" for letter in "BCDEHIJKLMNOPQRSTUVWXYZ") + "A : 1 {x=ran(1);} --> F(x)F(x)",
+    ],
+)
+def test_a_number_that_would_be_drawn_anew_is_named(text: str) -> None:
+    with pytest.raises(ModelValueError, match="would be drawn anew at each of its uses"):
+        read(f"Lsystem: 1\nAxiom: A\n{text}")
 
 
 RULES = (

@@ -11,6 +11,8 @@ import json
 import random
 import re
 import time
+from dataclasses import replace
+from xml.sax.saxutils import escape, quoteattr
 
 import pytest
 from hypothesis import given
@@ -174,6 +176,109 @@ def test_any_system_is_read_from_any_list_of_it(data: st.DataObject, meant: LSys
 @given(data=st.data(), meant=plain_systems())
 def test_any_system_is_read_from_literals_of_any_language(data: st.DataObject, meant: LSystem) -> None:
     text = data.draw(as_data(meant))
+    assert same(read(text), meant), text
+
+
+@st.composite
+def on_a_page(draw: st.DrawFn, meant: LSystem) -> str:
+    """A listing as the book prints it, with what stands around it on its page."""
+    gap = draw(st.sampled_from(["", " ", "  ", "\u2009"]))
+    degrees = draw(st.sampled_from(["°", "◦", "º", "˚", " degrees"]))
+    omega = draw(st.sampled_from(["ω :", "ω:", "ω  :"]))
+    label = draw(st.sampled_from(["p{} :", "p{}:", "p_{} :", "p_{}: "]))
+    arrow = draw(st.sampled_from(["→", "->", "⟶", " → "]))
+    number = draw(st.sampled_from(["", "    (1.2)"]))
+    rules = [
+        f"{label.format(place)}{gap}{rule.predecessor.symbol} {arrow} {word(rule.successor)}"
+        for place, rule in enumerate(meant.productions, 1)
+    ]
+    above = draw(
+        st.sampled_from(["", "The following system makes the curve of the figure.\n\n", "12\n\nIt is drawn like this.\n"])
+    )
+    below = draw(
+        st.sampled_from(
+            ["", "\n\nFigure 1.7: A curve that somebody drew\n", "\nThe turtle draws it from left to right.\n\n13\n"]
+        )
+    )
+    setting = f"n{gap}={gap}4,{gap}δ{gap}={gap}{float(meant.angle):g}{degrees}"
+    text = f"{above}{setting}\n{omega} {word(meant.axiom)}\n" + "\n".join(rules) + f"{number}{below}"
+    if draw(st.booleans()):
+        text = re.sub(r"(?<=[A-Za-z\]\[+])-(?!>)", "−", text)
+    return text.replace("∧", "^")
+
+
+@st.composite
+def as_l_py(draw: st.DrawFn, meant: LSystem) -> str:
+    """A model of L-Py."""
+    arrow, gap = draw(st.sampled_from(["-->", "->"])), draw(st.sampled_from(["", " ", "\t"]))
+    comment = draw(st.sampled_from(["", "  # it grows"]))
+    rules = [f"{rule.predecessor.symbol}{gap} {arrow} {gap}{word(rule.successor)}{comment}" for rule in meant.productions]
+    head = draw(st.sampled_from(["", "# a model\n", "r = 0.5\n\n"]))
+    length = draw(st.sampled_from(["", "derivation length: 4\n"]))
+    end = draw(st.sampled_from(["", "endlsystem\n", "endlsystem\n###### INITIALISATION ######\n__lpy_code_version__ = 1.1\n"]))
+    return f"{head}Axiom:{gap} {word(meant.axiom)}\n{length}\nproduction:\n\n" + "\n".join(rules) + f"\n{end}"
+
+
+@st.composite
+def as_lparser(draw: st.DrawFn, meant: LSystem) -> str:
+    """A file of LParser, whose rolls are other signs."""
+    comment = draw(st.sampled_from(["", "  # so it is", "\t# 1"]))
+    blank = draw(st.sampled_from(["", "#\n", "\n"]))
+    gap = draw(st.sampled_from(["", " "]))
+
+    def spelt(modules) -> str:
+        return word(modules).translate({ord("\\"): "<", ord("/"): ">"})
+
+    rules = [f"{rule.predecessor.symbol}{gap}={gap}{spelt(rule.successor)}{comment}" for rule in meant.productions]
+    end = draw(st.sampled_from(["", "@\n", "@\nThe rest is not read: F=FF\n"]))
+    numbers = f"4{comment}\n{float(meant.angle):g}\n20\n"
+    return f"# a file\n{numbers}{blank}{spelt(meant.axiom)}\n" + "\n".join(rules) + f"\n{end}"
+
+
+@st.composite
+def as_markup(draw: st.DrawFn, meant: LSystem) -> str:
+    """A system in XML."""
+    head, tail = draw(st.sampled_from([("from", "to"), ("predecessor", "successor"), ("lhs", "rhs"), ("left", "right")]))
+    pairs = [(rule.predecessor.symbol, word(rule.successor)) for rule in meant.productions]
+    axiom, angle = escape(word(meant.axiom)), f"{float(meant.angle):g}"
+    gap = draw(st.sampled_from(["", "\n", "\n  "]))
+    if draw(st.booleans()):
+        rules = gap.join(f"<rule {head}={quoteattr(a)} {tail}={quoteattr(b)}/>" for a, b in pairs)
+    else:
+        rules = gap.join(f"<rule><{head}>{escape(a)}</{head}>{gap}<{tail}>{escape(b)}</{tail}></rule>" for a, b in pairs)
+    turned = draw(
+        st.sampled_from([f"<angle>{angle}</angle>", f"<parameter><name>angle</name><value>{angle}</value></parameter>"])
+    )
+    inside = draw(st.permutations([f"<axiom>{axiom}</axiom>", rules, turned]))
+    start = draw(st.sampled_from(["", '<?xml version="1.0" encoding="UTF-8"?>\n', "<!-- a curve -->"]))
+    root = draw(st.sampled_from(["system", "structure", "lsystem"]))
+    return f"{start}<{root}>{gap}{gap.join(inside)}{gap}</{root}>"
+
+
+WRITTEN = {"page": on_a_page, "l-py": as_l_py, "lparser": as_lparser, "xml": as_markup}
+"""Formats, and who writes them."""
+
+
+def is_held(meant: LSystem, name: str) -> bool:
+    """Whether a format can hold a system: letters of LParser mean something, and turns of L-Py are 60 degrees."""
+    letters = {module.symbol for rule in meant.productions for module in (*rule.predecessors, *flat(rule.successor))}
+    return letters.isdisjoint("ctZz") if name == "lparser" else meant.angle == 60 if name == "l-py" else True
+
+
+@pytest.mark.parametrize("name", WRITTEN)
+@pytest.mark.parametrize("id", PLAIN)
+@given(data=st.data())
+def test_a_system_of_the_catalogue_is_read_from_every_format(id: str, name: str, data: st.DataObject) -> None:
+    meant = system(id) if is_held(system(id), name) else KOCH
+    text = data.draw(WRITTEN[name](meant))
+    assert same(read(text), meant), text
+
+
+@pytest.mark.parametrize("name", WRITTEN)
+@given(data=st.data(), meant=plain_systems())
+def test_any_system_is_read_from_every_format(name: str, data: st.DataObject, meant: LSystem) -> None:
+    meant = meant if is_held(meant, name) else replace(meant, angle=60)
+    text = data.draw(WRITTEN[name](meant))
     assert same(read(text), meant), text
 
 
@@ -389,6 +494,38 @@ READ = {
         "def __initialiseContext__(context):\n\tscalars = [('s', 'Float', 3.5, 0.0, 10.0, 2)]\n",
         "s = 3.5\nangle: 60\naxiom: A(s)\nA(x) -> F(x)A(x/2)",
     ),
+    "a table of HTML": (
+        "<table><tr><th>Axiom</th><td>F++F</td></tr><tr><th>Rule</th><td>F &rarr; F-F</td></tr><tr><th>Angle</th>"
+        "<td>60&deg;</td></tr></table>",
+        "angle: 60\naxiom: F++F\nF -> F-F",
+    ),
+    "prompts": (
+        "In [1]: axiom = 'F'\n\nIn [2]: rules = {'F': 'F+F'}\n   ...: angle = 60\nOut[2]: {'F': 'G'}\n",
+        "angle: 60\naxiom: F\nF -> F+F",
+    ),
+    "formulas as text and as LaTeX": (
+        "Axiom: F++F {\\displaystyle F++F}\nRule: F → F - F {\\displaystyle F\\rightarrow F-F}\n"
+        "Angle: 60 ∘ {\\displaystyle 60^{\\circ }}",
+        "angle: 60\naxiom: F++F\nF -> F-F",
+    ),
+    "cells between semicolons": ("axiom;angle;rules\nF;60;F=F+F", "angle: 60\naxiom: F\nF -> F+F"),
+    "blocks": ("set [axiom v] to [X]\nset [rule X v] to [F+X]\nset [rule F v] to [FF]", "axiom: X\nX -> F+X\nF -> F F"),
+    "sentences in French": (
+        "On part de l'axiome F. On remplace chaque F par F+F et on tourne de 60°.",
+        "angle: 60\naxiom: F\nF -> F+F",
+    ),
+    "a sentence in German": ("Startwort F++F, jedes F wird durch F-F ersetzt, Winkel 60°", "angle: 60\naxiom: F++F\nF -> F-F"),
+    "what symbols mean": (
+        "F = draw forward, + = turn left 60°, - = turn right 60°\nAxiom F\nF → F+F",
+        "angle: 60\naxiom: F\nF -> F+F",
+    ),
+    "rules with names of their parts": (
+        "axiom: X\nrules:\n  - from: X\n    to: F+X\n  - from: F\n    to: FF",
+        "axiom: X\nX -> F+X\nF -> F F",
+    ),
+    "numbers of footnotes": ("Axiom: F[1]\nRules: F → F+F[2][3]", "axiom: F\nF -> F+F"),
+    "branches with digits": ("Axiom: F[1]\nRules: F → F+F[2], 1 → 2", "axiom: F[1]\nalphabet: 1 2\nF -> F+F[2]\n1 -> 2"),
+    "a δ that was taken for a digit": ("n = 4, 6 = 25°\nw : F\np : F --+ F+F", "steps: 4\nangle: 25\naxiom: F\nF -> F+F"),
     "steps of L-Py that nothing says": (
         "derivation length: n\nAxiom: A\nproduction:\nA --> AB",
         "angle: 60\naxiom: A\nA -> A B",

@@ -383,3 +383,29 @@ def test_a_million_characters_take_less_than_two_seconds(text: str) -> None:
     with suppress(LSystemError):
         read(text[: 10**6])
     assert time.process_time() - started < 2 * 3  # two seconds on a machine of one's own
+
+
+@pytest.mark.parametrize(
+    ("theta", "degrees"),
+    [
+        ("1.5707963267948966192313216916398", 90),
+        ("0.19634954084936207740391521145497", Fraction(45, 4)),
+        ("pi/6", 30),
+        ("= 2*PI / 7.", Fraction(360, 7)),
+        ("360/16*pi/180", Fraction(45, 2)),
+        (".5", Fraction("28.647889757")),
+    ],
+)
+def test_a_later_program_turns_by_radians(theta: str, degrees: Fraction) -> None:
+    text = f"Flower {{\n  theta {theta}\n  alpha pi/2\n  axiom F\n  F=F[+F][-F]\n}}"
+    system = read(text, "fractint")
+    assert (system.angle, system.heading) == (degrees, 90)
+    assert f'"theta" is in radians: + and - turn by {float(degrees):.6g} degrees.' in system.notes
+    assert read(text.replace("  alpha pi/2\n", ""), "fractint").heading == 0
+
+
+@pytest.mark.parametrize("theta", ["0", "60", "1/0", "9" * 200, "1" + "*1" * 20, "pi/" + "7" * 90 + "/" + "7" * 90])
+def test_what_is_no_turn_in_radians_is_refused(theta: str) -> None:
+    with pytest.raises(ModelSyntaxError, match="This is no turn in radians") as caught:
+        read(f"Flower {{\n  theta {theta}\n  axiom F\n  F=F+F\n}}", "fractint")
+    assert (caught.value.line, caught.value.column) == (2, 9)

@@ -1,326 +1,34 @@
 """Lists of named parts and rules, as encyclopaedias, home pages, lessons and the windows of programs have them.
 
-    variables : X F
-    start  : X
-    rules  : (X → F+[[X]-X]-F[-FX]+X), (F → FF)
-    angle  : 25°
-
-Each line is cut where another part begins. What is called by a name of `fields.toml`, or has an arrow between a symbol and
-a word, is a part of a system; everything else is prose around it.
+The parts of a text are put together to systems; what sentences around them say is taken in, or told.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
-from functools import cache
 from itertools import pairwise
 
 from lsys_kit.errors import ModelSyntaxError
-from lsys_kit.notation.formats.found import Found, Passage, Rule, angle_of, chance_of, tables, unquoted
+from lsys_kit.notation.formats.found import Found, Passage, Rule, angle_of, chance_of, symbols_in, tables, unquoted
+from lsys_kit.notation.formats.parts import (
+    AFTER,
+    ALIAS,
+    ANY_ARROW,
+    ARROW,
+    BLANKS,
+    NOTHING,
+    Part,
+    end_of_value,
+    is_word,
+    parts_in,
+    parts_in_line,
+    without_comment,
+)
 from lsys_kit.notation.syntax.text.statements import is_unfinished, pending, surely_goes_on
-from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, assembled, edited
 from lsys_kit.notation.syntax.text.transcription import FULL_STOPS, left_out
-
-LONGEST_LINE = 2_000
-"""Longer lines are prose."""
-_KINDS = "axiom", "rules", "angle", "steps", "head", "tail", "ignore", "scale", "constant", "other"
-_B = r"[ \t]*+"
-ARROW = r"(?:[-=|]{1,3}>|→|⟶|⟼|↦|⇒|➔|➜|➝|\\(?:long)?(?:rightarrow|mapsto)\b|\\to\b|::=|:=)"
-_LABEL = (
-    rf"(?:(?:[pPrR]|[Rr]ule|[Rr]egel)[_ ]?\d{{1,3}}{_B}[:.)=]|\(\d{{1,3}}\)|\d{{1,2}}(?:\.\d{{1,2}})*[.)]?(?=[ \t])|[pP]{_B}:)"
-)
-_OWN = r"(?:[A-Za-z]\w{0,15}|\d|[-+])"
-_SIDE = r"[^\s<>:=,;()]{1,20}(?:\([^()\n]{0,60}\))?"
-_CONDITION = r":(?![:=])(?:[^\n=→<>!]|[<>=!]=|[<>!=](?=[^=\n]*[^-=]=(?!=)|[^=\n]*->)){1,100}?"
-_HEAD = rf"(?:{_SIDE}{_B}<{_B})?[\"']?{_OWN}[\"']?{_B}(?:\([^()\n]{{0,80}}\))?(?:{_B}>{_B}{_SIDE})?(?:{_B}{_CONDITION})?"
-_CHANCE = r"(?:\d{1,3}(?:\.\d+)?\s?%|0?\.\d+|\(\d{1,3}\.?\d*\s?%\)|\(?\d{1,3}/\d{1,3}\)?)"
-_RULE = (
-    rf"(?:(?P<label>{_LABEL}){_B})?(?:(?P<first>{_CHANCE}){_B}:?{_B})?(?P<head>{_HEAD}){_B}"
-    rf"(?:(?<=[ \t])(?P<over>{_CHANCE}){_B}|-{{1,2}}{_B}(?P<within>{_CHANCE}){_B}(?=-*>|→))?"
-    rf"(?P<arrow>-*{ARROW}|WORDS|=(?!=)(?![ \t]*\d+(?:\.\d+)?[ \t]*(?:$|[,;:])))"
-)
-_AFTER = re.compile(
-    rf"(?:(?<![ \t])[ \t]++|(?<=[^\s(]))(?::{_B}(?P<plain>{_CHANCE}|\d(?:\.\d+)?)"
-    rf"|[(\[]{_B}(?:p{_B}={_B})?(?P<bracketed>{_CHANCE}){_B}[)\]]"
-    rf"|,{_B}p{_B}={_B}(?P<named>{_CHANCE})){_B}$"
-)
-"""A probability behind a successor."""
-_NOTHING = re.compile(r"\([a-z ]{5,}\)|empty|nothing|none|ε|λ|\*")
-_COMMENT = re.compile(
-    r"(?<![ \t])(?:[ \t]{2,}+\(\d+(?:\.\d+)*[a-z]?\)|[ \t]++(?:#|//|%|;|←)[ \t].*"
-    r"|[ \t]++\{(?=[^{}\n]*?[a-z]{3})[^{}\n]*\}|[ \t]++\((?=[^()\n]*?[a-z]{3})[^()\n]*\)[.]?)$",
-    re.MULTILINE,
-)
-"""What is said behind a part: a comment, the number of an equation."""
-_NUMBER = re.compile(r"[ \t]*+[-+]?(?:\d++(?:[.,]\d++)?+|\.\d++)(?:/\d++)?+(?P<rest>.*)")
-_BOUNDARY = re.compile(
-    r"[,;|\t({]+[ \t]*(?:(?:and|und|et|with|using|by|the|its|an?)[ \t]+){0,3}|[ \t]{2,}|[.][ \t]+"
-    r"|[ \t](?:and|und|y|et|en|e(?=[ \t]+(?:\(|\w{3})))[ \t]+[({]?"
-    r"|[ \t]\^[ \t]*\("
-    r"|[ \t](?P<said>with|using|by|the|its|mit|con|avec|com)[ \t]+(?:(?:the|an?)[ \t]+)?"
-    r"|:(?=[ \t])"
-)
-_BULLET = re.compile(
-    r"[ \t]*(?:[*•▪‣◦·][ \t]+|-[ \t]+(?=[A-Za-zΑ-ωА-я\"'][^<\n]*(?:[:=→]|->))|\d{1,2}(?:\.\d{1,2})*[.)][ \t]+|[a-z]\)[ \t]+)*"
-)
-_SIGNS_ONLY = re.compile(r"[A-Za-z0-9+\-&^\\/|\[\]{}$!'\"#~;.%@<>_?*, \t]+")
-_RUN = re.compile(r"[A-Za-z]{2,}")
-_USUAL = frozenset("FfGgSXYZLRABW")
-_ALIAS = re.compile(r"\A[ \t]*(?:[ωδθφαPS]|w(?=[ \t]*=[ \t]*\S))[ \t]*[:=](?!=)[ \t]*")
-
-
-def _without_comment(text: str) -> str:
-    """A part without what is said behind it, at the end of its last line."""
-    last = text.rfind("\n", 0, len(text) - text.endswith("\n")) + 1
-    return text[:last] + _COMMENT.sub("", text[last:])
-
-
-@cache
-def _fields() -> tuple[re.Pattern[str], dict[str, str]]:
-    """The pattern of a part's name with what separates it from its value, and the kind of each name."""
-    kinds = {
-        name.replace(" ", "").replace("_", "").replace("-", ""): kind for kind in _KINDS for name in tables()["names"][kind]
-    }
-    names = sorted({name for kind in _KINDS for name in tables()["names"][kind]}, key=len, reverse=True)
-    numbered = frozenset(tables()["names"]["rules"])
-    every = "|".join(
-        re.escape(each).replace(r"\ ", r"[ _-]?") + (r"(?:[ _]?\d{1,2})?" if each in numbered else "") for each in names
-    )
-    behind = r"(?![\wÀ-ÿ])(?:[ ]?\([^()\n]{0,40}\))?(?:[ ][ωδθφPVSϕ](?=[ ]?[:=]))?"
-    return re.compile(
-        rf"(?P<name>{every}){behind}(?:{_B}(?P<sep>:=|::?|=(?![=>])|→|⟶|-{{1,2}}>)|(?=[ \t]|$)){_B}", re.IGNORECASE
-    ), kinds
-
-
-@cache
-def _rules() -> re.Pattern[str]:
-    """The pattern of a rule's beginning."""
-    words = "|".join(tables()["arrows"]["words"])
-    return re.compile(_RULE.replace("WORDS", rf"(?<=[ \t])(?:{words})(?=[ \t])"))
-
-
-_COLON_RULE = re.compile(
-    rf"(?:(?P<label>{_LABEL}){_B})?(?P<first>x)?(?P<over>x)?(?P<within>x)?(?P<head>[\"']?(?:[A-Za-z]|\d|[-+])[\"']?){_B}(?P<arrow>:){_B}"
-)
-"""A rule with a colon for its arrow: behind a label, or under a heading."""
-
-
-@dataclass(frozen=True)
-class _Item:
-    """A part of a system in a text: its kind, where its value stands, and its beginning; of prose and blank lines, too.
-
-    The kinds are those of `fields.toml`, "rule", "" for prose, and "blank".
-    """
-
-    kind: str
-    start: int
-    end: int
-    match: re.Match[str] | None = None
-    line: int = 0
-
-    def value(self, text: str) -> Passage:
-        return Passage(text[self.start : self.end], self.start).part(0)
-
-
-def _items(text: str) -> list[_Item]:
-    """The parts of a text in their order."""
-    found: list[_Item] = []
-    section = ""
-    for number, match in enumerate(re.finditer(r"^.*$", text, re.MULTILINE)):
-        if not match[0].strip():
-            found.append(_Item("blank", *match.span(), None, number))
-            continue
-        items = _in_line(text, *match.span(), number, section == "rules") if len(match[0]) <= LONGEST_LINE else []
-        found += items or [_Item("", *match.span(), None, number)]
-        named = [item.kind for item in items if item.kind != "rule"]
-        section = named[-1] if named else section
-    return found
-
-
-def _in_line(text: str, start: int, end: int, line: int, under_rules: bool) -> list[_Item]:
-    """The parts that a line has."""
-    bullet = _BULLET.match(text, start, end)
-    start = bullet.end() if bullet else start
-    begun: list[tuple[int, _Item]] = []
-    within = _glued(text, start, end)
-    cuts = [
-        (each.start(), each.end())
-        for each in _BOUNDARY.finditer(text, start, end)
-        if not each["said"] or _is_named(text, each.end(), end)
-    ]
-    for until, at in ((start, start), *cuts):
-        if text[until : until + 1] == ":" and at > start:
-            at += len(text[at:end]) - len(text[at:end].lstrip())
-            if begun or not _is_named(text, at, end):
-                continue
-        if at < end and (at == start or not within[until - start]) and (not begun or at >= begun[-1][1].start):
-            item = _item_at(text, at, end, line, bool(begun), under_rules)
-            if item and not (item.match and item.match.re is _BARE_ANGLE and begun[-1][1].kind != "rule"):
-                begun.append((until, item))
-                if item.kind == "rules" and (rule := _under(text, item)):
-                    begun.append((item.start, rule))
-                    under_rules = True
-    ends = [*(until for until, _ in begun[1:]), end]
-    return [replace(item, end=_end(text, item.start, until)) for (_, item), until in zip(begun, ends, strict=False)]
-
-
-def _is_named(text: str, at: int, end: int) -> bool:
-    """Whether a part with a name begins at an offset, or a rule with an arrow."""
-    named, rule = _fields()[0].match(text, at, end), _rules().match(text, at, end)
-    return (named is not None and len(named["name"]) > 4) or (rule is not None and rule["arrow"] not in ("=", ":="))
-
-
-def _under(text: str, item: _Item) -> _Item | None:
-    """The first rule behind the name of the rules."""
-    opened = re.compile(r"(?:[ \t({\[]|P[ \t]*=)*").match(text, item.start, item.end)
-    at = opened.end() if opened else item.start
-    return next((rule for where in (at, item.start) if (rule := _rule_at(text, where, item.end, item.line, True))), None)
-
-
-def _glued(text: str, start: int, end: int) -> list[bool]:
-    """For each offset of a line, whether it is within the brackets behind a symbol, or at such a bracket itself."""
-    found, open_brackets, glued = [], [], 0
-    for index in range(start, end):
-        if text[index] == "(":
-            open_brackets.append(index > start and text[index - 1] not in " \t:,;{=>→")
-            glued += open_brackets[-1]
-        found.append(glued > 0)
-        if text[index] == ")" and open_brackets:
-            glued -= open_brackets.pop()
-    return [*found, glued > 0]
-
-
-def _end(text: str, start: int, end: int) -> int:
-    """The end of a value, without what separates it from the next, and without brackets that are opened before it."""
-    said = text[start:end].rstrip(" \t,;|")
-    said = said[:-1] if said.endswith(("}.", ").", " .")) else said
-    while said and said[-1] in ")}" and said.count(said[-1]) > said.count("({"[said[-1] == "}"]):
-        said = said[:-1].rstrip(" \t,;|")
-    return start + len(said)
-
-
-def _item_at(text: str, at: int, end: int, line: int, later: bool, under_rules: bool) -> _Item | None:
-    """The part that begins at an offset."""
-    pattern, kinds = _fields()
-    named = pattern.match(text, at, end)
-    rule = _rule_at(text, at, end, line, under_rules)
-    if later and _BARE_ANGLE.match(text, at, end):
-        return _Item("angle", at, end, _BARE_ANGLE.match(text, at, end), line)
-    if named and not (rule and rule.match and rule.match["label"]):
-        kind = kinds[re.sub(r"[ _-]|(?<!\d)\d++$", "", named["name"].lower())]
-        if _possible(kind, named, text[named.end() : end], rule, later):
-            return _Item(kind, named.end(), end, named, line)
-    return rule
-
-
-_BARE_ANGLE = re.compile(r"(?P<name>)(?P<sep>)(?<!\d[.,])(?=\d{1,3}(?:[.,]\d+)?[ ]?(?:°|degrees|deg\b))")
-"""An angle without a name, behind a rule."""
-
-
-def _rule_at(text: str, at: int, end: int, line: int, under_rules: bool) -> _Item | None:
-    """The rule that begins at an offset."""
-    rule = _rules().match(text, at, end)
-    if (
-        rule
-        and _can_be_replaced(rule)
-        and not (
-            rule["arrow"] in ("=", ":=")
-            and (_STRICT.search(text, rule.end(), end) or _CALCULATION.fullmatch(text[rule.end() : end].strip()))
-        )
-        and not (
-            len(rule["head"].strip()) == 1
-            and (
-                _is_prose(text[rule.end() : end].strip(" \t,;.)"))
-                or (rule["arrow"] in ("=", ":=") and _SET.match(text, rule.end(), end))
-            )
-        )
-    ):
-        return _Item("rule", rule.end(), end, rule, line)
-    colon = _COLON_RULE.match(text, at, end)
-    if colon is None:
-        return None
-    further = _FURTHER.search(text, colon.end(), end)
-    tail = text[colon.end() : further.start() if further else end].strip(" \"'")
-    if is_word(tail) and (
-        colon["label"] or under_rules or (len(tail) > 1 and colon["head"].isupper() and "," not in tail and not further)
-    ):
-        return _Item("rule", colon.end(), end, colon, line)
-    return None
-
-
-_FURTHER = re.compile(rf"[,;]{_B}(?={_COLON_RULE.pattern})".replace("?P<", "?P<_"))
-"""Where another rule with a colon begins."""
-_STRICT = re.compile(ARROW)
-_CALCULATION = re.compile(r"\d++(?:\.\d++)?(?:[ ]?[*/^][ ]?\d++(?:\.\d++)?)+|[a-z][ ]?[-+*/^][ ]?\d++(?:\.\d++)?")
-"""What a constant is, and no word."""
-_SET = re.compile(r"[ \t]*[{<(⟨][ \t]*\S[ \t]*,")
-"""A set of symbols."""
-
-
-def _is_prose(text: str) -> bool:
-    """Whether a text is a word or two of a language, and none of symbols."""
-    return (
-        re.fullmatch(r"[A-Z]?[a-z]{4,}(?:[ ][a-z]+)*", text) is not None and len(set(text)) > 3 and not _NOTHING.fullmatch(text)
-    )
-
-
-def _can_be_replaced(rule: re.Match[str]) -> bool:
-    """Whether what stands before an arrow can be replaced; before "=" only a symbol."""
-    name = re.match(r"[^\s(:<>]*", rule["head"].strip("\"' "))
-    return rule["arrow"] not in ("=", ":=") or bool(name and (len(name[0]) == 1 or "<" in rule["head"]))
-
-
-def _possible(kind: str, named: re.Match[str], value: str, rule: _Item | None, later: bool) -> bool:
-    """Whether a name can begin a part, by what stands behind it."""
-    short, sep = len(named["name"]) == 1, named["sep"] or ""
-    if kind != "axiom" and sep[-1:] in (">", "→", "⟶"):
-        return False
-    number = _NUMBER.fullmatch(_ALIAS.sub("", value))
-    if kind == "steps":
-        return bool(
-            number and (sep or not short) and re.match(r"[ \t]*(?:$|,(?![ ]?\d)|[;.)#%(|]|[A-Za-zÀ-ÿ]|//|\t)", number["rest"])
-        )
-    if kind == "angle":
-        if number and (sep or not short):
-            return re.match(r"[ \t]*[:=]", number["rest"]) is None
-        return bool(sep) and not (short and rule) and (angle_of(value) is not None or (not short and not later))
-    if kind == "rules":
-        return (
-            (bool(sep) and not short and rule is None)
-            or not value.strip()
-            or (sep != "" and bool(re.match(r"[ \t]*[{(]", value)))
-            or (not short and _rules().match(value.strip(" \t(\"'")) is not None)
-        )
-    if kind == "axiom":
-        if not sep and not value.strip():
-            return not later and len(named["name"]) > 4
-        if sep[-1:] in (">", "→", "⟶"):
-            return len(named["name"]) > 4 and not later
-        if sep:
-            return not short or named["name"] in "ωw"
-        said = re.split(r"\t|  |[ ]#|,[ ]", value.strip())[0]
-        return len(named["name"]) > 4 and is_word(said) and re.fullmatch(r"\S+|\S(?:[ ]\S)+", said.strip()) is not None
-    if kind in ("head", "tail"):
-        return bool(sep and value.strip()) and not later and rule is None
-    if kind in ("scale", "constant"):
-        return bool(sep and number)
-    return (bool(sep) and not (rule and short)) or bool(not sep and not later and _NUMBER.fullmatch(value))
-
-
-def is_word(text: str, letters: frozenset[str] = frozenset()) -> bool:
-    """Whether a text can be a word: signs and letters that no language has in a row, but those that are replaced.
-
-    >>> is_word("F-F++F"), is_word("the axiom"), is_word("abab", frozenset("ab"))
-    (True, False, True)
-    """
-    bare = re.sub(r"\([^()]*\)", "", text.strip())
-    return bool(bare and _SIGNS_ONLY.fullmatch(bare)) and all(
-        run.isupper() or set(run) <= letters | _USUAL or len(set(run)) == 1 for run in _RUN.findall(bare)
-    )
-
 
 OWN_FRAME = re.compile(
     r"^[ \t]*(?:[Ll]system[ \t]*:[ \t]*\w|\\(?:axiom|var|const|angle)\b[^{]|\*[ \t]*\#[ \t]*\w"
@@ -337,13 +45,16 @@ _OWN_STATEMENT = re.compile(
 )
 """Statements of the kit's notations: their readers say what is wrong with a text that has one."""
 _OWN_ARROW = re.compile(r"-->|->|→|⟶|::=")
-_SENTENCE = re.compile(r"(?<![A-Za-zÀ-ÿА-я])[A-Za-zÀ-ÿА-я]{3,}+[ ,]++[A-Za-zà-ÿА-я]{3}")
+_SENTENCE = re.compile(r"(?<![A-Za-zÀ-ÿА-я])[A-Za-zÀ-ÿА-я]{3,}+[ ,&]++[A-Za-zà-ÿА-я]{3}")
 _REFERENCE = re.compile(r"\s*(?:\[\d{1,3}\]|\(\d{1,3}\)|\d{2,4}|[-–][ ]?\d{1,4}[ ]?[-–]|/[ ]?[a-z])\s*")
 """The number of a page, of a footnote, a caption's letter, alone on a line."""
-_MARKED = re.compile(r"&(?:\w{2,8}|#\d{1,6});|<(?:b|br|p|tt|td)\b[^<>\n]{0,99}>|\*\*|`|\\begin\{", re.IGNORECASE)
+_MARKED = re.compile(
+    r"&(?:\w{2,8}|#\d{1,6});|<(?:b|br|p|tt|td)\b[^<>\n]{0,99}>|\*\*|`|\\begin\{|\\displaystyle|^[ \t]*set[ ]\[",
+    re.IGNORECASE | re.MULTILINE,
+)
 
 
-def _is_on_a_page(text: str, items: Sequence[_Item], source: str) -> bool:
+def _is_on_a_page(text: str, items: Sequence[Part], source: str) -> bool:
     """Whether a text has what none in the kit's notation has: other names and signs, several parts on a line, prose."""
     if OWN_FRAME.search(text) or _OWN_STATEMENT.search(text):
         return False
@@ -353,7 +64,7 @@ def _is_on_a_page(text: str, items: Sequence[_Item], source: str) -> bool:
     return several or _MARKED.search(source) is not None or any(_is_foreign(item, text) for item in items)
 
 
-def _is_foreign(item: _Item, text: str) -> bool:
+def _is_foreign(item: Part, text: str) -> bool:
     """Whether a part is none of the kit's notation."""
     if item.kind in ("", "above"):
         return (_SENTENCE.search(text, item.start, item.end) or _REFERENCE.fullmatch(text, item.start, item.end)) is not None
@@ -376,7 +87,7 @@ def systems_in_lines(text: str, source: str = "") -> list[Found]:
     >>> found.axiom[0].text, [(rule.head.text, rule.tail[0].text) for rule in found.rules], found.angle[0]
     ('X', [('X', 'F[+X]'), ('F', 'FF')], Fraction(25, 1))
     """
-    items = _items(text)
+    items = parts_in(text)
     if not _is_on_a_page(text, items, source):
         return []
     heads = [item.match["head"].strip("\"' ") for item in items if item.kind == "rule" and item.match]
@@ -386,17 +97,51 @@ def systems_in_lines(text: str, source: str = "") -> list[Found]:
     _check_arrows(text, items)
     _check_left_out(text, items)
     systems = [replace(_system(text, group), names=names) for group in _groups(items)]
-    systems = [_without_function(system) for system in systems if system.axiom or system.rules] or [Found()]
+    systems = [_without_references(_without_function(each)) for each in systems if each.axiom or each.rules] or [Found()]
     starts = ((text.rfind("\n", 0, item.start) + 1 if item.kind == "angle" else item.start, item) for item in items)
-    prose = [Passage(text[at : item.end], at) for at, item in starts if item.kind in ("", "axiom", "rule", "angle")]
+    prose = [Passage(text[at : item.end], at) for at, item in starts if item.kind in ("", "axiom", "rule", "angle", "other")]
     systems = [*{(_all_of(system.axiom), *map(_shown, system.rules)): system for system in reversed(systems)}.values()][::-1]
     lost = _lost_rules(text, items)
     for system in systems:
         system.notes += lost if system.rules else ()
+        system.notes += _told_names(system)
     for system in systems if len(systems) == 1 else ():
         _take_said(system, prose)
         _take_prose(system, prose)
     return [system for system in systems if system.axiom or system.rules]
+
+
+_FOOTNOTE = re.compile(r"(?:\[\d{1,3}\])+$")
+
+
+def _without_references(found: Found) -> Found:
+    """The same without the numbers of footnotes behind words, F+F[1], where no digit is a symbol otherwise."""
+    words = [*(found.axiom or ()), *(part for rule in found.rules for part in (rule.head, *rule.tail))]
+    marks = [mark[0] for word in words if (mark := _FOOTNOTE.search(word.text))]
+    rest = "".join(re.sub(r"\([^()]*\)", "", _FOOTNOTE.sub("", word.text)) for word in words)
+    if not marks or any(map(str.isdigit, rest)):
+        return found
+
+    def bare(words: tuple[Passage, ...]) -> tuple[Passage, ...]:
+        return tuple(word.part(0, len(_FOOTNOTE.sub("", word.text))) for word in words)
+
+    rules = [replace(rule, tail=bare(rule.tail)) for rule in found.rules]
+    note = f"Behind words, {' and '.join(dict.fromkeys(marks))} are left out: numbers of footnotes."
+    return replace(found, axiom=bare(found.axiom) if found.axiom else None, rules=rules, notes=[*found.notes, note])
+
+
+def _told_names(found: Found) -> list[str]:
+    """A note on the first word in which a name of several letters stands beside other letters: they might be single symbols."""
+    for word in (*(found.axiom or ()), *(part for rule in found.rules for part in rule.tail)):
+        symbols = [(start, end) for start, end, values in symbols_in(word.text, found.names) if not values]
+        pieces = [word.text[start:end] for start, end in symbols]
+        if any(
+            left[1] == right[0] and max(left[1] - left[0], right[1] - right[0]) > 1
+            for left, right in pairwise(symbols)
+            if word.text[left[0]].isalnum() and word.text[right[0]].isalnum()
+        ):
+            return [f'What stands before an arrow is one symbol: "{word.text}" is read as {" ".join(pieces)}.']
+    return []
 
 
 def _all_of(word: Sequence[Passage] | None) -> str:
@@ -430,7 +175,8 @@ def _without_function(found: Found) -> Found:
 
 
 _SAID_ANGLE = re.compile(
-    r"(?:turn|angle|rotat|dreh|gir|winkel)[^.\n]{0,40}?(?<![\d.])(\d{1,3}(?:[.,]\d+)?)[ ]?(?:°|deg)"
+    r"(?:turn|angle|rotat|dreh|winkel|tourn|gir|ruot|draai|obr[oó]|поворо|поверн|旋转|回転)"
+    r"[^.\n]{0,40}?(?<![\d.])(\d{1,3}(?:[.,]\d+)?)[ ]?(?:°|deg)"
     r"|\((\d{1,3}(?:\.\d+)?)[ ]?(?:°|deg)\w*\)|(?<![\d.])(\d{1,3}(?:[.,]\d+)?)°[ ](?:to the |nach |turn)",
     re.IGNORECASE,
 )
@@ -447,14 +193,16 @@ _SAID_DRAWS = re.compile(
 _SYMBOL_OF_TIKZ = re.compile(r"\\symbol\{(\w)\}\{\\pgflsystem(draw|move)forward")
 _W = r"[\"'`]?([A-Za-z0-9+\-\[\]|&^/!]{1,80})[\"'`]?(?=[\s,.;)]|$)"
 _SAID_AXIOM = re.compile(
-    rf"(?:start(?:s|ing)?[ ](?:with|from)|(?:axiom|initial string|start word)[ ](?:is|of|being)?)"
-    rf"[ ]?(?:the[ ])?(?:axiom[ ]|word[ ]|string[ ])?{_W}",
+    rf"(?:(?:start|begin)(?:s|n?ing)?[ ](?:with|from)"
+    rf"|(?:axiome?|initial string|start[ ]?word|startwort|axioma)[ ](?:is|of|being)?)"
+    rf"[ ]?(?:the[ ])?(?:axiom[ ]|word[ ]|string[ ]|(?:axiom|word|string):[ ]|an?[ ]\w+,[ ])?{_W}",
     re.IGNORECASE,
 )
 _SAID_RULE = re.compile(
     rf"replac(?:e|ing)[ ](?:every|each|all|any)[ ]?[\"'`]?([A-Za-z0-9])[\"'`]?s?"
     rf"[ ](?:with|by)[ ](?:the[ ](?:word|string)[ ])?{_W}"
-    rf"|(?:every|each)[ ][\"'`]?([A-Za-z0-9])[\"'`]?[ ](?:becomes|is[ ]replaced[ ](?:by|with))[ ]{_W}",
+    rf"|(?:every|each|jedes|chaque|cada|ogni)[ ][\"'`]?([A-Za-z0-9])[\"'`]?"
+    rf"[ ](?:becomes|is[ ]replaced[ ](?:by|with)|wird[ ]durch|par|por|con)[ ]{_W}",
     re.IGNORECASE,
 )
 
@@ -464,8 +212,16 @@ def _take_said(found: Found, prose: Sequence[Passage]) -> None:
     for each in prose if not found.rules else ():
         for match in _SAID_RULE.finditer(each.text):
             first = 1 if match[1] else 3
+            if any(rule.head.at == each.part(*match.span(first)).at for rule in found.rules):
+                continue
             found.rules.append(Rule(each.part(*match.span(first)), (each.part(*match.span(first + 1)),)))
-    axioms = [each.part(*match.span(1)) for each in prose for match in _SAID_AXIOM.finditer(each.text) if is_word(match[1])]
+    heads = {rule.head.text for rule in found.rules}
+    axioms = [
+        each.part(*match.span(1))
+        for each in prose
+        for match in _SAID_AXIOM.finditer(each.text)
+        if is_word(match[1]) and not heads.isdisjoint(match[1])
+    ]
     if found.axiom is None and found.rules and len({axiom.text for axiom in axioms}) == 1:
         found.axiom = (axioms[0],)
         found.notes.append(f'The axiom is that of the text: "{axioms[0].text}".')
@@ -498,9 +254,9 @@ def _take_prose(found: Found, prose: Sequence[Passage]) -> None:
         found.notes.append(f"As the text says, {drawn}.")
 
 
-def _with_plain_axioms(text: str, items: Sequence[_Item], letters: frozenset[str]) -> list[_Item]:
+def _with_plain_axioms(text: str, items: Sequence[Part], letters: frozenset[str]) -> list[Part]:
     """The parts, with a word alone above a rule for an axiom, if no axiom has a name; lines that go on with a rule in it."""
-    found: list[_Item] = []
+    found: list[Part] = []
     named = any(item.kind == "axiom" for item in items)
     filled = [item for item in items if item.kind != "blank"]
     known = letters.union(*(text[item.start : item.end] for item in filled if item.kind in ("rule", "axiom")))
@@ -554,7 +310,7 @@ _LOST = re.compile(rf"[(:,;{{][ \t]*({ARROW})[ \t]*[^\s)]")
 """An arrow that has nothing to its left."""
 
 
-def _check_arrows(text: str, items: Sequence[_Item]) -> None:
+def _check_arrows(text: str, items: Sequence[Part]) -> None:
     """Refuse a rule whose left side was lost."""
     for item in items:
         if item.kind in ("rules", "rule"):
@@ -572,11 +328,11 @@ def _check_arrows(text: str, items: Sequence[_Item]) -> None:
                 )
 
 
-_ANY_RULE = re.compile(rf"(?<![\w\])>])[\"']?[A-Za-z0-9][\"']?{_B}{ARROW}{_B}[\"']?[A-Za-z0-9+\-\[\]^&/|]+")
+_ANY_RULE = re.compile(rf"(?<![\w\])>])[\"']?[A-Za-z0-9][\"']?{BLANKS}{ARROW}{BLANKS}[\"']?[A-Za-z0-9+\-\[\]^&/|]+")
 """A rule, wherever it stands."""
 
 
-def _lost_rules(text: str, items: Sequence[_Item]) -> list[str]:
+def _lost_rules(text: str, items: Sequence[Part]) -> list[str]:
     """The notes on rules that stand in a text, and are no parts of a system."""
     rules = [(item.match.start("head"), item.end) for item in items if item.kind == "rule" and item.match]
     read = {re.sub(r"[^\w+\-\[\]]|->", "", text[start:end]) for start, end in rules}
@@ -595,7 +351,7 @@ _WRITTEN = re.compile(
 """What one takes for a rule."""
 
 
-def _check_left_out(text: str, items: Sequence[_Item]) -> None:
+def _check_left_out(text: str, items: Sequence[Part]) -> None:
     """Refuse a line among the parts that looks like a rule and is none."""
     parts = [index for index, item in enumerate(items) if item.kind == "rule"]
     for item in items[parts[0] : parts[-1] + 2] if parts else ():
@@ -612,8 +368,8 @@ def has_unread_words(text: str) -> bool:
     >>> has_unread_words("Axiom: F\nRules:"), has_unread_words("Axiom: F\nF F+F")
     (False, True)
     """
-    lines = (text[item.start : item.end] for item in _items(text) if item.kind == "")
-    return _STRICT.search(text) is not None or any(is_word(line) for line in lines)
+    lines = (text[item.start : item.end] for item in parts_in(text) if item.kind == "")
+    return ANY_ARROW.search(text) is not None or any(is_word(line) for line in lines)
 
 
 def is_prose(text: str) -> bool:
@@ -622,7 +378,7 @@ def is_prose(text: str) -> bool:
     >>> is_prose("Home → Fractals → L-systems\nPosted by Anna on Monday"), is_prose("axiom: F"), is_prose("Leaf -> Leaf Leaf")
     (True, False, False)
     """
-    items = _items(text)
+    items = parts_in(text)
     return bool(_SENTENCE.search(text) or _PATH.search(text)) and all(
         item.kind in ("", "blank") or _PATH.match(text, text.rfind("\n", 0, item.start) + 1) for item in items
     )
@@ -633,7 +389,7 @@ _PATH = re.compile(rf"^[ \t]*+{_PLACE}(?:{_STEP}{_PLACE}){{2,9}}$", re.MULTILINE
 """Where a page is, as its head says: Home → Fractals → L-systems."""
 
 
-def _groups(items: Sequence[_Item]) -> Iterator[Sequence[_Item]]:
+def _groups(items: Sequence[Part]) -> Iterator[Sequence[Part]]:
     """The parts of each system: another one begins with another axiom, or with the settings above it."""
     cuts = [0]
     for first, second in pairwise(index for index, item in enumerate(items) if item.kind == "axiom"):
@@ -646,7 +402,7 @@ def _groups(items: Sequence[_Item]) -> Iterator[Sequence[_Item]]:
     yield from (items[start:end] for start, end in pairwise((*cuts, len(items))))
 
 
-def _system(text: str, items: Sequence[_Item]) -> Found:
+def _system(text: str, items: Sequence[Part]) -> Found:
     """The system of its parts."""
     found = Found()
     start = text.rfind("\n", 0, items[0].start) + 1 if items else 0
@@ -690,7 +446,7 @@ def _system(text: str, items: Sequence[_Item]) -> Found:
             found.ignored = value
         elif item.kind == "scale" and (scale := angle_of(value.text)):
             found.signs = {**found.signs, ">": f"@Di({float(scale):g})", "<": f"@Dd({float(scale):g})"}
-        elif item.kind == "constant" and item.match and (number := angle_of(_without_comment(value.text))) is not None:
+        elif item.kind == "constant" and item.match and (number := angle_of(without_comment(value.text))) is not None:
             found.lines.append(Passage(f"{item.match['name'][-1]} = {float(number):g}", value.at, False))
         for signs in tables()["signs"].values():
             if item.match and item.kind not in ("rule", "") and item.match["name"].lower() in signs["by"]:
@@ -715,13 +471,13 @@ def _with_chances(rules: list[Rule]) -> list[Rule]:
     return rules
 
 
-def _add_axiom(found: Found, value: Passage, item: _Item) -> None:
-    alias = _ALIAS.match(value.text)
+def _add_axiom(found: Found, value: Passage, item: Part) -> None:
+    alias = ALIAS.match(value.text)
     said = value.part(alias.end() if alias else 0)
-    passage = unquoted(Passage(_without_comment(said.text), said.at).part(0))
+    passage = unquoted(Passage(without_comment(said.text), said.at).part(0))
     if not is_word(passage.text) and (word := re.match(r"(\S+?)[,;.]?\s+[a-z]{2,}\b", passage.text)):
         passage = passage.part(0, word.end(1))
-    passage = passage.part(0, _end(passage.text, 0, len(passage.text)))
+    passage = passage.part(0, end_of_value(passage.text, 0, len(passage.text)))
     if passage.text.endswith(".") and len(passage.text) > 1 and "{" not in passage.text:
         passage = passage.part(0, len(passage.text) - 1)
     if found.axiom is not None:
@@ -734,7 +490,7 @@ def _add_axiom(found: Found, value: Passage, item: _Item) -> None:
 
 
 def _add_setting(found: Found, kind: str, value: Passage, text: str) -> None:
-    said = _without_comment(_ALIAS.sub("", value.text))
+    said = without_comment(ALIAS.sub("", value.text))
     if kind == "steps":
         if found.steps is None and (number := re.match(r"\d{1,6}", said)):
             found.steps = int(number[0]), value
@@ -750,11 +506,11 @@ def _add_setting(found: Found, kind: str, value: Passage, text: str) -> None:
         found.notes.append(f"Two angles are given: {float(found.angle[0]):g} is used, not {float(angle):g}.")
 
 
-def _rule(text: str, item: _Item) -> Rule:
+def _rule(text: str, item: Part) -> Rule:
     """The rule of a part."""
     assert item.match is not None
-    said = _without_comment(text[item.start : item.end])
-    after = _AFTER.search(said)
+    said = without_comment(text[item.start : item.end])
+    after = AFTER.search(said)
     chance = next((chance for name in ("first", "over", "within") if (chance := item.match[name])), None)
     if after:
         chance = chance or after["plain"] or after["bracketed"] or after["named"]
@@ -762,7 +518,7 @@ def _rule(text: str, item: _Item) -> Rule:
     tail = unquoted(Passage(said, item.start).part(0))
     if tail.text.endswith(".") and len(tail.text) > 1 and "{" not in tail.text:
         tail = tail.part(0, len(tail.text) - 1)
-    if _NOTHING.fullmatch(tail.text):
+    if NOTHING.fullmatch(tail.text):
         tail = tail._replace(text="")
     head = Passage(item.match["head"], item.match.start("head")).part(0)
     return Rule(unquoted(head), (tail,), chance_of(chance))
@@ -774,7 +530,7 @@ def rules_in_line(passage: Passage) -> list[Rule]:
     >>> [(rule.head.text, rule.tail[0].text) for rule in rules_in_line(Passage("A=AB;B=A", 0))]
     [('A', 'AB'), ('B', 'A')]
     """
-    items = [item for item in _in_line(passage.text, 0, len(passage.text), 0, True) if item.kind == "rule"]
+    items = [item for item in parts_in_line(passage.text, 0, len(passage.text), 0, True) if item.kind == "rule"]
     return [_moved(_rule(passage.text, item), passage) for item in items]
 
 
@@ -784,145 +540,3 @@ def _moved(rule: Rule, passage: Passage) -> Rule:
         part._replace(at=passage.at + part.at * passage.exact, exact=passage.exact) for part in (rule.head, *rule.tail)
     )
     return Rule(head, tuple(tail), rule.probability)
-
-
-# --- what is around the parts on a page -------------------------------------------------------------------------------------
-
-_LATEX = re.compile(r"\\(?:begin|end|omega|delta|rightarrow|mapsto|to|theta|circ|text|quad)\b")
-_MACROS = {
-    "omega": "ω", "delta": "δ", "theta": "θ", "quad": "  ", "qquad": "  ", "circ": "°", "ldots": "", "left": "", "right": "",
-    "item": "", "centering": "", "hfill": "  ", "textbf": "", "textit": "", "mathrm": "", "mathbf": "", "mathtt": "",
-    "texttt": "",
-    "to": "→", "rightarrow": "→", "Rightarrow": "→", "longmapsto": "→",
-    "longrightarrow": "→", "mapsto": "→", "varepsilon": "ε", "epsilon": "ε", "lbrace": "{", "rbrace": "}",
-}  # fmt: skip
-_MACRO = re.compile(
-    r"\\(?:begin|end)\{[^{}\n]*\}(?:\{[^{}\n]*\})?|\^?\{?\\circ\}?"
-    r"|\\text\{([^{}\n]*)\}|\\([A-Za-z]+)(?![A-Za-z])|\\([#{}%&$_])|\\[;,:! ]|\\\\|(?<!\\)&|\$+|\\[\[\]()]"
-)
-_MARKS = re.compile(r"^[ \t]*```.*$|\*\*|`|^(?=[^\n|]*\|)[ \t|:-]++$|^#+[ ]", re.MULTILINE)
-_RULE_OF_TIKZ = re.compile(r"\\rule\{([^{}\n]*)\}")
-_STRONG = re.compile(r"'''([\w -]{1,60})'''")
-_DOLLARS = re.compile(r"\$(?=[^\s$])([^$\n]*[^\s$\\])\$(?!\w)")
-
-
-def page_text(before: Transcript) -> Transcript:
-    r"""A page's text without the marks of Markdown and LaTeX, and with its tables as lists.
-
-    >>> from lsys_kit.notation.syntax.text.transcript import as_typed
-    >>> page_text(as_typed("**Rule:** $F \\to FF$")).text
-    'Rule: F → FF'
-    """
-    text = before.text
-    if _LATEX.search(text):
-        before = edited(before, (Edit(*match.span(), _macro(match)) for match in _MACRO.finditer(text)))
-    edits = [Edit(*match.span(), "") for match in _MARKS.finditer(before.text)]
-    edits += [Edit(*match.span(), match[1]) for match in _STRONG.finditer(before.text)]
-    edits += [Edit(*match.span(), f"\n{match[1]}\n") for match in _RULE_OF_TIKZ.finditer(before.text)]
-    for match in _DOLLARS.finditer(before.text):
-        edits += [Edit(match.start(), match.start() + 1, ""), Edit(match.end() - 1, match.end(), "")]
-    return without_columns(_without_tables(edited(before, edits) if edits else before))
-
-
-def _macro(match: re.Match[str]) -> str:
-    if match[0].startswith(("\\begin", "\\end")):
-        return "\n"
-    if "circ" in match[0]:
-        return "°"
-    if match[1] is not None or match[3]:
-        return match[1] or match[3] or ""
-    return (
-        _MACROS.get(match[2] or "", match[0])
-        if match[2]
-        else "\n"
-        if match[0] == "\\\\"
-        else ""
-        if match[0] in ("&", "\\!") or "$" in match[0]
-        else " "
-    )
-
-
-_COLUMNS = re.compile(r"(?>(?P<left>[ \t]*+\S.*?)(?<! )(?P<gap>[ ]{4,}+)(?=\S))(?P<right>[^\n]*+)")
-
-
-def without_columns(before: Transcript) -> Transcript:
-    """A text in which what a page has in two columns stands one below the other.
-
-    >>> from lsys_kit.notation.syntax.text.transcript import as_typed
-    >>> without_columns(as_typed("n=1, δ=9°     n=2, δ=8°\\nF → FF        F → F-F")).text
-    'n=1, δ=9°\\nF → FF\\nn=2, δ=8°\\nF → F-F\\n'
-    """
-    lines = [*re.finditer(r"[^\n]*\n?", before.text)]
-    split = [_COLUMNS.fullmatch(before.text, line.start(), line.start() + len(line[0].rstrip())) for line in lines]
-    two = [index for index, match in enumerate(split) if match and _is_part(match["left"]) and _is_part(match["right"])]
-    if len(two) < 2:
-        return before
-    pieces: list[Edit] = []
-    index = 0
-    while index < len(lines):
-        right: list[Edit] = []
-        while (
-            (match := split[index])
-            and abs(match.start("right") - lines[index].start() - (at := right_of(split, lines, two))) <= 12
-            and at >= 0
-        ):
-            pieces += (
-                Edit(match.start("left"), match.end("left"), match["left"]),
-                Edit(match.end("left"), match.end("left"), "\n"),
-            )
-            right += (
-                Edit(match.start("right"), match.end("right"), match["right"].rstrip()),
-                Edit(match.end("right"), match.end("right"), "\n"),
-            )
-            index += 1
-        pieces += (*right, Edit(*lines[index].span(), lines[index][0]))  # the last line is empty, and in no columns
-        index += 1
-    return assembled(before, pieces)
-
-
-def right_of(split: Sequence[re.Match[str] | None], lines: Sequence[re.Match[str]], two: Sequence[int]) -> int:
-    """Where the right column begins."""
-    found = sorted(match.start("right") - lines[index].start() for index in two if (match := split[index]))
-    return found[len(found) // 2]
-
-
-def _is_part(text: str) -> bool:
-    """Whether a text is a rule or a setting, as it stands in a listing."""
-    return re.match(rf"[ \t]*(?:[a-z]\)[ \t]+)?(?:\S{{1,12}}[ \t]*{ARROW}[ \t]*\S|(?:n|δ)[ \t]*=)", text) is not None
-
-
-_CELL, _COMMA_CELL = re.compile(r"[^|\t\n]+"), re.compile(r"[^,\n]+")
-
-
-def _without_tables(before: Transcript) -> Transcript:
-    """The same, with each row of a table of systems as a list: the heading of a column before each of its cells."""
-    names = tables()["names"]
-    heading: list[str] = []
-    pieces: list[Edit] = []
-    kinds = _fields()[1]
-    for match in re.finditer(r"[^\n]*\n?", before.text):
-        cells = [Passage(cell[0], cell.start()).part(0) for cell in _CELL.finditer(before.text, *match.span())]
-        if len(cells) == 1 and match[0].count(",") > 1:
-            cells = [Passage(cell[0], cell.start()).part(0) for cell in _COMMA_CELL.finditer(before.text, *match.span())]
-        named = [kinds.get(re.sub(r"[ _-]|\d", "", cell.text.lower()), "") for cell in cells]
-        low = [cell.text.lower() for cell in cells if len(cell.text) > 2]
-        if len(low) == len(cells) == 2 and low[0] in names["predecessor"] and low[1] in (*names["successor"], *names["rules"]):
-            heading = ["", "→"]
-        elif heading == ["", "→"] and len(cells) == 2:
-            (at, left), (to, right) = ((cell.at, cell.text) for cell in cells)
-            pieces += (
-                Edit(at, at + len(left), left),
-                Edit(to, to, " → "),
-                Edit(to, to + len(right), right),
-                Edit(to, to, "\n"),
-            )
-            continue
-        elif len({"axiom", "rules"} & {kind for kind, cell in zip(named, cells, strict=True) if len(cell.text) > 2}) == 2:
-            heading = [cell.text for cell in cells]
-        elif heading and len(cells) == len(heading):
-            for name, cell in zip(heading, cells, strict=True):
-                at = cell.at
-                pieces += (Edit(at, at, f"{name}: "), Edit(at, at + len(cell.text), cell.text), Edit(at, at, "\n"))
-            continue
-        pieces.append(Edit(*match.span(), match[0]))
-    return assembled(before, pieces) if heading else before

@@ -17,7 +17,8 @@ from itertools import pairwise
 from lsys_kit.budget import current
 from lsys_kit.errors import ModelSyntaxError
 from lsys_kit.notation.formats.found import Found, Passage, Rule, angle_of, chance_of, tables
-from lsys_kit.notation.formats.lines import is_word, rules_in_line
+from lsys_kit.notation.formats.lines import rules_in_line
+from lsys_kit.notation.formats.parts import is_word
 
 _TOKEN = re.compile(
     r"""(?P<blank>[ \t\r]+
@@ -509,7 +510,9 @@ def _head(entry: Entry, in_rules: bool, name: str) -> Passage | None:
         symbol = isinstance(inner, Term) and inner.kind == "text" and _SYMBOL.fullmatch(inner.text)
         return (
             inner.passage
-            if symbol and isinstance(inner, Term) and (_kind(last.head) == "rules" or len(last.head) == 1)
+            if symbol
+            and isinstance(inner, Term)
+            and (_kind(last.head) == "rules" or len(last.head) == 1 or (in_rules and last.opened == "["))
             else None
         )
     if last.kind == "text" and _SYMBOL.fullmatch(last.text) and not _is_field(last.text, in_rules):

@@ -10,7 +10,8 @@ import re
 from collections.abc import Iterator
 
 from lsys_kit.notation.formats.found import Found
-from lsys_kit.notation.formats.lines import ARROW, OWN_FRAME, is_word
+from lsys_kit.notation.formats.lines import OWN_FRAME
+from lsys_kit.notation.formats.parts import ARROW, is_word
 from lsys_kit.notation.syntax.text.statements import LABEL, is_unfinished, pending
 from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, as_typed, edited
 from lsys_kit.notation.syntax.text.transcription import left_out as note_on

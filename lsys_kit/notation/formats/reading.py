@@ -17,14 +17,15 @@ from lsys_kit.notation.dialects.abop.dialect import ABOP
 from lsys_kit.notation.foreign import foreign_format
 from lsys_kit.notation.formats.found import Found, completed, tables, transcript_of
 from lsys_kit.notation.formats.l_py import systems_in_l_py
-from lsys_kit.notation.formats.lines import has_unread_words, is_prose, page_text, systems_in_lines
+from lsys_kit.notation.formats.layout import page_text
+from lsys_kit.notation.formats.lines import has_unread_words, is_prose, systems_in_lines
 from lsys_kit.notation.formats.literals import systems_in_literals
 from lsys_kit.notation.formats.lparser import systems_in_lparser
 from lsys_kit.notation.formats.markup import systems_in_markup
 from lsys_kit.notation.formats.pages import listings_on_a_page
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.syntax.systems import system_in
-from lsys_kit.notation.syntax.text.transcript import Transcript, as_typed
+from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, as_typed, edited
 from lsys_kit.notation.syntax.text.typography import keyboard_signs
 
 
@@ -55,10 +56,22 @@ def _without_marks(source: str) -> Transcript:
     return page_text(keyboard_signs(source))
 
 
+_PROMPTS = re.compile(
+    r"^[ \t]*(?:In[ ]?\[\d*\]:?=?|>>>|\.\.\.(?=[ ])|\.\.\.:)[ \t]?|^[ \t]*Out[ ]?\[\d*\][:=].*$", re.MULTILINE
+)
+"""What an interactive session shows before what is typed, and its answers."""
+
+
+def _without_prompts(source: str) -> Transcript:
+    before = keyboard_signs(source)
+    prompts = [Edit(*match.span(), "") for match in _PROMPTS.finditer(before.text)]
+    return edited(before, prompts) if prompts else before
+
+
 DATA = Format(
     name="data",
     title="data, as in JSON or in the literals of a program",
-    prepared=keyboard_signs,
+    prepared=_without_prompts,
     systems=lambda before: systems_in_literals(before.text),
 )
 PAGE = Format(
@@ -146,7 +159,7 @@ def what_is_missing(text: str) -> LSystemError | None:
         len(systems) == 1
         and systems[0].axiom
         and not systems[0].rules
-        and _names_of("rules").search(before.text)
+        and (_names_of("rules").search(before.text) or _UNREAD_RULE.search(before.text))
         and not has_unread_words(before.text)
     ):
         where = before.origin(systems[0].axiom[0].at)
@@ -176,6 +189,8 @@ def _names_of(kind: str) -> re.Pattern[str]:
     return re.compile(rf"(?<!\w)(?:{'|'.join(words)})(?!\w)", re.IGNORECASE)
 
 
+_UNREAD_RULE = re.compile(r"^[ \t]*(?:rule|regel)[ \t]*[:=][ \t]*+(?=\S)", re.MULTILINE | re.IGNORECASE)
+"""What is called a rule, and is none."""
 _IN_ANY_TEXT = frozenset(("start", "initial", "sentence", "rotation", "degrees", "alpha"))
 _DEGREES = re.compile(r"(?<![\w.])\d{1,3}(?:[.,]\d+)?[ ]?(?:°|degrees|deg\b)")
 

@@ -20,7 +20,7 @@ from lsys_kit.notation.syntax.actions import Expressions, Statement, Statements,
 
 _SPELLINGS = {"<>": "!=", "%": "rem"}
 """Operators, and how the kit spells them."""
-SYMBOL_PATTERN = re.compile(r"@T[a-z]|@G[sce]|@P[SCD]|@D[id]|@[A-Za-z]|\?[A-Z]|[A-Za-z0-9_+\-−&^\\/|\[\]{}$!'#~;,.%]")
+SYMBOL_PATTERN = re.compile(r"@T[a-z]|@G[sce]|@P[SCD]|@D[id]|@[A-Za-z#!]|\?[A-Z]|[A-Za-z0-9_+\-−&^\\/|\[\]{}$!'#~;,.%]")
 """A symbol: a character, or "@" or "?" with a letter."""
 SILENT = frozenset(("printf", "fprintf", "fflush", "fclose", "stop", "play", "Display"))
 """Functions that change nothing in a model when they are called for their own sake."""

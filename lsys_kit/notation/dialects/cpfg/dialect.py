@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from heapq import merge
 from itertools import chain
 from pathlib import Path
+from string import ascii_uppercase
 from typing import Any
 
 from lsys_kit.notation.analysis.checks import SETTINGS, check_constants, check_expression, value_of
@@ -51,7 +52,7 @@ _KEYWORD = re.compile(
     re.IGNORECASE,
 )
 _PHASE = re.compile(r"(start|end)[ \t]*+(each)?[ \t]*+:", re.IGNORECASE)
-_AXIOM_START = re.compile(r"axiom[ \t]*:", re.IGNORECASE)
+_AXIOM_START = re.compile(r"axiom[ \t]*:(?![^\n]*-->)", re.IGNORECASE)
 _BEGIN = re.compile(r"lsystem[ \t]*:", re.IGNORECASE)
 _END = re.compile(r"endlsystem\b", re.IGNORECASE)
 
@@ -136,6 +137,8 @@ _MARKS = re.compile(
 )
 _NUMBERED = re.compile(r"^[ \t]*Lsystem[ \t]*:", re.MULTILINE | re.IGNORECASE)
 _LABEL = re.compile(rf"^[ \t]*+{LABEL}[ \t]*+:[ \t]*+(?=[^\n]*-->)", re.MULTILINE)
+_TEXT = re.compile(r'@L\s*\(\s*"(?P<text>[^"\n]*)"\s*(?P<sign>[,)])')
+"""A label that is drawn beside the turtle; its text may have values behind it."""
 _AXIOM_MARK = re.compile(r"^[ \t]*Axiom[ \t]*:", re.MULTILINE)
 _TURNS = frozenset("+-&^\\/")
 _DEFINED = re.compile(r"^#[ \t]*define[ \t]+\w+[ \t]*")
@@ -155,6 +158,7 @@ def _resolve_deferred(draft: Draft) -> None:
     """Take in what is known only when the whole text is read: the sections, and what the blocks of the rules compute."""
     section, variables = "productions", _variables(draft)
     constants = [constant.name for constant in draft.constants]
+    spares, drawn = [*_spare_symbols(draft)], list[Production]()
     draft.settings["branches"] = NEXT_BRANCH
     for kind, record, at in sorted(draft.deferred, key=lambda deferred: deferred[0] == "passed"):
         if kind == "section":
@@ -162,23 +166,44 @@ def _resolve_deferred(draft: Draft) -> None:
             draft.add(kind, record, at)
         elif kind == "rule":
             production, before, after = record
-            draft.add("production", substitute(production, before, after, constants), at)
+            spare = spares[0] if spares and section == "productions" else ""
+            made, *decomposed = substitute(production, before, after, constants, spare)
+            draft.add("production", made, at)
+            for rule in decomposed:
+                spares.remove(spare)
+                drawn.append(replace(rule, at=at))
+                draft.notes.append(f"{rule.predecessor} carries what is drawn once and used more than once.")
         elif kind == "passed":
             _resolve_passed(draft, record, at)
         elif kind == "count":
             keyword, expression = record
             _resolve_count(draft, section, keyword, expression, at)
+    draft.sections["decomposition"] += drawn
     _carry_counters(draft, variables.counters)
     axiom = Production((Pattern("axiom"),), draft.axiom or ())
     check_changing((axiom, *(rule for rules in draft.sections.values() for rule in rules)), variables.changing)
 
 
+def _spare_symbols(draft: Draft) -> Iterator[str]:
+    """Capitals that no module has; none where decomposition ends at some depth, so that one more rule would count."""
+    section = ""
+    for kind, record, _ in draft.deferred:
+        section = record if kind == "section" else section
+        if kind == "count" and record[0] == "maximum depth" and section == "decomposition":
+            return
+    rules = [record[0] for kind, record, _ in draft.deferred if kind == "rule"]
+    used = {module.symbol for module in chain(draft.axiom or (), *(rule.modules for rule in rules))}
+    yield from (symbol for symbol in reversed(ascii_uppercase) if symbol not in used | {"F", "G"})
+
+
 def _carry_counters(draft: Draft, counters: Counters) -> None:
     """Let modules carry the counters that their productions use, where they can."""
-    others = [*draft.sections["decomposition"], *draft.sections["interpretation"]]
-    carried = with_counters(draft.axiom or (), draft.sections["productions"], others, counters)
+    sections = draft.sections
+    carried = with_counters(
+        draft.axiom or (), sections["productions"], sections["decomposition"], sections["interpretation"], counters
+    )
     if carried is not None:
-        draft.axiom, draft.sections["productions"], said = carried
+        draft.axiom, sections["productions"], sections["interpretation"], said = carried
         draft.notes.append(said)
 
 
@@ -263,7 +288,9 @@ def _notes(draft: Draft) -> Iterator[str]:
                 f'with_surface(system, "{record[0]}", text) takes it out of its text.'
             )
     yield from _split_symbols(draft)
-    words = chain(draft.axiom or (), *(flat(rule.successor) for rules in draft.sections.values() for rule in rules))
+    words = [*chain(draft.axiom or (), *(flat(rule.successor) for rules in draft.sections.values() for rule in rules))]
+    if contours := sorted({module.symbol for module in words} & {"@#", "@!"}):
+        yield f"Stems are round: {' and '.join(contours)}, which give contours to those of cpfg, draw nothing here."
     if "angle" not in draft.settings and any(module.symbol in _TURNS and not module.arguments for module in words):
         yield (
             "cpfg keeps the angle by which + turns in a file of the view. It is 90 degrees here; for 22.5 put the line "
@@ -328,7 +355,10 @@ def _transcribe(source: str) -> Transcript:
     """A text after the preprocessor of C, but for the macros that are numbers, and without the labels of productions."""
     transcript = preprocessed(source, lambda rule, text: parse(CPFG, rule, text, 0, len(text)))
     labels = [Edit(*label.span(), "") for label in _LABEL.finditer(transcript.text)]
-    return edited(transcript, labels) if labels else transcript
+    texts = [*_TEXT.finditer(transcript.text)]
+    labels += [Edit(*text.span(), "@L(" if text["sign"] == "," else "@L") for text in texts]
+    shown = ", ".join(dict.fromkeys(f'"{text["text"]}"' for text in texts))
+    return edited(transcript, labels, [f"Labels have no texts here: {shown}."] if texts else []) if labels else transcript
 
 
 CPFG = Dialect(

@@ -69,8 +69,10 @@ ABSENT = (
     "curveZ",
 )
 """Functions of cpfg that the kit does not have."""
-CURVES = frozenset(("func", "curveX", "curveY", "curveZ"))
-_CURVES = "Its values are in a file of curves, which is not part of this text: write an expression in its place."
+_BESIDE = "Its values are in a file beside the model: read its folder, or write an expression in its place."
+_CONTOURS = "Its values are in a file of contours, which the kit does not read: write an expression in its place."
+CURVES: Mapping[str, str] = {"func": _BESIDE, **dict.fromkeys(("curveX", "curveY", "curveZ"), _CONTOURS)}
+"""Functions whose values are in files, and what to do about it."""
 _ROUNDED = 'Type "floor" or "ceil".'
 
 
@@ -108,7 +110,7 @@ def resolve_call(name: str, operands: tuple[Expression, ...], at: TextSpan) -> A
     """
     place = at or (0, 0)
     if name in ABSENT:
-        raise problem("absent function", place, name=name, hint=_CURVES if name in CURVES else "")
+        raise problem("absent function", place, name=name, hint=CURVES.get(name, ""))
     if name not in _FUNCTIONS and name not in BUILT:
         known = (*SAME, *RENAMED, *BUILT)
         hint = _instead(name) or suggestion(name, known, 0.7) or f"Functions are: {', '.join(sorted(known))}."

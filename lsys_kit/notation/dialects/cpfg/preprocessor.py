@@ -29,8 +29,11 @@ _OBJECT = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(\w+)(?!\()", re.MULTILINE)
 _LIKE_A_NUMBER = re.compile(r"-?[\d.(=]|[A-Za-z_]\w*+[ \t]*+[(*/+%^-]")
 _RANDOM = re.compile(r"\b(?:n|b|bi)?ran\s*\(")
 _OPENED, _INDEXED, _SIGNS = re.compile(r"\s*\("), re.compile(r"\s*\["), re.compile(r"[()\[\]{},]")
-_ARRAY = re.compile(r"\b([A-Za-z_]\w*+)\s*+\[[^\[\]{}]*+\]\s*+=\s*+\{([^{}]*+)\}")
-_CHANGED = re.compile(r"\b([A-Za-z_]\w*+)\s*+\[[^\[\]=]*+\]\s*+=(?![={]|\s*\{)")
+_ARRAY = re.compile(r"\b([A-Za-z_]\w*+)\s*+(?:\[[^\[\]{}]*+\]\s*+)?\[([^\[\]{}]*+)\]\s*+=\s*+\{([^{}]*+)\}")
+_TWO = re.compile(r"\]\s*+\[")
+_CHANGED = re.compile(r"\b([A-Za-z_]\w*+)\s*+(?:\[[^\[\]=]*+\]\s*+){1,2}=(?![={]|\s*\{)")
+_SIZE = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(\w+)[ \t]+(\d{1,4})[ \t]*$", re.MULTILINE)
+_LINE_COMMENT = re.compile(r"//[^\n]*")
 _DIGITS = re.compile(r"[\d.,\s]+")
 _PARAMETERS = re.compile(r"\(\s*+((?:[A-Za-z_]\w*+\s*+(?:,\s*+)?)*+)\)")
 
@@ -47,11 +50,14 @@ class Macro:
         Its parameters, where it is written with values in parentheses.
     elements
         The elements of an array that nothing changes; there is no other text.
+    columns
+        How many elements a row has, where the array has rows; 0 where it has none.
     """
 
     body: str
     parameters: tuple[str, ...] | None = None
     elements: tuple[str, ...] = ()
+    columns: int = 0
 
 
 class Macros:
@@ -129,7 +135,16 @@ class Macros:
             if opened is None:
                 return None
             given, end = self._values(text, opened.end(), at)
-            body = self._element(macro.elements, self.expanded(",".join(given), at, hidden), at)
+            elements = macro.elements
+            if macro.columns:
+                second = _INDEXED.match(text, end)
+                if second is None:
+                    return None
+                column, end = self._values(text, second.end(), at)
+                inner = self.expanded(",".join(column), at, hidden)
+                rows = range(0, len(elements), macro.columns)
+                elements = tuple(self._element(elements[row : row + macro.columns], inner, at) for row in rows)
+            body = self._element(elements, self.expanded(",".join(given), at, hidden), at)
         elif macro.parameters is not None:
             opened = _OPENED.match(text, end)
             if opened is None:
@@ -205,10 +220,19 @@ def _chosen(elements: tuple[str, ...], first: int, index: str) -> str:
 def arrays_in(text: str, plain: str) -> dict[str, Macro] | None:
     """The arrays that a definition makes, if all have their elements and nothing in a text changes them.
 
-    >>> arrays_in("array a[3] = {1, 2, 3}, b[1]={4};", "A(a[2])")
-    {'a': Macro(body='', parameters=None, elements=('1', '2', '3')), 'b': Macro(body='', parameters=None, elements=('4',))}
+    >>> found = arrays_in("array a[3] = {1, 2, 3}, b[1][2]={4, 5};", "A(a[2])")
+    >>> [(name, array.elements, array.columns) for name, array in found.items()]
+    [('a', ('1', '2', '3'), 0), ('b', ('4', '5'), 2)]
     """
-    found = {each[1]: Macro("", None, tuple(value.strip() for value in each[2].split(","))) for each in _ARRAY.finditer(text)}
+    text, sizes = _LINE_COMMENT.sub("", text), dict(_SIZE.findall(plain))
+    found = {}
+    for each in _ARRAY.finditer(text):
+        elements = tuple(value.strip() for value in each[3].split(","))
+        size = sizes.get(each[2].strip(), each[2].strip())
+        columns = (int(size) if size.isdecimal() else -1) if _TWO.search(each[0]) else 0
+        if columns < 0 or (columns and len(elements) % columns):
+            return None
+        found[each[1]] = Macro("", None, elements, columns)
     rest = re.sub(r"\barray\b|[\s,;]", "", _ARRAY.sub("", text))
     changed = any(name in found for name in _CHANGED.findall(plain))
     return None if rest or changed or not all(all(macro.elements) for macro in found.values()) else found
@@ -217,8 +241,9 @@ def arrays_in(text: str, plain: str) -> dict[str, Macro] | None:
 def macro_of(name: str, rest: str, known: Collection[str]) -> Macro | None:
     """The macro with parameters, or without text, that a definition makes; None where it has a text of its own to judge.
 
-    >>> macro_of("twice", "(t) (2*t)", ()), macro_of("DEBUG", "", ["DEBUG"]), macro_of("dt", " 0.5", ())
-    (Macro(body='(2*t)', parameters=('t',), elements=()), Macro(body='', parameters=None, elements=()), None)
+    >>> twice = macro_of("twice", "(t) (2*t)", ())
+    >>> twice.body, twice.parameters, macro_of("DEBUG", "", ["DEBUG"]).parameters, macro_of("dt", " 0.5", ())
+    ('(2*t)', ('t',), None, None)
     """
     parameters = _PARAMETERS.match(rest)
     if parameters:

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import chain
 from typing import TypeAlias
 
 from lsys_kit.budget import current
@@ -63,16 +64,34 @@ Block: TypeAlias = tuple[Assignment | Choice, ...]
 """Statements, in the order written."""
 
 
-def substitute(production: Production, before: Block, after: Block, constants: Collection[str]) -> Production:
+def substitute(
+    production: Production, before: Block, after: Block, constants: Collection[str], spare: str = ""
+) -> tuple[Production, ...]:
     """A rule with what its blocks compute: one before its condition, one after it.
 
-    >>> x, doubled = Name("x"), Apply("+", (Name("t"), Name("t")))
-    >>> rule = Production((Pattern("M", (Name("t"),)),), (Pattern("I", (x,)),))
-    >>> print(substitute(rule, (), (Assignment(x, doubled),), ()))
-    M(t) -> I(t + t)
+    A random number that its successor uses more than once is drawn first, for a module with a symbol that nothing else has,
+    which a second rule decomposes in the same step.
+
+    Parameters
+    ----------
+    production, before, after
+        The rule and its blocks.
+    constants
+        The names of the constants.
+    spare
+        Such a symbol; where none can be had, such a number is refused.
+
+    Examples
+    --------
+    >>> x, doubled, drawn = Name("x"), Apply("+", (Name("t"), Name("t"))), Apply("uniform", (Number(0), Number(1)))
+    >>> rule = Production((Pattern("M", (Name("t"),)),), (Pattern("I", (x,)), Pattern("J", (x,))))
+    >>> print(*substitute(rule, (), (Assignment(x, doubled),), ()))
+    M(t) -> I(t + t)J(t + t)
+    >>> print(*substitute(rule, (), (Assignment(x, drawn),), (), "Z"), sep=", ")
+    M(t) -> Z(t,uniform(0, 1)), Z(t,x) -> I(x)J(x)
     """
     if not before and not after:
-        return production
+        return (production,)
     names = [argument.name for module in production.parameters for argument in module.arguments if isinstance(argument, Name)]
     rule = _Rule(frozenset(names), frozenset(constants))
     first = rule.computed(before, {})
@@ -84,8 +103,37 @@ def substitute(production: Production, before: Block, after: Block, constants: C
         successor=with_expressions(production.successor, lambda expression: rule.replaced(expression, last)),
         probability=None if probability is None else rule.replaced(probability, last),
     )
-    _check_draws(done, (*before, *after))
-    return done
+    block = (*before, *after)
+    again = [*_drawn_again(done)]
+    outside = (part for part in (done.condition, done.probability) if part is not None)
+    inside = {id(part) for draw in again for operand in draw.operands for part in calls_in(operand)}
+    judged = {id(part) for expression in outside for part in calls_in(expression)} | inside
+    if again and (not spare or not judged.isdisjoint(map(id, again))):
+        raise _drawn_twice(again[0], block)
+    return _drawn_first(done, again, block, spare) if again else (done,)
+
+
+def _drawn_first(production: Production, draws: Sequence[Apply], block: Block, spare: str) -> tuple[Production, ...]:
+    """A production that draws some numbers for a module, and the rule that makes its successor of them."""
+    own = tuple(sorted(_own_names(production)))
+    names: dict[int, Name] = {}
+    for number, draw in enumerate(draws, 1):
+        owner = next((a.name.name for a in _assignments(block) if a.value is draw), f"drawn_{number}")
+        taken = {*own, *(name.name for name in names.values())}
+        names[id(draw)] = Name(owner if owner not in taken else f"{owner}_{number}")
+    carrier = Pattern(spare, (*map(Name, own), *draws))
+    successor = with_expressions(production.successor, lambda expression: _with_names(expression, names))
+    decomposed = Production((Pattern(spare, (*map(Name, own), *names.values())),), successor)
+    return replace(production, successor=(carrier,)), decomposed
+
+
+def _with_names(expression: Expression, names: Mapping[int, Name]) -> Expression:
+    """An expression with names in place of some of its parts."""
+    if not isinstance(expression, Apply):
+        return expression
+    return names.get(id(expression)) or replace(
+        expression, operands=tuple(_with_names(operand, names) for operand in expression.operands)
+    )
 
 
 def computed(block: Block, constants: Iterable[str], before: Iterable[str] = ()) -> Bindings:
@@ -160,14 +208,15 @@ def _assignments(block: Block) -> Iterator[Assignment]:
             yield from (*_assignments(statement.then), *_assignments(statement.otherwise))
 
 
-def _check_draws(production: Production, block: Block) -> None:
-    """No random number that was drawn once in a block is drawn twice in what became of the rule."""
-    drawn: set[int] = set()
+def _drawn_again(production: Production) -> Iterator[Apply]:
+    """The random numbers that were drawn once in a block, and twice in what became of the rule."""
+    drawn: dict[int, int] = {}
     for expression in used_expressions(production):
         for applied in calls_in(expression):
-            if OPERATORS[applied.operator].random and id(applied) in drawn:
-                raise _drawn_twice(applied, block)
-            drawn.add(id(applied))
+            if OPERATORS[applied.operator].random:
+                drawn[id(applied)] = drawn.get(id(applied), 0) + 1
+                if drawn[id(applied)] == 2:
+                    yield applied
 
 
 def _drawn_twice(draw: Apply, block: Block) -> ProblemFound:
@@ -191,10 +240,13 @@ class Counters:
         Their values in the first step.
     following
         From their values in a step those in the next.
+    drawn
+        Whether they are the same when a word is drawn: nothing changes them before a step.
     """
 
     first: Mapping[str, Expression]
     following: Mapping[str, Expression]
+    drawn: bool = True
 
 
 def used_expressions(production: Production) -> Iterator[Expression]:
@@ -213,16 +265,18 @@ def _own_names(production: Production) -> set[str]:
 
 
 def with_counters(
-    axiom: Sequence[Pattern], productions: Sequence[Production], others: Iterable[Production], counters: Counters
-) -> tuple[tuple[Pattern, ...], list[Production], str] | None:
-    """An axiom and productions whose modules carry the counters that they use, and what to say of it.
+    axiom: Sequence[Pattern],
+    productions: Sequence[Production],
+    decomposition: Sequence[Production],
+    interpretation: Sequence[Production],
+    counters: Counters,
+) -> tuple[tuple[Pattern, ...], list[Production], list[Production], str] | None:
+    """An axiom, productions and rules of interpretation whose modules carry the counters that they use, and what to say of it.
 
     Parameters
     ----------
-    axiom, productions
-        A model.
-    others
-        Its rules of decomposition and interpretation, which no counter reaches.
+    axiom, productions, decomposition, interpretation
+        A model; no counter reaches rules of decomposition.
     counters
         All its counters.
 
@@ -232,12 +286,16 @@ def with_counters(
     >>> n = Name("n")
     >>> rule = Production((Pattern("A"),), (Pattern("F"), Pattern("A")), Apply("<", (n, Number(5))))
     >>> count = Counters({"n": Number(0)}, {"n": Apply("+", (n, Number(1)))})
-    >>> axiom, rules, said = with_counters((Pattern("A"),), (rule,), (), count)
+    >>> axiom, rules, _, said = with_counters((Pattern("A"),), (rule,), (), (), count)
     >>> print(*axiom, *rules, said, sep="; ")
     A(0); A(n) : n < 5 -> F A(n + 1); A(n) -> A(n + 1); To follow the steps A carries n as a parameter.
     """
-    names = _needed(productions, counters.following) if counters.following else ()
-    kinds = _carriers(productions, names) if names else set()
+    shown = [rule for rule in interpretation if counters.drawn and not names_used(rule).isdisjoint(counters.following)]
+    names = _needed((*productions, *shown), counters.following) if counters.following else ()
+    kinds = _carriers(productions, shown, names) if names else set()
+    drawn = (rule.predecessors if _kind(rule.predecessor) not in kinds else () for rule in interpretation)
+    others = [*(module for rule in decomposition for module in rule.modules), *chain.from_iterable(drawn)]
+    others += [module for rule in interpretation for module in flat(rule.successor)]
     if not kinds or not _possible(axiom, productions, others, counters, names, kinds):
         return None
     carrying = _Carrying(names, kinds, counters)
@@ -247,7 +305,8 @@ def with_counters(
         f"{'parameters' if plural else 'a parameter'}."
     )
     rules = [carrying.production(rule) for rule in productions]
-    return tuple(carrying.made(module, counters.first) for module in axiom), [*rules, *carrying.waiting(rules)], said
+    word = tuple(carrying.made(module, counters.first) for module in axiom)
+    return word, [*rules, *carrying.waiting(rules)], [carrying.drawn(rule) for rule in interpretation], said
 
 
 def _needed(productions: Iterable[Production], following: Mapping[str, Expression]) -> tuple[str, ...]:
@@ -262,9 +321,9 @@ def _kind(module: Pattern) -> tuple[str, int]:
     return module.symbol, len(module.arguments)
 
 
-def _carriers(productions: Sequence[Production], names: Collection[str]) -> set[tuple[str, int]]:
+def _carriers(productions: Sequence[Production], shown: Sequence[Production], names: Collection[str]) -> set[tuple[str, int]]:
     """The kinds of modules that carry counters: those whose productions use them, and those that make such modules."""
-    kinds = {_kind(rule.predecessor) for rule in productions if not names_used(rule).isdisjoint(names)}
+    kinds = {_kind(rule.predecessor) for rule in (*productions, *shown) if not names_used(rule).isdisjoint(names)}
     while (
         more := {_kind(rule.predecessor) for rule in productions if not kinds.isdisjoint(map(_kind, flat(rule.successor)))}
         - kinds
@@ -276,7 +335,7 @@ def _carriers(productions: Sequence[Production], names: Collection[str]) -> set[
 def _possible(
     axiom: Sequence[Pattern],
     productions: Sequence[Production],
-    others: Iterable[Production],
+    others: Iterable[Pattern],
     counters: Counters,
     names: Sequence[str],
     kinds: Collection[tuple[str, int]],
@@ -287,7 +346,7 @@ def _possible(
     drawn = any(not symbol.isalpha() or (symbol in _DRAWN and not size) for symbol, size in kinds)
     taken = any((symbol, size + len(names)) in met for symbol, size in kinds)
     own = any(not _own_names(rule).isdisjoint(names) for rule in productions)
-    elsewhere = any(_kind(module) in kinds for rule in others for module in rule.modules)
+    elsewhere = any(_kind(module) in kinds for module in others)
     chance = any(is_random(values[name]) for values in (counters.first, counters.following) for name in names if name in values)
     together = any(len(rule.predecessors) > 1 for rule in productions)
     return not (drawn or taken or own or elsewhere or chance or together)
@@ -315,6 +374,10 @@ class _Carrying:
             right=tuple(self._beside(module, f"r{at}") for at, module in enumerate(rule.right)),
             successor=tuple(self.made(module, following) for module in flat(rule.successor)),
         )
+
+    def drawn(self, rule: Production) -> Production:
+        """A rule of interpretation, which reads the counters."""
+        return replace(rule, predecessors=(self.made(rule.predecessor, {name: Name(name) for name in self.names}),))
 
     def _beside(self, module: Pattern, mark: str) -> Pattern:
         """A module of a context, whose counters have names that nothing uses."""
@@ -395,7 +458,7 @@ def variables_of(phases: Mapping[str, Sequence[Block]], rules: Iterable[Block], 
     constants = tuple(Constant(name, value) for name, value in start.items() if name not in {*each, *local, SEED})
     first = computed((*begun, *before), known, each)
     following = computed((*after, *before), known, each)
-    counters = Counters(first, {name: value for name, value in following.items() if name not in {*local, SEED}})
+    counters = Counters(first, {name: value for name, value in following.items() if name not in {*local, SEED}}, not before)
     return Variables(constants, start.get(SEED), frozenset((*each, *(local & start.keys()))), counters)
 
 

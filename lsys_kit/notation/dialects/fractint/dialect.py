@@ -8,6 +8,7 @@ be missed: a system may stand there without its name and its braces, and blanks 
 
 from __future__ import annotations
 
+import math
 import re
 from fractions import Fraction
 from itertools import chain, islice
@@ -30,7 +31,7 @@ from lsys_kit.notation.dialects.fractint.writer import (
     system_text,
     translated,
 )
-from lsys_kit.notation.model.arithmetic import normalised
+from lsys_kit.notation.model.arithmetic import Value, normalised
 from lsys_kit.notation.model.expressions import Number
 from lsys_kit.notation.model.modules import Pattern, flat
 from lsys_kit.notation.model.system import LSystem, Production
@@ -63,6 +64,10 @@ class Records(Transformer[Any, Any]):
             raise problem("parts of a turn", _at(count), parts=whole[:10], least=LEAST, most=MOST)
         return "deferred", ("angle", Number(normalised(Fraction(360, int(whole))), _at(count)))
 
+    def radians(self, keyword: Token, turn: Token) -> Statement:
+        name = "angle" if keyword[0] in "tT" else "heading"
+        return "deferred", (name, Number(_degrees(turn), _at(turn)))
+
     def steps(self, _: Token, count: Token) -> tuple[str, Number]:
         return "steps", Number(int(count), _at(count))
 
@@ -87,6 +92,27 @@ class Records(Transformer[Any, Any]):
 
 def _at(token: Token) -> tuple[int, int]:
     return token.start_pos or 0, token.end_pos or 0
+
+
+_FACTOR = re.compile(r"(?:([*/])[ \t]*+)?(pi|[\d.]++)", re.IGNORECASE)
+_MOST_FACTORS, _FINEST = 8, 10**LONGEST
+
+
+def _degrees(turn: Token) -> Value:
+    """A turn in radians, as degrees: exactly where it has a π, else to a billionth of a degree."""
+    factors = _FACTOR.findall(turn)
+    value, powers = Fraction(180), -1
+    for sign, written in factors:
+        is_pi = written[0] in "pP"
+        factor = Fraction(1) if is_pi else Fraction(f"0{written.rstrip('.')}") if len(written) <= LONGEST else Fraction(0)
+        if not factor or len(factors) > _MOST_FACTORS:
+            raise problem("turn in radians", _at(turn))
+        value = value / factor if sign == "/" else value * factor
+        powers += is_pi * (-1 if sign == "/" else 1)
+    degrees = Fraction(value if not powers else str(round(float(value) * math.pi**powers, 9)))
+    if not 0 < degrees <= 360 or degrees.denominator > _FINEST:
+        raise problem("turn in radians", _at(turn))
+    return normalised(degrees)
 
 
 def _number(token: Token, digits: str) -> Number:
@@ -114,15 +140,19 @@ def _finish(draft: Draft) -> LSystem:
     if "axiom" in said:
         draft.axiom = said["axiom"][0]
     _check(draft, {*said})
-    draft.settings |= {"angle": said["angle"][0], "heading": Number(0)}
-    _note_angle(draft, said["angle"][0])
+    draft.settings |= {"angle": said["angle"][0], "heading": said["heading"][0] if "heading" in said else Number(0)}
+    _note_angle(draft, said["angle"])
     draft.sections["productions"] = _joined(draft)
     return build_system(draft)
 
 
-def _note_angle(draft: Draft, angle: Number) -> None:
-    """Say what the angle means where nothing but the reader says that a text is one of Fractint's: it has no braces."""
-    if "{" not in uncommented(draft.source):
+def _note_angle(draft: Draft, said: tuple[Number, tuple[int, int]]) -> None:
+    """Say what an angle in radians comes to, and what any means where only the reader says that a text is one of Fractint's:
+    it has no braces."""
+    angle, (start, _) = said
+    if draft.source[start] in "tT":
+        draft.notes.append(f'"theta" is in radians: + and - turn by {float(angle.value):.6g} degrees.')
+    elif "{" not in uncommented(draft.source):
         parts = Fraction(360) / Fraction(angle.value)
         draft.notes.append(
             f'"Angle {parts}" is a turn of {float(angle.value):.4g} degrees: 360 divided by {parts}. '

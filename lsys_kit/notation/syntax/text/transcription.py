@@ -115,6 +115,9 @@ _PROBABILITY = re.compile(rf"(?<![ \t])[ \t]++(\d*\.\d+)[ \t]*+(?={_ARROW})")
 _ABOVE = re.compile(r"[ \t]*+(\d*\.\d+|1)[ \t]*+$")
 _REFERENCE = re.compile(r"[\[(]\d++[\])]|\d++|[-–][ ]?\d++[ ]?[-–]|/[ ]?[a-z]|\([a-z]\)")
 """The number of a page or a note, or a caption's letter: on an indented line, anything else goes on with a production."""
+_SENTENCE = re.compile(SENTENCE)
+_NUMBERED = re.compile(r"(?<![ \t])[ \t]{2,}+(?P<number>\(\d+\.\d+[a-z]?\))[ \t]*+$")
+"""The number of an equation, at the end of a line."""
 _ASIDE = re.compile(r"[\W_]*+(?:\w{1,12}(?:\.\d+)?[\W_]*+)?")
 """A line with one name or number, whatever signs are around it."""
 _CHANCE = re.compile(
@@ -243,7 +246,8 @@ class _Listing:
                 indent = len(rule) - len(rule.lstrip())
             elif rule and not above and not _NAMED.match(line.text):
                 aside = _REFERENCE if len(line.text) - len(line.text.lstrip()) > indent else _ASIDE
-                if surely_goes_on(line.text, rule, known) or not aside.fullmatch(line.text.strip()):
+                said = line.text.strip()
+                if surely_goes_on(line.text, rule, known) or not (aside.fullmatch(said) or _SENTENCE.fullmatch(said)):
                     rule = pending(rule + line.text)
                 else:
                     yield index
@@ -348,6 +352,13 @@ class _Listing:
                 end = self._end(index)
                 yield Edit(end, end, f" : {over[1] if over else above}")
             above = None
+            if (
+                self.labelled
+                and (number := _NUMBERED.search(line.text))
+                and not self._has_values(line.text[: number.start()][-1])
+            ):
+                self.notes.append(f'"{number["number"]}" is read as the number of an equation.')
+                yield Edit(line.start + number.start("number"), line.start + number.end("number"), "")
             end = self._end(index)
             if arrow[0] in "→⟶" and self.plain[end - 1] == "." and "{" not in self.plain:
                 self.notes.append(FULL_STOPS)

@@ -34,12 +34,14 @@ _LETTERS_BELOW = re.compile("[ₐₑₒₓₕₖₗₘₙₚₛₜᵢᵣᵤᵥ�
 """Subscripts that are letters: F with an l below it is the symbol F_l."""
 _ENTITY = re.compile(r"&(?:#\d{1,7}|#[xX][0-9a-fA-F]{1,6}|[A-Za-z]{2,8});")
 TAG = re.compile(
-    r"<(/?)(b|i|u|tt|td|tr|th|table|tbody|p|br|sub|sup|em|strong|code|pre|div|span|html|head|body|img|font|h[1-6]|li|ul|ol|a|center|hr)"
+    r"<(/?)(b|i|u|tt|td|tr|th|table|tbody|p|br|sub|sup|em|strong|code|pre|div|span|html|head|body|img|font|h[1-6]|li|ul|ol|dl|dt|dd|a|center|hr)"
     r"\b[^<>]{0,500}>",
     re.IGNORECASE,
 )
-_ENDS = frozenset(("br", "p", "tr", "td", "div", "li", "h1", "h2", "h3", "h4", "h5", "h6", "hr", "pre", "table"))
+_ENDS = frozenset(("br", "p", "tr", "div", "li", "dt", "h1", "h2", "h3", "h4", "h5", "h6", "hr", "pre", "table"))
 """Tags that end a line."""
+_BEHIND = {"dt": ": ", "td": "\t", "th": "\t"}
+"""What stands behind a term, and behind a cell."""
 
 
 def keyboard_signs(source: str) -> Transcript:
@@ -60,7 +62,9 @@ def keyboard_signs(source: str) -> Transcript:
 
 
 def _tag(text: str, tag: re.Match[str]) -> str:
-    """What is written for a tag: the end of a line, within a table of Markdown a semicolon."""
+    """What is written for a tag: the end of a line, or a sign; within a table of Markdown a semicolon."""
+    if tag[1] and (sign := _BEHIND.get(tag[2].lower())):
+        return sign
     if tag[2].lower() not in _ENDS:
         return ""
     return " ; " if text.rfind("|", max(0, tag.start() - 200), tag.start()) > text.rfind("\n", 0, tag.start()) else "\n"

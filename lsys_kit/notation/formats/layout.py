@@ -1,0 +1,211 @@
+"""A page's text without its layout: the marks of Markdown and LaTeX, its columns and its tables."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from lsys_kit.notation.formats.found import Passage, tables, unquoted
+from lsys_kit.notation.formats.parts import ARROW, fields
+from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, assembled, edited
+
+_LATEX = re.compile(r"\\(?:begin|end|omega|delta|rightarrow|mapsto|to|theta|circ|text|quad)\b")
+_MACROS = {
+    "omega": "ω", "delta": "δ", "theta": "θ", "quad": "  ", "qquad": "  ", "circ": "°", "ldots": "", "left": "", "right": "",
+    "item": "", "centering": "", "hfill": "  ", "textbf": "", "textit": "", "mathrm": "", "mathbf": "", "mathtt": "",
+    "texttt": "",
+    "to": "→", "rightarrow": "→", "Rightarrow": "→", "longmapsto": "→",
+    "longrightarrow": "→", "mapsto": "→", "varepsilon": "ε", "epsilon": "ε", "lbrace": "{", "rbrace": "}",
+}  # fmt: skip
+_MACRO = re.compile(
+    r"\\(?:begin|end)\{[^{}\n]*\}(?:\{[^{}\n]*\})?|\^?\{?\\circ\}?"
+    r"|\\text\{([^{}\n]*)\}|\\([A-Za-z]+)(?![A-Za-z])|\\([#{}%&$_])|\\[;,:! ]|\\\\|(?<!\\)&|\$+|\\[\[\]()]"
+)
+_DISPLAYED = re.compile(
+    r"\{\\displaystyle[ ]*+(?P<shown>(?:[^{}\n]|\{[^{}\n]*\})*+)\}(?:\{\\displaystyle[ ]*+(?P=shown)\})*+(?:(?P=shown))?+"
+)
+"""What an encyclopaedia gives of a formula besides its picture: its LaTeX, perhaps more than once, and the same as text."""
+_SET = re.compile(
+    r"^[ \t]*set[ ]\[(?:(?P<rule>rule)[ ](?P<head>\S)|(?P<name>[^\[\]\n]{1,30}))[ ]v\][ ]to[ ][\[(](?P<value>.*)[\])][ \t]*$",
+    re.MULTILINE,
+)
+"""A block of Scratch that sets a variable."""
+_BROKEN_ARROW = re.compile(r"^[ \t]*p_?\d*[ \t]*:[ \t]*\w[ \t]+(?P<arrow>-{1,2}[+*~])[ \t]", re.MULTILINE)
+_BROKEN_DELTA = re.compile(r"(?<=,[ ])[68](?=[ ]?=[ ]?\d{1,3}(?:\.\d+)?[ ]?°)")
+"""What the recognition of characters makes of an arrow, and of a δ."""
+_MARKS = re.compile(r"^[ \t]*```.*$|\*\*|`|^(?=[^\n|]*\|)[ \t|:-]++$|^#+[ ]", re.MULTILINE)
+_RULE_OF_TIKZ = re.compile(r"\\rule\{([^{}\n]*)\}")
+_STRONG = re.compile(r"'''([\w -]{1,60})'''")
+_DOLLARS = re.compile(r"\$(?=[^\s$])([^$\n]*[^\s$\\])\$(?!\w)")
+
+
+def page_text(before: Transcript) -> Transcript:
+    r"""A page's text without the marks of Markdown and LaTeX, and with its tables as lists.
+
+    >>> from lsys_kit.notation.syntax.text.transcript import as_typed
+    >>> page_text(as_typed("**Rule:** $F \\to FF$")).text
+    'Rule: F → FF'
+    """
+    text = before.text
+    edits = [
+        Edit(*match.span(), "" if _is_shown(text, match.start(), match["shown"]) else match["shown"])
+        for match in _DISPLAYED.finditer(text)
+    ]
+    edits += [Edit(*match.span(), _as_set(match)) for match in _SET.finditer(text)]
+    notes = []
+    for match in _BROKEN_ARROW.finditer(text):
+        edits.append(Edit(*match.span("arrow"), "→"))
+        notes.append(f'"{match["arrow"]}" is read as an arrow.')
+    for match in _BROKEN_DELTA.finditer(text):
+        edits.append(Edit(*match.span(), "δ"))
+        notes.append(f'"{match[0]}" is read as δ, the angle.')
+    if edits:
+        before = edited(before, edits, notes)
+        text = before.text
+    if _LATEX.search(text):
+        before = edited(before, (Edit(*match.span(), _macro(match)) for match in _MACRO.finditer(text)))
+    edits = [Edit(*match.span(), "") for match in _MARKS.finditer(before.text)]
+    edits += [Edit(*match.span(), match[1]) for match in _STRONG.finditer(before.text)]
+    edits += [Edit(*match.span(), f"\n{match[1]}\n") for match in _RULE_OF_TIKZ.finditer(before.text)]
+    for match in _DOLLARS.finditer(before.text):
+        edits += [Edit(match.start(), match.start() + 1, ""), Edit(match.end() - 1, match.end(), "")]
+    return without_columns(_without_tables(edited(before, edits) if edits else before))
+
+
+_NO_SIGN = re.compile(r"\\[a-z]+|[^\w+\-\[\]]")
+
+
+def _is_shown(text: str, end: int, shown: str) -> bool:
+    """Whether a formula stands before its LaTeX, as text."""
+    sign = _NO_SIGN.sub("", shown)
+    return bool(sign) and _NO_SIGN.sub("", text[max(text.rfind("\n", 0, end) + 1, end - 4 * len(shown) - 9) : end]).endswith(
+        sign
+    )
+
+
+def _as_set(match: re.Match[str]) -> str:
+    """What a block sets, as a line of a list."""
+    return f"{match['head']} → {match['value']}" if match["rule"] else f"{match['name']}: {match['value']}"
+
+
+def _macro(match: re.Match[str]) -> str:
+    if match[0].startswith(("\\begin", "\\end")):
+        return "\n"
+    if "circ" in match[0]:
+        return "°"
+    if match[1] is not None or match[3]:
+        return match[1] or match[3] or ""
+    return (
+        _MACROS.get(match[2] or "", match[0])
+        if match[2]
+        else "\n"
+        if match[0] == "\\\\"
+        else ""
+        if match[0] in ("&", "\\!") or "$" in match[0]
+        else " "
+    )
+
+
+_COLUMNS = re.compile(r"(?>(?P<left>[ \t]*+\S.*?)(?<! )(?P<gap>[ ]{4,}+)(?=\S))(?P<right>[^\n]*+)")
+
+
+def without_columns(before: Transcript) -> Transcript:
+    """A text in which what a page has in two columns stands one below the other.
+
+    >>> from lsys_kit.notation.syntax.text.transcript import as_typed
+    >>> without_columns(as_typed("n=1, δ=9°     n=2, δ=8°\\nF → FF        F → F-F")).text
+    'n=1, δ=9°\\nF → FF\\nn=2, δ=8°\\nF → F-F\\n'
+    """
+    lines = [*re.finditer(r"[^\n]*\n?", before.text)]
+    split = [_COLUMNS.fullmatch(before.text, line.start(), line.start() + len(line[0].rstrip())) for line in lines]
+    two = [index for index, match in enumerate(split) if match and _is_part(match["left"]) and _is_part(match["right"])]
+    if len(two) < 2:
+        return before
+    pieces: list[Edit] = []
+    index = 0
+    while index < len(lines):
+        right: list[Edit] = []
+        while (
+            (match := split[index])
+            and abs(match.start("right") - lines[index].start() - (at := right_of(split, lines, two))) <= 12
+            and at >= 0
+        ):
+            pieces += (
+                Edit(match.start("left"), match.end("left"), match["left"]),
+                Edit(match.end("left"), match.end("left"), "\n"),
+            )
+            right += (
+                Edit(match.start("right"), match.end("right"), match["right"].rstrip()),
+                Edit(match.end("right"), match.end("right"), "\n"),
+            )
+            index += 1
+        pieces += (*right, Edit(*lines[index].span(), lines[index][0]))  # the last line is empty, and in no columns
+        index += 1
+    return assembled(before, pieces)
+
+
+def right_of(split: Sequence[re.Match[str] | None], lines: Sequence[re.Match[str]], two: Sequence[int]) -> int:
+    """Where the right column begins."""
+    found = sorted(match.start("right") - lines[index].start() for index in two if (match := split[index]))
+    return found[len(found) // 2]
+
+
+def _is_part(text: str) -> bool:
+    """Whether a text is a rule or a setting, as it stands in a listing."""
+    return re.match(rf"[ \t]*(?:[a-z]\)[ \t]+)?(?:\S{{1,12}}[ \t]*{ARROW}[ \t]*\S|(?:n|δ)[ \t]*=)", text) is not None
+
+
+_CELL, _QUOTED_CELLS = (
+    re.compile(r"[^|\t\n]+"),
+    {",": re.compile(r"\"[^\"\n]*\"|[^,\n]+"), ";": re.compile(r"\"[^\"\n]*\"|[^;\n]+")},
+)
+
+
+_DIVIDED = re.compile(r"^[^:=\n]*[|\t][^:\n]*$")
+"""A row with a name and a value."""
+
+
+def _without_tables(before: Transcript) -> Transcript:
+    """The same, with each row of a table of systems as a list: the heading of a column before each of its cells."""
+    names = tables()["names"]
+    heading: list[str] = []
+    pieces: list[Edit] = []
+    kinds = fields()[1]
+    for match in re.finditer(r"[^\n]*\n?", before.text):
+        cells = [Passage(cell[0], cell.start()).part(0) for cell in _CELL.finditer(before.text, *match.span())]
+        comma = max(_QUOTED_CELLS, key=match[0].count)
+        if len(cells) == 1 and match[0].count(comma) > 1:
+            cells = [
+                unquoted(Passage(cell[0], cell.start()).part(0))
+                for cell in _QUOTED_CELLS[comma].finditer(before.text, *match.span())
+            ]
+        named = [kinds.get(re.sub(r"[ _-]|\d", "", cell.text.lower()), "") for cell in cells]
+        low = [cell.text.lower() for cell in cells if len(cell.text) > 2]
+        if len(low) == len(cells) == 2 and low[0] in names["predecessor"] and low[1] in (*names["successor"], *names["rules"]):
+            heading = ["", "→"]
+        elif heading == ["", "→"] and len(cells) == 2:
+            (at, left), (to, right) = ((cell.at, cell.text) for cell in cells)
+            pieces += (
+                Edit(at, at + len(left), left),
+                Edit(to, to, " → "),
+                Edit(to, to + len(right), right),
+                Edit(to, to, "\n"),
+            )
+            continue
+        elif len({"axiom", "rules"} & {kind for kind, cell in zip(named, cells, strict=True) if len(cell.text) > 2}) == 2:
+            heading = [cell.text for cell in cells]
+        elif len(cells) == 2 and named[0] in ("axiom", "angle", "steps") and _DIVIDED.search(match[0]):
+            pieces += (
+                Edit(cells[0].at, cells[0].at + len(cells[0].text), cells[0].text),
+                Edit(cells[1].at, cells[1].at, ": "),
+                Edit(cells[1].at, cells[1].at + len(cells[1].text), cells[1].text),
+                Edit(cells[1].at, cells[1].at, "\n"),
+            )
+            continue
+        elif heading and len(cells) == len(heading):
+            for name, cell in zip(heading, cells, strict=True):
+                at = cell.at
+                pieces += (Edit(at, at, f"{name}: "), Edit(at, at + len(cell.text), cell.text), Edit(at, at, "\n"))
+            continue
+        pieces.append(Edit(*match.span(), match[0]))
+    return assembled(before, pieces)
