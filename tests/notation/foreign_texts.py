@@ -12,6 +12,8 @@ VIEW = "a file that goes with a model of cpfg, and says how it is seen or animat
 PGF = "an L-system of PGF, for TikZ"
 GRAMMAR = "a grammar of a formal language, and no L-system"
 NUMBERS = "a table of numbers, as of an iterated function system, and no L-system"
+FORMULA = "a formula of Fractint, and no L-system"
+CELLULAR = "a rule of a cellular automaton, and no L-system"
 NOTEBOOK = "a Jupyter notebook"
 SVG = "a picture as SVG"
 HTML = "a page as HTML"
@@ -51,6 +53,20 @@ FOREIGN: dict[str, list[tuple[str, int]]] = {
         ("S → ε | aS\n", 1),
         ("<expression> ::= <term> | <term> + <expression>\n<term> ::= x\n", 1),
         ("G = ({S}, {a, b}, P, S)\nS → bS | λ\n", 2),
+    ],
+    FORMULA: [
+        ("Square(XAXIS) {\n  z = pixel:\n  z = z*z + pixel\n  |z| <= 4\n}\n", 1),
+        ("Cube {; of third order\n  z = 0, c = pixel:\n   z = z*z*z + c\n   |z| < 16\n  }\n", 1),
+        ("; two formulas\nA-1 (ORIGIN) {\n  z = p1:\n  z = sin(z)\n  |imag(z)| <= 50.5\n}\n", 2),
+        ("Newton3 {\n z = pixel:\n  z = z - (z^3-1)/(3*z^2)\n  |z*z - 1| < 4\n}\n", 1),
+        ("\nMoon(XYAXIS) {\n  z=0:\n  z=z^2+c,\n  |z|<=2\n}\n", 2),
+    ],
+    CELLULAR: [
+        ("Rule 90\ncurrent pattern\t111\t110\t101\nnew state for center cell\t0\t1\t0\n", 2),
+        ("current pattern 111 110 101 100\nnew state 0 0 0 1\n", 1),
+        ("Current state: 111 110\nnew state: 0 1\n", 1),
+        ("old state\t000\t001\nnew cell\t1\t0\n", 1),
+        ("Sierpinski, again\n current pattern 11 10 01 00\n new state for right cell 0 1 1 0\n", 2),
     ],
     NUMBERS: [
         ("Barnsley fern\nw\ta\tb\tc\td\te\tf\tp\nƒ1\t0\t0\t0\t0.16\t0\t0\t0.01\n", 3),

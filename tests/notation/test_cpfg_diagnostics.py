@@ -213,7 +213,7 @@ UNREADABLE = [
         9,
         "Right contexts pass over both brackets or over none.",
     ),
-    ('Axiom: A\nA --> [@L("age")]B', "The kit has no texts among values", 2, 11, "Leave the label out, or write a number."),
+    ('Axiom: A\nA --> [@o("age")]B', "The kit has no texts among values", 2, 11, "Leave the label out, or write a number."),
     ("Axiom: A(1)\nA(t) : t => 3 --> B", "This is not a comparison", 2, 10, 'For "at least", type ">=".'),
     (
         "Axiom: A(1)\nA(t) : {x=t; y=x} --> A(y)",

@@ -43,7 +43,8 @@ endlsystem
 OBJECT = {
     "plant.l": PLANT,
     "panel.l": "panel name: plant\n",
-    "plant.v": "angle factor: 16 // 22.5 degrees\n/* scale factor: 1 */\nz buffer: on\nfunction: even.func 100\n"
+    "plant.v": "angle factor: 16 // 22.5 degrees\n/* scale factor: 1 */\n"
+    "z buffer: on\nlight: V: 1 0 0\nlight: V: 0 1 0\nfunction: even.func 100\n"
     "function: steep.func 100\nsurface: l leaf.s 2 8 4\n",
     "even.func": EVEN,
     "steep.func": STEEP,
@@ -76,7 +77,7 @@ def test_view_surfaces_functions_and_what_is_included_are_used(made) -> None:
     assert lengths == pytest.approx([0, 0.5, 1, 1.5])
     assert system.notes == (
         'Read as cpfg, from "plant.l" and "plant.v".',
-        'Not used of "plant.v": z buffer.',
+        'Not used of "plant.v": z buffer, light.',
         'Colours are those of the kit, not those of "plant.map".',
         "func(1, ...) is a curve, here of one straight piece.",
         "func(2, ...) is a curve, here of 16 straight pieces.",
@@ -184,6 +185,7 @@ def test_a_mistake_is_shown_in_the_model_as_it_is(made) -> None:
         ("leaf.s", "SIZE: 0", '"leaf.s" is no surface'),
         ("sizes.h", '#include "sizes.h"\n', "includes itself"),
         ("plant.l", "Lsystem: 1\nAxiom: func(1", "is never closed"),
+        ("plant.l", "Lsystem: 1\nAxiom: A(func(1))", "The kit has no func"),
     ],
 )
 def test_a_mistake_in_a_file_is_named(made, name: str, text: str, said: str) -> None:

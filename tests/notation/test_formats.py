@@ -523,6 +523,11 @@ READ = {
         "axiom: X\nrules:\n  - from: X\n    to: F+X\n  - from: F\n    to: FF",
         "axiom: X\nX -> F+X\nF -> F F",
     ),
+    "the number of an equation": ("n=4, δ=60°\nω : F\np1 : F → F+F    (1.2)", "steps: 4\nangle: 60\naxiom: F\nF -> F+F"),
+    "a value behind blanks": (
+        "angle: 60\nω : F(1)\np1 : F(x) → F(x)+F    (1.2)",
+        "angle: 60\naxiom: F(1)\nF(x) -> F(x)+F(1.2)",
+    ),
     "numbers of footnotes": ("Axiom: F[1]\nRules: F → F+F[2][3]", "axiom: F\nF -> F+F"),
     "branches with digits": ("Axiom: F[1]\nRules: F → F+F[2], 1 → 2", "axiom: F[1]\nalphabet: 1 2\nF -> F+F[2]\n1 -> 2"),
     "a δ that was taken for a digit": ("n = 4, 6 = 25°\nw : F\np : F --+ F+F", "steps: 4\nangle: 25\naxiom: F\nF -> F+F"),

@@ -24,6 +24,8 @@ TOKENS = (
     "axiom:",
     "\\omega :",
     "ω =",
+    "theta pi/6",
+    "theta ",
     "axiom A",
     "angle:",
     "δ:",

@@ -192,7 +192,7 @@ def _with_included(text: Transcript, folder: Folder, deep: int = 0) -> Transcrip
 def _with_functions(before: Transcript, functions: Mapping[str, Curve]) -> Transcript:
     """A text with straight pieces in place of each `func(1, x)`; the innermost first."""
     numbers = dict(_MACRO.findall(before.text))
-    for _ in range(current().depth):
+    while True:
         edits, used = [], dict[str, None]()
         for start, end, number, value in _calls(before.text):
             curve = functions.get(number) or functions.get(numbers.get(number, ""))
@@ -212,9 +212,8 @@ def _with_functions(before: Transcript, functions: Mapping[str, Curve]) -> Trans
             edits.append(Edit(start, end, made))
             used[f"func({number}, ...) is a curve, here of {_counted(len(curve) - 1)}."] = None
         if not edits:
-            break
+            return before
         before = edited(before, edits, [*used])
-    return before
 
 
 def _counted(pieces: int) -> str:
