@@ -181,6 +181,15 @@ def require(value: object, kind: type | tuple[type, ...], what: str) -> None:
         raise ModelValueError(f"{what} is needed, not {type(value).__name__}")
 
 
+def last_reached(refused: int) -> str:
+    """How far one comes where a step is refused, as a sentence; nothing can be said of step 0.
+
+    >>> last_reached(3)
+    'Step 2 is the last that can be reached.'
+    """
+    return f"Step {refused - 1} is the last that can be reached." if refused else ""
+
+
 def whole_number(given: object, what: str) -> int:
     """A whole number from 0 on, of any type that counts; anything else is refused.
 

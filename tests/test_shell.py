@@ -278,7 +278,7 @@ def test_link_refuses_what_the_model_has_not(shell):
 def test_page_writes_one_file_and_says_what_it_shows(shell, tmp_path):
     said = shell("page", "J4", "-n", "9", "--set", "lifeTimeA=4", "-o", str(tmp_path / "j4.html"))
     assert (said.status, said.err) == (0, "")
-    assert said.out.startswith("Step 9: 5 modules. Al(2)Br(2)")
+    assert said.out.startswith("Step 9: 5 cells. Al(2)Br(2)")
     text = (tmp_path / "j4.html").read_text("utf-8")
     assert "<title>J4: " in text
     assert said.out.partition(".")[0] in text

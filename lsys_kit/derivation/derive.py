@@ -25,7 +25,7 @@ from lsys_kit.derivation.engines.engine import Engine, Observation, Observer, Or
 from lsys_kit.derivation.engines.stepping import SteppingEngine
 from lsys_kit.derivation.engines.stepwise import Stepper
 from lsys_kit.derivation.tissues.development import CellDevelopment, CellworkDevelopment, Development, develop
-from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown, whole_number
+from lsys_kit.errors import ModelLimitError, ModelValueError, last_reached, require, shown, whole_number
 from lsys_kit.notation.model.cells import CellSystem, CellworkSystem, MapSystem
 from lsys_kit.notation.model.system import LSystem
 
@@ -136,8 +136,7 @@ class Derivation(Sequence[Word]):
 
     def _refusal(self, error: _Refusal, step: int) -> _Refusal:
         error.partial = Derivation(self._engine, step - 1) if step else None
-        kept = f"Steps 0-{step - 1} are kept. " if step > 1 else "Step 0 is kept. " if step else ""
-        return error.with_hint(kept + (error.hint or ""))
+        return error.with_hint(f"{last_reached(step)} {error.hint or ''}".strip())
 
     def __len__(self) -> int:
         return self.steps + 1

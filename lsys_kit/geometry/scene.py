@@ -287,17 +287,19 @@ class Scene:
         _, bottom, _, top = self.box
         return top - bottom
 
+    @property
+    def measures(self) -> str:
+        """Its width and height, and its depth in space, in words."""
+        least, greatest = self.corners
+        depth = f", depth {_two_decimals(float(greatest[1] - least[1]))}" if self.dimension == 3 else ""
+        return f"width {_two_decimals(self.width)}, height {_two_decimals(self.height)}{depth}"
+
     def __str__(self) -> str:
         """The scene in words: the line that replaces a picture where none can be shown."""
         counted = [
             f"{len(each):,} {name[: -1 if len(each) == 1 else None]}" for name, each in self._shapes.items() if len(each)
         ]
-        least, greatest = self.corners
-        depth = f", depth {_two_decimals(float(greatest[1] - least[1]))}" if self.dimension == 3 else ""
-        return (
-            f"{', '.join(counted) or 'nothing to draw'}, width {_two_decimals(self.width)}, "
-            f"height {_two_decimals(self.height)}{depth}"
-        )
+        return f"{', '.join(counted) or 'nothing to draw'}, {self.measures}"
 
 
 def _two_decimals(length: float) -> str:

@@ -24,6 +24,8 @@ LOOKED_AT = (
     "animate(system('J4'), 4)",
 )
 AXE = Path(axe_playwright_python.__file__).parent / "axe.min.js"
+LATE = 1_000
+"""Milliseconds after which a panel has told the kernel where its sliders are."""
 SENT = """
     window.sent = [];
     panel.sessionContext.session.kernel.anyMessage.connect((_, { msg, direction }) => {
@@ -175,6 +177,18 @@ def test_a_kernel_that_is_gone_is_told_of_and_the_rest_goes_on(shown):
     expect(panel.locator(".lsys-status")).to_contain_text("step 4")
     panel.get_by_role("button", name="page", exact=True).click()  # which the kernel writes
     expect(panel).to_contain_text("The kernel does not answer")
+    notebook.page.wait_for_timeout(LATE)
+    assert notebook.console == []
+
+
+def test_a_kernel_that_starts_again_is_told_of(shown):
+    notebook = shown("explore('K5', 3)")
+    panel = panel_of(notebook.page)
+    notebook._ask("await panel.sessionContext.session.kernel.restart();")
+    expect(panel).to_contain_text("The kernel does not answer")
+    slider(panel, "step").press("ArrowRight")
+    expect(panel.locator(".lsys-status")).to_contain_text("step 4")
+    notebook.page.wait_for_timeout(LATE)
     assert notebook.console == []
 
 

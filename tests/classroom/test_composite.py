@@ -119,7 +119,7 @@ def test_a_page_without_a_kernel_shows_it() -> None:
     panel = explore("J4", 9)
     bundle = panel._repr_mimebundle_()
     assert base64.b64decode(bundle["image/png"]) == composite_png(sight("J4", 9))
-    assert bundle["text/plain"].startswith("Step 9: 9 modules. Al(1)Br(1)")
+    assert bundle["text/plain"].startswith("Step 9: 9 cells. Al(1)Br(1)")
     assert bundle["text/plain"].endswith(". Run this cell to play.")
 
 

@@ -82,6 +82,7 @@ def test_a_good_file_has_no_problems(folder):
             "The system gives another answer: a number too long to write down",
         ),
         ('solution = "21"', 'solution = "21"\ntolerance = "s"', 16, '"tolerance" must be a number'),
+        ('solution = "21"', 'solution = "21"\npicture = "axiom: F("', 16, '"picture" cannot be read'),
         ('solution = "21"', 'solution = "22"', 15, "The system gives another answer: 21"),
         ('solution = "21"', 'solution = "many"', 15, '"solution" cannot be read'),
         ('solution = "21"\n', "", 6, '"solution" is missing'),

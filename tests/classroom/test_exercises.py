@@ -204,6 +204,13 @@ def test_the_solution_is_there_after_a_try_and_not_before(exercise):
     assert float(after) == float(check(exercise.id, as_typed(exercise, wrong.answer)))
 
 
+def test_an_explanation_comes_with_its_picture_and_nothing_else_does():
+    after = check("15.4", "17", solution=True)
+    assert ">13<" in after.picture
+    assert "<img" in after._repr_html_()
+    assert "<img" not in check("15.4", "17", hint=3)._repr_html_()
+
+
 @pytest.mark.parametrize("hint", [4, -1, True, "1", 1.0])
 def test_there_are_no_other_hints(hint):
     with pytest.raises(ModelValueError, match="has the hints 1 to 3"):

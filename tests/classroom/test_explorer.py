@@ -35,9 +35,37 @@ def book_for(panel, monkeypatch, seed=0, **constants):
 def test_the_three_views_show_the_same_step():
     panel = explore("J4", 5)
     panel.step = 9
-    assert panel.text.startswith("Step 9: 9 modules. Al(1)Br(1)Bl(2)Ar(2)")
+    assert panel.text.startswith("Step 9: 9 cells. Al(1)Br(1)Bl(2)Ar(2)")
     assert panel.sight.tokens == panel.sight.net.tokens(derive(system("J4"), 9)[-1])
     assert str(panel.sight.picture).startswith("steps 0 to 9")
+
+
+@pytest.mark.parametrize(
+    ("what", "step", "show", "said"),
+    [
+        ("J4", 9, None, "Step 9: 9 cells. Al(1)Br(1)"),
+        ("K5", 1, "word", "Step 1: 5 strokes, 11 characters. F[+F]F[-F]F. Width 0.87, height 3."),
+        ("K5", 1, None, "Step 1: 5 strokes, 11 characters. F[+F]F[-F]F. Stages F: 5. Width 0.87, height 3."),
+        ("K19", 12, "drawing", "Step 12: 102 strokes, 199 modules. "),
+        ("axiom: A\nA -> AB", 3, "word", "Step 3: 4 letters. A B B B. Nothing to draw."),
+        (
+            "axiom: a\na -> ab\nb -> a\ninterpretation:\na -> R(2,1) R(1,1)\nb -> R(1,1)",
+            2,
+            "word",
+            "Step 2: 5 cells, 3 letters. ",
+        ),
+        ("K28", 2, None, "Step 2: 9 vertices, 12 walls, 4 cells. "),
+    ],
+)
+def test_a_panel_tells_its_step_in_the_words_of_its_system(what, step, show, said):
+    assert explore(what, step, show=show).text.startswith(said)
+
+
+def test_a_long_word_is_told_once_how_long_it_is():
+    text = explore("K5", 4).text
+    assert text.startswith("Step 4: 625 strokes, 1,561 characters. F[+F]F")
+    assert " ... " in text
+    assert "modules" not in text
 
 
 def test_symbols_are_unfolded_in_the_diagram_as_long_as_they_can_be(monkeypatch):
@@ -324,7 +352,7 @@ def test_a_text_is_explored_too():
 
 def test_a_stored_notebook_shows_a_picture_and_words():
     bundle = explore("J4", 9)._repr_mimebundle_()
-    assert bundle["text/plain"].startswith("Step 9: 9 modules.")
+    assert bundle["text/plain"].startswith("Step 9: 9 cells.")
     assert Image.open(io.BytesIO(base64.b64decode(bundle["image/png"]))).size[0] >= 600
     assert "application/vnd.jupyter.widget-view+json" in bundle
 

@@ -396,7 +396,7 @@ def test_a_stored_prediction_shows_the_question_and_the_answer():
     assert bundle["text/plain"] == "How long is al?\nsteps 0 to 3; the last: 5 cells, width 8, height 1"
     assert "<p>How long is <code>al</code>?</p></div><img alt=" in bundle["text/html"]
     panel = predict("How long?", explore("J1", 3))._repr_mimebundle_()
-    assert panel["text/plain"].startswith("How long?\nStep 3: 5 modules.")
+    assert panel["text/plain"].startswith("How long?\nStep 3: 5 cells.")
     assert "image/png" in panel
     assert "text/html" not in panel
 

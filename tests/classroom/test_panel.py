@@ -189,7 +189,7 @@ def test_rows_of_a_word_are_seen_whole(explored):
 
 def test_a_hint_stands_below_the_drawing_and_nothing_moves_when_it_goes(explored):
     panel = explored("J4", 9, context={})
-    boxes = lambda: [panel.at(each).bounding_box() for each in (".lsys-canvas", ".lsys-sentence", ".lsys-panel")]  # noqa: E731
+    boxes = lambda: [panel.at(each).bounding_box() for each in (".lsys-canvas", '[data-view="drawing"]', ".lsys-panel")]  # noqa: E731
     before, hint = boxes(), panel.at(".lsys-sheet .lsys-hint")
     expect(hint).to_be_visible()
     assert before[0]["y"] + before[0]["height"] <= hint.bounding_box()["y"]

@@ -95,7 +95,9 @@ def test_word_and_drawing_are_pale_while_the_rules_are_broken(explored):
     ],
 )
 def test_a_step_is_told_in_the_words_of_its_system(explored, what, step, said):
-    expect(explored(what, step).at(".lsys-status")).to_contain_text(said)
+    panel = explored(what, step)
+    expect(panel.at(".lsys-status")).to_contain_text(said)
+    assert panel.explorer.text.lower().startswith(said[:-2])
 
 
 @pytest.mark.parametrize(("id", "step"), [("K22", 8), ("P5", 4), ("K13", 5), ("J4", 9)])
@@ -107,6 +109,30 @@ def test_a_stage_diagram_is_seen_whole_and_large_where_it_is_clicked(explored, i
     net.click(position={"x": 1, "y": 1})
     panel.page.wait_for_function("document.fullscreenElement !== null")
     assert net.bounding_box()["width"] > whole["width"]
+
+
+@pytest.mark.parametrize("width", [400, 360])
+@pytest.mark.parametrize("id", ["J4", "K8"])
+def test_on_a_phone_the_buttons_of_the_views_stand_in_one_line(explored, id, width):
+    panel = explored(id, context={"viewport": {"width": width, "height": 800}, "has_touch": True})
+    tabs = panel.at(".lsys-top .lsys-tab:visible")
+    assert len({round(box_of(tab)["top"]) for tab in tabs.all()}) == 1
+    more = tabs.last.bounding_box()
+    assert more["x"] + more["width"] <= width
+
+
+def test_what_is_told_of_a_part_stands_below_the_view_in_which_it_was_pointed_at(explored):
+    panel = explored("K8", 6, context={"viewport": {"width": 1440, "height": 900}})
+    panel.view("nine seeds")
+    sentence = panel.at(".lsys-sentence")
+    trace = {"drawing": lambda: panel.at(".lsys-canvas").press("n"), "word": panel.at('.lsys-module[data-position="0"]').click}
+    for view, above in (("drawing", ".lsys-canvas"), ("word", ".lsys-word"), ("drawing", ".lsys-canvas")):
+        trace[view]()
+        expect(panel.at(f'[data-view="{view}"] .lsys-sentence')).to_contain_text(" of step 6")
+        assert sentence.count() == 1
+        assert 0 <= box_of(sentence)["top"] - box_of(panel.at(above))["bottom"] < 20
+    panel.view("drawing")
+    expect(panel.at('[data-view="word"] .lsys-sentence')).to_contain_text(" of step 6")
 
 
 def box_of(found: Locator) -> dict[str, float]:

@@ -222,9 +222,15 @@ def test_right_answers_are_right_in_a_page_in_every_form_that_can_be_typed(said)
     wrong = [
         (exercise.id, form, reply)
         for (exercise, form), reply in zip(typed, replies, strict=True)
-        if reply != {"said": "Correct", "message": exercise.explanation}
+        if not reply or (reply["said"], reply["message"]) != ("Correct", exercise.explanation)
     ]
     assert wrong == []
+
+
+def test_a_right_answer_comes_with_its_picture(said):
+    right, wrong = said([[checked_in_pages()["15.4"], answer] for answer in ("13", "17")])
+    assert ">13<" in right["picture"]
+    assert "picture" not in wrong
 
 
 def _of_buttons(exercise: Exercise, form: str) -> bool:

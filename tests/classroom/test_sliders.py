@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from fractions import Fraction
 from typing import Any
 
@@ -78,6 +79,31 @@ def test_each_angle_that_matters_is_hit_without_a_button(explored, hand: type[Po
     for angle in (*ANGLES, 15, 85, 180, 0):
         assert reach(hand(panel.page), panel.at(".lsys-panel"), "angle", f"{angle:g}") == 0
         expect(panel.at("canvas.lsys-canvas")).to_have_attribute("data-angle", f"{angle:g}")
+
+
+@pytest.mark.parametrize("id", ["J4", "K5", "K19", "K24", "P8"])
+@pytest.mark.parametrize("width", [1440, 700, 400])
+def test_numbers_below_a_slider_stand_at_their_values_and_do_not_touch(explored, id: str, width: int) -> None:
+    panel = explored(id, context={"viewport": {"width": width, "height": 900}})
+    for track in panel.at(".lsys-track:visible").all():
+        numbers = track.locator(".lsys-scale > :not(:empty)").all()
+        boxes = sorted((each.bounding_box() for each in numbers), key=lambda box: box["x"])
+        for box, following in itertools.pairwise(boxes):
+            assert box["x"] + box["width"] + 2 <= following["x"]
+        for box in boxes:
+            assert box["y"] >= track.locator(".lsys-range").bounding_box()["y"] + 20
+            assert box["x"] >= panel.at(".lsys-panel").bounding_box()["x"]
+
+
+def test_the_angles_of_a_class_stand_below_their_slider(explored):
+    panel = explored("K5", 4, context={"viewport": {"width": 1440, "height": 900}})
+    numbers = panel.at('[data-control="angle"] .lsys-scale > :not(:empty)')
+    assert {"30", "45", "60", "90", "120"} <= {*numbers.all_inner_texts()}
+    bar = panel.control("angle")
+    for number in numbers.all():
+        box, whole = number.bounding_box(), bar.bounding_box()
+        panel.page.mouse.click(box["x"] + box["width"] / 2, whole["y"] + whole["height"] / 2)
+        expect(panel.at("canvas.lsys-canvas")).to_have_attribute("data-angle", number.inner_text())
 
 
 @pytest.mark.parametrize("id", ["J4", "K5", "K19", "K24", "P8"])

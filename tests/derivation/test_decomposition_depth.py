@@ -43,7 +43,9 @@ def test_without_a_depth_an_end_must_come_of_itself() -> None:
     system = read("axiom: A(0)\ndecomposition:\nA(t) : t >= 0 -> A(t+1)")
     with pytest.raises(ModelLimitError, match=r"A\(0\) is decomposed more than 100 times") as limit:
         derive(system, 1)
-    assert limit.value.hint == "Step 0 is kept. What is made must come nearer to where the condition ends."
+    assert (
+        limit.value.hint == "Step 0 is the last that can be reached. What is made must come nearer to where the condition ends."
+    )
 
 
 @pytest.mark.parametrize("depth", [100, 101, 500, 25_000])

@@ -104,7 +104,7 @@ def test_a_step_past_the_limit_is_refused_before_it_is_built() -> None:
     error = refused(TENFOLD, 20)
     spent = time.process_time() - started
     assert error.message == "Step 7 would have 10,000,000 modules; the limit is 5,000,000"
-    assert error.hint == "Steps 0-6 are kept. Take fewer steps, or set limits(modules=...)."
+    assert error.hint == "Step 6 is the last that can be reached. Take fewer steps, or set limits(modules=...)."
     assert (error.limit, error.needed) == (5_000_000, 10_000_000)
     assert spent < 0.01 * 5  # some milliseconds of the processor's time, where building the word would take seconds
 
@@ -118,9 +118,13 @@ def test_the_steps_that_fit_are_kept() -> None:
 
 def test_the_kept_steps_are_named() -> None:
     with limits(modules=10):
-        assert refused(TENFOLD, 2).hint == "Steps 0-1 are kept. Take fewer steps, or set limits(modules=...)."
+        assert (
+            refused(TENFOLD, 2).hint == "Step 1 is the last that can be reached. Take fewer steps, or set limits(modules=...)."
+        )
     with limits(modules=9):
-        assert refused(TENFOLD, 2).hint == "Step 0 is kept. Take fewer steps, or set limits(modules=...)."
+        assert (
+            refused(TENFOLD, 2).hint == "Step 0 is the last that can be reached. Take fewer steps, or set limits(modules=...)."
+        )
     with limits(modules=2):
         error = refused(read("axiom: A B C"), 2)
     assert error.message == "Step 0 would have 3 modules; the limit is 2"
@@ -160,7 +164,7 @@ def test_bytes_are_counted_too() -> None:
     with limits(bytes=50_000):
         error = refused(TENFOLD, 20)
     assert error.message == "Step 5 would take 100,600 bytes; the limit is 50,000"
-    assert error.hint == "Steps 0-4 are kept. Take fewer steps, or set limits(bytes=...)."
+    assert error.hint == "Step 4 is the last that can be reached. Take fewer steps, or set limits(bytes=...)."
 
 
 def test_many_different_modules_are_counted_by_what_the_table_takes() -> None:

@@ -217,14 +217,19 @@ def test_the_maps_before_are_kept_at_a_limit() -> None:
     assert isinstance(caught.value.partial, Development)
     assert caught.value.partial.counts[-1] == derive(read_map(K28), 5).counts[-1]
     assert str(caught.value) == (
-        "Step 6 would have 112 walls or more; the limit is 100. Steps 0-5 are kept. "
+        "Step 6 would have 112 walls or more; the limit is 100. Step 5 is the last that can be reached. "
         "Take fewer steps, or set limits(modules=...)."
     )
     with limits(modules=6), pytest.raises(ModelLimitError, match="Step 1 would have 7 walls or more; the limit is 6"):
         derive(read_map(K28), 1)
     with limits(bytes=10_000), pytest.raises(ModelLimitError, match=r"Step 4 would take about 13,440 bytes"):
         derive(read_map(K28), 99)
-    with limits(seconds=1e-9), pytest.raises(ModelLimitError, match=r"Step 1 was not reached in 1e-09 seconds. Step 0 is kept"):
+    with (
+        limits(seconds=1e-9),
+        pytest.raises(
+            ModelLimitError, match=r"Step 1 was not reached in 1e-09 seconds. Step 0 is the last that can be reached"
+        ),
+    ):
         derive(read_map(K28), 1)
 
 

@@ -14,7 +14,7 @@ from lsys_kit.notation.read import read
 NO_NAMES = 'A parameter is named before the arrow, as in "A(t) -> A(t+1)"; a constant on a line before, as in "dt = 0.5".'
 PRODUCTION = 'A production reads "A -> B": what is replaced, an arrow, what replaces it.'
 A_VALUE = 'Possible here: a number, a name or "(".'
-KEEP_OUT = "Step 0 is kept. A condition before the arrow can keep such values out."
+KEEP_OUT = "Step 0 is the last that can be reached. A condition before the arrow can keep such values out."
 
 UNREADABLE = [
     ("axiom: A(0)\nA(t) : t = 1 -> B", 'A single "=" cannot be used here', 2, 10, 'To compare two values, type "==".'),

@@ -16,7 +16,8 @@ from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.pictures.formats.svg import svg
 from lsys_kit.pictures.nets import diagram, parts
 from lsys_kit.pictures.nets.diagram import drawn_stages, steering_of
-from lsys_kit.pictures.nets.parts import short, width_of
+from lsys_kit.pictures.nets.layout import Layout, crossings
+from lsys_kit.pictures.nets.parts import clearest_layout, parts_of, short, width_of
 from lsys_kit.pictures.nets.rows import rows_of, shown_places
 from lsys_kit.pictures.style.palette import MARK
 
@@ -149,6 +150,15 @@ def test_a_loop_is_wide_enough_for_its_note(name: str) -> None:
     loop = [x for p in root.iter(f"{SVG}path") if p.get("class") == "arc" for x, _ in sampled(p.attrib["d"])]
     assert min(loop) + 8 < note[0]
     assert note[2] < max(loop) - 8
+
+
+@pytest.mark.parametrize("name", ["J2", "K8"])
+def test_arcs_of_two_bars_of_one_place_do_not_cross_where_they_need_not(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    found: list[Layout] = []
+    monkeypatch.setattr(parts, "clearest_layout", lambda *given: found.append(clearest_layout(*given)) or found[-1])
+    net = stages(system(name))
+    parts_of(net, False, steering_of(net.system))
+    assert [crossings(layout) for layout in found] == [0]
 
 
 def test_the_row_of_l_system_2_reads_as_in_the_paper() -> None:

@@ -236,7 +236,7 @@ def test_what_shades_more_lets_less_grow() -> None:
 
 
 def test_a_question_without_a_field_is_an_error_with_what_was_finished() -> None:
-    with pytest.raises(ModelValueError, match=r"Nothing answers \?E\(0\).*Steps 0-3 are kept.*field: light") as caught:
+    with pytest.raises(ModelValueError, match=r"Nothing answers \?E\(0\).*Step 3 is the last .*field: light") as caught:
         derive(read("axiom: A(0)\nA(n) : n < 2 -> A(n+1)\nA(n) -> F ?E(0)"), 9)
     with pytest.raises(ModelValueError, match="Nothing answers"):
         derive(read("axiom: ?E(0)"), 1)

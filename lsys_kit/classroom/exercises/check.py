@@ -19,6 +19,8 @@ from lsys_kit.classroom.exercises.registry import exercise_of
 from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.classroom.exercises.verdict import Verdict
 from lsys_kit.errors import LSystemError, ModelFileError, ModelLimitError, ModelValueError, require
+from lsys_kit.notation.read import read
+from lsys_kit.pictures.draw import draw
 
 BUDGET: Mapping[str, float] = {"modules": 100_000, "seconds": 3, "rules": 50}
 """The limits for an answer."""
@@ -70,7 +72,7 @@ def check(exercise: str, answer: object = None, hint: int = 0, solution: bool = 
     asked = exercise_of(exercise)
     verdict = checked(asked, answer, hint, solution, f'check("{asked.id}", answer')
     keep_score(asked.id, verdict)
-    return _with(verdict, keep_try(asked.id, answer, verdict))
+    return verdict.with_more(keep_try(asked.id, answer, verdict))
 
 
 def checked(asked: Exercise, answer: object, hint: object, solution: object, call: str) -> Verdict:
@@ -88,13 +90,15 @@ def checked(asked: Exercise, answer: object, hint: object, solution: object, cal
         with limits(**_budget()), Task(reply("check.not_checked")):
             verdict, tried = _judged(asked, answer)
     except ModelLimitError as grown:
-        advice = "" if "limits(" in (grown.hint or "") else f" {(grown.hint or '').split('kept. ')[-1]}".rstrip()
+        advice = "" if "limits(" in (grown.hint or "") else f" {(grown.hint or '').split('reached. ')[-1]}".rstrip()
         return Verdict("Not yet", reply("check.too_much", reason=grown.message) + advice)
     except LSystemError as mistake:
         return Verdict("Not readable yet", str(mistake))
     if (hints or solution) and not tried:
-        return _with(verdict, reply("check.after_a_meant_try"))
-    return _with(verdict, "\n".join([*hints, *([_solution(asked)] if solution else [])]))
+        return verdict.with_more(reply("check.after_a_meant_try"))
+    if not solution:
+        return verdict.with_more("\n".join(hints))
+    return verdict.with_more("\n".join([*hints, _solution(asked)]), picture_of(asked))
 
 
 def _prepare(exercise: Exercise) -> None:
@@ -145,5 +149,6 @@ def _solution(exercise: Exercise) -> str:
     return f"{reply('check.solution')}\n{quoted}\n{exercise.explanation}"
 
 
-def _with(verdict: Verdict, more: str) -> Verdict:
-    return Verdict(verdict.said, f"{verdict.message}\n{more}".strip(), float(verdict)) if more else verdict
+def picture_of(exercise: Exercise) -> str:
+    """What is drawn with the explanation of an exercise, as SVG text; empty where nothing is."""
+    return draw(read(exercise.picture), 0).svg if exercise.picture else ""

@@ -49,8 +49,8 @@ class Exercise:
         What is asked; the question is Markdown.
     kind
         A key of `ANSWER_KINDS`.
-    solution, explanation
-        The right answer, as a student would type it, and why.
+    solution, explanation, picture
+        The right answer, as a student would type it, and why; a model whose drawing is shown with that, or empty.
     hints
         Help on request, in order.
     objective
@@ -98,6 +98,7 @@ class Exercise:
     expects: tuple[str, ...] = ()
     unlikely: tuple[str, ...] = ()
     otherwise: str = ""
+    picture: str = ""
     template: str = "..."
     system: str = ""
     constants: Mapping[str, Value] = field(default_factory=dict, hash=False)

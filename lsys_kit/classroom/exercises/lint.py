@@ -9,7 +9,7 @@ from pathlib import Path
 
 from lsys_kit.budget import Task, limits
 from lsys_kit.classroom.exercises.asked import answer_by, asked_system, right_history, what_is_asked
-from lsys_kit.classroom.exercises.check import BUDGET
+from lsys_kit.classroom.exercises.check import BUDGET, picture_of
 from lsys_kit.classroom.exercises.declarations import QUESTIONS, MakeProblem, Problem, Questions, questions_in
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.judging import judged, wrong_answers
@@ -85,6 +85,7 @@ def _exercise_problems(problem: MakeProblem, exercise: Exercise) -> Iterator[Pro
 def _unread(exercise: Exercise) -> Iterator[tuple[str, LSystemError]]:
     readers: dict[str, Callable[[], object]] = {
         "system": lambda: exercise.system and asked_system(exercise),
+        "picture": lambda: exercise.picture and picture_of(exercise),
         "given": lambda: exercise.given and (read_map if exercise.kind == "map" else read)(exercise.given),
         "also": lambda: [ANSWER_KINDS[exercise.kind].read(exercise, each) for each in exercise.also],
         "solution": lambda: judged(exercise, exercise.solution),

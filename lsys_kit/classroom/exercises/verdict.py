@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 from collections.abc import Mapping
 
 from lsys_kit.pictures.style.labels import escaped
@@ -33,6 +34,8 @@ class Verdict(float):
         "Correct", "Almost", "Not yet", "Not readable yet", "Not answered yet" or "Hint"; displayed in the chosen language.
     message
         The reply to the answer; lines that begin with two blanks quote it.
+    picture
+        What is drawn beside it, as SVG text, or empty.
 
     Examples
     --------
@@ -42,15 +45,24 @@ class Verdict(float):
     1.0
     """
 
-    __slots__ = ("message", "said")
+    __slots__ = ("message", "picture", "said")
     said: str
     message: str
+    picture: str
 
-    def __new__(cls, said: str, message: str = "", score: float | None = None) -> Verdict:
+    def __new__(cls, said: str, message: str = "", score: float | None = None, picture: str = "") -> Verdict:
         """A verdict; without a score it is 1 where the answer is correct, else 0."""
         verdict = super().__new__(cls, (said == "Correct") if score is None else score)
-        verdict.said, verdict.message = said, message
+        verdict.said, verdict.message, verdict.picture = said, message, picture
         return verdict
+
+    def with_more(self, more: str, picture: str = "") -> Verdict:
+        """The same verdict with more to say, or to show.
+
+        >>> Verdict("Correct").with_more("Well done.")
+        Correct. Well done.
+        """
+        return Verdict(self.said, f"{self.message}\n{more}".strip(), float(self), picture or self.picture)
 
     def __repr__(self) -> str:
         return f"{gettext(self.said)}. {self.message}".rstrip()
@@ -63,8 +75,15 @@ class Verdict(float):
         return (
             f'<div class="{PLAIN_TEXT}" role="status" style="border-left:6px solid {colour};background:{PAPER};color:{INK};'
             'padding:6px 12px">'
-            f'<span aria-hidden="true">{sign}</span> <b>{escaped(gettext(self.said))}.</b> {_html(self.message)}</div>'
+            f'<span aria-hidden="true">{sign}</span> <b>{escaped(gettext(self.said))}.</b> {_html(self.message)}'
+            f"{_image(self.picture)}</div>"
         )
+
+
+def _image(picture: str) -> str:
+    """A picture on a line of its own; what it shows is said beside it."""
+    data = base64.b64encode(picture.encode()).decode()
+    return f'<img alt="" style="display:block;margin:4px 0" src="data:image/svg+xml;base64,{data}">' if picture else ""
 
 
 def _html(message: str) -> str:

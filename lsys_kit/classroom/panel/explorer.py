@@ -140,7 +140,11 @@ class Explorer(KitWidget):
     @property
     def text(self) -> str:
         """What the panel shows, in words."""
-        return str(self.sight)
+        return self._told(STILL)
+
+    def _told(self, usual: Collection[str]) -> str:
+        """What it shows in words, with some views where none were asked for."""
+        return self.sight.told(usual if self._show is None else self._show)
 
     @property
     def still(self) -> Mapping[str, str]:
@@ -390,8 +394,8 @@ def explore(
     >>> panel = explore("J4", 3)
     >>> panel.step = 9
     >>> print(panel.text)
-    Step 9: 9 modules. Al(1)Br(1)Bl(2)Ar(2)Al(3)Bl(1)Ar(1)Bl(2)Ar(2). Stages A(1): 2, A(2): 2, A(3): 1, B(1): 2, B(2): 2. \
-9 cells, width 14, height 1.
+    Step 9: 9 cells. Al(1)Br(1)Bl(2)Ar(2)Al(3)Bl(1)Ar(1)Bl(2)Ar(2). Stages A(1): 2, A(2): 2, A(3): 1, B(1): 2, B(2): 2. \
+Width 14, height 1.
     >>> explore("P6", 4, dt=1, sliders="dt").settings
     {'dt': '1'}
     """
@@ -565,7 +569,7 @@ class Comparison(KitWidget):
     @property
     def text(self) -> str:
         """What both panels show, in words."""
-        return f"{self.left.text}\n{self.right.text}"
+        return "\n".join(each._told(COMPARED) for each in (self.left, self.right))
 
     def page_data(self, asked: Sequence[Mapping[str, object]] = ()) -> Data:
         """What a page without a kernel has to know of both panels, and of the settings that are asked for."""

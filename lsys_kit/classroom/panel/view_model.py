@@ -15,7 +15,8 @@ from PIL import Image
 
 from lsys_kit.cache import Cache
 from lsys_kit.classroom.panel.books.net import Unfolding, net_of
-from lsys_kit.derivation.core.words import Word, abridged
+from lsys_kit.classroom.panel.labels import noun_of
+from lsys_kit.derivation.core.words import Word, shortened
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.geometry.drawing import coloured, scene_of
@@ -60,22 +61,37 @@ class StepView:
     picture: Picture
 
     @property
-    def modules(self) -> str:
-        """How many modules the word has, in words."""
-        return f"{len(self.word):,} module{'s' * (len(self.word) != 1)}"
+    def size(self) -> str:
+        """How many cells or strokes and modules there are, in the words of the system, as in the line of a panel."""
+        system = self.net.system
+        is_filament, modules = drawing_mode(system) is DrawingMode.FILAMENT, _counted(len(self.word), noun_of(system))
+        seen = len(self.scene.cells if is_filament else self.scene.segments)
+        if is_filament and seen == len(self.word):
+            return _counted(seen, "cell")
+        return f"{_counted(seen, 'cell' if is_filament else 'stroke')}, {modules}" if seen else modules
 
     @property
     def svg(self) -> str:
         """The drawing as SVG text."""
         return self.picture.svg
 
-    def __str__(self) -> str:
+    def told(self, show: Collection[str]) -> str:
+        """What there is to see in words; the stages where they are among the views that are shown."""
         places = [
             f"{place_text(place, self.net.system)}: {count:,}"
             for place, count in zip(self.net.places, self.tokens, strict=True)
             if place.symbol[0].isalpha()
         ]
-        return f"Step {self.step}: {self.modules}. {abridged(self.word, 160)}. Stages {', '.join(places)}. {self.scene}."
+        stages = f" Stages {', '.join(places)}." if "stages" in show else ""
+        measures = self.scene.measures if self.scene.size else "nothing to draw"
+        return f"Step {self.step}: {self.size}. {shortened(self.word, 160)}.{stages} {measures.capitalize()}."
+
+    def __str__(self) -> str:
+        return self.told(STILL)
+
+
+def _counted(number: int, noun: str) -> str:
+    return f"{number:,} {noun}{'s' * (number != 1)}"
 
 
 class ViewModel:
@@ -83,8 +99,8 @@ class ViewModel:
 
     >>> from lsys_kit.classroom.catalogue import system
     >>> print(ViewModel(system("J4")).sight(3, {"lifeTimeB": 5}))
-    Step 3: 2 modules. Al(1)Br(1). Stages A(1): 1, A(2): 0, A(3): 0, B(1): 1, B(2): 0, B(3): 0, B(4): 0, B(5): 0. \
-    2 cells, width 3, height 1.
+    Step 3: 2 cells. Al(1)Br(1). Stages A(1): 1, A(2): 0, A(3): 0, B(1): 1, B(2): 0, B(3): 0, B(4): 0, B(5): 0. \
+    Width 3, height 1.
     """
 
     def __init__(self, system: LSystem, seed: int | None = None, unfold: Unfolding = False) -> None:
@@ -232,8 +248,7 @@ def both_png(left: bytes, right: bytes) -> bytes:
 
 
 def _paint_title(sheet: Sheet, view: StepView, width: float) -> None:
-    states = sum(count > 0 for count in view.tokens)
-    said = f"{view.modules}, {states} state{'s' * (states != 1)}; {view.scene}"
+    said = f"{view.size}; {view.scene.measures if view.scene.size else 'nothing to draw'}"
     start = sheet.text(0, TITLE, f"step {view.step}", TITLE) + 18
     while start + advance(said, STATUS) > width:
         said = f"{said[:-2]}…"

@@ -14,7 +14,7 @@ from contextlib import suppress
 from fractions import Fraction
 from typing import Any
 
-from lsys_kit.classroom.exercises.check import checked
+from lsys_kit.classroom.exercises.check import checked, picture_of
 from lsys_kit.classroom.exercises.exercise import Exercise, Lesson
 from lsys_kit.classroom.exercises.judging import wrong_answers
 from lsys_kit.classroom.exercises.kinds.choices import letters
@@ -63,10 +63,13 @@ class _NotExact(Exception):
     """An answer has no exact normal form."""
 
 
-def _reply(exercise: Exercise, answer: object) -> tuple[str, str]:
-    """What the kit itself says to an answer, a verdict and a message; to a right one also why it is right."""
+def _reply(exercise: Exercise, answer: object) -> tuple[str, ...]:
+    """What the kit itself says to an answer, a verdict and a message; to a right one why it is right, with a picture if there
+    is one."""
     verdict = checked(exercise, answer, 0, False, "")
-    return verdict.said, exercise.explanation if verdict.said == "Correct" else verdict.message
+    if verdict.said != "Correct":
+        return verdict.said, verdict.message
+    return verdict.said, exercise.explanation, *filter(None, [picture_of(exercise)])
 
 
 # Normal forms

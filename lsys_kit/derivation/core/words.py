@@ -157,8 +157,14 @@ def abridged(word: Word, characters: int) -> str:
     >>> abridged(derive(read("axiom: F\\nF -> F+F"), 9)[-1], 40)
     'F+F+F+F+F+F+F+F+F+F+ ... +F+F+F+F+F+F+F+F+F+F (1,023 modules)'
     """
+    shown = shortened(word, characters)
+    return f"{shown} ({len(word):,} modules)" if " ... " in shown else shown
+
+
+def shortened(word: Word, characters: int) -> str:
+    """The same, where it is said elsewhere how long the word is."""
     half = max(1, characters // 2)
     if len(word) <= characters and len(whole := text_of(word.states, word.codes, shown=True)) <= characters:
         return whole
     front, back = (text_of(word.states, part, shown=True) for part in (word.codes[:half], word.codes[-half:]))
-    return f"{front[:half]} ... {back[-half:]} ({len(word):,} modules)"
+    return f"{front[:half]} ... {back[-half:]}"

@@ -8,7 +8,7 @@ from typing import Any, Generic, Self, TypeVar, overload
 from lsys_kit.budget import Task, check_budget, counted
 from lsys_kit.derivation.tissues.cellworks import Cellwork, cellwork_step, first_cellwork
 from lsys_kit.derivation.tissues.maps import Map, first_map, map_step, unmatched_markers
-from lsys_kit.errors import ModelLimitError, ModelValueError, whole_number
+from lsys_kit.errors import ModelLimitError, ModelValueError, last_reached, whole_number
 from lsys_kit.notation.model.cells import CellSystem, CellworkSystem, MapSystem
 
 MOST_SHOWN = 400
@@ -116,6 +116,5 @@ def develop(system: Any, steps: int) -> Any:
                     found.append(next_step(found[-1], system, step))
             except (ModelLimitError, ModelValueError) as error:
                 error.partial = made(system, found)
-                kept = "Step 0 is" if step == 1 else f"Steps 0-{step - 1} are"
-                raise error.with_hint(f"{kept} kept. {error.hint}") from None
+                raise error.with_hint(f"{last_reached(step)} {error.hint}") from None
     return made(system, found)

@@ -19,7 +19,7 @@ from lsys_kit.derivation.tissues.cellworks import Cellwork
 from lsys_kit.derivation.tissues.development import CellworkDevelopment, Development
 from lsys_kit.derivation.tissues.edges import CellEdge
 from lsys_kit.derivation.tissues.maps import Map, kinds_of_cells
-from lsys_kit.errors import ModelValueError
+from lsys_kit.errors import ModelValueError, last_reached
 from lsys_kit.geometry.scene import OWN, Floats, Integers, Polygons, Scene, Segments, no_discs
 from lsys_kit.geometry.tissues.equilibrium import Equilibrium, equilibrium
 from lsys_kit.geometry.tissues.relaxation import (
@@ -58,8 +58,8 @@ def _step_by_step(
                 reached = at_rest(found, points)
             except ModelValueError as error:
                 error.partial = finished
-                kept = "" if not step else " Step 0 is kept." if step == 1 else f" Steps 0-{step - 1} are kept."
-                raise error.with_hint(f"This was step {step}.{kept} {error.hint}") from None
+                said = f"This was step {step}. {last_reached(step)}".strip()
+                raise error.with_hint(f"{said} {error.hint}") from None
         finished.append(reached[0])  # type: ignore[arg-type]
         yield reached
 

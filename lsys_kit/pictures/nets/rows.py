@@ -212,10 +212,10 @@ class _Rows:
         return Route(number, (row, column), (to, at), way, side)
 
     def _stretches(self, route: Route) -> list[tuple[int, Stretch]]:
-        """The gaps through which an arc runs, with its stretch in each; positions are columns, channels lie half-way
-        between."""
-        (row, column), (to, at) = route.source, route.target
-        leave, arrive, margin = (column + 0.5, -route.way), (float(at), 1), -1.0 if route.side < 0 else float(self.columns)
+        """The gaps through which an arc runs, with its stretch in each; positions are columns."""
+        row, (to, at) = route.source[0], route.target
+        leave, arrive = (self._leaves(route), -route.way), (float(at), 1)
+        margin = -1.0 if route.side < 0 else float(self.columns)
         if route.direct:
             return []
         if not route.side:
@@ -224,6 +224,14 @@ class _Rows:
             return [(to, _between((margin, 1 if to <= row else -1), arrive))]
         turn = 1 if to > route.gap else -1
         return [(route.gap, _between(leave, (margin, turn))), (to, _between((margin, -turn), arrive))]
+
+    def _leaves(self, route: Route) -> float:
+        """Where an arc turns off in its channel, half-way between two columns; those of the bars of one place further to the
+        right, the more bars the way up or down passes, so that they do not cross what leaves these."""
+        transition = self.net.arcs[route.arc].transition
+        bars = self.bars[self.net.transitions[transition].place]
+        passed = bars.index(transition) if route.way < 0 else len(bars) - 1 - bars.index(transition)
+        return route.source[1] + 0.5 + 0.25 * passed / len(bars)
 
     def _lanes(self) -> dict[tuple[int, int], int]:
         gaps: defaultdict[int, list[tuple[int, Stretch]]] = defaultdict(list)
@@ -256,7 +264,7 @@ class _Rows:
         for route in self.routes:
             if route.way:
                 gap, ((low, _), _) = self._stretches(route)[0]
-                onward, far = low == route.source[1] + 0.5, -route.way * self.lanes[route.arc, gap]
+                onward, far = low == self._leaves(route), -route.way * self.lanes[route.arc, gap]
                 channels[gap, route.source[1]].append((onward, -far if onward else far, route.arc))
         return {arc: slot for members in channels.values() for slot, (_, _, arc) in enumerate(sorted(members))}
 

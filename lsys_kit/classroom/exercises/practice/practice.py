@@ -66,8 +66,7 @@ class Practice:
         Not yet. That is the word of step 1. Or did you leave out one of the productions?
         """
         verdict = checked(self.exercise, answer, hint, solution, "check(answer")
-        problem = keep_try(kept_name(self.topic, self.level, self.seed), answer, verdict)
-        return Verdict(verdict.said, f"{verdict.message}\n{problem}".strip(), float(verdict)) if problem else verdict
+        return verdict.with_more(keep_try(kept_name(self.topic, self.level, self.seed), answer, verdict))
 
     def next(self) -> Practice:
         """Another exercise: after two right answers at once one of the next level, after two wrong ones of the one before.

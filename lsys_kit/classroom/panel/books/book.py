@@ -26,6 +26,7 @@ import numpy as np
 from lsys_kit.budget import Task, current, limits
 from lsys_kit.classroom.panel.books.net import Unfolding, net_entry, net_of
 from lsys_kit.classroom.panel.bundle import Data
+from lsys_kit.classroom.panel.labels import noun_of
 from lsys_kit.derivation.core.interpretation import interpretations
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.traits import traits_of
@@ -114,7 +115,7 @@ def book(
             "text": system.source,
             "notation": system.notation,
             "notes": [*map(visible, system.notes)],
-            "noun": _noun(states, pages),
+            "noun": _noun(system, pages),
             "settings": {c.name: number_text(value) for c, value in zip(system.constants, states.constants, strict=True)},
             "chance": _has_chance(states),
             "symbols": symbols,
@@ -134,15 +135,10 @@ def book(
         }
 
 
-def _noun(states: States, pages: _Pages) -> str:
-    """What one module of the words is called: a cell where it is drawn as one, a letter or character where it is no more than
-    that."""
-    symbols = {states.modules[state].symbol for state in pages.numbers}
-    if drawing_mode(states.system) is DrawingMode.FILAMENT and all(len(row) == 1 and not row[0][0] for row in pages.drawn):
-        return "cell"
-    if any(len(symbol) > 1 for symbol in symbols) or any(states.modules[state].arguments for state in pages.numbers):
-        return "module"
-    return "letter" if all(map(str.isalpha, symbols)) else "character"
+def _noun(system: LSystem, pages: _Pages) -> str:
+    """What one module of the words is called: a cell where it is drawn as one."""
+    is_filament = drawing_mode(system) is DrawingMode.FILAMENT
+    return "cell" if is_filament and all(len(row) == 1 and not row[0][0] for row in pages.drawn) else noun_of(system)
 
 
 @dataclass

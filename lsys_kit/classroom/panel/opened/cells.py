@@ -124,6 +124,9 @@ class CellSight:
     def svg(self) -> str:
         return self.picture.svg
 
+    def told(self, show: Collection[str]) -> str:
+        return str(self)
+
     def __str__(self) -> str:
         cells = str(self.found)
         return f"Step {self.step}: {self.size}. {cells if len(cells) <= LONGEST else cells[:LONGEST] + '...'}"

@@ -28,6 +28,10 @@ class Viewing:
 class Sight(Protocol):
     """What there is to see at a step; `str` of it says so in words."""
 
+    def told(self, show: Collection[str]) -> str:
+        """The same in words, for those who see some views."""
+        ...
+
     @property
     def svg(self) -> str:
         """Its picture as SVG text."""

@@ -71,15 +71,16 @@ function verdictOn(data, replies, text) {
   if (!text.trim() || /\.\.\.|…/.test(text)) return { said: "Not answered yet", message: "" };
   const { key, unreadable } = read(data, text);
   if (unreadable) return { said: "Not readable yet", message: unreadable };
-  const [said, message] = replies.get(key) ?? ["Not yet", data.otherwise];
-  return { said, message };
+  const [said, message, picture = ""] = replies.get(key) ?? ["Not yet", data.otherwise];
+  return { said, message, ...(picture && { picture }) };
 }
 
-function showVerdict(status, { said, message }) {
+function showVerdict(status, { said, message, picture = "" }) {
   const [sign, look = ""] = VERDICTS[said];
   status.className = `lsys-said ${look}`;
   status.replaceChildren(made("span", { "aria-hidden": "true" }, `${sign} `), made("b", `${worded(said)}. `));
   for (const line of message.split("\n")) status.append(line.startsWith("  ") ? made("pre", line) : made("span", `${line} `));
+  if (picture) status.append(made("img", { alt: "", src: `data:image/svg+xml,${encodeURIComponent(picture)}` }));
 }
 
 // A button that shows one hint more, from the first try on.

@@ -1,5 +1,6 @@
 // What the questions of a lesson share: their frame, their texts, of which all becomes text nodes, and a kernel that may be gone.
 
+import { saved, whenGone } from "../panels/kernel.js";
 import { made, ownKeys, speak, worded } from "../views/controls.js";
 import { ownName } from "../views/landmarks.js";
 
@@ -25,12 +26,13 @@ export function question(model, el, name, traits, build) {
   const root = made("section.lsys-lesson");
   root.setAttribute("aria-label", ownName(root, worded(name)));
   el.append(root);
-  const tell = build(root), release = ownKeys(root);
+  const tell = build(root), release = ownKeys(root), unheard = whenGone(model);
   for (const trait of traits) model.on(`change:${trait}`, tell);
   tell();
   return () => {
     for (const trait of traits) model.off(`change:${trait}`, tell);
     release();
+    unheard();
     root.remove();
   };
 }
@@ -38,13 +40,7 @@ export function question(model, el, name, traits, build) {
 // Tell the kernel what was done, or say in `status` that there is none.
 export function tellModel(model, values, status) {
   for (const [name, value] of Object.entries(values)) model.set(name, value);
-  let told = model.comm_live !== false;
-  try {
-    model.save_changes();
-  } catch { // Jupyter throws where a kernel has been shut down and the model was not told
-    told = false;
-  }
-  if (!told) status.replaceChildren(worded("The kernel does not answer. Run the cell again."));
+  if (!saved(model)) status.replaceChildren(worded("The kernel does not answer. Run the cell again."));
 }
 
 const PAUSE = 300; // milliseconds without a key after which what is typed is kept

@@ -1,5 +1,6 @@
 // The words of an organism up to a step, and beside them all systems that fit. All steps are there beforehand: no kernel is asked.
 
+import { saved } from "../panels/kernel.js";
 import { freshId, made } from "../views/controls.js";
 import { question } from "./asking.js";
 
@@ -8,7 +9,7 @@ export function showRules({ model, el }) {
     const { words, steps } = model.get("found"), id = freshId();
     const range = made("input", { type: "range", id, min: 1, max: steps.length, step: 1, oninput: () => {
       model.set("step", Number(range.value));
-      model.save_changes();
+      saved(model);
     } });
     const number = made("span", { "aria-hidden": "true" }), status = made("p.lsys-asked", { role: "status" });
     const rows = words.map((word, step) => made("tr", made("th", { scope: "row" }, String(step)),

@@ -1,11 +1,13 @@
 // The host of a panel in Jupyter: the model that the kernel keeps. The kernel answers by numbered messages.
 
+import { hasKernel, saved, whenGone } from "./kernel.js";
+
 const PATIENCE = 20_000; // milliseconds after which a kernel that does not answer is taken to be gone
 const GONE = { message: "The kernel does not answer. Restart it and run the cell again; what the panel has already shown goes on working" };
 
 // Whether a message left: Jupyter throws where a kernel has been shut down and the model was not told.
 export function tellsKernel(model, content) {
-  if (model.comm_live === false) return false;
+  if (!hasKernel(model)) return false;
   try {
     model.send(content);
   } catch {
@@ -37,16 +39,12 @@ export function hostOf(model) {
     get: (name) => model.get(name),
     set: (name, value) => model.set(name, value),
     on(name, handler) {
-      if (name === "gone") {
-        const heard = () => model.comm_live === false && handler(GONE.message);
-        model.on("comm_live_update", heard);
-        return () => model.off("comm_live_update", heard);
-      }
+      if (name === "gone") return whenGone(model, () => handler(GONE.message));
       const heard = () => handler(model.get(name));
       model.on(`change:${name}`, heard);
       return () => model.off(`change:${name}`, heard);
     },
-    save: () => model.save_changes(),
+    save: () => saved(model),
     book: (settings) => ask({ kind: "book", ...settings }),
     rules: (text, constants) => ask({ kind: "rules", text, constants }),
     variants: () => ask({ kind: "variants" }),

@@ -28,7 +28,8 @@ import { caption, code, litAt, placesOf, told } from "./telling.js";
 const REST = 400; // milliseconds after which a movement has come to rest, and the kernel is told
 const ANGLES = times(1801, (i) => (i / 10).toString());
 const DEGREES = (least, most) => times(most - least + 1, (i) => String(least + i));
-const MARKED = [18, 22.5, 25.7, 30, 36, 45, 60, 72, 90, 108, 120, 137.5, 144]; // degrees at which the slider of the angle stops in any case
+const NAMED = [90, 60, 120, 45, 30]; // degrees that stand below the slider of the angle, where there is room for them
+const MARKED = [...NAMED, 18, 22.5, 25.7, 36, 72, 108, 137.5, 144]; // and those at which it stops in any case
 const SEEDS = DEGREES(0, 999);
 
 // Of two panels beside each other `compared` has { bar, shared, shown(book, step) }: where the sliders of both are, or null in the
@@ -39,7 +40,7 @@ export function openPanel(element, host, compared = null) {
   const root = made("div.lsys-panel", { role: "region" });
   element.append(root);
   const offs = [], still = matchMedia("(prefers-reduced-motion: reduce)");
-  let model, books, book, theme, resting = 0, asking = 0, typing = 0, idle = 0, wanted = seen.step, traced = null, pointed = null, shownTheme = "", boxed = null, underway = null;
+  let model, books, book, theme, resting = 0, asking = 0, typing = 0, idle = 0, wanted = seen.step, traced = null, pointed = null, shownTheme = "", boxed = null, underway = null, beside = null;
   let constants = [];
 
   const status = made("div.lsys-status", { role: "status" }), sentence = made("div.lsys-sentence", { role: "status" });
@@ -66,7 +67,7 @@ export function openPanel(element, host, compared = null) {
     show();
   }, { "aria-pressed": "false", class: "lsys-button lsys-tab" });
   const rules = rulesView(view.rules.body, (text) => newRules(text));
-  const word = wordView(view.word.body, (position, way) => trace(seen.step, position, way), (position) => point({ step: seen.step, position }));
+  const word = wordView(view.word.body, (position, way) => trace(seen.step, position, way, view.word), (position) => point({ step: seen.step, position }));
   const net = netView(view.stages.body, (place) => toggleMark(place), (place) => point({ place }), () => view.stages.enlarge());
   const drawing = drawingView(view.drawing.body, {
     view: () => [seen.around, seen.above],
@@ -83,7 +84,6 @@ export function openPanel(element, host, compared = null) {
   const bar = made("div.lsys-tabs", { role: "toolbar", "aria-label": worded("views") }, ...tabs, more.opener), groups = [bar, less].map((group) => roving(group));
   top.append(bar);
   views.prepend(bottom, status);
-  views.append(sentence);
   if (!compared) step.element.append(reset);
   root.append(top, more.element, message, views);
   const shared = [step.element, play.element], turning = [angle.element, around.element, above.element];
@@ -152,7 +152,8 @@ export function openPanel(element, host, compared = null) {
       }),
     }));
     for (const { control, texts, index, name } of constants) control.offer(texts, Math.max(0, texts.indexOf(seen.settings[name])), [index]);
-    angle.offer(ANGLES, Math.round(seen.angle * 10), [...MARKED, model.angle].map((degrees) => Math.round(degrees * 10)));
+    const tenths = (degrees) => [...degrees, model.angle].map((each) => Math.round(each * 10));
+    angle.offer(ANGLES, Math.round(seen.angle * 10), tenths(MARKED), tenths(NAMED));
     const fixed = model.fixed ? [made("span.lsys-hint", model.fixed)] : [];
     const ofBoth = constants.filter((each) => compared?.shared.includes(each.name)), own = constants.filter((each) => !ofBoth.includes(each));
     compared?.bar?.append(...ofBoth.map((each) => each.control.element));
@@ -197,7 +198,9 @@ export function openPanel(element, host, compared = null) {
     change({ mark: seen.mark === name ? "" : name });
   }
 
-  function trace(at, position, way = 0) {
+  function trace(at, position, way = 0, where = view.drawing) {
+    beside = where;
+    seat();
     if (position === null) {
       if (traced?.step !== at) traced = { step: at, position: way > 0 ? -1 : book.length(at) };
       position = clamped(0, book.length(at) - 1, traced.position + way);
@@ -205,6 +208,12 @@ export function openPanel(element, host, compared = null) {
     traced = position < 0 || position >= book.length(at) ? null : { step: at, position };
     light();
     if (traced && at === seen.step) word.reveal(position);
+  }
+
+  // What is told of a part stands below the view in which it was pointed at, or below one that is open.
+  function seat() {
+    const home = [beside, view.drawing, view.word].find((each) => each?.open)?.body ?? views;
+    if (sentence.parentElement !== home) home.append(sentence);
   }
 
   // What the mouse is on, { step, position } or { place }, is lit until it leaves, unless something was chosen by a click.
@@ -223,6 +232,7 @@ export function openPanel(element, host, compared = null) {
   function show() {
     if (!book) return;
     pointed = null;
+    seat();
     const now = Math.min(seen.step, book.steps), tokens = book.tokens(now);
     step.show(now);
     angle.show(Math.round(seen.angle * 10));

@@ -85,6 +85,7 @@ export function freshId() {
 const PITCH = { mouse: 4, finger: 7 }; // pixels between two stops of a slider
 const THUMB = 16; // pixels
 const NARROW = 150; // pixels of a slider that has not been laid out
+const [DIGIT, BETWEEN] = [6.5, 5]; // pixels of a digit of the numbers below a slider, and between two numbers
 
 const fits = new WeakMap(), sizes = new ResizeObserver((all) => all.forEach(({ target }) => fits.get(target)()));
 
@@ -98,11 +99,11 @@ export function slider(name, hint, texts, index, chosen, label = name, { least =
   const box = made("input.lsys-box", { id, type: "text", inputmode: "decimal", autocomplete: "off", spellcheck: "false" });
   const said = made("span.lsys-refused", { id: freshId(), role: "status" });
   const range = made("input.lsys-range", { type: "range", "aria-label": worded("{name}, slider", { name: label }), min: 0, step: "any" });
-  const track = made("span.lsys-track", range); // browsers paint nothing behind a native slider
+  const scale = made("span.lsys-scale", { "aria-hidden": "true" }), track = made("span.lsys-track", range, scale);
   const beside = (sign, hint, way) => button(sign, hint, () => choose(way(false)), { "aria-label": hint, tabindex: -1, class: "lsys-button lsys-next" });
   const less = beside("\u2212", worded("{name}: the value before", { name: label }), back), more = beside("+", worded("{name}: the next value", { name: label }), on);
   const element = made("div.lsys-control", { "data-control": name }, made("label", { for: id, title: hint }, label), less, box, more, said, ...(bar ? [track] : []));
-  let numbers = [], stops = [0], marked = [], grip = null, typing = false;
+  let numbers = [], stops = [0], marked = [], named = [], grip = null, typing = false;
 
   function show(at) {
     if (at !== index) refuse(false);
@@ -150,11 +151,12 @@ export function slider(name, hint, texts, index, chosen, label = name, { least =
     offer(all.map(String), all.indexOf(now));
   }
 
-  // `marks` are the indices of values that matter: the slider stops there in any case.
-  function offer(others, at, marks = []) {
+  // `marks` are the indices of values that matter: the slider stops there in any case. Those in `names` stand below it as numbers,
+  // the first ones first, where there is room.
+  function offer(others, at, marks = [], names = marks) {
     texts = others;
     numbers = texts.map(valueOf);
-    marked = marks;
+    [marked, named] = [marks, names];
     track.style.setProperty("--lsys-stops", String(stopsOf(numbers, marked, Infinity, least).length));
     box.style.width = `${clamped(3, 12, Math.max(...[texts[0], texts.at(-1), texts[1] ?? ""].map((text) => text.length))) + 2}ch`;
     index = at;
@@ -165,9 +167,19 @@ export function slider(name, hint, texts, index, chosen, label = name, { least =
     const pitch = matchMedia("(pointer: coarse)").matches ? PITCH.finger : PITCH.mouse;
     stops = stopsOf(numbers, marked, Math.floor(((range.clientWidth || NARROW) - THUMB) / pitch) + 1, least);
     range.max = Math.max(1, stops.length - 1);
-    track.style.background = marked.map((at) => tick(stops.indexOf(at) / (stops.length - 1))).join();
+    const numbered = apart(named);
+    scale.replaceChildren(...marked.map((at) => made("span", { style: `left: ${100 * wayTo(at)}%` }, numbered.includes(at) ? texts[at] : "")));
     less.hidden = more.hidden = bar && stops.length === numbers.length;
     show(index);
+  }
+
+  const wayTo = (at) => stops.indexOf(at) / (stops.length - 1 || 1);
+
+  // Of some indices those whose numbers do not touch those before them.
+  function apart(names) {
+    const long = range.clientWidth - THUMB, kept = [], half = (at) => (DIGIT * texts[at].length + BETWEEN) / 2;
+    for (const at of names) if (kept.every((other) => Math.abs(wayTo(at) - wayTo(other)) * long >= half(at) + half(other))) kept.push(at);
+    return kept;
   }
 
   // Where keys and buttons lead: to the next of every `pace` values, or of all.
@@ -225,9 +237,6 @@ export function slider(name, hint, texts, index, chosen, label = name, { least =
     },
   };
 }
-
-// A small line below a slider, at a part of the way of its thumb.
-const tick = (part) => `linear-gradient(var(--lsys-quiet), var(--lsys-quiet)) calc(${(THUMB - 1) / 2}px + (100% - ${THUMB - 1}px) * ${part}) 100% / 1px 4px no-repeat`;
 
 // The value of a number as a person writes it: 0.7, 0,7 or 7/10.
 function valueOf(text) {
