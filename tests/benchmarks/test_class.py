@@ -261,7 +261,7 @@ def test_phones_that_come_and_go_all_day_take_no_memory(served: Process, full: b
 
     async def day() -> list[int]:
         seen = []
-        board = await websocket_connect(served.board.replace("http", "ws", 1) + "live")
+        board = await websocket_connect(served.board.replace("http", "ws", 1) + "live", on_message_callback=lambda _: None)
         for number in range(minutes):
             for content in ({"do": "open"}, {"do": "show"}):
                 asked = {"kind": "vote", "about": f"{number // 60 + 1:02}", "round": number // 30 % 2 + 1}
