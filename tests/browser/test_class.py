@@ -305,7 +305,7 @@ def test_one_practises_on_the_page_of_exercises(live: Class, pytestconfig: pytes
         before = place.locator("pre").inner_text()
         place.get_by_role("button", name="Another exercise").tap()
         expect(place.locator("pre")).not_to_have_text(before, timeout=60_000)
-    place.locator("input").fill("x")
+    place.locator("input").fill(asked_by(place)[0])
     place.get_by_role("button", name="Check").tap()
     place.get_by_role("button", name="A hint").tap()
     expect(place.locator(".lsys-said")).to_contain_text("Hint 1 of 3", timeout=60_000)

@@ -180,6 +180,7 @@ def test_servers_that_begin_at_once_have_one_table_and_one_class(tmp_path: Path)
     assert len({(each.code, each.board.split("/board/")[1]) for each in servers}) == 1
 
 
+@pytest.mark.slow
 def test_what_a_question_asks_is_refused_for_a_while_where_too_much_is_asked(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -122,7 +122,11 @@ def test_every_question_of_the_course_can_be_opened_and_says_what_it_asks() -> N
         session = Session([teacher(1, "open", {"kind": kind, "about": about, "round": 1, "seats": []})])
         session.take(teacher(2, "show", [kind, about, 1]))
         assert session.board(0)["current"]["shown"]
-        assert asked_of(question(kind, about))["question"]
+        asked = asked_of(question(kind, about))
+        assert asked["question"]
+        told = session.phone("p")["current"]  # before anything is drawn
+        assert kind == "table" or told["question"] == asked["question"]
+        assert told.get("options") == asked.get("options")
 
 
 def test_a_page_of_a_lesson_names_its_questions_by_what_they_say() -> None:

@@ -184,7 +184,7 @@ class Events:
 
 
 def _event(row: Sequence[Any]) -> Event:
-    return Event(*row[1:-1], json.loads(row[-1]))
+    return Event._make((*row[1:-1], json.loads(row[-1])))
 
 
 def _codes() -> Iterator[str]:

@@ -218,8 +218,12 @@ class ClassBoard(KitWidget):
     def __init__(self, of: _Class) -> None:
         self._class = of
         super().__init__(about={**of.about, "words": translated_words("class_board")}, state=of.state, ended=not of.is_open)
-        self.on_msg(lambda _, content, __: isinstance(content, dict) and of.tell(content))
+        self.on_msg(self._told)
         of.boards.add(self)
+
+    def _told(self, _: object, content: object, __: object) -> None:
+        if isinstance(content, dict):
+            self._class.tell(content)
 
     @property
     def name(self) -> str:

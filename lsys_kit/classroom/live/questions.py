@@ -135,13 +135,24 @@ def named(kind: str, about: str, asked: str = "") -> Question:
 
 def asked_of(question: Question) -> Data:
     """What a phone and the board show of a question; nothing in it says what is right."""
-    number = question.lesson
     if question.kind == VOTE:
-        return dict(_ballot(number)["asked"])
-    if question.kind == PREDICTION:
-        return {"question": predictions(lesson(number).name)[int(question.about.partition(":")[2]) - 1]}
+        return dict(_ballot(question.lesson)["asked"])
     if question.kind == TABLE:
         return sheet_of(table_of(question))
+    return in_words(question)
+
+
+def in_words(question: Question) -> Data:
+    """What a question asks in words, for which nothing has to be drawn.
+
+    >>> in_words(questions()["prediction", "01:1"])
+    {'question': 'Step 3 is `al al br al br`. What is the word of step 4?'}
+    """
+    of = lesson(question.lesson)
+    if question.kind == VOTE:
+        return {"question": of.vote.question, "options": [each.text for each in of.vote.options]}
+    if question.kind == PREDICTION:
+        return {"question": predictions(of.name)[int(question.about.partition(":")[2]) - 1]}
     return {"question": question.title}
 
 

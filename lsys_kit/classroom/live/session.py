@@ -22,6 +22,7 @@ from lsys_kit.classroom.live.questions import (
     ROUNDS,
     TABLE,
     VOTE,
+    in_words,
     question,
     questions,
     replies,
@@ -182,7 +183,8 @@ class Session:
         if asked.kind == GAME:
             found |= self._cells_of(phone, asked)
         elif asked.kind != WALL:
-            found |= {"title": question(asked.kind, asked.about).title, "page": question(asked.kind, asked.about).page}
+            known = question(asked.kind, asked.about)
+            found |= {"title": known.title, "page": known.page, **in_words(known)}
         if asked.kind == VOTE and asked.round > 1 and asked in self.shown:
             choice = right_option(asked.about)
             found["right"] = choice
@@ -351,5 +353,6 @@ def plan() -> list[Data]:
     found: dict[str, Data] = {}
     for each in questions().values():
         row = found.setdefault(each.lesson, {"lesson": each.lesson, "title": lesson(each.lesson).title, "items": []})
-        row["items"].append({"kind": each.kind, "about": each.about, "title": each.title, "rounds": ROUNDS[each.kind]})
+        named = {"kind": each.kind, "about": each.about, "title": each.title, "rounds": ROUNDS[each.kind]}
+        row["items"].append({**named, **in_words(each)})
     return [*found.values()]

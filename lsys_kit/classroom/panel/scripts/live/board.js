@@ -69,10 +69,10 @@ export function showBoard({ here, present, tools }, { address, code, plan, games
       made("p", worded("and this code")), made("p.board-letters", code), made("p.board-number", worded("{number} here", { number: state.present }))))];
   }
 
-  // What stands in the place of a question until it is there.
+  // What stands in the place of a question until its picture is drawn, or its table is there.
   function notYet({ kind, about }) {
-    const title = plan.flatMap(({ items: all }) => all).find((each) => each.kind === kind && each.about === about)?.title;
-    return { question: title ?? "", options: ["", "", "", ""], columns: [], rows: [] };
+    const known = plan.flatMap(({ items: all }) => all).find((each) => each.kind === kind && each.about === about);
+    return { question: known?.question ?? "", options: known?.options ?? [], columns: [], rows: [] };
   }
 
   const head = (kind, text, more = []) => [made("p.board-kind", kind), made("h2", prose(text)), ...more];

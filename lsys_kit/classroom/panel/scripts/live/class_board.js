@@ -35,7 +35,7 @@ function render({ model, el }) {
   }
 
   function show() {
-    if ("present" in model.get("state")) board.hear({ state: model.get("state") });
+    if ("present" in model.get("state")) board.hear({ state: model.get("state"), mistake: undefined });
     if (model.get("ended")) board.say(worded("The class has ended. Run the cell again, and it goes on where it was."));
   }
 

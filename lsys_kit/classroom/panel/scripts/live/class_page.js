@@ -14,7 +14,9 @@ export function openClassPage() {
   const [, code] = location.pathname.split("/"), base = `/${code}/`, [, lesson = ""] = /\/(\d\d)_\w*\.html$/.exec(location.pathname) ?? [];
   const banner = made("a.class-banner", { href: base, hidden: true });
   const status = made("p.class-status", { role: "status" });
-  document.body.prepend(made("div.class-bar", made("a", { href: base }, worded("The class")), status, banner));
+  const skip = document.querySelector("body > .skip"), bar = made("nav.class-bar", { "aria-label": worded("The class") }, made("a", { href: base }, worded("The class")), status, banner);
+  if (skip) skip.after(bar);
+  else document.body.prepend(bar);
   const connection = classConnection(base, code, {
     linked: (isThere) => (status.textContent = isThere ? "" : worded("not connected: it is tried again, and nothing is lost")),
     state({ current }) {

@@ -60,7 +60,7 @@ export function openPhone() {
 
   function show() {
     const isAsked = told && ["vote", "prediction"].includes(told.kind);
-    state = told && { ...(isAsked ? whatIsAsked(told.kind, told.about, { question: told.title, options: ["", "", "", ""] }, show) : {}), ...told };
+    state = told && { ...(isAsked ? whatIsAsked(told.kind, told.about, { question: told.question, options: told.options }, show) : {}), ...told };
     const seen = JSON.stringify([state, own]);
     if (seen === shown) return;
     shown = seen;
