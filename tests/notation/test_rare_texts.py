@@ -30,7 +30,7 @@ SLIPS = [
     ("cpfg", "Axiom: A(1)\nA(t) : 1 {x = t + 1; y = 2", 'This "{" is never closed', 2, 10),
     (
         "cpfg",
-        "Axiom: A(1)\nA(t) : 1 {if (t > 1) {x = 2;} else {x = ran(1);}} --> F(x) F(x)",
+        "Axiom: A(1)\nA(t) : 1 {if (t > 1) {x = 2;} else {x = ran(1);}} --> F(x) : x",
         'The random number "x" would be drawn anew at each of its uses',
         2,
         37,

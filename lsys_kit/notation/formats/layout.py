@@ -161,10 +161,6 @@ _CELL, _QUOTED_CELLS = (
 )
 
 
-_DIVIDED = re.compile(r"^[^:=\n]*[|\t][^:\n]*$")
-"""A row with a name and a value."""
-
-
 def _without_tables(before: Transcript) -> Transcript:
     """The same, with each row of a table of systems as a list: the heading of a column before each of its cells."""
     names = tables()["names"]
@@ -194,7 +190,12 @@ def _without_tables(before: Transcript) -> Transcript:
             continue
         elif len({"axiom", "rules"} & {kind for kind, cell in zip(named, cells, strict=True) if len(cell.text) > 2}) == 2:
             heading = [cell.text for cell in cells]
-        elif len(cells) == 2 and named[0] in ("axiom", "angle", "steps") and _DIVIDED.search(match[0]):
+        elif (
+            len(cells) == 2
+            and named[0] in ("axiom", "angle", "steps")
+            and ":" not in match[0]
+            and re.search(r"[|\t]", match[0])
+        ):
             pieces += (
                 Edit(cells[0].at, cells[0].at + len(cells[0].text), cells[0].text),
                 Edit(cells[1].at, cells[1].at, ": "),

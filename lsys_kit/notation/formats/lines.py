@@ -111,7 +111,7 @@ def systems_in_lines(text: str, source: str = "") -> list[Found]:
     return [system for system in systems if system.axiom or system.rules]
 
 
-_FOOTNOTE = re.compile(r"(?:\[\d{1,3}\])+$")
+_FOOTNOTE = re.compile(r"(?:\[\d{1,3}\]){1,5}$")
 
 
 def _without_references(found: Found) -> Found:
