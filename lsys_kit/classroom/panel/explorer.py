@@ -279,13 +279,13 @@ class Explorer(ScriptedWidget):
     def _model_for(self, content: Mapping[str, Any]) -> Data:
         """Show the system of a text that was typed.
 
-        The step and the angle stay where they can, and so does each constant that is declared as it was.
+        The step and the angle stay where they can, and so does each constant that is declared as it was, or was not declared.
         """
         old = self._opened
         system = old.read(content["text"])
         title = self._given.title if system == self._given.system else ""
         new = opened(system, title, without=self._without, unfold=self._unfold)
-        alike = {name for name, value in new.declared.items() if value == old.declared.get(name)}
+        alike = {name for name, value in new.declared.items() if value == old.declared.get(name, value)}
         given = {name: value for name, value in old.given.items() if name in alike}
         if given:
             new = opened(system, title, given, self._without, self._unfold)
