@@ -1,133 +1,36 @@
 """Ensembles and sweeps: a system derived again and again, with other seeds or constants, and what is measured each time.
 
-Runs are made here, or on any executor of `concurrent.futures`, such as a pool of processes or `Client.get_executor()` of
-dask.distributed. To hand a piece of work to another process takes milliseconds, as long as a small run. So a batch holds as
-many runs as take about a quarter of a second; how long one takes is learnt from the first ones, which are made here. What
-comes out depends on the runs alone, never on who makes them or when.
+What comes out depends on the runs alone, never on who makes them or when (see `making`); what was finished before may stand in
+a file (see `kept`).
 """
 
 from __future__ import annotations
 
 import os
-import time
-from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import BrokenExecutor, Executor, Future, as_completed
+from collections.abc import Iterable, Mapping, Sequence
+from concurrent.futures import Executor
 from contextlib import closing
-from dataclasses import asdict
 from itertools import islice, product
-from math import ceil, prod
-from typing import Any, NamedTuple, TypeAlias
+from math import prod
+from pathlib import Path
+from typing import Any
 
-from lsys_kit.budget import Limits, Task, check_bytes, current, limits
+from lsys_kit.budget import check_bytes, current
 from lsys_kit.derivation.core.rules import constants_of, number_from
-from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError, require, shown, whole_number
-from lsys_kit.experiments.measures import Asked, Measure, measures_of
+from lsys_kit.errors import ModelNameError, ModelValueError, require, shown, whole_number
+from lsys_kit.experiments.kept import kept
+from lsys_kit.experiments.making import ExecutorError, Experiment, Failure, Outcome, Run, outcomes
+from lsys_kit.experiments.measures import Asked, measures_of
 from lsys_kit.experiments.table import Table, value_text
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.arithmetic import Value, normalised
 from lsys_kit.notation.model.expressions import function_of
 from lsys_kit.notation.model.system import USUAL_STEPS, LSystem
-from lsys_kit.worlds.derive import derive
-
-FIRST_SECONDS, BATCH_SECONDS = 0.05, 0.25
-"""For how long runs are made here before the others are handed out, and about how long a batch takes."""
-FEWEST_BATCHES = 16
-"""There are at least so many batches, if there are as many runs, so that no processor waits long for the last one."""
-
-Rows: TypeAlias = tuple[tuple[object, ...], ...]
-"""What a run comes to: for each step the step and its measured values."""
-
-
-class Failure(NamedTuple):
-    """Why a run could not be finished."""
-
-    message: str
-    limit: float | None = None
-
-    def error(self) -> ModelLimitError | ModelValueError:
-        """The error to raise."""
-        return ModelValueError(self.message) if self.limit is None else ModelLimitError(self.message, limit=self.limit)
-
-
-Outcome: TypeAlias = Rows | Failure
-
-
-class Experiment(NamedTuple):
-    """What is done in each run: the system that is derived, the steps that are measured, in ascending order, what is measured,
-    as a person gives it, and the limits."""
-
-    system: LSystem
-    steps: tuple[int, ...]
-    measure: Asked
-    limits: Limits
-
-
-Run: TypeAlias = Mapping[str, object]
-"""The seed and the constants of a run, as `derive` takes them."""
-
-
-def outcome_of(experiment: Experiment, measures: Sequence[Measure], run: Run) -> Outcome:
-    """Make a run."""
-    choices: dict[str, Any] = {**run}
-    with limits(**asdict(experiment.limits)), Task("The run was not finished"):
-        try:
-            whole = derive(experiment.system, experiment.steps[-1], **choices)
-            parts = [whole.to(step) for step in experiment.steps]
-            return tuple((part.steps, *(measure.value(part) for measure in measures)) for part in parts)
-        except (ModelLimitError, ModelValueError) as error:
-            return Failure(error.message, getattr(error, "limit", None))
-
-
-def batch(experiment: Experiment, runs: Sequence[Run]) -> list[Outcome]:
-    """Make some runs, one after another."""
-    measures = measures_of(experiment.measure, experiment.system)
-    return [outcome_of(experiment, measures, run) for run in runs]
-
-
-def outcomes(
-    experiment: Experiment, runs: Sequence[Run], executor: Executor | None
-) -> Generator[tuple[int, Outcome], None, None]:
-    """The runs' outcomes, each with its place, in the order in which they are finished.
-
-    When it is closed, whatever has not begun is called off.
-    """
-    measures, start = measures_of(experiment.measure, experiment.system), time.perf_counter()
-    for place, run in enumerate(runs):
-        yield place, outcome_of(experiment, measures, run)
-        passed = time.perf_counter() - start
-        if executor is not None and passed > FIRST_SECONDS:
-            yield from _handed_out(experiment, runs, place + 1, passed / (place + 1), executor.submit)
-            return
-
-
-def _handed_out(
-    experiment: Experiment, runs: Sequence[Run], first: int, seconds: float, submit: Callable[..., Future[list[Outcome]]]
-) -> Iterator[tuple[int, Outcome]]:
-    size = batch_size(len(runs) - first, seconds)
-    futures = {}
-    try:
-        for place in range(first, len(runs), size):
-            futures[submit(batch, experiment, runs[place : place + size])] = place
-        for future in as_completed(futures):
-            yield from enumerate(future.result(), futures[future])
-    finally:
-        for each in futures:
-            each.cancel()
-
-
-def batch_size(runs: int, seconds: float) -> int:
-    """How many runs a batch holds, given how many there are and how long one takes.
-
-    >>> batch_size(400, 0.0026), batch_size(100_000, 0.0026), batch_size(400, 1.0)
-    (25, 97, 1)
-    """
-    return max(1, min(ceil(BATCH_SECONDS / max(seconds, 1e-6)), ceil(runs / FEWEST_BATCHES)))
-
 
 BYTES_A_VALUE = 128
 """About what a value takes in a table, with what is needed to find it."""
 MOST_FAILURES_TOLD = 3
-"""Of so many runs that failed it is told why."""
+"""Of so many runs that failed a remark says why."""
 PROGRESS_DELAY = 1.0
 """What is finished sooner, in seconds, shows no progress bar."""
 
@@ -139,6 +42,7 @@ def ensemble(
     *,
     steps: int | Iterable[int] | None = None,
     executor: Executor | None = None,
+    file: str | Path | None = None,
     progress: bool = True,
     **choices: object,
 ) -> Table:
@@ -160,6 +64,9 @@ def ensemble(
     executor
         Who makes the runs: any executor of `concurrent.futures`, or that of a cluster, `Client.get_executor()` of
         dask.distributed. By default this process does. What comes out is the same.
+    file
+        The name of a file, which ends in .csv, that keeps what is finished as it comes. If the same is asked again, after a
+        crash or with more seeds, values or steps, only what is missing there is made.
     progress
         Whether a progress bar is shown if it takes more than a second.
     **choices
@@ -168,8 +75,9 @@ def ensemble(
     Returns
     -------
     Table
-        A row for each run and step. If it is interrupted, as with Ctrl-C, what is finished until then; runs that pass a limit
-        are left out. Remarks below the table say so. Each run has the whole of the limits (see `limits`).
+        A row for each run and step. If it is interrupted, as with Ctrl-C, or the executor breaks, what is finished until then.
+        Runs that pass a limit, or whose process is lost each time, are left out (`Table.left_out`). Remarks below the table say
+        so. Each run has the whole of the limits (see `limits`).
 
     Raises
     ------
@@ -177,6 +85,8 @@ def ensemble(
         A measure or a constant is unknown.
     ModelValueError, ModelLimitError
         No run could be finished, or there are too many of them.
+    ModelFileError
+        The file cannot be written, or holds something else.
 
     Examples
     --------
@@ -191,7 +101,7 @@ def ensemble(
     """
     require(system, LSystem, "An L-system")
     named = [{"seed": seed} for seed in _seeds(seeds)]
-    return _table(system, ["seed"], named, measure, steps, executor, progress, choices)
+    return _table(system, ["seed"], named, measure, steps, executor, file, progress, choices)
 
 
 def sweep(
@@ -201,6 +111,7 @@ def sweep(
     *,
     steps: int | Iterable[int] | None = None,
     executor: Executor | None = None,
+    file: str | Path | None = None,
     progress: bool = True,
     **choices: object,
 ) -> Table:
@@ -213,7 +124,7 @@ def sweep(
     over
         For each constant that varies its values: `{"p": [0.1, 0.2]}`; "seed" varies, too, if it is named. Or the names of
         constants alone, which then take all the values of the range that the model declares (`p = 0.1 in 0 .. 1 by 0.1`).
-    measure, steps, executor, progress, **choices
+    measure, steps, executor, file, progress, **choices
         As for `ensemble`.
 
     Returns
@@ -243,7 +154,7 @@ def sweep(
     values = _swept(system, over)
     _check_room(prod(map(len, values.values())))
     named = [dict(zip(values, chosen, strict=True)) for chosen in product(*values.values())]
-    return _table(system, [*values], named, measure, steps, executor, progress, choices)
+    return _table(system, [*values], named, measure, steps, executor, file, progress, choices)
 
 
 def _table(
@@ -253,6 +164,7 @@ def _table(
     measure: Asked,
     steps: object,
     executor: Executor | None,
+    file: str | Path | None,
     progress: bool,
     choices: Mapping[str, object],
 ) -> Table:
@@ -268,33 +180,42 @@ def _table(
         raise ModelValueError("There is nothing to run", hint="Give at least one seed, or a value for each constant.")
     experiment = Experiment(system, _steps(system, steps), measure, current())
     _check_room(len(runs) * len(experiment.steps) * len(columns))
-    runs = [{**choices, **run} for run in runs]
-    found = {}
-    stopped = ""
-    with closing(outcomes(experiment, runs, executor)) as finished, _bar(len(runs), progress) as bar:
-        try:
-            for place, outcome in finished:
-                found[place] = outcome
-                bar.update()
-        except KeyboardInterrupt:
-            stopped = "Stopped"
-        except BrokenExecutor as fault:
-            stopped = f"The executor broke ({type(fault).__name__})"
-    rows, failures = [], []
+    settings = [tuple(run[key] for key in keys) for run in runs]
+    with kept(file, experiment, columns, len(keys), choices) as known:
+        before = ((place, known.rows(setting)) for place, setting in enumerate(settings))
+        found: dict[int, Outcome] = {place: rows for place, rows in before if rows}
+        missing = {place: {**choices, **run} for place, run in enumerate(runs) if place not in found}
+        stopped = ""
+        with closing(outcomes(experiment, missing, executor)) as finished, _bar(len(missing), progress) as bar:
+            try:
+                for place, outcome in finished:
+                    found[place] = outcome
+                    if not isinstance(outcome, Failure):
+                        known.keep(settings[place], outcome)
+                    bar.update()
+            except KeyboardInterrupt:
+                stopped = "Stopped"
+            except ExecutorError as fault:
+                stopped = str(fault)
+    rows: list[tuple[object, ...]] = []
+    failures = []
     for place, outcome in sorted(found.items()):
         if isinstance(outcome, Failure):
-            failures.append((runs[place], outcome))
+            failures.append((settings[place], outcome))
         else:
-            rows += [(*(runs[place][key] for key in keys), *row) for row in outcome]
+            rows += [(*settings[place], *row) for row in outcome]
     if failures and not rows:
         raise failures[0][1].error()
     remarks = [f"{len(failures):,} of {len(runs):,} runs are left out:"] if failures else []
-    for run, failure in failures[:MOST_FAILURES_TOLD]:
-        setting = ", ".join(f"{key} = {value_text(run[key])}" for key in keys)
-        remarks.append(f"{setting}: {failure.message}.")
+    for setting, failure in failures[:MOST_FAILURES_TOLD]:
+        named = ", ".join(f"{key} = {value_text(value)}" for key, value in zip(keys, setting, strict=True))
+        remarks.append(f"{named}: {failure.message}.")
     if stopped:
         remarks.append(f"{stopped}: {len(found):,} of {len(runs):,} runs are finished.")
-    return Table(columns, tuple(rows), len(keys) + 1, tuple(remarks))
+    if known.broken:
+        remarks.append(known.broken)
+    left_out = tuple((*setting, failure.message) for setting, failure in failures)
+    return Table(columns, tuple(rows), len(keys) + 1, tuple(remarks), left_out)
 
 
 def _bar(runs: int, shown: bool) -> Any:

@@ -164,6 +164,8 @@ class Table:
         How many of the columns say what varied.
     remarks
         What there is to say of runs that are not in the table.
+    left_out
+        For each run that could not be finished the values of what varied, without the step, and why.
 
     Examples
     --------
@@ -181,6 +183,7 @@ class Table:
     rows: tuple[tuple[Any, ...], ...]
     keys: int
     remarks: tuple[str, ...] = field(default=())
+    left_out: tuple[tuple[Any, ...], ...] = field(default=())
 
     @property
     def measures(self) -> tuple[str, ...]:

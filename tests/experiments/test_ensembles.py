@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import os
-import signal
 from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from fractions import Fraction
 from itertools import count, product
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -27,7 +24,7 @@ from lsys_kit import (
     system,
 )
 from lsys_kit.derivation.derive import Derivation
-from lsys_kit.experiments import runs
+from lsys_kit.experiments import making
 from lsys_kit.geometry.drawing import scene_of
 
 ALGA = read("d = 2 in 1 .. 3\nrate = 1/2\naxiom: A(1)\nA(t) : t < d -> A(t+1)\nA(t) -> A(1) A(1)")
@@ -38,7 +35,8 @@ MODEL = "axiom: F\nF -> F[+F]F : 1/2\nF -> F : 1/2"
 @pytest.fixture
 def handed_out_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """All runs but the first are handed out, however fast the machine is."""
-    monkeypatch.setattr(runs, "FIRST_SECONDS", 0.0)
+    monkeypatch.setattr(making, "FIRST_SECONDS", 0.0)
+    monkeypatch.setattr(making, "FIRST_RUNS", 1)
 
 
 def twigs(derivation: Derivation) -> int:
@@ -246,8 +244,8 @@ class Broken(Executor):
 @pytest.mark.usefixtures("handed_out_at_once")
 class TestWhoeverMakesTheRuns:
     def test_a_batch_takes_about_a_quarter_of_a_second(self) -> None:
-        assert runs.batch_size(100_000, 0.0026) * 0.0026 == pytest.approx(runs.BATCH_SECONDS, rel=0.02)
-        assert runs.batch_size(3, 0.0) == 1
+        assert making.batch_size(100_000, 0.0026) * 0.0026 == pytest.approx(making.BATCH_SECONDS, rel=0.02)
+        assert making.batch_size(3, 0.0) == 1
 
     def test_threads_make_the_same_table(self) -> None:
         with ThreadPoolExecutor(3) as executor:
@@ -269,41 +267,6 @@ class TestWhoeverMakesTheRuns:
                 one, other = ensemble(PLANT, 100, "F", steps=4), ensemble(PLANT, 100, "F", steps=4, executor=executor)
         assert one == other
         assert one.remarks
-
-    @pytest.mark.slow
-    @pytest.mark.filterwarnings("ignore")
-    def test_a_cluster_makes_the_same_table_even_if_a_worker_is_killed(self, tmp_path: Path) -> None:
-        distributed = pytest.importorskip("dask.distributed")
-        alone = sweep(PLANT, {"seed": range(400)}, ["F", "height"], steps=5)
-        with (
-            distributed.LocalCluster(
-                n_workers=2, threads_per_worker=1, dashboard_address=None, local_directory=tmp_path, host="127.0.0.1"
-            ) as cluster,
-            distributed.Client(cluster) as client,
-        ):
-            executor = client.get_executor()
-            assert sweep(PLANT, {"seed": range(400)}, ["F", "height"], steps=5, executor=executor) == alone
-            victim = KillsAWorker(executor, min(client.run(os.getpid).values()))
-            assert sweep(PLANT, {"seed": range(400)}, ["F", "height"], steps=5, executor=victim) == alone
-            assert victim.killed
-            executor.shutdown()
-
-
-class KillsAWorker(Executor):
-    """The executor of a cluster, one of whose workers is killed as soon as a piece of work has come back."""
-
-    def __init__(self, executor: Any, process: int) -> None:
-        self._executor, self._process, self.killed = executor, process, False
-
-    def submit(self, *given: Any, **named: Any) -> Future[Any]:  # type: ignore[override]
-        future: Future[Any] = self._executor.submit(*given, **named)
-        future.add_done_callback(self._kill)
-        return future
-
-    def _kill(self, _: Future[Any]) -> None:
-        if not self.killed:
-            self.killed = True
-            os.kill(self._process, signal.SIGKILL)
 
 
 class TestTables:

@@ -192,6 +192,7 @@ NAMES = (
     "lifeTimeA",
     "measure",
     "executor",
+    "file",
     "progress",
     "log",
     "over",

@@ -21,7 +21,7 @@ from lsys_kit.classroom.lessons.widget import (
     prose_text,
     widget,
 )
-from lsys_kit.classroom.panel.bundle import Data, bundled, style
+from lsys_kit.classroom.panel.bundle import Data
 from lsys_kit.classroom.widget import Unfinalized
 from lsys_kit.errors import ModelValueError, shown
 
@@ -73,8 +73,7 @@ class Prompt(LessonWidget):
         What came out, in a few words, and whether it was predicted; empty before that, and where it is not known.
     """
 
-    _esm = bundled("predicting")
-    _css = style("lessons")
+    _script_name = "predicting"
     question = traitlets.Unicode().tag(sync=True)
     typed = traitlets.Unicode().tag(sync=True)
     revealed = traitlets.Bool(False).tag(sync=True)

@@ -11,7 +11,7 @@ import traitlets
 
 from lsys_kit.budget import Task
 from lsys_kit.classroom.lessons.widget import LessonWidget, table_html
-from lsys_kit.classroom.panel.bundle import Data, bundled, style
+from lsys_kit.classroom.panel.bundle import Data
 from lsys_kit.derivation.derive import derive
 from lsys_kit.derivation.inference.infer import MOST_FITS, Explanation, conditions_of, explanation, infer
 from lsys_kit.derivation.inference.mending import MOST_READ
@@ -92,8 +92,7 @@ class RuleFinder(LessonWidget):
         The step up to which the words are shown, from 1 on.
     """
 
-    _esm = bundled("finding")
-    _css = style("lessons")
+    _script_name = "finding"
     found = traitlets.Dict().tag(sync=True)
     step = traitlets.Int(1).tag(sync=True)
 

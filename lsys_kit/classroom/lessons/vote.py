@@ -20,7 +20,7 @@ from lsys_kit.classroom.lessons.lesson import Lesson, Vote, lesson
 from lsys_kit.classroom.lessons.opening import announce
 from lsys_kit.classroom.lessons.predicted import predictions_of
 from lsys_kit.classroom.lessons.widget import LessonWidget, boxed_html, prose_html, prose_text
-from lsys_kit.classroom.panel.bundle import Data, bundled, style
+from lsys_kit.classroom.panel.bundle import Data
 from lsys_kit.errors import require
 from lsys_kit.notation.read import read
 from lsys_kit.pictures.draw import AnyPicture, draw
@@ -101,8 +101,7 @@ class VoteBox(LessonWidget):
         The number of the option that was chosen, from 0 on, or -1.
     """
 
-    _esm = bundled("voting")
-    _css = style("lessons")
+    _script_name = "voting"
     asked = traitlets.Dict().tag(sync=True)
     chosen = traitlets.Int(NONE, min=NONE, max=len(LETTERS) - 1).tag(sync=True)
     said = traitlets.Dict().tag(sync=True)

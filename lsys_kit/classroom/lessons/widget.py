@@ -14,7 +14,7 @@ from ipywidgets import HTML, HTMLMath, Widget
 from lsys_kit.budget import Task
 from lsys_kit.classroom.exercises.verdict import PLAIN_TEXT
 from lsys_kit.classroom.panel.bundle import Data, translated_words
-from lsys_kit.classroom.widget import KitWidget
+from lsys_kit.classroom.panel.widget_scripts import ScriptedWidget
 from lsys_kit.errors import shown
 from lsys_kit.pictures.style.labels import escaped
 from lsys_kit.supervision import supervised
@@ -24,9 +24,10 @@ MOST_TYPED = 1_000
 _MARKED = re.compile(r"`([^`]+)`|\*([^*]+)\*")
 
 
-class LessonWidget(KitWidget):
+class LessonWidget(ScriptedWidget):
     """A widget of a lesson."""
 
+    _style_name = "lessons"
     words = traitlets.Dict().tag(sync=True)
 
     @traitlets.default("words")

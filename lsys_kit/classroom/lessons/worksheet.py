@@ -14,7 +14,7 @@ from lsys_kit.classroom.lessons.kept import answered, keep
 from lsys_kit.classroom.lessons.lesson import Blank, Table, lesson, table
 from lsys_kit.classroom.lessons.slips import row_name, slips_of
 from lsys_kit.classroom.lessons.widget import LessonWidget, html, prose_html, prose_text, table_html
-from lsys_kit.classroom.panel.bundle import Data, bundled, style
+from lsys_kit.classroom.panel.bundle import Data
 from lsys_kit.classroom.panel.explorer import Comparison, Explorer
 from lsys_kit.classroom.widget import Unfinalized
 from lsys_kit.errors import require
@@ -80,8 +80,7 @@ class Worksheet(LessonWidget):
         What was in them when they were last checked.
     """
 
-    _esm = bundled("filling")
-    _css = style("lessons")
+    _script_name = "filling"
     sheet = traitlets.Dict().tag(sync=True)
     typed: traitlets.List[Any] = traitlets.List().tag(sync=True)
     asked = traitlets.Dict().tag(sync=True)

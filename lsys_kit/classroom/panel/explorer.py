@@ -22,7 +22,7 @@ from lsys_kit.classroom.catalogue import catalogued, entry
 from lsys_kit.classroom.link import ANGLE, SEED, STEP, linked, settings_given
 from lsys_kit.classroom.panel.books.book import MOST_MODULES
 from lsys_kit.classroom.panel.books.net import Unfolding
-from lsys_kit.classroom.panel.bundle import Data, bundled, style
+from lsys_kit.classroom.panel.bundle import Data
 from lsys_kit.classroom.panel.controls import nearest, plain_number, slider
 from lsys_kit.classroom.panel.held import fixed_text
 from lsys_kit.classroom.panel.labels import translated_labels
@@ -30,7 +30,7 @@ from lsys_kit.classroom.panel.opened.kinds import opened
 from lsys_kit.classroom.panel.opened.opened import Opened, Sight, Viewing
 from lsys_kit.classroom.panel.page import page, save_page
 from lsys_kit.classroom.panel.view_model import STILL, both_png
-from lsys_kit.classroom.widget import KitWidget
+from lsys_kit.classroom.panel.widget_scripts import ScriptedWidget
 from lsys_kit.derivation.petri.stages import stages
 from lsys_kit.errors import LSystemError, ModelNameError, ModelValueError, every, quotable, require, shown, whole_number
 from lsys_kit.notation.analysis.checks import suggestion
@@ -48,7 +48,7 @@ VIEWS = ("rules", "word", "stages", "drawing", "counts", "seeds", "variants")
 """The views of a panel, from left to right."""
 
 
-class Explorer(KitWidget):
+class Explorer(ScriptedWidget):
     """The panel that `explore` shows. What it shows can be read, set, observed and linked to other widgets.
 
     Attributes
@@ -65,8 +65,7 @@ class Explorer(KitWidget):
         own name, a number.
     """
 
-    _esm = bundled("widget")
-    _css = style()
+    _script_name = "widget"
     model = traitlets.Dict().tag(sync=True)
     step = traitlets.Int().tag(**_MOVED)
     angle = traitlets.Float().tag(**_MOVED)
@@ -284,13 +283,13 @@ class Explorer(KitWidget):
     def _model_for(self, content: Mapping[str, Any]) -> Data:
         """Show the system of a text that was typed.
 
-        The step and the angle stay where they can, and so does each constant that is declared as it was.
+        The step and the angle stay where they can, and so does each constant that is declared as it was, or was not declared.
         """
         old = self._opened
         system = old.read(content["text"])
         title = self._given.title if system == self._given.system else ""
         new = opened(system, title, without=self._without, unfold=self._unfold)
-        alike = {name for name, value in new.declared.items() if value == old.declared.get(name)}
+        alike = {name for name, value in new.declared.items() if value == old.declared.get(name, value)}
         given = {name: value for name, value in old.given.items() if name in alike}
         if given:
             new = opened(system, title, given, self._without, self._unfold)
@@ -538,7 +537,7 @@ COMPARED = ("word", "drawing")
 """The views that are open on both sides at first."""
 
 
-class Comparison(KitWidget):
+class Comparison(ScriptedWidget):
     """The two panels that `compare` shows.
 
     Attributes
@@ -549,8 +548,7 @@ class Comparison(KitWidget):
         The names of the constants that are the same on both sides.
     """
 
-    _esm = bundled("comparison")
-    _css = style()
+    _script_name = "comparison"
     left = traitlets.Instance(Explorer).tag(sync=True, **widget_serialization)
     right = traitlets.Instance(Explorer).tag(sync=True, **widget_serialization)
 

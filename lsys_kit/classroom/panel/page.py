@@ -32,6 +32,8 @@ _NOT_NEEDED = {
     "tissue": _CELLS | _MAPS | {"turtle"},
 }
 """The scripts that draw other systems than that of a page, by the way in which it is drawn."""
+_OF_EDITORS = frozenset(("undoing", "resuming"))
+"""The scripts of rules that can be changed, as those of a page cannot."""
 
 
 def page(title: str, data: Mapping[str, Any], description: str, language: str = "en") -> str:
@@ -59,8 +61,8 @@ def page(title: str, data: Mapping[str, Any], description: str, language: str = 
 </main>
 """
     chance = data.get("model", {}).get("chance")
-    others = frozenset(() if chance else ("gallery",))  # of a page's panels these have other seeds, and none variants
-    script = f'"use strict";\n{compact("page", not_needed(data["mode"]) | others)}\nopenPage();\n'
+    gallery = frozenset(() if chance else ("gallery",))  # of a page's panels these have other seeds, and none variants
+    script = f'"use strict";\n{compact("page", not_needed(data["mode"]) | _OF_EDITORS | gallery)}\nopenPage();\n'
     return document(title, body, STYLE, description, Program(script, style(), data), language)
 
 

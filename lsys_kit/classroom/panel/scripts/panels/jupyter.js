@@ -2,7 +2,7 @@
 
 import { hasKernel, saved, whenGone } from "./kernel.js";
 
-const PATIENCE = 20_000; // milliseconds after which a kernel that does not answer is taken to be gone
+const PATIENCE = 20_000; // milliseconds after which a kernel that does not answer, and is not busy, is taken to be gone
 const GONE = { message: "The kernel does not answer. Restart it and run the cell again; what the panel has already shown goes on working" };
 
 // Whether a message left: Jupyter throws where a kernel has been shut down and the model was not told.
@@ -30,11 +30,26 @@ export function hostOf(model) {
     return new Promise((resolve) => {
       waiting.set(number, resolve);
       if (!tellsKernel(model, { ...content, number })) answered({ number, mistake: GONE });
-      setTimeout(() => answered({ number, mistake: GONE }), PATIENCE);
+      else expect(number);
     });
   }
 
+  // A kernel that is busy with something else will answer in the end.
+  function expect(number) {
+    setTimeout(() => {
+      if (!waiting.has(number)) return;
+      if (model.widget_manager?.kernel?.status === "busy") expect(number);
+      else answered({ number, mistake: GONE });
+    }, PATIENCE);
+  }
+
+  // One that was restarted has forgotten all that it was asked.
+  function forgotten() {
+    if (model.comm_live === false) for (const number of [...waiting.keys()]) answered({ number, mistake: GONE });
+  }
+
   model.on("msg:custom", answered);
+  model.on("comm_live_update", forgotten);
   const host = {
     get: (name) => model.get(name),
     set: (name, value) => model.set(name, value),
@@ -52,5 +67,8 @@ export function hostOf(model) {
     keeps: ["svg", "page", "link"],
     editable: true, ahead: true,
   };
-  return { host, leave: () => model.off("msg:custom", answered) };
+  return { host, leave() {
+    model.off("msg:custom", answered);
+    model.off("comm_live_update", forgotten);
+  } };
 }

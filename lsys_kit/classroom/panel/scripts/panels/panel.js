@@ -26,6 +26,7 @@ import { wordView } from "../views/word.js";
 import { caption, code, litAt, placesOf, told } from "./telling.js";
 
 const REST = 400; // milliseconds after which a movement has come to rest, and the kernel is told
+const SLOW = 1000; // milliseconds after which an answer is said to be waited for
 const ANGLES = times(1801, (i) => (i / 10).toString());
 const DEGREES = (least, most) => times(most - least + 1, (i) => String(least + i));
 const NAMED = [90, 60, 120, 45, 30]; // degrees that stand below the slider of the angle, where there is room for them
@@ -40,11 +41,11 @@ export function openPanel(element, host, compared = null) {
   const root = made("div.lsys-panel", { role: "region" });
   element.append(root);
   const offs = [], still = matchMedia("(prefers-reduced-motion: reduce)");
-  let model, books, book, theme, resting = 0, asking = 0, typing = 0, idle = 0, wanted = seen.step, traced = null, pointed = null, shownTheme = "", boxed = null, underway = null, beside = null;
+  let model, books, book, theme, resting = 0, asking = 0, typing = 0, idle = 0, wanted = seen.step, traced = null, pointed = null, shownTheme = "", boxed = null, underway = null, beside = null, reading = null, awaited = 0;
   let constants = [];
 
   const status = made("div.lsys-status", { role: "status" }), sentence = made("div.lsys-sentence", { role: "status" });
-  const message = made("div.lsys-message", { role: "alert", hidden: true });
+  const message = made("div.lsys-message", { role: "alert", hidden: true }), patience = made("div.lsys-hint", { role: "status" });
   const step = slider("step", worded("the step of the derivation"), ["0"], 0, goTo, worded("step"));
   const angle = slider("angle", worded("degrees by which the turtle turns"), ANGLES, 900, (at) => change({ angle: at / 10 }), worded("angle"), { least: 50, pace: 10 });
   const around = slider("around", worded("the side from which it is seen: 0 is the front, 90 the right"), DEGREES(-180, 180), 180, (at) => change({ around: at - 180 }), worded("around"), { least: 5 });
@@ -66,7 +67,7 @@ export function openPanel(element, host, compared = null) {
     large.setAttribute("aria-pressed", String(root.classList.toggle("lsys-class")));
     show();
   }, { "aria-pressed": "false", class: "lsys-button lsys-tab" });
-  const rules = rulesView(view.rules.body, (text) => newRules(text));
+  const rules = rulesView(view.rules.body, newRules, () => seen.settings);
   const word = wordView(view.word.body, (position, way) => trace(seen.step, position, way, view.word), (position) => point({ step: seen.step, position }));
   const net = netView(view.stages.body, (place) => toggleMark(place), (place) => point({ place }), () => view.stages.enlarge());
   const drawing = drawingView(view.drawing.body, {
@@ -85,7 +86,7 @@ export function openPanel(element, host, compared = null) {
   top.append(bar);
   views.prepend(bottom, status);
   if (!compared) step.element.append(reset);
-  root.append(top, more.element, message, views);
+  root.append(top, more.element, message, patience, rules.offer, views);
   const shared = [step.element, play.element], turning = [angle.element, around.element, above.element];
   if (compared) compared.bar ? compared.bar.append(...shared) : [...shared, ...turning].forEach((each) => (each.hidden = true));
 
@@ -114,7 +115,7 @@ export function openPanel(element, host, compared = null) {
     root.ariaBusy = String(!books.known(asked)); // what is shown is still that of other settings
     if (!books.known(asked)) await underway; // a slider that moves on asks only for where it is when the kernel is free
     if (number !== asking) return; // another setting was asked for, or another model was opened
-    underway = books.book(asked);
+    underway = slow(books.book(asked));
     const answer = await underway;
     if (number !== asking) return;
     root.ariaBusy = "false";
@@ -127,9 +128,27 @@ export function openPanel(element, host, compared = null) {
 
   const request = () => ({ constants: { ...seen.settings }, seed: seen.seed });
 
-  async function newRules(text) {
-    const number = ++typing, answer = await host.rules(text, request().constants);
-    if (number !== typing || answer === null) return;
+  // An answer that takes long is said to be waited for.
+  async function slow(answer) {
+    const said = setTimeout(() => (patience.textContent = worded("Python is busy. What you asked for is shown as soon as it answers.")), SLOW);
+    awaited += 1;
+    const found = await answer;
+    clearTimeout(said);
+    if (!--awaited) patience.textContent = "";
+    return found;
+  }
+
+  // Other rules, perhaps with settings that were theirs; while one text is read, only the last of those that follow is kept.
+  async function newRules(text, settings) {
+    const number = ++typing;
+    root.ariaBusy = "true";
+    await reading;
+    if (number !== typing) return;
+    reading = slow(host.rules(text, { ...settings, ...request().constants }));
+    const answer = await reading;
+    if (number !== typing) return;
+    root.ariaBusy = "false";
+    if (answer === null) return;
     root.toggleAttribute("data-stale", Boolean(answer.mistake)); // what is shown is still that of the rules before
     if (answer.mistake) rules.mistaken(answer.mistake); // otherwise the kernel has set another model
     else rules.understood();

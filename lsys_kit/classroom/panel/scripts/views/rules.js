@@ -2,18 +2,24 @@
 
 import { clamped } from "../books/numbers.js";
 import { button, made, worded } from "./controls.js";
+import { resuming } from "./resuming.js";
+import { undoing } from "./undoing.js";
 
+const NONE = { note() {}, open() {}, keep() {}, close() {}, tools: [], element: "" }; // on pages, where rules are only shown
 const REST = 250; // milliseconds without a key after which a text is read
 
-export function rulesView(parent, asked) {
+// `asked` is called with a text that is to be read, and with what `state` was when it was left, if it was there before.
+export function rulesView(parent, asked, state) {
   const backdrop = made("div.lsys-backdrop", { "aria-hidden": "true" });
   const area = made("textarea.lsys-rules", { spellcheck: "false", autocapitalize: "off", autocomplete: "off", "aria-label": worded("rules of the model") });
   const said = made("div.lsys-mistake", { role: "status", "aria-live": "polite" });
-  const back = button(worded("back to the first rules"), worded("put back the rules with which the panel was opened"), () => put(first), { hidden: true });
+  const back = button(worded("back to the first rules"), worded("put back the rules with which the panel was opened"), putBack, { hidden: true });
   const notes = made("div.lsys-hint", { role: "status" });
   const shownOnly = made("div.lsys-caption", worded("This page only shows the rules; they can be changed in Jupyter."));
-  parent.append(made("div.lsys-editor", backdrop, area), said, notes, back);
-  let first = "", told = [], spans = [], waiting = 0, pasted = false, shown = "";
+  const history = undoing?.(area, (_, state) => typed(state), state) ?? NONE, resumed = resuming?.(put) ?? NONE;
+  const tools = made("div.lsys-changes", ...history.tools, back);
+  parent.append(made("div.lsys-editor", backdrop, area), said, notes, tools);
+  let first = "", told = [], spans = [], waiting = 0, pasted = false, shown = "", reading = false;
 
   function paint() {
     const text = area.value, parts = [];
@@ -28,36 +34,46 @@ export function rulesView(parent, asked) {
     backdrop.scrollLeft = area.scrollLeft;
   }
 
-  function typed() {
+  function typed(state = null) {
     spans = [];
     paint();
     back.hidden = area.value === first;
+    resumed.keep(area.value);
     clearTimeout(waiting);
-    waiting = setTimeout(() => asked(area.value), REST);
+    reading = true;
+    waiting = setTimeout(() => asked(area.value, state), REST);
   }
 
   function put(text) {
     area.value = text;
+    history.note();
     typed();
   }
 
-  // What was pasted is put into the kit's notation as if it were typed, so that one press of undo brings it back.
+  function putBack() {
+    put(first);
+    history.tools[0].focus(); // the button is hidden now
+  }
+
+  // What was pasted is put into the kit's notation, as a change of its own, so that one press of undo brings it back.
   function rewrite(text) {
     pasted = false;
     if (text === area.value || document.activeElement !== area) return;
-    area.setSelectionRange(0, area.value.length);
-    if (!document.execCommand("insertText", false, text)) area.value = text;
-    clearTimeout(waiting); // it is what was read
+    area.value = text;
+    history.note();
+    resumed.keep(text);
   }
 
   area.addEventListener("input", (event) => {
     pasted = event.inputType === "insertFromPaste" || event.inputType === "insertFromDrop";
+    history.note(event);
     typed();
   });
   area.addEventListener("scroll", paint);
 
   // Nothing is wrong with the text; there may be notes on how it was read.
   function understood() {
+    reading = false;
     if (pasted && told[0]?.startsWith("Read as ")) rewrite(shown);
     spans = [];
     said.replaceChildren();
@@ -67,18 +83,21 @@ export function rulesView(parent, asked) {
   }
 
   return {
-    put,
+    put, offer: resumed.element,
     // The text of a model that was opened, and the notes on how it was read; one that was typed stays as it was typed.
     open(text, editable, noted) {
       told = noted;
       if (!editable) text = text.trimEnd();
       if (!first) first = text;
+      if (editable) resumed.open(text);
       area.readOnly = !editable;
       area.tabIndex = editable ? 0 : -1;
       said.hidden = !editable;
       if (!editable) notes.after(shownOnly);
       shown = text;
-      if (area.value !== text && document.activeElement !== area) area.value = text;
+      if (area.value !== text && document.activeElement !== area && !reading) area.value = text;
+      history.note();
+      tools.hidden = !editable;
       const lines = area.value.split("\n").length;
       area.rows = editable ? clamped(4, 18, lines + 1) : lines;
       back.hidden = area.value === first;
@@ -87,6 +106,7 @@ export function rulesView(parent, asked) {
     understood,
     // What is wrong with the text, where it stands, and what to try; the notes are of another text.
     mistaken({ message, hint, line, start, end }) {
+      reading = false;
       notes.replaceChildren();
       spans = start === null || start === undefined ? [] : [{ start, end: end ?? start + 1, kind: "wrong" }];
       const where = line && area.value.includes("\n") ? `Line ${line}: ` : "";
@@ -100,6 +120,9 @@ export function rulesView(parent, asked) {
       spans = places.map(([start, end]) => ({ start, end, kind: "applied" }));
       paint();
     },
-    close: () => clearTimeout(waiting),
+    close() {
+      clearTimeout(waiting);
+      history.close();
+    },
   };
 }

@@ -1,0 +1,248 @@
+"""Who makes the runs: this process, or any executor of `concurrent.futures`, such as a pool of processes or that of a cluster.
+
+To hand a piece of work to another process takes milliseconds, as long as a small run. So a batch holds as many runs as take
+about a quarter of a second, which is learnt from the first ones, made here; one that takes much longer comes back with what it
+has made, and the rest is handed out anew. What comes out depends on the runs alone, never on who makes them or when.
+
+A run may kill the process that makes it, by taking all its memory, say, and with it whatever else was there. So what is lost is
+made again, run by run; and what is lost once more alone, with nothing beside it. Only of a run that is lost alone it is said
+that it failed.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import time
+from collections import deque
+from collections.abc import Generator, Mapping, Sequence
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Executor, Future, ProcessPoolExecutor, wait
+from dataclasses import asdict
+from math import ceil
+from statistics import median
+from typing import Any, NamedTuple, TypeAlias
+
+from lsys_kit.budget import Limits, Task, limits
+from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError, quotable
+from lsys_kit.experiments.measures import Asked, Measure, measures_of
+from lsys_kit.notation.model.system import LSystem
+from lsys_kit.worlds.derive import derive
+
+FIRST_SECONDS, FIRST_RUNS, BATCH_SECONDS = 0.05, 3, 0.25
+"""For how long, and how many, runs are made here before the others are handed out; about how long a batch takes, in seconds."""
+FEWEST_BATCHES = 16
+"""There are at least so many batches, if there are as many runs, so that no processor waits long for the last one."""
+MOST_BATCHES = 1_024
+"""The most batches that are handed out at a time."""
+FUTILE = 8
+"""An executor is given up after so many runs were lost when it has never finished one."""
+SIGN_OF_LIFE, SILENCE = 30.0, 120.0
+"""So many seconds an executor that has lost a run is given to say that it lives, and, after that, to finish anything."""
+
+Rows: TypeAlias = tuple[tuple[object, ...], ...]
+"""What a run comes to: for each step the step and its measured values."""
+
+
+class Failure(NamedTuple):
+    """Why a run could not be finished."""
+
+    message: str
+    limit: float | None = None
+
+    def error(self) -> ModelLimitError | ModelValueError:
+        """The error to raise."""
+        return ModelValueError(self.message) if self.limit is None else ModelLimitError(self.message, limit=self.limit)
+
+
+Outcome: TypeAlias = Rows | Failure
+
+
+class Experiment(NamedTuple):
+    """What is done in each run: the system that is derived, the steps that are measured, in ascending order, what is measured,
+    as a person gives it, and the limits."""
+
+    system: LSystem
+    steps: tuple[int, ...]
+    measure: Asked
+    limits: Limits
+
+
+Run: TypeAlias = Mapping[str, object]
+"""The seed and the constants of a run, as `derive` takes them."""
+
+
+class ExecutorError(Exception):
+    """An executor that makes no more runs, and why, as a remark says it."""
+
+
+def outcome_of(experiment: Experiment, measures: Sequence[Measure], run: Run) -> Outcome:
+    """Make a run."""
+    choices: dict[str, Any] = {**run}
+    with limits(**asdict(experiment.limits)), Task("The run was not finished"):
+        try:
+            whole = derive(experiment.system, experiment.steps[-1], **choices)
+            parts = [whole.to(step) for step in experiment.steps]
+            return tuple((part.steps, *(measure.value(part) for measure in measures)) for part in parts)
+        except (ModelLimitError, ModelValueError) as error:
+            return Failure(error.message, getattr(error, "limit", None))
+        except MemoryError:
+            return Failure("There was not enough memory")
+
+
+def batch(experiment: Experiment, runs: Sequence[Run], _: int = 0) -> list[Outcome]:
+    """Make some runs, one after another: at least one, and no more once they have taken twice as long as a batch should.
+
+    A number of its own makes a batch another than the one before, for a cluster does not try again what it has seen fail.
+    """
+    measures, end = measures_of(experiment.measure, experiment.system), time.perf_counter() + 2 * BATCH_SECONDS
+    made: list[Outcome] = []
+    for run in runs:
+        made.append(outcome_of(experiment, measures, run))
+        if time.perf_counter() > end:
+            break
+    return made
+
+
+Outcomes: TypeAlias = Generator[tuple[int, Outcome], None, None]
+
+
+def outcomes(experiment: Experiment, runs: Mapping[int, Run], executor: Executor | None) -> Outcomes:
+    """The runs' outcomes, each with its number, in the order in which they are finished.
+
+    When it is closed, whatever has not begun is called off.
+
+    Raises
+    ------
+    ExecutorError
+        The executor makes no more runs.
+    """
+    measures, taken = measures_of(experiment.measure, experiment.system), list[float]()
+    left = deque(runs)
+    while left and (executor is None or not _well_timed(taken)):
+        start, number = time.perf_counter(), left.popleft()
+        yield number, outcome_of(experiment, measures, runs[number])
+        taken.append(time.perf_counter() - start)
+    if left and executor is not None:
+        yield from _Workers(experiment, runs, executor).outcomes([*left], median(taken))
+
+
+def _well_timed(taken: Sequence[float]) -> bool:
+    """Whether some runs show how long one takes; the first takes longer than others."""
+    return sum(taken) > FIRST_SECONDS and (len(taken) >= FIRST_RUNS or sum(taken) > BATCH_SECONDS)
+
+
+def batch_size(runs: int, seconds: float) -> int:
+    """How many runs a batch holds, given how many there are and how long one takes.
+
+    >>> batch_size(400, 0.0026), batch_size(100_000, 0.0026), batch_size(400, 1.0)
+    (25, 97, 1)
+    """
+    return max(1, min(ceil(BATCH_SECONDS / max(seconds, 1e-6)), ceil(runs / FEWEST_BATCHES)))
+
+
+class _Workers:
+    """An executor at work on runs, which have numbers."""
+
+    def __init__(self, experiment: Experiment, runs: Mapping[int, Run], executor: Executor) -> None:
+        self._experiment, self._runs, self._executor, self._own = experiment, runs, executor, False
+        self._handed, self._finished = 0, False
+        """how many batches were handed out; whether one has come back"""
+
+    def outcomes(self, numbers: Sequence[int], seconds: float) -> Outcomes:
+        """The outcomes of some runs, of which one takes about so long."""
+        size = batch_size(len(numbers), seconds)
+        try:
+            lost = yield from self._round([numbers[at : at + size] for at in range(0, len(numbers), size)], MOST_BATCHES)
+            if lost:
+                self._check(lost[-1][1])
+                lost = yield from self._round([[each] for batch, _ in lost for each in batch], os.cpu_count() or 1)
+            for [number], _ in lost:
+                for _, fault in (yield from self._round([[number]], 1)):
+                    self._check(fault)
+                    yield number, Failure(_lost(fault))
+        finally:
+            if self._own:
+                self._executor.shutdown(wait=False, cancel_futures=True)
+
+    def _round(self, batches: Sequence[Sequence[int]], most: int) -> Generator[tuple[int, Outcome], None, _Lost]:
+        """Hand out batches, at most so many at a time; what is lost is given back, with what was the matter."""
+        waiting, at_work = deque(batches), dict[Future[list[Outcome]], Sequence[int]]()
+        lost: _Lost = []
+        try:
+            while waiting or at_work:
+                while waiting and len(at_work) < most:
+                    try:
+                        at_work[self._submitted(waiting[0])] = waiting[0]
+                    except Exception as fault:  # whatever an executor may raise
+                        lost.append((waiting[0], fault))
+                    waiting.popleft()
+                patience = SILENCE if lost or most < MOST_BATCHES else None
+                done = wait(at_work, patience, FIRST_COMPLETED).done
+                if at_work and not done:
+                    raise ExecutorError("The executor does not answer any more")
+                for future in done:
+                    numbers = at_work.pop(future)
+                    try:
+                        made = future.result()
+                    except LSystemError:
+                        raise
+                    except (Exception, asyncio.CancelledError) as fault:
+                        lost.append((numbers, fault))
+                    else:
+                        self._finished = True
+                        yield from zip(numbers, made, strict=False)
+                        if len(made) < len(numbers):
+                            waiting.append(numbers[len(made) :])
+                if most < MOST_BATCHES and len(lost) >= FUTILE and not self._finished:
+                    raise ExecutorError(_broken(lost[-1][1]))
+        finally:
+            for each in at_work:
+                each.cancel()
+        return lost
+
+    def _submitted(self, numbers: Sequence[int]) -> Future[list[Outcome]]:
+        self._handed += 1
+        runs = [self._runs[number] for number in numbers]
+        try:
+            return self._executor.submit(batch, self._experiment, runs, self._handed)
+        except BrokenExecutor:
+            if not self._renewed():
+                raise
+            return self._executor.submit(batch, self._experiment, runs, self._handed)
+
+    def _renewed(self) -> bool:
+        """Whether another pool of processes goes on for one that broke; other executors mend themselves, or cannot be."""
+        if type(self._executor) is not ProcessPoolExecutor:
+            return False
+        was = vars(self._executor)
+        if self._own:
+            self._executor.shutdown(wait=False)
+        self._executor = ProcessPoolExecutor(was["_max_workers"], was["_mp_context"], was["_initializer"], was["_initargs"])
+        self._own = True
+        return True
+
+    def _check(self, fault: BaseException) -> None:
+        """Whether the executor lives, though it has lost something."""
+        try:
+            self._executor.submit(os.getpid).result(SIGN_OF_LIFE)
+        except (Exception, asyncio.CancelledError) as sign:
+            if not isinstance(sign, BrokenExecutor) or not self._renewed():
+                raise ExecutorError(_broken(fault)) from None
+
+
+_Lost: TypeAlias = list[tuple[Sequence[int], BaseException]]
+
+
+def _lost(fault: BaseException) -> str:
+    return f"The process that made the run was lost ({_said(fault)})"
+
+
+def _broken(fault: BaseException) -> str:
+    return f"The executor broke ({_said(fault)})"
+
+
+def _said(fault: BaseException) -> str:
+    """What is the matter: of a process that is gone its kind alone, for it has nothing to tell."""
+    kind, text = type(fault).__name__, " ".join(str(fault).split())
+    gone = isinstance(fault, BrokenExecutor | CancelledError) or kind == "KilledWorker"
+    return kind if gone or not text else quotable(f"{kind}: {text}")
