@@ -1,6 +1,6 @@
 // The board of a class below a cell: the kernel passes on what the class tells, and what the teacher does.
 
-import { tellsKernel } from "../panels/jupyter.js";
+import { tellsKernel } from "../panels/kernel.js";
 import { made, onKey, ownKeys, speak, worded } from "../views/controls.js";
 import { ownName } from "../views/landmarks.js";
 import { showBoard } from "./board.js";

@@ -1,20 +1,9 @@
 // The host of a panel in Jupyter: the model that the kernel keeps. The kernel answers by numbered messages.
 
-import { hasKernel, saved, whenGone } from "./kernel.js";
+import { saved, tellsKernel, whenGone } from "./kernel.js";
 
 const PATIENCE = 20_000; // milliseconds after which a kernel that does not answer, and is not busy, is taken to be gone
 const GONE = { message: "The kernel does not answer. Restart it and run the cell again; what the panel has already shown goes on working" };
-
-// Whether a message left: Jupyter throws where a kernel has been shut down and the model was not told.
-export function tellsKernel(model, content) {
-  if (!hasKernel(model)) return false;
-  try {
-    model.send(content);
-  } catch {
-    return false;
-  }
-  return true;
-}
 
 export function hostOf(model) {
   const waiting = new Map();

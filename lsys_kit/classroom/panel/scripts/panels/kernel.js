@@ -20,6 +20,17 @@ export function hasKernel(model) {
   return !lost.has(model) && kernel !== null && !kernel?.isDisposed && !GONE.includes(kernel?.status);
 }
 
+// Whether a message left: Jupyter throws where a kernel has been shut down and the model was not told.
+export function tellsKernel(model, content) {
+  if (!hasKernel(model)) return false;
+  try {
+    model.send(content);
+  } catch {
+    return false;
+  }
+  return true;
+}
+
 // Tell it what was set in the model; whether that was possible.
 export function saved(model) {
   if (!hasKernel(model)) return false;
