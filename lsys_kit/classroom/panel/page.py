@@ -58,8 +58,11 @@ def page(title: str, data: Mapping[str, Any], description: str, language: str = 
 <noscript><p>Without JavaScript the panel cannot be moved. It shows: {escaped(description)}</p></noscript>
 </main>
 """
-    chance = data.get("model", {}).get("chance")
-    others = frozenset(() if chance else ("gallery",))  # of a page's panels these have other seeds, and none variants
+    model = data.get("model", {})
+    others = frozenset(
+        () if model.get("chance") else ("gallery",)
+    )  # of a page's panels these have other seeds, and none variants
+    others |= frozenset(() if model.get("letters") else ("letters",))
     script = f'"use strict";\n{compact("page", not_needed(data["mode"]) | others)}\nopenPage();\n'
     return document(title, body, STYLE, description, Program(script, style(), data), language)
 
