@@ -171,8 +171,13 @@ def _counted(options: argparse.Namespace) -> Iterator[dict[str, object]]:
 
 
 def _derived(options: argparse.Namespace) -> Iterator[dict[str, object]]:
-    for step, word in enumerate(_derivation(system_with_constants(options), options)):
+    from lsys_kit.derivation.core.letters import conditions_text
+
+    derivation = _derivation(system_with_constants(options), options)
+    for step, word in enumerate(derivation):
         yield {"step": step, "modules": len(word), "word": str(word)}
+    if held := conditions_text(derivation.states):
+        print(f"lsys-kit: note: The formulas hold where {held}.", file=sys.stderr)
 
 
 def _derivation(system: LSystem, options: argparse.Namespace) -> Derivation:
@@ -183,7 +188,8 @@ def _derivation(system: LSystem, options: argparse.Namespace) -> Derivation:
 
     try:
         steps = next(steps for steps in (options.steps, system.steps, USUAL_STEPS) if steps is not None)
-        return derive(system, steps, seed=options.seed, arithmetic=options.arithmetic)
+        letters = getattr(options, "letters", ())
+        return derive(system, steps, seed=options.seed, arithmetic=options.arithmetic, letters=letters)
     except ModelLimitError as mistake:
         if not isinstance(mistake.partial, Derivation):
             raise
@@ -313,14 +319,18 @@ def write_page(options: argparse.Namespace) -> None:
     from lsys_kit.classroom.panel.opened.kinds import opened
     from lsys_kit.classroom.panel.opened.opened import Viewing
     from lsys_kit.classroom.panel.page import page, save_page
+    from lsys_kit.derivation.core.letters import letters_from
+    from lsys_kit.notation.model.system import LSystem
 
     system, (id, title) = system_or_cells(options), _titles(options.system)
     check_unfolded(system, options.unfold, dict(options.settings))
     what = opened(system, id, dict(options.settings), unfold=options.unfold)
     seed = options.seed or getattr(system, "seed", None) or 0
     first = what.steps if options.steps is None else options.steps
-    chosen, begun = Viewing(first, what.first, seed, what.turned(options.angle), *what.side), processor_time()
-    reached = min(first, what.book(what.first, seed, first)["steps"])
+    letters = letters_from(system, options.letters) if isinstance(system, LSystem) else ()
+    chosen = Viewing(first, what.first, seed, what.turned(options.angle), *what.side, letters=letters)
+    begun = processor_time()
+    reached = min(first, what.book(what.first, seed, first, letters)["steps"])
     with _rest_of_the_time(begun):
         sight = what.sight(replace(chosen, step=reached))
     with _rest_of_the_time(begun):

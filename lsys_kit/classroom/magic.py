@@ -13,7 +13,7 @@ from __future__ import annotations
 import builtins
 import re
 import unicodedata
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from itertools import islice
 from keyword import iskeyword
 from typing import Any
@@ -22,6 +22,7 @@ import lsys_kit
 from lsys_kit.budget import current, limits
 from lsys_kit.classroom.exercises.verdict import PLAIN_TEXT
 from lsys_kit.classroom.panel.word_view import word_html
+from lsys_kit.derivation.core.letters import conditions_text, letters_from
 from lsys_kit.derivation.core.words import Word, abridged
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelNameError, ModelSyntaxError
 from lsys_kit.notation.analysis.checks import suggestion
@@ -50,7 +51,7 @@ def load(shell: Any) -> None:
         """Define an L-system from the text in the cell, and show it.
 
         `%%lsystem NAME` gives it a name, `%%lsystem NAME NOTATION` also gives its notation, and `%%lsystem` alone
-        only shows it:
+        only shows it; with `--letter q` its first words have formulas, in which the constant q is a letter:
 
             %%lsystem koch
             angle: 60
@@ -67,14 +68,18 @@ def _cell_output(shell: Any, line: str, cell: str) -> dict[str, str]:
     """What a cell shows: the system, which is bound to the name, or the mistake in it."""
     head, name = f"%%lsystem {line}", ""
     try:
-        name, notation = _name_and_notation(head, shell)
+        name, notation = _name_and_notation(_LETTER.sub(lambda match: " " * len(match.group()), head), shell)
         system = read(f"\n{cell.rstrip()}", notation or None)  # the first line of the cell counts, as in its editor
+        letters = letters_from(system, _LETTER.findall(head))
     except LSystemError as mistake:
         return underlined(mistake, f"{head}\n{cell.rstrip()}", _standing(name, shell))
     notes = _shadowed(name, shell)
     if name:
         shell.push({name: system})
-    return shown(system, name, notes)
+    return shown(system, name, notes, letters)
+
+
+_LETTER = re.compile(r"(?<=\s)--letter[\s=]++(\S++)")
 
 
 def _name_and_notation(head: str, shell: Any) -> tuple[str, str]:
@@ -220,8 +225,8 @@ _ASIDE = f"color:{QUIET};font:14px sans-serif"
 _CELL = "text-align:left;vertical-align:baseline;padding:1px 10px 1px 0;border:none;max-width:none"
 
 
-def shown(system: LSystem, name: str = "", notes: Iterable[str] = ()) -> dict[str, str]:
-    """A system as a notebook shows it.
+def shown(system: LSystem, name: str = "", notes: Iterable[str] = (), letters: Collection[str] = ()) -> dict[str, str]:
+    """A system as a notebook shows it, with formulas in its first words where constants are letters.
 
     >>> from lsys_kit import read
     >>> print(shown(read("axiom: F\\nF -> F[+F]"), "twig")["text/plain"])
@@ -235,13 +240,15 @@ def shown(system: LSystem, name: str = "", notes: Iterable[str] = ()) -> dict[st
     step 4: F[+F][+F[+F]][+F[+F][+F[+F]]][+F[+F][+F[+F]][+F[+F][+F[+F]]]]
     """
     said = [*notes, *system.notes]
-    words, stop = first_words(system)
+    words, stop = first_words(system, letters)
+    if words and (held := conditions_text(words[-1].states)):
+        said.append(f"The formulas hold where {held}.")
     if stop:
         said.append(stop)
     return {"text/html": _box(system, name, said, words), "text/plain": _plain_text(system, name, said, words)}
 
 
-def first_words(system: LSystem) -> tuple[list[Word], str]:
+def first_words(system: LSystem, letters: Collection[str] = ()) -> tuple[list[Word], str]:
     """The words of the first steps while they are short; and the reason where a step cannot be derived.
 
     >>> from lsys_kit import read
@@ -252,7 +259,7 @@ def first_words(system: LSystem) -> tuple[list[Word], str]:
     most = min(MOST_DERIVED, current().modules)
     try:
         with limits(modules=most, seconds=min(1, current().seconds)):
-            derivation = derive(system, 0)
+            derivation = derive(system, 0, letters=letters)
             for step in range(FIRST_STEPS + 1):
                 derivation = derivation.to(step)
                 if step and derivation.lengths[-1] > FIRST_MODULES:

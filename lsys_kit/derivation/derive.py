@@ -9,12 +9,13 @@ serve it as well, and must give the same words: the laws in the tests compare th
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from operator import index as place
 from types import MappingProxyType
 from typing import Any, TypeAlias, overload
 
 from lsys_kit.budget import Task, check_budget, counted
+from lsys_kit.derivation.core.letters import conditions_text, letters_from, with_letters
 from lsys_kit.derivation.core.states import States, check_d0l
 from lsys_kit.derivation.core.traits import ANY, D0L, S0L, Traits
 from lsys_kit.derivation.core.words import Word
@@ -60,7 +61,13 @@ _Refusal: TypeAlias = ModelLimitError | ModelValueError
 
 @overload
 def derive(
-    system: LSystem, steps: int, *, seed: int | None = None, arithmetic: str = "exact", **constants: object
+    system: LSystem,
+    steps: int,
+    *,
+    seed: int | None = None,
+    arithmetic: str = "exact",
+    letters: str | Collection[str] = (),
+    **constants: object,
 ) -> Derivation: ...
 @overload
 def derive(system: MapSystem, steps: int) -> Development: ...
@@ -91,6 +98,7 @@ def derive_observed(
     *,
     seed: int | None = None,
     arithmetic: str = "exact",
+    letters: str | Collection[str] = (),
     **constants: object,
 ) -> Derivation:
     """Derive an L-system; if its modules ask what the turtle sees, an observer looks at each word before the next step."""
@@ -98,6 +106,9 @@ def derive_observed(
     seed = (system.seed or 0) if seed is None else seed
     if isinstance(seed, bool) or not isinstance(seed, int):
         raise ModelValueError(f"The seed must be a whole number, not {shown(seed)}")
+    named = letters_from(system, letters)
+    if named:
+        constants = with_letters(system, named, constants, arithmetic)
     return Derivation(engine_for(States(system, constants, arithmetic), seed, world)).to(steps)
 
 
@@ -168,7 +179,8 @@ class Derivation(Sequence[Word]):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Remarks: names that were read as several symbols, values that are no longer exact.
+        """Remarks: names that were read as several symbols, values that are no longer exact, conditions under which formulas
+        hold.
 
         >>> from lsys_kit import read
         >>> derive(read("axiom: F(0)\\nF(x) -> F(x^2 + 0.1)"), 8).notes
@@ -176,6 +188,8 @@ class Derivation(Sequence[Word]):
         """
         notes, inexact = self.states.system.notes, self.states.inexact
         with Task("The remarks were not found"):
+            if held := conditions_text(self.states):
+                notes = (*notes, f"The formulas hold where {held}.")
             for step in range(len(self) if inexact else 0):
                 if any(self.states.modules[state] == inexact for state in counted(self._engine.counts(step))):
                     return (*notes, f"From step {step} on values outgrow 128 bits and are doubles, such as {inexact}.")

@@ -7,6 +7,7 @@ module did not exist.
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from functools import partial
 from typing import Any, overload
 
@@ -26,6 +27,7 @@ def derive(
     *,
     seed: int | None = None,
     arithmetic: str = "exact",
+    letters: str | Collection[str] = (),
     field: Field | None = None,
     **constants: object,
 ) -> Derivation: ...
@@ -46,7 +48,9 @@ def derive(system: Any, steps: int, **choices: Any) -> Derivation | Development 
         The number of steps.
     **choices
         `seed` of the random numbers: the same seed gives the same words on every machine; by default the system's own, else 0.
-        `arithmetic`, "exact", or "float" to compute in doubles as cpfg and L-Py do. And new values for declared constants:
+        `arithmetic`, "exact", or "float" to compute in doubles as cpfg and L-Py do. `letters`, names of constants, one or a
+        list, that stay letters: words then have formulas, as far as comparisons are decided by the constants' numbers, and
+        `notes` says under which conditions they hold. And new values for declared constants:
         numbers, or texts such as "14/10". `field`, what answers query modules `?E`: any object with a method
         `answer(questions, scene)` that returns a value for each question; by default the field that the model names.
 
@@ -82,6 +86,12 @@ def derive(system: Any, steps: int, **choices: Any) -> Derivation | Development 
     2 F F F A?P(0,2)
     3 F F F A?P(0,3)
     4 F F F A?P(0,3)
+
+    Lengths as formulas, where the production is applied as long as they are greater than 1/2:
+
+    >>> shrinking = derive(read("q = 3/4\\naxiom: A(1)\\nA(x) : x > 1/2 -> F(x) A(q*x)"), 3, letters="q")
+    >>> shrinking[-1], shrinking.notes
+    (F(1)F(q)F(q^2)A(q^3), ('The formulas hold where q > 1/√2 ≈ 0.7071.',))
 
     And one that asks how high it is, of a field that answers for it:
 

@@ -11,7 +11,7 @@ from playwright.sync_api import Browser, Locator, Page
 from lsys_kit.classroom.panel.bundle import bundled, style
 from lsys_kit.classroom.panel.explorer import Explorer
 
-TRAITS = ("model", "step", "angle", "around", "above", "mark", "seed", "settings")
+TRAITS = ("model", "step", "angle", "around", "above", "mark", "seed", "settings", "letters")
 HOST = """
 const handlers = {};
 const host = {

@@ -41,7 +41,10 @@ def test_an_open_condition_is_named_with_what_to_choose() -> None:
     with pytest.raises(ModelValueError) as error:
         derive(system("P5"), 3, dt="dt")
     assert str(error.value).startswith("Whether production 1, M(t,p) : t+dt < t_div -> M(t+dt, p), applies to M(0,1) cannot be")
-    assert error.value.hint == "Step 0 is the last that can be reached. It depends on dt: choose a value for dt."
+    assert error.value.hint == (
+        "Step 0 is the last that can be reached. It depends on whether t + dt < t_div: "
+        'choose a value for dt, or derive with letters="dt", where its own value decides.'
+    )
 
 
 @pytest.mark.parametrize("rule", ["A(x) : x == 3 -> B", "A(3) -> B", "A(x) : x != 3 -> B", "A(x) : x > 0 && x < 9 -> B"])

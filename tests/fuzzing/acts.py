@@ -526,10 +526,11 @@ def value_acts(folder: Path) -> Mapping[str, Calls]:
         "Growth.counts_of: steps": (partial(kit.growth(plant).counts_of, "a"), shown),
         "Picture.save: dots": (lambda value: kit.draw(plant, 3).save(folder / "dots.png", dpi=value),),
         "Explorer.answers: value": (lambda value: asked(kind="book", constants={"c": value}, seed=1)(panel()),),
+        "Explorer.answers: letters": (lambda value: asked(kind="book", constants={}, seed=1, letters=value)(panel()),),
         "Explorer.settings": (lambda value: (panel(), {"c": value}), put("settings")),
         **{
             f"Explorer.{name}": (lambda value: (panel(), value), put(name))
-            for name in ("model", "angle", "around", "above", "mark", "seed", "step")
+            for name in ("model", "angle", "around", "above", "mark", "seed", "step", "letters")
         },
         **{
             f"Prompt.{name}": (lambda value: (kit.predict("What?", "21").prompt, value), put(name))

@@ -31,6 +31,7 @@ from lsys_kit.classroom.panel.opened.opened import Opened, Sight, Viewing
 from lsys_kit.classroom.panel.page import page, save_page
 from lsys_kit.classroom.panel.view_model import STILL, both_png
 from lsys_kit.classroom.panel.widget_scripts import ScriptedWidget
+from lsys_kit.derivation.core.letters import letters_from
 from lsys_kit.derivation.petri.stages import stages
 from lsys_kit.errors import LSystemError, ModelNameError, ModelValueError, every, quotable, require, shown, whole_number
 from lsys_kit.notation.analysis.checks import suggestion
@@ -60,6 +61,8 @@ class Explorer(ScriptedWidget):
         side, 90 the top.
     mark
         The label of the stage that is marked, as "A(2)"; empty for none.
+    letters
+        The constants that are letters: formulas stand in place of the numbers that are made of them.
     settings
         The values of the constants, or of the forces of a map, that have a slider, as texts; each is also an attribute of its
         own name, a number.
@@ -74,6 +77,7 @@ class Explorer(ScriptedWidget):
     mark = traitlets.Unicode().tag(**_MOVED)
     seed = traitlets.Int().tag(**_MOVED)
     settings = traitlets.Dict().tag(**_MOVED)
+    letters = traitlets.List(traitlets.Unicode()).tag(**_MOVED)
 
     def __init__(
         self,
@@ -84,6 +88,7 @@ class Explorer(ScriptedWidget):
         without: Collection[str] = (),
         unfold: Unfolding = False,
         show: Collection[str] | None = None,
+        letters: Collection[str] = (),
     ) -> None:
         first = opened.steps if step is None else whole_number(step, "The step")
         turn = opened.turned(angle)
@@ -97,6 +102,7 @@ class Explorer(ScriptedWidget):
             angle=round(turn, 1),
             seed=seed,
             settings=_texts(opened.first),
+            letters=[*letters],
             around=opened.side[0],
             above=opened.side[1],
         )
@@ -134,7 +140,8 @@ class Explorer(ScriptedWidget):
 
     @property
     def _chosen(self) -> Viewing:
-        return Viewing(self.step, self._values(self.settings), self.seed, self.angle, self.around, self.above, self.mark)
+        values, letters = self._values(self.settings), tuple(self.letters)
+        return Viewing(self.step, values, self.seed, self.angle, self.around, self.above, self.mark, letters)
 
     @property
     def text(self) -> str:
@@ -196,6 +203,11 @@ class Explorer(ScriptedWidget):
         if not 0 <= step <= last:
             raise ModelValueError(f"The panel shows steps 0 to {last}, not {shown(step)}", hint=end or None)
 
+    @traitlets.validate("letters")
+    def _possible_letters(self, proposal: Any) -> list[str]:
+        offered = self._opened.lettered
+        return [name for name in offered if name in chosen_names(proposal["value"], "letter", offered)]
+
     @traitlets.validate("settings")
     def _possible_settings(self, proposal: Any) -> dict[str, str]:
         given = {**self.settings, **proposal["value"]} if self._ready else proposal["value"]
@@ -210,10 +222,13 @@ class Explorer(ScriptedWidget):
     def _model_of(self, what: Opened, first: int, values: Mapping[str, Value]) -> Data:
         """What the browser needs of a system: its sliders, and its book for some values of them."""
         sliders = [slider(name, what.values[name], value, what.hint) for name, value in what.first.items()]
-        made = what.book(values, self.seed, first)
+        letters = [name for name in self.letters if name in what.lettered]
+        made = what.book(values, self.seed, first, letters)
         return {
             "book": made,
-            "asked": {"constants": _texts(values), "seed": self.seed},
+            "asked": {"constants": _texts(values), "seed": self.seed, "letters": letters},
+            "letters": letters,
+            "lettered": [name for name in what.first if name in what.lettered],
             "constants": sliders,
             "chance": made["chance"] and "seed" not in self._without,
             "fixed": "".join(fixed_text(what.fixed)),
@@ -278,7 +293,12 @@ class Explorer(ScriptedWidget):
             return {"mistake": _mistake(error)}
 
     def _book_for(self, content: Mapping[str, Any]) -> Data:
-        return {"book": self._opened.book(self._values(content["constants"]), int(content["seed"]), self.model["step"])}
+        offered = self._opened.lettered
+        letters = chosen_names(content.get("letters") or (), "letter", offered)
+        made = self._opened.book(
+            self._values(content["constants"]), int(content["seed"]), self.model["step"], sorted(letters, key=offered.index)
+        )
+        return {"book": made}
 
     def _model_for(self, content: Mapping[str, Any]) -> Data:
         """Show the system of a text that was typed.
@@ -299,7 +319,7 @@ class Explorer(ScriptedWidget):
         found = {**self._model_of(new, first, values), "angle": new.angle}
         with self.hold_sync():
             self._opened, self.model = new, found
-            self.settings = _texts(values)
+            self.settings, self.letters = _texts(values), found["letters"]
             self.step = min(self.step, found["book"]["steps"])
             if new.angle != old.angle:
                 self.angle = new.angle
@@ -352,6 +372,7 @@ def explore(
     sliders: str | Collection[str] | None = None,
     unfold: Unfolding = False,
     show: str | Collection[str] | None = None,
+    letters: str | Collection[str] = (),
     **constants: object,
 ) -> Explorer:
     """Show a system with its sliders: rules, word, stage diagram and drawing of one step, side by side.
@@ -375,6 +396,9 @@ def explore(
         The views that are open at first, one or a list of `rules`, `word`, `stages`, `drawing`, `counts`, `seeds` and
         `variants`; by default the word, the stages and the drawing. The rules are a click away, and the others stand with the
         tools behind a button.
+    letters
+        Constants, one or a list, that are letters at first: in place of the numbers that are made of them stand formulas, and
+        the drawing goes on with the numbers. Each constant with a slider has a switch for that.
     **constants
         First values of declared constants; of a map or cellwork system those of its forces: `stiffness`, `rest`, `pressure`,
         `damping`.
@@ -384,7 +408,7 @@ def explore(
     ModelValueError
         A first value lies outside its slider's range.
     ModelNameError
-        There is no slider or view of that name, or no symbol that is to be unfolded.
+        There is no slider, view or constant of that name, or no symbol that is to be unfolded.
     ModelSyntaxError
         The text makes no sense.
 
@@ -421,7 +445,9 @@ Width 14, height 1.
     offered = (*found.values, "angle", "seed")
     without = frozenset() if sliders is None else frozenset(offered) - chosen_names(sliders, "slider", offered)
     chosen = opened(system, title, constants, without, unfold) if without else found
-    return Explorer(chosen, step, angle, seed, without, unfold, None if show is None else chosen_names(show, "view", VIEWS))
+    named = letters_from(system, letters) if isinstance(system, LSystem) else chosen_names(letters, "letter", ())
+    views = None if show is None else chosen_names(show, "view", VIEWS)
+    return Explorer(chosen, step, angle, seed, without, unfold, views, named)
 
 
 def check_unfolded(system: AnySystem, unfold: Unfolding, constants: Data) -> None:
@@ -441,7 +467,8 @@ def chosen_names(names: str | Collection[str], what: str, offered: Collection[st
         require(name, str, f"The name of a {what}")
         if name not in offered:
             raise ModelNameError(
-                f"There is no {what} {shown(name)}", hint=suggestion(name, offered) or f"The {what}s are: {', '.join(offered)}."
+                f"There is no {what} {shown(name)}",
+                hint=suggestion(name, offered) or (f"The {what}s are: {', '.join(offered)}." if offered else None),
             )
     return frozenset(asked)
 

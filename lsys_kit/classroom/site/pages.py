@@ -170,19 +170,22 @@ def _program(parts: Parts, live: bool) -> Program | None:
     if live:  # rules can be edited: a panel may draw anything
         script = f'"use strict";\n{compact("class_page")}\nopenClassPage();\n'
     else:
-        modes = {*_modes(parts)}
-        script = f'"use strict";\n{compact("course", not_needed(*modes) if modes else _PANELS)}\nopenCoursePage();\n'
+        panels = [*_panels(parts)]
+        unlettered = {"letters"} if not any(panel["model"].get("letters") for panel in panels) else set()
+        left_out = not_needed(*{panel["mode"] for panel in panels}) | unlettered if panels else _PANELS
+        script = f'"use strict";\n{compact("course", left_out)}\nopenCoursePage();\n'
     words = {"words": translated_words("class_page", "panel", "filling", "voting")} if live else {}
     looks = style() + style("lessons") + (style("class_page") if live else "")
     return Program(script, looks, {**_with_books_once(parts), **words}, live)
 
 
-def _modes(data: Any) -> Iterator[str]:
+def _panels(data: Any) -> Iterator[Data]:
+    """The data of panels, wherever they are."""
     if isinstance(data, list):
         for each in data:
-            yield from _modes(each)
+            yield from _panels(each)
     elif isinstance(data, dict):
-        yield from [data["mode"]] if "mode" in data else (mode for each in data.values() for mode in _modes(each))
+        yield from [data] if "mode" in data else (panel for each in data.values() for panel in _panels(each))
 
 
 def _with_books_once(parts: Parts) -> Data:

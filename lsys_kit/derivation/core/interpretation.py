@@ -9,6 +9,7 @@ from typing import TypeVar
 
 from lsys_kit.budget import INTERVAL, counted, current
 from lsys_kit.derivation.core.chance import Chance
+from lsys_kit.derivation.core.letters import numbered
 from lsys_kit.derivation.core.rules import rules_of
 from lsys_kit.derivation.core.states import MODULES_BETWEEN_CHECKS, States, popped
 from lsys_kit.errors import ModelLimitError
@@ -19,13 +20,15 @@ _T = TypeVar("_T")
 
 
 def interpretations(states: States, numbers: Sequence[int]) -> dict[int, tuple[Module, ...]]:
-    """For each of some states the modules that it is drawn as: itself, where no interpretation rule matches.
+    """For each of some states the modules that it is drawn as, with numbers for formulas: itself, where no interpretation rule
+    matches.
 
     >>> from lsys_kit import read
     >>> states = States(read("axiom: A(2)[B]\\ninterpretation:\\nA(t) -> F(t) F(1)"))
     >>> {str(states.modules[s]): " ".join(map(str, drawn)) for s, drawn in interpretations(states, states.axiom).items()}
     {'A(2)': 'F(2) F(1)', '[': '[', 'B': 'B', ']': ']'}
     """
+    states = numbered(states)
     if not states.system.interpretation:
         return {state: (states.modules[state],) for state in dict.fromkeys(numbers)}
     found: dict[int, tuple[Module, ...]] = {}

@@ -16,7 +16,7 @@ from typing import Any, TypeAlias, TypeGuard
 
 from lsys_kit.errors import ModelNameError, ModelValueError, quotable, shown
 from lsys_kit.notation.analysis.checks import suggestion
-from lsys_kit.notation.model.arithmetic import Value, expanded_value, finite, is_symbolic, normalised, reason_of
+from lsys_kit.notation.model.arithmetic import Formula, Value, expanded_value, finite, is_symbolic, normalised, reason_of
 from lsys_kit.notation.model.expressions import Apply, Expression, Function, Name, Number, function_of, is_random, sensed_in
 from lsys_kit.notation.model.modules import CLOSING, OPENING, Item, Module, Pattern, Repeat, expressions_of
 from lsys_kit.notation.model.system import LSystem, Production
@@ -127,11 +127,8 @@ def kind_of(module: Module | Pattern) -> ModuleKind:
 
 def rule_for(system: LSystem, number: int, production: Production, arithmetic: str) -> Rule:
     """A production made ready; its functions take the values of all its parameters, then those of the system's constants."""
-    constants = [constant.name for constant in system.constants]
-    arguments = [argument for module in production.parameters for argument in module.arguments]
-    order = {name: len(arguments) + index for index, name in enumerate(constants)}
-    formal = {i: a.name for i, a in enumerate(arguments) if isinstance(a, Name) and a.name not in order}
-    order.update({name: i for i, name in formal.items()})
+    arguments, order = _arguments(production), order_of(system, production)
+    formal = {i for i, a in enumerate(arguments) if isinstance(a, Name) and order[a.name] < len(arguments)}
 
     def ready(expression: Expression) -> Function:
         return function_of(expression, order, arithmetic)
@@ -147,12 +144,24 @@ def rule_for(system: LSystem, number: int, production: Production, arithmetic: s
         tuple((i, ready(a)) for i, a in enumerate(arguments) if i not in formal),
         None if production.condition is None else ready(production.condition),
         None if production.probability is None else ready(production.probability),
-        _templates(production.successor, order, len(arguments) + len(constants), arithmetic),
+        _templates(production.successor, order, len(arguments) + len(system.constants), arithmetic),
         any(map(is_random, [*matched, *made])),
         any(map(_looks, [*matched, *made])),
         any(is_random(part) or _looks(part) for part in matched),
         tuple((question, ready(question)) for question in sensed_in(production.condition)) if production.condition else (),
     )
+
+
+def _arguments(production: Production) -> list[Expression]:
+    return [argument for module in production.parameters for argument in module.arguments]
+
+
+def order_of(system: LSystem, production: Production) -> dict[str, int]:
+    """For each name its place among the values that a production's functions take: its parameters, then the constants."""
+    arguments = _arguments(production)
+    order = {constant.name: len(arguments) + index for index, constant in enumerate(system.constants)}
+    order.update({a.name: i for i, a in enumerate(arguments) if isinstance(a, Name) and a.name not in order})
+    return order
 
 
 def _looks(expression: Expression) -> bool:
@@ -247,6 +256,8 @@ def number_from(given: object, name: str = "value") -> Value:
     """
     if isinstance(given, str):
         return unknown_constant(name) if given == name else read_number(given)
+    if isinstance(given, Formula):
+        return expanded_value(given)
     if getattr(given, "free_symbols", None) and getattr(given, "is_commutative", False) and hasattr(given, "is_real"):
         return expanded_value(given)
     if isinstance(given, numbers.Real) and not isinstance(given, bool) and _finite(given):

@@ -21,12 +21,23 @@ from lsys_kit.derivation.core.rules import (
     Values,
     constants_of,
     kind_of,
+    order_of,
     rule_for,
     rules_of,
 )
 from lsys_kit.derivation.core.traits import traits_of
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelNameError, ModelValueError, require
-from lsys_kit.notation.model.arithmetic import SMALL, Value, equal_values, expanded_value, finite, is_symbolic, reason_of
+from lsys_kit.notation.model.arithmetic import (
+    SMALL,
+    Formula,
+    Value,
+    equal_values,
+    expanded_value,
+    finite,
+    is_symbolic,
+    reason_of,
+)
+from lsys_kit.notation.model.expressions import OPERATORS, calls_in, function_of
 from lsys_kit.notation.model.modules import Module, Pattern
 from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.registry import dialect_named
@@ -57,14 +68,30 @@ def _place(system: LSystem, rule: Rule) -> dict[str, Any]:
     return {"source": system.source or None, "start": start, "end": end}
 
 
-def undecided_condition(system: LSystem, constants: Sequence[Value], module: Module, rule: Rule) -> LSystemError:
-    names = sorted({str(name) for value in constants for name in getattr(value, "free_symbols", ())})
+def undecided_condition(states: States, module: Module, rule: Rule, given: tuple[Any, ...]) -> LSystemError:
+    system = states.system
+    names = sorted({str(name) for value in states.constants for name in getattr(value, "free_symbols", ())})
     said = (
         f"Whether production {rule.number + 1}, {as_written(system, rule.production)}, applies to "
         f"{dialect_named(system.notation).module(module)} cannot be decided"
     )
-    hint = f"It depends on {', '.join(names)}: choose a value for {names[0]}."
+    asked = next(_undecided(states, rule, given), None)
+    on = f"whether {asked}" if asked else ", ".join(names)
+    hint = (
+        f'It depends on {on}: choose a value for {names[0]}, or derive with letters="{names[0]}", where its own value decides.'
+    )
     return ModelValueError(said, hint=hint, **_place(system, rule))
+
+
+def _undecided(states: States, rule: Rule, given: tuple[Any, ...]) -> Iterator[str]:
+    """The comparisons in a condition that unknown constants leave open."""
+    condition, order = rule.production.condition, order_of(states.system, rule.production)
+    for call in calls_in(condition) if condition is not None else ():
+        if OPERATORS[call.operator].gives == "truth" and OPERATORS[call.operator].takes == "number":
+            try:
+                bool(function_of(call, order, states.arithmetic)(given))
+            except TypeError:
+                yield str(call)
 
 
 Row: TypeAlias = tuple[int, ...]
@@ -77,6 +104,7 @@ EXACT_BITS = 128
 
 def _times(count: Value) -> int:
     most = current().repetitions
+    count = count.known() if isinstance(count, Formula) else count
     if count != int(count) or count < 0:
         raise ValueError(f"it is repeated {float(count):g} times, which is no whole number from 0 on")
     if count > most:
@@ -250,7 +278,7 @@ class States:
                 rule.condition is None or bool(rule.condition(given))
             )
         except TypeError:
-            raise undecided_condition(self.system, self.constants, module, rule) from None
+            raise undecided_condition(self, module, rule, given) from None
         except (ArithmeticError, ValueError) as fault:
             raise rule_error(self.system, module, rule, fault) from None
 
@@ -273,7 +301,8 @@ class States:
         """The weight with which a rule is chosen at random."""
         assert rule.probability
         try:
-            return finite(rule.probability((*values, *self.constants, chance)))
+            weight = rule.probability((*values, *self.constants, chance))
+            return finite(weight.known() if isinstance(weight, Formula) else weight)
         except (ArithmeticError, ValueError) as fault:
             raise rule_error(self.system, rule.production.predecessor, rule, fault) from None
 
@@ -310,6 +339,8 @@ class States:
         finite(value)
         if is_symbolic(value):
             value = expanded_value(value)
+            if isinstance(value, Formula):
+                value.number = self._kept(value.number)
         if isinstance(value, float) or is_symbolic(value):
             return value
         if max(value.numerator.bit_length(), value.denominator.bit_length()) <= EXACT_BITS:

@@ -288,7 +288,8 @@ def lineage(
     with Task("The lineage was not found"):
         if isinstance(what, LSystem):
             steps: Any = n if n is not None else what.steps if what.steps is not None else 5
-            start = derive(what, 0, seed=seed, arithmetic=arithmetic, **constants)
+            given: dict[str, Any] = constants
+            start = derive(what, 0, seed=seed, arithmetic=arithmetic, **given)
             if start.states.traits.sensitive:
                 raise ModelValueError(
                     "The system asks what the turtle sees, which words alone do not say",

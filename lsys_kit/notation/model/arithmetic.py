@@ -7,8 +7,10 @@ Sums, differences, products, quotients and whole powers of rational numbers stay
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+import operator
+from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
+from functools import lru_cache
 from typing import Any, TypeAlias
 
 from lsys_kit.budget import current
@@ -91,12 +93,12 @@ def shortest_decimal(value: Value) -> Value:
 
 
 def is_symbolic(value: object) -> bool:
-    """Whether a value contains an unknown constant: a sympy expression, as in `derive(system, 3, dt="dt")`."""
+    """Whether a value contains a letter: a sympy expression, as in `derive(system, 3, dt="dt")`, or a `Formula`."""
     return not isinstance(value, int | Fraction | float)
 
 
-MOST_TERMS = 1_000
-"""A symbolic value has at most so many terms."""
+MOST_TERMS, MOST_FORMULA_TERMS = 1_000, 100
+"""A symbolic value has at most so many terms, and one that is to be read beside its number."""
 
 
 def equal_values(left: Value, right: Value) -> bool:
@@ -112,6 +114,9 @@ def equal_values(left: Value, right: Value) -> bool:
     """
     if (left.__class__ is int and right.__class__ is int) or not (is_symbolic(left) or is_symbolic(right)):
         return left == right
+    if isinstance(left, Formula) or isinstance(right, Formula):
+        one, other = (left, right) if isinstance(left, Formula) else (right, left)
+        return one.equals(other)
     difference: Any = _expanded(left - right)
     if difference.free_symbols:
         raise TypeError
@@ -126,6 +131,12 @@ def expanded_value(value: Any) -> Value:
     >>> expanded_value(t + 2 * (t + 1)), expanded_value(t - t + sympy.Rational(1, 2))
     (3*t + 2, Fraction(1, 2))
     """
+    if isinstance(value, Formula):
+        expression = value.expression if _is_multiplied_out(value.expression) else _expanded(value.expression)
+        if expression.is_Add and len(expression.args) > MOST_FORMULA_TERMS:
+            raise ValueError(gettext("the formula has more than {number} terms", number=MOST_FORMULA_TERMS))
+        found: Any = Formula(expression, value.number, value.decisions)
+        return value.number if expression.is_Rational else found
     value = _expanded(value)
     if value.is_Rational:
         return normalised(Fraction(int(value.p), int(value.q)))
@@ -139,6 +150,14 @@ def _expanded(value: Any) -> Any:
     if len(found.args) > MOST_TERMS:
         raise OverflowError
     return found
+
+
+def _is_multiplied_out(expression: Any) -> bool:
+    """Whether an expression is plainly a product of powers of letters."""
+    return expression.is_Symbol or all(
+        part.is_Number or part.is_Symbol or (part.is_Pow and part.base.is_Symbol)
+        for part in (expression.args if expression.is_Mul else (expression,))
+    )
 
 
 def short_text(value: Value) -> str:
@@ -254,6 +273,8 @@ def partial_function(name: str, function: Callable[[Value], Value]) -> Callable[
 
     def value(x: Value) -> Value:
         try:
+            if isinstance(x, Formula) and name in symbolic_functions():
+                return Formula(symbolic_functions()[name](x.expression), function(x.number), x.decisions)
             return function(x)
         except ValueError:
             raise ValueError(gettext("{value} is not a number", value=f"{name}({short_text(x)})")) from None
@@ -272,3 +293,206 @@ def reason_of(fault: Exception) -> str:
     if isinstance(fault, OverflowError):
         return gettext("the result is too large")
     return str(fault)
+
+
+@lru_cache(maxsize=1)
+def symbolic_functions() -> Mapping[str, Callable[[Any], Any]]:
+    """The functions of one number, by their names, as sympy has them; angles are in degrees.
+
+    >>> import sympy
+    >>> symbolic_functions()["sqrt"](2), symbolic_functions()["sin"](sympy.Integer(60))
+    (sqrt(2), sqrt(3)/2)
+    """
+    import sympy
+
+    degree = sympy.pi / 180
+    return {
+        "sqrt": sympy.sqrt,
+        "exp": sympy.exp,
+        "log": sympy.log,
+        "sin": lambda x: sympy.sin(x * degree),
+        "cos": lambda x: sympy.cos(x * degree),
+        "tan": lambda x: sympy.tan(x * degree),
+        "asin": lambda x: sympy.asin(x) / degree,
+        "acos": lambda x: sympy.acos(x) / degree,
+        "atan": lambda x: sympy.atan(x) / degree,
+    }
+
+
+Decision: TypeAlias = tuple[Any, str, Any]
+"""A comparison that was found true: two sympy expressions, and the relation between them."""
+_OPPOSITE = {"<": ">=", "<=": ">", ">": "<=", ">=": "<", "==": "!="}
+
+
+class Formula:
+    """A value with letters in it whose numbers are known: an expression, and the number that it is.
+
+    What is computed of it is computed of both. What only a number can answer, a comparison or how often something is repeated,
+    is answered by the number, and becomes a decision: what must be so of other numbers, for the formulas to hold for them too.
+
+    Attributes
+    ----------
+    expression
+        The formula, as sympy has it.
+    number
+        Its value.
+    decisions
+        What was decided by numbers so far, in the order of time; all formulas of a derivation share it.
+
+    Examples
+    --------
+    >>> import sympy
+    >>> decisions = {}
+    >>> q = Formula(sympy.Symbol("q"), Fraction(1, 2), decisions)
+    >>> (3 * q**2).number, 1 - q, q * q < q
+    (Fraction(3, 4), 1 - q, True)
+    >>> [*decisions]
+    [(q**2, '<', q)]
+    """
+
+    __slots__ = ("decisions", "expression", "number")
+
+    def __init__(self, expression: Any, number: Value, decisions: dict[Decision, None]) -> None:
+        self.expression, self.number, self.decisions = expression, number, decisions
+
+    def __eq__(self, other: object) -> bool:
+        """The same formula with the same number: by this, states are told apart."""
+        return (
+            isinstance(other, Formula)
+            and self.expression == other.expression
+            and self.number == other.number
+            and type(self.number) is type(other.number)
+        )
+
+    def __hash__(self) -> int:
+        return hash(self.expression)
+
+    def __repr__(self) -> str:
+        return str(self.expression)
+
+    @property
+    def free_symbols(self) -> set[Any]:
+        """The letters in it."""
+        found: set[Any] = self.expression.free_symbols
+        return found
+
+    def _with(self, function: Callable[[Any, Any], Any], left: object, right: object, numbers: Callable[..., Value]) -> Any:
+        number = bounded_exact(numbers(number_of(left), number_of(right)))
+        return Formula(function(expression_of(left), expression_of(right)), number, self.decisions)
+
+    def __add__(self, other: object) -> Any:
+        return self._with(operator.add, self, other, operator.add)
+
+    def __radd__(self, other: object) -> Any:
+        return self._with(operator.add, other, self, operator.add)
+
+    def __sub__(self, other: object) -> Any:
+        return self._with(operator.sub, self, other, operator.sub)
+
+    def __rsub__(self, other: object) -> Any:
+        return self._with(operator.sub, other, self, operator.sub)
+
+    def __mul__(self, other: object) -> Any:
+        return self._with(operator.mul, self, other, operator.mul)
+
+    def __rmul__(self, other: object) -> Any:
+        return self._with(operator.mul, other, self, operator.mul)
+
+    def __truediv__(self, other: object) -> Any:
+        return self._with(operator.truediv, self, other, divide)
+
+    def __rtruediv__(self, other: object) -> Any:
+        return self._with(operator.truediv, other, self, divide)
+
+    def __pow__(self, other: object) -> Any:
+        return self._with(operator.pow, self, other, power)
+
+    def __rpow__(self, other: object) -> Any:
+        return self._with(operator.pow, other, self, power)
+
+    def __mod__(self, other: Any) -> Any:
+        return self - other * math.floor(self / other)
+
+    def __rmod__(self, other: Any) -> Any:
+        return other - self * math.floor(other / self)
+
+    def __neg__(self) -> Any:
+        return Formula(-self.expression, -self.number, self.decisions)
+
+    def __abs__(self) -> Any:
+        return self if self >= 0 else -self
+
+    def _decided(self, other: object, relation: str, truth: bool) -> bool:
+        """A comparison that the numbers have decided, kept in mind where letters have a say."""
+        left, right = self.expression, expression_of(other)
+        if left != right and (left.free_symbols or right.free_symbols):
+            self.decisions.setdefault((left, relation if truth else _OPPOSITE[relation], right))
+        return truth
+
+    def __lt__(self, other: object) -> bool:
+        return self._decided(other, "<", self.number < number_of(other))
+
+    def __le__(self, other: object) -> bool:
+        return self._decided(other, "<=", self.number <= number_of(other))
+
+    def __gt__(self, other: object) -> bool:
+        return self._decided(other, ">", self.number > number_of(other))
+
+    def __ge__(self, other: object) -> bool:
+        return self._decided(other, ">=", self.number >= number_of(other))
+
+    def equals(self, other: object) -> bool:
+        """Whether its number is the same; `==` says whether the formula is."""
+        return self._decided(other, "==", bool(self.number == number_of(other)))
+
+    def __bool__(self) -> bool:
+        return not self.equals(0)
+
+    def known(self) -> Value:
+        """Its number, where a formula is of no use: what follows holds for other numbers only if it is the same for them."""
+        self._decided(self.number, "==", True)
+        return self.number
+
+    def __float__(self) -> float:
+        return float(self.known())
+
+    def _whole(self, function: Callable[[Value], int], least: str, most: str, away: int) -> Any:
+        """A whole number near it, by which all is decided that lies between that and the next one."""
+        found = rounding(function)(self.number)
+        self._decided(found, least, True)
+        self._decided(found + away, most, True)
+        return found
+
+    def __floor__(self) -> Any:
+        return self._whole(math.floor, ">=", "<", 1)
+
+    def __ceil__(self) -> Any:
+        return self._whole(math.ceil, "<=", ">", -1)
+
+    def __int__(self) -> int:
+        return int(math.floor(self) if self >= 0 else math.ceil(self))
+
+
+def formulas_in(values: Iterable[object]) -> list[Formula]:
+    """The formulas among some values."""
+    return [value for value in values if isinstance(value, Formula)]
+
+
+def number_of(value: Any) -> Any:
+    """The number of a formula; any other value as it is."""
+    return value.number if isinstance(value, Formula) else value
+
+
+def expression_of(value: Any) -> Any:
+    """A value as sympy has it.
+
+    >>> expression_of(Fraction(1, 2))
+    1/2
+    """
+    if isinstance(value, Formula):
+        return value.expression
+    if not isinstance(value, int | Fraction | float):
+        return value
+    import sympy
+
+    return sympy.Float(value) if isinstance(value, float) else sympy.Rational(value.numerator, value.denominator)

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from lsys_kit.errors import ModelValueError
-from lsys_kit.notation.model.arithmetic import Value, literal_text
+from lsys_kit.notation.model.arithmetic import Value, expression_of, literal_text, symbolic_functions
 from lsys_kit.notation.model.operators import OPERATORS as OPERATORS
 from lsys_kit.notation.model.operators import Function as Function
 
@@ -248,8 +248,7 @@ def to_sympy(expression: Expression) -> sympy.Basic:
     import sympy
 
     if isinstance(expression, Number):
-        value = expression.value
-        return sympy.Float(value) if isinstance(value, float) else sympy.Rational(value.numerator, value.denominator)
+        return expression_of(expression.value)
     if isinstance(expression, Name):
         return sympy.Symbol(expression.name)
     if OPERATORS[expression.operator].random:
@@ -263,7 +262,6 @@ def _sympy_table() -> dict[str, Callable[..., sympy.Basic]]:
     def remainder(x: Any, y: Any) -> Any:
         return sympy.sign(x) * sympy.Mod(sympy.floor(sympy.Abs(x)), sympy.floor(sympy.Abs(y)))
 
-    degree = sympy.pi / 180
     return {
         "||": sympy.Or,
         "&&": sympy.And,
@@ -288,14 +286,6 @@ def _sympy_table() -> dict[str, Callable[..., sympy.Basic]]:
         "mod": sympy.Mod,
         "rem": remainder,
         "if": lambda c, x, y: sympy.Piecewise((x, c), (y, True)),
-        "sqrt": sympy.sqrt,
-        "exp": sympy.exp,
-        "log": sympy.log,
-        "sin": lambda x: sympy.sin(x * degree),
-        "cos": lambda x: sympy.cos(x * degree),
-        "tan": lambda x: sympy.tan(x * degree),
-        "asin": lambda x: sympy.asin(x) / degree,
-        "acos": lambda x: sympy.acos(x) / degree,
-        "atan": lambda x: sympy.atan(x) / degree,
+        **symbolic_functions(),
         "sensed": sympy.Function("sensed"),
     }

@@ -14,6 +14,7 @@ from html import escape
 from lsys_kit.derivation.petri.net import Place
 from lsys_kit.errors import printable
 from lsys_kit.notation.model.arithmetic import is_symbolic, number_text, rounded
+from lsys_kit.notation.model.formulas import Element, formula_text, values_element
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem, symbols
 from lsys_kit.pictures.shapes import Look, Span
@@ -71,10 +72,26 @@ def label_parts(symbol: str, system: LSystem) -> tuple[str, str]:
 def values_text(module: Module) -> str:
     """A module's values in parentheses, as they are shown, or nothing."""
     values = ",".join(
-        number_text(rounded(value)) if is_symbolic(value) or abs(float(value)) < 1e6 else f"{float(value):.3g}"
+        formula_text(value)
+        if is_symbolic(value)
+        else number_text(rounded(value))
+        if abs(float(value)) < 1e6
+        else f"{float(value):.3g}"
         for value in module.arguments
     )
     return f"({values})" if values else ""
+
+
+def mathml(formula: Element) -> str:
+    """An element of MathML as HTML.
+
+    >>> mathml(["msup", "q", "2"])
+    '<msup><mi>q</mi><mn>2</mn></msup>'
+    """
+    if isinstance(formula, str):
+        tag = "mn" if formula[:1].isdigit() else "mi" if formula[:1].isalpha() else "mo"
+        return f"<{tag}>{escaped(formula)}</{tag}>"
+    return f"<{formula[0]}>{''.join(map(mathml, formula[1:]))}</{formula[0]}>"
 
 
 def label_spans(letter: str, subscript: str, values: str = "") -> list[str | Span]:
@@ -100,7 +117,9 @@ def html_label(module: Module, system: LSystem) -> str:
     """
     letter, subscript = label_parts(module.symbol, system)
     text = f"<i>{escaped(letter)}</i>" if letter[:1].isalpha() else escaped(letter)
-    return text + (f'<sub style="line-height:0">{escaped(subscript)}</sub>' if subscript else "") + escaped(values_text(module))
+    formula = values_element(module.arguments)
+    values = escaped(values_text(module)) if formula is None else f"<math>{mathml(formula[0])}</math>"
+    return text + (f'<sub style="line-height:0">{escaped(subscript)}</sub>' if subscript else "") + values
 
 
 def place_parts(place: Place, system: LSystem) -> tuple[str, str, str]:

@@ -15,7 +15,7 @@ from __future__ import annotations
 import base64
 import json
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from itertools import pairwise
@@ -23,11 +23,12 @@ from typing import Any
 
 import numpy as np
 
-from lsys_kit.budget import Task, current, limits
+from lsys_kit.budget import Task, counted, current, limits
 from lsys_kit.classroom.panel.books.net import Unfolding, net_entry, net_of
 from lsys_kit.classroom.panel.bundle import Data
 from lsys_kit.classroom.panel.labels import noun_of
 from lsys_kit.derivation.core.interpretation import interpretations
+from lsys_kit.derivation.core.letters import conditions_text, decisions_of, numbered
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.traits import traits_of
 from lsys_kit.derivation.derive import Derivation
@@ -51,7 +52,8 @@ from lsys_kit.geometry.turtle.plane import PLANE_HANDLERS
 from lsys_kit.geometry.turtle.space import SPACE_HANDLERS
 from lsys_kit.geometry.turtle.surfaces import Surface, passed_over, surfaces_by_symbol
 from lsys_kit.geometry.turtle.turtle import label_text
-from lsys_kit.notation.model.arithmetic import number_text
+from lsys_kit.notation.model.arithmetic import Formula, formulas_in, number_of, number_text, rounded
+from lsys_kit.notation.model.formulas import formula_text, values_element
 from lsys_kit.notation.model.modules import Module, flat
 from lsys_kit.notation.model.system import USUAL_STEPS, LSystem
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
@@ -65,8 +67,8 @@ from lsys_kit.worlds.derive import derive
 
 MOST_MODULES, MOST_BYTES = 250_000, 1_900_000
 """A book holds no step of more modules, since nobody could see more of them; and no more than about so many bytes."""
-STATE_BYTES, HISTORY_BYTES = 60, 6
-"""About what a state takes in it beside its text, and a module of a word with what it becomes."""
+STATE_BYTES, HISTORY_BYTES, FORMULA_BYTES = 60, 6, 120
+"""About what a state takes in it beside its text, a module of a word with what it becomes, and a term of a formula."""
 FEWEST_STEPS = 10
 """The last step of a book at least, where it can be reached."""
 TIME_FOR_ASKED, TIME_FOR_LATER = 0.6, 0.2
@@ -91,9 +93,10 @@ def book(
     title: str = "",
     least: int = 0,
     unfold: Unfolding = False,
+    letters: Collection[str] = (),
 ) -> Data:
     """The book of a system for new values of its constants, ready to be written as JSON; it holds a step at least, if that can
-    be reached. Symbols are unfolded in the stage diagram as in `stages`.
+    be reached. Symbols are unfolded in the stage diagram as in `stages`. With letters for constants it holds formulas, too.
 
     Its entries are lists, dictionaries, texts and numbers. `end` says why there are no more steps, if something is in the way;
     otherwise the last step is twice the number that the system asks for, and 10 at least.
@@ -105,11 +108,11 @@ def book(
     """
     given: Data = dict(settings or {})
     with Task("The book was not finished"):
-        derivation, end = _derived(system, given, seed, least)
-        pages = _pages(derivation, end)
+        derivation, end, decided = _derived(system, given, seed, least, letters)
+        states = numbered(derivation.states)
+        pages = _pages(derivation, states, end)
         net, diagram = net_entry(lambda: net_of(system, given, unfold))
-        symbols, rows = _labels(derivation.states, pages.numbers, net)
-        states = derivation.states
+        symbols, rows = _labels(states, pages.numbers, net)
         return {
             "title": visible(title),
             "text": system.source,
@@ -132,6 +135,7 @@ def book(
             "net": diagram,
             **drawing_entries(states, [*pages.numbers], pages.drawn, pages.last),
             "growth": growth_entry(system, given),
+            **(_formulas(derivation.states, pages, diagram, rows, decided) if letters else {}),
         }
 
 
@@ -151,19 +155,25 @@ class _Pages:
     drawn: list[list[Any]] = field(default_factory=list)
 
 
-def _derived(system: LSystem, given: Data, seed: int | None, least: int) -> tuple[Derivation, str]:
-    """The derivation as far as a book may hold it, and why it ends earlier than it should; "" where it does not."""
+def _derived(
+    system: LSystem, given: Data, seed: int | None, least: int, letters: Collection[str]
+) -> tuple[Derivation, str, list[int]]:
+    """The derivation as far as a book may hold it, and why it ends earlier than it should, "" where it does not; and for each
+    step how much numbers have decided about letters.
+    """
     asked = first_step(system)
     most, seconds = min(MOST_MODULES, current().modules), current().seconds
     with limits(modules=most):
-        derivation = derive(system, 0, seed=seed, **given)
+        derivation = derive(system, 0, seed=seed, letters=letters, **given)
+        decided = [len(decisions_of(derivation.states))]
         try:
             for step in range(1, max(2 * asked, FEWEST_STEPS, least) + 1):
                 with limits(seconds=seconds * (TIME_FOR_LATER if step > max(asked, least) else TIME_FOR_ASKED)):
                     derivation = derivation.to(step)
+                    decided.append(len(decisions_of(derivation.states)))
         except LSystemError as error:
-            return derivation, sentence(error)
-    return derivation, ""
+            return derivation, sentence(error), decided
+    return derivation, "", decided
 
 
 def sentence(error: LSystemError) -> str:
@@ -171,9 +181,9 @@ def sentence(error: LSystemError) -> str:
     return f"{error.message}." if isinstance(error, ModelLimitError) else f"{error.message}. {error.hint or ''}".rstrip()
 
 
-def _pages(derivation: Derivation, end: str) -> _Pages:
+def _pages(derivation: Derivation, states: States, end: str) -> _Pages:
     """The steps whose states can be drawn and that fit into a book."""
-    states, mode = derivation.states, drawing_mode(derivation.states.system)
+    mode = drawing_mode(states.system)
     pages, size = _Pages(end=end), 0
     for step, length in enumerate(derivation.lengths):
         new = sorted(set(derivation.counts(step)).difference(pages.numbers))
@@ -184,7 +194,10 @@ def _pages(derivation: Derivation, end: str) -> _Pages:
                 raise
             pages.end = sentence(error)
             break
-        size += _size(states, new, drawn) + (0 if states.traits.d0l else HISTORY_BYTES * length)
+        size += _size(states, new, drawn) + FORMULA_BYTES * sum(
+            map(_terms, (derivation.states.modules[state] for state in new))
+        )
+        size += 0 if states.traits.d0l else HISTORY_BYTES * length
         if step and size > MOST_BYTES:
             pages.end = f"The panel ends at step {step - 1}: step {step} has too many more modules, or too many different ones."
             break
@@ -192,6 +205,11 @@ def _pages(derivation: Derivation, end: str) -> _Pages:
         pages.drawn += drawn
         pages.last = step
     return pages
+
+
+def _terms(module: Module) -> int:
+    """How many terms the formulas among a module's values have."""
+    return sum(max(1, len(value.expression.args)) for value in formulas_in(module.arguments))
 
 
 def _size(states: States, new: Sequence[int], drawn: Sequence[object]) -> int:
@@ -219,6 +237,54 @@ def _labels(states: States, numbers: Iterable[int], net: Stages | None) -> tuple
     return [
         [*map(visible, label_parts(symbol, system)), palette.get(symbol, ""), int(symbol in steering)] for symbol in symbols
     ], rows
+
+
+def _formulas(states: States, pages: _Pages, diagram: Data, rows: Sequence[Sequence[Any]], decided: Sequence[int]) -> Data:
+    """For each state whose values have letters its values as mathematics, and as a text, its text, and what its formulas are in
+    numbers; for each step under which conditions the formulas hold. Stages in the diagram are named by formulas, too.
+    """
+    notation, found = dialect_named(states.system.notation), list[Any]()
+    for state, drawn in counted(zip(pages.numbers, pages.drawn, strict=True), 1):
+        module = states.modules[state]
+        values = values_element(module.arguments)
+        if values is None:
+            found.append(0)
+            continue
+        element, text = values
+        bare = notation.module(Module(module.symbol))
+        said = [f"{formula_text(each)} = {number_text(rounded(each.number))}" for each in formulas_in(module.arguments)]
+        length = "length " if isinstance(module.arguments[0], Formula) and _is_stroke(drawn, module) else ""
+        found.append([element, visible(text), visible(bare + text), visible(f"{length}{', '.join(said)}")])
+    of_places: dict[int, list[Module]] = {}
+    for state, row in zip(pages.numbers, rows, strict=True):
+        of_places.setdefault(row[2], []).append(states.modules[state])
+    for place in diagram["places"]:
+        if place["values"] and (shared := _shared_formulas(of_places.get(place["place"], ()))):
+            place["formula"] = shared
+    all_decided = decisions_of(states)
+    held = [conditions_text(states, all_decided[:many]) for many in decided[: pages.last + 1]]
+    return {"formulas": found, "conditions": [f"the formulas hold where {text}" if text else "" for text in held]}
+
+
+def _shared_formulas(modules: Sequence[Module]) -> str:
+    """The values that the modules of a stage have in common, as formulas; "" where they have no formulas in common."""
+    if len({len(module.arguments) for module in modules}) != 1:
+        return ""
+    columns = zip(*(module.arguments for module in modules), strict=True)
+    shared = [{*column} for column in columns if len({*map(number_of, column)}) == 1]
+    if not shared or any(len(column) > 1 for column in shared):
+        return ""
+    return values_text(Module("", tuple(column.pop() for column in shared)))
+
+
+def _is_stroke(drawn: Sequence[Any], module: Module) -> bool:
+    """Whether a module is a stroke of the turtle whose length is its first value."""
+    return (
+        len(drawn) == 1
+        and drawn[0][0] == "draw"
+        and bool(drawn[0][3])
+        and drawn[0][3][0] == _plain(float(number_of(module.arguments[0])))
+    )
 
 
 def _has_chance(states: States) -> bool:

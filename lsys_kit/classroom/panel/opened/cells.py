@@ -181,7 +181,11 @@ class OpenedCells:
             return found
         return self._kept.found((forces, least), lambda: cells_at_rest(self.system, forces, least))
 
-    def book(self, values: Mapping[str, Value], seed: int, least: int) -> dict[str, Any]:
+    @property
+    def lettered(self) -> Sequence[str]:
+        return ()
+
+    def book(self, values: Mapping[str, Value], seed: int, least: int, letters: Collection[str] = ()) -> dict[str, Any]:
         return cell_book(self._at_rest(values, least), values, self.title)
 
     def sight(self, chosen: Viewing) -> CellSight:

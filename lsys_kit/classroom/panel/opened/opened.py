@@ -23,6 +23,7 @@ class Viewing:
     around: int = 0
     above: int = 0
     mark: str = ""
+    letters: tuple[str, ...] = ()
 
 
 class Sight(Protocol):
@@ -93,8 +94,13 @@ class Opened(Protocol):
         """The angle of the turtle's turns, or the system's own if none is given."""
         ...
 
-    def book(self, values: Mapping[str, Value], seed: int, least: int) -> dict[str, Any]:
-        """The book for some values of the sliders, which holds a step if it can be reached."""
+    @property
+    def lettered(self) -> Sequence[str]:
+        """The constants that can be letters."""
+        ...
+
+    def book(self, values: Mapping[str, Value], seed: int, least: int, letters: Collection[str] = ()) -> dict[str, Any]:
+        """The book for some values of the sliders, which holds a step if it can be reached; with some constants as letters."""
         ...
 
     def sight(self, chosen: Viewing) -> Sight:

@@ -20,6 +20,7 @@ from lsys_kit.classroom.panel.page import deflated, shared
 from lsys_kit.classroom.panel.view_model import STILL, StepView, ViewModel, composite_png
 from lsys_kit.classroom.variants import variants
 from lsys_kit.derivation.core.rules import constants_of, number_from
+from lsys_kit.derivation.core.traits import traits_of
 from lsys_kit.errors import LSystemError, ModelValueError
 from lsys_kit.geometry.drawing import turning_angle
 from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
@@ -38,9 +39,11 @@ MOST_FOR_FEWEST = 1_100_000
 
 
 class Made(NamedTuple):
-    """A book with the settings of which it is, the seed among them, the step that it should hold, and the seconds it took."""
+    """A book with the settings of which it is, the seed among them, its letters, the step that it should hold, and the seconds
+    it took."""
 
     settings: Mapping[str, Value]
+    letters: tuple[str, ...]
     least: int
     book: Data
     seconds: float
@@ -100,10 +103,14 @@ class OpenedSystem:
             raise ModelValueError(f"angle = {number_text(turn)} lies outside its slider's range", hint="It goes from 0 to 180.")
         return turn
 
-    def book(self, values: Mapping[str, Value], seed: int, least: int) -> Data:
+    @property
+    def lettered(self) -> Sequence[str]:
+        return () if traits_of(self.system).sensitive else (*self.declared,)
+
+    def book(self, values: Mapping[str, Value], seed: int, least: int, letters: Collection[str] = ()) -> Data:
         settings, began = {**self.given, **values}, processor_time()
-        made = book(self.system, settings, seed, title=self.title, least=least, unfold=self._unfold)
-        self.last = Made({**settings, held.SEED: seed}, least, made, processor_time() - began)
+        made = book(self.system, settings, seed, title=self.title, least=least, unfold=self._unfold, letters=letters)
+        self.last = Made({**settings, held.SEED: seed}, tuple(letters), least, made, processor_time() - began)
         return made
 
     def sight(self, chosen: Viewing) -> StepView:
@@ -120,7 +127,7 @@ class OpenedSystem:
         start: dict[str, Value] = {**self.given, **chosen.values}
         start.update({name: start.pop(name) for name in self.declared if name in self.values or name in self.fixed})
         start[held.SEED] = chosen.seed
-        shelf = _Shelf(self, start, chosen.step)
+        shelf = _Shelf(self, start, chosen.step, chosen.letters)
         first = shelf.first()
         sown = chosen.seed if first["chance"] and "seed" not in self._without else None
         kept = _held(shelf, self.values, sown, asked)
@@ -135,6 +142,7 @@ class OpenedSystem:
             "fixed": held.held_text(fixed, kept, self.values),
             "without": sorted(self._without),
             "unfold": self._unfold,
+            **({"letters": [*chosen.letters], "lettered": [*chosen.letters], "joint": True} if chosen.letters else {}),
             "step": min(chosen.step, first["steps"]),
             "angle": round(chosen.angle, 1),
             "around": chosen.around,
@@ -208,10 +216,10 @@ def _asked_settings(
 class _Shelf:
     """The books of a system for a page, each made once, and how many of them it has room for."""
 
-    def __init__(self, system: OpenedSystem, start: Mapping[str, Value], least: int) -> None:
+    def __init__(self, system: OpenedSystem, start: Mapping[str, Value], least: int, letters: tuple[str, ...]) -> None:
         self.start, self._system, self._least, self._made = start, system, least, dict[tuple[Value, ...], Made]()
-        last = system.last
-        if last and last.settings == start and least <= max(last.least, last.book["steps"]):
+        self._letters, last = letters, system.last
+        if last and last.settings == start and last.letters == letters and least <= max(last.least, last.book["steps"]):
             self._made[tuple(start.values())] = last
 
     def first(self) -> Data:
@@ -235,7 +243,7 @@ class _Shelf:
         key = tuple(chosen.values())
         if key not in self._made:
             constants = {name: value for name, value in chosen.items() if name != held.SEED}
-            self._system.book(constants, int(chosen[held.SEED]), self._least)
+            self._system.book(constants, int(chosen[held.SEED]), self._least, self._letters)
             assert self._system.last
             self._made[key] = self._system.last
         return self._made[key].book

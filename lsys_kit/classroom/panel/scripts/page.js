@@ -48,8 +48,8 @@ function pageHost(data, books, linked, alone = true) {
   const held = heldSettings(data.model), relaxes = data.mode === "map", { step, angle, around, above, seed } = data.model;
   const answer = relaxes ? ({ constants }) => relaxedTo(bookAt(books, 0).book, constants) : (asked) => bookAt(books, held.rowAt(held.placesOf(asked)));
   const first = Object.fromEntries(data.model.constants.map((each) => [each.name, each.texts[each.index]]));
-  const values = { step, angle, around, above, seed, mark: "", ...linked.others, settings: { ...first, ...linked.settings } };
-  const asked = () => ({ constants: values.settings, seed: values.seed });
+  const values = { step, angle, around, above, seed, mark: "", letters: data.model.letters, ...linked.others, settings: { ...first, ...linked.settings } };
+  const asked = () => ({ constants: values.settings, seed: values.seed, letters: values.letters });
   const there = Boolean(answer(asked()).book);
   if (!there) Object.assign(values, { settings: first, seed });
   values.model = { ...data.model, asked: asked(), book: answer(asked()).book };

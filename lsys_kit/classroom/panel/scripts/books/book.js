@@ -5,6 +5,7 @@
 //
 // The books of one model are kept by their settings: each is asked for at most once. Another model has a library of its own.
 
+import { withFormulas } from "../views/letters.js";
 import { whole } from "./numbers.js";
 
 const HELD = 4_000_000; // modules of words that are kept
@@ -80,8 +81,8 @@ export function openBook(data) {
 
   function label(state) {
     if (!labels[state]) {
-      const [symbol, values, , text] = states[state], [letter, subscript, colour, steering] = data.symbols[symbol];
-      labels[state] = { letter, subscript, values, text, colour, steering: steering === 1, walls: wallsOf(state) };
+      const [symbol, values, , text, formula, numbers = ""] = states[state], [letter, subscript, colour, steering] = data.symbols[symbol];
+      labels[state] = { letter, subscript, values, text, formula, numbers, colour, steering: steering === 1, walls: wallsOf(state) };
     }
     return labels[state];
   }
@@ -168,12 +169,12 @@ export function library(host) {
   const books = new Map();
   let fetched = 0, fetching = 0;
 
-  const keyOf = (settings) => JSON.stringify([Object.entries(settings.constants).sort(), settings.seed]);
+  const keyOf = (settings) => JSON.stringify([Object.entries(settings.constants).sort(), settings.seed, settings.letters]);
 
   function keep(settings, data) {
     const key = keyOf(settings);
     if (!books.has(key)) fetched += JSON.stringify(data).length;
-    books.set(key, openBook(data));
+    books.set(key, openBook(settings.letters?.length ? withFormulas(data) : data));
     return books.get(key);
   }
 

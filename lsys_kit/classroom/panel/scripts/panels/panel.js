@@ -20,6 +20,7 @@ import { button, eachFrame, list, made, ownKeys, slider, speak, worded } from ".
 import { countsView } from "../views/counts.js";
 import { folding, moreOf, roving } from "../views/folding.js";
 import { ownName } from "../views/landmarks.js";
+import { letterSwitches } from "../views/letters.js";
 import { netView } from "../views/net.js";
 import { rulesView } from "../views/rules.js";
 import { wordView } from "../views/word.js";
@@ -42,7 +43,7 @@ export function openPanel(element, host, compared = null) {
   element.append(root);
   const offs = [], still = matchMedia("(prefers-reduced-motion: reduce)");
   let model, books, book, theme, resting = 0, asking = 0, typing = 0, idle = 0, wanted = seen.step, traced = null, pointed = null, shownTheme = "", boxed = null, underway = null, beside = null, reading = null, awaited = 0;
-  let constants = [];
+  let constants = [], switches;
 
   const status = made("div.lsys-status", { role: "status" }), sentence = made("div.lsys-sentence", { role: "status" });
   const message = made("div.lsys-message", { role: "alert", hidden: true }), patience = made("div.lsys-hint", { role: "status" });
@@ -126,7 +127,7 @@ export function openPanel(element, host, compared = null) {
     if (host.ahead) idle = setTimeout(() => books.fetchAhead(request(), constants), REST);
   }
 
-  const request = () => ({ constants: { ...seen.settings }, seed: seen.seed });
+  const request = () => ({ constants: { ...seen.settings }, seed: seen.seed, letters: seen.letters });
 
   // An answer that takes long is said to be waited for.
   async function slow(answer) {
@@ -171,6 +172,7 @@ export function openPanel(element, host, compared = null) {
       }),
     }));
     for (const { control, texts, index, name } of constants) control.offer(texts, Math.max(0, texts.indexOf(seen.settings[name])), [index]);
+    switches = letterSwitches?.(host, constants);
     const tenths = (degrees) => [...degrees, model.angle].map((each) => Math.round(each * 10));
     angle.offer(ANGLES, Math.round(seen.angle * 10), tenths(MARKED), tenths(NAMED));
     const fixed = model.fixed ? [made("span.lsys-hint", model.fixed)] : [];
@@ -312,6 +314,7 @@ export function openPanel(element, host, compared = null) {
     traced = null;
     for (const each of constants) each.control.show(each.index);
     host.set("settings", Object.fromEntries(model.constants.map((each) => [each.name, each.texts[each.index]])));
+    switches?.reset();
     sow(model.seed);
     drawing.home();
     wanted = model.step;
@@ -330,6 +333,7 @@ export function openPanel(element, host, compared = null) {
     ask();
   }));
   offs.push(host.on("seed", () => { showSeed(); ask(); }));
+  offs.push(host.on("letters", () => { switches?.show(); ask(); }));
   offs.push(host.on("model", openModel), host.on("gone", (text) => say({ message: text })));
   const recoloured = () => {
     if (!book || JSON.stringify(themeOf(root)) === shownTheme) return;

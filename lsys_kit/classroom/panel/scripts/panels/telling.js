@@ -40,9 +40,9 @@ const numbered = (number) => grouped(number + 1); // places are told from 1 on
 
 // What a module is, where it came from and what it becomes, as a sentence.
 export function told(book, { step, position }) {
-  const { noun } = book.data, parts = book.data.mode === "tissue" ? partsOfCell : partsOfModule, text = book.label(book.word(step)[position]).text;
+  const { noun } = book.data, parts = book.data.mode === "tissue" ? partsOfCell : partsOfModule, { text, numbers } = book.label(book.word(step)[position]);
   const [origin, future] = parts(book, step, position), link = origin.startsWith("Mother: ") ? "." : "";
-  return `${noun[0].toUpperCase()}${noun.slice(1)} ${numbered(position)} of step ${step}, ${text}${link} ${origin}${future ? `; ${future}` : ""}.`;
+  return `${noun[0].toUpperCase()}${noun.slice(1)} ${numbered(position)} of step ${step}, ${text}${numbers}${link} ${origin}${future ? `; ${future}` : ""}.`;
 }
 
 function partsOfModule(book, step, position) {
@@ -97,6 +97,7 @@ export function caption(book, now, tokens, measured) {
   if (changesNothing(book, now)) parts.push(book.data.chance && isAtRest(book, now) ? "nothing changes any more at this seed" : "this step changes nothing");
   if (book.data.mode === "filament") parts.push(`length ${rounded(filamentLength(book, now), 4)}`);
   if (measured?.size) parts.push(`width ${rounded(measured.size[0])}, height ${rounded(measured.size[1])}`);
+  if (book.data.held?.[now]) parts.push(book.data.held[now]);
   if (book.data.said) parts.push(book.data.said);
   if (now === book.steps && book.data.end) parts.push(book.data.end);
   return parts.join("; ");
@@ -120,7 +121,7 @@ export function code(seen, book, turns) {
   const first = title ? written(title) : reader ? `${reader}(${written(text)})` : `read(${written(text)}, ${written(notation)})`;
   const sliders = [...model.constants.map((each) => each.name), ...(turns ? ["angle"] : []), ...(model.chance ? ["seed"] : [])];
   const more = [
-    angle !== model.angle && named("angle", angle), seed && named("seed", seed), model.without?.length && named("sliders", written(sliders)),
+    seen.letters?.length && named("letters", written(seen.letters)), angle !== model.angle && named("angle", angle), seed && named("seed", seed), model.without?.length && named("sliders", written(sliders)),
     model.unfold && named("unfold", model.unfold === true ? "True" : written(model.unfold)), model.show && named("show", written(model.show)),
     ...model.constants.map(({ name, texts, index }) => settings[name] !== texts[index]
       && named(name, /^[-\d.]+$/.test(settings[name]) ? settings[name] : written(settings[name]))),

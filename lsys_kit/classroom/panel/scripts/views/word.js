@@ -3,6 +3,7 @@
 import { grouped } from "../books/numbers.js";
 import { MOST_MODULES_SHOWN } from "../drawing/constants.js";
 import { button, eachFrame, made, onKey, onMouse, worded } from "./controls.js";
+import { maths } from "./letters.js";
 
 // `told` learns of the module that was chosen, `pointed` of the one that the mouse is on, or of -1.
 export function wordView(parent, told, pointed) {
@@ -73,12 +74,12 @@ export function wordView(parent, told, pointed) {
   return { show, light, differ, reveal, box };
 }
 
-// A label as nodes: an italic letter, a subscript, upright values.
-export function labelled({ letter, subscript, values, walls = [] }) {
+// A label as nodes: an italic letter, a subscript, upright values or a formula of them.
+export function labelled({ letter, subscript, values, formula, walls = [] }) {
   if (walls.length) return walls.map(([label, colour, edges]) => wallOf(label, colour, edges));
   const parts = [/^\p{L}/u.test(letter) ? made("i", letter) : letter];
   if (subscript) parts.push(made("sub", subscript));
-  if (values) parts.push(values);
+  if (values) parts.push(formula ? maths(formula, values) : values);
   return parts;
 }
 
