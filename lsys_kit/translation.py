@@ -29,8 +29,8 @@ def language(name: str | None = None) -> str:
     """The language in which exercises are asked and answers are replied to; with a name, choose it.
 
     The names of the views and controls of panels that are made from then on, and the pages for learning platforms, are in it,
-    too, and what is said of mistakes in systems and in commands. What is printed of a system that is right stays in English: the
-    line with its size in a panel, explanations, the systems that `infer` finds.
+    too, and what is said of mistakes in systems and in commands. What is printed of a system that is right stays in English:
+    the line with its size in a panel, explanations, the systems that `infer` finds.
 
     Parameters
     ----------
@@ -137,7 +137,7 @@ def _written(values: Mapping[str, object]) -> dict[str, object]:
 
 
 FORMS = LOCALE / "errors.json"
-"""What errors say, with names in braces for the values: `python -m tests.messages` finds it in the places where they are raised."""
+"""What errors say, with names in braces for the values: `python -m tests.messages` finds it where they are raised."""
 _PLACEHOLDER = re.compile(r"\{(\w+)\}")
 _QUOTED = re.compile(r"\"\{(\w+)\}")
 """What was typed, and stands between quotation marks."""

@@ -1,8 +1,9 @@
 """What errors say, found in the places where they are raised.
 
 The first argument and the hint of each call of a class of errors are texts with values in them: constants, f-strings, what is
-chosen by a condition, what a name of the function or the module stands for, what another function returns. A function that hands a parameter of its own on to
-an error is called with such a text, too. Each text becomes a form, with the names of its values in braces.
+chosen by a condition, what a name of the function or the module stands for, what another function returns. A function that
+hands a parameter of its own on to an error is called with such a text, too. Each text becomes a form, with the names of its
+values in braces.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ LEAST_LETTERS = 5
 """So many letters of its own has a form with values: one with fewer would be found in other texts."""
 MOST_FORMS = 64
 """So many forms one text may have, by its conditions; of more the parts are taken alone."""
-_CALLED = {"shown", "quotable", "named", "str", "len", "repr", "sorted", "min", "max", "next", "iter", "number_text", "_capital"}
+_CALLED = {"shown", "quotable", "named", "str", "len", "repr", "sorted", "min", "max", "next", "iter", "number_text"}
 """Functions whose value has the name of what they are given."""
 _TRANSLATING = {"gettext", "ngettext", "reply"}
 """Functions whose texts are translated already."""
@@ -133,9 +134,10 @@ def _errors(modules: Sequence[_Module]) -> set[str]:
     """The names of the classes of errors."""
     found = {FIRST_ERROR}
     classes = [node for module in modules for node in ast.walk(module.tree) if isinstance(node, ast.ClassDef)]
-    while more := {
-        each.name for each in classes if any(isinstance(base, ast.Name) and base.id in found for base in each.bases)
-    } - found:
+    while (
+        more := {each.name for each in classes if any(isinstance(base, ast.Name) and base.id in found for base in each.bases)}
+        - found
+    ):
         found |= more
     return found
 
@@ -157,7 +159,7 @@ class _Said:
 
     def _texts_given(self, call: ast.Call) -> Iterator[ast.expr]:
         """The arguments of a call that reach an error."""
-        name = call.func.id if isinstance(call.func, ast.Name) else call.func.attr if isinstance(call.func, ast.Attribute) else ""
+        name = getattr(call.func, "id", "") or getattr(call.func, "attr", "")
         if name in self.errors:
             yield from call.args[:1]
             yield from (keyword.value for keyword in call.keywords if keyword.arg in ("message", "hint"))

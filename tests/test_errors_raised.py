@@ -10,7 +10,7 @@ from itertools import pairwise
 
 import pytest
 
-from lsys_kit import ModelFileError, ModelLimitError, derive, draw, infer, language, limits, read, stages, system
+from lsys_kit import ModelFileError, ModelLimitError, derive, draw, infer, language, limits, read, system
 from lsys_kit.errors import LSystemError
 from lsys_kit.translation import FORMS, LOCALE, gettext, retold
 from tests.errors_raised import forms_of_errors
@@ -105,7 +105,7 @@ def test_in_english_and_where_nothing_is_known_a_text_stays(text):
         (lambda: draw("F"), "nicht str. Zum Beispiel draw(system('F')) oder draw(read(text))."),
         (lambda: read("Koch {\nAngle 6\nAxiom F\nF=F+F", "fractint"), 'Dieses "{" wird nie geschlossen'),
         (lambda: read("#define n\nAxiom: A\nA --> B", "cpfg"), 'Das Makro "n" hat keinen Wert'),
-        (lambda: read("\\axiom a,\na # b # c", "grogra"), 'Das ist ein zweiter Pfeil in einer Regel'),
+        (lambda: read("\\axiom a,\na # b # c", "grogra"), "Das ist ein zweiter Pfeil in einer Regel"),
         (lambda: read("axiom = AXIOM[A", "mathematica"), 'Dieses "[" wird nie geschlossen'),
     ],
 )
@@ -151,4 +151,4 @@ def test_no_two_forms_are_the_same_text_with_other_names(forms):
         blank = sorted((VALUE.sub("{}", form), VALUE.sub("{}", gettext(form))) for form in forms)
     finally:
         language("en")
-    assert [pair for one, other in pairwise(blank) if (pair := (one, other)) and one[0] == other[0] and one[1] != other[1]] == []
+    assert [(one, other) for one, other in pairwise(blank) if one[0] == other[0] and one[1] != other[1]] == []

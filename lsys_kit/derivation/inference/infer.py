@@ -17,6 +17,7 @@ from itertools import islice
 from typing import overload
 
 from lsys_kit.budget import Task, check_budget, counted
+from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation, derive
 from lsys_kit.derivation.inference.mending import MOST_READ, Effort, Mending, filled_words, mendings
 from lsys_kit.derivation.inference.problem import (
@@ -39,6 +40,7 @@ from lsys_kit.derivation.inference.stochastic import LONGEST, Choice, choices_of
 from lsys_kit.derivation.inference.word_equations import Count, GivenUp
 from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown, whole_number
 from lsys_kit.notation.model.expressions import Apply, Expression, Number
+from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem, Production
 
 MOST_SHOWN = 20
@@ -281,16 +283,26 @@ def parting_step(fits: Sequence[LSystem], start: int) -> int | None:
     2
     """
     first, found = derive(fits[0], 0), None
+    codes: dict[Module, int] = {}
+    words: dict[int, list[int]] = {}
     for system in fits[1:]:
         other, step = derive(system, 0), start
         most = start + STEPS_AHEAD if found is None else found - 1
         while step <= most and _small(first, step) and _small(other, step):
             check_budget()
-            if first.to(step)[step] != other.to(step)[step]:
+            if step not in words:
+                words[step] = _codes_of(first.to(step)[step], codes)
+            if words[step] != _codes_of(other.to(step)[step], codes):
                 found = step
                 break
             step += 1
     return found
+
+
+def _codes_of(word: Word, codes: dict[Module, int]) -> list[int]:
+    """A word with a number for each module, the same in every system."""
+    own = [codes.setdefault(module, len(codes)) for module in word.states.modules]
+    return [own[number] for number in word.numbers()]
 
 
 def _small(derivation: Derivation, step: int) -> bool:
@@ -300,10 +312,10 @@ def _small(derivation: Derivation, step: int) -> bool:
         return False
 
 
-MOST_TRIED_FOR_ONE = 100
-"""So many successors are tried to see whether any system fits."""
-MOST_TRIED_TO_COUNT = 8_000
-"""So many successors are tried to count those that fit."""
+MOST_TRIED_FOR_ONE, MOST_READ_FOR_ONE = 100, 40_000
+"""So many successors are tried to see whether any system fits, and of long words so few that this many modules are read."""
+MOST_TRIED_TO_COUNT, MOST_READ_TO_COUNT = 8_000, 1_000_000
+"""So many successors are tried to count those that fit, and of long words so few that this many modules are read."""
 _OTHER_LETTERS = (
     "With contexts, a module with other values, or other neighbours, is another letter: laws of values are looked "
     "for without contexts only."
@@ -311,17 +323,22 @@ _OTHER_LETTERS = (
 """Why more steps tell nothing where each brings modules with new values."""
 
 
+def _trials(problem: Problem, most: int, read: int) -> int:
+    """How many successors are tried: the longer the words, the longer each takes."""
+    return min(most, read // max(1, sum(len(equation.target) for equation in problem.equations)))
+
+
 def one_soon_found(problem: Problem) -> bool:
     """Whether some system fits, as far as is soon found."""
     with suppress(GivenUp):
-        return next(tables(problem, MOST_TRIED_FOR_ONE), None) is not None
+        return next(tables(problem, _trials(problem, MOST_TRIED_FOR_ONE, MOST_READ_FOR_ONE)), None) is not None
     return False
 
 
 def soon_counted(problem: Problem, trials: int) -> Count | None:
     """How many systems fit; None where so many trials do not suffice."""
     with suppress(GivenUp, ModelLimitError):
-        return counted_tables(problem, trials)
+        return counted_tables(problem, _trials(problem, trials, MOST_READ_TO_COUNT))
     return None
 
 

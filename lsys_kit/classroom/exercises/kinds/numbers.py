@@ -70,18 +70,18 @@ def _is_in_place(exercise: Exercise, word: str) -> bool:
 
 
 _OF_STEP = rf"(?:{'|'.join(WORDS['labels'].split())})"
-_AT = r"(?:at|in|im|bei|after|nach)\s+(?:the\s+)?"
-_BEHIND_NUMBER = re.compile(rf"^(?P<number>.*\d.*?)\s+{_AT}{_OF_STEP}\s+(?:no\.\s*)?(?P<step>\d+)\W*$", re.IGNORECASE | re.DOTALL)
-_BEFORE_NUMBER = re.compile(
-    rf"^\W*(?:(?:{_AT})?{_OF_STEP}\s+(?P<step>\d+)\s*(?:[:=,]|\b(?:has|it\s+is|hat|ist)\b)\s*|[A-Za-z]\w*\s*\((?P<value>\d+)\)\s*=\s*)"
-    r"(?P<number>.*\d.*)$",
-    re.IGNORECASE | re.DOTALL,
+_STEP = r"(\d{1,9})(?!\d)"
+_AT = r"(?:at|in|im|bei|after|nach)\s++(?:the\s++)?"
+_AT_ITS_STEP = re.compile(rf"(?<!\w){_AT}{_OF_STEP}\s++{_STEP}\W*+\Z", re.IGNORECASE)
+_ITS_STEP_FIRST = re.compile(
+    rf"\W*+(?:(?:{_AT})?{_OF_STEP}\s++{_STEP}\s*+(?:[:=,]|(?:has|it\s++is|hat|ist)\b)|[A-Za-z]\w*+\s*+\({_STEP}\)\s*+=)",
+    re.IGNORECASE,
 )
-"""A number with the step that it is of, as in "64 at step 3", "step 3: 64" and "N(3) = 64"."""
-_SEPARATED = re.compile(r"[,;\n]\s*(?:and\s+|und\s+)?|\s+(?:and|und|then|dann)\s+(?=.*\d)")
+"""The step that a number is of, as in "64 at step 3", "step 3: 64" and "N(3) = 64"."""
+_SEPARATED = re.compile(r"[,;\n]\s*+(?:(?:and|und)\s++)?|(?<!\s)\s++(?:and|und|then|dann)\s++")
 _BESIDE_A_STEP = re.compile(
-    rf"^\W*(?:(?:it\s+is\s+)?(?:at|in|im|bei)\s+)?(?:the\s+|der\s+|dem\s+)?(?:(?P<number>\d+)\s+)?(?:steps?|schritte?n?)\s+"
-    rf"(?P<way>after|before|nach|vor)\s+(?:the\s+)?(?:{_OF_STEP}\s+)?(?P<step>\d+)\W*$",
+    r"\W*+(?:(?:it\s++is\s++)?(?:at|in|im|bei)\s++)?(?:the\s++|der\s++|dem\s++)?(?:(\d{1,9})\s++)?(?:steps?|schritte?n?)\s++"
+    rf"(after|before|nach|vor)\s++(?:the\s++)?(?:{_OF_STEP}\s++)?{_STEP}\W*+\Z",
     re.IGNORECASE,
 )
 """A step that is told by another one, as in "the step after 19"."""
@@ -93,17 +93,17 @@ def _of_the_step(exercise: Exercise, answer: str) -> str:
     text = with_digits(unquoted(keyboard_text(answer)))
     beside = _BESIDE_A_STEP.match(text)
     if beside and (what_is_asked(exercise) == "first" or means_the_same(exercise.unit, "steps")):
-        by = int(beside["number"] or 1)
-        return str(int(beside["step"]) + (by if beside["way"].lower() in ("after", "nach") else -by))
+        by, step = int(beside[1] or 1), int(beside[3])
+        return str(step + by if beside[2].lower() in ("after", "nach") else step - by)
     if what_is_asked(exercise) not in _COUNTED:
         return answer
     found: dict[int, str] = {}
     for part in _SEPARATED.split(text):
-        named = _BEHIND_NUMBER.match(part) or _BEFORE_NUMBER.match(part)
-        if not named:
+        behind, before = _AT_ITS_STEP.search(part), _ITS_STEP_FIRST.match(part)
+        number = part[: behind.start()] if behind else part[before.end() :] if before else ""
+        if not any(map(str.isdigit, number)):
             return answer
-        step = named.groupdict().get("value") or named["step"]
-        found[int(step)] = named["number"]
+        found[int(behind[1] if behind else before[1] or before[2])] = number  # type: ignore[index]
     if exercise.steps not in found:
         other = max(found)
         raise ModelValueError(
@@ -119,6 +119,7 @@ _COMPARED = re.compile(r"^(.*(?:[<>]=?|==))\s*([-+]?[\d.]+)$", re.DOTALL)
 _NAMED_LAST = re.compile(r"(?:^\W*+|[,;]\s*+|\b(?:and|und)\s++)([A-Za-z])\s*+(?:\([^()]*+\)\s*+)?+=[^=]*+\Z")
 _COORDINATES = frozenset("xyz")
 """Names that nobody gives to another number of one's own."""
+_COORDINATE = re.compile(r"(?<!\w)([xyz])\s*+=(?!=)")
 _ASKED_FOR = re.compile(r"\*\*(.*?)\*\*", re.DOTALL)
 _NAME = re.compile(r"(?<![A-Za-z])[A-Za-z](?![A-Za-z])")
 _CONDITION = re.compile(r"\b(?:when|if|where|wenn|falls|wo)\s++([A-Za-z])\s*+=[^=]*+\Z")
@@ -144,6 +145,8 @@ def _refuse_other_name(exercise: Exercise, answer: str) -> None:
     other = (named and named[1] in _COORDINATES & {*told} - {*asked} and named) or (
         condition and condition[1] in {*parameters} - {*asked} and condition
     )
+    if len({*_COORDINATE.findall(answer)}) > 1:
+        raise ModelValueError(reply("typed.one_needed", answer=quoted(answer)), hint=reply("typed.alone"))
     if other:
         raise ModelNameError(reply("number.other_name", name=other[1], answer=quoted(answer)), hint=reply("number.only_asked"))
 

@@ -395,8 +395,8 @@ _NO_MODULE = re.compile(
 )
 _TURNED = re.compile(r":[^\n]*?(=[<>])(?!=)(?=[^\n]*(?:->|→))")
 _FACTOR = re.compile(r"(?:->|→)[ \t]*(\d+[ \t]*\*[ \t]*[A-Za-z]\w*[ \t]*\()")
-"""Slips of writing: an axiom without a colon, an arrow in pieces, a line without one, a condition without its module, => for >=,
-a factor before a module."""
+"""Slips of writing: an axiom without a colon, an arrow in pieces, a line without one, a condition without its module, => for
+>=, a factor before a module."""
 
 
 def _refuse_slip_of_writing(text: str, mistake: LSystemError) -> None:

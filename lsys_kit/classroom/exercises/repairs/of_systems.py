@@ -7,12 +7,12 @@ comparisons of its own are moved.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
-from itertools import combinations, pairwise
+from itertools import combinations, pairwise, product
 from typing import Any, TypeAlias
 
 from lsys_kit.classroom.exercises.asked import system_of
@@ -167,7 +167,8 @@ def repairs_of(
     for edit in _blind_edits(own, target):
         yield from _repairs(own, make, edit)
     if len(own.productions) <= MOST_RULES:
-        yield from _pairs(own, make, [*small, *large])
+        yield from _pairs(own, make, combinations(small, 2))
+        yield from _pairs(own, make, (*product(small, large), *combinations(large, 2)))
 
 
 def _repairs(own: LSystem, make: Callable[[LSystem], Any], edit: Edit) -> Iterator[Repair]:
@@ -176,8 +177,8 @@ def _repairs(own: LSystem, make: Callable[[LSystem], Any], edit: Edit) -> Iterat
         yield Repair(partial(make, changed), edit.said, edit.near)
 
 
-def _pairs(own: LSystem, make: Callable[[LSystem], Any], edits: Sequence[Edit]) -> Iterator[Repair]:
-    for one, other in combinations(edits, 2):
+def _pairs(own: LSystem, make: Callable[[LSystem], Any], pairs: Iterable[tuple[Edit, Edit]]) -> Iterator[Repair]:
+    for one, other in pairs:
         if one.slot != other.slot or one.slot[1] == -1:
             changed = applied(own, one, other)
             if is_sensible(changed):
