@@ -197,8 +197,8 @@ SAYING = f"""async cases => {{ {joined("controls", "numbers", "packed", "typed")
 return Promise.all(cases.map(async ([data, text]) => {{
   const {{ key, unreadable }} = read(data, text);
   if (unreadable) return {{ said: "Not readable yet", message: unreadable }};
-  const [said, message] = JSON.parse(await unpacked(data.replies))[key] ?? [];
-  return said ? {{ said, message }} : null;
+  const [said, message, picture = ""] = JSON.parse(await unpacked(data.replies))[key] ?? [];
+  return said ? {{ said, message, ...(picture && {{ picture }}) }} : null;
 }})); }}"""
 
 

@@ -27,7 +27,7 @@ def noun_of(system: LSystem) -> str:
     """What one module of the words of a system is called: a letter or character where it is no more than that.
 
     >>> from lsys_kit.notation.read import read
-    >>> [noun_of(read(text)) for text in ("axiom: a\\na -> ab", "axiom: F\\nF -> F+F", "axiom: A(1)")]
+    >>> [noun_of(read(text)) for text in ("axiom: a\\na -> a b", "axiom: F\\nF -> F+F", "axiom: A(1)")]
     ['letter', 'character', 'module']
     """
     made = chain.from_iterable(flat(rule.successor) for rule in (*system.productions, *system.decomposition))

@@ -85,7 +85,7 @@ export function freshId() {
 const PITCH = { mouse: 4, finger: 7 }; // pixels between two stops of a slider
 const THUMB = 16; // pixels
 const NARROW = 150; // pixels of a slider that has not been laid out
-const [DIGIT, BETWEEN] = [6.5, 5]; // pixels of a digit of the numbers below a slider, and between two numbers
+const DIGIT = 6.5; // pixels of a digit of the numbers below a slider
 
 const fits = new WeakMap(), sizes = new ResizeObserver((all) => all.forEach(({ target }) => fits.get(target)()));
 
@@ -177,8 +177,8 @@ export function slider(name, hint, texts, index, chosen, label = name, { least =
 
   // Of some indices those whose numbers do not touch those before them.
   function apart(names) {
-    const long = range.clientWidth - THUMB, kept = [], half = (at) => (DIGIT * texts[at].length + BETWEEN) / 2;
-    for (const at of names) if (kept.every((other) => Math.abs(wayTo(at) - wayTo(other)) * long >= half(at) + half(other))) kept.push(at);
+    const kept = [], half = (at) => (DIGIT * (texts[at].length + 1)) / 2, far = (one, other) => Math.abs(wayTo(one) - wayTo(other)) * (range.clientWidth - THUMB);
+    for (const at of names) if (kept.every((other) => far(at, other) >= half(at) + half(other))) kept.push(at);
     return kept;
   }
 
