@@ -36,8 +36,10 @@ MOST_BATCHES = 1_024
 """The most batches that are handed out at a time."""
 FUTILE = 8
 """An executor is given up after so many runs were lost when it has never finished one."""
-SIGN_OF_LIFE, SILENCE = 30.0, 120.0
-"""So many seconds an executor that has lost a run is given to say that it lives, and, after that, to finish anything."""
+LOOK, SILENCE = 5.0, 120.0
+"""When nothing has come back for so many seconds, it is looked whether the executor is closed; one that has lost a run and then
+finishes nothing for so many seconds is given up."""
+
 
 Rows: TypeAlias = tuple[tuple[object, ...], ...]
 """What a run comes to: for each step the step and its measured values."""
@@ -154,11 +156,11 @@ class _Workers:
         try:
             lost = yield from self._round([numbers[at : at + size] for at in range(0, len(numbers), size)], MOST_BATCHES)
             if lost:
-                self._check(lost[-1][1])
+                self._look(lost[-1][1])
                 lost = yield from self._round([[each] for batch, _ in lost for each in batch], os.cpu_count() or 1)
             for [number], _ in lost:
                 for _, fault in (yield from self._round([[number]], 1)):
-                    self._check(fault)
+                    self._look(fault)
                     yield number, Failure(_lost(fault))
         finally:
             if self._own:
@@ -168,6 +170,7 @@ class _Workers:
         """Hand out batches, at most so many at a time; what is lost is given back, with what was the matter."""
         waiting, at_work = deque(batches), dict[Future[list[Outcome]], Sequence[int]]()
         lost: _Lost = []
+        silent = 0
         try:
             while waiting or at_work:
                 while waiting and len(at_work) < most:
@@ -176,10 +179,12 @@ class _Workers:
                     except Exception as fault:  # whatever an executor may raise
                         lost.append((waiting[0], fault))
                     waiting.popleft()
-                patience = SILENCE if lost or most < MOST_BATCHES else None
-                done = wait(at_work, patience, FIRST_COMPLETED).done
-                if at_work and not done:
-                    raise ExecutorError("The executor does not answer any more")
+                done = wait(at_work, LOOK, FIRST_COMPLETED).done
+                silent = 0 if done or not at_work else silent + 1
+                if silent:
+                    if silent * LOOK > SILENCE and (lost or most < MOST_BATCHES):
+                        raise ExecutorError("The executor does not answer any more")
+                    self._look()
                 for future in done:
                     numbers = at_work.pop(future)
                     try:
@@ -221,13 +226,24 @@ class _Workers:
         self._own = True
         return True
 
-    def _check(self, fault: BaseException) -> None:
-        """Whether the executor lives, though it has lost something."""
+    def _look(self, lost: BaseException | None = None) -> None:
+        """Look whether the executor takes work at all: one that was closed refuses it, or calls it off at once."""
+        self._handed += 1
         try:
-            self._executor.submit(os.getpid).result(SIGN_OF_LIFE)
-        except (Exception, asyncio.CancelledError) as sign:
-            if not isinstance(sign, BrokenExecutor) or not self._renewed():
-                raise ExecutorError(_broken(fault)) from None
+            asked = self._executor.submit(alive, self._handed)
+            fault = asked.exception(LOOK)
+        except TimeoutError:  # it is at work, or its workers begin anew
+            asked.cancel()
+            return
+        except (Exception, asyncio.CancelledError) as refused:
+            fault = refused
+        if fault is not None and not (isinstance(fault, BrokenExecutor) and self._renewed()):
+            raise ExecutorError(_broken(lost or fault)) from None
+
+
+def alive(_: int) -> int:
+    """What an executor is asked to see that it lives; a number makes it another question than the one before."""
+    return os.getpid()
 
 
 _Lost: TypeAlias = list[tuple[Sequence[int], BaseException]]

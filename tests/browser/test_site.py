@@ -18,9 +18,10 @@ import axe_playwright_python
 import pytest
 from playwright.sync_api import Browser, Page, Route, expect
 
-from lsys_kit import read
+from lsys_kit import read, system
 from lsys_kit.classroom.course import course_files, is_lesson
 from lsys_kit.classroom.lessons.lesson import declared
+from lsys_kit.classroom.link import link as link_to
 from lsys_kit.classroom.panel.books.book import book
 from lsys_kit.classroom.panel.controls import slider_ranges
 from lsys_kit.classroom.site.build import build_site
@@ -133,6 +134,20 @@ def test_every_picture_is_shown_in_its_place(opened: Callable[..., Page]) -> Non
     page.evaluate("Promise.all([...document.images].map((each) => each.decode()))")
     assert pictures.evaluate_all("(all) => all.map((each) => [each.width, each.height])") == sizes
     assert all(src.startswith("blob:") for src in pictures.evaluate_all("(all) => all.map((each) => each.src)"))
+
+
+def test_a_link_that_no_panel_of_a_page_shows_is_said_to_lead_elsewhere(opened: Callable[..., Page]) -> None:
+    page = opened("notebooks/01_all_at_once.html")
+    message = page.locator("main > .lsys-message")
+    for fragment, said in (
+        (link_to(system("K9")), "leads to another model"),
+        (link_to(system("K9"))[:-3], "is broken"),
+        ("#lsys=", "is broken"),
+        ("#top", ""),
+    ):
+        page.evaluate("fragment => { location.hash = fragment; }", fragment)
+        page.reload()
+        expect(message).to_contain_text(said) if said else expect(message).to_have_count(0)
 
 
 def test_what_was_typed_is_there_again_when_a_page_is_loaded_once_more(opened: Callable[..., Page]) -> None:

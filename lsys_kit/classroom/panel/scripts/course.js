@@ -1,5 +1,6 @@
 // A page of the course without a kernel: its panels, votes, predictions, tables, rules and pictures.
 
+import { hasLink, unpackedLink } from "./books/link.js";
 import { checked, isRight } from "./lessons/checking.js";
 import { doneBox, markDone, whenMarked } from "./lessons/done.js";
 import { askForEntries } from "./lessons/filling.js";
@@ -7,7 +8,7 @@ import { showRules } from "./lessons/finding.js";
 import { fitted, keepAnswer, keptAnswer } from "./lessons/keeping.js";
 import { askForPrediction } from "./lessons/predicting.js";
 import { askForVote } from "./lessons/voting.js";
-import { cannot, hostWith, store } from "./page.js";
+import { ANOTHER, BROKEN, cannot, hostWith, store } from "./page.js";
 import { openComparison } from "./panels/compare.js";
 import { openPanel } from "./panels/panel.js";
 import { openPart, openParts } from "./parts.js";
@@ -18,7 +19,20 @@ const KINDS = { panel, comparison, vote, prediction, worksheet, beside, rules };
 // What a page of a class does otherwise is in `outside`: { hostWith, told(kind, asked, round, value), and functions that open parts }.
 export function openCoursePage(outside = {}) {
   const finished = offerDone(document.querySelector("[data-lesson]"));
+  tellOfLink();
   return openParts({ ...KINDS, ...outside }, cannot, { ballots: new Map(), outside, finished });
+}
+
+// A link in the address that is broken, or leads to a model of which the page has no panel, is said to do so.
+async function tellOfLink() {
+  if (!hasLink(location.href)) return;
+  const content = await unpackedLink(location.href), systems = [];
+  JSON.parse(document.getElementById("lsys-data").textContent, (key, value) => {
+    if (key === "system") systems.push(`${value.notation} ${value.text}`);
+    return value;
+  });
+  const notice = !content ? BROKEN : systems.includes(`${content.notation} ${content.text}`) ? null : ANOTHER;
+  if (notice) document.querySelector("main").prepend(made("p.lsys-message", { role: "status" }, `\u26a0 ${notice.message}. ${notice.hint}`));
 }
 
 // At the end of a lesson a box to be ticked when it is done; the second vote ticks it, too.

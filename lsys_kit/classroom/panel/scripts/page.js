@@ -98,8 +98,8 @@ function bookAt({ names, parts, rows }, at) {
   return found.mistake ? found : { book: found };
 }
 
-const BROKEN = { message: "The link in the address is broken, and this page shows its own settings", hint: "Copy the whole link again." };
-const ANOTHER = { message: "The link in the address leads to another model than that of this page", hint: "In Jupyter explore(\"...\") opens it." };
+export const BROKEN = { message: "The link in the address is broken, and this page shows its own settings", hint: "Copy the whole link again." };
+export const ANOTHER = { message: "The link in the address leads to another model than that of this page", hint: "In Jupyter explore(\"...\") opens it." };
 const NOT_HELD = { message: "This page does not hold all that the link in its address says", hint: "What it lacks stands at its first value, or at the last step." };
 
 // The settings of the address, if it has a link of this model; and what of it the page cannot show.
