@@ -108,7 +108,7 @@ def test_a_step_that_changes_nothing_is_said_to_do_so(explored):
 @pytest.mark.parametrize(("id", "step", "length"), [("J1", 6, "34"), ("P7", 4, "8.7212"), ("P8", 6, "25.7571")])
 def test_the_length_of_a_filament_is_said(explored, id, step, length):
     panel = explored(id, step)
-    assert f"width {round(float(length), 2):g}, height 1" in panel.explorer.text
+    assert f"Width {round(float(length), 2):g}, height 1" in panel.explorer.text
     expect(panel.at(".lsys-status")).to_contain_text(re.compile(rf"(occupied|cells); length {re.escape(length)}$"))
 
 

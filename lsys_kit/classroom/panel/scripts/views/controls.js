@@ -85,7 +85,7 @@ export function freshId() {
 const PITCH = { mouse: 4, finger: 7 }; // pixels between two stops of a slider
 const THUMB = 16; // pixels
 const NARROW = 150; // pixels of a slider that has not been laid out
-const DIGIT = 6.5; // pixels of a digit of the numbers below a slider
+const DIGIT = 6; // pixels of a digit of the numbers below a slider
 
 const fits = new WeakMap(), sizes = new ResizeObserver((all) => all.forEach(({ target }) => fits.get(target)()));
 
