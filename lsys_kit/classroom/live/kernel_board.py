@@ -17,10 +17,9 @@ from pathlib import Path
 from threading import Thread
 from typing import Any
 
-from lsys_kit.classroom.live.notebook import mistake_told
 from lsys_kit.classroom.live.pages import board_data
 from lsys_kit.classroom.live.server import PORT, Audience, ClassServer, LiveClass
-from lsys_kit.classroom.live.serving import course_pages
+from lsys_kit.classroom.live.serving import course_pages, mistake_told
 from lsys_kit.errors import LSystemError, ModelFileError, ModelNameError
 from lsys_kit.translation import VARIABLE, language
 

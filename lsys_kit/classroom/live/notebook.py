@@ -21,7 +21,7 @@ import traitlets
 
 from lsys_kit.classroom.lessons.opening import LISTENERS
 from lsys_kit.classroom.live.questions import about_prediction
-from lsys_kit.classroom.live.serving import FOLDER, NAME, checked_names, missing_library
+from lsys_kit.classroom.live.serving import FOLDER, NAME, checked_names, missing_library, mistake_told
 from lsys_kit.classroom.panel.bundle import bundled, style, translated_words
 from lsys_kit.classroom.widget import KitWidget
 from lsys_kit.errors import LSystemError, ModelFileError, ModelValueError, quotable, require, whole_number
@@ -155,11 +155,6 @@ class _Class:
             self._process.kill()
             self._process.join()
         self.is_open = False
-
-
-def mistake_told(fault: LSystemError) -> dict[str, Any]:
-    """An error of the kit, as the server tells of it."""
-    return {"mistake": fault.message, "hint": fault.hint, "of_file": isinstance(fault, ModelFileError)}
 
 
 def _serve(*given: Any) -> None:

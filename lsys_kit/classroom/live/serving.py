@@ -10,6 +10,7 @@ from contextlib import suppress
 from hashlib import sha256
 from importlib.resources import files
 from pathlib import Path
+from typing import Any
 from urllib.parse import urlsplit
 
 from lsys_kit.classroom.course import course_files
@@ -33,6 +34,11 @@ _DARK = {(False, False): " ", (True, False): "▀", (False, True): "▄", (True,
 def missing_library(absent: str) -> LSystemError:
     """The error that a library is not there which a class needs."""
     return LSystemError(f"A class needs the library {absent}", hint="Install it with: pip install 'lsys-kit[class]'")
+
+
+def mistake_told(fault: LSystemError) -> dict[str, Any]:
+    """An error of the kit, as a server tells the kernel that has started it."""
+    return {"mistake": fault.message, "hint": fault.hint, "of_file": isinstance(fault, ModelFileError)}
 
 
 def serve(
