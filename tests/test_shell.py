@@ -64,6 +64,14 @@ def refused(said: Said, *words: str) -> None:
 # --- deriving ---------------------------------------------------------------------------------------------------------
 
 
+def test_derive_keeps_letters_and_says_where_the_formulas_hold(shell, tmp_path):
+    (tmp_path / "q.txt").write_text("q = 0.8\naxiom: A(1)\nA(x) : x > 0.3 -> F(x) A(q*x)")
+    said = shell("derive", str(tmp_path / "q.txt"), "-n", "2", "--letter", "q")
+    assert said.out.splitlines() == ["A(1)", "F(1)A(q)", "F(1)F(q)A(q^2)"]
+    assert said.err == "lsys-kit: note: The formulas hold where q > 0.3.\n"
+    assert 'declares no constant "p"' in shell("derive", str(tmp_path / "q.txt"), "-n", "2", "--letter", "p").err
+
+
 def test_derive_prints_a_word_a_line_from_the_axiom_on(shell):
     assert shell("derive", "J1", "-n", "3") == Said(0, "ar\nal br\nbl ar ar\nal al br al br\n", "")
 

@@ -18,6 +18,7 @@ from tests.classroom.test_panel import SETTLED
 
 LOOKED_AT = (
     "explore('J4', 9)",
+    "explore('P5', letters='dt')",
     "explore('K19', 12)",
     "draw(system('K5'))",
     "draw(stages(system('J4')))",

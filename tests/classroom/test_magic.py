@@ -114,6 +114,15 @@ def test_without_a_name_it_is_shown_only(notebook):
     assert {name for name in notebook.names if name[0] != "_"} == before
 
 
+def test_its_first_words_have_formulas_where_constants_are_letters(notebook):
+    model = "q = 0.8\naxiom: A(1)\nA(x) : x > 0.3 -> F(x) A(q*x)"
+    seen = notebook.run(f"%%lsystem shrinking abop --letter q\n{model}")
+    assert "step 2: F(1)F(q)A(q^2)" in seen.text
+    assert "The formulas hold where q > ∛0.3 ≈ 0.6694." in seen.text
+    assert "<msup><mi>q</mi><mn>2</mn></msup>" in seen.html
+    assert 'declares no constant "p"' in notebook.run(f"%%lsystem shrinking --letter p\n{model}").said
+
+
 def test_a_notation_may_be_insisted_on(notebook):
     seen = notebook.run("%%lsystem weed plant-string\nAxiom: I\nI -> I[A]I(I)")
     assert notebook.names["weed"] == read("Axiom: I\nI -> I[A]I(I)", "plant-string")

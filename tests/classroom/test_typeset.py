@@ -16,7 +16,8 @@ from lsys_kit.notation.read import read_expression
 from lsys_kit.notation.registry import DIALECTS
 from tests.plants import plant
 
-TAGS = frozenset(("div", "b", "i", "u", "span", "pre", "table", "tbody", "tr", "td", "sub", "sup", "br"))
+FORMULAS = frozenset(("math", "mrow", "mi", "mn", "mo", "msup", "msub", "mfrac", "msqrt", "mroot"))
+TAGS = FORMULAS | {"div", "b", "i", "u", "span", "pre", "table", "tbody", "tr", "td", "sub", "sup", "br"}
 ATTRIBUTES = frozenset(("style", "class", "role", "aria-hidden", "aria-label", "tabindex", "colspan"))
 
 

@@ -223,6 +223,10 @@ def _argument(argument: Any) -> list[Element]:
     return [_element(argument)] if degrees.has(sympy.pi) else [_factor(degrees), "°"]
 
 
+def _signed(value: Value) -> Element:
+    return ["mrow", _MINUS, _number(-value)] if value < 0 else _number(value)
+
+
 def values_element(values: Sequence[Value]) -> tuple[Element, str] | None:
     """The values of a module in parentheses, as an element and as a text, if one of them is a formula.
 
@@ -232,6 +236,6 @@ def values_element(values: Sequence[Value]) -> tuple[Element, str] | None:
     """
     if not any(map(is_symbolic, values)):
         return None
-    elements = [formula_element(value) if is_symbolic(value) else _number(value) for value in values]
+    elements = [formula_element(value) if is_symbolic(value) else _signed(value) for value in values]
     inside = [part for element in elements for part in (",", element)][1:]
     return ["mrow", "(", *inside, ")"], f"({','.join(map(element_text, elements))})"
