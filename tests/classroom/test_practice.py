@@ -351,3 +351,11 @@ def test_notes_are_in_the_chosen_language():
         assert asked.note == "Zwei auf Anhieb richtig: Das ist Stufe 2."
     finally:
         language("en")
+
+
+@pytest.mark.parametrize(("topic", "level"), [("first", 1), ("flowering", 1), ("flowering", 3), ("slices", 3), ("walls", 1)])
+def test_the_unit_of_a_number_is_checked(topic, level):
+    asked = practice(topic, level, 3)
+    solution, unit = asked.exercise.solution, asked.exercise.unit
+    assert asked.check(f"{solution} {unit}") == 1
+    assert f"Its unit is: {unit}." in asked.check(f"{solution} ants").message
