@@ -12,6 +12,7 @@ import ast
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cache
 from itertools import product
 from pathlib import Path
 
@@ -260,7 +261,7 @@ class _Reading:
     def _assigned(self, name: str) -> list[ast.expr]:
         """What a name stands for: in the function, else in the module."""
         for owner in reversed(self.owners):
-            found = [value for node in ast.walk(owner) for value in _values_of(node, name)]
+            found = [value for node in _nodes(owner) for value in _values_of(node, name)]
             if found:
                 return found
             if name in _names_of(owner):
@@ -332,6 +333,12 @@ def _matched(target: ast.expr, value: ast.expr, name: str) -> Iterator[ast.expr]
                         yield from _matched(one, other, name)
 
 
+@cache
+def _nodes(owner: ast.FunctionDef) -> tuple[ast.AST, ...]:
+    return tuple(ast.walk(owner))
+
+
+@cache
 def _names_of(owner: ast.FunctionDef) -> set[str]:
     arguments = owner.args
     return {each.arg for each in (*arguments.posonlyargs, *arguments.args, *arguments.kwonlyargs)}

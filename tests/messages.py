@@ -20,6 +20,7 @@ import sys
 import tomllib
 from collections.abc import Iterator
 from datetime import UTC, datetime
+from functools import cache
 from pathlib import Path
 
 from babel.messages.catalog import Catalog, Message
@@ -101,7 +102,7 @@ def messages() -> Iterator[tuple[str | tuple[str, str], str]]:
             yield message, path.relative_to(PACKAGE.parent).as_posix()
     for name, text in _in_tables():
         yield text, f"{name} (table)"
-    for form, path in forms_of_errors(PACKAGE):
+    for form, path in _said_by_errors():
         yield form, path.relative_to(PACKAGE.parent).as_posix()
     for lesson in questions_in(QUESTIONS).lessons:
         for text in texts(lesson):
@@ -172,9 +173,14 @@ def _texts_in(said: object) -> Iterator[str]:
             yield from () if key in ("kind", "asks", "expects", "unlikely") else _texts_in(value)
 
 
+@cache
+def _said_by_errors() -> tuple[tuple[str, Path], ...]:
+    return tuple(forms_of_errors(PACKAGE))
+
+
 def forms_text() -> str:
     """The forms of what errors say, as their file has them."""
-    return json.dumps(sorted({form for form, _ in forms_of_errors(PACKAGE)}), ensure_ascii=False, indent=0) + "\n"
+    return json.dumps(sorted({form for form, _ in _said_by_errors()}), ensure_ascii=False, indent=0) + "\n"
 
 
 def template() -> Catalog:

@@ -204,3 +204,38 @@ def test_a_word_among_the_numbers_of_a_table_is_passed_over_only_where_the_quest
     assert check("2.1", "2, cells, 3, 5, 8, 13, 21") == 1
     for odd in ("banana", "not"):
         assert check("2.1", f"2, 3, 5, 8, 13, 21, {odd}") == 0
+
+
+# Steps that are named, and decimals
+
+
+@pytest.mark.parametrize(
+    "answer", ["64 at step 3", "step 3: 64", "N(3) = 64", "16 at step 2, 64 at step 3", "step 2: 16 and step 3: 64"]
+)
+def test_of_numbers_of_several_steps_that_of_the_step_in_question_is_taken(answer):
+    assert check("0.2", answer) == 1
+
+
+@pytest.mark.parametrize("answer", ["64 at step 4", "step 2: 64", "N(4) = 64", "64 at step " + "9" * 40])
+def test_a_number_of_another_step_is_none(answer):
+    assert check("0.2", answer).said == "Not readable yet"
+
+
+@pytest.mark.parametrize(
+    ("answer", "step"), [("the step after 18", 19), ("one step before 20", 19), ("2 steps after step 17", 19)]
+)
+def test_a_step_may_be_told_by_another_one(answer, step):
+    assert check("2.4", answer) == check("2.4", step) == 1
+
+
+DECIMALS = {"Two decimals": 2, "Three decimals": 3, "three decimals": 3}
+
+
+@pytest.mark.parametrize("name", [name for name, each in KIT.items() if any(words in each.question for words in DECIMALS)])
+def test_a_number_that_is_one_off_in_the_last_decimal_that_is_asked_for_is_wrong(name):
+    exercise = KIT[name]
+    places = next(number for words, number in DECIMALS.items() if words in exercise.question)
+    right = round(float(Fraction(exercise.solution)), places)
+    assert check(name, right) == 1
+    for by in (-1, 1):
+        assert check(name, round(right + by * 10**-places, places)) != 1

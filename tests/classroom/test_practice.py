@@ -363,3 +363,11 @@ def test_the_formula_of_a_total_is_that_of_the_words(level):
         for step in range(6):
             pieces = sum(module.arguments[0] for module in words[step] if module.symbol == "F")
             assert solution((step, Fraction(1, 5))) == pieces
+
+
+@pytest.mark.parametrize(("topic", "level"), [("first", 1), ("flowering", 1), ("flowering", 3), ("slices", 3), ("walls", 1)])
+def test_the_unit_of_a_number_is_checked(topic, level):
+    asked = practice(topic, level, 3)
+    solution, unit = asked.exercise.solution, asked.exercise.unit
+    assert asked.check(f"{solution} {unit}") == 1
+    assert f"Its unit is: {unit}." in asked.check(f"{solution} ants").message

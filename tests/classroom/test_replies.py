@@ -524,3 +524,9 @@ def test_the_first_wrong_number_of_a_row_is_named_and_not_the_right_one():
     message = check("kinds.lengths", "1 2 3 5 9 13").message
     assert message == "Right: 5 of 6 numbers. The first 4 are right. Look at number 5, that of step 4: you have 9."
     assert check("kinds.lengths", "1 2 3 5 9 13").said == "Almost"
+
+
+def test_further_right_answers_are_right(asked):
+    exercise = asked("table", solution="2, 0", also=["2, 360"], slips=[{"answer": "0, 2", "says": "They are exchanged."}])
+    assert said(exercise, "2, 360") == said(exercise, "2, 0") == 1
+    assert said(exercise, "2, 180") < 1

@@ -70,7 +70,7 @@ def _is_in_place(exercise: Exercise, word: str) -> bool:
 
 
 _OF_STEP = rf"(?:{'|'.join(WORDS['labels'].split())})"
-_STEP = r"(\d{1,9})(?!\d)"
+_STEP = r"(\d++)"
 _AT = r"(?:at|in|im|bei|after|nach)\s++(?:the\s++)?"
 _AT_ITS_STEP = re.compile(rf"(?<!\w){_AT}{_OF_STEP}\s++{_STEP}\W*+\Z", re.IGNORECASE)
 _ITS_STEP_FIRST = re.compile(
@@ -81,7 +81,7 @@ _ITS_STEP_FIRST = re.compile(
 _SEPARATED = re.compile(r"[,;\n]\s*+(?:(?:and|und)\s++)?|(?<!\s)\s++(?:and|und|then|dann)\s++")
 _BESIDE_A_STEP = re.compile(
     r"\W*+(?:(?:it\s++is\s++)?(?:at|in|im|bei)\s++)?(?:the\s++|der\s++|dem\s++)?(?:(\d{1,9})\s++)?(?:steps?|schritte?n?)\s++"
-    rf"(after|before|nach|vor)\s++(?:the\s++)?(?:{_OF_STEP}\s++)?{_STEP}\W*+\Z",
+    rf"(after|before|nach|vor)\s++(?:the\s++)?(?:{_OF_STEP}\s++)?(\d{{1,9}})\W*+\Z",
     re.IGNORECASE,
 )
 """A step that is told by another one, as in "the step after 19"."""
@@ -93,23 +93,23 @@ def _of_the_step(exercise: Exercise, answer: str) -> str:
     text = with_digits(unquoted(keyboard_text(answer)))
     beside = _BESIDE_A_STEP.match(text)
     if beside and (what_is_asked(exercise) == "first" or means_the_same(exercise.unit, "steps")):
-        by, step = int(beside[1] or 1), int(beside[3])
-        return str(step + by if beside[2].lower() in ("after", "nach") else step - by)
+        by, other = int(beside[1] or 1), int(beside[3])
+        return str(other + by if beside[2].lower() in ("after", "nach") else other - by)
     if what_is_asked(exercise) not in _COUNTED:
         return answer
-    found: dict[int, str] = {}
+    found: dict[str, str] = {}
     for part in _SEPARATED.split(text):
         behind, before = _AT_ITS_STEP.search(part), _ITS_STEP_FIRST.match(part)
         number = part[: behind.start()] if behind else part[before.end() :] if before else ""
         if not any(map(str.isdigit, number)):
             return answer
-        found[int(behind[1] if behind else before[1] or before[2])] = number  # type: ignore[index]
-    if exercise.steps not in found:
-        other = max(found)
-        raise ModelValueError(
-            reply("number.other_step", answer=quoted(answer), step=other, asked=exercise.steps), hint=reply("number.only_asked")
-        )
-    return found[exercise.steps]
+        step = next(filter(None, (behind or before).groups()))  # type: ignore[union-attr]
+        found[step.lstrip("0") or "0"] = number
+    if str(exercise.steps) not in found:
+        step = quotable(next(reversed(found)))
+        said = reply("number.other_step", answer=quoted(answer), step=step, asked=exercise.steps)
+        raise ModelValueError(said, hint=reply("number.only_asked"))
+    return found[str(exercise.steps)]
 
 
 # One number
