@@ -138,6 +138,8 @@ def test_while_rules_are_read_the_last_ones_win(explored):
         panel.page.wait_for_timeout(350)
     expect(panel.at(".lsys-panel")).to_have_attribute("aria-busy", "true")
     expect(panel.at(".lsys-panel").get_by_text("Python is busy.")).to_be_visible()
+    expect(panel.at('[data-view="word"]')).to_have_css("opacity", "0.4")
+    expect(panel.at('[data-view="rules"]')).to_have_css("opacity", "1")  # in which somebody types
     panel.page.evaluate("window.letGo()")
     expect(panel.at(".lsys-word")).to_have_text("bcde")
     expect(panel.at(".lsys-panel")).to_have_attribute("aria-busy", "false")

@@ -61,7 +61,9 @@ def page(title: str, data: Mapping[str, Any], description: str, language: str = 
 </main>
 """
     model = data.get("model", {})
-    gallery = frozenset(() if model.get("chance") else ("gallery",))  # of a page's panels these have other seeds, and none variants
+    gallery = frozenset(
+        () if model.get("chance") else ("gallery",)
+    )  # of a page's panels these have other seeds, and none variants
     letters = frozenset(() if model.get("letters") else ("letters",))
     script = f'"use strict";\n{compact("page", not_needed(data["mode"]) | _OF_EDITORS | gallery | letters)}\nopenPage();\n'
     return document(title, body, STYLE, description, Program(script, style(), data), language)
