@@ -177,7 +177,7 @@ def retold(said: str) -> str:
 
     So a place that raises an error writes its text, and need not know of languages.
 
-    >>> retold("There is no arithmetic called \"real\"")
+    >>> retold('There is no arithmetic called "real"')
     'There is no arithmetic called "real"'
     """
     return said if language() == ENGLISH or len(said) > MOST_RETOLD else _retold(said)

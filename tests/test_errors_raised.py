@@ -119,7 +119,9 @@ def test_a_mistake_is_told_in_the_language(asked, said):
 def test_the_steps_that_are_kept_are_told_in_the_language():
     with limits(modules=100), pytest.raises(ModelLimitError) as found:
         derive(read("axiom: F\nF -> F F"), 9)
-    assert found.value.hint == "Die Schritte 0-6 bleiben erhalten. Nimm weniger Schritte, oder setz limits(modules=...)."
+    assert found.value.hint == (
+        "Schritt 6 ist der letzte, der erreicht werden kann. Nimm weniger Schritte, oder setz limits(modules=...)."
+    )
 
 
 @pytest.mark.usefixtures("german")

@@ -277,9 +277,9 @@ class Total:
             above, below = (sympy.Poly(part, unknown) for part in sympy.fraction(sympy.together(formula)))
             for k in range(POINTS + 1):
                 place = Fraction(ends[0] + (ends[1] - ends[0]) * Fraction(k, POINTS))
-                divisor = below.eval(self._expression(place))
+                divisor = below(self._expression(place))
                 if divisor != 0:
-                    found.append((float(place), above.eval(self._expression(place)) / divisor))
+                    found.append((float(place), above(self._expression(place)) / divisor))
         points = tuple(zip([x for x, _ in found], finite([y for _, y in found], f"The {self._name}"), strict=True))
         colour = colour_of(self.symbol, self.system)
         return Plot(CurveChart((Curve(points, colour),), Axis(name_label(letter)), Axis(f"{self._name} at step {step}")))

@@ -153,7 +153,7 @@ def test_an_open_comparison_is_named_with_what_to_declare() -> None:
     with pytest.raises(ModelValueError) as error:
         derive(SHRINKING, 3, q="q")
     assert error.value.hint == (
-        "Steps 0-1 are kept. It depends on whether x > 0.3: "
+        "Step 1 is the last that can be reached. It depends on whether x > 0.3: "
         'choose a value for q, or derive with letters="q", where its own value decides.'
     )
 

@@ -584,6 +584,7 @@ LEFT_OUT: Mapping[str, str] = {
         "Progress.state",
         "Progress.__repr__",
         "Verdict.__repr__",
+        "Verdict.with_more",
         "Mending.__repr__",
         "Practice.next",
         "Practice.__repr__",

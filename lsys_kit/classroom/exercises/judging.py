@@ -230,7 +230,8 @@ def _explained(fitting: Sequence[WrongAnswer], found: Difference, worked: bool =
     Where most of the answer is right, it may be a slip of the pen: then one is asked about too, and its place is shown.
     """
     own = next((wrong for wrong in fitting if wrong.says), None)
-    others = {wrong.misconception.name: wrong.misconception for wrong in fitting if wrong.misconception}
+    several = {wrong.misconception.name: wrong.misconception for wrong in fitting if wrong.misconception}
+    others = {name: each for name, each in several.items() if not each.last_resort} or several
     if own is not None:
         others.pop(own.misconception.name if own.misconception else "", None)
         asked = reply("reply.or_did_you", do=_any_of(list(others.values()))) if others else ""

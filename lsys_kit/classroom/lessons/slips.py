@@ -51,7 +51,7 @@ def slips_of(table: Table, number: int) -> tuple[Known, ...]:
     >>> from lsys_kit.classroom.lessons.lesson import table
     >>> counts = table("01", "counts")
     >>> next(each.says for each in slips_of(counts, 2) if each.answer == "5")
-    'Did you go one step too far, or add up the numbers of all steps?'
+    'Did you write what the modules become behind the old word, or go one step too far, or add up the numbers of all steps?'
     """
     return _slips_of(table, number, language())
 

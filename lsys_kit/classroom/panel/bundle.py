@@ -20,7 +20,8 @@ from lsys_kit.translation import gettext
 
 Data: TypeAlias = dict[str, Any]
 """What scripts are given, as JSON has it."""
-_IMPORT = re.compile(r'^import \{[^{}]*\} from "(?:[./\w]*/)?(\w+)\.js";\n', re.MULTILINE)
+_IMPORT = re.compile(r'^import \{([^{}]*)\} from "(?:[./\w]*/)?(\w+)\.js";\n', re.MULTILINE)
+_CONSTANT = re.compile(r"^export const (\w+) = [^\n{(]*;\n", re.MULTILINE)
 _EXPORT = re.compile(r"^export (?=(?:async )?(?:function|const|class) (\w+))", re.MULTILINE)
 _WIDGET = re.compile(r"^export default .*\n", re.MULTILINE)
 """By which a script is a widget of Jupyter."""
@@ -42,22 +43,32 @@ def bundled(name: str, without: frozenset[str] = frozenset()) -> str:
     while todo:
         script = todo.pop()
         if script not in needed:
-            needed[script] = set() if script in without else set(_IMPORT.findall(source(script)))
+            needed[script] = set() if script in without else {other for _, other in _IMPORT.findall(source(script))}
             todo += needed[script]
     order = TopologicalSorter({script: sorted(needed[script]) for script in sorted(needed)}).static_order()
-    return "\n".join(_plain(script) if script == name else _enclosed(script, script in without) for script in order)
+    named = {
+        each for script in needed.keys() - without for names, _ in _IMPORT.findall(source(script)) for each in names.split(",")
+    }
+    imported = frozenset(map(str.strip, named))
+    return "\n".join(
+        _plain(source(script)) if script == name else _enclosed(script, script in without, imported) for script in order
+    )
 
 
-def _plain(name: str) -> str:
-    return _EXPORT.sub("", _IMPORT.sub("", source(name)))
+def _plain(text: str) -> str:
+    return _EXPORT.sub("", _IMPORT.sub("", text))
 
 
-def _enclosed(name: str, left_out: bool) -> str:
-    """A script as a function that returns what the module exports; none of it where it is left out."""
-    exported = f"{{ {', '.join(_EXPORT.findall(source(name)))} }}"
+def _enclosed(name: str, left_out: bool, imported: frozenset[str]) -> str:
+    """A script as a function that returns what the module exports, but for constants that no script asks for; none of it where
+    it is left out."""
+    text = _CONSTANT.sub(
+        lambda found: found[0] if found[1] in imported or source(name).count(found[1]) > 1 else "", source(name)
+    )
+    exported = f"{{ {', '.join(_EXPORT.findall(text))} }}"
     if left_out:
         return f"const {exported} = {{}};\n"
-    return f"const {exported} = (() => {{\n{_WIDGET.sub('', _plain(name))}return {exported};\n}})();\n"
+    return f"const {exported} = (() => {{\n{_WIDGET.sub('', _plain(text))}return {exported};\n}})();\n"
 
 
 @cache

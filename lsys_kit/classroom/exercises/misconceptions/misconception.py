@@ -34,6 +34,7 @@ class Misconception:
     near: bool = False
     on_request: bool = False
     faint: bool = False
+    last_resort: bool = False
 
     def answers(self, exercise: Exercise) -> Iterator[Any]:
         """The wrong answers that it yields to a question."""
