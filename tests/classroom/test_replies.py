@@ -176,7 +176,7 @@ def test_overlapping_conditions_are_named(asked):
         " 21 ",
         "21 cells",
         "21 letters",
-        "N(12) = 21",
+        "N(6) = 21",
         Decimal(21),
         Fraction(21),
         "21.",

@@ -312,9 +312,9 @@ def _small(derivation: Derivation, step: int) -> bool:
         return False
 
 
-MOST_TRIED_FOR_ONE, MOST_READ_FOR_ONE = 100, 40_000
+MOST_TRIED_FOR_ONE, MOST_READ_FOR_ONE = 100, 400_000
 """So many successors are tried to see whether any system fits, and of long words so few that this many modules are read."""
-MOST_TRIED_TO_COUNT, MOST_READ_TO_COUNT = 8_000, 300_000
+MOST_TRIED_TO_COUNT, MOST_READ_TO_COUNT = 8_000, 1_000_000
 """So many successors are tried to count those that fit, and of long words so few that this many modules are read."""
 _OTHER_LETTERS = (
     "With contexts, a module with other values, or other neighbours, is another letter: laws of values are looked "
