@@ -79,14 +79,14 @@ def _through_a_vote(notebook: OpenNotebook, browser: Browser, name: str, config:
         expect(phone.locator(".phone-kind")).to_have_text("Prediction")
         run_cell(notebook, 1)
         board = notebook.output(1).locator(".class-board")
-        expect(board.locator(".board-kind")).to_contain_text("Prediction")
+        expect(board.locator(".board-kind")).to_contain_text("Prediction", timeout=60_000)
         expect(board.locator(".board-head")).to_contain_text(code)
         notebook.restart()
         expect(phone.locator("#link[data-there=false]")).to_be_visible(timeout=60_000)
         run_cell(notebook, 1)
         board = notebook.output(1).locator(".class-board")
         expect(board.locator(".board-head")).to_contain_text(code, timeout=60_000)
-        expect(board.locator(".board-kind")).to_contain_text("Prediction")
+        expect(board.locator(".board-kind")).to_contain_text("Prediction", timeout=60_000)
         assert notebook.cell_errors() == []
     finally:
         phone.context.close()
