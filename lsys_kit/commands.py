@@ -79,7 +79,9 @@ def _system_in(name: str, notation: str | None, entry: str | None) -> LSystem:
     from lsys_kit.notation.foreign import name_hint
     from lsys_kit.notation.read import read
 
-    if Path(name).is_dir() or name.lower().endswith(".zip"):
+    with file_errors(f'"{quotable(name)}" cannot be read'):
+        packed = Path(name).is_dir() or name.lower().endswith(".zip")
+    if packed:
         return read(Path(name), notation, entry)
     text = _file(name)
     try:

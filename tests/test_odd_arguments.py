@@ -114,7 +114,7 @@ FITTING: Mapping[str, Callable[[], tuple[object, ...]]] = {
     "growth": lambda: (GROWING,),
     "total": lambda: (GROWING, "b", 1),
     "limits": tuple,
-    "life_spans": lambda: (GROWING,),
+    "life_spans": lambda: (AGEING,),
     "closing_angles": lambda: (GROWING, 1),
     "lineage": lambda: (GROWING, 1),
     "map_system": lambda: ("K30",),

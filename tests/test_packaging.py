@@ -98,7 +98,7 @@ def test_the_lines_of_the_readme_do_something(tmp_path):
         timeout=300,
         env={**os.environ, "PYTHONPATH": str(ROOT)},
     )
-    assert done.stdout.startswith("0 M(")
+    assert done.stdout.startswith("N(t) = N(t - lifeTimeA)")
     assert [path.name for path in tmp_path.iterdir()] == ["j4.html"]
 
 

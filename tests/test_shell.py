@@ -528,7 +528,7 @@ def test_a_picture_goes_nowhere_else(shell, tmp_path):
         (["derive", "P44", "-n", "1"], ['no file "P44"', 'Did you mean "P4"?']),
         (["derive", "pseudo-plants", "-n", "1"], ['no file "pseudo-plants"', 'Did you mean "pseudo-plant"?']),
         (["derive", "zebra", "-n", "1"], ['no file "zebra"', "Catalogue ids are", "P4"]),
-        (["derive", ".", "-n", "1"], ["cannot be read"]),
+        (["derive", ".", "-n", "1"], ["There is no model in"]),
         (["derive", "a\0b", "-n", "1"], ["cannot be read"]),
         (["derive", "x" * 5000, "-n", "1"], ["cannot be read"]),
         (["derive", "\udc80\x1b[2J", "-n", "1"], ["no file"]),

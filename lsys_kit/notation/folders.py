@@ -72,7 +72,7 @@ def opened_folder(path: Path) -> Folder:
     """
     with file_errors(f'"{quotable(str(path))}" cannot be read'):
         if path.is_dir():
-            return Folder(path.name, _files(path))
+            return Folder(path.resolve().name, _files(path))
         path.stat()
         if not zipfile.is_zipfile(path):
             beside = {}

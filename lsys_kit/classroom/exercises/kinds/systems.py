@@ -393,18 +393,34 @@ _ALONE = re.compile(r"^(?>[^\n]*?(?:->|→))[^\n]*+\n[ \t]*+([A-Za-z]\w*+)[ \t]*
 _NO_MODULE = re.compile(
     r"^[ \t]*(?:[A-Za-z]\w*[ \t]*(?:[<>]=|==|!=|≤|≥|≠)[^\n:]*?|[A-Za-z]\w*[ \t]*[<>][ \t]*[\d.]+[ \t]*)(?=->|→)", re.MULTILINE
 )
-_TURNED = re.compile(r":[^\n]*?(=[<>])(?!=)(?=[^\n]*(?:->|→))")
+_TURNED = re.compile(r"=[<>](?!=)")
 _FACTOR = re.compile(r"(?:->|→)[ \t]*(\d+[ \t]*\*[ \t]*[A-Za-z]\w*[ \t]*\()")
 """Slips of writing: an axiom without a colon, an arrow in pieces, a line without one, a condition without its module, => for
 >=, a factor before a module."""
+
+
+def _turned_comparison(text: str) -> tuple[int, int] | None:
+    """Where a comparison is written the wrong way round, between a colon and the arrow of a line.
+
+    >>> _turned_comparison("M(s) : s => 6 -> M(3)")
+    (9, 11)
+    """
+    start = 0
+    for line in text.split("\n"):
+        colon = line.find(":")
+        arrow = max(line.rfind("->"), line.rfind("→"))
+        if 0 <= colon < arrow and (found := _TURNED.search(line, colon, arrow)):
+            return start + found.start(), start + found.end()
+        start += len(line) + 1
+    return None
 
 
 def _refuse_slip_of_writing(text: str, mistake: LSystemError) -> None:
     """Show a slip of writing, where a reader could not make sense of another line."""
     if not _ARROWS.search(text):
         return
-    if turned := _TURNED.search(text):
-        raise ModelSyntaxError(reply("expression.comparison"), text, *turned.span(1))
+    if turned := _turned_comparison(text):
+        raise ModelSyntaxError(reply("expression.comparison"), text, *turned)
     if condition := _NO_MODULE.search(text):
         raise ModelSyntaxError(reply("system.no_module"), text, *condition.span(), hint=reply("system.form_with_condition"))
     for pattern, name in ((_NO_ARROW, "no_arrow"), (_ALONE, "line_alone"), (_FACTOR, "factor")):
