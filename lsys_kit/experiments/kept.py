@@ -22,7 +22,7 @@ from types import CodeType
 from typing import Any
 
 from lsys_kit.budget import check_bytes
-from lsys_kit.errors import ModelFileError, quotable
+from lsys_kit.errors import ModelFileError, ModelValueError, quotable
 from lsys_kit.experiments.making import Experiment, Rows
 from lsys_kit.experiments.measures import Measure, measures_of
 from lsys_kit.files import KIT_MARK, append_line, create_file, file_errors, path_from
@@ -98,14 +98,23 @@ def kept(
     file: object, experiment: Experiment, columns: Sequence[str], keys: int, choices: Mapping[str, object]
 ) -> Iterator[Kept]:
     """What is finished of an experiment, in a file or nowhere; all is written at the end, whatever happens."""
-    asked = (experiment.system.notation, str(experiment.system), sorted((name, str(value)) for name, value in choices.items()))
-    measured = [*map(_definition, measures_of(experiment.measure, experiment.system))]
-    digest = sha256(repr((asked, measured)).encode()).hexdigest()[:12]
-    found = Kept(None if file is None else path_from(file), (*columns, f"{KIT_MARK.decode()} {digest}"), keys, experiment.steps)
+    path = None if file is None else path_from(file)
+    found = Kept(path, (*columns, _mark(experiment, choices) if path else ""), keys, experiment.steps)
     try:
         yield found
     finally:
         found.write()
+
+
+def _mark(experiment: Experiment, choices: Mapping[str, object]) -> str:
+    """By which a file knows the runs that it holds: their model, what is measured, and with which choices."""
+    try:
+        chosen = sorted((name, str(value)) for name, value in choices.items())
+    except ValueError:  # Python writes no number of more digits than 4,300
+        raise ModelValueError("Runs with so long a number cannot be kept in a file") from None
+    measured = [*map(_definition, measures_of(experiment.measure, experiment.system))]
+    asked = (experiment.system.notation, str(experiment.system), chosen)
+    return f"{KIT_MARK.decode()} {sha256(repr((asked, measured)).encode()).hexdigest()[:12]}"
 
 
 def _definition(measure: Measure) -> object:

@@ -286,6 +286,8 @@ class LifeSpans:
         >>> life_spans(system("J4")).plot()
         5 curves of equal growth, 1.149 to 1.414, marked: 1.325; lifeTimeA from 1 to 6, lifeTimeB from 1 to 6
         """
+        for given in (across, up):
+            require(given, (str, type(None)), "A letter")
         if len(self.letters) < 2 and not (across and up):
             raise ModelValueError(
                 "Curves of equal growth need two letters", hint=f"There is {', '.join(self.letters) or 'none'}."

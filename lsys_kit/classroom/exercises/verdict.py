@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 from collections.abc import Mapping
 
+from lsys_kit.errors import require
 from lsys_kit.pictures.style.labels import escaped
 from lsys_kit.pictures.style.palette import BLUE, GREEN, INK, ORANGE, PAPER, QUIET
 from lsys_kit.translation import gettext
@@ -62,6 +63,8 @@ class Verdict(float):
         >>> Verdict("Correct").with_more("Well done.")
         Correct. Well done.
         """
+        require(more, str, "A text")
+        require(picture, str, "A picture as SVG")
         return Verdict(self.said, f"{self.message}\n{more}".strip(), float(self), picture or self.picture)
 
     def __repr__(self) -> str:

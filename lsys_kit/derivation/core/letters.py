@@ -35,9 +35,9 @@ def letters_from(system: LSystem, letters: str | Collection[str]) -> tuple[str, 
     >>> letters_from(read("q = 1/2\\nd = 1\\naxiom: A(d)"), ["d", "q"])
     ('q', 'd')
     """
-    asked = (letters,) if isinstance(letters, str) else letters
-    require(asked, Collection, "A letter or a list of letters")
-    every([*asked], str, "A letter")
+    require(letters, Collection, "A letter or a list of letters")
+    asked = [letters] if isinstance(letters, str) else [*letters]
+    every(asked, str, "A letter")
     names = [constant.name for constant in system.constants]
     for name in asked:
         if name not in names:
