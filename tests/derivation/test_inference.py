@@ -18,7 +18,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lsys_kit import ModelLimitError, derive, infer, limits, system
-from lsys_kit.derivation.inference.infer import Fits
+from lsys_kit.derivation.inference.infer import Fits, parting_step
 from lsys_kit.derivation.inference.mending import Mending
 from lsys_kit.derivation.inference.problem import Conditions, counted_tables, problem_of, read_words, table_of, tables
 from lsys_kit.notation.model.modules import Module
@@ -370,3 +370,8 @@ def test_values_without_a_law_are_taken_one_by_one() -> None:
     words = [[Module("a", (value,))] for value in (3, 1, 4, 15, 9, 2, 6)]
     found = infer(words)
     assert [list(word) for word in derive(found[0], 6)] == words
+
+
+def test_several_systems_part_where_the_first_two_do() -> None:
+    fits = [read(f"axiom: a\na -> a b\nb -> {successor}") for successor in ("a", "b", "c")]
+    assert parting_step(fits, 1) == 2

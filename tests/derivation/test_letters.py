@@ -163,3 +163,17 @@ def test_formulas_have_bounds() -> None:
     with pytest.raises(LSystemError, match="the formula has more than 100 terms") as error:
         derive(logistic, 30, letters="r")
     assert isinstance(error.value.partial, Derivation)
+
+
+def test_conditions_of_several_letters_and_of_bounds_that_are_left_out_are_told() -> None:
+    both = read("q = 0.8\nr = 0.5\nd = 1\naxiom: A(1)\nA(x) : q*x > r*x -> F(d) A(q*x)")
+    assert [*map(str, conditions(derive(both, 1, letters=["q", "r"]).states))] == ["q > r"]
+    below = read("q = -1/2\naxiom: A(1)\nA(x) : q*q < 1 -> A(q*x)")
+    assert [*map(str, conditions(derive(below, 1, letters="q").states))] == ["q**2 < 1"]
+    apart = read("q = 2\naxiom: A(1)\nA(x) : q >= 1 && q != 1 && q <= 3 && q != 3 -> A(x)")
+    assert [*map(str, conditions(derive(apart, 1, letters="q").states))] == ["q > 1", "q < 3"]
+
+
+def test_a_constant_without_a_value_stays_beside_letters_that_have_one() -> None:
+    two = read("q = 1/2\nr = 3\naxiom: A(q, r)\nA(x, y) -> A(q*x, y + r)")
+    assert str(derive(two, 1, letters="q", r="r")[-1]).replace(" ", "") == "A(q^2,2*r)"

@@ -16,6 +16,8 @@ from lsys_kit.budget import limits
 from lsys_kit.derivation.derive import derive
 from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.model.arithmetic import (
+    Decision,
+    Formula,
     Value,
     bounded_exact,
     equal_values,
@@ -364,3 +366,19 @@ def test_depth_counts_nested_operations() -> None:
 def test_a_power_of_an_unknown_is_written_with_a_caret() -> None:
     unknown: Any = sympy.Symbol("t")
     assert number_text(power(unknown, 2)) == "t^2"
+
+
+def test_a_formula_is_computed_with_as_its_number_is() -> None:
+    decisions: dict[Decision, None] = {}
+    q = Formula(sympy.Symbol("q"), Fraction(1, 2), decisions)
+    assert ((1 + q).number, (1 + q).expression) == (Fraction(3, 2), 1 + sympy.Symbol("q"))
+    assert q.free_symbols == {sympy.Symbol("q")}
+    assert (q <= 1, bool(q), float(q), int(7 * q)) == (True, True, 0.5, 3)
+    assert (Fraction(4, 5) % q).number == Fraction(3, 10)
+    assert ((sympy.Symbol("q"), "<=", 1)) in decisions
+
+
+def test_a_comparison_without_letters_decides_nothing() -> None:
+    decisions: dict[Decision, None] = {}
+    assert Formula(sympy.sqrt(2), 2**0.5, decisions) < 2
+    assert not decisions
