@@ -246,7 +246,7 @@ def some_thing(chance: random.Random, folder: Path) -> Any:
         lambda system: kit.lineage(system, steps),
         lambda system: kit.draw(system, steps),
         lambda system: kit.growth(system),
-        lambda system: kit.total(system, system.axiom[0].symbol, chance.choice((0, 1, 2))),
+        lambda system: kit.total(system, getattr(system.axiom[0], "symbol", "F"), chance.choice((0, 1, 2))),
         lambda system: kit.write(system),
         lambda system: system_text(chance),
         lambda system: chance.choice(EXTREME),
