@@ -162,10 +162,30 @@ def _unescaped(text: str) -> str:
 
 
 @cache
-def _pattern(form: str) -> re.Pattern[str]:
+def _parts(form: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """The texts of a form, and the names of the values between them."""
     parts = _PLACEHOLDER.split(form)
-    texts, names = [re.escape(_unescaped(text)) for text in parts[::2]], [f"(?P<{name}>.*?)" for name in parts[1::2]]
-    return re.compile("".join(part for both in zip(texts, [*names, ""], strict=True) for part in both), re.DOTALL)
+    return tuple(map(_unescaped, parts[::2])), tuple(parts[1::2])
+
+
+def _values(form: str, said: str) -> dict[str, str]:
+    """The values in a message of a form, each as short as can be; none where the message is of another form.
+
+    >>> _values('"{name}" has no field {field}', '"a b" has no field c'), _values("{a} and {b}", "a or b")
+    ({'name': 'a b', 'field': 'c'}, {})
+    """
+    (first, *middle), names = _parts(form)
+    if not names or not (said.startswith(first) and said.endswith(middle[-1])):
+        return {}
+    found, at = [], len(first)
+    for text in middle[:-1]:
+        place = said.find(text, at)
+        if place < 0:
+            return {}
+        found.append(said[at:place])
+        at = place + len(text)
+    end = len(said) - len(middle[-1])
+    return dict(zip(names, [*found, said[at:end]], strict=True)) if at <= end else {}
 
 
 MOST_RETOLD = 2_000
@@ -189,7 +209,7 @@ def _retold(said: str) -> str:
     if " " not in said:
         return said
     for longest, form in _forms():
-        if longest in said and (found := _pattern(form).fullmatch(said)) and (values := found.groupdict()):
+        if longest in said and (values := _values(form, said)):
             typed = _QUOTED.findall(form)
             return gettext(form, **{name: value if name in typed else _retold(value) for name, value in values.items()})
     for end in (":", "."):
