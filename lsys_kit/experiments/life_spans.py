@@ -95,12 +95,17 @@ class LifeSpans:
     @cached_property
     def _terms(self) -> dict[tuple[Value, ...], int]:
         """The equation for the growth x: for each life span s, as in `Kind`, the coefficient of x^-s."""
+        from sympy import ZZ
+        from sympy.polys.matrices import DomainMatrix
+
         found: Counter[tuple[Value, ...]] = Counter()
         many = range(len(self.kinds))
         for size in range(len(self.kinds) + 1):
             for chosen in combinations(many, size):
                 check_budget()
-                minor = _determinant([[self.kinds[i].daughters[j] for j in chosen] for i in chosen])
+                minor = int(
+                    DomainMatrix([[self.kinds[i].daughters[j] for j in chosen] for i in chosen], (size, size), ZZ).det()
+                )
                 spans = [self.kinds[i].span for i in chosen]
                 whole = tuple(normalised(sum(parts, Fraction())) for parts in zip(*spans, self._none, strict=True))
                 found[whole] += (-1) ** size * minor
@@ -364,22 +369,6 @@ def _crossing(holds: Callable[[float], bool], low: float, high: float) -> float:
     while low < (middle := (low + high) / 2) < high:
         low, high = (middle, high) if holds(middle) else (low, middle)
     return high
-
-
-def _determinant(rows: list[list[int]]) -> int:
-    """The determinant of a matrix of whole numbers, without fractions (Bareiss 1968)."""
-    sign, before = 1, 1
-    for k in range(len(rows)):
-        pivot = next((i for i in range(k, len(rows)) if rows[i][k]), None)
-        if pivot is None:
-            return 0
-        if pivot != k:
-            rows[k], rows[pivot], sign = rows[pivot], rows[k], -sign
-        for i in range(k + 1, len(rows)):
-            for j in range(k + 1, len(rows)):
-                rows[i][j] = (rows[i][j] * rows[k][k] - rows[i][k] * rows[k][j]) // before
-        before = rows[k][k]
-    return sign * before
 
 
 def life_spans(system: LSystem, **constants: object) -> LifeSpans:

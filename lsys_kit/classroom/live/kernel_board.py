@@ -28,7 +28,10 @@ def serve_kernel(pipe: Connection, folder: str, name: str, port: int | None, cou
     """Open a class in this process, and tell a kernel of it, until the kernel wants no more or is gone."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     os.environ[VARIABLE] = language(spoken)
-    tell: Callable[[Mapping[str, Any]], None] = lambda told: pipe.send_bytes(json.dumps(told).encode())  # noqa: E731
+
+    def tell(told: Mapping[str, Any]) -> None:
+        pipe.send_bytes(json.dumps(told).encode())
+
     kernel = _Kernel(pipe)
     try:
         pages = course_pages(Path(folder), say=lambda text: tell({"said": text})) if course else {}
