@@ -22,6 +22,7 @@ import struct
 import zlib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
+from io import FileIO
 from pathlib import Path
 
 from lsys_kit.errors import ModelFileError, ModelValueError, quotable
@@ -138,12 +139,21 @@ def append_line(path: Path, line: str, head: str) -> None:
     if path.is_symlink() or not path.is_file():
         raise OSError(errno.EINVAL, "it is no file")
     with open(os.open(path, _TO_THE_END), "r+b", buffering=0) as file:
+        _wait_for_others(file)
         if head.encode() not in file.read(len(head) + 3):  # a spreadsheet may have put a mark of three bytes before it
             raise OSError(errno.EINVAL, "it is not a file of the kit")
         file.seek(-1, os.SEEK_END)
         added = (b"" if file.read(1) == b"\n" else b"\n") + line.encode() + b"\n"
         if file.write(added) != len(added):
             raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+
+def _wait_for_others(file: FileIO) -> None:
+    """Lock a file until it is closed, where the system can: a line that crosses a block is seen half written otherwise."""
+    with suppress(ImportError, OSError):  # neither Windows nor every file system of a network has these locks
+        from fcntl import LOCK_EX, flock
+
+        flock(file, LOCK_EX)
 
 
 def made_by_the_kit(path: Path) -> bool:

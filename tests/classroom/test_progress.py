@@ -102,7 +102,7 @@ def test_an_update_of_the_course_leaves_the_record_as_it_is(course, tmp_path):
 
 
 def test_two_notebooks_at_the_same_time_lose_nothing(tmp_path):
-    lines = [f"2026-01-01 10:00,{number},tried" for number in range(400)]
+    lines = [f"2026-01-01 10:00,{number},tried{'!' * 3_000}" for number in range(400)]  # many lines cross a block of the disk
     with ThreadPoolExecutor(8) as threads:
         list(threads.map(lambda line: append_line(tmp_path / FILE, line, HEAD), lines))
     head, *written = (tmp_path / FILE).read_text().splitlines()

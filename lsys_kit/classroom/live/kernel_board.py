@@ -63,11 +63,11 @@ async def _serve(kernel: _Kernel, server: ClassServer, port: int | None, tell: C
     try:
         _listen_at(server, port)
         [room] = server.classes.values()
-        join, code = server.join_address(room.entry.code), room.entry.code
-        tell({"about": {"name": room.entry.name, "board": server.board_address(code), **board_data(room.entry, join)}})
         board = _KernelBoard(kernel.pipe, room, end)
         kernel.heard = lambda content: loop.call_soon_threadsafe(board.hear, content)
         room.boards.add(board)
+        join, code = server.join_address(room.entry.code), room.entry.code
+        tell({"about": {"name": room.entry.name, "board": server.board_address(code), **board_data(room.entry, join)}})
         board.show(room.board_state())
         await end.wait()
     finally:

@@ -79,7 +79,7 @@ function showVerdict(status, { said, message, picture = "" }) {
   const [sign, look = ""] = VERDICTS[said];
   status.className = `lsys-said ${look}`;
   status.replaceChildren(made("span", { "aria-hidden": "true" }, `${sign} `), made("b", `${worded(said)}. `));
-  for (const line of message.split("\n")) status.append(line.startsWith("  ") ? made("pre", line) : made("span", `${line} `));
+  for (const line of message.split("\n")) status.append(line.startsWith("  ") ? made("pre", { tabindex: 0 }, line) : made("span", `${line} `));
   if (picture) status.append(made("img", { alt: "", src: `data:image/svg+xml,${encodeURIComponent(picture)}` }));
 }
 

@@ -113,7 +113,7 @@ function practise(place, { topics }, ask) {
 
 // A text with paragraphs, and lines that are indented by four blanks.
 function paragraphs(text) {
-  return text.split(/\n{2,}/).map((part) => (/^ {4}/.test(part) ? made("pre", part.replace(/^ {4}/gm, "")) : made("p", prose(part))));
+  return text.split(/\n{2,}/).map((part) => (/^ {4}/.test(part) ? made("pre", { tabindex: 0 }, part.replace(/^ {4}/gm, "")) : made("p", prose(part))));
 }
 
 // The box of an exercise, with hints and the solution after a try; `tried` hears of each verdict.
@@ -132,7 +132,7 @@ function askForAnswer(place, { id, kind, title, template, hints, options }, ask,
     const [sign, look] = SIGNS[verdict] ?? ["", ""];
     said.className = `lsys-said ${look}`.trim();
     said.replaceChildren(made("span", { "aria-hidden": "true" }, `${sign} `), made("b", `${worded(verdict)}. `));
-    message.split("\n").forEach((line, at) => said.append(line.startsWith("  ") ? made("pre", line) : made(at ? "div" : "span", line)));
+    message.split("\n").forEach((line, at) => said.append(line.startsWith("  ") ? made("pre", { tabindex: 0 }, line) : made(at ? "div" : "span", line)));
     more.hidden = !["Almost", "Not yet"].includes(verdict);
   }
 

@@ -118,7 +118,7 @@ export function openPhone() {
       return made("div.one-cell", made("p.phone-kind", worded("Cell {number} of {many}", { number: place + 1, many: state.many })), row,
         made("p", worded("What does your cell become?")), made("div.choices", { role: "group", "aria-label": plain(worded("What does the cell {cell} become?", { cell })) }, ...buttons));
     });
-    const rules = made("details.rules", { open: true }, made("summary", worded("The rules")), made("pre", state.rules));
+    const rules = made("details.rules", { open: true }, made("summary", worded("The rules")), made("pre", { tabindex: 0 }, state.rules));
     return made("section.phone-card", made("p.phone-kind", worded("You are the cell: step {step}", { step: state.round })), ...cells, rules, ...closedNote());
   }
 
