@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import os
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -22,6 +23,7 @@ FEW_VARIANTS = 8, 2
 AN_HOUR = 3600
 """Seconds: as long as a law may take."""
 
+sys.modules["rfc3987_syntax"] = None  # type: ignore[assignment]  # jsonschema would build 38 grammars in each process, for addresses
 os.environ["TQDM_DISABLE"] = "1"  # a progress bar that appears on a slow machine alone would be an output that differs
 os.environ.pop("MPLBACKEND", None)  # with Agg in the environment, a notebook's plot cells show nothing
 

@@ -146,6 +146,7 @@ def test_a_language_that_is_not_there_is_told_in_english():
     assert found.stderr.strip().splitlines()[-1].startswith('lsys_kit.errors.ModelNameError: There is no language "tlh"')
 
 
+@pytest.mark.slow
 def test_no_two_forms_are_the_same_text_with_other_names(forms):
     """Of two such forms it could not be found out which one is said: they have one translation."""
     language("de")

@@ -82,6 +82,7 @@ def test_a_full_disk_leaves_the_old_picture(tmp_path: Path) -> None:
     assert [path.name for path in tmp_path.iterdir()] == ["plant.svg"]
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no limit on the size of files")
 def test_a_full_disk_leaves_no_half_model_and_no_half_course(tmp_path: Path) -> None:
     convert_k12 = "from lsys_kit.__main__ import main\nprint(main(['convert', 'K12', '--to', 'grogra', '-o', 'K12.txt']))"

@@ -76,6 +76,7 @@ def test_derive_prints_a_word_a_line_from_the_axiom_on(shell):
     assert shell("derive", "J1", "-n", "3") == Said(0, "ar\nal br\nbl ar ar\nal al br al br\n", "")
 
 
+@pytest.mark.slow
 def test_each_word_of_the_catalogue_comes_out_of_the_shell(shell):
     from lsys_kit.classroom.catalogue import entry, systems
 
@@ -598,6 +599,7 @@ def test_a_step_past_the_size_limit_says_how_far_one_can_go(shell):
     refused(shell("derive", "K5", "-n", "30"), "Step 10 would have 24,414,061 modules", "-n 9", "--counts")
 
 
+@pytest.mark.slow
 def test_a_message_of_a_model_is_no_traceback_in_a_real_process(model):
     done = process("derive", model("axiom: A\nA -> B(\n"), "-n", "1")
     assert (done.returncode, done.stdout) == (BAD_INPUT, b"")

@@ -27,6 +27,7 @@ def names_used(tree: ast.AST) -> set[str]:
     return keywords | {ast.unparse(call.func).split(".")[-1] for call in calls}
 
 
+@pytest.mark.slow
 def test_no_file_of_the_package_runs_text() -> None:
     """The linter bans modules and functions that are made for that (`banned-api` in pyproject.toml)."""
     used = {path: names_used(ast.parse(path.read_text(encoding="utf-8"))) & RUN_CODE for path in PACKAGE.rglob("*.py")}

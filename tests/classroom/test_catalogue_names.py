@@ -62,6 +62,7 @@ def test_a_panel_may_be_asked_for_by_name():
     assert explore("anabaena-life-spans", 3).system is system("J4")
 
 
+@pytest.mark.slow
 def test_an_id_is_found_without_reading_the_whole_catalogue():
     code = (
         "from lsys_kit.classroom import catalogue as c; c.system('j4'); before = c._entry.cache_info().currsize; "

@@ -145,6 +145,7 @@ def test_what_has_no_slider_has_none_on_a_page_and_stands_in_the_link():
     assert linked(panel.link).settings["turn"] == 40
 
 
+@pytest.mark.slow
 def test_a_force_without_a_slider_goes_on_acting():
     free, held = explore("K28", 2, pressure=1), explore("K28", 2, pressure=1, sliders=["rest"])
     assert [*held.settings] == ["rest"]

@@ -156,6 +156,7 @@ def test_a_page_has_its_formulas_with_it(browser: Browser, tmp_path: Path, touch
     context.close()
 
 
+@pytest.mark.slow
 def test_a_page_without_letters_has_no_script_of_formulas() -> None:
     assert "MathML" not in page_of("J4", explore("J4").page_data(), "J4")
     assert explore(read(SHRINKING), letters="q").page_data()["model"]["letters"] == ["q"]

@@ -116,6 +116,7 @@ def test_another_file_is_not_taken_for_a_table(tmp_path: Path) -> None:
 # Questions and votes
 
 
+@pytest.mark.slow
 def test_every_question_of_the_course_can_be_opened_and_says_what_it_asks() -> None:
     assert {each.kind for each in questions().values()} == {"vote", "prediction", "table", "exercise"}
     for kind, about in questions():

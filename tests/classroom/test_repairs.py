@@ -77,6 +77,7 @@ def test_a_condition_is_answered_with_a_module_for_which_it_is_not_right(conditi
         assert message.endswith(f"\n  A(t) {condition} -> A(t+1)")
 
 
+@pytest.mark.slow
 def test_a_right_production_is_not_blamed_for_one_that_is_missing():
     literal = "axiom: M(1)\nM(1) -> M(2)\nM(2) -> M(3)\nM(3) -> M(1) M(2)"
     assert "\n  M(1) -> M(2)" not in check("6.5", literal).message
@@ -98,6 +99,7 @@ def test_a_misconception_is_named_only_of_an_answer_of_its_form(name):
             assert len(changing) < len(solution_of(exercise).own.productions)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [exercise.id for exercise in ALL if exercise.kind == "system"])
 def test_a_system_of_another_question_is_answered_too(name):
     literal = "axiom: a(1)\na(1) -> a(2)\na(2) -> a(1) b(1)\nb(i) : i < 3 -> b(i+1)\nb(3) -> a(1) b(1)"

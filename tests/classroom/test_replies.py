@@ -221,6 +221,7 @@ def test_a_tolerance_is_kept(asked):
     assert said(rate, 1.327).said == "Almost"
 
 
+@pytest.mark.slow
 def test_linear_growth_adding_and_reflexes_are_named(asked):
     strokes = asked("number", system="axiom: F\nF -> F[+F]F[-F]F", asks="strokes", steps=3, solution="125")
     assert "add where it multiplies" in said(strokes, 15).message

@@ -96,6 +96,7 @@ def test_a_package_holds_the_manifest_and_the_pages_that_it_names(tmp_path):
     assert {each.get("href") for each in root.iter(f"{IMS}file")} == {*names} - {MANIFEST}
 
 
+@pytest.mark.slow
 def test_the_same_exercises_give_the_same_package(tmp_path):
     contents = [write_package("1", tmp_path / name)[1].read_bytes() for name in ("one.zip", "two.zip")]
     assert contents[0] == contents[1]

@@ -7,7 +7,9 @@ import json
 import re
 import sys
 from collections import Counter
+from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from html import escape
 from pathlib import Path
 from urllib.parse import unquote
@@ -169,8 +171,9 @@ def test_links_lead_to_pages_of_the_site_or_nowhere(address: str, leads: str | N
 # --- pages ------------------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("text", [lesson_page(), index_page(ENTRIES, {})], ids=["lesson", "index"])
-def test_a_page_has_no_address_outside_and_runs_nothing_but_the_kits_script(text: str) -> None:
+@pytest.mark.parametrize("made", [lesson_page, partial(index_page, ENTRIES, {})], ids=["lesson", "index"])
+def test_a_page_has_no_address_outside_and_runs_nothing_but_the_kits_script(made: Callable[[], str]) -> None:
+    text = made()
     parts = Parts(text)
     policy = next(value for _, value in parts.attributes if value and value.startswith("default-src 'none'"))
     assert "unsafe-eval" not in policy
@@ -182,6 +185,7 @@ def test_a_page_has_no_address_outside_and_runs_nothing_but_the_kits_script(text
     assert text.encode().find(b"lsys-kit") < 4_096
 
 
+@pytest.mark.slow
 def test_each_part_has_its_place_and_its_data() -> None:
     text = lesson_page()
     places = re.findall(r'data-part="(\d+)"', text)
@@ -225,6 +229,7 @@ def test_exercises_are_shown_without_the_cells_that_check_them() -> None:
     assert '<a class="also" href="../notebooks/01_all_at_once.html">' in text
 
 
+@pytest.mark.slow
 def test_pages_lead_on_and_back() -> None:
     text = lesson_page()
     for link in (

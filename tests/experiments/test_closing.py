@@ -109,6 +109,7 @@ def test_what_has_no_such_formula_is_told(text: str, said: str) -> None:
         closing_angles(model, -1)
 
 
+@pytest.mark.slow
 def test_the_degree_is_limited_and_so_is_the_time() -> None:
     with pytest.raises(ModelLimitError, match="300 turns apart"):
         closing_angles(read("axiom: F" + "+F" * 300), 0)

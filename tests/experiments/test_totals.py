@@ -93,6 +93,7 @@ def test_of_the_catalogue_too(id: str) -> None:
                     raise
 
 
+@pytest.mark.slow
 def test_a_geometric_sum() -> None:
     found = total(read(SHOOT), "F", q="q")
     n = found.n
@@ -194,6 +195,7 @@ def test_a_curve_over_a_letter_has_the_totals_of_its_values() -> None:
             call()
 
 
+@pytest.mark.slow
 def test_a_formula_that_explodes_ends_within_the_limit() -> None:
     rules = "\n".join(f"A{i}(x) -> A{(i + 1) % 40}(x*q{i % 6} + 1) A{(i * 7) % 40}(x + q{i % 5})" for i in range(40))
     model = read("\n".join([*(f"q{i} = {i + 1}" for i in range(6)), "axiom: A0(1)", rules]))

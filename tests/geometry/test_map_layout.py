@@ -64,6 +64,7 @@ def test_forces_move_and_turn_nothing_as_a_whole(system: MapSystem) -> None:
     assert (points[:, 0] * push[:, 1] - points[:, 1] * push[:, 0]).sum() == pytest.approx(0, abs=1e-9 * size)
 
 
+@pytest.mark.slow
 @given(map_systems(), st.floats(-3, 3), st.floats(-3, 3))
 @settings(max_examples=30)
 def test_forces_turn_with_the_map(system: MapSystem, angle: float, shift: float) -> None:

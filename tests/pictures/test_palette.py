@@ -197,6 +197,7 @@ def test_a_cell_that_gets_older_gets_darker(colour):
     assert greys == sorted(greys, reverse=True)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("id", ["J1", "J4", "P1", "P5", "K12", "K19"])
 def test_the_circles_of_a_stage_diagram_are_filled_so_that_they_can_be_told_apart(id):
     net = stages(system(id))

@@ -71,6 +71,7 @@ def test_choices_are_checked(choices: dict[str, object], kind: type[Exception], 
         draw(derive(K34, 1), 3)
 
 
+@pytest.mark.slow
 def test_a_sphere_is_kept_in_every_format(tmp_path: Path) -> None:
     for _ in range(2):  # a picture of the kit's own may be replaced
         for ending, first in beginnings(*FLAT):

@@ -90,6 +90,7 @@ def test_nine_trees_stand_in_rows_of_three() -> None:
     assert [module.arguments for module in word if module.symbol == "@M"] == [(4 * (i % 3), 0, -4 * (i // 3)) for i in range(9)]
 
 
+@pytest.mark.slow
 def test_the_same_forest_grows_whatever_the_seed_is_and_in_which_steps_it_is_asked_for(two) -> None:
     singly = derive(system("K23"), 0, seed=5)
     for step in (3, 9, 12):

@@ -116,6 +116,7 @@ def test_every_shoot_begins_inside_the_solid(solid: int) -> None:
     assert max(SOLIDS[solid](x, z, -y) for x, y, z in ends[:, :3]) < 1e-6
 
 
+@pytest.mark.slow
 def test_more_buds_live_at_once_where_a_signal_wakes_more() -> None:
     living = [max(map(apices, derive(system("K25"), 60, wakes=wakes))) for wakes in (1, 2, 4)]
     assert living[0] == 1
