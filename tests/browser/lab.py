@@ -141,6 +141,12 @@ class OpenNotebook:
         """Wait until the kernel has nothing to do."""
         self._ask("await idle();")
 
+    def run_by_key(self, keys: str = "Shift+Enter") -> None:
+        """Run the cell in which the cursor stands, until it has been run and the kernel is idle."""
+        number = self._ask("panel.content.activeCell.model.executionCount = null; return panel.content.activeCellIndex;")
+        self.page.keyboard.press(keys)
+        self._ask("while (panel.content.widgets[given].model.executionCount === null) await wait(20); await idle();", number)
+
     def cell_errors(self) -> list[str]:
         """What went wrong in cells that are not tagged raises-exception, and what never ran."""
         return [
@@ -205,7 +211,7 @@ class OpenNotebook:
                     quiet = panel.sessionContext.session?.kernel?.status === 'idle' ? quiet + 1 : 0;
             };
             const AsyncFunction = (async () => {}).constructor;
-            return await new AsyncFunction('app', 'panel', 'idle', 'given', code)(app, panel, idle, given);
+            return await new AsyncFunction('app', 'panel', 'wait', 'idle', 'given', code)(app, panel, wait, idle, given);
         }""",
             [code, given],
         )

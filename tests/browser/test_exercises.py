@@ -28,8 +28,7 @@ SOLVED = {
 def run_imports(notebook: OpenNotebook) -> None:
     """Run the first cell of code by keyboard."""
     notebook.cell(1).locator(".cm-content").click()
-    notebook.page.keyboard.press("Shift+Enter")
-    notebook.idle()
+    notebook.run_by_key()
 
 
 def answered(notebook: OpenNotebook, exercise: str, answer: str) -> Locator:
@@ -40,8 +39,7 @@ def answered(notebook: OpenNotebook, exercise: str, answer: str) -> Locator:
     keyboard.press("Control+a")
     keyboard.press("Delete")
     keyboard.insert_text(f'answer = {answer}\ncheck("{exercise}", answer)')
-    keyboard.press("Control+Enter")
-    notebook.idle()
+    notebook.run_by_key("Control+Enter")
     return notebook.output(number).get_by_role("status")
 
 

@@ -291,8 +291,7 @@ class Reader:
             [number, old],
         )
         self._keys(new)
-        self._notebook.page.keyboard.press("Shift+Enter")
-        self._notebook.idle()
+        self._notebook.run_by_key()
         assert self._notebook.cells_showing(new)[0] == number
         assert self._notebook.cell_errors() == []
 
@@ -305,8 +304,7 @@ class Reader:
             panel.content.activeCell.editor.focus();"""
         )
         self._keys(source)
-        self._notebook.page.keyboard.press("Shift+Enter")
-        self._notebook.idle()
+        self._notebook.run_by_key()
         assert self._notebook.cell_errors() == []
 
     def untick(self) -> None:
