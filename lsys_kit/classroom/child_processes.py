@@ -57,7 +57,7 @@ class _Child:
 
 
 def in_child_processes(
-    work: Callable[[_P], Any], pieces: Sequence[_P], seconds: int, label: str = "", together: int = 1
+    work: Callable[[_P], object], pieces: Sequence[_P], seconds: int, label: str = "", together: int = 1
 ) -> list[Any]:
     """What comes of each piece: what `work` returns, as JSON keeps it, or why it `Failed`.
 
@@ -83,7 +83,7 @@ def in_child_processes(
     return results
 
 
-def _results(work: Callable[[_P], Any], pieces: Sequence[_P], seconds: int, together: int) -> Iterator[tuple[int, Any]]:
+def _results(work: Callable[[_P], object], pieces: Sequence[_P], seconds: int, together: int) -> Iterator[tuple[int, Any]]:
     """The results, as they come, each with its number."""
     waiting, many = deque(range(len(pieces))), _processors()
     with _killed_at_the_end() as at_work:
@@ -112,7 +112,7 @@ def _taken(waiting: deque[int], many: int) -> deque[int]:
 
 
 def _start(
-    work: Callable[[_P], Any], pieces: Sequence[_P], numbers: deque[int], seconds: int, at_work: dict[Connection, _Child]
+    work: Callable[[_P], object], pieces: Sequence[_P], numbers: deque[int], seconds: int, at_work: dict[Connection, _Child]
 ) -> None:
     ours, theirs = _CONTEXT.Pipe(duplex=False)
     own = [pieces[number] for number in numbers]
@@ -160,7 +160,7 @@ def _processors() -> int:
 # In the child
 
 
-def _work_on(work: Callable[[_P], Any], pieces: Sequence[_P], seconds: int, results: Connection) -> None:
+def _work_on(work: Callable[[_P], object], pieces: Sequence[_P], seconds: int, results: Connection) -> None:
     """Send what comes of each piece; nothing else leaves this process."""
     nowhere = os.open(os.devnull, os.O_RDWR)
     for stream in range(3):
@@ -171,7 +171,7 @@ def _work_on(work: Callable[[_P], Any], pieces: Sequence[_P], seconds: int, resu
         results.send_bytes(json.dumps(_done(work, piece)).encode())
 
 
-def _done(work: Callable[[_P], Any], piece: _P) -> tuple[bool, Any]:
+def _done(work: Callable[[_P], object], piece: _P) -> tuple[bool, Any]:
     try:
         return True, work(piece)
     except MemoryError:

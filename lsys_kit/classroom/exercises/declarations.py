@@ -194,7 +194,7 @@ _TOP: Mapping[str, Form] = {
 # What is wrong with a declaration
 
 
-def lesson_problems(source: Source, declared: Mapping[str, Any]) -> Iterator[Problem]:
+def lesson_problems(source: Source, declared: Mapping[str, object]) -> Iterator[Problem]:
     """What is wrong with the top of a file."""
     for key, form in _TOP.items():
         if not form.fits(declared.get(key)):
@@ -234,7 +234,7 @@ def _unknown(problem: MakeProblem, key: str, name: str, *place: object) -> Probl
     return problem(key, "keys.unknown_misconception", *place, name=quotable(name), hint=hint)
 
 
-def _asked_problems(problem: MakeProblem, declared: Mapping[str, Any]) -> Iterator[Problem]:
+def _asked_problems(problem: MakeProblem, declared: Mapping[str, object]) -> Iterator[Problem]:
     kind, asks = str(declared.get("kind")), str(declared.get("asks", ""))
     asked = ASKED_OF_KIND.get(kind, ())
     if "asks" in declared and (asks.partition(" ")[0] not in asked or not is_asked_in_full(asks)):
@@ -247,7 +247,7 @@ def _asked_problems(problem: MakeProblem, declared: Mapping[str, Any]) -> Iterat
 
 
 def _part_problems(
-    problem: MakeProblem, declared: Mapping[str, Any], part: str, record: type, needed: str
+    problem: MakeProblem, declared: Mapping[str, object], part: str, record: type, needed: str
 ) -> Iterator[Problem]:
     known = [each.name for each in fields(record)]
     parts = declared.get(part, ())
@@ -269,7 +269,7 @@ def _part_problems(
             yield problem("answer", "keys.no_reply", part, at)
 
 
-def read_exercise(declared: Mapping[str, Any]) -> Exercise:
+def read_exercise(declared: Mapping[str, object]) -> Exercise:
     """The exercise that is declared, without mistakes."""
     return Exercise(**{key: KEYS[key].read(value) for key, value in declared.items()})
 

@@ -158,7 +158,7 @@ _ID = re.compile(r"[a-z0-9-]+")
 _PICTURE = ("system", "rules", "step", "angle", "cells", "view", "constants")
 
 
-def lesson_from(name: str, entries: Mapping[str, Any]) -> Lesson:
+def lesson_from(name: str, entries: Mapping[str, object]) -> Lesson:
     """The record of a lesson, from the entries of its file."""
     where = f"The lesson {name}"
     _demand(_NAME.fullmatch(name), f"{where} must be called by two digits and small letters, such as 01_all_at_once")
@@ -240,7 +240,7 @@ def _demand(holds: object, message: str, hint: str | None = None) -> None:
 # What an entry may be
 
 
-def _fitting(where: str, value: Any, fits: bool, what: str) -> Any:
+def _fitting(where: str, value: object, fits: bool, what: str) -> Any:
     _demand(fits, f"{where} must be {what}, not {shown(value)}")
     return value
 

@@ -142,7 +142,7 @@ def _texts(word: Sequence[Module], write: Any) -> tuple[str, ...]:
     return tuple(write.module(each) for each in word)
 
 
-def _made(successor: Sequence[Module], write: Any) -> str:
+def _made(successor: Sequence[Module], write: object) -> str:
     return " ".join(_texts(successor, write)) or VANISHES
 
 
@@ -164,7 +164,7 @@ def _cell(outcome: Any, offered: Sequence[tuple[str, str]], write: Any) -> Cell:
     return Cell(own, choices, choices.index(right))
 
 
-def _other_ways(played: LSystem, before: Sequence[Module], write: Any) -> Iterator[tuple[str, tuple[str, ...]]]:
+def _other_ways(played: LSystem, before: Sequence[Module], write: object) -> Iterator[tuple[str, tuple[str, ...]]]:
     """What others make of the right word before: one rule after another, or with neighbours that have changed already."""
     beginning, states = beginning_with(played, before), States(played)
     if states.traits.d0l:

@@ -29,7 +29,7 @@ def serve_kernel(pipe: Connection, folder: str, name: str, port: int | None, cou
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     os.environ[VARIABLE] = language(spoken)
 
-    def tell(told: Mapping[str, Any]) -> None:
+    def tell(told: Mapping[str, object]) -> None:
         pipe.send_bytes(json.dumps(told).encode())
 
     kernel = _Kernel(pipe)
@@ -99,7 +99,7 @@ class _KernelBoard(Audience):
     def drop(self) -> None:
         self._messages.clear()
 
-    def hear(self, content: Mapping[str, Any]) -> None:
+    def hear(self, content: Mapping[str, object]) -> None:
         """Do what comes from the kernel."""
         if "end" in content:
             self._end.set()

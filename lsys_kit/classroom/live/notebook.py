@@ -142,7 +142,7 @@ class _Class:
         for board in [*self.boards]:
             board.ended = True
 
-    def tell(self, content: Mapping[str, Any]) -> None:
+    def tell(self, content: Mapping[str, object]) -> None:
         """Tell the server something; one that is gone hears nothing."""
         with self._lock, suppress(OSError):
             self._pipe.send_bytes(json.dumps(content).encode())

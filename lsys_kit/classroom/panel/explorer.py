@@ -271,7 +271,7 @@ class Explorer(ScriptedWidget):
     def _limited(self) -> AbstractContextManager[object]:
         return limits(modules=min(MOST_MODULES, current().modules))
 
-    def _answer(self, _: object, content: Mapping[str, Any], buffers: object) -> None:
+    def _answer(self, _: object, content: Mapping[str, object], buffers: object) -> None:
         """Answer what the browser asks, by its number."""
         reply: Data = {"mistake": _mistake(_BROKEN_OFF)}
         try:
@@ -279,7 +279,7 @@ class Explorer(ScriptedWidget):
         finally:  # the browser waits for an answer, also where the kernel is interrupted
             self.send({"number": content["number"], **reply})
 
-    def answer(self, content: Mapping[str, Any]) -> Data:
+    def answer(self, content: Mapping[str, object]) -> Data:
         """What is answered to a question of the panel's script; a mistake is an answer too."""
         kinds = {"book": self._book_for, "rules": self._model_for, "variants": self._variants, "keep": self._kept}
         require(content, Mapping, "A question of the panel")
@@ -326,14 +326,14 @@ class Explorer(ScriptedWidget):
         self._offer_constants()
         return {"opened": True}
 
-    def _variants(self, _: Mapping[str, Any]) -> Data:
+    def _variants(self, _: Mapping[str, object]) -> Data:
         return {
             "variants": [
                 {"text": str(variant), "book": opened(variant).book({}, self.seed, 0)} for variant in self._opened.variants(9)
             ]
         }
 
-    def _kept(self, content: Mapping[str, Any]) -> Data:
+    def _kept(self, content: Mapping[str, object]) -> Data:
         """What is taken along: the drawing as SVG, or a link to the panel as it stands, or the panel as a page."""
         if content["what"] == "link":
             return {"text": self.link}

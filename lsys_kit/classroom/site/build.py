@@ -46,7 +46,7 @@ def build_site(folder: str | Path, source: Path | None = None, live: bool = Fals
     return tuple(places.values())
 
 
-def _run(files: Mapping[str, Path], stored: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
+def _run(files: Mapping[str, Path], stored: Mapping[str, object]) -> Iterator[tuple[str, Any]]:
     """The notebooks: exercises as they are stored, all others run; how many are done is shown."""
     exercises = {name for name in files if name.startswith("exercises/")}
     with tqdm(total=len(files), desc="pages", unit="page") as bar:
@@ -96,7 +96,7 @@ def run(name: str, path: Path, stopped: Event | None = None) -> Any:
     notebook = nbformat.read(path, as_version=4)
     notebook.cells.insert(0, nbformat.v4.new_code_cell(_FIRST.format(path.stem)))
 
-    def unless_stopped(**_: Any) -> None:
+    def unless_stopped(**_: object) -> None:
         if stopped is not None and stopped.is_set():
             raise KeyboardInterrupt
 

@@ -73,7 +73,7 @@ class Entry:
         return str(PurePosixPath(self.name).parent)
 
 
-def notebook_page(entry: Entry, cells: Sequence[Any], entries: Sequence[Entry], live: bool = False) -> str:
+def notebook_page(entry: Entry, cells: Sequence[object], entries: Sequence[Entry], live: bool = False) -> str:
     """The page of a notebook; of exercises the questions, with room on paper for each answer.
 
     On a live page, which comes from the server of a class, exercises can be answered and rules changed.
@@ -179,7 +179,7 @@ def _program(parts: Parts, live: bool) -> Program | None:
     return Program(script, looks, {**_with_books_once(parts), **words}, live)
 
 
-def _panels(data: Any) -> Iterator[Data]:
+def _panels(data: object) -> Iterator[Data]:
     """The data of panels, wherever they are."""
     if isinstance(data, list):
         for each in data:
@@ -192,7 +192,7 @@ def _with_books_once(parts: Parts) -> Data:
     """The data of a page: panels of the same books have them in common, each names theirs by a number."""
     books: dict[str, int] = {}
 
-    def numbered(data: Any) -> Any:
+    def numbered(data: object) -> Any:
         if not isinstance(data, dict):
             return data
         return {
@@ -276,7 +276,7 @@ def kept_picture(drawing: str, parts: Parts) -> str:
     return f'data-part="{number}" src="data:image/svg+xml,{quote(empty)}"'
 
 
-def _part_html(part: Mapping[str, Any], words: str, parts: Parts) -> str:
+def _part_html(part: Mapping[str, object], words: str, parts: Parts) -> str:
     kind, number = part["kind"], len(parts)
     parts.append({"kind": kind, "data": part["data"]})
     inside = _prediction_html(part, parts) if kind == "prediction" else _lines(words)

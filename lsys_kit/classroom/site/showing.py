@@ -57,7 +57,7 @@ def show_for_pages(lesson: str = "") -> None:
         make = next(first, None)
         return shown if make is None else shown | {SMALL: make(picture())}
 
-    def show_part(widget: Any, include: object = None, exclude: object = None) -> dict[str, Any]:
+    def show_part(widget: object, include: object = None, exclude: object = None) -> dict[str, Any]:
         shown, choices = part(widget, asking), asking.vote.picture if asking and isinstance(widget, VoteBox) else {}
         return with_small(shown, lambda: drawn(choices)) if choices else shown
 
@@ -76,7 +76,7 @@ def or_fault(show: Callable[..., dict[str, Any]]) -> Callable[..., dict[str, Any
     {'application/vnd.lsys-kit.page-fault': 'ZeroDivisionError: division by zero', 'text/plain': ''}
     """
 
-    def safely(*given: Any, **options: Any) -> dict[str, Any]:
+    def safely(*given: object, **options: object) -> dict[str, Any]:
         try:
             return show(*given, **options)
         except Exception as fault:
@@ -127,7 +127,7 @@ def light_or_dark(light: str, dark: str) -> str:
     return f"{begin}><style>@media (prefers-color-scheme:dark){{{rules}}}</style>{rest}"
 
 
-def part(widget: Any, lesson: Lesson | None = None) -> dict[str, Any]:
+def part(widget: object, lesson: Lesson | None = None) -> dict[str, Any]:
     """What a page has to know of a widget, by media types.
 
     >>> from lsys_kit import worksheet
@@ -140,7 +140,7 @@ def part(widget: Any, lesson: Lesson | None = None) -> dict[str, Any]:
     return {PART: found, "text/html": html({"text/plain": repr(widget)}), "text/plain": repr(widget)}
 
 
-def _seen(widget: Any, lesson: Lesson | None) -> dict[str, Any]:
+def _seen(widget: object, lesson: Lesson | None) -> dict[str, Any]:
     return {"kind": next(kind for each, kind in KINDS.items() if isinstance(widget, each)), "data": _data(widget, lesson)}
 
 

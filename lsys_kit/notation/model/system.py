@@ -237,7 +237,7 @@ class LSystem:
             text = "\n".join([f"axiom: {joined(map(str, self.axiom))}", *map(str, self.rules)])
         return abridged_text(text)
 
-    def picture(self, n: int | None = None, **choices: Any) -> Any:
+    def picture(self, n: int | None = None, **choices: object) -> Any:
         """The picture that `draw(system, n)` makes.
 
         >>> LSystem((Pattern("F"),), (Production((Pattern("F"),), (Pattern("F"), Pattern("F"))),)).picture(3)

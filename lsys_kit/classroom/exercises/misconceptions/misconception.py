@@ -48,7 +48,7 @@ YIELDS: Mapping[str, list[WrongAnswers]] = {name: [] for name in DECLARED}
 """What each yields, as its functions are met."""
 
 
-def misconception(name: str, way: Callable[..., Iterator[Any]] | None = None, *given: object) -> Callable[[Change], Change]:
+def misconception(name: str, way: Callable[..., Iterator[object]] | None = None, *given: object) -> Callable[[Change], Change]:
     """A decorator of what a misconception yields to an exercise, or of what somebody with it changes in some way."""
 
     def kept(change: Change) -> Change:

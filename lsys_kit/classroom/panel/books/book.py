@@ -447,7 +447,7 @@ NEAR = 1e-6
 """A number that is nearer to a whole number than this may be one; whether it is, is then computed exactly."""
 
 
-def growth_entry(system: LSystem, constants: Mapping[str, Any]) -> dict[str, str] | None:
+def growth_entry(system: LSystem, constants: Mapping[str, object]) -> dict[str, str] | None:
     """The growth rate as a book holds it, or None.
 
     >>> from lsys_kit.notation.read import read
