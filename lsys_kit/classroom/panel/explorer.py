@@ -427,18 +427,10 @@ Width 14, height 1.
             "The explorer takes no field of Python: its pages and links hold the text of the model alone",
             hint='Name a field in the text, as in "field: light", or draw or animate with field=...',
         )
-    title = ""
-    if isinstance(what, str) and _ID.fullmatch(what.strip()):
-        title = entry(what.strip()).id
-        what = catalogued(title)
-    if isinstance(what, str) and is_link(what):
-        there = linked(what)
-        given: Data = {**there.settings, **settings_given(step, angle, seed), **constants}
-        what, step, angle, seed = there.system, given.pop(STEP, None), given.pop(ANGLE, None), given.pop(SEED, 0)
-        constants = given
-    system = read_any(what) if isinstance(what, str) else what
-    if not isinstance(system, AnySystem):
-        raise ModelValueError(f"Only a system, its id or name, or its text can be explored, not {type(what).__name__}")
+    system, title, settings = _system_from(what)
+    if settings:
+        given: Data = {**settings, **settings_given(step, angle, seed), **constants}
+        step, angle, seed, constants = given.pop(STEP, None), given.pop(ANGLE, None), given.pop(SEED, 0), given
     check_unfolded(system, unfold, constants)
     unfold = unfold if isinstance(unfold, bool | str) else [*unfold]
     found = opened(system, title, constants, unfold=unfold)
@@ -448,6 +440,20 @@ Width 14, height 1.
     named = letters_from(system, letters) if isinstance(system, LSystem) else chosen_names(letters, "letter", ())
     views = None if show is None else chosen_names(show, "view", VIEWS)
     return Explorer(chosen, step, angle, seed, without, unfold, views, named)
+
+
+def _system_from(what: AnySystem | str) -> tuple[AnySystem, str, Mapping[str, object]]:
+    """A system that somebody gives, or names, or writes; its title, if it has one, and the settings of a link."""
+    if isinstance(what, str) and _ID.fullmatch(what.strip()):
+        title = entry(what.strip()).id
+        return catalogued(title), title, {}
+    if isinstance(what, str) and is_link(what):
+        there = linked(what)
+        return there.system, "", there.settings
+    system = read_any(what) if isinstance(what, str) else what
+    if not isinstance(system, AnySystem):
+        raise ModelValueError(f"Only a system, its id or name, or its text can be explored, not {type(what).__name__}")
+    return system, "", {}
 
 
 def check_unfolded(system: AnySystem, unfold: Unfolding, constants: Data) -> None:
