@@ -12,7 +12,6 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import MISSING, dataclass, fields, replace
 from functools import partial
-from importlib.resources import files
 from itertools import islice
 from pathlib import Path
 from typing import Any, NamedTuple, TypeAlias
@@ -25,13 +24,13 @@ from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
 from lsys_kit.classroom.handed_in import content_of
 from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.errors import LSystemError, ModelFileError, quotable
-from lsys_kit.files import file_errors
+from lsys_kit.files import file_errors, toml_tables
 from lsys_kit.notation.analysis.checks import suggestion
 
 # Mistakes and their places
 
 
-PROBLEMS: Mapping[str, Mapping[str, Sequence[str]]] = tomllib.loads((files(__package__) / "problems.toml").read_text("utf-8"))
+PROBLEMS: Mapping[str, Mapping[str, Sequence[str]]] = toml_tables(__package__, "problems.toml")
 """Each mistake in words, and what to try."""
 MOST_STEPS = 10_000
 """The last step that a question may ask for."""

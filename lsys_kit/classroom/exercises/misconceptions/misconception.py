@@ -7,16 +7,15 @@ to the exercise is read; where a misconception does not apply to a question ther
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
-from importlib.resources import files
 from typing import Any, TypeAlias, TypeVar
 
 from lsys_kit.classroom.exercises.asked import History, answer_by
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS
+from lsys_kit.files import toml_tables
 
 WrongAnswers: TypeAlias = Callable[[Exercise], Iterator[Any]]
 Change = TypeVar("Change", bound=Callable[..., Any])
@@ -42,7 +41,7 @@ class Misconception:
             yield from answers(exercise)
 
 
-DECLARED: Mapping[str, Mapping[str, Any]] = tomllib.loads((files(__package__) / "misconceptions.toml").read_text("utf-8"))
+DECLARED = toml_tables(__package__, "misconceptions.toml")
 """What is said of each misconception, by its name."""
 YIELDS: Mapping[str, list[WrongAnswers]] = {name: [] for name in DECLARED}
 """What each yields, as its functions are met."""
