@@ -135,7 +135,7 @@ def _table_of(fits: Fits) -> Fits:
     return lambda value: isinstance(value, dict) and all(map(fits, value.values()))
 
 
-def _numbers(values: Mapping[str, object]) -> dict[str, Any]:
+def _numbers(values: Mapping[str, object]) -> dict[str, object]:
     return {name: number_from(value) for name, value in values.items()}
 
 

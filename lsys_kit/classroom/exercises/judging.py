@@ -99,7 +99,7 @@ def is_right_by_mistake(exercise: Exercise) -> bool:
     return any(right for _, _, right in _yielded(exercise))
 
 
-Yielded: TypeAlias = tuple[Misconception, Any, bool]
+Yielded: TypeAlias = tuple[Misconception, object, bool]
 """A misconception, an answer that it yields, and whether that is right."""
 
 

@@ -108,7 +108,7 @@ class Prediction(Unfinalized, VBox):  # type: ignore[misc]
     """
 
     def __init__(self, question: str, what: object) -> None:
-        self._what, self._media, self._shown = what, media(what), tuple[Any, ...]()
+        self._what, self._media, self._shown = what, media(what), tuple[object, ...]()
         self.prompt = Prompt(question, str(self._media["text/plain"]))
         forget_figure(what)
         super().__init__([self.prompt], _dom_classes=("lsys-prediction",))
@@ -121,7 +121,7 @@ class Prediction(Unfinalized, VBox):  # type: ignore[misc]
         self.children = (self.prompt, *self._shown) if self.prompt.revealed else (self.prompt,)
 
     @property
-    def answer(self) -> Mapping[str, Any]:
+    def answer(self) -> Mapping[str, object]:
         """What is shown once it is revealed, by media types."""
         return self._media
 

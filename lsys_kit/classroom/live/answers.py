@@ -164,7 +164,7 @@ def _game(asked: Mapping[str, object]) -> Data:
     return game_data(game_of(str(asked["what"])))
 
 
-_KINDS: Mapping[str, Callable[[Mapping[str, Any]], Data]] = {
+_KINDS: Mapping[str, Callable[[Mapping[str, object]], Data]] = {
     **dict.fromkeys(("open", "book", "rules", "variants", "keep"), _panel),
     "check": _check,
     "practice": _practice,

@@ -146,7 +146,7 @@ def _made(successor: Sequence[Module], write: object) -> str:
     return " ".join(_texts(successor, write)) or VANISHES
 
 
-def _offered(told: Sequence[Sequence[Any]], write: Any) -> list[tuple[str, str]]:
+def _offered(told: Sequence[Sequence[Any]], write: object) -> list[tuple[str, str]]:
     """What becomes of any cell in the game: each text once, with the symbol of the cell that becomes it."""
     found: dict[str, str] = {}
     for outcomes in told:

@@ -245,7 +245,7 @@ class LiveClass:
 
     # What phones say
 
-    async def said(self, phone: str, message: Mapping[str, object]) -> dict[str, Any]:
+    async def said(self, phone: str, message: Mapping[str, object]) -> dict[str, object]:
         """Keep what a phone says, and answer it: kept, or refused and why, or to be sent again later."""
         sent = message.get("sent")
         if type(sent) is not int or not 0 < sent < _LAST_SENT:
@@ -264,7 +264,7 @@ class LiveClass:
             return {"later": sent, "why": gettext("The teacher's computer cannot keep it now.")}
         return {"kept": sent}
 
-    def _understood(self, message: Mapping[str, object]) -> tuple[Asked, Any]:
+    def _understood(self, message: Mapping[str, object]) -> tuple[Asked, object]:
         kind, about, round = (message[name] for name in ("kind", "about", "round"))
         if not (isinstance(kind, str) and isinstance(about, str) and type(round) is int):
             raise ValueError
@@ -318,7 +318,7 @@ class LiveClass:
         done = content.get("do")
         if done in ("open", "close", "show"):
             asked = self._asked_by(content)
-            value: Any = [*asked]
+            value: object = [*asked]
             if done == "open":
                 value = {**asked._asdict(), "seats": self.present}
             await self._did(str(done), "", int(content.get("on") is not False), value)
@@ -711,7 +711,7 @@ class _Socket(_OfTheClass, tornado.websocket.WebSocketHandler, Audience):
         if stream is not None:
             stream.close()
 
-    def read(self, message: str | bytes) -> dict[str, Any]:
+    def read(self, message: str | bytes) -> dict[str, object]:
         """What a message says; nothing, where it cannot be understood."""
         try:
             found = json.loads(message)

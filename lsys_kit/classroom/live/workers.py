@@ -224,7 +224,7 @@ def _work(questions: Connection) -> None:
             limit_seconds(PROCESSOR)
             patience.begin()
             try:
-                reply: Any = answer(json.loads(asked))
+                reply: object = answer(json.loads(asked))
             except MemoryError:
                 reply = {"mistake": {"message": "It takes too much memory", "hint": "Take fewer steps."}}
             patience.end()

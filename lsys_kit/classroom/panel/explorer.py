@@ -249,7 +249,7 @@ class Explorer(ScriptedWidget):
             self.add_traits(**offered)  # all at once: this makes a class anew
             self.observe(self._set_constant, [*offered])
 
-    def _trait_of(self, name: str, value: Value) -> Any:
+    def _trait_of(self, name: str, value: Value) -> object:
         whole = all(isinstance(part, int) for part in self._opened.values[name])
         kind: Any = traitlets.Int if whole else traitlets.Float
         return kind(plain_number(value))

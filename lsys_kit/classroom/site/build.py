@@ -77,7 +77,7 @@ _FIRST = f"from {showing.__name__} import show_for_pages\nshow_for_pages({{!r}})
 """The cell that is run before those of a lesson, with its name."""
 
 
-def run_all(paths: Mapping[str, Path]) -> Iterator[tuple[str, Any]]:
+def run_all(paths: Mapping[str, Path]) -> Iterator[tuple[str, object]]:
     """The notebooks of some files, by their names in the course, run, in the order in which they are finished."""
     stopped = Event()
     with ThreadPoolExecutor(max_workers=min(8, os.cpu_count() or 1)) as pool:
@@ -90,7 +90,7 @@ def run_all(paths: Mapping[str, Path]) -> Iterator[tuple[str, Any]]:
             pool.shutdown(cancel_futures=True)
 
 
-def run(name: str, path: Path, stopped: Event | None = None) -> Any:
+def run(name: str, path: Path, stopped: Event | None = None) -> object:
     """The notebook of a file, run in a kernel of its own, in which the kit's widgets are shown as parts of a page."""
     nbclient, nbformat = _libraries()
     notebook = nbformat.read(path, as_version=4)

@@ -304,7 +304,7 @@ def headings(cells: list[Any]) -> Iterator[str]:
             yield from (line for line in cell.source.splitlines() if line.startswith("#"))
 
 
-def title_of(cells: list[Any], name: str) -> str:
+def title_of(cells: list[object], name: str) -> str:
     """The title of a notebook: its first heading."""
     first = next((line for line in headings(cells) if line.startswith("# ")), f"# {name}")
     return escaped(first[2:].strip()).replace("`", "").replace("*", "")

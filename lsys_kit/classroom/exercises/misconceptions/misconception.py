@@ -17,7 +17,7 @@ from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS
 from lsys_kit.files import toml_tables
 
-WrongAnswers: TypeAlias = Callable[[Exercise], Iterator[Any]]
+WrongAnswers: TypeAlias = Callable[[Exercise], Iterator[object]]
 Change = TypeVar("Change", bound=Callable[..., Any])
 
 
@@ -35,7 +35,7 @@ class Misconception:
     faint: bool = False
     last_resort: bool = False
 
-    def answers(self, exercise: Exercise) -> Iterator[Any]:
+    def answers(self, exercise: Exercise) -> Iterator[object]:
         """The wrong answers that it yields to a question."""
         for answers in self.yields:
             yield from answers(exercise)
@@ -57,7 +57,7 @@ def misconception(name: str, way: Callable[..., Iterator[object]] | None = None,
     return kept
 
 
-def by_history(exercise: Exercise, history: History) -> Iterator[Any]:
+def by_history(exercise: Exercise, history: History) -> Iterator[object]:
     """The answer of somebody who has these words in mind."""
     answer = answer_by(exercise, history)
     if answer is not None:

@@ -19,7 +19,7 @@ from lsys_kit.worlds.derive import derive
 
 TOPICS = toml_tables(__package__, "topics.toml")
 """What can be practised: what the exercises of each topic say, and the lesson that it goes with."""
-_AS_KEY: Mapping[str, Callable[[Any], Any]] = {"kind": str, "asks": str, "unit": str, "expects": tuple, "unlikely": tuple}
+_AS_KEY: Mapping[str, Callable[[Any], object]] = {"kind": str, "asks": str, "unit": str, "expects": tuple, "unlikely": tuple}
 """Which of that are keys of exercises, and what becomes of them."""
 Rules: TypeAlias = Mapping[str, Sequence[str]]
 """For each letter what it becomes."""

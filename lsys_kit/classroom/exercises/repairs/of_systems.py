@@ -480,7 +480,7 @@ def _blind_edits(own: LSystem, target: LSystem) -> Iterator[Edit]:
                 yield Edit((block, at), replace(rule, successor=successor), said)
 
 
-def _rows(row: Sequence[object]) -> Iterator[tuple[Any, ...]]:
+def _rows(row: Sequence[object]) -> Iterator[tuple[object, ...]]:
     """Successors that differ by one thing: two neighbours, a sign, a pen, a number."""
     for at in range(len(row) - 1):
         if row[at] != row[at + 1]:
