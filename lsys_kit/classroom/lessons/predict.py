@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 import traitlets
 from ipywidgets import VBox, Widget
@@ -91,7 +90,7 @@ class Prompt(LessonWidget):
         keep(self._key, [self.typed] if self.revealed else [self.typed, OPEN] if self.typed else [])
 
     @traitlets.validate("typed")
-    def _shortened(self, proposal: Any) -> str:
+    def _shortened(self, proposal: traitlets.Bunch) -> str:
         return str(proposal["value"])[:MOST_TYPED]
 
     def __repr__(self) -> str:

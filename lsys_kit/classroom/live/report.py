@@ -8,9 +8,9 @@ from __future__ import annotations
 import csv
 import io
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 from lsys_kit.classroom.exercises.collecting import cell
 from lsys_kit.classroom.lessons.lesson import lesson
@@ -69,13 +69,13 @@ def rows_of(session: Session) -> Iterator[tuple[object, ...]]:
             yield (asked.about, asked.kind, asked.round, gettext("(no longer in the kit)"), len(said), "", len(said))
 
 
-def _votes(session: Session, asked: Asked, said: dict[str, object]) -> Iterator[tuple[object, ...]]:
+def _votes(session: Session, asked: Asked, said: dict[str, Any]) -> Iterator[tuple[object, ...]]:
     counts, right = Counter(said.values()), right_option(asked.about)
     for place, letter in enumerate(LETTERS):
         yield (asked.about, VOTE, asked.round, letter, counts[place], "yes" if place == right else "no", len(said))
 
 
-def _predictions(session: Session, asked: Asked, said: dict[str, object]) -> Iterator[tuple[object, ...]]:
+def _predictions(session: Session, asked: Asked, said: dict[str, Any]) -> Iterator[tuple[object, ...]]:
     marked = session.marked.get(asked.about, set())
     for text, count in Counter(said.values()).most_common():
         yield (asked.about, PREDICTION, asked.round, text, count, "yes" if text in marked else "", len(said))
@@ -97,14 +97,15 @@ def _exercises(session: Session, asked: Asked, said: dict[str, Any]) -> Iterator
         yield (asked.about, EXERCISE, asked.round, f"{gettext(verdict)}. {message}".strip(), count, right, len(said))
 
 
-def _games(session: Session, asked: Asked, said: dict[str, object]) -> Iterator[tuple[object, ...]]:
+def _games(session: Session, asked: Asked, said: dict[str, Any]) -> Iterator[tuple[object, ...]]:
     game = session.game(asked.about)
     found = outcome(game.turns[asked.round - 1], made_by(game.turns[asked.round - 1], session.chosen(asked)))
     right = "yes" if found["parts"] is None else "no"
     yield (f"{asked.about}: {game.title}", GAME, asked.round, found["word"], len(said), right, len(said))
 
 
-_ROWS: dict[str, Any] = {VOTE: _votes, PREDICTION: _predictions, TABLE: _tables, EXERCISE: _exercises, GAME: _games}
+_Rows: TypeAlias = Callable[[Session, Asked, dict[str, Any]], Iterator[tuple[object, ...]]]
+_ROWS: Mapping[str, _Rows] = {VOTE: _votes, PREDICTION: _predictions, TABLE: _tables, EXERCISE: _exercises, GAME: _games}
 
 
 def report_table(session: Session) -> str:

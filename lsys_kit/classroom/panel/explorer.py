@@ -193,7 +193,7 @@ class Explorer(ScriptedWidget):
         return page(self._opened.title or self._opened.kind, self.page_data(), self.text)
 
     @traitlets.validate("step")
-    def _possible_step(self, proposal: Any) -> int:
+    def _possible_step(self, proposal: traitlets.Bunch) -> int:
         step: int = proposal["value"]
         self._check_step(step)
         return step
@@ -204,12 +204,12 @@ class Explorer(ScriptedWidget):
             raise ModelValueError(f"The panel shows steps 0 to {last}, not {shown(step)}", hint=end or None)
 
     @traitlets.validate("letters")
-    def _possible_letters(self, proposal: Any) -> list[str]:
+    def _possible_letters(self, proposal: traitlets.Bunch) -> list[str]:
         offered = self._opened.lettered
         return [name for name in offered if name in chosen_names(proposal["value"], "letter", offered)]
 
     @traitlets.validate("settings")
-    def _possible_settings(self, proposal: Any) -> dict[str, str]:
+    def _possible_settings(self, proposal: traitlets.Bunch) -> dict[str, str]:
         given = {**self.settings, **proposal["value"]} if self._ready else proposal["value"]
         return {
             name: number_text(nearest(self._opened.values[name], name, text))
@@ -254,7 +254,7 @@ class Explorer(ScriptedWidget):
         kind: Any = traitlets.Int if whole else traitlets.Float
         return kind(plain_number(value))
 
-    def _set_constant(self, change: Any) -> None:
+    def _set_constant(self, change: traitlets.Bunch) -> None:
         self.settings = {**self.settings, change["name"]: change["new"]}
 
     def _tell_constants(self, _: object) -> None:

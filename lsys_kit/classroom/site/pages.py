@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import PurePosixPath
 from posixpath import relpath
-from typing import Any
+from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
 from lsys_kit.classroom.course import is_lesson
@@ -28,6 +28,9 @@ from lsys_kit.classroom.site.showing import PART
 from lsys_kit.pictures.formats.notebook import DARKENED
 from lsys_kit.pictures.style.labels import escaped
 from lsys_kit.translation import gettext
+
+if TYPE_CHECKING:
+    from nbformat import NotebookNode
 
 INDEX = "index.html"
 COURSE = "L-systems: a course"
@@ -73,7 +76,7 @@ class Entry:
         return str(PurePosixPath(self.name).parent)
 
 
-def notebook_page(entry: Entry, cells: Sequence[object], entries: Sequence[Entry], live: bool = False) -> str:
+def notebook_page(entry: Entry, cells: Sequence[NotebookNode], entries: Sequence[Entry], live: bool = False) -> str:
     """The page of a notebook; of exercises the questions, with room on paper for each answer.
 
     On a live page, which comes from the server of a class, exercises can be answered and rules changed.
@@ -98,7 +101,7 @@ def notebook_page(entry: Entry, cells: Sequence[object], entries: Sequence[Entry
     return document(entry.title, body, style("course"), described, _program(parts, live))
 
 
-def _question_html(cell: Any, links: Links, parts: Parts, live: bool) -> str:
+def _question_html(cell: NotebookNode, links: Links, parts: Parts, live: bool) -> str:
     """A cell of exercises: its text, but not what is there for marks alone; in the place of a cell for an answer room on paper,
     or on a live page what takes the answer."""
     if cell.cell_type == "markdown":
@@ -212,7 +215,7 @@ _PICTURE = re.compile(r'src="data:image/svg\+xml;base64,([A-Za-z0-9+/=]{4000,})"
 _SIZE = re.compile(r'<svg(?: (?!width)[\w:]+="[^"]*")*( width="[^"]*" height="[^"]*")')
 
 
-def cells_html(cells: Sequence[Any], links: Links, parts: Parts, live: bool = False) -> str:
+def cells_html(cells: Sequence[NotebookNode], links: Links, parts: Parts, live: bool = False) -> str:
     """Cells of a notebook as HTML; what the script of the page has to know is added to `parts`."""
     return "".join(
         markdown_html(cell.source, links, _nothing if live else notes())
@@ -228,7 +231,7 @@ def _nothing(_: str) -> str:
     return ""
 
 
-def _code_html(cell: Any, parts: Parts) -> str:
+def _code_html(cell: NotebookNode, parts: Parts) -> str:
     """A code cell: its code, and below it what it shows; where it asks something, its code is folded and comes last."""
     shown = "".join(output_html(output, parts) for output in cell.outputs)
     code = f'<pre class="code"><code>{escaped_lines(cell.source.strip())}</code></pre>\n'
@@ -297,14 +300,14 @@ def _block(inside: str) -> str:
     return f'<div class="output" tabindex="0">{inside}</div>\n'
 
 
-def headings(cells: list[Any]) -> Iterator[str]:
+def headings(cells: list[NotebookNode]) -> Iterator[str]:
     """The headings of a notebook, from the greatest on, each as it is written."""
     for cell in cells:
         if cell.cell_type == "markdown":
             yield from (line for line in cell.source.splitlines() if line.startswith("#"))
 
 
-def title_of(cells: list[object], name: str) -> str:
+def title_of(cells: list[NotebookNode], name: str) -> str:
     """The title of a notebook: its first heading."""
     first = next((line for line in headings(cells) if line.startswith("# ")), f"# {name}")
     return escaped(first[2:].strip()).replace("`", "").replace("*", "")
