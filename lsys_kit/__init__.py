@@ -37,6 +37,4 @@ def __dir__() -> list[str]:
 
 def load_ipython_extension(shell: object) -> None:
     """Called by `%load_ext lsys_kit` in a notebook, whose cells may then begin with `%%lsystem NAME` and hold a model."""
-    from lsys_kit.classroom.magic import load
-
-    load(shell)
+    import_module("lsys_kit.classroom.magic").load(shell)

@@ -9,13 +9,12 @@ import argparse
 import os
 import re
 import sys
-import tomllib
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from pathlib import Path
 from typing import Any, NoReturn
 
 from lsys_kit import commands
 from lsys_kit.errors import LSystemError, printable, quotable
+from lsys_kit.files import toml_tables
 
 BAD_INPUT, INTERRUPTED, BROKEN_PIPE = 2, 130, 141
 """Exit statuses: a mistake in the input; interrupted; the reader of the output has gone (the last two as in shells)."""
@@ -76,7 +75,7 @@ class _Parser(argparse.ArgumentParser):
 
 
 def _argument_parser() -> argparse.ArgumentParser:
-    declared = tomllib.loads((Path(__file__).parent / "commands.toml").read_text(encoding="utf-8"))
+    declared = toml_tables("lsys_kit", "commands.toml")
     parser = _Parser(prog="lsys-kit", description="A teaching kit on Lindenmayer systems.", allow_abbrev=False)
     _add_commands(
         parser.add_subparsers(required=True, metavar="COMMAND", dest="command"), declared["commands"], declared["shared"]

@@ -19,11 +19,14 @@ import re
 import secrets
 import shutil
 import struct
+import tomllib
 import zlib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
+from importlib.resources import files
 from io import FileIO
 from pathlib import Path
+from typing import Any
 
 from lsys_kit.errors import ModelFileError, ModelValueError, quotable
 
@@ -35,6 +38,15 @@ SEARCHED = 4_096
 """So many bytes at either end of a file may hold the mark."""
 _TO_THE_END = os.O_RDWR | os.O_APPEND | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
 """How a file is opened to which lines are added: links are not followed, and nothing is waited for."""
+
+
+def toml_tables(package: str, name: str) -> dict[str, Any]:
+    """What a file of the kit declares that stands in one of its packages.
+
+    >>> sorted(toml_tables("lsys_kit", "commands.toml"))
+    ['commands', 'shared']
+    """
+    return tomllib.loads((files(package) / name).read_text("utf-8"))
 
 
 def replace_file(path: Path, content: bytes) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import sys
 from contextvars import copy_context
 from types import FrameType
-from typing import Any
 
 from lsys_kit.budget import check_budget, in_task
 from lsys_kit.errors import ModelLimitError
@@ -72,7 +71,7 @@ class _Hooks:
         if sys.getprofile() in (self._look, None):  # Python takes away one that raises
             _resume(self._profiler)
 
-    def _look(self, frame: FrameType, event: str, _: Any) -> None:
+    def _look(self, frame: FrameType, event: str, _: object) -> None:
         self._left -= 1
         if frame is self._frame and event == "return":
             self.take_away()
@@ -91,7 +90,7 @@ class _Hooks:
                 sys.settrace(self._go_on)
                 raise _UsedUp(error) from None
 
-    def _go_on(self, _: FrameType, __: str, ___: Any) -> None:
+    def _go_on(self, _: FrameType, __: str, ___: object) -> None:
         """Put the hook back, at the next call: Python takes away one that raises."""
         sys.settrace(self._tracer)
         sys.setprofile(self._look)
@@ -101,7 +100,7 @@ class _Hooks:
             self._report(swallowed)
 
 
-def _resume(profiler: Any) -> None:
+def _resume(profiler: object) -> None:
     """Let the profiler go on that was at work before; one written in C, as `cProfile` is, is no function that could be set."""
     sys.setprofile(profiler if callable(profiler) else None)
     if hasattr(profiler, "enable"):

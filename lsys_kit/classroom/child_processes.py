@@ -21,7 +21,7 @@ from dataclasses import dataclass, field
 from multiprocessing.connection import Connection, wait
 from multiprocessing.context import ForkContext, SpawnContext
 from multiprocessing.process import BaseProcess
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from tqdm import tqdm
 
@@ -57,8 +57,8 @@ class _Child:
 
 
 def in_child_processes(
-    work: Callable[[_P], Any], pieces: Sequence[_P], seconds: int, label: str = "", together: int = 1
-) -> list[Any]:
+    work: Callable[[_P], object], pieces: Sequence[_P], seconds: int, label: str = "", together: int = 1
+) -> list[object]:
     """What comes of each piece: what `work` returns, as JSON keeps it, or why it `Failed`.
 
     work
@@ -75,7 +75,7 @@ def in_child_processes(
     >>> in_child_processes(len, ["four", "five5"], 10), in_child_processes(len, [5], 10)
     ([4, 5], [Failed(reason='It cannot be worked on (TypeError)')])
     """
-    results: list[Any] = [None] * len(pieces)
+    results: list[object] = [None] * len(pieces)
     with tqdm(total=len(pieces), desc=label, disable=None, delay=1, leave=False) as bar:
         for number, result in _results(work, pieces, seconds, max(together, _RUN)):
             results[number] = result
@@ -83,7 +83,7 @@ def in_child_processes(
     return results
 
 
-def _results(work: Callable[[_P], Any], pieces: Sequence[_P], seconds: int, together: int) -> Iterator[tuple[int, Any]]:
+def _results(work: Callable[[_P], object], pieces: Sequence[_P], seconds: int, together: int) -> Iterator[tuple[int, object]]:
     """The results, as they come, each with its number."""
     waiting, many = deque(range(len(pieces))), _processors()
     with _killed_at_the_end() as at_work:
@@ -112,7 +112,7 @@ def _taken(waiting: deque[int], many: int) -> deque[int]:
 
 
 def _start(
-    work: Callable[[_P], Any], pieces: Sequence[_P], numbers: deque[int], seconds: int, at_work: dict[Connection, _Child]
+    work: Callable[[_P], object], pieces: Sequence[_P], numbers: deque[int], seconds: int, at_work: dict[Connection, _Child]
 ) -> None:
     ours, theirs = _CONTEXT.Pipe(duplex=False)
     own = [pieces[number] for number in numbers]
@@ -122,7 +122,7 @@ def _start(
     theirs.close()
 
 
-def _received(connection: Connection, child: _Child) -> Any:
+def _received(connection: Connection, child: _Child) -> object:
     try:
         done, result = json.loads(connection.recv_bytes(MOST_BYTES))
     except (EOFError, OSError):
@@ -160,7 +160,7 @@ def _processors() -> int:
 # In the child
 
 
-def _work_on(work: Callable[[_P], Any], pieces: Sequence[_P], seconds: int, results: Connection) -> None:
+def _work_on(work: Callable[[_P], object], pieces: Sequence[_P], seconds: int, results: Connection) -> None:
     """Send what comes of each piece; nothing else leaves this process."""
     nowhere = os.open(os.devnull, os.O_RDWR)
     for stream in range(3):
@@ -171,7 +171,7 @@ def _work_on(work: Callable[[_P], Any], pieces: Sequence[_P], seconds: int, resu
         results.send_bytes(json.dumps(_done(work, piece)).encode())
 
 
-def _done(work: Callable[[_P], Any], piece: _P) -> tuple[bool, Any]:
+def _done(work: Callable[[_P], object], piece: _P) -> tuple[bool, object]:
     try:
         return True, work(piece)
     except MemoryError:

@@ -20,7 +20,6 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import count
 from pathlib import Path, PurePosixPath
-from typing import Any
 
 from lsys_kit.errors import ModelFileError
 from lsys_kit.files import file_errors, replace_file
@@ -230,9 +229,9 @@ def students_copy(content: bytes) -> bytes:
     return (json.dumps(notebook, indent=1, ensure_ascii=False, sort_keys=True) + "\n").encode()
 
 
-def _unrun(cell: dict[str, Any]) -> dict[str, Any]:
+def _unrun(cell: dict[str, object]) -> dict[str, object]:
     return {**cell, "outputs": [], "execution_count": None} if cell["cell_type"] == "code" else cell
 
 
-def _text_cell() -> dict[str, Any]:
+def _text_cell() -> dict[str, object]:
     return {"cell_type": "markdown", "id": HOW_TO_RUN_ID, "metadata": {}, "source": HOW_TO_RUN.splitlines(keepends=True)}

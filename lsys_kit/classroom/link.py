@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from importlib import import_module
 from types import MappingProxyType
 from typing import Any
 
@@ -42,9 +41,11 @@ class Linked:
     def __repr__(self) -> str:
         return "\n".join((repr(self.system), *(f"{name} = {number_text(value)}" for name, value in self.settings.items())))
 
-    def _repr_mimebundle_(self, **options: object) -> Any:
-        explore = import_module("lsys_kit").explore  # imported late: panels make links
-        return explore(self.system, **self.settings)._repr_mimebundle_(**options)
+    def _repr_mimebundle_(self, **options: object) -> dict[str, object]:
+        from lsys_kit import explore  # imported late: panels make links
+
+        settings: Mapping[str, Any] = self.settings
+        return explore(self.system, **settings)._repr_mimebundle_(**options)
 
 
 def link(system: AnySystem, settings: Mapping[str, object] | None = None, base: str = "", *, step: int | None = None) -> str:

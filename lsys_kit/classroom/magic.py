@@ -82,7 +82,7 @@ def _cell_output(shell: Any, line: str, cell: str) -> dict[str, str]:
 _LETTER = re.compile(r"(?<=\s)--letter[\s=]++(\S++)")
 
 
-def _name_and_notation(head: str, shell: Any) -> tuple[str, str]:
+def _name_and_notation(head: str, shell: object) -> tuple[str, str]:
     """The name and the notation in the first line of a cell; empty where they are not given."""
     words = [(match.group(), match.span()) for match in re.finditer(r"\S+", head)][1:]
     if len(words) > 2:

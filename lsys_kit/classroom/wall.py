@@ -95,7 +95,7 @@ def wall(folder: str | Path) -> list[Tile]:
     return [Tile(each.name, mistake=each.problem) if each.problem else _tile(each.name, drawn[each.text]) for each in given]
 
 
-def _drawn(texts: Sequence[str]) -> dict[str, Any]:
+def _drawn(texts: Sequence[str]) -> dict[str, object]:
     """What comes of each text: those that are soon drawn, and then those that take long, each with an equal share of time."""
     found = dict(zip(texts, _in_children(texts, QUICK, TOGETHER), strict=True))
     slow = [text for text in texts if found[text] == {}]
@@ -108,7 +108,7 @@ def _drawn(texts: Sequence[str]) -> dict[str, Any]:
     return {text: each or {"mistake": f"{mistake}."} for text, each in found.items()}
 
 
-def _in_children(texts: Sequence[str], seconds: float, together: int) -> list[Any]:
+def _in_children(texts: Sequence[str], seconds: float, together: int) -> list[object]:
     return in_child_processes(partial(drawn_as, seconds=seconds), texts, ceil(seconds) + 1, "drawn", together)
 
 

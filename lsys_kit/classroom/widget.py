@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import anywidget
 
 
@@ -17,11 +15,11 @@ class Unfinalized:
 class KitWidget(Unfinalized, anywidget.AnyWidget):  # type: ignore[misc]
     """A widget that is displayed by its script, and stored as text."""
 
-    def _stored(self) -> dict[str, Any]:
+    def _stored(self) -> dict[str, object]:
         """What a page without a kernel shows, by media types."""
         return {"text/plain": repr(self)}
 
-    def _repr_mimebundle_(self, **options: object) -> dict[str, Any]:
+    def _repr_mimebundle_(self, **options: object) -> dict[str, object]:
         bundle = super()._repr_mimebundle_(**options)
         return {**dict(bundle[0] if isinstance(bundle, tuple) else bundle or {}), **self._stored()}
 

@@ -143,7 +143,7 @@ def _called(name: str, function: Callable[[Any], object], what: Measurable) -> o
         raise ModelValueError(f'The measure "{name}" failed with {type(fault).__name__}: {fault}') from fault
 
 
-def number(value: Any, name: str) -> object:
+def number(value: object, name: str) -> object:
     """A measured value as a plain number.
 
     >>> import numpy as np

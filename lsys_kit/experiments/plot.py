@@ -37,7 +37,7 @@ MOMENTS = 360
 """At so many moments a timed system is measured, and just before and after so many divisions."""
 
 
-def plot(what: Any, n: Any = None, measure: Asked | None = None, *, log: bool = False, **choices: Any) -> Plot:
+def plot(what: object, n: object = None, measure: Asked | None = None, *, log: bool = False, **choices: object) -> Plot:
     """Plot what is counted or measured.
 
     Parameters

@@ -241,7 +241,7 @@ class Table:
         place = self._place(self.measured(column))
         settings = [index for index in range(self.keys) if self.columns[index] != "seed"]
 
-        def setting(row: tuple[Any, ...]) -> tuple[Any, ...]:
+        def setting(row: tuple[object, ...]) -> tuple[Any, ...]:
             return tuple(row[index] for index in settings)
 
         groups = groupby(sorted(self.rows, key=setting), key=setting)
@@ -331,7 +331,7 @@ def value_text(value: Any) -> str:
     return f"{value:.6g}" if isinstance(value, float) else number_text(value)
 
 
-def _plain(value: Any) -> Any:
+def _plain(value: object) -> Any:
     return float(value) if isinstance(value, Fraction) else value
 
 

@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING, Any
 
 from lsys_kit.budget import Task, counted
 from lsys_kit.derivation.core.rules import constants_of, number_from
+from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.growth.affine import AffineSums, NotAffine, affine_sums
 from lsys_kit.derivation.growth.growth import closed_form, generating_function, polynomial, unknown
 from lsys_kit.errors import ModelNameError, ModelValueError, require, whole_number
 from lsys_kit.experiments.table import Table, column_label
-from lsys_kit.notation.model.arithmetic import Value, is_symbolic, number_text
+from lsys_kit.notation.model.arithmetic import Value, expression_of, is_symbolic, number_text
 from lsys_kit.notation.model.expressions import Number
 from lsys_kit.notation.model.modules import CLOSING, OPENING
 from lsys_kit.notation.model.system import LSystem
@@ -76,7 +77,7 @@ class Total:
         found = derive(self.system, steps, **self.constants)
         return [sum(self._of_word(found.to(step)[step]), 0) for step in counted(range(steps + 1), 1)]
 
-    def _of_word(self, word: Any) -> Iterator[Any]:
+    def _of_word(self, word: Word) -> Iterator[Value]:
         depth = 0
         for module in counted(word, 1):
             depth += (module.symbol in OPENING) - (module.symbol in CLOSING)
@@ -94,15 +95,9 @@ class Total:
         """The coefficients of the recurrence and the first totals, as sympy has them."""
         if self.sums is None:
             raise ModelValueError(f"{self.reason}", hint="`values(n)` has the numbers themselves.")
-        return [self._expression(self.sums.shown(c)) for c in self.sums.rule], [
-            self._expression(self.sums.shown(term)) for term in self.sums.first
+        return [expression_of(self.sums.shown(c)) for c in self.sums.rule], [
+            expression_of(self.sums.shown(term)) for term in self.sums.first
         ]
-
-    @staticmethod
-    def _expression(value: Any) -> sympy.Expr:
-        import sympy
-
-        return value if is_symbolic(value) else sympy.Rational(value.numerator, value.denominator)
 
     @cached_property
     def formula(self) -> sympy.Expr | None:
@@ -136,13 +131,13 @@ class Total:
             return generating_function(*self._rule)
 
     @cached_property
-    def _limit(self) -> tuple[sympy.Expr | None, Any]:
+    def _limit(self) -> tuple[sympy.Expr | None, sympy.Basic | None]:
         """What the totals come to in the long run, and the condition under which they do."""
         import sympy
 
         with Task("The limit was not found"), supervised():
             whole = polynomial(self._rule[0])
-            condition: Any = sympy.true
+            condition: sympy.Basic = sympy.true
             for factor, times in whole.factor_list()[1]:
                 x = factor.gen
                 if factor.degree() == 1 and sympy.simplify(factor.as_expr().subs(x, 1)) == 0:
@@ -197,7 +192,7 @@ class Total:
         >>> found.solve("q", 3), found.solve("q", 3, n=2)
         ([2/3], [2])
         """
-        unknown, wanted = self._letter(letter), self._expression(number_from(value))
+        unknown, wanted = self._letter(letter), expression_of(number_from(value))
         found = self.limit if n is None else self.at(n)
         if found is None:
             raise ModelValueError("The totals have no limit that is known", hint="Name a step: n=10.")
@@ -261,25 +256,25 @@ class Total:
             curve = Curve(points, colour_of(self.symbol, self.system), "")
             return Plot(CurveChart((curve,), Axis(column_label("step"), True), Axis(self._name)))
 
-    def _plot_over(self, letter: str, step: int, between: Sequence[Any], letters: dict[str, Any]) -> Plot:
+    def _plot_over(self, letter: str, step: int, between: Sequence[object], letters: dict[str, object]) -> Plot:
         """The total at a step for many values of a letter."""
         import sympy
 
-        ends: list[Any] = [number_from(end, letter) for end in between] if between else [*self._range(letter)]
+        ends: list[Value] = [number_from(end, letter) for end in between] if between else [*self._range(letter)]
         if len(ends) != 2 or any(map(is_symbolic, ends)) or not ends[0] < ends[1]:
             raise ModelValueError(f"The values of {letter} must lie between two numbers, the smaller one first")
         values = constants_of(self.system, self._numbers(letters))
-        given = {each.name: self._expression(value) for each, value in zip(self.system.constants, values, strict=True)}
+        given = {each.name: expression_of(value) for each, value in zip(self.system.constants, values, strict=True)}
         unknown, found = self._letter(letter), []
         with supervised():
-            formula = self._expression(self.at(step))
+            formula = expression_of(self.at(step))
             formula = formula.subs({each: given[str(each)] for each in formula.free_symbols - {unknown}})
             above, below = (sympy.Poly(part, unknown) for part in sympy.fraction(sympy.together(formula)))
             for k in range(POINTS + 1):
                 place = Fraction(ends[0] + (ends[1] - ends[0]) * Fraction(k, POINTS))
-                divisor = below(self._expression(place))
+                divisor = below(expression_of(place))
                 if divisor != 0:
-                    found.append((float(place), above(self._expression(place)) / divisor))
+                    found.append((float(place), above(expression_of(place)) / divisor))
         points = tuple(zip([x for x, _ in found], finite([y for _, y in found], f"The {self._name}"), strict=True))
         colour = colour_of(self.symbol, self.system)
         return Plot(CurveChart((Curve(points, colour),), Axis(name_label(letter)), Axis(f"{self._name} at step {step}")))
@@ -290,7 +285,7 @@ class Total:
         value = values[[each.name for each in self.system.constants].index(letter)]
         return slider_range(self.system, letter) or ((0, 2 * max(value, -value)) if value else (0, 1))
 
-    def _numbers(self, letters: dict[str, Any]) -> dict[str, Any]:
+    def _numbers(self, letters: dict[str, object]) -> dict[str, object]:
         """The constants of the system, with numbers for the letters."""
         chosen = {name: value for name, value in self.constants.items() if name not in self.letters} | letters
         if any(map(is_symbolic, constants_of(self.system, chosen))):
@@ -327,7 +322,7 @@ def slider_range(system: LSystem, name: str) -> tuple[Value, Value] | None:
     return (ends[0], ends[1]) if len(ends) == 3 else None
 
 
-def _cell(value: Any) -> Any:
+def _cell(value: Value) -> Value | str:
     return number_text(value) if is_symbolic(value) else value
 
 

@@ -8,13 +8,13 @@ foreign; in formats that are `tried` systems are looked for before. A sign count
 from __future__ import annotations
 
 import re
-import tomllib
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
-from pathlib import Path, PurePath
+from pathlib import PurePath
 
 from lsys_kit.errors import ModelSyntaxError
+from lsys_kit.files import toml_tables
 from lsys_kit.notation.syntax.text.statements import without_comments
 
 _BLANKS = r"[ \t]*+"
@@ -48,7 +48,7 @@ class ForeignFormat:
 @cache
 def formats() -> tuple[ForeignFormat, ...]:
     """The formats; a text is in the first one whose sign it has."""
-    rows = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))["format"]
+    rows = toml_tables(__package__, "foreign.toml")["format"]
     for row in rows:
         lines = *((line, "=") for line in row.pop("with", ())), *((line, "!") for line in row.pop("without", ()))
         row["beside"] = "".join(rf"(?{sign}(?s:.*?)^ {line})" for line, sign in lines) + row.get("beside", "")

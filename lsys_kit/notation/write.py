@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 from lsys_kit.errors import require
 from lsys_kit.notation.analysis.checks import span
@@ -52,7 +51,7 @@ def write(system: LSystem, notation: str | None = None, *, interpretation: bool 
     return text_in(dialect_named(system.notation if notation is None else notation), written)
 
 
-def as_written(system: LSystem, part: Any) -> str:
+def as_written(system: LSystem, part: object) -> str:
     """A production, condition or pattern of a system as in its text; in the kit's own notation where there is no text.
 
     >>> from lsys_kit.notation.read import read

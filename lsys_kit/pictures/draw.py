@@ -83,7 +83,7 @@ def _too_many(needed: int) -> ModelLimitError:
 
 
 def _chosen_words(
-    what: LSystem | Derivation | Word, n: int | None, steps: Sequence[int], seeds: Sequence[int], choices: Mapping[str, Any]
+    what: LSystem | Derivation | Word, n: int | None, steps: Sequence[int], seeds: Sequence[int], choices: Mapping[str, object]
 ) -> list[ChosenWord]:
     """The words that are drawn: each of some steps for each of some seeds; by default the last step, and one seed."""
     if len(steps) * len(seeds) > MOST:
@@ -212,7 +212,7 @@ def draw(
     background: object = None,
     **forces: object,
 ) -> CellworkPicture: ...
-def draw(what: Any, n: int | None = None, **choices: Any) -> AnyPicture:
+def draw(what: object, n: int | None = None, **choices: object) -> AnyPicture:
     """Draw a system, a derivation, a word, a stage diagram or a lineage.
 
     Parameters
@@ -276,7 +276,7 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> AnyPicture:
         return _drawn(what, n, **choices)
 
 
-def _drawn(what: Any, n: int | None, size: object = None, **choices: Any) -> AnyPicture:
+def _drawn(what: object, n: int | None, size: object = None, **choices: object) -> AnyPicture:
     check_drawable(what, n)
     given, choices = split_options(choices)
     style = style_from(given, kind_of(what, choices), coloured_symbols(what), size)
@@ -336,7 +336,7 @@ def _drawing(
     view: object = None,
     steps: object = (),
     seeds: object = (),
-    **choices: Any,
+    **choices: object,
 ) -> AnyPicture:
     require(marked, Collection, "A collection of states")
     states = frozenset(whole_number(each, "A state") for each in counted(marked))

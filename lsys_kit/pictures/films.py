@@ -202,14 +202,14 @@ TURNS, TURN_SECONDS = 60, 0.1
 
 
 def animate(
-    what: Any,
+    what: object,
     n: int | None = None,
     *,
     seconds: object = None,
     turntable: bool = False,
     view: object = None,
     size: object = None,
-    **choices: Any,
+    **choices: object,
 ) -> Film:
     """Draw the steps of a development one after another, in a common frame; or turn what is in space around.
 
@@ -262,7 +262,7 @@ def animate(
         return Film(text, tuple(images), pace)
 
 
-def _style(what: Any, given: Mapping[str, Any]) -> Style:
+def _style(what: object, given: Mapping[str, object]) -> Style:
     last = what[-1] if isinstance(what, list | tuple) and what else what
     if isinstance(last, SVGPicture):
         return Style(theme=replace(last.theme, ground=last.theme.paper))
@@ -272,7 +272,7 @@ def _style(what: Any, given: Mapping[str, Any]) -> Style:
     return style
 
 
-def _check_drawn(n: int | None, side: View | None, choices: Mapping[str, Any]) -> None:
+def _check_drawn(n: int | None, side: View | None, choices: Mapping[str, object]) -> None:
     """Nothing is chosen for pictures that was chosen when they were drawn."""
     chosen = [*["n"] * (n is not None), *["view"] * (side is not None), *choices]
     if chosen:
@@ -303,12 +303,12 @@ def _shown(
     return _pictures_film(what, style.size)
 
 
-def _check_choices(choices: Mapping[str, Any], own: tuple[str, ...], kind: str, system: LSystem) -> None:
+def _check_choices(choices: Mapping[str, object], own: tuple[str, ...], kind: str, system: LSystem) -> None:
     options = *own, "seed", "arithmetic", "field", "seconds", "turntable"
     check_choices(choices, options, kind, [each.name for each in system.constants])
 
 
-def _derived(what: LSystem | Derivation, n: int | None, choices: Mapping[str, Any]) -> Derivation:
+def _derived(what: LSystem | Derivation, n: int | None, choices: Mapping[str, object]) -> Derivation:
     derivation = derivation_of(what, n, **{"seed": None, "arithmetic": "exact", **choices})
     assert isinstance(derivation, Derivation)
     if derivation.steps >= MOST_FRAMES:
@@ -336,7 +336,7 @@ def _net_film(net: Stages, n: int | None, choices: Mapping[str, Any], given: Map
     return f"steps 0 to {derivation.steps}; the last: {pictures[-1]!r}", [picture.image() for picture in counted(pictures, 1)]
 
 
-def _pictures_film(what: Any, size: Size | None) -> tuple[str, Sequence[Image]]:
+def _pictures_film(what: object, size: Size | None) -> tuple[str, Sequence[Image]]:
     """A picture that unfolds, or several pictures one after another, on paper on which all have room."""
     if isinstance(what, SVGPicture):
         return _filmed(what)

@@ -8,12 +8,11 @@ The Algorithmic Beauty of Plants, figure 1.2.
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
-from importlib.resources import files
 from typing import Any, NamedTuple
 
+from lsys_kit.files import toml_tables
 from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.shapes import Circle, Drawing, Ellipse, Look, Text
 from lsys_kit.pictures.sizes import document
@@ -52,7 +51,7 @@ def _classes(told: Mapping[str, Any], *colours: str) -> tuple[LanguageClass, ...
     return tuple(LanguageClass(name, centre, reach, label, colour) for (name, (centre, reach, label)), colour in rows)
 
 
-_TOLD: Mapping[str, Any] = tomllib.loads((files(__package__) / "hierarchy.toml").read_text(encoding="utf-8"))
+_TOLD = toml_tables(__package__, "hierarchy.toml")
 CHOMSKY = _classes(_TOLD["chomsky"], *[QUIET] * 5)
 """The classes of Chomsky's grammars, each inside the one before."""
 PARALLEL = _classes(_TOLD["parallel"], BLUE, VERMILION)

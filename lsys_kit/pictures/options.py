@@ -159,7 +159,7 @@ def seen_as(what: Derivation | Word, angle: float, style: Style) -> Scene:
     return with_start(scene, what.states.system) if style.turtle else scene
 
 
-def split_options(choices: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
+def split_options(choices: Mapping[str, object]) -> tuple[dict[str, Any], dict[str, Any]]:
     """The options among some choices that are given, and the other choices."""
     given = {name: value for name, value in choices.items() if name in OPTIONS and value is not None}
     return given, {name: value for name, value in choices.items() if name not in OPTIONS}

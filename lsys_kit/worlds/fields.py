@@ -129,7 +129,7 @@ def answered(field: Field, questions: Sequence[Question], scene: Surroundings, a
     return [_taken(name, question, answer, arithmetic) for question, answer in zip(questions, answers, strict=True)]
 
 
-def _taken(name: str, question: Question, answer: Any, arithmetic: str) -> Values:
+def _taken(name: str, question: Question, answer: object, arithmetic: str) -> Values:
     if isinstance(answer, Real):
         return _number(name, question, answer, arithmetic), *question.values[1:]
     if not isinstance(answer, Sequence | np.ndarray) or isinstance(answer, str):
@@ -142,7 +142,7 @@ def _taken(name: str, question: Question, answer: Any, arithmetic: str) -> Value
     return tuple(_number(name, question, value, arithmetic) for value in values)
 
 
-def _number(name: str, question: Question, value: Any, arithmetic: str) -> Value:
+def _number(name: str, question: Question, value: object, arithmetic: str) -> Value:
     if not isinstance(value, Real):
         raise ModelValueError(f"{name} answered {shown(value)} at {_at(question)}, which is no number")
     try:

@@ -262,7 +262,7 @@ def counts_in_cones(boxes: Boxes, cones: Cones) -> Integers:
     return found
 
 
-def nearest_in_cones(boxes: Boxes, cones: Cones, counts: Callable[[Integers, Integers], Any], others: int) -> Floats:
+def nearest_in_cones(boxes: Boxes, cones: Cones, counts: Callable[[Integers, Integers], object], others: int) -> Floats:
     """How far the nearest point in each cone is; infinite if there is none.
 
     boxes, cones

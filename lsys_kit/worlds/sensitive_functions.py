@@ -152,7 +152,7 @@ def nearest_ahead(asking: Standpoints, angle: float, least: float, colour: float
     return found
 
 
-def _nearest_of(asking: Standpoints, points: Things, number: int, wanted: Callable[..., Any]) -> Floats:
+def _nearest_of(asking: Standpoints, points: Things, number: int, wanted: Callable[..., object]) -> Floats:
     """The distance to the nearest of so many neighbouring points that is another shoot's, and wanted; infinite without one."""
     if not len(points):
         return np.full(len(asking), np.inf)

@@ -175,7 +175,7 @@ def bound_of(exercise: Exercise) -> int:
     return int(exercise.asks.rsplit(" ", 1)[1].replace(",", ""))
 
 
-Asked: TypeAlias = Callable[[Exercise, History], Any]
+Asked: TypeAlias = Callable[[Exercise, History], object]
 ASKED: Mapping[str, Asked] = {
     "word": lambda exercise, history: history.word(exercise.steps),
     "length": _step_value,
@@ -230,6 +230,6 @@ def is_derived(exercise: Exercise) -> bool:
     return bool(what_is_asked(exercise)) and (exercise.kind != "drawing" or exercise.asks == "drawing")
 
 
-def answer_by(exercise: Exercise, history: History) -> Any:
+def answer_by(exercise: Exercise, history: History) -> object:
     """The answer to a question that somebody with these words in mind gives; None where there is none."""
     return ASKED[what_is_asked(exercise)](exercise, history)

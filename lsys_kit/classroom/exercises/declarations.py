@@ -12,7 +12,6 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import MISSING, dataclass, fields, replace
 from functools import partial
-from importlib.resources import files
 from itertools import islice
 from pathlib import Path
 from typing import Any, NamedTuple, TypeAlias
@@ -25,13 +24,13 @@ from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
 from lsys_kit.classroom.handed_in import content_of
 from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.errors import LSystemError, ModelFileError, quotable
-from lsys_kit.files import file_errors
+from lsys_kit.files import file_errors, toml_tables
 from lsys_kit.notation.analysis.checks import suggestion
 
 # Mistakes and their places
 
 
-PROBLEMS: Mapping[str, Mapping[str, Sequence[str]]] = tomllib.loads((files(__package__) / "problems.toml").read_text("utf-8"))
+PROBLEMS: Mapping[str, Mapping[str, Sequence[str]]] = toml_tables(__package__, "problems.toml")
 """Each mistake in words, and what to try."""
 MOST_STEPS = 10_000
 """The last step that a question may ask for."""
@@ -136,7 +135,7 @@ def _table_of(fits: Fits) -> Fits:
     return lambda value: isinstance(value, dict) and all(map(fits, value.values()))
 
 
-def _numbers(values: Mapping[str, object]) -> dict[str, Any]:
+def _numbers(values: Mapping[str, object]) -> dict[str, object]:
     return {name: number_from(value) for name, value in values.items()}
 
 
@@ -194,7 +193,7 @@ _TOP: Mapping[str, Form] = {
 # What is wrong with a declaration
 
 
-def lesson_problems(source: Source, declared: Mapping[str, Any]) -> Iterator[Problem]:
+def lesson_problems(source: Source, declared: Mapping[str, object]) -> Iterator[Problem]:
     """What is wrong with the top of a file."""
     for key, form in _TOP.items():
         if not form.fits(declared.get(key)):
@@ -234,7 +233,7 @@ def _unknown(problem: MakeProblem, key: str, name: str, *place: object) -> Probl
     return problem(key, "keys.unknown_misconception", *place, name=quotable(name), hint=hint)
 
 
-def _asked_problems(problem: MakeProblem, declared: Mapping[str, Any]) -> Iterator[Problem]:
+def _asked_problems(problem: MakeProblem, declared: Mapping[str, object]) -> Iterator[Problem]:
     kind, asks = str(declared.get("kind")), str(declared.get("asks", ""))
     asked = ASKED_OF_KIND.get(kind, ())
     if "asks" in declared and (asks.partition(" ")[0] not in asked or not is_asked_in_full(asks)):
@@ -247,7 +246,7 @@ def _asked_problems(problem: MakeProblem, declared: Mapping[str, Any]) -> Iterat
 
 
 def _part_problems(
-    problem: MakeProblem, declared: Mapping[str, Any], part: str, record: type, needed: str
+    problem: MakeProblem, declared: Mapping[str, object], part: str, record: type, needed: str
 ) -> Iterator[Problem]:
     known = [each.name for each in fields(record)]
     parts = declared.get(part, ())
@@ -269,7 +268,7 @@ def _part_problems(
             yield problem("answer", "keys.no_reply", part, at)
 
 
-def read_exercise(declared: Mapping[str, Any]) -> Exercise:
+def read_exercise(declared: Mapping[str, object]) -> Exercise:
     """The exercise that is declared, without mistakes."""
     return Exercise(**{key: KEYS[key].read(value) for key, value in declared.items()})
 

@@ -99,7 +99,7 @@ def is_right_by_mistake(exercise: Exercise) -> bool:
     return any(right for _, _, right in _yielded(exercise))
 
 
-Yielded: TypeAlias = tuple[Misconception, Any, bool]
+Yielded: TypeAlias = tuple[Misconception, object, bool]
 """A misconception, an answer that it yields, and whether that is right."""
 
 
@@ -137,7 +137,7 @@ def _is_long_since(started: tuple[float, float]) -> bool:
     return time.perf_counter() - started[0] > MOST_SECONDS and time.process_time() - started[1] > MOST_SECONDS
 
 
-def _yielded_by(exercise: Exercise, misconception: Misconception, solution: Any) -> list[Yielded]:
+def _yielded_by(exercise: Exercise, misconception: Misconception, solution: object) -> list[Yielded]:
     kind = ANSWER_KINDS[exercise.kind]
     found: list[Yielded] = []
     with suppress(LSystemError, ArithmeticError), limits(modules=20_000, seconds=1, states=200):
@@ -155,7 +155,7 @@ def _is_looked_for(exercise: Exercise, misconception: Misconception) -> bool:
     return misconception.name not in exercise.unlikely and (not on_request or misconception.name in exercise.expects)
 
 
-def _alike(exercise: Exercise, own: Any, other: Any) -> bool:
+def _alike(exercise: Exercise, own: object, other: object) -> bool:
     return (ANSWER_KINDS[exercise.kind].alike or ANSWER_KINDS[exercise.kind].same)(exercise, own, other)
 
 
@@ -183,7 +183,7 @@ def judged(exercise: Exercise, answer: object) -> tuple[Verdict, bool]:
     return Verdict("Almost" if near else "Not yet", message, mark), tried
 
 
-def _repair(exercise: Exercise, own: Any, fitting: Sequence[WrongAnswer], found: Difference) -> Repair | None:
+def _repair(exercise: Exercise, own: object, fitting: Sequence[WrongAnswer], found: Difference) -> Repair | None:
     """The repair of which a reply speaks: where nothing else explains the answer, and of a system also where its mistake is."""
     if found.explains or any(wrong.says for wrong in fitting) or (fitting and exercise.kind != "system"):
         return None
@@ -198,7 +198,7 @@ def _said_of(repair: Repair | None, found: Difference) -> str:
     return repair.said() if not (repair.case and found.at_a_case) else f"{repair.said()} {found.message}"
 
 
-def shown_by(exercise: Exercise, wrong: Any) -> str:
+def shown_by(exercise: Exercise, wrong: object) -> str:
     """What a wrong answer shows, where misconceptions yield it; nothing where none does.
 
     >>> exercise = Exercise("1", "", "number", "", "5", "", (), system="axiom: a\\na -> ab\\nb -> a", steps=3, asks="length")
@@ -209,7 +209,7 @@ def shown_by(exercise: Exercise, wrong: Any) -> str:
     return _explained(fitting, Difference("")) if fitting else ""
 
 
-def _parts_right(exercise: Exercise, own: Any, solution: Any) -> tuple[str, float]:
+def _parts_right(exercise: Exercise, own: object, solution: object) -> tuple[str, float]:
     """Which parts of a wrong answer are right, in words, and the mark for them: nothing where none is."""
     kind = ANSWER_KINDS[exercise.kind]
     right, all = kind.parts_right(exercise, own, solution) if kind.parts_right else (0, 0)

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import tomllib
-from collections.abc import Mapping
-from importlib.resources import files
 from typing import Any
 
+from lsys_kit.files import toml_tables
 from lsys_kit.translation import gettext, ngettext
 
-REPLIES: Mapping[str, Mapping[str, Any]] = tomllib.loads((files(__package__) / "replies.toml").read_text("utf-8"))
+REPLIES = toml_tables(__package__, "replies.toml")
 
 
 def reply(name: str, /, **values: Any) -> str:

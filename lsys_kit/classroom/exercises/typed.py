@@ -4,24 +4,23 @@ from __future__ import annotations
 
 import math
 import re
-import tomllib
 import unicodedata
 from collections.abc import Callable, Collection, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
-from importlib.resources import files
 from numbers import Number
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError, ModelValueError, quotable, shown
+from lsys_kit.files import toml_tables
 from lsys_kit.notation.model.arithmetic import Value, is_symbolic, normalised
 from lsys_kit.translation import NUMBER, gettext
 
-WORDS: Mapping[str, Any] = tomllib.loads((files(__package__) / "typed.toml").read_text("utf-8"))
+WORDS = toml_tables(__package__, "typed.toml")
 """Words and signs that people type, in English and German."""
 _ASSIGNED = re.compile(r"^\s*+[A-Za-z_]\w*+\s*+(?:\([^()=]*\)\s*+)?=(?!=)\s*")
 """The beginning of `N(12) = 21` or `t = d - s`."""

@@ -158,7 +158,7 @@ _ID = re.compile(r"[a-z0-9-]+")
 _PICTURE = ("system", "rules", "step", "angle", "cells", "view", "constants")
 
 
-def lesson_from(name: str, entries: Mapping[str, Any]) -> Lesson:
+def lesson_from(name: str, entries: Mapping[str, object]) -> Lesson:
     """The record of a lesson, from the entries of its file."""
     where = f"The lesson {name}"
     _demand(_NAME.fullmatch(name), f"{where} must be called by two digits and small letters, such as 01_all_at_once")
@@ -227,7 +227,7 @@ def _cell(where: str, cell: object) -> str | Blank:
     )
 
 
-def _each(where: str, rows: Any, read: Callable[[str, Any], Any]) -> tuple[Any, ...]:
+def _each(where: str, rows: Any, read: Callable[[str, object], object]) -> tuple[Any, ...]:
     """Each of some entries, read; they are counted from 1."""
     return tuple(read(f"{where} {place}", each) for place, each in enumerate(rows, 1))
 
@@ -240,7 +240,7 @@ def _demand(holds: object, message: str, hint: str | None = None) -> None:
 # What an entry may be
 
 
-def _fitting(where: str, value: Any, fits: bool, what: str) -> Any:
+def _fitting(where: str, value: object, fits: bool, what: str) -> object:
     _demand(fits, f"{where} must be {what}, not {shown(value)}")
     return value
 
@@ -251,15 +251,15 @@ def _text(where: str, value: object) -> str:
     return str(_fitting(where, value, fits, "a text")).strip()
 
 
-def _number(where: str, value: object) -> Any:
+def _number(where: str, value: object) -> object:
     return _fitting(where, value, type(value) is int and value >= 0, "a whole number")
 
 
-def _truth(where: str, value: object) -> Any:
+def _truth(where: str, value: object) -> object:
     return _fitting(where, value, isinstance(value, bool), "true or false")
 
 
-def _list(where: str, value: object) -> Any:
+def _list(where: str, value: object) -> object:
     return _fitting(where, value, isinstance(value, list), "a list")
 
 
@@ -287,7 +287,7 @@ def _distance(where: str, value: object) -> str:
     return text
 
 
-Shape = Mapping[str, tuple[Callable[[str, object], Any], Any]]
+Shape = Mapping[str, tuple[Callable[[str, object], object], object]]
 """For each entry how it is read, and what it is when it is left out; `...` where it may not be left out."""
 _LESSON: Shape = {
     "number": (_number, ...),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 import traitlets
 from ipywidgets import VBox, Widget
@@ -91,7 +90,7 @@ class Prompt(LessonWidget):
         keep(self._key, [self.typed] if self.revealed else [self.typed, OPEN] if self.typed else [])
 
     @traitlets.validate("typed")
-    def _shortened(self, proposal: Any) -> str:
+    def _shortened(self, proposal: traitlets.Bunch) -> str:
         return str(proposal["value"])[:MOST_TYPED]
 
     def __repr__(self) -> str:
@@ -108,7 +107,7 @@ class Prediction(Unfinalized, VBox):  # type: ignore[misc]
     """
 
     def __init__(self, question: str, what: object) -> None:
-        self._what, self._media, self._shown = what, media(what), tuple[Any, ...]()
+        self._what, self._media, self._shown = what, media(what), tuple[object, ...]()
         self.prompt = Prompt(question, str(self._media["text/plain"]))
         forget_figure(what)
         super().__init__([self.prompt], _dom_classes=("lsys-prediction",))
@@ -121,7 +120,7 @@ class Prediction(Unfinalized, VBox):  # type: ignore[misc]
         self.children = (self.prompt, *self._shown) if self.prompt.revealed else (self.prompt,)
 
     @property
-    def answer(self) -> Mapping[str, Any]:
+    def answer(self) -> Mapping[str, object]:
         """What is shown once it is revealed, by media types."""
         return self._media
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import takewhile
-from typing import Any
 
 import traitlets
 
@@ -101,7 +100,7 @@ class RuleFinder(LessonWidget):
         super().__init__(found={"words": self._words, "steps": [_data(each) for each in steps]})
 
     @traitlets.validate("step")
-    def _within(self, proposal: Any) -> int:
+    def _within(self, proposal: traitlets.Bunch) -> int:
         return max(1, min(len(self._steps), int(proposal["value"])))
 
     @property

@@ -167,7 +167,7 @@ def drawn(choices: Mapping[str, Any]) -> AnyPicture | None:
     return found
 
 
-def _picture(choices: Mapping[str, Any]) -> Data:
+def _picture(choices: Mapping[str, object]) -> Data:
     picture = drawn(choices)
     if picture is None:
         return {}

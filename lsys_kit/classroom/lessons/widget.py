@@ -92,7 +92,7 @@ def media(what: object) -> Data:
     return {kind: base64.b64encode(value).decode() if isinstance(value, bytes) else value for kind, value in data.items()}
 
 
-def widget(what: object) -> Any:
+def widget(what: object) -> object:
     """The widget that shows an object; a widget shows itself."""
     if isinstance(what, Widget):
         return what

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from itertools import islice
-from typing import Any, overload
+from typing import overload
 
 import traitlets
 from ipywidgets import HBox, Layout
@@ -82,7 +82,7 @@ class Worksheet(LessonWidget):
 
     _script_name = "filling"
     sheet = traitlets.Dict().tag(sync=True)
-    typed: traitlets.List[Any] = traitlets.List().tag(sync=True)
+    typed: traitlets.List[object] = traitlets.List().tag(sync=True)
     asked = traitlets.Dict().tag(sync=True)
     result = traitlets.Dict().tag(sync=True)
 

@@ -89,7 +89,7 @@ def _state(panel: Explorer) -> Data:
     }
 
 
-def _check(asked: Mapping[str, Any]) -> Data:
+def _check(asked: Mapping[str, object]) -> Data:
     """The verdict on an answer to an exercise of the course."""
     return _verdict(exercise_of(str(asked["id"])), asked)
 
@@ -126,12 +126,12 @@ def _practice(asked: Mapping[str, Any]) -> Data:
     }
 
 
-def _practice_check(asked: Mapping[str, Any]) -> Data:
+def _practice_check(asked: Mapping[str, object]) -> Data:
     """The verdict on an answer to such an exercise."""
     return _verdict(practice(*_practised(asked)).exercise, asked)
 
 
-def _practised(asked: Mapping[str, Any]) -> tuple[str, int, int]:
+def _practised(asked: Mapping[str, object]) -> tuple[str, int, int]:
     level, seed = asked["level"], asked["seed"]
     if type(level) is not int or type(seed) is not int or not 0 <= seed < MOST_SEED:
         raise ValueError
@@ -142,7 +142,7 @@ MOST_TRIES, MOST_SEED = 50, 10**6
 """So many tries at most say which level comes next; exercises made at random are numbered up to here."""
 
 
-def _plant(asked: Mapping[str, Any]) -> Data:
+def _plant(asked: Mapping[str, object]) -> Data:
     """A model or a link drawn for the wall."""
     drawn = drawn_as(str(asked["text"]), BUDGET["seconds"])
     if len(drawn.get("picture", "")) > MOST_PICTURE:
@@ -154,17 +154,17 @@ MOST_PICTURE = 400_000
 """The greatest size of a drawing on the wall, in characters."""
 
 
-def _asked(asked: Mapping[str, Any]) -> Data:
+def _asked(asked: Mapping[str, object]) -> Data:
     """What a question of a lesson asks, with its picture."""
     return asked_of(question(str(asked["of"]), str(asked["about"])))
 
 
-def _game(asked: Mapping[str, Any]) -> Data:
+def _game(asked: Mapping[str, object]) -> Data:
     """The game with a system."""
     return game_data(game_of(str(asked["what"])))
 
 
-_KINDS: Mapping[str, Callable[[Mapping[str, Any]], Data]] = {
+_KINDS: Mapping[str, Callable[[Mapping[str, object]], Data]] = {
     **dict.fromkeys(("open", "book", "rules", "variants", "keep"), _panel),
     "check": _check,
     "practice": _practice,

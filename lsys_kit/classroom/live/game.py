@@ -6,7 +6,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
-from typing import Any
 
 from lsys_kit.budget import limits
 from lsys_kit.classroom.catalogue import entry, system
@@ -15,12 +14,13 @@ from lsys_kit.classroom.exercises.misconceptions.of_steps import context_in_new_
 from lsys_kit.classroom.panel.bundle import Data
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.derive import derive
-from lsys_kit.derivation.explain import explain
+from lsys_kit.derivation.explain import ModuleOutcome, explain
 from lsys_kit.errors import LSystemError, ModelValueError
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read
 from lsys_kit.notation.registry import dialect_named
+from lsys_kit.notation.syntax.dialect import Dialect
 from lsys_kit.notation.write import as_written
 from lsys_kit.translation import gettext
 
@@ -138,15 +138,15 @@ def _turns(played: LSystem) -> Iterator[Turn]:
         yield Turn(cells, _texts(derivation[step], write), tuple(_other_ways(played, derivation[step - 1], write)))
 
 
-def _texts(word: Sequence[Module], write: Any) -> tuple[str, ...]:
+def _texts(word: Sequence[Module], write: Dialect) -> tuple[str, ...]:
     return tuple(write.module(each) for each in word)
 
 
-def _made(successor: Sequence[Module], write: Any) -> str:
+def _made(successor: Sequence[Module], write: Dialect) -> str:
     return " ".join(_texts(successor, write)) or VANISHES
 
 
-def _offered(told: Sequence[Sequence[Any]], write: Any) -> list[tuple[str, str]]:
+def _offered(told: Sequence[Sequence[ModuleOutcome]], write: Dialect) -> list[tuple[str, str]]:
     """What becomes of any cell in the game: each text once, with the symbol of the cell that becomes it."""
     found: dict[str, str] = {}
     for outcomes in told:
@@ -155,7 +155,7 @@ def _offered(told: Sequence[Sequence[Any]], write: Any) -> list[tuple[str, str]]
     return [*found.items()]
 
 
-def _cell(outcome: Any, offered: Sequence[tuple[str, str]], write: Any) -> Cell:
+def _cell(outcome: ModuleOutcome, offered: Sequence[tuple[str, str]], write: Dialect) -> Cell:
     """A cell with its choices: what is right, that it stays, and what becomes of others; those most alike first."""
     own, right = write.module(outcome.module), _made(outcome.successor, write)
     others = sorted(offered, key=lambda each: (each[1] != outcome.module.symbol, " " not in each[0]))
@@ -164,7 +164,7 @@ def _cell(outcome: Any, offered: Sequence[tuple[str, str]], write: Any) -> Cell:
     return Cell(own, choices, choices.index(right))
 
 
-def _other_ways(played: LSystem, before: Sequence[Module], write: Any) -> Iterator[tuple[str, tuple[str, ...]]]:
+def _other_ways(played: LSystem, before: Sequence[Module], write: Dialect) -> Iterator[tuple[str, tuple[str, ...]]]:
     """What others make of the right word before: one rule after another, or with neighbours that have changed already."""
     beginning, states = beginning_with(played, before), States(played)
     if states.traits.d0l:

@@ -15,7 +15,6 @@ from concurrent.futures import ThreadPoolExecutor
 from multiprocessing.connection import Connection
 from pathlib import Path
 from threading import Thread
-from typing import Any
 
 from lsys_kit.classroom.live.pages import board_data
 from lsys_kit.classroom.live.server import PORT, Audience, ClassServer, LiveClass
@@ -29,7 +28,7 @@ def serve_kernel(pipe: Connection, folder: str, name: str, port: int | None, cou
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     os.environ[VARIABLE] = language(spoken)
 
-    def tell(told: Mapping[str, Any]) -> None:
+    def tell(told: Mapping[str, object]) -> None:
         pipe.send_bytes(json.dumps(told).encode())
 
     kernel = _Kernel(pipe)
@@ -46,7 +45,7 @@ class _Kernel:
 
     def __init__(self, pipe: Connection) -> None:
         self.pipe = pipe
-        self.heard: Callable[[dict[str, Any]], object] = lambda _: os._exit(0)
+        self.heard: Callable[[dict[str, object]], object] = lambda _: os._exit(0)
         Thread(target=self._listen, daemon=True).start()
 
     def _listen(self) -> None:
@@ -58,7 +57,7 @@ class _Kernel:
             self.heard({"end": True})
 
 
-async def _serve(kernel: _Kernel, server: ClassServer, port: int | None, tell: Callable[[Mapping[str, Any]], None]) -> None:
+async def _serve(kernel: _Kernel, server: ClassServer, port: int | None, tell: Callable[[Mapping[str, object]], None]) -> None:
     end, loop = asyncio.Event(), asyncio.get_running_loop()
     try:
         _listen_at(server, port)
@@ -99,7 +98,7 @@ class _KernelBoard(Audience):
     def drop(self) -> None:
         self._messages.clear()
 
-    def hear(self, content: Mapping[str, Any]) -> None:
+    def hear(self, content: Mapping[str, object]) -> None:
         """Do what comes from the kernel."""
         if "end" in content:
             self._end.set()
@@ -111,7 +110,7 @@ class _KernelBoard(Audience):
 
     async def _bring(self, wanted: object) -> None:
         """Tell what a question asks, or show a plant."""
-        content: Any = None
+        content: object = None
         try:
             match wanted:
                 case ["plant", int(number)] if number in self._room.session.plants:

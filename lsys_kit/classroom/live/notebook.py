@@ -103,7 +103,7 @@ class _Class:
         self._pipe, theirs = _CONTEXT.Pipe()
         self._process = _CONTEXT.Process(target=_serve, args=(theirs, folder, name, port, course, language()))
         self._lock, self.boards = Lock(), WeakSet[ClassBoard]()
-        self.state: dict[str, Any] = {}
+        self.state: dict[str, object] = {}
         self.is_open = True
         self._process.start()
         theirs.close()
@@ -114,7 +114,7 @@ class _Class:
             raise
         Thread(target=self._listen, daemon=True).start()
 
-    def _opened(self) -> dict[str, Any]:
+    def _opened(self) -> dict[str, object]:
         """What the server says of itself when it has begun; until then what it says is printed."""
         while True:
             while not self._pipe.poll(A_LITTLE):
@@ -142,7 +142,7 @@ class _Class:
         for board in [*self.boards]:
             board.ended = True
 
-    def tell(self, content: Mapping[str, Any]) -> None:
+    def tell(self, content: Mapping[str, object]) -> None:
         """Tell the server something; one that is gone hears nothing."""
         with self._lock, suppress(OSError):
             self._pipe.send_bytes(json.dumps(content).encode())
@@ -256,7 +256,7 @@ class ClassBoard(KitWidget):
         self._class.boards.discard(self)
         super().close()
 
-    def _stored(self) -> dict[str, Any]:
+    def _stored(self) -> dict[str, object]:
         return {"text/html": f"<p>{escaped(repr(self))}</p>", "text/plain": repr(self)}
 
     def __repr__(self) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-from typing import Any
 
 from lsys_kit.classroom.live.events import ClassEntry
 from lsys_kit.classroom.live.game import GAMES
@@ -44,7 +43,7 @@ def board_page(entry: ClassEntry, address: str) -> str:
     return _document(entry.name, body, "board", board_data(entry, address), style("board"))
 
 
-def board_data(entry: ClassEntry, address: str) -> dict[str, Any]:
+def board_data(entry: ClassEntry, address: str) -> dict[str, object]:
     """What a board has to know of a class."""
     return {"address": address, "code": entry.code, "plan": plan(), "games": list(GAMES), "picture": picture_of(address)}
 
@@ -68,7 +67,7 @@ def problem_page(status: int) -> str:
     return _document(said, f'<main class="door"><h1>{escaped(said)}</h1>{join}</main>\n')
 
 
-def _document(title: str, body: str, script: str = "", data: dict[str, Any] | None = None, more: str = "") -> str:
+def _document(title: str, body: str, script: str = "", data: dict[str, object] | None = None, more: str = "") -> str:
     opening = f"open{script.capitalize()}();"
     words = {"words": translated_words(script, "panel", "filling", "predicting", "voting")} if script else {}
     program = (

@@ -7,7 +7,6 @@ import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
-from typing import Any
 
 from lsys_kit.classroom.course import course_files
 from lsys_kit.classroom.exercises.registry import lessons as lessons_with_exercises
@@ -197,7 +196,7 @@ def right_cells(found: Table, entries: Sequence[object]) -> list[bool | None]:
     ]
 
 
-def value_of(question: Question, value: object) -> Any:
+def value_of(question: Question, value: object) -> object:
     """What was said to a question, as it is kept.
 
     Raises

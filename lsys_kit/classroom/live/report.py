@@ -8,9 +8,9 @@ from __future__ import annotations
 import csv
 import io
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 from lsys_kit.classroom.exercises.collecting import cell
 from lsys_kit.classroom.lessons.lesson import lesson
@@ -59,7 +59,7 @@ def write_reports(folder: str | Path) -> list[Path]:
     return written
 
 
-def rows_of(session: Session) -> Iterator[tuple[Any, ...]]:
+def rows_of(session: Session) -> Iterator[tuple[object, ...]]:
     """The rows of the table, question by question."""
     for asked in sorted(session.answers):
         said = session.values(asked)
@@ -69,19 +69,19 @@ def rows_of(session: Session) -> Iterator[tuple[Any, ...]]:
             yield (asked.about, asked.kind, asked.round, gettext("(no longer in the kit)"), len(said), "", len(said))
 
 
-def _votes(session: Session, asked: Asked, said: dict[str, Any]) -> Iterator[tuple[Any, ...]]:
+def _votes(session: Session, asked: Asked, said: dict[str, Any]) -> Iterator[tuple[object, ...]]:
     counts, right = Counter(said.values()), right_option(asked.about)
     for place, letter in enumerate(LETTERS):
         yield (asked.about, VOTE, asked.round, letter, counts[place], "yes" if place == right else "no", len(said))
 
 
-def _predictions(session: Session, asked: Asked, said: dict[str, Any]) -> Iterator[tuple[Any, ...]]:
+def _predictions(session: Session, asked: Asked, said: dict[str, Any]) -> Iterator[tuple[object, ...]]:
     marked = session.marked.get(asked.about, set())
     for text, count in Counter(said.values()).most_common():
         yield (asked.about, PREDICTION, asked.round, text, count, "yes" if text in marked else "", len(said))
 
 
-def _tables(session: Session, asked: Asked, said: dict[str, Any]) -> Iterator[tuple[Any, ...]]:
+def _tables(session: Session, asked: Asked, said: dict[str, Any]) -> Iterator[tuple[object, ...]]:
     table = table_of(question(TABLE, asked.about))
     marks = [right_cells(table, entries) for entries in said.values()]
     for place, (row, column, _) in enumerate(table.blanks):
@@ -90,21 +90,22 @@ def _tables(session: Session, asked: Asked, said: dict[str, Any]) -> Iterator[tu
             yield (asked.about, TABLE, asked.round, name, sum(mark[place] is right for mark in marks), word, len(said))
 
 
-def _exercises(session: Session, asked: Asked, said: dict[str, Any]) -> Iterator[tuple[Any, ...]]:
+def _exercises(session: Session, asked: Asked, said: dict[str, Any]) -> Iterator[tuple[object, ...]]:
     counts = Counter((each["said"], each["message"] if each["said"] != "Correct" else "") for each in said.values())
     for (verdict, message), count in counts.most_common():
         right = "yes" if verdict == "Correct" else "no"
         yield (asked.about, EXERCISE, asked.round, f"{gettext(verdict)}. {message}".strip(), count, right, len(said))
 
 
-def _games(session: Session, asked: Asked, said: dict[str, Any]) -> Iterator[tuple[Any, ...]]:
+def _games(session: Session, asked: Asked, said: dict[str, Any]) -> Iterator[tuple[object, ...]]:
     game = session.game(asked.about)
     found = outcome(game.turns[asked.round - 1], made_by(game.turns[asked.round - 1], session.chosen(asked)))
     right = "yes" if found["parts"] is None else "no"
     yield (f"{asked.about}: {game.title}", GAME, asked.round, found["word"], len(said), right, len(said))
 
 
-_ROWS: dict[str, Any] = {VOTE: _votes, PREDICTION: _predictions, TABLE: _tables, EXERCISE: _exercises, GAME: _games}
+_Rows: TypeAlias = Callable[[Session, Asked, dict[str, Any]], Iterator[tuple[object, ...]]]
+_ROWS: Mapping[str, _Rows] = {VOTE: _votes, PREDICTION: _predictions, TABLE: _tables, EXERCISE: _exercises, GAME: _games}
 
 
 def report_table(session: Session) -> str:
@@ -166,7 +167,7 @@ def _vote_parts(session: Session) -> Iterator[str]:
         yield _paragraph(_changed(second["changes"]), _advice(first["bars"][right] / all_first) if all_first else "")
 
 
-def _changed(changes: dict[str, Any]) -> str:
+def _changed(changes: dict[str, object]) -> str:
     """How many have changed their minds, and the gain."""
     told = gettext(
         "Of {both} who voted twice {better} changed from wrong to right, and {worse} from right to wrong.",

@@ -134,7 +134,7 @@ class Audience:
             self._state = state
             self._send_soon()
 
-    def say(self, message: Mapping[str, Any]) -> None:
+    def say(self, message: Mapping[str, object]) -> None:
         """Send a message; who does not read is dropped."""
         self._messages.append(json.dumps(message))
         if len(self._messages) > MOST_UNREAD:
@@ -245,7 +245,7 @@ class LiveClass:
 
     # What phones say
 
-    async def said(self, phone: str, message: Mapping[str, Any]) -> dict[str, Any]:
+    async def said(self, phone: str, message: Mapping[str, object]) -> dict[str, object]:
         """Keep what a phone says, and answer it: kept, or refused and why, or to be sent again later."""
         sent = message.get("sent")
         if type(sent) is not int or not 0 < sent < _LAST_SENT:
@@ -264,7 +264,7 @@ class LiveClass:
             return {"later": sent, "why": gettext("The teacher's computer cannot keep it now.")}
         return {"kept": sent}
 
-    def _understood(self, message: Mapping[str, Any]) -> tuple[Asked, Any]:
+    def _understood(self, message: Mapping[str, object]) -> tuple[Asked, object]:
         kind, about, round = (message[name] for name in ("kind", "about", "round"))
         if not (isinstance(kind, str) and isinstance(about, str) and type(round) is int):
             raise ValueError
@@ -276,7 +276,7 @@ class LiveClass:
             raise ValueError
         return Asked(known.kind, known.about, round), value_of(known, message["value"])
 
-    async def asks(self, phone: str, content: Mapping[str, Any]) -> bytes:
+    async def asks(self, phone: str, content: Mapping[str, object]) -> bytes:
         """What the kit answers to a phone; a try at an exercise and a plant are kept before the phone hears of it."""
         kind, sent = content.get("kind"), content.get("sent")
         if kind == PLANT and self.session.planted[phone] >= MOST_OF_A_PHONE:
@@ -300,14 +300,14 @@ class LiveClass:
 
     # What the teacher does
 
-    async def told_by(self, board: Audience, content: Mapping[str, Any]) -> None:
+    async def told_by(self, board: Audience, content: Mapping[str, object]) -> None:
         """Do what the teacher asks for at a board; a board hears of what cannot be done."""
         try:
             await self.does(content)
         except LSystemError as fault:
             board.say({"mistake": f"{fault.message}. {fault.hint or ''}".strip()})
 
-    async def does(self, content: Mapping[str, Any]) -> None:
+    async def does(self, content: Mapping[str, object]) -> None:
         """Keep and do what the teacher asks for.
 
         Raises
@@ -318,7 +318,7 @@ class LiveClass:
         done = content.get("do")
         if done in ("open", "close", "show"):
             asked = self._asked_by(content)
-            value: Any = [*asked]
+            value: object = [*asked]
             if done == "open":
                 value = {**asked._asdict(), "seats": self.present}
             await self._did(str(done), "", int(content.get("on") is not False), value)
@@ -341,7 +341,7 @@ class LiveClass:
         else:
             raise LSystemError("The board asks for something that nobody knows")
 
-    def _asked_by(self, content: Mapping[str, Any]) -> Asked:
+    def _asked_by(self, content: Mapping[str, object]) -> Asked:
         kind, about, round = content.get("kind"), content.get("about"), content.get("round")
         asked = Asked(str(kind), str(about), round if type(round) is int else 0)
         if asked.kind == WALL:
@@ -355,7 +355,7 @@ class LiveClass:
             raise LSystemError("There is no such question")
         return asked
 
-    async def _did(self, kind: str, about: str, round: int, value: Any) -> None:
+    async def _did(self, kind: str, about: str, round: int, value: object) -> None:
         is_new = False
         while not is_new:  # another server of this class may have taken the number
             self._number = max(self._number, self.session.last_done) + 1
@@ -570,7 +570,7 @@ class _Handler(_OfTheClass):
             raise tornado.web.HTTPError(404)
         return found
 
-    def write_error(self, status_code: int, **_: Any) -> None:
+    def write_error(self, status_code: int, **_: object) -> None:
         self.send(_Page(pages.problem_page(status_code).encode()), "text/html; charset=utf-8")
 
     def send(self, page: _Page, kind: str) -> None:
@@ -711,7 +711,7 @@ class _Socket(_OfTheClass, tornado.websocket.WebSocketHandler, Audience):
         if stream is not None:
             stream.close()
 
-    def read(self, message: str | bytes) -> dict[str, Any]:
+    def read(self, message: str | bytes) -> dict[str, object]:
         """What a message says; nothing, where it cannot be understood."""
         try:
             found = json.loads(message)

@@ -10,7 +10,6 @@ from contextlib import suppress
 from hashlib import sha256
 from importlib.resources import files
 from pathlib import Path
-from typing import Any
 from urllib.parse import urlsplit
 
 from lsys_kit.classroom.course import course_files
@@ -36,7 +35,7 @@ def missing_library(absent: str) -> LSystemError:
     return LSystemError(f"A class needs the library {absent}", hint="Install it with: pip install 'lsys-kit[class]'")
 
 
-def mistake_told(fault: LSystemError) -> dict[str, Any]:
+def mistake_told(fault: LSystemError) -> dict[str, object]:
     """An error of the kit, as a server tells the kernel that has started it."""
     return {"mistake": fault.message, "hint": fault.hint, "of_file": isinstance(fault, ModelFileError)}
 

@@ -7,7 +7,7 @@ read the same.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from itertools import islice
 from typing import Any, NamedTuple
 
@@ -309,7 +309,7 @@ class Session:
         return {str(int(place)): choice for place, choice in islice(value.items(), len(cells))}
 
 
-_DONE: Mapping[str, Any] = {
+_DONE: Mapping[str, Callable[..., None]] = {
     "open": Session._open,
     "begin": Session._begin,
     "close": Session._close,
@@ -319,7 +319,7 @@ _DONE: Mapping[str, Any] = {
     "finish": Session._finish,
 }
 """What comes of each thing that a teacher does."""
-_VIEWS: Mapping[str, Any] = {
+_VIEWS: Mapping[str, Callable[..., Data]] = {
     VOTE: Session._vote,
     PREDICTION: Session._prediction,
     TABLE: Session._table,

@@ -104,7 +104,7 @@ class Workers:
         for _ in range(self._many):
             self._starters.submit(self._start)
 
-    async def ask(self, phone: str, asked: Mapping[str, Any]) -> bytes:
+    async def ask(self, phone: str, asked: Mapping[str, object]) -> bytes:
         """The answer to a question of a phone, as JSON; the same question of several is answered once.
 
         Raises
@@ -224,7 +224,7 @@ def _work(questions: Connection) -> None:
             limit_seconds(PROCESSOR)
             patience.begin()
             try:
-                reply: Any = answer(json.loads(asked))
+                reply: object = answer(json.loads(asked))
             except MemoryError:
                 reply = {"mistake": {"message": "It takes too much memory", "hint": "Take fewer steps."}}
             patience.end()

@@ -9,7 +9,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import count
-from typing import Any
 
 from lsys_kit.derivation.core.rules import constants_of, real_from
 from lsys_kit.errors import ModelValueError
@@ -72,7 +71,7 @@ def _guessed(value: Value) -> SliderRange:
 
 def _calculated_with(name: str, system: LSystem) -> bool:
     """Whether a constant is used in arithmetic or an inequality; LEFT and RIGHT, for example, are only tested for equality."""
-    expressions: list[Any] = [constant.value for constant in system.constants]
+    expressions: list[object] = [constant.value for constant in system.constants]
     for rule in system.rules:
         expressions += [rule.condition, rule.probability, *(a for module in rule.modules for a in module.arguments)]
     return any(_operates_on(name, expression) for expression in expressions if isinstance(expression, Apply))
@@ -86,7 +85,7 @@ def _operates_on(name: str, expression: Expression) -> bool:
     return (direct and not tells_apart) or any(_operates_on(name, operand) for operand in expression.operands)
 
 
-def slider(name: str, values: Sequence[Value], first: Value, what: str = "") -> dict[str, Any]:
+def slider(name: str, values: Sequence[Value], first: Value, what: str = "") -> dict[str, object]:
     """A slider as the browser needs it: the texts of its values, and the place of the first one; `what` it is, if no constant.
 
     >>> slider("c", (1, 2, 3), 2)

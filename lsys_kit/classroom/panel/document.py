@@ -13,7 +13,6 @@ import re
 import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 from lsys_kit.classroom.panel.bundle import compact
 from lsys_kit.errors import ModelValueError, shown
@@ -32,7 +31,7 @@ class Program:
 
     script: str
     style: str
-    data: Mapping[str, Any]
+    data: Mapping[str, object]
     asks: bool = False
 
 

@@ -193,7 +193,7 @@ class Explorer(ScriptedWidget):
         return page(self._opened.title or self._opened.kind, self.page_data(), self.text)
 
     @traitlets.validate("step")
-    def _possible_step(self, proposal: Any) -> int:
+    def _possible_step(self, proposal: traitlets.Bunch) -> int:
         step: int = proposal["value"]
         self._check_step(step)
         return step
@@ -204,12 +204,12 @@ class Explorer(ScriptedWidget):
             raise ModelValueError(f"The panel shows steps 0 to {last}, not {shown(step)}", hint=end or None)
 
     @traitlets.validate("letters")
-    def _possible_letters(self, proposal: Any) -> list[str]:
+    def _possible_letters(self, proposal: traitlets.Bunch) -> list[str]:
         offered = self._opened.lettered
         return [name for name in offered if name in chosen_names(proposal["value"], "letter", offered)]
 
     @traitlets.validate("settings")
-    def _possible_settings(self, proposal: Any) -> dict[str, str]:
+    def _possible_settings(self, proposal: traitlets.Bunch) -> dict[str, str]:
         given = {**self.settings, **proposal["value"]} if self._ready else proposal["value"]
         return {
             name: number_text(nearest(self._opened.values[name], name, text))
@@ -249,12 +249,12 @@ class Explorer(ScriptedWidget):
             self.add_traits(**offered)  # all at once: this makes a class anew
             self.observe(self._set_constant, [*offered])
 
-    def _trait_of(self, name: str, value: Value) -> Any:
+    def _trait_of(self, name: str, value: Value) -> object:
         whole = all(isinstance(part, int) for part in self._opened.values[name])
         kind: Any = traitlets.Int if whole else traitlets.Float
         return kind(plain_number(value))
 
-    def _set_constant(self, change: Any) -> None:
+    def _set_constant(self, change: traitlets.Bunch) -> None:
         self.settings = {**self.settings, change["name"]: change["new"]}
 
     def _tell_constants(self, _: object) -> None:
@@ -271,7 +271,7 @@ class Explorer(ScriptedWidget):
     def _limited(self) -> AbstractContextManager[object]:
         return limits(modules=min(MOST_MODULES, current().modules))
 
-    def _answer(self, _: object, content: Mapping[str, Any], buffers: object) -> None:
+    def _answer(self, _: object, content: Mapping[str, object], buffers: object) -> None:
         """Answer what the browser asks, by its number."""
         reply: Data = {"mistake": _mistake(_BROKEN_OFF)}
         try:
@@ -279,7 +279,7 @@ class Explorer(ScriptedWidget):
         finally:  # the browser waits for an answer, also where the kernel is interrupted
             self.send({"number": content["number"], **reply})
 
-    def answer(self, content: Mapping[str, Any]) -> Data:
+    def answer(self, content: Mapping[str, object]) -> Data:
         """What is answered to a question of the panel's script; a mistake is an answer too."""
         kinds = {"book": self._book_for, "rules": self._model_for, "variants": self._variants, "keep": self._kept}
         require(content, Mapping, "A question of the panel")
@@ -326,14 +326,14 @@ class Explorer(ScriptedWidget):
         self._offer_constants()
         return {"opened": True}
 
-    def _variants(self, _: Mapping[str, Any]) -> Data:
+    def _variants(self, _: Mapping[str, object]) -> Data:
         return {
             "variants": [
                 {"text": str(variant), "book": opened(variant).book({}, self.seed, 0)} for variant in self._opened.variants(9)
             ]
         }
 
-    def _kept(self, content: Mapping[str, Any]) -> Data:
+    def _kept(self, content: Mapping[str, object]) -> Data:
         """What is taken along: the drawing as SVG, or a link to the panel as it stands, or the panel as a page."""
         if content["what"] == "link":
             return {"text": self.link}
@@ -427,18 +427,10 @@ Width 14, height 1.
             "The explorer takes no field of Python: its pages and links hold the text of the model alone",
             hint='Name a field in the text, as in "field: light", or draw or animate with field=...',
         )
-    title = ""
-    if isinstance(what, str) and _ID.fullmatch(what.strip()):
-        title = entry(what.strip()).id
-        what = catalogued(title)
-    if isinstance(what, str) and is_link(what):
-        there = linked(what)
-        given: Data = {**there.settings, **settings_given(step, angle, seed), **constants}
-        what, step, angle, seed = there.system, given.pop(STEP, None), given.pop(ANGLE, None), given.pop(SEED, 0)
-        constants = given
-    system = read_any(what) if isinstance(what, str) else what
-    if not isinstance(system, AnySystem):
-        raise ModelValueError(f"Only a system, its id or name, or its text can be explored, not {type(what).__name__}")
+    system, title, settings = _system_from(what)
+    if settings:
+        given: Data = {**settings, **settings_given(step, angle, seed), **constants}
+        step, angle, seed, constants = given.pop(STEP, None), given.pop(ANGLE, None), given.pop(SEED, 0), given
     check_unfolded(system, unfold, constants)
     unfold = unfold if isinstance(unfold, bool | str) else [*unfold]
     found = opened(system, title, constants, unfold=unfold)
@@ -448,6 +440,20 @@ Width 14, height 1.
     named = letters_from(system, letters) if isinstance(system, LSystem) else chosen_names(letters, "letter", ())
     views = None if show is None else chosen_names(show, "view", VIEWS)
     return Explorer(chosen, step, angle, seed, without, unfold, views, named)
+
+
+def _system_from(what: AnySystem | str) -> tuple[AnySystem, str, Mapping[str, object]]:
+    """A system that somebody gives, or names, or writes; its title, if it has one, and the settings of a link."""
+    if isinstance(what, str) and _ID.fullmatch(what.strip()):
+        title = entry(what.strip()).id
+        return catalogued(title), title, {}
+    if isinstance(what, str) and is_link(what):
+        there = linked(what)
+        return there.system, "", there.settings
+    system = read_any(what) if isinstance(what, str) else what
+    if not isinstance(system, AnySystem):
+        raise ModelValueError(f"Only a system, its id or name, or its text can be explored, not {type(what).__name__}")
+    return system, "", {}
 
 
 def check_unfolded(system: AnySystem, unfold: Unfolding, constants: Data) -> None:

@@ -86,7 +86,7 @@ def save_page(path: str | Path, text: str) -> None:
     save_file(path, text.encode())
 
 
-def shared(books: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+def shared(books: Sequence[Mapping[str, object]]) -> dict[str, object]:
     """Books with what they have in common written once: for each entry its different values, and for each book their numbers.
 
     >>> shared([{"a": [1], "b": 2}, {"a": [1], "b": 3, "c": 4}])

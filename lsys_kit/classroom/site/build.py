@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 from threading import Event
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from tqdm import tqdm
 
@@ -22,6 +22,9 @@ from lsys_kit.classroom.site.markdown import missing
 from lsys_kit.classroom.site.pages import INDEX, Entry, notebook_page, title_of
 from lsys_kit.errors import LSystemError, ModelFileError, quotable
 from lsys_kit.files import file_errors, made_by_the_kit, save_file
+
+if TYPE_CHECKING:
+    from nbformat import NotebookNode
 
 
 def build_site(folder: str | Path, source: Path | None = None, live: bool = False) -> tuple[Path, ...]:
@@ -46,7 +49,7 @@ def build_site(folder: str | Path, source: Path | None = None, live: bool = Fals
     return tuple(places.values())
 
 
-def _run(files: Mapping[str, Path], stored: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
+def _run(files: Mapping[str, Path], stored: Mapping[str, object]) -> Iterator[tuple[str, Any]]:
     """The notebooks: exercises as they are stored, all others run; how many are done is shown."""
     exercises = {name for name in files if name.startswith("exercises/")}
     with tqdm(total=len(files), desc="pages", unit="page") as bar:
@@ -77,7 +80,7 @@ _FIRST = f"from {showing.__name__} import show_for_pages\nshow_for_pages({{!r}})
 """The cell that is run before those of a lesson, with its name."""
 
 
-def run_all(paths: Mapping[str, Path]) -> Iterator[tuple[str, Any]]:
+def run_all(paths: Mapping[str, Path]) -> Iterator[tuple[str, object]]:
     """The notebooks of some files, by their names in the course, run, in the order in which they are finished."""
     stopped = Event()
     with ThreadPoolExecutor(max_workers=min(8, os.cpu_count() or 1)) as pool:
@@ -90,13 +93,13 @@ def run_all(paths: Mapping[str, Path]) -> Iterator[tuple[str, Any]]:
             pool.shutdown(cancel_futures=True)
 
 
-def run(name: str, path: Path, stopped: Event | None = None) -> Any:
+def run(name: str, path: Path, stopped: Event | None = None) -> object:
     """The notebook of a file, run in a kernel of its own, in which the kit's widgets are shown as parts of a page."""
     nbclient, nbformat = _libraries()
     notebook = nbformat.read(path, as_version=4)
     notebook.cells.insert(0, nbformat.v4.new_code_cell(_FIRST.format(path.stem)))
 
-    def unless_stopped(**_: Any) -> None:
+    def unless_stopped(**_: object) -> None:
         if stopped is not None and stopped.is_set():
             raise KeyboardInterrupt
 
@@ -125,7 +128,7 @@ def run(name: str, path: Path, stopped: Event | None = None) -> Any:
     return notebook
 
 
-def _check_shown(name: str, cell: Any) -> None:
+def _check_shown(name: str, cell: NotebookNode) -> None:
     """See that all that a cell shows is there: what fails only when it is shown does not stop a notebook."""
     outputs = cell.get("outputs", ())
     failed = [f"{each.ename}: {each.evalue}" for each in outputs if each.output_type == "error"]
@@ -135,7 +138,7 @@ def _check_shown(name: str, cell: Any) -> None:
             raise LSystemError(f"A page of {name} cannot have what {quotable(shown)} shows: {fault}".rstrip("."), hint=_RUN_IT)
 
 
-def found_in(cells: Sequence[Any], kind: str) -> Iterator[Any]:
+def found_in(cells: Sequence[NotebookNode], kind: str) -> Iterator[Any]:
     """What cells show of a media type, also within something else."""
     todo = [each.get("data", {}) for cell in reversed(cells) for each in reversed(cell.get("outputs", ()))]
     while todo:
@@ -145,9 +148,10 @@ def found_in(cells: Sequence[Any], kind: str) -> Iterator[Any]:
         todo += [each for each in data.values() if isinstance(each, dict)]
 
 
-def read_notebook(path: Path) -> Any:
+def read_notebook(path: Path) -> NotebookNode:
     """The notebook of a file as it is stored."""
-    return _libraries()[1].read(path, as_version=4)
+    notebook: NotebookNode = _libraries()[1].read(path, as_version=4)
+    return notebook
 
 
 def _libraries() -> tuple[Any, Any]:

@@ -37,14 +37,14 @@ def markdown_html(text: str, links: Links, after: Callable[[str], str] = lambda 
     mistune = _mistune()
 
     class Renderer(mistune.HTMLRenderer):  # type: ignore[misc, name-defined]
-        def __call__(self, tokens: Iterable[Any], state: Any) -> str:
+        def __call__(self, tokens: Iterable[object], state: object) -> str:
             blocks = (self.render_token(each, state) for each in tokens)
             return "".join(block + after(block) for block in blocks)
 
         def text(self, text: str) -> str:
             return escape(unescape(text))
 
-        def heading(self, text: str, level: int, **_: Any) -> str:
+        def heading(self, text: str, level: int, **_: object) -> str:
             return f'<h{level} id="{heading_id(text)}">{text}</h{level}>\n'
 
         def link(self, text: str, url: str, title: str | None = None) -> str:

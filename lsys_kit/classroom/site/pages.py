@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import PurePosixPath
 from posixpath import relpath
-from typing import Any
+from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
 from lsys_kit.classroom.course import is_lesson
@@ -28,6 +28,9 @@ from lsys_kit.classroom.site.showing import PART
 from lsys_kit.pictures.formats.notebook import DARKENED
 from lsys_kit.pictures.style.labels import escaped
 from lsys_kit.translation import gettext
+
+if TYPE_CHECKING:
+    from nbformat import NotebookNode
 
 INDEX = "index.html"
 COURSE = "L-systems: a course"
@@ -73,7 +76,7 @@ class Entry:
         return str(PurePosixPath(self.name).parent)
 
 
-def notebook_page(entry: Entry, cells: Sequence[Any], entries: Sequence[Entry], live: bool = False) -> str:
+def notebook_page(entry: Entry, cells: Sequence[NotebookNode], entries: Sequence[Entry], live: bool = False) -> str:
     """The page of a notebook; of exercises the questions, with room on paper for each answer.
 
     On a live page, which comes from the server of a class, exercises can be answered and rules changed.
@@ -98,7 +101,7 @@ def notebook_page(entry: Entry, cells: Sequence[Any], entries: Sequence[Entry], 
     return document(entry.title, body, style("course"), described, _program(parts, live))
 
 
-def _question_html(cell: Any, links: Links, parts: Parts, live: bool) -> str:
+def _question_html(cell: NotebookNode, links: Links, parts: Parts, live: bool) -> str:
     """A cell of exercises: its text, but not what is there for marks alone; in the place of a cell for an answer room on paper,
     or on a live page what takes the answer."""
     if cell.cell_type == "markdown":
@@ -179,7 +182,7 @@ def _program(parts: Parts, live: bool) -> Program | None:
     return Program(script, looks, {**_with_books_once(parts), **words}, live)
 
 
-def _panels(data: Any) -> Iterator[Data]:
+def _panels(data: object) -> Iterator[Data]:
     """The data of panels, wherever they are."""
     if isinstance(data, list):
         for each in data:
@@ -192,7 +195,7 @@ def _with_books_once(parts: Parts) -> Data:
     """The data of a page: panels of the same books have them in common, each names theirs by a number."""
     books: dict[str, int] = {}
 
-    def numbered(data: Any) -> Any:
+    def numbered(data: object) -> Any:
         if not isinstance(data, dict):
             return data
         return {
@@ -212,7 +215,7 @@ _PICTURE = re.compile(r'src="data:image/svg\+xml;base64,([A-Za-z0-9+/=]{4000,})"
 _SIZE = re.compile(r'<svg(?: (?!width)[\w:]+="[^"]*")*( width="[^"]*" height="[^"]*")')
 
 
-def cells_html(cells: Sequence[Any], links: Links, parts: Parts, live: bool = False) -> str:
+def cells_html(cells: Sequence[NotebookNode], links: Links, parts: Parts, live: bool = False) -> str:
     """Cells of a notebook as HTML; what the script of the page has to know is added to `parts`."""
     return "".join(
         markdown_html(cell.source, links, _nothing if live else notes())
@@ -228,7 +231,7 @@ def _nothing(_: str) -> str:
     return ""
 
 
-def _code_html(cell: Any, parts: Parts) -> str:
+def _code_html(cell: NotebookNode, parts: Parts) -> str:
     """A code cell: its code, and below it what it shows; where it asks something, its code is folded and comes last."""
     shown = "".join(output_html(output, parts) for output in cell.outputs)
     code = f'<pre class="code"><code>{escaped_lines(cell.source.strip())}</code></pre>\n'
@@ -276,7 +279,7 @@ def kept_picture(drawing: str, parts: Parts) -> str:
     return f'data-part="{number}" src="data:image/svg+xml,{quote(empty)}"'
 
 
-def _part_html(part: Mapping[str, Any], words: str, parts: Parts) -> str:
+def _part_html(part: Mapping[str, object], words: str, parts: Parts) -> str:
     kind, number = part["kind"], len(parts)
     parts.append({"kind": kind, "data": part["data"]})
     inside = _prediction_html(part, parts) if kind == "prediction" else _lines(words)
@@ -297,14 +300,14 @@ def _block(inside: str) -> str:
     return f'<div class="output" tabindex="0">{inside}</div>\n'
 
 
-def headings(cells: list[Any]) -> Iterator[str]:
+def headings(cells: list[NotebookNode]) -> Iterator[str]:
     """The headings of a notebook, from the greatest on, each as it is written."""
     for cell in cells:
         if cell.cell_type == "markdown":
             yield from (line for line in cell.source.splitlines() if line.startswith("#"))
 
 
-def title_of(cells: list[Any], name: str) -> str:
+def title_of(cells: list[NotebookNode], name: str) -> str:
     """The title of a notebook: its first heading."""
     first = next((line for line in headings(cells) if line.startswith("# ")), f"# {name}")
     return escaped(first[2:].strip()).replace("`", "").replace("*", "")

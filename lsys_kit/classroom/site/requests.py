@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import re
-import tomllib
 from collections.abc import Callable
 from functools import cache
 from html import unescape
-from importlib.resources import files
 
 from lsys_kit.classroom.lessons.widget import prose_html
+from lsys_kit.files import toml_tables
 
 _TAG = re.compile(r"<[^<>]*>")
 
@@ -43,5 +42,5 @@ def notes() -> Callable[[str], str]:
 @cache
 def _kinds() -> dict[str, tuple[tuple[re.Pattern[str], ...], str]]:
     """For each kind of requests the patterns of one, and what a page says."""
-    declared = tomllib.loads((files(__package__) / "requests.toml").read_text(encoding="utf-8"))
+    declared = toml_tables(__package__, "requests.toml")
     return {kind: (tuple(map(re.compile, each["asks"])), each["says"]) for kind, each in declared.items()}

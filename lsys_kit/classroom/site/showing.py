@@ -53,15 +53,15 @@ def show_for_pages(lesson: str = "") -> None:
     asking = declared(lesson) if lesson in names() else None
     first = iter([small_picture])  # the first picture alone is made small
 
-    def with_small(shown: dict[str, Any], picture: Callable[[], Any]) -> dict[str, Any]:
+    def with_small(shown: dict[str, object], picture: Callable[[], Any]) -> dict[str, object]:
         make = next(first, None)
         return shown if make is None else shown | {SMALL: make(picture())}
 
-    def show_part(widget: Any, include: object = None, exclude: object = None) -> dict[str, Any]:
+    def show_part(widget: object, include: object = None, exclude: object = None) -> dict[str, object]:
         shown, choices = part(widget, asking), asking.vote.picture if asking and isinstance(widget, VoteBox) else {}
         return with_small(shown, lambda: drawn(choices)) if choices else shown
 
-    def show_picture(picture: SVGPicture, include: object = None, exclude: object = None) -> dict[str, Any]:
+    def show_picture(picture: SVGPicture, include: object = None, exclude: object = None) -> dict[str, object]:
         return with_small(picture._repr_mimebundle_(), lambda: picture)
 
     for kind in KINDS:
@@ -69,14 +69,14 @@ def show_for_pages(lesson: str = "") -> None:
     formatter.mimebundle_formatter.for_type(SVGPicture, or_fault(show_picture))
 
 
-def or_fault(show: Callable[..., dict[str, Any]]) -> Callable[..., dict[str, Any]]:
+def or_fault(show: Callable[..., dict[str, object]]) -> Callable[..., dict[str, object]]:
     """A function that shows something, with what it fails of as what it shows.
 
     >>> or_fault(lambda widget: 1 / 0)(None)
     {'application/vnd.lsys-kit.page-fault': 'ZeroDivisionError: division by zero', 'text/plain': ''}
     """
 
-    def safely(*given: Any, **options: Any) -> dict[str, Any]:
+    def safely(*given: object, **options: object) -> dict[str, object]:
         try:
             return show(*given, **options)
         except Exception as fault:
@@ -127,7 +127,7 @@ def light_or_dark(light: str, dark: str) -> str:
     return f"{begin}><style>@media (prefers-color-scheme:dark){{{rules}}}</style>{rest}"
 
 
-def part(widget: Any, lesson: Lesson | None = None) -> dict[str, Any]:
+def part(widget: object, lesson: Lesson | None = None) -> dict[str, object]:
     """What a page has to know of a widget, by media types.
 
     >>> from lsys_kit import worksheet
@@ -140,11 +140,11 @@ def part(widget: Any, lesson: Lesson | None = None) -> dict[str, Any]:
     return {PART: found, "text/html": html({"text/plain": repr(widget)}), "text/plain": repr(widget)}
 
 
-def _seen(widget: Any, lesson: Lesson | None) -> dict[str, Any]:
+def _seen(widget: object, lesson: Lesson | None) -> dict[str, object]:
     return {"kind": next(kind for each, kind in KINDS.items() if isinstance(widget, each)), "data": _data(widget, lesson)}
 
 
-def _data(widget: Any, lesson: Lesson | None) -> Any:
+def _data(widget: Any, lesson: Lesson | None) -> object:
     if isinstance(widget, PanelWithWorksheet):
         return {"panel": _seen(widget.panel, lesson), "sheet": _data(widget.sheet, lesson)}
     if not isinstance(widget, Explorer | Comparison):

@@ -6,18 +6,19 @@ that can be derived can be derived with letters, and the word says under which c
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from contextlib import suppress
 from copy import copy
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from types import ModuleType
+from typing import TYPE_CHECKING
 
 from lsys_kit.derivation.core.rules import constants_of, unknown_constant
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.traits import traits_of
 from lsys_kit.errors import ModelNameError, ModelValueError, every, quotable, require
 from lsys_kit.notation.analysis.checks import suggestion
-from lsys_kit.notation.model.arithmetic import Decision, Formula, expression_of, formulas_in, is_symbolic, number_of
+from lsys_kit.notation.model.arithmetic import Decision, Formula, Value, expression_of, formulas_in, is_symbolic, number_of
 from lsys_kit.notation.model.expressions import to_sympy
 from lsys_kit.notation.model.formulas import formula_text
 from lsys_kit.notation.model.modules import Module
@@ -65,7 +66,7 @@ def with_letters(
 
     values = constants_of(system, changes, arithmetic)
     decisions: dict[Decision, None] = {}
-    found, known = dict(changes), dict[Any, Any]()
+    found, known = dict(changes), dict[str, object]()
     for constant, value in zip(system.constants, values, strict=True):
         if is_symbolic(value):
             continue
@@ -112,11 +113,11 @@ def conditions(states: States, decided: Sequence[Decision] | None = None) -> lis
         return _conditions(decisions_of(states) if decided is None else decided, letters)
 
 
-def _conditions(decided: Iterable[Decision], letters: Mapping[Any, Any]) -> list[sympy.Basic]:
+def _conditions(decided: Iterable[Decision], letters: Mapping[sympy.Expr, Value]) -> list[sympy.Basic]:
     import sympy
 
-    solved: dict[Any, list[tuple[str, Any]]] = {}
-    others: dict[Any, None] = {}
+    solved: dict[sympy.Symbol, list[tuple[str, sympy.Expr]]] = {}
+    others: dict[sympy.Rel, None] = {}
     for left, relation, right in decided:
         difference = _difference(left, right)
         found = _solved(difference, relation, letters)
@@ -128,11 +129,11 @@ def _conditions(decided: Iterable[Decision], letters: Mapping[Any, Any]) -> list
 
 
 @lru_cache(maxsize=4096)
-def _difference(left: Any, right: Any) -> Any:
+def _difference(left: sympy.Expr, right: sympy.Expr) -> sympy.Expr:
     return (left - right).expand()
 
 
-_RELATIONS: Mapping[str, Any] = {
+_RELATIONS: Mapping[str, Callable[[ModuleType], type[sympy.Rel]]] = {
     "<": lambda sympy: sympy.Lt,
     "<=": lambda sympy: sympy.Le,
     ">": lambda sympy: sympy.Gt,
@@ -143,7 +144,9 @@ _RELATIONS: Mapping[str, Any] = {
 _TURNED = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "==": "==", "!=": "!="}
 
 
-def _solved(difference: Any, relation: str, letters: Mapping[Any, Any]) -> list[tuple[Any, str, Any]]:
+def _solved(
+    difference: sympy.Expr, relation: str, letters: Mapping[sympy.Expr, Value]
+) -> list[tuple[sympy.Symbol, str, sympy.Expr]]:
     """What a comparison with 0 says of a letter, where it is about a power of one letter, times a number and with another: a
     letter, a relation and a number; of a higher power than the first also that the letter is greater than 0. Nothing of others.
     """
@@ -164,13 +167,13 @@ def _solved(difference: Any, relation: str, letters: Mapping[Any, Any]) -> list[
     return [positive, (letter, relation, sympy.Pow(value, 1 / exponent, evaluate=False))] if value > 0 else [positive]
 
 
-def _narrowed(letter: Any, bounds: Iterable[tuple[str, Any]]) -> list[sympy.Basic]:
+def _narrowed(letter: sympy.Symbol, bounds: Iterable[tuple[str, sympy.Expr]]) -> list[sympy.Basic]:
     """The narrowest of some bounds of a letter."""
     import sympy
 
-    least: tuple[Any, bool] | None = None
-    most: tuple[Any, bool] | None = None
-    apart: dict[Any, None] = {}
+    least: tuple[sympy.Expr, bool] | None = None
+    most: tuple[sympy.Expr, bool] | None = None
+    apart: dict[sympy.Expr, None] = {}
     for relation, value in bounds:
         if relation == "==":
             return [sympy.Eq(letter, value)]
@@ -193,11 +196,11 @@ def _narrowed(letter: Any, bounds: Iterable[tuple[str, Any]]) -> list[sympy.Basi
     return [*found, *(sympy.Ne(letter, value) for value in within)]
 
 
-def _from_below(bound: tuple[Any, bool]) -> tuple[float, bool]:
+def _from_below(bound: tuple[sympy.Expr, bool]) -> tuple[float, bool]:
     return float(bound[0]), bound[1]
 
 
-def _from_above(bound: tuple[Any, bool]) -> tuple[float, bool]:
+def _from_above(bound: tuple[sympy.Expr, bool]) -> tuple[float, bool]:
     return float(bound[0]), not bound[1]
 
 

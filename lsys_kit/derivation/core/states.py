@@ -68,7 +68,7 @@ def _place(system: LSystem, rule: Rule) -> dict[str, Any]:
     return {"source": system.source or None, "start": start, "end": end}
 
 
-def undecided_condition(states: States, module: Module, rule: Rule, given: tuple[Any, ...]) -> LSystemError:
+def undecided_condition(states: States, module: Module, rule: Rule, given: tuple[object, ...]) -> LSystemError:
     system = states.system
     names = sorted({str(name) for value in states.constants for name in getattr(value, "free_symbols", ())})
     said = (
@@ -83,7 +83,7 @@ def undecided_condition(states: States, module: Module, rule: Rule, given: tuple
     return ModelValueError(said, hint=hint, **_place(system, rule))
 
 
-def _undecided(states: States, rule: Rule, given: tuple[Any, ...]) -> Iterator[str]:
+def _undecided(states: States, rule: Rule, given: tuple[object, ...]) -> Iterator[str]:
     """The comparisons in a condition that unknown constants leave open."""
     condition, order = rule.production.condition, order_of(states.system, rule.production)
     for call in calls_in(condition) if condition is not None else ():

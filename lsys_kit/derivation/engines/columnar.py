@@ -32,6 +32,9 @@ from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
 from lsys_kit.notation.model.modules import Module, flat
 
 Array: TypeAlias = NDArray[Any]
+Rows: TypeAlias = Any
+"""Some rows of a word, as they index an array: their numbers, or a slice."""
+Column: TypeAlias = "Array | ExactColumn | float"
 ColumnFunction: TypeAlias = Callable[..., Any]
 """From the columns of the names to the column of an expression, which is written to `out` where that is given and there is
 something to compute."""
@@ -114,26 +117,26 @@ def exact_number(value: Value) -> ExactColumn:
     return ExactColumn(value.numerator, value.denominator, value.numerator.bit_length())
 
 
-def _over_common(operation: Callable[[Any, Any], Any], left: ExactColumn, right: ExactColumn) -> ExactColumn:
+def _over_common(operation: Callable[[Array | int, Array | int], Any], left: ExactColumn, right: ExactColumn) -> ExactColumn:
     common = math.lcm(left.denominator, right.denominator)
     bits = 1 + max(column.bits + (common // column.denominator).bit_length() for column in (left, right))
     first, second = (ExactColumn(column.numerators, column.denominator, bits).over(common) for column in (left, right))
     return ExactColumn(operation(first, second), common, bits)
 
 
-def _compared(operation: Callable[[Any, Any], Any]) -> Callable[[ExactColumn, ExactColumn], Any]:
-    def compare(left: ExactColumn, right: ExactColumn) -> Any:
+def _compared(operation: Callable[[Array | int, int], object]) -> Callable[[ExactColumn, ExactColumn], Array]:
+    def compare(left: ExactColumn, right: ExactColumn) -> Array:
         return np.asarray(operation((left - right).numerators, 0), dtype=bool)
 
     return compare
 
 
-def _exact(operation: Callable[..., Any]) -> Callable[..., Any]:
+def _exact(operation: ColumnFunction) -> ColumnFunction:
     return lambda *operands, out=None: operation(*operands)
 
 
-_TRUTHS: Mapping[str, Callable[..., Any]] = {"||": np.logical_or, "&&": np.logical_and, "!": np.logical_not}
-OPERATIONS: Mapping[str, Mapping[str, Callable[..., Any]]] = {
+_TRUTHS: Mapping[str, ColumnFunction] = {"||": np.logical_or, "&&": np.logical_and, "!": np.logical_not}
+OPERATIONS: Mapping[str, Mapping[str, ColumnFunction]] = {
     "float": {
         **_TRUTHS,
         "==": np.equal,
@@ -197,7 +200,7 @@ def column_function(expression: Expression, arithmetic: str) -> ColumnFunction:
     return lambda columns, out=None: operation(*[operand(columns) for operand in operands], out=out)
 
 
-def _listed(array: Array) -> Iterator[list[Any]]:
+def _listed(array: Array) -> Iterator[list[int]]:
     for first in range(0, len(array), ROWS_AT_A_TIME):
         yield from array[first : first + ROWS_AT_A_TIME].tolist()
 
@@ -210,7 +213,7 @@ class FloatColumns:
     def __init__(self, shape: tuple[int, int]) -> None:
         self.array = np.zeros(shape)
 
-    def write(self, argument: ColumnFunction, named: Mapping[str, Any], places: Any, parameter: int) -> None:
+    def write(self, argument: ColumnFunction, named: Mapping[str, Column], places: Rows, parameter: int) -> None:
         """Write what an argument comes to into some places of the column of a parameter."""
         target = self.array[places, parameter] if isinstance(places, slice) else None
         found = argument(named, out=target)
@@ -221,7 +224,7 @@ class FloatColumns:
         """All that was written."""
         return self
 
-    def columns(self, rows: Any, parameters: int) -> Iterator[Array]:
+    def columns(self, rows: Rows, parameters: int) -> Iterator[Array]:
         """The columns of the first parameters, of some rows."""
         there = self.array[rows]
         return (there[:, parameter] for parameter in range(parameters))
@@ -243,9 +246,9 @@ class ExactColumns:
 
     def __init__(self, shape: tuple[int, int]) -> None:
         self._shape = shape
-        self._written: list[tuple[Any, int, ExactColumn]] = []
+        self._written: list[tuple[Rows, int, ExactColumn]] = []
 
-    def write(self, argument: ColumnFunction, named: Mapping[str, Any], places: Any, parameter: int) -> None:
+    def write(self, argument: ColumnFunction, named: Mapping[str, Column], places: Rows, parameter: int) -> None:
         self._written.append((places, parameter, argument(named)))
 
     def whole(self) -> ExactColumns:
@@ -269,7 +272,7 @@ class ExactColumns:
         """About how many bytes one value takes."""
         return 8 if self.bits <= SHORT_BITS else 56
 
-    def columns(self, rows: Any, parameters: int) -> Iterator[ExactColumn]:
+    def columns(self, rows: Rows, parameters: int) -> Iterator[ExactColumn]:
         there = self.numerators[rows]
         return (ExactColumn(there[:, parameter], self.denominator, self.bits) for parameter in range(parameters))
 
@@ -407,7 +410,7 @@ class ColumnarSteps:
         return ExactColumns(shape) if self.states.arithmetic == "exact" else FloatColumns(shape)
 
     def _write(
-        self, rule: ColumnRule, named: Mapping[str, Any], kinds: Array, columns: FloatColumns | ExactColumns, at: Any
+        self, rule: ColumnRule, named: Mapping[str, Column], kinds: Array, columns: FloatColumns | ExactColumns, at: Rows
     ) -> None:
         """Write what a rule makes of a block of rows, from given places on."""
         for offset, (kind, arguments) in enumerate(rule.parts):
@@ -416,11 +419,11 @@ class ColumnarSteps:
             for parameter, argument in enumerate(arguments):
                 columns.write(argument, named, places, parameter)
 
-    def _chosen(self, word: ColumnWord) -> list[tuple[ColumnRule, Any]]:
+    def _chosen(self, word: ColumnWord) -> list[tuple[ColumnRule, Rows]]:
         """For each rule the rows that it rewrites, a slice where that is all."""
         if len(word) and not self._rules[word.kinds[0]][0].tests and (word.kinds == word.kinds[0]).all():
             return [(self._rules[word.kinds[0]][0], slice(None))]
-        found: list[tuple[ColumnRule, Any]] = []
+        found: list[tuple[ColumnRule, Rows]] = []
         for kind, rules in enumerate(self._rules):
             rows = np.flatnonzero(word.kinds == kind)
             for rule in rules:
@@ -434,15 +437,15 @@ class ColumnarSteps:
                 rows = rows[~matches]
         return [(rule, rows) for rule, rows in found if len(rows)]
 
-    def _named(self, rule: ColumnRule, word: ColumnWord, rows: Any) -> dict[str, Any]:
+    def _named(self, rule: ColumnRule, word: ColumnWord, rows: Rows) -> dict[str, Column]:
         number = exact_number if self.states.arithmetic == "exact" else float
-        named: dict[str, Any] = {
+        named: dict[str, Column] = {
             name: number(value) for name, value in zip(self._constants, self.states.constants, strict=True)
         }
         return named | dict(zip(rule.names, word.values.columns(rows, len(rule.names)), strict=True))
 
 
-def _places(word: ColumnWord, chosen: Sequence[tuple[ColumnRule, Any]]) -> tuple[Array | None, int]:
+def _places(word: ColumnWord, chosen: Sequence[tuple[ColumnRule, Rows]]) -> tuple[Array | None, int]:
     """Where in the next word what becomes of each module begins, None where one rule rewrites all; and its size."""
     if len(chosen) == 1:
         return None, len(word) * len(chosen[0][0].parts)
@@ -453,7 +456,7 @@ def _places(word: ColumnWord, chosen: Sequence[tuple[ColumnRule, Any]]) -> tuple
     return ends - sizes, int(ends[-1]) if len(ends) else 0
 
 
-def _blocks(rule: ColumnRule, size: int, rows: Any, starts: Array | None) -> Iterator[tuple[Any, Any]]:
+def _blocks(rule: ColumnRule, size: int, rows: Rows, starts: Array | None) -> Iterator[tuple[Rows, Rows]]:
     """The rows that a rule rewrites, in blocks, each with the places where what it makes of them begins."""
     every = len(rule.parts)
     for low in range(0, size if starts is None else len(rows), BLOCK_ROWS):

@@ -11,12 +11,12 @@ productions are chosen by chance, the vector is the mean.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import nullcontext, suppress
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from lsys_kit.budget import check_budget
 from lsys_kit.derivation.core.chance import splitmix64
@@ -32,11 +32,19 @@ from lsys_kit.notation.model.modules import CLOSING, OPENING, Module
 from lsys_kit.notation.model.system import LSystem, symbols
 from lsys_kit.supervision import supervised
 
+if TYPE_CHECKING:
+    import sympy
+    from sympy.polys.domains.domain import Domain
+    from sympy.polys.fields import FracElement
+    from sympy.polys.rings import PolyElement
+
 Kind: TypeAlias = tuple[str, tuple[Value | None, ...]]
 """A symbol, and the values of its parameters that decide something; None stands for the others."""
 Sum: TypeAlias = tuple[Kind, int]
 """The sum of the parameter at a place over all modules of a kind; at place -1, how many there are."""
-Combination: TypeAlias = dict[Sum, Any]
+Coefficient: TypeAlias = "Fraction | FracElement"
+"""An element of a field, see `field_of`."""
+Combination: TypeAlias = dict[Sum, Coefficient]
 """A sum of multiples of such sums."""
 MOST_SUMS = 200
 """So many sums at most: their recurrence is found from twice as many steps."""
@@ -60,26 +68,26 @@ class AffineSums:
         As many sums as the rule has coefficients, from step 0 on.
     """
 
-    letters: tuple[Any, ...]
-    rule: tuple[Any, ...]
-    first: tuple[Any, ...]
+    letters: tuple[sympy.Symbol, ...]
+    rule: tuple[Coefficient, ...]
+    first: tuple[Coefficient, ...]
 
-    def at(self, step: int) -> Any:
+    def at(self, step: int) -> Value | sympy.Expr:
         """The sum at a step: a number, or an expression in the letters."""
         with supervised() if self.letters else nullcontext():
             weights = remainder_of_power(self.rule, step)
             return self.shown(sum((c * term for c, term in zip(weights, self.first, strict=True)), self._field(0)))
 
     @cached_property
-    def _field(self) -> Any:
+    def _field(self) -> Domain:
         return field_of(self.letters)
 
-    def shown(self, element: Any) -> Any:
+    def shown(self, element: Coefficient) -> Value | sympy.Expr:
         """An element of the field of coefficients as a number or as sympy's expression."""
         return shown_element(element, self._field)
 
 
-def field_of(letters: Sequence[Any]) -> Any:
+def field_of(letters: Sequence[sympy.Symbol]) -> Domain:
     """The rational numbers, or the rational functions of some letters: a field as sympy has it."""
     if not letters:
         return Fraction
@@ -88,7 +96,7 @@ def field_of(letters: Sequence[Any]) -> Any:
     return sympy.QQ.frac_field(*letters)
 
 
-def shown_element(element: Any, field: Any) -> Any:
+def shown_element(element: Coefficient, field: Domain) -> Value | sympy.Expr:
     """An element of a field of coefficients as a number or as sympy's expression."""
     if field is Fraction:
         return normalised(Fraction(element))
@@ -96,7 +104,7 @@ def shown_element(element: Any, field: Any) -> Any:
     return normalised(Fraction(int(found.p), int(found.q))) if found.is_Rational else found
 
 
-def affine_sums(system: LSystem, symbol: str, place: int | None, on_axis: bool, constants: Mapping[str, Any]) -> AffineSums:
+def affine_sums(system: LSystem, symbol: str, place: int | None, on_axis: bool, constants: Mapping[str, object]) -> AffineSums:
     """The recurrence of what a parameter adds up to over all modules of a symbol.
 
     Parameters
@@ -137,7 +145,7 @@ def affine_sums(system: LSystem, symbol: str, place: int | None, on_axis: bool, 
 class _Maps:
     """What becomes of each kind of module, as a linear map of counts and sums."""
 
-    def __init__(self, system: LSystem, wanted: frozenset[ArgumentPosition], on_axis: bool, constants: Mapping[str, Any]):
+    def __init__(self, system: LSystem, wanted: frozenset[ArgumentPosition], on_axis: bool, constants: Mapping[str, object]):
         self.system, self.on_axis = slice_system(system, wanted), on_axis
         self.places = _places_kept(system, wanted)
         self.states = States(self.system, dict(constants))
@@ -182,7 +190,7 @@ class _Maps:
         place: int | None,
         many: int,
         values: Sequence[Fraction] = (),
-    ) -> Iterator[Any]:
+    ) -> Iterator[Coefficient]:
         """What is asked for at the first steps."""
         for _ in range(many):
             yield self._asked(vector, symbol, place, values)
@@ -191,13 +199,13 @@ class _Maps:
 
     def _rule_in_letters(
         self, rows: Mapping[Sum, Combination], start: Combination, symbol: str, place: int | None
-    ) -> tuple[Any, ...]:
+    ) -> tuple[Coefficient, ...]:
         """The shortest rule: a product of factors of the matrix's characteristic polynomial, of which numbers in place of the
         letters show which are needed. The numbers are large, so that no two factors are likely to become alike by chance."""
         from sympy.polys.matrices import DomainMatrix
 
         numbers = {source: number for number, source in enumerate(rows)}
-        entries: dict[int, dict[int, Any]] = {number: {} for number in range(len(rows))}
+        entries: dict[int, dict[int, Coefficient]] = {number: {} for number in range(len(rows))}
         for source, row in rows.items():
             for key, factor in row.items():
                 if factor:
@@ -218,7 +226,7 @@ class _Maps:
                 begun = {key: _valued(amount, values) for key, amount in start.items()}
                 terms = [*self._terms(known, begun, symbol, place, 2 * len(rows) + 2, values)]
                 left = [Fraction(1), *(-c for c in shortest_rule(terms))]
-                needed: list[Any] = [self.field(1)]
+                needed: list[Coefficient] = [self.field(1)]
                 for coefficients, times in factors:
                     divisor = [_valued(c, values) for c in coefficients]
                     for _ in range(times):
@@ -231,9 +239,9 @@ class _Maps:
             if len(left) == 1:
                 return tuple(-self.field.convert(c) for c in needed[1:])
 
-    def _asked(self, vector: Combination, symbol: str, place: int | None, values: Sequence[Fraction] = ()) -> Any:
+    def _asked(self, vector: Combination, symbol: str, place: int | None, values: Sequence[Fraction] = ()) -> Coefficient:
         """What is asked for, of the sums at a step; with values of the letters, where the sums are numbers."""
-        total: Any = 0
+        total: Coefficient = 0
         for (kind, at), amount in vector.items():
             if kind[0] != symbol:
                 continue
@@ -286,7 +294,7 @@ class _Maps:
                         row[key] = row.get(key, self.field(0)) + share * factor
         return rows
 
-    def _successors(self, module: Module) -> Iterator[tuple[Any, list[Module]]]:
+    def _successors(self, module: Module) -> Iterator[tuple[Coefficient, list[Module]]]:
         """What may replace a module, and how likely that is."""
         states = self.states
         matched = states.matching_rules(module, states.rules)
@@ -300,7 +308,7 @@ class _Maps:
             row = states.decompose(module) if rule is None else states.replacement(rule, module)
             yield self._element(divide(weight, whole)), [states.modules[state] for state in row]
 
-    def _outside(self, modules: Any) -> Iterator[Module]:
+    def _outside(self, modules: Iterable[Module]) -> Iterator[Module]:
         """The modules that are followed: all, or those outside brackets."""
         depth = 0
         for module in modules:
@@ -309,25 +317,25 @@ class _Maps:
                 yield module
 
     def _made(
-        self, module: Module, positions: Mapping[Any, ArgumentPosition], source: Kind | None
-    ) -> dict[Sum, dict[int, Any]]:
+        self, module: Module, positions: Mapping[sympy.Symbol, ArgumentPosition], source: Kind | None
+    ) -> dict[Sum, dict[int, Coefficient]]:
         """The sums to which a module adds: for each, how much one module of its source does, and each of its parameters."""
         size = len(module.arguments)
         kept = tuple(
             value if (module.symbol, size, place) in self.deciding else None for place, value in enumerate(module.arguments)
         )
         for value in kept:
-            found: set[Any] = getattr(value, "free_symbols", set()) & set(positions)
+            found: set[sympy.Symbol] = getattr(value, "free_symbols", set()) & set(positions)
             if found:
                 raise _Bent(frozenset(positions[symbol] for symbol in found))
         kind = module.symbol, kept
-        made: dict[Sum, dict[int, Any]] = {(kind, -1): {-1: self.field(1)}}
+        made: dict[Sum, dict[int, Coefficient]] = {(kind, -1): {-1: self.field(1)}}
         for place, value in enumerate(module.arguments):
             if kept[place] is None:
                 made[kind, place] = self._parts(value, positions)
         return made
 
-    def _parts(self, value: Any, positions: Mapping[Any, ArgumentPosition]) -> dict[int, Any]:
+    def _parts(self, value: Any, positions: Mapping[sympy.Symbol, ArgumentPosition]) -> dict[int, Coefficient]:
         """A value as a constant, at place -1, and a multiple of each parameter."""
         if not is_symbolic(value):
             return {-1: self._element(value)}
@@ -340,7 +348,7 @@ class _Maps:
             raise _Bent(frozenset(positions[symbol] for symbol in own))
         return {-1: self._element(rest)} | {positions[symbol][2]: self._element(factors[symbol]) for symbol in own}
 
-    def _element(self, value: Any) -> Any:
+    def _element(self, value: Any) -> Coefficient:
         """A number, or an expression in the letters, as an element of the field."""
         value = expanded_value(value) if is_symbolic(value) else value
         if isinstance(value, float):
@@ -392,13 +400,13 @@ def _refuse_interactions(states: States) -> None:
     raise NotAffine(f"There is no formula: {why}")
 
 
-def _valued(element: Any, values: Sequence[Fraction]) -> Fraction:
+def _valued(element: FracElement, values: Sequence[Fraction]) -> Fraction:
     """An element of a field of rational functions where its letters have values."""
     above, below = (_polynomial_value(part, values) for part in (element.numer, element.denom))
     return above / below
 
 
-def _polynomial_value(polynomial: Any, values: Sequence[Fraction]) -> Fraction:
+def _polynomial_value(polynomial: PolyElement, values: Sequence[Fraction]) -> Fraction:
     whole = Fraction(0)
     for exponents, coefficient in polynomial.terms():
         part = Fraction(int(coefficient.numerator), int(coefficient.denominator))
@@ -418,15 +426,15 @@ def _quotient(dividend: Sequence[Fraction], divisor: Sequence[Fraction]) -> list
     return left[:size] if size and not any(left[size:]) else None
 
 
-def _product(one: Sequence[Any], other: Sequence[Any]) -> list[Any]:
-    made: list[Any] = [0] * (len(one) + len(other) - 1)
+def _product(one: Sequence[Coefficient], other: Sequence[Coefficient]) -> list[Coefficient]:
+    made: list[Coefficient] = [0] * (len(one) + len(other) - 1)
     for i, a in enumerate(one):
         for j, b in enumerate(other):
             made[i + j] += a * b
     return made
 
 
-def _add(whole: Combination, made: Mapping[Sum, Mapping[int, Any]], share: Any) -> None:
+def _add(whole: Combination, made: Mapping[Sum, Mapping[int, Coefficient]], share: Coefficient) -> None:
     for key, parts in made.items():
         whole[key] = whole.get(key, 0 * share) + share * parts[-1]
 

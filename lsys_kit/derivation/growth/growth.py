@@ -99,7 +99,7 @@ def _massey(terms: Sequence[int], prime: int) -> list[Any]:
     return rule
 
 
-def remainder_of_power(rule: Sequence[int], exponent: int) -> list[int]:
+def remainder_of_power(rule: Sequence[Any], exponent: int) -> list[Any]:
     """What x^exponent leaves when divided by a rule's polynomial, from the constant term up (Fiduccia 1985).
 
     So term number `exponent` of any sequence that obeys the rule is a sum of multiples of its first terms.

@@ -218,27 +218,20 @@ def stages(
         require(polarity, bool, 'True or False for "polarity"')
         require(durations, bool, 'True or False for "durations"')
         symbols = _symbols_from(unfold)
-        if symbols is not None and (durations or isinstance(system, Timed)):
-            raise ModelValueError(
-                "Only all symbols of a timed net can be unfolded, because it is never grouped by symbol",
-                hint="Give unfold=True, or leave out the durations.",
-            )
         most = MOST_UNFOLDED if unfold is True else MOST_PLACES
-        if isinstance(system, Timed):
-            if constants:
+        if durations or isinstance(system, Timed):
+            if symbols is not None:
                 raise ModelValueError(
-                    "The constants of a timed system are chosen when it is made",
-                    hint="Write stages(timed(system, name=value)).",
+                    "Only all symbols of a timed net can be unfolded, because it is never grouped by symbol",
+                    hint="Give unfold=True, or leave out the durations.",
                 )
-            return _timed_net(system.ages, polarity, most)
+            return _timed_net(_ages_of(system, constants), polarity, most)
         states = States(system, constants)
-        if durations:
-            return _timed_net(age_model(states), polarity, most)
-        nets = ((_net(table, states, polarity), table.most) for table in _tables(states, constants, 4 * most))
         if symbols is not None:
             return unfolded_symbols(states, constants, symbols, MOST_UNFOLDED)
-        for net, legible in nets:
-            if len(net.places) <= most and (unfold or (len(net.transitions) <= legible and len(net.arcs) <= MOST_ARCS)):
+        for table in _tables(states, constants, 4 * most):
+            net = _net(table, states, polarity)
+            if len(net.places) <= most and (unfold or (len(net.transitions) <= table.most and len(net.arcs) <= MOST_ARCS)):
                 return net
         if unfold:
             raise ModelValueError(
@@ -246,6 +239,17 @@ def stages(
                 hint=f"They are more than {MOST_UNFOLDED}, or the neighbours of a module decide what it becomes.",
             )
         return by_symbol(states)
+
+
+def _ages_of(system: LSystem | Timed, constants: dict[str, object]) -> AgeModel:
+    """At which ages the modules of a system are born, and how long they live."""
+    if not isinstance(system, Timed):
+        return age_model(States(system, constants))
+    if constants:
+        raise ModelValueError(
+            "The constants of a timed system are chosen when it is made", hint="Write stages(timed(system, name=value))."
+        )
+    return system.ages
 
 
 def _symbols_from(unfold: bool | str | Collection[str]) -> list[str] | None:

@@ -109,7 +109,7 @@ def replaced_edges(
 
 
 def around(
-    sides: Iterable[Side], partings: Sequence[Replaced], seen: Callable[[Any, bool], Any]
+    sides: Iterable[Side], partings: Sequence[Replaced], seen: Callable[[Any, bool], object]
 ) -> tuple[tuple[Side, ...], list[Mark]]:
     """The sides of a ring after the replacement of its edges, and the markers that divide it, as the ring sees them: given a
     marker, and whether one follows the direction of its edge; None, if it divides another ring.

@@ -119,7 +119,7 @@ def read_drawings(given: Iterable[object]) -> tuple[Strokes, ...]:
     return tuple(found)
 
 
-def _coordinates(given: Any, step: int) -> Floats:
+def _coordinates(given: object, step: int) -> Floats:
     scene = getattr(given, "scene", given)
     try:
         found = np.asarray(scene.segments.ends if isinstance(scene, Scene) else given, dtype=float)
@@ -204,7 +204,7 @@ class Turning:
         whole = abs(self.most * self.degrees - 180) < DEGREES_NEAR / 10
         return np.arange(-self.most + whole, self.most + 1)
 
-    def by(self, number: Any) -> Any:
+    def by(self, number: object) -> Any:
         return np.exp(1j * np.radians(self.degrees) * number)
 
     def is_(self, radians: float, number: int) -> bool:

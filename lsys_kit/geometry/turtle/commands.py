@@ -14,19 +14,18 @@ stays in the plane, whether copies of a part may be instanced, and which symbols
 from __future__ import annotations
 
 import math
-import tomllib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum, Flag, auto
 from fractions import Fraction
 from functools import cache, reduce
 from operator import or_
-from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
 from lsys_kit.budget import INTERVAL, counted
 from lsys_kit.derivation.core.interpretation import is_filament
 from lsys_kit.errors import ModelValueError
+from lsys_kit.files import toml_tables
 from lsys_kit.geometry.scene import OWN
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.expressions import Number
@@ -62,7 +61,7 @@ class Effect(Flag):
     CLOSES = auto()
 
 
-_DECLARED = tomllib.loads((Path(__file__).parent / "commands.toml").read_text(encoding="utf-8"))
+_DECLARED = toml_tables(__package__, "commands.toml")
 ACTIONS: Mapping[str, Effect] = {
     action: reduce(or_, map(Effect.__getitem__, effects.split()), Effect(0)) for action, effects in _DECLARED["actions"].items()
 }

@@ -142,13 +142,13 @@ class Prototypes:
             if answer is None:
                 todo.append((wanted, self._prototype(*wanted)))
 
-    def _prototype(self, state: int, steps: int, carried: tuple[Any, ...]) -> Generator[Key, Prototype, Prototype]:
+    def _prototype(self, state: int, steps: int, carried: tuple[object, ...]) -> Generator[Key, Prototype, Prototype]:
         row = self.states.successors[state] if steps else (state,)
         if row == (state,):
             return self._of_module(state, carried)
         return (yield from self._of_row(row, steps - 1, carried))
 
-    def _of_row(self, row: Sequence[int], steps: int, carried: tuple[Any, ...]) -> Generator[Key, Prototype, Prototype]:
+    def _of_row(self, row: Sequence[int], steps: int, carried: tuple[object, ...]) -> Generator[Key, Prototype, Prototype]:
         """The prototype of a row of states: instances of theirs, each placed where the one before ends."""
         size, parts = len(self._axes), []
         position, rotation = np.zeros(size), np.eye(size)
@@ -167,7 +167,7 @@ class Prototypes:
             return parts[0].prototype
         return _merged_instances(parts, position, rotation, carried)
 
-    def _of_module(self, state: int, carried: tuple[Any, ...]) -> Prototype:
+    def _of_module(self, state: int, carried: tuple[object, ...]) -> Prototype:
         turtle = self._turtle()
         for name, value in zip(_CARRIED_ATTRIBUTES, carried, strict=True):
             setattr(turtle, name, value)
@@ -199,11 +199,11 @@ class Prototypes:
             _carried_by(turtle),
         )
 
-    def _points(self, places: Sequence[Any]) -> Floats:
+    def _points(self, places: Sequence[object]) -> Floats:
         return np.ascontiguousarray(np.array(places, np.float64).reshape(-1, 3)[:, self._axes])
 
 
-def _merged_instances(instances: Sequence[Instance], end: Floats, rotation: Floats, carried: tuple[Any, ...]) -> Prototype:
+def _merged_instances(instances: Sequence[Instance], end: Floats, rotation: Floats, carried: tuple[object, ...]) -> Prototype:
     drawn = [part for part in instances if len(part.prototype.strokes)]
     strokes = _transformed([(part, part.prototype.strokes) for part in drawn], len(end))
     orders, states, widths, colours = zip(*(part.prototype.of_strokes for part in drawn), strict=True) if drawn else [()] * 4
@@ -234,7 +234,7 @@ def _concatenated(columns: Sequence[NDArray[Any]], kind: Any) -> NDArray[Any]:
     return np.concatenate(columns, dtype=kind) if columns else np.empty(0, kind)
 
 
-def _constant_or_all(columns: Sequence[NDArray[Any]], sizes: Sequence[int], kind: Any) -> NDArray[Any]:
+def _constant_or_all(columns: Sequence[NDArray[Any]], sizes: Sequence[int], kind: object) -> NDArray[Any]:
     """The columns as one; a single value, where each column has only that value."""
     if columns and all(len(column) == 1 for column in columns) and len({column[0] for column in columns}) == 1:
         return columns[0]

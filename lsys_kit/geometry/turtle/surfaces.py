@@ -9,17 +9,16 @@ few faces is shaded as the smooth surface.
 from __future__ import annotations
 
 import math
-import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, lru_cache
-from importlib.resources import files
 from itertools import pairwise
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
 from lsys_kit.errors import quotable
+from lsys_kit.files import toml_tables
 from lsys_kit.geometry.scene import Floats
 from lsys_kit.geometry.turtle.commands import COMMANDS
 from lsys_kit.notation.model.modules import flat
@@ -262,7 +261,7 @@ def surfaces() -> Mapping[str, Surface]:
     >>> len(surfaces()["bud"].faces)
     48
     """
-    tables = tomllib.loads((files(__package__) / "surfaces.toml").read_text(encoding="utf-8"))
+    tables = toml_tables(__package__, "surfaces.toml")
     return {name: Surface(name, tuple(table["symbols"]), *_facets(table)) for name, table in tables.items()}
 
 

@@ -53,7 +53,7 @@ def check_cellwork(system: CellworkSystem) -> None:
         _check_successor(production, _by_walls, production.predecessor.at, " ")
 
 
-def _check_predecessor(edge: Edge, key: Any, met: set[Any]) -> None:
+def _check_predecessor(edge: Edge, key: object, met: set[Any]) -> None:
     """A production is written in the direction of its edge, and the only one for it; in a cellwork, in the same walls."""
     if edge.arrow == "<":
         raise problem("edge against its direction", edge.at, turned=edge.turned)

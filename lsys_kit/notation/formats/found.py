@@ -7,21 +7,20 @@ character with its place in what was pasted, so that the kit's own reader does t
 from __future__ import annotations
 
 import re
-import tomllib
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cache
-from pathlib import Path
 from typing import Any, NamedTuple
 
+from lsys_kit.files import toml_tables
 from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, assembled
 
 
 @cache
 def tables() -> Mapping[str, Any]:
     """The words by which the parts of a system are called; `fields.toml` explains its keys."""
-    return tomllib.loads(Path(__file__).with_name("fields.toml").read_text(encoding="utf-8"))
+    return toml_tables(__package__, "fields.toml")
 
 
 class Passage(NamedTuple):

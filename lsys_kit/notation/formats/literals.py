@@ -124,74 +124,93 @@ def _tokens(text: str) -> Iterator[re.Match[str]]:
 
 
 def _parsed(text: str) -> Group:
-    """All that stands in a text, as a group."""
-    whole = Group("", "", 0)
-    stack = [whole]
-    entry = Entry([])
-
-    def finish(end: int) -> None:
-        nonlocal entry
-        if entry.terms or entry.key:
-            entry.end = end
-            stack[-1].entries.append(entry)
-        entry = Entry([])
-
-    saved: list[Entry] = []
+    """All that stands in a text, as a group; nothing, where brackets are too deep for data."""
+    parser = _Parser(text)
     for match in _tokens(text):
-        kind, at = match.lastgroup, match.start()
+        if match.lastgroup == "open" and len(parser.stack) > current().depth:
+            return Group("", "", 0)
+        parser.take(match)
+    while len(parser.stack) > 1:
+        parser.close(len(text))
+    parser.finish(len(text))
+    return parser.stack[0]
+
+
+class _Parser:
+    """The open groups of a text, the entries in which they stand, and the entry that is being read."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self.stack = [Group("", "", 0)]
+        self.saved: list[Entry] = []
+        self.entry = Entry([])
+
+    def take(self, match: re.Match[str]) -> None:
+        """Go on by a token."""
+        kind, sign, at = match.lastgroup or "", match[0], match.start()
         if kind == "open":
-            if len(stack) > current().depth:
-                return Group("", "", 0)  # no data
-            called = _called(entry, match[0], text)
-            group = Group(called.text, match[0], called.at) if called else Group("", match[0], at)
-            if not entry.terms and not entry.key:
-                entry.start = at
-            entry.terms.append(group)
-            saved.append(entry)
-            stack.append(group)
-            entry = Entry([])
+            self.open(sign, at)
         elif kind == "close":
-            if len(stack) > 1 and _CLOSING[stack[-1].opened] == match[0]:
-                finish(at)
-                stack.pop()
-                entry = saved.pop()
-                entry.end = match.end()
-        elif (
-            kind == "end"
-            and match[0] == "\n"
-            and len(stack) == 1
-            and entry.sign == ":"
-            and not entry.terms
-            and not _kind(_name(entry))
-        ):
-            entry = Entry([])  # the end of a sentence, with a colon
+            if len(self.stack) > 1 and _CLOSING[self.stack[-1].opened] == sign:
+                self.close(at)
+                self.entry.end = match.end()
         elif kind in ("comma", "end"):
-            if (
-                kind == "comma"
-                or match[0] == ";"
-                or (stack[-1].opened in ("", "{") and entry.terms and not _goes_on(text, match.end()))
-            ):
-                finish(at)
+            if kind == "end" and sign == "\n" and self._is_sentence():
+                self.entry = Entry([])
+            elif kind == "comma" or sign == ";" or self._ends_with_line(match.end()):
+                self.finish(at)
         elif kind == "pair":
-            if entry.terms and not entry.key:
-                entry.key, entry.terms, entry.sign = entry.terms, [], match[0]
-            elif entry.terms and match[0] == "=" and entry.sign == ":":  # axiom: string = "F"
-                entry.terms, entry.sign = [], "="
-            elif len(entry.terms) == 1 and match[0] == ":" and _kind(_name(entry)) == "rules":  # the first rule below "rules:"
-                entry.key, entry.terms = entry.terms, []
-            elif entry.terms and match[0] in ("=>", "->", "→", ":>") and len(entry.terms) == 1:
-                entry.key, entry.terms, entry.sign = entry.terms, [], match[0]
+            self.pair(sign)
         else:
-            if not entry.terms and not entry.key:
-                entry.start = at
-            entry.terms.append(_text_of(match) if kind == "text" else Term(kind or "", match[0], at, match.end()))
-            entry.end = match.end()
-    while len(stack) > 1:
-        finish(len(text))
-        stack.pop()
-        entry = saved.pop()
-    finish(len(text))
-    return whole
+            self.add(_text_of(match) if kind == "text" else Term(kind, sign, at, match.end()), at)
+            self.entry.end = match.end()
+
+    def add(self, term: Term | Group, at: int) -> None:
+        if not self.entry.terms and not self.entry.key:
+            self.entry.start = at
+        self.entry.terms.append(term)
+
+    def finish(self, end: int) -> None:
+        """End an entry."""
+        if self.entry.terms or self.entry.key:
+            self.entry.end = end
+            self.stack[-1].entries.append(self.entry)
+        self.entry = Entry([])
+
+    def open(self, bracket: str, at: int) -> None:
+        """Begin a group, which may have a name right before it."""
+        called = _called(self.entry, bracket, self.text)
+        group = Group(called.text, bracket, called.at) if called else Group("", bracket, at)
+        self.add(group, at)
+        self.saved.append(self.entry)
+        self.stack.append(group)
+        self.entry = Entry([])
+
+    def close(self, end: int) -> None:
+        """End a group: the entry goes on in which it stands."""
+        self.finish(end)
+        self.stack.pop()
+        self.entry = self.saved.pop()
+
+    def _is_sentence(self) -> bool:
+        """Whether a line was a sentence with a colon at its end."""
+        entry = self.entry
+        return len(self.stack) == 1 and entry.sign == ":" and not entry.terms and not _kind(_name(entry))
+
+    def _ends_with_line(self, end: int) -> bool:
+        return self.stack[-1].opened in ("", "{") and bool(self.entry.terms) and not _goes_on(self.text, end)
+
+    def pair(self, sign: str) -> None:
+        """Take what was read as a key, where what follows is its value."""
+        entry = self.entry
+        if entry.terms and not entry.key:
+            entry.key, entry.terms, entry.sign = entry.terms, [], sign
+        elif entry.terms and sign == "=" and entry.sign == ":":  # axiom: string = "F"
+            entry.terms, entry.sign = [], "="
+        elif len(entry.terms) == 1 and sign == ":" and _kind(_name(entry)) == "rules":  # the first rule below "rules:"
+            entry.key, entry.terms = entry.terms, []
+        elif len(entry.terms) == 1 and sign in ("=>", "->", "→", ":>"):
+            entry.key, entry.terms, entry.sign = entry.terms, [], sign
 
 
 def _called(entry: Entry, opened: str, text: str) -> Term | None:

@@ -11,11 +11,14 @@ import operator
 from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
 from functools import lru_cache
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from lsys_kit.budget import current
 from lsys_kit.supervision import supervised
 from lsys_kit.translation import gettext
+
+if TYPE_CHECKING:
+    import sympy
 
 Value: TypeAlias = int | Fraction | float
 """A parameter's value: whole, rational, or a double."""
@@ -117,13 +120,13 @@ def equal_values(left: Value, right: Value) -> bool:
     if isinstance(left, Formula) or isinstance(right, Formula):
         one, other = (left, right) if isinstance(left, Formula) else (right, left)
         return one.equals(other)
-    difference: Any = _expanded(left - right)
+    difference = _expanded(left - right)
     if difference.free_symbols:
         raise TypeError
     return bool(difference == 0)
 
 
-def expanded_value(value: Any) -> Value:
+def expanded_value(value: object) -> Value:
     """A value that may hold unknown constants, multiplied out; a number where they cancel.
 
     >>> import sympy
@@ -135,15 +138,15 @@ def expanded_value(value: Any) -> Value:
         expression = value.expression if _is_multiplied_out(value.expression) else _expanded(value.expression)
         if expression.is_Add and len(expression.args) > MOST_FORMULA_TERMS:
             raise ValueError(gettext("the formula has more than {number} terms", number=MOST_FORMULA_TERMS))
-        found: Any = Formula(expression, value.number, value.decisions)
+        found: sympy.Expr = Formula(expression, value.number, value.decisions)
         return value.number if expression.is_Rational else found
-    value = _expanded(value)
-    if value.is_Rational:
-        return normalised(Fraction(int(value.p), int(value.q)))
-    return float(value) if value.is_Float else value
+    found = _expanded(value)
+    if found.is_Rational:
+        return normalised(Fraction(int(found.p), int(found.q)))
+    return float(found) if found.is_Float else found
 
 
-def _expanded(value: Any) -> Any:
+def _expanded(value: sympy.Expr) -> sympy.Expr:
     """A symbolic value, multiplied out; refused where that has too many terms."""
     with supervised():
         found = value.expand()
@@ -152,7 +155,7 @@ def _expanded(value: Any) -> Any:
     return found
 
 
-def _is_multiplied_out(expression: Any) -> bool:
+def _is_multiplied_out(expression: sympy.Expr) -> bool:
     """Whether an expression is plainly a product of powers of letters."""
     return expression.is_Symbol or all(
         part.is_Number or part.is_Symbol or (part.is_Pow and part.base.is_Symbol)
@@ -296,7 +299,7 @@ def reason_of(fault: Exception) -> str:
 
 
 @lru_cache(maxsize=1)
-def symbolic_functions() -> Mapping[str, Callable[[Any], Any]]:
+def symbolic_functions() -> Mapping[str, Callable[[sympy.Expr], sympy.Expr]]:
     """The functions of one number, by their names, as sympy has them; angles are in degrees.
 
     >>> import sympy
@@ -319,7 +322,7 @@ def symbolic_functions() -> Mapping[str, Callable[[Any], Any]]:
     }
 
 
-Decision: TypeAlias = tuple[Any, str, Any]
+Decision: TypeAlias = "tuple[sympy.Expr, str, sympy.Expr]"
 """A comparison that was found true: two sympy expressions, and the relation between them."""
 _OPPOSITE = {"<": ">=", "<=": ">", ">": "<=", ">=": "<", "==": "!="}
 
@@ -352,7 +355,7 @@ class Formula:
 
     __slots__ = ("decisions", "expression", "number")
 
-    def __init__(self, expression: Any, number: Value, decisions: dict[Decision, None]) -> None:
+    def __init__(self, expression: sympy.Expr, number: Value, decisions: dict[Decision, None]) -> None:
         self.expression, self.number, self.decisions = expression, number, decisions
 
     def __eq__(self, other: object) -> bool:
@@ -371,55 +374,61 @@ class Formula:
         return str(self.expression)
 
     @property
-    def free_symbols(self) -> set[Any]:
+    def free_symbols(self) -> set[sympy.Symbol]:
         """The letters in it."""
-        found: set[Any] = self.expression.free_symbols
+        found: set[sympy.Symbol] = self.expression.free_symbols
         return found
 
-    def _with(self, function: Callable[[Any, Any], Any], left: object, right: object, numbers: Callable[..., Value]) -> Any:
+    def _with(
+        self,
+        function: Callable[[sympy.Expr, sympy.Expr], sympy.Expr],
+        left: Value | Formula,
+        right: Value | Formula,
+        numbers: Callable[[Value, Value], Value],
+    ) -> Formula:
         number = bounded_exact(numbers(number_of(left), number_of(right)))
         return Formula(function(expression_of(left), expression_of(right)), number, self.decisions)
 
-    def __add__(self, other: object) -> Any:
+    def __add__(self, other: Value | Formula) -> Formula:
         return self._with(operator.add, self, other, operator.add)
 
-    def __radd__(self, other: object) -> Any:
+    def __radd__(self, other: Value | Formula) -> Formula:
         return self._with(operator.add, other, self, operator.add)
 
-    def __sub__(self, other: object) -> Any:
+    def __sub__(self, other: Value | Formula) -> Formula:
         return self._with(operator.sub, self, other, operator.sub)
 
-    def __rsub__(self, other: object) -> Any:
+    def __rsub__(self, other: Value | Formula) -> Formula:
         return self._with(operator.sub, other, self, operator.sub)
 
-    def __mul__(self, other: object) -> Any:
+    def __mul__(self, other: Value | Formula) -> Formula:
         return self._with(operator.mul, self, other, operator.mul)
 
-    def __rmul__(self, other: object) -> Any:
+    def __rmul__(self, other: Value | Formula) -> Formula:
         return self._with(operator.mul, other, self, operator.mul)
 
-    def __truediv__(self, other: object) -> Any:
+    def __truediv__(self, other: Value | Formula) -> Formula:
         return self._with(operator.truediv, self, other, divide)
 
-    def __rtruediv__(self, other: object) -> Any:
+    def __rtruediv__(self, other: Value | Formula) -> Formula:
         return self._with(operator.truediv, other, self, divide)
 
-    def __pow__(self, other: object) -> Any:
+    def __pow__(self, other: Value | Formula) -> Formula:
         return self._with(operator.pow, self, other, power)
 
-    def __rpow__(self, other: object) -> Any:
+    def __rpow__(self, other: Value | Formula) -> Formula:
         return self._with(operator.pow, other, self, power)
 
-    def __mod__(self, other: Any) -> Any:
+    def __mod__(self, other: Value | Formula) -> Formula:
         return self - other * math.floor(self / other)
 
-    def __rmod__(self, other: Any) -> Any:
+    def __rmod__(self, other: Value | Formula) -> Formula:
         return other - self * math.floor(other / self)
 
-    def __neg__(self) -> Any:
+    def __neg__(self) -> Formula:
         return Formula(-self.expression, -self.number, self.decisions)
 
-    def __abs__(self) -> Any:
+    def __abs__(self) -> Formula:
         return self if self >= 0 else -self
 
     def _decided(self, other: object, relation: str, truth: bool) -> bool:
@@ -429,19 +438,19 @@ class Formula:
             self.decisions.setdefault((left, relation if truth else _OPPOSITE[relation], right))
         return truth
 
-    def __lt__(self, other: object) -> bool:
+    def __lt__(self, other: Value | Formula) -> bool:
         return self._decided(other, "<", self.number < number_of(other))
 
-    def __le__(self, other: object) -> bool:
+    def __le__(self, other: Value | Formula) -> bool:
         return self._decided(other, "<=", self.number <= number_of(other))
 
-    def __gt__(self, other: object) -> bool:
+    def __gt__(self, other: Value | Formula) -> bool:
         return self._decided(other, ">", self.number > number_of(other))
 
-    def __ge__(self, other: object) -> bool:
+    def __ge__(self, other: Value | Formula) -> bool:
         return self._decided(other, ">=", self.number >= number_of(other))
 
-    def equals(self, other: object) -> bool:
+    def equals(self, other: Value | Formula) -> bool:
         """Whether its number is the same; `==` says whether the formula is."""
         return self._decided(other, "==", bool(self.number == number_of(other)))
 
@@ -456,17 +465,17 @@ class Formula:
     def __float__(self) -> float:
         return float(self.known())
 
-    def _whole(self, function: Callable[[Value], int], least: str, most: str, away: int) -> Any:
+    def _whole(self, function: Callable[[Value], int], least: str, most: str, away: int) -> Value:
         """A whole number near it, by which all is decided that lies between that and the next one."""
         found = rounding(function)(self.number)
         self._decided(found, least, True)
         self._decided(found + away, most, True)
         return found
 
-    def __floor__(self) -> Any:
+    def __floor__(self) -> Value:
         return self._whole(math.floor, ">=", "<", 1)
 
-    def __ceil__(self) -> Any:
+    def __ceil__(self) -> Value:
         return self._whole(math.ceil, "<=", ">", -1)
 
     def __int__(self) -> int:
@@ -478,12 +487,12 @@ def formulas_in(values: Iterable[object]) -> list[Formula]:
     return [value for value in values if isinstance(value, Formula)]
 
 
-def number_of(value: Any) -> Any:
+def number_of(value: Value | Formula) -> Value:
     """The number of a formula; any other value as it is."""
     return value.number if isinstance(value, Formula) else value
 
 
-def expression_of(value: Any) -> Any:
+def expression_of(value: object) -> sympy.Expr:
     """A value as sympy has it.
 
     >>> expression_of(Fraction(1, 2))

@@ -259,7 +259,7 @@ def to_sympy(expression: Expression) -> sympy.Basic:
 def _sympy_table() -> dict[str, Callable[..., sympy.Basic]]:
     import sympy
 
-    def remainder(x: Any, y: Any) -> Any:
+    def remainder(x: object, y: object) -> Any:
         return sympy.sign(x) * sympy.Mod(sympy.floor(sympy.Abs(x)), sympy.floor(sympy.Abs(y)))
 
     return {

@@ -9,11 +9,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 from functools import lru_cache
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from lsys_kit.notation.model.arithmetic import Value, expression_of, is_symbolic, normalised, number_text, rounded
 
-Element: TypeAlias = str | list[Any]
+if TYPE_CHECKING:
+    import sympy
+
+Element: TypeAlias = "str | list[Element]"
 """A text, or the name of an element of MathML and what is in it."""
 _SMALL = 9
 """Fractions up to this denominator are written as fractions, others as decimals where those are short."""
@@ -27,7 +30,7 @@ _SIGNS = {"<": "<", "<=": "≤", ">": ">", ">=": "≥", "==": "=", "!=": "≠"}
 _MINUS = "−"
 
 
-def formula_element(value: Any) -> Element:
+def formula_element(value: object) -> Element:
     """A number, a formula or a comparison as an element of MathML.
 
     >>> import sympy
@@ -43,7 +46,7 @@ def formula_element(value: Any) -> Element:
     return _element(expression)
 
 
-def formula_text(value: Any) -> str:
+def formula_text(value: object) -> str:
     """The same as a line of text.
 
     >>> import sympy
@@ -122,7 +125,7 @@ def _number(value: Value) -> str:
     return number_text(rounded(value)).replace("-", _MINUS)
 
 
-def _plain(number: Any) -> Value:
+def _plain(number: sympy.Number) -> Value:
     return float(number) if number.is_Float else normalised(Fraction(int(number.p), int(number.q)))
 
 
@@ -134,11 +137,11 @@ def _rational(value: Value) -> Element:
 
 
 @lru_cache(maxsize=4_096)
-def _element(expression: Any) -> Element:
+def _element(expression: sympy.Expr) -> Element:
     if expression.is_Add:
         terms = expression.as_ordered_terms()
         terms.sort(key=_is_negative)  # stable: 1 - q, and no sign at the beginning where that can be
-        parts: list[Any] = []
+        parts: list[Element] = []
         for term in terms:
             negative = _is_negative(term)
             sign = [_MINUS] if negative else ["+"] if parts else []
@@ -150,11 +153,11 @@ def _element(expression: Any) -> Element:
     return _product(expression) if expression.is_Mul or expression.is_Number or below else _atom(expression)
 
 
-def _is_negative(expression: Any) -> bool:
+def _is_negative(expression: sympy.Expr) -> bool:
     return bool(expression.could_extract_minus_sign()) if not expression.is_Add else False
 
 
-def _product(expression: Any) -> Element:
+def _product(expression: sympy.Expr) -> Element:
     """A number, and powers: those with negative exponents below a line."""
     number, rest = expression.as_coeff_Mul()
     factors = [factor.as_base_exp() for factor in rest.as_ordered_factors() if factor != 1]
@@ -169,18 +172,18 @@ def _product(expression: Any) -> Element:
     return ["mfrac", whole, _row(below)] if below else whole
 
 
-def _is_below(exponent: Any) -> bool:
+def _is_below(exponent: sympy.Expr) -> bool:
     return bool(exponent.could_extract_minus_sign())
 
 
-def _row(factors: list[Any]) -> Element:
+def _row(factors: list[sympy.Expr | int]) -> Element:
     """Factors above or below a line; a sum that is alone there needs no parentheses."""
     if len(factors) == 1 and not isinstance(factors[0], int):
         return _element(factors[0])
     return ["mrow", *map(_factor, factors)] if len(factors) > 1 else str(factors[0])
 
 
-def _factor(expression: Any) -> Element:
+def _factor(expression: sympy.Expr) -> Element:
     """A part of a product: a sum in parentheses."""
     if isinstance(expression, int):
         return str(expression)
@@ -188,7 +191,7 @@ def _factor(expression: Any) -> Element:
     return ["mrow", "(", *found[1:], ")"] if expression.is_Add else found
 
 
-def _atom(expression: Any) -> Element:
+def _atom(expression: sympy.Expr) -> Element:
     """A letter, a power, a root, or a function."""
     if expression.is_Symbol:
         name, joint, subscript = str(expression.name).partition("_")
@@ -208,14 +211,14 @@ def _atom(expression: Any) -> Element:
         )
         return ["msup", inner, _element(exponent)]
     if expression.is_Function:
-        inside: list[Any] = []
+        inside: list[Element] = []
         for argument in expression.args:
             inside += [*([","] if inside else []), *_argument(argument)]
         return ["mrow", str(expression.func.__name__), "(", *inside, ")"]
     return "π" if str(expression) == "pi" else str(expression)
 
 
-def _argument(argument: Any) -> list[Element]:
+def _argument(argument: sympy.Expr) -> list[Element]:
     """What a function is applied to: an angle in degrees."""
     import sympy
 

@@ -75,7 +75,7 @@ class Operator:
         return "truth" if self.conditional and index == 0 else self.takes
 
 
-def _strict(function: Callable[..., Any]) -> Callable[..., Function]:
+def _strict(function: Callable[..., object]) -> Callable[..., Function]:
     """An operator that evaluates all its operands first."""
 
     def build(*operands: Function) -> Function:
@@ -114,7 +114,7 @@ def _drawn(method: str) -> Callable[..., Function]:
 def _sensed(number: Function, *operands: Function) -> Function:
     """A sensitive function of GROGRA, given by its number; the source after the values may see what the turtle sees."""
 
-    def evaluate(v: tuple[Any, ...]) -> Any:
+    def evaluate(v: tuple[object, ...]) -> Any:
         sees = getattr(v[-1], "sees", None) if v else None
         if sees is None:
             raise ValueError(

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, fields
 from functools import cached_property
-from importlib import import_module
 from typing import Any
 
 from lsys_kit.errors import LSystemError
@@ -243,7 +242,9 @@ class LSystem:
         >>> LSystem((Pattern("F"),), (Production((Pattern("F"),), (Pattern("F"), Pattern("F"))),)).picture(3)
         8 segments, width 0, height 8
         """
-        return import_module("lsys_kit").draw(self, n, **choices)  # imported late: this room knows no pictures
+        from lsys_kit import draw  # imported late: this room knows no pictures, only what the package offers
+
+        return draw(self, n, **choices)
 
     @property
     def rules(self) -> tuple[Production, ...]:

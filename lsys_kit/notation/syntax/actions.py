@@ -118,7 +118,7 @@ def values_text(number: int | str) -> str:
     return gettext("one value") if number == 1 else gettext("{number} values", number=number)
 
 
-def _is_named(part: Any) -> bool:
+def _is_named(part: object) -> bool:
     return isinstance(part, tuple) and len(part) == 2 and isinstance(part[0], str)
 
 

@@ -90,7 +90,7 @@ class Draft:
         else:
             self._set(kind, record, at)
 
-    def _set(self, kind: str, record: Any, at: tuple[int, int]) -> None:
+    def _set(self, kind: str, record: object, at: tuple[int, int]) -> None:
         if kind in ("ignore", "consider") and {"ignore", "consider"} & self.settings.keys() - {kind}:
             raise problem("ignore and consider", at)
         if kind in self.settings:

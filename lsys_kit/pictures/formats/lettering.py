@@ -161,7 +161,7 @@ def _contours(name: str, face: Font) -> tuple[tuple[tuple[float, float], ...], .
     return tuple(map(tuple, contours))
 
 
-def _curve(start: tuple[float, float], points: Any) -> list[tuple[float, float]]:
+def _curve(start: tuple[float, float], points: object) -> list[tuple[float, float]]:
     """The corners of quadratic curves behind one another, as TrueType writes them: between two controls lies a point."""
     from fontTools.pens.basePen import decomposeQuadraticSegment
 

@@ -7,9 +7,10 @@ everywhere.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from matplotlib.backend_bases import RendererBase
+from matplotlib.backend_bases import GraphicsContextBase, RendererBase
 from matplotlib.colors import to_hex
 from matplotlib.path import Path as Outline
 from matplotlib.transforms import Affine2D
@@ -18,7 +19,11 @@ from lsys_kit.pictures.plots.lettering import spans, width
 from lsys_kit.pictures.shapes import Group, Look, Path, Shape, Text
 
 if TYPE_CHECKING:
+    import numpy as np
     from matplotlib.figure import Figure
+    from matplotlib.font_manager import FontProperties
+    from matplotlib.transforms import Transform
+    from numpy.typing import ArrayLike, NDArray
 
 ASCENT, DESCENT = 0.76, 0.24
 """How far letters reach above the baseline and below it, to the size of the text."""
@@ -52,16 +57,16 @@ class ShapesRenderer(RendererBase):
         """The size of the picture."""
         return self.width, self.height
 
-    def points_to_pixels(self, points: Any) -> Any:
+    def points_to_pixels(self, points: ArrayLike) -> ArrayLike:
         """A point is a pixel."""
         return points
 
-    def get_text_width_height_descent(self, s: str, prop: Any, ismath: Any) -> tuple[float, float, float]:
+    def get_text_width_height_descent(self, s: str, prop: FontProperties, ismath: bool | str) -> tuple[float, float, float]:
         """The extent of a label."""
         size = prop.get_size_in_points()
         return width(_label(s, ismath), size), (ASCENT + DESCENT) * size, DESCENT * size
 
-    def draw_path(self, gc: Any, path: Outline, transform: Any, rgbFace: Any = None) -> None:  # noqa: N803
+    def draw_path(self, gc: GraphicsContextBase, path: Outline, transform: Transform, rgbFace: Any = None) -> None:  # noqa: N803
         """Draw a path, filled or not."""
         stroke = _stroke(gc)
         if stroke or rgbFace is not None:
@@ -72,11 +77,11 @@ class ShapesRenderer(RendererBase):
 
     def draw_markers(
         self,
-        gc: Any,
+        gc: GraphicsContextBase,
         marker_path: Outline,
-        marker_trans: Any,
+        marker_trans: Transform,
         path: Outline,
-        trans: Any,
+        trans: Transform,
         rgbFace: Any = None,  # noqa: N803
     ) -> None:
         """Draw markers, all of which are dots: strokes without length and with round ends."""
@@ -88,7 +93,15 @@ class ShapesRenderer(RendererBase):
             self.shapes.append(Path(dots, look | _faint(rgbFace)))
 
     def draw_text(
-        self, gc: Any, x: float, y: float, s: str, prop: Any, angle: float, ismath: Any = False, mtext: Any = None
+        self,
+        gc: GraphicsContextBase,
+        x: float,
+        y: float,
+        s: str,
+        prop: FontProperties,
+        angle: float,
+        ismath: bool | str = False,
+        mtext: Any = None,
     ) -> None:
         """Write a label at the point by which it is aligned: what surrounds a text differs a little between versions of
         matplotlib, and a page may have other letters."""
@@ -112,7 +125,7 @@ def _label(text: str, mathematical: object) -> str:
     return text if mathematical else text.replace("$", "\\$")
 
 
-def _path_data(path: Outline, transform: Any) -> str:
+def _path_data(path: Outline, transform: Transform) -> str:
     """A path as SVG writes it."""
     return "".join(
         _COMMANDS[code] + ("" if code == Outline.CLOSEPOLY else _numbers(corners))
@@ -120,7 +133,7 @@ def _path_data(path: Outline, transform: Any) -> str:
     )
 
 
-def _numbers(corners: Any) -> str:
+def _numbers(corners: NDArray[np.float64]) -> str:
     return " ".join(map(str, (corners + NUDGE).round().astype(int).tolist()))
 
 
@@ -135,5 +148,5 @@ def _stroke(gc: Any) -> Look:
     return pen | _faint(colour) | broken
 
 
-def _faint(colour: Any) -> Look:
+def _faint(colour: Sequence[float]) -> Look:
     return Look() if colour[3] == 1 else Look(stroke_opacity=float(f"{colour[3]:.2g}"))

@@ -15,16 +15,14 @@ of 3:1 and more against their paper, and all text one of 4.5:1 (WCAG 2.2, 1.4.11
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from importlib.resources import files
-from typing import Any
 
 from lsys_kit.errors import ModelValueError, shown
+from lsys_kit.files import toml_tables
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.pictures.style.colour_values import BLACK, WHITE, colour_from, contrast, luminance, mixed
 
@@ -35,7 +33,7 @@ BLACKEST = 0.179
 """Paper of a luminance below this is dark: white contrasts with it more than black does."""
 NOTHING = "none"
 """The ground of a picture without paper."""
-COLOURS: Mapping[str, Any] = tomllib.loads((files(__package__) / "colours.toml").read_text(encoding="utf-8"))
+COLOURS = toml_tables(__package__, "colours.toml")
 DARK_LINES: Mapping[str, str] = COLOURS["dark_lines"]
 """Lines on dark paper."""
 

@@ -74,7 +74,7 @@ def _plain(items: Iterable[Item]) -> tuple[Item, ...]:
     return with_expressions(items, normal)
 
 
-def _form_of_rule(rule: Production) -> tuple[Any, ...]:
+def _form_of_rule(rule: Production) -> tuple[object, ...]:
     """A production with its parameters called by their numbers; a value before the arrow is a condition."""
     names: dict[str, Expression] = {}
     fixed: list[Expression] = []

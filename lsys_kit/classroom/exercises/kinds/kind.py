@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import Any
+from typing import Generic, TypeVar
 
 from lsys_kit.classroom.exercises.exercise import Exercise
+
+Answer = TypeVar("Answer")
+"""What an answer of a kind means: a word, a net, a drawing."""
 
 
 @dataclass(frozen=True)
@@ -38,7 +41,7 @@ class Difference:
 
 
 @dataclass(frozen=True)
-class AnswerKind:
+class AnswerKind(Generic[Answer]):
     """One kind of answers.
 
     Attributes
@@ -60,13 +63,13 @@ class AnswerKind:
         a whole or not.
     """
 
-    read: Callable[[Exercise, object], Any]
-    difference: Callable[[Exercise, Any, Any], Difference]
-    same: Callable[[Exercise, Any, Any], bool] = lambda exercise, own, other: bool(own == other)
-    honest: Callable[[Exercise, Any, Any], bool] = lambda exercise, own, solution: True
-    praise: Callable[[Exercise, Any, Any], str] = lambda exercise, own, solution: ""
-    alike: Callable[[Exercise, Any, Any], bool] | None = None
-    parts_right: Callable[[Exercise, Any, Any], tuple[int, int]] | None = None
+    read: Callable[[Exercise, object], Answer]
+    difference: Callable[[Exercise, Answer, Answer], Difference]
+    same: Callable[[Exercise, Answer, Answer], bool] = lambda exercise, own, other: bool(own == other)
+    honest: Callable[[Exercise, Answer, Answer], bool] = lambda exercise, own, solution: True
+    praise: Callable[[Exercise, Answer, Answer], str] = lambda exercise, own, solution: ""
+    alike: Callable[[Exercise, Answer, Answer], bool] | None = None
+    parts_right: Callable[[Exercise, Answer, Answer], tuple[int, int]] | None = None
 
 
 def first_difference(mine: Iterable[object], wanted: Iterable[object]) -> int:

@@ -9,7 +9,7 @@ from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds import choices, drawings, expressions, maps, nets, numbers, systems, words
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind
 
-ANSWER_KINDS: Mapping[str, AnswerKind] = {
+ANSWER_KINDS: Mapping[str, AnswerKind[Any]] = {
     "word": words.WORD,
     "words": words.WORDS,
     "number": numbers.NUMBER,

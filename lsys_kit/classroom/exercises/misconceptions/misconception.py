@@ -7,18 +7,17 @@ to the exercise is read; where a misconception does not apply to a question ther
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
-from importlib.resources import files
 from typing import Any, TypeAlias, TypeVar
 
 from lsys_kit.classroom.exercises.asked import History, answer_by
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS
+from lsys_kit.files import toml_tables
 
-WrongAnswers: TypeAlias = Callable[[Exercise], Iterator[Any]]
+WrongAnswers: TypeAlias = Callable[[Exercise], Iterator[object]]
 Change = TypeVar("Change", bound=Callable[..., Any])
 
 
@@ -36,19 +35,19 @@ class Misconception:
     faint: bool = False
     last_resort: bool = False
 
-    def answers(self, exercise: Exercise) -> Iterator[Any]:
+    def answers(self, exercise: Exercise) -> Iterator[object]:
         """The wrong answers that it yields to a question."""
         for answers in self.yields:
             yield from answers(exercise)
 
 
-DECLARED: Mapping[str, Mapping[str, Any]] = tomllib.loads((files(__package__) / "misconceptions.toml").read_text("utf-8"))
+DECLARED = toml_tables(__package__, "misconceptions.toml")
 """What is said of each misconception, by its name."""
 YIELDS: Mapping[str, list[WrongAnswers]] = {name: [] for name in DECLARED}
 """What each yields, as its functions are met."""
 
 
-def misconception(name: str, way: Callable[..., Iterator[Any]] | None = None, *given: object) -> Callable[[Change], Change]:
+def misconception(name: str, way: Callable[..., Iterator[object]] | None = None, *given: object) -> Callable[[Change], Change]:
     """A decorator of what a misconception yields to an exercise, or of what somebody with it changes in some way."""
 
     def kept(change: Change) -> Change:
@@ -58,7 +57,7 @@ def misconception(name: str, way: Callable[..., Iterator[Any]] | None = None, *g
     return kept
 
 
-def by_history(exercise: Exercise, history: History) -> Iterator[Any]:
+def by_history(exercise: Exercise, history: History) -> Iterator[object]:
     """The answer of somebody who has these words in mind."""
     answer = answer_by(exercise, history)
     if answer is not None:

@@ -22,7 +22,7 @@ from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number,
 from lsys_kit.notation.model.modules import CLOSING, OPENING, Module
 
 
-def of_kind(change: Callable[[Any], Iterable[Any]], kind: str, exercise: Exercise) -> Iterator[Any]:
+def of_kind(change: Callable[[Any], Iterable[object]], kind: str, exercise: Exercise) -> Iterator[Any]:
     """The answers that are the right one changed, in questions of one kind."""
     if exercise.kind == kind:
         yield from change(solution_of(exercise))
@@ -169,7 +169,7 @@ def percent(number: Value) -> list[Value]:
 
 @misconception("word reversed", of_kind, "word")
 @misconception("word reversed", of_kind, "table")
-def backwards(solution: Sequence[Any]) -> list[tuple[Any, ...]]:
+def backwards(solution: Sequence[object]) -> list[tuple[object, ...]]:
     """A row from its end to its beginning; none of a word with brackets, which read backwards close nothing."""
     brackets = any(isinstance(each, Module) and each.symbol in OPENING | CLOSING for each in solution)
     return [] if brackets else [tuple(reversed(solution))]
@@ -215,7 +215,7 @@ def _led_to(firing: Firing, place: str, target: str) -> Firing:
 # Walls
 
 
-def in_wall_rules(change: Callable[[EdgeProduction], EdgeProduction], exercise: Exercise) -> Iterator[Any]:
+def in_wall_rules(change: Callable[[EdgeProduction], EdgeProduction], exercise: Exercise) -> Iterator[object]:
     """The answers of somebody who writes another rule for each wall."""
     if exercise.kind == "map":
         right = solution_of(exercise).own
@@ -224,7 +224,7 @@ def in_wall_rules(change: Callable[[EdgeProduction], EdgeProduction], exercise: 
             yield with_given(exercise, wrong)
 
 
-def in_markers(change: Callable[[EdgeProduction, Marker], Marker], exercise: Exercise) -> Iterator[Any]:
+def in_markers(change: Callable[[EdgeProduction, Marker], Marker], exercise: Exercise) -> Iterator[object]:
     """The same for each marker of a rule."""
 
     def with_markers(rule: EdgeProduction) -> EdgeProduction:

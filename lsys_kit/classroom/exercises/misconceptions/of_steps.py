@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import count, islice, permutations
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 from lsys_kit.classroom.exercises.asked import (
     Derived,
@@ -58,7 +58,7 @@ def words_by(step: WrongStep, system: LSystem, steps: int) -> Iterator[list[Modu
         yield [states.modules[state] for state in word]
 
 
-def by_words(words: Callable[[LSystem, int], Iterable[Sequence[Module]]], trait: str, exercise: Exercise) -> Iterator[Any]:
+def by_words(words: Callable[[LSystem, int], Iterable[Sequence[Module]]], trait: str, exercise: Exercise) -> Iterator[object]:
     """The answers of somebody who derives other words, of systems that have a trait."""
     system = asked_system(exercise) if is_derived(exercise) else None
     if system is not None and getattr(States(system).traits, trait):
@@ -67,7 +67,7 @@ def by_words(words: Callable[[LSystem, int], Iterable[Sequence[Module]]], trait:
             yield from by_history(exercise, History(system, found))
 
 
-def by_steps(step: WrongStep, exercise: Exercise) -> Iterator[Any]:
+def by_steps(step: WrongStep, exercise: Exercise) -> Iterator[object]:
     """The answers of somebody whose steps are not those of an L-system."""
     return by_words(partial(words_by, step), "d0l", exercise)
 
@@ -77,7 +77,7 @@ MOST_ORDERED = 3
 
 
 @misconception("sequential")
-def sequential_in_each_order(exercise: Exercise) -> Iterator[Any]:
+def sequential_in_each_order(exercise: Exercise) -> Iterator[object]:
     """Each production is applied everywhere, one after another, the second to what the first has made.
 
     In the order in which they are written, or in another; one that happens to lead to the right answer shows nothing.
@@ -208,13 +208,13 @@ def context_in_new_word(system: LSystem, steps: int) -> Iterator[list[Module]]:
 # Which step
 
 
-def _shifted(offset: int, exercise: Exercise) -> Iterator[Any]:
+def _shifted(offset: int, exercise: Exercise) -> Iterator[object]:
     """The answers of somebody who counts the steps from another one."""
     if is_derived(exercise) and what_is_asked(exercise) != "first":
         yield from by_history(exercise, replace(right_history(exercise), offset=offset))
 
 
-def _beside_the_first(by: int, exercise: Exercise) -> Iterator[Any]:
+def _beside_the_first(by: int, exercise: Exercise) -> Iterator[object]:
     """The answers of somebody who names the step before the first that is asked for, or the one after it."""
     if what_is_asked(exercise) == "first":
         yield solution_of(exercise) + by
@@ -236,7 +236,7 @@ MOST_VALUES = 8
 _COUNTED = ("length", "count", "strokes")
 
 
-def by_sequences(continued: Callable[[Sequence[int]], Iterator[Iterator[int]]], exercise: Exercise) -> Iterator[Any]:
+def by_sequences(continued: Callable[[Sequence[int]], Iterator[Iterator[int]]], exercise: Exercise) -> Iterator[object]:
     """The answers of somebody who continues the first numbers by another rule."""
     what = what_is_asked(exercise)
     if what not in (*_COUNTED, "lengths", "counts", "first") or exercise.symbols:
@@ -305,7 +305,7 @@ def doubling(values: Sequence[int]) -> Iterator[Iterator[int]]:
         yield (values[0] * 2**step for step in range(4_000))
 
 
-def by_values(change: Callable[[Sequence[int]], Iterable[int]], exercise: Exercise) -> Iterator[Any]:
+def by_values(change: Callable[[Sequence[int]], Iterable[int]], exercise: Exercise) -> Iterator[object]:
     """The answers of somebody who makes something else of the right numbers of all steps."""
     if exercise.kind == "number" and what_is_asked(exercise) in _COUNTED and exercise.steps > 1:
         yield from change(right_history(exercise).values(exercise, exercise.steps))

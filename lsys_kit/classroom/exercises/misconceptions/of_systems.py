@@ -29,7 +29,7 @@ ChangeOfRule: TypeAlias = Callable[[Production], Production]
 Items: TypeAlias = Sequence[Item]
 
 
-def by_systems(change: ChangeOfSystem, exercise: Exercise) -> Iterator[Any]:
+def by_systems(change: ChangeOfSystem, exercise: Exercise) -> Iterator[object]:
     """The answers of somebody who writes another system, or has it in mind."""
     if exercise.kind == "system":
         yield from (completed(exercise, wrong) for wrong in filter(is_sensible, change(solution_of(exercise).own)))
@@ -42,12 +42,12 @@ def by_systems(change: ChangeOfSystem, exercise: Exercise) -> Iterator[Any]:
             yield from by_history(exercise, History(wrong, Derived(wrong, last_step(exercise))))
 
 
-def in_mind(change: ChangeOfSystem, exercise: Exercise) -> Iterator[Any]:
+def in_mind(change: ChangeOfSystem, exercise: Exercise) -> Iterator[object]:
     """The same of a system that nobody would write."""
     return iter(()) if exercise.kind == "system" else by_systems(change, exercise)
 
 
-def by_turns(change: ChangeOfSystem, exercise: Exercise) -> Iterator[Any]:
+def by_turns(change: ChangeOfSystem, exercise: Exercise) -> Iterator[object]:
     """The same of a system with another angle, in questions that do not give it."""
     return iter(()) if exercise.kind == "drawing" and exercise.system else by_systems(change, exercise)
 
@@ -76,17 +76,17 @@ def each_rewritten(change: ChangeOfRule, system: LSystem) -> Iterator[LSystem]:
             yield _with(system, [*rules[:number], change(rule), *rules[number + 1 :]])
 
 
-def in_all_rules(change: ChangeOfRule, exercise: Exercise) -> Iterator[Any]:
+def in_all_rules(change: ChangeOfRule, exercise: Exercise) -> Iterator[object]:
     """The answers of somebody who takes all productions for others."""
     return by_systems(partial(rewritten, change), exercise)
 
 
-def in_each_rule(change: ChangeOfRule, exercise: Exercise) -> Iterator[Any]:
+def in_each_rule(change: ChangeOfRule, exercise: Exercise) -> Iterator[object]:
     """The answers of somebody who takes all productions for others, or one of them."""
     return by_systems(partial(each_rewritten, change), exercise)
 
 
-def in_comparisons(change: Callable[[Expression], Expression], exercise: Exercise) -> Iterator[Any]:
+def in_comparisons(change: Callable[[Expression], Expression], exercise: Exercise) -> Iterator[object]:
     """The same, in the conditions of productions."""
 
     def with_other_condition(rule: Production) -> Production:
@@ -266,7 +266,7 @@ def context_sides_swapped(rule: Production) -> Production:
 # What is drawn
 
 
-def in_words(change: Callable[[Items], tuple[Item, ...]], exercise: Exercise) -> Iterator[Any]:
+def in_words(change: Callable[[Items], tuple[Item, ...]], exercise: Exercise) -> Iterator[object]:
     """The answers of somebody who takes commands for others, in the axiom and in successors."""
     return by_systems(lambda system: rewritten(partial(_with_items, change), system, change), exercise)
 

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import re
-import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from importlib.resources import files
 from random import Random
 from string import ascii_uppercase
 from typing import Any, TypeAlias
@@ -15,12 +13,13 @@ from typing import Any, TypeAlias
 from lsys_kit.classroom.exercises.asked import system_of
 from lsys_kit.classroom.exercises.exercise import Exercise, Option, Slip
 from lsys_kit.classroom.exercises.replies import reply
+from lsys_kit.files import toml_tables
 from lsys_kit.translation import gettext
 from lsys_kit.worlds.derive import derive
 
-TOPICS: Mapping[str, Mapping[str, Any]] = tomllib.loads((files(__package__) / "topics.toml").read_text("utf-8"))
+TOPICS = toml_tables(__package__, "topics.toml")
 """What can be practised: what the exercises of each topic say, and the lesson that it goes with."""
-_AS_KEY: Mapping[str, Callable[[Any], Any]] = {"kind": str, "asks": str, "unit": str, "expects": tuple, "unlikely": tuple}
+_AS_KEY: Mapping[str, Callable[[Any], object]] = {"kind": str, "asks": str, "unit": str, "expects": tuple, "unlikely": tuple}
 """Which of that are keys of exercises, and what becomes of them."""
 Rules: TypeAlias = Mapping[str, Sequence[str]]
 """For each letter what it becomes."""

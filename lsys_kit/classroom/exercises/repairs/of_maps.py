@@ -89,7 +89,7 @@ def _variants(part: SuccessorPart, labels: Sequence[str]) -> Iterator[tuple[Succ
         yield from others
 
 
-def _all_changed(row: Sequence[SuccessorPart]) -> Iterator[tuple[tuple[Any, ...], str]]:
+def _all_changed(row: Sequence[SuccessorPart]) -> Iterator[tuple[tuple[object, ...], str]]:
     """All walls, or all markers, with another label or without an arrow."""
     labels = {(part.edge if isinstance(part, Marker) else part).label for part in row}
     for label in sorted(labels):

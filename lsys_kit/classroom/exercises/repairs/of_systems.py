@@ -144,7 +144,7 @@ def _modules(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) -> li
 def repairs_of(
     own: LSystem,
     target: LSystem,
-    make: Callable[[LSystem], Any],
+    make: Callable[[LSystem], object],
     reached: Sequence[Module] = (),
     settings: Sequence[str] = (),
     has_axiom: bool = True,
@@ -171,13 +171,13 @@ def repairs_of(
         yield from _pairs(own, make, (*product(small, large), *combinations(large, 2)))
 
 
-def _repairs(own: LSystem, make: Callable[[LSystem], Any], edit: Edit) -> Iterator[Repair]:
+def _repairs(own: LSystem, make: Callable[[LSystem], object], edit: Edit) -> Iterator[Repair]:
     changed = applied(own, edit)
     if is_sensible(changed):
         yield Repair(partial(make, changed), edit.said, edit.near)
 
 
-def _pairs(own: LSystem, make: Callable[[LSystem], Any], pairs: Iterable[tuple[Edit, Edit]]) -> Iterator[Repair]:
+def _pairs(own: LSystem, make: Callable[[LSystem], object], pairs: Iterable[tuple[Edit, Edit]]) -> Iterator[Repair]:
     for one, other in pairs:
         if one.slot != other.slot or one.slot[1] == -1:
             changed = applied(own, one, other)
@@ -480,7 +480,7 @@ def _blind_edits(own: LSystem, target: LSystem) -> Iterator[Edit]:
                 yield Edit((block, at), replace(rule, successor=successor), said)
 
 
-def _rows(row: Sequence[Any]) -> Iterator[tuple[Any, ...]]:
+def _rows(row: Sequence[object]) -> Iterator[tuple[object, ...]]:
     """Successors that differ by one thing: two neighbours, a sign, a pen, a number."""
     for at in range(len(row) - 1):
         if row[at] != row[at + 1]:

@@ -31,7 +31,7 @@ class Repair:
         How many changes it is made of.
     """
 
-    answer: Callable[[], Any]
+    answer: Callable[[], object]
     said: Callable[[], str]
     near: bool = True
     case: bool = False

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from contextlib import suppress
-from typing import Any
 
 from lsys_kit.budget import current, limits, processor_time
 from lsys_kit.classroom.exercises.exercise import Exercise
@@ -31,7 +30,7 @@ MOST_MODULES = 5_000
 """The longest word of a changed answer."""
 
 
-def repaired(exercise: Exercise, own: Any, solution: Any) -> Repair | None:
+def repaired(exercise: Exercise, own: object, solution: object) -> Repair | None:
     """The first of its changes that makes an answer right; None where none does, or none was found in time.
 
     >>> fibonacci = Exercise("1", "", "system", "", "axiom: a\\na -> a b\\nb -> a", "", (), steps=6)

@@ -26,7 +26,7 @@ class Room(NamedTuple):
     own.
     """
 
-    layout: Callable[[Any, Forces], Iterable[Any]]
+    layout: Callable[[Any, Forces], Iterable[object]]
     most: int
     unasked: int
     bytes_each: int = 0
@@ -72,7 +72,7 @@ def cells_at_rest(system: CellSystem, forces: Forces, least: int = 0) -> CellsAt
             steps, end = error.partial, sentence(error)
         last, early = last_held((found.counts[1] for found in steps), asked, room.unasked, room.called)
         steps, end = steps.up_to(last), early or end
-        reached, size = list[Any](), 0
+        reached, size = list[object](), 0
         try:
             for found, each in zip(steps, room.layout(steps, forces), strict=True):
                 size += room.bytes_each * found.counts[1]

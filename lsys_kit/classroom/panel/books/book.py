@@ -216,13 +216,13 @@ def _size(states: States, new: Sequence[int], drawn: Sequence[object]) -> int:
     return len(json.dumps(drawn)) + sum(STATE_BYTES + 2 * len(str(states.modules[state])) for state in new)
 
 
-def _labels(states: States, numbers: Iterable[int], net: Stages | None) -> tuple[list[list[Any]], list[list[Any]]]:
+def _labels(states: States, numbers: Iterable[int], net: Stages | None) -> tuple[list[list[object]], list[list[object]]]:
     """The symbols, each with its label, colour and whether it only steers the turtle; and the states, each with its symbol, its
     values, its place in the diagram, and its text."""
     system, notation = states.system, dialect_named(states.system.notation)
     palette, steering = colours(system), steering_of(system)
     symbols: dict[str, int] = {}
-    rows: list[list[Any]] = []
+    rows: list[list[object]] = []
     for state in numbers:
         module = states.modules[state]
         place = None if net is None else net.place_of(module)
@@ -243,7 +243,7 @@ def _formulas(states: States, pages: _Pages, diagram: Data, rows: Sequence[Seque
     """For each state whose values have letters its values as mathematics, and as a text, its text, and what its formulas are in
     numbers; for each step under which conditions the formulas hold. Stages in the diagram are named by formulas, too.
     """
-    notation, found = dialect_named(states.system.notation), list[Any]()
+    notation, found = dialect_named(states.system.notation), list[object]()
     for state, drawn in counted(zip(pages.numbers, pages.drawn, strict=True), 1):
         module = states.modules[state]
         values = values_element(module.arguments)
@@ -338,7 +338,7 @@ _TILDE = -1
 """The number of a module that is in no word: beside it, the symbols of surfaces are commands."""
 
 
-def drawn_rows(states: States, numbers: Sequence[int], mode: DrawingMode) -> list[list[Any]]:
+def drawn_rows(states: States, numbers: Sequence[int], mode: DrawingMode) -> list[list[object]]:
     """For each of some states what is drawn.
 
     In a filament its cells and walls as in `shapes_of`; for a turtle its calls, each an action, a factor and an addend, the
@@ -363,7 +363,7 @@ def drawn_rows(states: States, numbers: Sequence[int], mode: DrawingMode) -> lis
     return [[_call(each, known) for each in calls[state] if each.action in handlers] for state in numbers]
 
 
-def _call(instruction: Instruction, known: Mapping[str, Surface]) -> list[Any]:
+def _call(instruction: Instruction, known: Mapping[str, Surface]) -> list[object]:
     action, factor, addend, values, symbol, surface = instruction
     if action == "draw expected surface":
         surface = symbol if symbol in known else ""
@@ -376,7 +376,7 @@ def _plain(number: float) -> float:
     return int(number) if abs(number) < GREATEST and number == int(number) else number
 
 
-def drawing_entries(states: States, numbers: Sequence[int], drawn: list[list[Any]], last: int) -> Data:
+def drawing_entries(states: States, numbers: Sequence[int], drawn: list[list[object]], last: int) -> Data:
     """The entries of a book that say how it is drawn, given its states, what each is drawn as, and its last step."""
     system, mode = states.system, drawing_mode(states.system)
     if mode is DrawingMode.FILAMENT:
@@ -418,7 +418,7 @@ def _turtle(system: LSystem, calls: list[list[Any]]) -> Data:
     }
 
 
-def faces_in(surface: Surface, mode: DrawingMode) -> dict[str, list[Any]]:
+def faces_in(surface: Surface, mode: DrawingMode) -> dict[str, list[object]]:
     """The faces of a surface in a book, none where it is flat, and its outlines."""
     curved = mode is DrawingMode.SPACE and bool(surface.normals)
     return {
@@ -447,7 +447,7 @@ NEAR = 1e-6
 """A number that is nearer to a whole number than this may be one; whether it is, is then computed exactly."""
 
 
-def growth_entry(system: LSystem, constants: Mapping[str, Any]) -> dict[str, str] | None:
+def growth_entry(system: LSystem, constants: Mapping[str, object]) -> dict[str, str] | None:
     """The growth rate as a book holds it, or None.
 
     >>> from lsys_kit.notation.read import read

@@ -17,7 +17,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict
 from itertools import accumulate, pairwise
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
@@ -48,7 +48,7 @@ Written: TypeAlias = tuple[tuple[str, str], ...]
 """A cell as it is written: for each wall its label and the edges around it; on a sphere the walls, without a label."""
 
 
-def cell_book(found: CellsAtRest, settings: Mapping[str, Value], title: str = "") -> dict[str, Any]:
+def cell_book(found: CellsAtRest, settings: Mapping[str, Value], title: str = "") -> dict[str, object]:
     """The book of a system of cells, ready to be written as JSON, given its forces and what it is called.
 
     >>> from lsys_kit.classroom.panel.books.at_rest import cells_at_rest
@@ -95,7 +95,7 @@ def span(rule: EdgeProduction | CellworkProduction) -> list[int] | None:
 # A map in the plane
 
 
-def _of_map(found: CellsAtRest, edges: list[list[Any]], numbers: Mapping[Edge, int], staged: bool) -> dict[str, Any]:
+def _of_map(found: CellsAtRest, edges: list[list[object]], numbers: Mapping[Edge, int], staged: bool) -> dict[str, object]:
     system = found.steps.system
     return {
         "noun": "wall",
@@ -112,7 +112,7 @@ def _of_map(found: CellsAtRest, edges: list[list[Any]], numbers: Mapping[Edge, i
     }
 
 
-def _history(found: CellsAtRest, numbers: Mapping[Edge, int]) -> dict[str, Any]:
+def _history(found: CellsAtRest, numbers: Mapping[Edge, int]) -> dict[str, object]:
     """The walls of all steps as numbers; for those of each step but the last how many walls they become, and by which
     production."""
     rules = {production.predecessor: rule for rule, production in enumerate(found.steps.system.productions)}
@@ -126,7 +126,7 @@ def _history(found: CellsAtRest, numbers: Mapping[Edge, int]) -> dict[str, Any]:
     }
 
 
-def _map_pages(found: CellsAtRest) -> Iterator[dict[str, Any]]:
+def _map_pages(found: CellsAtRest) -> Iterator[dict[str, object]]:
     """What is drawn of each map: the points, x and y in turn; the points at the ends of walls; those around cells, and where
     each cell starts; the kinds of cells; and where new points were made."""
     known = 0
@@ -148,7 +148,7 @@ def _map_pages(found: CellsAtRest) -> Iterator[dict[str, Any]]:
 # Cells that are seen from all sides
 
 
-def _of_tissue(found: CellsAtRest, edges: list[list[Any]], numbers: Mapping[Edge, int]) -> dict[str, Any]:
+def _of_tissue(found: CellsAtRest, edges: list[list[object]], numbers: Mapping[Edge, int]) -> dict[str, object]:
     divided = any(len(after.cells) > len(before.cells) for before, after in pairwise(found.steps))
     return {
         "noun": "cell",
@@ -170,7 +170,7 @@ def size_text(found: Cellwork | Map) -> str:
     return f"{counts_text(found.counts)}; {first:,}{terms} = {euler}"
 
 
-def _cells(found: CellsAtRest, edges: list[list[Any]], kinds: Sequence[str]) -> dict[str, Any]:
+def _cells(found: CellsAtRest, edges: list[list[object]], kinds: Sequence[str]) -> dict[str, object]:
     """The cells of all steps as numbers, how each is written, and how many each becomes.
 
     States are first those of edges, so that their stages can be marked, then those of cells.
@@ -238,7 +238,7 @@ def _kinds_counted(found: Cellwork | Map) -> Counter[Edge]:
     return Counter(edge.kind for edge in found.edges)
 
 
-def _pages(found: CellsAtRest, numbers: Mapping[Edge, int]) -> Iterator[dict[str, Any]]:
+def _pages(found: CellsAtRest, numbers: Mapping[Edge, int]) -> Iterator[dict[str, object]]:
     """What is drawn of each step, and the kinds of its edges."""
     order = {label: number for number, label in enumerate(_wall_labels(found))}
     for step, placed, kinds in zip(found.steps, found.reached, _looks(found), strict=True):
@@ -246,7 +246,7 @@ def _pages(found: CellsAtRest, numbers: Mapping[Edge, int]) -> Iterator[dict[str
         yield page | {"edges": _packed(numbers[edge.kind] for edge in step.edges)}
 
 
-def _cellwork_page(found: Cellwork, points: Floats, order: Mapping[str, int]) -> dict[str, Any]:
+def _cellwork_page(found: Cellwork, points: Floats, order: Mapping[str, int]) -> dict[str, object]:
     """The vertices, x, y and z in turn; the ends of edges; around each wall the vertices and edges, and its label; for each
     wall of each cell the cell, the wall, and whether its edges run counter-clockwise as seen from outside."""
     net = solid_tissue(found)
@@ -261,7 +261,7 @@ def _cellwork_page(found: Cellwork, points: Floats, order: Mapping[str, int]) ->
     }
 
 
-def _sphere_page(found: Map, placed: Placed, kinds: Sequence[int]) -> dict[str, Any]:
+def _sphere_page(found: Map, placed: Placed, kinds: Sequence[int]) -> dict[str, object]:
     """Points along each wall, x, y and z in turn, and where each wall starts among them; the walls around each cell, with 1
     where their direction runs clockwise around it, and where each cell starts; the kinds of cells."""
     arcs = [*wall_arcs(found, *placed)]
@@ -279,5 +279,5 @@ def _coordinates(points: Floats, digits: int = DIGITS) -> list[float]:
     return found
 
 
-def _packed(numbers: Iterable[int]) -> Any:
+def _packed(numbers: Iterable[int]) -> object:
     return packed(np.array([*numbers], np.int64))

@@ -150,7 +150,7 @@ class OpenedCells:
         self.first: Mapping[str, Value] = {name: value for name, value in given.items() if name not in without}
         self.fixed: Mapping[str, Value] = {name: value for name, value in given.items() if name in without}
         self.declared: Mapping[str, Value] = {name: exact(getattr(USUAL[system.kind], name)) for name in VALUES}
-        self.given: Mapping[str, Any] = self.fixed
+        self.given: Mapping[str, object] = self.fixed
         self.values: Mapping[str, Sequence[Value]] = {
             name: tuple(sorted({*self._of.values[name], value})) for name, value in self.first.items()
         }
@@ -198,7 +198,7 @@ class OpenedCells:
     def still(self, chosen: Viewing, show: Collection[str] = ()) -> Mapping[str, str]:
         return {"image/svg+xml": self.sight(chosen).svg}
 
-    def page_data(self, chosen: Viewing, asked: Sequence[Mapping[str, object]] = ()) -> dict[str, Any]:
+    def page_data(self, chosen: Viewing, asked: Sequence[Mapping[str, object]] = ()) -> dict[str, object]:
         """A page holds the book of one setting of the forces. Under others the cells of a map in the plane come to rest in the
         browser; all else comes to rest in the kernel, and on a page its forces stay as they are."""
         made, flat = self.book(chosen.values, 0, chosen.step), self._of.flat

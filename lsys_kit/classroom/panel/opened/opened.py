@@ -71,7 +71,7 @@ class Opened(Protocol):
     values: Mapping[str, Sequence[Value]]
     fixed: Mapping[str, Value]
     declared: Mapping[str, Value]
-    given: Mapping[str, Any]
+    given: Mapping[str, object]
     hint: str
     kind: str
 

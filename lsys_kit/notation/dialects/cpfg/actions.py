@@ -38,7 +38,7 @@ def _bare_module(symbol: str) -> Pattern:
     return Pattern("-" if symbol == "−" else symbol)
 
 
-def _flattened(parts: Iterable[Any]) -> Iterator[Any]:
+def _flattened(parts: Iterable[object]) -> Iterator[Any]:
     for part in parts:
         if isinstance(part, tuple):
             yield from part
@@ -51,7 +51,7 @@ def _as_block(part: Block | Assignment | Choice) -> Block:
     return part if isinstance(part, tuple) else (part,)
 
 
-def _is_block(part: Any) -> bool:
+def _is_block(part: object) -> bool:
     """Whether a part of a production is a block with its place."""
     return isinstance(part, tuple) and part[:1] in (("before",), ("after",))
 
@@ -156,7 +156,7 @@ class CpfgStatements(_CpfgExpressions, Statements):
     def block(self, *instructions: Any) -> Block:
         return tuple(instruction for instruction in instructions if instruction != ())
 
-    def phase(self, keyword: Token, *instructions: Any) -> Statement:
+    def phase(self, keyword: Token, *instructions: object) -> Statement:
         return "deferred", ("phase", ("".join(keyword.rstrip(": \t").lower().split()), self.block(*instructions)))
 
     def procedure(self, name: Token, *values: Expression | Token) -> Any:

@@ -124,10 +124,10 @@ class _GrograStatements(_GrograExpressions, Statements):
         self.name(name)
         return "deferred", ("variable", Variable(str(name), str(kind), values, (kind.start_pos or 0, kind.end_pos or 0)))
 
-    def production(self, *parts: Any) -> Statement:
+    def production(self, *parts: object) -> Statement:
         return "production", _production_of(parts)
 
-    def interpretation(self, *parts: Any) -> Statement:
+    def interpretation(self, *parts: object) -> Statement:
         return "deferred", ("interpretation", _production_of(parts))
 
 
@@ -142,7 +142,7 @@ def _subtoken(token: Token, text: str, offset: int) -> Token:
     return Token(token.type, text, start_pos=start, end_pos=start + len(text))
 
 
-def _production_of(parts: tuple[Any, ...]) -> Production:
+def _production_of(parts: tuple[object, ...]) -> Production:
     """A rule, whose successor may be nothing at all."""
     predecessor = next(part for part in parts if isinstance(part, Pattern))
     named = {part[0]: part[1] for part in parts if isinstance(part, tuple) and part and isinstance(part[0], str)}

@@ -265,7 +265,7 @@ class MathematicaStatements(MathematicaExpressions):
     def run(self, _: Token, system: SystemDefinition | Token, steps: Expression) -> Run:
         return Run(system, steps)
 
-    def definition(self, *parts: Any) -> Statement:
+    def definition(self, *parts: object) -> Statement:
         things = [part for part in parts if not isinstance(part, Token)]
         return "deferred", ("definition", (str(parts[0]) if isinstance(parts[0], Token) else "", things[0]))
 
