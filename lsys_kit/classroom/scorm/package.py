@@ -16,7 +16,7 @@ from xml.etree import ElementTree
 
 from lsys_kit.classroom.exercises.declarations import questions_in
 from lsys_kit.classroom.exercises.exercise import Lesson
-from lsys_kit.classroom.exercises.registry import exercises, lessons, translated_lesson
+from lsys_kit.classroom.exercises.registry import all_lessons, exercises, translated_lesson
 from lsys_kit.classroom.scorm.page import exercise_page
 from lsys_kit.errors import ModelFileError, ModelNameError, ModelValueError, quotable
 from lsys_kit.files import KIT_MARK, save_file
@@ -57,9 +57,9 @@ def lessons_of(what: str) -> tuple[Lesson, ...]:
         exercises(what)
         return questions_in(Path(what)).lessons
     wanted = what.strip().zfill(2) if what.strip().isdigit() else what.strip()
-    found = tuple(lesson for lesson in lessons() if wanted in (lesson.name, lesson.name.partition("_")[0]))
+    found = tuple(lesson for lesson in all_lessons() if wanted in (lesson.name, lesson.name.partition("_")[0]))
     if not found:
-        names = [lesson.name for lesson in lessons()]
+        names = [lesson.name for lesson in all_lessons()]
         raise ModelNameError(
             f'"{quotable(what)}" is no folder and no lesson',
             hint=suggestion(what[:100], names) or f"Lessons are: {', '.join(names)}.",

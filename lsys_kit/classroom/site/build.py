@@ -15,7 +15,9 @@ from typing import Any
 from tqdm import tqdm
 
 from lsys_kit.classroom.course import course_files
-from lsys_kit.classroom.lessons.lesson import declared, names
+from lsys_kit.classroom.handed_in import content_of
+from lsys_kit.classroom.lessons.lesson import declared_in
+from lsys_kit.classroom.places import course_of
 from lsys_kit.classroom.site import showing
 from lsys_kit.classroom.site.contents import index_page
 from lsys_kit.classroom.site.markdown import missing
@@ -32,17 +34,22 @@ def build_site(folder: str | Path, source: Path | None = None, live: bool = Fals
     for the server of a class.
     """
     folder = Path(folder)
-    files = {name: path for name, path in course_files(source).items() if name.endswith(".ipynb")}
+    every, course = course_files(source), course_of(source)
+    files = {name: path for name, path in every.items() if name.endswith(".ipynb")}
     stored = {name: read_notebook(path) for name, path in files.items()}
-    told = {f"notebooks/{each}.ipynb": declared(each) for each in names()}
-    entries = [Entry(name, title_of(stored[name].cells, name), told.get(name)) for name in files]
+    told = {f"notebooks/{name}.ipynb": declared_in(place, name) for place, name in course.lessons}
+    drawn = {name: path for name, path in every.items() if name.startswith("notebooks/pictures/")}
+    entries = [
+        Entry(name, title_of(stored[name].cells, name), told.get(name), course.title, drawn if name in told else {})
+        for name in files
+    ]
     places = {INDEX: folder / INDEX, **{each.name: folder / each.page for each in entries}}
     _make_room(folder, places)
     known, pictures = {each.name: each for each in entries}, dict[str, str]()
     for name, notebook in _run(files, stored):
         save_file(places[name], notebook_page(known[name], notebook.cells, entries, live).encode())
         pictures.update((name, each) for each in found_in(notebook.cells, showing.SMALL))
-    save_file(places[INDEX], index_page(entries, pictures, live).encode())
+    save_file(places[INDEX], index_page(entries, pictures, live, course.lead).encode())
     return tuple(places.values())
 
 
@@ -93,7 +100,7 @@ def run_all(paths: Mapping[str, Path]) -> Iterator[tuple[str, Any]]:
 def run(name: str, path: Path, stopped: Event | None = None) -> Any:
     """The notebook of a file, run in a kernel of its own, in which the kit's widgets are shown as parts of a page."""
     nbclient, nbformat = _libraries()
-    notebook = nbformat.read(path, as_version=4)
+    notebook = read_notebook(path)
     notebook.cells.insert(0, nbformat.v4.new_code_cell(_FIRST.format(path.stem)))
 
     def unless_stopped(**_: Any) -> None:
@@ -146,8 +153,27 @@ def found_in(cells: Sequence[Any], kind: str) -> Iterator[Any]:
 
 
 def read_notebook(path: Path) -> Any:
-    """The notebook of a file as it is stored."""
-    return _libraries()[1].read(path, as_version=4)
+    """The notebook of a file as it is stored.
+
+    Raises
+    ------
+    ModelFileError
+        It is no notebook.
+    """
+    nbformat = _libraries()[1]
+    try:
+        return nbformat.reads(content_of(path, MOST_BYTES).decode(), as_version=4)
+    except ModelFileError as fault:
+        raise ModelFileError(f'"{quotable(str(path))}": {fault.message}') from None
+    except Exception as fault:  # nbformat and jsonschema raise errors of their own
+        reason = quotable(str(fault).splitlines()[0][:200]) if str(fault) else type(fault).__name__
+        raise ModelFileError(
+            f'"{quotable(str(path))}" is no notebook: {reason}', hint="Open it in Jupyter, and save it again."
+        ) from None
+
+
+MOST_BYTES = 50_000_000
+"""The greatest size of a notebook."""
 
 
 def _libraries() -> tuple[Any, Any]:

@@ -5,7 +5,7 @@ import { prose } from "../lessons/asking.js";
 import { made, speak, worded } from "../views/controls.js";
 import { whatIsAsked } from "./outbox.js";
 
-const LETTERS = "ABCD", AGAIN = 800; // milliseconds before the server is looked for again
+const LETTERS = "ABCDEF", AGAIN = 800; // milliseconds before the server is looked for again
 const OWN = "own", EMPTY = "data:,";
 
 // The board for the projector.
@@ -260,7 +260,7 @@ export function showBoard({ here, present, tools }, { address, code, plan, games
   }
 
   offer();
-  lessons.value = "01";
+  lessons.value = plan.some(({ lesson }) => lesson === "01") ? "01" : plan[0]?.lesson;
   offer();
   show();
   return { hear, keyed, say: (text) => (said.textContent = text) };
