@@ -440,6 +440,25 @@ def write_package(options: argparse.Namespace) -> None:
         print(line)
 
 
+def write_lesson(options: argparse.Namespace) -> None:
+    from lsys_kit.classroom.authoring import new
+
+    root = new.write_lesson(options.name, options.output and Path(options.output), options.begin, options.title)
+    where = quotable(str(root))
+    print(f"The lesson is in {where}. Write it in JupyterLab: jupyter lab {where}")
+    print(f"What a careful colleague would say: lsys-kit lesson check {where}")
+    print(f"Its pages: lsys-kit site --course {where} -o pages")
+
+
+def check_lesson(options: argparse.Namespace) -> None:
+    from lsys_kit.classroom.authoring.check import findings_in
+    from lsys_kit.classroom.places import choose_course
+
+    folder = options.folder and Path(options.folder)
+    choose_course(folder)
+    _tell([*findings_in(folder, options.run)], "in the lesson")
+
+
 def write_site(options: argparse.Namespace) -> None:
     from lsys_kit.classroom.site.build import build_site
 
@@ -498,7 +517,7 @@ SECONDS, BYTES = 12, 8
 """These multiples of the kit's own limits: a command has several tasks, and libraries take memory to begin with."""
 MERCY = 30
 """So many seconds of the processor after it was told so a process is ended that goes on."""
-LASTING, UNLIMITED = frozenset({"site", "collect", "wall", "exercises"}), frozenset({"lab", "class"})
+LASTING, UNLIMITED = frozenset({"site", "collect", "wall", "exercises", "lesson"}), frozenset({"lab", "class"})
 """The commands that have as much time as they need, and those that have memory, too."""
 
 

@@ -110,7 +110,8 @@ class Course:
     @property
     def places(self) -> tuple[Place, ...]:
         """The places of its lessons, its own first."""
-        return tuple(dict.fromkeys([own_place(self.root), *(place for place, _ in self.lessons)]))
+        own = kit_place() if self.root == kit_place().root else own_place(self.root)
+        return tuple(dict.fromkeys([own, *(place for place, _ in self.lessons)]))
 
 
 TITLE = "L-systems: a course"
@@ -135,7 +136,7 @@ def course_of(folder: Path | None = None) -> Course:
         next(folder.iterdir(), None)
     declared = _listed(folder)
     lessons = tuple(_lessons(folder, declared))
-    if not lessons and not _stems(folder / "exercises", ".toml"):
+    if not lessons and not any(_stems(folder / "exercises", ending) for ending in (".toml", ".ipynb")):
         raise ModelFileError(
             f'There are no lessons in "{named}"',
             hint="A lesson is notebooks/NAME.ipynb in it: lsys-kit lesson new NAME writes one.",

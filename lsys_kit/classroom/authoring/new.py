@@ -85,7 +85,7 @@ def notebook(cells: list[Mapping[str, str]]) -> str:
 def _cell(number: int, cell: Mapping[str, str]) -> dict[str, Any]:
     kind = "code" if "code" in cell else "markdown"
     source = cell["code" if kind == "code" else "text"].strip("\n").splitlines(keepends=True)
-    more = {"outputs": [], "execution_count": None} if kind == "code" else {}
+    more: dict[str, Any] = {"outputs": [], "execution_count": None} if kind == "code" else {}
     return {"cell_type": kind, "id": f"part-{number}", "metadata": {}, "source": source, **more}
 
 
@@ -94,7 +94,7 @@ def _json(content: object) -> str:
 
 
 def _copied(name: str, begin: str) -> Iterator[tuple[str, str]]:
-    """The files of a lesson of the kit under another name: what asks for it asks for the copy, and links to others are texts."""
+    """The files of a lesson of the kit under another name: what asks for it asks for the copy, links to others are texts."""
     kit, wanted = kit_place(), begin.strip().zfill(2) if begin.strip().isdecimal() else begin.strip()
     of = next((each for each in kit.names() if wanted in (each, key_of(each))), "")
     if not of:

@@ -10,7 +10,7 @@ import json
 import re
 import sys
 from collections.abc import Collection, Iterable, Iterator, Mapping
-from contextlib import suppress
+from contextlib import nullcontext, suppress
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -20,7 +20,7 @@ from lsys_kit.classroom.exercises.declarations import MOST_BYTES, QUESTIONS, que
 from lsys_kit.classroom.exercises.exercise import Exercise, Lesson
 from lsys_kit.classroom.exercises.kinds.choices import listing
 from lsys_kit.classroom.exercises.progress import Progress, Record, progress_of
-from lsys_kit.classroom.exercises.registry import exercises, translated_lesson
+from lsys_kit.classroom.exercises.registry import known_for_a_while, translated_lesson
 from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.classroom.exercises.verdict import Verdict
 from lsys_kit.classroom.handed_in import content_of
@@ -69,13 +69,12 @@ def exercise_notebooks(
     ModelFileError
         There are mistakes in the files of questions.
     """
-    if Path(questions) != QUESTIONS:
-        exercises(questions)
-    lessons = [lesson for lesson in map(translated_lesson, questions_in(Path(questions)).lessons) if lesson.exercises]
-    return {
-        f"{lesson.name}.ipynb": exercise_notebook(lesson, where, linked is None or lesson.name in linked).encode()
-        for lesson in lessons
-    }
+    with known_for_a_while(Path(questions)) if Path(questions) != QUESTIONS else nullcontext():
+        lessons = [lesson for lesson in map(translated_lesson, questions_in(Path(questions)).lessons) if lesson.exercises]
+        return {
+            f"{lesson.name}.ipynb": exercise_notebook(lesson, where, linked is None or lesson.name in linked).encode()
+            for lesson in lessons
+        }
 
 
 OWN_QUESTIONS = "questions"

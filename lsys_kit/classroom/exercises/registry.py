@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from functools import cache, lru_cache
 from pathlib import Path
@@ -127,6 +127,18 @@ def exercises(folder: str | Path | None = None) -> ExerciseList:
             f"{len(found.problems)} mistakes: {found.problems[0]}", hint="lsys-kit exercises check FOLDER lists all of them."
         )
     return ExerciseList(translated(exercise) for _, _, exercise in found.exercises)
+
+
+@contextmanager
+def known_for_a_while(folder: Path) -> Iterator[None]:
+    """A `with` block in which the exercises of a folder are known."""
+    before = dict(_added)
+    try:
+        exercises(folder)
+        yield
+    finally:
+        _added.clear()
+        _added.update(before)
 
 
 def _all_questions() -> Iterator[Questions]:

@@ -131,6 +131,8 @@ class Lesson:
         What the notebook asks.
     settings
         What its text asks of the sliders of a panel, beside its tables: values that are set together, by the sliders' names.
+    accepted
+        Advice of `lsys-kit lesson check` that was looked at, and is not to be said again: parts of its sentences.
     """
 
     name: str
@@ -148,6 +150,7 @@ class Lesson:
     tables: tuple[Table, ...]
     predictions: tuple[Asked, ...] = ()
     settings: tuple[Mapping[str, str], ...] = field(default=(), hash=False)
+    accepted: tuple[str, ...] = ()
 
     @property
     def key(self) -> str:
@@ -330,7 +333,7 @@ _LESSON: Shape = {
     "minutes": (_number, ...),
     "objectives": (_texts, ...),
     "summary": (_text, ...),
-    **dict.fromkeys(("track", "systems", "points", "misconceptions"), (_texts, ())),
+    **dict.fromkeys(("track", "systems", "points", "misconceptions", "accepted"), (_texts, ())),
     "vote": (_entries, None),
     **dict.fromkeys(("tables", "predictions", "settings"), (_list, [])),
 }

@@ -99,6 +99,18 @@ def run_all(paths: Mapping[str, Path]) -> Iterator[tuple[str, Any]]:
 
 def run(name: str, path: Path, stopped: Event | None = None) -> Any:
     """The notebook of a file, run in a kernel of its own, in which the kit's widgets are shown as parts of a page."""
+    nbclient, _ = _libraries()
+    try:
+        notebook = run_through(path, stopped, until_failed=True)
+    except nbclient.exceptions.CellExecutionError as failed:
+        raise LSystemError(f"A cell of {name} fails: {failed.ename}: {failed.evalue}", hint=_RUN_IT) from None
+    for cell in notebook.cells:
+        _check_shown(name, cell)
+    return notebook
+
+
+def run_through(path: Path, stopped: Event | None = None, until_failed: bool = False) -> Any:
+    """The notebook of a file, run as for a page; cells behind one that fails are run, too, unless that is not wanted."""
     nbclient, nbformat = _libraries()
     notebook = read_notebook(path)
     notebook.cells.insert(0, nbformat.v4.new_code_cell(_FIRST.format(path.stem)))
@@ -110,6 +122,7 @@ def run(name: str, path: Path, stopped: Event | None = None) -> Any:
     client = nbclient.NotebookClient(
         notebook,
         timeout=SECONDS,
+        allow_errors=not until_failed,
         kernel_name="python3",
         store_widget_state=False,
         extra_arguments=["--log-level=ERROR"],
@@ -124,11 +137,11 @@ def run(name: str, path: Path, stopped: Event | None = None) -> Any:
             raise
         except RuntimeError:  # the kernel did not start: another program took one of its ports before it could
             client.execute(env=environment)
-    except nbclient.exceptions.CellExecutionError as failed:
-        raise LSystemError(f"A cell of {name} fails: {failed.ename}: {failed.evalue}", hint=_RUN_IT) from None
+    except nbclient.exceptions.CellTimeoutError:
+        raise LSystemError(f"A cell of {path.name} takes more than {SECONDS} seconds", hint=_RUN_IT) from None
+    except nbclient.exceptions.DeadKernelError:
+        raise LSystemError(f"The kernel of {path.name} has died", hint=_RUN_IT) from None
     del notebook.cells[0]
-    for cell in notebook.cells:
-        _check_shown(name, cell)
     return notebook
 
 
