@@ -426,10 +426,10 @@ def _tell(problems: list[Any], where: str) -> None:
 
 
 def write_exercises(options: argparse.Namespace) -> None:
+    from lsys_kit.classroom.exercises.declarations import questions_folder
     from lsys_kit.classroom.exercises.notebooks import write_notebooks
 
-    questions = Path(options.folder)
-    print(write_notebooks(options.output, questions / "exercises" if (questions / "exercises").is_dir() else questions))
+    print(write_notebooks(options.output, questions_folder(options.folder)))
 
 
 def write_package(options: argparse.Namespace) -> None:
@@ -457,6 +457,16 @@ def check_lesson(options: argparse.Namespace) -> None:
     folder = options.folder and Path(options.folder)
     choose_course(folder)
     _tell([*findings_in(folder, options.run)], "in the lesson")
+
+
+def unpack_lesson(options: argparse.Namespace) -> None:
+    from lsys_kit.classroom.authoring.unpack import unpack
+
+    root, cells, notebooks = unpack(Path(options.archive), options.output and Path(options.output))
+    many = f"{counted_as(cells, 'cell')} of code in {counted_as(notebooks, 'notebook')}"
+    print(
+        f"The lesson is in {quotable(str(root))}: {many}. Nothing was run: a cell can do all that you can, so read them first."
+    )
 
 
 def write_site(options: argparse.Namespace) -> None:

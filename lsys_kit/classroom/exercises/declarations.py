@@ -315,6 +315,12 @@ class Questions:
             yield from ((source, number, exercise) for number, exercise in found)
 
 
+def questions_folder(folder: str | Path) -> Path:
+    """The folder of exercises in the folder of a lesson or a course; any other is itself one of exercises."""
+    inside = Path(folder) / "exercises"
+    return inside if inside.is_dir() else Path(folder)
+
+
 def questions_in(folder: Path) -> Questions:
     """The exercises in a folder, with all mistakes in its files.
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from lsys_kit.budget import Task, limits
 from lsys_kit.classroom.exercises.asked import answer_by, asked_system, right_history, what_is_asked
 from lsys_kit.classroom.exercises.check import BUDGET, picture_of
-from lsys_kit.classroom.exercises.declarations import QUESTIONS, MakeProblem, Problem, Questions, questions_in
+from lsys_kit.classroom.exercises.declarations import QUESTIONS, MakeProblem, Problem, Questions, questions_folder, questions_in
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.judging import judged, wrong_answers
 from lsys_kit.classroom.exercises.kinds.choices import letters
@@ -29,8 +29,7 @@ HINTS = 3
 
 def problems_in(folder: str | Path = QUESTIONS) -> list[Problem]:
     """All that is wrong with the exercises in a folder of them or of a course, by default the kit's, and advice."""
-    path = Path(folder)
-    path = path / "exercises" if (path / "exercises").is_dir() else path
+    path = questions_folder(folder)
     found = kit_questions() if path == QUESTIONS else questions_in(path)
     problems = [*found.problems, *_lesson_problems(found)]
     taken = {} if path == QUESTIONS else {exercise.id: source.file for source, _, exercise in kit_questions().exercises}

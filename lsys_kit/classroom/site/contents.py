@@ -71,5 +71,5 @@ def _row(entry: Entry, entries: Sequence[Entry], picture: str) -> str:
     return (
         f'<li data-lesson="{name}" data-title="{title}"><a class="picture" href="{address}" tabindex="-1" aria-hidden="true">'
         f'{picture}</a><div><h3>{number}<a href="{address}">{escaped(entry.title)}</a></h3>{asked}'
-        f'<p class="quiet facts">{" · ".join([*facts, *also])}</p></div>{objectives}</li>\n'
+        f'<p class="quiet facts">{" · ".join(filter(None, [*facts, *also]))}</p></div>{objectives}</li>\n'
     )
