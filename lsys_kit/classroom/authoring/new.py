@@ -49,9 +49,8 @@ def write_lesson(name: str, folder: Path | None = None, begin: str | None = None
     told = f'The lesson cannot be written to "{quotable(str(root))}"'
     with file_errors(told):
         if os.path.lexists(root) and not (root.is_dir() and not any(root.iterdir())):
-            raise ModelFileError(
-                f'"{quotable(str(root))}" already exists', hint="Nothing is overwritten: choose another with -o."
-            )
+            there = str(root)
+            raise ModelFileError(f'"{quotable(there)}" already exists', hint="Nothing is overwritten: choose another with -o.")
     title = " ".join((title or name.replace("_", " ").capitalize()).split())
     contents = dict(_copied(name, begin) if begin is not None else _from_template(name, title))
     with file_errors(told):

@@ -1,7 +1,7 @@
 """A lesson out of an archive that somebody has sent: data until its cells are run.
 
-Texts, notebooks and pictures alone are taken, under plain names, into a new folder; nothing else in the archive is looked at, and
-nothing is run.
+Texts, notebooks and pictures alone are taken, under plain names, into a new folder; nothing else in the archive is looked at,
+and nothing is run.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ _WINDOWS = re.compile(r"(?:con|prn|aux|nul|com\d|lpt\d)", re.IGNORECASE)
 
 
 def unpack(archive: Path, folder: Path | None = None) -> tuple[Path, int, int]:
-    """Unpack a lesson or a course into a new folder, and return that, and how many cells of code there are in how many notebooks.
+    """Unpack a lesson or a course into a new folder; return that, and how many cells of code there are in how many notebooks.
 
     Raises
     ------
@@ -39,7 +39,8 @@ def unpack(archive: Path, folder: Path | None = None) -> tuple[Path, int, int]:
     named = f'"{quotable(str(archive))}"'
     with file_errors(f"{named} cannot be read"):
         if os.path.lexists(root):
-            raise ModelFileError(f'"{quotable(str(root))}" already exists', hint="Choose another folder with -o.")
+            name = str(root)
+            raise ModelFileError(f'"{quotable(name)}" already exists', hint="Choose another folder with -o.")
         try:
             with zipfile.ZipFile(archive) as opened:
                 contents = dict(_contents(opened, named))
