@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import shutil
+import zipfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -14,10 +15,13 @@ from lsys_kit import LSystemError, ModelFileError, ModelNameError, ModelValueErr
 from lsys_kit.__main__ import main
 from lsys_kit.classroom.authoring.check import findings_in
 from lsys_kit.classroom.authoring.new import write_lesson
+from lsys_kit.classroom.authoring.unpack import unpack
 from lsys_kit.classroom.course import copy_course, course_files
 from lsys_kit.classroom.exercises.lint import problems_in
 from lsys_kit.classroom.lessons.lesson import declared_in, lesson, names
 from lsys_kit.classroom.lessons.predicted import outcome
+from lsys_kit.classroom.live import questions
+from lsys_kit.classroom.live.session import plan
 from lsys_kit.classroom.places import VARIABLE, choose_course, course_of, kit_place, places
 
 FIBONACCI = "axiom: a\na -> ab\nb -> a"
@@ -479,3 +483,117 @@ def test_a_question_about_a_system_knows_its_answer_and_its_misconceptions() -> 
 def test_a_question_about_a_system_says_what_it_needs(call: Callable[[], object], says: str) -> None:
     with pytest.raises(LSystemError, match=says):
         call()
+
+
+# --- a class, marks, packages -----------------------------------------------------------------------------------------
+
+
+def test_a_class_may_open_what_a_lesson_of_ones_own_asks(ferns: Path) -> None:
+    choose_course(ferns)
+    for cached in (questions.questions, questions.predictions):
+        cached.cache_clear()
+    try:
+        found = questions.questions()
+        assert {kind for kind, _ in found} == {"vote", "prediction", "table", "exercise"}
+        assert found["vote", "ferns"].page == "notebooks/ferns.html"
+        assert questions.right_option("ferns") == 1
+        assert (
+            questions.named("table", "ferns", questions.in_words(found["table", "ferns:buds"])["question"]).about
+            == "ferns:buds"
+        )
+        assert questions.about_prediction("Step 2 has 4 buds. How many has step 4?") == "ferns:1"
+        assert [row["lesson"] for row in plan()] == ["ferns"]
+    finally:
+        choose_course(None)
+        for cached in (questions.questions, questions.predictions):
+            cached.cache_clear()
+
+
+def test_answers_that_were_handed_in_are_marked(ferns: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "handed_in").mkdir()
+    cell = {"cell_type": "code", "source": 'answer = 64\ncheck("ferns.2", answer)'}
+    (tmp_path / "handed_in" / "ann.ipynb").write_text(json.dumps({"cells": [cell]}))
+    assert main(["collect", "handed_in", "--course", "ferns", "-o", "marks.csv"]) == 0
+    assert (tmp_path / "marks.csv").read_text().splitlines()[1] == "ann,1.0,1.0,"
+
+
+def test_exercises_are_packed_and_written_with_their_questions(ferns: Path, tmp_path: Path) -> None:
+    assert main(["exercises", "scorm", "ferns", "-o", "ferns.zip"]) == 0
+    assert main(["exercises", "notebooks", "ferns", "-o", "new/folder"]) == 0
+    assert (tmp_path / "new" / "folder" / "questions" / "ferns.toml").read_bytes() == (ferns / EXERCISES).read_bytes()
+
+
+def test_an_exercise_without_hints_and_explanation_is_used(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "q").mkdir()
+    text = 'title = "Mine"\n[[exercise]]\nid = "q.1"\ntitle = "Two"\nkind = "number"\nquestion = "1 + 1?"\nsolution = "2"\n'
+    (tmp_path / "q" / "mine.toml").write_text(text)
+    monkeypatch.chdir(tmp_path)
+    assert problems_in("q")
+    assert all(each.advice for each in problems_in("q"))
+    assert main(["exercises", "check", "q"]) == 0
+    assert main(["exercises", "notebooks", "q", "-o", "nb"]) == 0
+    text = (tmp_path / "nb" / "mine.ipynb").read_text("utf-8")
+    assert "hint=1" not in text
+    assert "../notebooks/" not in text
+
+
+# --- archives ---------------------------------------------------------------------------------------------------------
+
+
+def archive(path: Path, files: dict[str, bytes], link: str = "") -> Path:
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as made:
+        for name, content in files.items():
+            info = zipfile.ZipInfo(name)
+            info.external_attr = (0o120777 if name == link else 0o644) << 16
+            made.writestr(info, content)
+    return path
+
+
+def test_a_lesson_that_was_packed_is_the_same_when_it_is_unpacked(ferns: Path, tmp_path: Path) -> None:
+    packed = shutil.make_archive(str(tmp_path / "sent"), "zip", tmp_path, "ferns")
+    root, cells, notebooks = unpack(Path(packed))
+    assert (cells > 8, notebooks) == (True, 2)
+    kept = {path.relative_to(ferns): path.read_bytes() for path in ferns.rglob("*.*") if path.is_file() and path.name[0] != "."}
+    assert {path.relative_to(root): path.read_bytes() for path in root.rglob("*.*") if path.is_file()} == kept
+    with pytest.raises(ModelFileError, match="already exists"):
+        unpack(Path(packed))
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "../out.md",
+        "/etc/out.md",
+        "notebooks/../../out.md",
+        "C:\\out.md",
+        "notebooks/con.md",
+        ".ssh/x.md",
+        "run.py",
+        "a/b/c/d/e/f.md",
+    ],
+)
+def test_nothing_leaves_the_folder_and_no_program_is_taken(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str) -> None:
+    monkeypatch.chdir(tmp_path)
+    sent = archive(
+        tmp_path / "sent.zip",
+        {"notebooks/ferns.ipynb": b'{"cells": []}', name: b"x", "notebooks/l.md": b"/etc"},
+        "notebooks/l.md",
+    )
+    unpack(sent, tmp_path / "in" / "it")
+    assert [path.name for path in tmp_path.rglob("*") if path.is_file()] == ["sent.zip", "ferns.ipynb"]
+
+
+@pytest.mark.parametrize("content", [b"", b"PK\x03\x04", b"no archive", b"PK\x05\x06" + b"\0" * 18])
+def test_what_is_no_archive_is_told_in_words(tmp_path: Path, content: bytes) -> None:
+    (tmp_path / "sent.zip").write_bytes(content)
+    with pytest.raises(ModelFileError):
+        unpack(tmp_path / "sent.zip", tmp_path / "it")
+    assert not (tmp_path / "it").exists()
+
+
+@pytest.mark.slow
+def test_a_bomb_is_refused_before_it_is_written(tmp_path: Path) -> None:
+    sent = archive(tmp_path / "sent.zip", {"notebooks/ferns.ipynb": b"0" * 30_000_000})
+    with pytest.raises(ModelFileError, match="too large"):
+        unpack(sent, tmp_path / "it")
+    assert not (tmp_path / "it").exists()
