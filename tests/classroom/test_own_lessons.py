@@ -17,6 +17,7 @@ from lsys_kit.classroom.authoring.check import findings_in
 from lsys_kit.classroom.authoring.new import write_lesson
 from lsys_kit.classroom.authoring.unpack import unpack
 from lsys_kit.classroom.course import copy_course, course_files
+from lsys_kit.classroom.exercises import registry
 from lsys_kit.classroom.exercises.lint import problems_in
 from lsys_kit.classroom.lessons.lesson import declared_in, lesson, names
 from lsys_kit.classroom.lessons.predicted import outcome
@@ -32,6 +33,7 @@ def ferns(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     """A new lesson, in the folder in which Python runs."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.delenv(VARIABLE, raising=False)
+    monkeypatch.setattr(registry, "_added", {})
     yield write_lesson("ferns", tmp_path / "ferns")
     os.environ.pop(VARIABLE, None)
 
@@ -497,10 +499,7 @@ def test_a_class_may_open_what_a_lesson_of_ones_own_asks(ferns: Path) -> None:
         assert {kind for kind, _ in found} == {"vote", "prediction", "table", "exercise"}
         assert found["vote", "ferns"].page == "notebooks/ferns.html"
         assert questions.right_option("ferns") == 1
-        assert (
-            questions.named("table", "ferns", questions.in_words(found["table", "ferns:buds"])["question"]).about
-            == "ferns:buds"
-        )
+        assert questions.named("table", "ferns", lesson("ferns").tables[0].title).about == "ferns:buds"
         assert questions.about_prediction("Step 2 has 4 buds. How many has step 4?") == "ferns:1"
         assert [row["lesson"] for row in plan()] == ["ferns"]
     finally:
