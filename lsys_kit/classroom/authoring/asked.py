@@ -110,9 +110,19 @@ def table_findings(written: Written) -> Iterator[Finding]:
         where = written.declared_line(f'id = "{table.id}"')
         if table.id not in shown:
             yield finding(where, "table_never", id=table.id, key=written.key)
+        yield from _on_the_teachers_page(written, table)
         for row in range(len(table.rows)):
             for column in range(1, len(table.columns)):
                 yield from _cell(where, table, row, column)
+
+
+def _on_the_teachers_page(written: Written, table: Table) -> Iterator[Finding]:
+    page = written.place.notebooks / "teacher" / f"{written.name}.md"
+    if page.is_file():
+        text = " ".join(page.read_text("utf-8", errors="replace").split())
+        wanted = [table.title, *(blank.right[0] for _, _, blank in table.blanks)]
+        if missing := next((each for each in wanted if " ".join(each.split()) not in text), None):
+            yield finding(f"teacher/{page.name}", "teacher_table", id=table.id, missing=missing[:60])
 
 
 def _cell(where: str, table: Table, row: int, column: int) -> Iterator[Finding]:

@@ -24,7 +24,8 @@ class Finding:
     advice: bool = False
 
     def __str__(self) -> str:
-        return f"{self.where}: {'advice: ' * self.advice}{self.what.rstrip('.')}. {self.hint}".rstrip()
+        what = self.what if self.what.endswith((".", "?", "!")) else f"{self.what}."
+        return f"{self.where}: {'advice: ' * self.advice}{what} {self.hint}".rstrip()
 
 
 def finding(where: str, name: str, /, **values: object) -> Finding:

@@ -14,13 +14,13 @@ from lsys_kit.classroom.lessons.rows import set_by
 from lsys_kit.classroom.site import showing
 from lsys_kit.classroom.site.build import found_in, run_through
 from lsys_kit.notation.analysis.checks import suggestion
+from lsys_kit.notation.model.arithmetic import number_text
 
 _NUMBER = r"(-?\d+(?:[./]\d+)?)"
 _SET = (
     re.compile(rf"\b(?:[Ss]et|[Mm]ove|[Pp]ut|[Tt]urn)\b[^.?!\n]{{0,40}}?[*`]+(\w+)[*`]+ (?:slider )?(?:to|=) {_NUMBER}\b"),
     re.compile(rf"\b(?:[Ss]et|[Mm]ove|[Pp]ut) (?:the )?slider [*`]+(\w+)[*`]+ (?:to|=) {_NUMBER}\b"),
 )
-_STEP = re.compile(r"\b(?:[Ss]et|[Mm]ove|[Gg]o|[Pp]ut)\b[^.?!\n]{0,40}?(?:[*`]*step[*`]*)(?: slider)?(?: to)? (\d+)\b")
 
 
 def running_findings(written: Written) -> Iterator[Finding]:
@@ -55,9 +55,12 @@ def _reached(written: Written, models: list[Mapping[str, Any]]) -> Iterator[Find
         for each in model["constants"]:
             sliders.setdefault(each["name"], []).append(each)
     for name, value, where in _wanted(written, sliders):
-        if name in sliders and not any(_reaches(each, value) for each in sliders[name]):
-            low, high, by = (sliders[name][0].get(key) for key in ("min", "max", "step"))
-            yield finding(where, "unreached", name=name, value=value, low=low, high=high, by=by)
+        offered = [[number_of(text) for text in each["texts"]] for each in sliders.get(name, ())]
+        if offered and not any(value in numbers for numbers in offered):
+            texts = sliders[name][0]["texts"]
+            near = min(texts, key=lambda text: abs((number_of(text) or Fraction(0)) - value))
+            said = {"value": number_text(value), "low": texts[0], "high": texts[-1], "near": near}
+            yield finding(where, "unreached", name=name, **said)
     if models:
         known = {*sliders, "step", "angle", "seed", "around", "above"}
         for cell, found in _asked(written):
@@ -84,11 +87,3 @@ def _wanted(written: Written, sliders: Mapping[str, object]) -> Iterator[tuple[s
     for together in written.lesson.settings if written.lesson else ():
         for name, text in together.items():
             yield name, number_of(text) or Fraction(0), written.declared_line("settings")
-
-
-def _reaches(slider: Mapping[str, Any], value: Fraction) -> bool:
-    try:
-        low, high, by = (Fraction(str(slider[key])) for key in ("min", "max", "step"))
-    except (KeyError, ValueError, TypeError):
-        return True
-    return low <= value <= high and (not by or (value - low) % by == 0)
