@@ -7,6 +7,7 @@ grouped by what the first call is handed: see `models`.
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Mapping
 from contextlib import redirect_stderr, redirect_stdout
 from functools import partial
@@ -62,6 +63,20 @@ def typed(*arguments: str) -> Callable[[Any], object]:
             raise kit.LSystemError(said.getvalue()[:200])
 
     return command
+
+
+def lesson_of(folder: Path, declared: str, text: str) -> None:
+    """Write a lesson with a declaration, and with a text that stands in a cell of each kind."""
+    place = folder / "course" / "notebooks"
+    place.mkdir(parents=True, exist_ok=True)
+    (place / "own.toml").write_text(declared, errors="replace")
+    more = {"code": {"outputs": [], "execution_count": None}, "markdown": {}}
+    cells = [
+        {"cell_type": kind, "id": kind, "metadata": {}, "source": text.encode(errors="replace").decode(), **more[kind]}
+        for kind in more
+    ]
+    notebook = {"cells": cells, "metadata": {}, "nbformat": 4, "nbformat_minor": 5}
+    (place / "own.ipynb").write_text(json.dumps(notebook))
 
 
 def asked(**content: object) -> Callable[[Any], object]:
@@ -370,6 +385,14 @@ def text_acts(folder: Path) -> Mapping[str, Calls]:
         "lsys-kit exercises": (
             lambda text: (folder / "own.toml").write_text(text, errors="replace"),
             typed("exercises", "check", str(folder)),
+        ),
+        "lsys-kit lesson: a declaration": (
+            lambda text: lesson_of(folder, text, "A text."),
+            typed("lesson", "check", str(folder / "course"), "--no-run"),
+        ),
+        "lsys-kit lesson: a notebook": (
+            lambda text: lesson_of(folder, 'title = "Own"\nquestion = "?"\nminutes = 5\nobjectives = []\nsummary = "."', text),
+            typed("lesson", "check", str(folder / "course"), "--no-run"),
         ),
         "exercises: own": (
             lambda text: (folder / "own.toml").write_text(text, errors="replace"),

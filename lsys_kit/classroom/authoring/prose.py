@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from itertools import islice
 from pathlib import Path
 from urllib.parse import unquote
 
@@ -14,12 +15,14 @@ from lsys_kit.classroom.lessons.entries import number_of
 from lsys_kit.classroom.lessons.widget import prose_text
 from lsys_kit.notation.analysis.checks import suggestion
 
-_LINK = re.compile(r"(!?)\[([^\]\n]*)\]\(\s*<?([^)\s>]+)>?[^)\n]*\)")
-_IMAGE = re.compile(r"<img\b(?![^>]*\balt\s*=\s*[\"'][^\"'])[^>]*>", re.IGNORECASE)
+_LINK = re.compile(r"(!?)\[([^\[\]\n]{0,500})\]\(\s*+<?([^)\s>]{1,500})>?[^)\n]{0,200}\)")
+_IMAGE = re.compile(r"<img\b(?![^<>]{0,1000}\balt\s*+=\s*+[\"'][^\"'])[^<>]{0,1000}>", re.IGNORECASE)
 _ELSEWHERE = re.compile(r"[a-z][a-z+.-]*:", re.IGNORECASE)
-_HEADING = re.compile(r"^#{1,6} +(.*?) *#*$", re.MULTILINE)
-_BOLD = re.compile(r"\*\*([a-z][a-z-]+(?: [a-z-]+)?)\*\*(?!\*)")
+_HEADING = re.compile(r"^#{1,6} ++(.*)$", re.MULTILINE)
+_BOLD = re.compile(r"\*\*([a-z][a-z-]{1,40}(?: [a-z-]{1,40})?)\*\*(?!\*)")
 _TEMPLATE = "**Advice.**"
+MOST_LINKS = 1_000
+"""So many links of a cell are looked at, and so many pictures."""
 LEAST_DIGITS, LEAST_LETTERS = 3, 12
 """Answers of so many characters are looked for on the page; shorter ones stand there anyhow."""
 GLOSSARY = frozenset(
@@ -89,7 +92,7 @@ def link_findings(written: Written) -> Iterator[Finding]:
         if cell.is_code:
             continue
         text = re.sub(r"`[^`\n]*`", lambda found: " " * len(found[0]), cell.source)
-        for found in _LINK.finditer(text):
+        for found in islice(_LINK.finditer(text), MOST_LINKS):
             where, address = written.at(cell, text[: found.start()].count("\n") + 1), found[3]
             if found[1] and not found[2].strip():
                 yield finding(where, "no_alt")
@@ -105,12 +108,12 @@ def link_findings(written: Written) -> Iterator[Finding]:
                 yield finding(where, "link", address=address[:80], hint=hint)
             elif not file and unquote(place) not in headings:
                 yield finding(where, "heading", address=unquote(place)[:80], hint=suggestion(place[:60], headings) or "")
-        for image in _IMAGE.finditer(cell.source):
+        for image in islice(_IMAGE.finditer(cell.source), MOST_LINKS):
             yield finding(written.at(cell, cell.source[: image.start()].count("\n") + 1), "no_alt")
 
 
 def _anchor(heading: str) -> str:
-    return re.sub(r"[*`]|<[^>]*>", "", heading).strip().replace(" ", "-")
+    return re.sub(r"[*`]|<[^<>]{0,200}>", "", heading.strip().rstrip("#")).strip().replace(" ", "-")
 
 
 def _is_there(written: Written, file: str) -> bool:
