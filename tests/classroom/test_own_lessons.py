@@ -372,6 +372,15 @@ def test_what_fails_or_is_not_reached_is_found_by_running(ferns: Path, old: str,
 
 
 @pytest.mark.slow
+def test_a_kernel_that_dies_costs_no_other_finding(ferns: Path) -> None:
+    change_cell(ferns, "plant = read('''", "import os\nos._exit(1)\nplant = read('''")
+    change_cell(ferns, "../exercises/ferns.ipynb", "../exercises/fern.ipynb")
+    found = [str(each) for each in findings_in(ferns)]
+    assert any("has died" in each for each in found), found
+    assert any("leads nowhere" in each for each in found), found
+
+
+@pytest.mark.slow
 def test_a_value_that_a_slider_does_not_reach_is_found(ferns: Path) -> None:
     change_cell(ferns, "angle: 30\n", "angle: 30\nlong = 1 in 0 .. 2 by 0.5\n")
     change_cell(ferns, "B -> F[+B]B", "B -> F(long)[+B]B")

@@ -3,7 +3,9 @@ all else is advice."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from itertools import islice
 from pathlib import Path
@@ -17,7 +19,14 @@ from lsys_kit.classroom.exercises.lint import problems_in
 from lsys_kit.classroom.places import MOST_ENTRIES, NAME, NO_LESSONS, Course, course_of
 from lsys_kit.errors import LSystemError
 
+
+def _no_python(written: Written) -> Iterator[Finding]:
+    for cell, fault in written.no_python:
+        yield finding(written.at(cell, fault.lineno or 0), "no_python", fault=fault.msg)
+
+
 CHECKS: tuple[Callable[[Written], Iterator[Finding]], ...] = (
+    _no_python,
     vote_findings,
     table_findings,
     prediction_findings,
@@ -38,21 +47,26 @@ def findings_in(folder: Path | None = None, run: bool = True) -> list[Finding]:
         There are no lessons in the folder.
     """
     course = course_of(folder)
-    found = [*_misnamed(course)]
+    found, lessons = [*_misnamed(course)], list[Written]()
     for place, name in course.lessons:
         try:
-            written = Written(course, place, name)
+            lessons.append(Written(course, place, name))
         except LSystemError as fault:
             found.append(finding(name, "unread", fault=fault.message, hint=fault.hint or ""))
-            continue
-        of_lesson = [each for check in CHECKS for each in check(written)]
-        of_lesson += [
-            finding(written.at(cell, fault.lineno or 0), "no_python", fault=fault.msg) for cell, fault in written.no_python
-        ]
-        of_lesson += running_findings(written) if run else ()
+    with ThreadPoolExecutor(max_workers=min(8, os.cpu_count() or 1)) as pool:  # each waits for a kernel
+        ran = [*pool.map(_by_running, lessons)] if run else [[]] * len(lessons)
+    for written, by_running in zip(lessons, ran, strict=True):
         accepted = written.lesson.accepted if written.lesson else ()
+        of_lesson = [*(each for check in CHECKS for each in check(written)), *by_running]
         found += [each for each in of_lesson if not (each.advice and any(text in each.what for text in accepted))]
     return [*found, *_of_exercises(course)]
+
+
+def _by_running(written: Written) -> list[Finding]:
+    try:
+        return [*running_findings(written)]
+    except LSystemError as fault:
+        return [finding(f"{written.name}.ipynb", "unread", fault=fault.message, hint=fault.hint or "")]
 
 
 def _misnamed(course: Course) -> Iterator[Finding]:
