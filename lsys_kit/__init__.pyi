@@ -18,6 +18,7 @@ from lsys_kit.classroom.exercises.registry import exercises as exercises
 from lsys_kit.classroom.lessons.predict import predict as predict
 from lsys_kit.classroom.lessons.rule_finder import rule_finder as rule_finder
 from lsys_kit.classroom.lessons.vote import vote as vote
+from lsys_kit.classroom.lessons.worksheet import ask as ask
 from lsys_kit.classroom.lessons.worksheet import worksheet as worksheet
 from lsys_kit.classroom.link import link as link
 from lsys_kit.classroom.link import linked as linked

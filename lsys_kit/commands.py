@@ -373,6 +373,7 @@ def collect_marks(options: argparse.Namespace) -> None:
 
     if os.path.lexists(options.output):
         raise _exists(options.output)
+    _chosen_course(options)
     marks = collect(options.folder, options.exercises)
     _write_new(options.output, marks_table(marks))
     unread = sum(not each.scores for each in marks)
@@ -408,34 +409,70 @@ def check_exercises(options: argparse.Namespace) -> None:
     from lsys_kit.classroom.exercises.declarations import QUESTIONS
     from lsys_kit.classroom.exercises.lint import problems_in
 
-    problems = problems_in(options.folder or QUESTIONS)
+    _tell([*problems_in(options.folder or QUESTIONS)], "in the exercises")
+
+
+def _tell(problems: list[Any], where: str) -> None:
+    """Print mistakes and advice; mistakes alone are an error."""
     for problem in problems:
         print(problem)
-    if problems:
+    mistakes = sum(not problem.advice for problem in problems)
+    if mistakes:
         raise ModelFileError(
-            f"{len(problems)} mistake{'s' * (len(problems) > 1)} in the exercises",
-            hint="Each line above says where one is and what to try.",
+            f"{counted_as(mistakes, 'mistake')} {where}", hint="Each line above says where something is and what to try."
         )
-    print("No mistakes.")
+    advice = len(problems) - mistakes
+    print(f"No mistakes; {advice} piece{'s' * (advice > 1)} of advice." if advice else "No mistakes.")
 
 
 def write_exercises(options: argparse.Namespace) -> None:
+    from lsys_kit.classroom.exercises.declarations import questions_folder
     from lsys_kit.classroom.exercises.notebooks import write_notebooks
 
-    print(write_notebooks(options.output, options.folder))
+    print(write_notebooks(options.output, questions_folder(options.folder)))
 
 
 def write_package(options: argparse.Namespace) -> None:
     from lsys_kit.classroom.scorm import package
 
+    _chosen_course(options)
     for line in package.report(*package.write_package(options.what_exercises, options.output)):
         print(line)
+
+
+def write_lesson(options: argparse.Namespace) -> None:
+    from lsys_kit.classroom.authoring import new
+
+    root = new.write_lesson(options.name, options.output and Path(options.output), options.begin, options.title)
+    where = quotable(str(root))
+    print(f"The lesson is in {where}. Write it in JupyterLab: jupyter lab {where}")
+    print(f"What a careful colleague would say: lsys-kit lesson check {where}")
+    print(f"Its pages: lsys-kit site --course {where} -o pages")
+
+
+def check_lesson(options: argparse.Namespace) -> None:
+    from lsys_kit.classroom.authoring.check import findings_in
+    from lsys_kit.classroom.places import choose_course
+
+    folder = options.folder and Path(options.folder)
+    choose_course(folder)
+    _tell([*findings_in(folder, options.run)], "in the lesson")
+
+
+def unpack_lesson(options: argparse.Namespace) -> None:
+    from lsys_kit.classroom.authoring.unpack import unpack
+
+    root, cells, notebooks = unpack(Path(options.archive), options.output and Path(options.output))
+    many = f"{counted_as(cells, 'cell')} of code in {counted_as(notebooks, 'notebook')}"
+    print(
+        f"The lesson is in {quotable(str(root))}: {many}. Nothing was run: a cell can do all that you can, so read them first."
+    )
 
 
 def write_site(options: argparse.Namespace) -> None:
     from lsys_kit.classroom.site.build import build_site
 
-    pages = build_site(options.output)
+    pages = build_site(options.output, _chosen_course(options))
     print(f"{len(pages)} pages are written. Open {quotable(str(pages[0]))} in a browser.")
 
 
@@ -451,14 +488,26 @@ def open_class(options: argparse.Namespace) -> None:
     elif options.forget:
         print(serving.forget(folder, options.class_names))
     else:
-        serving.serve(folder, options.class_names, options.port, options.public, options.course)
+        source = _chosen_course(options)
+        serving.serve(folder, options.class_names, options.port, options.public, options.pages, source)
+
+
+def _chosen_course(options: argparse.Namespace) -> Path | None:
+    """The folder of the course that the command line names, whose lessons and exercises are known from now on."""
+    from lsys_kit.classroom.exercises.notebooks import renew_exercises
+    from lsys_kit.classroom.places import choose_course
+
+    folder = None if options.course is None else Path(options.course)
+    if folder is not None:
+        renew_exercises(choose_course(folder))
+    return folder
 
 
 def open_lab(options: argparse.Namespace) -> None:
     from lsys_kit.classroom.course import FOLDER, copy_course, copy_report
 
     folder = Path(options.folder or FOLDER)
-    copied = copy_course(folder)
+    copied = copy_course(folder, _chosen_course(options))
     print(copy_report("The course is", folder, copied), flush=True)
     if importlib.util.find_spec("jupyterlab") is None:
         raise LSystemError("JupyterLab is not installed", hint="Install it with: pip install 'lsys-kit[lab]'")
@@ -469,7 +518,7 @@ def open_lab(options: argparse.Namespace) -> None:
         [
             "--ServerApp.allow_root=True",
             f"--ServerApp.root_dir={folder.resolve()}",
-            f"--LabApp.default_url=/lab/tree/{copied[0].name}",
+            f"--LabApp.default_url=/lab/tree/{next(each.name for each in copied if each.name.endswith('.ipynb'))}",
         ]
     )
 
@@ -478,7 +527,7 @@ SECONDS, BYTES = 12, 8
 """These multiples of the kit's own limits: a command has several tasks, and libraries take memory to begin with."""
 MERCY = 30
 """So many seconds of the processor after it was told so a process is ended that goes on."""
-LASTING, UNLIMITED = frozenset({"site", "collect", "wall", "exercises"}), frozenset({"lab", "class"})
+LASTING, UNLIMITED = frozenset({"site", "collect", "wall", "exercises", "lesson"}), frozenset({"lab", "class"})
 """The commands that have as much time as they need, and those that have memory, too."""
 
 

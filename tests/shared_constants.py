@@ -113,7 +113,7 @@ SHARED: Mapping[str, Mapping[str, str]] = {
     "pictures.style.palette": {"SIGN_COLOUR": "GREEN", "PALEST": "PALEST", "STRONGEST": "STRONGEST", "OLDEST": "OLDEST"},
     "pictures.style.themes": {"CONTRAST": "LINE", "FINER": "FINER"},
     "pictures.rendering.scene_shapes": {"FACE_EDGE": "AREAS", "RING": "ROUNDS", "SMALLEST_RADIUS": "SMALLEST"},
-    "classroom.lessons.vote": {"LETTERS": "LETTERS"},
+    "classroom.lessons.lesson": {"LETTERS": "LETTERS"},
     "classroom.lessons.entries": {"LONGEST_ENTRY": "MOST_CHARACTERS"},
     "classroom.panel.word_view": {"MOST_MODULES_SHOWN": "MOST_MODULES_SHOWN"},
 }

@@ -112,6 +112,9 @@ COMMANDS: Mapping[str, tuple[Mapping[str, Callable[[Path], Path | str]], str]] =
     "exercises check": (FOLDERS, READ),
     "exercises notebooks": (FOLDERS, f"{READ} -o {WRITTEN}"),
     "exercises scorm": (FOLDERS, f"{READ} -o {WRITTEN}.zip"),
+    "lesson new": (ANY, f"ferns -o {WRITTEN}"),
+    "lesson check": (FOLDERS, f"{READ} --no-run"),
+    "lesson unpack": (FILES, f"{READ} -o {WRITTEN}"),
 }
 """What each command reads, and how it is typed."""
 FINE = {"collect": "handed_in", "wall": "plants", "exercises notebooks": str(QUESTIONS), "exercises scorm": "1"}

@@ -1,4 +1,4 @@
-"""The course: lessons, exercises, a gallery and references, copied into a folder that belongs to the user.
+"""A course: lessons, exercises, a gallery and references, copied into a folder that belongs to the user.
 
 What a student has written is never overwritten. A manifest in the folder holds the SHA-256 of each file that was copied: a
 file that still matches is untouched, and a newer version of the kit may update it. Any other file is the student's own; a newer
@@ -21,6 +21,7 @@ from dataclasses import dataclass
 from itertools import count
 from pathlib import Path, PurePosixPath
 
+from lsys_kit.classroom.places import NAME, NO_LESSONS, Course, course_of, kit_place
 from lsys_kit.errors import ModelFileError
 from lsys_kit.files import file_errors, replace_file
 
@@ -31,8 +32,9 @@ FOLDER = "lsys_kit_course"
 MANIFEST = ".lsys_kit_course.json"
 MOST_MANIFEST = 1_000_000
 """The greatest size of a manifest that is read; those written here are far smaller."""
-_LESSON = re.compile(r"notebooks/\d\d_[A-Za-z0-9_-]+\.ipynb")
+_LESSON = re.compile(r"notebooks/((?:\d\d_)?[A-Za-z][A-Za-z0-9_-]*)\.ipynb")
 _FILE_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,80}\.(ipynb|md)")
+_PICTURE = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,80}\.(png|jpg|jpeg|gif|svg)")
 
 
 @dataclass(frozen=True)
@@ -52,38 +54,62 @@ class Copied:
 
 
 def course_files(source: Path | None = None) -> dict[str, Path]:
-    """The files of the course that came with the kit, by their names in the course.
+    """The files of a course, by default of that which came with the kit, by their names in the course.
 
     >>> {name.rpartition("/")[0] for name in course_files()} == set(COURSE_PARTS)
     True
     """
-    source = source or _home()
-    found = {
-        f"{part}/{path.name}": path
-        for part in COURSE_PARTS
-        for path in sorted((source / part).glob("*"))
-        if _FILE_NAME.fullmatch(path.name) and path.is_file() and not path.is_symlink()
-    }
-    if not found:
+    source = source or kit_place().root
+    every = _all_files(source)
+    if source != kit_place().root:
+        beside = {name: path for name, path in every.items() if name.startswith("notebooks/") and not is_lesson(name)}
+        every = dict(_own_files(course_of(source))) | beside
+    if not every:
         raise ModelFileError(
             f"The course is missing from the installation of the kit, {source}", hint="Install lsys-kit again."
         )
-    return found
+    return every
 
 
 def is_lesson(name: str) -> bool:
-    """Whether a file of the course is a lesson, which has a number.
+    """Whether a file of the course is a lesson.
 
     >>> is_lesson("notebooks/01_all_at_once.ipynb"), is_lesson("notebooks/gallery.ipynb")
     (True, False)
     """
-    return _LESSON.fullmatch(name) is not None
+    found = _LESSON.fullmatch(name)
+    return found is not None and found[1] not in NO_LESSONS
 
 
-def _home() -> Path:
-    """Inside the package where the kit was installed from a wheel, beside it in a checkout."""
-    package = Path(__file__).resolve().parent.parent
-    return package / "course" if (package / "course").is_dir() else package.parent
+def _all_files(source: Path) -> dict[str, Path]:
+    """All notebooks and texts of a course."""
+    return {
+        f"{part}/{path.name}": path
+        for part in COURSE_PARTS
+        for path in sorted((source / part).glob("*"))
+        if _FILE_NAME.fullmatch(path.name) and _is_plain(path)
+    }
+
+
+def _own_files(course: Course) -> Iterator[tuple[str, Path]]:
+    """The files of the lessons of a course in their order; what does not come with the kit has its declarations with it."""
+    for place, name in course.lessons:
+        beside = [(place.notebooks / f"{name}.ipynb", "notebooks")]
+        beside += [] if place.is_kits else [(place.declared / f"{name}.toml", "notebooks")]
+        yield from ((f"{part}/{path.name}", path) for path, part in beside if _is_plain(path))
+    for place in course.places:
+        wanted = None if place.root == course.root else {name for owner, name in course.lessons if owner == place}
+        for path in sorted((place.root / "exercises").glob("*")):
+            fits = path.suffix == ".ipynb" or (path.suffix == ".toml" and not place.is_kits)
+            if fits and NAME.fullmatch(path.stem) and _is_plain(path) and (wanted is None or path.stem in wanted):
+                yield f"exercises/{path.name}", path
+        for path in () if place.is_kits else sorted((place.notebooks / "pictures").glob("*")):
+            if _PICTURE.fullmatch(path.name) and _is_plain(path):
+                yield f"notebooks/pictures/{path.name}", path
+
+
+def _is_plain(path: Path) -> bool:
+    return path.is_file() and not path.is_symlink()
 
 
 def copy_course(folder: str | Path = FOLDER, source: Path | None = None) -> tuple[Copied, ...]:

@@ -107,7 +107,7 @@ def started(folder: Path, port: int = 0, course: bool = False) -> Process:
         str(folder),
         "--port",
         str(port),
-        "--course" if course else "--no-course",
+        *([] if course else ["--no-course"]),
     ]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, start_new_session=True)
     said = []

@@ -11,6 +11,7 @@ import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 
 from lsys_kit.classroom.course import MANIFEST, Copied, copy_course, copy_report, course_files
+from lsys_kit.classroom.places import Place
 from lsys_kit.errors import ModelFileError
 
 LESSON, EXERCISE = "notebooks/01_lesson.ipynb", "exercises/01_exercise.ipynb"
@@ -222,9 +223,11 @@ def test_a_folder_that_cannot_be_made_is_a_message(kit, tmp_path):
         copy_course(tmp_path / "file", kit)
 
 
-def test_an_installation_without_the_course_says_so(tmp_path):
+def test_an_installation_without_the_course_says_so(tmp_path, monkeypatch):
+    empty = Place(tmp_path, tmp_path, tmp_path)
+    monkeypatch.setattr("lsys_kit.classroom.course.kit_place", lambda: empty)
     with pytest.raises(ModelFileError, match="Install lsys-kit again"):
-        course_files(tmp_path)
+        course_files()
 
 
 def test_no_draft_is_left(kit, mine):

@@ -30,10 +30,11 @@ from lsys_kit import (
 from lsys_kit.budget import in_task
 from lsys_kit.classroom.lessons import kept
 from lsys_kit.classroom.lessons.entries import is_right, number_of
-from lsys_kit.classroom.lessons.lesson import FOLDER, Blank, Option, Table, Vote, lesson, lesson_from, names, table
+from lsys_kit.classroom.lessons.lesson import Blank, Option, Table, Vote, lesson, lesson_from, names, table
 from lsys_kit.classroom.lessons.vote import Ballot, VoteBox, _ballot
 from lsys_kit.classroom.lessons.widget import html, media, prose_html, prose_text
 from lsys_kit.classroom.lessons.worksheet import Worksheet, marked, summary
+from lsys_kit.classroom.places import kit_place
 
 ONE = "01_all_at_once"
 
@@ -47,7 +48,7 @@ def nothing_answered(monkeypatch: pytest.MonkeyPatch) -> None:
     _ballot.cache_clear()
 
 
-DECLARED = tomllib.loads((FOLDER / f"{ONE}.toml").read_text("utf-8"))
+DECLARED = tomllib.loads((kit_place().declared / f"{ONE}.toml").read_text("utf-8"))
 
 
 def changed(*path: Any, to: object) -> dict[str, Any]:
@@ -86,7 +87,7 @@ def test_every_lesson_can_be_read(name):
         (("vote",), [], '"vote" must be a table of entries'),
         (("vote", "question"), 0.5, None),
         (("vote", "options"), {}, '"options" must be a list'),
-        (("vote", "options"), DECLARED["vote"]["options"][:3], "there must be 4 options"),
+        (("vote", "options"), DECLARED["vote"]["options"][:1], "there must be 2 to 6 options"),
         (("vote", "options", 0, "right"), True, "one of them must have right = true"),
         (("vote", "options", 2, "right"), "yes", 'vote, option 3, "right" must be true or false'),
         (("vote", "options", 1, "reply"), ..., 'vote, option 2 has no "reply"'),
@@ -125,7 +126,7 @@ def test_a_mistake_in_a_declaration_is_named_with_its_place(path, to, says):
 
 
 def test_a_lesson_has_the_name_of_a_file():
-    with pytest.raises(ModelFileError, match="must be called by two digits"):
+    with pytest.raises(ModelFileError, match="must be called by small letters"):
         lesson_from("1_All", DECLARED)
 
 

@@ -7,6 +7,7 @@ grouped by what the first call is handed: see `models`.
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Mapping
 from contextlib import redirect_stderr, redirect_stdout
 from functools import partial
@@ -62,6 +63,20 @@ def typed(*arguments: str) -> Callable[[Any], object]:
             raise kit.LSystemError(said.getvalue()[:200])
 
     return command
+
+
+def lesson_of(folder: Path, declared: str, text: str) -> None:
+    """Write a lesson with a declaration, and with a text that stands in a cell of each kind."""
+    place = folder / "course" / "notebooks"
+    place.mkdir(parents=True, exist_ok=True)
+    (place / "own.toml").write_text(declared, errors="replace")
+    more = {"code": {"outputs": [], "execution_count": None}, "markdown": {}}
+    cells = [
+        {"cell_type": kind, "id": kind, "metadata": {}, "source": text.encode(errors="replace").decode(), **more[kind]}
+        for kind in more
+    ]
+    notebook = {"cells": cells, "metadata": {}, "nbformat": 4, "nbformat_minor": 5}
+    (place / "own.ipynb").write_text(json.dumps(notebook))
 
 
 def asked(**content: object) -> Callable[[Any], object]:
@@ -260,6 +275,7 @@ def acts(folder: Path) -> Mapping[str, Calls]:
         "with_surface": (lambda system: kit.with_surface(system, "L", "0 0 0 0 0 1 0 1 0 0 1 1\n" * 4), kit.draw, SVG),
         "check": (lambda system: kit.check("1.3", str(system)),),
         "predict": (lambda system: kit.predict("What comes?", kit.draw(system, 9)),),
+        "ask": (lambda system: kit.ask("How many has step 9?", system), repr),
         **{f"write: {name}": (lambda system, name=name: kit.write(system, name),) for name in DIALECTS},
         **{
             f"lsys-kit {line.partition(' ')[0]}: {line}": (
@@ -369,6 +385,14 @@ def text_acts(folder: Path) -> Mapping[str, Calls]:
         "lsys-kit exercises": (
             lambda text: (folder / "own.toml").write_text(text, errors="replace"),
             typed("exercises", "check", str(folder)),
+        ),
+        "lsys-kit lesson: a declaration": (
+            lambda text: lesson_of(folder, text, "A text."),
+            typed("lesson", "check", str(folder / "course"), "--no-run"),
+        ),
+        "lsys-kit lesson: a notebook": (
+            lambda text: lesson_of(folder, 'title = "Own"\nquestion = "?"\nminutes = 5\nobjectives = []\nsummary = "."', text),
+            typed("lesson", "check", str(folder / "course"), "--no-run"),
         ),
         "exercises: own": (
             lambda text: (folder / "own.toml").write_text(text, errors="replace"),
@@ -514,7 +538,17 @@ def value_acts(folder: Path) -> Mapping[str, Calls]:
         "practice: level": (partial(kit.practice, "derive"), repr),
         "predict: question": (lambda value: kit.predict(value, 1), repr),
         "predict: what": (partial(kit.predict, "What?"), repr),
-        "vote: again": (partial(kit.vote, "01"), repr),
+        "vote: again": (lambda value: kit.vote("01", again=value), repr),
+        "vote: options": (partial(kit.vote, "Which?"), repr),
+        "vote: right": (partial(kit.vote, "Which?", ["a", "b"]), repr),
+        "vote: replies": (partial(kit.vote, "Which?", ["a", "b"], "A", None), repr),
+        "ask": (lambda value: kit.ask(value, "J1", step=2), repr),
+        "ask: system": (partial(kit.ask, "Step 3?"), repr),
+        "ask: count": (partial(kit.ask, "Step 3?", "J1"), repr),
+        "ask: step": (partial(kit.ask, "How many?", "J1", ""), repr),
+        "worksheet: columns": (lambda value: kit.worksheet(columns=value, rows=[[1, {"right": 1}]]), repr),
+        "worksheet: rows": (lambda value: kit.worksheet(columns=["step", "a"], rows=value), repr),
+        "worksheet: cells": (lambda value: kit.worksheet(columns=["step", "a"], rows=[[1, value]], system="J1"), repr),
         "worksheet": (lambda value: kit.worksheet(value, "counts"),),
         "worksheet: table": (partial(kit.worksheet, "01"), repr),
         "explain: step": (partial(kit.explain, kit.derive(plant, 2)), repr),

@@ -15,8 +15,7 @@ import pytest
 import lsys_kit
 from lsys_kit import compare, explore, limits
 from lsys_kit.classroom.catalogue import entry
-from lsys_kit.classroom.lessons.lesson import Lesson, declared, names
-from lsys_kit.classroom.lessons.vote import LETTERS
+from lsys_kit.classroom.lessons.lesson import LETTERS, Lesson, declared, names
 from lsys_kit.classroom.panel.explorer import Explorer
 from tests.notebooks.rebuild import ROOT
 

@@ -28,6 +28,7 @@ from pathlib import Path
 from lsys_kit.budget import limits
 from lsys_kit.classroom.child_processes import Failed, in_child_processes
 from lsys_kit.classroom.exercises.check import checked
+from lsys_kit.classroom.exercises.declarations import questions_folder
 from lsys_kit.classroom.exercises.judging import wrong_answers
 from lsys_kit.classroom.exercises.registry import exercise_of, exercises
 from lsys_kit.classroom.handed_in import HandedIn, content_of, handed_in
@@ -245,6 +246,7 @@ def collect(folder: str | Path, own: str | None = None) -> list[Marks]:
     """
     files = handed_in(folder, ENDING)
     if own is not None:
+        own = str(questions_folder(own))
         exercises(own)
     _prepare()
     readable = [each for each in files if not each.problem]

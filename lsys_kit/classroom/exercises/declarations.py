@@ -32,6 +32,21 @@ from lsys_kit.notation.analysis.checks import suggestion
 
 PROBLEMS: Mapping[str, Mapping[str, Sequence[str]]] = toml_tables(__package__, "problems.toml")
 """Each mistake in words, and what to try."""
+ADVICE = frozenset(
+    {
+        "file.untested",
+        "exercise.hints",
+        "exercise.hint_tells",
+        "exercise.no_objective",
+        "exercise.no_explanation",
+        "exercise.otherwise",
+        "exercise.no_misconception",
+        "slips.said_already",
+        "slips.yielded",
+        "options.no_reply",
+    }
+)
+"""What keeps no exercise from working: it could be better."""
 MOST_STEPS = 10_000
 """The last step that a question may ask for."""
 _TABLE_LINE = re.compile(r"^\s*\[\[\s*exercise(?:\.(slips|options))?\s*\]\]")
@@ -39,7 +54,7 @@ _TABLE_LINE = re.compile(r"^\s*\[\[\s*exercise(?:\.(slips|options))?\s*\]\]")
 
 @dataclass(frozen=True)
 class Problem:
-    """A mistake in a file of exercises: where it is, what is wrong, and what to try.
+    """A mistake in a file of exercises, or advice on it: where it is, what is wrong, and what to try.
 
     >>> print(Problem("01.toml", 12, "1.2", "There is no kind 'wort'", "Did you mean 'word'?"))
     01.toml, line 12, exercise 1.2: There is no kind 'wort'. Did you mean 'word'?
@@ -50,10 +65,12 @@ class Problem:
     exercise: str
     what: str
     hint: str = ""
+    advice: bool = False
 
     def __str__(self) -> str:
         where = f", exercise {self.exercise}" if self.exercise else ""
-        return f"{self.file}, line {self.line}{where}: {self.what}. {self.hint}".rstrip()
+        said = f"advice: {self.what}" if self.advice else self.what
+        return f"{self.file}, line {self.line}{where}: {said}. {self.hint}".rstrip()
 
 
 @dataclass(frozen=True)
@@ -91,7 +108,7 @@ class Source:
         place, _, part = name.partition(".")
         what, hint = PROBLEMS[place][part]
         values["hint"] = values.get("hint") or ""
-        return Problem(self.file, line, exercise, what.format(**values), hint.format(**values))
+        return Problem(self.file, line, exercise, what.format(**values), hint.format(**values), name in ADVICE)
 
     def problem_of(
         self, number: int, exercise: str, key: str, name: str, part: str = "", at: int = 0, /, **values: object
@@ -196,7 +213,7 @@ _TOP: Mapping[str, Form] = {
 def lesson_problems(source: Source, declared: Mapping[str, object]) -> Iterator[Problem]:
     """What is wrong with the top of a file."""
     for key, form in _TOP.items():
-        if not form.fits(declared.get(key)):
+        if (key in declared or key == "title") and not form.fits(declared.get(key)):
             yield source.problem("file.top_missing", key=key, what=form.what)
     for key in declared.keys() - {*_TOP, "exercise"}:
         yield source.problem("file.top_unknown", key=quotable(key), hint=suggestion(key, [*_TOP, "exercise"]) or "")
@@ -295,6 +312,12 @@ class Questions:
         """Each exercise with its file and its number there."""
         for source, found in self.sources:
             yield from ((source, number, exercise) for number, exercise in found)
+
+
+def questions_folder(folder: str | Path) -> Path:
+    """The folder of exercises in the folder of a lesson or a course; any other is itself one of exercises."""
+    inside = Path(folder) / "exercises"
+    return inside if inside.is_dir() else Path(folder)
 
 
 def questions_in(folder: Path) -> Questions:

@@ -90,8 +90,8 @@ class Exercise:
     kind: str
     question: str
     solution: str
-    explanation: str
-    hints: tuple[str, ...]
+    explanation: str = ""
+    hints: tuple[str, ...] = ()
     also: tuple[str, ...] = ()
     objective: int = 0
     slips: tuple[Slip, ...] = ()

@@ -10,7 +10,7 @@ from pathlib import Path
 from lsys_kit.budget import Task, limits
 from lsys_kit.classroom.exercises.asked import answer_by, asked_system, right_history, what_is_asked
 from lsys_kit.classroom.exercises.check import BUDGET, picture_of
-from lsys_kit.classroom.exercises.declarations import QUESTIONS, MakeProblem, Problem, Questions, questions_in
+from lsys_kit.classroom.exercises.declarations import QUESTIONS, MakeProblem, Problem, Questions, questions_folder, questions_in
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.judging import judged, wrong_answers
 from lsys_kit.classroom.exercises.kinds.choices import letters
@@ -28,8 +28,8 @@ HINTS = 3
 
 
 def problems_in(folder: str | Path = QUESTIONS) -> list[Problem]:
-    """All that is wrong with the exercises in a folder, by default the kit's."""
-    path = Path(folder)
+    """All that is wrong with the exercises in a folder of them or of a course, by default the kit's, and advice."""
+    path = questions_folder(folder)
     found = kit_questions() if path == QUESTIONS else questions_in(path)
     problems = [*found.problems, *_lesson_problems(found)]
     taken = {} if path == QUESTIONS else {exercise.id: source.file for source, _, exercise in kit_questions().exercises}
@@ -116,6 +116,8 @@ def _text_problems(problem: MakeProblem, exercise: Exercise) -> Iterator[Problem
             yield problem("hints", "exercise.hint_tells", hint=hint)
     if not exercise.objective:
         yield problem("id", "exercise.no_objective")
+    if not exercise.explanation.strip():
+        yield problem("id", "exercise.no_explanation")
     if exercise.kind == "number":
         for found in FORMULA.finditer(exercise.otherwise):
             try:
@@ -124,7 +126,7 @@ def _text_problems(problem: MakeProblem, exercise: Exercise) -> Iterator[Problem
                 yield problem("otherwise", "exercise.formula", fault=fault.message)
     if exercise.kind in ("number", "symbol", "line") and not exercise.system and not exercise.otherwise:
         yield problem("kind", "exercise.otherwise")
-    if not (exercise.expects or exercise.slips or exercise.options):
+    if not (exercise.expects or exercise.slips or exercise.options or wrong_answers(exercise)):
         yield problem("id", "exercise.no_misconception")
     if exercise.kind == "expression" and not exercise.values:
         yield problem("kind", "exercise.values")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from functools import cache, lru_cache
 from pathlib import Path
@@ -10,6 +11,7 @@ from typing import Any, TypeVar
 
 from lsys_kit.classroom.exercises.declarations import QUESTIONS, Questions, questions_in
 from lsys_kit.classroom.exercises.exercise import Exercise, Lesson, Option, Slip
+from lsys_kit.classroom.places import Place, places
 from lsys_kit.errors import ModelFileError, ModelNameError, ModelValueError, quotable, require
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.translation import gettext, language
@@ -127,9 +129,38 @@ def exercises(folder: str | Path | None = None) -> ExerciseList:
     return ExerciseList(translated(exercise) for _, _, exercise in found.exercises)
 
 
+@contextmanager
+def known_for_a_while(folder: Path) -> Iterator[None]:
+    """A `with` block in which the exercises of a folder are known."""
+    before = dict(_added)
+    try:
+        exercises(folder)
+        yield
+    finally:
+        _added.clear()
+        _added.update(before)
+
+
 def _all_questions() -> Iterator[Questions]:
+    """Those of the kit, of the course at hand, and of the folders that were added."""
+    found = [place for place in places() if not place.is_kits]
     yield kit_questions()
-    yield from _added.values()
+    yield from (each for place in found if (each := questions_of(place)))
+    yield from (each for path, each in _added.items() if path not in {place.questions.absolute() for place in found})
+
+
+def questions_of(place: Place) -> Questions | None:
+    """The exercises of a place, read again when a file has changed; None where there are none that can be read."""
+    with suppress(OSError, ModelFileError):
+        found = [path for path in place.questions.iterdir() if path.suffix == ".toml"]
+        states = tuple((path.name, path.lstat().st_mtime_ns, path.lstat().st_size) for path in sorted(found))
+        return _questions_as(place.questions, states) if states else None
+    return None
+
+
+@lru_cache(maxsize=64)
+def _questions_as(folder: Path, _: object) -> Questions:
+    return questions_in(folder)
 
 
 def exercise_of(id: str) -> Exercise:

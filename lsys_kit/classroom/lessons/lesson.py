@@ -1,22 +1,23 @@
 """What a lesson is made of beside its notebook: its objectives, its vote and its tables to fill, as they are declared.
 
-Each lesson has a file in the folder `data`, with the name of its notebook. What is missing in it or does not fit is an error
-that names its place. The right answers are in the package, where anybody can find them; the notebook shows none of them before
+Each lesson has a file of the name of its notebook; `lsys_kit/classroom/places.py` says where. What does not fit in it is an
+error that names its place. The right answers are there, where anybody can find them; the notebook shows none of them before
 the student has answered.
 """
 
 from __future__ import annotations
 
 import re
-import tomllib
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
-from functools import cache
-from importlib.resources import files
+from functools import lru_cache
+from pathlib import Path
 from typing import Any
 
 from lsys_kit.classroom.lessons.entries import is_number_asked, number_of
-from lsys_kit.errors import ModelFileError, ModelNameError, ModelValueError, quotable, shown
+from lsys_kit.classroom.places import NAME, Place, course_at_hand, declaration, key_of, places
+from lsys_kit.errors import LSystemError, ModelFileError, ModelNameError, ModelValueError, quotable, shown
 from lsys_kit.notation.analysis.checks import suggestion
 
 TRACKS: Mapping[str, str] = {"F": "the fast track of 90 minutes", "C": "the core of a semester", "O": "an option"}
@@ -25,7 +26,7 @@ TRACKS: Mapping[str, str] = {"F": "the fast track of 90 minutes", "C": "the core
 
 @dataclass(frozen=True)
 class Option:
-    """One of the four answers of a vote, and the reply to those who choose it in the end."""
+    """One of the answers of a vote, and the reply to those who choose it in the end."""
 
     text: str
     reply: str
@@ -34,7 +35,7 @@ class Option:
 
 @dataclass(frozen=True)
 class Vote:
-    """The question of a vote, its four options, and how its picture is drawn: the arguments of `draw`, with the id of a system
+    """The question of a vote, its options, and how its picture is drawn: the arguments of `draw`, with the id of a system
     as `system` or its text as `rules`, the step as `step`, and new values of constants as `constants`; empty for no picture."""
 
     question: str
@@ -114,7 +115,7 @@ class Lesson:
     name
         The name of its file, of its notebook and of its exercises, without the suffix.
     number, title, question, minutes
-        Its place in the course, what it is called, what it asks, and how long it takes.
+        The number with which its name begins, or None; what it is called, what it asks, and how long it takes.
     track
         Letters of `TRACKS`.
     objectives, summary
@@ -130,10 +131,12 @@ class Lesson:
         What the notebook asks.
     settings
         What its text asks of the sliders of a panel, beside its tables: values that are set together, by the sliders' names.
+    accepted
+        Advice of `lsys-kit lesson check` that was looked at, and is not to be said again: parts of its sentences.
     """
 
     name: str
-    number: int
+    number: int | None
     title: str
     question: str
     minutes: int
@@ -143,17 +146,24 @@ class Lesson:
     systems: tuple[str, ...]
     points: tuple[str, ...]
     misconceptions: tuple[str, ...]
-    vote: Vote
+    vote: Vote | None
     tables: tuple[Table, ...]
     predictions: tuple[Asked, ...] = ()
     settings: tuple[Mapping[str, str], ...] = field(default=(), hash=False)
+    accepted: tuple[str, ...] = ()
+
+    @property
+    def key(self) -> str:
+        """By what notebooks ask for it: "01", or its name where that has no number."""
+        return key_of(self.name)
 
 
 # From the text of a file to the record of its lesson
 
-OPTIONS = 4
-"""How many options a vote has."""
-_NAME = re.compile(r"\d\d_[a-z0-9_]+")
+LETTERS = "ABCDEF"
+"""The names of the options of a vote, so many at most."""
+FEWEST = 2
+"""A vote has so many options at least."""
 _ID = re.compile(r"[a-z0-9-]+")
 _PICTURE = ("system", "rules", "step", "angle", "cells", "view", "constants")
 
@@ -161,16 +171,24 @@ _PICTURE = ("system", "rules", "step", "angle", "cells", "view", "constants")
 def lesson_from(name: str, entries: Mapping[str, object]) -> Lesson:
     """The record of a lesson, from the entries of its file."""
     where = f"The lesson {name}"
-    _demand(_NAME.fullmatch(name), f"{where} must be called by two digits and small letters, such as 01_all_at_once")
+    _demand(NAME.fullmatch(name), f"{where} must be called by small letters and digits, such as ferns or 01_all_at_once")
     found = _taken(where, entries, _LESSON)
-    number, unknown = int(name[:2]), "".join(each for each in found["track"] if each not in TRACKS)
-    _demand(found["number"] == number, f'{where}: "number" must be {number}, as in its name, not {found["number"]}')
+    number, unknown = number_of_name(name), "".join(each for each in found["track"] if each not in TRACKS)
+    given = found.pop("number")
+    _demand(given in (None, number), f'{where}: "number" must be {number}, as in its name, not {given}')
     _demand(not unknown, f'{where}: "track" has letters of {", ".join(TRACKS)}, not {unknown[:1]}')
-    vote, tables = _vote(f"{where}, vote", found.pop("vote")), _each(f"{where}, table", found.pop("tables"), _table)
+    asked = found.pop("vote")
+    vote = None if asked is None else _vote(f"{where}, vote", asked)
+    tables = _each(f"{where}, table", found.pop("tables"), _table)
     predictions = _each(f"{where}, prediction", found.pop("predictions"), _asked)
     _demand(len({each.id for each in tables}) == len(tables), f"{where}: two tables have the same id")
     settings = _each(f"{where}, settings", found.pop("settings"), _settings)
-    return Lesson(name=name, vote=vote, tables=tables, predictions=predictions, settings=settings, **found)
+    return Lesson(name=name, number=number, vote=vote, tables=tables, predictions=predictions, settings=settings, **found)
+
+
+def number_of_name(name: str) -> int | None:
+    """The number with which the name of a lesson begins, or None."""
+    return int(name[:2]) if name[:2].isdecimal() else None
 
 
 def _asked(where: str, entries: object) -> Asked:
@@ -186,8 +204,8 @@ def _settings(where: str, row: object) -> dict[str, str]:
 def _vote(where: str, entries: object) -> Vote:
     found = _taken(where, entries, _VOTE)
     options = _each(f"{where}, option", found["options"], lambda place, each: Option(**_taken(place, each, _OPTION)))
-    one_right = len(options) == OPTIONS and sum(each.right for each in options) == 1
-    _demand(one_right, f"{where}: there must be {OPTIONS} options, and one of them must have right = true")
+    one_right = FEWEST <= len(options) <= len(LETTERS) and sum(each.right for each in options) == 1
+    _demand(one_right, f"{where}: there must be {FEWEST} to {len(LETTERS)} options, and one of them must have right = true")
     picture = found["picture"]
     for key in picture:
         _demand(key in _PICTURE, f'{where}: a picture has no "{key}"', f"It may have: {', '.join(_PICTURE)}.")
@@ -207,6 +225,26 @@ def _table(where: str, entries: object) -> Table:
     table = Table(found["id"], found["title"], columns, rows, of)
     _demand(table.blanks, f"{where} has no cell to fill", 'A cell to fill is { right = "3" }.')
     return table
+
+
+def own_table(title: str, columns: object, rows: object, of: object) -> Table:
+    """A table that is not in a file.
+
+    Raises
+    ------
+    ModelValueError
+        It has a mistake.
+    """
+    given = {"id": "own", "title": title, "columns": _listed(columns), "rows": _listed(rows), "of": of}
+    try:
+        return _table("The table", given)
+    except ModelFileError as mistake:
+        raise ModelValueError(mistake.message, hint=mistake.hint) from None
+
+
+def _listed(value: Any) -> Any:
+    """Lists and tuples of lists and tuples as lists."""
+    return [_listed(each) for each in value] if isinstance(value, list | tuple) else value
 
 
 def _row(where: str, cells: object, many: int) -> tuple[str | Blank, ...]:
@@ -290,16 +328,14 @@ def _distance(where: str, value: object) -> str:
 Shape = Mapping[str, tuple[Callable[[str, object], object], object]]
 """For each entry how it is read, and what it is when it is left out; `...` where it may not be left out."""
 _LESSON: Shape = {
-    "number": (_number, ...),
+    "number": (_number, None),
     **dict.fromkeys(("title", "question"), (_text, ...)),
     "minutes": (_number, ...),
-    **dict.fromkeys(("track", "objectives"), (_texts, ...)),
+    "objectives": (_texts, ...),
     "summary": (_text, ...),
-    **dict.fromkeys(("systems", "points", "misconceptions"), (_texts, ...)),
-    "vote": (_entries, ...),
-    "tables": (_list, ...),
-    "predictions": (_list, []),
-    "settings": (_list, []),
+    **dict.fromkeys(("track", "systems", "points", "misconceptions", "accepted"), (_texts, ())),
+    "vote": (_entries, None),
+    **dict.fromkeys(("tables", "predictions", "settings"), (_list, [])),
 }
 _VOTE: Shape = {"question": (_text, ...), "options": (_list, ...), "picture": (_entries, {})}
 _OPTION: Shape = {"text": (_text, ...), "reply": (_text, ...), "right": (_truth, False)}
@@ -322,28 +358,29 @@ def _taken(where: str, entries: object, shape: Shape) -> dict[str, Any]:
 
 # The lessons that are declared
 
-FOLDER = files(__package__) / "data"
-
 
 def names() -> tuple[str, ...]:
-    """The names of all lessons, in their order."""
-    return tuple(sorted(file.name.removesuffix(".toml") for file in FOLDER.iterdir() if file.name.endswith(".toml")))
+    """The names of all lessons of the course at hand, in their order."""
+    return tuple(name for _, name in course_at_hand().lessons)
 
 
 def lesson(number: str | int) -> Lesson:
-    """The lesson with a number, such as "01".
+    """The lesson with a number, such as "01", or a name.
+
+    Lessons of the course in which the notebook stands come first.
 
     >>> lesson("01").title
     'All at once'
     """
     if isinstance(number, bool) or not isinstance(number, str | int):
         raise ModelValueError(f'The number of a lesson must be a text such as "01", not {shown(number)}')
-    known = {name[:2]: name for name in names()}
-    asked = str(number).strip().zfill(2) if isinstance(number, str) or 0 <= number < 100 else shown(number)
+    known = {key_of(name): (place, name) for place in reversed(places()) for name in place.names()}
+    asked = str(number).strip() if isinstance(number, str) or 0 <= number < 100 else shown(number)
+    asked = key_of(asked.zfill(2) if asked.isdecimal() else asked)
     if asked not in known:
-        hint = suggestion(asked[:20], known) or f"Lessons are: {', '.join(known)}."
+        hint = suggestion(asked[:20], known) or f"Lessons are: {', '.join(sorted(known))}."
         raise ModelNameError(f'There is no lesson "{quotable(asked)}"', hint=hint)
-    return declared(known[asked])
+    return _read(*known[asked])
 
 
 def table(number: str | int, id: str) -> Table:
@@ -354,11 +391,43 @@ def table(number: str | int, id: str) -> Table:
         raise ModelValueError(f'The id of a table must be a text such as "steps", not {shown(id)}')
     if id.strip() not in known:
         hint = suggestion(id[:20], known) or f"Its tables are: {', '.join(known)}."
-        raise ModelNameError(f'Lesson {of.number} has no table "{quotable(id)}"', hint=hint)
+        raise ModelNameError(f'Lesson {of.name if of.number is None else of.number} has no table "{quotable(id)}"', hint=hint)
     return known[id.strip()]
 
 
-@cache
 def declared(name: str) -> Lesson:
     """The lesson of a file, by its name without the suffix."""
-    return lesson_from(name, tomllib.loads((FOLDER / f"{name}.toml").read_text(encoding="utf-8")))
+    return lesson(name)
+
+
+def declared_in(place: Place, name: str) -> Lesson | None:
+    """The lesson of a place, or None where nothing is declared of it."""
+    return _read(place, name) if (place.declared / f"{name}.toml").is_file() else None
+
+
+def all_declared() -> tuple[Lesson, ...]:
+    """All lessons that can be read where notebooks look for them."""
+    found = list[Lesson]()
+    for place in places():
+        for name in place.names():
+            with suppress(LSystemError):
+                found += filter(None, [declared_in(place, name)])
+    return tuple(found)
+
+
+def _read(place: Place, name: str) -> Lesson:
+    """The declaration of a lesson, read again when its file has changed."""
+    path = place.declared / f"{name}.toml"
+    try:
+        state = path.lstat()
+    except OSError:
+        raise ModelFileError(
+            f"Nothing is declared of the lesson {name}: there is no file {path.name} beside its notebook",
+            hint="lsys-kit lesson new NAME writes one that runs.",
+        ) from None
+    return _read_as(path, (state.st_mtime_ns, state.st_size))
+
+
+@lru_cache(maxsize=256)
+def _read_as(path: Path, _: object) -> Lesson:
+    return lesson_from(path.stem, declaration(path))

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from functools import cache
+from functools import lru_cache
 
 from lsys_kit.classroom.lessons.entries import is_right
 from lsys_kit.classroom.lessons.kept import answered
-from lsys_kit.classroom.lessons.lesson import Asked, Lesson, declared, names
+from lsys_kit.classroom.lessons.lesson import Asked, Lesson, all_declared
 from lsys_kit.classroom.panel.bundle import Data
 
 OPEN = "open"
@@ -20,12 +20,12 @@ def key_of(question: str, what: str = "") -> str:
 
 def asked_of(question: str) -> Asked | None:
     """A question of the lessons as it is declared, or None."""
-    return _asked().get(question)
+    return _asked(all_declared()).get(question)
 
 
-@cache
-def _asked() -> dict[str, Asked]:
-    return {each.question: each for name in names() for each in declared(name).predictions}
+@lru_cache(maxsize=4)
+def _asked(lessons: tuple[Lesson, ...]) -> dict[str, Asked]:
+    return {each.question: each for lesson in reversed(lessons) for each in lesson.predictions}
 
 
 def outcome(question: str, typed: str, at_the_end: bool = False) -> Data:

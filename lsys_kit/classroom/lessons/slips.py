@@ -80,9 +80,10 @@ def _all(table: Table, number: int) -> Iterator[Known]:
 # The slips of exercises
 
 
-def exercise_of(table: Table, row: int, column: int) -> Exercise | None:
-    """What a cell asks of a system, as an exercise; None where it asks nothing of one."""
-    counted, cell, step = table.of[column] if table.of else None, table.rows[row][column], step_of(table, row, column)
+def exercise_of(table: Table, row: int, column: int, at: int | None = None) -> Exercise | None:
+    """What a cell asks of a system, as an exercise, perhaps at a step; None where it asks nothing of one."""
+    counted, cell = table.of[column] if table.of else None, table.rows[row][column]
+    step = step_of(table, row, column) if at is None else at
     if counted is None or not counted.asks or step is None:
         return None
     name = table.rows[row][0]

@@ -1,4 +1,4 @@
-"""Voting: the question with which a lesson begins, asked again at its end.
+"""Voting: a question, such as that with which a lesson begins, asked again at the end.
 
 The first time nothing says whether the choice is right. It is kept, and shown when the question comes again, together with what
 was predicted in between; only then is there a reply.
@@ -7,7 +7,7 @@ was predicted in between; only then is there a reply.
 from __future__ import annotations
 
 import base64
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cache
 from typing import Any
 
@@ -16,35 +16,48 @@ import traitlets
 from lsys_kit.budget import current, limits
 from lsys_kit.classroom.catalogue import catalogued
 from lsys_kit.classroom.lessons.kept import CHANGES, answered, keep
-from lsys_kit.classroom.lessons.lesson import Lesson, Vote, lesson
+from lsys_kit.classroom.lessons.lesson import FEWEST, LETTERS, Lesson, Option, Vote, lesson
 from lsys_kit.classroom.lessons.opening import announce
 from lsys_kit.classroom.lessons.predicted import predictions_of
 from lsys_kit.classroom.lessons.widget import LessonWidget, boxed_html, prose_html, prose_text
 from lsys_kit.classroom.panel.bundle import Data
-from lsys_kit.errors import require
+from lsys_kit.errors import ModelNameError, ModelValueError, require, shown
 from lsys_kit.notation.read import read
 from lsys_kit.pictures.draw import AnyPicture, draw
-from lsys_kit.pictures.formats.notebook import svg_bundle
+from lsys_kit.pictures.formats.notebook import SVGPicture, svg_bundle
 from lsys_kit.translation import gettext
 
-LETTERS = "ABCD"
-"""The names of the options."""
 NONE = -1
 """No option has been chosen."""
 MOST_SHAPES = 6_000
 """A vote shows its picture twice: one of more shapes is one of pixels, so that pages stay small."""
 
 
-def vote(number: str, again: bool = False) -> VoteBox:
-    """The question of a lesson with its four options, to vote for one of them.
+def vote(
+    question: str,
+    options: Sequence[str] | None = None,
+    right: str | None = None,
+    picture: SVGPicture | None = None,
+    replies: Sequence[str] | None = None,
+    again: bool = False,
+) -> VoteBox:
+    """A question with some options, to vote for one of them: that of a lesson, or one of your own.
 
     Votes are kept, as are predictions and the entries of tables: in a copy of the course in its file `answers.jsonl`. Whoever
     deletes that begins anew.
 
     Parameters
     ----------
-    number
-        The number of the lesson, such as "01".
+    question
+        The number of a lesson, such as "01", or its name; or a question of your own.
+    options
+        Two to six options of a question of your own; for the second vote they may be left out.
+    right
+        The letter of the right one, or its text; where it is left out, nothing is said of what is right.
+    picture
+        What the question is about, as `draw` makes it.
+    replies
+        What is said to whoever has voted for each option in the end.
     again
         Whether this is the second vote, which shows the first one and what was predicted, and replies to the choice.
 
@@ -52,6 +65,8 @@ def vote(number: str, again: bool = False) -> VoteBox:
     ------
     ModelNameError
         There is no such lesson.
+    ModelValueError
+        The options are not two to six different texts, or the right one is none of them.
 
     Examples
     --------
@@ -63,12 +78,54 @@ through the same hour. One of the programs drew this picture. Which program is r
       B  Program 2: a, ab, abb. In each step one rule replaces one cell.
       C  Program 3: a, ab, aba. Whatever was there before the step is replaced, and nothing else.
       D  More than one of them: it depends on which rule is written first.
+    >>> vote("Which is the word of step 2?", ["a", "ab", "aba"], right="C")
+    Which is the word of step 2?
+      A  a
+      B  ab
+      C  aba
     """
-    found = lesson(number)
     require(again, bool, 'True or False for "again"')
-    box = VoteBox(found.vote, _ballot(found.number), again, found)
-    announce("vote", f"{found.number:02}", 2 if again else 1)
+    require(picture, (SVGPicture, type(None)), "A picture that draw has made")
+    asked = question.strip() if isinstance(question, str) else ""
+    if options is not None:
+        _OWN[asked] = _own_vote(question, options, right, replies or ()), picture
+    if options is not None or (again and asked in _OWN):
+        own, drawing = _OWN[asked]
+        return VoteBox(own, _ballot(f"vote {asked}", len(own.options)), again, drawing=drawing)
+    found = lesson(question)
+    if found.vote is None:
+        raise ModelNameError(f"The lesson {found.name} has no vote", hint="Declare it under [vote] in its file.")
+    box = VoteBox(found.vote, _ballot(f"{found.key} vote", len(found.vote.options)), again, found)
+    announce("vote", found.key, 2 if again else 1)
     return box
+
+
+_OWN: dict[str, tuple[Vote, SVGPicture | None]] = {}
+"""The questions of one's own that were asked, so that the second vote need not repeat their options."""
+
+
+def _own_vote(question: object, options: object, right: object, replies: object) -> Vote:
+    if not isinstance(question, str) or not question.strip():
+        raise ModelValueError(f'A question must be a text such as "Which is right?", not {shown(question)}')
+    texts, said = _texts(options, "options", '["a", "ab", "aba"]'), _texts(replies, "replies", '["No: ...", "Yes: ..."]')
+    if not FEWEST <= len(texts) <= len(LETTERS) or len({*texts}) < len(texts) or not all(texts):
+        raise ModelValueError(f"A vote needs {FEWEST} to {len(LETTERS)} different options, not {shown(options)}")
+    if said and len(said) != len(texts):
+        raise ModelValueError(f"There are {len(texts)} options and {len(said)} replies", hint="Give one reply for each option.")
+    named = right.strip() if isinstance(right, str) else right
+    known = [*LETTERS[: len(texts)], *texts]
+    if named is not None and named not in known:
+        raise ModelValueError(
+            f"The right option must be a letter up to {LETTERS[len(texts) - 1]}, or its text, not {shown(right)}"
+        )
+    place = None if named is None else known.index(named) % len(texts)
+    return Vote(question.strip(), tuple(Option(text, "".join(said[at : at + 1]), at == place) for at, text in enumerate(texts)))
+
+
+def _texts(given: object, what: str, example: str) -> list[str]:
+    if isinstance(given, str) or not isinstance(given, Sequence) or not all(isinstance(each, str) for each in given):
+        raise ModelValueError(f"The {what} must be a list of texts such as {example}, not {shown(given)}")
+    return [each.strip() for each in given]
 
 
 class Ballot(traitlets.HasTraits):
@@ -79,10 +136,9 @@ class Ballot(traitlets.HasTraits):
 
 
 @cache
-def _ballot(number: int) -> Ballot:
-    """The votes on the question of a lesson, which are kept by their letters."""
-    key = f"{number:02} vote"
-    kept = [LETTERS.find(each) if each else NONE for each in answered(key)] + [NONE, NONE]
+def _ballot(key: str, options: int) -> Ballot:
+    """The votes on a question, which are kept by their letters."""
+    kept = [LETTERS[:options].find(each) if each else NONE for each in answered(key)] + [NONE, NONE]
     ballot = Ballot(first=kept[0], second=kept[1])
     ballot.observe(lambda _: keep(key, [*map(_letter, votes)] if max(votes := (ballot.first, ballot.second)) > NONE else []))
     return ballot
@@ -106,9 +162,11 @@ class VoteBox(LessonWidget):
     chosen = traitlets.Int(NONE, min=NONE, max=len(LETTERS) - 1).tag(sync=True)
     said = traitlets.Dict().tag(sync=True)
 
-    def __init__(self, vote: Vote, ballot: Ballot, again: bool, of: Lesson | None = None) -> None:
+    def __init__(
+        self, vote: Vote, ballot: Ballot, again: bool, of: Lesson | None = None, drawing: SVGPicture | None = None
+    ) -> None:
         self._vote, self._ballot, self._again, self._of = vote, ballot, again, of
-        self._picture = _picture(vote.picture)
+        self._picture = _picture(drawing or drawn(vote.picture))
         image = {"picture": _address(self._picture), "described": self._picture["text/plain"]} if self._picture else {}
         super().__init__(asked={"question": vote.question, "options": [each.text for each in vote.options], **image})
         traitlets.link((ballot, "second" if again else "first"), (self, "chosen"))
@@ -117,10 +175,16 @@ class VoteBox(LessonWidget):
             CHANGES.observe(self._tell)
         self._tell()
 
+    @traitlets.validate("chosen")
+    def _is_an_option(self, proposal: Any) -> int:
+        if proposal["value"] >= len(self._vote.options):
+            raise traitlets.TraitError(f"There are {len(self._vote.options)} options")
+        return int(proposal["value"])
+
     @property
     def page_data(self) -> Data:
         """What a page without a kernel has to know: what is asked, and what is said for each first and each second vote."""
-        votes = range(NONE, len(LETTERS))
+        votes = range(NONE, len(self._vote.options))
         said = [[self._said(Ballot(first=first, second=second)) for second in votes] for first in votes]
         return {"asked": self.asked, "again": self._again, "said": said}
 
@@ -145,7 +209,7 @@ class VoteBox(LessonWidget):
         super().close()
 
     def __repr__(self) -> str:
-        options = (f"  {letter}  {prose_text(each.text)}" for letter, each in zip(LETTERS, self._vote.options, strict=True))
+        options = (f"  {letter}  {prose_text(each.text)}" for letter, each in zip(LETTERS, self._vote.options, strict=False))
         described = [f"[{self._picture['text/plain']}]"] if self._picture else []
         return "\n".join([prose_text(self._vote.question), *described, *options])
 
@@ -167,8 +231,7 @@ def drawn(choices: Mapping[str, Any]) -> AnyPicture | None:
     return found
 
 
-def _picture(choices: Mapping[str, object]) -> Data:
-    picture = drawn(choices)
+def _picture(picture: SVGPicture | AnyPicture | None) -> Data:
     if picture is None:
         return {}
     with limits(segments=min(MOST_SHAPES, current().segments)):
@@ -199,12 +262,8 @@ def _reply(vote: Vote, ballot: Ballot) -> Data:
     if ballot.second == NONE:
         return {"before": before}
     option = vote.options[ballot.second]
-    return {
-        "before": before,
-        "verdict": "Right" if option.right else "Not right",
-        "text": option.reply,
-        "changed": _change(vote, ballot),
-    }
+    judged = {"verdict": "Right" if option.right else "Not right"} if any(each.right for each in vote.options) else {}
+    return {"before": before, **judged, "text": option.reply, "changed": _change(vote, ballot)}
 
 
 def _change(vote: Vote, ballot: Ballot) -> str:

@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from itertools import islice
-from typing import overload
+from typing import Any, overload
 
 import traitlets
 from ipywidgets import HBox, Layout
 
+from lsys_kit.classroom.exercises.asked import answer_by, right_history
+from lsys_kit.classroom.exercises.declarations import MOST_STEPS
 from lsys_kit.classroom.lessons.entries import MOST_CHARACTERS, is_number_asked, is_right, nouns_in, readings
 from lsys_kit.classroom.lessons.kept import answered, keep
-from lsys_kit.classroom.lessons.lesson import Blank, Table, lesson, table
-from lsys_kit.classroom.lessons.slips import row_name, slips_of
+from lsys_kit.classroom.lessons.lesson import Blank, Table, lesson, own_table, table
+from lsys_kit.classroom.lessons.slips import exercise_of, row_name, slips_of
 from lsys_kit.classroom.lessons.widget import LessonWidget, html, prose_html, prose_text, table_html
 from lsys_kit.classroom.panel.bundle import Data
 from lsys_kit.classroom.panel.explorer import Comparison, Explorer
 from lsys_kit.classroom.widget import Unfinalized
-from lsys_kit.errors import require
+from lsys_kit.errors import ModelValueError, quotable, require, shown
+from lsys_kit.notation.model.system import LSystem
 from lsys_kit.translation import gettext, ngettext
 
 RIGHT, NOT_YET, NO_NUMBER, MISSING = "right", "not yet", "no number", "not filled in yet"
@@ -27,28 +32,62 @@ MOST_NOTES = 3
 
 
 @overload
-def worksheet(number: str, id: str) -> Worksheet: ...
+def worksheet(
+    number: str | None = None,
+    id: str | None = None,
+    beside: None = None,
+    *,
+    columns: Sequence[str] | None = None,
+    rows: Sequence[Sequence[object]] | None = None,
+    title: str = "",
+    system: LSystem | str | None = None,
+) -> Worksheet: ...
+@overload
+def worksheet(
+    number: str | None = None,
+    id: str | None = None,
+    *,
+    beside: Explorer | Comparison,
+    columns: Sequence[str] | None = None,
+    rows: Sequence[Sequence[object]] | None = None,
+    title: str = "",
+    system: LSystem | str | None = None,
+) -> PanelWithWorksheet: ...
 @overload
 def worksheet(number: str, id: str, beside: Explorer | Comparison) -> PanelWithWorksheet: ...
-def worksheet(number: str, id: str, beside: Explorer | Comparison | None = None) -> Worksheet | PanelWithWorksheet:
-    """A table of a lesson, to be filled in and checked cell by cell.
+def worksheet(
+    number: str | None = None,
+    id: str | None = None,
+    beside: Explorer | Comparison | None = None,
+    *,
+    columns: Sequence[str] | None = None,
+    rows: Sequence[Sequence[object]] | None = None,
+    title: str = "",
+    system: LSystem | str | None = None,
+) -> Worksheet | PanelWithWorksheet:
+    """A table to be filled in and checked cell by cell: one of a lesson, or one of your own.
 
     Parameters
     ----------
     number
-        The number of the lesson, such as "01".
+        The number of the lesson, such as "01", or its name.
     id
         The id of the table.
     beside
         What the table is filled in from: the panel of `explore` or `compare`, which is shown to the left of it where there is
         room, and above it elsewhere.
+    columns, rows, title
+        A table of your own. In a row `{"right": 3}` is a cell to fill, perhaps with `"within": 0.01`, and `...` one whose
+        number is counted in `system` at the step that stands first in the row.
+    system
+        A system, or its id; a column is called after the symbol that is counted, or "cells", "modules" or "strokes".
 
     Raises
     ------
     ModelNameError
         There is no such lesson, or it has no such table.
     ModelValueError
-        What it shall stand beside is no panel.
+        What it shall stand beside is no panel; or a table of your own has a mistake.
 
     Examples
     --------
@@ -60,11 +99,113 @@ def worksheet(number: str, id: str, beside: Explorer | Comparison | None = None)
       2     ____         ____
       3     ____         ____
       4     ____         ____
+    >>> print(worksheet(columns=["step", "a", "b"], rows=[[0, 1, 0], [5, ..., ...]], system="axiom: a\\na -> ab\\nb -> a"))
+    Fill in the table
+      step  a     b
+      0     1     0
+      5     ____  ____
     """
     require(beside, (Explorer, Comparison, type(None)), "A panel of explore or compare")
-    found = table(number, id)
-    sheet = Worksheet(found, f"{lesson(number).number:02} {found.id}")
+    if columns is None and rows is None:
+        of: Any = number  # what is no text is refused there
+        found = table(of, id or "")
+        sheet = Worksheet(found, f"{lesson(of).key} {found.id}")
+    else:
+        found = _own_table(columns, rows, title or (number or ""), system)
+        sheet = Worksheet(found, f"table {found.title} {' '.join(found.columns)}")
     return sheet if beside is None else PanelWithWorksheet(beside, sheet)
+
+
+def ask(question: str, system: LSystem | str, count: str = "", step: int | None = None) -> Worksheet:
+    """Ask how many modules a step of a system has. What is right, and what wrong answers show, the kit finds by itself.
+
+    Parameters
+    ----------
+    question
+        What is asked, such as "How many cells are there after step 7?".
+    system
+        A system, or the id of one in the catalogue.
+    count
+        The symbol that is counted, or "strokes"; by default all modules are.
+    step
+        The step that is asked for; by default that which the question names.
+
+    Raises
+    ------
+    ModelValueError
+        The question is no text or names no step, or the step has no such number.
+
+    Examples
+    --------
+    >>> print(ask("How many cells has step 7?", system="axiom: a\\na -> ab\\nb -> a", count="a"))
+    How many cells has step 7?
+      step  a
+      7     ____
+    """
+    if not isinstance(question, str) or not question.strip():
+        raise ModelValueError(f'A question must be a text such as "How many cells has step 7?", not {shown(question)}')
+    require(count, str, "The name of a symbol")
+    named = _NAMED_STEP.search(question)
+    if step is None and named is None:
+        raise ModelValueError(
+            "The question names no step", hint='Give one: ask(..., step=7), or write "step 7" in the question.'
+        )
+    wanted = int(named[1]) if step is None and named else step
+    if type(wanted) is not int or not 0 <= wanted <= MOST_STEPS:
+        raise ModelValueError(f"A step must be a whole number up to {MOST_STEPS:,}, not {shown(wanted)}")
+    found = _own_table(["step", count.strip() or "cells"], [[wanted, ...]], question, system)
+    return Worksheet(found, f"question {found.title}")
+
+
+_NAMED_STEP = re.compile(r"\b(?:step|Schritt) (\d{1,5})\b")
+_COUNTS: Mapping[str, str] = {**dict.fromkeys(("cells", "modules", "length", "letters"), "length"), "strokes": "strokes"}
+"""What columns count that are not called after a symbol."""
+
+
+def _own_table(columns: object, rows: object, title: object, system: object) -> Table:
+    """A table of somebody's own, with the cells filled that are counted in a system."""
+    if isinstance(columns, str) or not isinstance(columns, Sequence) or isinstance(rows, str) or not isinstance(rows, Sequence):
+        raise ModelValueError(
+            "A table needs columns and rows", hint='As in columns=["step", "cells"], rows=[[0, 1], [1, {"right": 2}]].'
+        )
+    require(title, str, "A title")
+    require(system, (LSystem, str, type(None)), "A system, or its id")
+    counted = system is not None
+    text = str(system) if counted else ""
+    asked = ({"system": text, "asks": _COUNTS.get(str(each), f"count {each}")} for each in columns[1:])
+    of: list[dict[str, str]] = [{}, *asked] if counted else []
+    table = own_table(str(title).strip() or gettext("Fill in the table"), columns, [*map(_row, rows)], of)
+    filled = (tuple(_answered(table, row, column) for column in range(len(table.columns))) for row in range(len(table.rows)))
+    return replace(table, rows=tuple(filled))
+
+
+def _row(cells: object) -> object:
+    """A row as a file has it; a cell whose number is counted has no answer yet."""
+    if isinstance(cells, str) or not isinstance(cells, Sequence):
+        return cells
+    return [{"right": COUNTED} if each is ... else each for each in cells]
+
+
+COUNTED = "..."
+"""In place of the answer of a cell that is counted."""
+
+
+def _answered(table: Table, row: int, column: int) -> str | Blank:
+    cell = table.rows[row][column]
+    if not isinstance(cell, Blank) or cell.right != (COUNTED,):
+        return cell
+    name = table.rows[row][0]
+    if not table.of:
+        raise ModelValueError(
+            "Nothing is known of a cell that is ...", hint='Give the system that it counts in, or {"right": 3}.'
+        )
+    if not (isinstance(name, str) and name.isascii() and name.isdecimal() and len(name) < 6):
+        raise ModelValueError(f'The first cell of the row must be a step, not "{quotable(str(name))}"')
+    asked = exercise_of(table, row, column, int(name))
+    answer = None if asked is None else answer_by(asked, right_history(asked))
+    if answer is None:
+        raise ModelValueError(f'"{quotable(table.columns[column])}" cannot be counted in this system')
+    return replace(cell, right=(str(answer),))
 
 
 class Worksheet(LessonWidget):

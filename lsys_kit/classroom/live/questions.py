@@ -8,14 +8,15 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 
-from lsys_kit.classroom.course import course_files
-from lsys_kit.classroom.exercises.registry import lessons as lessons_with_exercises
-from lsys_kit.classroom.lessons.lesson import Blank, Lesson, Table, declared, lesson, names, table
-from lsys_kit.classroom.lessons.vote import LETTERS, vote
+from lsys_kit.classroom.exercises.registry import all_lessons as lessons_with_exercises
+from lsys_kit.classroom.lessons.lesson import Blank, Lesson, Option, Table, declared_in, lesson, table
+from lsys_kit.classroom.lessons.vote import vote
 from lsys_kit.classroom.lessons.widget import prose_text
 from lsys_kit.classroom.lessons.worksheet import RIGHT, marked
 from lsys_kit.classroom.panel.bundle import Data
+from lsys_kit.classroom.places import course_at_hand, key_of
 from lsys_kit.errors import LSystemError, ModelNameError, quotable
+from lsys_kit.files import file_errors
 
 VOTE, PREDICTION, TABLE, EXERCISE = "vote", "prediction", "table", "exercise"
 ROUNDS: Mapping[str, int] = {VOTE: 2, PREDICTION: 1, TABLE: 1, EXERCISE: 1}
@@ -54,12 +55,14 @@ def questions() -> Mapping[tuple[str, str], Question]:
     >>> questions()["prediction", "01:1"].title
     'Step 3 is al al br al br. What is the word of step 4?'
     """
-    return {(each.kind, each.about): each for name in names() for each in _of_lesson(declared(name))}
+    found = (declared_in(place, name) for place, name in course_at_hand().lessons)
+    return {(each.kind, each.about): each for of in found if of for each in _of_lesson(of)}
 
 
 def _of_lesson(of: Lesson) -> Iterator[Question]:
-    number, page = of.name[:2], f"notebooks/{of.name}.html"
-    yield Question(VOTE, number, prose_text(of.vote.question), number, page)
+    number, page = of.key, f"notebooks/{of.name}.html"
+    if of.vote:
+        yield Question(VOTE, number, prose_text(of.vote.question), number, page)
     for place, asked in enumerate(predictions(of.name), 1):
         yield Question(PREDICTION, f"{number}:{place}", prose_text(asked), number, page)
     for each in of.tables:
@@ -74,7 +77,10 @@ def _of_lesson(of: Lesson) -> Iterator[Question]:
 def predictions(name: str) -> tuple[str, ...]:
     """What a lesson lets students predict: the questions in its notebook, in their order."""
 
-    cells = json.loads(course_files()[f"notebooks/{name}.ipynb"].read_text("utf-8"))["cells"]
+    place = next(place for place, each in course_at_hand().lessons if each == name)
+    path = place.notebooks / f"{name}.ipynb"
+    with file_errors(f'"{quotable(str(path))}" cannot be read'):
+        cells = json.loads(path.read_text("utf-8"))["cells"]
     sources = ("".join(cell["source"]) for cell in cells if cell["cell_type"] == "code")
     return tuple(asked for source in sources for asked in _asked_in(source))
 
@@ -85,7 +91,8 @@ def about_prediction(text: str) -> str | None:
     >>> about_prediction("Step 3 is `al al br al br`. What is the word of step 4?")
     '01:1'
     """
-    found = (f"{name[:2]}:{place}" for name in names() for place, each in enumerate(predictions(name), 1) if each == text)
+    known = (name for _, name in course_at_hand().lessons)
+    found = (f"{key_of(name)}:{place}" for name in known for place, each in enumerate(predictions(name), 1) if each == text)
     return next(found, None)
 
 
@@ -148,7 +155,7 @@ def in_words(question: Question) -> Data:
     {'question': 'Step 3 is `al al br al br`. What is the word of step 4?'}
     """
     of = lesson(question.lesson)
-    if question.kind == VOTE:
+    if question.kind == VOTE and of.vote:
         return {"question": of.vote.question, "options": [each.text for each in of.vote.options]}
     if question.kind == PREDICTION:
         return {"question": predictions(of.name)[int(question.about.partition(":")[2]) - 1]}
@@ -175,12 +182,19 @@ def _ballot(number: str) -> Data:
 
 def right_option(number: str) -> int:
     """The number of the right option of a vote, from 0 on."""
-    return next(place for place, each in enumerate(lesson(number).vote.options) if each.right)
+    return next(place for place, each in enumerate(_options(number)) if each.right)
 
 
 def replies(number: str) -> list[str]:
     """What is said to whoever has voted for each option."""
-    return [each.reply for each in lesson(number).vote.options]
+    return [each.reply for each in _options(number)]
+
+
+def _options(number: str) -> tuple[Option, ...]:
+    of = lesson(number)
+    if of.vote is None:
+        raise ModelNameError(f"The lesson {of.name} has no vote")
+    return of.vote.options
 
 
 def right_cells(found: Table, entries: Sequence[object]) -> list[bool | None]:
@@ -204,7 +218,7 @@ def value_of(question: Question, value: object) -> object:
     LSystemError
         It cannot be an answer to it.
     """
-    if question.kind == VOTE and type(value) is int and 0 <= value < len(LETTERS):
+    if question.kind == VOTE and type(value) is int and 0 <= value < len(replies(question.lesson)):
         return value
     if question.kind == PREDICTION and isinstance(value, str) and value.strip():
         return " ".join(value.split())[:MOST_TYPED]

@@ -13,12 +13,21 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from lsys_kit.classroom.exercises.collecting import cell
-from lsys_kit.classroom.lessons.lesson import lesson
-from lsys_kit.classroom.lessons.vote import LETTERS
+from lsys_kit.classroom.lessons.lesson import LETTERS, lesson
 from lsys_kit.classroom.lessons.widget import prose_text
 from lsys_kit.classroom.live.events import FILE, ClassEntry, Events
 from lsys_kit.classroom.live.game import made_by, outcome
-from lsys_kit.classroom.live.questions import EXERCISE, PREDICTION, TABLE, VOTE, question, right_cells, right_option, table_of
+from lsys_kit.classroom.live.questions import (
+    EXERCISE,
+    PREDICTION,
+    TABLE,
+    VOTE,
+    question,
+    replies,
+    right_cells,
+    right_option,
+    table_of,
+)
 from lsys_kit.classroom.live.session import GAME, Asked, Session
 from lsys_kit.classroom.panel.bundle import style
 from lsys_kit.classroom.panel.document import document
@@ -71,7 +80,7 @@ def rows_of(session: Session) -> Iterator[tuple[object, ...]]:
 
 def _votes(session: Session, asked: Asked, said: dict[str, Any]) -> Iterator[tuple[object, ...]]:
     counts, right = Counter(said.values()), right_option(asked.about)
-    for place, letter in enumerate(LETTERS):
+    for place, letter in enumerate(LETTERS[: len(replies(asked.about))]):
         yield (asked.about, VOTE, asked.round, letter, counts[place], "yes" if place == right else "no", len(said))
 
 
@@ -159,9 +168,10 @@ def _vote_parts(session: Session) -> Iterator[str]:
         rows = "".join(
             f'<tr><th scope="row">{letter}{" ✓" if place == right else ""}</th><td>{first["bars"][place]}</td>'
             f"<td>{second['bars'][place]}</td></tr>"
-            for place, letter in enumerate(LETTERS)
+            for place, letter in enumerate(LETTERS[: len(first["bars"])])
         )
-        title = gettext("Lesson {lesson}: {title}", lesson=int(number), title=lesson(number).title)
+        of = lesson(number)
+        title = of.title if of.number is None else gettext("Lesson {lesson}: {title}", lesson=of.number, title=of.title)
         columns = _head(gettext("answer"), gettext("first vote"), gettext("second vote"))
         yield f"<h3>{escaped(title)}</h3><table>{columns}<tbody>{rows}</tbody></table>"
         yield _paragraph(_changed(second["changes"]), _advice(first["bars"][right] / all_first) if all_first else "")

@@ -41,7 +41,12 @@ def mistake_told(fault: LSystemError) -> dict[str, object]:
 
 
 def serve(
-    folder: str, names: Sequence[str] | None = None, port: int = 8765, public: str | None = None, course: bool = True
+    folder: str,
+    names: Sequence[str] | None = None,
+    port: int = 8765,
+    public: str | None = None,
+    course: bool = True,
+    source: Path | None = None,
 ) -> None:
     """Open some classes, and keep them open until this process is interrupted.
 
@@ -55,6 +60,8 @@ def serve(
         The address that a proxy with TLS has for the server; by default the server is for the local network.
     course
         Whether the class has the pages of the course.
+    source
+        The folder of the course, by default that of the kit.
     """
     try:
         import tornado  # noqa: F401
@@ -65,7 +72,7 @@ def serve(
     wanted = checked_names(names)
     if public is not None:
         _check_address(public)
-    pages = course_pages(Path(folder)) if course else {}
+    pages = course_pages(Path(folder), source) if course else {}
 
     async def run() -> None:
         server = ClassServer(folder, wanted, pages)

@@ -13,7 +13,6 @@ from typing import Any, NamedTuple
 
 from lsys_kit.classroom.lessons.entries import number_of
 from lsys_kit.classroom.lessons.lesson import lesson
-from lsys_kit.classroom.lessons.vote import LETTERS
 from lsys_kit.classroom.live.events import TEACHER, Event
 from lsys_kit.classroom.live.game import Game, cells_of, game_from, made_by, outcome
 from lsys_kit.classroom.live.questions import (
@@ -198,9 +197,10 @@ class Session:
         """The votes on a question: how many for each option, and, for the second vote, how many have changed their minds."""
         right = right_option(number)
         first, second = (self.values(Asked(VOTE, number, each)) for each in (1, 2))
-        found: Data = {"bars": _counts(first if round == 1 else second)}
+        many = len(replies(number))
+        found: Data = {"bars": _counts(first if round == 1 else second, many)}
         if round == 2:
-            found |= {"before": _counts(first), "right": right, "changes": changes(first, second, right)}
+            found |= {"before": _counts(first, many), "right": right, "changes": changes(first, second, right)}
         return found
 
     def _prediction(self, asked: Asked) -> Data:
@@ -329,9 +329,9 @@ _VIEWS: Mapping[str, Callable[..., Data]] = {
 }
 
 
-def _counts(votes: Mapping[str, int]) -> list[int]:
+def _counts(votes: Mapping[str, int], options: int) -> list[int]:
     counts = Counter(votes.values())
-    return [counts[place] for place in range(len(LETTERS))]
+    return [counts[place] for place in range(options)]
 
 
 def changes(first: Mapping[str, int], second: Mapping[str, int], right: int) -> Data:

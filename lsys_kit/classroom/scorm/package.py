@@ -14,9 +14,9 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from xml.etree import ElementTree
 
-from lsys_kit.classroom.exercises.declarations import questions_in
+from lsys_kit.classroom.exercises.declarations import questions_folder, questions_in
 from lsys_kit.classroom.exercises.exercise import Lesson
-from lsys_kit.classroom.exercises.registry import exercises, lessons, translated_lesson
+from lsys_kit.classroom.exercises.registry import all_lessons, exercises, translated_lesson
 from lsys_kit.classroom.scorm.page import exercise_page
 from lsys_kit.errors import ModelFileError, ModelNameError, ModelValueError, quotable
 from lsys_kit.files import KIT_MARK, save_file
@@ -53,13 +53,13 @@ def lessons_of(what: str) -> tuple[Lesson, ...]:
     >>> [lesson.name for lesson in lessons_of("1")]
     ['01_all_at_once']
     """
-    if Path(what).is_dir():
-        exercises(what)
-        return questions_in(Path(what)).lessons
+    if (folder := questions_folder(what)).is_dir():
+        exercises(folder)
+        return questions_in(folder).lessons
     wanted = what.strip().zfill(2) if what.strip().isdigit() else what.strip()
-    found = tuple(lesson for lesson in lessons() if wanted in (lesson.name, lesson.name.partition("_")[0]))
+    found = tuple(lesson for lesson in all_lessons() if wanted in (lesson.name, lesson.name.partition("_")[0]))
     if not found:
-        names = [lesson.name for lesson in lessons()]
+        names = [lesson.name for lesson in all_lessons()]
         raise ModelNameError(
             f'"{quotable(what)}" is no folder and no lesson',
             hint=suggestion(what[:100], names) or f"Lessons are: {', '.join(names)}.",

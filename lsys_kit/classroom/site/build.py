@@ -15,7 +15,9 @@ from typing import TYPE_CHECKING, Any
 from tqdm import tqdm
 
 from lsys_kit.classroom.course import course_files
-from lsys_kit.classroom.lessons.lesson import declared, names
+from lsys_kit.classroom.handed_in import content_of
+from lsys_kit.classroom.lessons.lesson import declared_in
+from lsys_kit.classroom.places import course_of
 from lsys_kit.classroom.site import showing
 from lsys_kit.classroom.site.contents import index_page
 from lsys_kit.classroom.site.markdown import missing
@@ -35,17 +37,22 @@ def build_site(folder: str | Path, source: Path | None = None, live: bool = Fals
     for the server of a class.
     """
     folder = Path(folder)
-    files = {name: path for name, path in course_files(source).items() if name.endswith(".ipynb")}
+    every, course = course_files(source), course_of(source)
+    files = {name: path for name, path in every.items() if name.endswith(".ipynb")}
     stored = {name: read_notebook(path) for name, path in files.items()}
-    told = {f"notebooks/{each}.ipynb": declared(each) for each in names()}
-    entries = [Entry(name, title_of(stored[name].cells, name), told.get(name)) for name in files]
+    told = {f"notebooks/{name}.ipynb": declared_in(place, name) for place, name in course.lessons}
+    drawn = {name: path for name, path in every.items() if name.startswith("notebooks/pictures/")}
+    entries = [
+        Entry(name, title_of(stored[name].cells, name), told.get(name), course.title, drawn if name in told else {})
+        for name in files
+    ]
     places = {INDEX: folder / INDEX, **{each.name: folder / each.page for each in entries}}
     _make_room(folder, places)
     known, pictures = {each.name: each for each in entries}, dict[str, str]()
     for name, notebook in _run(files, stored):
         save_file(places[name], notebook_page(known[name], notebook.cells, entries, live).encode())
         pictures.update((name, each) for each in found_in(notebook.cells, showing.SMALL))
-    save_file(places[INDEX], index_page(entries, pictures, live).encode())
+    save_file(places[INDEX], index_page(entries, pictures, live, course.lead).encode())
     return tuple(places.values())
 
 
@@ -93,10 +100,22 @@ def run_all(paths: Mapping[str, Path]) -> Iterator[tuple[str, object]]:
             pool.shutdown(cancel_futures=True)
 
 
-def run(name: str, path: Path, stopped: Event | None = None) -> object:
+def run(name: str, path: Path, stopped: Event | None = None) -> NotebookNode:
     """The notebook of a file, run in a kernel of its own, in which the kit's widgets are shown as parts of a page."""
+    nbclient, _ = _libraries()
+    try:
+        notebook = run_through(path, stopped, until_failed=True)
+    except nbclient.exceptions.CellExecutionError as failed:
+        raise LSystemError(f"A cell of {name} fails: {failed.ename}: {failed.evalue}", hint=_RUN_IT) from None
+    for cell in notebook.cells:
+        _check_shown(name, cell)
+    return notebook
+
+
+def run_through(path: Path, stopped: Event | None = None, until_failed: bool = False) -> NotebookNode:
+    """The notebook of a file, run as for a page; cells behind one that fails are run, too, unless that is not wanted."""
     nbclient, nbformat = _libraries()
-    notebook = nbformat.read(path, as_version=4)
+    notebook = read_notebook(path)
     notebook.cells.insert(0, nbformat.v4.new_code_cell(_FIRST.format(path.stem)))
 
     def unless_stopped(**_: object) -> None:
@@ -106,6 +125,7 @@ def run(name: str, path: Path, stopped: Event | None = None) -> object:
     client = nbclient.NotebookClient(
         notebook,
         timeout=SECONDS,
+        allow_errors=not until_failed,
         kernel_name="python3",
         store_widget_state=False,
         extra_arguments=["--log-level=ERROR"],
@@ -120,11 +140,11 @@ def run(name: str, path: Path, stopped: Event | None = None) -> object:
             raise
         except RuntimeError:  # the kernel did not start: another program took one of its ports before it could
             client.execute(env=environment)
-    except nbclient.exceptions.CellExecutionError as failed:
-        raise LSystemError(f"A cell of {name} fails: {failed.ename}: {failed.evalue}", hint=_RUN_IT) from None
+    except nbclient.exceptions.CellTimeoutError:
+        raise LSystemError(f"A cell of {path.name} takes more than {SECONDS} seconds", hint=_RUN_IT) from None
+    except nbclient.exceptions.DeadKernelError:
+        raise LSystemError(f"The kernel of {path.name} has died", hint=_RUN_IT) from None
     del notebook.cells[0]
-    for cell in notebook.cells:
-        _check_shown(name, cell)
     return notebook
 
 
@@ -149,9 +169,28 @@ def found_in(cells: Sequence[NotebookNode], kind: str) -> Iterator[Any]:
 
 
 def read_notebook(path: Path) -> NotebookNode:
-    """The notebook of a file as it is stored."""
-    notebook: NotebookNode = _libraries()[1].read(path, as_version=4)
+    """The notebook of a file as it is stored.
+
+    Raises
+    ------
+    ModelFileError
+        It is no notebook.
+    """
+    nbformat = _libraries()[1]
+    try:
+        notebook: NotebookNode = nbformat.reads(content_of(path, MOST_BYTES).decode(), as_version=4)
+    except ModelFileError as fault:
+        raise ModelFileError(f'"{quotable(str(path))}": {fault.message}') from None
+    except Exception as fault:  # nbformat and jsonschema raise errors of their own
+        reason = quotable(str(fault).splitlines()[0][:200]) if str(fault) else type(fault).__name__
+        raise ModelFileError(
+            f'"{quotable(str(path))}" is no notebook: {reason}', hint="Open it in Jupyter, and save it again."
+        ) from None
     return notebook
+
+
+MOST_BYTES = 50_000_000
+"""The greatest size of a notebook."""
 
 
 def _libraries() -> tuple[Any, Any]:

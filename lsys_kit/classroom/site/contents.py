@@ -10,16 +10,21 @@ from lsys_kit.classroom.lessons.lesson import TRACKS
 from lsys_kit.classroom.lessons.widget import prose_html, prose_text
 from lsys_kit.classroom.panel.bundle import compact, style
 from lsys_kit.classroom.panel.document import Program, document
-from lsys_kit.classroom.site.pages import COURSE, Entry, Parts, kept_picture
+from lsys_kit.classroom.places import LEAD, TITLE
+from lsys_kit.classroom.site.pages import Entry, Parts, kept_picture
 from lsys_kit.pictures.style.labels import escaped
 
 _NOTE = """<p class="note">These pages need neither Python nor a network. Their panels move, and votes, predictions and
 tables are answered on the page. To change rules and code, and to work on the exercises, type <code>lsys-kit lab</code>: it
 opens the course in Jupyter.</p>
 """
+_REFERENCES = """<h2 id="reference">To look at, and to look things up</h2>
+<ul>
+{}</ul>
+"""
 
 
-def index_page(entries: Sequence[Entry], pictures: Mapping[str, str], live: bool = False) -> str:
+def index_page(entries: Sequence[Entry], pictures: Mapping[str, str], live: bool = False, lead: str = LEAD) -> str:
     """The first page: the lessons, some of them with a picture in SVG, and what belongs to them."""
     parts: Parts = []
     lessons = [each for each in entries if is_lesson(each.name)]
@@ -27,25 +32,23 @@ def index_page(entries: Sequence[Entry], pictures: Mapping[str, str], live: bool
     rows = "".join(_row(each, entries, _picture(pictures.get(each.name), parts)) for each in lessons)
     references = "".join(f'<li><a href="{escaped(each.page)}">{escaped(each.title)}</a></li>\n' for each in others)
     tracks = ", ".join(f'<span class="track">{letter}</span> {text}' for letter, text in TRACKS.items())
+    ways = any(each.lesson and each.lesson.track for each in lessons)
+    title = next((each.course for each in entries), TITLE)
     body = f"""<a class="skip" href="#main">Skip to the lessons</a>
 <main id="main" class="index">
-<h1>{COURSE}</h1>
-<p class="lead">Short rules can grow a plant. These lessons show how, from a row of cells to a hedge in the light: predict,
-look, move a slider, change a rule.</p>
+<h1>{escaped(title)}</h1>
+{f'<p class="lead">{prose_html(lead)}</p>' if lead else ""}
 {"" if live else _NOTE}
 <h2 id="lessons">Lessons</h2>
-<p class="quiet">Each lesson belongs to a way through the course: {tracks}.</p>
+{f'<p class="quiet">Each lesson belongs to a way through the course: {tracks}.</p>' if ways else ""}
 <p class="quiet" id="done" role="status" hidden></p>
 <ol class="lessons">
 {rows}</ol>
-<h2 id="reference">To look at, and to look things up</h2>
-<ul>
-{references}</ul>
-</main>
+{_REFERENCES.format(references) if references else ""}</main>
 """
     script = f'"use strict";\n{compact("contents")}\nopenContents();\n'
     return document(
-        COURSE, body, style("course"), "Lessons on L-systems with panels to move", Program(script, "", {"parts": parts})
+        title, body, style("course"), "Lessons on L-systems with panels to move", Program(script, "", {"parts": parts})
     )
 
 
@@ -61,12 +64,12 @@ def _row(entry: Entry, entries: Sequence[Entry], picture: str) -> str:
     facts = [f"{told.minutes} minutes", tracks] if told else []
     also = [f'<a href="{escaped(exercises.page)}">exercises</a>'] if exercises else []
     asked = f"<p>{prose_html(told.question)}</p>" if told else ""
-    number = f"<span>{told.number}</span> " if told else ""
+    number = f"<span>{told.number}</span> " if told and told.number is not None else ""
     able = "".join(f"<li>{prose_html(each)}</li>\n" for each in told.objectives) if told else ""
     objectives = f'<div class="able"><p>Afterwards you can</p>\n<ul>\n{able}</ul></div>' if able else ""
     name, title = escaped(PurePosixPath(entry.name).stem), escaped(prose_text(entry.title))
     return (
         f'<li data-lesson="{name}" data-title="{title}"><a class="picture" href="{address}" tabindex="-1" aria-hidden="true">'
         f'{picture}</a><div><h3>{number}<a href="{address}">{escaped(entry.title)}</a></h3>{asked}'
-        f'<p class="quiet facts">{" · ".join([*facts, *also])}</p></div>{objectives}</li>\n'
+        f'<p class="quiet facts">{" · ".join(filter(None, [*facts, *also]))}</p></div>{objectives}</li>\n'
     )

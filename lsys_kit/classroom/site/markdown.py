@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Container, Iterable
+from dataclasses import dataclass
 from html import escape, unescape
 from pathlib import PurePosixPath
 from posixpath import normpath
@@ -17,6 +18,18 @@ from lsys_kit.pictures.style.labels import escaped
 
 Links = Callable[[str], str | None]
 """What an address in a notebook becomes on its page; None where nothing is there."""
+
+
+@dataclass(frozen=True)
+class Places:
+    """What addresses of links and of pictures become."""
+
+    links: Links
+    pictures: Links = lambda address: None
+
+    def __call__(self, address: str) -> str | None:
+        return self.links(address)
+
 
 PLAIN_TAGS = ("br", "details", "sub", "summary", "sup")
 """The tags of HTML that notebooks may use in their texts, without attributes."""
@@ -58,7 +71,8 @@ def markdown_html(text: str, links: Links, after: Callable[[str], str] = lambda 
             return plain_tags(html)
 
         def image(self, text: str, url: str, title: str | None = None) -> str:
-            return str(text)
+            address = links.pictures(url) if isinstance(links, Places) else None
+            return text if address is None else f'<img class="picture" alt="{text}" src="{escaped(address)}">'
 
     renderer = Renderer(escape=True)
     read = mistune.create_markdown(renderer=renderer, plugins=["table", "math"])

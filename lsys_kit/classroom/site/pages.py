@@ -5,10 +5,10 @@ from __future__ import annotations
 import base64
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
-from pathlib import PurePosixPath
-from posixpath import relpath
+from pathlib import Path, PurePosixPath
+from posixpath import normpath, relpath
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
@@ -17,14 +17,17 @@ from lsys_kit.classroom.exercises.kinds.choices import letters
 from lsys_kit.classroom.exercises.practice.drafts import TOPICS
 from lsys_kit.classroom.exercises.registry import exercise_of
 from lsys_kit.classroom.exercises.replies import reply
+from lsys_kit.classroom.handed_in import content_of
 from lsys_kit.classroom.lessons.lesson import Lesson
 from lsys_kit.classroom.lessons.widget import escaped_lines, html, prose_html, prose_text
 from lsys_kit.classroom.panel.bundle import Data, compact, style, translated_words
 from lsys_kit.classroom.panel.document import Program, deflated_text, document
 from lsys_kit.classroom.panel.page import not_needed
-from lsys_kit.classroom.site.markdown import Links, address_on_site, markdown_html, mathml
+from lsys_kit.classroom.places import TITLE
+from lsys_kit.classroom.site.markdown import Links, Places, address_on_site, markdown_html, mathml
 from lsys_kit.classroom.site.requests import notes
 from lsys_kit.classroom.site.showing import PART
+from lsys_kit.files import file_errors
 from lsys_kit.pictures.formats.notebook import DARKENED
 from lsys_kit.pictures.style.labels import escaped
 from lsys_kit.translation import gettext
@@ -33,8 +36,6 @@ if TYPE_CHECKING:
     from nbformat import NotebookNode
 
 INDEX = "index.html"
-COURSE = "L-systems: a course"
-"""The title of the first page."""
 _KEPT = """<p class="note">The cells of this page have been run, and its panels move; nothing has to be installed. To change
 rules and code, open the lesson in Jupyter: <code>lsys-kit lab</code>. Votes and tables are checked on the page itself: what is
 right stands in it, and is no secret. What you type is kept by this browser alone.</p>
@@ -58,12 +59,14 @@ _PANELS = frozenset({"panel", "compare"})
 @dataclass(frozen=True)
 class Entry:
     """A notebook on the site: its file, relative to the course, its title as a text, and what is declared of it if it is a
-    lesson.
+    lesson; the title of the course, and the files of its pictures, by their names in it.
     """
 
     name: str
     title: str
     lesson: Lesson | None = None
+    course: str = TITLE
+    pictures: Mapping[str, Path] = field(default_factory=dict, hash=False)
 
     @property
     def page(self) -> str:
@@ -81,7 +84,10 @@ def notebook_page(entry: Entry, cells: Sequence[NotebookNode], entries: Sequence
 
     On a live page, which comes from the server of a class, exercises can be answered and rules changed.
     """
-    links, parts = partial(address_on_site, entry.name, {each.name for each in entries}), Parts()
+    links, parts = (
+        Places(partial(address_on_site, entry.name, {each.name for each in entries}), partial(_picture, entry)),
+        Parts(),
+    )
     if entry.folder == "exercises":
         head, *questions = re.split("(?=<h2)", "".join(_question_html(each, links, parts, live) for each in cells))
         title, end, rest = head.partition("</h1>\n")
@@ -99,6 +105,21 @@ def notebook_page(entry: Entry, cells: Sequence[NotebookNode], entries: Sequence
     )
     described = prose_text(entry.lesson.question) if entry.lesson else entry.title
     return document(entry.title, body, style("course"), described, _program(parts, live))
+
+
+MOST_PICTURE = 2_000_000
+"""The greatest size of a picture in a text."""
+_KINDS = {".png": "png", ".jpg": "jpeg", ".jpeg": "jpeg", ".gif": "gif", ".svg": "svg+xml"}
+
+
+def _picture(entry: Entry, address: str) -> str | None:
+    """The address of a picture that a text shows, which holds all of it; None where the course has no such picture."""
+    path = entry.pictures.get(normpath(f"{entry.folder}/{address}"))
+    if path is None:
+        return None
+    with file_errors(f'"{path}" cannot be shown'):
+        content = content_of(path, MOST_PICTURE)
+    return f"data:image/{_KINDS[path.suffix]};base64,{base64.b64encode(content).decode()}"
 
 
 def _question_html(cell: NotebookNode, links: Links, parts: Parts, live: bool) -> str:
@@ -142,7 +163,7 @@ def _practice_html(entry: Entry, parts: Parts) -> str:
 
 def _above(entry: Entry) -> str:
     home = relpath(INDEX, entry.folder)
-    return f'<nav aria-label="the course"><a href="{home}">{COURSE}</a></nav>'
+    return f'<nav aria-label="the course"><a href="{home}">{escaped(entry.course)}</a></nav>'
 
 
 def _place_for_done(entry: Entry) -> str:

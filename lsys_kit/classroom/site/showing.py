@@ -13,7 +13,7 @@ from typing import Any
 
 from lsys_kit.budget import current, limits
 from lsys_kit.classroom.lessons.entries import number_of
-from lsys_kit.classroom.lessons.lesson import Lesson, declared, names
+from lsys_kit.classroom.lessons.lesson import Lesson, all_declared
 from lsys_kit.classroom.lessons.predict import Prediction
 from lsys_kit.classroom.lessons.rows import set_by
 from lsys_kit.classroom.lessons.rule_finder import RuleFinder
@@ -50,7 +50,7 @@ def show_for_pages(lesson: str = "") -> None:
     from IPython.core.interactiveshell import InteractiveShell
 
     formatter: Any = InteractiveShell.instance().display_formatter
-    asking = declared(lesson) if lesson in names() else None
+    asking = next((each for each in all_declared() if each.name == lesson), None)
     first = iter([small_picture])  # the first picture alone is made small
 
     def with_small(shown: dict[str, object], picture: Callable[[], Any]) -> dict[str, object]:
@@ -58,7 +58,8 @@ def show_for_pages(lesson: str = "") -> None:
         return shown if make is None else shown | {SMALL: make(picture())}
 
     def show_part(widget: object, include: object = None, exclude: object = None) -> dict[str, object]:
-        shown, choices = part(widget, asking), asking.vote.picture if asking and isinstance(widget, VoteBox) else {}
+        choices = asking.vote.picture if asking and asking.vote and isinstance(widget, VoteBox) else {}
+        shown = part(widget, asking)
         return with_small(shown, lambda: drawn(choices)) if choices else shown
 
     def show_picture(picture: SVGPicture, include: object = None, exclude: object = None) -> dict[str, object]:

@@ -27,6 +27,6 @@ function showDone(told, rows) {
 }
 
 function linkTo(row) {
-  const link = row.querySelector("h3 a");
-  return made("a", { href: link.getAttribute("href") }, `${row.querySelector("h3 span").textContent} · ${link.textContent}`);
+  const link = row.querySelector("h3 a"), number = row.querySelector("h3 span");
+  return made("a", { href: link.getAttribute("href") }, [number, link].filter(Boolean).map((each) => each.textContent).join(" · "));
 }

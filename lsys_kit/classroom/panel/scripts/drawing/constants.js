@@ -86,6 +86,6 @@ export const FINER = 0.04;
 export const FACE_EDGE = 0.6;
 export const RING = 1;
 export const SMALLEST_RADIUS = 0.8;
-export const LETTERS = "ABCD";
+export const LETTERS = "ABCDEF";
 export const LONGEST_ENTRY = 200;
 export const MOST_MODULES_SHOWN = 240;

@@ -5,7 +5,7 @@ import { prose } from "../lessons/asking.js";
 import { made, speak, worded } from "../views/controls.js";
 import { whatIsAsked } from "./outbox.js";
 
-const LETTERS = "ABCD", AGAIN = 800; // milliseconds before the server is looked for again
+const LETTERS = "ABCDEF", AGAIN = 800; // milliseconds before the server is looked for again
 const OWN = "own", EMPTY = "data:,";
 
 // The board for the projector.
@@ -171,7 +171,7 @@ export function showBoard({ here, present, tools }, { address, code, plan, games
   // What the teacher does.
 
   const rows = plan.flatMap(({ lesson, items }) => items.flatMap((item) => Array.from({ length: item.rounds }, (_, at) => ({ ...item, lesson, round: at + 1 }))));
-  const lessons = made("select", { "aria-label": worded("lesson"), onchange: () => offer() }, ...plan.map(({ lesson, title }) => made("option", { value: lesson }, `${Number(lesson)} ${title}`)));
+  const lessons = made("select", { "aria-label": worded("lesson"), onchange: () => offer() }, ...plan.map(({ lesson, title }) => made("option", { value: lesson }, /^\d\d$/.test(lesson) ? `${Number(lesson)} ${title}` : title)));
   const items = made("select.board-items", { "aria-label": worded("question") });
   const own = made("textarea", { rows: 5, "aria-label": worded("rules of the game"), placeholder: "axiom: a\na -> ab\nb -> a", hidden: true });
   const kinds = { vote: worded("vote"), prediction: worded("prediction"), table: worded("table"), exercise: worded("exercise") };
@@ -260,7 +260,7 @@ export function showBoard({ here, present, tools }, { address, code, plan, games
   }
 
   offer();
-  lessons.value = "01";
+  lessons.value = plan[0]?.lesson === "00" ? "01" : plan[0]?.lesson; // the lesson before the first is a glance at all of them
   offer();
   show();
   return { hear, keyed, say: (text) => (said.textContent = text) };

@@ -11,7 +11,8 @@ const SIGNS = { "Correct": ["✓", "lsys-right"], "Almost": ["≈", "lsys-almost
 
 export function openClassPage() {
   speak(JSON.parse(document.getElementById("lsys-data").textContent).words);
-  const [, code] = location.pathname.split("/"), base = `/${code}/`, [, lesson = ""] = /\/(\d\d)_\w*\.html$/.exec(location.pathname) ?? [];
+  const [, code] = location.pathname.split("/"), base = `/${code}/`, [, name = ""] = /\/notebooks\/(\w+)\.html$/.exec(location.pathname) ?? [];
+  const lesson = /^\d\d_/.test(name) ? name.slice(0, 2) : name;
   const banner = made("a.class-banner", { href: base, hidden: true });
   const status = made("p.class-status", { role: "status" });
   const skip = document.querySelector("body > .skip"), bar = made("nav.class-bar", { "aria-label": worded("The class") }, made("a", { href: base }, worded("The class")), status, banner);

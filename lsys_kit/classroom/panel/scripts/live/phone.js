@@ -4,7 +4,7 @@ import { plain, prose } from "../lessons/asking.js";
 import { freshId, made, speak, worded } from "../views/controls.js";
 import { classConnection, whatIsAsked } from "./outbox.js";
 
-const LETTERS = "ABCD";
+const LETTERS = "ABCDEF";
 
 const boxIn = (place) => /** @type {HTMLInputElement | null} */ (place.querySelector("input[type=text]"));
 

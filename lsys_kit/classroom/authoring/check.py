@@ -1,0 +1,88 @@
+"""`lsys-kit lesson check`: what a careful colleague would say of the lessons in a folder. Mistakes keep something from working;
+all else is advice."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
+from itertools import islice
+from pathlib import Path
+
+from lsys_kit.classroom.authoring.asked import plan_findings, prediction_findings, table_findings, vote_findings
+from lsys_kit.classroom.authoring.finding import Finding, finding
+from lsys_kit.classroom.authoring.prose import head_findings, link_findings, order_findings
+from lsys_kit.classroom.authoring.running import running_findings
+from lsys_kit.classroom.authoring.written import Written
+from lsys_kit.classroom.exercises.lint import problems_in
+from lsys_kit.classroom.places import MOST_ENTRIES, NAME, NO_LESSONS, Course, course_of
+from lsys_kit.errors import LSystemError
+
+
+def _no_python(written: Written) -> Iterator[Finding]:
+    for cell, fault in written.no_python:
+        yield finding(written.at(cell, fault.lineno or 0), "no_python", fault=fault.msg)
+
+
+CHECKS: tuple[Callable[[Written], Iterator[Finding]], ...] = (
+    _no_python,
+    vote_findings,
+    table_findings,
+    prediction_findings,
+    plan_findings,
+    head_findings,
+    link_findings,
+    order_findings,
+)
+"""What is looked at without running anything."""
+
+
+def findings_in(folder: Path | None = None, run: bool = True) -> list[Finding]:
+    """What is found in the lessons of a folder, by default the kit's; their cells are run, if that is wanted.
+
+    Raises
+    ------
+    ModelFileError
+        There are no lessons in the folder.
+    """
+    course = course_of(folder)
+    found, lessons = [*_misnamed(course)], list[Written]()
+    for place, name in course.lessons:
+        try:
+            lessons.append(Written(course, place, name))
+        except LSystemError as fault:
+            found.append(finding(name, "unread", fault=fault.message, hint=fault.hint or ""))
+    with ThreadPoolExecutor(max_workers=min(8, os.cpu_count() or 1)) as pool:  # each waits for a kernel
+        ran = [*pool.map(_by_running, lessons)] if run else [[]] * len(lessons)
+    for written, by_running in zip(lessons, ran, strict=True):
+        accepted = written.lesson.accepted if written.lesson else ()
+        of_lesson = [*(each for check in CHECKS for each in check(written)), *by_running]
+        found += [each for each in of_lesson if not (each.advice and any(text in each.what for text in accepted))]
+    return [*found, *_of_exercises(course)]
+
+
+def _by_running(written: Written) -> list[Finding]:
+    try:
+        return [*running_findings(written)]
+    except LSystemError as fault:
+        return [finding(f"{written.name}.ipynb", "unread", fault=fault.message, hint=fault.hint or "")]
+
+
+def _misnamed(course: Course) -> Iterator[Finding]:
+    """Notebooks that nobody would find."""
+    with suppress(OSError):
+        for path in sorted(islice((course.root / "notebooks").glob("*.ipynb"), MOST_ENTRIES)):
+            if not NAME.fullmatch(path.stem) and path.stem not in NO_LESSONS:
+                yield finding(path.name, "name", name=path.stem[:60])
+
+
+def _of_exercises(course: Course) -> Iterator[Finding]:
+    for place in course.places:
+        wanted = course.root == place.root or not place.is_kits  # those of the kit are looked at with its own lessons
+        for each in problems_in(place.questions) if wanted and any(place.questions.glob("*.toml")) else ():
+            yield Finding(_where(f"exercises/{each.file}", each.line, each.exercise), each.what, each.hint, each.advice)
+
+
+def _where(file: str, line: int, exercise: str) -> str:
+    return f"{file}, line {line}" + f", exercise {exercise}" * bool(exercise)

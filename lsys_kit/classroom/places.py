@@ -1,0 +1,258 @@
+"""Where the parts of a course lie: the kit's own, that of a teacher, that in which a notebook stands.
+
+A course is a folder. What a notebook asks lies beside it under the same name: `notebooks/ferns.toml` beside
+`notebooks/ferns.ipynb`, `exercises/ferns.toml` beside `exercises/ferns.ipynb`; the teacher's page is in `notebooks/teacher`. A
+folder may have one lesson or many. With a file `course.toml` it is a list of lessons in an order: of its own, of folders in it,
+and of the kit, by their numbers. The kit's own course is a place like others; only its declarations lie in the package.
+
+Nothing outside the folder is read, links are not followed, and nothing that is read here is run.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import tomllib
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import islice
+from pathlib import Path
+from typing import Any
+
+from lsys_kit.classroom.handed_in import content_of
+from lsys_kit.errors import LSystemError, ModelFileError, quotable, shown
+from lsys_kit.files import decoded, file_errors
+from lsys_kit.notation.analysis.checks import suggestion
+
+COURSE_FILE = "course.toml"
+"""The list of a course, in its folder."""
+NAME = re.compile(r"(?:\d\d_)?[a-z][a-z0-9_]{0,59}")
+"""What a lesson may be called."""
+NO_LESSONS = frozenset({"gallery"})
+"""Notebooks beside the lessons that are none."""
+VARIABLE = "LSYS_KIT_COURSE"
+"""The environment variable that names the chosen course, so that processes that are started here know it, too."""
+MOST_BYTES, MOST_LESSONS, MOST_ENTRIES = 1_000_000, 200, 10_000
+"""The greatest size of a declaration, the most lessons of a course, and so many entries of a folder are looked at."""
+
+
+@dataclass(frozen=True)
+class Place:
+    """A folder with lessons, and where in it their parts lie."""
+
+    root: Path
+    declared: Path
+    questions: Path
+
+    @property
+    def notebooks(self) -> Path:
+        """The folder of its notebooks."""
+        return self.root / "notebooks"
+
+    @property
+    def is_kits(self) -> bool:
+        """Whether it is that of the kit."""
+        return self == kit_place()
+
+    def names(self) -> tuple[str, ...]:
+        """The names of its lessons, in the order of the alphabet: those of its notebooks, and of what is declared."""
+        found = {*_stems(self.notebooks, ".ipynb"), *_stems(self.declared, ".toml")}
+        return tuple(sorted(found - NO_LESSONS))
+
+
+def kit_place() -> Place:
+    """The place of the kit's own course."""
+    return _kit_place()
+
+
+@lru_cache(maxsize=1)
+def _kit_place() -> Place:
+    package = Path(__file__).resolve().parent.parent
+    root = package / "course" if (package / "course").is_dir() else package.parent
+    return Place(root, package / "classroom" / "lessons" / "data", package / "classroom" / "exercises" / "questions")
+
+
+def own_place(root: Path) -> Place:
+    """The place of a folder that somebody has written."""
+    return Place(root, root / "notebooks", root / "exercises")
+
+
+def _stems(folder: Path, ending: str) -> list[str]:
+    """The names of lessons among the plain files of a folder; none where it cannot be read."""
+    with suppress(OSError):
+        with os.scandir(folder) as entries:
+            found = [each.name for each in islice(entries, MOST_ENTRIES) if each.is_file(follow_symlinks=False)]
+        stems = [name.removesuffix(ending) for name in found if name.endswith(ending)]
+        return [stem for stem in stems if NAME.fullmatch(stem)]
+    return []
+
+
+def key_of(name: str) -> str:
+    """By what a lesson is asked for: its number, if its name begins with one, else its name.
+
+    >>> key_of("01_all_at_once"), key_of("ferns")
+    ('01', 'ferns')
+    """
+    return name[:2] if re.match(r"\d\d_", name) else name
+
+
+@dataclass(frozen=True)
+class Course:
+    """A course: its title, a sentence about it, and its lessons in their order, each with the place in which it lies."""
+
+    root: Path
+    title: str
+    lead: str
+    lessons: tuple[tuple[Place, str], ...]
+
+    @property
+    def places(self) -> tuple[Place, ...]:
+        """The places of its lessons, its own first."""
+        own = kit_place() if self.root == kit_place().root else own_place(self.root)
+        return tuple(dict.fromkeys([own, *(place for place, _ in self.lessons)]))
+
+
+TITLE = "L-systems: a course"
+LEAD = """Short rules can grow a plant. These lessons show how, from a row of cells to a hedge in the light: predict,
+look, move a slider, change a rule."""
+
+
+def course_of(folder: Path | None = None) -> Course:
+    """The course in a folder, by default the kit's.
+
+    Raises
+    ------
+    ModelFileError
+        There is no such folder, there is no lesson in it, or its list has a mistake.
+    """
+    if folder is None or folder.resolve() == kit_place().root:
+        return Course(kit_place().root, TITLE, LEAD, tuple((kit_place(), name) for name in kit_place().names()))
+    named = quotable(str(folder))
+    with file_errors(f'"{named}" cannot be read'):
+        if folder.suffix == ".zip":
+            raise ModelFileError(f'"{named}" is an archive', hint=f"Unpack it first: lsys-kit lesson unpack {folder.name}")
+        next(folder.iterdir(), None)
+    declared = _listed(folder)
+    lessons = tuple(_lessons(folder, declared))
+    if not lessons and not any(_stems(folder / "exercises", ending) for ending in (".toml", ".ipynb")):
+        raise ModelFileError(
+            f'There are no lessons in "{named}"',
+            hint="A lesson is notebooks/NAME.ipynb in it: lsys-kit lesson new NAME writes one.",
+        )
+    if len({name for _, name in lessons}) < len(lessons):
+        raise ModelFileError(f'Two lessons of "{named}" have the same name')
+    title = str(declared.get("title") or folder.resolve().name.replace("_", " "))
+    return Course(folder, title, str(declared.get("description", "")), lessons)
+
+
+def _listed(folder: Path) -> Mapping[str, Any]:
+    """What the list of a course says; nothing where there is none."""
+    path = folder / COURSE_FILE
+    if not os.path.lexists(path):
+        return {}
+    declared = declaration(path)
+    for key, value in declared.items():
+        if key not in ("title", "description", "lessons"):
+            hint = suggestion(key, ("title", "description", "lessons")) or "Entries are: title, description, lessons."
+            raise ModelFileError(f'{COURSE_FILE} has an unknown entry "{quotable(key)}"', hint=hint)
+        if not isinstance(value, list if key == "lessons" else str):
+            raise ModelFileError(
+                f'{COURSE_FILE}: "{key}" must be a {"list" if key == "lessons" else "text"}, not {shown(value)}'
+            )
+    return declared
+
+
+def _lessons(folder: Path, declared: Mapping[str, Any]) -> Iterator[tuple[Place, str]]:
+    own = own_place(folder)
+    beside = {each: own_place(folder / each) for each in _folders(folder) if each not in ("notebooks", "exercises")}
+    inside = {each: (place, each) for each, place in beside.items() if each in place.names()}
+    known = {**inside, **{name: (own, name) for name in own.names()}}
+    if "lessons" not in declared:
+        yield from (known[name] for name in sorted(known))
+        return
+    kits = {int(name[:2]): name for name in kit_place().names()}
+    for each in declared["lessons"][: MOST_LESSONS + 1]:
+        if type(each) is int and each in kits:
+            yield kit_place(), kits[each]
+        elif isinstance(each, str) and each in known:
+            yield known[each]
+        elif isinstance(each, str) and each in kits.values():
+            yield kit_place(), each
+        else:
+            hint = (
+                suggestion(str(each)[:60], known)
+                or f"Lessons here are: {', '.join(known) or 'none'}; those of the kit have numbers."
+            )
+            raise ModelFileError(f"{COURSE_FILE}: there is no lesson {shown(each)}", hint=hint)
+
+
+def _folders(folder: Path) -> list[str]:
+    with suppress(OSError), os.scandir(folder) as entries:
+        found = (each.name for each in islice(entries, MOST_ENTRIES) if each.is_dir(follow_symlinks=False))
+        return sorted(name for name in found if NAME.fullmatch(name))
+    return []
+
+
+def declaration(path: Path) -> Mapping[str, Any]:
+    """What a file of declarations says.
+
+    Raises
+    ------
+    ModelFileError
+        It cannot be read, or is no TOML.
+    """
+    try:
+        return tomllib.loads(text_of(path))
+    except tomllib.TOMLDecodeError as fault:
+        raise ModelFileError(
+            f"{quotable(path.name)}: {quotable(str(fault))}", hint="Is a quotation mark or a bracket missing?"
+        ) from None
+    except RecursionError:
+        raise ModelFileError(f"{quotable(path.name)} is nested too deeply") from None
+
+
+def text_of(path: Path) -> str:
+    """The text of a file that somebody else may have written."""
+    try:
+        content = content_of(path, MOST_BYTES)
+    except ModelFileError as fault:
+        raise ModelFileError(f'"{quotable(path.name)}": {fault.message}') from None
+    return decoded(content, f'"{quotable(path.name)}"', MOST_BYTES + 1)
+
+
+def choose_course(folder: Path | None) -> Course:
+    """Make a course that of this process, and of those that it starts: its lessons and exercises are known by their names."""
+    found = course_of(folder)
+    if folder is None:
+        os.environ.pop(VARIABLE, None)
+    else:
+        os.environ[VARIABLE] = str(folder.resolve())
+    return found
+
+
+def course_at_hand() -> Course:
+    """The chosen course, or that of the kit."""
+    chosen = os.environ.get(VARIABLE)
+    return course_of(Path(chosen) if chosen else None)
+
+
+def places() -> tuple[Place, ...]:
+    """Where lessons and exercises are looked for: in the chosen course, around the notebook that runs, at last in the kit."""
+    found = list[Place]()
+    with suppress(LSystemError, OSError):
+        if os.environ.get(VARIABLE):
+            found += course_at_hand().places
+    with suppress(OSError):
+        here = Path.cwd()
+        for root in (here, *here.parents[:2]):
+            if _has_lessons(root):
+                with suppress(LSystemError):
+                    found += [own_place(root), *course_of(root).places]
+                break
+    return tuple(dict.fromkeys([*(each for each in found if not each.is_kits), kit_place()]))
+
+
+def _has_lessons(root: Path) -> bool:
+    return (root / COURSE_FILE).is_file() or any(_stems(root / part, ".toml") for part in ("notebooks", "exercises"))
