@@ -398,6 +398,7 @@ NAMED: Mapping[str, tuple[tuple[object, ...], tuple[str, ...]]] = {
             "labels",
             "colours",
             "widths",
+            "light",
             "background",
         ),
     ),

@@ -20,9 +20,10 @@ from lsys_kit.geometry.tissues.layout import cellwork_scene, place_cellworks
 from lsys_kit.notation.model.cells import CellworkSystem
 from lsys_kit.pictures.filaments import FilamentRow
 from lsys_kit.pictures.formats.notebook import described
-from lsys_kit.pictures.legends import Entry, Legend
+from lsys_kit.pictures.legends import Entry, Legend, in_sunlight
 from lsys_kit.pictures.picture import Picture
-from lsys_kit.pictures.rendering.view import View, project, view_from
+from lsys_kit.pictures.rendering.light import Sun, seen_smoothly
+from lsys_kit.pictures.rendering.view import View, view_from
 from lsys_kit.pictures.style.palette import SERIES, tinted
 from lsys_kit.pictures.style.themes import theme
 from lsys_kit.pictures.tissues.chosen import counts_text, developed, forces_of
@@ -54,7 +55,13 @@ class CellworkPicture(Picture):
         """What the picture shows, in words."""
         shown = "" if self.lit == self.counts[3] else f"walls of {self.lit:,} of them, and the edges of the others"
         return described(
-            [f"step {self.rows[-1].step}", counts_text(self.counts), shown, "walls of one colour have the same label"]
+            [
+                f"step {self.rows[-1].step}",
+                counts_text(self.counts),
+                shown,
+                "walls of one colour have the same label",
+                self._light,
+            ]
         )
 
 
@@ -66,6 +73,7 @@ def cellwork_picture(
     cell: int | None = None,
     generation: int | None = None,
     legend: bool = False,
+    light: Sun | None = None,
     **forces: object,
 ) -> CellworkPicture:
     """The picture of a cellwork system after `n` steps, or of the last step of a development."""
@@ -74,7 +82,7 @@ def cellwork_picture(
     _check_size(cellworks)
     side = view_from(view)
     *_, points = place_cellworks(cellworks, chosen)
-    return picture_at(cellworks[:], points, lit, side, legend)
+    return picture_at(cellworks[:], points, lit, side, legend, light)
 
 
 def cellwork_steps(
@@ -91,16 +99,23 @@ def cellwork_steps(
 
 
 def picture_at(
-    cellworks: Sequence[Cellwork], points: Floats, lit: Collection[int], view: View, legend: bool = False
+    cellworks: Sequence[Cellwork],
+    points: Floats,
+    lit: Collection[int],
+    view: View,
+    legend: bool = False,
+    light: Sun | None = None,
 ) -> CellworkPicture:
     """The picture of the last of the cellworks of steps 0, 1, 2, ..., given the positions of its vertices; perhaps with what
-    the colours of walls mean."""
+    the colours of walls mean, and in sun and sky."""
     last, labels = cellworks[-1], {label: number for number, label in enumerate(wall_labels(cellworks))}
     solid = cellwork_scene(last, points, labels, lit, len(labels))
     solid = replace(solid, segments=replace(solid.segments, widths=np.array([EDGE])))
-    [seen] = project([solid], view)
+    [seen] = seen_smoothly([solid], view, light, leafy=False)
     colours = _colours(labels)
     meaning = Legend(tuple(Entry((colours[number],), ("", "", label)) for label, number in labels.items())) if legend else None
+    if meaning is not None and light is not None:
+        meaning = in_sunlight(meaning)
     return CellworkPicture(
         (FilamentRow(len(cellworks) - 1, seen),), colours, solid=solid, counts=last.counts, lit=len(lit), legend=meaning
     )
