@@ -117,7 +117,8 @@ def _parts(
     if not max(map(abs, (*scene.corners[0], *scene.corners[1]))) < LARGEST_COORDINATE:
         raise ModelValueError("This drawing is too large for a mesh", hint="Make its steps shorter.")
     discs, cells, extent = scene.discs, scene.cells, _extent(scene)
-    balls, sphere = discs.kinds == SPHERE, ball(fine)
+    balls = discs.kinds == SPHERE
+    sphere = ball(fine if balls.any() else FINE)
     centres, radii = in_space(discs.centres), discs.radii
     lengths, breadths = cells.sizes.T / 2
     ellipsoids = _copies(

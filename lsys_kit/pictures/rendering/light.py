@@ -105,20 +105,20 @@ def nearest(points: Singles, triangles: Numbers, shape: tuple[int, int], offsets
     >>> square = np.array([[0, 0, 1], [4, 0, 1], [4, 4, 1], [0, 4, 1]], np.float32)
     >>> triangles = np.array([[0, 2, 1], [0, 3, 2]], np.uint32)
     >>> nearest(square, triangles, (4, 4), offsets_of(1), np.zeros(2, bool)).triangles.tolist()
-    [[1, 0, 0, 0], [1, 1, 0, 0], [1, 1, 1, 0], [1, 1, 1, 1]]
+    [[0, 0, 0, 0], [1, 0, 0, 0], [1, 1, 0, 0], [1, 1, 1, 0]]
     """
     best, which = np.zeros(shape[0] * shape[1], np.uint64), np.full(shape[0] * shape[1], NONE, np.int32)
     for first in range(0, len(triangles), TRIANGLES_AT_A_TIME):
         some = slice(first, first + TRIANGLES_AT_A_TIME)
         corners = points[triangles[some]]
         chosen = np.flatnonzero(_turns_right(corners) | two_sided[some])
-        for places, keys, numbers in _fragments(corners[chosen], shape, offsets):
+        for places, keys, parts in _fragments(corners[chosen], shape, offsets):
             check_budget()
-            nearer = keys > best[places]
-            places, keys, numbers = places[nearer], keys[nearer], numbers[nearer]
+            nearer = np.flatnonzero(keys > best[places])
+            places, keys = places[nearer], keys[nearer]
             np.maximum.at(best, places, keys)
-            won = best[places] == keys
-            which[places[won]] = first + chosen[numbers[won]]
+            won = np.flatnonzero(best[places] == keys)
+            which[places[won]] = first + chosen[parts[nearer[won]] % len(chosen)]
     nearness = (best >> np.uint64(32)).astype(np.uint32).view(np.float32)
     return Seen(nearness.reshape(shape), which.reshape(shape))
 
@@ -198,27 +198,30 @@ def _planes(points: Floats) -> tuple[Floats, Floats, Floats]:
 
 def _fragments(corners: Singles, shape: tuple[int, int], offsets: Singles) -> Iterator[tuple[Integers, Keys, Integers]]:
     """The samples within triangles: their places in the grid; keys, which are the greater, the nearer a triangle is there; and
-    the numbers of the triangles."""
-    parts, signs = _parts(corners, shape[0]), _signs(corners)
+    the numbers of its parts, the upper ones and then the lower ones."""
+    parts, signs = _parts(corners, shape[0]), np.tile(_signs(corners), 2)
     counts = np.maximum(parts.last - parts.first, 0)
+    asides = offsets[np.arange(shape[0]) % len(offsets)]
     for some in _blocks(counts):
-        which = np.repeat(np.arange(some.start, some.stop), counts[some])
-        row = _along(counts[some]) + parts.first[which]
-        aside = offsets[row % len(offsets)]
-        start = np.ceil(parts.left[which] + parts.left_step[which] * row - aside)
-        end = np.ceil(parts.right[which] + parts.right_step[which] * row - aside)
+        many = counts[some]
+        row = _along(many) + np.repeat(parts.first[some], many)
+        aside = asides[row]
+        start, end = (
+            np.ceil(np.repeat(place[some], many) + np.repeat(step[some], many) * row - aside)
+            for place, step in ((parts.left, parts.left_step), (parts.right, parts.right_step))
+        )
         there = np.flatnonzero((start < end) & (end > 0) & (start < shape[1]))
-        which, row, aside = which[there], row[there], aside[there]
+        which, row = np.repeat(np.arange(some.start, some.stop), many)[there], row[there]
         left = np.maximum(start[there], 0).astype(np.int64)
         wide = np.minimum(end[there], shape[1]).astype(np.int64) - left
-        near = parts.near[which] + parts.across[which] * (left + aside) + parts.down[which] * row
+        across = parts.across[which]
+        near, places = parts.near[which] + across * (left + aside[there]) + parts.down[which] * row, row * shape[1] + left
         for part in _blocks(wide):
-            span = np.repeat(np.arange(part.start, part.stop), wide[part])
-            along, number = _along(wide[part]), which[span]
-            nearness = np.maximum(near[span] + parts.across[number] * along, 1e-30).astype(np.float32)
-            triangle = number % len(corners)
-            keys = nearness.view(np.uint32).astype(np.uint64) << np.uint64(32) | signs[triangle]
-            yield row[span] * shape[1] + left[span] + along, keys, triangle
+            size = wide[part]
+            along, number = _along(size), np.repeat(which[part], size)
+            nearness = np.maximum(np.repeat(near[part], size) + np.repeat(across[part], size) * along, 1e-30)
+            keys = nearness.astype(np.float32).view(np.uint32).astype(np.uint64) << np.uint64(32) | signs[number]
+            yield np.repeat(places[part], size) + along, keys, number
 
 
 def _signs(corners: Singles) -> Keys:
@@ -401,7 +404,10 @@ def upright(scene: Scene) -> Scene:
 
 
 def _corners(solid: Scene) -> tuple[Floats, Floats, Floats]:
-    return solid.segments.points, solid.polygons.points, solid.discs.points
+    """All points of a scene, of discs and spheres those that lie farthest along the axes."""
+    ways = np.concatenate([np.eye(3), -np.eye(3)])
+    rounds = (solid.discs.centres[:, None] + solid.discs.radii[:, None, None] * ways).reshape(-1, 3)
+    return solid.segments.points, solid.polygons.points, rounds
 
 
 def _placed(points: Reals, scene: LitScene) -> Reals:
@@ -442,6 +448,8 @@ class Surfaces(NamedTuple):
 
 THINNEST = 0.8
 """The least width of strokes, in pixels."""
+FLATTER = 0.3
+"""A triangle is flat if the cosine of the angle between its normal and those at its corners is less than this."""
 VARIED = 0.22, 0.12
 """By which parts a leaf is lighter or darker than others at most, and more yellow or blue."""
 SAME = 1e-6
@@ -462,7 +470,28 @@ def surfaces_of(scene: LitScene, colour_of: Mapping[int, str], sheet: Sheet) -> 
         sizes = np.diff(solid.polygons.starts)
         some = np.flatnonzero(thin)[: len(solid.polygons.points)]
         colours[some] *= np.repeat(_variety(leaves(solid.polygons), scene.seed), sizes, axis=0)
-    return Surfaces(mesh.vertices, mesh.normals, mesh.triangles, np.minimum(colours, np.float32(0.95)), thin)
+    return _with_flat_ends(Surfaces(mesh.vertices, mesh.normals, mesh.triangles, np.minimum(colours, np.float32(0.95)), thin))
+
+
+def _with_flat_ends(surfaces: Surfaces) -> Surfaces:
+    """Surfaces in which triangles that face another way than their corners, as those that close a tube, are flat."""
+    a, b, c = (surfaces.vertices[surfaces.triangles[:, k]].T for k in range(3))
+    one, other = b - a, c - a
+    facing = np.stack([one[k - 2] * other[k - 1] - one[k - 1] * other[k - 2] for k in range(3)])
+    facing /= np.maximum(np.sqrt((facing**2).sum(axis=0)), np.float32(1e-30))
+    smooth = sum((facing * surfaces.normals[surfaces.triangles[:, k]].T).sum(axis=0) for k in range(3))
+    flat = np.flatnonzero((smooth < 3 * FLATTER) & ~surfaces.thin[surfaces.triangles[:, 0]])
+    if not len(flat):
+        return surfaces
+    corners, triangles = surfaces.triangles[flat].ravel(), surfaces.triangles.copy()
+    triangles[flat] = len(surfaces.vertices) + np.arange(len(corners)).reshape(-1, 3)
+    return Surfaces(
+        np.concatenate([surfaces.vertices, surfaces.vertices[corners]]),
+        np.concatenate([surfaces.normals, np.repeat(facing.T[flat], 3, axis=0)]),
+        triangles,
+        np.concatenate([surfaces.colours, surfaces.colours[corners]]),
+        np.concatenate([surfaces.thin, surfaces.thin[corners]]),
+    )
 
 
 def sunlit_colours(names: Sequence[str]) -> list[str]:
@@ -481,8 +510,8 @@ def leaves(polygons: Polygons) -> Integers:
     >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.turtle.space import trace_in_space
     >>> twig = trace_in_space(derive(read("axiom: F[&(60)~L][^(60)~L]"), 0)[0])
-    >>> np.unique(leaves(twig.polygons), return_counts=True)[1].tolist()
-    [30, 30]
+    >>> np.unique(leaves(twig.polygons), return_counts=True)[1].tolist()  # two leaves, and their stalks, which meet
+    [28, 4, 28]
     """
     extent = float(np.ptp(polygons.points, axis=0).max()) or 1.0
     corner = numbered(np.rint(polygons.points / (SAME * extent)).astype(np.int64))
@@ -623,12 +652,12 @@ def ground_of(scene: LitScene, surfaces: Surfaces, sun: ShadowMap) -> Ground:
     radii = np.array(BLURS, np.float32) * extent
     level = np.interp(np.log(np.maximum(SUN_RADIUS * fall, radii[0])), np.log(radii), np.arange(len(radii)))
     margin = math.ceil(3 * radii[-1] / point)
-    free = np.ones((covered.shape[0] + 2 * margin, covered.shape[1] + 2 * margin), np.float32)
+    shade = np.zeros((covered.shape[0] + 2 * margin, covered.shape[1] + 2 * margin), np.float32)
     for number, radius in enumerate(radii.tolist()):
         share = covered * np.clip(1 - np.abs(level - number), 0, 1).astype(np.float32)
-        free *= 1 - np.clip(blurred(np.pad(share, margin), radius / point), 0, 1)
+        shade += blurred(np.pad(share, margin), radius / point)
     corner = sun.corner[0] - margin * point, sun.corner[1] + margin * point
-    return Ground(1 - free, corner, point, *_dimness(scene, surfaces, extent))
+    return Ground(np.clip(shade, 0, 1), corner, point, *_dimness(scene, surfaces, extent))
 
 
 def _dimness(scene: LitScene, surfaces: Surfaces, extent: float) -> tuple[Singles, float]:
@@ -666,7 +695,7 @@ def blurred(numbers: Singles, radius: float) -> Singles:
     >>> spot = np.zeros((9, 9), np.float32)
     >>> spot[4, 4] = 1
     >>> found = blurred(spot, 2)
-    >>> round(float(found.sum()), 5), bool((found == found.T).all()), bool(found[4, 4] == found.max())
+    >>> round(float(found.sum()), 5), np.allclose(found, found.T), bool(found[4, 4] == found.max())
     (1.0, True, True)
     """
     half = round(radius / 2)
@@ -771,9 +800,12 @@ MANY_PIXELS = 600_000
 def lit_pixels(scene: LitScene, colour_of: Mapping[int, str], frame: ViewFrame, enlarged: float = 1.0) -> NDArray[np.uint8]:
     """The picture of a scene in sun and sky, in a frame that may be enlarged: shape (rows, columns, 3)."""
     sheet = Sheet(frame, enlarged, round(frame.width * enlarged), round(frame.height * enlarged))
-    surfaces = surfaces_of(scene, colour_of, sheet)
-    samples = _samples_for(sheet.width * sheet.height, len(surfaces.triangles))
-    paper = _channels(theme().ground)
+    return rendered(scene, surfaces_of(scene, colour_of, sheet), sheet)
+
+
+def rendered(scene: LitScene, surfaces: Surfaces, sheet: Sheet) -> NDArray[np.uint8]:
+    """The pixels of a sheet with the surfaces of a scene."""
+    samples, paper = _samples_for(sheet.width * sheet.height, len(surfaces.triangles)), _channels(theme().ground)
     if not len(surfaces.triangles):
         return np.broadcast_to(np.rint(255 * paper).astype(np.uint8), (sheet.height, sheet.width, 3)).copy()
     across, up, factors = _placed(surfaces.vertices, scene)
@@ -907,7 +939,7 @@ Work: TypeAlias = tuple[Singles, Seen, ShadowMap, Singles]
 
 def _surface_light(
     scene: LitScene, surfaces: Surfaces, sheet: Sheet, work: Work, band: slice, samples: int
-) -> tuple[Singles, Singles]:
+) -> tuple[Reals, Reals]:
     """How much of each pixel of some rows is covered by surfaces, and their colour there, as channels of sRGB, times that."""
     points, seen, sunny, sky = work
     lines = slice(band.start * samples, band.stop * samples)
@@ -928,8 +960,8 @@ def _surface_light(
     light = _light(scene, sunny, place, normals, thin, hidden, line % samples)
     shown = _encoded(_softly(surfaces.colours[corners[:, 0]] * light[0] + light[1]))
     many = shape[0] * shape[1]
-    covered = np.bincount(pixel, minlength=many).astype(np.float32) / samples
-    colours = np.stack([np.bincount(pixel, shown[:, k], many).astype(np.float32) / samples for k in range(3)], axis=1)
+    covered: Reals = np.bincount(pixel, minlength=many).astype(np.float32) / samples
+    colours: Reals = np.stack([np.bincount(pixel, shown[:, k], many).astype(np.float32) / samples for k in range(3)], axis=1)
     return covered.reshape(*shape, 1), colours.reshape(*shape, 3)
 
 
