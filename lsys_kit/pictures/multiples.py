@@ -18,7 +18,6 @@ from lsys_kit.pictures.formats.raster import embedded, turtle_image
 from lsys_kit.pictures.legends import Legend, with_legend
 from lsys_kit.pictures.picture import Picture
 from lsys_kit.pictures.rendering.frames import MARGIN, ViewFrame, frame_on, in_fine_parts, painted_box
-from lsys_kit.pictures.rendering.light import LitScene
 from lsys_kit.pictures.rendering.scene_shapes import label_shapes, scene_shapes
 from lsys_kit.pictures.shapes import Drawing, Look, Raster, Shape, Text
 from lsys_kit.pictures.sizes import document, enlargement, resized
@@ -68,6 +67,11 @@ class SmallMultiples(SVGPicture):
     labels: bool = True
     legend: Legend | None = field(default=None, kw_only=True, repr=False)
 
+    @property
+    def sunlit(self) -> bool:
+        """Whether it shows something in sun and sky, which is pixels in all formats."""
+        return self.pictures[-1].sunlit
+
     @cached_property
     def text(self) -> str:
         """What the picture shows, in words."""
@@ -83,7 +87,7 @@ class SmallMultiples(SVGPicture):
         panels = arranged([each.scene for each in self.pictures], self.columns, broadest)
         frame = panels[0].frame
         factor = enlarged * enlargement(frame.width, frame.height, self.pixels)
-        pixels = sum(each.size for each in self.pictures) > most or isinstance(self.pictures[-1].scene, LitScene)
+        pixels = sum(each.size for each in self.pictures) > most or self.sunlit
         panels_with = zip(self.pictures, panels, captions, strict=True)
         body = [shape for each in panels_with for shape in _panel_shapes(*each, factor if pixels else 0.0)]
         return with_legend(document(body, frame.width, frame.height, self.text, frame.parts), self.legend)

@@ -95,8 +95,13 @@ class Picture(SVGPicture):
         return described([steps, ("the last: " if steps else "") + shown, self._light])
 
     @property
+    def sunlit(self) -> bool:
+        """Whether it shows something in sun and sky, which is pixels in all formats."""
+        return isinstance(self.scene, LitScene)
+
+    @property
     def _light(self) -> str:
-        return "in sunlight, as an image of pixels in any format" if isinstance(self.scene, LitScene) else ""
+        return "in sunlight, as an image of pixels in any format" if self.sunlit else ""
 
     @property
     def size(self) -> int:
@@ -110,14 +115,14 @@ class Picture(SVGPicture):
         return turtle_picture(self.scene, self.colour_of, self.pixels, enlarged)
 
     def _plot_into(self, ax: Axes) -> None:
-        if self.size > current().figure and not isinstance(self.scene, LitScene):
+        if self.size > current().figure and not self.sunlit:
             raise ModelLimitError(
                 f"The figure would have {self.size:,} shapes; the limit is {current().figure:,}",
                 limit=current().figure,
                 needed=self.size,
                 hint="Take fewer steps, keep the picture as .png, or set limits(figure=...).",
             )
-        if len(self.scene.cells) or isinstance(self.scene, LitScene):
+        if len(self.scene.cells) or self.sunlit:
             super()._plot_into(ax)
         else:
             plot_turtle(ax, self.scene, self.colour_of)
@@ -130,7 +135,7 @@ class Picture(SVGPicture):
             return self._sequence(self.size > most, enlarged)
         usual = frame_around([self.scene])
         frame = in_fine_parts(usual, self.scene)
-        if self.size > most or isinstance(self.scene, LitScene):
+        if self.size > most or self.sunlit:
             factor = enlarged * enlargement(usual.width, usual.height, self.pixels)
             image = on_ground(lambda: turtle_image(self.scene, self.colour_of, usual, factor))
             pixels = embedded(frame.width * frame.parts, frame.height * frame.parts, image)

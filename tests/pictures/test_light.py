@@ -255,6 +255,14 @@ def test_other_formats_hold_the_picture_and_say_so(tmp_path: Path) -> None:
     assert figure(picture).images
 
 
+def test_a_notebook_shows_pixels_and_turns_no_light_into_dark() -> None:
+    for picture in (draw(read(BUSH), 1, light=True), draw(read(BUSH), steps=[0, 1], light=True)):
+        shown = picture._repr_mimebundle_()
+        assert shown.keys() == {"text/html", "image/png", "text/plain"}
+        assert "lsys-picture" not in shown["text/html"]
+        assert f'width="{picture.image().width}"' in shown["text/html"]
+
+
 def test_the_picture_has_the_size_that_was_chosen() -> None:
     assert draw(read(BUSH), 2, light=True, size=300).image().width == 300
     assert draw(read(BUSH), 2, light=True, size=(300, 200)).image().size == (300, 200)
