@@ -293,7 +293,7 @@ def _shown(
             derivation, choices.get("angle"), side, style, choices.get("seed") or derivation.states.system.seed or 0
         )
     if isinstance(what, CellworkSystem | CellworkDevelopment):
-        steps = cellwork_steps(what, n, legend=bool(style.legend), **choices)
+        steps = cellwork_steps(what, n, legend=bool(style.legend), light=style.light, **choices)
         solids = [step.solid for step in steps if step.solid is not None]
         scenes = seen_smoothly(solids, side or SIDE, style.light, leafy=False)
         told = f"steps 0 to {len(steps) - 1}; the last: {steps[-1].text}"

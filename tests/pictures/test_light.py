@@ -136,11 +136,13 @@ def test_only_sheets_are_seen_from_behind(seed: int) -> None:
 # --- light ---
 
 
+@pytest.mark.slow
 def test_the_same_scene_has_the_same_bytes() -> None:
     assert (pixels(lit(BUSH, 3)) == pixels(lit(BUSH, 3))).all()
     assert draw(read(BUSH), 2, light=True).png == draw(read(BUSH), 2, light=True).png
 
 
+@pytest.mark.slow
 def test_a_picture_does_not_depend_on_the_order_of_its_triangles() -> None:
     scene = lit(BUSH, 3)
     frame = frame_around([scene])
@@ -150,6 +152,7 @@ def test_a_picture_does_not_depend_on_the_order_of_its_triangles() -> None:
     assert (rendered(scene, found, sheet) == rendered(scene, found._replace(triangles=found.triangles[order]), sheet)).all()
 
 
+@pytest.mark.slow
 def test_a_sphere_is_symmetric_about_the_sun_and_darker_away_from_it() -> None:
     """Left and right, if it stands behind the viewer; and from side to side, if it stands there."""
     ahead = pixels(lit("axiom: &f(0)@O(1)", view=(0, 0), sun=Sun(0, 45)), 1.0)
@@ -193,6 +196,7 @@ def test_what_stands_in_the_shadow_is_darker() -> None:
     assert bright[0] > 1.3 * bright[1]
 
 
+@pytest.mark.slow
 def test_leaves_let_light_through() -> None:
     """Seen from below, with the sun above."""
     leaf = "axiom: f(4)[&(90)f(-2){.f(4).+(90)f(4).+(90)f(4).}]"
@@ -225,6 +229,7 @@ def test_a_leaf_is_what_hangs_together() -> None:
     assert one > 100
 
 
+@pytest.mark.slow
 def test_leaves_vary_by_the_seed() -> None:
     one, again, other = (draw(read(BUSH), 2, light=True, seed=seed).png for seed in (1, 1, 2))
     assert one == again != other
@@ -235,6 +240,7 @@ def test_leaves_vary_by_the_seed() -> None:
 BACKGROUNDS = "light", "dark", "none", "#335577"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("background", BACKGROUNDS)
 def test_a_lit_picture_lies_on_any_paper(background: str) -> None:
     image = draw(read(BUSH), 2, light=True, background=background).image()
@@ -244,6 +250,7 @@ def test_a_lit_picture_lies_on_any_paper(background: str) -> None:
     )
 
 
+@pytest.mark.slow
 def test_other_formats_hold_the_picture_and_say_so(tmp_path: Path) -> None:
     picture = draw(read(BUSH), 2, light=True)
     assert "as an image of pixels" in repr(picture)
@@ -255,6 +262,7 @@ def test_other_formats_hold_the_picture_and_say_so(tmp_path: Path) -> None:
     assert figure(picture).images
 
 
+@pytest.mark.slow
 def test_a_notebook_shows_pixels_and_turns_no_light_into_dark() -> None:
     for picture in (draw(read(BUSH), 1, light=True), draw(read(BUSH), steps=[0, 1], light=True)):
         shown = picture._repr_mimebundle_()
@@ -263,6 +271,7 @@ def test_a_notebook_shows_pixels_and_turns_no_light_into_dark() -> None:
         assert f'width="{picture.image().width}"' in shown["text/html"]
 
 
+@pytest.mark.slow
 def test_the_picture_has_the_size_that_was_chosen() -> None:
     assert draw(read(BUSH), 2, light=True, size=300).image().width == 300
     assert draw(read(BUSH), 2, light=True, size=(300, 200)).image().size == (300, 200)
@@ -276,18 +285,21 @@ def test_a_drawing_in_the_plane_stands_upright() -> None:
     assert np.asarray(picture.image()).min() < 200
 
 
+@pytest.mark.slow
 def test_drawings_side_by_side_are_lit_too() -> None:
     plain, lit_ones = (draw(read(BUSH), steps=[1, 2], **chosen) for chosen in ({}, {"light": True}))
     assert plain.png != lit_ones.png
     assert draw(read(BUSH), steps=[1, 2], light=True, background="none").image().mode == "RGBA"
 
 
+@pytest.mark.slow
 def test_a_cellwork_is_lit() -> None:
     picture = draw(cellwork_system("K33"), 2, light=True)
     assert "sunlight" in repr(picture)
     assert picture.image().size[0] > 100
 
 
+@pytest.mark.slow
 def test_films_are_lit_and_on_a_turntable_the_sun_stays() -> None:
     film = animate(read(BUSH), 2, light=True)
     assert len({image.size for image in film.images}) == 1

@@ -15,7 +15,7 @@ from lsys_kit.budget import current
 from lsys_kit.derivation.tissues.cellworks import Cellwork
 from lsys_kit.derivation.tissues.development import CellworkDevelopment
 from lsys_kit.errors import ModelLimitError, ModelValueError, whole_number
-from lsys_kit.geometry.scene import Floats
+from lsys_kit.geometry.scene import Floats, Scene, Segments
 from lsys_kit.geometry.tissues.layout import cellwork_scene, place_cellworks
 from lsys_kit.notation.model.cells import CellworkSystem
 from lsys_kit.pictures.filaments import FilamentRow
@@ -33,6 +33,8 @@ SIDE = 30, 25
 
 EDGE = 0.012
 """The width of edges, in units."""
+EDGE_ORDER, RELIEF = 3, 0.02
+"""The branch order of edges, and their width in sun and sky."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -86,14 +88,19 @@ def cellwork_picture(
 
 
 def cellwork_steps(
-    what: CellworkSystem | CellworkDevelopment, n: int | None = None, *, legend: bool = False, **forces: object
+    what: CellworkSystem | CellworkDevelopment,
+    n: int | None = None,
+    *,
+    legend: bool = False,
+    light: Sun | None = None,
+    **forces: object,
 ) -> list[CellworkPicture]:
     """The pictures of all steps of a cellwork system, or of a development, for a film."""
     cellworks: CellworkDevelopment = developed(what, n) if isinstance(what, CellworkSystem) else what
     _check_size(cellworks)
     places = place_cellworks(cellworks, forces_of(forces, "cellwork"))
     return [
-        picture_at(cellworks[: step + 1], points, range(len(cellworks[step].cells)), SIDE, legend)
+        picture_at(cellworks[: step + 1], points, range(len(cellworks[step].cells)), SIDE, legend, light)
         for step, points in enumerate(places)
     ]
 
@@ -111,6 +118,8 @@ def picture_at(
     last, labels = cellworks[-1], {label: number for number, label in enumerate(wall_labels(cellworks))}
     solid = cellwork_scene(last, points, labels, lit, len(labels))
     solid = replace(solid, segments=replace(solid.segments, widths=np.array([EDGE])))
+    if light is not None:
+        solid = _with_edges(solid, len(labels))
     [seen] = seen_smoothly([solid], view, light, leafy=False)
     colours = _colours(labels)
     meaning = Legend(tuple(Entry((colours[number],), ("", "", label)) for label, number in labels.items())) if legend else None
@@ -119,6 +128,16 @@ def picture_at(
     return CellworkPicture(
         (FilamentRow(len(cellworks) - 1, seen),), colours, solid=solid, counts=last.counts, lit=len(lit), legend=meaning
     )
+
+
+def _with_edges(solid: Scene, state: int) -> Scene:
+    """A cellwork whose walls have edges in relief, which are seen where these are not outlined."""
+    points, starts, segments = solid.polygons.points, solid.polygons.starts, solid.segments
+    following = np.arange(1, len(points) + 1)
+    following[starts[1:] - 1] = starts[:-1]
+    ends = np.concatenate([segments.ends, np.concatenate([points, points[following]], axis=1)])
+    states = np.append(segments.states, np.full(len(points), state))
+    return replace(solid, segments=Segments(ends, np.full(len(ends), EDGE_ORDER), states, np.array([RELIEF])))
 
 
 def lit_cells(development: CellworkDevelopment, cell: int | None = None, generation: int | None = None) -> Collection[int]:
