@@ -215,7 +215,7 @@ def draw_word(options: argparse.Namespace) -> None:
         chosen = {"seed": options.seed, "arithmetic": options.arithmetic, "angle": options.angle, "seeds": options.seeds or ()}
         shown = draw(system_with_constants(options), **chosen, **steps, **seen)
     else:
-        shown = make(_derivation(system_with_constants(options), options), angle=options.angle, **seen)
+        shown = make(_derivation(system_with_constants(options), options), angle=options.angle, seed=options.seed, **seen)
     _save(shown, options)
 
 

@@ -161,8 +161,8 @@ CHOICES: Mapping[str, tuple[str, ...]] = {
     "limits": ("modules", "bytes", "seconds"),
     "draw a stage diagram": ("tokens", "positions"),
     "draw a lineage": ("intervals",),
-    "draw in space": ("angle", "marked", "view"),
-    "draw a cellwork": ("view", "cell", "generation", "pressure"),
+    "draw in space": ("angle", "marked", "view", "light"),
+    "draw a cellwork": ("view", "cell", "generation", "pressure", "light"),
     "draw a map": ("iterations", "stiffness", "rest", "pressure", "damping"),
 }
 """The arguments that a function takes beside those of its signature; `c` is a constant."""

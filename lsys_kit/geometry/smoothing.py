@@ -29,7 +29,7 @@ def smoothed(scene: Scene) -> Scene:
     >>> len(leaf.polygons), len(smoothed(leaf).polygons)
     (30, 480)
     """
-    faces = int(scene.polygons.smooth.sum())
+    faces = int(scene.polygons.smooth.sum()) if len(scene.polygons) else 0
     parts = next((parts for parts in range(FINEST, 1, -1) if faces * parts**2 <= MOST_FACES), 1)
     return scene if parts == 1 or not faces else replace(scene, polygons=_divided(scene.polygons, parts))
 
@@ -39,19 +39,18 @@ def _divided(polygons: Polygons, parts: int) -> Polygons:
     chosen = np.flatnonzero(polygons.smooth)
     others = np.flatnonzero(~polygons.smooth)
     corners = _four_corners(polygons.starts, chosen)
-    points = _grids(polygons.points[corners], polygons.normals[corners], parts)
+    points, normals = _grids(polygons.points[corners], polygons.normals[corners], parts)
     numbers = _cells(parts)
     kept = np.repeat(~polygons.smooth, np.diff(polygons.starts))
     found = points[:, numbers]
     sizes = [*np.diff(polygons.starts)[others], *np.full(found.shape[0] * found.shape[1], _SIDES)]
-    upright = np.repeat(polygons.normals[corners].mean(axis=1), len(numbers) * _SIDES, axis=0)
     which = np.concatenate([others, np.repeat(chosen, len(numbers))])
     return Polygons(
         np.concatenate([polygons.points[kept], found.reshape(-1, 3)]),
         np.cumsum([0, *sizes]),
         polygons.states[which],
         polygons.colours[which],
-        np.concatenate([polygons.normals[kept], upright]),
+        np.concatenate([polygons.normals[kept], normals[:, numbers].reshape(-1, 3)]),
     )
 
 
@@ -62,14 +61,16 @@ def _four_corners(starts: Integers, chosen: Integers) -> Integers:
     return found
 
 
-def _grids(corners: Floats, normals: Floats, parts: int) -> Floats:
-    """The points of faces that are divided, shape (n, (parts + 1) ** 2, 3)."""
+def _grids(corners: Floats, normals: Floats, parts: int) -> tuple[Floats, Floats]:
+    """The points of faces that are divided, shape (n, (parts + 1) ** 2, 3), and the unit normals there."""
     rows, columns = (places.ravel() for places in np.meshgrid(*[np.linspace(0, 1, parts + 1)] * 2, indexing="ij"))
     weights = np.stack([(1 - rows) * (1 - columns), rows * (1 - columns), rows * columns, (1 - rows) * columns], axis=1)
     flat: Floats = np.einsum("gi,nik->ngk", weights, corners)
     above = np.einsum("ngik,nik->ngi", flat[:, :, None] - corners[:, None], normals)
     bent: Floats = flat - BENT * np.einsum("gi,ngi,nik->ngk", weights, above, normals)
-    return bent
+    between = np.einsum("gi,nik->ngk", weights, normals)
+    lengths = np.linalg.norm(between, axis=2, keepdims=True)
+    return bent, between / np.where(lengths > 0, lengths, 1.0)
 
 
 def _cells(parts: int) -> Integers:

@@ -16,6 +16,7 @@ from lsys_kit.derivation.tissues.development import CellDevelopment, CellworkDev
 from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError, require, shown, whole_number
 from lsys_kit.geometry.drawing import turning_angle
 from lsys_kit.geometry.filament import filament
+from lsys_kit.geometry.scene import Scene
 from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.cells import CellSystem, CellworkSystem, MapSystem
@@ -44,7 +45,8 @@ from lsys_kit.pictures.options import (
 from lsys_kit.pictures.picture import NetPicture, Picture
 from lsys_kit.pictures.plots.chart import Plot, painted
 from lsys_kit.pictures.rendering.frames import in_units
-from lsys_kit.pictures.rendering.view import project_smoothly, view_from
+from lsys_kit.pictures.rendering.light import LitScene, seen_smoothly, upright
+from lsys_kit.pictures.rendering.view import view_from
 from lsys_kit.pictures.style.palette import colour_of
 from lsys_kit.pictures.style.themes import drawn_on
 from lsys_kit.pictures.tissues.cellworks import CellworkPicture, cellwork_picture
@@ -172,6 +174,7 @@ def draw(
     widths: object = None,
     turtle: bool | None = None,
     legend: bool | None = None,
+    light: object = None,
     background: object = None,
     **constants: object,
 ) -> Picture: ...
@@ -209,6 +212,7 @@ def draw(
     size: object = None,
     colours: object = None,
     legend: bool | None = None,
+    light: object = None,
     background: object = None,
     **forces: object,
 ) -> CellworkPicture: ...
@@ -248,6 +252,11 @@ def draw(what: object, n: int | None = None, **choices: object) -> AnyPicture:
         Whether an arrow marks where the turtle starts, pointing where it looks then.
     legend
         Whether there is a legend below: which colour stands for which symbol, and which commands the turtle passed over.
+    light
+        True draws what a turtle has drawn, or a cellwork, in sun and sky on a ground that takes its shadow; then a drawing in
+        the plane stands upright. Two angles in degrees say from where the sun shines, as `view` says from where one looks:
+        `light=(-60, 30)` is a low sun at the left. Leaves let a part of the light through, and vary a little by the seed. Such
+        a picture consists of pixels, which .svg and .pdf files contain.
     background
         "light" or "dark" paper, "none", or a colour. On dark paper lines are lighter.
     **choices
@@ -271,6 +280,8 @@ def draw(what: object, n: int | None = None, **choices: object) -> AnyPicture:
     >>> from lsys_kit import read
     >>> draw(read("angle: 60\\nheading: 0\\naxiom: F--F--F\\nF -> F+F--F+F"), 3)
     192 segments, width 27, height 31.18
+    >>> draw(read("angle: 30\\naxiom: F[&F][^F]"), 0, light=True)
+    3 segments, width 0, height 1.87, depth 1; in sunlight, as an image of pixels in any format
     """
     with Task("The drawing was not finished"):
         return _drawn(what, n, **choices)
@@ -291,7 +302,7 @@ def _in_style(what: Any, n: int | None, style: Style, **choices: Any) -> AnyPict
         check_choices(choices, ("tokens", "positions"), STAGES)
         return _net_picture(what, labels, **choices)
     if isinstance(what, CellSystem | CellDevelopment):
-        kind, looks = kind_of(what, choices), {"labels": labels, "legend": bool(style.legend)}
+        kind, looks = kind_of(what, choices), {"labels": labels, "legend": bool(style.legend), "light": style.light}
         draws: Callable[..., AnyPicture] = phases_picture if kind == MAP and _yes(choices, "phases") else _CELL_PICTURES[kind]
         return draws(what, n, **{name: value for name, value in looks.items() if name in KINDS[kind]}, **choices)
     if isinstance(what, Lineage):
@@ -347,18 +358,25 @@ def _drawing(
         return _sequence(drawn, states, cells, style)
     turn = turning_angle(angle, system)
     scenes = in_units([seen_as(each.word, turn, style) for each in drawn], system)
+    seeds = [each.seed if each.seed is not None else choices.get("seed") or system.seed or 0 for each in drawn]
     pictures = [
-        Picture(
-            (FilamentRow(each.step, seen),), state_colours(each.word), None, states, scene if scene.dimension == 3 else None
-        )
-        for each, scene, seen in zip(drawn, scenes, project_smoothly(scenes, side), strict=True)
+        Picture((FilamentRow(each.step, seen),), state_colours(each.word), None, states, _solid(scene, seen))
+        for each, scene, seen in zip(drawn, scenes, seen_smoothly(scenes, side, style.light, seeds), strict=True)
     ]
-    legend = legend_of([each.word.states for each in drawn], scenes) if style.legend else None
+    lit = style.light is not None
+    legend = legend_of([each.word.states for each in drawn], scenes, lit) if style.legend else None
     if not drawn[0].caption:
         return replace(pictures[0], legend=legend)
     columns = len({each.step for each in drawn}) if len({each.seed for each in drawn}) > 1 else 0
     captions = [each.caption for each in drawn]
     return SmallMultiples(pictures, captions, columns if columns > 1 else 0, style.labels is not False, legend=legend)
+
+
+def _solid(scene: Scene, seen: Scene) -> Scene | None:
+    """A scene in space; one in the plane only if it was set upright to be seen in sun and sky."""
+    if scene.dimension == 3:
+        return scene
+    return upright(scene) if isinstance(seen, LitScene) else None
 
 
 def _sequence(drawn: Sequence[ChosenWord], marked: Collection[int], cells: str | None, style: Style) -> Picture:

@@ -46,11 +46,12 @@ from lsys_kit.pictures.options import (
 )
 from lsys_kit.pictures.picture import Picture
 from lsys_kit.pictures.rendering.frames import ViewFrame, frame_around, in_units
+from lsys_kit.pictures.rendering.light import LitScene, seen_smoothly
 from lsys_kit.pictures.rendering.scene_shapes import label_shapes
-from lsys_kit.pictures.rendering.view import FROM_THE_RIGHT, View, project_smoothly, view_from
+from lsys_kit.pictures.rendering.view import FROM_THE_RIGHT, View, view_from
 from lsys_kit.pictures.sizes import Size, document, enlargement, final_size, size_from
 from lsys_kit.pictures.style.themes import drawn_on
-from lsys_kit.pictures.tissues.cellworks import SIDE, cellwork_steps
+from lsys_kit.pictures.tissues.cellworks import SIDE, CellworkPicture, cellwork_steps
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -197,8 +198,8 @@ SHAPE_BYTES = 100
 """About what a shape takes in memory."""
 MOST_FRAMES = 300
 """The greatest number of steps of a film."""
-TURNS, TURN_SECONDS = 60, 0.1
-"""The pictures of a whole turn, and the duration of each in seconds."""
+TURNS, LIT_TURNS, TURN_SECONDS = 60, 36, 0.1
+"""The pictures of a whole turn, without and with sun and sky; and the duration of each in seconds."""
 
 
 def animate(
@@ -225,7 +226,7 @@ def animate(
     turntable
         Whether the last step is shown from all sides, rather than the steps from one.
     view, size, **choices
-        As for `draw`, with `labels`, `colours`, `widths`, `turtle`, `legend` and `background`, but a film has a background. On
+        As for `draw`, with `labels`, `colours`, `widths`, `turtle`, `legend`, `light` and `background`; a film has one. On
         a turntable the first picture has this view.
 
     Raises
@@ -288,10 +289,13 @@ def _shown(
         derivation = _derived(what, n, {name: value for name, value in choices.items() if name != "angle"})
         if drawing_mode(derivation.states.system) is DrawingMode.FILAMENT:
             return _filmed(draw(derivation, **given))
-        return _turtle_film(derivation, choices.get("angle"), side, style)
+        return _turtle_film(
+            derivation, choices.get("angle"), side, style, choices.get("seed") or derivation.states.system.seed or 0
+        )
     if isinstance(what, CellworkSystem | CellworkDevelopment):
-        steps = cellwork_steps(what, n, legend=bool(style.legend), **choices)
-        scenes = project_smoothly([step.solid for step in steps if step.solid is not None], side or SIDE)
+        steps = cellwork_steps(what, n, legend=bool(style.legend), light=style.light, **choices)
+        solids = [step.solid for step in steps if step.solid is not None]
+        scenes = seen_smoothly(solids, side or SIDE, style.light, leafy=False)
         told = f"steps 0 to {len(steps) - 1}; the last: {steps[-1].text}"
         return told, _framed(scenes, steps[-1].colour_of, style.size, steps[-1].legend)
     if isinstance(what, CellSystem | CellDevelopment | Lineage):
@@ -356,14 +360,16 @@ def _pictures_film(what: object, size: Size | None) -> tuple[str, Sequence[Image
     ]
 
 
-def _turtle_film(derivation: Derivation, angle: object, view: View | None, style: Style) -> tuple[str, Sequence[Image]]:
+def _turtle_film(
+    derivation: Derivation, angle: object, view: View | None, style: Style, seed: int
+) -> tuple[str, Sequence[Image]]:
     turn = turning_angle(angle, derivation.states.system)
     steps: list[Scene] = []
     for step in counted(range(derivation.steps + 1), 1):
         steps.append(seen_as(derivation.to(step), turn, style))
         check_bytes(SHAPE_BYTES * sum(scene.size for scene in steps), lambda: "The film was not finished")
-    scenes = project_smoothly(in_units(steps, derivation.states.system), view)
-    legend = legend_of([derivation.states] * len(scenes), scenes) if style.legend else None
+    scenes = seen_smoothly(in_units(steps, derivation.states.system), view, style.light, [seed] * len(steps))
+    legend = legend_of([derivation.states] * len(scenes), scenes, style.light is not None) if style.legend else None
     return f"steps 0 to {derivation.steps}; the last: {steps[-1]}", _framed(
         scenes, state_colours(derivation), style.size, legend
     )
@@ -392,11 +398,14 @@ def _turned(what: Any, n: int | None, pace: float, view: View | None, size: Size
         raise ModelValueError(
             "A turntable shows what is in space, and this lies in the plane", hint="Animate its steps: without turntable=True."
         )
-    scenes = list(_around(picture.solid, view or FROM_THE_RIGHT))
+    scenes = [*_around(picture, picture.solid, view or FROM_THE_RIGHT)]
     return Film(f"{picture!r}; from all sides", tuple(_framed(scenes, picture.colour_of, size, picture.legend)), pace, 1)
 
 
-def _around(solid: Scene, view: View) -> Iterator[Scene]:
-    """A scene from all sides, one after another: it turns to the left, as a plant whose right side comes to the front."""
-    for number in range(TURNS):
-        yield from project_smoothly([solid], (view[0] + 360 * number / TURNS, view[1]))
+def _around(picture: Picture, solid: Scene, view: View) -> Iterator[Scene]:
+    """A scene from all sides, one after another: it turns to the left, as a plant whose right side comes to the front, and not
+    the sun."""
+    seen, leafy = picture.scene, not isinstance(picture, CellworkPicture)
+    sun, seeds, turns = (seen.sun, [seen.seed], LIT_TURNS) if isinstance(seen, LitScene) else (None, [], TURNS)
+    for turn in (360 * number / turns for number in range(turns)):
+        yield from seen_smoothly([solid], (view[0] + turn, view[1]), sun and sun.turned(turn), seeds, leafy)

@@ -16,6 +16,7 @@ from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.formats.painting import painted
 from lsys_kit.pictures.nets.parts import width_of
 from lsys_kit.pictures.rendering.frames import MARGIN
+from lsys_kit.pictures.rendering.light import sunlit_colours
 from lsys_kit.pictures.shapes import Drawing, Group, Look, Place, Rectangle, Shape, Text
 from lsys_kit.pictures.sizes import document
 from lsys_kit.pictures.style.labels import label_parts, label_spans, polar_symbols
@@ -72,8 +73,8 @@ class Legend:
         return round(wide) + 2 * MARGIN, LINE * len(self.lines(wide)) + MARGIN
 
 
-def legend_of(tables: Sequence[States], scenes: Sequence[Scene]) -> Legend:
-    """The legend of scenes of some words, given the states of each.
+def legend_of(tables: Sequence[States], scenes: Sequence[Scene], lit: bool = False) -> Legend:
+    """The legend of scenes of some words, given the states of each; perhaps of scenes in sun and sky.
 
     >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.drawing import scene_of
@@ -96,7 +97,13 @@ def legend_of(tables: Sequence[States], scenes: Sequence[Scene]) -> Legend:
     entries += [Entry((CHOSEN[number],), ("", "", f"colour {number}")) for number in sorted(numbers - ramp)]
     entries += [Entry(RAMP, ("", "", NATURAL))] * bool(ramp)
     remarks = dict.fromkeys(filter(None, (passed_over(scene.unknown) for scene in scenes)))
-    return Legend((*entries, *(Entry((), ("", "", remark)) for remark in remarks)))
+    found = Legend((*entries, *(Entry((), ("", "", remark)) for remark in remarks)))
+    return in_sunlight(found) if lit else found
+
+
+def in_sunlight(legend: Legend) -> Legend:
+    """A legend with the colours that things have in sunlight."""
+    return Legend(tuple(entry._replace(colours=tuple(sunlit_colours(entry.colours))) for entry in legend.entries))
 
 
 def letters_of(states: States, scenes: Sequence[Scene], labels: bool | None = None) -> Mapping[int, str]:

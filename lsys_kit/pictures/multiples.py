@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.pictures.formats.lettering import advance
 from lsys_kit.pictures.formats.notebook import SVGPicture, described
-from lsys_kit.pictures.formats.painting import painted
+from lsys_kit.pictures.formats.painting import on_ground, painted
 from lsys_kit.pictures.formats.raster import embedded, turtle_image
 from lsys_kit.pictures.legends import Legend, with_legend
 from lsys_kit.pictures.picture import Picture
@@ -67,6 +67,11 @@ class SmallMultiples(SVGPicture):
     labels: bool = True
     legend: Legend | None = field(default=None, kw_only=True, repr=False)
 
+    @property
+    def sunlit(self) -> bool:
+        """Whether it shows something in sun and sky, which is pixels in all formats."""
+        return self.pictures[-1].sunlit
+
     @cached_property
     def text(self) -> str:
         """What the picture shows, in words."""
@@ -82,7 +87,7 @@ class SmallMultiples(SVGPicture):
         panels = arranged([each.scene for each in self.pictures], self.columns, broadest)
         frame = panels[0].frame
         factor = enlarged * enlargement(frame.width, frame.height, self.pixels)
-        pixels = sum(each.size for each in self.pictures) > most
+        pixels = sum(each.size for each in self.pictures) > most or self.sunlit
         panels_with = zip(self.pictures, panels, captions, strict=True)
         body = [shape for each in panels_with for shape in _panel_shapes(*each, factor if pixels else 0.0)]
         return with_legend(document(body, frame.width, frame.height, self.text, frame.parts), self.legend)
@@ -143,6 +148,6 @@ def _panel_shapes(picture: Picture, panel: Panel, caption: str, pixels: float) -
 
 def _panel_image(picture: Picture, panel: Panel, enlarged: float) -> Raster:
     own, parts = frame_on(painted_box(picture.scene), panel.frame.scale), panel.frame.parts
-    image = turtle_image(picture.scene, picture.colour_of, own, enlarged)
+    image = on_ground(lambda: turtle_image(picture.scene, picture.colour_of, own, enlarged))
     corner = round((panel.middle - own.width / 2) * parts), round((panel.ground - own.height + MARGIN) * parts)
     return embedded(own.width * parts, own.height * parts, image, corner)

@@ -21,6 +21,7 @@ from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.cells import CellSystem, CellworkSystem
 from lsys_kit.notation.model.system import LSystem, symbols
 from lsys_kit.pictures.formats.notebook import listed
+from lsys_kit.pictures.rendering.light import Sun, sun_from
 from lsys_kit.pictures.rendering.looks import with_colours_of_symbols, with_start, with_widths
 from lsys_kit.pictures.sizes import Size, size_from
 from lsys_kit.pictures.style.colour_values import colour_from
@@ -29,21 +30,21 @@ from lsys_kit.pictures.style.themes import LIGHT, Theme, theme_from
 
 Symbols: TypeAlias = Mapping[str, tuple[str, ...]]
 """Names of symbols, each with those that it stands for: one, or the two polarities of a cell."""
-OPTIONS = ("labels", "colours", "widths", "turtle", "legend", "background")
+OPTIONS = ("labels", "colours", "widths", "turtle", "legend", "light", "background")
 FLAGS = ("labels", "turtle", "legend")
 """All of them; those that are chosen or not."""
 DRAWING, STEPS, FILAMENT = "the drawing of a turtle", "drawings side by side", "a filament"
 STAGES, LINEAGE = "a stage diagram", "a lineage"
 MAP, SPHERE, CELLWORK = "a map", "a map on a sphere", "a cellwork"
 KINDS: Mapping[str, tuple[str, ...]] = {
-    DRAWING: ("colours", "widths", "turtle", "legend", "background"),
+    DRAWING: ("colours", "widths", "turtle", "legend", "light", "background"),
     STEPS: OPTIONS,
     FILAMENT: ("labels", "colours", "legend", "background"),
     STAGES: ("labels", "colours", "background"),
     LINEAGE: ("labels", "colours", "legend", "background"),
     MAP: ("labels", "background"),
     SPHERE: ("background",),
-    CELLWORK: ("colours", "legend", "background"),
+    CELLWORK: ("colours", "legend", "light", "background"),
 }
 """The kinds of pictures, each with the options that it has."""
 COLOURS, WIDTHS = ("natural", "symbols"), ("order", "constant")
@@ -65,6 +66,8 @@ class Style:
         Whose colours strokes have: "natural" ones, or those of "symbols"; "" for those of the system.
     widths
         Where the widths of strokes come from: their "order", or they are "constant"; "" as the turtle has set them.
+    light
+        Where the sun stands; None for a drawing without sun and sky.
     theme
         The colours of the picture, and how bold its strokes are.
     size
@@ -76,6 +79,7 @@ class Style:
     turtle: bool = False
     colours: str = ""
     widths: str = ""
+    light: Sun | None = None
     theme: Theme = LIGHT
     size: Size | None = None
 
@@ -106,6 +110,8 @@ def style_from(given: Mapping[str, Any], kind: str, symbols: Symbols, size: obje
         found = _with_colours(found, given["colours"], kind, symbols)
     if "widths" in given:
         found = _with_widths(found, given["widths"])
+    if "light" in given:
+        found = replace(found, light=sun_from(given["light"]))
     return replace(found, **{name: value for name, value in given.items() if name in FLAGS})
 
 

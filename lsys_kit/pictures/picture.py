@@ -27,6 +27,7 @@ from lsys_kit.pictures.legends import Legend, plot_legend, with_legend
 from lsys_kit.pictures.nets.diagram import drawn_stages
 from lsys_kit.pictures.nets.parts import positions_in
 from lsys_kit.pictures.rendering.frames import WIDTH, frame_around, in_fine_parts
+from lsys_kit.pictures.rendering.light import LitScene
 from lsys_kit.pictures.rendering.looks import widths_by_order
 from lsys_kit.pictures.rendering.scene_shapes import label_shapes, scene_shapes
 from lsys_kit.pictures.shapes import Drawing
@@ -90,7 +91,17 @@ class Picture(SVGPicture):
     def text(self) -> str:
         """What the picture shows, in words."""
         steps = f"steps {self.rows[0].step} to {self.rows[-1].step}" if len(self.rows) > 1 else ""
-        return described([steps, ("the last: " if steps else "") + str(self.scene if self.solid is None else self.solid)])
+        shown = str(self.scene if self.solid is None else self.solid)
+        return described([steps, ("the last: " if steps else "") + shown, self._light])
+
+    @property
+    def sunlit(self) -> bool:
+        """Whether it shows something in sun and sky, which is pixels in all formats."""
+        return isinstance(self.scene, LitScene)
+
+    @property
+    def _light(self) -> str:
+        return "in sunlight, as an image of pixels in any format" if self.sunlit else ""
 
     @property
     def size(self) -> int:
@@ -104,14 +115,14 @@ class Picture(SVGPicture):
         return turtle_picture(self.scene, self.colour_of, self.pixels, enlarged)
 
     def _plot_into(self, ax: Axes) -> None:
-        if self.size > current().figure:
+        if self.size > current().figure and not self.sunlit:
             raise ModelLimitError(
                 f"The figure would have {self.size:,} shapes; the limit is {current().figure:,}",
                 limit=current().figure,
                 needed=self.size,
                 hint="Take fewer steps, keep the picture as .png, or set limits(figure=...).",
             )
-        if len(self.scene.cells):
+        if len(self.scene.cells) or self.sunlit:
             super()._plot_into(ax)
         else:
             plot_turtle(ax, self.scene, self.colour_of)
@@ -124,7 +135,7 @@ class Picture(SVGPicture):
             return self._sequence(self.size > most, enlarged)
         usual = frame_around([self.scene])
         frame = in_fine_parts(usual, self.scene)
-        if self.size > most:
+        if self.size > most or self.sunlit:
             factor = enlarged * enlargement(usual.width, usual.height, self.pixels)
             image = on_ground(lambda: turtle_image(self.scene, self.colour_of, usual, factor))
             pixels = embedded(frame.width * frame.parts, frame.height * frame.parts, image)

@@ -422,6 +422,7 @@ NAMED: Mapping[str, tuple[tuple[object, ...], tuple[str, ...]]] = {
             "labels",
             "colours",
             "widths",
+            "light",
             "background",
         ),
     ),

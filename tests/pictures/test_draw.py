@@ -166,7 +166,7 @@ def test_names_of_a_model_never_become_markup():
 @pytest.mark.parametrize(
     ("what", "hint"),
     [
-        (system("K5"), "marked, cells, field, view, steps, seeds, size, colours, widths, turtle, legend, background."),
+        (system("K5"), "marked, cells, field, view, steps, seeds, size, colours, widths, turtle, legend, light, background."),
         (system("J4"), "Constants of the system are: lifeTimeA, lifeTimeB."),
         (stages(system("P2")), "Options are: tokens, positions, size, labels, colours, background."),
         (lineage(system("P6"), 2), "Options are: intervals, size, labels, colours, legend, background."),

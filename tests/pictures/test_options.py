@@ -45,7 +45,15 @@ DRAWN = {
     "a map on a sphere": lambda **choices: draw(map_system("K34"), 1, **choices),
     "a cellwork": lambda **choices: draw(cellwork_system("K33"), 1, **choices),
 }
-VALUES = {"labels": False, "colours": "symbols", "widths": 2, "turtle": True, "legend": True, "background": "dark"}
+VALUES = {
+    "labels": False,
+    "colours": "symbols",
+    "widths": 2,
+    "turtle": True,
+    "legend": True,
+    "light": True,
+    "background": "dark",
+}
 
 every_kind = pytest.mark.parametrize("kind", DRAWN)
 

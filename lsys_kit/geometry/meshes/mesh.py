@@ -10,16 +10,17 @@ every simple polygon has at least two (Meisters, 1975).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lsys_kit.budget import check_bytes, check_limit, counted
 from lsys_kit.errors import ModelLimitError, ModelValueError
-from lsys_kit.geometry.meshes.solids import SIDES, THIN_SIDES, Numbers, Singles, Solid, ball, disc
-from lsys_kit.geometry.meshes.tubes import Rings, blocks, by_width, connected, rings, triangles
+from lsys_kit.geometry.meshes.solids import FEWEST_SIDES, SIDES, THIN_SIDES, Numbers, Singles, Solid, ball, disc
+from lsys_kit.geometry.meshes.tubes import Rings, as_broad, blocks, by_width, connected, rings, triangles
 from lsys_kit.geometry.scene import OWN, SPHERE, Floats, Integers, Polygons, Scene, Segments
 
 LARGEST_COORDINATE = 1e37
@@ -35,6 +36,10 @@ VERTEX_BYTES, TRIANGLE_BYTES = 80, 36
 """About what a vertex and a triangle take while a mesh is made."""
 NEAR, THIN = 1e-9, 1 / 1000
 """Points that are closer than this are one; strokes of this radius or less are thin; relative to the extent of the scene."""
+SEEN_SIDES = ((2.5, SIDES), (0.9, THIN_SIDES), (-1.0, FEWEST_SIDES))
+"""How many sides strokes have in a picture, by their radii in pixels."""
+FINE, FINER, FEW_SPHERES = 2, 4, 100
+"""How often the faces of spheres are divided: usually; and where they may be finer because there are so few."""
 _SIDE, _CAPS = 2 * SIDES, 2 * (SIDES - 2)
 
 
@@ -87,28 +92,46 @@ def mesh_of(scene: Scene, own_widths: Sequence[float] = OWN_WIDTHS) -> Mesh:
     >>> mesh.vertices.shape, mesh.triangles.shape
     ((194, 3), (376, 3))
     """
+    return _merged_meshes([mesh for mesh, _ in _parts(scene, own_widths)])
+
+
+def mesh_with_sheets(scene: Scene, pixel: float) -> tuple[Mesh, NDArray[np.bool_]]:
+    """The same for a picture whose pixels are so large, with as many sides of strokes as are seen, and finer spheres where they
+    are few; and for each vertex whether it is one of a sheet, as polygons and discs are, which is no closed solid."""
+    sides = tuple((radius * pixel, many) for radius, many in SEEN_SIDES)
+    parts = _parts(scene, OWN_WIDTHS, sides, FINER if len(scene.discs) <= FEW_SPHERES else FINE)
+    return _merged_meshes([mesh for mesh, _ in parts]), np.concatenate(
+        [np.full(len(mesh.vertices), sheet) for mesh, sheet in parts]
+    )
+
+
+Sides: TypeAlias = Sequence[tuple[float, int]]
+"""Radii and how many sides strokes have whose radius is greater, the greatest first."""
+
+
+def _parts(
+    scene: Scene, own_widths: Sequence[float], sides: Sides | None = None, fine: int = FINE
+) -> Sequence[tuple[Mesh, bool]]:
+    """The meshes of strokes, polygons, discs, spheres and cells, and whether each is made of sheets."""
     _check_triangles(scene)
     if not max(map(abs, (*scene.corners[0], *scene.corners[1]))) < LARGEST_COORDINATE:
         raise ModelValueError("This drawing is too large for a mesh", hint="Make its steps shorter.")
-    discs, cells = scene.discs, scene.cells
+    discs, cells, extent = scene.discs, scene.cells, _extent(scene)
     balls = discs.kinds == SPHERE
-    centres, radii = _in_space(discs.centres), discs.radii
+    sphere = ball(fine if balls.any() else FINE)
+    centres, radii = in_space(discs.centres), discs.radii
     lengths, breadths = cells.sizes.T / 2
-    return _merged_meshes(
-        [
-            *_tubes(scene.segments, _extent(scene), own_widths),
-            _faces(scene.polygons),
-            _copies(disc(), centres[~balls], radii[~balls, None], discs.states[~balls], discs.colours[~balls]),
-            _copies(ball(), centres[balls], radii[balls, None], discs.states[balls], discs.colours[balls]),
-            _copies(
-                ball(),
-                _in_space(cells.centres),
-                np.stack([lengths, breadths, breadths], axis=1),
-                cells.states,
-                np.full(len(cells), OWN),
-            ),
-        ]
+    ellipsoids = _copies(
+        ball(), in_space(cells.centres), np.stack([lengths, breadths, breadths], axis=1), cells.states, np.full(len(cells), OWN)
     )
+    tubes = _tubes(scene.segments, extent, own_widths, sides or ((THIN * extent, SIDES), (-1.0, THIN_SIDES)))
+    return [
+        *((tube, False) for tube in tubes),
+        (_faces(scene.polygons), True),
+        (_copies(disc(), centres[~balls], radii[~balls, None], discs.states[~balls], discs.colours[~balls]), True),
+        (_copies(sphere, centres[balls], radii[balls, None], discs.states[balls], discs.colours[balls]), False),
+        (ellipsoids, False),
+    ]
 
 
 def _check_triangles(scene: Scene) -> None:
@@ -137,7 +160,7 @@ def _size(scene: Scene) -> tuple[int, int]:
     )
 
 
-def _in_space(points: Floats) -> Floats:
+def in_space(points: Floats) -> Floats:
     """Points in space: those of the plane are set upright."""
     return points if points.shape[1] == 3 else np.stack([points[:, 0], np.zeros(len(points)), points[:, 1]], axis=1)
 
@@ -162,18 +185,18 @@ def _merged_meshes(meshes: Sequence[Mesh]) -> Mesh:
 # Strokes
 
 
-def _tubes(segments: Segments, reach: float, own_widths: Sequence[float]) -> list[Mesh]:
-    """Strokes as closed tubes with round shading, thick ones and thin ones."""
-    points = _in_space(segments.points).reshape(-1, 2, 3)
+def _tubes(segments: Segments, reach: float, own_widths: Sequence[float], sides: Sides) -> Iterator[Mesh]:
+    """Strokes as closed tubes with round shading, the thick ones first."""
+    points = in_space(segments.points).reshape(-1, 2, 3)
     lengths = np.linalg.norm(points[:, 1] - points[:, 0], axis=1)
     there = lengths > 0
     widths = _widths(segments, lengths, reach, own_widths)
     radii = np.stack([start_widths(segments, widths, reach), widths], axis=1)[there] / 2
     looks = np.column_stack([segments.states, np.broadcast_to(segments.colours, len(segments))])[there]
     strokes = connected(points[there], radii, segments.orders[there], looks, reach * NEAR)
-    return [
-        _tube_mesh(rings(some, sides)) for some, sides in zip(by_width(strokes, THIN * reach), (SIDES, THIN_SIDES), strict=True)
-    ]
+    for radius, many in sides:
+        thick, strokes = by_width(strokes, radius)
+        yield _tube_mesh(rings(as_broad(thick, many), many))
 
 
 def _tube_mesh(found: Rings) -> Mesh:
@@ -195,11 +218,19 @@ def start_widths(segments: Segments, widths: Floats, reach: float) -> Floats:
         return widths
     grid = np.rint(segments.points / (reach * NEAR)).astype(np.int64).reshape(len(segments), 2, -1)
     places = np.concatenate([np.column_stack([grid[:, end], segments.orders]) for end in (0, 1)])
-    numbers = np.unique(places, axis=0, return_inverse=True)[1].reshape(2, -1)
+    numbers = numbered(places).reshape(2, -1)
     width_at = np.full(len(places), np.nan)
     width_at[numbers[1]] = widths
     found = width_at[numbers[0]]
     return np.where(np.isnan(found), widths, found)
+
+
+def numbered(rows: Integers) -> Integers:
+    """A number for each row, the same for equal ones."""
+    order = np.lexsort(rows.T)
+    found = np.empty(len(rows), np.int64)
+    found[order] = np.cumsum(np.append(False, (np.diff(rows[order], axis=0) != 0).any(axis=1)))
+    return found
 
 
 # Polygons
@@ -207,13 +238,10 @@ def start_widths(segments: Segments, widths: Floats, reach: float) -> Floats:
 
 def _faces(polygons: Polygons) -> Mesh:
     """Polygons as they are; those of curved surfaces with the normals that these have."""
-    points, sizes = _in_space(polygons.points), np.diff(polygons.starts)
+    points, sizes = in_space(polygons.points), np.diff(polygons.starts)
     facing, smooth = normals_of(points, polygons.starts), polygons.smooth
     spans = np.stack([polygons.starts[:-1], polygons.starts[1:]], axis=1)
-    triangles = [
-        np.array(triangulate(points[first:last], way), np.int64).reshape(-1, 3) + first
-        for (first, last), way in counted(zip(spans[~smooth].tolist(), facing[~smooth], strict=True), 1)
-    ]
+    triangles = [_alike(points, each, facing[some]) for some, each in _by_corners(spans, np.flatnonzero(~smooth))]
     normals = np.repeat(facing, sizes, axis=0)
     if smooth.any():
         corners = np.repeat(smooth, sizes)
@@ -225,6 +253,50 @@ def _faces(polygons: Polygons) -> Mesh:
         np.repeat(polygons.states, sizes),
         np.repeat(polygons.colours, sizes),
     )
+
+
+ALIKE = 1e-6
+"""Outlines are affine images of one another whose corners differ by no more than this from such, in units of their sides."""
+
+
+def _by_corners(spans: Integers, chosen: Integers) -> Iterator[tuple[Integers, Integers]]:
+    """Some polygons, those with as many corners together: their numbers, and the numbers of their corners."""
+    sizes = np.diff(spans[chosen], axis=1)[:, 0]
+    for size in np.unique(sizes).tolist():
+        some = chosen[sizes == size]
+        yield some, spans[some, :1] + np.arange(size)
+
+
+def _alike(points: Floats, corners: Integers, facing: Floats) -> Integers:
+    """The triangles of polygons with as many corners: of those that are affine images of one another, as the leaves of a plant,
+    one is triangulated, and all others alike."""
+    kinds = numbered(_affine(points[corners], facing))
+    firsts = np.unique(kinds, return_index=True)[1]
+    cuts = [
+        np.array(triangulate(points[corners[first]], facing[first]), np.int64).reshape(-1, 3)
+        for first in counted(firsts.tolist(), 1)
+    ]
+    if not len(cuts):
+        return np.empty((0, 3), np.int64)
+    return np.take_along_axis(corners, np.stack(cuts)[kinds].reshape(len(corners), -1), axis=1).reshape(-1, 3)
+
+
+def _affine(outlines: Floats, facing: Floats) -> Integers:
+    """For each outline numbers that are the same for its affine images in space: the coordinates of its corners in the basis of
+    its first side and of the way to the corner that is farthest from this. Of one that is no area, others."""
+    sides = outlines - outlines[:, :1]
+    if sides.shape[1] < 3:
+        return np.zeros((len(outlines), 1), np.int64)
+    one = sides[:, 1]
+    areas = np.einsum("nki,ni->nk", np.cross(one[:, None], sides), facing)
+    far = np.abs(areas).argmax(axis=1)
+    other, whole = sides[np.arange(len(sides)), far], np.take_along_axis(areas, far[:, None], axis=1)
+    single = np.abs(whole[:, 0]) <= ALIKE * (sides**2).sum(axis=2).max(axis=1)
+    whole = np.where(single[:, None], 1.0, whole)
+    along = np.einsum("nki,ni->nk", np.cross(sides, other[:, None]), facing) / whole
+    found = np.rint(np.concatenate([along, areas / whole], axis=1) / ALIKE)
+    found[single] = np.arange(len(sides))[single, None]
+    return np.column_stack([found.astype(np.int64), far, single, np.sign(whole[:, 0]).astype(np.int64)])
 
 
 def _fans(spans: Integers) -> Integers:

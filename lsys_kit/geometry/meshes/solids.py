@@ -14,8 +14,8 @@ from lsys_kit.geometry.scene import Floats
 Singles: TypeAlias = NDArray[np.float32]
 Numbers: TypeAlias = NDArray[np.uint32]
 
-SIDES, THIN_SIDES, ROUND = 8, 5, 24
-"""The number of sides of a stroke and of a thin one, and of corners of a disc."""
+SIDES, THIN_SIDES, FEWEST_SIDES, ROUND = 8, 5, 3, 24
+"""The number of sides of a stroke, of a thin one and of one that is hardly seen, and of corners of a disc."""
 
 
 class Solid(NamedTuple):
@@ -55,8 +55,8 @@ def disc() -> Solid:
 
 
 @cache
-def ball() -> Solid:
-    """A sphere of radius 1: an icosahedron, subdivided twice."""
+def ball(times: int = 2) -> Solid:
+    """A sphere of radius 1: an icosahedron, subdivided so many times."""
     golden = (1 + 5**0.5) / 2
     corners = [np.roll(np.array([0.0, a, b * golden]), k) for k in range(3) for a in (1, -1) for b in (1, -1)]
     points = [corner / np.linalg.norm(corner) for corner in corners]
@@ -68,7 +68,7 @@ def ball() -> Solid:
         for c in range(b)
         if max(np.linalg.norm(points[i] - points[j]) for i, j in ((a, b), (b, c), (c, a))) < edge
     ]
-    for _ in range(2):
+    for _ in range(times):
         faces = _subdivided(faces, points)
     vertices = np.array(points)
     return _solid(vertices, vertices, faces)

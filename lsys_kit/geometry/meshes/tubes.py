@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lsys_kit.budget import counted
-from lsys_kit.geometry.meshes.solids import Numbers, Singles, circle, prism_triangles
+from lsys_kit.geometry.meshes.solids import FEWEST_SIDES, Numbers, Singles, circle, prism_triangles
 from lsys_kit.geometry.scene import Floats, Integers
 
 Flags: TypeAlias = NDArray[np.bool_]
@@ -173,6 +173,11 @@ def by_width(strokes: Strokes, thin: float) -> tuple[Strokes, Strokes]:
     np.maximum.at(widest, tube, strokes.radii.max(axis=1))
     thick = widest[tube] > thin
     return strokes.taken(thick), strokes.taken(~thick)
+
+
+def as_broad(strokes: Strokes, sides: int) -> Strokes:
+    """Strokes whose tubes with the fewest sides look as broad from all sides, on the average, as they are."""
+    return strokes if sides > FEWEST_SIDES else strokes._replace(radii=strokes.radii * np.pi / (sides * np.sin(np.pi / sides)))
 
 
 def rings(strokes: Strokes, sides: int) -> Rings:

@@ -97,6 +97,11 @@ class SVGPicture(ABC):
     pixels: Size | None = field(default=None, kw_only=True, repr=False)
     theme: Theme = field(default=LIGHT, kw_only=True, repr=False)
 
+    @property
+    def sunlit(self) -> bool:
+        """Whether it shows something in sun and sky, which is pixels in all formats."""
+        return False
+
     @abstractmethod
     def _shown(self, most: int, enlarged: float) -> Drawing:
         """What the picture shows, in its usual size; if it has more shapes than the most, these are pixels, so many in each
@@ -181,6 +186,8 @@ class SVGPicture(ABC):
         }, ""
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
+        if self.sunlit:
+            return png_bundle(self.image(SHARP), repr(self))
         return svg_bundle(self.svg, repr(self), on_light=self.theme.ground == LIGHT.ground)
 
 
@@ -220,6 +227,13 @@ def svg_bundle(svg: str, text: str, on_light: bool = False) -> dict[str, Any]:
     return {"text/html": f"{image}{DARKENED}" if on_light else image, "image/svg+xml": svg, "text/plain": text}
 
 
+def png_bundle(image: Image, text: str) -> dict[str, Any]:
+    """A picture of pixels, so many in each direction of one of the page as screens have, with its text alternative."""
+    png = encoded(image)
+    size = f' width="{round(image.width / SHARP)}"'
+    return {"text/html": _image("png", png, text, more=size), "image/png": base64.b64encode(png).decode(), "text/plain": text}
+
+
 def film_bundle(moving: bytes, still: Callable[[], bytes], text: str) -> dict[str, Any]:
     """A film as a GIF that can be stopped, with its text alternative, by media types; stopped it shows its last picture."""
     html = (
@@ -238,9 +252,9 @@ _STYLE = (
 )
 
 
-def _image(form: str, data: bytes, text: str, kind: str = "") -> str:
+def _image(form: str, data: bytes, text: str, kind: str = "", more: str = "") -> str:
     named = f' class="{kind}"' if kind else ""
-    return f'<img alt="{escape(text)}"{named} src="data:image/{form};base64,{base64.b64encode(data).decode()}">'
+    return f'<img alt="{escape(text)}"{named}{more} src="data:image/{form};base64,{base64.b64encode(data).decode()}">'
 
 
 def enlargement_from(given: object) -> float:

@@ -29,6 +29,7 @@ from lsys_kit.pictures.rendering.display_list import (
     display_list,
 )
 from lsys_kit.pictures.rendering.frames import MARGIN, ViewFrame, frame_around
+from lsys_kit.pictures.rendering.light import LitScene, lit_pixels
 from lsys_kit.pictures.shapes import Raster
 from lsys_kit.pictures.sizes import Size, enlargement, final_size
 from lsys_kit.pictures.style.lighting import HIGHLIGHT, REACH, sphere_tones
@@ -145,12 +146,16 @@ def centred(image: Image, size: tuple[int, int]) -> Image:
 def turtle_image(scene: Scene, colour_of: Mapping[int, str], frame: ViewFrame, enlarged: float = 1.0) -> Image:
     """A scene of a turtle as an image, in a frame that contains it; perhaps enlarged.
 
+    One in sun and sky is rendered by `lit_pixels`. Of any other, in painter's order:
+
     Each point of a fine grid gets the number of what is seen there. Numbers grow along the display list: of two shapes the one
     with the greater number covers the other. The shape at place p has the number 2p + 1, and its edge 2p + 2; of a run of
     lines all have the number of the first.
     """
     from PIL import Image
 
+    if isinstance(scene, LitScene):
+        return Image.fromarray(lit_pixels(scene, colour_of, frame, enlarged))
     shapes = display_list(scene, frame.scale, colour_of)
     grid = FineGrid(frame, enlarged, samples_for(frame.width * enlarged, frame.height * enlarged))
     across, down = _pixels(shapes.lines.ends, scene, grid)

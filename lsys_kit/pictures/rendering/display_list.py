@@ -288,7 +288,7 @@ def _in_space(scene: ProjectedScene, scale: float, colour_of: Mapping[int, str])
     """From far to near; of very many strokes one sees none by itself, and they are plain lines."""
     segments, detailed = scene.segments, len(scene.segments) <= MOST_CYLINDERS
     names, colours = _colours(scene, colour_of)
-    plain = stroke_widths(segments, scale, _boldness(segments, scale, detailed))
+    plain = stroke_widths(segments, scale, boldness(segments, scale, detailed))
     widths = seen_widths(scene, plain)
     toned = (widths >= TONED) & detailed
     cylinders = cylinders_of(scene, plain, 10 * scale, toned)
@@ -335,7 +335,7 @@ def casing_widths(widths: Integers) -> Integers:
     return found
 
 
-def _boldness(segments: Segments, scale: float, detailed: bool) -> float:
+def boldness(segments: Segments, scale: float, detailed: bool) -> float:
     """How broad strokes are whose widths the turtle has not set: where one sees each by itself, they look like stems."""
     return max(stroke_scale(segments, scale, BOLDEST), STURDY) if detailed else stroke_scale(segments, scale)
 

@@ -42,6 +42,8 @@ def _keys(rows: Floats) -> NDArray[np.void]:
     return whole.view(np.dtype((np.void, whole.strides[0]))).ravel()
 
 
+Axes: TypeAlias = tuple[Floats, Floats, Floats]
+"""The directions that appear as right and up, and the one towards the viewer."""
 View: TypeAlias = tuple[float, float]
 """The side of the viewer, in degrees: around, 0 at the front and 90 at the right; and above, 0 level and 90 from the top."""
 FRONT, FROM_THE_RIGHT = (0, 0), (30, 15)
@@ -249,7 +251,7 @@ def _projected(scene: Scene, cylinder: Cylinder, view: View) -> ProjectedScene:
     )
 
 
-def _seen(points: Floats, side: tuple[Floats, Floats, Floats], cylinder: Cylinder) -> tuple[Floats, Floats]:
+def _seen(points: Floats, side: Axes, cylinder: Cylinder) -> tuple[Floats, Floats]:
     """Points in the plane of the picture, and by how much they are magnified there."""
     placed = _mapped(points - cylinder.middle, np.stack(side, axis=1))
     factors = cylinder.distance / (cylinder.distance - placed[:, 2])
@@ -288,7 +290,7 @@ def _casing_depths(scene: Scene, depths: Floats) -> Floats:
     return found
 
 
-def _normals(polygons: Polygons, side: tuple[Floats, Floats, Floats]) -> Floats:
+def _normals(polygons: Polygons, side: Axes) -> Floats:
     """The unit normals of polygons as they are seen, by Newell's method, towards the viewer."""
     normals = _mapped(normals_of(polygons.points, polygons.starts), np.stack(side, axis=1))
     return np.where(normals[:, 2:] < -EDGE_ON, -normals, normals)
@@ -303,7 +305,7 @@ def _means(numbers: Floats, starts: Integers) -> Floats:
     return np.add.reduceat(numbers, starts[:-1]) / np.diff(starts) if len(starts) > 1 else np.empty(0)
 
 
-def axes(around: float, above: float) -> tuple[Floats, Floats, Floats]:
+def axes(around: float, above: float) -> Axes:
     """The directions that appear as right and up, and the one towards the viewer, whose side is given in radians."""
     right = np.array([math.cos(around), math.sin(around), 0.0])
     level = np.array([math.sin(around), -math.cos(around), 0.0])

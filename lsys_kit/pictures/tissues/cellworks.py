@@ -15,14 +15,15 @@ from lsys_kit.budget import current
 from lsys_kit.derivation.tissues.cellworks import Cellwork
 from lsys_kit.derivation.tissues.development import CellworkDevelopment
 from lsys_kit.errors import ModelLimitError, ModelValueError, whole_number
-from lsys_kit.geometry.scene import Floats
+from lsys_kit.geometry.scene import Floats, Scene, Segments
 from lsys_kit.geometry.tissues.layout import cellwork_scene, place_cellworks
 from lsys_kit.notation.model.cells import CellworkSystem
 from lsys_kit.pictures.filaments import FilamentRow
 from lsys_kit.pictures.formats.notebook import described
-from lsys_kit.pictures.legends import Entry, Legend
+from lsys_kit.pictures.legends import Entry, Legend, in_sunlight
 from lsys_kit.pictures.picture import Picture
-from lsys_kit.pictures.rendering.view import View, project, view_from
+from lsys_kit.pictures.rendering.light import Sun, seen_smoothly
+from lsys_kit.pictures.rendering.view import View, view_from
 from lsys_kit.pictures.style.palette import SERIES, tinted
 from lsys_kit.pictures.style.themes import theme
 from lsys_kit.pictures.tissues.chosen import counts_text, developed, forces_of
@@ -32,6 +33,8 @@ SIDE = 30, 25
 
 EDGE = 0.012
 """The width of edges, in units."""
+EDGE_ORDER, RELIEF = 3, 0.02
+"""The branch order of edges, and their width in sun and sky."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -54,7 +57,13 @@ class CellworkPicture(Picture):
         """What the picture shows, in words."""
         shown = "" if self.lit == self.counts[3] else f"walls of {self.lit:,} of them, and the edges of the others"
         return described(
-            [f"step {self.rows[-1].step}", counts_text(self.counts), shown, "walls of one colour have the same label"]
+            [
+                f"step {self.rows[-1].step}",
+                counts_text(self.counts),
+                shown,
+                "walls of one colour have the same label",
+                self._light,
+            ]
         )
 
 
@@ -66,6 +75,7 @@ def cellwork_picture(
     cell: int | None = None,
     generation: int | None = None,
     legend: bool = False,
+    light: Sun | None = None,
     **forces: object,
 ) -> CellworkPicture:
     """The picture of a cellwork system after `n` steps, or of the last step of a development."""
@@ -74,36 +84,60 @@ def cellwork_picture(
     _check_size(cellworks)
     side = view_from(view)
     *_, points = place_cellworks(cellworks, chosen)
-    return picture_at(cellworks[:], points, lit, side, legend)
+    return picture_at(cellworks[:], points, lit, side, legend, light)
 
 
 def cellwork_steps(
-    what: CellworkSystem | CellworkDevelopment, n: int | None = None, *, legend: bool = False, **forces: object
+    what: CellworkSystem | CellworkDevelopment,
+    n: int | None = None,
+    *,
+    legend: bool = False,
+    light: Sun | None = None,
+    **forces: object,
 ) -> list[CellworkPicture]:
     """The pictures of all steps of a cellwork system, or of a development, for a film."""
     cellworks: CellworkDevelopment = developed(what, n) if isinstance(what, CellworkSystem) else what
     _check_size(cellworks)
     places = place_cellworks(cellworks, forces_of(forces, "cellwork"))
     return [
-        picture_at(cellworks[: step + 1], points, range(len(cellworks[step].cells)), SIDE, legend)
+        picture_at(cellworks[: step + 1], points, range(len(cellworks[step].cells)), SIDE, legend, light)
         for step, points in enumerate(places)
     ]
 
 
 def picture_at(
-    cellworks: Sequence[Cellwork], points: Floats, lit: Collection[int], view: View, legend: bool = False
+    cellworks: Sequence[Cellwork],
+    points: Floats,
+    lit: Collection[int],
+    view: View,
+    legend: bool = False,
+    light: Sun | None = None,
 ) -> CellworkPicture:
     """The picture of the last of the cellworks of steps 0, 1, 2, ..., given the positions of its vertices; perhaps with what
-    the colours of walls mean."""
+    the colours of walls mean, and in sun and sky."""
     last, labels = cellworks[-1], {label: number for number, label in enumerate(wall_labels(cellworks))}
     solid = cellwork_scene(last, points, labels, lit, len(labels))
     solid = replace(solid, segments=replace(solid.segments, widths=np.array([EDGE])))
-    [seen] = project([solid], view)
+    if light is not None:
+        solid = _with_edges(solid, len(labels))
+    [seen] = seen_smoothly([solid], view, light, leafy=False)
     colours = _colours(labels)
     meaning = Legend(tuple(Entry((colours[number],), ("", "", label)) for label, number in labels.items())) if legend else None
+    if meaning is not None and light is not None:
+        meaning = in_sunlight(meaning)
     return CellworkPicture(
         (FilamentRow(len(cellworks) - 1, seen),), colours, solid=solid, counts=last.counts, lit=len(lit), legend=meaning
     )
+
+
+def _with_edges(solid: Scene, state: int) -> Scene:
+    """A cellwork whose walls have edges in relief, which are seen where these are not outlined."""
+    points, starts, segments = solid.polygons.points, solid.polygons.starts, solid.segments
+    following = np.arange(1, len(points) + 1)
+    following[starts[1:] - 1] = starts[:-1]
+    ends = np.concatenate([segments.ends, np.concatenate([points, points[following]], axis=1)])
+    states = np.append(segments.states, np.full(len(points), state))
+    return replace(solid, segments=Segments(ends, np.full(len(ends), EDGE_ORDER), states, np.array([RELIEF])))
 
 
 def lit_cells(development: CellworkDevelopment, cell: int | None = None, generation: int | None = None) -> Collection[int]:
