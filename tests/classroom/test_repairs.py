@@ -4,6 +4,7 @@ import re
 from dataclasses import replace
 from itertools import combinations
 from random import Random
+from time import thread_time
 
 import pytest
 
@@ -29,12 +30,6 @@ def asked(kind, solution, **keys):
 
 def said(exercise, answer):
     return judged(exercise, answer)[0].message
-
-
-@pytest.fixture(autouse=True)
-def enough_time(monkeypatch):
-    """What is found must not depend on how fast the machine is."""
-    monkeypatch.setattr(table, "SECONDS", 60)
 
 
 # Systems
@@ -237,10 +232,31 @@ def test_a_solution_with_one_thing_changed_is_repaired_and_the_repair_is_right(e
             assert exercise.solution not in found.said()
 
 
-def test_no_repair_is_looked_for_when_the_time_is_over(monkeypatch):
-    monkeypatch.setattr(table, "SECONDS", 0)
+def test_where_no_more_changes_are_tried_the_first_difference_is_shown(monkeypatch):
+    monkeypatch.setattr(table, "MOST_TRIED", 0)
     assert "One production is missing" not in said(asked("system", FIBONACCI, steps=6), "axiom: a\na -> a b\nc -> a")
     assert said(asked("system", FIBONACCI, steps=6), "axiom: a\na -> a b\nc -> a")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("name", "answer"),
+    [
+        ("7.5", "axiom: a(1)\na(i) : i <= 2 -> a(i+1)\na(i) : i > 2 -> a(1) b(1)\nb(i) : i < 3 -> b(i+1)\nb(3) -> a(1) b(1)"),
+        ("1.3", "axiom: al\nal -> ar bl\nar -> br al\nbl -> ar\nbr -> al"),
+        ("2.6", "7*n + 3"),
+        ("4.5", "FffF+FffF+FffF+FffF"),
+    ],
+)
+def test_a_slow_machine_says_what_a_fast_one_says(name, answer, monkeypatch):
+    message = check(name, answer).message
+    monkeypatch.setattr(table, "processor_time", lambda: 4 * thread_time())
+    assert check(name, answer).message == message
+
+
+def test_of_long_words_fewer_changes_are_tried():
+    long = asked("system", "axiom: a\na -> a a", steps=14)
+    assert table._most_tried(long, solution_of(long)) == 3
 
 
 NOUNS = "cells walls steps strokes letters words leaves shoots ants families buds moves systems tips rules branches".split()  # noqa: SIM905

@@ -140,7 +140,7 @@ def _is_long_since(started: tuple[float, float]) -> bool:
 def _yielded_by(exercise: Exercise, misconception: Misconception, solution: Any) -> list[Yielded]:
     kind = ANSWER_KINDS[exercise.kind]
     found: list[Yielded] = []
-    with suppress(LSystemError, ArithmeticError), limits(modules=20_000, seconds=1, states=200):
+    with suppress(LSystemError, ArithmeticError), limits(modules=20_000, seconds=3, states=200):
         for answer in misconception.answers(exercise):
             if answer is not None and not any(_alike(exercise, answer, other) for _, other, _ in found):
                 right = kind.same(exercise, answer, solution) or _alike(exercise, answer, solution)
