@@ -173,6 +173,8 @@ def judged(exercise: Exercise, answer: object) -> tuple[Verdict, bool]:
         return Verdict("Correct", kind.praise(exercise, own, solution)), True
     fitting = [wrong for wrong in wrong_answers(exercise) if _alike(exercise, own, wrong.answer)]
     found = kind.difference(exercise, own, solution)
+    if found.explains:  # as well as a last resort would
+        fitting = [wrong for wrong in fitting if wrong.says or not (wrong.misconception and wrong.misconception.last_resort)]
     repair = _repair(exercise, own, fitting, found)
     near = found.near or bool(repair and repair.near) or (bool(fitting) and all(wrong.near for wrong in fitting))
     said, mark = _parts_right(exercise, own, solution)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from itertools import islice
 from typing import Any
@@ -62,7 +62,7 @@ def repaired(exercise: Exercise, own: Any, solution: Any) -> Repair | None:
 
 def _most_tried(exercise: Exercise, solution: Any) -> int:
     """How many changes are tried: the longer the words of the solution, the longer each takes."""
-    words = ()
+    words: Sequence[int] = ()
     with suppress(LSystemError):
         if isinstance(solution, SystemAnswer):
             words = derive(solution.behind, exercise.steps).lengths
