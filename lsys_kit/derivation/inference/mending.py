@@ -33,6 +33,7 @@ from lsys_kit.derivation.inference.word_equations import (
 )
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem
+from lsys_kit.translation import gettext
 
 MOST_READ, MOST_READ_FOR_ONE, A_LOOK = 3_000_000, 200_000, 25
 """So many letters are read at most until edits are out of reach, and so many for one place where they may be; a look at a word
@@ -415,14 +416,17 @@ class Slip:
     instead: Row
 
     def __str__(self) -> str:
+        said: dict[str, object] = {"place": self.place, "step": self.step, "found": text_of(self.found)}
+        said |= {"before": self.place - 1, "next": self.place + 1, "letter": text_of(self.instead)}
         if not self.found:
-            where = f"behind letter {self.place - 1}" if self.place > 1 else "at the beginning"
-            return f"{self.instead[0]} stood {where} of step {self.step}"
+            if self.place == 1:
+                return gettext("{letter} stood at the beginning of step {step}", **said)
+            return gettext("{letter} stood behind letter {before} of step {step}", **said)
         if not self.instead:
-            return f"letter {self.place} of step {self.step}, {self.found[0]}, were left out"
+            return gettext("letter {place} of step {step}, {found}, were left out", **said)
         if len(self.found) > 1:
-            return f"letters {self.place} and {self.place + 1} of step {self.step}, {text_of(self.found)}, changed places"
-        return f"letter {self.place} of step {self.step}, {self.found[0]}, were {self.instead[0]}"
+            return gettext("letters {place} and {next} of step {step}, {found}, changed places", **said)
+        return gettext("letter {place} of step {step}, {found}, were {letter}", **said)
 
 
 @dataclass(frozen=True)
@@ -436,10 +440,16 @@ class OtherWord:
 
     def __str__(self) -> str:
         if self.instead is None:
-            return f"the word of step {self.step} were left out"
+            return gettext("the word of step {step} were left out", step=self.step)
+        word = text_of(self.instead)
         if self.missing:
-            return f"there were a step more between steps {self.step - 1} and {self.step}, {text_of(self.instead)}"
-        return f"the word of step {self.step} were {text_of(self.instead)}"
+            return gettext(
+                "there were a step more between steps {before} and {step}, {word}",
+                before=self.step - 1,
+                step=self.step,
+                word=word,
+            )
+        return gettext("the word of step {step} were {word}", step=self.step, word=word)
 
 
 Edit: TypeAlias = "Slip | OtherWord"
@@ -464,7 +474,7 @@ class Mending:
     systems: tuple[LSystem, ...] = ()
 
     def __str__(self) -> str:
-        return " and ".join(map(str, self.edits))
+        return gettext(" and ").join(map(str, self.edits))
 
     __repr__ = __str__
 
