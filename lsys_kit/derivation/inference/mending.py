@@ -12,8 +12,8 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
-from functools import partial
+from dataclasses import dataclass, field
+from functools import cached_property, partial
 from itertools import islice
 from typing import Protocol, TypeAlias
 
@@ -52,6 +52,10 @@ class Partly(Protocol):
 
     def start(self) -> State: ...
     def after(self, state: State, letter: str) -> State | None: ...
+    def next_of(self, state: State, alphabet: Iterable[str]) -> frozenset[str]:
+        """The letters that can come next."""
+        ...
+
     def may_end(self, state: State) -> bool: ...
 
 
@@ -79,6 +83,9 @@ class Stretches:
         stays = [place for place in here if self.text[place] == self.gap]
         return self._closed([*stays, *(place + 1 for place in here if self.text[place] == letter != self.gap)]) or None
 
+    def next_of(self, state: State, alphabet: Iterable[str]) -> frozenset[str]:
+        return frozenset(letter for letter in alphabet if self.after(state, letter) is not None)
+
     def may_end(self, state: State) -> bool:
         return (len(self.text), 0) in state
 
@@ -103,11 +110,25 @@ class Near:
 
     text: str
     most: int
+    _kept: dict[tuple[State, str], State | None] = field(default_factory=dict, compare=False, repr=False)
+    """What is behind letters: a word that is tried begins as one that was tried before."""
 
     def start(self) -> State:
         return self._closed({0: 0})
 
     def after(self, state: State, letter: str) -> State | None:
+        key = state, letter
+        if key not in self._kept:
+            self._kept[key] = self._after(state, letter)
+        return self._kept[key]
+
+    def next_of(self, state: State, alphabet: Iterable[str]) -> frozenset[str]:
+        if any(place >= 0 and edits < self.most for place, edits in state):
+            return frozenset(alphabet)
+        here = (self.text[place : place + 1] if place >= 0 else self.text[-place - 1] for place, _ in state)
+        return frozenset(here) & frozenset(alphabet)
+
+    def _after(self, state: State, letter: str) -> State | None:
         found: dict[int, int] = {}
         for place, edits in state:
             if place < 0:  # the second of two letters that changed places
@@ -230,11 +251,11 @@ class Texts:
         """What is known of each word."""
         return [Stretches(word, self.gap) if self.gap and self.gap in word else word for word in self.words]
 
-    @property
+    @cached_property
     def alphabet(self) -> tuple[str, ...]:
         return tuple(chr(FIRST_CHARACTER + number) for number, module in enumerate(self.modules) if module != GAP)
 
-    @property
+    @cached_property
     def unchanged(self) -> dict[str, str]:
         """The constants, each of which becomes itself."""
         own = zip(self.modules, range(FIRST_CHARACTER, FIRST_CHARACTER + len(self.modules)), strict=True)
@@ -343,11 +364,12 @@ class _Search:
             raise GivenUp
         letter = min(useful, key=lambda stop: not stop.sure).letter
         number = ord(letter) - FIRST_CHARACTER
+        may_be = possible(number, known.bounds) if number >= 0 else None
         for word in self._successors(letter, fixed):
-            self.effort.read(A_LOOK + 10 * sum(len(each.items) for each in known.equations))
-            if number < 0:
+            self.effort.read(A_LOOK + 40 * sum(len(each.items) for each in known.equations))
+            if may_be is None:
                 yield from self.completed(known.equations, known.bounds, fixed | {letter: word})
-            elif possible(number, word, known.bounds):
+            elif may_be(word):
                 rest_of = all_put_in(known.equations, {number: word})
                 if rest_of is not None:
                     yield from self.completed(rest_of, known.bounds, fixed | {letter: word})
@@ -391,15 +413,12 @@ class _Search:
                 if state is None or (whole and not level.may_end(state)) or len(made) > self.longest:
                     return None
                 endless = at == len(levels) - 1 and isinstance(level, Stretches)
-                allowed = None if endless or not letter else self._allowed(level, state)
+                allowed = None if endless or not letter else level.next_of(state, self.texts.alphabet)
             if letter:
                 stops.append(_Stop(letter, allowed, isinstance(level, str)))
             words.append(made)
             word = made
         return words, stops
-
-    def _allowed(self, level: Partly, state: State) -> frozenset[str]:
-        return frozenset(each for each in self.texts.alphabet if level.after(state, each) is not None)
 
 
 # Edits
