@@ -110,7 +110,8 @@ def _without_joints(text: str) -> str:
     >>> _without_joints(_plain("`a -> bb` with `b -> ab`")) == _without_joints(_plain("a -> bb, b -> ab"))
     True
     """
-    return re.sub(r"\W*[,;]\W*|\s*(?<!\w)(?:with|and|mit|und)(?!\w)\s*", ",", text)
+    parts = re.split(r"[,;]|(?<!\w)(?:with|and|mit|und)(?!\w)", text)
+    return ",".join(part.strip(" .:") for part in parts if part.strip(" .:"))
 
 
 def _by_place(known: str, text: str) -> list[str]:

@@ -116,7 +116,7 @@ def _of_the_step(exercise: Exercise, answer: str) -> str:
 
 _STEP_NAMED = re.compile(rf"\b{_OF_STEP}\s++(\d{{1,9}})\b", re.IGNORECASE)
 _CLAUSES = re.compile(r"[,;.]\s++|\b(?:so|and|then|thus|hence|therefore|but|und|also|dann|daher|aber)\b", re.IGNORECASE)
-_REASON = re.compile(r"\W+(?:because|since|weil)\b|\s*\(", re.IGNORECASE)
+_REASON = re.compile(r"\b(?:because|since|weil)\b|\(", re.IGNORECASE)
 """Where a reason begins."""
 
 
@@ -124,7 +124,7 @@ def _of_several_steps(exercise: Exercise, text: str, answer: str) -> str:
     """Of an answer that names several steps the one of which the question asks; without a reason, which may name one, too."""
     said, reason = text, _REASON.search(text)
     if reason and _STEP_NAMED.search(text, reason.end()) and any(map(str.isdigit, text[: reason.start()])):
-        said = answer = text[: reason.start()]
+        said = answer = text[: reason.start()].rstrip(" ,;:-(")
     asked = re.findall(r"`(\w+)`", " ".join(_ASKED_FOR.findall(exercise.question)))
     named = [(clause, found[0]) for clause in _CLAUSES.split(said) if len(found := _STEP_NAMED.findall(clause)) == 1]
     telling = {step for clause, step in named if any(re.search(rf"(?<!\w){symbol}(?!\w)", clause) for symbol in asked)}
