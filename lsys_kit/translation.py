@@ -29,8 +29,8 @@ def language(name: str | None = None) -> str:
     """The language in which exercises are asked and answers are replied to; with a name, choose it.
 
     The names of the views and controls of panels that are made from then on, and the pages for learning platforms, are in it,
-    too, and what is said of mistakes in systems and in commands. What is printed of a system that is right stays in English:
-    the line with its size in a panel, explanations, the systems that `infer` finds.
+    too, and what is said of mistakes in systems and in commands, of the steps that `explain` explains, and of the systems that
+    `infer` finds. The line with the size of a system in a panel stays in English.
 
     Parameters
     ----------

@@ -19,6 +19,7 @@ from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.registry import dialect_named
 from lsys_kit.notation.write import as_written
+from lsys_kit.translation import gettext
 
 
 @dataclass(frozen=True)
@@ -55,12 +56,14 @@ class ModuleOutcome:
         own = dialect_named(self.notation)
         made = own.word(self.successor) or "ε"
         last = f"-{self.position + len(self.others)}" if self.others else ""
-        lines = [
-            f"{self.position}{last}. {own.word((self.module, *self.others))} "
-            f"become{'s' * (not self.others)} {made}: {self.production}",
-            *self.refused,
-        ]
-        return "\n     ".join(lines)
+        said = (
+            gettext("{modules} become {made}: {production}")
+            if self.others
+            else gettext("{module} becomes {made}: {production}")
+        )
+        words = own.word((self.module, *self.others))
+        line = said.format(module=words, modules=words, made=made, production=self.production)
+        return "\n     ".join([f"{self.position}{last}. {line}", *self.refused])
 
     __repr__ = __str__
 
@@ -131,11 +134,11 @@ def _outcomes(
         said = (
             _production_text(system, chosen)
             if chosen
-            else "it is cut off"
+            else gettext("it is cut off")
             if not kept
-            else "no production matches"
+            else gettext("no production matches")
             if rules
-            else f"no production is for {module.symbol}"
+            else gettext("no production is for {symbol}", symbol=module.symbol)
         )
         why_not = tuple(
             f"{_production_text(system, rule)}: {why or _passed_over(rule, chosen)}"
@@ -154,20 +157,27 @@ def _applied_rule(matching: list[Rule], applied: int | None, left_something: boo
 
 
 def _production_text(system: LSystem, rule: Rule) -> str:
-    return f"production {rule.number + 1}, {as_written(system, rule.production)}"
+    return gettext("production {number}, {rule}", number=rule.number + 1, rule=as_written(system, rule.production))
 
 
 def _passed_over(rule: Rule, chosen: Rule | None) -> str:
     if chosen is not None and chosen.probability is not None and rule.probability is not None:
-        return "matches too, but was not drawn"
-    return f"matches too, but production {chosen.number + 1} stands before it" if chosen else "matches too"
+        return gettext("matches too, but was not drawn")
+    if chosen is None:
+        return gettext("matches too")
+    return gettext("matches too, but production {number} stands before it", number=chosen.number + 1)
 
 
 def _refusal(stepper: Stepper, old: ParentWord, position: int, rule: Rule) -> str | None:
     """Why a rule does not match a module; None where it does."""
     system, module, asked = stepper.states.system, old.modules[position], rule.production.predecessor
     if len(module.arguments) != len(asked.arguments):
-        return f"is for {asked.symbol} with {len(asked.arguments)} parameters, not {len(module.arguments)}"
+        return gettext(
+            "is for {symbol} with {asked} parameters, not {number}",
+            symbol=asked.symbol,
+            asked=len(asked.arguments),
+            number=len(module.arguments),
+        )
     at = stepper.context(rule, old, position)
     if at is None:
         return _others_missing(system, old, position, rule) or _context_missing(system, old, position, rule)
@@ -176,7 +186,8 @@ def _refusal(stepper: Stepper, old: ParentWord, position: int, rule: Rule) -> st
     arguments = [a for m in rule.production.parameters for a in m.arguments]
     for index, wanted in rule.equalities:
         if values[index] != wanted(given):
-            return f"asks for {arguments[index]}, and there is {number_text(values[index])}"
+            wanted_text = str(arguments[index])
+            return gettext("asks for {argument}, and there is {value}", argument=wanted_text, value=number_text(values[index]))
     chance = old.chance(0, 0, position)
     if not stepper.states.matches(rule, values, module, chance):
         names = names_in(rule.production.condition) if rule.production.condition else frozenset()
@@ -186,12 +197,19 @@ def _refusal(stepper: Stepper, old: ParentWord, position: int, rule: Rule) -> st
             [
                 *(f"{name} = {number_text(known[name])}" for name in sorted(names)),
                 *(
-                    f"{as_written(system, question)} is {number_text(answer((*given, chance)))}"
+                    gettext(
+                        "{question} is {value}",
+                        question=as_written(system, question),
+                        value=number_text(answer((*given, chance))),
+                    )
                     for question, answer in rule.questions
                 ),
             ]
         )
-        return f"{as_written(system, rule.production.condition)} is false{f' where {values_text}' if values_text else ''}"
+        condition = as_written(system, rule.production.condition)
+        if not values_text:
+            return gettext("{condition} is false", condition=condition)
+        return gettext("{condition} is false where {values}", condition=condition, values=values_text)
     return None
 
 
@@ -199,18 +217,21 @@ def _others_missing(system: LSystem, old: ParentWord, position: int, rule: Rule)
     """Which modules of those that a rule replaces together are not there."""
     own = old.modules[position : position + len(rule.predecessors)]
     if tuple(map(kind_of, own)) == rule.predecessors:
-        return "what is cut off is not replaced" if CUT in old.symbols[position : position + len(own)] else None
+        return gettext("what is cut off is not replaced") if CUT in old.symbols[position : position + len(own)] else None
     word = dialect_named(system.notation).word
-    return f"replaces {word(rule.production.predecessors)} together, and there is {word(own)}"
+    together = word(rule.production.predecessors)
+    return gettext("replaces {modules} together, and there is {there}", modules=together, there=word(own))
 
 
 def _context_missing(system: LSystem, old: ParentWord, position: int, rule: Rule) -> str:
     assert old.around is not None
     word = dialect_named(system.notation).word
     left = neighbours_along(old.around.before, position, len(rule.left))
-    there = word(old.modules[at] for at in reversed(left)) or "nothing"
+    there = word(old.modules[at] for at in reversed(left)) or gettext("nothing")
     if tuple((old.symbols[at], len(old.modules[at].arguments)) for at in left) != rule.left:
-        return f"needs {word(rule.production.left)} on its left, and there is {there}"
+        needed = word(rule.production.left)
+        return gettext("needs {modules} on its left, and there is {there}", modules=needed, there=there)
     right = neighbours_along(old.around.after, position + len(rule.predecessors) - 1, max(1, len(rule.right)))
-    there = word(old.modules[at] for at in right) or "nothing"
-    return f"needs {word(rule.production.right)} on its right, and there is {there}"
+    there = word(old.modules[at] for at in right) or gettext("nothing")
+    needed = word(rule.production.right)
+    return gettext("needs {modules} on its right, and there is {there}", modules=needed, there=there)

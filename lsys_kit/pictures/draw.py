@@ -358,10 +358,11 @@ def _drawing(
         return _sequence(drawn, states, cells, style)
     turn = turning_angle(angle, system)
     scenes = in_units([seen_as(each.word, turn, style) for each in drawn], system)
-    seeds = [each.seed if each.seed is not None else choices.get("seed") or system.seed or 0 for each in drawn]
+    usual = whole_number(choices.get("seed") or system.seed or 0, "The seed")
+    thrown = [usual if each.seed is None else each.seed for each in drawn]
     pictures = [
         Picture((FilamentRow(each.step, seen),), state_colours(each.word), None, states, _solid(scene, seen))
-        for each, scene, seen in zip(drawn, scenes, seen_smoothly(scenes, side, style.light, seeds), strict=True)
+        for each, scene, seen in zip(drawn, scenes, seen_smoothly(scenes, side, style.light, thrown), strict=True)
     ]
     lit = style.light is not None
     legend = legend_of([each.word.states for each in drawn], scenes, lit) if style.legend else None

@@ -117,7 +117,7 @@ def as_text(answer: object) -> str:
         ("kinds.table", "1 1 2 5", 3 / 4, "Right: 3 of 4 numbers. The first 3"),
         ("kinds.table", "7 7 7 7", 0, "Look at number 1"),
         ("kinds.lengths", "1, 2, 3, 5, 9, 13", 5 / 6, "Right: 5 of 6 numbers. The first 4"),
-        ("kinds.symbol", "1", 0, "Count the brackets"),
+        ("kinds.symbol", "1", 0, "At position 1 stands F. Count the brackets"),
         ("kinds.line", 1, 0, "It is not line 1."),
         ("1.3", "axiom: al\nal -> bl al\nbl -> ar\nar -> ar br\nbr -> al", 0, "Of al something else should become"),
         ("1.3", "axiom: al\nal -> bl ar\nbl -> ar\nar -> ar br\nbr -> al", 1 / 9, "Passed: 1 of 9 tests. Up to step 1"),

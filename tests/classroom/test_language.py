@@ -18,8 +18,11 @@ from lsys_kit import (
     ModelNameError,
     ModelSyntaxError,
     check,
+    derive,
     exercises,
+    explain,
     explore,
+    infer,
     language,
     practice,
     predict,
@@ -406,3 +409,29 @@ def test_progress_is_in_the_language():
     page = progress_of(Record((Try("1.1", True),)), 1)
     assert repr(page).startswith("Alles auf einmal: 1 von 5 gelöst.\n✓ 1.1  Ein Wort von Hand\n")
     assert 'aria-label="gelöst:"' in page._repr_html_()
+
+
+# What `infer` and `explain` say
+
+
+def test_systems_that_fit_and_steps_are_explained_in_the_chosen_language():
+    language("de")
+    try:
+        mended = str(infer(["a", "ab", "abb", "abba"]))
+        assert mended.startswith("Kein System passt zu diesen 4 Wörtern. Schritt 3 kann nicht aus Schritt 2 entstehen:")
+        assert "wenn Buchstabe 4 von Schritt 3, a, ein b wäre. Mit context=(1, 0) passt ein System." in mended
+        assert str(infer(["a", "bc", "caa"])).startswith(
+            "2 Systeme passen zu diesen 3 Wörtern; sie trennen sich bei Schritt 3:"
+        )
+        assert "(0,6 ± 0,22, 3 von 5)" in str(infer([["a", "ab", "abb"], ["a", "b", "b"], ["a", "ab", "bb"]], stochastic=True))
+        drawn = infer([[(0, 0, 0, 1)], [(0, 0, 0, 1), (0, 5, 0, 6)]])
+        assert str(drawn).endswith("Die Striche von Schritt 1 hängen nicht zusammen.")
+        explained = str(explain(derive(read("axiom: b a\nb < a -> b\na -> c"), 1), 1))
+        assert explained.splitlines() == [
+            "1. b wird zu b: keine Produktion ist für b",
+            "2. a wird zu b: Produktion 1, b < a -> b",
+            "     Produktion 2, a -> c: passt auch, aber Produktion 1 steht davor",
+        ]
+    finally:
+        language("en")
+    assert str(infer(["a", "ab", "aba"])).startswith("One system fits these 3 words:")

@@ -71,7 +71,7 @@ def test_a_reply_names_the_part_of_the_rule_that_is_wrong():
 
 
 def test_a_reply_names_the_cell_that_should_not_be_there_where_no_part_is_found(monkeypatch):
-    monkeypatch.setattr(table, "SECONDS", 0)
+    monkeypatch.setattr(table, "MOST_TRIED", 0)
     reply = check("16.5", "A -> A[-D][+D]A")
     assert "the walls A B A D" in reply.message
     assert "C" not in reply.message.split("clockwise")[1].split("Follow")[0]

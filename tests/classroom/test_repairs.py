@@ -3,7 +3,9 @@
 import re
 from dataclasses import replace
 from itertools import combinations
+from pathlib import Path
 from random import Random
+from time import thread_time
 
 import pytest
 
@@ -13,9 +15,13 @@ from lsys_kit.classroom.exercises.judging import judged, wrong_answers
 from lsys_kit.classroom.exercises.kinds.choices import letters
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS, solution_of
 from lsys_kit.classroom.exercises.repairs import table
+from lsys_kit.classroom.exercises.repairs.of_expressions import _grouped_otherwise
+from lsys_kit.classroom.exercises.repairs.of_systems import changed_once
 from lsys_kit.classroom.exercises.repairs.table import REPAIRS, repaired
 from lsys_kit.classroom.exercises.typed import means_the_same
 from lsys_kit.errors import LSystemError
+from lsys_kit.notation.model.expressions import Apply
+from lsys_kit.notation.model.modules import Pattern
 from tests.classroom.answers import as_typed
 
 FIBONACCI = "axiom: a\na -> a b\nb -> a"
@@ -29,12 +35,6 @@ def asked(kind, solution, **keys):
 
 def said(exercise, answer):
     return judged(exercise, answer)[0].message
-
-
-@pytest.fixture(autouse=True)
-def enough_time(monkeypatch):
-    """What is found must not depend on how fast the machine is."""
-    monkeypatch.setattr(table, "SECONDS", 60)
 
 
 # Systems
@@ -172,6 +172,58 @@ def test_what_is_to_be_changed_in_a_formula_is_said(answer, words):
 
 
 @pytest.mark.parametrize(
+    ("name", "answer", "words"),
+    [
+        ("6.6", "q^n - 1", "not where the parentheses stand"),
+        ("6.7", "(2*q^n-1)/(2*q-1)", "not where the parentheses stand"),
+        ("2.7", "5^(n+1) - 1/4", "not where the parentheses stand"),
+        ("2.7", "(5^(n+1) + 1)/4", "Only one sign is not right."),
+        ("12.6", "1", "Only one part is missing."),
+        ("12.6", "c/(1-c)", "Only one part is missing."),
+        ("8.7", "2^n*p", "Only one part is missing."),
+        ("2.6", "n", "put n = 0 into your formula"),
+    ],
+)
+def test_of_a_formula_the_smallest_change_is_said(name, answer, words):
+    assert words in check(name, answer).message
+
+
+@pytest.mark.parametrize("exercise", [each for each in ALL if each.kind == "expression"], ids=lambda each: each.id)
+def test_a_formula_without_one_of_its_parentheses_is_told_so(exercise):
+    solution = solution_of(exercise)
+    for other in (changed for changed, _ in changed_once(solution, lambda part: _regrouped(part))):
+        if not ANSWER_KINDS["expression"].same(exercise, other, solution):
+            found = repaired(exercise, other, solution)
+            assert found is not None
+            assert "parentheses" in found.said(), str(other)
+
+
+def _regrouped(part):
+    return ((other, "") for other in _grouped_otherwise(part)) if isinstance(part, Apply) else iter(())
+
+
+@pytest.mark.parametrize("exercise", [each for each in ALL if each.kind in ("system", "map")], ids=lambda each: each.id)
+def test_a_production_too_many_is_told_as_such(exercise):
+    """Where the answer is right without it, no other production is blamed, nor a part of it."""
+    extra = "B -> A" if exercise.kind == "map" else _extra(exercise)
+    typed = f"{exercise.solution.strip()}\n{extra}"
+    verdict = judged(exercise, typed)[0]
+    assert verdict == 1 or verdict.message.endswith(f"too many:\n  {extra}") or "never used" in verdict.message, verdict
+
+
+def _extra(exercise):
+    """A production that makes two of a symbol that the solution leaves as it is."""
+    own = solution_of(exercise).behind
+    replaced = {rule.predecessor.symbol for rule in own.productions}
+    made = [each for rule in own.productions for each in rule.successor if isinstance(each, Pattern)]
+    for each in made:
+        if each.symbol not in replaced and each.symbol.isalpha():
+            values = f"({', '.join('xyz'[: len(each.arguments)])})" if each.arguments else ""
+            return f"{each.symbol}{values} -> {each.symbol}{values} {each.symbol}{values}"
+    return f"{next(iter(replaced))} -> ε"
+
+
+@pytest.mark.parametrize(
     ("answer", "words"),
     [
         ("L -> S\nS -> A\nA -> B\nB -> L + S", "The diagram is right, but not the names of its stages"),
@@ -194,12 +246,19 @@ def test_a_net_holds_the_names_that_the_question_gives(answer, words):
         ("A -> A[-D][+D]A", "The label of a marker is not right:"),
         ("A -> A[-C][+C]A[-C][+C]A", ""),
         ("C -> A[-C][+C]A", "None of your rules is for a wall of the first cell"),
+        ("A -> A[-C][+C]A\nB -> A", "There is one production too many:\n  B -> A"),
     ],
 )
 def test_what_is_to_be_changed_in_a_rule_for_walls_is_said(answer, words):
     verdict = check("16.5", answer)
     assert verdict < 1
     assert words in verdict.message
+
+
+def test_a_marker_whose_arrow_is_wrong_is_not_said_to_lie_on_the_other_side():
+    exercises(Path(__file__).parent / "questions")
+    assert check("kinds.map", "A> -> D>[-A<]B>").message.startswith("An arrow is not right:")
+    assert "the two sides of a wall" in check("kinds.map", "A> -> D>[+A>]B>").message
 
 
 # Laws
@@ -239,10 +298,31 @@ def test_a_solution_with_one_thing_changed_is_repaired_and_the_repair_is_right(e
             assert exercise.solution not in found.said()
 
 
-def test_no_repair_is_looked_for_when_the_time_is_over(monkeypatch):
-    monkeypatch.setattr(table, "SECONDS", 0)
+def test_where_no_more_changes_are_tried_the_first_difference_is_shown(monkeypatch):
+    monkeypatch.setattr(table, "MOST_TRIED", 0)
     assert "One production is missing" not in said(asked("system", FIBONACCI, steps=6), "axiom: a\na -> a b\nc -> a")
     assert said(asked("system", FIBONACCI, steps=6), "axiom: a\na -> a b\nc -> a")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("name", "answer"),
+    [
+        ("7.5", "axiom: a(1)\na(i) : i <= 2 -> a(i+1)\na(i) : i > 2 -> a(1) b(1)\nb(i) : i < 3 -> b(i+1)\nb(3) -> a(1) b(1)"),
+        ("1.3", "axiom: al\nal -> ar bl\nar -> br al\nbl -> ar\nbr -> al"),
+        ("2.6", "7*n + 3"),
+        ("4.5", "FffF+FffF+FffF+FffF"),
+    ],
+)
+def test_a_slow_machine_says_what_a_fast_one_says(name, answer, monkeypatch):
+    message = check(name, answer).message
+    monkeypatch.setattr(table, "processor_time", lambda: 4 * thread_time())
+    assert check(name, answer).message == message
+
+
+def test_of_long_words_fewer_changes_are_tried():
+    long = asked("system", "axiom: a\na -> a a", steps=14)
+    assert table._most_tried(long, solution_of(long)) == 3
 
 
 NOUNS = "cells walls steps strokes letters words leaves shoots ants families buds moves systems tips rules branches".split()  # noqa: SIM905
@@ -314,6 +394,40 @@ def test_no_sentence_of_a_reply_hangs_in_the_air():
 )
 def test_a_real_try_earns_hints(name, answer):
     assert "Hint 1 of 3" in check(name, answer, hint=1).message
+
+
+def test_one_off_is_said_of_what_is_counted():
+    assert "one off" in check("9.2", 22).message
+    for name, answer in (("15.4", 12), ("12.1", 5), ("7.2", 2.272)):
+        assert "one off" not in check(name, answer).message
+
+
+def test_a_number_of_another_step_is_told_before_a_slip_that_may_give_it():
+    exercises(Path(__file__).parent / "questions")
+    assert "That is how many there are at step 9." in check("anabaena.21", 9).message
+    assert "one symbol too few" not in check("anabaena.21", 9).message
+
+
+@pytest.mark.parametrize(
+    "answer",
+    [
+        "outside at step 9, T at step 10",
+        "At step 9 it is outside, so T is there at step 10.",
+        "step 10 (it is outside at step 9)",
+        "10, because at step 9 it is outside",
+        "step 9 is too high; step 10 T",
+    ],
+)
+def test_of_several_steps_that_of_which_the_question_asks_is_the_answer(answer):
+    assert check("15.2", answer) == 1
+    assert check("15.2", answer.replace("10", "11")) < 1
+
+
+@pytest.mark.parametrize(
+    ("name", "answer"), [("0.1", "the third one"), ("0.1", "die dritte"), ("2.3", "a -> bb, b -> ab"), ("0.4", "Antwort B")]
+)
+def test_an_option_is_named_by_its_place_and_by_its_text(name, answer):
+    assert check(name, answer) == 1
 
 
 def test_what_should_vanish_is_pointed_at_and_not_what_stands_behind_it():

@@ -437,9 +437,14 @@ def test_what_is_no_formula_in_the_names_of_the_question_is_refused(answer):
 
 
 def test_the_caret_stands_under_the_single_sign():
-    message = check("anabaena.22", "M_r(s) : s = 5 -> M_l(2) M_r(1)").message.split("\n")
+    message = check("10.5", "u*n = v*m").message.split("\n")
     assert message[1][message[2].index("^")] == "="
     assert message[1][message[2].index("^") + 1] == " "
+
+
+def test_in_the_condition_of_a_rule_a_single_sign_compares():
+    assert check("anabaena.22", "M_r(s) : s = 5 -> M_l(2) M_r(1)") == 1
+    assert check("anabaena.22", "M_r(s) : s = 4 -> M_l(2) M_r(1)").message.startswith("A cell divides at its last stage.")
 
 
 @pytest.mark.parametrize(

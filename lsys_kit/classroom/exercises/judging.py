@@ -140,7 +140,7 @@ def _is_long_since(started: tuple[float, float]) -> bool:
 def _yielded_by(exercise: Exercise, misconception: Misconception, solution: object) -> list[Yielded]:
     kind = ANSWER_KINDS[exercise.kind]
     found: list[Yielded] = []
-    with suppress(LSystemError, ArithmeticError), limits(modules=20_000, seconds=1, states=200):
+    with suppress(LSystemError, ArithmeticError), limits(modules=20_000, seconds=3, states=200):
         for answer in misconception.answers(exercise):
             if answer is not None and not any(_alike(exercise, answer, other) for _, other, _ in found):
                 right = kind.same(exercise, answer, solution) or _alike(exercise, answer, solution)
@@ -173,6 +173,8 @@ def judged(exercise: Exercise, answer: object) -> tuple[Verdict, bool]:
         return Verdict("Correct", kind.praise(exercise, own, solution)), True
     fitting = [wrong for wrong in wrong_answers(exercise) if _alike(exercise, own, wrong.answer)]
     found = kind.difference(exercise, own, solution)
+    if found.explains:  # as well as a last resort would
+        fitting = [wrong for wrong in fitting if wrong.says or not (wrong.misconception and wrong.misconception.last_resort)]
     repair = _repair(exercise, own, fitting, found)
     near = found.near or bool(repair and repair.near) or (bool(fitting) and all(wrong.near for wrong in fitting))
     said, mark = _parts_right(exercise, own, solution)

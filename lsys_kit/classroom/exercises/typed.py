@@ -281,8 +281,8 @@ def formula_text(text: str, names: Collection[str] = ()) -> str:
 
     >>> formula_text("t = d - s**2"), formula_text(r"$\\frac{d + 1}{2} \\cdot s$"), formula_text("2s + 2(d - s)")
     ('d - s^2', '((d + 1)/(2)) * s', '2*s + 2*(d - s)')
-    >>> formula_text("u n < vm or not m < 2", ["u", "n", "v", "m"])
-    'u*n < v*m || ! m < 2'
+    >>> formula_text("u n < vm or not m < 2", ["u", "n", "v", "m"]), formula_text("p(1 - p)", ["p"])
+    ('u*n < v*m || ! m < 2', 'p*(1 - p)')
     """
     text = unassigned(keyboard_text(text).strip().strip("$").strip())
     for _ in range(MOST_NESTED):
@@ -315,6 +315,7 @@ def _products_of(text: str, names: Collection[str]) -> str:
         return text
     spread = _WORD.sub(lambda found: "*".join(found[0]) if set(found[0]) <= set(names) else found[0], text)
     letters = "".join(map(re.escape, names))
+    spread = re.sub(rf"(?<![A-Za-z_])([{letters}])\s*(?=\()", r"\1*", spread)
     return re.sub(rf"(?<![A-Za-z_])([{letters}]|\d)\s+(?=[{letters}](?!\w))", r"\1*", spread)
 
 
@@ -586,13 +587,16 @@ def _spelt_out(text: str) -> str:
     return f"axiom: {text}" if _FIRST_WORD.match(text) else text
 
 
+_SINGLE_EQUALS = re.compile(r"(?<![<>=!])=(?![=<>])")
+
+
 def _with_signs(line: str) -> str:
     """A line with signs for the words and the products in its arguments and its condition."""
     arrow = _ARROW_OR_END.search(line)
     assert arrow
     before, colon, condition = line[: arrow.start()].partition(":") if arrow[0] else (line, "", "")
     made = _in_arguments(line[arrow.start() :]) if arrow[0] else ""
-    return _in_arguments(before) + _signs(colon + condition) + made
+    return _in_arguments(before) + _signs(colon + _SINGLE_EQUALS.sub("==", condition)) + made
 
 
 def _in_arguments(text: str) -> str:

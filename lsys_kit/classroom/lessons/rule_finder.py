@@ -19,6 +19,7 @@ from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.model.modules import joined
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.style.labels import escaped
+from lsys_kit.translation import gettext
 
 MOST_CHARACTERS = 400
 """Longer words and productions are cut off here."""
@@ -135,7 +136,10 @@ def _all_found(rows: Sequence[Row], constants: Iterable[str], erasing: bool, con
     none = 0
     for step in range(1, len(rows)):
         if none and step < len(rows) - 1:
-            yield Found("0", Explanation(f"No system fits these {step + 1} words, since none fits those up to step {none}."))
+            said = gettext(
+                "No system fits these {number} words, since none fits those up to step {step}.", number=step + 1, step=none
+            )
+            yield Found("0", Explanation(said))
             continue
         yield (found := _found(rows[: step + 1], constants, erasing, context))
         none = step if found.count == "0" else 0

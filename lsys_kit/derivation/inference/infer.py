@@ -42,6 +42,7 @@ from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown, wh
 from lsys_kit.notation.model.expressions import Apply, Expression, Number
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem, Production
+from lsys_kit.translation import gettext, ngettext
 
 MOST_SHOWN = 20
 """So many systems are shown, and so many letters and productions named."""
@@ -62,20 +63,23 @@ class Wider:
     left_open: int = 0
 
     def __str__(self) -> str:
-        count = (
-            "many systems fit"
-            if self.systems is None
-            else "one system fits"
-            if self.systems == 1
-            else f"{self.systems:,} systems fit"
-        )
         contexts = self.conditions.context != (0, 0)
         choices = [f"context={self.conditions.context}"] * contexts + ["erasing=True"] * self.conditions.erasing
-        said = f"With {', '.join(choices)} {count}"
+        said: dict[str, object] = {"choices": ", ".join(choices), "systems": f"{self.systems or 0:,}"}
+        if self.systems is None:
+            return gettext("With {choices} many systems fit.", **said)
+        if self.systems == 1:
+            return gettext("With {choices} one system fits.", **said)
         if not self.left_open:
-            return f"{said}."
-        apart = ", told apart by their neighbours," if contexts else ""
-        return f"{said}: of {self.letters} letters{apart} {self.left_open} can become different words."
+            return gettext("With {choices} {systems} systems fit.", **said)
+        said |= {"letters": self.letters, "open": self.left_open}
+        if contexts:
+            return gettext(
+                "With {choices} {systems} systems fit: of {letters} letters, told apart by their neighbours, {open} can become "
+                "different words.",
+                **said,
+            )
+        return gettext("With {choices} {systems} systems fit: of {letters} letters {open} can become different words.", **said)
 
 
 @dataclass(frozen=True)
@@ -93,10 +97,11 @@ class Refusal:
         if self.mendings:
             ways = [str(mending) for mending in self.mendings[:MOST_MENDINGS_SHOWN]]
             more = len(self.mendings) - len(ways)
-            ways += [f"one of {more} other changes were made" if more > 1 else "one other change were made"] if more else []
-            found.append(f"A system without contexts would fit if {', or if '.join(ways)}.")
+            if more:
+                ways.append(ngettext("one other change were made", "one of {number} other changes were made", more))
+            found.append(gettext("A system without contexts would fit if {ways}.", ways=gettext(", or if ").join(ways)))
         elif self.out_of_reach:
-            found.append("What would have to be another letter or word is out of reach: too much is possible.")
+            found.append(gettext("What would have to be another letter or word is out of reach: too much is possible."))
         if self.wider:
             found.append(str(self.wider))
         return " ".join(found)
@@ -130,6 +135,12 @@ class SystemsFound(Sequence[LSystem]):
 class Fits(SystemsFound):
     """All systems that fit a sequence of words: a sequence of systems, which prints as an explanation.
 
+    Where no system fits it says why: the first step and letter that contradict those before, and contexts with which some
+    system fits. What was not known of words is filled in. Letters that only the last word has are left as they are, since
+    nothing is known of them. Where modules have parameters and no contexts are asked for, the systems are those with the
+    fewest productions: conditions compare parameters with numbers, and values are affine functions of parameters. With
+    contexts no laws are looked for: a module with other values is another letter.
+
     Attributes
     ----------
     words
@@ -152,7 +163,8 @@ class Fits(SystemsFound):
 
     @property
     def mended(self) -> tuple[Mending, ...]:
-        """Where no system fits, the ways to mend the words with the fewest edits: each has its `edits`, `words`, `systems`.
+        """Where no system fits, the ways to mend the words with the fewest edits: of one or two letters, of a step that is
+        missing or one too many, or of a whole word; each has its `edits`, `words`, `systems`.
 
         >>> from lsys_kit.derivation.inference.infer import infer
         >>> mending = infer(["a", "ab", "aba", "abbab"]).mended[0]
@@ -184,10 +196,10 @@ class Explanation:
             return self.heading
         lines = [f"{self.heading}:"]
         if self.common:
-            lines += [*([" all have"] if self.own else []), *_lines(self.common, "  ")]
+            lines += [*([gettext(" all have")] if self.own else []), *_lines(self.common, "  ")]
         for number, productions in enumerate(self.own, 1):
             lines += [f" {number}.", *_lines(productions, "  ")]
-        return "\n".join([*lines, *([f" and {self.more} more"] if self.more > 0 else []), *self.notes])
+        return "\n".join([*lines, *([gettext(" and {more} more", more=self.more)] if self.more > 0 else []), *self.notes])
 
 
 def explanation(fits: Fits) -> Explanation:
@@ -202,22 +214,19 @@ def explanation(fits: Fits) -> Explanation:
         return _refused(fits)
     common = tuple(rule for rule in fits[0].productions if all(rule in system.productions for system in fits))
     if len(fits) == 1:
-        return Explanation(f"One system fits these {len(fits.words)} words", common, notes=tuple(_unknown(fits)))
+        one = gettext("One system fits these {number} words", number=len(fits.words))
+        return Explanation(one, common, notes=tuple(_unknown(fits)))
     step = parting_step(fits[:MOST_COMPARED], len(fits.words))
     later = (
         _alike_so_far(fits)
         if step is None
-        else f"they part {'at' if step == len(fits.words) or len(fits) <= MOST_COMPARED else 'by'} step {step}"
+        else gettext("they part at step {step}", step=step)
+        if step == len(fits.words) or len(fits) <= MOST_COMPARED
+        else gettext("they part by step {step}", step=step)
     )
     own = tuple(tuple(rule for rule in system.productions if rule not in common) for system in fits[:MOST_SHOWN])
-    return Explanation(
-        f"{len(fits)} systems fit these {len(fits.words)} words; {later}",
-        common,
-        own,
-        max(0, len(fits) - MOST_SHOWN),
-        step,
-        tuple(_unknown(fits)),
-    )
+    several = gettext("{systems} systems fit these {number} words", systems=len(fits), number=len(fits.words))
+    return Explanation(f"{several}; {later}", common, own, max(0, len(fits) - MOST_SHOWN), step, tuple(_unknown(fits)))
 
 
 def _alike_so_far(fits: Fits) -> str:
@@ -227,20 +236,26 @@ def _alike_so_far(fits: Fits) -> str:
     while last < len(fits.words) + STEPS_AHEAD and _small(derivation, last + 1):
         last += 1
     if last < len(fits.words):
-        return "later words are too long to be compared"
+        return gettext("later words are too long to be compared")
     unknown = _only_last(fits)
-    condition = f"if {_some(unknown)} {'stays as it is' if len(unknown) == 1 else 'stay as they are'}, " if unknown else ""
-    return f"{condition}their words are the same up to step {last}"
+    if not unknown:
+        return gettext("their words are the same up to step {last}", last=last)
+    if len(unknown) == 1:
+        text = gettext("if {letters} stays as it is, their words are the same up to step {last}")
+    else:
+        text = gettext("if {letters} stay as they are, their words are the same up to step {last}")
+    return text.format(letters=_some(unknown), last=last)
 
 
 def _refused(fits: Fits) -> Explanation:
     """Why no system fits; where the words can be mended in one way, with what fits them then."""
-    said = f"No system fits these {len(fits.words)} words. {fits.refusal}".strip()
+    said = f"{gettext('No system fits these {number} words.', number=len(fits.words))} {fits.refusal}".strip()
     if len(fits.mended) != 1 or not (systems := fits.mended[0].systems):
         return Explanation(said)
     if len(systems) == 1:
-        return Explanation(f"{said} One system fits the mended words", systems[0].productions)
-    return Explanation(f"{said} {'Several' if len(systems) > 2 else 'Two'} systems fit the mended words.")
+        return Explanation(f"{said} {gettext('One system fits the mended words')}", systems[0].productions)
+    two, several = gettext("Two systems fit the mended words."), gettext("Several systems fit the mended words.")
+    return Explanation(f"{said} {several if len(systems) > 2 else two}")
 
 
 def _lines(productions: Sequence[Production], margin: str) -> Iterator[str]:
@@ -250,14 +265,16 @@ def _lines(productions: Sequence[Production], margin: str) -> Iterator[str]:
 def _unknown(fits: Fits) -> Iterator[str]:
     """What the words leave open: what becomes of letters of the last word alone, and where a threshold lies exactly."""
     if any(rule.condition is not None for system in fits for rule in system.productions):
-        yield "The number that a condition compares with could lie anywhere between the values that occur on its two sides."
+        yield gettext(
+            "The number that a condition compares with could lie anywhere between the values that occur on its two sides."
+        )
     for step, given in enumerate(fits.given):
         if GAP in given and GAP not in fits.words[step]:
-            yield f"The word of step {step} is {text_of(fits.words[step])}."
+            yield gettext("The word of step {step} is {word}.", step=step, word=text_of(fits.words[step]))
     if unclear := [str(step) for step, word in enumerate(_words_known(fits)) if GAP in word]:
-        yield f"The systems have different words of step {_some(unclear)}."
+        yield gettext("The systems have different words of step {steps}.", steps=_some(unclear))
     if unknown := _only_last(fits):
-        yield f"Nothing is known of what becomes of {_some(unknown)}: only the last word has it."
+        yield gettext("Nothing is known of what becomes of {letters}: only the last word has it.", letters=_some(unknown))
 
 
 def _only_last(fits: Fits) -> list[str]:
@@ -368,7 +385,8 @@ def too_many(problem: Problem, listed: Fits, found: Sequence[Table]) -> ModelLim
 
 def _some(texts: Sequence[str]) -> str:
     """Texts in a row; of very many only the first, and how many more there are."""
-    return ", ".join(texts[:MOST_SHOWN]) + (f" and {len(texts) - MOST_SHOWN} more" if len(texts) > MOST_SHOWN else "")
+    row, more = ", ".join(texts[:MOST_SHOWN]), len(texts) - MOST_SHOWN
+    return row + gettext(" and {more} more", more=more) if more > 0 else row
 
 
 MOST_FITS = 1_000
@@ -392,6 +410,13 @@ def infer(
     One system fits these 3 words:
       a -> a b
       b -> a
+    >>> print(infer(["FGG", "F-G+F+G-FGGGG"]))
+    2 systems fit these 2 words; they part at step 2:
+     1.
+      F -> F-G+F+G-F G G
+     2.
+      F -> F-G+F+G-F
+      G -> G G
     """
     found: list[Table] = []
     with Task(lambda: f"The search for systems was not finished, with {len(found)} found,"):
@@ -479,19 +504,24 @@ class StochasticFits(SystemsFound):
         """The explanation, line by line."""
         many = len(self.derivations)
         steps = sum(len(words) - 1 for words in self.derivations)
-        these = f"{'this derivation' if many == 1 else f'these {many} derivations'} ({steps} step{'s' * (steps > 1)})"
+        these = ngettext("this derivation", "these {number} derivations", many)
+        these = f"{these} ({ngettext('{number} step', '{number} steps', steps)})"
         if not self.systems:
-            yield f"No stochastic system without contexts fits {these}, with successors of up to {LONGEST} modules."
+            yield gettext(
+                "No stochastic system without contexts fits {these}, with successors of up to {longest} modules.",
+                these=these,
+                longest=LONGEST,
+            )
             return
-        yield f"The stochastic system that fits {these} best:"
+        yield gettext("The stochastic system that fits {these} best:", these=these)
         yield from (f"  {choice}" for choice in self.choices)
         if any(choice.error for choice in self.choices):
-            yield "Behind each probability stands its standard error, and how often the production was used."
+            yield gettext("Behind each probability stands its standard error, and how often the production was used.")
         known = {choice.letter for choice in self.choices}
         last = dict.fromkeys(module for words in self.derivations for module in words[-1])
         unknown = [str(module) for module in last if module not in known and module.symbol not in self.conditions.unchanged]
         if unknown:
-            yield f"Nothing is known of what becomes of {_some(unknown)}: only last words have it."
+            yield gettext("Nothing is known of what becomes of {letters}: only last words have it.", letters=_some(unknown))
 
 
 def _quotient(share: Fraction) -> Expression:

@@ -12,8 +12,8 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
-from functools import partial
+from dataclasses import dataclass, field
+from functools import cached_property, partial
 from itertools import islice
 from typing import Protocol, TypeAlias
 
@@ -33,6 +33,7 @@ from lsys_kit.derivation.inference.word_equations import (
 )
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem
+from lsys_kit.translation import gettext
 
 MOST_READ, MOST_READ_FOR_ONE, A_LOOK = 3_000_000, 200_000, 25
 """So many letters are read at most until edits are out of reach, and so many for one place where they may be; a look at a word
@@ -51,6 +52,10 @@ class Partly(Protocol):
 
     def start(self) -> State: ...
     def after(self, state: State, letter: str) -> State | None: ...
+    def next_of(self, state: State, alphabet: Iterable[str]) -> frozenset[str]:
+        """The letters that can come next."""
+        ...
+
     def may_end(self, state: State) -> bool: ...
 
 
@@ -78,6 +83,9 @@ class Stretches:
         stays = [place for place in here if self.text[place] == self.gap]
         return self._closed([*stays, *(place + 1 for place in here if self.text[place] == letter != self.gap)]) or None
 
+    def next_of(self, state: State, alphabet: Iterable[str]) -> frozenset[str]:
+        return frozenset(letter for letter in alphabet if self.after(state, letter) is not None)
+
     def may_end(self, state: State) -> bool:
         return (len(self.text), 0) in state
 
@@ -102,11 +110,25 @@ class Near:
 
     text: str
     most: int
+    _kept: dict[tuple[State, str], State | None] = field(default_factory=dict, compare=False, repr=False)
+    """What is behind letters: a word that is tried begins as one that was tried before."""
 
     def start(self) -> State:
         return self._closed({0: 0})
 
     def after(self, state: State, letter: str) -> State | None:
+        key = state, letter
+        if key not in self._kept:
+            self._kept[key] = self._after(state, letter)
+        return self._kept[key]
+
+    def next_of(self, state: State, alphabet: Iterable[str]) -> frozenset[str]:
+        if any(place >= 0 and edits < self.most for place, edits in state):
+            return frozenset(alphabet)
+        here = (self.text[place : place + 1] if place >= 0 else self.text[-place - 1] for place, _ in state)
+        return frozenset(here) & frozenset(alphabet)
+
+    def _after(self, state: State, letter: str) -> State | None:
         found: dict[int, int] = {}
         for place, edits in state:
             if place < 0:  # the second of two letters that changed places
@@ -229,11 +251,11 @@ class Texts:
         """What is known of each word."""
         return [Stretches(word, self.gap) if self.gap and self.gap in word else word for word in self.words]
 
-    @property
+    @cached_property
     def alphabet(self) -> tuple[str, ...]:
         return tuple(chr(FIRST_CHARACTER + number) for number, module in enumerate(self.modules) if module != GAP)
 
-    @property
+    @cached_property
     def unchanged(self) -> dict[str, str]:
         """The constants, each of which becomes itself."""
         own = zip(self.modules, range(FIRST_CHARACTER, FIRST_CHARACTER + len(self.modules)), strict=True)
@@ -342,11 +364,12 @@ class _Search:
             raise GivenUp
         letter = min(useful, key=lambda stop: not stop.sure).letter
         number = ord(letter) - FIRST_CHARACTER
+        may_be = possible(number, known.bounds) if number >= 0 else None
         for word in self._successors(letter, fixed):
-            self.effort.read(A_LOOK + 10 * sum(len(each.items) for each in known.equations))
-            if number < 0:
+            self.effort.read(A_LOOK + 40 * sum(len(each.items) for each in known.equations))
+            if may_be is None:
                 yield from self.completed(known.equations, known.bounds, fixed | {letter: word})
-            elif possible(number, word, known.bounds):
+            elif may_be(word):
                 rest_of = all_put_in(known.equations, {number: word})
                 if rest_of is not None:
                     yield from self.completed(rest_of, known.bounds, fixed | {letter: word})
@@ -390,15 +413,12 @@ class _Search:
                 if state is None or (whole and not level.may_end(state)) or len(made) > self.longest:
                     return None
                 endless = at == len(levels) - 1 and isinstance(level, Stretches)
-                allowed = None if endless or not letter else self._allowed(level, state)
+                allowed = None if endless or not letter else level.next_of(state, self.texts.alphabet)
             if letter:
                 stops.append(_Stop(letter, allowed, isinstance(level, str)))
             words.append(made)
             word = made
         return words, stops
-
-    def _allowed(self, level: Partly, state: State) -> frozenset[str]:
-        return frozenset(each for each in self.texts.alphabet if level.after(state, each) is not None)
 
 
 # Edits
@@ -415,14 +435,17 @@ class Slip:
     instead: Row
 
     def __str__(self) -> str:
+        said: dict[str, object] = {"place": self.place, "step": self.step, "found": text_of(self.found)}
+        said |= {"before": self.place - 1, "next": self.place + 1, "letter": text_of(self.instead)}
         if not self.found:
-            where = f"behind letter {self.place - 1}" if self.place > 1 else "at the beginning"
-            return f"{self.instead[0]} stood {where} of step {self.step}"
+            if self.place == 1:
+                return gettext("{letter} stood at the beginning of step {step}", **said)
+            return gettext("{letter} stood behind letter {before} of step {step}", **said)
         if not self.instead:
-            return f"letter {self.place} of step {self.step}, {self.found[0]}, were left out"
+            return gettext("letter {place} of step {step}, {found}, were left out", **said)
         if len(self.found) > 1:
-            return f"letters {self.place} and {self.place + 1} of step {self.step}, {text_of(self.found)}, changed places"
-        return f"letter {self.place} of step {self.step}, {self.found[0]}, were {self.instead[0]}"
+            return gettext("letters {place} and {next} of step {step}, {found}, changed places", **said)
+        return gettext("letter {place} of step {step}, {found}, were {letter}", **said)
 
 
 @dataclass(frozen=True)
@@ -436,10 +459,16 @@ class OtherWord:
 
     def __str__(self) -> str:
         if self.instead is None:
-            return f"the word of step {self.step} were left out"
+            return gettext("the word of step {step} were left out", step=self.step)
+        word = text_of(self.instead)
         if self.missing:
-            return f"there were a step more between steps {self.step - 1} and {self.step}, {text_of(self.instead)}"
-        return f"the word of step {self.step} were {text_of(self.instead)}"
+            return gettext(
+                "there were a step more between steps {before} and {step}, {word}",
+                before=self.step - 1,
+                step=self.step,
+                word=word,
+            )
+        return gettext("the word of step {step} were {word}", step=self.step, word=word)
 
 
 Edit: TypeAlias = "Slip | OtherWord"
@@ -464,7 +493,7 @@ class Mending:
     systems: tuple[LSystem, ...] = ()
 
     def __str__(self) -> str:
-        return " and ".join(map(str, self.edits))
+        return gettext(" and ").join(map(str, self.edits))
 
     __repr__ = __str__
 

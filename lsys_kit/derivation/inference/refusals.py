@@ -12,6 +12,7 @@ from lsys_kit.budget import check_budget
 from lsys_kit.derivation.inference.problem import Conditions, Letter, Row, Table, letters_of, problem_of, tables, text_of
 from lsys_kit.derivation.inference.word_equations import GivenUp
 from lsys_kit.notation.model.modules import Module
+from lsys_kit.translation import gettext
 
 MOST_SUCCESSORS_TRIED = 5_000
 """Beyond so many trials it is not said where words contradict one another."""
@@ -36,13 +37,23 @@ class Contradiction:
     begin: int = 0
 
     def __str__(self) -> str:
-        said = f"Step {self.step} cannot come from step {self.step - 1}"
+        said: dict[str, object] = {"step": self.step, "before": self.step - 1}
         if self.module is None:
-            return f"{said}, which is empty."
-        where = f"{said}: letter {self.place} of step {self.step - 1}, {self.module},"
+            return gettext("Step {step} cannot come from step {before}, which is empty.", **said)
+        said |= {"place": self.place, "letter": str(self.module)}
         if self.needed is None:
-            return f"{where} has no successor with which all others can have theirs."
-        return f"{where} would have to become {text_of(self.needed)}, and there is {text_of(self.there)}."
+            return gettext(
+                "Step {step} cannot come from step {before}: letter {place} of step {before}, {letter}, has no successor with "
+                "which all others can have theirs.",
+                **said,
+            )
+        return gettext(
+            "Step {step} cannot come from step {before}: letter {place} of step {before}, {letter}, would have to become "
+            "{needed}, and there is {there}.",
+            needed=text_of(self.needed),
+            there=text_of(self.there),
+            **said,
+        )
 
 
 def contradiction(words: Sequence[Row], conditions: Conditions) -> Contradiction | None:

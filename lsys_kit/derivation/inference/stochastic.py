@@ -25,6 +25,7 @@ from lsys_kit.budget import check_budget
 from lsys_kit.derivation.inference.problem import Conditions, Row, text_of, well_nested
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.model.modules import Module
+from lsys_kit.translation import gettext
 
 LONGEST = 24
 """Successors have up to so many modules."""
@@ -69,8 +70,13 @@ class Choice:
     of: int
 
     def __str__(self) -> str:
-        often = f"{self.times:.10g}" if self.times == round(self.times) else f"about {self.times:.1f}"
-        known = f"{float(self.probability):.3g} ± {self.error:.2g}, {often} of {self.of}" if self.error else f"all {self.of}"
+        often = f"{self.times:.10g}"
+        if self.times != round(self.times):
+            often = gettext("about {times}", times=f"{self.times:.1f}")
+        known = gettext("all {of}", of=self.of)
+        if self.error:
+            share, error = f"{float(self.probability):.3g}", f"{self.error:.2g}"
+            known = gettext("{share} ± {error}, {often} of {of}", share=share, error=error, often=often, of=self.of)
         return f"{self.letter} -> {text_of(self.successor)}  ({known})"
 
 

@@ -19,7 +19,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, field
 from functools import lru_cache
-from itertools import groupby, tee
+from itertools import tee
 from math import inf
 from typing import TypeAlias
 
@@ -55,7 +55,10 @@ def put_in(equation: Equation, known: Successors) -> Equation | None:
     >>> put_in(Equation((0, 1), "abc"), {0: "b"}) is None
     True
     """
-    items, target = merged(known.get(item, item) if isinstance(item, int) else item for item in equation.items), equation.target
+    items: Sequence[Item] = equation.items
+    if items and isinstance(items[0], int) and isinstance(items[-1], int) and known.keys().isdisjoint(items):
+        return equation
+    items, target = merged([known.get(item, item) if isinstance(item, int) else item for item in items]), equation.target
     if items and isinstance(front := items[0], str):
         if not target.startswith(front):
             return None
@@ -74,11 +77,17 @@ def merged(items: Iterable[Item]) -> list[Item]:
     [0, 'ab', 1]
     """
     found: list[Item] = []
-    for known, group in groupby(items, lambda item: isinstance(item, str)):
-        if not known:
-            found += group
-        elif text := "".join(map(str, group)):
+    texts: list[str] = []
+    for item in items:
+        if isinstance(item, str):
+            texts.append(item)
+            continue
+        if texts and (text := "".join(texts)):
             found.append(text)
+        texts.clear()
+        found.append(item)
+    if texts and (text := "".join(texts)):
+        found.append(text)
     return found
 
 
@@ -146,6 +155,15 @@ def counts_of(word: str, alphabet: dict[str, int]) -> Counts:
     return found
 
 
+@lru_cache(maxsize=512)
+def _sums(equation: Equation, kinds: tuple[str, ...]) -> tuple[NDArray[np.int64], NDArray[np.int64], Counts]:
+    """The unknown letters of an equation, how often each occurs, and what their successors have together of each kind."""
+    occurring, alphabet = Counter(equation.unknowns), {kind: column for column, kind in enumerate(kinds)}
+    known = "".join(item for item in equation.items if isinstance(item, str))
+    rest = counts_of(equation.target, alphabet) - counts_of(known, alphabet)
+    return np.array([*occurring], np.int64), np.array([*occurring.values()], np.int64), rest
+
+
 def narrowed(bounds: Bounds, equations: Iterable[Equation]) -> Bounds | None:
     """The bounds that follow from each equation alone; None where one cannot hold.
 
@@ -155,11 +173,9 @@ def narrowed(bounds: Bounds, equations: Iterable[Equation]) -> Bounds | None:
     [[1, 2, 2], [0, 2, 2]]
     """
     least, greatest = bounds.least.copy(), bounds.greatest.copy()
+    kinds = tuple(bounds.alphabet)
     for equation in equations:
-        occurring = Counter(equation.unknowns)
-        letters, times = [*occurring], np.array([*occurring.values()], np.int64)
-        known = "".join(item for item in equation.items if isinstance(item, str))
-        rest = counts_of(equation.target, bounds.alphabet) - counts_of(known, bounds.alphabet)
+        letters, times, rest = _sums(equation, kinds)
         lower, upper = least[letters], greatest[letters]
         above, below = rest - times @ lower, times @ upper - rest
         if (above < 0).any() or (below < 0).any():
@@ -436,16 +452,29 @@ def _at_the_ends(equation: Equation, gaps: Sequence[int], bounds: Bounds) -> Ite
     first, last, target = equation.items[0], equation.items[-1], equation.target
     assert isinstance(first, int)
     assert isinstance(last, int)
-    yield first, {word for end in counted(bits(gaps[1]), 1) if possible(first, word := target[:end], bounds)}
-    yield last, {word for begin in counted(bits(gaps[-2]), 1) if possible(last, word := target[begin:], bounds)}
+    may_be_first, may_be_last = possible(first, bounds), possible(last, bounds)
+    yield first, {word for end in counted(bits(gaps[1]), 1) if may_be_first(word := target[:end])}
+    yield last, {word for begin in counted(bits(gaps[-2]), 1) if may_be_last(word := target[begin:])}
 
 
-def possible(letter: int, word: str, bounds: Bounds) -> bool:
-    """Whether a successor has as many letters of each kind as it must."""
-    if not bounds.shortest(letter) <= len(word) <= bounds.longest(letter):
-        return False
-    counts = counts_of(word, bounds.alphabet)
-    return bool((bounds.least[letter] <= counts).all() and (counts <= bounds.greatest[letter]).all())
+def possible(letter: int, bounds: Bounds) -> Callable[[str], bool]:
+    """Whether a word has as many letters of each kind as the successor of a letter must.
+
+    >>> may_be = possible(0, Bounds({"a": 0, "b": 1}, np.array([[1, 0, 1]]), np.array([[1, 2, 3]])))
+    >>> [may_be(word) for word in ("a", "b", "abb", "aab", "abbb")]
+    [True, False, True, False, False]
+    """
+    *least, shortest = bounds.least[letter].tolist()
+    *greatest, longest = bounds.greatest[letter].tolist()
+    rows = zip(bounds.alphabet, least, greatest, strict=True)
+    narrow = [(kind, fewest, most) for kind, fewest, most in rows if fewest or most < longest]
+
+    def may_be(word: str) -> bool:
+        if not shortest <= len(word) <= longest:
+            return False
+        return all(fewest <= word.count(kind) <= most for kind, fewest, most in narrow)
+
+    return may_be
 
 
 @dataclass(frozen=True)

@@ -25,6 +25,7 @@ from lsys_kit.geometry.sameness import normalised, same_strokes
 from lsys_kit.geometry.scene import Floats
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read
+from lsys_kit.translation import gettext
 
 MOST_SHOWN = 20
 """So many systems are shown, and compared."""
@@ -37,6 +38,13 @@ SAME_TO = 1e-3
 @dataclass(frozen=True, repr=False)
 class DrawingFits(SystemsFound):
     """The systems that draw a sequence of pictures: a sequence of systems, which prints as an explanation.
+
+    Each was drawn and compared. All strokes must be equally long. If the first picture has strokes, F is the only letter, and
+    its successor is a word of F, + and - with brackets; systems without brackets are preferred. If there is none, and the
+    first of four or more pictures is one stroke, F_l and F_r become words of equally many F_l and F_r, with + and -: so the
+    dragon curve, the Sierpinski arrowhead and Gosper's curve are found (ABOP, figures 1.10 and 1.11). If the first picture is
+    empty, an apex X becomes a word of X, F, + and -, and F becomes a row of F: so plants such as the last three of ABOP,
+    figure 1.24, are found. Other systems, with f, chance or parameters, are not looked for.
 
     Attributes
     ----------
@@ -53,22 +61,27 @@ class DrawingFits(SystemsFound):
     refusal: str = ""
 
     def lines(self) -> Iterator[str]:
-        count = f"these {len(self.drawings)} pictures"
+        many = len(self.drawings)
         if not self:
-            yield f"No system was found that draws {count}. {self.refusal}".strip()
+            none = gettext("No system was found that draws these {number} pictures.", number=many)
+            yield f"{none} {self.refusal}".strip()
             return
         if len(self) == 1:
-            yield f"One system draws {count}:"
-        else:
-            step = parting_step(self[:MOST_SHOWN], len(self.drawings))
-            yield f"{len(self)} systems draw {count}; " + (
-                "as far as was looked, later pictures are the same:" if step is None else f"they part at step {step}:"
+            yield gettext("One system draws these {number} pictures:", number=many)
+        elif (step := parting_step(self[:MOST_SHOWN], many)) is None:
+            yield gettext(
+                "{systems} systems draw these {number} pictures; as far as was looked, later pictures are the same:",
+                systems=len(self),
+                number=many,
             )
+        else:
+            text = gettext("{systems} systems draw these {number} pictures; they part at step {step}:")
+            yield text.format(systems=len(self), number=many, step=step)
         for number, system in enumerate(self[:MOST_SHOWN], 1):
             yield from [f" {number}."] if len(self) > 1 else []
             yield from (f"  {line}" for line in str(system).splitlines())
         if len(self) > MOST_SHOWN:
-            yield f" and {len(self) - MOST_SHOWN} more"
+            yield gettext(" and {more} more", more=len(self) - MOST_SHOWN)
 
 
 def parting_step(systems: Sequence[LSystem], start: int) -> int | None:
@@ -161,24 +174,13 @@ def infer(
     Returns
     -------
     Fits
-        The systems, in a sequence that prints as an explanation. It is empty where no system fits, and then says why: the first
-        step and letter that contradict those before, and contexts with which some system fits. Its `mended` are the fewest
-        changes with which some system fits: of one or two letters, of a step that is missing or one too many, or of a whole
-        word; each has its `edits`, `words` and `systems`. What was not known of words is filled in. Letters that only the last
-        word has are left as they are, since nothing is known of them. Where modules have parameters and no contexts are asked
-        for, the systems are those with the fewest productions: conditions compare parameters with numbers, and values are
-        affine functions of parameters. With contexts no laws are looked for: a module with other values is another letter.
+        The systems, in a sequence that prints as an explanation. It is empty where no system fits, and then says why, and has
+        in `mended` the fewest changes of the words with which some system fits.
     StochasticFits
         Of several derivations the system whose successors explain all steps in the fewest bits. Its `choices` are the
         productions, with probabilities of maximum likelihood and their standard errors.
     DrawingFits
-        For pictures the systems that draw them, in the same form: each was drawn and compared. All strokes must be equally
-        long. If the first picture has strokes, F is the only letter, and its successor is a word of F, + and - with brackets;
-        systems without brackets are preferred. If there is none, and the first of four or more pictures is one stroke, F_l
-        and F_r become words of equally many F_l and F_r, with + and -: so the dragon curve, the Sierpinski arrowhead and
-        Gosper's curve are found (ABOP, figures 1.10 and 1.11). If the first picture is empty, an apex X becomes a word of X,
-        F, + and -, and F becomes a row of F: so plants such as the last three of ABOP, figure 1.24, are found. Other systems,
-        with f, chance or parameters, are not looked for.
+        For pictures the systems that draw them, in the same form. Which are looked for is said there.
 
     Raises
     ------
@@ -194,13 +196,6 @@ def infer(
     One system fits these 3 words:
       a -> a b
       b -> a
-    >>> print(infer(["FGG", "F-G+F+G-FGGGG"]))
-    2 systems fit these 2 words; they part at step 2:
-     1.
-      F -> F-G+F+G-F G G
-     2.
-      F -> F-G+F+G-F
-      G -> G G
     >>> print(infer(["a", "ab", "abb", "abba"]))
     No system fits these 4 words. Step 3 cannot come from step 2: letter 3 of step 2, b, would have to become b, and there is \
 a. A system without contexts would fit if letter 4 of step 3, a, were b. With context=(1, 0) one system fits. One system fits \
@@ -215,13 +210,6 @@ the mended words:
       b -> a
     The word of step 1 is a b.
     The word of step 3 is a b a a b.
-
-    Three derivations of a system in which letters choose:
-
-    >>> infer([["a", "ab", "abb"], ["a", "b", "b"], ["a", "ab", "bb"]], stochastic=True)[0]
-    axiom: a
-    a -> a b : 3/5
-    a -> b : 2/5
 
     A plant from its pictures:
 
@@ -291,11 +279,13 @@ def _sorted(drawings: tuple[Strokes, ...], found: dict[str, LSystem]) -> Drawing
 def _why_none(drawings: tuple[Strokes, ...]) -> str:
     factor = factor_of(drawings)
     if factor is None:
-        return "Their strokes do not stand where a rule for an apex X with F would put them."
+        return gettext("Their strokes do not stand where a rule for an apex X with F would put them.")
     if may_have_two_symbols(drawings, factor):
-        return "Their strokes do not stand where a rule for F, or rules for F_l and F_r, would put them."
-    fewer = f" Rules for F_l and F_r are looked for from {PICTURES} pictures on." if len(drawings) < PICTURES else ""
-    return f"Their strokes do not stand where a rule for F would put them.{fewer}"
+        return gettext("Their strokes do not stand where a rule for F, or rules for F_l and F_r, would put them.")
+    said = gettext("Their strokes do not stand where a rule for F would put them.")
+    if len(drawings) >= PICTURES:
+        return said
+    return f"{said} {gettext('Rules for F_l and F_r are looked for from {number} pictures on.', number=PICTURES)}"
 
 
 def _angle(given: object, drawings: tuple[Strokes, ...]) -> float:
@@ -310,12 +300,15 @@ def _angle(given: object, drawings: tuple[Strokes, ...]) -> float:
 def _refusal(drawings: tuple[Strokes, ...]) -> str:
     if not len(drawings[0]):
         if len(drawings) < 3 or not len(drawings[1]):
-            return "Where the first picture is empty, the next two are needed, with strokes."
+            return gettext("Where the first picture is empty, the next two are needed, with strokes.")
     elif factor_of(drawings) is None:
         counts = ", ".join(f"{len(each):,}" for each in drawings)
-        return f"They have {counts} strokes: a rule that replaces each stroke by so many others multiplies them at each step."
+        return gettext(
+            "They have {counts} strokes: a rule that replaces each stroke by so many others multiplies them at each step.",
+            counts=counts,
+        )
     apart = next((step for step, each in enumerate(drawings[:2]) if len(each) and not each.is_connected), None)
-    return "" if apart is None else f"The strokes of step {apart} do not hang together."
+    return "" if apart is None else gettext("The strokes of step {step} do not hang together.", step=apart)
 
 
 def _candidates(drawings: tuple[Strokes, ...], turning: Turning, found: Collection[str]) -> Iterator[str]:

@@ -38,7 +38,7 @@ def listing(exercise: Exercise) -> str:
 
 _LETTER = re.compile(
     r"^(?:(?:i\s+(?:think|guess|say|choose|believe)|ich\s+(?:denke|glaube|meine|nehme|wähle))\s++(?:that\s++)?)?"
-    r"(?:(?:it|that|es|das)(?:\s+is|['’]s|\s+ist)\s++)?(?:the\s++|die\s++)?(?:(?:right|correct|my)\s++)?(?:option|answer|choice|solution|letter)?\s*+(?:is\b)?"
+    r"(?:(?:it|that|es|das)(?:\s+is|['’]s|\s+ist)\s++)?(?:the\s++|die\s++)?(?:(?:right|correct|my)\s++)?(?:option|answer|choice|solution|letter|antwort|möglichkeit|lösung|buchstabe)?\s*+(?:is\b|ist\b)?"
     r"\W*+([a-z])\W*$",
     re.IGNORECASE,
 )
@@ -52,6 +52,12 @@ _CONTRARY = re.compile(r"^\W*[A-Za-z]\W+(?:but|except|however|only|aber|außer|n
 _LETTER_AND_WORDS = re.compile(r"^\W*([A-Za-z])\s*(?:[:)\]]|\.(?=\s))\s*(\S.*)$", re.DOTALL)
 _WORDS_AND_LETTER = re.compile(r"(?=.*?[^\W\d_]{2})([^:]*+(?::[^:]*+)*?):\s*+([A-Z])\W*+\Z", re.DOTALL)
 """A letter with words of one's own behind it, or in front of it."""
+_PLACE = re.compile(
+    r"^\W*(?:(?:the|die|der|das)\s++)?([^\W\d_]++|\d(?:st|nd|rd|th))(?:\s++(?:one|option|answer|choice|antwort|möglichkeit))?\W*$",
+    re.IGNORECASE,
+)
+"""The place of an option, as in "the third one"."""
+_LAST = ("last", "letzte", "letzter", "letztes")
 _EXCLUDING = frozenset(WORDS["excluding"].split())
 _FILLING = frozenset(WORDS["filling"].split())
 MOST_WORDS = 3
@@ -76,7 +82,9 @@ def _read_choice(exercise: Exercise, answer: object) -> str:
     known = letters(exercise)
     texts = {letter: _plain(option.text) for option, letter in zip(exercise.options, known, strict=True)}
     named, both = _LETTER.match(text), _LETTER_AND_TEXT.match(text)
-    meant = [letter for letter, own in texts.items() if own == _plain(text)]
+    meant = [letter for letter, own in texts.items() if own == _plain(text)] or [
+        letter for letter, own in texts.items() if _without_joints(own) == _without_joints(_plain(text))
+    ]
     if named and named[1].upper() in known and not meant:
         meant = [named[1].upper()]
     if both and both[1].upper() in known and not meant:
@@ -85,6 +93,7 @@ def _read_choice(exercise: Exercise, answer: object) -> str:
     if reason and reason[1].upper() in known and not meant and not _CONTRARY.match(text):
         meant = [reason[1].upper()]
     meant = meant or _with_real_part(texts, _plain(text)) or _named_in(texts, text) or _with_own_words(texts, text)
+    meant = meant or _by_place(known, text)
     if len(meant) > 1:
         several = reply("choice.several", text=quoted(text))
         raise ModelNameError(several, hint=reply("choice.choose", options=", ".join(meant)))
@@ -95,11 +104,36 @@ def _read_choice(exercise: Exercise, answer: object) -> str:
     return meant[0]
 
 
+def _without_joints(text: str) -> str:
+    """A plain text without what stands between its parts: commas, "with", "and".
+
+    >>> _without_joints(_plain("`a -> bb` with `b -> ab`")) == _without_joints(_plain("a -> bb, b -> ab"))
+    True
+    """
+    parts = re.split(r"[,;]|(?<!\w)(?:with|and|mit|und)(?!\w)", text)
+    return ",".join(part.strip(" .:") for part in parts if part.strip(" .:"))
+
+
+def _by_place(known: str, text: str) -> list[str]:
+    """The option that is named by its place.
+
+    >>> [_by_place("ABC", text) for text in ("the second one", "die letzte", "the fourth", "first cell")]
+    [['B'], ['C'], [], []]
+    """
+    found = _PLACE.match(text)
+    if not found:
+        return []
+    if found[1].lower() in _LAST:
+        return [known[-1]]
+    number = with_digits(found[1])
+    return [*known[int(number) - 1 : int(number)]] if number != found[1] and number.isdigit() else []
+
+
 def _with_part(texts: Mapping[str, str], part: str) -> list[str]:
     """The options whose texts contain a part; none where no text has it as whole words."""
     before, after = (r"(?<!\w)" if part[:1].isalnum() else ""), (r"(?!\w)" if part[-1:].isalnum() else "")
     whole = [letter for letter, text in texts.items() if re.search(before + re.escape(part) + after, text)]
-    if part.isdigit() or not whole:
+    if part.isdigit() or not whole or (len(whole) > 1 and len(part) == 2 and part.isalpha()):
         return whole
     return [letter for letter, text in texts.items() if part in text] if len(part) >= _SHORTEST_PART else []
 
@@ -184,7 +218,8 @@ def _same_symbol(_: Exercise, own: tuple[str, int], wanted: tuple[str, int]) -> 
 def _symbol_difference(exercise: Exercise, own: tuple[str, int], wanted: tuple[str, int]) -> Difference:
     if own[0] == wanted[0] and not own[1]:
         return Difference(reply("symbol.several_times"), 1, True)
-    return Difference(exercise.otherwise or reply("symbol.not_asked_for", answer=own[0]))
+    place = reply("symbol.at", position=own[1], symbol=own[0]) if own[1] else ""
+    return Difference(f"{place} {exercise.otherwise or reply('symbol.not_asked_for', answer=own[0])}".strip())
 
 
 SYMBOL = AnswerKind(_read_symbol, _symbol_difference, _same_symbol)

@@ -14,7 +14,7 @@ from typing import TypeAlias
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
 from lsys_kit.classroom.exercises.replies import reply
-from lsys_kit.classroom.exercises.typed import assigned_name, formula_text, kind_of, text_answer
+from lsys_kit.classroom.exercises.typed import assigned_name, formula_text, keyboard_text, kind_of, text_answer
 from lsys_kit.errors import LSystemError, ModelSyntaxError, ModelValueError
 from lsys_kit.notation.analysis.checks import check_expression
 from lsys_kit.notation.model.arithmetic import Value, number_text, reason_of, shortest_decimal
@@ -158,6 +158,10 @@ def _read(exercise: Exercise, answer: object) -> Expression:
     try:
         return checked_expression(text, exercise.values, wanted)
     except LSystemError:
+        alone = _alone(exercise, text)
+        if alone != text:
+            with suppress(LSystemError):
+                return _read(exercise, alone)
         other = formula_text(text, exercise.values)
         if other != text and assigned_name(text) not in exercise.values:
             try:
@@ -166,6 +170,27 @@ def _read(exercise: Exercise, answer: object) -> Expression:
                 if mistake.span is None or other in text:
                     raise
         raise
+
+
+_NOUN_BEHIND = re.compile(r"(?<=[\w)])\s++([^\W\d_]{3,})\W*\Z")
+_ONE_EQUATION = re.compile(r"([^=<>!]++)=(?!=)([^=]++)")
+
+
+def _alone(exercise: Exercise, text: str) -> str:
+    """A formula without a noun of the question behind it, and without a left side that the question has, or that is equal."""
+    noun = _NOUN_BEHIND.search(text)
+    if noun and noun[1] not in exercise.values and re.search(rf"\b{noun[1]}\b", exercise.question, re.IGNORECASE):
+        text = text[: noun.start()]
+    both = _ONE_EQUATION.fullmatch(keyboard_text(text))
+    if both and f" {' '.join(both[1].split())} = " in " ".join(exercise.question.split()):
+        return both[2].strip()
+    with suppress(LSystemError):
+        if both:
+            one, other = (
+                checked_expression(formula_text(side, exercise.values), exercise.values, "number") for side in both.groups()
+            )
+            return both[2].strip() if differing_values(one, other, _cases(exercise)) is None else text
+    return text
 
 
 def _checked(exercise: Exercise, expression: Expression, wanted: str) -> Expression:

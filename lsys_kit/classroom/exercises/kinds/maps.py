@@ -115,8 +115,8 @@ def _same(exercise: Exercise, mine: MapAnswer, wanted: MapAnswer) -> bool:
 
 
 def _alike(exercise: Exercise, mine: MapAnswer, other: MapAnswer) -> bool:
-    """Whether an answer is a wrong one that is understood: it has as many markers, and not others that never match."""
-    markers, others = (sum(len(each.markers) for each in answer.own) for answer in (mine, other))
+    """Whether an answer is a wrong one that is understood: it has the same markers, and not others that never match."""
+    markers, others = (Counter(marker for each in answer.own for marker in each.markers) for answer in (mine, other))
     return markers == others and _same(exercise, mine, other)
 
 

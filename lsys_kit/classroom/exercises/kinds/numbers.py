@@ -95,6 +95,8 @@ def _of_the_step(exercise: Exercise, answer: str) -> str:
     if beside and (what_is_asked(exercise) == "first" or means_the_same(exercise.unit, "steps")):
         by, other = int(beside[1] or 1), int(beside[3])
         return str(other + by if beside[2].lower() in ("after", "nach") else other - by)
+    if means_the_same(exercise.unit, "steps"):
+        return _of_several_steps(exercise, text, answer)
     if what_is_asked(exercise) not in _COUNTED:
         return answer
     found: dict[str, str] = {}
@@ -110,6 +112,23 @@ def _of_the_step(exercise: Exercise, answer: str) -> str:
         said = reply("number.other_step", answer=quoted(answer), step=step, asked=exercise.steps)
         raise ModelValueError(said, hint=reply("number.only_asked"))
     return found[str(exercise.steps)]
+
+
+_STEP_NAMED = re.compile(rf"\b{_OF_STEP}\s++(\d{{1,9}})\b", re.IGNORECASE)
+_CLAUSES = re.compile(r"[,;.]\s++|\b(?:so|and|then|thus|hence|therefore|but|und|also|dann|daher|aber)\b", re.IGNORECASE)
+_REASON = re.compile(r"\b(?:because|since|weil)\b|\(", re.IGNORECASE)
+"""Where a reason begins."""
+
+
+def _of_several_steps(exercise: Exercise, text: str, answer: str) -> str:
+    """Of an answer that names several steps the one of which the question asks; without a reason, which may name one, too."""
+    said, reason = text, _REASON.search(text)
+    if reason and _STEP_NAMED.search(text, reason.end()) and any(map(str.isdigit, text[: reason.start()])):
+        said = answer = text[: reason.start()].rstrip(" ,;:-(")
+    asked = re.findall(r"`(\w+)`", " ".join(_ASKED_FOR.findall(exercise.question)))
+    named = [(clause, found[0]) for clause in _CLAUSES.split(said) if len(found := _STEP_NAMED.findall(clause)) == 1]
+    telling = {step for clause, step in named if any(re.search(rf"(?<!\w){symbol}(?!\w)", clause) for symbol in asked)}
+    return telling.pop() if len(named) > 1 and len(telling) == 1 else answer
 
 
 # One number
@@ -166,7 +185,9 @@ def _read_number(exercise: Exercise, answer: object) -> Value:
     unit = next((word for word in found.after[:1] if word.lower() in UNITS), "")
     if counted := _other_thing(exercise, found):
         raise _other_unit(exercise, counted)
-    odd = next((word for word in words if word != unit and not _is_in_place(exercise, word)), "")
+    odd = next(
+        (word for word in words if word != unit and not (_is_in_place(exercise, word) or _is_of_the_unit(exercise, word))), ""
+    )
     if len(odd) == 1 and odd.isalpha():
         raise ModelNameError(reply("number.other_name", name=odd, answer=quoted(answer)), hint=reply("number.only_asked"))
     if odd:
@@ -188,6 +209,8 @@ def _other_thing(exercise: Exercise, found: TypedNumber) -> str:
 
 
 def _is_of_the_unit(exercise: Exercise, word: str) -> bool:
+    if word == "F" and what_is_asked(exercise) == "strokes":  # the symbol that draws one
+        return True
     units = (exercise.unit, gettext(exercise.unit))
     return bool(exercise.unit) and any(means_the_same(word, unit) for unit in units)
 
@@ -257,7 +280,16 @@ def _number_difference(exercise: Exercise, number: Value, solution: Value) -> Di
         return Difference(f"{said} {reply('number.decimals', number=decimals)}", 1, True)
     related = _related(exercise, number, solution)
     shown = f"{_with_this(exercise, number)} {with_values(exercise.otherwise, number)}".strip()
-    return Difference(" ".join(filter(None, (said, related, shown or _try_small(exercise)))), near=bool(related and counted))
+    message = " ".join(filter(None, (said, related, shown or _try_small(exercise))))
+    return Difference(message, near=bool(related and counted), explains=_is_of_a_distant_step(exercise, number))
+
+
+def _is_of_a_distant_step(exercise: Exercise, number: Value) -> bool:
+    """Whether a number is that of another step than those beside the one that is asked for."""
+    if what_is_asked(exercise) not in _COUNTED or exercise.steps < 2:
+        return False
+    values = right_history(exercise).values(exercise, exercise.steps)
+    return number in values[: exercise.steps - 1]
 
 
 def _too_few_decimals(exercise: Exercise, number: Value, solution: Value) -> int:
@@ -270,7 +302,8 @@ def _too_few_decimals(exercise: Exercise, number: Value, solution: Value) -> int
 
 def _related(exercise: Exercise, number: Value, solution: Value) -> str:
     """What is said of a number that is one off, where things are counted."""
-    counts = what_is_asked(exercise) != "first" and exercise.unit.lower() not in UNITS and not exercise.tolerance
+    asked = what_is_asked(exercise)
+    counts = (asked or exercise.unit) and asked != "first" and exercise.unit.lower() not in UNITS and not exercise.tolerance
     return reply("number.one_off") if counts and _distance(number, solution) == 1 < _distance(solution, 0) - 2 else ""
 
 

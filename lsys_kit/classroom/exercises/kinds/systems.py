@@ -342,7 +342,7 @@ def _read(exercise: Exercise, answer: object) -> SystemAnswer:
         return whole(answer)
     text = text_answer(answer, reply("system.what"), '"axiom: a"').strip()
     if not exercise.given and _is_without_axiom(text):
-        raise ModelValueError(reply("system.no_axiom"))
+        raise ModelValueError(reply("system.no_axiom"), hint=reply("system.no_axiom_hint"))
     _refuse_part_of_production(exercise, text)
     try:
         found = _read_typed(exercise, text)

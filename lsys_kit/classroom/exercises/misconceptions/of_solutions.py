@@ -112,12 +112,18 @@ def names_exchanged(formula: Expression) -> Iterator[Expression]:
         yield substituted(formula, {one: Name(other), other: Name(one)})
 
 
+def of_counts(change: Callable[[Any], Iterable[Any]], exercise: Exercise) -> Iterator[Any]:
+    """The right formula changed, where something in it is counted: a name that stands for whole numbers alone."""
+    if any(all(isinstance(value, int) for value in values) for values in exercise.values.values()):
+        yield from of_kind(change, "expression", exercise)
+
+
 def _as_a_whole(operator: str, others: tuple[Expression, ...], formula: Expression) -> list[Expression]:
     return [Apply(operator, (formula, *others))] if expression_type(formula) == "number" else []
 
 
-misconception("one too many", of_kind, "expression")(partial(_as_a_whole, "+", (Number(1),)))
-misconception("one too few", of_kind, "expression")(partial(_as_a_whole, "-", (Number(1),)))
+misconception("one too many", of_counts)(partial(_as_a_whole, "+", (Number(1),)))
+misconception("one too few", of_counts)(partial(_as_a_whole, "-", (Number(1),)))
 misconception("sign reversed", of_kind, "expression")(partial(_as_a_whole, "-x", ()))
 
 

@@ -337,7 +337,8 @@ def kept_in_the_last_step(exercise: Exercise) -> Iterator[int]:
     if _is_counted(exercise):
         before, last = right_history(exercise).values(exercise, exercise.steps)[-2:]
         yield before + last
-        yield from (before + last - staying for staying in [_counted_in(exercise, None)] if 0 < staying < before)
+        if exercise.asks == "length":  # of strokes and of one symbol those that stay are not known so
+            yield from (before + last - staying for staying in [_counted_in(exercise, None)] if 0 < staying < before)
 
 
 @misconception("symbols miscounted")

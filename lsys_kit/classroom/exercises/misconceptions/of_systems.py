@@ -16,7 +16,13 @@ from lsys_kit.classroom.exercises.kinds.forms import is_sensible
 from lsys_kit.classroom.exercises.kinds.systems import completed
 from lsys_kit.classroom.exercises.kinds.table import solution_of
 from lsys_kit.classroom.exercises.misconceptions.misconception import by_history, misconception
-from lsys_kit.classroom.exercises.misconceptions.of_solutions import OTHER_STRICTNESS, changed, substituted, with_operator
+from lsys_kit.classroom.exercises.misconceptions.of_solutions import (
+    OTHER_DIRECTION,
+    OTHER_STRICTNESS,
+    changed,
+    substituted,
+    with_operator,
+)
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
 from lsys_kit.notation.model.modules import CLOSING, OPENING, Item, Pattern, Repeat
 from lsys_kit.notation.model.system import LSystem, Production
@@ -251,6 +257,25 @@ def _one_less(argument: Expression) -> Expression:
 def stages_from_zero(rule: Production) -> Production:
     """The numbers in a successor one too small, as if stages were counted from 0."""
     return replace(rule, successor=_with_arguments(_one_less, rule.successor))
+
+
+@misconception("stages from zero")
+def all_stages_from_zero(exercise: Exercise) -> Iterator[Any]:
+    """The numbers of the axiom and of successors one too small, and those of conditions, too, or not."""
+    if exercise.kind == "system":
+        for change in (stages_from_zero, _bounds_from_zero):
+            yield from by_systems(partial(rewritten, change, word=partial(_with_arguments, _one_less)), exercise)
+
+
+def _bounds_from_zero(rule: Production) -> Production:
+    rule = stages_from_zero(rule)
+    return rule if rule.condition is None else replace(rule, condition=changed(rule.condition, _with_bound_from_zero))
+
+
+def _with_bound_from_zero(found: Expression) -> Expression:
+    if isinstance(found, Apply) and found.operator in OTHER_DIRECTION:
+        return replace(found, operands=tuple(map(_one_less, found.operands)))
+    return found
 
 
 @misconception("context overlooked", in_all_rules)

@@ -18,7 +18,8 @@ from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number,
 _COMPARISONS = ("<", "<=", ">", ">=", "==", "!=")
 _JOINED = ("&&", "||")
 _OF_NUMBERS = ("+", "-", "*", "/")
-KINDS = ("extra", "number", "name", "comparison", "joined", "operator", "sign", "power", "order", "part", "missing")
+_GROUPED = (*_OF_NUMBERS, "^")
+KINDS = ("grouping", "extra", "number", "name", "comparison", "joined", "operator", "sign", "power", "order", "part", "missing")
 """The kinds of changes, in the order in which they are tried."""
 MOST_PAIRS = 2_000
 """So many pairs of changes are tried."""
@@ -37,8 +38,8 @@ def of_expressions(exercise: Exercise, own: Expression, solution: Expression) ->
         kind = expression_type(part)
         others = [other for other in parts if expression_type(other) == kind and other != part]
         yield from ((other, "part") for other in others)
-        if kind == "truth":
-            yield from ((Apply(sign, (part, other)), "missing") for other in others for sign in _JOINED)
+        for sign in _JOINED if kind == "truth" else (*_OF_NUMBERS, "^"):
+            yield from ((Apply(sign, (part, other)), "missing") for other in others)
 
     small: dict[Expression, str] = {}
     for changed, kind in (*changed_once(own, simple), *changed_once(own, of_the_solution)):
@@ -68,11 +69,12 @@ def _two_said(kind: str) -> str:
 def _variants(part: Expression, names: list[str], numbers: set[Value]) -> Iterator[tuple[Expression, str]]:
     """What may be meant in place of a part of a formula, and what kind of change that is."""
     if isinstance(part, Number):
-        values = dict.fromkeys([part.value + 1, part.value - 1, *numbers, -part.value])
-        yield from ((Number(value), "number") for value in values if value != part.value)
+        values = dict.fromkeys([part.value + 1, part.value - 1, *numbers])
+        yield from ((Number(value), "number") for value in values if value not in (part.value, -part.value))
     elif isinstance(part, Name):
         yield from ((Name(name), "name") for name in names if name != part.name)
     else:
+        yield from ((other, "grouping") for other in _grouped_otherwise(part))
         yield from _other_operators(part)
         yield from ((operand, "extra") for operand in part.operands if expression_type(operand) == expression_type(part))
     if expression_type(part) == "number":
@@ -81,7 +83,32 @@ def _variants(part: Expression, names: list[str], numbers: set[Value]) -> Iterat
         yield Apply("^", (part, Number(2))), "power"
         yield Apply("-x", (part,)), "sign"
         for name in names:
-            yield from ((Apply(operator, (part, Name(name))), "missing") for operator in ("*", "+", "-", "/"))
+            yield from ((Apply(operator, (part, Name(name))), "missing") for operator in (*_OF_NUMBERS, "^"))
+
+
+def _grouped_otherwise(part: Apply) -> Iterator[Expression]:
+    """The same row of signs, names and numbers with one pair of parentheses more, or one less.
+
+    >>> from lsys_kit.notation.read import read_expression
+    >>> print(*_grouped_otherwise(read_expression("q^n - 1")), sep="; ")
+    q^(n - 1)
+    >>> print(*_grouped_otherwise(read_expression("2 * q^n")), sep="; ")
+    (2 * q)^n
+    """
+    if len(part.operands) == 1:
+        inner = part.operands[0]
+        if part.operator == "-x" and isinstance(inner, Apply) and inner.operator in _GROUPED:
+            yield replace(inner, operands=(replace(part, operands=inner.operands[:1]), inner.operands[1]))
+        return
+    if part.operator not in _GROUPED:
+        return
+    left, right = part.operands
+    if isinstance(left, Apply) and left.operator in _GROUPED:
+        yield replace(left, operands=(left.operands[0], replace(part, operands=(left.operands[1], right))))
+    if isinstance(left, Apply) and left.operator == "-x":
+        yield replace(left, operands=(replace(part, operands=(left.operands[0], right)),))
+    if isinstance(right, Apply) and right.operator in _GROUPED:
+        yield replace(right, operands=(replace(part, operands=(left, right.operands[0])), right.operands[1]))
 
 
 def _other_operators(part: Apply) -> Iterator[tuple[Expression, str]]:

@@ -21,6 +21,9 @@ def of_maps(exercise: Exercise, mine: MapAnswer, wanted: MapAnswer) -> Iterator[
     labels = sorted({edge.label for rule in (*mine.own, *wanted.own) for edge in (rule.predecessor, *rule.named)})
     right = [part for rule in wanted.own for part in rule.successor]
     for at, rule in enumerate(mine.own):
+        rest = (*mine.own[:at], *mine.own[at + 1 :])
+        yield Repair(partial(_made, exercise, mine, rest), partial(_said, "extra_production", rule))
+    for at, rule in enumerate(mine.own):
         for successor, kind in _changed(rule, labels, right):
             if not (successor and isinstance(successor[0], Edge) and isinstance(successor[-1], Edge)):
                 continue
@@ -34,9 +37,6 @@ def of_maps(exercise: Exercise, mine: MapAnswer, wanted: MapAnswer) -> Iterator[
                 partial(_whole, rule, other),
                 near=False,
             )
-        yield Repair(
-            partial(_made, exercise, mine, (*mine.own[:at], *mine.own[at + 1 :])), partial(_said, "extra_production", rule)
-        )
     for other in wanted.own:
         if other.predecessor not in {rule.predecessor for rule in mine.own}:
             said = partial(reply, "repair.missing_production", module=other.predecessor)
@@ -80,7 +80,8 @@ def _changed(
 
 def _variants(part: SuccessorPart, labels: Sequence[str]) -> Iterator[tuple[SuccessorPart, str]]:
     edge = part.edge if isinstance(part, Marker) else part
-    others = [(replace(edge, label=label), "label") for label in labels if label != edge.label]
+    of_label = "label" if isinstance(part, Marker) else "walls_labels"
+    others = [(replace(edge, label=label), of_label) for label in labels if label != edge.label]
     others += [(replace(edge, arrow=arrow), "arrow") for arrow in ARROWS if arrow != edge.arrow]
     if isinstance(part, Marker):
         yield replace(part, side=OTHER_SIDE[part.side]), "side"

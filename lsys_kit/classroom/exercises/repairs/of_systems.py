@@ -159,7 +159,8 @@ def repairs_of(
         *_superfluous(own),
         *_whole_rules(own, target, blamed, given),
     ]
-    for edit in (*small, *large):
+    is_longer = any(len(getattr(own, block)) > len(getattr(target, block)) for block in BLOCKS)
+    for edit in (*(_superfluous(own) if is_longer else ()), *small, *large):
         yield from _repairs(own, make, edit)
     for changed, said in (*_reordered(own), *_exchanged(own), *_in_the_other_block(own, target)):
         if is_sensible(changed):
