@@ -64,8 +64,8 @@ def page(title: str, data: Mapping[str, Any], description: str, language: str = 
     gallery = frozenset(
         () if model.get("chance") else ("gallery",)
     )  # of a page's panels these have other seeds, and none variants
-    letters = frozenset(() if model.get("letters") else ("letters",))
-    script = f'"use strict";\n{compact("page", not_needed(data["mode"]) | _OF_EDITORS | gallery | letters)}\nopenPage();\n'
+    unused = not_needed(data["mode"]) | unasked([model]) | _OF_EDITORS | gallery
+    script = f'"use strict";\n{compact("page", unused)}\nopenPage();\n'
     return document(title, body, STYLE, description, Program(script, style(), data), language)
 
 
@@ -76,6 +76,17 @@ def not_needed(*modes: str) -> frozenset[str]:
     ['map', 'relaxation', 'relaxing', 'tension', 'tissue']
     """
     return frozenset.intersection(*(_NOT_NEEDED[mode] for mode in modes))
+
+
+def unasked(models: Sequence[Mapping[str, Any]]) -> frozenset[str]:
+    """The scripts of what no panel of a page asks for.
+
+    >>> sorted(unasked([{"letters": ["a"]}, {"show": ["drawing"]}]))
+    ['walk']
+    """
+    letters = any(model.get("letters") for model in models)
+    walk = any("walk" in (model.get("show") or ()) for model in models)
+    return frozenset(name for name, wanted in (("letters", letters), ("walk", walk)) if not wanted)
 
 
 def save_page(path: str | Path, text: str) -> None:
