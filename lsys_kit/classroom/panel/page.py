@@ -34,6 +34,8 @@ _NOT_NEEDED = {
 """The scripts that draw other systems than that of a page, by the way in which it is drawn."""
 _OF_EDITORS = frozenset(("undoing", "resuming"))
 """The scripts of rules that can be changed, as those of a page cannot."""
+_MOTIONS = frozenset(("walk", "unfolding"))
+"""The views that have scripts of their own, which are called so."""
 
 
 def page(title: str, data: Mapping[str, Any], description: str, language: str = "en") -> str:
@@ -82,11 +84,11 @@ def unasked(models: Sequence[Mapping[str, Any]]) -> frozenset[str]:
     """The scripts of what no panel of a page asks for.
 
     >>> sorted(unasked([{"letters": ["a"]}, {"show": ["drawing"]}]))
-    ['walk']
+    ['motion', 'unfolding', 'walk']
     """
-    letters = any(model.get("letters") for model in models)
-    walk = any("walk" in (model.get("show") or ()) for model in models)
-    return frozenset(name for name, wanted in (("letters", letters), ("walk", walk)) if not wanted)
+    shown = {view for model in models for view in model.get("show") or ()} & _MOTIONS
+    wanted = {*shown, *{"motion" for _ in shown}, *{"letters" for model in models if model.get("letters")}}
+    return frozenset({"letters", "motion", *_MOTIONS} - wanted)
 
 
 def save_page(path: str | Path, text: str) -> None:

@@ -12,7 +12,7 @@ const VEIL = 0.75; // of the paper over what is not drawn yet
 const DEGREE = Math.PI / 180, ARC_PARTS = 24;
 const TURNS = ["turn", "turn back", "turn by mirrored angle", "pitch", "roll"];
 const NOTHING = { strokes: { n: 0, from: [], to: [], orders: [], widths: new Float64Array() }, faces: { n: 0, starts: [0], corners: [] }, rounds: { n: 0, centres: [], radii: [] } };
-const walks = new WeakMap();
+const walks = new WeakMap(), pale = new WeakMap();
 
 // The walk along a step's word; that of one step of a book is kept. After so many modules it has the turtle's point and
 // orientation, how much is drawn, and the turtle that has begun to wait last: { place, point, orientation, number, below }.
@@ -74,11 +74,7 @@ export function paintWalk(pen, shapes, frame, look, { book, step, angle, at, sha
   const stance = (stop) => stanceOf(book, step, angle, stop), now = stance(walk.stops[at]), before = stance(walk.stops[Math.max(0, at - 1)]);
   const turn = turnBefore(book, walk, at, angle), side = inSpace ? 1 : before.up[2];
   const here = between(before, now, share, turn, side);
-  paint(pen, shapes, frame, { ...look, lit: new Map() });
-  pen.globalAlpha = VEIL;
-  pen.fillStyle = theme.paper;
-  pen.fillRect(0, 0, frame.width, pen.canvas.height);
-  pen.globalAlpha = 1;
+  paintPale(pen, shapes, frame, look);
   paint(pen, drawnBy(shapes, walk.stops[share < 1 ? at - 1 : at].drawn), { ...frame, seen: null }, look);
   const seen = (points) => seenPoints(frame, points), unit = SIZE / frame.scale, path = (points, closed = true) => outline(seen(points), (point) => point, closed);
   if (share < 1 && walk.stops[at].drawn[0] > walk.stops[at - 1].drawn[0]) line(pen, path([before.place, here.place], false), theme.lit, 3);
@@ -99,6 +95,28 @@ export function paintWalk(pen, shapes, frame, look, { book, step, angle, at, sha
   line(pen, body, theme.paper, 5);
   fill(pen, body, theme.lit);
   line(pen, body, theme.ink, 1);
+}
+
+// All shapes under a veil: painted once, and kept as a picture while they are seen as they are.
+function paintPale(pen, shapes, frame, look) {
+  const { canvas } = pen, { seen, ...place } = frame, key = JSON.stringify([place, look.theme, [...look.marked], canvas.width, canvas.height]);
+  let known = pale.get(canvas);
+  pen.save();
+  if (known?.shapes === shapes && known.key === key) {
+    pen.resetTransform();
+    pen.drawImage(known.picture, 0, 0);
+  } else {
+    paint(pen, shapes, frame, { ...look, lit: new Map() });
+    pen.globalAlpha = VEIL;
+    pen.fillStyle = look.theme.paper;
+    pen.fillRect(0, 0, frame.width, canvas.height);
+    const picture = known?.picture ?? document.createElement("canvas");
+    [picture.width, picture.height] = [canvas.width, canvas.height];
+    picture.getContext("2d").drawImage(canvas, 0, 0);
+    pale.set(canvas, (known = { shapes, key, picture }));
+  }
+  pen.restore();
+  pen.lineCap = pen.lineJoin = "round";
 }
 
 // What turns swings from where it pointed, along an arc with its angle.

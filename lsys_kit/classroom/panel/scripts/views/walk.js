@@ -19,7 +19,7 @@ const CLOSE = 1e-9;
 export function walkView(view, sentence, seen, trace, light) {
   const still = matchMedia("(prefers-reduced-motion: reduce)");
   let known = null, shown = "", fault = "", walk = null, pace = 2, frame = 0, share = 1, begun = 0, from = 0;
-  const bar = slider("walk", worded("how many commands of the word the turtle has obeyed"), ["0"], 0, (at) => stopAt(at), worded("command"));
+  const bar = slider("command", worded("how many commands of the word the turtle has obeyed"), ["0"], 0, (at) => stopAt(at), worded("command"));
   const speed = slider("pace", worded("commands a second, when it walks by itself"), PACES, 2, (at) => {
     pace = Number(PACES[at]);
     if (frame) start();
