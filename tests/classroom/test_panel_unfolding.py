@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import itertools
 
+import numpy as np
 import pytest
 from playwright.sync_api import expect
 
-from lsys_kit import read
+from lsys_kit import derive, read
 from lsys_kit.budget import limits
 from lsys_kit.classroom.catalogue import system, systems
 from lsys_kit.classroom.panel.books.book import book
 from lsys_kit.errors import LSystemError
+from lsys_kit.geometry.drawing import scene_of
+from lsys_kit.geometry.turtle.unfolding import words_between
 from tests.classroom.front_end import TURTLE, answers
 
 STILL = {"reduced_motion": "reduce"}
@@ -93,6 +96,22 @@ def drawn_by_turtles():
                     yield id
         except LSystemError:
             continue
+
+
+def by_kit(found, step, part):
+    """The ends of all strokes of a part of the way, as the turtle of the kit draws them."""
+    between = words_between(derive(found, step + 1, seed=found.seed), step)(part)
+    ends = scene_of(between).segments.ends
+    return ends if ends.shape[1] == 6 else np.insert(ends, (2, 4), 0, axis=1)
+
+
+@pytest.mark.parametrize("id", ["T2", "K2", "K4", "K6", "K12", "K19", "K22", "L3", *OTHERS])
+def test_the_panel_and_the_films_of_the_kit_unfold_alike(page, id):
+    found = read(OTHERS[id]) if id in OTHERS else system(id)
+    for step, ends in enumerate(way(page, found, [0.3, 0.75], 500)):
+        for part, strokes in zip((0.3, 0.75), ends["parts"], strict=True):
+            drawn = np.array([[*start, *end] for _, start, end in strokes]).reshape(-1, 6)
+            assert drawn == pytest.approx(by_kit(found, step, part), abs=1e-9, rel=1e-9)
 
 
 @pytest.mark.slow

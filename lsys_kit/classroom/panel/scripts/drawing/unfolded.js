@@ -11,7 +11,7 @@ const AHEAD = ["draw", "move", "draw without vertex", "move without vertex"];
 const GROWING = [...AHEAD, "turn", "turn back", "turn by mirrored angle", "pitch", "roll", "gravitropism", "draw surface", "draw expected surface",
   "draw circle", "draw disc", "draw sphere", "draw box", "turn second heading", "draw by second heading", "move by second heading"]; // an amount of 0 is none
 const QUANTITIES = ["set length", "set width", "set scale", "set gravitropism", "set length once", "set width once", "set gravitropism once"]; // the same times 1
-const BRACKETS = { push: 1, pop: -1 };
+const BRACKETS = ["push", "pop", "begin polygon", "record vertex", "end polygon", "expect surface"]; // wholly there from the beginning, or up to the end
 const unfoldings = new WeakMap();
 
 // The word between a step and the next: { word, rows, ways, mothers }, the modules as numbers, of each number the state of which it looks,
@@ -101,7 +101,7 @@ function between([name, factor, addend, values, surface], [, factor1, addend1, v
 
 function growing(call) {
   const [name, , , values, surface] = call;
-  if (name in BRACKETS || name.endsWith("polygon")) return () => call;
+  if (BRACKETS.includes(name)) return () => call;
   if (!isNumber(name)) return (part) => (part < 0.5 ? null : call);
   const way = between([name, QUANTITIES.includes(name) ? 1 : 0, 0, values, surface], call);
   return (part) => (part ? way(part) : GROWING.includes(name) ? way(0) : null);
@@ -109,7 +109,7 @@ function growing(call) {
 
 function shrinking(call) {
   const [name] = call, way = growing(call);
-  return (part) => (name in BRACKETS || name.endsWith("polygon") ? (part < 1 ? call : null) : isNumber(name) || part !== 0.5 ? way(1 - part) : null);
+  return (part) => (BRACKETS.includes(name) ? (part < 1 ? call : null) : isNumber(name) || part !== 0.5 ? way(1 - part) : null);
 }
 
 // The shapes of a part of the way from a step to the next. What is drawn of a module belongs to its mother.
