@@ -11,7 +11,7 @@ const PARTS = times(101, String); // hundredths of the way
 const PACE = 5; // hundredths that an arrow key goes on
 const SPEEDS = ["6", "3", "1.5"]; // seconds from a step to the next
 const STILLS = 4; // with reduced motion so many pictures of a step
-const MOST_LETTERS = 150, MOST = 20_000; // modules of which the word is shown, and of which the drawing unfolds
+const MOST_LETTERS = 150, MOST = 50_000; // modules of which the word is shown, and of which the drawing unfolds
 
 // `seen` says what there is: { book, step, angle, boxed }; `light` shows it again, and `goTo` goes to a step.
 export function unfoldingView(view, seen, light, goTo) {
@@ -25,7 +25,7 @@ export function unfoldingView(view, seen, light, goTo) {
   const speed = list("unfolds", worded("seconds from a step to the next"), SPEEDS.map((each) => [each, each]), SPEEDS[1], (each) => { seconds = Number(each); }, worded("seconds"));
   const player = made("div.lsys-player", { role: "toolbar", "aria-label": worded("let it unfold") }, play);
   const said = made("div.lsys-status", { role: "status" }), word = made("div.lsys-word", { "aria-hidden": "true" });
-  view.body.append(made("div.lsys-controls", player, bar.element, speed.element), said, word);
+  const parts = [made("div.lsys-controls", player, bar.element, speed.element), said, word];
   roving(player);
 
   const most = ({ book }) => book.steps;
@@ -77,6 +77,7 @@ export function unfoldingView(view, seen, light, goTo) {
     if (!view.open) stop();
     if (known !== book || !shown.startsWith(`${step} `)) part = 0;
     if (!view.open || (known === book && shown === key)) return;
+    if (!said.isConnected) view.body.prepend(...parts); // it is opened for the first time
     if (known !== book || !shown.startsWith(`${step} `)) openWord(now);
     [known, shown] = [book, `${step} ${part}`];
     bar.show(Math.round(100 * part));

@@ -30,7 +30,7 @@ export function walkView(view, sentence, seen, trace, light) {
     button("first", worded("to the beginning of the word"), () => stopAt(0)), button("back", worded("one command back"), () => one(-1)), play,
     button("forward", worded("one command on"), () => one(1)), bracket);
   const said = made("div.lsys-status", { role: "status" }), pile = drawn("svg", { width: 220, role: "img" });
-  view.body.append(made("div.lsys-controls", player, bar.element, speed.element), said, pile);
+  const parts = [made("div.lsys-controls", player, bar.element, speed.element), said, pile];
   const buttons = roving(player);
 
   // What there is, and how many commands are obeyed.
@@ -95,6 +95,7 @@ export function walkView(view, sentence, seen, trace, light) {
     sentence.setAttribute("aria-live", view.open ? "off" : "polite"); // what is told of the command is enough
     if (isOther || !view.open) stop();
     if (!view.open || (!isOther && shown === `${at} ${angle}`)) return;
+    if (!said.isConnected) view.body.prepend(...parts); // it is opened for the first time
     shown = `${at} ${angle}`;
     if (isOther) {
       [known, walk, fault] = [book, null, worded("The word of step {step} is too long to be walked; go back to an earlier step.", { step })];
