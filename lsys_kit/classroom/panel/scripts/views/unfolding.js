@@ -86,8 +86,8 @@ export function unfoldingView(view, seen, light, goTo) {
       : worded("{part} of 100 on the way from step {step} to step {next}.", { part: Math.round(100 * part), step, next: step + 1 });
     for (const { element, mother, daughters, widths } of groups) {
       element.style.width = `${(1 - part) * widths[0] + part * widths[1]}px`;
-      mother.style.opacity = String(1 - part);
-      daughters.style.opacity = String(part);
+      mother.style.translate = `0 ${-110 * part}%`; // it leaves upwards, and what it becomes slides in from below
+      daughters.style.translate = `0 ${110 * (1 - part)}%`;
     }
   }
 
@@ -103,7 +103,7 @@ export function unfoldingView(view, seen, light, goTo) {
       while (next < book.length(step) && from !== to && book.daughters(step, next)[0] === from) next++;
       const before = book.word(step).subarray(first, next), after = book.word(step + 1).subarray(from, to), same = before.join() === after.join();
       const [mother, daughters] = [before, same ? [] : after].map((states) => made("span", { style: "position: absolute; left: 0; white-space: nowrap" }, ...chips(book, states)));
-      const element = made("span", { style: "display: inline-block; position: relative; height: 1.5em; overflow: clip; overflow-clip-margin: 2px; vertical-align: bottom" }, mother, daughters);
+      const element = made("span", { style: "display: inline-block; position: relative; height: 1.8em; overflow: clip; vertical-align: bottom" }, mother, daughters);
       word.append(element);
       if (same) mother.style.position = "static";
       else groups.push({ element, mother, daughters, widths: [0, 0] });
