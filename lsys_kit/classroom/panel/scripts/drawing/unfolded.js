@@ -12,6 +12,7 @@ const GROWING = [...AHEAD, "turn", "turn back", "turn by mirrored angle", "pitch
   "draw circle", "draw disc", "draw sphere", "draw box", "turn second heading", "draw by second heading", "move by second heading"]; // an amount of 0 is none
 const QUANTITIES = ["set length", "set width", "set scale", "set gravitropism", "set length once", "set width once", "set gravitropism once"]; // the same times 1
 const BRACKETS = ["push", "pop", "begin polygon", "record vertex", "end polygon", "expect surface"]; // wholly there from the beginning, or up to the end
+const INFINITE = 1e300; // in books
 const unfoldings = new WeakMap();
 
 // The word between a step and the next: { word, rows, ways, mothers }, the modules as numbers, of each number the state of which it looks,
@@ -87,11 +88,17 @@ function shares(earlier, later, length) {
   return Object.assign(starts, { shared: heirs.length ? strokes[0] : null });
 }
 
+// From one number to another; what stands for an infinite one is there from the middle on.
+function way(from, to, part) {
+  if (Math.max(Math.abs(from), Math.abs(to)) >= INFINITE) return part < 0.5 ? from : to;
+  return Number(from) + part * (to - from);
+}
+
 const isNumber = (name) => GROWING.includes(name) || QUANTITIES.includes(name);
 
 // From the numbers of one command to those of another of its name; what has no size changes in the middle.
 function between([name, factor, addend, values, surface], [, factor1, addend1, values1, surface1]) {
-  const way = (from, to, part) => Number(from) + part * (to - from), alike = values && values1 && values.length === values1.length;
+  const alike = values && values1 && values.length === values1.length;
   return (part) => {
     if (!isNumber(name)) return part < 0.5 ? [name, factor, addend, values, surface] : [name, factor1, addend1, values1, surface1];
     const numbers = alike ? values1.map((value, i) => way(values[i], value, part)) : values1;
@@ -103,13 +110,13 @@ function growing(call) {
   const [name, , , values, surface] = call;
   if (BRACKETS.includes(name)) return () => call;
   if (!isNumber(name)) return (part) => (part < 0.5 ? null : call);
-  const way = between([name, QUANTITIES.includes(name) ? 1 : 0, 0, values, surface], call);
-  return (part) => (part ? way(part) : GROWING.includes(name) ? way(0) : null);
+  const from = between([name, QUANTITIES.includes(name) ? 1 : 0, 0, values, surface], call);
+  return (part) => (part || GROWING.includes(name) ? from(part) : null);
 }
 
 function shrinking(call) {
-  const [name] = call, way = growing(call);
-  return (part) => (BRACKETS.includes(name) ? (part < 1 ? call : null) : isNumber(name) || part !== 0.5 ? way(1 - part) : null);
+  const [name] = call, grown = growing(call);
+  return (part) => (BRACKETS.includes(name) ? (part < 1 ? call : null) : isNumber(name) || part !== 0.5 ? grown(1 - part) : null);
 }
 
 // The shapes of a part of the way from a step to the next. What is drawn of a module belongs to its mother.
