@@ -27,6 +27,7 @@ from lsys_kit.geometry.turtle.commands import (
 from lsys_kit.geometry.turtle.instancing import draw_instanced
 from lsys_kit.geometry.turtle.plane import place_path, trace
 from lsys_kit.geometry.turtle.space import trace_in_space
+from lsys_kit.geometry.turtle.unfolding import WordBetween
 from lsys_kit.notation.model.system import LSystem
 
 
@@ -97,11 +98,11 @@ ANGLE_HINT = "An angle is in degrees, as in angle=25.7."
 """What to write where an angle is no number."""
 
 
-def scene_of(what: Derivation | Word, angle: float | None = None, colours: str = "") -> Scene:
+def scene_of(what: Derivation | Word | WordBetween, angle: float | None = None, colours: str = "") -> Scene:
     """The scene of a word, or of the last word of a derivation.
 
     what
-        A word; or a derivation, whose last word is often not even built.
+        A word, perhaps one between two steps; or a derivation, whose last word is often not even built.
     angle
         The turning angle in degrees; by default the system's.
     colours
@@ -127,7 +128,7 @@ def turning_angle(given: object, system: LSystem) -> float:
     return float(system.angle) if given is None else real_from(given, "angle", ANGLE_HINT)
 
 
-def _scene_of(what: Derivation | Word, angle: float | None) -> Scene:
+def _scene_of(what: Derivation | Word | WordBetween, angle: float | None) -> Scene:
     system = what.states.system
     turn = float(system.angle) if angle is None else angle
     mode = drawing_mode(system)
@@ -138,6 +139,7 @@ def _scene_of(what: Derivation | Word, angle: float | None) -> Scene:
     word = what[-1] if isinstance(what, Derivation) else what
     match mode:
         case DrawingMode.FILAMENT:
+            assert isinstance(word, Word)
             return filament(word)
         case DrawingMode.PLANE:
             return place_path(trace(word), turn, float(system.heading))

@@ -15,6 +15,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from lsys_kit.budget import Task, check_bytes, counted
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.derive import Derivation
@@ -24,8 +26,9 @@ from lsys_kit.derivation.tissues.development import CellDevelopment, CellworkDev
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError, require
 from lsys_kit.files import marked_gif, marked_mp4, marked_png, path_from
 from lsys_kit.geometry.drawing import turning_angle
-from lsys_kit.geometry.scene import Scene
+from lsys_kit.geometry.scene import Floats, Scene
 from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
+from lsys_kit.geometry.turtle.unfolding import WordBetween, words_between
 from lsys_kit.notation.model.cells import CellSystem, CellworkSystem
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.draw import check_choices, derivation_of, draw, state_colours
@@ -196,6 +199,8 @@ def _even(image: Image) -> Image:
 
 SHAPE_BYTES = 100
 """About what a shape takes in memory."""
+PARTS, UNFOLD_SECONDS = 20, 1.5
+"""The pictures from a step to the next, and how long these take together, where modules are seen to become their successors."""
 MOST_FRAMES = 300
 """The greatest number of steps of a film."""
 TURNS, LIT_TURNS, TURN_SECONDS = 60, 36, 0.1
@@ -208,11 +213,13 @@ def animate(
     *,
     seconds: object = None,
     turntable: bool = False,
+    unfold: bool = False,
     view: object = None,
     size: object = None,
     **choices: object,
 ) -> Film:
-    """Draw the steps of a development one after another, in a common frame; or turn what is in space around.
+    """Draw the steps of a development one after another, in a common frame, or let each unfold into the next; or turn what is
+    in space around.
 
     Parameters
     ----------
@@ -222,9 +229,13 @@ def animate(
     n
         The number of steps of a system or of a stage diagram; by default its own.
     seconds
-        The duration of each picture: 0.6 by default, and the last is shown longer; 0.1 on a turntable.
+        The duration of each picture: 0.6 by default, and the last is shown longer; 0.1 on a turntable. From a step to the
+        next 1.5, where they unfold.
     turntable
         Whether the last step is shown from all sides, rather than the steps from one.
+    unfold
+        Whether between two steps every module becomes its successor in place, all at the same time: a stroke unfolds into
+        those that it becomes. Each picture is as large as it fits. Only what a turtle draws unfolds.
     view, size, **choices
         As for `draw`, with `labels`, `colours`, `widths`, `turtle`, `legend`, `light` and `background`; a film has one. On
         a turntable the first picture has this view.
@@ -246,8 +257,10 @@ def animate(
     >>> plant, len(plant.images)
     (steps 0 to 3; the last: 125 segments, width 8.84, height 27, 4)
     """
-    require(turntable, bool, 'True or False for "turntable"')
-    usual = TURN_SECONDS if turntable else SECONDS
+    for name, choice in (("turntable", turntable), ("unfold", unfold)):
+        require(choice, bool, f'True or False for "{name}"')
+    unfolding = _unfolding_of(what, turntable) if unfold else None
+    usual = TURN_SECONDS if turntable else UNFOLD_SECONDS if unfold else SECONDS
     pace = real_from(usual if seconds is None else seconds, "seconds", "A step is shown for some time, as in seconds=0.5.")
     pixels = size_from(size)  # which is wrong before anything is made
     if not 0.02 <= pace <= 60:
@@ -257,6 +270,9 @@ def animate(
         _check_drawn(n, None if turntable else side, given | choices)
     style = _style(what, given)
     with Task("The film was not finished"), drawn_on(style.theme):
+        if unfolding is not None:
+            derivation = _derived(unfolding, n, _of_turtle(unfolding, choices))
+            return _unfolding_film(derivation, pace, choices.get("angle"), side, replace(style, size=pixels))
         if turntable:
             return _turned(what, n, pace, side, pixels, choices | given)
         text, images = _shown(what, n, side, choices, {"size": size, **given}, replace(style, size=pixels))
@@ -284,9 +300,7 @@ def _shown(
     what: Any, n: int | None, side: View | None, choices: Mapping[str, Any], given: Mapping[str, Any], style: Style
 ) -> tuple[str, Sequence[Image]]:
     if isinstance(what, LSystem | Derivation):
-        if isinstance(what, LSystem):
-            _check_choices(choices, ("angle", "view"), kind_of(what, {}), what)
-        derivation = _derived(what, n, {name: value for name, value in choices.items() if name != "angle"})
+        derivation = _derived(what, n, _of_turtle(what, choices))
         if drawing_mode(derivation.states.system) is DrawingMode.FILAMENT:
             return _filmed(draw(derivation, **given))
         return _turtle_film(
@@ -307,8 +321,15 @@ def _shown(
     return _pictures_film(what, style.size)
 
 
-def _check_choices(choices: Mapping[str, object], own: tuple[str, ...], kind: str, system: LSystem) -> None:
-    options = *own, "seed", "arithmetic", "field", "seconds", "turntable"
+def _of_turtle(what: LSystem | Derivation, choices: Mapping[str, Any]) -> Mapping[str, Any]:
+    """The choices of how something is derived that a turtle draws."""
+    if isinstance(what, LSystem):
+        _check_choices(choices, ("angle", "view"), kind_of(what, {}), what)
+    return {name: value for name, value in choices.items() if name != "angle"}
+
+
+def _check_choices(choices: Mapping[str, Any], own: tuple[str, ...], kind: str, system: LSystem) -> None:
+    options = *own, "seed", "arithmetic", "field", "seconds", "turntable", "unfold"
     check_choices(choices, options, kind, [each.name for each in system.constants])
 
 
@@ -390,6 +411,71 @@ def _with_labels(image: Image, scene: Scene, frame: ViewFrame) -> Image:
         return image
     body = [embedded(frame.width * frame.parts, frame.height * frame.parts, image), *label_shapes(scene, frame)]
     return painted(document(body, frame.width, frame.height, "", frame.parts), image.width / frame.width)
+
+
+def _unfolding_of(what: object, turntable: bool) -> LSystem | Derivation:
+    """What is to unfold, which a turtle draws."""
+    if turntable:
+        raise ModelValueError("On a turntable nothing unfolds", hint="Give one of the two: unfold=True or turntable=True.")
+    if isinstance(what, LSystem | Derivation):
+        system = what.states.system if isinstance(what, Derivation) else what
+        if drawing_mode(system) is not DrawingMode.FILAMENT:
+            return what
+    raise ModelValueError(
+        "Only what a turtle draws unfolds in a film",
+        hint='The cells of a filament unfold in the panel: explore(..., show=["drawing", "unfolding"]).',
+    )
+
+
+def _unfolding_film(derivation: Derivation, pace: float, angle: object, view: View | None, style: Style) -> Film:
+    """Each step unfolds into the next; what is drawn is always as large as it fits."""
+    system, last = derivation.states.system, derivation.steps
+    turn, parts = turning_angle(angle, system), max(1, min(PARTS, (MOST_FRAMES - 1) // max(1, last)))
+    scenes: list[Scene] = []
+
+    def add(what: Derivation | WordBetween) -> None:
+        scenes.append(seen_as(what, turn, style))
+        check_bytes(SHAPE_BYTES * sum(scene.size for scene in scenes), lambda: "The film was not finished")
+
+    for step in range(last):
+        between = words_between(derivation, step)
+        for number in counted(range(parts), 1):
+            add(between(number / parts) if number else derivation.to(step))
+    add(derivation.to(last))
+    seen = seen_smoothly(_as_large_as_the_last(in_units(scenes, system)), view, style.light)
+    legend = legend_of([derivation.states] * len(seen), seen, style.light is not None) if style.legend else None
+    images = _framed(seen, state_colours(derivation), style.size, legend)
+    return Film(f"steps 0 to {last} unfold; the last: {scenes[-1]}", tuple(images), pace / parts, parts)
+
+
+NO_LENGTH = 1e-12
+"""What is no longer than this has no length."""
+
+
+def _as_large_as_the_last(scenes: Sequence[Scene]) -> list[Scene]:
+    """Scenes enlarged and moved so that each fits into the room of the last."""
+    least, most = scenes[-1].corners
+    return [_fitted(scene, least, most) for scene in scenes]
+
+
+def _fitted(scene: Scene, least: Floats, most: Floats) -> Scene:
+    low, high = scene.corners
+    spans = [*zip(most - least, high - low, strict=True)]
+    scale = min((room / span for room, span in spans if min(room, span) > NO_LENGTH), default=1.0)
+    away, widths = (least + most) / 2 - scale * (low + high) / 2, scene.segments.widths
+
+    def moved(points: Floats) -> Floats:
+        found: Floats = scale * points + np.tile(away, points.shape[1] // len(away))
+        return found
+
+    widened = np.where(widths > 0, scale * widths, widths)
+    return replace(
+        scene,
+        segments=replace(scene.segments, ends=moved(scene.segments.ends), widths=widened),
+        polygons=replace(scene.polygons, points=moved(scene.polygons.points)),
+        discs=replace(scene.discs, centres=moved(scene.discs.centres), radii=scale * scene.discs.radii),
+        labels=replace(scene.labels, points=moved(scene.labels.points)),
+    )
 
 
 def _turned(what: Any, n: int | None, pace: float, view: View | None, size: Size | None, choices: Mapping[str, Any]) -> Film:

@@ -17,6 +17,7 @@ from lsys_kit.errors import LSystemError, ModelNameError, ModelValueError, quota
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
+from lsys_kit.geometry.turtle.unfolding import WordBetween
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.cells import CellSystem, CellworkSystem
 from lsys_kit.notation.model.system import LSystem, symbols
@@ -153,7 +154,7 @@ def _with_widths(found: Style, value: object) -> Style:
     return replace(found, theme=replace(found.theme, boldness=factor))
 
 
-def seen_as(what: Derivation | Word, angle: float, style: Style) -> Scene:
+def seen_as(what: Derivation | Word | WordBetween, angle: float, style: Style) -> Scene:
     """The scene of a word with the colours and widths that were chosen."""
     scene, chosen = scene_of(what, angle, style.colours), dict(style.theme.symbols)
     if style.colours == "symbols":

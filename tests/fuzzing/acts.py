@@ -235,6 +235,7 @@ def acts(folder: Path) -> Mapping[str, Calls]:
         "figure": (lambda system: kit.figure(system, n=6),),
         "animate": (lambda system: kit.animate(system, 9), lambda film: film.gif),
         "animate: longest": (longest, kit.animate, lambda film: film.gif),
+        "animate: unfolding": (lambda system: kit.animate(system, 6, unfold=True), lambda film: film.gif),
         "animate: turntable": (lambda system: kit.animate(system, 6, turntable=True), lambda film: film.gif),
         "growth": (kit.growth, repr),
         "life_spans": (kit.life_spans, lambda found: found.plot()),

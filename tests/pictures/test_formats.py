@@ -7,6 +7,7 @@ import re
 import sys
 import types
 from collections.abc import Callable
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -247,6 +248,7 @@ FILMS: dict[str, tuple[Callable[[], Any], int]] = {
     "cells": (lambda: animate(cellwork_system("K33"), 1, size=200), 2),
     "pictures": (lambda: animate([draw(GROWING, 1), plot(system("J1"), 3)], size=200), 2),
     "turntable": (lambda: animate(BUSH, 0, turntable=True, size=100), 60),
+    "unfolding": (lambda: animate(GROWING, 2, unfold=True, size=(100, 80), seconds=1), 41),
 }
 
 
@@ -305,6 +307,30 @@ def test_a_turntable_is_a_whole_turn() -> None:
     assert closing == pytest.approx(step, rel=0.5)
     assert across > 1.5 * step
     assert film.seconds * len(film.images) == pytest.approx(6)
+
+
+@pytest.mark.parametrize("what", [GROWING, system("K5")])
+def test_what_unfolds_is_as_large_as_it_fits_and_hardly_moves_from_one_picture_to_the_next(what: Any) -> None:
+    images = [np.asarray(image.convert("L"), int) for image in animate(what, 3, unfold=True, size=(120, 90)).images]
+    moved = [np.abs(one - other).mean() for one, other in pairwise(images)]
+    assert max(moved) < 6
+    heights = [np.ptp(np.nonzero((image != image[0, 0]).any(axis=1))[0]) for image in images]
+    assert min(heights) > 0.9 * max(heights)
+
+
+@pytest.mark.parametrize(
+    ("what", "choices", "said"),
+    [
+        (system("J1"), {}, "Only what a turtle draws unfolds"),
+        (map_system("K28"), {}, "Only what a turtle draws unfolds"),
+        (draw(GROWING, 1), {}, "Only what a turtle draws unfolds"),
+        (BUSH, {"turntable": True}, "On a turntable nothing unfolds"),
+        (BUSH, {"unfold": 1}, "True or False"),
+    ],
+)
+def test_what_cannot_unfold_is_said_to(what: Any, choices: dict[str, Any], said: str) -> None:
+    with pytest.raises(ModelValueError, match=said):
+        animate(what, **{"unfold": True} | choices)
 
 
 @pytest.mark.parametrize("what", [system("K5"), system("J1"), map_system("K28")])

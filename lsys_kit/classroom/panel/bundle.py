@@ -60,12 +60,13 @@ def _plain(text: str) -> str:
 
 
 def _enclosed(name: str, left_out: bool, imported: frozenset[str]) -> str:
-    """A script as a function that returns what the module exports, but for constants that no script asks for; none of it where
-    it is left out."""
+    """A script as a function that returns what others import of it, without constants that no script asks for; none of it
+    where it is left out."""
     text = _CONSTANT.sub(
-        lambda found: found[0] if found[1] in imported or source(name).count(found[1]) > 1 else "", source(name)
+        lambda found: found[0] if found[1] in imported or len(re.findall(rf"\b{found[1]}\b", source(name))) > 1 else "",
+        source(name),
     )
-    exported = f"{{ {', '.join(_EXPORT.findall(text))} }}"
+    exported = f"{{ {', '.join(each for each in _EXPORT.findall(text) if each in imported)} }}"
     if left_out:
         return f"const {exported} = {{}};\n"
     return f"const {exported} = (() => {{\n{_WIDGET.sub('', _plain(text))}return {exported};\n}})();\n"

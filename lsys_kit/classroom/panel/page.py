@@ -34,6 +34,8 @@ _NOT_NEEDED = {
 """The scripts that draw other systems than that of a page, by the way in which it is drawn."""
 _OF_EDITORS = frozenset(("undoing", "resuming"))
 """The scripts of rules that can be changed, as those of a page cannot."""
+_MOTIONS = frozenset(("walk", "unfolding"))
+"""The views that have scripts of their own, which are called so."""
 
 
 def page(title: str, data: Mapping[str, Any], description: str, language: str = "en") -> str:
@@ -64,8 +66,8 @@ def page(title: str, data: Mapping[str, Any], description: str, language: str = 
     gallery = frozenset(
         () if model.get("chance") else ("gallery",)
     )  # of a page's panels these have other seeds, and none variants
-    letters = frozenset(() if model.get("letters") else ("letters",))
-    script = f'"use strict";\n{compact("page", not_needed(data["mode"]) | _OF_EDITORS | gallery | letters)}\nopenPage();\n'
+    unused = not_needed(data["mode"]) | unasked([model]) | _OF_EDITORS | gallery
+    script = f'"use strict";\n{compact("page", unused)}\nopenPage();\n'
     return document(title, body, STYLE, description, Program(script, style(), data), language)
 
 
@@ -76,6 +78,17 @@ def not_needed(*modes: str) -> frozenset[str]:
     ['map', 'relaxation', 'relaxing', 'tension', 'tissue']
     """
     return frozenset.intersection(*(_NOT_NEEDED[mode] for mode in modes))
+
+
+def unasked(models: Sequence[Mapping[str, Any]]) -> frozenset[str]:
+    """The scripts of what no panel of a page asks for.
+
+    >>> sorted(unasked([{"letters": ["a"]}, {"show": ["drawing"]}]))
+    ['motion', 'unfolding', 'walk']
+    """
+    shown = {view for model in models for view in model.get("show") or ()} & _MOTIONS
+    wanted = {*shown, *{"motion" for _ in shown}, *{"letters" for model in models if model.get("letters")}}
+    return frozenset({"letters", "motion", *_MOTIONS} - wanted)
 
 
 def save_page(path: str | Path, text: str) -> None:

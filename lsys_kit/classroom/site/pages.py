@@ -22,7 +22,7 @@ from lsys_kit.classroom.lessons.lesson import Lesson
 from lsys_kit.classroom.lessons.widget import escaped_lines, html, prose_html, prose_text
 from lsys_kit.classroom.panel.bundle import Data, compact, style, translated_words
 from lsys_kit.classroom.panel.document import Program, deflated_text, document
-from lsys_kit.classroom.panel.page import not_needed
+from lsys_kit.classroom.panel.page import not_needed, unasked
 from lsys_kit.classroom.places import TITLE
 from lsys_kit.classroom.site.markdown import Links, Places, address_on_site, markdown_html, mathml
 from lsys_kit.classroom.site.requests import notes
@@ -195,8 +195,9 @@ def _program(parts: Parts, live: bool) -> Program | None:
         script = f'"use strict";\n{compact("class_page")}\nopenClassPage();\n'
     else:
         panels = [*_panels(parts)]
-        unlettered = {"letters"} if not any(panel["model"].get("letters") for panel in panels) else set()
-        left_out = not_needed(*{panel["mode"] for panel in panels}) | unlettered if panels else _PANELS
+        left_out = (
+            not_needed(*{each["mode"] for each in panels}) | unasked([each["model"] for each in panels]) if panels else _PANELS
+        )
         script = f'"use strict";\n{compact("course", left_out)}\nopenCoursePage();\n'
     words = {"words": translated_words("class_page", "panel", "filling", "voting")} if live else {}
     looks = style() + style("lessons") + (style("class_page") if live else "")

@@ -28,6 +28,7 @@ from lsys_kit.geometry.turtle.turtle import (
     handlers_of,
     run_turtle,
 )
+from lsys_kit.geometry.turtle.unfolding import WordBetween
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 
 
@@ -145,7 +146,7 @@ PLANE_HANDLERS = handlers_of(PlaneTurtle)
 """What carries out the actions that stay in the plane."""
 
 
-def trace(word: Word) -> Path:
+def trace(word: Word | WordBetween) -> Path:
     """The path of a turtle that interprets a word; commands that lead out of the plane are skipped.
 
     >>> from lsys_kit import derive, read

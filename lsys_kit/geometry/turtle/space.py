@@ -28,6 +28,7 @@ from lsys_kit.geometry.scene import OWN, Floats, Scene, Segments
 from lsys_kit.geometry.turtle.commands import WIDTH, Instruction, in_plane, initial_step
 from lsys_kit.geometry.turtle.surfaces import PATCH_FACES, Surface, patch_grid
 from lsys_kit.geometry.turtle.turtle import Outline, Turtle, collected_labels, collected_shapes, handlers_of, run_turtle
+from lsys_kit.geometry.turtle.unfolding import WordBetween
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 
 Vector: TypeAlias = tuple[float, float, float]
@@ -344,7 +345,7 @@ _ROTATIONS = frozenset(("turn", "turn by mirrored angle", "turn back", "pitch", 
 SPACE_HANDLERS = handlers_of(SpaceTurtle)
 
 
-def trace_in_space(word: Word, angle: float | None = None) -> Scene:
+def trace_in_space(word: Word | WordBetween, angle: float | None = None) -> Scene:
     """The scene that a turtle in space draws by interpreting a word.
 
     >>> from lsys_kit import derive, read

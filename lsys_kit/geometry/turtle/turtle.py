@@ -33,6 +33,7 @@ from lsys_kit.geometry.turtle.commands import (
     unknown_commands,
 )
 from lsys_kit.geometry.turtle.surfaces import Face, Surface, surfaces, surfaces_by_symbol
+from lsys_kit.geometry.turtle.unfolding import WordBetween
 from lsys_kit.notation.model.system import LSystem
 
 
@@ -477,7 +478,7 @@ def handlers_of(turtle: type[Turtle]) -> dict[str, Handler]:
 
 def run_turtle(
     turtle: Turtle,
-    word: Word,
+    word: Word | WordBetween,
     handlers: Mapping[str, Handler],
     prepare: Callable[[Instruction], Any] = lambda instruction: instruction,
 ) -> None:
@@ -494,7 +495,7 @@ def run_turtle(
             turtle.unknown["~"] = None
 
 
-def _surfaces_in(word: Word, compiled: CompiledWord) -> int:
+def _surfaces_in(word: Word | WordBetween, compiled: CompiledWord) -> int:
     drawing = {
         state: many
         for state, calls in compiled.calls.items()
@@ -528,10 +529,27 @@ class CompiledWord(NamedTuple):
     unknown: tuple[str, ...]
 
 
-def compile_word(word: Word, handlers: Mapping[str, Handler], prepare: Callable[[Instruction], Any]) -> CompiledWord:
+def compile_word(
+    word: Word | WordBetween, handlers: Mapping[str, Handler], prepare: Callable[[Instruction], Any]
+) -> CompiledWord:
+    if isinstance(word, WordBetween):
+        rows = counted(range(len(word.calls)))
+        return CompiledWord({number: _calls_between(word, number, handlers, prepare) for number in rows}, ())
     system, drawn = word.states.system, interpretations(word.states, word.numbers())
     calls = {
         state: [(handlers[instruction.action], prepare(instruction)) for instruction in found if instruction.action in handlers]
         for state, found in counted(instructions(drawn, system.turtle, system.angle).items())
     }
     return CompiledWord(calls, unknown_commands(drawn, system))
+
+
+def _calls_between(
+    word: WordBetween, number: int, handlers: Mapping[str, Handler], prepare: Callable[[Instruction], Any]
+) -> list[tuple[Handler, Any]]:
+    """What is called for a module of a word between two steps; first of all it takes the look of a state."""
+    found = [(handlers[each.action], prepare(each)) for each in word.calls[number] if each.action in handlers]
+    return [(_look_like, word.looks[number]), *found]
+
+
+def _look_like(turtle: Turtle, state: int) -> None:
+    turtle.state = state

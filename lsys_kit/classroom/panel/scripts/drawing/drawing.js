@@ -31,7 +31,9 @@ const BESIDE_ARROWS = 0.27; // how far along a wall its label stands, where in i
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 const NEARER = { "+": ZOOM, "=": ZOOM, "-": 1 / ZOOM };
 
-// `told` has { view(), front(), turned(around, above), traced(step, position), pointed(step, position) }; position -1 is nothing.
+// `told` has { view(), front(), turned(around, above), traced(step, position), pointed(step, position) }; position -1 is nothing;
+// and perhaps over(pen, shapes, frame, look), which paints shapes, or a sequence without a frame, in a way of its own, or says that it
+// does not, and between(now), the shapes of a part of the way to the next step, or null.
 export function drawingView(parent, told) {
   const canvas = made("canvas.lsys-canvas", { tabindex: 0, role: "img" });
   const hint = made("div.lsys-hint", { "aria-hidden": "true", hidden: Boolean(remembered("drawn")) });
@@ -98,18 +100,19 @@ export function drawingView(parent, told) {
       sheet = sequence(book, now.step, { width: width * near, height, boxed: now.boxed });
       pen.translate(leftOf(width), 0);
       const share = shareOfWay();
-      paintSequence(pen, share < 1 ? rowBetween(sheet, glide.mothers, share) : sheet, look);
+      if (!told.over?.(pen, sheet, null, look)) paintSequence(pen, share < 1 ? rowBetween(sheet, glide.mothers, share) : sheet, look);
     } else if (fault) sentence(fault, width, height);
     else if (isTissue) {
       frame = tissueFrame(shapes, width, height, { around: now.around, above: now.above, near, shift, box: boxOf(now.boxed) });
       paintTissue(pen, shapes, frame, look, choice.shown(look.alone));
     } else {
+      shapes = told.between?.(now) ?? shapes;
       const share = shareOfWay(), visible = share < 1 ? shapesBetween(share) : isMap ? relaxed.shapes() : shapes;
       const box = isMap && relaxed.watched() ? relaxed.room() : boxOf(now.boxed);
       const forces = isMap && share >= 1 ? relaxed.forces() : null, scaled = forces ? near * (1 - (2 * LONGEST_ARROW) / Math.min(width, height)) : near;
       frame = frameOf(shapes, width, height, { around: now.around, above: now.above, near: scaled, shift, box });
       if (isMap) paintMap(visible, height, forces);
-      else paint(pen, visible, frame, look);
+      else if (!told.over?.(pen, visible, frame, look)) paint(pen, visible, frame, look);
       if (empty()) sentence(`Nothing is drawn at step ${now.step}: no module of the word is a stroke or a surface.`, width, height);
     }
     canvas.dataset.drawn = Number(canvas.dataset.drawn || 0) + 1;

@@ -53,31 +53,34 @@ function openTurtle({ mode, turtle, states, symbols }) {
     ofStates: ofStates.map((name) => palette.indexOf(name)) };
 }
 
-function tracedAnew(book, step, { inSpace, calls, amounts, palette, chosen, ofStates }) {
-  const setting = book.data.turtle, trail = inSpace ? spaceTrail(setting) : planeTrail(setting);
-  const turtle = newTurtle(trail, setting);
-  interpretWord(turtle, book.word(step), calls);
+function tracedAnew(book, step, opened) {
+  const { inSpace, amounts, palette, chosen, ofStates } = opened, setting = book.data.turtle, turtle = interpreted(book, book.word(step), opened);
   if (setting.colour === RAMP_START) stretchRamp(turtle.strokes, turtle.faces, turtle.rounds);
   else if (setting.natural) colourNaturally(turtle.strokes);
   const colourOf = (state, colour) => (colour === OWN_LOOK ? ofStates[state] : chosen[colour % chosen.length]);
   return {
-    dimension: inSpace ? 3 : 2, trail: trail.packed(), amounts, palette, heading: setting.heading, pixels: setting.pixels,
+    dimension: inSpace ? 3 : 2, trail: turtle.trail.packed(), amounts, palette, heading: setting.heading, pixels: setting.pixels,
     typical: medianLength(turtle.strokes.lengths), broadest: broadestOf(turtle.strokes.widths, OWN_LOOK), placed: null,
     ...shapesOf(turtle, colourOf),
   };
 }
 
-function interpretWord(turtle, word, calls) {
+// The turtle of a book at the end of a word; `seen` is called with it at the beginning, and after each module.
+export function interpreted(book, word, { inSpace, calls } = openedTurtle(book), seen = null) {
+  const setting = book.data.turtle, turtle = newTurtle((inSpace ? spaceTrail : planeTrail)(setting), setting);
   let many = 0, curved = 0;
   for (const state of word) [many, curved] = [many + calls[state].length, curved + calls[state].surfaces];
   if (many > MOST_CALLS) throw new RangeError(`Too much to draw: more than ${grouped(MOST_CALLS)} commands`);
   turtle.flat = curved > MOST_CURVED;
+  seen?.(turtle);
   for (let place = 0; place < word.length; place++) {
     const state = word[place];
     turtle.place = place;
     turtle.state = state;
     for (const call of calls[state]) call.act(turtle, call);
+    seen?.(turtle);
   }
+  return turtle;
 }
 
 const REAL = ["widths", "radii"]; // all other numbers of shapes are whole

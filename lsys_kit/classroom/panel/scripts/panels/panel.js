@@ -21,6 +21,7 @@ import { countsView } from "../views/counts.js";
 import { folding, moreOf, roving } from "../views/folding.js";
 import { ownName } from "../views/landmarks.js";
 import { letterSwitches } from "../views/letters.js";
+import { motions } from "../views/motion.js";
 import { netView } from "../views/net.js";
 import { rulesView } from "../views/rules.js";
 import { wordView } from "../views/word.js";
@@ -59,7 +60,7 @@ export function openPanel(element, host, compared = null) {
   const play = player(() => ({ now: seen.step, most: book.steps }), goTo, () => show());
   const reset = button(worded("reset"), worded("back to the first settings"), goBack);
   const bottom = made("div.lsys-controls"), views = made("div.lsys-views"), top = made("div.lsys-top", step.element, play.element);
-  const titles = { rules: worded("rules"), word: worded("word"), stages: worded("stages"), drawing: worded("drawing"), counts: worded("how many"),
+  const titles = { rules: worded("rules"), word: worded("word"), stages: worded("stages"), drawing: worded("drawing"), ...motions?.titles(), counts: worded("how many"),
     seeds: worded("nine seeds"), variants: worded("nine variants") };
   const opening = seen.model.show ?? ["word", "drawing", ...(compared ? [] : ["stages"])];
   const atHand = ["rules", "seeds", ...(seen.model.show ?? ["word", "stages", "drawing"])];
@@ -71,7 +72,9 @@ export function openPanel(element, host, compared = null) {
   const rules = rulesView(view.rules.body, newRules, () => seen.settings);
   const word = wordView(view.word.body, (position, way) => trace(seen.step, position, way, view.word), (position) => point({ step: seen.step, position }));
   const net = netView(view.stages.body, (place) => toggleMark(place), (place) => point({ place }), () => view.stages.enlarge());
+  const motion = motions?.open(view, sentence, () => ({ ...sides(), book, traced, boxed }), trace, light, goTo);
   const drawing = drawingView(view.drawing.body, {
+    ...motion,
     view: () => [seen.around, seen.above],
     front: () => [model.around, model.above],
     turned: (right, up) => change({ around: right, above: up }),
@@ -183,6 +186,7 @@ export function openPanel(element, host, compared = null) {
     seed.offer(seedTexts(), 0);
     showSeed();
     view.seeds.offer(model.chance);
+    motion?.offer(model.book);
     view.variants.offer(host.editable && !["map", "tissue"].includes(model.book.mode));
     for (const group of groups) group.refresh();
     variants?.forget();
@@ -301,6 +305,7 @@ export function openPanel(element, host, compared = null) {
     const lit = new Set([...looks.lit.keys()].map((position) => book.data.states[states[position]][2]));
     net.light(place(seen.mark)?.place ?? -1, lit, pointed?.place ?? -1);
     rules.light(placesOf(book, traced));
+    motion?.show();
     sentence.textContent = traced ? told(book, traced) : "";
   }
 
@@ -350,6 +355,7 @@ export function openPanel(element, host, compared = null) {
 
   function close() {
     play.stop();
+    motion?.stop();
     for (const off of offs) off();
     for (const timer of [resting, idle]) clearTimeout(timer);
     books.close();

@@ -1,0 +1,139 @@
+// The unfolding: one slider from a step to the next, on which every module becomes its successor in place; and the word, whose letters part.
+
+import { clamped, times } from "../books/numbers.js";
+import { paintDividing } from "../drawing/dividing.js";
+import { unfoldedShapes } from "../drawing/unfolded.js";
+import { button, face, list, made, slider, worded } from "./controls.js";
+import { roving } from "./folding.js";
+import { labelled } from "./word.js";
+
+const PARTS = times(101, String); // hundredths of the way
+const PACE = 5; // hundredths that an arrow key goes on
+const SPEEDS = ["6", "3", "1.5"]; // seconds from a step to the next
+const STILLS = 4; // with reduced motion so many pictures of a step
+const MOST_LETTERS = 150, MOST = 50_000; // modules of which the word is shown, and of which the drawing unfolds
+
+// `seen` says what there is: { book, step, angle, boxed }; `light` shows it again, and `goTo` goes to a step.
+export function unfoldingView(view, seen, light, goTo) {
+  const still = matchMedia("(prefers-reduced-motion: reduce)");
+  let part = 0, shown = "", known = null, frame = 0, last = 0, seconds = Number(SPEEDS[1]), groups = [];
+  const bar = slider("unfolding", worded("hundredths of the way from this step to the next"), PARTS, 0, (at) => {
+    stop();
+    put(at / 100);
+  }, worded("unfolding"), { pace: PACE, least: 1 });
+  const play = button("play", worded("let it unfold"), toggle, { class: "lsys-button lsys-play" });
+  const speed = list("unfolds", worded("seconds from a step to the next"), SPEEDS.map((each) => [each, each]), SPEEDS[1], (each) => { seconds = Number(each); }, worded("seconds"));
+  const player = made("div.lsys-player", { role: "toolbar", "aria-label": worded("let it unfold") }, play);
+  const said = made("div.lsys-status", { role: "status" }), word = made("div.lsys-word", { "aria-hidden": "true" });
+  const parts = [made("div.lsys-controls", player, bar.element, speed.element), said, word];
+  roving(player);
+
+  const most = ({ book }) => book.steps;
+
+  function present() {
+    const found = seen();
+    return { ...found, step: Math.min(found.step, found.book.steps) };
+  }
+
+  const canUnfold = ({ book, step }) => step < book.steps && book.length(step + 1) <= MOST;
+
+  // What is all the way is the next step at its beginning.
+  function put(to) {
+    const now = present();
+    part = canUnfold(now) ? clamped(0, 1, to) : 0;
+    if (part < 1) return light();
+    part = 0;
+    goTo(now.step + 1);
+  }
+
+  function toggle() {
+    if (frame) return stop();
+    if (!canUnfold(present())) goTo(0);
+    last = 0;
+    said.setAttribute("aria-live", "off");
+    face(play, "pause", worded("pause"));
+    frame = requestAnimationFrame(run);
+  }
+
+  function run(time) {
+    frame = requestAnimationFrame(run);
+    const way = last ? (time - last) / 1000 / seconds : 0;
+    if (last && still.matches && way < 1 / STILLS) return;
+    last = time;
+    put(part + way);
+    if (!canUnfold(present())) stop();
+  }
+
+  function stop() {
+    if (!frame) return;
+    cancelAnimationFrame(frame);
+    frame = 0;
+    said.setAttribute("aria-live", "polite");
+    face(play, "play", worded("let it unfold"));
+  }
+
+  function show() {
+    const now = present(), { book, step } = now, key = `${step} ${part}`;
+    if (!view.open) stop();
+    if (known !== book || !shown.startsWith(`${step} `)) part = 0;
+    if (!view.open || (known === book && shown === key)) return;
+    if (!said.isConnected) view.body.prepend(...parts); // it is opened for the first time
+    if (known !== book || !shown.startsWith(`${step} `)) openWord(now);
+    [known, shown] = [book, `${step} ${part}`];
+    bar.show(Math.round(100 * part));
+    said.textContent = step === most(now) ? worded("This is the last step that is here.")
+      : !canUnfold(now) ? worded("Step {step} is too large to be seen to unfold; go back to an earlier step.", { step: step + 1 })
+      : worded("{part} of 100 on the way from step {step} to step {next}.", { part: Math.round(100 * part), step, next: step + 1 });
+    for (const { element, mother, daughters, widths } of groups) {
+      element.style.width = `${(1 - part) * widths[0] + part * widths[1]}px`;
+      mother.style.translate = `0 ${-110 * part}%`; // it leaves upwards, and what it becomes slides in from below
+      daughters.style.translate = `0 ${110 * (1 - part)}%`;
+    }
+  }
+
+  // Each module with what it becomes, one upon the other; a module that stays is seen once.
+  function openWord(now) {
+    const { book, step } = now;
+    groups = [];
+    word.replaceChildren();
+    word.hidden = !canUnfold(now) || book.length(step + 1) > MOST_LETTERS;
+    if (word.hidden) return;
+    for (let first = 0, next = 1; first < book.length(step); first = next++) {
+      const [from, to] = book.daughters(step, first);
+      while (next < book.length(step) && from !== to && book.daughters(step, next)[0] === from) next++;
+      const before = book.word(step).subarray(first, next), after = book.word(step + 1).subarray(from, to), same = before.join() === after.join();
+      const [mother, daughters] = [before, same ? [] : after].map((states) => made("span", { style: "position: absolute; left: 0; white-space: nowrap" }, ...chips(book, states)));
+      const element = made("span", { style: "display: inline-block; position: relative; height: 1.8em; overflow: clip; vertical-align: bottom" }, mother, daughters);
+      word.append(element);
+      if (same) mother.style.position = "static";
+      else groups.push({ element, mother, daughters, widths: [0, 0] });
+    }
+    for (const each of groups) each.widths = [each.mother, each.daughters].map((part) => part.getBoundingClientRect().width);
+  }
+
+  function chips(book, states) {
+    return Array.from(states, (state) => {
+      const label = book.label(state), element = made(label.steering ? "span.lsys-steering" : "span.lsys-module", ...labelled(label));
+      if (label.colour) element.style.setProperty("--symbol", label.colour);
+      return element;
+    });
+  }
+
+  // Whether a part of the way is to be seen.
+  const isUnfolding = () => view.open && known === seen().book && part > 0;
+
+  return {
+    show, stop,
+    // The shapes of what is to be seen of the turtle's drawing; null where the walk, or another step, is.
+    between({ step, angle }) {
+      const { book } = seen();
+      return view.open && book.data.turtle && step < book.steps ? unfoldedShapes(book, step, angle, isUnfolding() ? part : 0) : null;
+    },
+    paint(pen, sheet, look) {
+      if (!isUnfolding()) return false;
+      const { book, step, boxed } = present();
+      paintDividing(pen, sheet, look, book, step, part, boxed);
+      return true;
+    },
+  };
+}
