@@ -36,14 +36,14 @@ from lsys_kit.pictures.options import (
     Style,
     check_drawable,
     coloured_symbols,
+    in_colours,
+    in_widths,
     kind_of,
-    seen_as,
     split_options,
     style_from,
 )
 from lsys_kit.pictures.picture import NetPicture, Picture
 from lsys_kit.pictures.plots.chart import Plot, painted
-from lsys_kit.pictures.rendering.frames import in_units
 from lsys_kit.pictures.rendering.view import project_smoothly, view_from
 from lsys_kit.pictures.style.palette import colour_of
 from lsys_kit.pictures.style.themes import drawn_on
@@ -238,12 +238,15 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> AnyPicture:
         False leaves out names, numbers of steps, times and ages. The cells of a filament have letters where these are more
         than two; True writes them in any case.
     colours
-        "symbols": each has its own, the same in all pictures. "natural": strokes are brown to green, from the stem to the tips,
-        by their width or branch order, as those of plants in space are by themselves, as far as the model chooses none. Or the
-        colours of some symbols, by names of CSS or hexadecimal: `colours={"L": "seagreen", "B": "#cc79a7"}`.
+        "symbols": each has its own, the same in all pictures. "natural": strokes are brown to green, from the stem to the tips.
+        Or the colours of some symbols, by names of CSS or hexadecimal: `colours={"L": "seagreen", "B": "#cc79a7"}`. By default
+        strokes have the colours that the model chooses; where it chooses none, those of a plant, that is of a system with
+        branches, are natural, unless it interprets several kinds of modules as strokes; all others are those of symbols.
     widths
-        A factor by which strokes are broader; "order", by which each is as broad as its branch order says, whatever the model
-        says; or "constant". By default strokes are as broad as the model says, and by branch order where it says nothing.
+        A factor by which strokes are broader; "pipes", by which a stroke is the broader, the more tips it bears (the pipe
+        model); "order", by which each is as broad as its branch order says; or "constant". By default strokes are as broad as
+        the model says; where it says nothing, those of a plant by the pipe model, all others by branch order. No stroke is
+        finer than 0.7 pixels.
     turtle
         Whether an arrow marks where the turtle starts, pointing where it looks then.
     legend
@@ -346,7 +349,7 @@ def _drawing(
     if drawing_mode(system) is DrawingMode.FILAMENT:
         return _sequence(drawn, states, cells, style)
     turn = turning_angle(angle, system)
-    scenes = in_units([seen_as(each.word, turn, style) for each in drawn], system)
+    scenes = in_widths([in_colours(each.word, turn, style) for each in drawn], system, style)
     pictures = [
         Picture(
             (FilamentRow(each.step, seen),), state_colours(each.word), None, states, scene if scene.dimension == 3 else None

@@ -38,14 +38,15 @@ from lsys_kit.pictures.options import (
     WORD,
     Style,
     coloured_symbols,
+    in_colours,
+    in_widths,
     instead,
     kind_of,
-    seen_as,
     split_options,
     style_from,
 )
 from lsys_kit.pictures.picture import Picture
-from lsys_kit.pictures.rendering.frames import ViewFrame, frame_around, in_units
+from lsys_kit.pictures.rendering.frames import ViewFrame, frame_around
 from lsys_kit.pictures.rendering.scene_shapes import label_shapes
 from lsys_kit.pictures.rendering.view import FROM_THE_RIGHT, View, project_smoothly, view_from
 from lsys_kit.pictures.sizes import Size, document, enlargement, final_size, size_from
@@ -360,9 +361,9 @@ def _turtle_film(derivation: Derivation, angle: object, view: View | None, style
     turn = turning_angle(angle, derivation.states.system)
     steps: list[Scene] = []
     for step in counted(range(derivation.steps + 1), 1):
-        steps.append(seen_as(derivation.to(step), turn, style))
+        steps.append(in_colours(derivation.to(step), turn, style))
         check_bytes(SHAPE_BYTES * sum(scene.size for scene in steps), lambda: "The film was not finished")
-    scenes = project_smoothly(in_units(steps, derivation.states.system), view)
+    scenes = project_smoothly(in_widths(steps, derivation.states.system, style), view)
     legend = legend_of([derivation.states] * len(scenes), scenes) if style.legend else None
     return f"steps 0 to {derivation.steps}; the last: {steps[-1]}", _framed(
         scenes, state_colours(derivation), style.size, legend

@@ -14,13 +14,14 @@ from lsys_kit.derivation.timed.lineage import Lineage
 from lsys_kit.derivation.timed.timed import Timed
 from lsys_kit.derivation.tissues.development import CellDevelopment
 from lsys_kit.errors import LSystemError, ModelNameError, ModelValueError, quotable, require, shown
-from lsys_kit.geometry.drawing import scene_of
+from lsys_kit.geometry.drawing import PIPES, scene_of
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.cells import CellSystem, CellworkSystem
 from lsys_kit.notation.model.system import LSystem, symbols
 from lsys_kit.pictures.formats.notebook import listed
+from lsys_kit.pictures.rendering.frames import in_units
 from lsys_kit.pictures.rendering.looks import with_colours_of_symbols, with_start, with_widths
 from lsys_kit.pictures.sizes import Size, size_from
 from lsys_kit.pictures.style.colour_values import colour_from
@@ -46,7 +47,7 @@ KINDS: Mapping[str, tuple[str, ...]] = {
     CELLWORK: ("colours", "legend", "background"),
 }
 """The kinds of pictures, each with the options that it has."""
-COLOURS, WIDTHS = ("natural", "symbols"), ("order", "constant")
+COLOURS, WIDTHS = ("natural", "symbols"), (PIPES, "order", "constant")
 """What colours and widths can be, besides colours of single symbols and a factor."""
 LEAST_FACTOR, GREATEST_FACTOR = 0.1, 20.0
 
@@ -64,7 +65,7 @@ class Style:
     colours
         Whose colours strokes have: "natural" ones, or those of "symbols"; "" for those of the system.
     widths
-        Where the widths of strokes come from: their "order", or they are "constant"; "" as the turtle has set them.
+        Where the widths of strokes come from: "pipes", their "order", or they are "constant"; "" as the system says.
     theme
         The colours of the picture, and how bold its strokes are.
     size
@@ -141,22 +142,27 @@ def _with_widths(found: Style, value: object) -> Style:
     try:
         factor = real_from(value, "widths")
     except LSystemError as mistake:
-        raise ModelValueError(f'"widths" are "order", "constant" or a factor, not {shown(value)}') from mistake
+        raise ModelValueError(f'"widths" are "pipes", "order", "constant" or a factor, not {shown(value)}') from mistake
     if not LEAST_FACTOR <= factor <= GREATEST_FACTOR:
         raise ModelValueError(f'A factor of "widths" is {LEAST_FACTOR:g} to {GREATEST_FACTOR:g}, not {factor:g}')
     return replace(found, theme=replace(found.theme, boldness=factor))
 
 
-def seen_as(what: Derivation | Word, angle: float, style: Style) -> Scene:
-    """The scene of a word with the colours and widths that were chosen."""
-    scene, chosen = scene_of(what, angle, style.colours), dict(style.theme.symbols)
+def in_colours(what: Derivation | Word, angle: float, style: Style) -> Scene:
+    """The scene of a word with the colours that were chosen."""
+    scene, chosen = scene_of(what, angle, style.colours, style.widths), dict(style.theme.symbols)
     if style.colours == "symbols":
-        scene = with_colours_of_symbols(scene)
-    elif chosen:
-        states = [state for state, module in enumerate(what.states.modules) if module.symbol in chosen]
-        scene = with_colours_of_symbols(scene, states)
-    scene = with_widths(scene, style.widths, style.theme.boldness)
-    return with_start(scene, what.states.system) if style.turtle else scene
+        return with_colours_of_symbols(scene)
+    if not chosen:
+        return scene
+    states = [state for state, module in enumerate(what.states.modules) if module.symbol in chosen]
+    return with_colours_of_symbols(scene, states)
+
+
+def in_widths(scenes: Sequence[Scene], system: LSystem, style: Style) -> list[Scene]:
+    """Scenes of a system with the widths that were chosen, such that all fit into one frame."""
+    found = [with_widths(scene, style.widths, style.theme.boldness) for scene in in_units(scenes, system, style.widths)]
+    return [with_start(scene, system) for scene in found] if style.turtle else found
 
 
 def split_options(choices: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:

@@ -19,8 +19,8 @@ CONSTANT_ORDER = 1
 """The branch order whose width all strokes have where that is constant."""
 LEAST = (15, 11, 8, 7)
 """The least widths by branch order where the turtle chooses none, in tenths of a pixel: finer lines are too pale to be seen."""
-THINNEST, BROADEST = 3, 4_000
-"""The least and the greatest width of a stroke that a turtle chooses, in tenths of a pixel."""
+THINNEST, BROADEST = 7, 4_000
+"""The least and the greatest width of a stroke, in tenths of a pixel: what is finer is too pale to be seen."""
 SAMPLE = 20_000
 """The median length of strokes is estimated from at most this number of them."""
 USUAL_LENGTH, FINEST, STURDY, BOLDEST = 12, 0.3, 0.8, 2.0
@@ -134,7 +134,7 @@ def with_start(scene: Scene, system: LSystem) -> Scene:
 
 def with_widths(scene: Scene, widths: str = "", factor: float = 1.0) -> Scene:
     """A scene with strokes for which the turtle has set no width, if these are chosen by "order" or "constant"; else those that
-    it has set are broader by a factor.
+    have widths are broader by a factor.
 
     >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.drawing import scene_of
@@ -143,7 +143,7 @@ def with_widths(scene: Scene, widths: str = "", factor: float = 1.0) -> Scene:
     ([-1.0], [-1.0, 6.0])
     """
     segments = scene.segments
-    if not widths:
-        given = np.where(segments.widths == OWN, OWN, segments.widths * factor)
-        return replace(scene, segments=replace(segments, widths=given))
-    return replace(scene, segments=replace(segments, widths=np.array([float(OWN)])))
+    if widths in ("order", "constant"):
+        return replace(scene, segments=replace(segments, widths=np.array([float(OWN)])))
+    given = np.where(segments.widths == OWN, OWN, segments.widths * factor)
+    return replace(scene, segments=replace(segments, widths=given))
