@@ -37,7 +37,7 @@ SHARED: Mapping[str, Mapping[str, str]] = {
         "LAST_COLOUR": "LAST_COLOUR",
         "MOST_CURVED": "MOST_CURVED",
     },
-    "geometry.pipe_model": {"EXPONENT": "EXPONENT"},
+    "geometry.pipe_model": {"EXPONENT": "EXPONENT", "TRUNK": "TRUNK"},
     "geometry.turtle.plane": {"LARGEST_EXACT": "LARGEST_EXACT"},
     "geometry.turtle.surfaces": {"PATCH_FACES": "PATCH_FACES"},
     "geometry.tissues.relaxation": {
@@ -67,7 +67,6 @@ SHARED: Mapping[str, Mapping[str, str]] = {
         "BROADEST_PART": "MOST_OF_A_PICTURE",
         "BROAD": "BROAD",
         "STOUT": "STOUT",
-        "TRUNK": "TRUNK",
         "PICTURE_WIDTH": "WIDTH",
         "PICTURE_HEIGHT": "HEIGHT",
         "TALLEST": "TALLEST",

@@ -6,7 +6,6 @@ model, as far as neither the model nor whoever draws says otherwise. Colours fol
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -15,7 +14,7 @@ from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.geometry.filament import filament
-from lsys_kit.geometry.pipe_model import pipe_widths
+from lsys_kit.geometry.pipe_model import pipe_widths, tips_borne
 from lsys_kit.geometry.scene import OWN, Floats, Integers, Scene, Segments
 from lsys_kit.geometry.turtle.commands import (
     COMMANDS,
@@ -91,8 +90,8 @@ PIPES = "pipes"
 
 
 def coloured(scene: Scene, system: LSystem, colours: str = "", widths: str = "") -> Scene:
-    """A scene of a system, with widths by the pipe model, in units of the thinnest, where it has these; and in which strokes
-    without a chosen colour have natural ones if those of the system have.
+    """A scene of a system, with widths by the pipe model, where it has these; and in which strokes without a chosen colour have
+    natural ones if those of the system have.
 
     Whoever draws can choose "natural" colours, and "pipes" as widths.
 
@@ -104,13 +103,15 @@ def coloured(scene: Scene, system: LSystem, colours: str = "", widths: str = "")
     >>> coloured(trace_in_space(derive(tree, 0)[0]), tree).segments.colours.tolist()
     [16, 19, 23, 23, 23]
     """
-    piped = has_pipe_widths(system, widths)
-    if piped:
-        scene = replace(scene, segments=replace(scene.segments, widths=pipe_widths(scene.segments)))
+    if tips := has_pipe_widths(system, widths):
+        borne = tips_borne(scene.segments)
+        given = pipe_widths(borne, float(np.ptp(scene.corners, axis=0).max()))
+        scene = replace(scene, segments=replace(scene.segments, widths=given))
     if initial_colour(system) == RAMP_START:
         return _stretched(scene)
-    natural = colours == "natural" or has_natural_colours(system)
-    return _in_natural_colours(scene, _youth_by_tips if piped else _youth) if natural else scene
+    if not (colours == "natural" or has_natural_colours(system)):
+        return scene
+    return _in_natural_colours(scene, _youth_by_tips(borne) if tips else _youth(scene.segments))
 
 
 def _stretched(scene: Scene) -> Scene:
@@ -130,9 +131,9 @@ def _along_ramp(colours: Integers, stretch: float) -> Integers:
     return np.where(there, RAMP_START + np.floor((colours - RAMP_START) * stretch + 0.5).astype(np.int64), colours)
 
 
-def _in_natural_colours(scene: Scene, youth: Callable[[Segments], Floats]) -> Scene:
+def _in_natural_colours(scene: Scene, youth: Floats) -> Scene:
     segments = scene.segments
-    numbers = RAMP_START + np.floor((RAMP_END - RAMP_START) * youth(segments) + 0.5).astype(np.int64)
+    numbers = RAMP_START + np.floor((RAMP_END - RAMP_START) * youth + 0.5).astype(np.int64)
     return replace(scene, segments=replace(segments, colours=np.where(segments.colours == OWN, numbers, segments.colours)))
 
 
@@ -145,10 +146,10 @@ def _youth(segments: Segments) -> Floats:
     return np.where(segments.widths == OWN, by_order, 1 - np.sqrt(np.clip(segments.widths / widest, 0, 1)))
 
 
-def _youth_by_tips(segments: Segments) -> Floats:
-    """The same for widths by the pipe model: the fewer tips a stroke bears, by their logarithm."""
-    widest = float(segments.widths.max(initial=1))
-    return 1 - np.log(segments.widths) / (np.log(widest) or 1.0)
+def _youth_by_tips(tips: Integers) -> Floats:
+    """The same by the tips that they bear, each counting the less, the more there are."""
+    most = int(tips.max(initial=1))
+    return 1 - np.log(tips) / (np.log(most) or 1.0)
 
 
 ANGLE_HINT = "An angle is in degrees, as in angle=25.7."

@@ -18,28 +18,37 @@ from lsys_kit.geometry.scene import Floats, Integers, Segments
 
 EXPONENT = 2.5
 """The power in which widths add up."""
+TRUNK = 1 / 50
+"""The width of the broadest stroke, as a part of the extent of the drawing."""
 NEAR = 1e-6
 """Points that are closer, relative to the extent of all strokes, are one."""
 
 
-def pipe_widths(segments: Segments) -> Floats:
-    """How broad strokes are, in units of the thinnest, which bears one tip.
+def pipe_widths(tips: Integers, extent: float) -> Floats:
+    """How broad strokes are that bear some tips, in a drawing of an extent, in the units of that.
 
-    >>> from lsys_kit import derive, read
-    >>> from lsys_kit.geometry.drawing import scene_of
-    >>> strokes = scene_of(derive(read("axiom: F[+F][-F]F"), 0)).segments
-    >>> tips_borne(strokes).tolist(), pipe_widths(strokes).round(2).tolist()
-    ([3, 1, 1, 1], [1.55, 1.0, 1.0, 1.0])
+    >>> pipe_widths(np.array([3, 1, 1, 1]), 100).round(2).tolist()
+    [2.0, 1.29, 1.29, 1.29]
     """
-    return np.power(tips_borne(segments), 1 / EXPONENT, dtype=np.float64)
+    relative = np.power(tips, 1 / EXPONENT, dtype=np.float64)
+    found: Floats = relative * (TRUNK * extent / relative.max(initial=1.0))
+    return found
 
 
 def tips_borne(segments: Segments) -> Integers:
-    """For each stroke, in the order of the word, how many strokes that it bears bear none themselves; 1 for such a stroke."""
-    below = array("q", strokes_below(segments).tobytes())
-    tips = array("q", bytes(8 * len(below)))
+    """For each stroke, in the order of the word, how many axes end in it and in what it bears.
+
+    >>> from lsys_kit import derive, read
+    >>> from lsys_kit.geometry.drawing import scene_of
+    >>> strokes = scene_of(derive(read("axiom: F[+F][-F]F[+F]"), 0)).segments
+    >>> tips_borne(strokes).tolist()
+    [4, 1, 1, 2, 1]
+    """
+    found = strokes_below(segments)
+    borne = np.ones(len(found), np.int64)
+    borne[found[(found >= 0) & (segments.orders == segments.orders[found])]] = 0  # the axis goes on
+    below, tips = array("q", found.tobytes()), array("q", borne.tobytes())
     for number in counted(range(len(tips) - 1, -1, -1)):
-        tips[number] = tips[number] or 1
         if below[number] >= 0:
             tips[below[number]] += tips[number]
     return np.array(tips, np.int64)

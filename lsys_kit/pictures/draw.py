@@ -281,6 +281,10 @@ def draw(what: Any, n: int | None = None, **choices: Any) -> AnyPicture:
 
 def _drawn(what: Any, n: int | None, size: object = None, **choices: Any) -> AnyPicture:
     check_drawable(what, n)
+    if "ax" in choices:
+        raise ModelNameError(
+            "A drawing is a picture of its own", hint="Into the axes of a figure draws: figure(what, ax, n=4)."
+        )
     given, choices = split_options(choices)
     style = style_from(given, kind_of(what, choices), coloured_symbols(what), size)
     with drawn_on(style.theme):

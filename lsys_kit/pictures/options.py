@@ -9,6 +9,7 @@ from typing import Any, TypeAlias
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
+from lsys_kit.derivation.growth.growth import Growth
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.derivation.timed.lineage import Lineage
 from lsys_kit.derivation.timed.timed import Timed
@@ -189,6 +190,8 @@ def instead(what: object, function: str, of_words: str) -> str:
     """
     if isinstance(what, str):
         return f"For example {function}(system({shown(what)})), or {function}(read(text))."
+    if isinstance(what, Growth):
+        return "Growth is plotted: plot(growth(system)); its curve with plot(system)."
     if isinstance(what, Timed):
         return f"At a time it has a word: {of_words}; up to a time a lineage: {function}(lineage(timed(system), 4))."
     return ""

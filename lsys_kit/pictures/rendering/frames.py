@@ -154,10 +154,8 @@ def frame_on(box: tuple[float, float, float, float], scale: float) -> ViewFrame:
 
 MOST_OF_A_PICTURE = 0.5
 """The part of a picture that the broadest stroke may fill before the drawing is no longer made smaller for it."""
-BROAD, STOUT = 1 / 36, 1 / 5
+BROAD, STOUT = 1 / 36, 1 / 8
 """A stroke is in proportion that is no broader than this part of the extent of the drawing, or of the longest stroke."""
-TRUNK = 1 / 50
-"""The width of the broadest stroke by the pipe model, as a part of the extent of the drawing."""
 
 
 def in_units(scenes: Sequence[Scene], system: LSystem, widths: str = "") -> list[Scene]:
@@ -172,16 +170,18 @@ def in_units(scenes: Sequence[Scene], system: LSystem, widths: str = "") -> list
     ...     [scene] = in_units([scene_of(derive(system, 0))], system)
     ...     scene.segments.widths.round(3).tolist()
     [0.1]
-    [0.2]
-    [2.0]
+    [0.125]
+    [1.25]
     [6.0]
     [0.04, 0.03, 0.03]
     """
-    if has_pipe_widths(system, widths):
-        return [_scaled(scene, TRUNK * _extent(scene) / (_broadest(scene) or 1.0)) for scene in scenes]
-    broadest = max(map(_broadest, scenes), default=OWN)
+    broadest = max((float(scene.segments.widths.max(initial=OWN)) for scene in scenes), default=OWN)
     pixels = system.widths == "pixels"
-    if broadest <= 0 or not (pixels or (not system.widths and TURTLE_DIALECTS[system.turtle].pixels)):
+    if (
+        broadest <= 0
+        or has_pipe_widths(system, widths)
+        or not (pixels or (not system.widths and TURTLE_DIALECTS[system.turtle].pixels))
+    ):
         return [*scenes]
     if not pixels:
         most = max(max(BROAD * _extent(scene), STOUT * _longest(scene.segments)) for scene in scenes)
@@ -194,10 +194,6 @@ def in_units(scenes: Sequence[Scene], system: LSystem, widths: str = "") -> list
 
 def _extent(scene: Scene) -> float:
     return float(np.ptp(scene.corners, axis=0).max())
-
-
-def _broadest(scene: Scene) -> float:
-    return float(scene.segments.widths.max(initial=OWN))
 
 
 def _longest(segments: Segments) -> float:

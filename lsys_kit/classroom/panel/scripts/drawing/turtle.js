@@ -4,9 +4,9 @@
 // where its points lie, as often as the angle changes.
 
 import { clamped, grouped, times } from "../books/numbers.js";
-import { BROAD, BROADEST_PART, LARGEST_SCALE, MOST_CURVED, OWN_LOOK, PICTURE_HEIGHT, PICTURE_MARGIN, PICTURE_WIDTH, RAMP_START, SIGN_COLOUR, STOUT, TALLEST, TRUNK } from "./constants.js";
+import { BROAD, BROADEST_PART, EXPONENT, LARGEST_SCALE, MOST_CURVED, OWN_LOOK, PICTURE_HEIGHT, PICTURE_MARGIN, PICTURE_WIDTH, RAMP_START, SIGN_COLOUR, STOUT, TALLEST, TRUNK } from "./constants.js";
 import { spansOf } from "./projection.js";
-import { colourNaturally, newTurtle, pipeWidths, stretchRamp } from "./turtle_actions.js";
+import { colourNaturally, newTurtle, stretchRamp, tipsBorne } from "./turtle_actions.js";
 import { placeInPlane, planeActions, planeTrail } from "./turtle_plane.js";
 import { placeInSpace, spaceActions, spaceTrail } from "./turtle_space.js";
 
@@ -56,11 +56,12 @@ function openTurtle({ mode, turtle, states, symbols }) {
 
 function tracedAnew(book, step, { inSpace, calls, amounts, palette, chosen, ofStates }) {
   const setting = book.data.turtle, trail = inSpace ? spaceTrail(setting) : planeTrail(setting);
-  const turtle = newTurtle(trail, setting), { strokes } = turtle, piped = setting.widths === "pipes";
+  const turtle = newTurtle(trail, setting), { strokes } = turtle;
   interpretWord(turtle, book.word(step), calls);
-  if (piped) strokes.widths = pipeWidths(strokes);
+  const tips = setting.widths === "pipes" ? tipsBorne(strokes) : null;
+  if (tips) strokes.widths = tips.map((many) => many ** (1 / EXPONENT));
   if (setting.colour === RAMP_START) stretchRamp(strokes, turtle.faces, turtle.rounds);
-  else if (setting.natural) colourNaturally(strokes, piped);
+  else if (setting.natural) colourNaturally(strokes, tips);
   const colourOf = (state, colour) => (colour === OWN_LOOK ? ofStates[state] : chosen[colour % chosen.length]);
   return {
     dimension: inSpace ? 3 : 2, trail: trail.packed(), amounts, palette, heading: setting.heading, unit: setting.widths,

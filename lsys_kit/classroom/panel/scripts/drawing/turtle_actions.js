@@ -6,7 +6,7 @@
 // an action has a factor and an addend, and mostly concerns one quantity: the amount is factor * quantity + addend.
 
 import { clamped, grouped, halfToEven } from "../books/numbers.js";
-import { BALL, DISC, EXPONENT, HOLLOW, LARGEST_VALUE, LAST_COLOUR, OWN_LOOK, RAMP_END, RAMP_START, SHAPE_WIDTH } from "./constants.js";
+import { BALL, DISC, HOLLOW, LARGEST_VALUE, LAST_COLOUR, OWN_LOOK, RAMP_END, RAMP_START, SHAPE_WIDTH } from "./constants.js";
 
 export const MOST_POINTS = 2_000_000;
 const REMEMBERED = ["position", "orientation", "length", "width", "colour", "gravitropism", "tropisms", "last", "restored",
@@ -22,22 +22,20 @@ export function stretchRamp(...groups) {
       if (inRamp(colours[i])) colours[i] = RAMP_START + Math.floor((colours[i] - RAMP_START) * stretch + 0.5);
 }
 
-// Widths by the pipe model, in units of the thinnest: each stroke is as many pipes as it bears tips.
-export function pipeWidths({ from, to }) {
-  const ending = new Map(to.map((point, i) => [point, i])), tips = to.map(() => 0);
-  for (let i = tips.length - 1; i >= 0; i--) {
-    tips[i] ||= 1;
-    if (ending.has(from[i])) tips[ending.get(from[i])] += tips[i];
-  }
-  return tips.map((many) => many ** (1 / EXPONENT));
+// How many axes end in each stroke and in what it bears.
+export function tipsBorne({ from, to, orders }) {
+  const ending = new Map(to.map((point, i) => [point, i])), below = from.map((point) => ending.get(point)), tips = to.map(() => 1);
+  below.forEach((mother, i) => { if (orders[mother] === orders[i]) tips[mother] = 0; }); // the axis goes on
+  for (let i = tips.length - 1; i >= 0; i--) if (below[i] >= 0) tips[below[i]] += tips[i];
+  return tips;
 }
 
 // Natural colours of the strokes for which none has been chosen: from bark to leaves, by their width, else by their branch order.
-export function colourNaturally({ colours, orders, widths }, piped) {
-  const [deepest, widest] = [orders, widths].map((numbers) => numbers.reduce((one, other) => Math.max(one, other), 0));
+export function colourNaturally({ colours, orders, widths }, tips) {
+  const [deepest, widest] = [orders, tips ?? widths].map((numbers) => numbers.reduce((one, other) => Math.max(one, other), 0));
   for (let i = 0; i < orders.length; i++) {
     if (colours[i] !== OWN_LOOK) continue;
-    const youth = piped ? 1 - Math.log(widths[i]) / (Math.log(widest) || 1)
+    const youth = tips ? 1 - Math.log(tips[i]) / (Math.log(widest) || 1)
       : widest && widths[i] !== OWN_LOOK ? 1 - Math.sqrt(widths[i] / widest) : deepest ? orders[i] / deepest : 1;
     colours[i] = RAMP_START + Math.floor((RAMP_END - RAMP_START) * youth + 0.5);
   }
