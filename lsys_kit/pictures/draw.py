@@ -451,7 +451,7 @@ def figure(what: Any, ax: Axes | None = None, **choices: Any) -> Axes:
             raise ModelNameError(
                 f'There is no option "{next(iter(choices))}" here', hint="What a plot shows is chosen when it is made."
             )
-        return painted(what, new_axes() if ax is None else ax)
+        return painted(what, new_axes(what.theme.ground) if ax is None else ax)
     if isinstance(what, SVGPicture) and choices:
         raise ModelValueError(
             "What a picture shows is chosen when it is drawn", hint=f"Give {next(iter(choices))}= to draw(...)."

