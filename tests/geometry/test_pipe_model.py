@@ -96,3 +96,10 @@ def test_a_curve_and_a_plant_with_widths_keep_theirs(text):
 def test_a_plant_without_strokes_is_an_empty_picture():
     assert "nothing to draw" in repr(draw(read("axiom: A[B]"), 0))
     assert "nothing to draw" in repr(draw(read("axiom: A[&B]"), 0))
+
+
+def test_a_pipe_is_as_broad_in_all_pictures_that_stand_together():
+    young, old = (each.scene.segments for each in draw(PLANT, steps=[2, 4]).pictures)
+    assert young.widths.min() == pytest.approx(old.widths.min())
+    assert young.widths.max() < old.widths.max()
+    assert "step 0" in draw(read("axiom: A\nA -> F[+A]A"), steps=[0, 1]).svg, "also beside one without strokes"

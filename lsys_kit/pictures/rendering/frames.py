@@ -4,7 +4,8 @@ In cpfg lines of the style "pixel" are so many pixels wide, and lines of the sty
 style stands in another file than the model. So in the listings of the book: `A(1,10)` of figure 2.6 draws a stem of length 1
 and width 10. A system can say which is meant, by `widths: pixels` or `widths: units`. Where it does not, its widths are units
 as far as they are in proportion to its strokes; if the broadest is not, all are made finer with it. So a model and the same
-model ten times as large look alike. Widths by the pipe model are in proportion to the whole plant.
+model ten times as large look alike. Widths by the pipe model are in proportion to the plant, and a pipe is equally broad in all
+scenes that are shown together.
 
 A pixel is one of a picture of the usual size, and at most a unit: a drawing of more units than the picture has pixels is made
 smaller with its strokes. Pictures of other sizes, films and meshes scale strokes with the drawing.
@@ -175,13 +176,13 @@ def in_units(scenes: Sequence[Scene], system: LSystem, widths: str = "") -> list
     [6.0]
     [0.04, 0.03, 0.03]
     """
+    if has_pipe_widths(system, widths):
+        pipes = [float(scene.segments.widths.min(initial=np.inf)) for scene in scenes]
+        _, usual = max(zip(map(_extent, scenes), pipes, strict=True))
+        return [_scaled(scene, usual / pipe) for scene, pipe in zip(scenes, pipes, strict=True)]
     broadest = max((float(scene.segments.widths.max(initial=OWN)) for scene in scenes), default=OWN)
     pixels = system.widths == "pixels"
-    if (
-        broadest <= 0
-        or has_pipe_widths(system, widths)
-        or not (pixels or (not system.widths and TURTLE_DIALECTS[system.turtle].pixels))
-    ):
+    if broadest <= 0 or not (pixels or (not system.widths and TURTLE_DIALECTS[system.turtle].pixels)):
         return [*scenes]
     if not pixels:
         most = max(max(BROAD * _extent(scene), STOUT * _longest(scene.segments)) for scene in scenes)
