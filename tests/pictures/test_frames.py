@@ -201,6 +201,15 @@ def test_widths_have_no_cliff(text):
     assert all(later <= before + 13 for before, later in pairwise(trunks))
 
 
+@pytest.mark.parametrize("size", [60, 200, (100, 300), 1200])
+@pytest.mark.parametrize("text", ["angle: 25\naxiom: F\nF -> F[+F]F[-F]F", "angle: 25\naxiom: F\nF -> F[&F]F[^F]F"])
+def test_no_stroke_is_finer_than_is_seen_at_the_size_that_is_shown(size, text):
+    picture = draw(read(text), 4, size=size)
+    drawing = picture.drawing()
+    factor = drawing.width / drawing.box[2]
+    assert min(int(width) * factor for width in re.findall(r'<path[^>]*stroke-width="(\d+)"', picture.svg)) >= 0.65
+
+
 def test_no_stroke_is_finer_than_is_seen():
     for text in ("axiom: !(0.001)F[+F]F", "axiom: F\nF -> F[+F]F[-F]F", "widths: pixels\naxiom: !(0.1)FF"):
         assert looks(f"angle: 25\n{text}", 5)[1].min() >= 7 - 0.1

@@ -269,6 +269,12 @@ def test_a_legend_stands_below_in_svg_and_png():
         assert height > int(re.search(r'height="(\d+)"', make().svg)[1])
 
 
+def test_the_axes_know_what_colours_stand_for():
+    ax = figure(draw(PLANT, 3, legend=True, colours="symbols"))
+    assert ax.get_legend_handles_labels()[1] == ["F"]
+    assert ax.get_xlim() == pytest.approx(figure(draw(PLANT, 3, colours="symbols")).get_xlim())
+
+
 def test_the_legend_of_a_figure_is_that_of_matplotlib():
     assert [text.get_text() for text in figure(draw(PLANT, 3, legend=True, colours="symbols")).get_legend().get_texts()] == [
         "F"

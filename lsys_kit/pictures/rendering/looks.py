@@ -38,18 +38,30 @@ def widths_by_order(usual: Sequence[float]) -> list[float]:
     return [theme().boldness * width for width in chosen]
 
 
+def thinnest() -> int:
+    """The least width of a stroke in the theme in force, in tenths of a pixel of the usual size.
+
+    >>> from dataclasses import replace
+    >>> from lsys_kit.pictures.style.themes import LIGHT, drawn_on
+    >>> with drawn_on(replace(LIGHT, reduced=0.5)):
+    ...     thinnest()
+    14
+    """
+    return round(THINNEST / theme().reduced)
+
+
 def stroke_widths(segments: Segments, scale: float, thin: float) -> Integers:
     """The widths of strokes in tenths of a pixel: one that the turtle has set is scaled with the drawing; others depend on the
     branch order, and are made finer by a factor."""
     by_order = np.array(
         [
-            max(round(least), round(10 * width * thin))
+            max(round(least), thinnest(), round(10 * width * thin))
             for width, least in zip(widths_by_order(STROKES), widths_by_order(LEAST), strict=True)
         ]
     )
     widths = by_order[np.minimum(segments.orders, len(STROKES) - 1)]
     if (segments.widths != OWN).any():
-        given = np.clip(np.rint(segments.widths * scale * 10), THINNEST, BROADEST).astype(np.int64)
+        given = np.clip(np.rint(segments.widths * scale * 10), thinnest(), BROADEST).astype(np.int64)
         widths = np.where(segments.widths == OWN, widths, given)
     return widths
 
