@@ -71,9 +71,9 @@ class Limits:
     brackets: int = 10_000
     """nested brackets of a word"""
     segments: int = 20_000
-    """shapes of an SVG picture, with the corners of polygons; beyond, a picture of pixels"""
+    """shapes of an SVG picture in a page, with the corners of polygons; beyond, a picture of pixels"""
     figure: int = 200_000
-    """shapes of a PDF or of a matplotlib figure"""
+    """shapes of a saved SVG or PDF, or of a matplotlib figure"""
     triangles: int = 10_000_000
     """triangles of a mesh"""
 

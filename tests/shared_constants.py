@@ -37,6 +37,7 @@ SHARED: Mapping[str, Mapping[str, str]] = {
         "LAST_COLOUR": "LAST_COLOUR",
         "MOST_CURVED": "MOST_CURVED",
     },
+    "geometry.pipe_model": {"EXPONENT": "EXPONENT", "TRUNK": "TRUNK"},
     "geometry.turtle.plane": {"LARGEST_EXACT": "LARGEST_EXACT"},
     "geometry.turtle.surfaces": {"PATCH_FACES": "PATCH_FACES"},
     "geometry.tissues.relaxation": {
@@ -61,11 +62,14 @@ SHARED: Mapping[str, Mapping[str, str]] = {
         "LEGIBLE_ROW": "LEGIBLE",
         "MARKED_CELL": "MARKED",
     },
-    "pictures.multiples": {"LARGEST_SCALE": "LARGEST_SCALE"},
     "pictures.rendering.frames": {
+        "LARGEST_SCALE": "LARGEST_SCALE",
         "BROADEST_PART": "MOST_OF_A_PICTURE",
+        "BROAD": "BROAD",
+        "STOUT": "STOUT",
         "PICTURE_WIDTH": "WIDTH",
         "PICTURE_HEIGHT": "HEIGHT",
+        "TALLEST": "TALLEST",
         "PICTURE_MARGIN": "MARGIN",
         "LABEL_GAP": "LABEL_GAP",
     },

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from itertools import islice
 from typing import Any, NamedTuple
@@ -29,6 +30,7 @@ from lsys_kit.pictures.plots.chart import Axis, Curve, CurveChart, Plot, Share, 
 from lsys_kit.pictures.plots.lettering import literal, mathematics
 from lsys_kit.pictures.style.labels import label_parts, place_parts, polar_symbols, values_text
 from lsys_kit.pictures.style.palette import BLUE, SERIES, colour_of
+from lsys_kit.pictures.style.themes import theme_from
 from lsys_kit.worlds.derive import derive
 
 MOST_CURVES, DEFAULT_STEPS, MOST_STEPS = 6, 10, 5_000
@@ -37,7 +39,15 @@ MOMENTS = 360
 """At so many moments a timed system is measured, and just before and after so many divisions."""
 
 
-def plot(what: object, n: object = None, measure: Asked | None = None, *, log: bool = False, **choices: object) -> Plot:
+def plot(
+    what: object,
+    n: object = None,
+    measure: Asked | None = None,
+    *,
+    log: bool = False,
+    background: object = None,
+    **choices: object,
+) -> Plot:
     """Plot what is counted or measured.
 
     Parameters
@@ -55,6 +65,8 @@ def plot(what: object, n: object = None, measure: Asked | None = None, *, log: b
         the length of a filament.
     log
         Whether the scale is logarithmic, on which equal factors are equal distances.
+    background
+        "light" or "dark" paper, "none", or a colour.
     **choices
         For systems `seed`, `arithmetic`, `field` and new values of constants, as for `derive`.
 
@@ -80,6 +92,8 @@ def plot(what: object, n: object = None, measure: Asked | None = None, *, log: b
     2 curves (alga, powers of two) of length of the word, step n from 0 to 8, largest 256
     """
     require(log, bool, 'True or False for "log"')
+    if background is not None:
+        return replace(plot(what, n, measure, log=log, **choices), theme=theme_from(background))
     with Task("The plot was not made"):
         if isinstance(what, Table):
             _refuse(choices, n, "A table has its steps and constants")

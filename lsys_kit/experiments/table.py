@@ -24,6 +24,7 @@ from lsys_kit.pictures.plots.chart import Axis, Chart, Curve, CurveChart, GridCh
 from lsys_kit.pictures.plots.lettering import literal
 from lsys_kit.pictures.style.labels import escaped, visible
 from lsys_kit.pictures.style.palette import BLUE, SERIES
+from lsys_kit.pictures.style.themes import LIGHT, theme_from
 
 if TYPE_CHECKING:
     import pandas
@@ -256,7 +257,7 @@ class Table:
             raise ModelNameError(f'"{column}" was varied, not measured', hint=f"Measured were: {', '.join(self.measures)}.")
         return str(column)
 
-    def plot(self, column: str | None = None, log: bool = False) -> Plot:
+    def plot(self, column: str | None = None, log: bool = False, background: object = None) -> Plot:
         """A plot of a measured column: over seeds its distribution, over steps or one constant a curve, over two constants a
         grid of colours and numbers.
 
@@ -266,6 +267,8 @@ class Table:
             What was measured; by default the first of that.
         log
             Whether curves have a logarithmic scale, on which equal factors are equal distances.
+        background
+            "light" or "dark" paper, "none", or a colour.
 
         Raises
         ------
@@ -280,7 +283,7 @@ class Table:
         require(log, bool, 'True or False for "log"')
         name = self.measured(column)
         with Task("The plot was not made"):
-            return Plot(chart_of(self, name, log))
+            return Plot(chart_of(self, name, log), theme=LIGHT if background is None else theme_from(background))
 
     def to_pandas(self) -> pandas.DataFrame:
         """The table as a data frame of pandas, which has to be installed; fractions become doubles."""

@@ -1,7 +1,7 @@
 """The scene of a word: a filament, or what a turtle draws, assembled from instances where that pays, else module by module.
 
-Strokes have natural colours, from bark to leaves, by their width where the turtle has set one, else by their branch order.
-Plants in space have them, if neither the model nor whoever draws says otherwise.
+The strokes of a plant, that is of a system that branches, have natural colours, from bark to leaves, and widths by the pipe
+model, as far as neither the model nor whoever draws says otherwise. Colours follow widths: what is thin is young.
 """
 
 from __future__ import annotations
@@ -14,8 +14,10 @@ from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.geometry.filament import filament
+from lsys_kit.geometry.pipe_model import pipe_widths, tips_borne
 from lsys_kit.geometry.scene import OWN, Floats, Integers, Scene, Segments
 from lsys_kit.geometry.turtle.commands import (
+    COMMANDS,
     RAMP_END,
     RAMP_START,
     DrawingMode,
@@ -28,38 +30,89 @@ from lsys_kit.geometry.turtle.instancing import draw_instanced
 from lsys_kit.geometry.turtle.plane import place_path, trace
 from lsys_kit.geometry.turtle.space import trace_in_space
 from lsys_kit.geometry.turtle.unfolding import WordBetween
+from lsys_kit.notation.model.modules import flat
 from lsys_kit.notation.model.system import LSystem
 
 
-def has_natural_colours(system: LSystem) -> bool:
-    """Whether strokes have natural colours, if they have no others: as the system says, else if it branches in space.
+def is_plant(system: LSystem) -> bool:
+    """Whether the drawing of a system branches.
 
     >>> from lsys_kit import read
-    >>> [has_natural_colours(read(text)) for text in ("axiom: F[&F]", "axiom: F[+F]", "colours: natural\\naxiom: F[+F]")]
-    [True, False, True]
+    >>> is_plant(read("axiom: F[+F]")), is_plant(read("axiom: F+F"))
+    (True, False)
     """
-    if system.colours:
-        return system.colours == "natural"
     branches = any(Effect.OPENS in command.effects for command, _ in commands_of(system))
-    return branches and drawing_mode(system) is DrawingMode.SPACE
+    return branches and drawing_mode(system) is not DrawingMode.FILAMENT
 
 
-def coloured(scene: Scene, system: LSystem, colours: str = "") -> Scene:
-    """A scene of a system, in which strokes without a chosen colour have natural ones if those of the system have.
+def has_natural_colours(system: LSystem) -> bool:
+    """Whether strokes have natural colours, if they have no others: as the system says, else if it is a plant.
 
-    Whoever draws can choose "natural" ones.
+    A plant of several kinds of modules that are interpreted as strokes has theirs, which say what is what.
+
+    >>> from lsys_kit import read
+    >>> organs = "axiom: I[I]\\nI -> I[L]\\ninterpretation:\\nI -> F\\nL -> F"
+    >>> [has_natural_colours(read(text)) for text in ("axiom: F[+F]", "axiom: F+F", "colours: natural\\naxiom: F", organs)]
+    [True, False, True, False]
+    """
+    return system.colours == "natural" if system.colours else is_plant(system) and not _shows_kinds(system)
+
+
+def _shows_kinds(system: LSystem) -> bool:
+    """Whether modules of several kinds are interpreted as strokes."""
+    drawing = {
+        symbol for symbol, commands in COMMANDS[system.turtle].items() if any(each.action in STROKES for each in commands)
+    }
+    images = [(rule.predecessor.symbol, {module.symbol for module in flat(rule.successor)}) for rule in system.interpretation]
+    interpreted: set[str] = set()
+    while more := {symbol for symbol, image in images if image & (drawing | interpreted)} - interpreted:
+        interpreted |= more
+    return len(interpreted) > 1
+
+
+STROKES = ("draw", "draw without vertex", "draw by second heading")
+"""The actions that leave strokes."""
+
+
+def has_pipe_widths(system: LSystem, widths: str = "") -> bool:
+    """Whether the widths of strokes are those of the pipe model: where it is a plant that sets none, or whoever draws says so.
+
+    >>> from lsys_kit import read
+    >>> [has_pipe_widths(read(text)) for text in ("axiom: F[+F]", "axiom: !(2)F[+F]", "axiom: F+F")]
+    [True, False, False]
+    """
+    if widths:
+        return widths == PIPES
+    return is_plant(system) and not any(command.action.endswith("width") for command, _ in commands_of(system))
+
+
+PIPES = "pipes"
+"""The word for widths by the pipe model."""
+
+
+def coloured(scene: Scene, system: LSystem, colours: str = "", widths: str = "") -> Scene:
+    """A scene of a system, with widths by the pipe model, where it has these; and in which strokes without a chosen colour have
+    natural ones if those of the system have.
+
+    Whoever draws can choose "natural" colours, and "pipes" as widths.
 
     Where its turtle steps through colours, the farthest step that is drawn is the last colour of the ramp.
 
     >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.turtle.space import trace_in_space
-    >>> tree = read("colours: natural\\naxiom: F[&F[&F]]")
+    >>> tree = read("axiom: F[&F[&F]F]F")
     >>> coloured(trace_in_space(derive(tree, 0)[0]), tree).segments.colours.tolist()
-    [16, 20, 23]
+    [16, 19, 23, 23, 23]
     """
+    if tips := has_pipe_widths(system, widths):
+        borne = tips_borne(scene.segments)
+        given = pipe_widths(borne, float(np.ptp(scene.corners, axis=0).max()))
+        scene = replace(scene, segments=replace(scene.segments, widths=given))
     if initial_colour(system) == RAMP_START:
         return _stretched(scene)
-    return _by_width_or_order(scene) if colours == "natural" or has_natural_colours(system) else scene
+    if not (colours == "natural" or has_natural_colours(system)):
+        return scene
+    return _in_natural_colours(scene, _youth_by_tips(borne) if tips else _youth(scene.segments))
 
 
 def _stretched(scene: Scene) -> Scene:
@@ -79,9 +132,9 @@ def _along_ramp(colours: Integers, stretch: float) -> Integers:
     return np.where(there, RAMP_START + np.floor((colours - RAMP_START) * stretch + 0.5).astype(np.int64), colours)
 
 
-def _by_width_or_order(scene: Scene) -> Scene:
+def _in_natural_colours(scene: Scene, youth: Floats) -> Scene:
     segments = scene.segments
-    numbers = RAMP_START + np.floor((RAMP_END - RAMP_START) * _youth(segments) + 0.5).astype(np.int64)
+    numbers = RAMP_START + np.floor((RAMP_END - RAMP_START) * youth + 0.5).astype(np.int64)
     return replace(scene, segments=replace(segments, colours=np.where(segments.colours == OWN, numbers, segments.colours)))
 
 
@@ -94,11 +147,17 @@ def _youth(segments: Segments) -> Floats:
     return np.where(segments.widths == OWN, by_order, 1 - np.sqrt(np.clip(segments.widths / widest, 0, 1)))
 
 
+def _youth_by_tips(tips: Integers) -> Floats:
+    """The same by the tips that they bear, each counting the less, the more there are."""
+    most = int(tips.max(initial=1))
+    return 1 - np.log(tips) / (np.log(most) or 1.0)
+
+
 ANGLE_HINT = "An angle is in degrees, as in angle=25.7."
 """What to write where an angle is no number."""
 
 
-def scene_of(what: Derivation | Word | WordBetween, angle: float | None = None, colours: str = "") -> Scene:
+def scene_of(what: Derivation | Word | WordBetween, angle: float | None = None, colours: str = "", widths: str = "") -> Scene:
     """The scene of a word, or of the last word of a derivation.
 
     what
@@ -107,6 +166,8 @@ def scene_of(what: Derivation | Word | WordBetween, angle: float | None = None, 
         The turning angle in degrees; by default the system's.
     colours
         Whether strokes without a chosen colour have "natural" ones; by default as the system says.
+    widths
+        Whether widths are those of the pipe model, "pipes"; by default as the system says.
 
     >>> from lsys_kit import derive, read
     >>> plant = derive(read("angle: 25.7\\naxiom: F\\nF -> F[+F]F[-F]F"), 7)
@@ -115,7 +176,7 @@ def scene_of(what: Derivation | Word | WordBetween, angle: float | None = None, 
     >>> print(scene_of(plant[2], 90))
     25 segments, width 6, height 9
     """
-    return coloured(_scene_of(what, angle), what.states.system, colours)
+    return coloured(_scene_of(what, angle), what.states.system, colours, widths)
 
 
 def turning_angle(given: object, system: LSystem) -> float:

@@ -37,14 +37,14 @@ from lsys_kit.pictures.options import (
     Style,
     check_drawable,
     coloured_symbols,
+    in_colours,
+    in_widths,
     kind_of,
-    seen_as,
     split_options,
     style_from,
 )
 from lsys_kit.pictures.picture import NetPicture, Picture
 from lsys_kit.pictures.plots.chart import Plot, painted
-from lsys_kit.pictures.rendering.frames import in_units
 from lsys_kit.pictures.rendering.light import LitScene, seen_smoothly, upright
 from lsys_kit.pictures.rendering.view import view_from
 from lsys_kit.pictures.style.palette import colour_of
@@ -242,12 +242,15 @@ def draw(what: object, n: int | None = None, **choices: object) -> AnyPicture:
         False leaves out names, numbers of steps, times and ages. The cells of a filament have letters where these are more
         than two; True writes them in any case.
     colours
-        "symbols": each has its own, the same in all pictures. "natural": strokes are brown to green, from the stem to the tips,
-        by their width or branch order, as those of plants in space are by themselves, as far as the model chooses none. Or the
-        colours of some symbols, by names of CSS or hexadecimal: `colours={"L": "seagreen", "B": "#cc79a7"}`.
+        "symbols": each has its own, the same in all pictures. "natural": strokes are brown to green, from the stem to the tips.
+        Or the colours of some symbols, by names of CSS or hexadecimal: `colours={"L": "seagreen", "B": "#cc79a7"}`. By default
+        strokes have the colours that the model chooses; where it chooses none, those of a plant, that is of a system with
+        branches, are natural, unless it interprets several kinds of modules as strokes; all others are those of symbols.
     widths
-        A factor by which strokes are broader; "order", by which each is as broad as its branch order says, whatever the model
-        says; or "constant". By default strokes are as broad as the model says, and by branch order where it says nothing.
+        A factor by which strokes are broader; "pipes", by which a stroke is the broader, the more tips it bears (the pipe
+        model); "order", by which each is as broad as its branch order says; or "constant". By default strokes are as broad as
+        the model says; where it says nothing, those of a plant by the pipe model, all others by branch order. No stroke is
+        finer than 0.7 pixels.
     turtle
         Whether an arrow marks where the turtle starts, pointing where it looks then.
     legend
@@ -289,6 +292,10 @@ def draw(what: object, n: int | None = None, **choices: object) -> AnyPicture:
 
 def _drawn(what: object, n: int | None, size: object = None, **choices: object) -> AnyPicture:
     check_drawable(what, n)
+    if "ax" in choices:
+        raise ModelNameError(
+            "A drawing is a picture of its own", hint="Into the axes of a figure draws: figure(what, ax, n=4)."
+        )
     given, choices = split_options(choices)
     style = style_from(given, kind_of(what, choices), coloured_symbols(what), size)
     with drawn_on(style.theme):
@@ -357,7 +364,7 @@ def _drawing(
     if drawing_mode(system) is DrawingMode.FILAMENT:
         return _sequence(drawn, states, cells, style)
     turn = turning_angle(angle, system)
-    scenes = in_units([seen_as(each.word, turn, style) for each in drawn], system)
+    scenes = in_widths([in_colours(each.word, turn, style) for each in drawn], system, style)
     usual = whole_number(choices.get("seed") or system.seed or 0, "The seed")
     thrown = [usual if each.seed is None else each.seed for each in drawn]
     pictures = [
@@ -463,7 +470,7 @@ def figure(what: Any, ax: Axes | None = None, **choices: Any) -> Axes:
             raise ModelNameError(
                 f'There is no option "{next(iter(choices))}" here', hint="What a plot shows is chosen when it is made."
             )
-        return painted(what, new_axes() if ax is None else ax)
+        return painted(what, new_axes(what.theme.ground) if ax is None else ax)
     if isinstance(what, SVGPicture) and choices:
         raise ModelValueError(
             "What a picture shows is chosen when it is drawn", hint=f"Give {next(iter(choices))}= to draw(...)."

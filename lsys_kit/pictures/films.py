@@ -41,14 +41,15 @@ from lsys_kit.pictures.options import (
     WORD,
     Style,
     coloured_symbols,
+    in_colours,
+    in_widths,
     instead,
     kind_of,
-    seen_as,
     split_options,
     style_from,
 )
 from lsys_kit.pictures.picture import Picture
-from lsys_kit.pictures.rendering.frames import ViewFrame, frame_around, in_units
+from lsys_kit.pictures.rendering.frames import ViewFrame, frame_around
 from lsys_kit.pictures.rendering.light import LitScene, seen_smoothly
 from lsys_kit.pictures.rendering.scene_shapes import label_shapes
 from lsys_kit.pictures.rendering.view import FROM_THE_RIGHT, View, view_from
@@ -387,9 +388,9 @@ def _turtle_film(
     turn = turning_angle(angle, derivation.states.system)
     steps: list[Scene] = []
     for step in counted(range(derivation.steps + 1), 1):
-        steps.append(seen_as(derivation.to(step), turn, style))
+        steps.append(in_colours(derivation.to(step), turn, style))
         check_bytes(SHAPE_BYTES * sum(scene.size for scene in steps), lambda: "The film was not finished")
-    scenes = seen_smoothly(in_units(steps, derivation.states.system), view, style.light, [seed] * len(steps))
+    scenes = seen_smoothly(in_widths(steps, derivation.states.system, style), view, style.light, [seed] * len(steps))
     legend = legend_of([derivation.states] * len(scenes), scenes, style.light is not None) if style.legend else None
     return f"steps 0 to {derivation.steps}; the last: {steps[-1]}", _framed(
         scenes, state_colours(derivation), style.size, legend
@@ -434,7 +435,7 @@ def _unfolding_film(derivation: Derivation, pace: float, angle: object, view: Vi
     scenes: list[Scene] = []
 
     def add(what: Derivation | WordBetween) -> None:
-        scenes.append(seen_as(what, turn, style))
+        scenes.append(in_colours(what, turn, style))
         check_bytes(SHAPE_BYTES * sum(scene.size for scene in scenes), lambda: "The film was not finished")
 
     for step in range(last):
@@ -442,7 +443,7 @@ def _unfolding_film(derivation: Derivation, pace: float, angle: object, view: Vi
         for number in counted(range(parts), 1):
             add(between(number / parts) if number else derivation.to(step))
     add(derivation.to(last))
-    seen = seen_smoothly(_as_large_as_the_last(in_units(scenes, system)), view, style.light)
+    seen = seen_smoothly(_as_large_as_the_last(in_widths(scenes, system, style)), view, style.light)
     legend = legend_of([derivation.states] * len(seen), seen, style.light is not None) if style.legend else None
     images = _framed(seen, state_colours(derivation), style.size, legend)
     return Film(f"steps 0 to {last} unfold; the last: {scenes[-1]}", tuple(images), pace / parts, parts)

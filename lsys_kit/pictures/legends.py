@@ -168,14 +168,20 @@ def image_with_legend(image: Image, legend: Legend | None, enlarged: float = 1.0
 
 
 def plot_legend(ax: Axes, legend: Legend) -> None:
-    """A legend below axes."""
-    from matplotlib.patches import Patch
+    """A legend below axes, whose entries the axes know."""
+    from matplotlib.patches import Rectangle as Swatch
 
     handles = [
-        Patch(
+        Swatch(
+            (0, 0),
+            0,
+            0,
+            linewidth=0,
             color=line(colours[len(colours) // 2]) if colours else "none",
             label=f"{letter}_{subscript}{values}" if subscript else f"{letter}{values}",
         )
         for colours, (letter, subscript, values) in legend.entries
     ]
+    for handle in handles:
+        ax.add_artist(handle)
     ax.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0.0), frameon=False, labelcolor=theme().ink, ncols=4)

@@ -17,7 +17,7 @@ from lsys_kit.pictures.formats.painting import on_ground, painted
 from lsys_kit.pictures.formats.raster import embedded, turtle_image
 from lsys_kit.pictures.legends import Legend, with_legend
 from lsys_kit.pictures.picture import Picture
-from lsys_kit.pictures.rendering.frames import MARGIN, ViewFrame, frame_on, in_fine_parts, painted_box
+from lsys_kit.pictures.rendering.frames import LARGEST_SCALE, MARGIN, ViewFrame, frame_on, in_fine_parts, painted_box
 from lsys_kit.pictures.rendering.scene_shapes import label_shapes, scene_shapes
 from lsys_kit.pictures.shapes import Drawing, Look, Raster, Shape, Text
 from lsys_kit.pictures.sizes import document, enlargement, resized
@@ -31,8 +31,6 @@ WIDTH, HEIGHT = 760, 540
 GAP, CAPTION, TEXT, LOWER = 30, 44, 13, 22
 """The space between two drawings, that below one, the size of its caption there and how far below the ground it stands, in
 pixels."""
-LARGEST_SCALE = 120.0
-"""Image of a unit, at most."""
 
 
 class Panel(NamedTuple):

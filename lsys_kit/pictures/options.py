@@ -9,12 +9,13 @@ from typing import Any, TypeAlias
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
+from lsys_kit.derivation.growth.growth import Growth
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.derivation.timed.lineage import Lineage
 from lsys_kit.derivation.timed.timed import Timed
 from lsys_kit.derivation.tissues.development import CellDevelopment
 from lsys_kit.errors import LSystemError, ModelNameError, ModelValueError, quotable, require, shown
-from lsys_kit.geometry.drawing import scene_of
+from lsys_kit.geometry.drawing import PIPES, scene_of
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
 from lsys_kit.geometry.turtle.unfolding import WordBetween
@@ -22,6 +23,7 @@ from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.cells import CellSystem, CellworkSystem
 from lsys_kit.notation.model.system import LSystem, symbols
 from lsys_kit.pictures.formats.notebook import listed
+from lsys_kit.pictures.rendering.frames import in_units
 from lsys_kit.pictures.rendering.light import Sun, sun_from
 from lsys_kit.pictures.rendering.looks import with_colours_of_symbols, with_start, with_widths
 from lsys_kit.pictures.sizes import Size, size_from
@@ -48,7 +50,7 @@ KINDS: Mapping[str, tuple[str, ...]] = {
     CELLWORK: ("colours", "legend", "light", "background"),
 }
 """The kinds of pictures, each with the options that it has."""
-COLOURS, WIDTHS = ("natural", "symbols"), ("order", "constant")
+COLOURS, WIDTHS = ("natural", "symbols"), (PIPES, "order", "constant")
 """What colours and widths can be, besides colours of single symbols and a factor."""
 LEAST_FACTOR, GREATEST_FACTOR = 0.1, 20.0
 
@@ -66,7 +68,7 @@ class Style:
     colours
         Whose colours strokes have: "natural" ones, or those of "symbols"; "" for those of the system.
     widths
-        Where the widths of strokes come from: their "order", or they are "constant"; "" as the turtle has set them.
+        Where the widths of strokes come from: "pipes", their "order", or they are "constant"; "" as the system says.
     light
         Where the sun stands; None for a drawing without sun and sky.
     theme
@@ -148,22 +150,27 @@ def _with_widths(found: Style, value: object) -> Style:
     try:
         factor = real_from(value, "widths")
     except LSystemError as mistake:
-        raise ModelValueError(f'"widths" are "order", "constant" or a factor, not {shown(value)}') from mistake
+        raise ModelValueError(f'"widths" are "pipes", "order", "constant" or a factor, not {shown(value)}') from mistake
     if not LEAST_FACTOR <= factor <= GREATEST_FACTOR:
         raise ModelValueError(f'A factor of "widths" is {LEAST_FACTOR:g} to {GREATEST_FACTOR:g}, not {factor:g}')
     return replace(found, theme=replace(found.theme, boldness=factor))
 
 
-def seen_as(what: Derivation | Word | WordBetween, angle: float, style: Style) -> Scene:
-    """The scene of a word with the colours and widths that were chosen."""
-    scene, chosen = scene_of(what, angle, style.colours), dict(style.theme.symbols)
+def in_colours(what: Derivation | Word | WordBetween, angle: float, style: Style) -> Scene:
+    """The scene of a word with the colours that were chosen."""
+    scene, chosen = scene_of(what, angle, style.colours, style.widths), dict(style.theme.symbols)
     if style.colours == "symbols":
-        scene = with_colours_of_symbols(scene)
-    elif chosen:
-        states = [state for state, module in enumerate(what.states.modules) if module.symbol in chosen]
-        scene = with_colours_of_symbols(scene, states)
-    scene = with_widths(scene, style.widths, style.theme.boldness)
-    return with_start(scene, what.states.system) if style.turtle else scene
+        return with_colours_of_symbols(scene)
+    if not chosen:
+        return scene
+    states = [state for state, module in enumerate(what.states.modules) if module.symbol in chosen]
+    return with_colours_of_symbols(scene, states)
+
+
+def in_widths(scenes: Sequence[Scene], system: LSystem, style: Style) -> list[Scene]:
+    """Scenes of a system with the widths that were chosen, such that all fit into one frame."""
+    found = [with_widths(scene, style.widths, style.theme.boldness) for scene in in_units(scenes, system, style.widths)]
+    return [with_start(scene, system) for scene in found] if style.turtle else found
 
 
 def split_options(choices: Mapping[str, object]) -> tuple[dict[str, Any], dict[str, Any]]:
@@ -190,6 +197,8 @@ def instead(what: object, function: str, of_words: str) -> str:
     """
     if isinstance(what, str):
         return f"For example {function}(system({shown(what)})), or {function}(read(text))."
+    if isinstance(what, Growth):
+        return "Growth is plotted: plot(growth(system)); its curve with plot(system)."
     if isinstance(what, Timed):
         return f"At a time it has a word: {of_words}; up to a time a lineage: {function}(lineage(timed(system), 4))."
     return ""

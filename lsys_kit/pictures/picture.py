@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
+from contextlib import AbstractContextManager
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -26,14 +27,14 @@ from lsys_kit.pictures.formats.raster import embedded, turtle_image, turtle_pict
 from lsys_kit.pictures.legends import Legend, plot_legend, with_legend
 from lsys_kit.pictures.nets.diagram import drawn_stages
 from lsys_kit.pictures.nets.parts import positions_in
-from lsys_kit.pictures.rendering.frames import WIDTH, frame_around, in_fine_parts
+from lsys_kit.pictures.rendering.frames import WIDTH, ViewFrame, frame_around, in_fine_parts
 from lsys_kit.pictures.rendering.light import LitScene
 from lsys_kit.pictures.rendering.looks import widths_by_order
 from lsys_kit.pictures.rendering.scene_shapes import label_shapes, scene_shapes
 from lsys_kit.pictures.shapes import Drawing
 from lsys_kit.pictures.sizes import document, enlargement, resized
 from lsys_kit.pictures.style.labels import visible
-from lsys_kit.pictures.style.themes import drawn_on
+from lsys_kit.pictures.style.themes import drawn_on, theme
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -112,7 +113,8 @@ class Picture(SVGPicture):
         if len(self.scene.cells) or self.legend or len(self.scene.labels):
             most = MOST_PAINTED if len(self.scene.cells) else 0
             return painted(resized(self._shown(most, enlarged), self.pixels), enlarged)
-        return turtle_picture(self.scene, self.colour_of, self.pixels, enlarged)
+        with self._reduced(frame_around([self.scene])):
+            return turtle_picture(self.scene, self.colour_of, self.pixels, enlarged)
 
     def _plot_into(self, ax: Axes) -> None:
         if self.size > current().figure and not self.sunlit:
@@ -134,6 +136,15 @@ class Picture(SVGPicture):
         if len(self.scene.cells):
             return self._sequence(self.size > most, enlarged)
         usual = frame_around([self.scene])
+        with self._reduced(usual):
+            return self._drawn(usual, most, enlarged)
+
+    def _reduced(self, usual: ViewFrame) -> AbstractContextManager[None]:
+        """What makes strokes of a picture that is smaller than usual broad enough to be seen."""
+        factor = min(1.0, enlargement(usual.width, usual.height, self.pixels))
+        return drawn_on(replace(theme(), reduced=factor))
+
+    def _drawn(self, usual: ViewFrame, most: int, enlarged: float) -> Drawing:
         frame = in_fine_parts(usual, self.scene)
         if self.size > most or self.sunlit:
             factor = enlarged * enlargement(usual.width, usual.height, self.pixels)

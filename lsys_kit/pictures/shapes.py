@@ -194,6 +194,11 @@ Outlined: TypeAlias = Path | Strokes | Polygon | Circle | Ellipse | Rectangle
 Shape: TypeAlias = Outlined | Text | Raster | Group | Title | Gradients | Paper
 
 
+def has_pixels(shapes: Sequence[Shape]) -> bool:
+    """Whether there is an image among some shapes."""
+    return any(isinstance(each, Raster) or (isinstance(each, Group) and has_pixels(each.shapes)) for each in shapes)
+
+
 @dataclass(frozen=True)
 class Drawing:
     """A picture: its size in pixels, what it shows, in words, and its shapes.

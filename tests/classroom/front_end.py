@@ -12,11 +12,18 @@ from weakref import WeakKeyDictionary
 from playwright.sync_api import JSHandle, Page
 
 import lsys_kit.classroom.panel
-from lsys_kit.classroom.panel.books.book import faces_in
+from lsys_kit.classroom.panel.books.book import faces_in, unit_of_widths
 from lsys_kit.derivation.core.interpretation import interpretations
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.geometry.drawing import has_natural_colours
-from lsys_kit.geometry.turtle.commands import Instruction, drawing_mode, initial_colour, initial_step, instructions
+from lsys_kit.geometry.turtle.commands import (
+    Instruction,
+    drawing_mode,
+    initial_colour,
+    initial_step,
+    initial_width,
+    instructions,
+)
 from lsys_kit.geometry.turtle.surfaces import surfaces_by_symbol
 from lsys_kit.geometry.turtle.turtle import label_text
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
@@ -24,8 +31,18 @@ from lsys_kit.pictures.draw import state_colours
 from lsys_kit.pictures.style.palette import CHOSEN
 
 SCRIPTS = Path(lsys_kit.classroom.panel.__file__).parent / "scripts"
-TURTLE = ("constants", "numbers", "turtle_actions", "turtle_plane", "turtle_space", "turtle")
-PAINTER = (*TURTLE, "colours", "outlines", "projection", "painter")
+TURTLE = (
+    "constants",
+    "numbers",
+    "turtle_actions",
+    "outlines",
+    "depths",
+    "projection",
+    "turtle_plane",
+    "turtle_space",
+    "turtle",
+)
+PAINTER = (*TURTLE, "colours", "painter")
 IMPORT = re.compile(r"^import .*;$\n", re.MULTILINE)
 
 
@@ -70,12 +87,12 @@ def book_of(words: Sequence[Word]) -> dict[str, Any]:
         "turtle": {
             "side": dialect.left,
             "length": initial_step(system),
-            "width": dialect.width,
+            "width": initial_width(system),
             "colour": initial_colour(system),
             "natural": has_natural_colours(system),
             "heading": float(system.heading),
             "angle": float(system.angle),
-            "pixels": system.widths or ("auto" if dialect.pixels else "units"),
+            "widths": unit_of_widths(system),
             "calls": [[call_of(each) for each in compiled[state]] for state in numbers],
             "surfaces": {name: faces_in(surface, drawing_mode(system)) for name, surface in surfaces_by_symbol(system).items()},
             "colours": CHOSEN,

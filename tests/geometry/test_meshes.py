@@ -198,7 +198,7 @@ def test_tubes_are_not_twisted():
 
 def test_equal_strokes_on_a_line_are_one_tube():
     assert len(mesh("axiom: FFFF&(0)").vertices) == len(mesh("axiom: F(4)&(0)").vertices)
-    assert len(mesh("axiom: F[+F]F[-F]F").vertices) == 3 * 2 * SIDES
+    assert len(mesh("axiom: !(1)F[+F]F[-F]F").vertices) == 3 * 2 * SIDES
 
 
 def test_a_stroke_that_goes_back_begins_a_tube_of_its_own():

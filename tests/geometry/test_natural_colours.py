@@ -9,6 +9,7 @@ from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.scene import OWN
 from lsys_kit.pictures.style.palette import RAMP
 
+ORGANS = "axiom: I[+L]I\ninterpretation:\nI -> F\nL -> F F"
 TREE = "axiom: F[&F[&F]]F"
 
 
@@ -17,8 +18,8 @@ def colours(text, n=0):
 
 
 @pytest.mark.parametrize("turn", ["&", "+"])
-def test_by_branch_order_from_bark_to_leaves(turn):
-    assert colours(f"colours: natural\naxiom: F[{turn}F[{turn}F]]F") == [16, 20, 23, 16]
+def test_by_the_tips_that_a_stroke_bears_from_bark_to_leaves(turn):
+    assert colours(f"axiom: F[{turn}F[{turn}F]F]F") == [16, 19, 23, 23, 23]
 
 
 def test_by_width_where_it_is_set():
@@ -29,8 +30,8 @@ def test_an_unbranched_stem_is_green_and_a_chosen_colour_stays():
     assert colours("colours: natural\naxiom: F ;(3) F") == [23, 3]
 
 
-@pytest.mark.parametrize("text", ["colours: symbols\n" + TREE, "axiom: F[+F]", "axiom: F&F/F"])
-def test_colours_are_those_of_symbols_where_the_model_says_so_or_nothing_branches_in_space(text):
+@pytest.mark.parametrize("text", ["colours: symbols\n" + TREE, "axiom: F+F", "axiom: F&F/F", ORGANS])
+def test_colours_are_those_of_symbols_where_the_model_says_so_or_shows_kinds_or_nothing_branches(text):
     assert set(colours(text)) == {OWN}
 
 
@@ -42,7 +43,7 @@ def test_parts_that_are_drawn_once_and_copied_have_them_too():
     tree = "colours: natural\nangle: 25\naxiom: F\nF -> F[&F]F[^F]F"
     found = colours(tree, 6)
     assert len(found) == 5**6
-    assert {*found} == {16, 17, 18, 20, 21, 22, 23}
+    assert {*found} == {*range(16, 24)}
 
 
 def test_a_picture_shows_them():

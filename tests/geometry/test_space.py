@@ -385,14 +385,14 @@ def test_grogras_lengths():
 
 def test_grogras_widths_and_colours():
     segments = drawn("F D+(3) F D(2) F D*(1.5) F Dl(9) F F D F P(4) F P F", turtle="grogra").segments
-    assert segments.widths == pytest.approx([OWN, 3.1, 2, 3, 9, 3, OWN, OWN, OWN])
+    assert segments.widths == pytest.approx([0.1, 3.1, 2, 3, 9, 3, 0.1, 0.1, 0.1])
     assert segments.colours.tolist() == [14] * 7 + [4, 14], "yellow is the first colour of GROGRA"
     assert drawn("F D(2) F", turtle="grogra").segments.colours.tolist() == [OWN] * 2
 
 
 def test_abops_widths_and_colours():
     segments = drawn("F !(2) F ! F # F [ #(5) ;(3) F ] F ' F ; F , F ,(7) F").segments
-    assert segments.widths == pytest.approx([OWN, 2, 1.4, 2, 5, *[2] * 5])
+    assert segments.widths == pytest.approx([2.4, 2, 1.4, 2, 5, *[2] * 5])
     assert segments.colours.tolist() == [16, 16, 16, 16, 3, 16, 17, 18, 17, 7]
 
 

@@ -40,7 +40,7 @@ A -> [&!FL!A]/(114)[&!FL!A]/(114)[&!FL!A]@O(0.3)
 L -> ;(6)[^(60){-f+f+f-|-f+f+f}]
 F -> S /(114) F
 S -> F L""")
-LINE = read("angle: 90\naxiom: F(2)[+;(4)F(3)]")
+LINE = read("colours: symbols\nangle: 90\naxiom: F(2)[+;(4)F(3)]")
 
 
 def kept(what, path):

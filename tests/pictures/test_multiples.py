@@ -63,7 +63,7 @@ def test_each_drawing_is_the_one_of_its_step_and_its_seed():
 
 
 def test_drawings_of_a_line_stand_on_one_ground_and_do_not_meet():
-    scenes = [each.scene for each in draw(system("K7"), steps=[3, 4, 5], seeds=[1, 2, 3]).pictures]
+    scenes = [each.scene for each in draw(system("K7"), steps=[3, 4, 5], seeds=[1, 2, 3], widths="order").pictures]
     panels = arranged(scenes, 3)
     boxes = []
     for scene, panel in zip(scenes, panels, strict=True):

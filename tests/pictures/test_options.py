@@ -139,12 +139,12 @@ def test_a_chosen_colour_stays_on_any_paper():
         assert "#ffff00" in painted(draw(PLANT, 2, colours={"F": "yellow"}, background=background).svg)
 
 
-def test_plants_in_space_have_natural_colours_if_nobody_says_otherwise():
-    assert draw(TREE, 0).scene.segments.colours.tolist() == [RAMP_START, 20, RAMP_END]
+def test_plants_have_natural_colours_if_nobody_says_otherwise():
+    assert draw(TREE, 0).scene.segments.colours.tolist() == [RAMP_START, 19, RAMP_END]
     assert {*draw(TREE, 0, colours="symbols").scene.segments.colours.tolist()} == {OWN}
     bark = RAMP[0].lower()
-    assert bark not in painted(draw(PLANT, 3).svg)
-    assert bark in painted(draw(PLANT, 3, colours="natural").svg)
+    assert bark in painted(draw(PLANT, 3).svg)
+    assert bark not in painted(draw(PLANT, 3, colours="symbols").svg)
 
 
 def test_symbols_can_take_the_place_of_the_colours_that_a_model_chooses():
@@ -176,7 +176,7 @@ def test_svg_png_and_figures_have_the_same_paper(kind):
 
 
 def test_lines_on_dark_paper_are_those_of_the_theme_in_every_format():
-    picture, seen = draw(PLANT, 3, background="dark"), DARK_LINES[colours(PLANT)["F"]]
+    picture, seen = draw(PLANT, 3, background="dark", colours="symbols"), DARK_LINES[colours(PLANT)["F"]]
     assert seen.lower() in painted(picture.svg)
     assert (pixels(picture)[..., :3] == [*bytes.fromhex(seen[1:])]).all(axis=2).any()
     from matplotlib.colors import to_hex
@@ -228,7 +228,7 @@ def test_the_tubes_of_a_mesh_have_the_widths_that_are_chosen():
     assert depths(widths=1) == pytest.approx(depths())
     assert depths(widths="order") == pytest.approx([trunk, branch, trunk], rel=1e-5)
     assert depths(widths="constant") == pytest.approx([branch] * 3, rel=1e-5)
-    whole, constant = (draw(system("K5"), 2, widths=widths).mesh for widths in (None, "constant"))
+    whole, constant = (draw(system("K5"), 2, widths=widths).mesh for widths in ("order", "constant"))
     assert len(constant.vertices) == len(whole.vertices), "stems of one width are whole tubes, too"
 
 
@@ -277,8 +277,16 @@ def test_a_legend_stands_below_in_svg_and_png():
         assert height > int(re.search(r'height="(\d+)"', make().svg)[1])
 
 
+def test_the_axes_know_what_colours_stand_for():
+    ax = figure(draw(PLANT, 3, legend=True, colours="symbols"))
+    assert ax.get_legend_handles_labels()[1] == ["F"]
+    assert ax.get_xlim() == pytest.approx(figure(draw(PLANT, 3, colours="symbols")).get_xlim())
+
+
 def test_the_legend_of_a_figure_is_that_of_matplotlib():
-    assert [text.get_text() for text in figure(draw(PLANT, 3, legend=True)).get_legend().get_texts()] == ["F"]
+    assert [text.get_text() for text in figure(draw(PLANT, 3, legend=True, colours="symbols")).get_legend().get_texts()] == [
+        "F"
+    ]
 
 
 # --- films and the shell ------------------------------------------------------------------------------------------------------

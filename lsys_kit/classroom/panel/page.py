@@ -26,9 +26,9 @@ _CELLS, _STROKES, _TISSUES = frozenset(("filament",)), frozenset(("turtle", "pai
 _MAPS = frozenset(("map", "relaxation", "relaxing", "tension"))
 _NOT_NEEDED = {
     "filament": _STROKES | _MAPS | _TISSUES,
-    "plane": _CELLS | _MAPS | _TISSUES | {"turtle_space"},
+    "plane": _CELLS | _MAPS | _TISSUES | {"turtle_space", "depths"},
     "space": _CELLS | _MAPS | _TISSUES,
-    "map": _CELLS | _TISSUES | {"turtle"},
+    "map": _CELLS | _TISSUES | {"turtle", "depths"},
     "tissue": _CELLS | _MAPS | {"turtle"},
 }
 """The scripts that draw other systems than that of a page, by the way in which it is drawn."""

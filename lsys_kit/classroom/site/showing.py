@@ -24,8 +24,7 @@ from lsys_kit.classroom.panel.explorer import Comparison, Explorer
 from lsys_kit.notation.model.arithmetic import Value, normalised
 from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.picture import Picture
-from lsys_kit.pictures.style.colour_values import luminance, mixed
-from lsys_kit.pictures.style.themes import DARK, LIGHT, NOTHING, drawn_on, text_colour
+from lsys_kit.pictures.style.themes import DARK, LIGHT, NOTHING
 
 PART = "application/vnd.lsys-kit.page-part+json"
 """The media type of what a page has to know of a panel, a question or a table to open it: its kind, its data, its words."""
@@ -88,8 +87,6 @@ def or_fault(show: Callable[..., dict[str, object]]) -> Callable[..., dict[str, 
 
 SMALL_WIDTH, MOST_SHAPES = 320, 20_000
 """The width of a small picture in pixels; one of more shapes is of pixels."""
-NEARLY_PAPER = 0.7
-"""A colour of a greater luminance is paper, or a line that shall hardly be seen on it."""
 THEMES = replace(LIGHT, ground=NOTHING), replace(DARK, ground=NOTHING)
 _COLOURED = re.compile(r'(fill|stroke|stop-color)="(#[0-9A-Fa-f]{3,8})"')
 
@@ -104,17 +101,7 @@ def small_picture(picture: SVGPicture) -> str:
     bare = replace(picture, labels=False, current=None) if isinstance(picture, Picture) else picture
     with limits(segments=min(MOST_SHAPES, current().segments)):
         light, dark = (replace(bare, pixels=(SMALL_WIDTH, None), theme=theme).svg for theme in THEMES)
-    if light == dark:  # a plot, which is always light
-        dark = _COLOURED.sub(lambda found: f'{found[1]}="{_in_the_dark(found[2])}"', light)
     return light_or_dark(light, dark)
-
-
-def _in_the_dark(colour: str) -> str:
-    """A colour on dark paper of what has one on light paper alone."""
-    if luminance(colour) > NEARLY_PAPER:
-        return DARK.paper if colour.lower() == LIGHT.paper.lower() else mixed(DARK.paper, DARK.quiet, 0.8)
-    with drawn_on(DARK):
-        return text_colour(colour)
 
 
 def light_or_dark(light: str, dark: str) -> str:

@@ -165,6 +165,21 @@ def initial_colour(system: LSystem) -> int:
     return FIRST_COLOUR if chosen and system.colours != "natural" else OWN
 
 
+def initial_width(system: LSystem) -> float:
+    """The initial width of strokes: that from which commands start that change it, if the model has such; else none.
+
+    >>> from lsys_kit import read
+    >>> [initial_width(read(f"axiom: {text}")) for text in ("F ! F", "F !(2) F", "F F")]
+    [2.4, -1.0, -1.0]
+    """
+    changes = any(
+        command.action.startswith("set width") and (not module.arguments or command.argument != "all")
+        for command, module in commands_of(system)
+        if module.arguments or not command.bare
+    )
+    return TURTLE_DIALECTS[system.turtle].width if changes else float(OWN)
+
+
 def commands_of(system: LSystem) -> Iterator[tuple[Command, Pattern]]:
     """The commands that the axiom and the rules of a system give, each with the pattern that gives it.
 

@@ -34,7 +34,6 @@ from lsys_kit.geometry.turtle.commands import (
     unknown_commands,
 )
 from lsys_kit.geometry.turtle.space import SPACE_HANDLERS, SpaceTurtle, initial_frame, operand
-from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 
 Key: TypeAlias = tuple[int, int, tuple[Any, ...]]
 """What a prototype depends on: the state, the number of steps that remain, and what the turtle carries."""
@@ -113,7 +112,7 @@ class Prototypes:
 
     def _turtle(self) -> SpaceTurtle:
         system = self.states.system
-        turtle = SpaceTurtle(self._initial_frame, initial_step(system), TURTLE_DIALECTS[system.turtle].width)
+        turtle = SpaceTurtle(self._initial_frame, initial_step(system))
         turtle.take_look(system)
         turtle.in_plane = len(self._axes) == 2
         return turtle

@@ -86,8 +86,8 @@ class PlaneTurtle(Turtle):
 
     __slots__ = ("steps",)
 
-    def __init__(self, side: int, step: float, first_width: float) -> None:
-        super().__init__(-1, (0.0, 0.0, side), step, first_width)
+    def __init__(self, side: int, step: float) -> None:
+        super().__init__(-1, (0.0, 0.0, side), step)
         self.in_plane = True
         self.steps: list[tuple[float, float, float, int, bool, int, int, float, int]] = []
 
@@ -156,7 +156,7 @@ def trace(word: Word | WordBetween) -> Path:
     """
     system = word.states.system
     dialect = TURTLE_DIALECTS[system.turtle]
-    turtle = PlaneTurtle(dialect.left, initial_step(system), dialect.width)
+    turtle = PlaneTurtle(dialect.left, initial_step(system))
     turtle.take_look(system)
     run_turtle(turtle, word, PLANE_HANDLERS)
     columns = list(zip(*turtle.steps, strict=True)) or [()] * len(_COLUMN_TYPES)

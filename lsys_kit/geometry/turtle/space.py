@@ -25,7 +25,7 @@ import numpy as np
 from lsys_kit.budget import check_budget, check_bytes
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.geometry.scene import OWN, Floats, Scene, Segments
-from lsys_kit.geometry.turtle.commands import WIDTH, Instruction, in_plane, initial_step
+from lsys_kit.geometry.turtle.commands import Instruction, in_plane, initial_step
 from lsys_kit.geometry.turtle.surfaces import PATCH_FACES, Surface, patch_grid
 from lsys_kit.geometry.turtle.turtle import Outline, Turtle, collected_labels, collected_shapes, handlers_of, run_turtle
 from lsys_kit.geometry.turtle.unfolding import WordBetween
@@ -158,8 +158,8 @@ class SpaceTurtle(Turtle):
 
     __slots__ = ("start", "strokes")
 
-    def __init__(self, frame: TurtleFrame, step: float, first_width: float = WIDTH) -> None:
-        super().__init__((0.0, 0.0, 0.0), frame, step, first_width)
+    def __init__(self, frame: TurtleFrame, step: float) -> None:
+        super().__init__((0.0, 0.0, 0.0), frame, step)
         self.start = frame
         self.strokes = array("d")
 
@@ -355,9 +355,7 @@ def trace_in_space(word: Word | WordBetween, angle: float | None = None) -> Scen
     """
     system = word.states.system
     turn = float(system.angle) if angle is None else angle
-    turtle = SpaceTurtle(
-        initial_frame(system.turtle, float(system.heading)), initial_step(system), TURTLE_DIALECTS[system.turtle].width
-    )
+    turtle = SpaceTurtle(initial_frame(system.turtle, float(system.heading)), initial_step(system))
     turtle.take_look(system)
     turtle.in_plane = in_plane(system)
     run_turtle(turtle, word, SPACE_HANDLERS, lambda instruction: operand(instruction, turn))

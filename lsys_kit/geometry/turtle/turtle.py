@@ -29,6 +29,7 @@ from lsys_kit.geometry.turtle.commands import (
     WIDTH,
     Instruction,
     initial_colour,
+    initial_width,
     instructions,
     unknown_commands,
 )
@@ -253,8 +254,6 @@ class Turtle(ABC):
         The number of the last stroke (in the plane, of its path step); None before the first.
     restored
         The names of the attributes that the next stroke restores, with their values.
-    first_width
-        The width from which commands start that change it, where none has been set.
     initial
         The values of the attributes that can be reset.
     state
@@ -270,7 +269,6 @@ class Turtle(ABC):
         "bracket_limit",
         "colour",
         "expects_surface",
-        "first_width",
         "flat",
         "gravitropism",
         "in_plane",
@@ -296,12 +294,12 @@ class Turtle(ABC):
         "width",
     )
 
-    def __init__(self, position: Any, orientation: Any, step: float, first_width: float = WIDTH) -> None:
+    def __init__(self, position: Any, orientation: Any, step: float) -> None:
         self.position, self.orientation = position, orientation
         self.last: Any = None
         self.length, self.width, self.colour, self.gravitropism = step, float(OWN), OWN, 0.0
         self.scale = 1.0
-        self.first_width, self.mirror, self.second_heading = first_width, 1, 0.0
+        self.mirror, self.second_heading = 1, 0.0
         self.tropisms: Mapping[float, tuple[float, float, float]] = {}
         self.axis: Any = None
         self.patches: dict[float, dict[tuple[float, float], Any]] = {}
@@ -319,7 +317,8 @@ class Turtle(ABC):
         self.in_plane = self.flat = False
 
     def take_look(self, system: LSystem) -> None:
-        """Take the colour with which the turtle of a system begins, as the one that can be reset, and its surfaces."""
+        """Take the colour and width with which the turtle of a system begins, as those that can be reset, and its surfaces."""
+        self.width = self.initial["width"] = initial_width(system)
         self.colour = self.initial["colour"] = initial_colour(system)
         self.surfaces = surfaces_by_symbol(system)
 
@@ -372,8 +371,7 @@ class Turtle(ABC):
     do_reset_gravitropism, do_set_gravitropism_once = _reset("gravitropism"), _set_once("gravitropism", do_set_gravitropism)
 
     def do_set_width(self, instruction: Instruction) -> None:
-        before = self.first_width if self.width == OWN else self.width
-        self.width = max(0.0, _bounded("width", instruction.factor * before + instruction.addend))
+        self.width = max(0.0, _bounded("width", instruction.factor * self.width + instruction.addend))
 
     do_reset_width, do_set_width_once = _reset("width"), _set_once("width", do_set_width)
 

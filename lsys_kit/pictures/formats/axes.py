@@ -60,7 +60,7 @@ def plot_turtle(ax: Axes, scene: Scene, colour_of: Mapping[int, str]) -> None:
 def frame_in(ax: Axes, scene: Scene) -> ViewFrame:
     """The frame of a scene that fills the axes, in points."""
     width, height = _room(ax)
-    return frame_around([scene], max(width, 4 * MARGIN), max(height, 4 * MARGIN))
+    return frame_around([scene], (max(width, 4 * MARGIN), max(height, 4 * MARGIN)))
 
 
 def _room(ax: Axes) -> tuple[float, float]:

@@ -12,6 +12,7 @@ from functools import cached_property
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
+from warnings import warn
 
 from lsys_kit.budget import Task, current
 from lsys_kit.derivation.core.rules import real_from
@@ -22,7 +23,7 @@ from lsys_kit.pictures.formats.painting import on_ground, painted
 from lsys_kit.pictures.formats.pdf import pdf
 from lsys_kit.pictures.formats.raster import encoded
 from lsys_kit.pictures.formats.svg import svg
-from lsys_kit.pictures.shapes import Drawing
+from lsys_kit.pictures.shapes import Drawing, has_pixels
 from lsys_kit.pictures.sizes import SHARP, Size, resized
 from lsys_kit.pictures.style.themes import LIGHT, Theme, drawn_on
 from lsys_kit.supervision import supervised
@@ -78,6 +79,8 @@ INCH = 96
 """The pixels of an inch, as CSS has them."""
 DOTS = 300
 """The dots of an inch of what is pixels in a PDF."""
+SAVED = 5
+"""So many calls up from a warning somebody saves a picture."""
 LEAST_DOTS, MOST_DOTS = 24, 2_400
 """The least and the greatest number of dots of an inch of a PNG."""
 
@@ -112,6 +115,17 @@ class SVGPicture(ABC):
         """The picture as SVG text."""
         with Task("The picture was not drawn"), drawn_on(self.theme):
             return svg(resized(self._shown(current().segments, SHARP), self.pixels))
+
+    def _vector(self, ending: str, pixels: float) -> Drawing:
+        """The shapes of a file; if they are pixels, so many in each direction of one of the picture, a warning says it."""
+        drawing = self.drawing(pixels)
+        if has_pixels(drawing.shapes):
+            warn(
+                f"The {ending} file holds pixels, as it would have more than {current().figure:,} shapes. "
+                "Take fewer steps, or set limits(figure=...).",
+                stacklevel=SAVED,
+            )
+        return drawing
 
     @cached_property
     def png(self) -> bytes:
@@ -156,6 +170,8 @@ class SVGPicture(ABC):
     def save(self, path: str | Path, *, dpi: object = None) -> None:
         """Write the picture to a file, in the format given by its extension: .svg, .png or .pdf.
 
+        Files in .svg and .pdf hold shapes; if these are more than `limits(figure=...)` allows, pixels, as a warning says.
+
         What a turtle has drawn can be written to .glb and .obj files, too, which are for 3D programs and contain only the last
         step; the colours of an .obj file are kept in an .mtl file beside it. Labels are no shapes in space, and left out there.
         A stage diagram can be written to a .pnml file, for Petri-net tools (see `pnml`).
@@ -180,9 +196,9 @@ class SVGPicture(ABC):
     def _encoders(self, path: Path, dots: float | None) -> tuple[Encoders, str]:
         """For each extension what encodes the picture; and what else there is, where none fits."""
         return {
-            ".svg": lambda: marked_xml(self.svg),
+            ".svg": lambda: marked_xml(svg(self._vector(".svg", SHARP))),
             ".png": lambda: marked_png(self.png if dots is None else encoded(self.image(dots / INCH)), dots),
-            ".pdf": lambda: self.pdf,
+            ".pdf": lambda: pdf(self._vector(".pdf", DOTS / INCH)),
         }, ""
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:

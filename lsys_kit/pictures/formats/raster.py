@@ -119,7 +119,7 @@ POINT_BYTES = 16
 FLOAT32_RANGE = 1e30
 """Coordinates up to this can be computed in single precision."""
 
-MOST_SPREADS, FEW_RUNS = 6, 2_000
+MOST_SPREADS, FEW_LINES = 6, 2_000
 """Lines of so many widths are painted at once, width after width; of more widths, those with few lines are painted in turn."""
 
 
@@ -208,10 +208,11 @@ def _spread_out(shapes: DisplayList, fine: float) -> NDArray[np.int64]:
     same are painted at once. -1 for polygons and discs, and for broad lines of whose width there are few."""
     widths = colours_and_widths(shapes.keys)[1]
     squares = np.where(shapes.keys >= 0, np.floor((widths * fine) ** 2 / 400).astype(np.int64), -1)
-    kinds, which, many = np.unique(squares, return_inverse=True, return_counts=True)
+    kinds, which = np.unique(squares, return_inverse=True)
+    many = np.bincount(which, weights=np.diff(shapes.starts))
     if len(kinds) <= MOST_SPREADS + 1:
         return squares
-    return np.where((many < FEW_RUNS)[which] & (squares >= 1), -1, squares)
+    return np.where((many < FEW_LINES)[which] & (squares >= 1), -1, squares)
 
 
 def _painted_in_turn(

@@ -52,10 +52,10 @@ _NAMES = {key: key.replace("_", "-") for key in Look.__annotations__}
 def svg(drawing: Drawing) -> str:
     """A picture as SVG text, with its text alternative."""
     box, words = " ".join(map(str, drawing.box)), escaped(drawing.title)
-    named, style = f'role="img" aria-label="{words}"', 'style="max-width:100%;height:auto"'
-    head = f"{style}{_look(drawing.look)} {named}>" if drawing.look else f"{named} {style}><title>{words}</title>"
+    named = f'role="img" aria-label="{words}"'
+    head = f"{_look(drawing.look)} {named}>" if drawing.look else f" {named}><title>{words}</title>"
     return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}" width="{drawing.width}" height="{drawing.height}" {head}'
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}" width="{drawing.width}" height="{drawing.height}"{head}'
         f"{''.join(map(element, counted(drawing.shapes)))}</svg>"
     )
 

@@ -16,7 +16,9 @@ from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.plots.lettering import literal, mathematics, plain, width
 from lsys_kit.pictures.shapes import Drawing, Group
 from lsys_kit.pictures.sizes import document
-from lsys_kit.pictures.style.palette import BLUE, INK, PAPER, QUIET, VERMILION, shaded, tinted
+from lsys_kit.pictures.style.colour_values import contrast
+from lsys_kit.pictures.style.palette import BLUE, VERMILION, tinted
+from lsys_kit.pictures.style.themes import drawn_on, line, text_colour, theme
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -28,8 +30,8 @@ WIDTH, HEIGHT = 600, 360
 """The size of a plot in pixels."""
 SIZE = 14
 """The size of letters in pixels."""
-RULE = "#E3E8EC"
-"""The lines of the grid."""
+RULE = 0.16
+"""The strength of the lines of the grid, which are quiet."""
 MOST_TICKS = 7
 """About how many numbers stand along an axis."""
 GREATEST = 1e300
@@ -64,8 +66,8 @@ class Chart(ABC):
         return HEIGHT
 
     @abstractmethod
-    def paint(self, ax: Axes) -> None:
-        """Draw it into axes."""
+    def paint(self, ax: Axes, size: float | None = SIZE) -> None:
+        """Draw it into axes, with letters of a size; None for axes of somebody's figure, which keep their own look."""
 
 
 @dataclass(frozen=True)
@@ -95,8 +97,8 @@ class Plot(SVGPicture):
 
 def painted(plot: Plot, ax: Axes) -> Axes:
     """The axes with a plot drawn into them."""
-    with Task("The figure was not drawn"):
-        plot.chart.paint(ax)
+    with Task("The figure was not drawn"), drawn_on(plot.theme):
+        plot.chart.paint(ax, None)
     return ax
 
 
@@ -104,34 +106,63 @@ def _figure(chart: Chart) -> Figure:
     from matplotlib.figure import Figure
 
     left, right, above, below = chart.margins
-    figure = Figure(figsize=(WIDTH / 72, chart.height / 72), dpi=72, facecolor=PAPER)
+    figure = Figure(figsize=(WIDTH / 72, chart.height / 72), dpi=72, facecolor=theme().paper)
     box = (left / WIDTH, below / chart.height, (WIDTH - left - right) / WIDTH, (chart.height - above - below) / chart.height)
-    chart.paint(figure.add_axes(box))
+    ax = figure.add_axes(box, facecolor=theme().paper)
+    for paper in (figure.patch, ax.patch):
+        paper.set_visible(not theme().transparent)
+    chart.paint(ax)
     return figure
 
 
-def set_paper(ax: Axes, across: Axis, up: Axis) -> None:
-    """Axes without a frame, on paper with quiet lines; the label of the vertical one stands above it, to be read level."""
-    from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
+def set_paper(ax: Axes, across: Axis, up: Axis, size: float | None) -> None:
+    """Axes without a frame, on paper with quiet lines; the label of the vertical one stands above it, to be read level. In
+    somebody's figure labels are where it has them."""
+    from matplotlib.ticker import FuncFormatter, MaxNLocator, NullLocator
 
-    for side in ("top", "right", "left"):
-        ax.spines[side].set_visible(False)
-    ax.spines["bottom"].set(color=QUIET, linewidth=1)
-    ax.grid(axis="y", color=RULE, linewidth=1, clip_on=False)
+    ax.grid(axis="y", color=tinted(theme().quiet, RULE), linewidth=1, clip_on=False)
     ax.set_axisbelow(True)
-    ax.tick_params(length=0, labelsize=SIZE - 1, labelcolor=INK, pad=6)
-    _write(ax, across.label, (0.5, 0), (0, -26), "center", "top", xycoords="axes fraction")
-    _write(ax, up.label, (0, 1), (0, 14), "left", "bottom", xycoords="axes fraction")
+    if size is None:
+        ax.set_xlabel(across.label)
+        ax.set_ylabel(up.label)
+    else:
+        for side in ("top", "right", "left"):
+            ax.spines[side].set_visible(False)
+        ax.spines["bottom"].set(color=theme().quiet, linewidth=1)
+        ax.tick_params(length=0, labelsize=size - 1, labelcolor=theme().ink, pad=6)
+        _write(ax, size, across.label, (0.5, 0), (0, -26), "center", "top", xycoords="axes fraction")
+        _write(ax, size, up.label, (0, 1), (0, 14), "left", "bottom", xycoords="axes fraction")
     for axis, one in ((ax.xaxis, across), (ax.yaxis, up)):
-        ticks = MaxNLocator(MOST_TICKS, steps=[1, 2, 5, 10], integer=one.whole, min_n_ticks=1)
-        axis.set_major_locator(LogLocator(numticks=MOST_TICKS) if one.log else ticks)
+        axis.set_major_locator(MaxNLocator(MOST_TICKS, steps=[1, 2, 5, 10], integer=one.whole, min_n_ticks=1))
         axis.set_minor_locator(NullLocator())
         axis.set_major_formatter(FuncFormatter(lambda value, _: tick_text(value)))
 
 
-def _write(ax: Axes, text: str, at: Point, away: Point, ha: str, va: str, color: str = INK, **choices: Any) -> None:
+def log_ticks(low: float, high: float, whole: bool = False) -> list[float]:
+    """Where numbers stand along a logarithmic axis: powers of ten, 2 and 5 times these where they are few, or round numbers.
+
+    >>> log_ticks(1, 99), log_ticks(0.8, 6), log_ticks(1, 10**9), log_ticks(1, 3, whole=True)
+    ([1.0, 2.0, 5.0, 10.0, 20.0, 50.0], [1.0, 2.0, 5.0], [1.0, 100.0, 10000.0, 1000000.0, 100000000.0], [1.0, 2.0, 3.0])
+    """
+    decades = log10(high / low)
+    if decades < LEAST_DECADES:
+        step = max(_round_step((high - low) / MOST_TICKS), float(whole))
+        return [step * number for number in range(ceil(low / step), floor(high / step) + 1)]
+    powers = range(floor(log10(low)), ceil(log10(high)) + 1, max(1, ceil(decades / MOST_TICKS)))
+    factors = (1, 2, 5) if decades < FEW_DECADES else (1,)
+    return [value for power in powers for factor in factors if low <= (value := factor * 10.0**power) <= high]
+
+
+LEAST_DECADES, FEW_DECADES = 0.7, 3
+"""Over fewer powers of ten numbers along a logarithmic axis are round; over few there are also 2 and 5 times these."""
+
+
+def _write(
+    ax: Axes, size: float | None, text: str, at: Point, away: Point, ha: str, va: str, color: str = "", **choices: Any
+) -> None:
     """Write a text some pixels away from a point."""
-    ax.annotate(text, at, away, textcoords="offset points", ha=ha, va=va, color=color, fontsize=SIZE, **choices)
+    choices |= {"color": color or theme().ink, "fontsize": size}
+    ax.annotate(text, at, away, textcoords="offset points", ha=ha, va=va, **choices)
 
 
 def tick_text(value: float) -> str:
@@ -214,48 +245,61 @@ class CurveChart(Chart):
 
     @property
     def margins(self) -> tuple[float, float, float, float]:
-        return LEFT, 24 + max((width(curve.label, SIZE) for curve in self.curves), default=0), ABOVE, BELOW
+        numbers = log_ticks(*self._log_limits, self.up.whole) if self.up.log else self._span(1)
+        left = max(LEFT, 16 + max((width(tick_text(number), SIZE - 1) for number in numbers), default=0))
+        return left, 24 + max((width(curve.label, SIZE) for curve in self.curves), default=0), ABOVE, BELOW
 
-    def paint(self, ax: Axes) -> None:
+    def paint(self, ax: Axes, size: float | None = SIZE) -> None:
         """Draw the curves, those of many first."""
         if self.up.log:
             ax.set_yscale("log")
-        set_paper(ax, self.across, self.up)
+        set_paper(ax, self.across, self.up, size)
         loud = [curve for curve in self.curves if not curve.quiet]
         for curve in self.curves:
             broken = curve in loud and not self.unbroken
             self._paint_curve(ax, curve, DASHES[loud.index(curve) % len(DASHES)] if broken else "solid")
         self._set_limits(ax)
-        self._paint_labels(ax)
+        self._paint_labels(ax, size)
 
     def _paint_curve(self, ax: Axes, curve: Curve, dashes: object) -> None:
         points = [point for point in curve.points if point[1] > 0] if self.up.log else [*curve.points]
+        xs, ys = [x for x, _ in points], [y for _, y in points]
         if curve.quiet:
-            ax.plot(*zip(*points, strict=True), color=curve.colour, alpha=0.3, linewidth=1, clip_on=False) if points else None
+            ax.plot(xs, ys, color=line(curve.colour), alpha=0.3, linewidth=1, clip_on=False)
             return
         dots: Any = {"marker": "o" if len(points) <= MOST_DOTS else None, "markersize": 5, "markeredgewidth": 0}
-        xs, ys = [x for x, _ in points], [y for _, y in points]
-        ax.plot(xs, ys, color=curve.colour, linewidth=2, linestyle=dashes, clip_on=False, **dots)
+        named: Any = {"label": curve.label} if curve.label else {}
+        ax.plot(xs, ys, color=line(curve.colour), linewidth=2, linestyle=dashes, clip_on=False, **dots, **named)
 
     def _set_limits(self, ax: Axes) -> None:
         """From the first to the last point, and from 0 where that is near."""
         (left, right), (least, most) = self._span(0), self._span(1)
         ax.set_xlim((left, right) if left < right else (left - 0.5, left + 0.5))
         if self.up.log:
-            seen = [y for curve in self.curves for _, y in curve.points if y > 0] or [1.0]
-            ax.set_ylim(min(seen) / 1.2, 1.2 * max(seen))
+            ax.set_ylim(*self._log_limits)
+            ax.set_yticks(log_ticks(*self._log_limits, self.up.whole))
             return
         bottom = 0.0 if 0 <= least <= most / 2 or least == most >= 0 else least - 0.05 * (most - least)
         ax.set_ylim(bottom, most + 0.03 * (most - bottom) if most > bottom else bottom + 1)
 
-    def _paint_labels(self, ax: Axes) -> None:
+    @property
+    def _log_limits(self) -> tuple[float, float]:
+        seen = [y for curve in self.curves for _, y in curve.points if y > 0] or [1.0]
+        return min(seen) / 1.2, 1.2 * max(seen)
+
+    def _paint_labels(self, ax: Axes, size: float | None) -> None:
+        """The names of curves at their ends; in somebody's figure in a legend within the axes."""
         named = [curve for curve in self.curves if curve.label and curve.points]
+        if size is None:
+            if named:
+                ax.legend()
+            return
         room = HEIGHT - ABOVE - BELOW
         to_axes = ax.transData + ax.transAxes.inverted()
         ends = [float(to_axes.transform(curve.points[-1])[1]) * room for curve in named]
         for curve, place in zip(named, spread(ends, LABEL_DISTANCE), strict=True):
-            ink = shaded(curve.colour, 0.7)
-            _write(ax, curve.label, (1, place / room), (10, 0), "left", "center", ink, xycoords="axes fraction")
+            ink = text_colour(curve.colour)
+            _write(ax, size, curve.label, (1, place / room), (10, 0), "left", "center", ink, xycoords="axes fraction")
 
 
 def spread(places: Sequence[float], distance: float) -> list[float]:
@@ -325,22 +369,24 @@ class HistogramChart(Chart):
     def margins(self) -> tuple[float, float, float, float]:
         return 62, 30, 44, 56
 
-    def paint(self, ax: Axes) -> None:
+    def paint(self, ax: Axes, size: float | None = SIZE) -> None:
         """Draw a bar for each class."""
-        set_paper(ax, self.across, Axis("runs", True))
+        set_paper(ax, self.across, Axis("runs", True), size)
         edges = class_edges(self.values)
         counts = [0] * (len(edges) - 1)
         for value in self.values:
             counts[min(int((value - edges[0]) / (edges[1] - edges[0]) + 1e-9), len(counts) - 1)] += 1
         broad = edges[1] - edges[0]
-        ax.bar([edge + broad / 2 for edge in edges[:-1]], counts, width=0.94 * broad, color=tinted(BLUE, 0.55), clip_on=False)
+        ax.bar(
+            [edge + broad / 2 for edge in edges[:-1]], counts, width=0.94 * broad, color=tinted(line(BLUE), 0.55), clip_on=False
+        )
         ax.set_xlim(edges[0], edges[-1])
         top = 1.16 * max(counts)
         ax.set_ylim(0, top)
-        ax.plot([self._mean] * 2, [0, top], color=VERMILION, linewidth=2, clip_on=False)
+        ax.plot([self._mean] * 2, [0, top], color=line(VERMILION), linewidth=2, clip_on=False)
         left = self._mean > edges[0] + 0.7 * (edges[-1] - edges[0])
         text, away = f"mean {tick_text(float(f'{self._mean:.4g}'))}", (-6 if left else 6, 0)
-        _write(ax, text, (self._mean, top), away, "right" if left else "left", "top", shaded(VERMILION, 0.8))
+        _write(ax, size, text, (self._mean, top), away, "right" if left else "left", "top", text_colour(VERMILION))
 
 
 class Share(NamedTuple):
@@ -372,26 +418,25 @@ class ShareChart(Chart):
     def margins(self) -> tuple[float, float, float, float]:
         return 24 + max(width(each.label, SIZE) for each in self.shares), 64, 44, 16
 
-    def paint(self, ax: Axes) -> None:
+    def paint(self, ax: Axes, size: float | None = SIZE) -> None:
         """Draw the bars, each with its share behind it."""
-        set_paper(ax, Axis(""), Axis(f"share {self.when}"))
+        label = f"share {self.when}"
+        set_paper(ax, Axis("" if size else label), Axis(label if size else ""), size)
         ax.grid(visible=False)
         ax.spines["bottom"].set_visible(False)
         places = range(len(self.shares))
-        amounts, fills = [each.share for each in self.shares], [tinted(each.colour, 0.7) for each in self.shares]
+        amounts, fills = [each.share for each in self.shares], [tinted(line(each.colour), 0.7) for each in self.shares]
         ax.barh(places, amounts, height=0.66, color=fills, clip_on=False)
         for place, amount in zip(places, amounts, strict=True):
-            _write(ax, f"{amount:.1%}", (amount, place), (6, 0), "left", "center")
-        ax.set_yticks(places, [each.label for each in self.shares], fontsize=SIZE)
+            _write(ax, size, f"{amount:.1%}", (amount, place), (6, 0), "left", "center")
+        ax.set_yticks(places, [each.label for each in self.shares], fontsize=size)
         ax.set_xticks([])
-        ax.set_xlim(0, max(amounts) or 1)
+        ax.set_xlim(0, (1.0 if size else 1.25) * max(amounts) or 1)
         ax.set_ylim(len(self.shares) - 0.5, -0.5)
 
 
 LEAST_ROOM, LEAST_HEIGHT = 34, 18
 """A cell that is narrower or lower, in pixels, holds no number."""
-DARK = 0.68
-"""From this strength of the colour on numbers are white."""
 
 
 @dataclass(frozen=True)
@@ -423,7 +468,7 @@ class GridChart(Chart):
     def margins(self) -> tuple[float, float, float, float]:
         return 24 + max(max(width(text, SIZE) for text in self.rows), 40), 24, 54, 56
 
-    def paint(self, ax: Axes) -> None:
+    def paint(self, ax: Axes, size: float | None = SIZE) -> None:
         """Draw a square for each pair, the stronger the greater its value."""
         from matplotlib.patches import Rectangle
 
@@ -434,14 +479,14 @@ class GridChart(Chart):
         room = (WIDTH - left - right) / len(self.columns)
         for (column, row), value in self.values.items():
             strength = 0.12 + 0.88 * ((value - low) / (high - low) if high > low else 0.5)
-            corner, fill = (column - 0.5, row - 0.5), tinted(BLUE, strength)
-            ax.add_patch(Rectangle(corner, 1, 1, facecolor=fill, edgecolor=PAPER, linewidth=2, clip_on=False))
+            corner, fill = (column - 0.5, row - 0.5), tinted(line(BLUE), strength)
+            ax.add_patch(Rectangle(corner, 1, 1, facecolor=fill, edgecolor=theme().paper, linewidth=2, clip_on=False))
             if room >= max(LEAST_ROOM, width(write(value), SIZE - 1) + 4) and high_enough:
-                ink = PAPER if strength > DARK else INK
+                ink = max((theme().paper, theme().ink), key=partial(contrast, fill))
                 ax.annotate(write(value), (column, row), ha="center", va="center", fontsize=SIZE - 1, color=ink)
-        self._set_paper(ax, ceil_ratio(max(width(text, SIZE - 1) for text in self.columns) + 8, room))
+        self._set_paper(ax, size, ceil_ratio(max(width(text, SIZE - 1) for text in self.columns) + 8, room))
 
-    def _set_paper(self, ax: Axes, every: int) -> None:
+    def _set_paper(self, ax: Axes, size: float | None, every: int) -> None:
         """The values of both variables along the axes, no frame."""
         for side in ("top", "right", "left", "bottom"):
             ax.spines[side].set_visible(False)
@@ -450,8 +495,8 @@ class GridChart(Chart):
         ax.set_xticks(range(0, len(self.columns), every), self.columns[::every])
         rows_every = ceil_ratio(LEAST_HEIGHT * len(self.rows), self.height - sum(self.margins[2:]))
         ax.set_yticks(range(0, len(self.rows), rows_every), self.rows[::rows_every])
-        ax.tick_params(length=0, labelsize=SIZE - 1, labelcolor=INK, pad=6)
-        write = partial(_write, ax, xycoords="axes fraction")
+        ax.tick_params(length=0, labelsize=SIZE - 1, labelcolor=theme().ink, pad=6)
+        write = partial(_write, ax, size, xycoords="axes fraction")
         write(self.across, (0.5, 0), (0, -26), "center", "top")
         write(self.up, (0, 1), (24 - self.margins[0], 12), "left", "bottom")
         write(self.label, (1, 1), (0, 12), "right", "bottom")
@@ -514,19 +559,19 @@ class LevelChart(Chart):
     def margins(self) -> tuple[float, float, float, float]:
         return LEFT, 60, ABOVE, BELOW
 
-    def paint(self, ax: Axes) -> None:
+    def paint(self, ax: Axes, size: float | None = SIZE) -> None:
         """Draw the curves, and the growth of each where it is nearest to the diagonal."""
-        set_paper(ax, self.across, self.up)
+        set_paper(ax, self.across, self.up, size)
         (left, right), (low, high) = self.box
         for level in self.levels:
-            colour = VERMILION if level.loud else BLUE
+            colour = line(VERMILION if level.loud else BLUE)
             if level.points:
                 xs, ys = zip(*level.points, strict=True)
                 ax.plot(xs, ys, color=colour, linewidth=2.4 if level.loud else 1.4, clip_on=False)
                 at = min(level.points, key=lambda p: abs((p[0] - left) / (right - left) - (p[1] - low) / (high - low)))
-                _write(ax, f"{level.value:.4g}", at, (7, 3), "left", "bottom", shaded(colour, 0.7))
+                _write(ax, size, f"{level.value:.4g}", at, (7, 3), "left", "bottom", text_colour(colour))
             for point in level.marked:
                 ax.plot(*point, marker="o", color=colour, markersize=7, clip_on=False)
-        _write(ax, "growth on each curve", (1, 1), (0, 14), "right", "bottom", xycoords="axes fraction")
+        _write(ax, size, "growth on each curve", (1, 1), (0, 14), "right", "bottom", xycoords="axes fraction")
         ax.set_xlim(left, right)
         ax.set_ylim(low, high)

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lsys_kit.geometry.scene import CIRCLE, SPHERE, Floats, Integers, Scene, Segments
-from lsys_kit.pictures.rendering.looks import BOLDEST, BROADEST, STURDY, THINNEST, numbered_colours, stroke_scale, stroke_widths
+from lsys_kit.pictures.rendering.looks import BOLDEST, BROADEST, STURDY, numbered_colours, stroke_scale, stroke_widths, thinnest
 from lsys_kit.pictures.rendering.view import MOST_CYLINDERS, ProjectedScene, far_to_near
 from lsys_kit.pictures.style.lighting import BRIGHT, DIM, EDGE, LIGHT, OWN, brightness, paper_number, shade_numbers, shades
 from lsys_kit.pictures.style.palette import tinted
@@ -179,7 +179,7 @@ class Cylinders(NamedTuple):
 def seen_widths(scene: ProjectedScene, widths: Integers) -> Integers:
     """The mean widths at which strokes are seen, in tenths of a pixel, given those at which nothing magnifies them."""
     seen = widths * ((scene.factors[:, 0] + scene.factors[:, 1]) / 2)
-    return np.clip(np.rint(seen), THINNEST, BROADEST).astype(np.int64)
+    return np.clip(np.rint(seen), thinnest(), BROADEST).astype(np.int64)
 
 
 def cylinders_of(scene: ProjectedScene, widths: Integers, unit: float, which: NDArray[np.bool_]) -> Cylinders:

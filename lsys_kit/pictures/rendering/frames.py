@@ -2,12 +2,13 @@
 
 In cpfg lines of the style "pixel" are so many pixels wide, and lines of the styles "polygon" and "cylinder" so many units; the
 style stands in another file than the model. So in the listings of the book: `A(1,10)` of figure 2.6 draws a stem of length 1
-and width 10. A system can say which is meant, by `widths: pixels` or `widths: units`. Where it does not, its widths are pixels
-if the broadest stroke has at least one: a line cannot be narrower.
+and width 10. A system can say which is meant, by `widths: pixels` or `widths: units`. Where it does not, its widths are units
+as far as they are in proportion to its strokes; if the broadest is not, all are made finer with it. So a model and the same
+model ten times as large look alike. Widths by the pipe model are in proportion to the plant, and a pipe is equally broad in all
+scenes that are shown together.
 
 A pixel is one of a picture of the usual size, and at most a unit: a drawing of more units than the picture has pixels is made
-smaller with its strokes, as those of figure 2.8 with stems of 200 units. Pictures of other sizes, films and meshes scale
-strokes with the drawing.
+smaller with its strokes. Pictures of other sizes, films and meshes scale strokes with the drawing.
 """
 
 from __future__ import annotations
@@ -15,17 +16,22 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import TypeAlias
 
 import numpy as np
 
-from lsys_kit.geometry.scene import OWN, Floats, Integers, Labels, Scene
+from lsys_kit.geometry.drawing import has_pipe_widths
+from lsys_kit.geometry.scene import OWN, Floats, Integers, Labels, Scene, Segments
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 from lsys_kit.pictures.rendering.looks import median_length
 from lsys_kit.pictures.rendering.view import ProjectedScene
 
-WIDTH, HEIGHT = 600, 400
-"""The size of the largest picture, in pixels."""
+Room: TypeAlias = tuple[float, float]
+"""A width and a height, in pixels."""
+WIDTH, HEIGHT, TALLEST, NARROWEST = 600, 400, 640, 160
+"""The size of a picture in pixels: one that is higher than this has the same area, as far as to the greatest height; and the
+least width."""
 MARGIN = 12
 """White space around a drawing, in pixels."""
 LABEL, LABEL_GAP = 12, 5
@@ -59,7 +65,7 @@ def in_fine_parts(frame: ViewFrame, scene: Scene) -> ViewFrame:
 
     >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.drawing import scene_of
-    >>> koch = [scene_of(derive(read("angle: 60\\naxiom: F\\nF -> F+F--F+F"), step)) for step in (2, 4)]
+    >>> koch = [scene_of(derive(read("angle: 60\\naxiom: F\\nF -> F+F--F+F"), step)) for step in (2, 5)]
     >>> [in_fine_parts(frame_around([scene]), scene).parts for scene in koch]
     [10, 100]
     """
@@ -67,16 +73,17 @@ def in_fine_parts(frame: ViewFrame, scene: Scene) -> ViewFrame:
     return replace(frame, parts=next(parts for parts in PARTS if parts * length >= LEAST_PARTS or parts == PARTS[-1]))
 
 
-def frame_around(scenes: Sequence[Scene], width: float = WIDTH, height: float = HEIGHT) -> ViewFrame:
-    """The frame that fits all that is painted of some scenes into a picture, with the round ends of broad strokes.
+def frame_around(scenes: Sequence[Scene], room: Room | None = None) -> ViewFrame:
+    """The frame that fits all that is painted of some scenes, with the round ends of broad strokes, into some room; or into a
+    picture of the usual area.
 
     >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.drawing import scene_of
     >>> frame_around([scene_of(derive(read("axiom: !(0.5)F"), 0))])  # 0.5 wide, 1.5 high
-    ViewFrame(scale=120.0, left=-0.25, top=1.25, width=84, height=204, parts=10)
+    ViewFrame(scale=120.0, left=-0.5666..., top=1.25, width=160, height=204, parts=10)
     """
     left, bottom, right, top = zip(*map(painted_box, scenes), strict=True)
-    frame = frame_of((min(left), min(bottom), max(right), max(top)), width, height)
+    frame = frame_of((min(left), min(bottom), max(right), max(top)), room)
     written = [scene.labels for scene in scenes if len(scene.labels)]
     return replace(frame, width=max([frame.width, *(_width_with(labels, frame) for labels in written)]))
 
@@ -113,11 +120,29 @@ def painted_box(scene: Scene) -> tuple[float, float, float, float]:
     )
 
 
-def frame_of(box: tuple[float, float, float, float], width: float = WIDTH, height: float = HEIGHT) -> ViewFrame:
-    """The frame that fits a box into a picture, no larger than needed."""
+def frame_of(box: tuple[float, float, float, float], room: Room | None = None) -> ViewFrame:
+    """The frame that fits a box into some room, no larger than needed; or into a picture of the usual area.
+
+    >>> [(frame.width, frame.height) for frame in (frame_of((0, 0, 30, up)) for up in (10, 20, 60, 900))]
+    [(600, 216), (594, 404), (332, 640), (160, 640)]
+    """
     left, bottom, right, top = box
     across, up = max(right - left, 1e-9), max(top - bottom, 1e-9)
-    return frame_on(box, min((width - 2 * MARGIN) / across, (height - 2 * MARGIN) / up, 120.0))
+    if room:
+        return frame_on(box, min((room[0] - 2 * MARGIN) / across, (room[1] - 2 * MARGIN) / up, LARGEST_SCALE))
+    frame = frame_on(box, usual_scale(across, up))
+    more = max(0, NARROWEST - frame.width)
+    return replace(frame, left=left - more / 2 / frame.scale, width=frame.width + more)
+
+
+LARGEST_SCALE = 120.0
+"""The most pixels of a unit."""
+
+
+def usual_scale(across: float, up: float, less: float = 0.0) -> float:
+    """The pixels of a unit with which a box fits into a picture of the usual area, in which some room is left."""
+    wide, high, highest = (size - less - 2 * MARGIN for size in (WIDTH, HEIGHT, TALLEST))
+    return min(wide / across, highest / up, math.sqrt(wide * high / (across * up)), LARGEST_SCALE)
 
 
 def frame_on(box: tuple[float, float, float, float], scale: float) -> ViewFrame:
@@ -130,31 +155,55 @@ def frame_on(box: tuple[float, float, float, float], scale: float) -> ViewFrame:
 
 MOST_OF_A_PICTURE = 0.5
 """The part of a picture that the broadest stroke may fill before the drawing is no longer made smaller for it."""
+BROAD, STOUT = 1 / 36, 1 / 8
+"""A stroke is in proportion that is no broader than this part of the extent of the drawing, or of the longest stroke."""
 
 
-def in_units(scenes: Sequence[Scene], system: LSystem) -> list[Scene]:
+def in_units(scenes: Sequence[Scene], system: LSystem, widths: str = "") -> list[Scene]:
     """Scenes of a system with the widths of their strokes in the units of lengths, such that all fit into one frame.
+
+    Whoever draws may have chosen where the widths come from.
 
     >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.drawing import scene_of
-    >>> stem = read("axiom: !(6)F(370)")
-    >>> [scene] = in_units([scene_of(derive(stem, 0))], stem)
-    >>> scene.segments.widths.tolist()  # 370 units and the round ends are as high as a picture without its margins
+    >>> for text in ("!(0.1)F", "!(10)F", "!(10)F(10)", "!(6)F(370)", "F[+F]F"):
+    ...     system = read(f"axiom: {text}")
+    ...     [scene] = in_units([scene_of(derive(system, 0))], system)
+    ...     scene.segments.widths.round(3).tolist()
+    [0.1]
+    [0.125]
+    [1.25]
     [6.0]
+    [0.04, 0.03, 0.03]
     """
+    if has_pipe_widths(system, widths):
+        pipes = [float(scene.segments.widths.min(initial=np.inf)) for scene in scenes]
+        _, usual = max(zip(map(_extent, scenes), pipes, strict=True))
+        return [_scaled(scene, usual / pipe) for scene, pipe in zip(scenes, pipes, strict=True)]
     broadest = max((float(scene.segments.widths.max(initial=OWN)) for scene in scenes), default=OWN)
-    if not _in_pixels(system, broadest):
+    pixels = system.widths == "pixels"
+    if broadest <= 0 or not (pixels or (not system.widths and TURTLE_DIALECTS[system.turtle].pixels)):
         return [*scenes]
+    if not pixels:
+        most = max(max(BROAD * _extent(scene), STOUT * _longest(scene.segments)) for scene in scenes)
+        return [_scaled(scene, min(1.0, most / broadest)) for scene in scenes]
     left, bottom, right, top = zip(*(scene.box for scene in scenes), strict=True)
-    box, room = (min(left), min(bottom), max(right), max(top)), min(broadest, MOST_OF_A_PICTURE * HEIGHT)
-    pixel = min(1.0, 1 / frame_of(box, WIDTH - room, HEIGHT - room).scale)
-    return [_with_pixels(scene, pixel) for scene in scenes]
+    across, up = max(max(right) - min(left), 1e-9), max(max(top) - min(bottom), 1e-9)
+    pixel = min(1.0, 1 / usual_scale(across, up, min(broadest, MOST_OF_A_PICTURE * HEIGHT)))
+    return [_scaled(scene, pixel) for scene in scenes]
 
 
-def _in_pixels(system: LSystem, broadest: float) -> bool:
-    return system.widths == "pixels" or (not system.widths and TURTLE_DIALECTS[system.turtle].pixels and broadest >= 1)
+def _extent(scene: Scene) -> float:
+    return float(np.ptp(scene.corners, axis=0).max())
 
 
-def _with_pixels(scene: Scene, pixel: float) -> Scene:
+def _longest(segments: Segments) -> float:
+    """The length of the longest stroke."""
+    ends = np.split(segments.ends, 2, axis=1)
+    return float(np.linalg.norm(ends[1] - ends[0], axis=1).max(initial=0.0))
+
+
+def _scaled(scene: Scene, unit: float) -> Scene:
+    """A scene whose widths are in some unit of lengths."""
     widths = scene.segments.widths
-    return replace(scene, segments=replace(scene.segments, widths=np.where(widths == OWN, OWN, widths * pixel)))
+    return replace(scene, segments=replace(scene.segments, widths=np.where(widths == OWN, OWN, widths * unit)))

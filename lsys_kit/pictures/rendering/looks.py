@@ -19,8 +19,8 @@ CONSTANT_ORDER = 1
 """The branch order whose width all strokes have where that is constant."""
 LEAST = (15, 11, 8, 7)
 """The least widths by branch order where the turtle chooses none, in tenths of a pixel: finer lines are too pale to be seen."""
-THINNEST, BROADEST = 3, 4_000
-"""The least and the greatest width of a stroke that a turtle chooses, in tenths of a pixel."""
+THINNEST, BROADEST = 7, 4_000
+"""The least and the greatest width of a stroke, in tenths of a pixel: what is finer is too pale to be seen."""
 SAMPLE = 20_000
 """The median length of strokes is estimated from at most this number of them."""
 USUAL_LENGTH, FINEST, STURDY, BOLDEST = 12, 0.3, 0.8, 2.0
@@ -38,18 +38,30 @@ def widths_by_order(usual: Sequence[float]) -> list[float]:
     return [theme().boldness * width for width in chosen]
 
 
+def thinnest() -> int:
+    """The least width of a stroke in the theme in force, in tenths of a pixel of the usual size.
+
+    >>> from dataclasses import replace
+    >>> from lsys_kit.pictures.style.themes import LIGHT, drawn_on
+    >>> with drawn_on(replace(LIGHT, reduced=0.5)):
+    ...     thinnest()
+    14
+    """
+    return round(THINNEST / theme().reduced)
+
+
 def stroke_widths(segments: Segments, scale: float, thin: float) -> Integers:
     """The widths of strokes in tenths of a pixel: one that the turtle has set is scaled with the drawing; others depend on the
     branch order, and are made finer by a factor."""
     by_order = np.array(
         [
-            max(round(least), round(10 * width * thin))
+            max(round(least), thinnest(), round(10 * width * thin))
             for width, least in zip(widths_by_order(STROKES), widths_by_order(LEAST), strict=True)
         ]
     )
     widths = by_order[np.minimum(segments.orders, len(STROKES) - 1)]
     if (segments.widths != OWN).any():
-        given = np.clip(np.rint(segments.widths * scale * 10), THINNEST, BROADEST).astype(np.int64)
+        given = np.clip(np.rint(segments.widths * scale * 10), thinnest(), BROADEST).astype(np.int64)
         widths = np.where(segments.widths == OWN, widths, given)
     return widths
 
@@ -134,7 +146,7 @@ def with_start(scene: Scene, system: LSystem) -> Scene:
 
 def with_widths(scene: Scene, widths: str = "", factor: float = 1.0) -> Scene:
     """A scene with strokes for which the turtle has set no width, if these are chosen by "order" or "constant"; else those that
-    it has set are broader by a factor.
+    have widths are broader by a factor.
 
     >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.drawing import scene_of
@@ -143,7 +155,7 @@ def with_widths(scene: Scene, widths: str = "", factor: float = 1.0) -> Scene:
     ([-1.0], [-1.0, 6.0])
     """
     segments = scene.segments
-    if not widths:
-        given = np.where(segments.widths == OWN, OWN, segments.widths * factor)
-        return replace(scene, segments=replace(segments, widths=given))
-    return replace(scene, segments=replace(segments, widths=np.array([float(OWN)])))
+    if widths in ("order", "constant"):
+        return replace(scene, segments=replace(segments, widths=np.array([float(OWN)])))
+    given = np.where(segments.widths == OWN, OWN, segments.widths * factor)
+    return replace(scene, segments=replace(segments, widths=given))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from typing import Any
 
 from lsys_kit.errors import ModelValueError, shown
 from lsys_kit.notation.analysis.checks import suggestion
@@ -12,10 +13,10 @@ BLACK, WHITE = "#000000", "#FFFFFF"
 
 
 def colour_from(value: object, more: tuple[str, ...] = ()) -> str:
-    """A colour from what a person gives: a name of CSS, or red, green and blue in hexadecimal digits.
+    """A colour from what a person gives: a name of CSS, or red, green and blue in hexadecimal digits; or as matplotlib has it.
 
-    >>> colour_from("seagreen"), colour_from("#0AF")
-    ('#2e8b57', '#00aaff')
+    >>> colour_from("seagreen"), colour_from("#0AF"), colour_from("tab:green"), colour_from("k"), colour_from((1, 0.5, 0))
+    ('#2e8b57', '#00aaff', '#2ca02c', '#000000', '#ff8000')
 
     Parameters
     ----------
@@ -34,11 +35,23 @@ def colour_from(value: object, more: tuple[str, ...] = ()) -> str:
     text = value.strip().lower() if isinstance(value, str) else ""
     if _HEXADECIMAL.fullmatch(text):
         return text if len(text) == 7 else "#" + "".join(2 * digit for digit in text[1:])
-    if text not in colormap:
+    if text in colormap:
+        return "#" + bytes(getrgb(text)[:3]).hex()
+    try:
+        return _named_by_matplotlib(value)
+    except (ValueError, TypeError):
         besides = "".join(f'"{each}", ' for each in more)
         hint = suggestion(text, [*more, *colormap]) or f'Give {besides}a colour of CSS such as "seagreen", or one as "#2e8b57".'
-        raise ModelValueError(f"{shown(value)} is no colour", hint=hint)
-    return "#" + bytes(getrgb(text)[:3]).hex()
+        raise ModelValueError(f"{shown(value)} is no colour", hint=hint) from None
+
+
+def _named_by_matplotlib(value: Any) -> str:
+    from matplotlib.colors import to_hex, to_rgba
+
+    given: Any = value.strip() if isinstance(value, str) else value
+    if to_rgba(given)[3] != 1:
+        raise ValueError
+    return to_hex(given)
 
 
 def mixed(colour: str, other: str, strength: float) -> str:

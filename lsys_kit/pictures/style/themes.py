@@ -56,6 +56,8 @@ class Theme:
         The factor by which strokes are broader than usual.
     even
         Whether strokes of all branch orders are equally broad.
+    reduced
+        The factor by which the picture is made smaller than usual, at most 1; strokes stay as broad as can be seen.
     """
 
     paper: str
@@ -67,6 +69,7 @@ class Theme:
     symbols: tuple[tuple[str, str], ...] = ()
     boldness: float = 1.0
     even: bool = False
+    reduced: float = 1.0
 
     @property
     def dark(self) -> bool:

@@ -37,7 +37,7 @@ from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.derivation.timed.ages import age_model
 from lsys_kit.errors import LSystemError, ModelLimitError
 from lsys_kit.files import file_stem
-from lsys_kit.geometry.drawing import has_natural_colours
+from lsys_kit.geometry.drawing import PIPES, has_natural_colours, has_pipe_widths
 from lsys_kit.geometry.filament import shapes_of
 from lsys_kit.geometry.turtle.commands import (
     DrawingMode,
@@ -45,6 +45,7 @@ from lsys_kit.geometry.turtle.commands import (
     drawing_mode,
     initial_colour,
     initial_step,
+    initial_width,
     instructions,
     unknown_commands,
 )
@@ -405,17 +406,24 @@ def _turtle(system: LSystem, calls: list[list[Any]]) -> Data:
     return {
         "side": dialect.left,
         "length": initial_step(system),
-        "width": dialect.width,
+        "width": initial_width(system),
         "colour": initial_colour(system),
         "natural": has_natural_colours(system),
         "heading": float(system.heading),
         "angle": float(system.angle),
-        "pixels": system.widths or ("auto" if dialect.pixels else "units"),
+        "widths": unit_of_widths(system),
         "calls": calls,
         "surfaces": {name: faces_in(surfaces_by_symbol(system)[name], drawing_mode(system)) for name in sorted(named)},
         "colours": [*CHOSEN],
         "uses angle": any(action in BY_ANGLE and factor for row in calls for action, factor, *_ in row),
     }
+
+
+def unit_of_widths(system: LSystem) -> str:
+    """The unit of the widths of strokes: "pipes", "pixels", or "units" of lengths; "auto" as far as those are in proportion."""
+    if has_pipe_widths(system):
+        return PIPES
+    return system.widths or ("auto" if TURTLE_DIALECTS[system.turtle].pixels else "units")
 
 
 def faces_in(surface: Surface, mode: DrawingMode) -> dict[str, list[object]]:

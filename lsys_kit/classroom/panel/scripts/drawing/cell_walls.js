@@ -3,8 +3,7 @@
 import { halfToEven } from "../books/numbers.js";
 import { brightness, mixed, shades } from "./colours.js";
 import { EDGE } from "./constants.js";
-import { line, outline, surround } from "./outlines.js";
-import { meanOf } from "./projection.js";
+import { line, meanOf, outline, surround } from "./outlines.js";
 
 const LEVELS = 2 ** 15; // of depths, over the extent of what is seen
 const DIM = 0.6; // how strong the edges of other cells are

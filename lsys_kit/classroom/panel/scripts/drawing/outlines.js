@@ -56,3 +56,13 @@ export function isInside(row, x, y) {
   });
   return inside;
 }
+
+export function cornersOf({ starts, corners }, i) {
+  return corners.subarray(starts[i], starts[i + 1]);
+}
+
+export function meanOf(places, numbers) {
+  let sum = 0;
+  for (const number of numbers) sum += places[number];
+  return sum / numbers.length;
+}

@@ -6,8 +6,8 @@
 import { clamped } from "../books/numbers.js";
 import { brightness, mixed, shades, sphereFill } from "./colours.js";
 import { BALL, BRIGHT, BROADEST_CASING, CASING, DARK, DIM, EDGE, FACE_EDGE, FILLED, HOLLOW, LABEL_GAP, LEAST_CASING, LIT, OWN, RIM, RING, SMALLEST_RADIUS, TO_LIGHT, TONED } from "./constants.js";
-import { fill, isInside, line, outline, write } from "./outlines.js";
-import { cornersOf, meanOf, seenIn } from "./projection.js";
+import { cornersOf, fill, isInside, line, meanOf, outline, write } from "./outlines.js";
+import { seenIn } from "./projection.js";
 
 const MARKED_EDGE = 3, LABEL_FONT = "12px sans-serif", LABEL_HALO = 3; // pixels
 

@@ -7,15 +7,14 @@
 // Then in which order they are painted, and how broad strokes are, as in the pictures that stay.
 
 import { clamped, halfToEven, times } from "../books/numbers.js";
-import { BOLDEST, BROADEST, DEPTH_LEVELS, DISTANCE, FINEST, LARGEST_SCALE, LEAST_WIDTHS, MOST_CYLINDERS, ORDER_WIDTHS, SLIMMEST, STURDY, USUAL_STROKE } from "./constants.js";
-import { MOST_POINTS } from "./turtle_actions.js";
+import { BOLDEST, BROADEST, DISTANCE, FINEST, LARGEST_SCALE, LEAST_WIDTHS, MOST_CYLINDERS, ORDER_WIDTHS, SLIMMEST, STURDY, USUAL_STROKE } from "./constants.js";
+import { reachOf, seenInDepth } from "./depths.js";
 
 const FRAME_MARGIN = 14;
 const NOTHING_WIDE = 1e-9;
 const FINEST_IN_SPACE = 0.6; // how much finer strokes become where they are short and too many to be seen each by itself
 const RADIANS = Math.PI / 180;
 const RINGS = 48; // into so many slices of the cylinder shapes are sorted by their height
-const edgesOfFaces = new WeakMap();
 
 // The room that shapes take, with the round ends of broad strokes: in the plane a box, in space the upright cylinder around
 // them, which no turn leads out of.
@@ -46,26 +45,18 @@ export function boundsOf(shapes) {
   return { middle, pixel, extent: Math.max(...spans), across: across + bulge, up: spans[2] / 2 + bulge, rings };
 }
 
-// How far to the side, and up or down, rings around an upright axis are seen, each a height and a radius.
-function reachOf(rings, distance, level, steep) {
-  let [wide, high] = [0, 0];
-  for (const [z, far] of rings) {
-    const away = distance - z * steep;
-    wide = Math.max(wide, distance === Infinity ? far : (distance * far) / Math.sqrt(away ** 2 - (far * level) ** 2));
-    for (const ahead of [far, -far]) high = Math.max(high, Math.abs(z * level - ahead * steep) * magnified(distance, ahead * level + z * steep));
-  }
-  return [wide, high];
-}
-
 // Width and height from the front, in the units of the model, however broad the strokes are; null if nothing is drawn.
 export function widthAndHeight(shapes) {
-  const spans = [shapes.x, shapes.z ?? shapes.y].map((axis) => {
-    let [least, most] = [Infinity, -Infinity];
-    eachPoint(shapes, (i, reach) => ([least, most] = [Math.min(least, axis[i] - reach), Math.max(most, axis[i] + reach)]), 0);
-    return most - least;
-  });
+  const spans = spansOf(shapes, [shapes.x, shapes.z ?? shapes.y]);
   return spans[0] >= 0 ? spans : null;
 }
+
+// How far shapes reach along some axes, each of which says where points lie; less than nothing without shapes.
+export const spansOf = (shapes, axes) => axes.map((axis) => {
+  let [least, most] = [Infinity, -Infinity];
+  eachPoint(shapes, (i, reach) => ([least, most] = [Math.min(least, axis[i] - reach), Math.max(most, axis[i] + reach)]), 0);
+  return most - least;
+});
 
 // Visit every point that is drawn, with how far the shape reaches beyond it; `broad` is 0 for strokes that are lines.
 function eachPoint({ strokes, faces, rounds, labels }, visit, broad = 1) {
@@ -97,8 +88,6 @@ export function frameOf(shapes, width, height, { around = 0, above = 0, near = 1
   };
 }
 
-export const magnified = (distance, towards) => (distance === Infinity ? 1 : distance / (distance - towards));
-
 // Shapes as they are seen in a frame: x to the right and y down in pixels; in space depths towards the viewer in units, how near
 // that is, from 0 to 1, and by how much points are magnified there; how broad strokes are; and the order of painting.
 export function seenIn(frame, shapes) {
@@ -115,62 +104,17 @@ function seenInPlane({ scale, x0, y0, middle: [cx, cy] }, shapes, widths) {
     x[i] = x0 + (shapes.x[i] - cx) * scale;
     y[i] = y0 - (shapes.y[i] - cy) * scale;
   }
-  const order = paintingOrder(shapes, widths);
+  const order = paintingOrder(shapes, planeRanks(shapes, widths));
   return { x, y, widths, order, painted: order };
-}
-
-function seenInSpace(frame, shapes, single) {
-  const seen = projected(frame, shapes), { strokes } = shapes, { depths, factors } = seen;
-  const starts = frame.detailed ? startWidths(strokes, single) : single, ends = [new Float64Array(strokes.n), new Float64Array(strokes.n)];
-  const behind = new Float64Array(frame.detailed ? strokes.n : 0), widths = new Int32Array(strokes.n), edges = edgesOf(shapes.faces);
-  for (let i = 0; i < strokes.n; i++) {
-    const a = strokes.from[i], b = strokes.to[i];
-    ends[0][i] = starts[i] * factors[a];
-    ends[1][i] = single[i] * factors[b];
-    widths[i] = clamped(SLIMMEST, BROADEST, Math.round((ends[0][i] + ends[1][i]) / 2));
-    if (frame.detailed) behind[i] = edges.has(pairOf(a, b)) ? -Infinity
-      : (depths[a] + depths[b]) / 2 - Math.hypot(shapes.x[b] - shapes.x[a], shapes.y[b] - shapes.y[a], shapes.z[b] - shapes.z[a]);
-  }
-  const painted = paintingOrder(shapes, widths, depths, frame.extent, behind), all = shapes.faces.n + strokes.n + shapes.rounds.n;
-  return { ...seen, widths, ends, painted, order: painted.filter((number) => number < all) };
-}
-
-// The edges of faces, as pairs of points: a stroke there has no casing that would part it from its face.
-function edgesOf(faces) {
-  if (!edgesOfFaces.has(faces)) edgesOfFaces.set(faces, new Set(times(faces.n, (i) => {
-    const corners = cornersOf(faces, i);
-    return Array.from(corners, (corner, k) => pairOf(corner, corners[(k + 1) % corners.length]));
-  }).flat()));
-  return edgesOfFaces.get(faces);
-}
-
-const pairOf = (one, other) => Math.min(one, other) * MOST_POINTS + Math.max(one, other);
-
-function projected({ scale, x0, y0, cos, sin, level, steep, reach, distance, middle: [cx, cy, cz] }, { n, x, y, z }) {
-  const seen = { x: new Float64Array(n), y: new Float64Array(n), depths: new Float64Array(n), factors: new Float64Array(n),
-    nearness: new Float64Array(n) };
-  for (let i = 0; i < n; i++) {
-    const px = x[i] - cx, py = y[i] - cy, pz = z[i] - cz, ahead = px * sin - py * cos, towards = ahead * level + pz * steep;
-    const factor = magnified(distance, towards);
-    seen.x[i] = x0 + (px * cos + py * sin) * scale * factor;
-    seen.y[i] = y0 - (pz * level - ahead * steep) * scale * factor;
-    seen.depths[i] = (x[i] * sin - y[i] * cos) * level + z[i] * steep;
-    seen.factors[i] = factor;
-    seen.nearness[i] = clamped(0, 1, towards / (2 * reach || 1) + 0.5);
-  }
-  return seen;
-}
-
-// How broad each stroke begins: as broad as the last stroke of its branch that ends there, where the turtle has set the widths.
-function startWidths({ n, from, to, orders, widths }, single) {
-  if (widths.some((width) => width <= 0)) return single;
-  const ending = new Map(), branch = (point, i) => point * (1 << 20) + orders[i];
-  for (let i = 0; i < n; i++) ending.set(branch(to[i], i), single[i]);
-  return single.map((width, i) => ending.get(branch(from[i], i)) ?? width);
 }
 
 const MOST_NUMBERED = 2 ** 31; // more shapes there cannot be
 const LAST_RANK = 2 ** 21;
+
+function seenInSpace(frame, shapes, single) {
+  const seen = seenInDepth(frame, shapes, single), painted = paintingOrder(shapes, seen.levels), all = painted.length - seen.behind.length;
+  return { ...seen, painted, order: painted.filter((number) => number < all) };
+}
 
 // The width of each stroke, in tenths of a pixel: as the turtle has set it, or by its branch order.
 function strokeWidths({ n, orders, widths }, scale, thin) {
@@ -183,17 +127,15 @@ function strokeWidths({ n, orders, widths }, scale, thin) {
 }
 
 // The numbers of faces, strokes and rounds, counted in this order, as they are painted: in space from far to near; in the plane
-// strokes by colours, and of one colour the broad ones first. `depths` says how far points lie towards the viewer, and `behind`
-// how far the casings of strokes, whose numbers follow all others; of what is as far away they are painted first.
-/** @param {ArrayLike<number>} behind */
-function paintingOrder(shapes, widths, depths = null, extent = 0, behind = []) {
-  const { strokes, faces, rounds } = shapes, many = faces.n + strokes.n + rounds.n, all = many + behind.length;
-  const ranks = depths ? depthLevels(shapes, depths, extent, behind) : planeRanks(shapes, widths), keys = new Float64Array(all);
-  for (let i = 0; i < all; i++) keys[i] = ranks[i] * MOST_NUMBERED + (i < many ? i + behind.length : i - many);
+// strokes by colours, and of one colour the broad ones first. The casings of strokes, whose numbers follow all others, are painted
+// first of what has the same rank.
+function paintingOrder({ strokes, faces, rounds }, ranks) {
+  const many = faces.n + strokes.n + rounds.n, all = ranks.length, casings = all - many, keys = new Float64Array(all);
+  for (let i = 0; i < all; i++) keys[i] = ranks[i] * MOST_NUMBERED + (i < many ? i + casings : i - many);
   keys.sort();
   for (let i = 0; i < all; i++) {
     const at = keys[i] - Math.floor(keys[i] / MOST_NUMBERED) * MOST_NUMBERED;
-    keys[i] = at < behind.length ? at + many : at - behind.length;
+    keys[i] = at < casings ? at + many : at - casings;
   }
   return keys;
 }
@@ -202,26 +144,4 @@ function planeRanks({ strokes, faces, rounds }, widths) {
   const ranks = new Float64Array(faces.n + strokes.n + rounds.n).fill(LAST_RANK).fill(-1, 0, faces.n);
   for (let i = 0; i < strokes.n; i++) ranks[faces.n + i] = strokes.colours[i] * (BROADEST + 1) + BROADEST - widths[i];
   return ranks;
-}
-
-// A shape is as near as its middle: the mean of its corners, the middle of a stroke, a centre.
-function depthLevels({ strokes, faces, rounds }, depths, extent, behind) {
-  const many = faces.n + strokes.n + rounds.n, levels = new Float64Array(many + behind.length), unit = DEPTH_LEVELS / (extent || 1);
-  for (let i = 0; i < faces.n; i++) levels[i] = halfToEven(meanOf(depths, cornersOf(faces, i)) * unit);
-  for (let i = 0; i < strokes.n; i++)
-    levels[faces.n + i] = halfToEven(((depths[strokes.from[i]] + depths[strokes.to[i]]) / 2) * unit);
-  for (let i = 0; i < rounds.n; i++) levels[faces.n + strokes.n + i] = halfToEven(depths[rounds.centres[i]] * unit);
-  const least = levels.subarray(0, many).reduce((found, level) => Math.min(found, level), Infinity);
-  behind.forEach((depth, i) => { levels[many + i] = Math.max(least, halfToEven(depth * unit)); });
-  return levels.map((level) => level - least);
-}
-
-export function cornersOf({ starts, corners }, i) {
-  return corners.subarray(starts[i], starts[i + 1]);
-}
-
-export function meanOf(places, numbers) {
-  let sum = 0;
-  for (const number of numbers) sum += places[number];
-  return sum / numbers.length;
 }

@@ -7,7 +7,8 @@ import { whole } from "../books/numbers.js";
 import { list } from "../views/controls.js";
 import { paintWalls, wallsSeen } from "./cell_walls.js";
 import { isInside } from "./outlines.js";
-import { frameOf, magnified } from "./projection.js";
+import { magnified } from "./depths.js";
+import { frameOf } from "./projection.js";
 import { cellSeen, paintSphere } from "./sphere.js";
 
 const COLOURS = 6; // of cells on a sphere

@@ -3,9 +3,10 @@
 // `traced` interprets a word once and records a path that depends neither on the angle nor on the heading; `placed` then finds
 // where its points lie, as often as the angle changes.
 
-import { grouped } from "../books/numbers.js";
-import { BROADEST_PART, LARGEST_SCALE, MOST_CURVED, OWN_LOOK, PICTURE_HEIGHT, PICTURE_MARGIN, PICTURE_WIDTH, RAMP_START, SIGN_COLOUR } from "./constants.js";
-import { colourNaturally, newTurtle, stretchRamp } from "./turtle_actions.js";
+import { clamped, grouped, times } from "../books/numbers.js";
+import { BROAD, BROADEST_PART, EXPONENT, LARGEST_SCALE, MOST_CURVED, OWN_LOOK, PICTURE_HEIGHT, PICTURE_MARGIN, PICTURE_WIDTH, RAMP_START, SIGN_COLOUR, STOUT, TALLEST, TRUNK } from "./constants.js";
+import { spansOf } from "./projection.js";
+import { colourNaturally, newTurtle, stretchRamp, tipsBorne } from "./turtle_actions.js";
 import { placeInPlane, planeActions, planeTrail } from "./turtle_plane.js";
 import { placeInSpace, spaceActions, spaceTrail } from "./turtle_space.js";
 
@@ -54,13 +55,16 @@ function openTurtle({ mode, turtle, states, symbols }) {
 }
 
 function tracedAnew(book, step, opened) {
-  const { inSpace, amounts, palette, chosen, ofStates } = opened, setting = book.data.turtle, turtle = interpreted(book, book.word(step), opened);
-  if (setting.colour === RAMP_START) stretchRamp(turtle.strokes, turtle.faces, turtle.rounds);
-  else if (setting.natural) colourNaturally(turtle.strokes);
+  const { inSpace, amounts, palette, chosen, ofStates } = opened, setting = book.data.turtle;
+  const turtle = interpreted(book, book.word(step), opened), { strokes, trail } = turtle;
+  const tips = setting.widths === "pipes" ? tipsBorne(strokes) : null;
+  if (tips) strokes.widths = tips.map((many) => many ** (1 / EXPONENT));
+  if (setting.colour === RAMP_START) stretchRamp(strokes, turtle.faces, turtle.rounds);
+  else if (setting.natural) colourNaturally(strokes, tips);
   const colourOf = (state, colour) => (colour === OWN_LOOK ? ofStates[state] : chosen[colour % chosen.length]);
   return {
-    dimension: inSpace ? 3 : 2, trail: turtle.trail.packed(), amounts, palette, heading: setting.heading, pixels: setting.pixels,
-    typical: medianLength(turtle.strokes.lengths), broadest: broadestOf(turtle.strokes.widths, OWN_LOOK), placed: null,
+    dimension: inSpace ? 3 : 2, trail: trail.packed(), amounts, palette, heading: setting.heading, unit: setting.widths,
+    typical: medianLength(strokes.lengths), broadest: greatest(strokes.widths, OWN_LOOK), placed: null,
     ...shapesOf(turtle, colourOf),
   };
 }
@@ -105,51 +109,30 @@ function placedAnew(path, angle) {
   const { dimension, trail, amounts, palette, heading, typical, faces, rounds, labels } = path, { n, x, y, z } = trail;
   if (dimension === 2) placeInPlane(trail, angle, heading);
   else placeInSpace(trail, amounts, angle, heading);
-  const pixel = pixelOf(path, extentOf(path, trail));
-  return { dimension, n, x, y, z, strokes: { ...path.strokes, widths: widthsInUnits(path.strokes.widths, pixel) },
-    faces, rounds, labels, palette, typical, pixel };
+  const unit = unitOf(path);
+  return { dimension, n, x, y, z, strokes: { ...path.strokes, widths: path.strokes.widths.map((width) => (width < 0 ? width : width * unit)) },
+    faces, rounds, labels, palette, typical, pixel: path.unit === "pixels" ? unit : 1 };
 }
 
-// The least and the greatest of each coordinate of all that is drawn; zeros where that is nothing.
-function extentOf({ strokes, faces, rounds, labels }, { x, y, z }) {
-  const found = (z ? [x, y, z] : [x, y]).map((places) => {
-    let least = Infinity, most = -Infinity;
-    for (const numbers of [strokes.from, strokes.to, faces.corners, labels.points]) {
-      for (let i = 0; i < numbers.length; i++) {
-        const place = places[numbers[i]];
-        if (place < least) least = place;
-        if (place > most) most = place;
-      }
-    }
-    for (let i = 0; i < rounds.n; i++) {
-      least = Math.min(least, places[rounds.centres[i]] - rounds.radii[i]);
-      most = Math.max(most, places[rounds.centres[i]] + rounds.radii[i]);
-    }
-    return least <= most ? [least, most] : [0, 0];
-  });
-  return { least: found.map(([least]) => least), most: found.map(([, most]) => most) };
+// The unit of widths of strokes: of pixels one of a picture of the usual size, and at most 1. Widths by the pipe model are in
+// proportion to the drawing, and others may be no broader than fits it or its strokes.
+function unitOf(path) {
+  const { broadest, unit, strokes: { n, from, to }, trail: { x, y, z } } = path, spans = spansOf(path, z ? [x, y, z] : [x, y]);
+  const extent = greatest(spans, 0);
+  if (unit === "pipes") return (TRUNK * extent) / broadest;
+  if (broadest <= 0 || unit === "units") return 1;
+  if (unit === "auto") {
+    const lengths = times(n, (i) => Math.hypot(x[to[i]] - x[from[i]], y[to[i]] - y[from[i]], z ? z[to[i]] - z[from[i]] : 0));
+    return Math.min(1, Math.max(BROAD * extent, STOUT * greatest(lengths, 0)) / broadest);
+  }
+  const room = Math.min(broadest, BROADEST_PART * PICTURE_HEIGHT) + 2 * PICTURE_MARGIN;
+  const [wide, high, highest] = [PICTURE_WIDTH, PICTURE_HEIGHT, TALLEST].map((size) => size - room), [across] = spans, up = spans.at(-1);
+  return 1 / clamped(1, LARGEST_SCALE, Math.min(wide / across, highest / up, Math.sqrt((wide * high) / (across * up))));
 }
 
-// The length of a pixel, where widths of strokes are in pixels: one of a picture of the usual size, and at most a unit.
-function pixelOf({ broadest, pixels }, { least, most }) {
-  if (!(pixels === "pixels" || (pixels === "auto" && broadest >= 1))) return 1;
-  const up = least.length - 1, room = Math.min(broadest, BROADEST_PART * PICTURE_HEIGHT);
-  const across = Math.max(most[0] - least[0], 1e-9), high = Math.max(most[up] - least[up], 1e-9);
-  const scale = Math.min((PICTURE_WIDTH - room - 2 * PICTURE_MARGIN) / across,
-    (PICTURE_HEIGHT - room - 2 * PICTURE_MARGIN) / high, LARGEST_SCALE);
-  return Math.min(1, 1 / scale);
-}
-
-function widthsInUnits(widths, pixel) {
-  return pixel === 1 ? widths : widths.map((width) => (width === OWN_LOOK ? OWN_LOOK : width * pixel));
-}
-
-function broadestOf(numbers, least) {
-  return numbers.reduce((most, number) => Math.max(most, number), least);
-}
+const greatest = (numbers, least) => numbers.reduce((most, number) => Math.max(most, number), least);
 
 function medianLength(numbers) {
-  if (!numbers.length) return 1;
-  const sorted = Float64Array.from(numbers).sort(), middle = sorted.length >> 1;
-  return sorted.length % 2 ? sorted[middle] : (sorted[middle - 1] + sorted[middle]) / 2;
+  const sorted = Float64Array.from(numbers).sort(), many = sorted.length;
+  return many ? (sorted[many >> 1] + sorted[(many - 1) >> 1]) / 2 : 1;
 }

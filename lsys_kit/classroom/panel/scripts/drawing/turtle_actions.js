@@ -22,22 +22,29 @@ export function stretchRamp(...groups) {
       if (inRamp(colours[i])) colours[i] = RAMP_START + Math.floor((colours[i] - RAMP_START) * stretch + 0.5);
 }
 
+// How many axes end in each stroke and in what it bears.
+export function tipsBorne({ from, to, orders }) {
+  const ending = new Map(to.map((point, i) => [point, i])), below = from.map((point) => ending.get(point)), tips = to.map(() => 1);
+  below.forEach((mother, i) => { if (orders[mother] === orders[i]) tips[mother] = 0; }); // the axis goes on
+  for (let i = tips.length - 1; i >= 0; i--) if (below[i] >= 0) tips[below[i]] += tips[i];
+  return tips;
+}
+
 // Natural colours of the strokes for which none has been chosen: from bark to leaves, by their width, else by their branch order.
-export function colourNaturally({ colours, orders, widths }) {
-  let deepest = 0, widest = OWN_LOOK;
-  for (let i = 0; i < orders.length; i++) [deepest, widest] = [Math.max(deepest, orders[i]), Math.max(widest, widths[i])];
+export function colourNaturally({ colours, orders, widths }, tips) {
+  const [deepest, widest] = [orders, tips ?? widths].map((numbers) => numbers.reduce((one, other) => Math.max(one, other), 0));
   for (let i = 0; i < orders.length; i++) {
     if (colours[i] !== OWN_LOOK) continue;
-    const wide = widest > 0 && widths[i] !== OWN_LOOK, byOrder = deepest ? orders[i] / deepest : 1;
-    const youth = wide ? 1 - Math.sqrt(widths[i] / widest) : byOrder;
+    const youth = tips ? 1 - Math.log(tips[i]) / (Math.log(widest) || 1)
+      : widest && widths[i] !== OWN_LOOK ? 1 - Math.sqrt(widths[i] / widest) : deepest ? orders[i] / deepest : 1;
     colours[i] = RAMP_START + Math.floor((RAMP_END - RAMP_START) * youth + 0.5);
   }
 }
 
 export function newTurtle(trail, { length, width, colour }) {
-  const initial = { length, width: OWN_LOOK, colour, gravitropism: 0 }, looks = () => ({ colours: [], positions: [], states: [] });
+  const initial = { length, width, colour, gravitropism: 0 }, looks = () => ({ colours: [], positions: [], states: [] });
   return {
-    ...initial, initial, trail, scale: 1, firstWidth: width, position: 0, orientation: trail.orientation, mirror: 1, secondHeading: 0,
+    ...initial, initial, trail, scale: 1, position: 0, orientation: trail.orientation, mirror: 1, secondHeading: 0,
     tropisms: new Map(), axis: null, patches: new Map(), last: 0, restored: [], stack: [], place: -1, state: -1, expectsSurface: false, flat: false,
     openPolygons: [],
     strokes: { from: [], to: [], lengths: [], orders: [], widths: [], ...looks() },
@@ -107,10 +114,10 @@ export function goAhead(drawn, vertex) {
   };
 }
 
-// Set a quantity, which the message of a too large value calls so; a width begins with that of the dialect.
+// Set a quantity, which the message of a too large value calls so.
 function setQuantity(name, called, least = -Infinity) {
   return (turtle, call) => {
-    const value = amountOf(call, name === "width" && turtle.width === OWN_LOOK ? turtle.firstWidth : turtle[name]);
+    const value = amountOf(call, turtle[name]);
     if (!(Math.abs(value) <= LARGEST_VALUE))
       throw new RangeError(`The turtle's ${called} grows too large to draw: ${Number(value.toPrecision(3))}`);
     turtle[name] = Math.max(least, value);
