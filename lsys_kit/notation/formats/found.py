@@ -85,6 +85,10 @@ class Found:
         Whether the axiom is what the one rule rewrites, since none was found.
     listing
         A text in the kit's notation that is all of it, in place of its parts.
+    calculated
+        What a program makes a word for, instead of giving it.
+    loose
+        Where rules stand that nothing calls rules.
     """
 
     name: str = ""
@@ -100,6 +104,8 @@ class Found:
     notes: list[str] = field(default_factory=list)
     listing: Transcript | None = None
     assumed: bool = False
+    calculated: Passage | None = None
+    loose: set[int] = field(default_factory=set)
 
     @property
     def complete(self) -> bool:
