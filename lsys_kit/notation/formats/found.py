@@ -15,6 +15,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from lsys_kit.errors import quotable
 from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, assembled
 
 
@@ -284,6 +285,26 @@ def listing(found: Found) -> Iterator[Edit]:
 def transcript_of(found: Found, before: Transcript) -> Transcript:
     """What was found in a text, in the kit's notation."""
     return found.listing or assembled(before, listing(found), found.notes)
+
+
+def not_taken(name: str, value: str) -> str:
+    """The note on a setting that a drawing of the kit has not.
+
+    >>> not_taken("start angle", "45")
+    '"start angle" (45) is not taken over.'
+    """
+    return f'"{quotable(name)}" ({quotable(value)}) is not taken over.'
+
+
+def undrawn_digits(found: Found) -> str:
+    """A note on digits that are symbols, and that nothing replaces or draws: they might be values. "" where there are none."""
+    heads = "".join(rule.head.text for rule in found.rules)
+    digits = [] if found.listing else [digit for digit in _digits(found) if digit not in heads and digit not in found.drawn]
+    if not digits:
+        return ""
+    return (
+        f"The digits {', '.join(digits)} are read as symbols, which draw nothing. A value is typed in brackets: C({digits[0]})."
+    )
 
 
 def completed(found: Found) -> Found:

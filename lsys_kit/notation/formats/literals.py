@@ -16,7 +16,7 @@ from itertools import chain, pairwise
 
 from lsys_kit.budget import current
 from lsys_kit.errors import ModelSyntaxError, quotable
-from lsys_kit.notation.formats.found import Found, Passage, Rule, angle_of, chance_of, tables
+from lsys_kit.notation.formats.found import Found, Passage, Rule, angle_of, chance_of, not_taken, tables
 from lsys_kit.notation.formats.lines import rules_in_line
 from lsys_kit.notation.formats.parts import is_word
 
@@ -229,7 +229,7 @@ def _kinds() -> dict[str, str]:
     names = tables()["names"]
     return {
         re.sub("[ _-]", "", name): kind
-        for kind in ("axiom", "rules", "angle", "steps")
+        for kind in ("axiom", "rules", "angle", "steps", "unread")
         for name in names[kind]
         if len(name) > 1 or not name.isascii() or name == "n"
     }
@@ -383,8 +383,11 @@ def _gather(group: Group, found: Found, text: str, in_rules: bool) -> None:
         if not group.opened and len(first.key) > 1 and (rule := _as_rule([first, second])):
             found.rules.append(rule)
             used |= {id(first), id(second)}
+    listed = False
     for entry in (entry for entry in group.entries if id(entry) not in used):
-        _take(entry, found, text, in_rules)
+        item = bool(entry.terms) and isinstance(entry.terms[0], Term) and entry.terms[0].text == "-"
+        listed = item and (listed if not entry.key else _kind(_name(entry)) == "rules")  # items of a list in YAML
+        _take(entry, found, text, in_rules or listed)
 
 
 def _take(entry: Entry, found: Found, text: str, in_rules: bool) -> None:
@@ -413,6 +416,10 @@ def _take(entry: Entry, found: Found, text: str, in_rules: bool) -> None:
         found.axiom = found.axiom or _texts(entry.terms)
     elif keyed and kind == "axiom" and isinstance(value, Group) and (word := _symbols(value)) and not in_rules:
         found.axiom = found.axiom or word
+    elif keyed and kind == "axiom" and not in_rules and entry.sign == ":" and found.axiom is None and is_word(raw):
+        found.axiom = (Passage(raw, entry.terms[0].at),)  # YAML needs no quotation marks
+    elif keyed and kind == "unread" and not in_rules and angle_of(raw):
+        found.notes.append(not_taken(name, raw))
     elif keyed and kind == "angle" and not in_rules and (angle := angle_of(raw.strip("\"'"))) is not None:
         if found.angle is None:
             found.angle = angle, Passage(raw, _start(entry.terms[-1]), False)
