@@ -576,6 +576,19 @@ READ = {
         "]: pop position and angle, turn right 45 degrees",
         "alphabet: 0 1\nangle: 45\naxiom: 0\n1 -> 1 1\n0 -> 1[+0]-0",
     ),
+    "contexts of one letter, which are no tags": (
+        '{"axiom": "ABC", "productions": {"A<B>C": "D", "B": "BB"}}',
+        "axiom: A B C\nA < B > C -> D\nB -> B B",
+    ),
+    "letters that turn": (
+        "Axiom: F\nRegel: F → FLFRRFLF\nF: vorwärts, L: 60° nach links drehen, R: 60° nach rechts drehen",
+        "angle: 60\naxiom: F\nF -> F L F R R F L F\ninterpretation:\nL -> +\nR -> -",
+    ),
+    "what is passed over on a page": (
+        "Figure 1: signals\nω : B A A\nignore: +-\np1 : B < A → B\n",
+        "ignore: + -\naxiom: B A A\nB < A -> B",
+    ),
+    "a sentence behind a rule": ("A → B; B → AB; starting from A", "axiom: A\nA -> B\nB -> A B"),
     "sets of one symbol": ("V = {F}, S = {+, −}, ω = F++F\nP = {F → F−F}", "axiom: F++F\nF -> F-F"),
     "an angle in degrees, in Fractint's words": ("Axiom = F\nAngle = 25.7\nF = FF+F", "angle: 25.7\naxiom: F\nF -> F F+F"),
     "a rule with a word for its arrow": ("Axiom = F\nF becomes F[+F]F\nAngle = 25", "angle: 25\naxiom: F\nF -> F[+F]F"),
@@ -919,7 +932,7 @@ def test_turns_have_the_sense_that_the_text_gives_them(sentence: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "sentence", ["+ means turn left 90°, - means turn right 90°.", "F means turn right", "Turn right + 90°"]
+    "sentence", ["+ means turn left 90°, - means turn right 90°.", "A turn right is made by F", "Turn right + 90°"]
 )
 def test_turns_stay_where_no_sentence_says_otherwise(sentence: str) -> None:
     assert str(read(f"Axiom: F\nRules: F → F+F-G\nangle: 90\n{sentence}")) == str(read("axiom: F\nF -> F+F-G\nangle: 90"))
@@ -931,6 +944,14 @@ def test_turns_stay_where_no_sentence_says_otherwise(sentence: str) -> None:
         (
             "Angle: 22\nAxiom: F\nRules: F=C0FF-[C1-F]",
             "The digits 0, 1 are read as symbols, which draw nothing. A value is typed in brackets: C(0).",
+        ),
+        (
+            "start: F; rule: F => F2F",
+            "The digit 2 is read as a symbol, which draws nothing. A value is typed in brackets: C(2).",
+        ),
+        (
+            "axiom: A\nA -> A B...",
+            'The "." after the production for A is read as a command of the turtle; a line needs no sign at its end.',
         ),
         ("Start: F\nF => F+F\nstarting angle: 45", '"starting angle" (45) is not taken over.'),
         ('{"axiom": "F", "startAngle": 45, "rules": {"F": "F+F"}}', '"startAngle" (45) is not taken over.'),

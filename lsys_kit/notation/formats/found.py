@@ -302,9 +302,9 @@ def undrawn_digits(found: Found) -> str:
     digits = [] if found.listing else [digit for digit in _digits(found) if digit not in heads and digit not in found.drawn]
     if not digits:
         return ""
-    return (
-        f"The digits {', '.join(digits)} are read as symbols, which draw nothing. A value is typed in brackets: C({digits[0]})."
-    )
+    one = f"The digit {digits[0]} is read as a symbol, which draws nothing."
+    several = f"The digits {', '.join(digits)} are read as symbols, which draw nothing."
+    return f"{one if len(digits) == 1 else several} A value is typed in brackets: C({digits[0]})."
 
 
 def completed(found: Found) -> Found:

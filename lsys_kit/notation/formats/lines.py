@@ -266,8 +266,9 @@ def _take_prose(found: Found, prose: Sequence[Passage]) -> None:
 
 
 _SAID_TURN = re.compile(
-    r"(?:^|(?<=[\s\"'`(]))(?P<sign>[+\-\[])[\"'`)]?[ ]?(?:[:=][ ]?|means?[ ]|bedeutet[ ])?"
-    r"(?=[^\n]{0,60}?(?:turn|rotat|yaw|dreh))[^.;\n+\-\[\]]{0,60}?"
+    r"(?:^|(?<=[\s\"'`(]))(?P<sign>[+\-\[]|(?-i:[B-HJ-Z])(?!\w)|[a-z](?=[\"'`)]?[ ]?(?:[:=]|means?[ ]|bedeutet[ ])))"
+    r"[\"'`)]?[ ]?(?:[:=][ ]?|means?[ ]|bedeutet[ ])?"
+    r"(?=[^\n]{0,60}?(?:turn|rotat|yaw|dreh))[^.,;\n+\-\[\]]{0,60}?"
     r"\b(?:(?P<left>left|links|(?:counter|anti)-?clockwise)|(?P<right>right|rechts|clockwise))\b",
     re.IGNORECASE | re.MULTILINE,
 )
@@ -280,6 +281,12 @@ def _take_turns(found: Found, text: str) -> None:
     if plus | minus and plus <= {("+", True)} and minus <= {("-", False)}:
         found.signs = {**found.signs, "+": "-", "-": "+"}
         found.notes.append("In this text + turns right and - left: they are exchanged here.")
+    used = "".join(part.text for part in (*(found.axiom or ()), *(part for rule in found.rules for part in rule.tail)))
+    letters = [(sign, right) for sign, right in sorted(said) if sign.isalpha() and sign in used and sign not in found.drawn]
+    for sign, right in letters:
+        if (sign, not right) not in said:
+            found.drawn[sign] = "-" if right else "+"
+            found.notes.append(f"As the text says, {sign} turns {'right' if right else 'left'}.")
     opened = {right for sign, right in said if sign == "["}
     if len(opened) == 1:
         there, back = "-+" if opened == {True} else "+-"
@@ -546,6 +553,10 @@ def _add_setting(found: Found, kind: str, value: Passage, text: str) -> None:
         found.notes.append(f"Two angles are given: {float(found.angle[0]):g} is used, not {float(angle):g}.")
 
 
+_BEHIND = re.compile(r"[;,][ ]+(?=[a-z]{3,}[ ]+[a-z]{3,}[ ])")
+"""Where a sentence begins behind a successor."""
+
+
 def _rule(text: str, item: Part) -> Rule:
     """The rule of a part."""
     assert item.match is not None
@@ -555,7 +566,7 @@ def _rule(text: str, item: Part) -> Rule:
     if after:
         chance = chance or after["plain"] or after["bracketed"] or after["named"]
         said = said[: after.start()]
-    tail = unquoted(Passage(said, item.start).part(0))
+    tail = unquoted(Passage(_BEHIND.split(said)[0], item.start).part(0))
     if tail.text.endswith(".") and len(tail.text) > 1 and "{" not in tail.text:
         tail = tail.part(0, len(tail.text) - 1)
     if NOTHING.fullmatch(tail.text):
