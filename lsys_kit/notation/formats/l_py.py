@@ -22,7 +22,7 @@ _SIGN = re.compile(
     re.MULTILINE,
 )
 _AXIOM = re.compile(r"^[ \t]*(?:Axiom[ \t]*:|production[ \t]*:[ \t]*$)", re.MULTILINE)
-_OTHERS = re.compile(r"^[ \t]*(?:[Ll]system[ \t]*:|#include\b)|;[ \t]*$|==>|/\*", re.MULTILINE)
+_OTHERS = re.compile(r"^[ \t]*(?:[Ll]system[ \t]*:|#include\b)|^(?![ \t]*n?produce\b)[^\n]*;[ \t]*$|==>|/\*", re.MULTILINE)
 _END = re.compile(r"^#{4,}[ ]*INITIALISATION[^\n]*|^endlsystem[^\n]*", re.MULTILINE)
 _SECTION = re.compile(
     r"(production|interpretation|homomorphism|decomposition|group\s+\d+|endgroup)[ \t]*+:?(?:[ \t]*+maximum depth[^\n]*)?"
