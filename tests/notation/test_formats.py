@@ -589,6 +589,31 @@ READ = {
         "ignore: + -\naxiom: B A A\nB < A -> B",
     ),
     "a sentence behind a rule": ("A → B; B → AB; starting from A", "axiom: A\nA -> B\nB -> A B"),
+    "contexts in parts of their own": (
+        '{"axiom": "AB", "rules": [{"left": "A", "symbol": "B", "right": "", "successor": "C"}]}',
+        "axiom: A B\nA < B -> C",
+    ),
+    "conditions in parts of their own": (
+        '{"axiom": "A(1)", "rules": [{"predecessor": "A(x)", "condition": "x<3", "successor": "A(x+1)"},'
+        ' {"predecessor": "A(x)", "condition": "x>=3", "successor": "B"}]}',
+        "axiom: A(1)\nA(x) : x < 3 -> A(x + 1)\nA(x) : x >= 3 -> B",
+    ),
+    "what contexts pass over, as data": (
+        '{"axiom": "AB", "ignore": "+-", "rules": {"A": "AB"}}',
+        "ignore: + -\naxiom: A B\nA -> A B",
+    ),
+    "what rules are drawn as, as data": (
+        '{"axiom": "A", "rules": {"A": "AB", "B": "A"}, "draw": {"A": "F", "B": "+F"}}',
+        "axiom: A\nA -> A B\nB -> A\ninterpretation:\nA -> F\nB -> +F",
+    ),
+    "a homomorphism below the rules": (
+        "axiom: A\nrules: A → AB, B → A\nhomomorphism: A → F, B → +F",
+        "axiom: A\nA -> A B\nB -> A\ninterpretation:\nA -> F\nB -> +F",
+    ),
+    "signs in braces": (
+        "$\\omega: F$, $p_1: F \\to F{+}F{-}{-}F-{}-F$, $\\delta=60^{\\circ}$",
+        "angle: 60\naxiom: F\nF -> F+F--F--F",
+    ),
     "sets of one symbol": ("V = {F}, S = {+, −}, ω = F++F\nP = {F → F−F}", "axiom: F++F\nF -> F-F"),
     "an angle in degrees, in Fractint's words": ("Axiom = F\nAngle = 25.7\nF = FF+F", "angle: 25.7\naxiom: F\nF -> F F+F"),
     "a rule with a word for its arrow": ("Axiom = F\nF becomes F[+F]F\nAngle = 25", "angle: 25\naxiom: F\nF -> F[+F]F"),
@@ -898,6 +923,9 @@ CALCULATED = (
     "next_word",
     '"F".replace("F", "G")',
     "None",
+    "re.sub('x', 'y', 'F')",
+    "''.join(['F', '+', 'F'])",
+    "-> { 'F' }",
     '["F", pick()]',
 )
 """What stands in programs in place of a word, and is none."""
@@ -973,6 +1001,11 @@ def test_what_is_not_as_the_text_may_mean_it_is_said(text: str, note: str) -> No
 )
 def test_nothing_is_said_of_what_changes_nothing(text: str) -> None:
     assert not [note for note in read(text).notes if "taken over" in note or "digits" in note or "|" in note]
+
+
+def test_a_command_of_latex_that_is_not_known_is_no_word() -> None:
+    with pytest.raises(ModelSyntaxError, match="I do not know this command of LaTeX"):
+        read("Axiom: F, Rule: F \\to F\\mycommand F, angle $60^\\circ$")
 
 
 def test_contexts_in_the_word_that_is_made_are_refused_by_name() -> None:

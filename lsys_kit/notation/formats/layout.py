@@ -20,6 +20,8 @@ _MACRO = re.compile(
     r"\\(?:begin|end)\{[^{}\n]*\}(?:\{[^{}\n]*\})?|\^?\{?\\circ\}?"
     r"|\\text\{([^{}\n]*)\}|\\([A-Za-z]+)(?![A-Za-z])|\\([#{}%&$_])|\\[;,:! ]|\\\\|(?<!\\)&|\$+|\\[\[\]()]"
 )
+_BRACES = re.compile(r"\\[A-Za-z]++\{?|\{([+\-]?)\}")
+"""What keeps LaTeX from making a dash of two signs, or binary operators of them: -{}-, {+}."""
 _FONT = re.compile(
     r"\\(?:text(?:tt|bf|it|rm|sf|sc|sl|normal)|math(?:tt|bf|it|rm|sf|cal)|emph|underline|mbox|boldsymbol)\{(?P<braced>[^{}\n]*)\}"
     r"|\{\\(?:tt|bf|it|rm|sf|sc|em|ttfamily|bfseries|itshape)[ ](?P<switched>[^{}\n]*)\}"
@@ -67,6 +69,9 @@ def page_text(before: Transcript) -> Transcript:
         notes.append(f'"{match[0]}" is read as δ, the angle.')
     if edits:
         before = edited(before, edits, notes)
+        text = before.text
+    if "\\" in text and (braces := [Edit(*match.span(), match[1]) for match in _BRACES.finditer(text) if match[1] is not None]):
+        before = edited(before, braces)
         text = before.text
     fonts = [(match, match.span(name)) for match in _FONT.finditer(text) if (name := match.lastgroup)]
     if fonts:

@@ -98,6 +98,13 @@ def systems_in_lines(text: str, source: str = "") -> list[Found]:
     _check_arrows(text, items)
     _check_left_out(text, items)
     systems = [replace(_system(text, group), names=names) for group in _groups(items)]
+    for word in (
+        word for each in systems for word in (*(each.axiom or ()), *(part for rule in each.rules for part in rule.tail))
+    ):
+        if command := re.search(r"\\[a-z]{3,}", word.text):
+            hint = "Put what it stands for in its place."
+            at = word.at + command.start() * word.exact
+            raise ModelSyntaxError("I do not know this command of LaTeX", text, at, at + len(command[0]), hint)
     systems = [_without_references(_without_function(each)) for each in systems if each.axiom or each.rules] or [Found()]
     starts = ((text.rfind("\n", 0, item.start) + 1 if item.kind == "angle" else item.start, item) for item in items)
     prose = [Passage(text[at : item.end], at) for at, item in starts if item.kind in ("", "axiom", "rule", "angle", "other")]
@@ -451,8 +458,12 @@ def _system(text: str, items: Sequence[Part]) -> Found:
     above: str | None = None
     head: Passage | None = None
     absent: Mapping[str, str] = {}
+    section = ""
     for item in items:
         value = item.value(text)
+        if item.kind == "rules" and item.match:
+            drawn = item.match["name"].lower() == "homomorphism" and bool(found.rules)
+            section = "interpretation" if drawn else ""
         if item.kind == "above":
             above = value.text
         if item.kind == "aside" and found.rules:
@@ -468,7 +479,7 @@ def _system(text: str, items: Sequence[Part]) -> Found:
                 found.notes.append(FULL_STOPS)
             if not rule.tail[0].text:
                 found.notes.append(f"{rule.head.text} is erased: nothing stands behind its arrow.")
-            found.rules.append(replace(rule, probability=chance_of(above)) if above else rule)
+            found.rules.append(replace(rule, probability=chance_of(above) if above else rule.probability, section=section))
             above = None
         elif item.kind == "rules" and item.match and item.match["name"].lower() == "generator" and is_word(value.text):
             found.rules.append(Rule(Passage("F", value.at, False), (value,)))

@@ -185,8 +185,8 @@ def _parsed(text: str) -> Group:
                 entry.terms, entry.sign = [], "="
             elif len(entry.terms) == 1 and match[0] == ":" and _kind(_name(entry)) == "rules":  # the first rule below "rules:"
                 entry.key, entry.terms = entry.terms, []
-            elif match[0] == "=>" and entry.key and not _kind(_name(entry)):  # A: t => "AB"
-                entry.terms.append(Term("function", match[0], at, match.end()))
+            elif entry.key and not _kind(_name(entry)) and (match[0] == "=>" or (match[0] == "->" and not entry.terms)):
+                entry.terms.append(Term("function", match[0], at, match.end()))  # A: t => "AB"
             elif entry.terms and match[0] in ("=>", "->", "→", ":>") and len(entry.terms) == 1:
                 entry.key, entry.terms, entry.sign = entry.terms, [], match[0]
         else:
@@ -378,6 +378,11 @@ def _gather(group: Group, found: Found, text: str, in_rules: bool) -> None:
     if group.opened and (rule := _as_rule(group.entries)):
         found.rules += _each_successor(rule, group.entries)
         return
+    if in_rules and group.opened and len(group.entries) == 2:  # ["A", () => "AB"]
+        (first, second), said = group.entries, _texts(group.entries[0].terms)
+        if said and (_is_calculated(second.terms) or (second.sign == "=>" and not first.key)):
+            found.calculated = found.calculated or said[0]
+            return
     used: set[int] = set()
     for first, second in pairwise(group.entries):  # rule(1).before = "F"; rule(1).after = "FF"
         if not group.opened and len(first.key) > 1 and (rule := _as_rule([first, second])):
@@ -425,6 +430,10 @@ def _take(entry: Entry, found: Found, text: str, in_rules: bool) -> None:
             found.angle = angle, Passage(raw, _start(entry.terms[-1]), False)
     elif keyed and kind == "steps" and not in_rules and (steps := re.match(r"\d{1,6}$", raw)):
         found.steps = found.steps or (int(steps[0]), Passage(raw, _start(entry.terms[-1]), False))
+    elif within and keyed and _is_calculated(entry.terms) and (head := _head(entry, True, name)):
+        found.calculated = found.calculated or head
+    elif keyed and said and not in_rules and name.lower() in tables()["names"]["ignore"]:
+        found.ignored = said[-1].passage
     elif not (within and _is_calculated(entry.terms)) and (more := [*_rules_of(entry, within, name)]):
         found.rules += more
         found.loose |= set() if within else {rule.head.at for rule in more}
@@ -438,14 +447,21 @@ def _take(entry: Entry, found: Found, text: str, in_rules: bool) -> None:
         number = isinstance(value, Term) and value.kind == "number" and len(entry.terms) == 1
         if head and len(found.rules) == rules and not number:
             found.calculated = found.calculated or head
+    if keyed and name.lower() in _DRAWN:
+        found.rules[rules:] = [replace(rule, section="interpretation") for rule in found.rules[rules:]]
+        found.loose -= {rule.head.at for rule in found.rules[rules:]}
 
 
+_DRAWN = frozenset(("interpretation", "interpretations", "homomorphism", "draw", "drawing", "render"))
+"""What calls rules by which symbols are drawn."""
 _CALCULATES = frozenset(("?", "*", "%", "if", "else", "unless", "lambda", "function"))
 """What makes a word that is not the text beside it."""
 _SAME_WORD = frozenset(
     ("split", "tostring", "toowned", "into", "chars", "strip", "trim", "tos", "tosym", "freeze", "tochararray", "collect")
 )
 """What programs do to a text that is the same word afterwards."""
+_OTHER_WORD = frozenset(("resub", "gsub", "sub", "replace", "stringreplace", "join", "format", "sprintf", "repeat", "concat"))
+"""What makes another of it."""
 
 
 def _is_calculated(terms: list[Term | Group]) -> bool:
@@ -454,7 +470,8 @@ def _is_calculated(terms: list[Term | Group]) -> bool:
     return any(
         term.kind in ("calculated", "function") or term.text in _CALCULATES
         if isinstance(term, Term)
-        else bool(texts) and texts[0] < index and re.sub("[._]", "", term.head.lower()) not in _SAME_WORD
+        else (name := re.sub("[._]", "", term.head.lower())) in _OTHER_WORD
+        or (bool(texts) and texts[0] < index and name not in _SAME_WORD)
         for index, term in enumerate(terms)
     )
 
@@ -505,6 +522,7 @@ def _as_rule(entries: list[Entry]) -> Rule | None:
     parts = _parts(entries)
     if "predecessor" in parts and "successor" in parts and parts["predecessor"].terms and parts["successor"].terms:
         head_term, tail_term = parts["predecessor"].terms[-1], parts["successor"].terms[-1]
+        head_term = _with_sides(head_term, parts)
         tail_words = (tail_term.passage,) if isinstance(tail_term, Term) else _symbols(tail_term)
         quoted = isinstance(tail_term, Group) or tail_term.kind == "text"
         if isinstance(head_term, Term) and tail_words and quoted and _SYMBOL.fullmatch(head_term.text):
@@ -524,6 +542,17 @@ def _each_successor(rule: Rule, entries: list[Entry]) -> list[Rule]:
     return [replace(rule, tail=word, probability=Fraction(1, len(words))) for word in words] if len(words) > 1 else [rule]
 
 
+def _with_sides(head: Term | Group, parts: dict[str, Entry]) -> Term | Group:
+    """A predecessor with its contexts and its condition, which stand in parts of their own."""
+    said = {kind: words[-1].text for kind in _SIDES if kind in parts and (words := _texts(parts[kind].terms))}
+    if not isinstance(head, Term) or not any(said.values()):
+        return head
+    left, right, condition = (said.get(kind, "").strip() for kind in _SIDES)
+    text = f"{left} < " * bool(left) + head.text + f" > {right}" * bool(right) + f" : {condition}" * bool(condition)
+    return replace(head, text=text, exact=False)
+
+
+_SIDES = "left context", "right context", "condition"
 _PARTS = "predecessor", "successor", "probability"
 """The parts of a rule."""
 
@@ -536,7 +565,19 @@ def _parts(entries: list[Entry]) -> dict[str, Entry]:
         for kind in _PARTS:
             if (name if len(name) == 1 else name.lower()) in tables()["names"][kind]:
                 found.setdefault(kind, entry)
-    return found
+        for kind in _SIDES:
+            if name.lower() in tables()["names"][kind]:
+                found.setdefault(kind, entry)
+    return _contexts_apart(found, entries)
+
+
+def _contexts_apart(found: dict[str, Entry], entries: list[Entry]) -> dict[str, Entry]:
+    """The same, where "left" and "right" are no sides of the arrow, but contexts: beside them stand both sides."""
+    sides = {_name(entry).lower(): entry for entry in entries if entry.key}
+    others = _parts([entry for entry in entries if _name(entry).lower() not in ("left", "right")]) if "left" in sides else {}
+    if not {"predecessor", "successor"} <= {*others}:
+        return found
+    return others | {f"{side} context": sides[side] for side in ("left", "right") if side in sides}
 
 
 def _chance(entry: Entry | None) -> Fraction | None:
