@@ -535,6 +535,93 @@ READ = {
         "derivation length: n\nAxiom: A\nproduction:\nA --> AB",
         "angle: 60\naxiom: A\nA -> A B",
     ),
+    "texts one behind another": (
+        'axiom = "F" + "X"\nrules = {"F": "F" "+F", "X": "F" + "X"}',
+        "axiom: F X\nF -> F+F\nX -> F X",
+    ),
+    "successors and their weights": (
+        'axiom = "A"\nrules = {"A": {"AB": 0.25, "BA": 0.75}}',
+        "axiom: A\nA -> A B : 0.25\nA -> B A : 0.75",
+    ),
+    "what symbols are drawn as": (
+        '{"axiom": "F", "rules": {"F": "F+F"}, "commands": {"+": "left", "F": "go"}}',
+        "axiom: F\nF -> F+F",
+    ),
+    "a list in YAML": ('axiom: X\nrules:\n  - "X -> F+X"\n  - "F -> FF"', "axiom: X\nX -> F+X\nF -> F F"),
+    "right sides of JFLAP": (
+        "<structure><type>lsystem</type><axiom>X</axiom><production><left>X</left><right>g + X</right><right>g % X</right>"
+        "</production></structure>",
+        "axiom: X\nX -> g-X : 0.5\nX -> g|X : 0.5\ninterpretation:\ng -> F",
+    ),
+    "productions of JFLAP for the same symbol": (
+        "<structure><type>lsystem</type><axiom>X</axiom><production><left>X</left><right>X Y</right></production>"
+        "<production><left>X</left><right>Y X</right></production></structure>",
+        "axiom: X\nX -> X Y : 0.5\nX -> Y X : 0.5",
+    ),
+    "fonts of LaTeX": (
+        "\\textbf{Axiom:} \\texttt{F}\\\\ \\emph{Rule}: {\\tt F} $\\to$ {\\tt F[+F]F}\\\\ \\textbf{Angle:} $25^\\circ$",
+        "angle: 25\naxiom: F\nF -> F[+F]F",
+    ),
+    "verbatim in LaTeX": ("Axiom: \\verb|X|, rules: \\verb|X -> F[+X]|, \\verb!F -> FF!", "axiom: X\nX -> F[+X]\nF -> F F"),
+    "subscripts of a page": (
+        "<p>axiom: A<sub>1</sub>; rules: A<sub>1</sub> &rarr; A<sub>1</sub>B<sub>2</sub>, B<sub>2</sub> &rarr; A<sub>1</sub>",
+        "axiom: A1\nalphabet: A1 B2\nA1 -> A1 B2\nB2 -> A1",
+    ),
+    "a symbol with a subscript that nothing replaces": (
+        "Axiom: A₁; Rules: A₁ → A₁B₂",
+        "axiom: A1\nalphabet: A1 B2\nA1 -> A1 B2",
+    ),
+    "brackets that turn": (
+        "axiom: 0\nrules: (1 → 11), (0 → 1[0]0)\n[: push position and angle, turn left 45 degrees\n"
+        "]: pop position and angle, turn right 45 degrees",
+        "alphabet: 0 1\nangle: 45\naxiom: 0\n1 -> 1 1\n0 -> 1[+0]-0",
+    ),
+    "contexts of one letter, which are no tags": (
+        '{"axiom": "ABC", "productions": {"A<B>C": "D", "B": "BB"}}',
+        "axiom: A B C\nA < B > C -> D\nB -> B B",
+    ),
+    "letters that turn": (
+        "Axiom: F\nRegel: F → FLFRRFLF\nF: vorwärts, L: 60° nach links drehen, R: 60° nach rechts drehen",
+        "angle: 60\naxiom: F\nF -> F L F R R F L F\ninterpretation:\nL -> +\nR -> -",
+    ),
+    "what is passed over on a page": (
+        "Figure 1: signals\nω : B A A\nignore: +-\np1 : B < A → B\n",
+        "ignore: + -\naxiom: B A A\nB < A -> B",
+    ),
+    "a sentence behind a rule": ("A → B; B → AB; starting from A", "axiom: A\nA -> B\nB -> A B"),
+    "contexts in parts of their own": (
+        '{"axiom": "AB", "rules": [{"left": "A", "symbol": "B", "right": "", "successor": "C"}]}',
+        "axiom: A B\nA < B -> C",
+    ),
+    "conditions in parts of their own": (
+        '{"axiom": "A(1)", "rules": [{"predecessor": "A(x)", "condition": "x<3", "successor": "A(x+1)"},'
+        ' {"predecessor": "A(x)", "condition": "x>=3", "successor": "B"}]}',
+        "axiom: A(1)\nA(x) : x < 3 -> A(x + 1)\nA(x) : x >= 3 -> B",
+    ),
+    "what contexts pass over, as data": (
+        '{"axiom": "AB", "ignore": "+-", "rules": {"A": "AB"}}',
+        "ignore: + -\naxiom: A B\nA -> A B",
+    ),
+    "what rules are drawn as, as data": (
+        '{"axiom": "A", "rules": {"A": "AB", "B": "A"}, "draw": {"A": "F", "B": "+F"}}',
+        "axiom: A\nA -> A B\nB -> A\ninterpretation:\nA -> F\nB -> +F",
+    ),
+    "a homomorphism below the rules": (
+        "axiom: A\nrules: A → AB, B → A\nhomomorphism: A → F, B → +F",
+        "axiom: A\nA -> A B\nB -> A\ninterpretation:\nA -> F\nB -> +F",
+    ),
+    "signs in braces": (
+        "$\\omega: F$, $p_1: F \\to F{+}F{-}{-}F-{}-F$, $\\delta=60^{\\circ}$",
+        "angle: 60\naxiom: F\nF -> F+F--F--F",
+    ),
+    "sets of one symbol": ("V = {F}, S = {+, −}, ω = F++F\nP = {F → F−F}", "axiom: F++F\nF -> F-F"),
+    "an angle in degrees, in Fractint's words": ("Axiom = F\nAngle = 25.7\nF = FF+F", "angle: 25.7\naxiom: F\nF -> F F+F"),
+    "a rule with a word for its arrow": ("Axiom = F\nF becomes F[+F]F\nAngle = 25", "angle: 25\naxiom: F\nF -> F[+F]F"),
+    "a table of a symbol's names": ("| axiom | F |\n|---|---|\n| F | F+F |\n| angle | 90 |", "angle: 90\naxiom: F\nF -> F+F"),
+    "a constant called as a setting": (
+        "angle = 30\nAxiom: F\nproduction:\nF --> F+(angle)F\nendlsystem",
+        "angle_ = 30\nangle: 60\naxiom: F\nF -> F+(angle_)F",
+    ),
 }
 """Texts, and the systems that they mean."""
 
@@ -824,3 +911,103 @@ def test_a_rule_that_is_not_read_is_told() -> None:
 def test_a_table_of_symbols_and_what_replaces_them_has_rules() -> None:
     table = "| Symbol | Replacement |\n|---|---|\n| X | F+[[X]-X]-F[-FX]+X |\n| F | FF |\n\nAxiom: X, angle: 25°"
     assert same(read(table), PLANT)
+
+
+CALCULATED = (
+    'f"F{x}"',
+    '"F" * 2',
+    '"F" if x else "G"',
+    '() => "F"',
+    "t => f(t)",
+    "lambda t: t",
+    "next_word",
+    '"F".replace("F", "G")',
+    "None",
+    "re.sub('x', 'y', 'F')",
+    "''.join(['F', '+', 'F'])",
+    "-> { 'F' }",
+    '["F", pick()]',
+)
+"""What stands in programs in place of a word, and is none."""
+
+
+@pytest.mark.parametrize("value", CALCULATED)
+@pytest.mark.parametrize("id", PLAIN[::7])
+def test_a_word_that_a_program_calculates_is_never_passed_over(id: str, value: str) -> None:
+    """One after another, each word of a system is taken away."""
+    meant = system(id)
+    rules = [(rule.predecessor.symbol, json.dumps("".join(map(str, rule.successor)))) for rule in meant.productions]
+    for index, (head, _) in enumerate(rules) if len(rules) > 1 else ():
+        said = ", ".join(f'"{symbol}": {value if at == index else word}' for at, (symbol, word) in enumerate(rules))
+        with pytest.raises(LSystemError) as caught:
+            read(f'axiom = "{word(meant.axiom)}"\nrules = {{{said}}}')
+        assert caught.value.message in (f"The word for {head} is calculated here", "This is a program")
+
+
+@pytest.mark.parametrize(
+    "sentence",
+    [
+        "(+ turns right, - turns left)",
+        '"-" means turn left 90°, and "+" means turn right 90°.',
+        "+ : rotate clockwise\n- : rotate counter-clockwise",
+        "+ bedeutet Drehung nach rechts",
+    ],
+)
+def test_turns_have_the_sense_that_the_text_gives_them(sentence: str) -> None:
+    said = read(f"Axiom: F\nRules: F → F+F-G\nangle: 90\n{sentence}")
+    assert str(said) == str(read("axiom: F\nF -> F-F+G\nangle: 90"))
+    assert "In this text + turns right and - left: they are exchanged here." in said.notes
+
+
+@pytest.mark.parametrize(
+    "sentence", ["+ means turn left 90°, - means turn right 90°.", "A turn right is made by F", "Turn right + 90°"]
+)
+def test_turns_stay_where_no_sentence_says_otherwise(sentence: str) -> None:
+    assert str(read(f"Axiom: F\nRules: F → F+F-G\nangle: 90\n{sentence}")) == str(read("axiom: F\nF -> F+F-G\nangle: 90"))
+
+
+@pytest.mark.parametrize(
+    ("text", "note"),
+    [
+        (
+            "Angle: 22\nAxiom: F\nRules: F=C0FF-[C1-F]",
+            "The digits 0, 1 are read as symbols, which draw nothing. A value is typed in brackets: C(0).",
+        ),
+        (
+            "start: F; rule: F => F2F",
+            "The digit 2 is read as a symbol, which draws nothing. A value is typed in brackets: C(2).",
+        ),
+        (
+            "axiom: A\nA -> A B...",
+            'The "." after the production for A is read as a command of the turtle; a line needs no sign at its end.',
+        ),
+        ("Start: F\nF => F+F\nstarting angle: 45", '"starting angle" (45) is not taken over.'),
+        ('{"axiom": "F", "startAngle": 45, "rules": {"F": "F+F"}}', '"startAngle" (45) is not taken over.'),
+        ("Premise: A\nRule 1: A=T[&FA]FA", "Houdini's T, which bends a branch by gravity, does nothing here."),
+        ("K {\n Angle 25.7\n Axiom F\n F=F+F\n}", 'Fractint passes over what stands behind the point: "Angle 25.7" is 25.'),
+        (
+            "axiom: F\nF -> F[+F] | F[-F]",
+            '"|" turns the turtle around. For a choice write a rule for each successor: A -> B : 0.5, A -> C : 0.5.',
+        ),
+    ],
+)
+def test_what_is_not_as_the_text_may_mean_it_is_said(text: str, note: str) -> None:
+    assert note in read(text).notes
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["Start: F\nF => F+F\nangle jitter: 0", "variables: 0 1\nStart: 0\n1 => 11\n0 => 1[0]0", "axiom: F\nF -> F + F | F - F"],
+)
+def test_nothing_is_said_of_what_changes_nothing(text: str) -> None:
+    assert not [note for note in read(text).notes if "taken over" in note or "digits" in note or "|" in note]
+
+
+def test_a_command_of_latex_that_is_not_known_is_no_word() -> None:
+    with pytest.raises(ModelSyntaxError, match="I do not know this command of LaTeX"):
+        read("Axiom: F, Rule: F \\to F\\mycommand F, angle $60^\\circ$")
+
+
+def test_contexts_in_the_word_that_is_made_are_refused_by_name() -> None:
+    with pytest.raises(ModelSyntaxError, match="L-Py's contexts with << are not in the kit"):
+        read("Axiom: B A\nproduction:\nB << A --> B\nendlsystem")

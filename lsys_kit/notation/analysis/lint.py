@@ -142,6 +142,14 @@ def _several_replaced(system: LSystem) -> Iterator[Problem]:
         )
 
 
+def _without_last_signs(modules: list[Pattern]) -> list[Pattern]:
+    """The modules before the last one, and before those like it: "..." are several."""
+    end = len(modules) - 1
+    while end > 0 and modules[end - 1].symbol == modules[-1].symbol == ".":
+        end -= 1
+    return modules[:end]
+
+
 def _final_signs(system: LSystem) -> Iterator[Problem]:
     """
     The successors that end in a sign as a sentence or a statement does; it is a command of the turtle.
@@ -149,7 +157,7 @@ def _final_signs(system: LSystem) -> Iterator[Problem]:
     A system that has the sign in another place, or as a whole successor, uses it as a command.
     """
     successors = [(rule, [*flat(rule.successor)]) for rule in (system.rules if system.turtle == "abop" else ())]
-    meant = {module.symbol for _, modules in successors for module in modules[:-1] or modules}
+    meant = {module.symbol for _, modules in successors for module in _without_last_signs(modules) or modules}
     for rule, modules in successors:
         last = modules[-1].symbol if modules and not modules[-1].arguments else ""
         if last not in meant and (last == ";" or (last == "." and all(module.symbol != "{" for module in modules))):

@@ -14,6 +14,7 @@ from functools import cache
 from typing import Any, NamedTuple
 
 from lsys_kit.files import toml_tables
+from lsys_kit.errors import quotable
 from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, assembled
 
 
@@ -84,6 +85,10 @@ class Found:
         Whether the axiom is what the one rule rewrites, since none was found.
     listing
         A text in the kit's notation that is all of it, in place of its parts.
+    calculated
+        What a program makes a word for, instead of giving it.
+    loose
+        Where rules stand that nothing calls rules.
     """
 
     name: str = ""
@@ -99,6 +104,8 @@ class Found:
     notes: list[str] = field(default_factory=list)
     listing: Transcript | None = None
     assumed: bool = False
+    calculated: Passage | None = None
+    loose: set[int] = field(default_factory=set)
 
     @property
     def complete(self) -> bool:
@@ -277,6 +284,26 @@ def listing(found: Found) -> Iterator[Edit]:
 def transcript_of(found: Found, before: Transcript) -> Transcript:
     """What was found in a text, in the kit's notation."""
     return found.listing or assembled(before, listing(found), found.notes)
+
+
+def not_taken(name: str, value: str) -> str:
+    """The note on a setting that a drawing of the kit has not.
+
+    >>> not_taken("start angle", "45")
+    '"start angle" (45) is not taken over.'
+    """
+    return f'"{quotable(name)}" ({quotable(value)}) is not taken over.'
+
+
+def undrawn_digits(found: Found) -> str:
+    """A note on digits that are symbols, and that nothing replaces or draws: they might be values. "" where there are none."""
+    heads = "".join(rule.head.text for rule in found.rules)
+    digits = [] if found.listing else [digit for digit in _digits(found) if digit not in heads and digit not in found.drawn]
+    if not digits:
+        return ""
+    one = f"The digit {digits[0]} is read as a symbol, which draws nothing."
+    several = f"The digits {', '.join(digits)} are read as symbols, which draw nothing."
+    return f"{one if len(digits) == 1 else several} A value is typed in brackets: C({digits[0]})."
 
 
 def completed(found: Found) -> Found:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from fractions import Fraction
 
 from lsys_kit.errors import ModelSyntaxError
@@ -21,7 +22,7 @@ _SIGN = re.compile(
     re.MULTILINE,
 )
 _AXIOM = re.compile(r"^[ \t]*(?:Axiom[ \t]*:|production[ \t]*:[ \t]*$)", re.MULTILINE)
-_OTHERS = re.compile(r"^[ \t]*(?:[Ll]system[ \t]*:|#include\b)|;[ \t]*$|==>|/\*", re.MULTILINE)
+_OTHERS = re.compile(r"^[ \t]*(?:[Ll]system[ \t]*:|#include\b)|^(?![ \t]*n?produce\b)[^\n]*;[ \t]*$|==>|/\*", re.MULTILINE)
 _END = re.compile(r"^#{4,}[ ]*INITIALISATION[^\n]*|^endlsystem[^\n]*", re.MULTILINE)
 _SECTION = re.compile(
     r"(production|interpretation|homomorphism|decomposition|group\s+\d+|endgroup)[ \t]*+:?(?:[ \t]*+maximum depth[^\n]*)?"
@@ -33,6 +34,11 @@ _SECTIONS = {
     "decomposition": "decomposition",
 }
 _RULE = re.compile(r"(?>(?P<head>[^\n]*?)-{1,3}>)(?P<tail>[^\n]*+)")
+_NEW_CONTEXT = re.compile(r"<<|>>")
+_PYTHON_VALUES = re.compile(r"\([^():]*(?:\*|(?<![=<>!])=(?!=))[^():]*\)")
+"""Values that have defaults, or any number of values: A(x, w=2), A(*args)."""
+_SETTINGS = re.compile(r"(?<![\w.])(angle|steps|heading|alphabet|axiom)(?![\w:])")
+"""What a constant of the kit cannot be called."""
 _CONSTANT = re.compile(r"(?P<name>[A-Za-z_]\w*)[ \t]*=[ \t]*(?P<value>[-+]?[\d.][\d.eE]*(?:[ \t]*[-+*/][ \t]*[\d.]+)*)")
 _EXTERN = re.compile(r"extern\((?P<name>\w+)[ \t]*=[ \t]*(?P<value>[-\d.]+)\)")
 _SCALAR = re.compile(
@@ -88,7 +94,12 @@ def systems_in_l_py(text: str) -> list[Found]:
             )
         elif match := re.fullmatch(r"module[ \t]++([^:\n]*+)(?::.*)?", said):
             names |= {name for name in re.findall(r"[A-Za-z_]\w*", re.sub(r"\([^()]*\)", "", match[1])) if len(name) > 1}
-        elif (match := _RULE.fullmatch(said)) and match["head"].strip():
+        elif (match := _RULE.fullmatch(said)) and (new := _NEW_CONTEXT.search(match["head"].split(":")[0])):
+            hint = "They look at the word that is being made. Contexts before < and behind > look at the word that is replaced."
+            raise ModelSyntaxError(
+                f"L-Py's contexts with {new[0]} are not in the kit", text, line.at, line.at + len(said), hint
+            )
+        elif (match := _RULE.fullmatch(said)) and match["head"].strip() and not _PYTHON_VALUES.search(match["head"]):
             tail = line.part(match.start("tail"))
             tail = tail._replace(text="") if tail.text == "*" else tail
             found.rules.append(Rule(line.part(0, match.end("head")), (tail,), None, section))
@@ -106,6 +117,7 @@ def systems_in_l_py(text: str) -> list[Found]:
     )
     for match, line in lengths:
         _take_length(found, match, line)
+    _rename_constants(found)
     found.angle = Fraction(60), Passage("", found.axiom[0].at if found.axiom else 0)
     words = "".join(part.text for part in (*(found.axiom or ()), *(part for rule in found.rules for part in rule.tail)))
     if re.search(r"[-+&^/\\](?!\()", words):
@@ -113,6 +125,21 @@ def systems_in_l_py(text: str) -> list[Found]:
     if re.search(r",(?!\()", re.sub(r"\([^()]*\)", "()", words)):
         found.notes.append('"," without a value, the colour before, is left out.')
     return [found]
+
+
+def _rename_constants(found: Found) -> None:
+    """Constants that are called as settings of the kit get another name."""
+    called = {match[1] for line in found.lines if " = " in line.text and (match := _SETTINGS.match(line.text))}
+
+    def renamed(passage: Passage) -> Passage:
+        text = _SETTINGS.sub(lambda match: match[1] + "_" * (match[1] in called), passage.text)
+        return passage if text == passage.text else Passage(text, passage.at, False)
+
+    if called:
+        found.lines = [renamed(line) for line in found.lines]
+        found.axiom = tuple(map(renamed, found.axiom)) if found.axiom else None
+        found.rules = [replace(rule, head=renamed(rule.head), tail=tuple(map(renamed, rule.tail))) for rule in found.rules]
+        found.notes += [f'"{name}" is a setting of the kit: the constant is called {name}_ here.' for name in sorted(called)]
 
 
 def _names_in(found: Found) -> set[str]:

@@ -12,8 +12,7 @@ from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, assembled
 _LATEX = re.compile(r"\\(?:begin|end|omega|delta|rightarrow|mapsto|to|theta|circ|text|quad)\b")
 _MACROS = {
     "omega": "ω", "delta": "δ", "theta": "θ", "quad": "  ", "qquad": "  ", "circ": "°", "ldots": "", "left": "", "right": "",
-    "item": "", "centering": "", "hfill": "  ", "textbf": "", "textit": "", "mathrm": "", "mathbf": "", "mathtt": "",
-    "texttt": "",
+    "item": "", "centering": "", "hfill": "  ",
     "to": "→", "rightarrow": "→", "Rightarrow": "→", "longmapsto": "→",
     "longrightarrow": "→", "mapsto": "→", "varepsilon": "ε", "epsilon": "ε", "lbrace": "{", "rbrace": "}",
 }  # fmt: skip
@@ -21,6 +20,14 @@ _MACRO = re.compile(
     r"\\(?:begin|end)\{[^{}\n]*\}(?:\{[^{}\n]*\})?|\^?\{?\\circ\}?"
     r"|\\text\{([^{}\n]*)\}|\\([A-Za-z]+)(?![A-Za-z])|\\([#{}%&$_])|\\[;,:! ]|\\\\|(?<!\\)&|\$+|\\[\[\]()]"
 )
+_BRACES = re.compile(r"\\[A-Za-z]++\{?|\{([+\-]?)\}")
+"""What keeps LaTeX from making a dash of two signs, or binary operators of them: -{}-, {+}."""
+_FONT = re.compile(
+    r"\\(?:text(?:tt|bf|it|rm|sf|sc|sl|normal)|math(?:tt|bf|it|rm|sf|cal)|emph|underline|mbox|boldsymbol)\{(?P<braced>[^{}\n]*)\}"
+    r"|\{\\(?:tt|bf|it|rm|sf|sc|em|ttfamily|bfseries|itshape)[ ](?P<switched>[^{}\n]*)\}"
+    r"|\\verb\*?(?P<sign>[^\w\s*])(?P<verbatim>[^\n]*?)(?P=sign)"
+)
+"""What LaTeX sets in a font of its own."""
 _DISPLAYED = re.compile(
     r"\{\\displaystyle[ ]*+(?P<shown>(?:[^{}\n]|\{[^{}\n]*\})*+)\}(?:\{\\displaystyle[ ]*+(?P=shown)\})*+(?:(?P=shown))?+"
 )
@@ -47,6 +54,7 @@ def page_text(before: Transcript) -> Transcript:
     'Rule: F → FF'
     """
     text = before.text
+    keyed = _KEYED.search(text) is not None
     edits = [
         Edit(*match.span(), "" if _is_shown(text, match.start(), match["shown"]) else match["shown"])
         for match in _DISPLAYED.finditer(text)
@@ -62,14 +70,22 @@ def page_text(before: Transcript) -> Transcript:
     if edits:
         before = edited(before, edits, notes)
         text = before.text
-    if _LATEX.search(text):
+    if "\\" in text and (braces := [Edit(*match.span(), match[1]) for match in _BRACES.finditer(text) if match[1] is not None]):
+        before = edited(before, braces)
+        text = before.text
+    fonts = [(match, match.span(name)) for match in _FONT.finditer(text) if (name := match.lastgroup)]
+    if fonts:
+        ends = [(Edit(match.start(), start, ""), Edit(end, match.end(), "")) for match, (start, end) in fonts]
+        before = edited(before, (edit for pair in ends for edit in pair))
+        text = before.text
+    if fonts or _LATEX.search(text):
         before = edited(before, (Edit(*match.span(), _macro(match)) for match in _MACRO.finditer(text)))
     edits = [Edit(*match.span(), "") for match in _MARKS.finditer(before.text)]
     edits += [Edit(*match.span(), match[1]) for match in _STRONG.finditer(before.text)]
     edits += [Edit(*match.span(), f"\n{match[1]}\n") for match in _RULE_OF_TIKZ.finditer(before.text)]
     for match in _DOLLARS.finditer(before.text):
         edits += [Edit(match.start(), match.start() + 1, ""), Edit(match.end() - 1, match.end(), "")]
-    return without_columns(_without_tables(edited(before, edits) if edits else before))
+    return without_columns(_without_tables(edited(before, edits) if edits else before, keyed))
 
 
 _NO_SIGN = re.compile(r"\\[a-z]+|[^\w+\-\[\]]")
@@ -161,10 +177,16 @@ _CELL, _QUOTED_CELLS = (
 )
 
 
-def _without_tables(before: Transcript) -> Transcript:
+_KEYED = re.compile(
+    r"^[ \t]*\|?[ \t]*(?:axiom|start|angle)[ \t]*\|[^\n]*\n[ \t]*\|?[ \t]*:?-{3,}", re.MULTILINE | re.IGNORECASE
+)
+"""A table of two columns whose head is the axiom already: names and values, symbols and what replaces them."""
+
+
+def _without_tables(before: Transcript, keyed: bool) -> Transcript:
     """The same, with each row of a table of systems as a list: the heading of a column before each of its cells."""
     names = tables()["names"]
-    heading: list[str] = []
+    heading = ["", "→"] if keyed else []
     pieces: list[Edit] = []
     kinds = fields()[1]
     for match in re.finditer(r"[^\n]*\n?", before.text):
@@ -179,7 +201,7 @@ def _without_tables(before: Transcript) -> Transcript:
         low = [cell.text.lower() for cell in cells if len(cell.text) > 2]
         if len(low) == len(cells) == 2 and low[0] in names["predecessor"] and low[1] in (*names["successor"], *names["rules"]):
             heading = ["", "→"]
-        elif heading == ["", "→"] and len(cells) == 2:
+        elif heading == ["", "→"] and len(cells) == 2 and not (named[0] and len(cells[0].text) > 2):
             (at, left), (to, right) = ((cell.at, cell.text) for cell in cells)
             pieces += (
                 Edit(at, at + len(left), left),

@@ -6,13 +6,13 @@ The parts of a text are put together to systems; what sentences around them say 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 
 from lsys_kit.errors import ModelSyntaxError
-from lsys_kit.notation.formats.found import Found, Passage, Rule, angle_of, chance_of, symbols_in, tables, unquoted
+from lsys_kit.notation.formats.found import Found, Passage, Rule, angle_of, chance_of, not_taken, symbols_in, tables, unquoted
 from lsys_kit.notation.formats.parts import (
     AFTER,
     ALIAS,
@@ -49,7 +49,8 @@ _SENTENCE = re.compile(r"(?<![A-Za-zÀ-ÿА-я])[A-Za-zÀ-ÿА-я]{3,}+[ ,&]++[A
 _REFERENCE = re.compile(r"\s*(?:\[\d{1,3}\]|\(\d{1,3}\)|\d{2,4}|[-–][ ]?\d{1,4}[ ]?[-–]|/[ ]?[a-z])\s*")
 """The number of a page, of a footnote, a caption's letter, alone on a line."""
 _MARKED = re.compile(
-    r"&(?:\w{2,8}|#\d{1,6});|<(?:b|br|p|tt|td)\b[^<>\n]{0,99}>|\*\*|`|\\begin\{|\\displaystyle|^[ \t]*set[ ]\[",
+    r"&(?:\w{2,8}|#\d{1,6});|<(?:b|br|p|tt|td)\b[^<>\n]{0,99}>|\*\*|`|\\begin\{|\\displaystyle|\\(?:text|math)tt\b|\\verb\b"
+    r"|\{\\tt\b|^[ \t]*set[ ]\[|^[ \t]*\|?[ \t]*:?-{3,}:?[ \t]*\|",
     re.IGNORECASE | re.MULTILINE,
 )
 
@@ -92,11 +93,18 @@ def systems_in_lines(text: str, source: str = "") -> list[Found]:
         return []
     heads = [item.match["head"].strip("\"' ") for item in items if item.kind == "rule" and item.match]
     letters = frozenset(sign for head in heads if len(head) <= 2 or head.islower() for sign in head)
-    names = frozenset(head for head in heads if len(head) > 1 and head.isidentifier())
+    names = frozenset(head for head in heads if len(head) > 1 and head.isidentifier()) | _with_subscripts(source)
     items = _with_plain_axioms(text, items, letters)
     _check_arrows(text, items)
     _check_left_out(text, items)
     systems = [replace(_system(text, group), names=names) for group in _groups(items)]
+    for word in (
+        word for each in systems for word in (*(each.axiom or ()), *(part for rule in each.rules for part in rule.tail))
+    ):
+        if command := re.search(r"\\[a-z]{3,}", word.text):
+            hint = "Put what it stands for in its place."
+            at = word.at + command.start() * word.exact
+            raise ModelSyntaxError("I do not know this command of LaTeX", text, at, at + len(command[0]), hint)
     systems = [_without_references(_without_function(each)) for each in systems if each.axiom or each.rules] or [Found()]
     starts = ((text.rfind("\n", 0, item.start) + 1 if item.kind == "angle" else item.start, item) for item in items)
     prose = [Passage(text[at : item.end], at) for at, item in starts if item.kind in ("", "axiom", "rule", "angle", "other")]
@@ -108,7 +116,17 @@ def systems_in_lines(text: str, source: str = "") -> list[Found]:
     for system in systems if len(systems) == 1 else ():
         _take_said(system, prose)
         _take_prose(system, prose)
+        _take_turns(system, text)
     return [system for system in systems if system.axiom or system.rules]
+
+
+_SUBSCRIPT = re.compile(r"(?<![A-Za-z])([A-Za-z])(?:<sub>(\w{1,3})</sub>|([₀-₉]{1,3}))")
+_PLAIN = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
+
+
+def _with_subscripts(source: str) -> frozenset[str]:
+    """The symbols that a page writes with a subscript, as they are typed."""
+    return frozenset(f"{match[1]}{match[2] or match[3].translate(_PLAIN)}" for match in _SUBSCRIPT.finditer(source))
 
 
 _FOOTNOTE = re.compile(r"(?:\[\d{1,3}\]){1,5}$")
@@ -252,6 +270,35 @@ def _take_prose(found: Found, prose: Sequence[Passage]) -> None:
     if found.drawn:
         drawn = ", ".join(f"{symbol} is drawn as {command}" for symbol, command in sorted(found.drawn.items()))
         found.notes.append(f"As the text says, {drawn}.")
+
+
+_SAID_TURN = re.compile(
+    r"(?:^|(?<=[\s\"'`(]))(?P<sign>[+\-\[]|(?-i:[B-HJ-Z])(?!\w)|[a-z](?=[\"'`)]?[ ]?(?:[:=]|means?[ ]|bedeutet[ ])))"
+    r"[\"'`)]?[ ]?(?:[:=][ ]?|means?[ ]|bedeutet[ ])?"
+    r"(?=[^\n]{0,60}?(?:turn|rotat|yaw|dreh))[^.,;\n+\-\[\]]{0,60}?"
+    r"\b(?:(?P<left>left|links|(?:counter|anti)-?clockwise)|(?P<right>right|rechts|clockwise))\b",
+    re.IGNORECASE | re.MULTILINE,
+)
+
+
+def _take_turns(found: Found, text: str) -> None:
+    """What sentences say of the sense of + and -, and of brackets that turn, too."""
+    said = {(match["sign"], match["left"] is None) for match in _SAID_TURN.finditer(text)}
+    plus, minus = (said & {(sign, False), (sign, True)} for sign in "+-")
+    if plus | minus and plus <= {("+", True)} and minus <= {("-", False)}:
+        found.signs = {**found.signs, "+": "-", "-": "+"}
+        found.notes.append("In this text + turns right and - left: they are exchanged here.")
+    used = "".join(part.text for part in (*(found.axiom or ()), *(part for rule in found.rules for part in rule.tail)))
+    letters = [(sign, right) for sign, right in sorted(said) if sign.isalpha() and sign in used and sign not in found.drawn]
+    for sign, right in letters:
+        if (sign, not right) not in said:
+            found.drawn[sign] = "-" if right else "+"
+            found.notes.append(f"As the text says, {sign} turns {'right' if right else 'left'}.")
+    opened = {right for sign, right in said if sign == "["}
+    if len(opened) == 1:
+        there, back = "-+" if opened == {True} else "+-"
+        found.signs = {**found.signs, "[": f"[{there}", "]": f"]{back}"}
+        found.notes.append(f'As the text says, brackets turn, too: "[" is read as [{there} and "]" as ]{back}.')
 
 
 def _with_plain_axioms(text: str, items: Sequence[Part], letters: frozenset[str]) -> list[Part]:
@@ -410,8 +457,13 @@ def _system(text: str, items: Sequence[Part]) -> Found:
         found.name = label[1]
     above: str | None = None
     head: Passage | None = None
+    absent: Mapping[str, str] = {}
+    section = ""
     for item in items:
         value = item.value(text)
+        if item.kind == "rules" and item.match:
+            drawn = item.match["name"].lower() == "homomorphism" and bool(found.rules)
+            section = "interpretation" if drawn else ""
         if item.kind == "above":
             above = value.text
         if item.kind == "aside" and found.rules:
@@ -427,7 +479,7 @@ def _system(text: str, items: Sequence[Part]) -> Found:
                 found.notes.append(FULL_STOPS)
             if not rule.tail[0].text:
                 found.notes.append(f"{rule.head.text} is erased: nothing stands behind its arrow.")
-            found.rules.append(replace(rule, probability=chance_of(above)) if above else rule)
+            found.rules.append(replace(rule, probability=chance_of(above) if above else rule.probability, section=section))
             above = None
         elif item.kind == "rules" and item.match and item.match["name"].lower() == "generator" and is_word(value.text):
             found.rules.append(Rule(Passage("F", value.at, False), (value,)))
@@ -444,6 +496,8 @@ def _system(text: str, items: Sequence[Part]) -> Found:
             _add_setting(found, item.kind, value, text)
         elif item.kind == "ignore":
             found.ignored = value
+        elif item.kind == "unread" and item.match and not re.match(r"0(?![.\d])|no\b|false\b|$", value.text, re.IGNORECASE):
+            found.notes.append(not_taken(item.match["name"], value.text))
         elif item.kind == "scale" and (scale := angle_of(value.text)):
             found.signs = {**found.signs, ">": f"@Di({float(scale):g})", "<": f"@Dd({float(scale):g})"}
         elif item.kind == "constant" and item.match and (number := angle_of(without_comment(value.text))) is not None:
@@ -451,7 +505,11 @@ def _system(text: str, items: Sequence[Part]) -> Found:
         for signs in tables()["signs"].values():
             if item.match and item.kind not in ("rule", "") and item.match["name"].lower() in signs["by"]:
                 found.signs = {**signs["signs"], **found.signs}
+                absent = signs.get("absent", {})
     found.rules = _with_chances(found.rules)
+    symbols = "".join(part.text for part in (*(found.axiom or ()), *(part for rule in found.rules for part in rule.tail)))
+    heads = {rule.head.text[:1] for rule in found.rules}
+    found.notes += [note for signs, note in absent.items() if any(sign in symbols and sign not in heads for sign in signs)]
     return found
 
 
@@ -506,6 +564,10 @@ def _add_setting(found: Found, kind: str, value: Passage, text: str) -> None:
         found.notes.append(f"Two angles are given: {float(found.angle[0]):g} is used, not {float(angle):g}.")
 
 
+_BEHIND = re.compile(r"[;,][ ]+(?=[a-z]{3,}[ ]+[a-z]{3,}[ ])")
+"""Where a sentence begins behind a successor."""
+
+
 def _rule(text: str, item: Part) -> Rule:
     """The rule of a part."""
     assert item.match is not None
@@ -515,7 +577,7 @@ def _rule(text: str, item: Part) -> Rule:
     if after:
         chance = chance or after["plain"] or after["bracketed"] or after["named"]
         said = said[: after.start()]
-    tail = unquoted(Passage(said, item.start).part(0))
+    tail = unquoted(Passage(_BEHIND.split(said)[0], item.start).part(0))
     if tail.text.endswith(".") and len(tail.text) > 1 and "{" not in tail.text:
         tail = tail.part(0, len(tail.text) - 1)
     if NOTHING.fullmatch(tail.text):

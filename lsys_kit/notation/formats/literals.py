@@ -12,11 +12,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cache
-from itertools import pairwise
+from itertools import chain, pairwise
 
 from lsys_kit.budget import current
-from lsys_kit.errors import ModelSyntaxError
-from lsys_kit.notation.formats.found import Found, Passage, Rule, angle_of, chance_of, tables
+from lsys_kit.errors import ModelSyntaxError, quotable
+from lsys_kit.notation.formats.found import Found, Passage, Rule, angle_of, chance_of, not_taken, tables
 from lsys_kit.notation.formats.lines import rules_in_line
 from lsys_kit.notation.formats.parts import is_word
 
@@ -85,10 +85,16 @@ class Entry:
     end: int = 0
 
 
-def _text_of(match: re.Match[str]) -> Term:
+_FILLED_IN = re.compile(r"(?<!\w)(?:[rR]?[fF][rR]?|\$@?|@\$)(?=[\"'].*\{)|(?=`.*\$\{)", re.DOTALL)
+"""Before a text into which values are put: f"F{x}", $"F{x}", `F${x}`."""
+
+
+def _text_of(match: re.Match[str], text: str) -> Term:
     """A literal text, its escapes read."""
     said = match[0][1:-1]
     at = match.start() + 1
+    if any(_FILLED_IN.match(text, start, match.end()) for start in range(max(0, at - 3), at)):
+        return Term("calculated", said, at, match.end() - 1)
     if "\\" not in said:
         return Term("text", said, at, match.end() - 1)
     return Term("text", _ESCAPE.sub(_character, said), at, match.end() - 1, False)
@@ -160,9 +166,9 @@ class _Parser:
             elif kind == "comma" or sign == ";" or self._ends_with_line(match.end()):
                 self.finish(at)
         elif kind == "pair":
-            self.pair(sign)
+            self.pair(match)
         else:
-            self.add(_text_of(match) if kind == "text" else Term(kind, sign, at, match.end()), at)
+            self.add(_text_of(match, self.text) if kind == "text" else Term(kind, sign, at, match.end()), at)
             self.entry.end = match.end()
 
     def add(self, term: Term | Group, at: int) -> None:
@@ -200,15 +206,17 @@ class _Parser:
     def _ends_with_line(self, end: int) -> bool:
         return self.stack[-1].opened in ("", "{") and bool(self.entry.terms) and not _goes_on(self.text, end)
 
-    def pair(self, sign: str) -> None:
+    def pair(self, match: re.Match[str]) -> None:
         """Take what was read as a key, where what follows is its value."""
-        entry = self.entry
+        entry, sign = self.entry, match[0]
         if entry.terms and not entry.key:
             entry.key, entry.terms, entry.sign = entry.terms, [], sign
         elif entry.terms and sign == "=" and entry.sign == ":":  # axiom: string = "F"
             entry.terms, entry.sign = [], "="
         elif len(entry.terms) == 1 and sign == ":" and _kind(_name(entry)) == "rules":  # the first rule below "rules:"
             entry.key, entry.terms = entry.terms, []
+        elif entry.key and not _kind(_name(entry)) and (sign == "=>" or (sign == "->" and not entry.terms)):
+            entry.terms.append(Term("function", sign, match.start(), match.end()))  # A: t => "AB"
         elif len(entry.terms) == 1 and sign in ("=>", "->", "→", ":>"):
             entry.key, entry.terms, entry.sign = entry.terms, [], sign
 
@@ -240,7 +248,7 @@ def _kinds() -> dict[str, str]:
     names = tables()["names"]
     return {
         re.sub("[ _-]", "", name): kind
-        for kind in ("axiom", "rules", "angle", "steps")
+        for kind in ("axiom", "rules", "angle", "steps", "unread")
         for name in names[kind]
         if len(name) > 1 or not name.isascii() or name == "n"
     }
@@ -273,6 +281,7 @@ def systems_of(whole: Group, text: str) -> list[Found]:
     found = Found()
     _gather(whole, found, text, False)
     _pair_up(found)
+    _check(found, text)
     if not found.rules:
         _take_choices(found, text)
     if found.rules and not found.axiom:
@@ -352,6 +361,7 @@ def _apart(group: Group, text: str) -> Iterator[Found]:
                     found = Found(name=_title(term) or _name(entry))
                     _gather(term, found, text, False)
                     _pair_up(found)
+                    _check(found, text)
                     yield found
                 else:
                     yield from _apart(term, text)
@@ -385,15 +395,23 @@ def _name(entry: Entry) -> str:
 def _gather(group: Group, found: Found, text: str, in_rules: bool) -> None:
     """Take in what a group says."""
     if group.opened and (rule := _as_rule(group.entries)):
-        found.rules.append(rule)
+        found.rules += _each_successor(rule, group.entries)
         return
+    if in_rules and group.opened and len(group.entries) == 2:  # ["A", () => "AB"]
+        (first, second), said = group.entries, _texts(group.entries[0].terms)
+        if said and (_is_calculated(second.terms) or (second.sign == "=>" and not first.key)):
+            found.calculated = found.calculated or said[0]
+            return
     used: set[int] = set()
     for first, second in pairwise(group.entries):  # rule(1).before = "F"; rule(1).after = "FF"
         if not group.opened and len(first.key) > 1 and (rule := _as_rule([first, second])):
             found.rules.append(rule)
             used |= {id(first), id(second)}
+    listed = False
     for entry in (entry for entry in group.entries if id(entry) not in used):
-        _take(entry, found, text, in_rules)
+        item = bool(entry.terms) and isinstance(entry.terms[0], Term) and entry.terms[0].text == "-"
+        listed = item and (listed if not entry.key else _kind(_name(entry)) == "rules")  # items of a list in YAML
+        _take(entry, found, text, in_rules or listed)
 
 
 def _take(entry: Entry, found: Found, text: str, in_rules: bool) -> None:
@@ -415,23 +433,96 @@ def _take(entry: Entry, found: Found, text: str, in_rules: bool) -> None:
     if (constant := _CONSTANT.fullmatch(name)) and keyed and angle_of(raw) is not None:
         found.lines.append(Passage(f"{constant[1]} = {raw}", entry.start, False))
         return
-    if keyed and kind == "axiom" and said and not in_rules:
-        found.axiom = found.axiom or (said[-1].passage,)
+    rules, within = len(found.rules), in_rules or kind == "rules"
+    if keyed and kind == "axiom" and not in_rules and _is_calculated(entry.terms):
+        found.calculated = found.calculated or Passage(name, entry.start)
+    elif keyed and kind == "axiom" and said and not in_rules:
+        found.axiom = found.axiom or _texts(entry.terms)
     elif keyed and kind == "axiom" and isinstance(value, Group) and (word := _symbols(value)) and not in_rules:
         found.axiom = found.axiom or word
+    elif keyed and kind == "axiom" and not in_rules and entry.sign == ":" and found.axiom is None and is_word(raw):
+        found.axiom = (Passage(raw, entry.terms[0].at),)  # YAML needs no quotation marks
+    elif keyed and kind == "unread" and not in_rules and angle_of(raw):
+        found.notes.append(not_taken(name, raw))
     elif keyed and kind == "angle" and not in_rules and (angle := angle_of(raw.strip("\"'"))) is not None:
         if found.angle is None:
             found.angle = angle, Passage(raw, _start(entry.terms[-1]), False)
     elif keyed and kind == "steps" and not in_rules and (steps := re.match(r"\d{1,6}$", raw)):
         found.steps = found.steps or (int(steps[0]), Passage(raw, _start(entry.terms[-1]), False))
-    elif rules := [*_rules_of(entry, in_rules or kind == "rules", name)]:
-        found.rules += rules
+    elif within and keyed and _is_calculated(entry.terms) and (head := _head(entry, True, name)):
+        found.calculated = found.calculated or head
+    elif keyed and said and not in_rules and name.lower() in tables()["names"]["ignore"]:
+        found.ignored = said[-1].passage
+    elif not (within and _is_calculated(entry.terms)) and (more := [*_rules_of(entry, within, name)]):
+        found.rules += more
+        found.loose |= set() if within else {rule.head.at for rule in more}
     else:
         for term in (*entry.key, *entry.terms):
             if isinstance(term, Group):
-                _gather(term, found, text, in_rules or kind == "rules")
-            elif term.kind == "text" and (in_rules or kind == "rules"):
+                _gather(term, found, text, within)
+            elif term.kind == "text" and within:
                 found.rules += rules_in_line(term.passage)
+        head = _head(entry, True, name) if within and keyed and entry.terms else None
+        number = isinstance(value, Term) and value.kind == "number" and len(entry.terms) == 1
+        if head and len(found.rules) == rules and not number:
+            found.calculated = found.calculated or head
+    if keyed and name.lower() in _DRAWN:
+        found.rules[rules:] = [replace(rule, section="interpretation") for rule in found.rules[rules:]]
+        found.loose -= {rule.head.at for rule in found.rules[rules:]}
+
+
+_DRAWN = frozenset(("interpretation", "interpretations", "homomorphism", "draw", "drawing", "render"))
+"""What calls rules by which symbols are drawn."""
+_CALCULATES = frozenset(("?", "*", "%", "if", "else", "unless", "lambda", "function"))
+"""What makes a word that is not the text beside it."""
+_SAME_WORD = frozenset(
+    ("split", "tostring", "toowned", "into", "chars", "strip", "trim", "tos", "tosym", "freeze", "tochararray", "collect")
+)
+"""What programs do to a text that is the same word afterwards."""
+_OTHER_WORD = frozenset(("resub", "gsub", "sub", "replace", "stringreplace", "join", "format", "sprintf", "repeat", "concat"))
+"""What makes another of it."""
+
+
+def _is_calculated(terms: list[Term | Group]) -> bool:
+    """Whether a program makes a word of texts, and no literal is one: f"F{x}", "F" * 2, "F" if x else "G", t => "AB"."""
+    texts = [index for index, term in enumerate(terms) if isinstance(term, Term) and term.kind == "text"]
+    return any(
+        term.kind in ("calculated", "function") or term.text in _CALCULATES
+        if isinstance(term, Term)
+        else (name := re.sub("[._]", "", term.head.lower())) in _OTHER_WORD
+        or (bool(texts) and texts[0] < index and name not in _SAME_WORD)
+        for index, term in enumerate(terms)
+    )
+
+
+def _texts(terms: list[Term | Group]) -> tuple[Passage, ...]:
+    """The texts of a value one behind another: "F[+F]" + "F"."""
+    return tuple(term.passage for term in terms if isinstance(term, Term) and term.kind == "text")
+
+
+_SPOKEN = re.compile(r"[A-Za-z]?[a-z_ ]{2,}")
+
+
+def _check(found: Found, text: str) -> None:
+    """Leave out what says how symbols are drawn, {"+": "left"}; refuse a system of which a program makes a part."""
+    heads = {rule.head.text for rule in found.rules}
+    found.rules = [
+        rule
+        for rule in found.rules
+        if rule.head.at not in found.loose
+        or not _SPOKEN.fullmatch(word := "".join(part.text for part in rule.tail))
+        or heads.issuperset(word)
+        or len(set(word)) < 3
+    ]
+    if found.calculated and found.rules:
+        at = found.calculated.at
+        raise ModelSyntaxError(
+            f"The word for {quotable(found.calculated.text)} is calculated here",
+            text,
+            at,
+            at + len(found.calculated.text) if found.calculated.exact else None,
+            'Nothing that is given to the kit is run. Write the word itself, as in "F+F".',
+        )
 
 
 def _start(term: Term | Group) -> int:
@@ -440,21 +531,17 @@ def _start(term: Term | Group) -> int:
 
 def _as_rule(entries: list[Entry]) -> Rule | None:
     """A rule of the members of a group: two texts, or parts with the names of a rule's."""
-    texts = [
-        term
-        for entry in entries
-        if not entry.key and len(entry.terms) == 1
-        for term in entry.terms
-        if isinstance(term, Term) and term.kind in ("text", "number")
-    ]
-    if 2 <= len(texts) == len(entries) <= 3 and texts[0].kind == texts[1].kind == "text":
-        head, tail, *more = (each.passage for each in texts)
-        if _SYMBOL.fullmatch(head.text):
-            chance = chance_of(more[0].text) if more and re.fullmatch(r"[\d.]+", more[0].text) else None
-            return Rule(head, (tail,), chance)
+    values = [entry.terms for entry in entries if not entry.key and not _is_calculated(entry.terms)]
+    words = [_texts(terms) for terms in values[:2]]
+    if 2 <= len(values) == len(entries) <= 3 and all(words) and len(values[0]) == 1 and _SYMBOL.fullmatch(words[0][0].text):
+        third = values[2][0] if len(values) == 3 else None
+        if len(values) == 2 or (isinstance(third, Term) and third.kind in ("text", "number")):
+            chance = chance_of(third.text) if isinstance(third, Term) and re.fullmatch(r"[\d.]+", third.text) else None
+            return Rule(words[0][0], words[1], chance)
     parts = _parts(entries)
     if "predecessor" in parts and "successor" in parts and parts["predecessor"].terms and parts["successor"].terms:
         head_term, tail_term = parts["predecessor"].terms[-1], parts["successor"].terms[-1]
+        head_term = _with_sides(head_term, parts)
         tail_words = (tail_term.passage,) if isinstance(tail_term, Term) else _symbols(tail_term)
         quoted = isinstance(tail_term, Group) or tail_term.kind == "text"
         if isinstance(head_term, Term) and tail_words and quoted and _SYMBOL.fullmatch(head_term.text):
@@ -466,6 +553,25 @@ def _as_rule(entries: list[Entry]) -> Rule | None:
     return None
 
 
+def _each_successor(rule: Rule, entries: list[Entry]) -> list[Rule]:
+    """A rule for each of several successors with the same name, as elements of XML have them: one is taken at random."""
+    name = _name(_parts(entries).get("successor", Entry([])))
+    tails = [entry.terms[-1] for entry in entries if name and _name(entry) == name and entry.terms]
+    words = [(tail.passage,) if isinstance(tail, Term) else _symbols(tail) for tail in tails]
+    return [replace(rule, tail=word, probability=Fraction(1, len(words))) for word in words] if len(words) > 1 else [rule]
+
+
+def _with_sides(head: Term | Group, parts: dict[str, Entry]) -> Term | Group:
+    """A predecessor with its contexts and its condition, which stand in parts of their own."""
+    said = {kind: words[-1].text for kind in _SIDES if kind in parts and (words := _texts(parts[kind].terms))}
+    if not isinstance(head, Term) or not any(said.values()):
+        return head
+    left, right, condition = (said.get(kind, "").strip() for kind in _SIDES)
+    text = f"{left} < " * bool(left) + head.text + f" > {right}" * bool(right) + f" : {condition}" * bool(condition)
+    return replace(head, text=text, exact=False)
+
+
+_SIDES = "left context", "right context", "condition"
 _PARTS = "predecessor", "successor", "probability"
 """The parts of a rule."""
 
@@ -478,7 +584,19 @@ def _parts(entries: list[Entry]) -> dict[str, Entry]:
         for kind in _PARTS:
             if (name if len(name) == 1 else name.lower()) in tables()["names"][kind]:
                 found.setdefault(kind, entry)
-    return found
+        for kind in _SIDES:
+            if name.lower() in tables()["names"][kind]:
+                found.setdefault(kind, entry)
+    return _contexts_apart(found, entries)
+
+
+def _contexts_apart(found: dict[str, Entry], entries: list[Entry]) -> dict[str, Entry]:
+    """The same, where "left" and "right" are no sides of the arrow, but contexts: beside them stand both sides."""
+    sides = {_name(entry).lower(): entry for entry in entries if entry.key}
+    others = _parts([entry for entry in entries if _name(entry).lower() not in ("left", "right")]) if "left" in sides else {}
+    if not {"predecessor", "successor"} <= {*others}:
+        return found
+    return others | {f"{side} context": sides[side] for side in ("left", "right") if side in sides}
 
 
 def _chance(entry: Entry | None) -> Fraction | None:
@@ -504,8 +622,8 @@ def _rules_of(entry: Entry, in_rules: bool, name: str) -> Iterator[Rule]:
     if head is None:
         return
     value = entry.terms[-1] if entry.terms else None
-    if isinstance(value, Term) and value.kind == "text":
-        yield Rule(head, (value.passage,))
+    if texts := _texts(entry.terms):
+        yield Rule(head, texts)
     elif (
         isinstance(value, Group)
         and value.opened != "("
@@ -569,14 +687,22 @@ def _alternatives(head: Passage, value: Group) -> Iterator[Rule]:
     if "successor" in parts and isinstance(parts["successor"].terms[-1], Term):
         yield Rule(head, (parts["successor"].terms[-1].passage,), _chance(parts.get("probability")))
         return
-    texts = [entry for entry in members if not entry.key and len(entry.terms) == 1]
+    texts = [entry for entry in members if not entry.key and not _is_calculated(entry.terms)]
     if members and len(texts) == len(members):
-        for entry in texts:
-            term = entry.terms[0]
-            if isinstance(term, Group):
-                yield from _pair(head, term)
-            elif term.kind == "text":
-                yield Rule(head, (term.passage,), Fraction(1, len(texts)) if len(texts) > 1 else None)
+        chance = Fraction(1, len(texts)) if len(texts) > 1 else None
+        each = [
+            [Rule(head, words, chance)] if (words := _texts(entry.terms)) else _pairs(head, entry.terms[-1]) for entry in texts
+        ]
+        yield from chain.from_iterable(each) if all(each) else ()
+    elif members and all(len(entry.key) == len(entry.terms) == 1 for entry in members):  # {"FF": 0.5, "F+F": 0.5}
+        for entry in members:
+            word, number = entry.key[0], entry.terms[0]
+            if isinstance(word, Term) and isinstance(number, Term) and (word.kind, number.kind) == ("text", "number"):
+                yield Rule(head, (word.passage,), chance_of(number.text))
+
+
+def _pairs(head: Passage, term: Term | Group) -> list[Rule]:
+    return [*_pair(head, term)] if isinstance(term, Group) else []
 
 
 def _pair(head: Passage, group: Group) -> Iterator[Rule]:

@@ -7,12 +7,15 @@ ever put in place, and nothing is fetched; a further library would do no more.
 
 from __future__ import annotations
 
+from collections import Counter
+from dataclasses import replace
+from fractions import Fraction
 from typing import NoReturn
 from xml.parsers import expat
 
 from lsys_kit.budget import current
 from lsys_kit.errors import ModelSyntaxError
-from lsys_kit.notation.formats.found import Found
+from lsys_kit.notation.formats.found import Found, Passage, Rule, tables
 from lsys_kit.notation.formats.literals import Entry, Group, Term, systems_of
 from lsys_kit.notation.syntax.text.typography import TAG
 
@@ -35,11 +38,27 @@ def systems_in_markup(text: str) -> list[Found]:
     tree = _Tree(text)
     tree.read()
     found = systems_of(tree.whole, text)
-    for each in found if "<type>lsystem</type>" in text.replace(" ", "") else ():
+    for each in found if "<type>lsystem</type>" in "".join(text.split()) else ():
         words = [*(each.axiom or ()), *(part for rule in each.rules for part in (rule.head, *rule.tail))]
         each.names = frozenset(name for word in words for name in word.text.split() if len(name) > 1 and name.isidentifier())
         each.drawn = {"g": "F"} if any("g" in word.text.split() for word in words) else {}
+        _take_signs(each, words)
+        each.rules = _equally_likely(each.rules)
     return found
+
+
+def _take_signs(found: Found, words: list[Passage]) -> None:
+    """Read the commands of JFLAP's turtle, and say which are other than the kit's."""
+    jflap = tables()["signs"]["jflap"]
+    found.signs = jflap["signs"]
+    used = {sign for word in words for sign in word.text}
+    found.notes += [note for signs, note in jflap["notes"].items() if not used.isdisjoint(signs)]
+
+
+def _equally_likely(rules: list[Rule]) -> list[Rule]:
+    """Of several productions for the same symbol one is taken at random."""
+    several = Counter(rule.head.text for rule in rules)
+    return [replace(rule, probability=Fraction(1, count)) if (count := several[rule.head.text]) > 1 else rule for rule in rules]
 
 
 class _Tree:

@@ -18,7 +18,11 @@ from lsys_kit.notation.syntax.text.transcription import left_out as note_on
 
 _LISTING = re.compile(rf"^[ \t]*(?:{LABEL}[ \t]*:|[ωw][ \t]*:|p[ \t]*:|#[ \t]*(?:define|ignore))", re.MULTILINE)
 """What such listings have, and others hardly."""
-_STATEMENT = re.compile(rf".*{ARROW}|[ \t]*(?:#[ \t]*(?:define|ignore|include|consider)\b|[ωw][ \t]*:|n[ \t]*=|δ[ \t]*=)")
+_STATEMENT = re.compile(
+    rf".*{ARROW}|[ \t]*(?:#[ \t]*(?:define|ignore|include|consider)\b|(?:ignore|consider)\b(?=[ \t]*:|[^a-z]*$)"
+    r"|[ωw][ \t]*:|n[ \t]*=|δ[ \t]*=)",
+    re.MULTILINE,
+)
 _NUMBERED = re.compile(r"(?<![ \t])[ \t]{2,}+(\(\d+(?:\.\d+)*[a-z]?\))[ \t]*$")
 _ABOVE = re.compile(r"[ \t]*(?:0?\.\d+|1)[ \t]*")
 _OTHER = re.compile(r"[ \t]*(?:Figure|Fig\.|Table|Section|Chapter)\b", re.IGNORECASE)

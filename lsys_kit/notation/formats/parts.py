@@ -19,7 +19,7 @@ from lsys_kit.notation.formats.found import Passage, angle_of, tables
 
 LONGEST_LINE = 2_000
 """Longer lines are prose."""
-_KINDS = "axiom", "rules", "angle", "steps", "head", "tail", "ignore", "scale", "constant", "other"
+_KINDS = "axiom", "rules", "angle", "steps", "head", "tail", "ignore", "scale", "constant", "unread", "other"
 BLANKS = r"[ \t]*+"
 """The pattern of blanks within a line."""
 ARROW = r"(?:[-=|]{1,3}>|→|⟶|⟼|↦|⇒|➔|➜|➝|\\(?:long)?(?:rightarrow|mapsto)\b|\\to\b|::=|:=)"
@@ -237,6 +237,7 @@ def _rule_at(text: str, at: int, end: int, line: int, under_rules: bool) -> Part
             and (
                 _is_prose(_SAID.split(text[rule.end() : end], maxsplit=1)[0].strip(" \t"))
                 or (rule["arrow"] in ("=", ":=") and _SET.match(text, rule.end(), end))
+                or (rule["head"].strip() in tuple("VNTvΣ") and _SET_OF_ONE.match(text, rule.end(), end))
             )
         )
     ):
@@ -261,6 +262,8 @@ _CALCULATION = re.compile(r"\d++(?:\.\d++)?(?:[ ]?[*/^][ ]?\d++(?:\.\d++)?)+|[a-
 """What a constant is, and no word."""
 _SET = re.compile(r"[ \t]*[{<(⟨][ \t]*\S[ \t]*,")
 """A set of symbols."""
+_SET_OF_ONE = re.compile(r"[ \t]*\{[ \t]*\S[ \t]*\}[ \t]*(?:$|[,;.])", re.MULTILINE)
+"""A set of one symbol, which could be a polygon of it: of what is called as alphabets are."""
 
 
 _SAID = re.compile(r"[,;()]|\.(?:\s|$)")

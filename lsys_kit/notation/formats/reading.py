@@ -15,7 +15,7 @@ from functools import cache
 from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError, ModelValueError, quotable
 from lsys_kit.notation.dialects.abop.dialect import ABOP
 from lsys_kit.notation.foreign import foreign_format
-from lsys_kit.notation.formats.found import Found, completed, tables, transcript_of
+from lsys_kit.notation.formats.found import Found, completed, tables, transcript_of, undrawn_digits
 from lsys_kit.notation.formats.l_py import systems_in_l_py
 from lsys_kit.notation.formats.layout import page_text
 from lsys_kit.notation.formats.lines import has_unread_words, is_prose, systems_in_lines
@@ -232,7 +232,8 @@ def _system(form: Format, before: Transcript, found: Found) -> LSystem:
         system = system_in(ABOP, transcript.text)
     except LSystemError as error:
         raise transcript.relocated(error) from None
-    notes = system.notes if found.listing else tuple(filter(_is_news, system.notes))
+    digits = undrawn_digits(found)
+    notes = system.notes if found.listing else (*filter(None, (digits,)), *filter(_is_news, system.notes))
     return replace(system, notes=(f"Read as {form.title}{_said(found, system, before.text)}.", *transcript.notes, *notes))
 
 

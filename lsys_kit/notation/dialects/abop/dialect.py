@@ -40,10 +40,18 @@ def _resolve_deferred(draft: Draft) -> None:
         draft.notes.append('"d" is read as the length of a segment.')
 
 
+_BAR = re.compile(r"(?:->|→)[^\n|]*[^\s|][ ]\|[ ][^\s|][^\n]*")
+"""A bar with blanks around it, as between the alternatives of a grammar."""
+
+
 def _finish(draft: Draft) -> LSystem:
     """The system with names segmented into letters where they were written together, with a note on each."""
     _resolve_deferred(draft)
     check_colons(draft)
+    if any(" + " not in line[0] and " - " not in line[0] for line in _BAR.finditer(without_comments(draft.source))):
+        draft.notes.append(
+            '"|" turns the turtle around. For a choice write a rule for each successor: A -> B : 0.5, A -> C : 0.5.'
+        )
     system = _with_edges(segment_with_notes(build_system(draft)))
     check_digits(system.modules, system.alphabet)
     return system

@@ -121,12 +121,16 @@ def _number(token: Token, digits: str) -> Number:
     return Number(normalised(Fraction(f"0{digits}" if digits[0] == "." else digits.rstrip("."))), _at(token))
 
 
-_SAID = re.compile(r"angle(?:\s*=)?\s*\d|axiom(?:\s*=\s*|\s+)[^\s:=]", re.IGNORECASE)
+_SAID = re.compile(r"angle(?:\s*=)?\s*\d++(?!\.\d)|axiom(?:\s*=\s*|\s+)[^\s:=]", re.IGNORECASE)
 """A line that gives an angle or an axiom, without a colon."""
 _OTHER = re.compile(
-    r"(?![^\s=]\s*=(?!\s*\{)|axiom|angle).*?(?:->|→|⟶|::=|:\s|\\rightarrow|\w{3}\s*=)|axiom\s*=\s*AXIOM", re.IGNORECASE
+    r"(?![^\s=]\s*=(?!\s*\{)|axiom|angle).*?(?:->|→|⟶|::=|:\s|\\rightarrow|\w{3}\s*=)|axiom\s*=\s*AXIOM"
+    r"|\S[ ](?-i:[a-z]{4,})[ ]",
+    re.IGNORECASE,
 )
 """A line that no system of Fractint's has."""
+_WITH_POINT = re.compile(r"^[ \t]*angle(?:\s*=)?\s*\d++\.0*[1-9]", re.IGNORECASE | re.MULTILINE)
+"""An angle in degrees, and no number of parts."""
 SAMPLED_SYSTEMS = 50
 """So many systems of a file show in which notation it is."""
 
@@ -149,7 +153,11 @@ def _finish(draft: Draft) -> LSystem:
 def _note_angle(draft: Draft, said: tuple[Number, tuple[int, int]]) -> None:
     """Say what an angle in radians comes to, and what any means where only the reader says that a text is one of Fractint's:
     it has no braces."""
-    angle, (start, _) = said
+    angle, (start, end) = said
+    if draft.source[start:end].partition(".")[2].strip("0"):
+        draft.notes.append(
+            f'Fractint passes over what stands behind the point: "{draft.source[start:end]}" is {360 / angle.value}.'
+        )
     if draft.source[start] in "tT":
         draft.notes.append(f'"theta" is in radians: + and - turn by {float(angle.value):.6g} degrees.')
     elif "{" not in uncommented(draft.source):
@@ -190,6 +198,8 @@ def _likely(text: str) -> int:
         return 0
     plain = uncommented(text)
     sample = system_entries(islice(entries_in(plain), SAMPLED_SYSTEMS))
+    if not sample and _WITH_POINT.search(plain):
+        return 0
     bodies = [plain[entry.opened + 1 : entry.stop] for entry in sample] or [plain]
     said = [line.strip() for body in bodies for line in body.splitlines()]
     return 0 if any(map(_OTHER.match, said)) else 10 * sum(map(bool, map(_SAID.match, said)))

@@ -57,8 +57,14 @@ def keyboard_signs(source: str) -> Transcript:
     if "&" in source:
         edits += [Edit(*match.span(), html.unescape(match[0]).translate(_SIGNS)) for match in _ENTITY.finditer(text)]
     if "<" in source:
-        edits += [Edit(*match.span(), _tag(text, match)) for match in TAG.finditer(text)]
+        edits += [Edit(*match.span(), _tag(text, match)) for match in TAG.finditer(text) if not _is_context(text, match)]
     return edited(source, edits, typed=text)
+
+
+def _is_context(text: str, tag: re.Match[str]) -> bool:
+    """Whether a tag of one letter is a symbol between its contexts, a<b>c."""
+    alone = len(tag[0]) == 3 and text[: tag.start()][-1:].isalnum()
+    return alone and re.search(f"</{tag[2]}\\b", text, re.IGNORECASE) is None
 
 
 def _tag(text: str, tag: re.Match[str]) -> str:
