@@ -178,7 +178,7 @@ _CELL, _QUOTED_CELLS = (
 
 
 _KEYED = re.compile(
-    r"^[ \t]*\|?[ \t]*(?:axiom|start|angle)[ \t]*\|[^\n]*\n[ \t]*\|?[ \t]*:?-{3,}", re.MULTILINE | re.IGNORECASE
+    r"^[ \t]*+\|?[ \t]*+(?:axiom|start|angle)[ \t]*+\|[^\n]*+\n[ \t]*+\|?[ \t]*+:?-{3}", re.MULTILINE | re.IGNORECASE
 )
 """A table of two columns whose head is the axiom already: names and values, symbols and what replaces them."""
 

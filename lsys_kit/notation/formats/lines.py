@@ -50,7 +50,7 @@ _REFERENCE = re.compile(r"\s*(?:\[\d{1,3}\]|\(\d{1,3}\)|\d{2,4}|[-–][ ]?\d{1,4
 """The number of a page, of a footnote, a caption's letter, alone on a line."""
 _MARKED = re.compile(
     r"&(?:\w{2,8}|#\d{1,6});|<(?:b|br|p|tt|td)\b[^<>\n]{0,99}>|\*\*|`|\\begin\{|\\displaystyle|\\(?:text|math)tt\b|\\verb\b"
-    r"|\{\\tt\b|^[ \t]*set[ ]\[|^[ \t]*\|?[ \t]*:?-{3,}:?[ \t]*\|",
+    r"|\{\\tt\b|^[ \t]*+set[ ]\[|^[ \t]*+\|?[ \t]*+:?-{3,}+:?[ \t]*+\|",
     re.IGNORECASE | re.MULTILINE,
 )
 
@@ -275,15 +275,19 @@ def _take_prose(found: Found, prose: Sequence[Passage]) -> None:
 _SAID_TURN = re.compile(
     r"(?:^|(?<=[\s\"'`(]))(?P<sign>[+\-\[]|(?-i:[B-HJ-Z])(?!\w)|[a-z](?=[\"'`)]?[ ]?(?:[:=]|means?[ ]|bedeutet[ ])))"
     r"[\"'`)]?[ ]?(?:[:=][ ]?|means?[ ]|bedeutet[ ])?"
-    r"(?=[^\n]{0,60}?(?:turn|rotat|yaw|dreh))[^.,;\n+\-\[\]]{0,60}?"
+    r"[^.,;\n+\-\[\]]{0,60}?"
     r"\b(?:(?P<left>left|links|(?:counter|anti)-?clockwise)|(?P<right>right|rechts|clockwise))\b",
     re.IGNORECASE | re.MULTILINE,
 )
 
 
+_TURNING = re.compile(r"turn|rotat|yaw|dreh", re.IGNORECASE)
+
+
 def _take_turns(found: Found, text: str) -> None:
     """What sentences say of the sense of + and -, and of brackets that turn, too."""
-    said = {(match["sign"], match["left"] is None) for match in _SAID_TURN.finditer(text)}
+    turns = (each for each in _SAID_TURN.finditer(text) if _TURNING.search(text[each.start() : each.end() + 12].split("\n")[0]))
+    said = {(match["sign"], match["left"] is None) for match in turns}
     plus, minus = (said & {(sign, False), (sign, True)} for sign in "+-")
     if plus | minus and plus <= {("+", True)} and minus <= {("-", False)}:
         found.signs = {**found.signs, "+": "-", "-": "+"}

@@ -40,7 +40,7 @@ def _resolve_deferred(draft: Draft) -> None:
         draft.notes.append('"d" is read as the length of a segment.')
 
 
-_BAR = re.compile(r"(?:->|→)[^\n|]*[^\s|][ ]\|[ ][^\s|][^\n]*")
+_BAR = re.compile(r"[^\s|][ ]\|[ ][^\s|]")
 """A bar with blanks around it, as between the alternatives of a grammar."""
 
 
@@ -48,7 +48,8 @@ def _finish(draft: Draft) -> LSystem:
     """The system with names segmented into letters where they were written together, with a note on each."""
     _resolve_deferred(draft)
     check_colons(draft)
-    if any(" + " not in line[0] and " - " not in line[0] for line in _BAR.finditer(without_comments(draft.source))):
+    tails = (line.replace("→", "->").partition("->")[2] for line in without_comments(draft.source).splitlines())
+    if any(" + " not in tail and " - " not in tail and _BAR.search(tail) for tail in tails):
         draft.notes.append(
             '"|" turns the turtle around. For a choice write a rule for each successor: A -> B : 0.5, A -> C : 0.5.'
         )
