@@ -75,7 +75,7 @@ def test_a_text_means_what_its_author_said_beforehand(row: dict[str, Any]) -> No
 
 
 @pytest.mark.parametrize(
-    ("texts", "equal", "noted", "refused"), [(HUNDRED, 79, 2, 19), (SIXTY, 43, 2, 15)], ids=["a hundred", "sixty"]
+    ("texts", "equal", "noted", "refused"), [(HUNDRED, 77, 4, 19), (SIXTY, 42, 3, 15)], ids=["a hundred", "sixty"]
 )
 def test_few_texts_are_wrong_and_those_that_can_be_read_are_read(
     texts: list[dict[str, Any]], equal: int, noted: int, refused: int

@@ -13,8 +13,8 @@ from fractions import Fraction
 from functools import cache
 from typing import Any, NamedTuple
 
-from lsys_kit.files import toml_tables
 from lsys_kit.errors import quotable
+from lsys_kit.files import toml_tables
 from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, assembled
 
 

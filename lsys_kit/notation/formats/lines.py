@@ -273,7 +273,7 @@ def _take_prose(found: Found, prose: Sequence[Passage]) -> None:
 
 
 _SAID_TURN = re.compile(
-    r"(?:^|(?<=[\s\"'`(]))(?P<sign>[+\-\[]|(?-i:[B-HJ-Z])(?!\w)|[a-z](?=[\"'`)]?[ ]?(?:[:=]|means?[ ]|bedeutet[ ])))"
+    r"(?:^|(?<=[\s\"'`(]))(?P<sign>[+\-]|(?-i:[B-HJ-Z])(?!\w)|[a-z](?=[\"'`)]?[ ]?(?:[:=]|means?[ ]|bedeutet[ ])))"
     r"[\"'`)]?[ ]?(?:[:=][ ]?|means?[ ]|bedeutet[ ])?"
     r"[^.,;\n+\-\[\]]{0,60}?"
     r"\b(?:(?P<left>left|links|(?:counter|anti)-?clockwise)|(?P<right>right|rechts|clockwise))\b",
@@ -281,13 +281,29 @@ _SAID_TURN = re.compile(
 )
 
 
+_SAID_BRACKET = re.compile(
+    r"(?:^|(?<=[\s\"'`(]))\[[\"'`)]?[ ]?(?:[:=][ ]?|means?[ ]|bedeutet[ ])?[^.;\n+\-\[\]]{0,60}?"
+    r"\b(?:left|links|(?P<right>right|rechts))\b",
+    re.IGNORECASE | re.MULTILINE,
+)
 _TURNING = re.compile(r"turn|rotat|yaw|dreh", re.IGNORECASE)
+
+
+_SIGN_BEFORE = re.compile(r"([+\-])[\"'`)]?[ ]?(?:and|und|or|oder|,|/)[ ]?[\"'`(]?$")
+"""A sign that the same sentence names before, as in "+ and - turn to the left or to the right": it turns the first way."""
+
+
+def _turning(pattern: re.Pattern[str], text: str) -> Iterator[re.Match[str]]:
+    """Where a text speaks of turns."""
+    return (each for each in pattern.finditer(text) if _TURNING.search(text[each.start() : each.end() + 12].split("\n")[0]))
 
 
 def _take_turns(found: Found, text: str) -> None:
     """What sentences say of the sense of + and -, and of brackets that turn, too."""
-    turns = (each for each in _SAID_TURN.finditer(text) if _TURNING.search(text[each.start() : each.end() + 12].split("\n")[0]))
-    said = {(match["sign"], match["left"] is None) for match in turns}
+    said = set()
+    for match in _turning(_SAID_TURN, text):
+        before = _SIGN_BEFORE.search(text, max(0, match.start() - 12), match.start())
+        said.add((before[1] if before else match["sign"], match["left"] is None))
     plus, minus = (said & {(sign, False), (sign, True)} for sign in "+-")
     if plus | minus and plus <= {("+", True)} and minus <= {("-", False)}:
         found.signs = {**found.signs, "+": "-", "-": "+"}
@@ -298,7 +314,7 @@ def _take_turns(found: Found, text: str) -> None:
         if (sign, not right) not in said:
             found.drawn[sign] = "-" if right else "+"
             found.notes.append(f"As the text says, {sign} turns {'right' if right else 'left'}.")
-    opened = {right for sign, right in said if sign == "["}
+    opened = {match["right"] is not None for match in _turning(_SAID_BRACKET, text)}
     if len(opened) == 1:
         there, back = "-+" if opened == {True} else "+-"
         found.signs = {**found.signs, "[": f"[{there}", "]": f"]{back}"}

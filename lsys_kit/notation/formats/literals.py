@@ -288,6 +288,8 @@ def systems_of(whole: Group, text: str) -> list[Found]:
         _take_unnamed_axiom(whole, found)
     if found.rules and not found.angle and (angle := _DEGREES.search(text)):
         found.angle = Fraction(angle[1] or angle[2] or angle[3]), Passage(angle[0], angle.start(), False)
+    if found.axiom and not found.rules and text[found.axiom[0].at - 1] not in "\"'`":
+        return []  # a line of a list, without quotation marks
     if found.axiom and not found.rules and (unclosed := _UNCLOSED.search(text)):
         raise ModelSyntaxError(
             "This quotation mark is never closed",
@@ -506,13 +508,14 @@ _SPOKEN = re.compile(r"[A-Za-z]?[a-z_ ]{2,}")
 def _check(found: Found, text: str) -> None:
     """Leave out what says how symbols are drawn, {"+": "left"}; refuse a system of which a program makes a part."""
     heads = {rule.head.text for rule in found.rules}
+    named = {rule.head.text for rule in found.rules if rule.head.at not in found.loose}
     found.rules = [
         rule
         for rule in found.rules
         if rule.head.at not in found.loose
         or not _SPOKEN.fullmatch(word := "".join(part.text for part in rule.tail))
         or heads.issuperset(word)
-        or len(set(word)) < 3
+        or (len(set(word)) < 3 and rule.head.text not in named)
     ]
     if found.calculated and found.rules:
         at = found.calculated.at
