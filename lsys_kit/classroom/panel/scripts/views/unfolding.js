@@ -24,7 +24,7 @@ export function unfoldingView(view, seen, light, goTo) {
   const play = button("play", worded("let it unfold"), toggle, { class: "lsys-button lsys-play" });
   const speed = list("unfolds", worded("seconds from a step to the next"), SPEEDS.map((each) => [each, each]), SPEEDS[1], (each) => { seconds = Number(each); }, worded("seconds"));
   const player = made("div.lsys-player", { role: "toolbar", "aria-label": worded("let it unfold") }, play);
-  const said = made("div.lsys-status", { role: "status" }), word = made("div.lsys-word", { "aria-hidden": "true" });
+  const said = made("div.lsys-caption", { role: "status" }), word = made("div.lsys-word", { "aria-hidden": "true" });
   const parts = [made("div.lsys-controls", player, bar.element, speed.element), said, word];
   roving(player);
 

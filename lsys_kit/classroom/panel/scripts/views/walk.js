@@ -29,7 +29,7 @@ export function walkView(view, sentence, seen, trace, light) {
   const player = made("div.lsys-player", { role: "toolbar", "aria-label": worded("walk") },
     button("first", worded("to the beginning of the word"), () => stopAt(0)), button("back", worded("one command back"), () => one(-1)), play,
     button("forward", worded("one command on"), () => one(1)), bracket);
-  const said = made("div.lsys-status", { role: "status" }), pile = drawn("svg", { width: 220, role: "img" });
+  const said = made("div.lsys-caption", { role: "status" }), pile = drawn("svg", { width: 220, role: "img" });
   const parts = [made("div.lsys-controls", player, bar.element, speed.element), said, pile];
   const buttons = roving(player);
 
