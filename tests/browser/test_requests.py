@@ -215,11 +215,11 @@ class Reader:
 
     def same_word(self, asked: str) -> None:
         """A change of the rules that changes no word."""
-        before = self._panel.locator(".lsys-word").inner_text()
+        before = self._panel.locator('[data-view="word"] .lsys-word').inner_text()
         self._edit(asked)
         self._notebook.page.wait_for_timeout(600)
         expect(self._panel.locator(".lsys-mistake").first).to_have_text("")
-        assert self._panel.locator(".lsys-word").inner_text() == before
+        assert self._panel.locator('[data-view="word"] .lsys-word').inner_text() == before
 
     @property
     def _area(self) -> Locator:
