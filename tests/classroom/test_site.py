@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import base64
+import io
 import itertools
 import json
 import re
@@ -14,8 +16,10 @@ from html import escape
 from pathlib import Path
 from urllib.parse import unquote
 
+import numpy as np
 import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output, writes
+from PIL import Image
 from playwright.sync_api import Browser
 
 from lsys_kit import LSystemError, ModelFileError, compare, draw, explore, map_system, predict, system, vote, worksheet
@@ -227,6 +231,23 @@ def test_exercises_are_shown_without_the_cells_that_check_them() -> None:
     assert text.count('<div class="room"') == 1
     assert "draw(" in text
     assert '<a class="also" href="../notebooks/01_all_at_once.html">' in text
+
+
+@pytest.mark.slow
+def test_a_picture_in_the_sun_is_small_and_looks_the_same() -> None:
+    cell = ran("draw(...)")
+    png = draw(system("ABOP-1.25"), light=True).png
+    for mode, kept in (("RGB", False), ("RGBA", True)):
+        file = io.BytesIO()
+        Image.open(io.BytesIO(png)).convert(mode).save(file, "PNG")
+        cell.outputs[0].data = {"image/png": base64.b64encode(file.getvalue()).decode(), "text/plain": "a bush"}
+        found = re.search(r'src="data:image/(\w+);base64,([^"]+)"', cells_html([cell], lambda each: each, []))
+        assert found
+        shown = base64.b64decode(found[2])
+        assert (found[1], shown == file.getvalue()) == (("png", True) if kept else ("webp", False))
+        there, here = (np.asarray(Image.open(io.BytesIO(each)).convert("RGB"), float) for each in (png, shown))
+        assert np.abs(there - here).mean() < 3
+        assert kept or len(shown) < len(png) / 3
 
 
 @pytest.mark.slow
