@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from lsys_kit.classroom.lessons.entries import is_number_asked, number_of
-from lsys_kit.classroom.places import NAME, Place, course_at_hand, declaration, key_of, places
+from lsys_kit.classroom.places import NAME, Place, course_at_hand, declaration, key_of, kit_place, places
 from lsys_kit.errors import LSystemError, ModelFileError, ModelNameError, ModelValueError, quotable, shown
 from lsys_kit.notation.analysis.checks import suggestion
 
@@ -401,8 +401,10 @@ def declared(name: str) -> Lesson:
 
 
 def declared_in(place: Place, name: str) -> Lesson | None:
-    """The lesson of a place, or None where nothing is declared of it."""
-    return _read(place, name) if (place.declared / f"{name}.toml").is_file() else None
+    """The lesson of a place, or None where nothing is declared of it; a copy of one of the kit's notebooks is that lesson."""
+    if (place.declared / f"{name}.toml").is_file():
+        return _read(place, name)
+    return None if place.is_kits else declared_in(kit_place(), name)
 
 
 def all_declared() -> tuple[Lesson, ...]:
