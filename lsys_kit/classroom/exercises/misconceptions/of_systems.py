@@ -261,8 +261,8 @@ def stages_from_zero(rule: Production) -> Production:
 
 @misconception("stages from zero")
 def all_stages_from_zero(exercise: Exercise) -> Iterator[Any]:
-    """The numbers of the axiom and of successors one too small, and those of conditions, too, or not."""
-    if exercise.kind == "system":
+    """The numbers of the axiom and of successors one too small, and perhaps those of conditions; where nothing is given."""
+    if exercise.kind == "system" and not exercise.given:
         for change in (stages_from_zero, _bounds_from_zero):
             yield from by_systems(partial(rewritten, change, word=partial(_with_arguments, _one_less)), exercise)
 
