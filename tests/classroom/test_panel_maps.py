@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from itertools import pairwise
 
 import numpy as np
@@ -55,7 +56,8 @@ def page(browser):
 
 def asked(page, code, **given):
     """What some code makes of what is given, with the scripts of the panel before it."""
-    return called(page, bundled("page"), f"({{ {', '.join(given)} }}) => {{ {code} }}", given)
+    names = frozenset(re.findall(r"\b\w+(?=\()", code))
+    return called(page, bundled("page", also=names), f"({{ {', '.join(given)} }}) => {{ {code} }}", given)
 
 
 @pytest.mark.parametrize("id", FLAT)

@@ -242,3 +242,10 @@ def test_numbers_are_rounded_to_a_fiftieth_of_the_median_stroke(short):
     assert median >= 50  # of the units in which numbers are whole
     places = np.array(re.findall(r"M(-?\d+) (-?\d+)L(-?\d+) (-?\d+)", picture.svg), float)
     assert np.median(np.hypot(*(places[:, 2:] - places[:, :2]).T)) == pytest.approx(median, abs=1.5)
+
+
+@pytest.mark.parametrize("text", ["f F(0) [F(0)]", "F(0)[+F(0)]", "[+f]@o", "F(0)[+F(0)]@O(2)"])
+def test_a_plant_without_extent_is_drawn(text: str) -> None:
+    plant = read(f"axiom: {text}")
+    assert draw(plant, 0).svg
+    assert draw(plant, steps=[0, 0]).png

@@ -29,9 +29,9 @@ _TEXT = re.compile(r'"([^"\n]*)"|\'([^\'\n]+)\'')
 
 
 @cache
-def bundled(name: str, without: frozenset[str] = frozenset()) -> str:
+def bundled(name: str, without: frozenset[str] = frozenset(), also: frozenset[str] = frozenset()) -> str:
     """A script after all scripts that it needs, without some of which nothing will be called; its own names are those of the
-    text.
+    text, and so are others that are asked for.
 
     >>> bundled("widget").count("import ")
     0
@@ -49,7 +49,7 @@ def bundled(name: str, without: frozenset[str] = frozenset()) -> str:
     named = {
         each for script in needed.keys() - without for names, _ in _IMPORT.findall(source(script)) for each in names.split(",")
     }
-    imported = frozenset(map(str.strip, named))
+    imported = also.union(map(str.strip, named))
     return "\n".join(
         _plain(source(script)) if script == name else _enclosed(script, script in without, imported) for script in order
     )

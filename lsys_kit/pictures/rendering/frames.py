@@ -178,8 +178,9 @@ def in_units(scenes: Sequence[Scene], system: LSystem, widths: str = "") -> list
     """
     if has_pipe_widths(system, widths):
         pipes = [float(scene.segments.widths.min(initial=np.inf)) for scene in scenes]
-        _, usual = max(zip(map(_extent, scenes), pipes, strict=True))
-        return [_scaled(scene, usual / pipe) for scene, pipe in zip(scenes, pipes, strict=True)]
+        seen = [each for each in zip(map(_extent, scenes), pipes, strict=True) if 0 < each[1] < np.inf]  # others have no extent
+        _, usual = max(seen, default=(0.0, 1.0))
+        return [_scaled(scene, usual / pipe if 0 < pipe < np.inf else 1.0) for scene, pipe in zip(scenes, pipes, strict=True)]
     broadest = max((float(scene.segments.widths.max(initial=OWN)) for scene in scenes), default=OWN)
     pixels = system.widths == "pixels"
     if broadest <= 0 or not (pixels or (not system.widths and TURTLE_DIALECTS[system.turtle].pixels)):

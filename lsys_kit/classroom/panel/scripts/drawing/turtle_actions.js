@@ -101,7 +101,8 @@ function recordVertex({ openPolygons, position }) {
 // One-time settings end with a stroke; the earliest value is set last, and stays.
 export function goAhead(drawn, vertex) {
   return (turtle, call) => {
-    const from = turtle.position, length = sizeOf(turtle, call), to = (turtle.position = turtle.trail.step(turtle.orientation, length, from));
+    const from = turtle.position, length = sizeOf(turtle, call);
+    const to = (turtle.position = drawn || length ? turtle.trail.step(turtle.orientation, length, from) : from);
     if (drawn && !turtle.axis) {
       recordStroke(turtle, from, to, strokeWidth(turtle));
       turtle.strokes.lengths.push(Math.abs(length));
