@@ -168,24 +168,15 @@ def test_overlapping_conditions_are_named(asked):
 
 @pytest.mark.parametrize(
     "answer",
-    [
-        21,
-        21.0,
-        "21",
-        "42/2",
-        " 21 ",
-        "21 cells",
-        "21 letters",
-        "N(6) = 21",
-        Decimal(21),
-        Fraction(21),
-        "21.",
-        "≈ 21",
-        sympy.Integer(21),
-    ],
+    [21, 21.0, "21", "42/2", " 21 ", "21 cells", "21 letters", Decimal(21), Fraction(21), "21.", "≈ 21", sympy.Integer(21)],
 )
 def test_a_number_is_right_in_any_form(answer):
     assert check("anabaena.12", answer) == check("anabaena.21", answer) == 1
+
+
+def test_the_number_of_a_step_answers_what_asks_for_that_step():
+    assert check("anabaena.12", "N(6) = 21") == 1
+    assert "step 6" in check("anabaena.21", "N(6) = 21").message
 
 
 def test_an_unknown_number_is_compared_with_the_step_before_and_not_with_the_right_one(word):
