@@ -454,7 +454,7 @@ def check_lesson(options: argparse.Namespace) -> None:
     from lsys_kit.classroom.authoring.check import findings_in
     from lsys_kit.classroom.places import choose_course
 
-    folder = options.folder and Path(options.folder)
+    folder = None if options.folder is None else Path(options.folder)
     choose_course(folder)
     _tell([*findings_in(folder, options.run)], "in the lesson")
 

@@ -10,6 +10,7 @@ Nothing outside the folder is read, links are not followed, and nothing that is 
 
 from __future__ import annotations
 
+import errno
 import os
 import re
 import tomllib
@@ -127,10 +128,10 @@ def course_of(folder: Path | None = None) -> Course:
     ModelFileError
         There is no such folder, there is no lesson in it, or its list has a mistake.
     """
-    if folder is None or folder.resolve() == kit_place().root:
-        return Course(kit_place().root, TITLE, LEAD, tuple((kit_place(), name) for name in kit_place().names()))
     named = quotable(str(folder))
     with file_errors(f'"{named}" cannot be read'):
+        if folder is None or _resolved(folder) == kit_place().root:
+            return Course(kit_place().root, TITLE, LEAD, tuple((kit_place(), name) for name in kit_place().names()))
         if folder.suffix == ".zip":
             raise ModelFileError(f'"{named}" is an archive', hint=f"Unpack it first: lsys-kit lesson unpack {folder.name}")
         next(folder.iterdir(), None)
@@ -145,6 +146,13 @@ def course_of(folder: Path | None = None) -> Course:
         raise ModelFileError(f'Two lessons of "{named}" have the same name')
     title = str(declared.get("title") or folder.resolve().name.replace("_", " "))
     return Course(folder, title, str(declared.get("description", "")), lessons)
+
+
+def _resolved(folder: Path) -> Path:
+    try:
+        return folder.resolve()
+    except RuntimeError as loop:  # of links, in Python before 3.13
+        raise OSError(errno.ELOOP, str(loop)) from None
 
 
 def _listed(folder: Path) -> Mapping[str, Any]:

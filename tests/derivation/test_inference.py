@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import random
 from collections.abc import Iterator, Mapping, Sequence
+from fractions import Fraction
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -18,9 +19,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lsys_kit import ModelLimitError, derive, infer, limits, system
-from lsys_kit.derivation.inference.infer import Fits, parting_step
+from lsys_kit.derivation.inference.infer import Fits, Wider, parting_step
 from lsys_kit.derivation.inference.mending import Mending
 from lsys_kit.derivation.inference.problem import Conditions, counted_tables, problem_of, read_words, table_of, tables
+from lsys_kit.derivation.inference.stochastic import Choice
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.read import read
 
@@ -375,3 +377,22 @@ def test_values_without_a_law_are_taken_one_by_one() -> None:
 def test_several_systems_part_where_the_first_two_do() -> None:
     fits = [read(f"axiom: a\na -> a b\nb -> {successor}") for successor in ("a", "b", "c")]
     assert parting_step(fits, 1) == 2
+
+
+def test_how_many_systems_fit_under_wider_conditions_is_said() -> None:
+    erasing = Conditions(erasing=True)
+    assert [str(Wider(erasing, many)) for many in (None, 1, 20)] == [
+        "With erasing=True many systems fit.",
+        "With erasing=True one system fits.",
+        "With erasing=True 20 systems fit.",
+    ]
+
+
+def test_what_is_known_of_later_words_is_said() -> None:
+    assert "later words are too long to be compared" in str(infer(["ab", "ab" * 400]))
+    assert "if c, d stay as they are, their words are the same up to step" in str(infer(["ab", "cdcd"]))
+
+
+def test_a_production_that_was_used_perhaps_is_told_so() -> None:
+    choice = Choice(Module("a"), (Module("b"),), Fraction(1, 2), 0.1, 1.5, 3)
+    assert "about 1.5" in str(choice)

@@ -21,6 +21,7 @@ from hypothesis import strategies as st
 from lsys_kit.classroom.catalogue import system, systems
 from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError, ModelValueError
 from lsys_kit.notation.formats.found import tables
+from lsys_kit.notation.formats.literals import systems_in_literals
 from lsys_kit.notation.formats.reading import FORMATS, LONGEST, read_as, read_found, what_is_missing
 from lsys_kit.notation.model.modules import flat
 from lsys_kit.notation.model.system import LSystem
@@ -1011,3 +1012,23 @@ def test_a_command_of_latex_that_is_not_known_is_no_word() -> None:
 def test_contexts_in_the_word_that_is_made_are_refused_by_name() -> None:
     with pytest.raises(ModelSyntaxError, match="L-Py's contexts with << are not in the kit"):
         read("Axiom: B A\nproduction:\nB << A --> B\nendlsystem")
+
+
+@pytest.mark.parametrize("word", ['f"F{x}F"', '"F" * 2'])
+def test_a_word_that_a_program_calculates_is_not_read(word: str) -> None:
+    assert not [each.rules for each in systems_in_literals(f'{{"axiom": "F", "rules": {{"F": {word}}}}}') if each.rules]
+
+
+def test_a_function_among_rules_is_refused() -> None:
+    with pytest.raises(ModelSyntaxError, match="The word for A is calculated here"):
+        systems_in_literals('axiom = "A"; rules = [["B", "A"], ["A", () => "AB"]]')
+
+
+def test_what_is_no_rule_among_rules_is_passed_over() -> None:
+    for rules in ('[["F", "FF", [1]]]', '{"F": {"FF": [1], "F+F": "x"}}'):
+        assert not [each.rules for each in systems_in_literals(f'{{"axiom": "F", "rules": {rules}}}') if each.rules]
+
+
+def test_a_letter_that_turns_both_ways_does_not_turn() -> None:
+    found = read("axiom: B\nrules: (B → BF), (F → FF)\nB means turn left\nB means turn right")
+    assert not found.interpretation

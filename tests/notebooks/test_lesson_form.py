@@ -210,7 +210,7 @@ def panels(name: str) -> Iterator[Explorer]:
     known = {each: getattr(lsys_kit, each) for each in lsys_kit.__all__}
     known["explore"] = lambda what, step=None, **choices: explore(what, **choices)
     known["compare"] = lambda *what, step=None, **choices: compare(*what, **choices)
-    for number, call in calls(name, "read"):
+    for number, call in (*calls(name, "read"), *calls(name, "system")):
         for made in ast.parse(code(name)[number]).body:
             if isinstance(made, ast.Assign) and ast.dump(made.value) == ast.dump(call):
                 exec(ast.unparse(made), known)

@@ -183,7 +183,7 @@ def plan_findings(written: Written) -> Iterator[Finding]:
     page = written.place.notebooks / "teacher" / f"{written.name}.md"
     if page.is_file():
         part = page.read_text("utf-8", errors="replace").partition("\n## Minutes\n")[2].partition("\n## ")[0]
-        plan = re.search(r"\b\d{1,4} minutes?: ([^.]{0,3000})\.", part)
+        plan = re.search(r"\b\d{1,4} minutes?: ([^.]{0,600}+)\.", part)
         parts = [int(each) for each in re.findall(r"(?<![\w.])(\d+)(?=,|$|;| *\()", " ".join(plan[1].split()))] if plan else []
         if parts and sum(parts) != lesson.minutes:
             yield finding(f"teacher/{page.name}", "teacher_minutes", sum=sum(parts), minutes=lesson.minutes)

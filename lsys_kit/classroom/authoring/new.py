@@ -18,7 +18,10 @@ from lsys_kit.files import create_file, file_errors
 from lsys_kit.notation.analysis.checks import suggestion
 
 _TEMPLATE = files(__package__) / "template"
-_LINK = re.compile(r"\[([^\]\n]*)\]\(((?:\.\./)*(?:notebooks/|exercises/|teacher/)?([\w./-]+\.(?:ipynb|md)))(#[^)\s]*)?\)")
+_LINK = re.compile(
+    r"\[([^\[\]\n]{0,500}+)\]"
+    r"\(((?:\.\./){0,9}(?:notebooks/|exercises/|teacher/)?([\w./-]{1,200}\.(?:ipynb|md)))(#[^)\s]{0,200}+)?\)"
+)
 """A link to another notebook or text, its text, its file and that file's name."""
 
 

@@ -18,8 +18,8 @@ from lsys_kit.notation.model.arithmetic import number_text
 
 _NUMBER = r"(-?\d+(?:[./]\d+)?)"
 _SET = (
-    re.compile(rf"\b[Ss]et\b[^.?!\n]{{0,40}}?[*`]+(\w+)[*`]+ (?:slider )?(?:to|=) {_NUMBER}\b"),
-    re.compile(rf"\b(?:[Mm]ove|[Pp]ut) (?:the slider )?[*`]+(\w+)[*`]+ to {_NUMBER}\b"),
+    re.compile(rf"\b[Ss]et\b[^.?!\n]{{0,40}}?[*`]{{1,3}}(\w+)[*`]{{1,3}} (?:slider )?(?:to|=) {_NUMBER}\b"),
+    re.compile(rf"\b(?:[Mm]ove|[Pp]ut) (?:the slider )?[*`]{{1,3}}(\w+)[*`]{{1,3}} to {_NUMBER}\b"),
 )
 
 

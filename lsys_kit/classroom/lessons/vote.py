@@ -88,7 +88,7 @@ through the same hour. One of the programs drew this picture. Which program is r
     require(picture, (SVGPicture, type(None)), "A picture that draw has made")
     asked = question.strip() if isinstance(question, str) else ""
     if options is not None:
-        _OWN[asked] = _own_vote(question, options, right, replies or ()), picture
+        _OWN[asked] = _own_vote(question, options, right, () if replies is None else replies), picture
     if options is not None or (again and asked in _OWN):
         own, drawing = _OWN[asked]
         return VoteBox(own, _ballot(f"vote {asked}", len(own.options)), again, drawing=drawing)
@@ -112,9 +112,9 @@ def _own_vote(question: object, options: object, right: object, replies: object)
         raise ModelValueError(f"A vote needs {FEWEST} to {len(LETTERS)} different options, not {shown(options)}")
     if said and len(said) != len(texts):
         raise ModelValueError(f"There are {len(texts)} options and {len(said)} replies", hint="Give one reply for each option.")
-    named = right.strip() if isinstance(right, str) else right
+    named = right.strip() if isinstance(right, str) else None
     known = [*LETTERS[: len(texts)], *texts]
-    if named is not None and named not in known:
+    if right is not None and named not in known:
         raise ModelValueError(
             f"The right option must be a letter up to {LETTERS[len(texts) - 1]}, or its text, not {shown(right)}"
         )

@@ -108,10 +108,12 @@ def worksheet(
     require(beside, (Explorer, Comparison, type(None)), "A panel of explore or compare")
     if columns is None and rows is None:
         of: Any = number  # what is no text is refused there
-        found = table(of, id or "")
+        found = table(of, "" if id is None else id)
         sheet = Worksheet(found, f"{lesson(of).key} {found.id}")
     else:
-        found = _own_table(columns, rows, title or (number or ""), system)
+        found = _own_table(
+            columns, rows, number if isinstance(title, str) and not title and number is not None else title, system
+        )
         sheet = Worksheet(found, f"table {found.title} {' '.join(found.columns)}")
     return sheet if beside is None else PanelWithWorksheet(beside, sheet)
 
