@@ -163,9 +163,8 @@ def _production_text(system: LSystem, rule: Rule) -> str:
 def _passed_over(rule: Rule, chosen: Rule | None) -> str:
     if chosen is not None and chosen.probability is not None and rule.probability is not None:
         return gettext("matches too, but was not drawn")
-    if chosen is None:
-        return gettext("matches too")
-    return gettext("matches too, but production {number} stands before it", number=chosen.number + 1)
+    before = chosen and gettext("matches too, but production {number} stands before it", number=chosen.number + 1)
+    return before or gettext("matches too")
 
 
 def _refusal(stepper: Stepper, old: ParentWord, position: int, rule: Rule) -> str | None:

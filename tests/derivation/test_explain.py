@@ -91,3 +91,7 @@ def test_only_later_words_come_from_a_word(step: int) -> None:
 def test_a_left_context_that_is_not_there_is_named() -> None:
     told = str(explain(derive(read("axiom: B A\nC < A -> C"), 1), 1))
     assert "production 1, C < A -> C: needs C on its left, and there is B" in told
+
+
+def test_a_condition_without_values_is_told() -> None:
+    assert repr(explain(derive(read("axiom: A\nA : 1 > 2 -> B"), 1), 1)).count("1 > 2 is false") == 1

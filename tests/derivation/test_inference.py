@@ -396,3 +396,7 @@ def test_what_is_known_of_later_words_is_said() -> None:
 def test_a_production_that_was_used_perhaps_is_told_so() -> None:
     choice = Choice(Module("a"), (Module("b"),), Fraction(1, 2), 0.1, 1.5, 3)
     assert "about 1.5" in str(choice)
+
+
+def test_systems_whose_words_never_part_are_told_so() -> None:
+    assert "their words are the same up to step 12" in str(infer(["ab", "abab"]))

@@ -47,6 +47,7 @@ from tests.endings import BEGINNINGS, DRAWINGS, FLAT, MESHES, NETS, SAID_OF_FLAT
 from tests.endings import FILMS as FILM_ENDINGS
 
 GROWING = read("axiom: F\nF -> FF")
+TURNING = read("angle: 60\naxiom: F\nF -> F+F--F+F")
 BUSH = read("angle: 25\naxiom: !(0.4)F[&!(0.3)F@O(0.4);(4)@O(0.3)]^F{-f+f+f}")
 KINDS: dict[str, Callable[[], Any]] = {
     "plane": lambda: draw(system("K5"), 3),
@@ -248,7 +249,7 @@ FILMS: dict[str, tuple[Callable[[], Any], int]] = {
     "cells": (lambda: animate(cellwork_system("K33"), 1, size=200), 2),
     "pictures": (lambda: animate([draw(GROWING, 1), plot(system("J1"), 3)], size=200), 2),
     "turntable": (lambda: animate(BUSH, 0, turntable=True, size=100), 60),
-    "unfolding": (lambda: animate(GROWING, 2, unfold=True, size=(100, 80), seconds=1), 41),
+    "unfolding": (lambda: animate(TURNING, 2, unfold=True, size=(100, 80), seconds=1), 41),
 }
 
 
