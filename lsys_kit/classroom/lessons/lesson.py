@@ -380,7 +380,7 @@ def lesson(number: str | int) -> Lesson:
     if asked not in known:
         hint = suggestion(asked[:20], known) or f"Lessons are: {', '.join(sorted(known))}."
         raise ModelNameError(f'There is no lesson "{quotable(asked)}"', hint=hint)
-    return _read(*known[asked])
+    return declared_in(*known[asked]) or _read(*known[asked])
 
 
 def table(number: str | int, id: str) -> Table:

@@ -106,7 +106,7 @@ def run(name: str, path: Path, stopped: Event | None = None) -> NotebookNode:
     try:
         notebook = run_through(path, stopped, until_failed=True)
     except nbclient.exceptions.CellExecutionError as failed:
-        raise LSystemError(f"A cell of {name} fails: {failed.ename}: {failed.evalue}", hint=_RUN_IT) from None
+        raise LSystemError(f"A cell of {name} fails: {failed.ename}: {failed.evalue}".rstrip("."), hint=_RUN_IT) from None
     for cell in notebook.cells:
         _check_shown(name, cell)
     return notebook
