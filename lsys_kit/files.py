@@ -18,17 +18,19 @@ import os
 import re
 import secrets
 import shutil
+import stat
 import struct
 import tomllib
+import zipfile
 import zlib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from importlib.resources import files
 from io import FileIO
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Any
 
-from lsys_kit.errors import ModelFileError, ModelValueError, quotable
+from lsys_kit.errors import ModelFileError, ModelLimitError, ModelValueError, quotable
 
 KIT_MARK = b"lsys-kit"
 """What shows that a file was made by the kit; it is near the beginning or the end of each."""
@@ -166,6 +168,54 @@ def _wait_for_others(file: FileIO) -> None:
         from fcntl import LOCK_EX, flock
 
         flock(file, LOCK_EX)
+
+
+def archive_members(path: Path, most: int) -> list[zipfile.ZipInfo]:
+    """The plain files of a .zip archive; links and what macOS puts beside them are left out.
+
+    Raises
+    ------
+    ModelFileError
+        It is no archive, or one of its files would lead out of it.
+    ModelLimitError
+        It has more files than that.
+    """
+    try:
+        with zipfile.ZipFile(path) as archive:
+            members = archive.infolist()
+    except (zipfile.BadZipFile, NotImplementedError, ValueError) as fault:
+        raise ModelFileError(f'"{quotable(path.name)}" is no complete archive: {fault}') from None
+    if len(members) > most:
+        raise ModelLimitError(f"This archive has more than {most:,} files", limit=most)
+    for member in members:
+        name = PurePosixPath(member.filename)
+        if name.is_absolute() or ".." in name.parts or "\\" in member.filename or ":" in member.filename:
+            raise ModelFileError(
+                f'"{quotable(path.name)}" has a file outside of it: "{quotable(member.filename)}"',
+                hint="Unpack it with care, and read the folder.",
+            )
+    return [each for each in members if not (each.is_dir() or _is_link(each) or each.filename.startswith("__MACOSX/"))]
+
+
+def _is_link(member: zipfile.ZipInfo) -> bool:
+    return stat.S_ISLNK(member.external_attr >> 16)
+
+
+def archive_content(path: Path, member: zipfile.ZipInfo, most: int) -> bytes:
+    """The first bytes of a file in an archive: no more of it is inflated.
+
+    Raises
+    ------
+    ValueError
+        It is encrypted, packed in an unusual way, or damaged.
+    """
+    if member.flag_bits & 1 or member.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
+        raise ValueError("it is encrypted, or packed in an unusual way")
+    try:
+        with zipfile.ZipFile(path) as archive, archive.open(member) as file:
+            return file.read(most)
+    except (zipfile.BadZipFile, zlib.error, EOFError) as fault:
+        raise ValueError(str(fault)) from None
 
 
 def made_by_the_kit(path: Path) -> bool:

@@ -8,8 +8,7 @@ from __future__ import annotations
 
 import stat
 import zipfile
-import zlib
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
@@ -17,8 +16,8 @@ from itertools import islice
 from pathlib import Path, PurePosixPath
 
 from lsys_kit.budget import current
-from lsys_kit.errors import ModelFileError, ModelLimitError, quotable
-from lsys_kit.files import decoded, file_errors
+from lsys_kit.errors import ModelLimitError, quotable
+from lsys_kit.files import archive_content, archive_members, decoded, file_errors
 
 MOST_FILES = 1_000
 """So many files a folder or an archive may have."""
@@ -98,46 +97,14 @@ def _archive(path: Path) -> Folder:
     """The files of an archive, in whichever of its folders they are; of two with a name that of the model's folder."""
     if path.stat().st_size > MOST_BYTES:
         raise ModelLimitError(f"This archive is larger than {MOST_BYTES:,} bytes", limit=MOST_BYTES)
-    try:
-        with zipfile.ZipFile(path) as archive:
-            members = archive.infolist()
-    except (zipfile.BadZipFile, NotImplementedError, ValueError) as fault:
-        raise ModelFileError(f'"{quotable(path.name)}" is no complete archive: {fault}') from None
-    if len(members) > MOST_FILES:
-        raise ModelLimitError(f"This archive has more than {MOST_FILES:,} files", limit=MOST_FILES)
-    inside = [*_inside(path, members)]
+    inside = archive_members(path, MOST_FILES)
     models = sorted({PurePosixPath(each.filename).parent for each in inside if each.filename.lower().endswith(".l")}, key=str)
     home = models[0] if models else PurePosixPath()
     return Folder(
         path.name,
         {
-            PurePosixPath(each.filename).name: partial(_inflated, path, each)
+            PurePosixPath(each.filename).name: partial(archive_content, path, each)
             for each in inside
             if PurePosixPath(each.filename).parent == home
         },
     )
-
-
-def _inside(path: Path, members: list[zipfile.ZipInfo]) -> Iterator[zipfile.ZipInfo]:
-    """The files of an archive, none of which leads out of it."""
-    for member in members:
-        name = PurePosixPath(member.filename)
-        if name.is_absolute() or ".." in name.parts or "\\" in member.filename or ":" in member.filename:
-            raise ModelFileError(
-                f'"{quotable(path.name)}" has a file outside of it: "{quotable(member.filename)}"',
-                hint="Unpack it with care, and read the folder.",
-            )
-        if stat.S_ISLNK(member.external_attr >> 16) or member.is_dir() or name.parts[0] == "__MACOSX":
-            continue
-        yield member
-
-
-def _inflated(path: Path, member: zipfile.ZipInfo, most: int) -> bytes:
-    """The first bytes of a member of an archive."""
-    if member.flag_bits & 1 or member.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
-        raise ValueError("it is encrypted, or packed in an unusual way")
-    try:
-        with zipfile.ZipFile(path) as archive, archive.open(member) as file:
-            return file.read(most)
-    except (zipfile.BadZipFile, zlib.error, EOFError) as fault:
-        raise ValueError(str(fault)) from None

@@ -24,6 +24,7 @@ from lsys_kit.classroom.lessons.predicted import outcome
 from lsys_kit.classroom.live import questions
 from lsys_kit.classroom.live.session import plan
 from lsys_kit.classroom.places import VARIABLE, choose_course, course_of, kit_place, places
+from lsys_kit.classroom.site.build import build_site
 
 FIBONACCI = "axiom: a\na -> ab\nb -> a"
 
@@ -568,19 +569,15 @@ def test_a_lesson_that_was_packed_is_the_same_when_it_is_unpacked(ferns: Path, t
         unpack(Path(packed))
 
 
-@pytest.mark.parametrize(
-    "name",
-    [
-        "../out.md",
-        "/etc/out.md",
-        "notebooks/../../out.md",
-        "C:\\out.md",
-        "notebooks/con.md",
-        ".ssh/x.md",
-        "run.py",
-        "a/b/c/d/e/f.md",
-    ],
-)
+@pytest.mark.parametrize("name", ["../out.md", "/etc/out.md", "notebooks/../../out.md", "C:\\out.md"])
+def test_an_archive_that_leads_out_of_its_folder_is_refused(tmp_path: Path, name: str) -> None:
+    sent = archive(tmp_path / "sent.zip", {"notebooks/ferns.ipynb": b'{"cells": []}', name: b"x"})
+    with pytest.raises(ModelFileError, match="has a file outside of it"):
+        unpack(sent, tmp_path / "in" / "it")
+    assert [*tmp_path.rglob("*")] == [sent]
+
+
+@pytest.mark.parametrize("name", ["notebooks/con.md", ".ssh/x.md", "run.py", "a/b/c/d/e/f.md"])
 def test_nothing_leaves_the_folder_and_no_program_is_taken(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str) -> None:
     monkeypatch.chdir(tmp_path)
     sent = archive(
@@ -590,6 +587,24 @@ def test_nothing_leaves_the_folder_and_no_program_is_taken(tmp_path: Path, monke
     )
     unpack(sent, tmp_path / "in" / "it")
     assert [path.name for path in tmp_path.rglob("*") if path.is_file()] == ["sent.zip", "ferns.ipynb"]
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("kernels")
+def test_copies_of_the_kits_notebooks_are_its_lessons_in_a_course_of_ones_own(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    course = tmp_path / "course"
+    for name in ("notebooks/01_all_at_once.ipynb", "exercises/01_all_at_once.ipynb"):
+        (course / name).parent.mkdir(parents=True)
+        shutil.copy(course_files()[name], course / name)
+    monkeypatch.setenv(VARIABLE, "")
+    choose_course(course)
+    assert lesson("01").title == "All at once"
+    build_site(tmp_path / "pages", course)
+    index = (tmp_path / "pages" / "index.html").read_text("utf-8")
+    assert "<span>1</span>" in index
+    assert "Three programs" in index
 
 
 @pytest.mark.parametrize("content", [b"", b"PK\x03\x04", b"no archive", b"PK\x05\x06" + b"\0" * 18])

@@ -9,16 +9,13 @@ from __future__ import annotations
 import json
 import os
 import re
-import stat
-import zipfile
 from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path, PurePosixPath
-from zlib import error as ZlibError  # noqa: N812
 
-from lsys_kit.classroom.places import course_of
+from lsys_kit.classroom.places import MOST_ENTRIES, course_of
 from lsys_kit.errors import ModelFileError, quotable
-from lsys_kit.files import create_file, file_errors
+from lsys_kit.files import archive_content, archive_members, create_file, file_errors
 
 MOST_FILES, MOST_BYTES, MOST_IN_ALL = 500, 20_000_000, 100_000_000
 """So many files are taken out of an archive, each of so many bytes, and so many bytes in all."""
@@ -41,11 +38,7 @@ def unpack(archive: Path, folder: Path | None = None) -> tuple[Path, int, int]:
         if os.path.lexists(root):
             name = str(root)
             raise ModelFileError(f'"{quotable(name)}" already exists', hint="Choose another folder with -o.")
-        try:
-            with zipfile.ZipFile(archive) as opened:
-                contents = dict(_contents(opened, named))
-        except (zipfile.BadZipFile, ZlibError, NotImplementedError, RuntimeError, EOFError) as fault:
-            raise ModelFileError(f"{named} is no archive that can be read: {fault or type(fault).__name__}") from None
+        contents = dict(_contents(archive, named))
     contents = _without_top(contents)
     if not any(name.partition("/")[0] == "notebooks" or "/notebooks/" in name for name in contents):
         raise ModelFileError(f"There is no lesson in {named}", hint="A lesson has a folder notebooks with NAME.ipynb.")
@@ -58,28 +51,26 @@ def unpack(archive: Path, folder: Path | None = None) -> tuple[Path, int, int]:
     return root, sum(cells), len(cells)
 
 
-def _contents(opened: zipfile.ZipFile, named: str) -> Iterator[tuple[str, bytes]]:
+def _contents(archive: Path, named: str) -> Iterator[tuple[str, bytes]]:
     """The files that are taken, by their names in the archive."""
     total = 0
-    wanted = [each for each in opened.infolist() if not each.is_dir() and _is_taken(each)]
+    wanted = [each for each in archive_members(archive, MOST_ENTRIES) if _is_taken(each.filename)]
     if len(wanted) > MOST_FILES:
         raise ModelFileError(f"There are more than {MOST_FILES:,} files in {named}")
     for each in wanted:
-        with opened.open(each) as file:
-            content = file.read(MOST_BYTES + 1)
+        content = archive_content(archive, each, MOST_BYTES + 1)
         total += len(content)
         if len(content) > MOST_BYTES or total > MOST_IN_ALL:
             raise ModelFileError(f"What is in {named} is too large", hint=f"A file may have {MOST_BYTES:,} bytes.")
         yield each.filename, content
 
 
-def _is_taken(each: zipfile.ZipInfo) -> bool:
-    """Whether it is a plain file with a plain name, and of a kind that lessons have."""
-    *folders, name = each.filename.split("/")
+def _is_taken(file: str) -> bool:
+    """Whether it has a plain name, and is of a kind that lessons have."""
+    *folders, name = file.split("/")
     stem, dot, ending = name.rpartition(".")
     plain = all(_PLAIN.fullmatch(part) and not _WINDOWS.fullmatch(part) for part in (*folders, stem))
-    is_link = stat.S_ISLNK(each.external_attr >> 16)
-    return plain and len(folders) <= 4 and f"{dot}{ending}".lower() in _ENDINGS and not is_link
+    return plain and len(folders) <= 4 and f"{dot}{ending}".lower() in _ENDINGS
 
 
 def _without_top(contents: dict[str, bytes]) -> dict[str, bytes]:

@@ -8,7 +8,7 @@ import { interpreted, placed, traced } from "./turtle.js";
 
 const SIZE = 16, ARC = 34, AXIS = 38; // pixels: from its middle to its nose, the radius of an arc, the length of an axis
 const BODY = [[1, 0], [-0.7, 0.65], [-0.35, 0], [-0.7, -0.65]]; // the turtle seen from above: ahead, and to the left
-const VEIL = 0.75; // of the paper over what is not drawn yet
+const VEIL = 0.75, DARK_VEIL = 0.6; // of the paper over what is not drawn yet
 const DEGREE = Math.PI / 180, ARC_PARTS = 24;
 const TURNS = ["turn", "turn back", "turn by mirrored angle", "pitch", "roll"];
 const NOTHING = { strokes: { n: 0, from: [], to: [], orders: [], widths: new Float64Array() }, faces: { n: 0, starts: [0], corners: [] }, rounds: { n: 0, centres: [], radii: [] } };
@@ -107,7 +107,7 @@ function paintPale(pen, shapes, frame, look) {
     pen.drawImage(known.picture, 0, 0);
   } else {
     paint(pen, shapes, frame, { ...look, lit: new Map() });
-    pen.globalAlpha = VEIL;
+    pen.globalAlpha = look.theme.dark ? DARK_VEIL : VEIL;
     pen.fillStyle = look.theme.paper;
     pen.fillRect(0, 0, frame.width, canvas.height);
     const picture = known?.picture ?? document.createElement("canvas");
