@@ -158,7 +158,7 @@ def test_a_row_of_cells_becomes_the_next_and_daughters_fill_their_mother(page, i
 
 
 def line(panel):
-    return panel.at("[data-view=unfolding] [role=status]")
+    return panel.at("[data-view=unfolding] .lsys-caption[role=status]")
 
 
 @pytest.mark.browser

@@ -86,7 +86,7 @@ def test_a_turn_swings_the_head_by_its_angle(page):
 
 
 def line(panel):
-    return panel.at("[data-view=walk] [role=status]")
+    return panel.at("[data-view=walk] .lsys-caption[role=status]")
 
 
 @pytest.mark.browser
