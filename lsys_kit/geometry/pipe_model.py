@@ -12,6 +12,7 @@ from __future__ import annotations
 from array import array
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lsys_kit.budget import counted
 from lsys_kit.geometry.scene import Floats, Integers, Segments
@@ -56,14 +57,15 @@ def tips_borne(segments: Segments) -> Integers:
 
 def strokes_below(segments: Segments) -> Integers:
     """For each stroke the one at whose end it starts, or -1: before it in the word, and in no bracket that is closed there.
+    What starts at the end of a stroke of no length starts at that of the one below it; and it starts at none itself.
 
     >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.drawing import scene_of
     >>> strokes_below(scene_of(derive(read("axiom: F[+F F][-F]fF"), 0)).segments).tolist()
     [-1, 0, 1, 0, -1]
     """
-    before, below = _strokes_before(segments.orders)
     starts, ends = np.split(segments.ends, 2, axis=1)
+    before, below = _strokes_before(segments.orders, (starts != ends).any(axis=1))
     near = NEAR * float(np.ptp(segments.points, axis=0).max(initial=0.0)) if len(segments) else 0.0
     apart = np.flatnonzero(before >= 0)
     while len(apart):
@@ -73,16 +75,17 @@ def strokes_below(segments: Segments) -> Integers:
     return before
 
 
-def _strokes_before(orders: Integers) -> tuple[Integers, Integers]:
-    """For each stroke the last one before it of the same order or a lower one; and that of a lower one, or -1."""
+def _strokes_before(orders: Integers, long: NDArray[np.bool_]) -> tuple[Integers, Integers]:
+    """For each stroke the last long one before it of the same order or a lower one; and that of a lower one, or -1."""
     before, below = np.full(len(orders), -1), np.full(len(orders), -1)
     open_ones: list[tuple[int, int]] = [(-1, -1)]
-    for number, order in enumerate(counted(orders.tolist())):
+    for number, (order, is_long) in enumerate(counted(zip(orders.tolist(), long.tolist(), strict=True))):
         while open_ones[-1][0] > order:
             open_ones.pop()
-        before[number] = open_ones[-1][1]
-        if open_ones[-1][0] == order:
-            open_ones.pop()
-        below[number] = open_ones[-1][1]
-        open_ones.append((order, number))
+        if is_long:
+            before[number] = open_ones[-1][1]
+            if open_ones[-1][0] == order:
+                open_ones.pop()
+            below[number] = open_ones[-1][1]
+            open_ones.append((order, number))
     return before, below

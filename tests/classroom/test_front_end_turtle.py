@@ -219,6 +219,7 @@ SELDOM = {
         "\\(30) D ! \\(12) D F [ + D ] /(5) M + D",
         "F | F + | F ! | F",
         "F ! + F ! - F [ ! + F ] + F",
+        "F [ @(0) F ] [ F ] F @(0) F [ F ] F",
     ],
     "plant-string": ["I ( I [ I L ) F ] A B L", "( ( ( I", "L F L"],
 }

@@ -18,6 +18,7 @@ import pytest
 from lsys_kit import LSystemError, ModelFileError, ModelValueError, open_class, predict, vote
 from lsys_kit.classroom.live.notebook import ClassBoard
 from lsys_kit.classroom.live.questions import about_prediction, predictions, questions
+from lsys_kit.classroom.widget import KitWidget
 from tests.classroom.live_class import SECONDS, Phone, run, wait_for
 
 pytestmark = pytest.mark.slow
@@ -102,6 +103,19 @@ def test_a_class_goes_on_where_it_was(tmp_path: Path) -> None:
         wait_for(lambda: current(again).get("about") == "02")
     finally:
         again.end()
+
+
+def test_what_a_class_tells_while_a_board_is_made_reaches_it(board: ClassBoard, monkeypatch: pytest.MonkeyPatch) -> None:
+    made = KitWidget.__init__
+
+    def made_slowly(self: KitWidget, **given: Any) -> None:
+        monkeypatch.undo()
+        made(self, **given)
+        vote("02")
+        wait_for(lambda: current(board).get("about") == "02")
+
+    monkeypatch.setattr(KitWidget, "__init__", made_slowly)
+    assert current(open_class("10b", board._class._folder)).get("about") == "02"
 
 
 def test_a_port_that_is_taken_is_told(tmp_path: Path) -> None:

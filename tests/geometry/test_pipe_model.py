@@ -52,6 +52,13 @@ def test_a_stroke_bears_as_many_tips_as_axes_end_in_it_and_above(text):
     assert tips_borne(found).tolist() == tips_along_the_word(text)
 
 
+@pytest.mark.parametrize(
+    ("text", "tips"), [("F [F(0)] [F]", [2, 1, 1]), ("F F(0) [F] F", [2, 1, 1, 1]), ("F(0) F(0) F", [1, 1, 1])]
+)
+def test_what_starts_where_a_stroke_of_no_length_ends_is_borne_by_the_one_below(text, tips):
+    assert tips_borne(scene_of(derive(read(f"axiom: {text}"), 0)).segments).tolist() == tips
+
+
 @given(WORDS)
 def test_the_strokes_on_one_are_together_as_broad_as_it(text):
     found = strokes(text)

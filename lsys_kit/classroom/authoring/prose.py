@@ -15,7 +15,7 @@ from lsys_kit.classroom.lessons.entries import number_of
 from lsys_kit.classroom.lessons.widget import prose_text
 from lsys_kit.notation.analysis.checks import suggestion
 
-_LINK = re.compile(r"(!?)\[([^\[\]\n]{0,500}+)\]\(\s*+<?([^)\s>]{1,500}+)>?[^)\n]{0,200}+\)")
+_LINK = re.compile(r"(!?)\[([^\[\]\n]{0,500}+)\]\(\s*+<?([^)\[\s>]{1,500}+)>?[^)\[\n]{0,200}+\)")
 _IMAGE = re.compile(r"<img\b(?![^<>]{0,1000}\balt\s*+=\s*+[\"'][^\"'])[^<>]{0,1000}>", re.IGNORECASE)
 _ELSEWHERE = re.compile(r"[a-z][a-z+.-]*:", re.IGNORECASE)
 _HEADING = re.compile(r"^#{1,6} ++(.*)$", re.MULTILINE)

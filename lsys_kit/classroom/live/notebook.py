@@ -13,7 +13,7 @@ from collections.abc import Mapping
 from contextlib import suppress
 from multiprocessing.connection import Connection
 from pathlib import Path
-from threading import Lock, Thread
+from threading import Lock, RLock, Thread
 from typing import Any
 from weakref import WeakSet
 
@@ -102,7 +102,7 @@ class _Class:
         self._folder = folder
         self._pipe, theirs = _CONTEXT.Pipe()
         self._process = _CONTEXT.Process(target=_serve, args=(theirs, folder, name, port, course, language()))
-        self._lock, self.boards = Lock(), WeakSet[ClassBoard]()
+        self._lock, self._showing, self._boards = Lock(), RLock(), WeakSet[ClassBoard]()
         self.state: dict[str, object] = {}
         self.is_open = True
         self._process.start()
@@ -135,12 +135,25 @@ class _Class:
         with suppress(EOFError, OSError):
             while True:
                 told = json.loads(self._pipe.recv_bytes())
-                self.state = told.get("state", self.state)
-                for board in [*self.boards]:
-                    board.hear(told)
-        self.is_open = False
-        for board in [*self.boards]:
-            board.ended = True
+                with self._showing:
+                    self.state = told.get("state", self.state)
+                    for board in [*self._boards]:
+                        board.hear(told)
+        with self._showing:
+            self.is_open = False
+            for board in [*self._boards]:
+                board.ended = True
+
+    def show(self, board: ClassBoard) -> None:
+        """Let a board hear what the class tells from now on, and show what it has told since the board was begun."""
+        with self._showing:
+            self._boards.add(board)
+            board.state, board.ended = self.state, not self.is_open
+
+    def forget(self, board: ClassBoard) -> None:
+        """Let a board hear nothing any more."""
+        with self._showing:
+            self._boards.discard(board)
 
     def tell(self, content: Mapping[str, object]) -> None:
         """Tell the server something; one that is gone hears nothing."""
@@ -214,7 +227,7 @@ class ClassBoard(KitWidget):
         self._class = of
         super().__init__(about={**of.about, "words": translated_words("class_board")}, state=of.state, ended=not of.is_open)
         self.on_msg(self._told)
-        of.boards.add(self)
+        of.show(self)
 
     def _told(self, _: object, content: object, __: object) -> None:
         if isinstance(content, dict):
@@ -253,7 +266,7 @@ class ClassBoard(KitWidget):
 
     def close(self) -> None:
         """Close the board; the class goes on."""
-        self._class.boards.discard(self)
+        self._class.forget(self)
         super().close()
 
     def _stored(self) -> dict[str, object]:

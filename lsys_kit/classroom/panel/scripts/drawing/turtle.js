@@ -95,7 +95,7 @@ function shapesOf({ strokes, faces, rounds, labels }, colourOf) {
     const columns = Object.entries({ ...rows, colours }).map(([name, numbers]) => [name, (REAL.includes(name) ? Float64Array : Int32Array).from(numbers)]);
     return { n: colours.length, ...Object.fromEntries(columns), smooth };
   };
-  const { lengths, ...drawn } = strokes;
+  const { lengths, long, ...drawn } = strokes;
   return { strokes: group(drawn), faces: group(faces), rounds: group(rounds), labels: { points: Int32Array.from(labels.points), texts: labels.texts } };
 }
 

@@ -22,9 +22,10 @@ export function stretchRamp(...groups) {
       if (inRamp(colours[i])) colours[i] = RAMP_START + Math.floor((colours[i] - RAMP_START) * stretch + 0.5);
 }
 
-// How many axes end in each stroke and in what it bears.
-export function tipsBorne({ from, to, orders }) {
-  const ending = new Map(to.map((point, i) => [point, i])), below = from.map((point) => ending.get(point)), tips = to.map(() => 1);
+// How many axes end in each stroke and in what it bears. Those of no length bear nothing, and nothing bears them.
+export function tipsBorne({ from, to, orders, long }) {
+  const ending = new Map(to.map((point, i) => [point, i])), tips = to.map(() => 1);
+  const below = from.map((point, i) => (long[i] ? ending.get(point) : undefined));
   below.forEach((mother, i) => { if (orders[mother] === orders[i]) tips[mother] = 0; }); // the axis goes on
   for (let i = tips.length - 1; i >= 0; i--) if (below[i] >= 0) tips[below[i]] += tips[i];
   return tips;
@@ -47,7 +48,7 @@ export function newTurtle(trail, { length, width, colour }) {
     ...initial, initial, trail, scale: 1, position: 0, orientation: trail.orientation, mirror: 1, secondHeading: 0,
     tropisms: new Map(), axis: null, patches: new Map(), last: 0, restored: [], stack: [], place: -1, state: -1, expectsSurface: false, flat: false,
     openPolygons: [],
-    strokes: { from: [], to: [], lengths: [], orders: [], widths: [], ...looks() },
+    strokes: { from: [], to: [], lengths: [], long: [], orders: [], widths: [], ...looks() },
     faces: { starts: [0], corners: [], smooth: [], ...looks() },
     rounds: { centres: [], radii: [], kinds: [], ...looks() },
     labels: { points: [], texts: [] },
@@ -77,11 +78,12 @@ function recordLook({ colours, positions, states }, { colour, place, state }) {
 }
 
 // A stroke between two points; how long it is, its points may say only later.
-export function recordStroke(turtle, from, to, width) {
+export function recordStroke(turtle, from, to, width, long = true) {
   const { strokes } = turtle;
   turtle.last = to;
   strokes.from.push(from);
   strokes.to.push(to);
+  strokes.long.push(long);
   strokes.orders.push(turtle.stack.length);
   strokes.widths.push(width);
   recordLook(strokes, turtle);
@@ -102,9 +104,10 @@ function recordVertex({ openPolygons, position }) {
 export function goAhead(drawn, vertex) {
   return (turtle, call) => {
     const from = turtle.position, length = sizeOf(turtle, call);
-    const to = (turtle.position = drawn || length ? turtle.trail.step(turtle.orientation, length, from) : from);
+    const to = drawn || length ? turtle.trail.step(turtle.orientation, length, from) : from;
+    if (length) turtle.position = to; // what starts at the end of a stroke of no length starts at that of the one below it
     if (drawn && !turtle.axis) {
-      recordStroke(turtle, from, to, strokeWidth(turtle));
+      recordStroke(turtle, from, to, strokeWidth(turtle), length !== 0);
       turtle.strokes.lengths.push(Math.abs(length));
     }
     if (drawn && turtle.tropisms.size) turtle.orientation = turtle.trail.bent(turtle.orientation, turtle.tropisms);
