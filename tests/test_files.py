@@ -25,6 +25,7 @@ SAVED: dict[str, Callable[[Path], None]] = {
 """Everything that can be saved, by the name of its file."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SAVED)
 def test_what_the_kit_has_saved_may_be_saved_again(name: str, tmp_path: Path) -> None:
     path = tmp_path / f"a{name}"
@@ -35,6 +36,7 @@ def test_what_the_kit_has_saved_may_be_saved_again(name: str, tmp_path: Path) ->
     assert path.read_bytes() == first
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SAVED)
 @pytest.mark.parametrize("strange", ["file", "empty", "folder", "link", "dead link"])
 def test_what_somebody_else_made_is_not_replaced(name: str, strange: str, tmp_path: Path) -> None:

@@ -271,6 +271,7 @@ def test_what_is_typed_is_refused_or_shown_as_text(text):
                 shows(found)
 
 
+@pytest.mark.slow
 def test_every_sign_that_may_be_a_symbol_is_shown_as_text():
     found = [
         system
@@ -311,6 +312,7 @@ def test_the_explorer_shows_names_as_text(text):
         assert not getattr(widget, "description_allow_html", False)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", HOSTILE, ids=ascii)
 def test_an_answer_is_shown_as_text(text):
     for exercise in {each.kind: each.id for _, _, each in kit_questions().exercises}.values():

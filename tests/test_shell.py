@@ -64,6 +64,7 @@ def refused(said: Said, *words: str) -> None:
 # --- deriving ---------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_derive_keeps_letters_and_says_where_the_formulas_hold(shell, tmp_path):
     (tmp_path / "q.txt").write_text("q = 0.8\naxiom: A(1)\nA(x) : x > 0.3 -> F(x) A(q*x)")
     said = shell("derive", str(tmp_path / "q.txt"), "-n", "2", "--letter", "q")
@@ -284,6 +285,7 @@ def test_link_refuses_what_the_model_has_not(shell):
 # --- pages ------------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_page_writes_one_file_and_says_what_it_shows(shell, tmp_path):
     said = shell("page", "J4", "-n", "9", "--set", "lifeTimeA=4", "-o", str(tmp_path / "j4.html"))
     assert (said.status, said.err) == (0, "")
@@ -303,6 +305,7 @@ def test_page_takes_models_of_files_and_links_and_says_what_it_holds(shell, mode
     assert shell("page", shell("link", "K5").out.strip(), "-n", "2", "-o", str(tmp_path / "a.html")).status == 0
 
 
+@pytest.mark.slow
 def test_page_shows_a_map_too(shell, tmp_path):
     said = shell("page", "K28", "-n", "2", "-o", str(tmp_path / "a.html"))
     assert said.out == "Step 2: 9 vertices, 12 walls, 4 cells. ABAB | BABA | ABAB | BABA\n"
@@ -361,6 +364,7 @@ def test_what_was_converted_converts_back(shell, model):
     assert back == there
 
 
+@pytest.mark.slow
 def test_convert_reads_the_standard_input():
     done = process("convert", "-", "--to", "plant-string", given=b"axiom: a\r\na -> b a")
     assert (done.returncode, done.stdout.split(), done.stderr) == (0, b"turtle: abop Axiom: a a -> ba".split(), b"")
@@ -720,6 +724,7 @@ def test_a_command_that_no_budget_stops_ends_with_a_sentence(doing, limits, said
     assert (done.returncode, done.stdout, done.stderr) == (BAD_INPUT, "", f"lsys-kit: {said}\n")
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="a process is limited as on Linux")
 @pytest.mark.parametrize(
     ("command", "limited"),

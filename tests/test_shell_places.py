@@ -155,6 +155,7 @@ def bystanders(folder: Path) -> dict[str, bytes]:
     }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("command", "role", "name"), [*cases()])
 def test_a_wrong_place_is_one_message_and_loses_nothing(
     command: str, role: str, name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]

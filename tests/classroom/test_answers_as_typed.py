@@ -113,6 +113,7 @@ def test_a_right_answer_is_accepted_in_other_forms(name):
 U, N, V, M, X, Y, L = sympy.symbols("u n v m x y L")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "answer"),
     [

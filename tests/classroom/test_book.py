@@ -92,6 +92,7 @@ def test_a_book_ends_before_a_step_that_cannot_be_drawn():
         book(read("axiom: A(0)\nA(x) -> A(x)\ninterpretation:\nA(x) -> O(x, 1)"))
 
 
+@pytest.mark.slow
 def test_a_book_is_not_much_larger_than_two_megabytes():
     made = book(read("axiom: A(1)\nA(x) -> A(2*x) A(2*x + 1)"), least=16)
     assert 500_000 < len(json.dumps(made)) < 2_500_000

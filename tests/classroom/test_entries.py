@@ -109,6 +109,7 @@ def test_a_wrong_number_no_number_and_nothing_are_three_things() -> None:
 # --- what an entry shows -----------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @every_table
 def test_what_a_column_counts_of_a_system_is_what_the_system_gives(number: str, id: str) -> None:
     found = table(number, id)

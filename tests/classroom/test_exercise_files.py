@@ -282,6 +282,7 @@ ODD = (
 )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("example", EXAMPLES)
 def test_the_examples_of_the_guide_are_read(tmp_path, example):
     (tmp_path / "guide.toml").write_text(TOP + COMMON + example, encoding="utf-8")

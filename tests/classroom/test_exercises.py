@@ -105,6 +105,7 @@ def as_text(answer: object) -> str:
     return "\n".join(map(as_text, answer)) if rows else " ".join(map(str, answer))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("exercise", "answer", "mark", "said"),
     [

@@ -40,6 +40,7 @@ def test_the_three_views_show_the_same_step():
     assert str(panel.sight.picture).startswith("steps 0 to 9")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("what", "step", "show", "said"),
     [
@@ -358,6 +359,7 @@ def test_a_stored_notebook_shows_a_picture_and_words():
     assert "application/vnd.jupyter.widget-view+json" in bundle
 
 
+@pytest.mark.slow
 def test_a_stored_notebook_shows_the_plant_as_it_is_turned():
     panel = explore("K19", 12)
     front = panel._repr_mimebundle_()["image/png"]

@@ -179,6 +179,7 @@ def test_a_decimal_is_a_number_with_any_zeros_behind(number, zeros):
     assert is_right(str(number).replace("-", "−"), [str(number)])
 
 
+@pytest.mark.slow
 @given(st.text(max_size=30))
 def test_whatever_is_typed_is_right_or_not(entry):
     assert is_right(entry, ["21", "al br"]) in (True, False)

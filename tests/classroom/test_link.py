@@ -194,6 +194,7 @@ def test_any_content_with_a_right_check_is_read_or_refused(content: bytes, tail:
         refused(lambda text=text: linked(text))
 
 
+@pytest.mark.slow
 @given(st.text(max_size=60), st.dictionaries(st.text(max_size=9), st.text(max_size=9), max_size=5), st.text(max_size=60))
 def test_any_heading_is_read_or_refused(notation: str, settings: dict[str, str], text: str) -> None:
     for content in (LinkContent(notation, settings, text), LinkContent("abop", settings, "step = 1\naxiom: A(step)")):

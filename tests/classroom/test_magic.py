@@ -161,6 +161,7 @@ def test_a_later_mistake_counts_lines_as_the_cell_does(notebook):
     assert source.count("\n", 0, rule.at[0]) == 2
 
 
+@pytest.mark.slow
 def test_a_cell_is_answered_soon(notebook):
     started = time.process_time()
     notebook.run("%%lsystem wild\naxiom: F\nF -> " + "F[+F]" * 2_000)

@@ -77,6 +77,7 @@ def test_a_reply_names_the_cell_that_should_not_be_there_where_no_part_is_found(
     assert "C" not in reply.message.split("clockwise")[1].split("Follow")[0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("answer", ["a -> a[-c][+c]a", "A> -> A>[-C][+C]A>", "C -> C", "map: ABAB"])
 def test_rules_for_other_walls_are_told_from_rules_whose_markers_do_not_match(answer):
     assert "None of your rules is for a wall of the first cell, A B A B." in check("16.5", answer).message

@@ -136,6 +136,7 @@ def test_a_map_of_too_many_walls_ends_the_book_with_the_reason():
     assert (found.last, found.end.split(";")[0]) == (3, "Step 4 would have 32 walls or more")
 
 
+@pytest.mark.slow
 def test_markers_that_never_match_are_told_in_the_panel():
     made = read_map("map: A<D<C<B<\nsteps: 3\nA> -> D>[-A>]B>\nC> -> B>[-A<]B>\nD> -> C>")
     book = cell_book(cells_at_rest(made, Forces()), {})

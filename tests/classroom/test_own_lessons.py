@@ -327,6 +327,7 @@ IN_CELLS: dict[str, tuple[str, str, str]] = {
 }  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("mistake", MISTAKES)
 def test_a_mistake_in_a_file_is_found(ferns: Path, mistake: str) -> None:
     file, old, new, says = MISTAKES[mistake]
@@ -335,6 +336,7 @@ def test_a_mistake_in_a_file_is_found(ferns: Path, mistake: str) -> None:
     assert any(says in each for each in found), found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("mistake", IN_CELLS)
 def test_a_mistake_in_a_cell_is_found(ferns: Path, mistake: str) -> None:
     old, new, says = IN_CELLS[mistake]
@@ -395,6 +397,7 @@ def test_the_lessons_of_the_kit_pass() -> None:
     assert [*map(str, findings_in(run=False))] == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("content", [b"", b"{}", b"[]", b"\xff\xfe", b"[" * 100_000, b'{"cells": 3}', b'{"cells": [{}]}'])
 def test_a_notebook_that_is_none_is_told_in_words(ferns: Path, content: bytes) -> None:
     (ferns / "notebooks" / "ferns.ipynb").write_bytes(content)
@@ -519,6 +522,7 @@ def test_a_class_may_open_what_a_lesson_of_ones_own_asks(ferns: Path) -> None:
             cached.cache_clear()
 
 
+@pytest.mark.slow
 def test_answers_that_were_handed_in_are_marked(ferns: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "handed_in").mkdir()
     cell = {"cell_type": "code", "source": 'answer = 64\ncheck("ferns.2", answer)'}

@@ -113,6 +113,7 @@ def hashed(script: str) -> str:
     return f"'sha256-{base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()}'"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("id", ["J4", "K5", "K19"])
 def test_it_points_to_nothing_outside_and_runs_the_scripts_of_the_kit_alone(id: str) -> None:
     text = page(id, page_data(system(id), title=id, step=3), "")
@@ -132,6 +133,7 @@ def test_it_points_to_nothing_outside_and_runs_the_scripts_of_the_kit_alone(id: 
         assert word not in whole, word
 
 
+@pytest.mark.slow
 def test_all_settings_of_the_life_spans_are_in_few_bytes(j4: str) -> None:
     data = json.loads(Parts(j4).inside["script"][0])
     found = books_of(data)

@@ -194,6 +194,7 @@ def test_the_rule_asked_for_is_the_only_one(seed):
     assert exercise.solution == " ".join(module.symbol for module in made)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(20))
 def test_a_word_of_the_language_is_derived_and_the_others_are_not(seed):
     exercise = practice("language", 1 + seed % 3, seed).exercise
@@ -355,6 +356,7 @@ def test_notes_are_in_the_chosen_language():
         language("en")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("level", range(1, LEVELS + 1))
 def test_the_formula_of_a_total_is_that_of_the_words(level):
     for seed in range(10):

@@ -101,6 +101,7 @@ def test_an_update_of_the_course_leaves_the_record_as_it_is(course, tmp_path):
     assert record_so_far().solved("1.1")
 
 
+@pytest.mark.slow
 def test_two_notebooks_at_the_same_time_lose_nothing(tmp_path):
     lines = [f"2026-01-01 10:00,{number},tried{'!' * 3_000}" for number in range(400)]  # many lines cross a block of the disk
     with ThreadPoolExecutor(8) as threads:

@@ -89,6 +89,7 @@ def test_a_production_of_the_question_is_not_blamed():
         assert "A -> F(10)" not in check("18.5", answer).message
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [exercise.id for exercise in ALL if exercise.kind in ("system", "drawing")])
 def test_a_misconception_is_named_only_of_an_answer_of_its_form(name):
     """No complete system is said to lack a production, and none without conditions to have left one out."""
@@ -202,6 +203,7 @@ def _regrouped(part):
     return ((other, "") for other in _grouped_otherwise(part)) if isinstance(part, Apply) else iter(())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("exercise", [each for each in ALL if each.kind in ("system", "map")], ids=lambda each: each.id)
 def test_a_production_too_many_is_told_as_such(exercise):
     """Where the answer is right without it, no other production is blamed, nor a part of it."""
@@ -328,6 +330,7 @@ def test_of_long_words_fewer_changes_are_tried():
 NOUNS = "cells walls steps strokes letters words leaves shoots ants families buds moves systems tips rules branches".split()  # noqa: SIM905
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("exercise", [each for each in ALL if each.kind == "number"], ids=lambda each: each.id)
 def test_a_number_of_other_things_is_not_the_right_one(exercise):
     for noun in NOUNS:

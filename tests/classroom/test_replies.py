@@ -229,6 +229,7 @@ def division(asked):
     return asked("system", given=FILAMENT, solution="M(s) : s == 5 -> N(2) M(1)", steps=20)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("condition", ["", ": s > 0", ": s >= 2", ": s <= 5", ": s != 7", ": s == 4", ": s < 5", ": 1 < 2"])
 def test_a_production_that_works_only_behind_the_given_ones_is_not_right(division, condition):
     verdict = said(division, f"M(s) {condition} -> N(2) M(1)")

@@ -23,6 +23,7 @@ def test_a_new_letter_raises_the_number_of_systems_and_a_later_word_settles_it()
     assert counts(ALGA) == counts(derive(system("J1"), 4)) == ["1", "2", "2", "1"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("id", ["J1", "J3", "P3", "K5"])
 def test_each_step_lists_what_fits_the_words_up_to_it(id: str) -> None:
     words = derive(system(id), 4)

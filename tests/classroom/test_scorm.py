@@ -102,6 +102,7 @@ def test_the_same_exercises_give_the_same_package(tmp_path):
     assert contents[0] == contents[1]
 
 
+@pytest.mark.slow
 def test_a_folder_of_ones_own_has_a_page_for_each_file(tmp_path):
     told, _ = write_package(str(Path(__file__).parent / "questions"), tmp_path / "own.zip")
     assert [lesson.name for lesson in told] == ["anabaena", "kinds"]

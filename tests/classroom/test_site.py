@@ -175,6 +175,7 @@ def test_links_lead_to_pages_of_the_site_or_nowhere(address: str, leads: str | N
 # --- pages ------------------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("made", [lesson_page, partial(index_page, ENTRIES, {})], ids=["lesson", "index"])
 def test_a_page_has_no_address_outside_and_runs_nothing_but_the_kits_script(made: Callable[[], str]) -> None:
     text = made()
@@ -351,6 +352,7 @@ def test_a_page_says_below_a_request_that_it_cannot_be_done_there(text: str, kin
     assert asked_for(text) == kinds
 
 
+@pytest.mark.slow
 def test_in_every_lesson_what_asks_for_other_rules_or_another_run_is_found() -> None:
     found = Counter[str]()
     for name in names():

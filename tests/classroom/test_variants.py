@@ -11,6 +11,7 @@ def test_the_same_seed_gives_the_same_variants():
     assert variants(read(PLANT), 9, seed=4) == variants(read(PLANT), 9, seed=4) != variants(read(PLANT), 9, seed=5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("id", ["K5", "J6", "K7", "L2", "P5"])
 def test_variants_differ_read_back_and_grow(id):
     found = variants(system(id), 5)

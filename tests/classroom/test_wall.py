@@ -209,6 +209,7 @@ def test_a_model_that_takes_too_long_is_told_from_one_that_is_too_large():
     assert "modules" in drawn_as("axiom: F\nF -> F F F F F F F F F F\nsteps: 40", seconds=0.05)["mistake"]
 
 
+@pytest.mark.slow
 def test_a_page_is_renewed_and_nothing_else_is_lost(tmp_path):
     (tmp_path / "in").mkdir()
     (tmp_path / "in" / "ann.txt").write_text(PLANT, encoding="utf-8")

@@ -89,6 +89,7 @@ def boxes(halvings: int) -> tuple[int, int, int, int]:
     )
 
 
+@pytest.mark.slow
 def test_a_cuboid_is_divided_into_a_grid_of_boxes() -> None:
     counts = derive(K33, 9).counts
     assert counts[:3] == [(8, 12, 6, 1), (12, 20, 11, 2), (18, 33, 20, 4)]

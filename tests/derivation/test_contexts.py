@@ -51,6 +51,7 @@ def test_neighbours_are_found_at_once(word: str, branches: str) -> None:
     assert right[modules].tolist() == np.array(found.after, dtype=int)[modules].tolist()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("table", [bulk.LARGEST_TABLE, 0], ids=["looked up", "sorted"])
 @pytest.mark.parametrize(
     ("text", "steps"), [(SIGNALS, 24), (GROWING, 9), (CHANCE, 6), (FLAT, 10)], ids=["signals", "growing", "chance", "flat"]

@@ -219,6 +219,7 @@ def test_a_growth_function_is_continuous_while_its_cell_lives(lengths: str) -> N
         cells(lengths)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "lengths",
     [

@@ -188,6 +188,7 @@ def test_deriving_takes_no_longer_than_it_may() -> None:
     assert len(error.partial[-1]) == 2**error.partial.steps
 
 
+@pytest.mark.slow
 def test_counting_takes_no_longer_than_it_may() -> None:
     with limits(seconds=0.1), pytest.raises(ModelLimitError, match=r"Step \d+ was not reached in 0\.1 seconds"):
         list(lengths(EVERY_MODULE_NEW, 100))

@@ -388,6 +388,7 @@ def test_how_many_systems_fit_under_wider_conditions_is_said() -> None:
     ]
 
 
+@pytest.mark.slow
 def test_what_is_known_of_later_words_is_said() -> None:
     assert "later words are too long to be compared" in str(infer(["ab", "ab" * 400]))
     assert "if c, d stay as they are, their words are the same up to step" in str(infer(["ab", "cdcd"]))

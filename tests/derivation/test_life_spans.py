@@ -50,6 +50,7 @@ def test_a_token_rests_as_long_as_a_cell_of_p4_lives(last: int) -> None:
         check_against_derivation(read(text), 13)
 
 
+@pytest.mark.slow
 def test_the_net_of_p4_has_two_stages_and_the_cell_that_is_about_to_divide() -> None:
     assert (
         repr(stages(system("P4"), durations=True))

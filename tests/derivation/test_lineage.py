@@ -111,6 +111,7 @@ def test_a_cell_that_is_just_old_enough_is_not_late() -> None:
     assert [cell.due for cell in lineage(system("P5"), 2, dt="1.4").cells if cell.due] == [Fraction(13, 5)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("id", "times"),
     [

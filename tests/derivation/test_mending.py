@@ -111,6 +111,7 @@ def test_each_mending_is_fitted_by_its_systems_and_has_as_many_edits_as_were_mad
     assert fits or fits.mended or fits.refusal.out_of_reach
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("words", "filled", "said"),
     [

@@ -54,6 +54,7 @@ class TestLaws:
             for word in [derive(PLANT, step, seed=seed)[-1]]
         )
 
+    @pytest.mark.slow
     def test_the_mean_number_of_strokes_is_that_of_the_model(self) -> None:
         """Kurth: E[F] is multiplied by 11/3 a step."""
         assert sum(ensemble(PLANT, 400, "F", steps=3)["F"]) / 400 == pytest.approx((11 / 3) ** 3, rel=0.03)
@@ -299,6 +300,7 @@ class TestTables:
         with pytest.raises(ModelNameError, match="was varied, not measured"):
             self.TABLE.summary("p")
 
+    @pytest.mark.slow
     def test_views_of_other_libraries(self) -> None:
         frame = pytest.importorskip("pandas") and self.TABLE.to_pandas()
         assert frame["p"].tolist() == [0.5, 0.5, 1.0]

@@ -95,6 +95,7 @@ class TestCurves:
         assert with_rule[-1] == (20, 3)
         assert without == tuple((step, 2 + step) for step in range(21))
 
+    @pytest.mark.slow
     def test_with_the_right_base_the_length_of_a_filament_never_jumps(self) -> None:
         """P. Prusinkiewicz, Introduction to Modeling with L-systems, section 8: it is a^t."""
         right, small, large = points(PLOTS["continuity"]())
@@ -245,6 +246,7 @@ class TestFormats:
         ElementTree.fromstring(shown.svg)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("a", [2, 3])
 @pytest.mark.parametrize("end", ["2", "1.999", "2.1"])
 def test_a_curve_over_time_jumps_upright_at_each_division_by_the_whole_jump(a, end):

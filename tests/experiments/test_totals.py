@@ -55,6 +55,7 @@ def affine_systems(draw: st.DrawFn) -> str:
     return "\n".join(["q = 2", f"axiom: A({draw(st.integers(-2, 2))},1) F(1,q) D(0)", *rules])
 
 
+@pytest.mark.slow
 @given(affine_systems(), st.fractions(-2, 2, max_denominator=5), st.sampled_from("AF"), st.integers(0, 2), st.booleans())
 def test_a_total_is_what_the_word_adds_up_to(text: str, q: Fraction, symbol: str, place: int, axis: bool) -> None:
     with limits(seconds=600):

@@ -58,6 +58,7 @@ def test_a_share_of_the_table_keeps_to_its_limits() -> None:
     assert "in 0.1 seconds" in run.stdout
 
 
+@pytest.mark.slow
 def test_calls_at_random_are_answered_or_refused() -> None:
     from tests.fuzzing.public import run
 

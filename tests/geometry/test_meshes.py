@@ -157,6 +157,7 @@ def edges_by_place(made):
     return [tuple(edge) for edge in places[made.triangles[:, [0, 1, 1, 2, 2, 0]]].reshape(-1, 2).tolist()]
 
 
+@pytest.mark.slow
 @given(st.lists(st.tuples(st.sampled_from("+-&^"), st.integers(0, 80), st.floats(0.1, 1), st.booleans()), max_size=7))
 def test_a_path_is_one_closed_tube_however_it_bends(bends):
     made = mesh(

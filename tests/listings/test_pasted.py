@@ -74,6 +74,7 @@ def test_a_text_means_what_its_author_said_beforehand(row: dict[str, Any]) -> No
     assert outcome(row) == row["outcome"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("texts", "equal", "noted", "refused"), [(HUNDRED, 77, 4, 19), (SIXTY, 42, 3, 15)], ids=["a hundred", "sixty"]
 )

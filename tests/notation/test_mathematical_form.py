@@ -335,6 +335,7 @@ def test_what_makes_no_sense_is_explained(row: Sequence[object]) -> None:
     assert type(error) is kind
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("rule", "column"),
     [

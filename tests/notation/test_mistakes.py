@@ -145,6 +145,7 @@ ROWS = [
 ]
 
 
+@pytest.mark.slow
 def test_every_row_has_a_text_that_shows_it(monkeypatch: pytest.MonkeyPatch) -> None:
     shown: set[Said] = set()
     error = diagnostics._error

@@ -233,6 +233,7 @@ LOST = [
 """What a careless writer might make of a system, and what of it does not read back."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("text", "lost"), LOST)
 def test_a_text_that_reads_back_as_another_system_is_never_given(text: str, lost: str) -> None:
     careless = replace(ABOP, write=lambda _: text)

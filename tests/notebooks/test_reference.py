@@ -19,6 +19,7 @@ SHOWN = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", sorted(built()))
 def test_the_notebook_is_the_one_that_the_tables_make(name: str) -> None:
     """If not: python -m tests.notebooks.reference."""
@@ -41,6 +42,7 @@ def test_an_example_uses_its_command_and_draws_something(turtle: str, symbol: st
     assert "segment" in str(draw(system, 0)) or "polygon" in str(draw(system, 0))
 
 
+@pytest.mark.slow
 def test_commands_that_do_different_things_have_different_pictures() -> None:
     does: dict[tuple[str, str], set[str]] = {}
     for row in COMMAND_TABLE:

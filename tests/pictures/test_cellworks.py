@@ -45,6 +45,7 @@ def test_the_walls_of_a_cube_are_lighter_toward_the_light() -> None:
         assert np.corrcoef(np.clip(cosines, 0, 1)[front], brightness(picture.scene.normals)[front])[0, 1] > 0.99
 
 
+@pytest.mark.slow
 def test_a_full_turn_changes_nothing_and_half_a_turn_does() -> None:
     assert draw(K33, 2, view=(390, 25)).svg == draw(K33, 2, view=(30, 25)).svg
     assert draw(K33, 2, view=(120, 25)).svg != draw(K33, 2).svg

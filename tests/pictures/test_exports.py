@@ -254,15 +254,18 @@ def test_a_gif_of_many_colours_looks_like_its_pictures():
         assert np.abs(np.array(shown, int) - np.array(image)).mean() < 1
 
 
+@pytest.mark.slow
 def test_a_film_is_the_same_every_time():
     one, two = animate(system("K5"), 3), animate(system("K5"), 3)
     assert (one.gif, one.apng) == (two.gif, two.apng)
 
 
+@pytest.mark.slow
 def test_a_film_of_a_derivation_is_that_of_its_system():
     assert animate(derive(system("T2"), 3)).gif == animate(system("T2"), 3).gif
 
 
+@pytest.mark.slow
 def test_a_film_takes_what_a_drawing_takes():
     assert animate(system("T2"), 3, angle=50).gif != animate(system("T2"), 3).gif
     assert str(animate(system("J4"), 6, lifeTimeA=2)) != str(animate(system("J4"), 6))
@@ -331,6 +334,7 @@ def test_a_system_gives_its_picture():
     assert str(system("J4").picture(6, lifeTimeA=2)) == str(draw(system("J4"), 6, lifeTimeA=2))
 
 
+@pytest.mark.slow
 def test_two_drawings_stand_in_a_teachers_plot():
     from matplotlib.figure import Figure
 

@@ -101,6 +101,7 @@ def test_a_folded_row_has_its_number_once_and_is_marked_as_a_whole() -> None:
     assert len([band for band in root.iter(f"{SVG}rect") if band.get("rx") == "60" and not band.get("stroke")]) == 3
 
 
+@pytest.mark.slow
 def test_a_film_of_folded_rows_ends_with_their_picture() -> None:
     images = animate(system("P1"), 10).images
     assert len(images) == 11

@@ -147,6 +147,7 @@ def test_the_text_of_a_page_can_be_found(picture: Any) -> None:
     assert found == sorted("".join("".join(texts(picture.svg)).split()))
 
 
+@pytest.mark.slow
 def test_a_page_and_pixels_show_the_same(picture: Any) -> None:
     page, image = page_of(picture.pdf).render(scale=4 / 3).to_pil(), Image.open(io.BytesIO(picture.png))
     ours, theirs = pixels(image), pixels(page, image.size)
@@ -178,6 +179,7 @@ def test_what_has_a_body_is_kept_as_a_mesh(kind: str, tmp_path: Path) -> None:
         assert len(trimesh.load(tmp_path / f"a{ending}", force="scene").to_geometry().faces)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["plane", "filament", "steps", "net", "code"])
 def test_a_png_has_so_many_dots_per_inch(kind: str, tmp_path: Path) -> None:
     picture = KINDS[kind]()
@@ -310,6 +312,7 @@ def test_a_turntable_is_a_whole_turn() -> None:
     assert film.seconds * len(film.images) == pytest.approx(6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("what", [GROWING, system("K5")])
 def test_what_unfolds_is_as_large_as_it_fits_and_hardly_moves_from_one_picture_to_the_next(what: Any) -> None:
     images = [np.asarray(image.convert("L"), int) for image in animate(what, 3, unfold=True, size=(120, 90)).images]

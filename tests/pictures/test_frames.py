@@ -55,6 +55,7 @@ def drawn(text):
     return draw(derive(read(text, "abop"), 0))
 
 
+@pytest.mark.slow
 @settings(max_examples=50)
 @given(MODELS)
 def test_svg_holds_what_is_painted(text):
@@ -143,6 +144,7 @@ def test_a_mesh_has_stems_as_broad_as_those_of_the_picture():
     assert (greatest[2] - least[2]) / (greatest[0] - least[0]) == pytest.approx(2 * 120 / 10, rel=0.01)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("number", "trunk"), [("2.6", 158), ("2.7", 130), ("2.8", 116)])
 def test_the_trees_of_the_book_are_drawn_with_stems_and_twigs(number, trunk):
     """Figures 2.6 to 2.8: stems some ten pixels wide, twigs as fine as one can see, and paper between them."""
@@ -173,6 +175,7 @@ def looks(text, n=0, **choices):
 PLANTS = ["{0}F[+F]F[-F]F", "{0}F{1}[+F{2}[+F]F][-F]F", "{1}F[&F][^F]F", "{3}F[+{2}F]F"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("word", PLANTS)
 @pytest.mark.parametrize("broad", ["", "!({})"])
 @pytest.mark.parametrize("factor", [10, 1000, 0.01])
@@ -194,6 +197,7 @@ def test_a_model_and_the_same_model_so_many_times_as_large_look_alike(word, broa
         assert widths[0] == pytest.approx(widths[1], rel=0.03, abs=1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", ["!({})F[+F]F" + "F" * 9, "!({})F(2)[&F]F", "!({})F"])
 def test_widths_have_no_cliff(text):
     trunks = [looks("angle: 30\naxiom: " + text.format(width / 100))[1].max() for width in range(2, 300)]
@@ -201,6 +205,7 @@ def test_widths_have_no_cliff(text):
     assert all(later <= before + 13 for before, later in pairwise(trunks))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("size", [60, 200, (100, 300), 1200])
 @pytest.mark.parametrize("text", ["angle: 25\naxiom: F\nF -> F[+F]F[-F]F", "angle: 25\naxiom: F\nF -> F[&F]F[^F]F"])
 def test_no_stroke_is_finer_than_is_seen_at_the_size_that_is_shown(size, text):

@@ -166,6 +166,7 @@ def test_a_sphere_is_symmetric_about_the_sun_and_darker_away_from_it() -> None:
     assert parts[-1] > 1.4 * parts[0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("around", range(0, 360, 40))
 def test_a_shadow_lies_away_from_the_sun(around: int) -> None:
     """As seen from above: right of the picture is the right side, below is the front."""
@@ -333,6 +334,7 @@ def test_a_picture_that_is_too_large_is_refused() -> None:
         draw(read(BUSH), 5, light=True, size=1200).image()
 
 
+@pytest.mark.slow
 def test_a_png_holds_what_the_image_shows() -> None:
     picture = draw(read(BUSH), 2, light=True)
     with Image.open(io.BytesIO(picture.png)) as stored:

@@ -33,6 +33,7 @@ def test_the_steps_stand_side_by_side() -> None:
     assert str(draw(K28, 0)) == "4 vertices, 4 walls, 1 cell"
 
 
+@pytest.mark.slow
 def test_a_picture_says_what_its_colours_mean_and_is_the_same_every_time() -> None:
     picture = draw(K28, 2)
     assert parsed(picture).get("aria-label") == f"{picture}; all cells have the same walls around them"

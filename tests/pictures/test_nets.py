@@ -258,6 +258,7 @@ def test_hostile_names_are_escaped(name: str) -> None:
     assert name in root.attrib["aria-label"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMED)
 def test_the_same_net_gives_the_same_bytes(name: str) -> None:
     net = stages(system(name))

@@ -274,6 +274,7 @@ def test_a_legend_names_each_colour_and_what_was_passed_over():
     assert ">+<" not in legend
 
 
+@pytest.mark.slow
 def test_a_legend_stands_below_in_svg_and_png():
     for make in (DRAWN["the drawing of a turtle"], DRAWN["a filament"], DRAWN["drawings side by side"]):
         usual, more = pixels(make()), pixels(make(legend=True))

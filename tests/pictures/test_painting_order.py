@@ -193,6 +193,7 @@ def test_a_far_sphere_does_not_cover_a_near_one(far_first):
     assert near_one[1] > max(near_one[0], near_one[2])
 
 
+@pytest.mark.slow
 def test_of_very_many_strokes_more_are_painted_with_hardly_more_calls():
     def calls(strokes):
         points = [(0, depth, 0) for depth in range(strokes)]

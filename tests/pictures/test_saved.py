@@ -16,6 +16,7 @@ PLANT = read("angle: 25\naxiom: X\nX -> F+[[X]-X]-F[-FX]+X\nF -> FF")
 SVG = "{http://www.w3.org/2000/svg}"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ending", [".svg", ".pdf"])
 def test_a_file_of_many_strokes_holds_shapes_or_says_that_it_does_not(tmp_path, ending):
     picture = draw(PLANT, 5)
@@ -28,6 +29,7 @@ def test_a_file_of_many_strokes_holds_shapes_or_says_that_it_does_not(tmp_path, 
         picture.save(tmp_path / f"b{ending}")
 
 
+@pytest.mark.slow
 def test_a_warning_names_the_line_that_saves(tmp_path):
     with limits(figure=10), pytest.warns(UserWarning, match="holds pixels") as found:
         draw(PLANT, 3).save(tmp_path / "a.svg")

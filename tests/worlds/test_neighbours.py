@@ -67,6 +67,7 @@ def asking(sight: TurtleObservation) -> list[int]:
     return [at for at, module in enumerate(sight.word) if module.symbol == "x"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("function", FUNCTIONS)
 @pytest.mark.parametrize(("count", "flat"), [(0, False), (3, False), (60, False), (60, True)])
 def test_the_answers_are_those_of_a_loop_over_all_shoots(function: int, count: int, flat: bool) -> None:
@@ -84,6 +85,7 @@ def test_the_answers_are_those_of_a_loop_in_any_scene(count: int, seed: int, fla
         assert float(sight.sees(at, function, *FUNCTIONS[function])) == pytest.approx(plain(sight, at, function), abs=2e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("function", FUNCTIONS)
 def test_an_answer_does_not_depend_on_who_else_asks_nor_on_the_order(function: int) -> None:
     word = scattered(80, 5)

@@ -108,6 +108,7 @@ def crowded():
     return derive(system("K22"), 26, apart=400)
 
 
+@pytest.mark.slow
 def test_a_bud_that_has_been_idle_for_m_steps_is_dead(crowded) -> None:
     assert {module.arguments[0] for word in crowded for module in word if module.symbol == "b"} == {0, 1, 2, 3}
     impatient = derive(system("K22"), 14, m=1)

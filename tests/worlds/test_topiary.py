@@ -79,6 +79,7 @@ def test_the_topiary_of_the_table_of_systems() -> None:
     ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("id", "size", "steps"), [("K24", 2, 20), ("K24", 4, 68), ("K24", 3, 40), ("K25", 4, 130)])
 def test_what_grows_out_of_the_box_is_cut_off(id: str, size: int, steps: int) -> None:
     """In the end everything is inside, and no bud is left that a signal could wake."""
