@@ -90,8 +90,12 @@ def _is_slow(item: pytest.Item) -> bool:
 
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
-    """A run without slow tests does not even open the folders that hold nothing else."""
-    slow = collection_path.name == "benchmarks" or collection_path.suffix == ".ipynb"
+    """A run without slow tests does not even open what holds nothing else; the whole suite has benchmarks if it is thorough."""
+    benchmarks = collection_path.name == "benchmarks"
+    unasked = config.args_source is pytest.Config.ArgsSource.TESTPATHS and not config.option.thorough
+    if benchmarks and unasked and not config.option.benchmark_only:
+        return True
+    slow = benchmarks or collection_path.suffix == ".ipynb"
     return True if slow and "not slow" in config.option.markexpr else None
 
 
