@@ -93,13 +93,14 @@ def _catalogue(code: str) -> NullTranslations:
 
 
 def gettext(message: str, /, **values: object) -> str:
-    """A text in the chosen language, with values in the place of its names in braces; without values as it is.
+    """A text in the chosen language, with values in the place of its names in braces; without values as it is. A value between
+    quotation marks is what was typed, or a name, and stands as it is; others that are numbers are written as the language does.
 
     >>> gettext("You have {number} words", number=3)
     'You have 3 words'
     """
     found = _catalogue(language()).gettext(message) if message else message
-    return found.format(**_written(values)) if values else found
+    return found.format(**_written(message, values)) if values else found
 
 
 def ngettext(singular: str, plural: str, number: int, /, **values: object) -> str:
@@ -108,12 +109,16 @@ def ngettext(singular: str, plural: str, number: int, /, **values: object) -> st
     >>> ngettext("{number} place", "{number} places", 1), ngettext("{number} place", "{number} places", 2)
     ('1 place', '2 places')
     """
-    return _catalogue(language()).ngettext(singular, plural, number).format(number=number, **_written(values))
+    return _catalogue(language()).ngettext(singular, plural, number).format(number=number, **_written(plural, values))
 
 
 NUMBER = "1,234.5"
 """How a number is written: its translation shows the signs between thousands and before decimals."""
 _NUMBER = re.compile(r"-?\d[\d,]*(?:\.\d+)?(?:e[+-]?\d+)?(?= [^\W\d]|$)")
+
+
+_QUOTED = re.compile(r"\"\{(\w+)\}")
+"""What was typed, and stands between quotation marks."""
 
 
 def number_text(text: str) -> str:
@@ -128,9 +133,12 @@ def number_text(text: str) -> str:
     return found[0].translate(str.maketrans(",.", signs[1] + signs[-2])) + text[found.end() :]
 
 
-def _written(values: Mapping[str, object]) -> dict[str, object]:
-    """Values as they are written in the chosen language."""
-    return {name: number_text(value) if isinstance(value, str) else value for name, value in values.items()}
+def _written(text: str, values: Mapping[str, object]) -> dict[str, object]:
+    """Values of a text as they are written in the chosen language."""
+    quoted = _QUOTED.findall(text)
+    return {
+        name: number_text(value) if isinstance(value, str) and name not in quoted else value for name, value in values.items()
+    }
 
 
 # What errors say
@@ -139,8 +147,6 @@ def _written(values: Mapping[str, object]) -> dict[str, object]:
 FORMS = LOCALE / "errors.json"
 """What errors say, with names in braces for the values: `python -m tests.messages` finds it where they are raised."""
 _PLACEHOLDER = re.compile(r"\{(\w+)\}")
-_QUOTED = re.compile(r"\"\{(\w+)\}")
-"""What was typed, and stands between quotation marks."""
 
 
 @cache

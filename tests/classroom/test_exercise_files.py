@@ -193,7 +193,7 @@ def test_an_exercise_with_a_mistake_stops_no_other_in_its_file(folder):
     with pytest.raises(ModelFileError, match=r"mine\.2"):
         exercises(folder)
     assert check("mine.1", 21) == 1
-    with pytest.raises(ModelFileError, match=r'Exercise mine\.2 cannot be used.*"steps" must be a whole number'):
+    with pytest.raises(ModelFileError, match=r'Exercise "mine\.2" cannot be used.*"steps" must be a whole number'):
         check("mine.2", 21)
 
 

@@ -7,8 +7,10 @@ import os
 import re
 import subprocess
 import sys
+import tomllib
 from collections.abc import Iterator
 from fractions import Fraction
+from pathlib import Path
 
 import pytest
 from babel.messages.catalog import Catalog
@@ -252,6 +254,50 @@ def test_mistakes_that_readers_find_are_in_the_language():
 def test_kinds_of_values_are_named_in_the_language():
     for exercise in ("0.1", "0.2", "1.1", "7.3", "10.5"):
         assert "nicht eine Liste." in str(check(exercise, [[1, 2], [3]]))
+
+
+ENGLISH = frozenset(
+    """
+    and are becomes does each every found from give has have here how is its look many must needed not of only other
+    right should than that the there they this too what where which with would wrong you your
+    """.split()
+)
+"""Words of English sentences that no German one has."""
+WRONG = tomllib.loads((Path(__file__).parent / "data" / "wrong_answers.toml").read_text("utf-8"))
+
+
+def english_in(reply: str, answer: object = "") -> set[str]:
+    """The English words of a reply, without what was typed, is quoted or is code."""
+    said = re.sub(r'"[^"]*"|`[^`]*`|„[^“]*“', " ", reply).replace(str(answer), " ")
+    return ENGLISH & set(re.findall(r"\w+", said.lower()))
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("german")
+@pytest.mark.parametrize("name", WRONG)
+def test_no_reply_and_no_hint_is_in_another_language(name):
+    answers = [answer for several in WRONG[name].values() for answer in several]
+    replies = [(answer, check(name, answer).message) for answer in answers]
+    replies.append((answers[0], check(name, answers[0], hint=3).message))
+    assert [(answer, reply) for answer, reply in replies if english_in(reply, answer)] == []
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("german")
+@pytest.mark.parametrize("topic", TOPICS)
+def test_no_reply_and_no_hint_of_practice_is_in_another_language(topic):
+    for level in (1, 2, 3):
+        asked = practice(topic, level, 1).exercise
+        for answer in ("", "7", "3.5", "1 2 3", "a -> b", "axiom: a\na -> a b", "A", "x+1", "[", ["a"]):
+            assert not english_in(str(checked(asked, answer, 3, False, "check(answer")), answer), (level, answer)
+
+
+@pytest.mark.usefixtures("german")
+def test_what_stands_between_quotation_marks_is_as_it_was_typed():
+    with pytest.raises(ModelNameError, match='Es gibt keine Aufgabe "99.9"'):
+        check("99.9", 1)
+    assert gettext('Exercise "{id}" has the hints 1 to {most}', id="1.1", most=3).startswith('Aufgabe "1.1" hat')
+    assert gettext("There are {number} words", number="1,000.5").startswith("There are 1.000,5")
 
 
 @pytest.mark.usefixtures("german")

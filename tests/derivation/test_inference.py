@@ -14,6 +14,7 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -23,6 +24,15 @@ from lsys_kit.derivation.inference.infer import Fits, Wider, parting_step
 from lsys_kit.derivation.inference.mending import Mending
 from lsys_kit.derivation.inference.problem import Conditions, counted_tables, problem_of, read_words, table_of, tables
 from lsys_kit.derivation.inference.stochastic import Choice
+from lsys_kit.derivation.inference.word_equations import (
+    Bounds,
+    Equation,
+    GivenUp,
+    count_of,
+    first_bounds,
+    possible_lengths,
+    solutions,
+)
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.read import read
 
@@ -204,6 +214,30 @@ def test_as_many_are_counted_as_are_found(words: list[str], conditions: Conditio
             letter: len({table[letter] for table in found}) for letter in found[0]
         }
         assert table_of(problem, count.certain).items() <= found[0].items()
+
+
+def test_an_equation_of_letters_that_occur_once_is_counted_by_its_cuts() -> None:
+    equations = [Equation((0, "b", 1, 2), "abbab")]
+    bounds = first_bounds(equations, 3, erasing=False)
+    found = [*solutions(equations, bounds)]
+    for usable in (lambda _: True, lambda word: word != "ab", lambda word: "b" in word, lambda word: word == "c"):
+        fit = [each for each in found if all(map(usable, each.values()))]
+        count = count_of(equations, bounds, usable)
+        assert count.solutions == len(fit)
+        assert count.solutions == 0 or count.successors == {letter: {each[letter] for each in fit} for letter in range(3)}
+    assert len(found) == 3
+    with pytest.raises(GivenUp):
+        count_of(equations, bounds, trials=1 / 2)
+
+
+def test_where_a_successor_may_end_is_what_its_counts_allow() -> None:
+    alphabet = {"a": 0, "b": 1}
+    for least, greatest in product(product(range(3), repeat=3), repeat=2):
+        bounds = Bounds(alphabet, np.array([least]), np.array([greatest]))
+        for text in ("", "b", "abba", "babab"):
+            counts = [(text[:end].count("a"), text[:end].count("b"), end) for end in range(len(text) + 1)]
+            fits = [each[-1] for each in counts if (np.array(least) <= each).all() and (each <= np.array(greatest)).all()]
+            assert [*possible_lengths(0, text, bounds)] == fits
 
 
 @pytest.mark.slow

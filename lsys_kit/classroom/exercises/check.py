@@ -107,7 +107,7 @@ def _prepare(exercise: Exercise) -> None:
         wrong_answers(exercise)
     except LSystemError as mistake:
         raise ModelFileError(
-            f"Exercise {exercise.id} has a mistake in its file. {mistake.message}",
+            f'Exercise "{exercise.id}" has a mistake in its file. {mistake.message}',
             hint="lsys-kit exercises check FOLDER says where it is.",
         ) from None
 

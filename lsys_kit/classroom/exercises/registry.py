@@ -179,7 +179,7 @@ def exercise_of(id: str) -> Exercise:
         (problem for questions in _all_questions() for problem in questions.problems if problem.exercise == wanted), None
     )
     if problem is not None:
-        raise ModelFileError(f"Exercise {quotable(wanted)} cannot be used. {problem}".rstrip("."))
+        raise ModelFileError(f'Exercise "{quotable(wanted)}" cannot be used. {problem}'.rstrip("."))
     if found:
         raise ModelFileError(
             f'There are {len(found)} exercises with the id "{quotable(wanted)}"',

@@ -353,6 +353,7 @@ _REPLACED = (
     (re.compile(r"(?<=\d)\s+out of\s+(?=\d)"), "/"),
     (re.compile(r"(?<=[\d)])\s*:\s*(?=[\d(])"), "/"),
     (re.compile(r"(?<=\d)\s*x\s*(?=\d)"), "*"),
+    (re.compile(r"(?<=\d)\s+(?:to\s+the\s+power(?:\s+of)?|hoch)\s+(?=\d)", re.IGNORECASE), "^"),
 )
 
 
@@ -381,8 +382,8 @@ def typed_number(answer: object, decimal_comma: bool = False) -> TypedNumber:
 
     >>> typed_number("N(12) = 21 cells").value, typed_number("1,000").value, typed_number(Decimal("0.5")).value
     (21, 1000, Fraction(1, 2))
-    >>> typed_number("about .5").value, typed_number("No.5 .").value
-    (Fraction(1, 2), 5)
+    >>> typed_number("about .5").value, typed_number("No.5 .").value, typed_number("4 to the power of 3").value
+    (Fraction(1, 2), 5, 64)
     >>> typed_number("at step twenty-one"), typed_number("2π/5 rad").after
     (TypedNumber(value=21, before=('at', 'step'), after=(), of_pi=False), ('rad',))
     """

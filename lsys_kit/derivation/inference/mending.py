@@ -27,7 +27,7 @@ from lsys_kit.derivation.inference.word_equations import (
     deduced,
     first_bounds,
     merged,
-    possible,
+    possible_lengths,
     put_in,
     solutions,
 )
@@ -364,12 +364,11 @@ class _Search:
             raise GivenUp
         letter = min(useful, key=lambda stop: not stop.sure).letter
         number = ord(letter) - FIRST_CHARACTER
-        may_be = possible(number, known.bounds) if number >= 0 else None
         for word in self._successors(letter, fixed):
             self.effort.read(A_LOOK + 40 * sum(len(each.items) for each in known.equations))
-            if may_be is None:
+            if number < 0:
                 yield from self.completed(known.equations, known.bounds, fixed | {letter: word})
-            elif may_be(word):
+            elif len(word) in possible_lengths(number, word, known.bounds):
                 rest_of = all_put_in(known.equations, {number: word})
                 if rest_of is not None:
                     yield from self.completed(rest_of, known.bounds, fixed | {letter: word})

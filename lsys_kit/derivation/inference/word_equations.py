@@ -297,6 +297,11 @@ class Effort:
     left: float
     kept: dict[Question, Iterator[Solution]] = field(default_factory=dict)
 
+    def spend(self, trials: float) -> None:
+        self.left -= trials
+        if self.left < 0:
+            raise GivenUp
+
 
 @dataclass(frozen=True)
 class Known:
@@ -369,9 +374,7 @@ def trials_of(group: tuple[Equation, ...], known: Known, effort: Effort) -> Iter
     """The letter of a group with the fewest choices, one successor after another, and what is left of the equations then."""
     letter = min(letters_in(group) & known.choices.keys(), key=lambda each: (len(known.choices[each]), each))
     for word in sorted(known.choices[letter], key=lambda each: (len(each), each)):
-        effort.left -= 1
-        if effort.left < 0:
-            raise GivenUp
+        effort.spend(1)
         rest = all_put_in(group, {letter: word})
         if rest is not None:
             yield letter, word, rest
@@ -452,29 +455,38 @@ def _at_the_ends(equation: Equation, gaps: Sequence[int], bounds: Bounds) -> Ite
     first, last, target = equation.items[0], equation.items[-1], equation.target
     assert isinstance(first, int)
     assert isinstance(last, int)
-    may_be_first, may_be_last = possible(first, bounds), possible(last, bounds)
-    yield first, {word for end in counted(bits(gaps[1]), 1) if may_be_first(word := target[:end])}
-    yield last, {word for begin in counted(bits(gaps[-2]), 1) if may_be_last(word := target[begin:])}
+    front, back, size = possible_lengths(first, target, bounds), possible_lengths(last, target[::-1], bounds), len(target)
+    yield first, {target[:end] for end in counted(bits(gaps[1]), 1) if end in front}
+    yield last, {target[begin:] for begin in counted(bits(gaps[-2]), 1) if size - begin in back}
 
 
-def possible(letter: int, bounds: Bounds) -> Callable[[str], bool]:
-    """Whether a word has as many letters of each kind as the successor of a letter must.
+def possible_lengths(letter: int, text: str, bounds: Bounds) -> range:
+    """How many letters of a text, from its front, may be the successor of a letter: with more of them no count becomes less.
 
-    >>> may_be = possible(0, Bounds({"a": 0, "b": 1}, np.array([[1, 0, 1]]), np.array([[1, 2, 3]])))
-    >>> [may_be(word) for word in ("a", "b", "abb", "aab", "abbb")]
-    [True, False, True, False, False]
+    >>> [*possible_lengths(0, "abbbab", Bounds({"a": 0, "b": 1}, np.array([[1, 1, 1]]), np.array([[1, 2, 9]])))]
+    [2, 3]
     """
     *least, shortest = bounds.least[letter].tolist()
     *greatest, longest = bounds.greatest[letter].tolist()
-    rows = zip(bounds.alphabet, least, greatest, strict=True)
-    narrow = [(kind, fewest, most) for kind, fewest, most in rows if fewest or most < longest]
+    longest, places = min(longest, len(text)), _places(text)
+    for kind, there in places.items():
+        most = greatest[bounds.alphabet[kind]]
+        if most < len(there):
+            longest = min(longest, there[most] - 1)
+    for kind, fewest in zip(bounds.alphabet, least, strict=True):
+        if fewest:
+            there = places.get(kind, [])
+            shortest = max(shortest, there[fewest - 1] if fewest <= len(there) else len(text) + 1)
+    return range(shortest, longest + 1)
 
-    def may_be(word: str) -> bool:
-        if not shortest <= len(word) <= longest:
-            return False
-        return all(fewest <= word.count(kind) <= most for kind, fewest, most in narrow)
 
-    return may_be
+@lru_cache(maxsize=4096)
+def _places(text: str) -> dict[str, list[int]]:
+    """For each kind of letter how far a text must be read to have it once, twice, ..."""
+    found: dict[str, list[int]] = {}
+    for place, kind in enumerate(text, 1):
+        found.setdefault(kind, []).append(place)
+    return found
 
 
 @dataclass(frozen=True)
@@ -533,12 +545,58 @@ def _count(equations: tuple[Equation, ...], bounds: Bounds, counting: _Counting)
 def _count_of_group(group: tuple[Equation, ...], known: Known, counting: _Counting) -> Count:
     key = question(group, known)
     if key not in counting.kept:
-        number, successors = 0, dict[int, frozenset[str]]()
-        for letter, word, rest in trials_of(group, known, counting.effort):
-            found = _count(rest, known.bounds, counting) if counting.usable(word) else Count(0)
-            if found.solutions:
-                number += found.solutions
-                for each, words in {**found.successors, letter: frozenset({word})}.items():
-                    successors[each] = successors.get(each, frozenset()) | words
-        counting.kept[key] = Count(number, successors)
+        unknowns = [*group[0].unknowns]
+        alone = len(group) == 1 and len({*unknowns}) == len(unknowns)
+        counting.kept[key] = (_count_of_cuts if alone else _count_of_trials)(group, known, counting)
     return counting.kept[key]
+
+
+def _count_of_trials(group: tuple[Equation, ...], known: Known, counting: _Counting) -> Count:
+    number, successors = 0, dict[int, frozenset[str]]()
+    for letter, word, rest in trials_of(group, known, counting.effort):
+        found = _count(rest, known.bounds, counting) if counting.usable(word) else Count(0)
+        if found.solutions:
+            number += found.solutions
+            for each, words in {**found.successors, letter: frozenset({word})}.items():
+                successors[each] = successors.get(each, frozenset()) | words
+    return Count(number, successors)
+
+
+A_PART = 1 / 8
+"""A look at a part of a word takes as long as so many trials, at most."""
+
+
+def _count_of_cuts(group: tuple[Equation, ...], known: Known, counting: _Counting) -> Count:
+    """How many solutions an equation has in which no letter occurs twice: the ways up to each gap are added up."""
+    equation, target = group[0], group[0].target
+    gaps = cuts(equation, known.bounds)
+    assert gaps
+    ways = {0: 1}
+    taken: list[list[tuple[int, int]]] = []
+    for item, gap in zip(equation.items, gaps[1:], strict=True):
+        here, pairs = dict[int, int](), list[tuple[int, int]]()
+        for begin, number in ways.items():
+            for end in _ends(item, begin, target, known.bounds):
+                if gap >> end & 1:
+                    counting.effort.spend(A_PART)
+                    if isinstance(item, str) or counting.usable(target[begin:end]):
+                        pairs.append((begin, end))
+                        here[end] = here.get(end, 0) + number
+        ways = here
+        taken.append(pairs)
+    successors: dict[int, frozenset[str]] = {}
+    whole = {len(target)}
+    for item, pairs in zip(reversed(equation.items), reversed(taken), strict=True):
+        pairs = [pair for pair in pairs if pair[1] in whole]
+        whole = {begin for begin, _ in pairs}
+        if isinstance(item, int):
+            successors[item] = frozenset(target[begin:end] for begin, end in pairs)
+    return Count(ways.get(len(target), 0), successors)
+
+
+def _ends(item: Item, begin: int, target: str, bounds: Bounds) -> Sequence[int]:
+    """Where an item can end that begins at a place; a known word occurs there, or no cut would be at that place."""
+    if isinstance(item, str):
+        return [begin + len(item)]
+    lengths = possible_lengths(item, target[begin : begin + bounds.longest(item)], bounds)
+    return range(begin + lengths.start, begin + lengths.stop)

@@ -43,11 +43,13 @@ _LETTER = re.compile(
     re.IGNORECASE,
 )
 _LETTER_AND_TEXT = re.compile(r"^\W*([A-Za-z])\s*[:.)\]-]+\s+(\S.*)$", re.DOTALL)
+_NAMED = r"^\W*(?:(?:option|answer|antwort|möglichkeit)\s++)?"
 _LETTER_AND_REASON = re.compile(
-    r"^\W*([A-Za-z])\s*(?:,|;|-|–|\bbecause\b|\bsince\b|\bas\b|\bweil\b|\bda\b)\s*[^\W\d_]{2,}.*$", re.DOTALL | re.IGNORECASE
+    rf"{_NAMED}([A-Za-z])\s*(?:,|;|-|–|\bbecause\b|\bsince\b|\bas\b|\bweil\b|\bda\b)\s*[^\W\d_]{{2,}}.*$",
+    re.DOTALL | re.IGNORECASE,
 )
 """A letter, and why."""
-_CONTRARY = re.compile(r"^\W*[A-Za-z]\W+(?:but|except|however|only|aber|außer|nur|sondern)\b", re.IGNORECASE)
+_CONTRARY = re.compile(rf"{_NAMED}[A-Za-z]\W+(?:but|except|however|only|aber|außer|nur|sondern)\b", re.IGNORECASE)
 """A letter, and in what it is not so."""
 _LETTER_AND_WORDS = re.compile(r"^\W*([A-Za-z])\s*(?:[:)\]]|\.(?=\s))\s*(\S.*)$", re.DOTALL)
 _WORDS_AND_LETTER = re.compile(r"(?=.*?[^\W\d_]{2})([^:]*+(?::[^:]*+)*?):\s*+([A-Z])\W*+\Z", re.DOTALL)

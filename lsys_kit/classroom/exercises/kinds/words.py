@@ -29,7 +29,11 @@ _TURTLE = "Ff+-[]|"
 _BRACES = re.compile(r"^\s*[{\[]([^{}\[\]]*,[^{}\[\]]*)[}\]]\s*$", re.DOTALL)
 """A word written as a list, whose brackets are no branches."""
 _TUPLE = re.compile(r"^\s*\(([^()]*,[^()]*)\)\s*$", re.DOTALL)
-_LABEL = re.compile(r"^\s*(?:(?:the|my)\s+)?(?:word|step|stage|answer|result|axiom)\b[\w\s()]*(?:is\b|[:=])\s*", re.IGNORECASE)
+_LABEL = re.compile(
+    r"^\s*(?:(?:it|that|es|das)(?:['’]s|\s+is|\s+ist)\s+|(?:(?:the|my|das|die|mein|meine)\s+)?"
+    r"(?:word|step|stage|answer|result|axiom|wort|schritt|stufe|antwort|ergebnis)\b[\w\s()]*(?:(?:is|ist|lautet)\b|[:=])\s*)",
+    re.IGNORECASE,
+)
 _OUTER = re.compile(r"^\s*[\[{(]([^\[\]{}()]*)[\]})]\s*$", re.DOTALL)
 """Words within one pair of brackets."""
 _COMMA_WITHIN = re.compile(r"\(\s*(\d+),(\d+)\s*\)")
@@ -74,8 +78,8 @@ def read_modules(system: LSystem, answer: object, drawn: bool = False) -> Module
 def unnamed_word(text: str) -> str:
     """A word without what it is called in front of it.
 
-    >>> unnamed_word("step 4: bl ar"), unnamed_word("The word is F[+F]F"), unnamed_word("F(1) f")
-    ('bl ar', 'F[+F]F', 'F(1) f')
+    >>> unnamed_word("step 4: bl ar"), unnamed_word("The word is F[+F]F"), unnamed_word("it is bl ar"), unnamed_word("F(1) f")
+    ('bl ar', 'F[+F]F', 'bl ar', 'F(1) f')
     """
     return _LABEL.sub("", text)
 

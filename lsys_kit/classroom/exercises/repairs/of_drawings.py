@@ -96,8 +96,6 @@ def _two_said(word: Row, one: Row, both: Row) -> str:
         return reply("repair.order") if len(word) == len(both) else said_of_row(word, both)
     if _brackets_in(word) - _brackets_in(both) > 1:
         return f"{reply('repair.two')} {reply('repair.brackets_extra')}"
-    if "several" in row_change(word, one):
-        return reply("repair.two_alone")
     return f"{reply('repair.two')} {said_of_row(word, one)}"
 
 

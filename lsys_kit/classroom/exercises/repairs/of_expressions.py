@@ -58,12 +58,8 @@ def _as_it_is(changed: Expression) -> Expression:
     return changed
 
 
-_ONE_OF_TWO = {"number": "repair.changed_number", "sign": "repair.changed_sign", "operator": "repair.changed_sign"}
-"""What is said of a change, by its kind, where another one is needed, too."""
-
-
 def _two_said(kind: str) -> str:
-    return f"{reply('repair.two')} {reply(_ONE_OF_TWO[kind])}" if kind in _ONE_OF_TWO else reply("repair.two_alone")
+    return f"{reply('repair.two')} {reply(f'repair.of_two_{kind}')}"
 
 
 def _variants(part: Expression, names: list[str], numbers: set[Value]) -> Iterator[tuple[Expression, str]]:
