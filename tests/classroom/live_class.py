@@ -20,7 +20,8 @@ from typing import Any
 
 from tornado.websocket import WebSocketClientConnection, websocket_connect
 
-from lsys_kit.classroom.live.server import ClassServer, LiveClass
+from lsys_kit.classroom.live.live_class import LiveClass
+from lsys_kit.classroom.live.server import ClassServer
 
 SECONDS = 60
 """How long anything may take on a busy machine."""

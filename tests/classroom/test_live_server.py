@@ -19,8 +19,8 @@ from tornado.websocket import WebSocketClientConnection, websocket_connect
 
 from lsys_kit import practice
 from lsys_kit.classroom.live.events import Events, NotKept
+from lsys_kit.classroom.live.limits import Rates
 from lsys_kit.classroom.live.report import report_table
-from lsys_kit.classroom.live.server import Rates
 from lsys_kit.classroom.live.session import MOST_OF_A_PHONE, Asked, Session
 from tests.classroom.live_class import SECONDS, Phone, Running, run, running, started
 

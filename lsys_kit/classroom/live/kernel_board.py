@@ -16,8 +16,10 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from threading import Thread
 
+from lsys_kit.classroom.live.audience import Audience
+from lsys_kit.classroom.live.live_class import LiveClass
 from lsys_kit.classroom.live.pages import board_data
-from lsys_kit.classroom.live.server import PORT, Audience, ClassServer, LiveClass
+from lsys_kit.classroom.live.server import PORT, ClassServer
 from lsys_kit.classroom.live.serving import course_pages, mistake_told
 from lsys_kit.errors import LSystemError, ModelFileError, ModelNameError
 from lsys_kit.translation import VARIABLE, language
@@ -62,7 +64,7 @@ async def _serve(kernel: _Kernel, server: ClassServer, port: int | None, tell: C
     try:
         _listen_at(server, port)
         [room] = server.classes.values()
-        board = _KernelBoard(kernel.pipe, room, end)
+        board = _KernelBoard(kernel.pipe, server, room, end)
         kernel.heard = lambda content: loop.call_soon_threadsafe(board.hear, content)
         room.boards.add(board)
         join, code = server.join_address(room.entry.code), room.entry.code
@@ -87,9 +89,9 @@ def _listen_at(server: ClassServer, port: int | None) -> None:
 class _KernelBoard(Audience):
     """The kernel, as a board."""
 
-    def __init__(self, pipe: Connection, room: LiveClass, end: asyncio.Event) -> None:
+    def __init__(self, pipe: Connection, server: ClassServer, room: LiveClass, end: asyncio.Event) -> None:
         super().__init__()
-        self._pipe, self._room, self._end, self._sender = pipe, room, end, ThreadPoolExecutor(1)
+        self._pipe, self._server, self._room, self._end, self._sender = pipe, server, room, end, ThreadPoolExecutor(1)
         self._tasks: set[asyncio.Task[None]] = set()
 
     async def send_text(self, text: str) -> None:
@@ -117,7 +119,7 @@ class _KernelBoard(Audience):
                     picture = self._room.session.plants[number]["picture"]
                     content = f"data:image/svg+xml;base64,{base64.b64encode(picture.encode()).decode()}"
                 case ["question", str(kind), str(about)]:
-                    content = json.loads((await self._room.server.what_is_asked(kind, about)).plain)
+                    content = json.loads((await self._server.what_is_asked(kind, about)).plain)
         except ModelNameError:
             pass
         except LSystemError:

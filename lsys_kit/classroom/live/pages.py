@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import base64
+from gzip import compress
+from hashlib import sha256
 
 from lsys_kit.classroom.live.events import ClassEntry
 from lsys_kit.classroom.live.game import GAMES
@@ -13,6 +15,14 @@ from lsys_kit.errors import LSystemError
 from lsys_kit.pictures.qr_codes import qr_code
 from lsys_kit.pictures.style.labels import escaped
 from lsys_kit.translation import gettext, language
+
+
+class Page:
+    """A page in memory, as it is sent, and by what a browser knows it again."""
+
+    def __init__(self, content: bytes) -> None:
+        self.packed, self.plain = compress(content, 6), content
+        self.tag = f'"{sha256(content).hexdigest()[:32]}"'
 
 
 def door_page() -> str:
