@@ -274,6 +274,9 @@ def test_phones_that_come_and_go_all_day_take_no_memory(served: Process, full: b
     seen = benchmark.pedantic(lambda: asyncio.run(day()), rounds=1)
     grown = seen[-1] - seen[len(seen) // 3]
     rows = len(seen) * 30
+    if full:
+        hours = ", ".join(f"{each / 1e6:.1f}" for each in seen[59::60])
+        ROWS.append(f"| memory of the server after each hour | {hours} MB | | | does not grow |")
     ROWS.append(
         f"| {minutes} minutes of 30 phones that come and go, {rows} answers kept | {seen[-1] / 1e6:.0f} MB | "
         f"grown by {grown / 1e6:.1f} MB in the last two thirds | | does not grow |"

@@ -7,11 +7,11 @@ import hmac
 import json
 import sqlite3
 from collections import deque
-from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from pathlib import Path
 
+from lsys_kit.classroom.live.course_pages import CoursePages
 from lsys_kit.classroom.live.events import Event, Events, NotKept
 from lsys_kit.classroom.live.limits import Rates
 from lsys_kit.classroom.live.live_class import LiveClass
@@ -33,19 +33,19 @@ class Classes:
     names
         The names of the classes; those that are known already go on where they were.
     course
-        The pages of the course by their names, as bytes; none where there is no course.
+        The pages of the course; none where there is no course.
     workers
         How many worker processes there are.
     """
 
     def __init__(
-        self, folder: str | Path, names: list[str], course: Mapping[str, bytes] | None = None, workers: int | None = None
+        self, folder: str | Path, names: list[str], course: CoursePages | None = None, workers: int | None = None
     ) -> None:
         self.events = Events(folder)
         entries = [self.events.named(name) for name in names]
         self.workers = Workers(workers)
         self.rates, self.asking, self.joining = Rates(20, 4), Rates(12, 3), Rates(400, 20)
-        self.course = {name: Page(content) for name, content in (course or {}).items()}
+        self.course = course
         self.address = ""
         self._asked: dict[tuple[str, str], Page] = {}
         questions()  # they are read before anybody waits for them
@@ -53,7 +53,7 @@ class Classes:
         self._pending: deque[tuple[Event, asyncio.Future[bool]]] = deque()
         self._writing = False
         self.sockets = 0
-        self.classes = {entry.code: LiveClass(entry, self.keep, self.workers, self.rates) for entry in entries}
+        self.classes = {entry.code: LiveClass(entry, self.keep, self.workers, self.rates, course) for entry in entries}
         for event in self.events.news():
             if event.code in self.classes:
                 self.classes[event.code].session.take(event)
@@ -122,6 +122,21 @@ class Classes:
                 with suppress(Busy):
                     await self.what_is_asked(kind, about)
 
+    def bring_course(self) -> None:
+        """Begin to bring the pages of the course; boards tell how many are there."""
+        loop = asyncio.get_running_loop()
+
+        def changed() -> None:
+            with suppress(RuntimeError):  # all is closed
+                loop.call_soon_threadsafe(self._tell_boards)
+
+        if self.course is not None:
+            self.course.begin(changed)
+
+    def _tell_boards(self) -> None:
+        for room in self.classes.values():
+            room.behind("")
+
     def with_secret(self, secret: str) -> LiveClass | None:
         """The class whose board has a secret; all are compared, each in the same time."""
         given = secret.encode("utf-8", "replace")
@@ -138,6 +153,8 @@ class Classes:
 
     async def close(self) -> None:
         """End all workers, and close the table."""
+        if self.course is not None:
+            await asyncio.get_running_loop().run_in_executor(None, self.course.close)
         self.workers.close()
         self._writer.shutdown()
         self.events.close()

@@ -112,15 +112,18 @@ class PhoneHandler(_Handler):
         if code != room.entry.code or not self.request.path.endswith("/"):
             self.redirect(f"/{room.entry.code}/")
         else:
-            self.send(Page(pages.phone_page(room.entry, bool(self.server.course)).encode()), "text/html; charset=utf-8")
+            self.send(Page(pages.phone_page(room.entry, self.server.course is not None).encode()), "text/html; charset=utf-8")
 
 
 class CourseHandler(_Handler):
     """A page of the course."""
 
     def get(self, code: str, name: str) -> None:
-        self.room(code)
-        page = self.server.course.get(name)
+        room, course = self.room(code), self.server.course
+        page = course.pages.get(name) if course else None
+        if page is None and course and course.is_coming:
+            self.set_status(503)
+            page = Page(pages.waiting_page(room.entry, course.progress).encode())
         if page is None:
             raise tornado.web.HTTPError(404)
         self.send(page, "text/html; charset=utf-8")

@@ -7,6 +7,7 @@ import json
 from collections.abc import Awaitable, Callable, Mapping
 
 from lsys_kit.classroom.live.audience import Audience
+from lsys_kit.classroom.live.course_pages import CoursePages
 from lsys_kit.classroom.live.events import TEACHER, ClassEntry, Event, NotKept
 from lsys_kit.classroom.live.limits import MOST_MESSAGE, Rates
 from lsys_kit.classroom.live.questions import EXERCISE, ROUNDS, named, question, value_of
@@ -25,9 +26,16 @@ _LAST_SENT = 2**53
 class LiveClass:
     """A class with whoever is there: its session, its board and its phones."""
 
-    def __init__(self, entry: ClassEntry, keep: Callable[[Event], Awaitable[bool]], workers: Workers, rates: Rates) -> None:
+    def __init__(
+        self,
+        entry: ClassEntry,
+        keep: Callable[[Event], Awaitable[bool]],
+        workers: Workers,
+        rates: Rates,
+        course: CoursePages | None = None,
+    ) -> None:
         self.entry = entry
-        self._keep, self._workers, self._rates = keep, workers, rates
+        self._keep, self._workers, self._rates, self._course = keep, workers, rates, course
         self.session = Session()
         self.boards: set[Audience] = set()
         self.phones: dict[str, set[Audience]] = {}
@@ -100,7 +108,9 @@ class LiveClass:
 
     def board_state(self) -> str:
         """What the board shows now."""
-        return json.dumps({"state": {**self.session.board(len(self.phones)), "fault": self.fault}})
+        fault = self.fault or (self._course.fault if self._course else "")
+        pages = self._course.progress if self._course else None
+        return json.dumps({"state": {**self.session.board(len(self.phones)), "fault": fault, "pages": pages}})
 
     # What phones say
 

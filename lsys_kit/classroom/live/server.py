@@ -65,6 +65,7 @@ class ClassServer(Classes):
         self._server.add_sockets(sockets)
         found = int(sockets[0].getsockname()[1])
         self._tasks = tuple(asyncio.get_running_loop().create_task(each) for each in (self.get_ready(), self.follow()))
+        self.bring_course()
         self.address = (address or f"http://{host or own_address()}:{found}").rstrip("/")
         return found
 
