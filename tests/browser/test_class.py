@@ -337,7 +337,7 @@ def test_a_page_that_is_being_made_opens_by_itself(
         expect(board.locator("#present")).to_contain_text("pages of the course: 1 of 3", timeout=60_000)
         assert serious(board) == []
         shot(board, f"board-making-{scheme}", pytestconfig)
-        expect(phone.locator("#said")).to_contain_text("1 of 3.", timeout=60_000)
+        expect(phone.locator("#progress")).to_contain_text("1 of 3.", timeout=60_000)
         shot(phone, f"phone-making-{scheme}", pytestconfig)
         go_on.touch()
         expect(phone.get_by_role("link", name="Ferns").first).to_be_visible(timeout=120_000)

@@ -88,7 +88,7 @@ def test_a_class_has_a_course_of_ones_own(kind: Any, tmp_path: Path, monkeypatch
         wait_for(lambda: current(board).get("about") == "ferns:1")
         vote("ferns")
         wait_for(lambda: (current(board).get("kind"), current(board).get("about")) == ("vote", "ferns"))
-        wait_for(lambda: "<h1>Ferns" in page_at(f"{at_home(board)}course/notebooks/ferns.html"))
+        wait_for(lambda: ">Ferns</h1>" in page_at(f"{at_home(board)}course/notebooks/ferns.html"))
     finally:
         board.end()
 
@@ -98,7 +98,7 @@ def test_where_there_is_no_course_the_class_is_refused_as_in_the_shell(
 ) -> None:
     with pytest.raises(ModelFileError) as told:
         open_class("10b", tmp_path / "class", port=0, course=tmp_path)
-    assert main(["class", "--folder", str(tmp_path / "class"), "--course", str(tmp_path)]) == 1
+    assert main(["class", "--folder", str(tmp_path / "class"), "--course", str(tmp_path)]) == 2
     assert told.value.message in capsys.readouterr().err
     assert not (tmp_path / "class").exists()
 

@@ -123,7 +123,9 @@ class CourseHandler(_Handler):
         page = course.pages.get(name) if course else None
         if page is None and course and course.is_coming:
             self.set_status(503)
-            page = Page(pages.waiting_page(room.entry, course.progress).encode())
+            if progress := course.progress:
+                self.set_header("Pages-Made", "{made}/{many}".format(**progress))
+            page = Page(pages.waiting_page(room.entry).encode())
         if page is None:
             raise tornado.web.HTTPError(404)
         self.send(page, "text/html; charset=utf-8")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-from collections.abc import Mapping
 from gzip import compress
 from hashlib import sha256
 
@@ -45,17 +44,16 @@ def phone_page(entry: ClassEntry, course: bool) -> str:
     return _document(entry.name, body, "phone", {"code": entry.code, "course": course})
 
 
-def waiting_page(entry: ClassEntry, progress: Mapping[str, int] | None) -> str:
+def waiting_page(entry: ClassEntry) -> str:
     """What stands in the place of a page of the course that is being made; it goes on to that page by itself."""
     title, back = gettext("This page is being made."), gettext("The class")
     said = gettext("It opens by itself as soon as it is there.")
-    if progress:
-        said += " " + gettext("Pages of the course that are there: {made} of {many}.").format(**progress)
     body = f"""<main class="door"><h1>{escaped(title)}</h1>
-<p id="said" role="status">{escaped(said)}</p>
+<p>{escaped(said)}</p>
+<p id="progress" role="status"></p>
 <p><a class="go" href="/{entry.code}/">{escaped(back)}</a></p></main>
 """
-    return _document(title, body, "waiting")
+    return _document(title, body, "waiting", {})
 
 
 def board_page(entry: ClassEntry, address: str) -> str:
