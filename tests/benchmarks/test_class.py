@@ -21,7 +21,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tornado.httpclient import AsyncHTTPClient, HTTPRequest
+from tornado.httpclient import AsyncHTTPClient, HTTPClientError, HTTPRequest
 from tornado.websocket import websocket_connect
 
 from lsys_kit.classroom.live.events import Events
@@ -274,11 +274,53 @@ def test_phones_that_come_and_go_all_day_take_no_memory(served: Process, full: b
     seen = benchmark.pedantic(lambda: asyncio.run(day()), rounds=1)
     grown = seen[-1] - seen[len(seen) // 3]
     rows = len(seen) * 30
+    if full:
+        hours = ", ".join(f"{each / 1e6:.1f}" for each in seen[59::60])
+        ROWS.append(f"| memory of the server after each hour | {hours} MB | | | does not grow |")
     ROWS.append(
         f"| {minutes} minutes of 30 phones that come and go, {rows} answers kept | {seen[-1] / 1e6:.0f} MB | "
         f"grown by {grown / 1e6:.1f} MB in the last two thirds | | does not grow |"
     )
     assert grown < 5_000_000
+
+
+def test_one_phone_joins_again_and_again(served: Process, full: bool, benchmark: Any) -> None:
+    """10,000 joins from one phone, some never closed: the ticks of another take 200 ms, and memory does not grow."""
+    joins, at_once = (10_000, 20) if full else (300, 5)
+    address = f"{served.join.replace('http', 'ws', 1)}live?phone={2:032x}"
+
+    async def beside_it() -> tuple[list[float], int, int]:
+        end, phone = asyncio.Event(), Phone(served.join, 1)
+        await phone.connect()
+        await tick(phone, "vote", "01", 1, 0)
+        before, refused = memory_of(served.process.pid), 0
+
+        async def join(first: int) -> None:
+            nonlocal refused
+            for number in range(first, joins, at_once):
+                try:
+                    socket = await websocket_connect(address)
+                    if number % 3:
+                        socket.close()
+                except HTTPClientError:
+                    refused += 1
+
+        async def vote() -> list[float]:
+            ticks = []
+            while not end.is_set():
+                await asyncio.sleep(0.3)
+                ticks.append(await tick(phone, "vote", "01", 1, len(ticks) % 4))
+            return ticks
+
+        voting = asyncio.ensure_future(vote())
+        await asyncio.gather(*map(join, range(at_once)))
+        end.set()
+        return await voting, memory_of(served.process.pid) - before, refused
+
+    ticks, grown, refused = benchmark.pedantic(lambda: asyncio.run(beside_it()), rounds=1)
+    told(f"tick of another phone beside {joins} joins from one", ticks, "95th 200 ms")
+    ROWS.append(f"| memory of the server after these joins, {refused} refused | grown by {grown / 1e6:.1f} MB | | | |")
+    assert grown < 10_000_000
 
 
 def test_many_phones_lose_their_network_for_a_while(served: Process, full: bool, benchmark: Any) -> None:

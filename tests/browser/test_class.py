@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import json
 import re
 import shutil
 from collections.abc import Iterator
@@ -12,15 +11,16 @@ from pathlib import Path
 from typing import Any
 
 import axe_playwright_python
+import nbformat
 import pytest
 import zxingcpp
 from PIL import Image
 from playwright.sync_api import Browser, Locator, Page, Request, expect
 
+from lsys_kit.classroom.authoring.new import write_lesson
 from lsys_kit.classroom.course import course_files
-from lsys_kit.classroom.live import serving
+from lsys_kit.classroom.live.course_pages import PAGES, mark_made
 from lsys_kit.classroom.site.build import build_site
-from lsys_kit.files import KIT_MARK
 from tests.classroom.live_class import Network, Process, started
 
 pytestmark = [pytest.mark.slow, pytest.mark.browser]
@@ -69,9 +69,8 @@ def pages(tmp_path_factory: pytest.TempPathFactory, kernels: None) -> Path:
     for name in NAMES:
         (course / name).parent.mkdir(exist_ok=True)
         shutil.copy(course_files()[name], course / name)
-    build_site(folder / serving.PAGES, course, live=True)
-    made = json.dumps({KIT_MARK.decode(): serving.version()})
-    (folder / serving.PAGES / serving.MADE).write_text(made)
+    build_site(folder / PAGES, course, live=True)
+    mark_made(folder / PAGES)
     return folder
 
 
@@ -313,6 +312,44 @@ def test_one_practises_on_the_page_of_exercises(live: Class, pytestconfig: pytes
     place.locator("select").select_option("misprint")
     expect(place.locator("h3")).to_contain_text("misprint", timeout=60_000)
     assert serious(phone) == []
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_a_page_that_is_being_made_opens_by_itself(
+    browser: Browser, tmp_path: Path, scheme: Any, pytestconfig: pytest.Config
+) -> None:
+    """The board tells how many pages are there; the phone is told to wait, and goes on when its page is."""
+    course, go_on = write_lesson("ferns", tmp_path / "ferns"), tmp_path / "go_on"
+    notebook = nbformat.read(course / "notebooks" / "ferns.ipynb", 4)
+    waits = f"import pathlib, time\n\nwhile not pathlib.Path({str(go_on)!r}).exists():\n    time.sleep(0.1)"
+    notebook.cells.append(nbformat.v4.new_code_cell(waits))
+    nbformat.write(notebook, course / "notebooks" / "ferns.ipynb")
+    server = started(tmp_path / "class", course=course)
+    try:
+        board, phone = (
+            browser.new_context(viewport={"width": width, "height": 900}, color_scheme=scheme).new_page()
+            for width in (1440, 400)
+        )
+        phone.goto(f"{server.join}course/index.html")
+        expect(phone.get_by_role("heading", name="This page is being made.")).to_be_visible()
+        assert serious(phone) == []
+        board.goto(server.board)
+        expect(board.locator("#present")).to_contain_text("pages of the course: 1 of 3", timeout=60_000)
+        assert serious(board) == []
+        shot(board, f"board-making-{scheme}", pytestconfig)
+        expect(phone.locator("#progress")).to_contain_text("1 of 3.", timeout=60_000)
+        shot(phone, f"phone-making-{scheme}", pytestconfig)
+        go_on.touch()
+        expect(phone.get_by_role("link", name="Ferns").first).to_be_visible(timeout=120_000)
+        expect(board.locator("#present")).to_have_text(re.compile(rf"0 here · {server.code}$"))
+        shot(phone, f"phone-made-{scheme}", pytestconfig)
+        phone.goto(server.join)
+        phone.get_by_role("link", name="The course").click()
+        expect(phone.get_by_role("link", name="Ferns").first).to_be_visible()
+    finally:
+        server.kill()
+        for page in (board, phone):
+            page.context.close()
 
 
 def asked_by(place: Locator) -> tuple[str, dict[str, str], int]:

@@ -20,7 +20,9 @@ from typing import Any
 
 from tornado.websocket import WebSocketClientConnection, websocket_connect
 
-from lsys_kit.classroom.live.server import ClassServer, LiveClass
+from lsys_kit.classroom.live.course_pages import PAGES, CoursePages, mark_made
+from lsys_kit.classroom.live.live_class import LiveClass
+from lsys_kit.classroom.live.server import ClassServer
 
 SECONDS = 60
 """How long anything may take on a busy machine."""
@@ -55,9 +57,18 @@ class Running:
         asyncio.run_coroutine_threadsafe(self.room.does(content), self.loop).result(SECONDS)
 
 
+def made_pages(folder: Path, pages: Mapping[str, bytes]) -> CoursePages:
+    """Pages of the course that were made before."""
+    for name, content in pages.items():
+        (folder / PAGES / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / PAGES / name).write_bytes(content)
+    mark_made(folder / PAGES)
+    return CoursePages(folder)
+
+
 @contextmanager
 def running(
-    folder: Path, course: Mapping[str, bytes] | None = None, names: tuple[str, ...] = ("10b",), workers: int = 2
+    folder: Path, course: CoursePages | None = None, names: tuple[str, ...] = ("10b",), workers: int = 2
 ) -> Iterator[Running]:
     """A server in a thread of this process."""
     ready, found = threading.Event(), {}
@@ -96,8 +107,8 @@ class Process:
         self.process.wait(SECONDS)
 
 
-def started(folder: Path, port: int = 0, course: bool = False) -> Process:
-    """A server, by default without the pages of the course, in a process group of its own."""
+def started(folder: Path, port: int = 0, course: bool | Path = False) -> Process:
+    """A server, by default without the pages of the course, or with those of one in a folder, in a process group of its own."""
     command = [
         sys.executable,
         "-m",
@@ -107,7 +118,7 @@ def started(folder: Path, port: int = 0, course: bool = False) -> Process:
         str(folder),
         "--port",
         str(port),
-        *([] if course else ["--no-course"]),
+        *(["--course", str(course)] if isinstance(course, Path) else [] if course else ["--no-course"]),
     ]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, start_new_session=True)
     said = []

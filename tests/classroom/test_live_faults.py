@@ -14,7 +14,7 @@ from urllib.request import urlopen
 import pytest
 from tornado.websocket import websocket_connect
 
-from lsys_kit.classroom.live import server, workers
+from lsys_kit.classroom.live import limits, workers
 from lsys_kit.classroom.live.events import FILE, Events
 from lsys_kit.classroom.live.session import Asked, Session
 from tests.classroom.live_class import SECONDS, Phone, Process, Running, flooded, is_dropped, run, running, started, wait_for
@@ -52,7 +52,7 @@ def joined(live: Running, number: int, receives: int = 0) -> socket.socket:
 )
 def test_what_comes_byte_by_byte_is_not_waited_for(tmp_path: Path, begin: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Slow loris: whoever has not said all in time is dropped, though something comes all the time."""
-    monkeypatch.setattr(server, "PATIENCE", 1.0)
+    monkeypatch.setattr(limits, "PATIENCE", 1.0)
     with running(tmp_path) as live, socket.create_connection(place_of(live), SECONDS) as raw:
         raw.sendall(begin.format(code=live.code).encode())
         assert is_dropped(raw, b"abcdefgh")
@@ -62,7 +62,7 @@ def test_what_comes_byte_by_byte_is_not_waited_for(tmp_path: Path, begin: str, m
 def test_a_phone_that_does_not_read_is_dropped_and_the_others_do_not_wait(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(server, "PATIENCE", 1.0)
+    monkeypatch.setattr(limits, "PATIENCE", 1.0)
     frame = b"\x81\x82\0\0\0\0{}"
 
     async def beside_it(live: Running, silent: socket.socket) -> int:

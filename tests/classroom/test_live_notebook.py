@@ -11,11 +11,14 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
+from urllib.error import HTTPError
 from urllib.request import urlopen
 
 import pytest
 
 from lsys_kit import LSystemError, ModelFileError, ModelValueError, open_class, predict, vote
+from lsys_kit.__main__ import main
+from lsys_kit.classroom.authoring.new import write_lesson
 from lsys_kit.classroom.live.notebook import ClassBoard
 from lsys_kit.classroom.live.questions import about_prediction, predictions, questions
 from lsys_kit.classroom.widget import KitWidget
@@ -41,6 +44,15 @@ def at_home(board: ClassBoard) -> str:
     return f"http://127.0.0.1:{board.address.split(':')[2]}"
 
 
+def page_at(address: str) -> str:
+    """A page, also one that says why it is not there."""
+    try:
+        with urlopen(address, timeout=SECONDS) as answer:
+            return answer.read().decode()
+    except HTTPError as refused:
+        return refused.read().decode()
+
+
 def test_cells_open_questions_and_the_board_below_the_cell_counts(board: ClassBoard) -> None:
     async def two_phones() -> None:
         phones = [Phone(at_home(board), number) for number in (1, 2)]
@@ -62,6 +74,33 @@ def test_cells_open_questions_and_the_board_below_the_cell_counts(board: ClassBo
     wait_for(lambda: current(board).get("kind") == "vote")
     wait_for(lambda: current(board).get("bars") == [0, 1, 1, 0])
     assert open_class("10b", board._class._folder).state == board.state
+
+
+@pytest.mark.parametrize("kind", [str, Path])
+def test_a_class_has_a_course_of_ones_own(kind: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As `lsys-kit class --course`; its phones are asked what the cells of its lessons ask."""
+    ferns = write_lesson("ferns", tmp_path / "ferns")
+    board = open_class("10b", tmp_path / "class", port=0, course=kind(ferns))
+    try:
+        assert [each["lesson"] for each in board.about["plan"]] == ["ferns"]
+        monkeypatch.chdir(ferns / "notebooks")
+        predict("Step 2 has 4 buds. How many has step 4?", "16")
+        wait_for(lambda: current(board).get("about") == "ferns:1")
+        vote("ferns")
+        wait_for(lambda: (current(board).get("kind"), current(board).get("about")) == ("vote", "ferns"))
+        wait_for(lambda: ">Ferns</h1>" in page_at(f"{at_home(board)}course/notebooks/ferns.html"))
+    finally:
+        board.end()
+
+
+def test_where_there_is_no_course_the_class_is_refused_as_in_the_shell(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(ModelFileError) as told:
+        open_class("10b", tmp_path / "class", port=0, course=tmp_path)
+    assert main(["class", "--folder", str(tmp_path / "class"), "--course", str(tmp_path)]) == 2
+    assert told.value.message in capsys.readouterr().err
+    assert not (tmp_path / "class").exists()
 
 
 def test_every_prediction_of_the_course_is_known_by_what_it_asks() -> None:
@@ -133,7 +172,11 @@ def test_a_port_that_is_taken_is_told(tmp_path: Path) -> None:
         ({"port": "x"}, LSystemError),
         ({"folder": 3}, LSystemError),
         ({"folder": "/dev/null/class"}, ModelFileError),
-        ({"course": "no"}, LSystemError),
+        ({"course": 3}, ModelValueError),
+        ({"course": None}, ModelValueError),
+        ({"course": "no"}, ModelFileError),
+        ({"course": "a\0b"}, ModelFileError),
+        ({"course": Path("/dev/null")}, ModelFileError),
     ],
     ids=str,
 )

@@ -19,10 +19,10 @@ from tornado.websocket import WebSocketClientConnection, websocket_connect
 
 from lsys_kit import practice
 from lsys_kit.classroom.live.events import Events, NotKept
+from lsys_kit.classroom.live.limits import Rates
 from lsys_kit.classroom.live.report import report_table
-from lsys_kit.classroom.live.server import Rates
 from lsys_kit.classroom.live.session import MOST_OF_A_PHONE, Asked, Session
-from tests.classroom.live_class import SECONDS, Phone, Running, run, running, started
+from tests.classroom.live_class import SECONDS, Phone, Running, made_pages, run, running, started, wait_for
 
 PAGES = {"index.html": b"<!doctype html><title>Course</title>"}
 VOTE = Asked("vote", "01", 1)
@@ -30,13 +30,15 @@ VOTE = Asked("vote", "01", 1)
 
 @pytest.fixture(scope="module")
 def live(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Running]:
-    with running(tmp_path_factory.mktemp("class"), PAGES) as found:
+    folder = tmp_path_factory.mktemp("class")
+    with running(folder, made_pages(folder, PAGES)) as found:
+        wait_for(lambda: not found.server.course.is_coming)
         yield found
 
 
 @pytest.fixture
 def fresh(tmp_path: Path) -> Iterator[Running]:
-    with running(tmp_path, PAGES) as found:
+    with running(tmp_path) as found:
         yield found
 
 

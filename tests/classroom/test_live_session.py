@@ -16,7 +16,6 @@ from hypothesis import strategies as st
 from lsys_kit import LSystemError, ModelFileError, ModelNameError, language
 from lsys_kit.__main__ import main
 from lsys_kit.classroom.lessons.lesson import lesson
-from lsys_kit.classroom.live import serving
 from lsys_kit.classroom.live.events import FILE, LETTERS, TEACHER, ClassEntry, Event, Events, NotKept
 from lsys_kit.classroom.live.game import GAMES, cells_of, game_data, game_of, made_by, outcome
 from lsys_kit.classroom.live.questions import asked_of, named, predictions, question, questions, right_option, value_of
@@ -359,19 +358,3 @@ def test_what_the_shell_cannot_serve_is_refused_in_words(
         status = end.code
     assert status == 2
     assert capsys.readouterr().err.startswith("lsys-kit")
-
-
-def test_pages_are_made_once_and_made_anew_for_another_kit(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    made = []
-
-    def make(place: Path, source: object, live: bool) -> None:
-        made.append(live)
-        place.mkdir(parents=True, exist_ok=True)
-        (place / "index.html").write_text("page")
-
-    assert serving.course_pages(tmp_path, None, make) == {"index.html": b"page"}
-    assert serving.course_pages(tmp_path, None, make) == {"index.html": b"page"}
-    assert made == [True]
-    (tmp_path / "pages" / ".made.json").write_text("{}")
-    serving.course_pages(tmp_path, None, make)
-    assert made == [True, True]

@@ -16,14 +16,20 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from threading import Thread
 
+from lsys_kit.classroom.exercises.notebooks import renew_exercises
+from lsys_kit.classroom.live.audience import Audience
+from lsys_kit.classroom.live.course_pages import CoursePages
+from lsys_kit.classroom.live.live_class import LiveClass
 from lsys_kit.classroom.live.pages import board_data
-from lsys_kit.classroom.live.server import PORT, Audience, ClassServer, LiveClass
-from lsys_kit.classroom.live.serving import course_pages, mistake_told
+from lsys_kit.classroom.live.questions import about_prediction
+from lsys_kit.classroom.live.server import PORT, ClassServer
+from lsys_kit.classroom.live.serving import mistake_told
+from lsys_kit.classroom.places import choose_course
 from lsys_kit.errors import LSystemError, ModelFileError, ModelNameError
 from lsys_kit.translation import VARIABLE, language
 
 
-def serve_kernel(pipe: Connection, folder: str, name: str, port: int | None, course: bool, spoken: str) -> None:
+def serve_kernel(pipe: Connection, folder: str, name: str, port: int | None, course: bool | str, spoken: str) -> None:
     """Open a class in this process, and tell a kernel of it, until the kernel wants no more or is gone."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     os.environ[VARIABLE] = language(spoken)
@@ -33,11 +39,19 @@ def serve_kernel(pipe: Connection, folder: str, name: str, port: int | None, cou
 
     kernel = _Kernel(pipe)
     try:
-        pages = course_pages(Path(folder), say=lambda text: tell({"said": text})) if course else {}
+        pages = CoursePages(folder, _chosen(course)) if course else None
         asyncio.run(_serve(kernel, ClassServer(folder, [name], pages), port, tell))
     except LSystemError as fault:
         tell(mistake_told(fault))
     os._exit(0)  # all is kept; workers that are still beginning are not waited for
+
+
+def _chosen(course: bool | str) -> Path | None:
+    """The folder of a course of one's own, whose lessons and exercises are known from now on; none where it is the kit's."""
+    if not isinstance(course, str):
+        return None
+    renew_exercises(choose_course(Path(course)))
+    return Path(course)
 
 
 class _Kernel:
@@ -62,7 +76,7 @@ async def _serve(kernel: _Kernel, server: ClassServer, port: int | None, tell: C
     try:
         _listen_at(server, port)
         [room] = server.classes.values()
-        board = _KernelBoard(kernel.pipe, room, end)
+        board = _KernelBoard(kernel.pipe, server, room, end)
         kernel.heard = lambda content: loop.call_soon_threadsafe(board.hear, content)
         room.boards.add(board)
         join, code = server.join_address(room.entry.code), room.entry.code
@@ -87,9 +101,9 @@ def _listen_at(server: ClassServer, port: int | None) -> None:
 class _KernelBoard(Audience):
     """The kernel, as a board."""
 
-    def __init__(self, pipe: Connection, room: LiveClass, end: asyncio.Event) -> None:
+    def __init__(self, pipe: Connection, server: ClassServer, room: LiveClass, end: asyncio.Event) -> None:
         super().__init__()
-        self._pipe, self._room, self._end, self._sender = pipe, room, end, ThreadPoolExecutor(1)
+        self._pipe, self._server, self._room, self._end, self._sender = pipe, server, room, end, ThreadPoolExecutor(1)
         self._tasks: set[asyncio.Task[None]] = set()
 
     async def send_text(self, text: str) -> None:
@@ -103,6 +117,10 @@ class _KernelBoard(Audience):
         if "end" in content:
             self._end.set()
             return
+        if content.get("kind") == "prediction" and "asked" in content:
+            content = {**content, "about": about_prediction(str(content["asked"]))}
+            if content["about"] is None:
+                return
         work = self._bring(content["want"]) if "want" in content else self._room.told_by(self, content)
         task = asyncio.get_running_loop().create_task(work)
         self._tasks.add(task)
@@ -117,7 +135,7 @@ class _KernelBoard(Audience):
                     picture = self._room.session.plants[number]["picture"]
                     content = f"data:image/svg+xml;base64,{base64.b64encode(picture.encode()).decode()}"
                 case ["question", str(kind), str(about)]:
-                    content = json.loads((await self._room.server.what_is_asked(kind, about)).plain)
+                    content = json.loads((await self._server.what_is_asked(kind, about)).plain)
         except ModelNameError:
             pass
         except LSystemError:

@@ -20,9 +20,9 @@ from weakref import WeakSet
 import traitlets
 
 from lsys_kit.classroom.lessons.opening import LISTENERS
-from lsys_kit.classroom.live.questions import about_prediction
 from lsys_kit.classroom.live.serving import FOLDER, NAME, checked_names, missing_library, mistake_told
 from lsys_kit.classroom.panel.bundle import bundled, style, translated_words
+from lsys_kit.classroom.places import course_of
 from lsys_kit.classroom.widget import KitWidget
 from lsys_kit.errors import LSystemError, ModelFileError, ModelValueError, quotable, require, whole_number
 from lsys_kit.pictures.style.labels import escaped
@@ -36,7 +36,9 @@ LAST_PORT = 65_535
 _CONTEXT = multiprocessing.get_context("spawn")
 
 
-def open_class(name: str = NAME, folder: str | Path = FOLDER, port: int | None = None, course: bool = True) -> ClassBoard:
+def open_class(
+    name: str = NAME, folder: str | Path = FOLDER, port: int | None = None, course: bool | str | Path = True
+) -> ClassBoard:
     """Open a class, as `lsys-kit class` does in a shell, and show its board below the cell.
 
     Phones join by the QR code or the address. `vote` and `predict` in later cells of the notebook open their questions for the
@@ -51,7 +53,8 @@ def open_class(name: str = NAME, folder: str | Path = FOLDER, port: int | None =
     port
         Where the server listens; by default at 8765, or at another port if that is taken. 0 lets the system choose.
     course
-        Whether the phones have the pages of the course. They are made the first time, which takes a minute or two.
+        Whether the phones have the pages of the course; or the folder of a course of your own, as `lsys-kit lesson new` writes
+        it. Pages are made the first time, while the class is open: the board says how many are there.
 
     Returns
     -------
@@ -63,7 +66,7 @@ def open_class(name: str = NAME, folder: str | Path = FOLDER, port: int | None =
     ModelValueError
         No class can be called so, or there is no such port.
     ModelFileError
-        The folder or the port cannot be used.
+        The folder or the port cannot be used, or there is no course in the folder of a course.
 
     Examples
     --------
@@ -75,7 +78,9 @@ def open_class(name: str = NAME, folder: str | Path = FOLDER, port: int | None =
     ('10b', 4, True)
     """
     require(name, str, "The name of a class")
-    require(course, bool, 'True or False for "course"')
+    require(course, (bool, str, Path), 'True, False or a folder for "course"')
+    if not isinstance(course, bool):
+        course = str(course_of(Path(course)).root)
     place = _folder(folder)
     if port is not None and not 0 <= (port := whole_number(port, "The port")) <= LAST_PORT:
         raise ModelValueError(f"A port is a number from 0 to {LAST_PORT}")
@@ -98,7 +103,7 @@ def _folder(folder: object) -> str:
 class _Class:
     """A class that was opened in this kernel: the child process that serves it, and its boards in the notebook."""
 
-    def __init__(self, folder: str, name: str, port: int | None, course: bool) -> None:
+    def __init__(self, folder: str, name: str, port: int | None, course: bool | str) -> None:
         self._folder = folder
         self._pipe, theirs = _CONTEXT.Pipe()
         self._process = _CONTEXT.Process(target=_serve, args=(theirs, folder, name, port, course, language()))
@@ -115,7 +120,7 @@ class _Class:
         Thread(target=self._listen, daemon=True).start()
 
     def _opened(self) -> dict[str, object]:
-        """What the server says of itself when it has begun; until then what it says is printed."""
+        """What the server says of itself when it has begun."""
         while True:
             while not self._pipe.poll(A_LITTLE):
                 if not self._process.is_alive():
@@ -127,9 +132,7 @@ class _Class:
             if "mistake" in told:
                 kind = ModelFileError if told["of_file"] else LSystemError
                 raise kind(told["mistake"], hint=told["hint"])
-            if "about" in told:
-                return dict(told["about"])
-            print(told["said"], flush=True)
+            return dict(told["about"])
 
     def _listen(self) -> None:
         with suppress(EOFError, OSError):
@@ -196,11 +199,9 @@ def _end_all() -> None:
 
 def _open_for_all(kind: str, about: str, round: int) -> None:
     """Let all classes of this kernel answer a question that a cell asks."""
-    if kind == "prediction":
-        about = about_prediction(about) or ""
     for each in _OPEN.values():
-        if about and each.is_open:
-            each.tell({"do": "open", "kind": kind, "about": about, "round": round})
+        if each.is_open:
+            each.tell({"do": "open", "kind": kind, "asked" if kind == "prediction" else "about": about, "round": round})
 
 
 LISTENERS.append(_open_for_all)

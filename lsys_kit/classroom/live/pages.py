@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import base64
+from gzip import compress
+from hashlib import sha256
 
 from lsys_kit.classroom.live.events import ClassEntry
 from lsys_kit.classroom.live.game import GAMES
@@ -13,6 +15,14 @@ from lsys_kit.errors import LSystemError
 from lsys_kit.pictures.qr_codes import qr_code
 from lsys_kit.pictures.style.labels import escaped
 from lsys_kit.translation import gettext, language
+
+
+class Page:
+    """A page in memory, as it is sent, and by what a browser knows it again."""
+
+    def __init__(self, content: bytes) -> None:
+        self.packed, self.plain = compress(content, 6), content
+        self.tag = f'"{sha256(content).hexdigest()[:32]}"'
 
 
 def door_page() -> str:
@@ -32,6 +42,18 @@ def phone_page(entry: ClassEntry, course: bool) -> str:
 <main id="here" class="phone"></main>
 """
     return _document(entry.name, body, "phone", {"code": entry.code, "course": course})
+
+
+def waiting_page(entry: ClassEntry) -> str:
+    """What stands in the place of a page of the course that is being made; it goes on to that page by itself."""
+    title, back = gettext("This page is being made."), gettext("The class")
+    said = gettext("It opens by itself as soon as it is there.")
+    body = f"""<main class="door"><h1>{escaped(title)}</h1>
+<p>{escaped(said)}</p>
+<p id="progress" role="status"></p>
+<p><a class="go" href="/{entry.code}/">{escaped(back)}</a></p></main>
+"""
+    return _document(title, body, "waiting", {})
 
 
 def board_page(entry: ClassEntry, address: str) -> str:

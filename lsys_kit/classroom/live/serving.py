@@ -1,31 +1,22 @@
-"""`lsys-kit class`: the pages of the course, made once; the server, until it is interrupted; and forgetting."""
+"""`lsys-kit class`: the server, until it is interrupted; and forgetting."""
 
 from __future__ import annotations
 
 import asyncio
-import json
 import signal
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
-from hashlib import sha256
-from importlib.resources import files
 from pathlib import Path
 from urllib.parse import urlsplit
 
-from lsys_kit.classroom.course import course_files
 from lsys_kit.classroom.live.events import FILE, Events
-from lsys_kit.classroom.panel.bundle import compact, style
-from lsys_kit.classroom.site.build import build_site
 from lsys_kit.errors import LSystemError, ModelFileError, ModelNameError, ModelValueError, quotable, require
-from lsys_kit.files import KIT_MARK, file_errors, replace_file
 from lsys_kit.pictures.qr_codes import qr_code
-from lsys_kit.translation import language
 
 FOLDER = "lsys_kit_class"
 """Where what classes say is kept, if nothing else is asked for."""
 NAME = "Class"
 """What a class is called that has no other name."""
-PAGES, MADE = "pages", ".made.json"
 LONGEST_NAME, MOST_CLASSES = 60, 50
 _DARK = {(False, False): " ", (True, False): "▀", (False, True): "▄", (True, True): "█"}
 
@@ -67,15 +58,15 @@ def serve(
         import tornado  # noqa: F401
     except ImportError:
         raise missing_library("tornado") from None
+    from lsys_kit.classroom.live.course_pages import CoursePages
     from lsys_kit.classroom.live.server import ClassServer
 
     wanted = checked_names(names)
     if public is not None:
         _check_address(public)
-    pages = course_pages(Path(folder), source) if course else {}
 
     async def run() -> None:
-        server = ClassServer(folder, wanted, pages)
+        server = ClassServer(folder, wanted, CoursePages(folder, source, _print) if course else None)
         try:
             server.listen(port, address=public, behind_a_proxy=public is not None, host="127.0.0.1" if public else "")
             print(
@@ -93,6 +84,10 @@ def serve(
 
     with suppress(KeyboardInterrupt):
         asyncio.run(run())
+
+
+def _print(text: str) -> None:
+    print(text, flush=True)
 
 
 async def _interrupted() -> None:
@@ -190,37 +185,3 @@ def forget(folder: str, names: Sequence[str] | None = None) -> str:
     finally:
         events.close()
     return f"{len(wanted)} class{'es' * (len(wanted) != 1)} and {many:,} entries are forgotten."
-
-
-# The pages of the course
-
-
-def course_pages(
-    folder: Path, source: Path | None = None, make: Callable[..., object] = build_site, say: Callable[[str], object] = print
-) -> Mapping[str, bytes]:
-    """The live pages of the course, by their names; they are made where they are not there, or are those of another kit."""
-    place, wanted = folder / PAGES, version(source)
-    if _made(place) != wanted:
-        say("The pages of the course are made, once. This takes a minute or two.")
-        make(place, source, live=True)
-        with file_errors(f'"{quotable(str(place))}" cannot be written'):
-            replace_file(place / MADE, json.dumps({KIT_MARK.decode(): wanted}).encode())
-    return {
-        path.relative_to(place).as_posix(): path.read_bytes() for path in sorted(place.rglob("*.html")) if not path.is_symlink()
-    }
-
-
-def version(source: Path | None = None) -> str:
-    """By what pages are known as those of this kit: its course, its scripts and its language."""
-    parts = [path.read_bytes() for path in course_files(source).values()]
-    package = files("lsys_kit")
-    parts += [compact("class_page").encode(), style("course").encode(), style("class_page").encode(), language().encode()]
-    parts += [(package / "classroom" / "site" / "pages.py").read_bytes()]
-    return sha256(b"\0".join(parts)).hexdigest()
-
-
-def _made(place: Path) -> str:
-    try:
-        return str(json.loads((place / MADE).read_bytes())[KIT_MARK.decode()])
-    except (OSError, ValueError, KeyError, TypeError):
-        return ""

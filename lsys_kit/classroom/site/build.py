@@ -6,7 +6,7 @@ Lessons are run in real kernels, several at a time, so that their pages know wha
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 from threading import Event
@@ -29,12 +29,17 @@ if TYPE_CHECKING:
     from nbformat import NotebookNode
 
 
-def build_site(folder: str | Path, source: Path | None = None, live: bool = False) -> tuple[Path, ...]:
+def build_site(
+    folder: str | Path,
+    source: Path | None = None,
+    live: bool = False,
+    heard: Callable[[Path, int], object] = lambda page, many: None,
+) -> tuple[Path, ...]:
     """Write the course into a folder as pages that need neither Python nor a network, and return them, the first one first.
 
     The folder is made if necessary. Pages of an older site in it are replaced, and nothing else; what the kit did not make is
     an error, as is a cell that fails. The course is by default what came with the kit. Live pages are
-    for the server of a class.
+    for the server of a class. `heard` hears of each page that is written, and how many there will be.
     """
     folder = Path(folder)
     every, course = course_files(source), course_of(source)
@@ -51,8 +56,10 @@ def build_site(folder: str | Path, source: Path | None = None, live: bool = Fals
     known, pictures = {each.name: each for each in entries}, dict[str, str]()
     for name, notebook in _run(files, stored):
         save_file(places[name], notebook_page(known[name], notebook.cells, entries, live).encode())
+        heard(places[name], len(places))
         pictures.update((name, each) for each in found_in(notebook.cells, showing.SMALL))
     save_file(places[INDEX], index_page(entries, pictures, live, course.lead).encode())
+    heard(places[INDEX], len(places))
     return tuple(places.values())
 
 

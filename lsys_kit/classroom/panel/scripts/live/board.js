@@ -35,7 +35,7 @@ export function openBoard() {
 // A board in some elements. A carrier has tell(message), asked(kind, about, otherwise, arrived), as in outbox.js, and plant(number,
 // arrived), the address of the picture of a plant, or nothing until it has arrived. What is told in turn is given to `hear`.
 export function showBoard({ here, present, tools }, { address, code, plan, games, picture }, { tell, asked: whatIsAskedBy, plant }) {
-  let state = { present: 0, current: null }, joining = false, seen = "", asked = {};
+  let state = { present: 0, current: null, pages: null }, joining = false, seen = "", asked = {};
   const said = made("p.board-said", { role: "alert" });
 
   function hear({ state: next, mistake }) {
@@ -55,7 +55,8 @@ export function showBoard({ here, present, tools }, { address, code, plan, games
   // What is seen.
 
   function show() {
-    present.textContent = `${worded("{number} here", { number: state.present })} · ${code}`;
+    const making = state.pages ? ` · ${worded("pages of the course: {made} of {many}", state.pages)}` : "";
+    present.textContent = `${worded("{number} here", { number: state.present })} · ${code}${making}`;
     const current = joining ? null : state.current, isAsked = current && current.kind in kinds;
     if (isAsked) asked = whatIsAskedBy(current.kind, current.about, notYet(current), show);
     here.dataset.kind = current?.kind ?? "join";
