@@ -341,6 +341,10 @@ def test_what_each_format_has_is_the_same_system(text: str) -> None:
         ("n=5..7, δ=20-30°\nω : X\nX → F[+X]-X", ('"5..7" is read as 5.', '"20-30°" is read as 20.')),
         ("Start: F\nF => F+F\nOrder 5+", ('"5+" is read as 5.',)),
         (
+            "Start: F\nF => F+F\nAngle: 60deg (or 90deg)\nn = 5 à 7",
+            ('"60deg (or 90deg)" is read as 60.', '"5 à 7" is read as 5.'),
+        ),
+        (
             '{"axiom": "F", "rules": {"F": "F+F"}, "angle": "20-30", "n": "5 to 7"}',
             ('"20-30" is read as 20.', '"5 to 7" is read as 5.'),
         ),
@@ -632,6 +636,11 @@ READ = {
     "sets of one symbol": ("V = {F}, S = {+, −}, ω = F++F\nP = {F → F−F}", "axiom: F++F\nF -> F-F"),
     "an angle in degrees, in Fractint's words": ("Axiom = F\nAngle = 25.7\nF = FF+F", "angle: 25.7\naxiom: F\nF -> F F+F"),
     "a rule with a word for its arrow": ("Axiom = F\nF becomes F[+F]F\nAngle = 25", "angle: 25\naxiom: F\nF -> F[+F]F"),
+    "a set with something said behind it": (
+        "axiom: A; rules: {A → ABA, B → BBB}  (Cantor set)",
+        "axiom: A\nA -> A B A\nB -> B B B",
+    ),
+    "a list of one symbol": ("SubstitutionSystem[{a -> {a, b}, b -> {a}}, {a}, 4]", "axiom: a\na -> a b\nb -> a"),
     "factors of lengths": (
         "Start: X\nX => F@.7[+X]@Q2X@IQ2X@QI2X@I2X",
         "axiom: X\nX -> F @Di(0.7)[+X] @Di(sqrt(2)) X @Di(1/sqrt(2)) X @Di(sqrt(1/2)) X @Di(1/2) X",

@@ -304,7 +304,8 @@ def _scaled(found: Found) -> Iterator[str]:
 
 
 _SEVERAL = re.compile(
-    r"(?P<first>\d++(?:[.,]\d++)?)[ ]?°?[ ]*(?:(?:-|\.{2,3}|…|~|±|to\b|bis\b|or\b|oder\b)[ ]*\d|\+(?!\d)).*", re.DOTALL
+    r"(?P<first>\d++(?:[.,]\d++)?)[ ]?(?:°|deg(?:rees?)?\b)?[ ]*\(?(?:(?:-|\.{2,3}|…|~|±|[^\W\d]{1,4})[ ]*\d|\+(?!\d)).*",
+    re.DOTALL,
 )
 """A range of numbers, or several."""
 

@@ -236,8 +236,8 @@ def _without_tables(before: Transcript, keyed: bool) -> Transcript:
         elif (row := _ROW.fullmatch(before.text, *match.span())) and ANY_ARROW.search(row["cells"]):
             if low[:1] != [] and low[0] in names["predecessor"]:
                 continue  # the head of a table whose rows are rules
-            for cell in _IN_ROW.finditer(before.text, *row.span("cells")):
-                pieces += (Edit(*cell.span(), cell[0]), Edit(cell.end(), cell.end(), "  "))
+            for part in _IN_ROW.finditer(before.text, *row.span("cells")):
+                pieces += (Edit(*part.span(), part[0]), Edit(part.end(), part.end(), "  "))
             pieces.append(Edit(match.end(), match.end(), "\n"))
             continue
         pieces.append(Edit(*match.span(), match[0]))

@@ -584,7 +584,7 @@ def _add_setting(found: Found, kind: str, value: Passage, text: str) -> None:
     if kind == "steps":
         if found.steps is None and (number := re.match(r"\d{1,6}", said)):
             found.steps = int(number[0]), value
-            found.notes += first_taken(said)
+            found.notes += first_taken(value.text)
         return
     angle = angle_of(said)
     if angle is None:
@@ -593,7 +593,7 @@ def _add_setting(found: Found, kind: str, value: Passage, text: str) -> None:
         raise ModelSyntaxError(f'The angle "{shown}" is no number', text, value.at, value.at + max(1, len(value.text)), hint)
     if found.angle is None:
         found.angle = angle, value
-        found.notes += first_taken(said)
+        found.notes += first_taken(value.text)
     elif found.angle[0] != angle:
         found.notes.append(f"Two angles are given: {float(found.angle[0]):g} is used, not {float(angle):g}.")
 
@@ -611,7 +611,8 @@ def _rule(text: str, item: Part) -> Rule:
     if after:
         chance = chance or after["plain"] or after["bracketed"] or after["named"]
         said = said[: after.start()]
-    tail = unquoted(Passage(_BEHIND.split(said)[0], item.start).part(0))
+    tail = Passage(_BEHIND.split(said)[0], item.start).part(0)
+    tail = unquoted(tail.part(0, end_of_value(tail.text, 0, len(tail.text))))
     if tail.text.endswith(".") and len(tail.text) > 1 and "{" not in tail.text:
         tail = tail.part(0, len(tail.text) - 1)
     if NOTHING.fullmatch(tail.text):

@@ -678,7 +678,7 @@ def _rules_of(entry: Entry, in_rules: bool, name: str) -> Iterator[Rule]:
         isinstance(value, Group)
         and value.opened != "("
         and len(entry.terms) == 1
-        and len(value.entries) > 1
+        and (len(value.entries) > 1 or (value.opened == "{" and entry.sign in ("->", "→", ":>")))
         and (word := _symbols(value))
         and not all(len(part.text) > 1 for part in word)
     ):
