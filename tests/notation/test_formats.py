@@ -337,6 +337,18 @@ def test_what_each_format_has_is_the_same_system(text: str) -> None:
                 "The number of steps, 4, is that of the text around.",
             ),
         ),
+        ("Axiom: A oder B\nA => AB\nB => A", ('Behind the axiom, "oder B" is left out.',)),
+        ("n=5..7, δ=20-30°\nω : X\nX → F[+X]-X", ('"5..7" is read as 5.', '"20-30°" is read as 20.')),
+        ("Start: F\nF => F+F\nOrder 5+", ('"5+" is read as 5.',)),
+        (
+            "Start: F\nF => F+F\nAngle: 60deg (or 90deg)\nn = 5 à 7",
+            ('"60deg (or 90deg)" is read as 60.', '"5 à 7" is read as 5.'),
+        ),
+        (
+            '{"axiom": "F", "rules": {"F": "F+F"}, "angle": "20-30", "n": "5 to 7"}',
+            ('"20-30" is read as 20.', '"5 to 7" is read as 5.'),
+        ),
+        ("Start: X\nX => F@.7[+X]-@IQ2X", ("@.7 is read as @Di(0.7): as in Fractint, lengths are multiplied by the number.",)),
         (
             "angle: 1.5707963\nstart : F\nF => F+F",
             (
@@ -383,6 +395,12 @@ def test_a_slip_is_shown_where_it_was_pasted(text: str, message: str, at: tuple[
     assert found.value.message == message
     assert at is None or (found.value.line, found.value.column) == at
     assert found.value.hint
+
+
+def test_all_rules_that_a_program_chooses_among_are_found() -> None:
+    program = "def rule(c):\n  if c == 'F': return 'F+F'\n  elif c == 'X': return 'XF'\n"
+    [found] = systems_in_literals(program)
+    assert [(rule.head.text, rule.tail[0].text) for rule in found.rules] == [("F", "F+F"), ("X", "XF")]
 
 
 def test_a_program_is_not_run_and_what_its_literals_say_is_offered() -> None:
@@ -618,6 +636,36 @@ READ = {
     "sets of one symbol": ("V = {F}, S = {+, −}, ω = F++F\nP = {F → F−F}", "axiom: F++F\nF -> F-F"),
     "an angle in degrees, in Fractint's words": ("Axiom = F\nAngle = 25.7\nF = FF+F", "angle: 25.7\naxiom: F\nF -> F F+F"),
     "a rule with a word for its arrow": ("Axiom = F\nF becomes F[+F]F\nAngle = 25", "angle: 25\naxiom: F\nF -> F[+F]F"),
+    "a set with something said behind it": (
+        "axiom: A; rules: {A → ABA, B → BBB}  (Cantor set)",
+        "axiom: A\nA -> A B A\nB -> B B B",
+    ),
+    "a list of one symbol": ("SubstitutionSystem[{a -> {a, b}, b -> {a}}, {a}, 4]", "axiom: a\na -> a b\nb -> a"),
+    "factors of lengths": (
+        "Start: X\nX => F@.7[+X]@Q2X@IQ2X@QI2X@I2X",
+        "axiom: X\nX -> F @Di(0.7)[+X] @Di(sqrt(2)) X @Di(1/sqrt(2)) X @Di(sqrt(1/2)) X @Di(1/2) X",
+    ),
+    "a setting without its colon": ("Axiom b[+a]a\nIgnore +-F\nb < a -> b", "ignore: + - F\naxiom: b[+a]a\nb < a -> b"),
+    "a table with its arrow in the first column": (
+        "| A → | `−AF` |\n| F → | `F F` |\n\nAxiom: A",
+        "axiom: A\nA -> -A F\nF -> F F",
+    ),
+    "a table with its arrow in the second column": ("| Axiom | A |\n| A | → AB |\n| B | → A |", "axiom: A\nA -> A B\nB -> A"),
+    "a table with a column of arrows": (
+        "| predecessor | → | successor |\n|:-:|:-:|:-:|\n| A | → | AF|F |\n\naxiom A",
+        "axiom: A\nA -> A F|F",
+    ),
+    "chances in percent": ("axiom F\nF -> F[+F]F 50%\nF -> FF 50%", "axiom: F\nF -> F[+F]F : 0.5\nF -> F F : 0.5"),
+    "chances in words": (
+        "axiom: F\nF -> F[+F]F with probability 1/3\nF -> FF, prob = 2/3",
+        "axiom: F\nF -> F[+F]F : 1/3\nF -> F F : 2/3",
+    ),
+    "chances before rules": ("axiom: F\n0.3 F => F[+F]F\n0.7 F => FF", "axiom: F\nF -> F[+F]F : 0.3\nF -> F F : 0.7"),
+    "chances within arrows": ("axiom: F\nF -(0.3)-> F[+F]F\nF -(0.7)-> F F", "axiom: F\nF -> F[+F]F : 0.3\nF -> F F : 0.7"),
+    "chances within other arrows": (
+        "Start: F\nF -(0.3)-> F[+F]F\nF -(0.7)-> FF",
+        "axiom: F\nF -> F[+F]F : 0.3\nF -> F F : 0.7",
+    ),
     "a table of a symbol's names": ("| axiom | F |\n|---|---|\n| F | F+F |\n| angle | 90 |", "angle: 90\naxiom: F\nF -> F+F"),
     "a constant called as a setting": (
         "angle = 30\nAxiom: F\nproduction:\nF --> F+(angle)F\nendlsystem",
@@ -928,6 +976,14 @@ CALCULATED = (
     "''.join(['F', '+', 'F'])",
     "-> { 'F' }",
     '["F", pick()]',
+    '"F%sF" % turn',
+    '"F" + turn',
+    'turn + "F"',
+    'turn(3) + "F"',
+    '"F#{turn}F"',
+    '"F${turn}F"',
+    '"F\\(turn)F"',
+    'paste0("F", turn)',
 )
 """What stands in programs in place of a word, and is none."""
 
@@ -1014,9 +1070,10 @@ def test_contexts_in_the_word_that_is_made_are_refused_by_name() -> None:
         read("Axiom: B A\nproduction:\nB << A --> B\nendlsystem")
 
 
-@pytest.mark.parametrize("word", ['f"F{x}F"', '"F" * 2'])
-def test_a_word_that_a_program_calculates_is_not_read(word: str) -> None:
-    assert not [each.rules for each in systems_in_literals(f'{{"axiom": "F", "rules": {{"F": {word}}}}}') if each.rules]
+@pytest.mark.parametrize("word", ['f"F{x}F"', '"F" * 2', '"F%sF" % "+"', '"F" + turn'])
+def test_a_word_that_a_program_calculates_is_refused_where_it_is_the_only_one(word: str) -> None:
+    with pytest.raises(ModelSyntaxError, match="The word for F is calculated here"):
+        read(f'axiom = "F"\nrules = {{"F": {word}}}')
 
 
 def test_a_function_among_rules_is_refused() -> None:

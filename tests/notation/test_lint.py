@@ -11,7 +11,7 @@ from lsys_kit.budget import limits
 from lsys_kit.derivation.core.interpretation import interpretation_of
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.derive import derive
-from lsys_kit.errors import ModelValueError
+from lsys_kit.errors import LSystemError, ModelValueError
 from lsys_kit.notation.analysis.lint import check_decomposition, warnings
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.expressions import function_of, is_random
@@ -415,3 +415,23 @@ def test_what_happens_in_steps_is_no_timed_system(text: str) -> None:
 
 def test_nothing_is_said_of_an_age_that_has_no_value() -> None:
     assert not read("axiom: A(1/0)\nA(2) -> B").notes
+
+
+@pytest.mark.parametrize("text", ["axiom: A or B\nA -> A B", "axiom: A\nA -> A B or B", "axiom: A\nA -> A und B"])
+def test_a_word_of_a_language_between_modules_is_told(text: str) -> None:
+    assert any("is read as a symbol. A system has one axiom" in note for note in read(text).notes)
+
+
+@pytest.mark.parametrize("text", ["axiom: A or B\nor -> A", "axiom: or B\nB -> B or", "alphabet: or\naxiom: A or B\nA -> B"])
+def test_nothing_is_said_of_such_a_word_where_it_is_a_symbol(text: str) -> None:
+    assert not any("is read as a symbol. A system" in note for note in read(text).notes)
+
+
+def test_an_angle_that_is_a_difference_is_told() -> None:
+    assert read("angle: 20-30\naxiom: F").notes == ('The angle "20-30" is a difference. Give one number.',)
+    assert read("angle: 360/7\naxiom: F").notes == ()
+
+
+def test_a_row_of_a_table_is_no_rule() -> None:
+    with pytest.raises(LSystemError, match="This is a row of a table"):
+        read("axiom: A\n| A -> | A B |\n| B -> | A |", "abop")

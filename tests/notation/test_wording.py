@@ -69,6 +69,7 @@ def test_a_wording_ends_as_its_part_of_a_message_does(code: str) -> None:
             "several replaced",
             "passed over",
             "as modules",
+            "as angle",
             "decimal comma",
             "only in time",
             "no further",

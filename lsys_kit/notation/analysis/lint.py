@@ -383,6 +383,24 @@ def slips(system: LSystem) -> Iterator[Problem]:
     yield from _comments(system)
     yield from _decimal_commas(system)
     yield from _unused_constants(system)
+    yield from _conjunctions(system)
+    if (said := _DIFFERENCE.search(system.source)) and system.notation == "abop":
+        yield Problem("difference as angle", said.span(1), {"said": said[1]})
+
+
+_CONJUNCTIONS = frozenset(("or", "and", "oder", "und"))
+_DIFFERENCE = re.compile(r"^[ \t]*+angle[ \t]*+:[ \t]*+(\d++(?:\.\d++)?[ \t]*+-[ \t]*+\d++(?:\.\d++)?)[ \t]*+$", re.MULTILINE)
+"""An angle that is a difference of two numbers: perhaps from one to the other."""
+
+
+def _conjunctions(system: LSystem) -> Iterator[Problem]:
+    """Words of a language between modules, which no rule is for."""
+    known = {module.symbol for rule in system.rules for module in rule.predecessors}.union(system.alphabet)
+    for word in (system.axiom, *(rule.successor for rule in system.rules)):
+        for module in [*flat(word)][1:-1]:
+            if module.symbol in _CONJUNCTIONS - known:
+                yield Problem("conjunction as modules", module.at, {"symbol": module.symbol})
+                return
 
 
 def _unused_constants(system: LSystem) -> Iterator[Problem]:

@@ -87,6 +87,8 @@ class Found:
         A text in the kit's notation that is all of it, in place of its parts.
     calculated
         What a program makes a word for, instead of giving it.
+    joined
+        Whether that is made of texts, as in "F" + turn, so that the text is surely a program.
     loose
         Where rules stand that nothing calls rules.
     """
@@ -105,6 +107,7 @@ class Found:
     listing: Transcript | None = None
     assumed: bool = False
     calculated: Passage | None = None
+    joined: bool = False
     loose: set[int] = field(default_factory=set)
 
     @property
@@ -114,7 +117,9 @@ class Found:
 
 
 _ARGUMENTS = re.compile(r"[()]")
-_SYMBOL = re.compile(r"[A-Za-z]_\{?[A-Za-z0-9]\}?(?![A-Za-z0-9])|[A-Za-z_]|\d|@[A-Za-z]+|\S")
+_SYMBOL = re.compile(r"[A-Za-z]_\{?[A-Za-z0-9]\}?(?![A-Za-z0-9])|[A-Za-z_]|\d|@[IQ]{0,2}(?:\d+(?:\.\d+)?|\.\d+)|@[A-Za-z]+|\S")
+_SCALED = re.compile(r"@([IQ]{0,2})(\d+(?:\.\d+)?|\.\d+)")
+"""Fractint's factor of lengths: a number, its inverse (I), its root (Q)."""
 
 
 def symbols_in(text: str, names: frozenset[str] = frozenset()) -> Iterator[tuple[int, int, bool]]:
@@ -171,6 +176,11 @@ def _word(passage: Passage, found: Found) -> Iterator[Edit]:
 
 def _sign(text: str, values: str | None, signs: Mapping[str, str]) -> tuple[str, bool]:
     """A symbol in the kit's spelling, and whether its values are in it, or left out."""
+    if scaled := _SCALED.fullmatch(text):
+        factor = _numbers(scaled[2])
+        for letter in reversed(scaled[1]):
+            factor = f"1/{factor}" if letter == "I" else f"sqrt({factor})"
+        return f"@Di({factor})", False
     if re.fullmatch(r"[A-Za-z]_\{\w\}", text):
         return text.replace("{", "").replace("}", ""), False
     made = signs.get(f"{text}(") if values is not None else None
@@ -283,7 +293,31 @@ def listing(found: Found) -> Iterator[Edit]:
 
 def transcript_of(found: Found, before: Transcript) -> Transcript:
     """What was found in a text, in the kit's notation."""
-    return found.listing or assembled(before, listing(found), found.notes)
+    return found.listing or assembled(before, listing(found), [*found.notes, *_scaled(found)])
+
+
+def _scaled(found: Found) -> Iterator[str]:
+    """A note on the first number behind "@"."""
+    words = (*(found.axiom or ()), *(part for rule in found.rules for part in rule.tail))
+    if said := next(filter(None, (_SCALED.search(word.text) for word in words)), None):
+        yield f"{said[0]} is read as {_sign(said[0], None, {})[0]}: as in Fractint, lengths are multiplied by the number."
+
+
+_SEVERAL = re.compile(
+    r"(?P<first>\d++(?:[.,]\d++)?)[ ]?(?:°|deg(?:rees?)?\b)?[ ]*\(?(?:(?:-|\.{2,3}|…|~|±|[^\W\d]{1,4})[ ]*\d|\+(?!\d)).*",
+    re.DOTALL,
+)
+"""A range of numbers, or several."""
+
+
+def first_taken(text: str) -> list[str]:
+    """The note on a setting of which only the first number is taken.
+
+    >>> first_taken("5..7"), first_taken("25 degrees")
+    (['"5..7" is read as 5.'], [])
+    """
+    several = _SEVERAL.fullmatch(text.strip())
+    return [f'"{quotable(text.strip()[:40])}" is read as {several["first"]}.'] if several else []
 
 
 def not_taken(name: str, value: str) -> str:

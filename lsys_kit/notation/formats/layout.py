@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 
 from lsys_kit.notation.formats.found import Passage, tables, unquoted
-from lsys_kit.notation.formats.parts import ARROW, fields
+from lsys_kit.notation.formats.parts import ANY_ARROW, ARROW, fields
 from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, assembled, edited
 
 _LATEX = re.compile(r"\\(?:begin|end|omega|delta|rightarrow|mapsto|to|theta|circ|text|quad)\b")
@@ -177,6 +177,9 @@ _CELL, _QUOTED_CELLS = (
 )
 
 
+_ROW = re.compile(r"[ \t]*+\|(?P<cells>[ \t][^\n]*[ \t])\|[ \t]*+\n?")
+_IN_ROW = re.compile(r"(?:[^|\n]|(?<![ \t])\||\|(?![ \t]))+")
+"""A row of a table, and its cells: a border has blanks around it, which a turn has not."""
 _KEYED = re.compile(
     r"^[ \t]*+\|?[ \t]*+(?:axiom|start|angle)[ \t]*+\|[^\n]*+\n[ \t]*+\|?[ \t]*+:?-{3}", re.MULTILINE | re.IGNORECASE
 )
@@ -229,6 +232,13 @@ def _without_tables(before: Transcript, keyed: bool) -> Transcript:
             for name, cell in zip(heading, cells, strict=True):
                 at = cell.at
                 pieces += (Edit(at, at, f"{name}: "), Edit(at, at + len(cell.text), cell.text), Edit(at, at, "\n"))
+            continue
+        elif (row := _ROW.fullmatch(before.text, *match.span())) and ANY_ARROW.search(row["cells"]):
+            if low[:1] != [] and low[0] in names["predecessor"]:
+                continue  # the head of a table whose rows are rules
+            for part in _IN_ROW.finditer(before.text, *row.span("cells")):
+                pieces += (Edit(*part.span(), part[0]), Edit(part.end(), part.end(), "  "))
+            pieces.append(Edit(match.end(), match.end(), "\n"))
             continue
         pieces.append(Edit(*match.span(), match[0]))
     return assembled(before, pieces)

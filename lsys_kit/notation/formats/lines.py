@@ -11,8 +11,19 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 
-from lsys_kit.errors import ModelSyntaxError
-from lsys_kit.notation.formats.found import Found, Passage, Rule, angle_of, chance_of, not_taken, symbols_in, tables, unquoted
+from lsys_kit.errors import ModelSyntaxError, quotable
+from lsys_kit.notation.formats.found import (
+    Found,
+    Passage,
+    Rule,
+    angle_of,
+    chance_of,
+    first_taken,
+    not_taken,
+    symbols_in,
+    tables,
+    unquoted,
+)
 from lsys_kit.notation.formats.parts import (
     AFTER,
     ALIAS,
@@ -50,7 +61,7 @@ _REFERENCE = re.compile(r"\s*(?:\[\d{1,3}\]|\(\d{1,3}\)|\d{2,4}|[-–][ ]?\d{1,4
 """The number of a page, of a footnote, a caption's letter, alone on a line."""
 _MARKED = re.compile(
     r"&(?:\w{2,8}|#\d{1,6});|<(?:b|br|p|tt|td)\b[^<>\n]{0,99}>|\*\*|`|\\begin\{|\\displaystyle|\\(?:text|math)tt\b|\\verb\b"
-    r"|\{\\tt\b|^[ \t]*+set[ ]\[|^[ \t]*+\|?[ \t]*+:?-{3,}+:?[ \t]*+\|",
+    r"|\{\\tt\b|^[ \t]*+set[ ]\[|^[ \t]*+\|?[ \t]*+:?-{3,}+:?[ \t]*+\||^[ \t]*+\|[ ][^|\n]++(?<=[ ])\|[ ][^\n]*\|[ \t]*+$",
     re.IGNORECASE | re.MULTILINE,
 )
 
@@ -72,7 +83,7 @@ def _is_foreign(item: Part, text: str) -> bool:
     if item.kind == "rule" and item.match:
         labelled = item.match["label"] and not re.match(r"[pP]_?\d", item.match["label"])
         return _OWN_ARROW.fullmatch(item.match["arrow"]) is None or bool(
-            labelled or item.match["first"] or item.match["within"]
+            labelled or item.match["first"] or item.match["within"] or AFTER.search(text, item.start, item.end)
         )
     if item.kind in ("axiom", "angle", "steps") and item.match:
         said = text[item.start : item.end]
@@ -554,6 +565,7 @@ def _add_axiom(found: Found, value: Passage, item: Part) -> None:
     said = value.part(alias.end() if alias else 0)
     passage = unquoted(Passage(without_comment(said.text), said.at).part(0))
     if not is_word(passage.text) and (word := re.match(r"(\S+?)[,;.]?\s+[a-z]{2,}\b", passage.text)):
+        found.notes.append(f'Behind the axiom, "{quotable(passage.text[word.end(1) :].strip()[:40])}" is left out.')
         passage = passage.part(0, word.end(1))
     passage = passage.part(0, end_of_value(passage.text, 0, len(passage.text)))
     if passage.text.endswith(".") and len(passage.text) > 1 and "{" not in passage.text:
@@ -572,6 +584,7 @@ def _add_setting(found: Found, kind: str, value: Passage, text: str) -> None:
     if kind == "steps":
         if found.steps is None and (number := re.match(r"\d{1,6}", said)):
             found.steps = int(number[0]), value
+            found.notes += first_taken(value.text)
         return
     angle = angle_of(said)
     if angle is None:
@@ -580,6 +593,7 @@ def _add_setting(found: Found, kind: str, value: Passage, text: str) -> None:
         raise ModelSyntaxError(f'The angle "{shown}" is no number', text, value.at, value.at + max(1, len(value.text)), hint)
     if found.angle is None:
         found.angle = angle, value
+        found.notes += first_taken(value.text)
     elif found.angle[0] != angle:
         found.notes.append(f"Two angles are given: {float(found.angle[0]):g} is used, not {float(angle):g}.")
 
@@ -597,7 +611,8 @@ def _rule(text: str, item: Part) -> Rule:
     if after:
         chance = chance or after["plain"] or after["bracketed"] or after["named"]
         said = said[: after.start()]
-    tail = unquoted(Passage(_BEHIND.split(said)[0], item.start).part(0))
+    tail = Passage(_BEHIND.split(said)[0], item.start).part(0)
+    tail = unquoted(tail.part(0, end_of_value(tail.text, 0, len(tail.text))))
     if tail.text.endswith(".") and len(tail.text) > 1 and "{" not in tail.text:
         tail = tail.part(0, len(tail.text) - 1)
     if NOTHING.fullmatch(tail.text):

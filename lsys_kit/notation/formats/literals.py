@@ -16,7 +16,7 @@ from itertools import chain, pairwise
 
 from lsys_kit.budget import current
 from lsys_kit.errors import ModelSyntaxError, quotable
-from lsys_kit.notation.formats.found import Found, Passage, Rule, angle_of, chance_of, not_taken, tables
+from lsys_kit.notation.formats.found import Found, Passage, Rule, angle_of, chance_of, first_taken, not_taken, tables
 from lsys_kit.notation.formats.lines import rules_in_line
 from lsys_kit.notation.formats.parts import is_word
 
@@ -89,11 +89,18 @@ _FILLED_IN = re.compile(r"(?<!\w)(?:[rR]?[fF][rR]?|\$@?|@\$)(?=[\"'].*\{)|(?=`.*
 """Before a text into which values are put: f"F{x}", $"F{x}", `F${x}`."""
 
 
+_PLACEHOLDER = re.compile(r"%(?:\(\w+\))?[sdifgr]|[#$]\{\s*\w+(?:[.\[(*/ ][^{}]*)?\}|\\\(")
+_PUT_IN = re.compile(r"[ \t]*%")
+"""A text with places for values, and what fills them: "F%sF" % turn; in Ruby, Kotlin and Swift they are in it."""
+
+
 def _text_of(match: re.Match[str], text: str) -> Term:
     """A literal text, its escapes read."""
     said = match[0][1:-1]
     at = match.start() + 1
-    if any(_FILLED_IN.match(text, start, match.end()) for start in range(max(0, at - 3), at)):
+    if any(_FILLED_IN.match(text, start, match.end()) for start in range(max(0, at - 3), at)) or (
+        _PLACEHOLDER.search(said) and (_PUT_IN.match(text, match.end()) or "%" not in said)
+    ):
         return Term("calculated", said, at, match.end() - 1)
     if "\\" not in said:
         return Term("text", said, at, match.end() - 1)
@@ -282,8 +289,7 @@ def systems_of(whole: Group, text: str) -> list[Found]:
     _gather(whole, found, text, False)
     _pair_up(found)
     _check(found, text)
-    if not found.rules:
-        _take_choices(found, text)
+    _take_choices(found, text)
     if found.rules and not found.axiom:
         _take_unnamed_axiom(whole, found)
     if found.rules and not found.angle and (angle := _DEGREES.search(text)):
@@ -318,9 +324,13 @@ _CHOICE = re.compile(
 
 
 def _take_choices(found: Found, text: str) -> None:
-    """The rules that a program chooses among."""
-    for match in _CHOICE.finditer(text):
-        found.rules.append(Rule(Passage(match["head"], match.start("head")), (Passage(match["tail"], match.start("tail")),)))
+    """The rules that a program chooses among, unless others were found than these."""
+    chosen = [
+        Rule(Passage(match["head"], match.start("head")), (Passage(match["tail"], match.start("tail")),))
+        for match in _CHOICE.finditer(text)
+    ]
+    if all(rule in chosen for rule in found.rules):
+        found.rules = chosen
 
 
 def _take_unnamed_axiom(whole: Group, found: Found) -> None:
@@ -437,7 +447,7 @@ def _take(entry: Entry, found: Found, text: str, in_rules: bool) -> None:
         return
     rules, within = len(found.rules), in_rules or kind == "rules"
     if keyed and kind == "axiom" and not in_rules and _is_calculated(entry.terms):
-        found.calculated = found.calculated or Passage(name, entry.start)
+        found.calculated, found.joined = found.calculated or Passage(name, entry.start), found.joined or _has_text(entry, text)
     elif keyed and kind == "axiom" and said and not in_rules:
         found.axiom = found.axiom or _texts(entry.terms)
     elif keyed and kind == "axiom" and isinstance(value, Group) and (word := _symbols(value)) and not in_rules:
@@ -449,10 +459,12 @@ def _take(entry: Entry, found: Found, text: str, in_rules: bool) -> None:
     elif keyed and kind == "angle" and not in_rules and (angle := angle_of(raw.strip("\"'"))) is not None:
         if found.angle is None:
             found.angle = angle, Passage(raw, _start(entry.terms[-1]), False)
-    elif keyed and kind == "steps" and not in_rules and (steps := re.match(r"\d{1,6}$", raw)):
+        found.notes += first_taken(raw.strip("\"'"))
+    elif keyed and kind == "steps" and not in_rules and (steps := re.match(r"\d{1,6}(?=$|\D)", raw.strip("\"'"))):
         found.steps = found.steps or (int(steps[0]), Passage(raw, _start(entry.terms[-1]), False))
+        found.notes += first_taken(raw.strip("\"'"))
     elif within and keyed and _is_calculated(entry.terms) and (head := _head(entry, True, name)):
-        found.calculated = found.calculated or head
+        found.calculated, found.joined = found.calculated or head, found.joined or _has_text(entry, text)
     elif keyed and said and not in_rules and name.lower() in tables()["names"]["ignore"]:
         found.ignored = said[-1].passage
     elif not (within and _is_calculated(entry.terms)) and (more := [*_rules_of(entry, within, name)]):
@@ -481,13 +493,31 @@ _SAME_WORD = frozenset(
     ("split", "tostring", "toowned", "into", "chars", "strip", "trim", "tos", "tosym", "freeze", "tochararray", "collect")
 )
 """What programs do to a text that is the same word afterwards."""
-_OTHER_WORD = frozenset(("resub", "gsub", "sub", "replace", "stringreplace", "join", "format", "sprintf", "repeat", "concat"))
+_OTHER_WORD = frozenset(
+    (
+        "resub",
+        "gsub",
+        "sub",
+        "replace",
+        "stringreplace",
+        "join",
+        "format",
+        "sprintf",
+        "repeat",
+        "concat",
+        "paste",
+        "paste0",
+        "strcat",
+    )
+)
 """What makes another of it."""
 
 
 def _is_calculated(terms: list[Term | Group]) -> bool:
     """Whether a program makes a word of texts, and no literal is one: f"F{x}", "F" * 2, "F" if x else "G", t => "AB"."""
     texts = [index for index, term in enumerate(terms) if isinstance(term, Term) and term.kind == "text"]
+    if texts and any(_is_joined(first, second) or _is_joined(second, first) for first, second in pairwise(terms)):
+        return True
     return any(
         term.kind in ("calculated", "function") or term.text in _CALCULATES
         if isinstance(term, Term)
@@ -495,6 +525,23 @@ def _is_calculated(terms: list[Term | Group]) -> bool:
         or (bool(texts) and texts[0] < index and name not in _SAME_WORD)
         for index, term in enumerate(terms)
     )
+
+
+_JOINS = frozenset("+&~.$")
+"""What joins a text with another, or begins a name."""
+
+
+def _is_joined(sign: Term | Group, other: Term | Group) -> bool:
+    """Whether what a sign joins is no text: "F" + turn."""
+    name = re.sub("[._]", "", other.head.lower()) if isinstance(other, Group) else ""
+    joins = isinstance(sign, Term) and sign.kind == "other" and sign.text in _JOINS
+    return joins and (name not in _SAME_WORD if isinstance(other, Group) else other.kind in ("name", "number"))
+
+
+def _has_text(entry: Entry, text: str) -> bool:
+    """Whether an entry has a text in the quotation marks of programs."""
+    texts = (term for term in entry.terms if isinstance(term, Term) and term.kind in ("text", "calculated"))
+    return any(text[term.at - 1] in "\"'" for term in texts)
 
 
 def _texts(terms: list[Term | Group]) -> tuple[Passage, ...]:
@@ -517,7 +564,7 @@ def _check(found: Found, text: str) -> None:
         or heads.issuperset(word)
         or (len(set(word)) < 3 and rule.head.text not in named)
     ]
-    if found.calculated and found.rules:
+    if found.calculated and (found.rules or (found.joined and not _UNCLOSED.search(text))):
         at = found.calculated.at
         raise ModelSyntaxError(
             f"The word for {quotable(found.calculated.text)} is calculated here",
@@ -631,7 +678,7 @@ def _rules_of(entry: Entry, in_rules: bool, name: str) -> Iterator[Rule]:
         isinstance(value, Group)
         and value.opened != "("
         and len(entry.terms) == 1
-        and len(value.entries) > 1
+        and (len(value.entries) > 1 or (value.opened == "{" and entry.sign in ("->", "→", ":>")))
         and (word := _symbols(value))
         and not all(len(part.text) > 1 for part in word)
     ):

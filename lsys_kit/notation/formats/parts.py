@@ -26,7 +26,7 @@ ARROW = r"(?:[-=|]{1,3}>|→|⟶|⟼|↦|⇒|➔|➜|➝|\\(?:long)?(?:rightarro
 """That of an arrow."""
 _LABEL = (
     rf"(?:(?:[pPrR]|[Rr]ule|[Rr]egel)[_ ]?\d{{1,3}}{BLANKS}[:.)=]|\(\d{{1,3}}\)"
-    rf"|\d{{1,2}}(?:\.\d{{1,2}})*[.)]?(?=[ \t])|[pP]{BLANKS}:)"
+    rf"|(?!0?\.\d)\d{{1,2}}(?:\.\d{{1,2}})*[.)]?(?=[ \t])|[pP]{BLANKS}:)"
 )
 _OWN = r"(?:[A-Za-z]\w{0,15}|\d|[-+])"
 _SIDE = r"[^\s<>:=,;()]{1,20}(?:\([^()\n]{0,60}\))?"
@@ -38,13 +38,14 @@ _HEAD = (
 _CHANCE = r"(?:\d{1,3}(?:\.\d+)?\s?%|0?\.\d+|\(\d{1,3}\.?\d*\s?%\)|\(?\d{1,3}/\d{1,3}\)?)"
 _RULE = (
     rf"(?:(?P<label>{_LABEL}){BLANKS})?(?:(?P<first>{_CHANCE}){BLANKS}:?{BLANKS})?(?P<head>{_HEAD}){BLANKS}"
-    rf"(?:(?<=[ \t])(?P<over>{_CHANCE}){BLANKS}|-{{1,2}}{BLANKS}(?P<within>{_CHANCE}){BLANKS}(?=-*>|→))?"
+    rf"(?:(?<=[ \t])(?P<over>{_CHANCE}){BLANKS}|-{{1,2}}{BLANKS}(?P<within>{_CHANCE}|\(0?\.\d+\)){BLANKS}(?=-*>|→))?"
     rf"(?P<arrow>-*{ARROW}|WORDS|=(?!=)(?![ \t]*\d+(?:\.\d+)?[ \t]*(?:$|[,;:])))"
 )
 AFTER = re.compile(
     rf"(?:(?<![ \t])[ \t]++|(?<=[^\s(]))(?::{BLANKS}(?P<plain>{_CHANCE}|\d(?:\.\d+)?)"
     rf"|[(\[]{BLANKS}(?:p{BLANKS}={BLANKS})?(?P<bracketed>{_CHANCE}){BLANKS}[)\]]"
-    rf"|,{BLANKS}p{BLANKS}={BLANKS}(?P<named>{_CHANCE})){BLANKS}$"
+    rf"|(?:,{BLANKS}|(?<=[ \t]))(?:(?:with[ ])?(?:p|prob\.?|probability){BLANKS}(?:[:=]|of\b)?)?{BLANKS}"
+    rf"(?P<named>{_CHANCE})){BLANKS}$"
 )
 """A probability behind a successor."""
 NOTHING = re.compile(r"\([a-z ]{5,}\)|empty|nothing|none|ε|λ|\*")
@@ -293,7 +294,9 @@ def _possible(kind: str, named: re.Match[str], value: str, rule: Part | None, la
     number = _NUMBER.fullmatch(ALIAS.sub("", value))
     if kind == "steps":
         return bool(
-            number and (sep or not short) and re.match(r"[ \t]*(?:$|,(?![ ]?\d)|[;.)#%(|]|[A-Za-zÀ-ÿ]|//|\t)", number["rest"])
+            number
+            and (sep or not short)
+            and re.match(r"[ \t]*(?:$|,(?![ ]?\d)|[-+…;.)#%(|]|[A-Za-zÀ-ÿ]|//|\t)", number["rest"])
         )
     if kind == "angle":
         if number and (sep or not short):
@@ -315,6 +318,8 @@ def _possible(kind: str, named: re.Match[str], value: str, rule: Part | None, la
             return not short or named["name"] in "ωw"
         said = re.split(r"\t|  |[ ]#|[,;][ ]|[ ](?=(?:rules?|angle|iterations)[ ])", value.strip())[0]
         return len(named["name"]) > 4 and is_word(said) and re.fullmatch(r"\S+|\S(?:[ ]\S)+", said.strip()) is not None
+    if kind == "ignore":
+        return bool(sep) or is_word(value)
     if kind in ("head", "tail"):
         return bool(sep and value.strip()) and not later and rule is None
     if kind in ("scale", "constant"):

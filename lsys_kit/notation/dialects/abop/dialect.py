@@ -40,6 +40,8 @@ def _resolve_deferred(draft: Draft) -> None:
         draft.notes.append('"d" is read as the length of a segment.')
 
 
+_ROW = re.compile(r"^([ \t]*+\|[ \t][^\n]*[ \t]\|)[ \t]*+\n[ \t]*+\|[ \t][^\n]*[ \t]\|[ \t]*+$", re.MULTILINE)
+"""The first of two rows of a table."""
 _BAR = re.compile(r"[^\s|][ ]\|[ ][^\s|]")
 """A bar with blanks around it, as between the alternatives of a grammar."""
 
@@ -48,6 +50,8 @@ def _finish(draft: Draft) -> LSystem:
     """The system with names segmented into letters where they were written together, with a note on each."""
     _resolve_deferred(draft)
     check_colons(draft)
+    if table := _ROW.search(draft.source):
+        raise problem("row of a table", table.span(1))
     tails = (line.replace("→", "->").partition("->")[2] for line in without_comments(draft.source).splitlines())
     if any(" + " not in tail and " - " not in tail and _BAR.search(tail) for tail in tails):
         draft.notes.append(

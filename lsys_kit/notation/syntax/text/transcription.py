@@ -111,7 +111,7 @@ _NEIGHBOURS = re.compile(r"[ \t]*+(#[ \t]*+)(?:ignore|consider)\b", re.IGNORECAS
 _DIRECTIVE = re.compile(rf"{_DEFINED.pattern}|(?i:{_NEIGHBOURS.pattern})|[ \t]*+#[ \t]*+include\b")
 _START = re.compile(r"[ \t]*+((?i:Start(?:wort|word)|Start (?:word|symbol))\b[ \t]*+:?)")
 _NAMED_AXIOM = re.compile(rf"[ \t]*+(?i:axiom)\b|{_START.pattern}|{_OMEGA.pattern}")
-_PROBABILITY = re.compile(rf"(?<![ \t])[ \t]++(\d*\.\d+)[ \t]*+(?={_ARROW})")
+_PROBABILITY = re.compile(rf"(?<![ \t])[ \t]++(?:-{{1,2}}\()?+(\d*\.\d+)(?:\)(?=-)|[ \t]*+)(?={_ARROW})")
 _ABOVE = re.compile(r"[ \t]*+(\d*\.\d+|1)[ \t]*+$")
 _REFERENCE = re.compile(r"[\[(]\d++[\])]|\d++|[-–][ ]?\d++[ ]?[-–]|/[ ]?[a-z]|\([a-z]\)")
 """The number of a page or a note, or a caption's letter: on an indented line, anything else goes on with a production."""
