@@ -207,6 +207,12 @@ def test_at_every_width(shown, width, zoom):
     notebook.shot(f"panel-{width}-{zoom}")
 
 
+def test_on_a_narrow_screen_the_step_stays_in_sight(shown):
+    panel = panel_of(shown("explore('J4', 9)", viewport={"width": 400, "height": 800}).page)
+    panel.locator(".lsys-net").scroll_into_view_if_needed()
+    expect(panel.get_by_label("step", exact=True)).to_be_in_viewport()
+
+
 def test_compare_has_one_slider_and_marks_differences(shown):
     notebook = shown("compare('J4', {}, {'lifeTimeA': 2, 'lifeTimeB': 3}, step=7)")
     page = notebook.page

@@ -314,7 +314,7 @@ def check_tables(page: Page) -> None:
 
 
 @pytest.mark.parametrize("name", PAGES)
-def test_a_page_fits_a_phone_and_axe_finds_nothing_serious(opened, pytestconfig, name: str) -> None:
+def test_a_page_fits_a_phone_and_axe_finds_nothing(opened, pytestconfig, name: str) -> None:
     """Dark when it is opened, then light, as when the morning comes."""
     page = opened(name, is_phone=True, color_scheme="dark")
     all_parts_open(page)
@@ -324,7 +324,6 @@ def test_a_page_fits_a_phone_and_axe_finds_nothing_serious(opened, pytestconfig,
         page.emulate_media(color_scheme=scheme)
         assert page.evaluate("document.documentElement.scrollWidth") <= 400
         found = page.evaluate("""async () => (await axe.run({ resultTypes: ["violations"] })).violations
-            .filter(({ impact, id }) => impact === "critical" || impact === "serious" || id === "region")
             .map((each) => [each.id, ...each.nodes.slice(0, 3).map((node) => node.html.slice(0, 200))])""")
         assert found == [], f"{scheme}: {json.dumps(found, indent=1)}"
         shot(page, f"{name}-{scheme}", pytestconfig)

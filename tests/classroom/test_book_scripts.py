@@ -49,6 +49,14 @@ FOUND = """([data, step]) => {
   return Array.from({ length: cells.n }, (_, i) => [...[-0.45, 0, 0.45].map((part) => cellAt(sheet,
     cells.x[i] + part * cells.length[i], cells.y[i])), { step: sheet.rows[cells.row[i]].step, position: cells.position[i] }]);
 }"""
+BESIDE = """([data, step, reach]) => {
+  const sheet = sequence(openBook(data), step), { cells, rows, pitch } = sheet, last = rows.length - 1;
+  const from = cells.starts[last];
+  const found = (x, y) => cellAt(sheet, x, y, reach)?.position ?? null, bottom = rows[last].top + pitch;
+  const left = cells.x[from] - cells.length[from] / 2;
+  return [0.1, -0.1].map((inside) => [found(cells.x[from], bottom + reach - inside),
+    found(left - reach + inside, bottom - pitch / 2), found(cells.x[0], rows[0].top - reach + inside)]);
+}"""
 PAINTED = """([data, step, look]) => {
   const canvas = document.createElement("canvas"), sheet = sequence(openBook(data), step);
   [canvas.width, canvas.height] = [sheet.width, sheet.height];
@@ -236,6 +244,11 @@ def test_a_point_within_a_cell_finds_its_module(page, name):
     found = page.evaluate(FOUND, [sent(book(system(name))), 9])
     assert found
     assert all([expected] * 3 == there for *there, expected in found)
+
+
+@pytest.mark.parametrize("reach", [0, 6, 14])
+def test_a_point_beside_a_cell_finds_its_module_as_far_as_a_hand_reaches(page, reach):
+    assert page.evaluate(BESIDE, [sent(book(system("J4"))), 9, reach]) == [[0, 0, 0], [None, None, None]]
 
 
 def test_what_is_marked_or_traced_is_painted_so(page):

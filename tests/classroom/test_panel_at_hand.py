@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from typing import Any
 
 import pytest
@@ -121,6 +122,51 @@ def test_on_a_phone_the_buttons_of_the_views_stand_in_one_line(explored, id, wid
     assert more["x"] + more["width"] <= width
 
 
+def test_where_one_line_has_no_room_for_the_buttons_of_the_views_all_are_seen(explored):
+    panel = explored("K8", context={"viewport": {"width": 300, "height": 800}, "has_touch": True})
+    boxes = [each.bounding_box() for each in panel.at(".lsys-top .lsys-tab:visible").all()]
+    assert len({box["y"] for box in boxes}) == 2
+    assert all(box["x"] + box["width"] <= 300 for box in boxes)
+    for box, following in itertools.pairwise(boxes):
+        assert box["y"] < following["y"] or box["x"] + box["width"] <= following["x"]
+
+
+@pytest.mark.parametrize(
+    ("id", "uses"),
+    [
+        ("J4", "Two fingers bring it nearer. Tap a cell to trace it."),
+        ("K5", "Two fingers bring it nearer. Tap a part to trace it."),
+        ("K28", "Two fingers bring it nearer. Tap a wall to trace it."),
+        ("K19", "A finger turns it. Tap a part to trace it."),
+        ("K33", "A finger turns it. Tap a cell to trace it."),
+    ],
+)
+def test_a_finger_is_told_what_it_can_do(explored, id, uses):
+    assert explored(id, context=PHONE).at(".lsys-sheet .lsys-hint").inner_text() == uses
+
+
+def test_a_finger_beside_a_cell_finds_it_and_the_page_stays_where_it_is(explored):
+    panel = explored("J4", 10, context={"viewport": {"width": 400, "height": 500}, "has_touch": True})
+    canvas, word = panel.at(".lsys-canvas").bounding_box(), panel.at(".lsys-word").bounding_box()
+    assert word["y"] > 500
+    panel.page.touchscreen.tap(canvas["x"] + canvas["width"] / 2, canvas["y"] + canvas["height"] - 4)
+    expect(panel.at(".lsys-sentence")).to_contain_text("of step 10, ")
+    assert panel.page.evaluate("scrollY") == 0
+
+
+def test_a_long_word_is_moved_until_what_is_traced_is_seen(explored):
+    panel = explored("K5", 4)
+    word, first, last = (
+        panel.at(".lsys-word"),
+        panel.at('.lsys-word [data-position="0"]'),
+        panel.at(".lsys-word [data-position]").last,
+    )
+    panel.at(".lsys-canvas").press("p")
+    assert box_of(last)["bottom"] <= box_of(word)["bottom"]
+    word.press("Home")
+    assert box_of(first)["top"] >= box_of(word)["top"]
+
+
 def test_what_is_told_of_a_part_stands_below_the_view_in_which_it_was_pointed_at(explored):
     panel = explored("K8", 6, context={"viewport": {"width": 1440, "height": 900}})
     panel.view("nine seeds")
@@ -133,6 +179,14 @@ def test_what_is_told_of_a_part_stands_below_the_view_in_which_it_was_pointed_at
         assert 0 <= box_of(sentence)["top"] - box_of(panel.at(above))["bottom"] < 20
     panel.view("drawing")
     expect(panel.at('[data-view="word"] .lsys-sentence')).to_contain_text(" of step 6")
+
+
+def test_what_is_told_of_a_cell_of_a_tissue_stands_above_the_list_of_those_that_are_lit(explored):
+    panel = explored("K33", 3)
+    panel.at(".lsys-canvas").press("n")
+    expect(panel.at(".lsys-sentence")).to_contain_text("Cell 1 of step 3")
+    assert box_of(panel.at(".lsys-canvas"))["bottom"] <= box_of(panel.at(".lsys-sentence"))["top"]
+    assert box_of(panel.at(".lsys-sentence"))["bottom"] <= box_of(panel.at('[data-view="drawing"] select'))["top"]
 
 
 def box_of(found: Locator) -> dict[str, float]:

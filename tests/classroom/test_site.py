@@ -150,6 +150,10 @@ def test_a_formula_that_cannot_be_read_stays_as_it_is_written() -> None:
     assert mathml(r"\frac{") == r"<code>\frac{</code>"
 
 
+def test_an_empty_cell_above_a_table_heads_no_column() -> None:
+    assert re.findall(r"<t[hd]\b.*?>", plain("| | b |\n|---|---|\n| c | |")) == ["<td>", '<th scope="col">', "<td>", "<td>"]
+
+
 def test_a_bar_in_a_table_is_a_bar() -> None:
     assert "<code>|</code>" in plain("| a | b |\n|---|---|\n| `\\|` | c |")
 

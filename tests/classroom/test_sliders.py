@@ -108,6 +108,15 @@ def test_the_angles_of_a_class_stand_below_their_slider(explored):
         expect(panel.at("canvas.lsys-canvas")).to_have_attribute("data-angle", number.inner_text())
 
 
+@pytest.mark.parametrize(("hand", "width"), [(Mouse, 1440), (Finger, 400)])
+def test_a_number_below_a_slider_is_chosen_by_a_press_on_it(explored, hand: type[Pointer], width: int) -> None:
+    touch = {"has_touch": True} if hand is Finger else {}
+    panel = explored("K5", 4, context={"viewport": {"width": width, "height": 900}, **touch})
+    for number in panel.at('[data-control="angle"] .lsys-scale > :not(:empty)').all():
+        hand(panel.page).tap(number)
+        expect(panel.at("canvas.lsys-canvas")).to_have_attribute("data-angle", number.inner_text())
+
+
 @pytest.mark.parametrize("id", ["J4", "K5", "K19", "K24", "P8"])
 @pytest.mark.parametrize("width", [1440, 400])
 def test_no_slider_has_more_stops_than_a_hand_can_tell_apart(explored, id: str, width: int) -> None:

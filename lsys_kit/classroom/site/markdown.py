@@ -84,8 +84,8 @@ def markdown_html(text: str, links: Links, after: Callable[[str], str] = lambda 
 
 
 def _table_cell(_: object, text: str, align: str | None = None, head: bool = False) -> str:
-    """A cell of a table, in which a bar is written with a backslash before it."""
-    tag, inside = ("th", ' scope="col"') if head else ("td", "")
+    """A cell of a table, in which a bar is written with a backslash before it; an empty one heads no column."""
+    tag, inside = ("th", ' scope="col"') if head and text else ("td", "")
     return f"<{tag}{inside}>{text.replace(chr(92) + '|', '|')}</{tag}>\n"
 
 

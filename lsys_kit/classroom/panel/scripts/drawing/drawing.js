@@ -13,17 +13,18 @@ import { LONGEST_ARROW, paintForces } from "./tension.js";
 import { cellUnder, litCells, paintTissue, tissueFrame, tissueShapes } from "./tissue.js";
 import { placed, traced } from "./turtle.js";
 
-const TOUCHED = { plane: "Tap a part to trace it; two fingers bring it nearer.", space: "A finger turns it; tap a part to trace it." };
 const IN_THE_PLANE = "+, − or, after a click, the wheel zooms; arrows move it, Home puts it back.";
 const IN_SPACE = "Drag or arrow keys turn it. +, − or, after a click, the wheel zooms; Shift and arrows move it, Home puts it back.";
-const CELL = "Point at a cell or click it to trace it; N and P go to the next and previous one.";
+const CELL = "Point at a cell or click it to trace it; N and P go to the next and previous one.", TAP_CELL = "Tap a cell to trace it.";
 const TRACED = {
   plane: "Point at a part or click it to trace it; N and P go to the next and previous one.",
   map: "Point at a wall or click it to trace it; N and P go to the next and previous one.", filament: CELL, tissue: CELL,
 };
+const FINGERS = "Two fingers bring it nearer.", FINGER = "A finger turns it.";
+const TAPPED = { plane: "Tap a part to trace it.", map: "Tap a wall to trace it.", filament: TAP_CELL, tissue: TAP_CELL };
 
 const TURN = 5, MOVE = 30, ZOOM = 1.25, NEAREST = 40, PULL = 0.5; // of keys and of the pointer
-const REACH = 6; // pixels from a stroke that is pointed at
+const REACH = { mouse: 6, touch: 14 }; // pixels from a part that is pointed at
 const CLICK = 4; // pixels that a pointer may move in a click
 const MOST_GLIDING = 20_000; // modules of a step that is reached on the way
 const GLIDE = 350; // milliseconds from one step to the next
@@ -49,8 +50,8 @@ export function drawingView(parent, told) {
     [isFilament, isMap, isTissue] = ["filament", "map", "tissue"].map((mode) => mode === book.data.mode);
     inSpace = isTissue || book.data.mode === "space";
     [near, shift, glide] = [1, [0, 0], null];
-    canvas.ariaDescription = [inSpace ? IN_SPACE : IN_THE_PLANE, TRACED[book.data.mode] ?? TRACED.plane].map((text) => worded(text)).join(" ");
-    hint.textContent = touched ? worded(inSpace ? TOUCHED.space : TOUCHED.plane) : canvas.ariaDescription;
+    canvas.ariaDescription = uses(inSpace ? IN_SPACE : IN_THE_PLANE, TRACED);
+    hint.textContent = touched ? uses(inSpace ? FINGER : FINGERS, TAPPED) : canvas.ariaDescription;
     canvas.classList.toggle("lsys-turned", inSpace);
     if (isMap && !signs) {
       [signs, relaxed] = [wallSigns(draw), relaxing(draw)];
@@ -61,6 +62,8 @@ export function drawingView(parent, told) {
     if (isTissue && !choice) parent.append((choice = litCells(draw)).element);
     choice?.offer(book, 0);
   }
+
+  const uses = (turned, traced) => [turned, traced[book.data.mode] ?? traced.plane].map((text) => worded(text)).join(" ");
 
   // Show what is asked for: { step, angle, around, above, boxed: the step whose frame is kept, or null, glides }.
   function show(asked, nextLook) {
@@ -204,10 +207,10 @@ export function drawingView(parent, told) {
   }
 
   function moduleAt(event) {
-    const { x, y } = placeOf(event);
+    const { x, y } = placeOf(event), reach = REACH[event.pointerType] ?? REACH.mouse;
     if (isTissue) return [now.step, cellUnder(shapes, frame, x, y, choice.shown(look.alone))];
-    if (!isFilament) return [now.step, fault ? -1 : shapeAt(isMap ? relaxed.shapes() : shapes, frame, x, y, REACH)];
-    const cell = cellAt(sheet, x - leftOf(canvas.clientWidth), y);
+    if (!isFilament) return [now.step, fault ? -1 : shapeAt(isMap ? relaxed.shapes() : shapes, frame, x, y, reach)];
+    const cell = cellAt(sheet, x - leftOf(canvas.clientWidth), y, reach);
     return cell ? [cell.step, cell.position] : [now.step, -1];
   }
 

@@ -208,14 +208,14 @@ function paintTraced(pen, sheet, row, lit, theme) {
   ring(walls, (i) => upright(walls, i, walls.width[i] / 2 + 5));
 }
 
-// The step and the position of the module whose cell or wall is at a point; null where there is none.
-export function cellAt(sheet, x, y) {
-  const { cells, walls, rows, pitch } = sheet, row = rows.findIndex(({ top }) => y >= top && y < top + pitch);
-  if (row < 0) return null;
+// The step and the position of the module whose cell or wall is at a point, or so many pixels from it; null where there is none.
+export function cellAt(sheet, x, y, reach = 0) {
+  const { cells, walls, rows, pitch } = sheet, row = clamped(0, rows.length - 1, Math.floor((y - rows[0].top) / pitch));
+  if (y < rows[row].top - reach || y >= rows[row].top + pitch + reach) return null;
   const { step } = rows[row], wall = numbersIn(walls, row).find((i) => Math.abs(x - walls.x[i]) <= NEAR_WALL);
   if (wall !== undefined) return { step, position: walls.position[wall] };
   const near = nearestTo(cells, cells.starts[row], cells.starts[row + 1], x);
-  if (near < 0 || Math.abs(x - cells.x[near]) > Math.max(1, cells.length[near] / 2)) return null;
+  if (near < 0 || Math.abs(x - cells.x[near]) > Math.max(1, cells.length[near] / 2) + reach) return null;
   return { step, position: cells.position[near] };
 }
 

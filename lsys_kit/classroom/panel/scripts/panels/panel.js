@@ -235,10 +235,10 @@ export function openPanel(element, host, compared = null) {
     if (traced && at === seen.step) word.reveal(position);
   }
 
-  // What is told of a part stands below the view in which it was pointed at, or below one that is open.
+  // What is told of a part stands right below what it was pointed at in, or below a view that is open.
   function seat() {
-    const home = [beside, view.drawing, view.word].find((each) => each?.open)?.body ?? views;
-    if (sentence.parentElement !== home) home.append(sentence);
+    const above = [beside, view.drawing, view.word].find((each) => each?.open)?.body.firstChild ?? views.lastChild;
+    if (sentence.previousSibling !== above) above.after(sentence);
   }
 
   // What the mouse is on, { step, position } or { place }, is lit until it leaves, unless something was chosen by a click.

@@ -152,7 +152,7 @@ export function slider(name, hint, texts, index, chosen, label = name, { least =
   }
 
   // `marks` are the indices of values that matter: the slider stops there in any case. Those in `names` stand below it as numbers,
-  // the first ones first, where there is room.
+  // the first ones first, where there is room, and are chosen by a click.
   function offer(others, at, marks = [], names = marks) {
     texts = others;
     numbers = texts.map(valueOf);
@@ -168,7 +168,7 @@ export function slider(name, hint, texts, index, chosen, label = name, { least =
     stops = stopsOf(numbers, marked, Math.floor(((range.clientWidth || NARROW) - THUMB) / pitch) + 1, least);
     range.max = Math.max(1, stops.length - 1);
     const numbered = apart(named);
-    scale.replaceChildren(...marked.map((at) => made("span", { style: `left: ${100 * wayTo(at)}%` }, numbered.includes(at) ? texts[at] : "")));
+    scale.replaceChildren(...marked.map((at) => made("span", { style: `left: ${100 * wayTo(at)}%`, onclick: () => choose(at) }, numbered.includes(at) ? texts[at] : "")));
     less.hidden = more.hidden = bar && stops.length === numbers.length;
     show(index);
   }

@@ -1,6 +1,6 @@
 // The word of a step: each module on the tint of its symbol; a long word without its middle.
 
-import { grouped } from "../books/numbers.js";
+import { clamped, grouped } from "../books/numbers.js";
 import { MOST_MODULES_SHOWN } from "../drawing/constants.js";
 import { button, eachFrame, made, onKey, onMouse, worded } from "./controls.js";
 import { maths } from "./letters.js";
@@ -70,7 +70,13 @@ export function wordView(parent, told, pointed) {
     else if (event.key === "End") told(word.length - 1);
     else told(null, way);
   });
-  const reveal = (position) => chips.get(position)?.scrollIntoView({ block: "nearest", inline: "nearest" });
+
+  // Move the word, and not the page, until a module is seen.
+  function reveal(position) {
+    const chip = chips.get(position);
+    if (chip) box.scrollTop = clamped(chip.offsetTop + chip.offsetHeight - box.clientHeight, chip.offsetTop, box.scrollTop);
+  }
+
   return { show, light, differ, reveal, box };
 }
 
