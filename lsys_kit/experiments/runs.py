@@ -66,7 +66,8 @@ def ensemble(
         dask.distributed. By default this process does. What comes out is the same.
     file
         The name of a file, which ends in .csv, that keeps what is finished as it comes. If the same is asked again, after a
-        crash or with more seeds, values or steps, only what is missing there is made.
+        crash or with more seeds, values or steps, only what is missing there is made. Other forms are made of the table
+        afterwards, as Parquet by `to_pandas().to_parquet(...)`.
     progress
         Whether a progress bar is shown if it takes more than a second.
     **choices
