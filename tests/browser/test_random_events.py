@@ -34,9 +34,11 @@ BUSY = 4
 RUN = "panel.content.activeCellIndex = given; app.commands.execute('notebook:run-cell');"
 OUTPUTS = "return JSON.stringify(panel.content.widgets[given].model.outputs.toJSON());"
 NONE_RUNS = """() => {
-    const quiet = window.jupyterapp.shell.currentWidget.sessionContext.session?.kernel?.status === "idle";
-    return quiet && ![...document.querySelectorAll(".jp-Notebook .jp-InputPrompt")].some((each) => each.textContent.includes("*"));
+    const status = window.jupyterapp.shell.currentWidget.sessionContext.session?.kernel?.status;
+    const prompts = [...document.querySelectorAll(".jp-Notebook .jp-InputPrompt")].map((each) => each.textContent);
+    return ["idle", "starting"].includes(status) && !prompts.some((each) => each.includes("*"));
 }"""
+"""Of a kernel that was restarted twice Jupyter says that it starts, until it is asked something."""
 DIE = "panel.sessionContext.session.kernel.requestExecute({ code: 'import os; os.kill(os.getpid(), 9)' }).done.catch(() => {});"
 WINDOW = {"width": 1400, "height": 4000}
 NO_KERNEL = "The kernel does not answer"

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any
 
-_made = {"run": "", "panels": 0}
-"""The run of a cell that has made panels, and how many."""
+_made: dict[str, int] = {}
+"""The run of a cell that has made panels last, and how many."""
 
 
 def standing() -> str:
@@ -19,14 +18,12 @@ def standing() -> str:
     """
     from IPython.core.getipython import get_ipython
 
-    asked = getattr(get_ipython(), "get_parent", dict)()
-    return _numbered(asked.get("metadata", {}).get("cellId", ""), asked.get("header", {}))
-
-
-def _numbered(cell: str, header: Mapping[str, Any]) -> str:
+    asked: dict[str, Any] = getattr(get_ipython(), "get_parent", dict)()
+    cell = asked.get("metadata", {}).get("cellId")
     if not cell:
         return ""
-    if _made["run"] != header["msg_id"]:
-        _made.update(run=header["msg_id"], panels=0)
-    _made["panels"] += 1
-    return f"{cell} {_made['panels']}"
+    run = asked["header"]["msg_id"]
+    before = _made.get(run, 0)
+    _made.clear()
+    _made[run] = before + 1
+    return f"{cell} {before + 1}"
