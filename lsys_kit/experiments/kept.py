@@ -3,7 +3,7 @@
 The file is a table as spreadsheets read it (RFC 4180): a row for each run and step. Its last column is empty and called after
 the kit and what was asked: the system, the measures and the constants that do not vary. Exact numbers are written as decimals
 or quotients, doubles with an exponent, so that each is read as it was. A row that was cut off lacks its last comma, and is made
-again.
+again. Parquet would not do: such a file ends with a table of its contents, without which nothing of a killed program is read.
 """
 
 from __future__ import annotations
@@ -30,6 +30,7 @@ from lsys_kit.notation.model.arithmetic import Value, normalised, number_text
 
 SECONDS = 1.0
 """What is finished is written to the file no later than this."""
+_AS_CSV = "They are kept as CSV: let the name end in .csv. Other forms are made of the table afterwards, by to_pandas()."
 _EXACT = re.compile(r"-?\d{1,4000}(\.\d{1,4000}|/\d{1,4000})?")
 _DOUBLE = re.compile(r"-?\d{1,400}(\.\d{1,400})?e[-+]?\d{1,4}|-?inf|nan")
 
@@ -51,7 +52,7 @@ class Kept:
         """Know what is in the file; one that is not there yet is made."""
         name = quotable(path.name)
         if path.suffix.lower() != ".csv":
-            raise ModelFileError(f'Runs cannot be kept in "{name}"', hint="Let the name end in .csv.")
+            raise ModelFileError(f'Runs cannot be kept in "{name}"', hint=_AS_CSV)
         with file_errors(f'Runs cannot be kept in "{name}"'):
             if not os.path.lexists(path):
                 return create_file(path, f"{self._head}\n".encode())

@@ -6,7 +6,8 @@ has made, and the rest is handed out anew. What comes out depends on the runs al
 
 A run may kill the process that makes it, by taking all its memory, say, and with it whatever else was there. So what is lost is
 made again, run by run; and what is lost once more alone, with nothing beside it. Only of a run that is lost alone it is said
-that it failed.
+that it failed. A result that goes down with its process may never be heard of again: what does not come back from an executor
+that answers other questions is lost, too.
 """
 
 from __future__ import annotations
@@ -36,9 +37,12 @@ MOST_BATCHES = 1_024
 """The most batches that are handed out at a time."""
 FUTILE = 8
 """An executor is given up after so many runs were lost when it has never finished one."""
-LOOK, SILENCE = 5.0, 120.0
-"""When nothing has come back for so many seconds, it is looked whether the executor is closed; one that has lost a run and then
-finishes nothing for so many seconds is given up."""
+LOOK, MISSED, SILENCE = 5.0, 15.0, 120.0
+"""Seconds without a result after which it is looked whether the executor takes work; after which one that does has lost what it
+was given, if it has lost something before; and after which it has in any case, or is given up if it takes none and has lost
+something."""
+MOST_LATE = 20
+"""What takes no longer than so many runs is not taken for lost."""
 
 
 Rows: TypeAlias = tuple[tuple[object, ...], ...]
@@ -147,12 +151,12 @@ class _Workers:
 
     def __init__(self, experiment: Experiment, runs: Mapping[int, Run], executor: Executor) -> None:
         self._experiment, self._runs, self._executor, self._own = experiment, runs, executor, False
-        self._handed, self._finished = 0, False
-        """how many batches were handed out; whether one has come back"""
+        self._handed, self._finished, self._seconds = 0, False, 0.0
+        """how many batches were handed out; whether one has come back; about how long a run takes"""
 
     def outcomes(self, numbers: Sequence[int], seconds: float) -> Outcomes:
         """The outcomes of some runs, of which one takes about so long."""
-        size = batch_size(len(numbers), seconds)
+        self._seconds, size = seconds, batch_size(len(numbers), seconds)
         try:
             lost = yield from self._round([numbers[at : at + size] for at in range(0, len(numbers), size)], MOST_BATCHES)
             if lost:
@@ -170,7 +174,7 @@ class _Workers:
         """Hand out batches, at most so many at a time; what is lost is given back, with what was the matter."""
         waiting, at_work = deque(batches), dict[Future[list[Outcome]], Sequence[int]]()
         lost: _Lost = []
-        silent = 0
+        heard = time.monotonic()
         try:
             while waiting or at_work:
                 while waiting and len(at_work) < most:
@@ -180,11 +184,15 @@ class _Workers:
                         lost.append((waiting[0], fault))
                     waiting.popleft()
                 done = wait(at_work, LOOK, FIRST_COMPLETED).done
-                silent = 0 if done or not at_work else silent + 1
-                if silent:
-                    if silent * LOOK > SILENCE and (lost or most < MOST_BATCHES):
-                        raise ExecutorError("The executor does not answer any more")
-                    self._look()
+                if done or not at_work:
+                    heard = time.monotonic()
+                elif self._look():
+                    patience = MISSED if lost and most > 1 else SILENCE
+                    if time.monotonic() - heard > max(patience, MOST_LATE * self._seconds):
+                        lost += [(numbers, TimeoutError("it did not come back")) for numbers in at_work.values()]
+                        _called_off(at_work)
+                elif time.monotonic() - heard > SILENCE and (lost or most < MOST_BATCHES):
+                    raise ExecutorError("The executor does not answer any more")
                 for future in done:
                     numbers = at_work.pop(future)
                     try:
@@ -201,8 +209,7 @@ class _Workers:
                 if most < MOST_BATCHES and len(lost) >= FUTILE and not self._finished:
                     raise ExecutorError(_broken(lost[-1][1]))
         finally:
-            for each in at_work:
-                each.cancel()
+            _called_off(at_work)
         return lost
 
     def _submitted(self, numbers: Sequence[int]) -> Future[list[Outcome]]:
@@ -226,19 +233,26 @@ class _Workers:
         self._own = True
         return True
 
-    def _look(self, lost: BaseException | None = None) -> None:
-        """Look whether the executor takes work at all: one that was closed refuses it, or calls it off at once."""
+    def _look(self, lost: BaseException | None = None) -> bool:
+        """Whether the executor answers: one that was closed refuses work, or calls it off at once, and makes no more runs."""
         self._handed += 1
         try:
             asked = self._executor.submit(alive, self._handed)
             fault = asked.exception(LOOK)
         except TimeoutError:  # it is at work, or its workers begin anew
             asked.cancel()
-            return
+            return False
         except (Exception, asyncio.CancelledError) as refused:
             fault = refused
         if fault is not None and not (isinstance(fault, BrokenExecutor) and self._renewed()):
             raise ExecutorError(_broken(lost or fault)) from None
+        return fault is None
+
+
+def _called_off(at_work: dict[Future[list[Outcome]], Sequence[int]]) -> None:
+    for each in at_work:
+        each.cancel()
+    at_work.clear()
 
 
 def alive(_: int) -> int:

@@ -17,7 +17,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from playwright.sync_api import Browser, ConsoleMessage, Error, Locator, Page, Playwright
+from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Error, Locator, Page, Playwright
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
 FLAGS = [
@@ -251,7 +251,12 @@ class Tab:
 
 def tab_of(browser: Browser, lab: Lab, shots: Path | None = None, **context: Any) -> Tab:
     """A tab for JupyterLab, with choices for playwright's `new_context`."""
-    page = browser.new_context(**{"viewport": VIEWPORT, **context}).new_page()
+    return tab_in(browser.new_context(**{"viewport": VIEWPORT, **context}), lab, shots)
+
+
+def tab_in(context: BrowserContext, lab: Lab, shots: Path | None = None) -> Tab:
+    """Another tab of a browser that is open."""
+    page = context.new_page()
     page.set_default_timeout(SECONDS * 1000)
     tab = Tab(page, lab, shots)
     page.on("console", lambda message: _note(tab.notebook, message) if tab.notebook else None)

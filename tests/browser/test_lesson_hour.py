@@ -87,6 +87,45 @@ def test_what_was_typed_is_offered_again_after_a_restart(shown) -> None:
     assert notebook.console == []
 
 
+def test_each_panel_of_a_notebook_keeps_its_own_rules(shown) -> None:
+    """Also where two have the same rules at first, and where a panel that lives on is shown in another tab."""
+    notebook = shown("two.ipynb", "explore('J4', 9)", "explore('J4', 9)")
+    notebook._ask(RUN.format(2) + "await idle();")
+    panels = notebook.page.locator(".lsys-panel")
+    expect(panels).to_have_count(2)
+    texts = [f"{ALGA} {letter}" for letter in "ab"]
+    for number, text in enumerate(texts):
+        rules_of(panels.nth(number)).fill(text)
+        expect(panels.nth(number).locator(".lsys-status")).to_contain_text("of 2 stages")
+    rules_of(panels.nth(1)).fill(f"{ALGA} (")
+    expect(panels.nth(1).locator(".lsys-mistake")).to_contain_text("Line 3")
+    notebook.reload()
+    expect(rules_of(panels.nth(0))).to_have_value(texts[0])
+    expect(panels.nth(0).locator(".lsys-offer")).to_be_hidden()
+    panels.nth(1).get_by_role("button", name="take up my rules").click()
+    expect(rules_of(panels.nth(1))).to_have_value(f"{ALGA} (")
+    rules_of(panels.nth(1)).fill(texts[1])
+    notebook.restart()
+    for number in (1, 2):
+        notebook._ask(RUN.format(number) + "await idle();")
+    for number, text in enumerate(texts):
+        panels.nth(number).get_by_role("button", name="take up my rules").click()
+        expect(rules_of(panels.nth(number))).to_have_value(text)
+    assert notebook.console == []
+
+
+def test_the_word_that_python_has_ended_stays(shown) -> None:
+    notebook = shown("ended.ipynb", "explore('K5', 3)")
+    panel = panel_of(notebook.page)
+    notebook._ask("await panel.sessionContext.session.kernel.restart();")
+    expect(panel).to_contain_text("The kernel does not answer")
+    notebook._ask("await app.commands.execute('apputils:change-theme', { theme: 'JupyterLab Dark' });")
+    expect(notebook.page.locator("body")).to_have_attribute("data-jp-theme-light", "false")
+    notebook.page.wait_for_timeout(500)
+    expect(panel).to_contain_text("The kernel does not answer")
+    notebook._ask("await app.commands.execute('apputils:change-theme', { theme: 'JupyterLab Light' });")
+
+
 def test_a_busy_kernel_is_shown_as_busy_and_the_last_question_wins(shown) -> None:
     notebook = shown("busy.ipynb", "panel = explore('J4', 9)\npanel", "import time\ntime.sleep(25)")
     panel = panel_of(notebook.page)

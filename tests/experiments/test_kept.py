@@ -170,6 +170,14 @@ class TestRefusals:
             ensemble(PLANT, 2, "F", steps=2, file=file)
         assert file.read_bytes() == content
 
+    @pytest.mark.parametrize("name", ["sweep.parquet", "sweep.xlsx", "sweep"])
+    def test_csv_is_the_form_of_what_is_kept(self, tmp_path: Path, name: str) -> None:
+        with pytest.raises(ModelFileError, match="cannot be kept") as refused:
+            ensemble(PLANT, 2, "F", steps=2, file=tmp_path / name)
+        assert refused.value.hint == (
+            "They are kept as CSV: let the name end in .csv. Other forms are made of the table afterwards, by to_pandas()."
+        )
+
     @pytest.mark.parametrize("name", ["sweep.parquet", "sweep", "nowhere/sweep.csv", ""])
     def test_a_name_that_cannot_be_is_refused(self, tmp_path: Path, name: str) -> None:
         with pytest.raises(ModelFileError, match="cannot be kept"):

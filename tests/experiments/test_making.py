@@ -77,6 +77,80 @@ class TestProcesses:
             assert ensemble(PLANT, 30, "F", steps=3, executor=executor).rows == ensemble(PLANT, 30, "F", steps=3).rows
 
 
+@pytest.fixture
+def impatient(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What does not come back is missed at once."""
+    for name, seconds in (("LOOK", 0.02), ("MISSED", 0.2), ("SILENCE", 0.5)):
+        monkeypatch.setattr(making, name, seconds)
+
+
+@pytest.mark.usefixtures("impatient")
+class TestSilence:
+    """Results may go down with the process that has made them, and no executor says so."""
+
+    def test_a_result_that_does_not_come_back_is_made_again(self) -> None:
+        executor = Forgets(lambda seeds, before: 17 in seeds and before == 0, fails=40)
+        assert ensemble(PLANT, 120, steps=4, executor=executor) == ensemble(PLANT, 120, steps=4)
+
+    def test_it_is_missed_where_nothing_else_was_lost_too(self) -> None:
+        executor = Forgets(lambda seeds, before: 17 in seeds and before == 0)
+        assert ensemble(PLANT, 120, steps=4, executor=executor) == ensemble(PLANT, 120, steps=4)
+
+    @pytest.mark.slow
+    def test_a_run_that_never_comes_back_is_named_and_the_others_are_made(self) -> None:
+        found = ensemble(PLANT, 120, steps=4, executor=Forgets(lambda seeds, _: 17 in seeds))
+        assert found.rows == tuple(row for row in ensemble(PLANT, 120, steps=4).rows if row[0] != 17)
+        assert found.left_out == ((17, "The process that made the run was lost (TimeoutError: it did not come back)"),)
+
+    @pytest.mark.slow
+    def test_a_long_run_is_waited_for(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        monkeypatch.setattr(making, "SILENCE", 0.0)
+        monkeypatch.setattr(making, "MOST_LATE", 1e9)
+        executor = Forgets(lambda *_: False, looks=5)
+        assert ensemble(PLANT, 4, steps=4, executor=executor) == ensemble(PLANT, 4, steps=4)
+        assert executor.given == 3
+
+    def test_an_executor_that_answers_no_question_is_given_up(self) -> None:
+        found = ensemble(PLANT, 120, steps=4, executor=Forgets(lambda seeds, before: 17 in seeds or not seeds, fails=40))
+        assert 100 < len(found) < 120
+        assert found.remarks[-1] == f"The executor does not answer any more: {len(found)} of 120 runs are finished."
+
+
+class Forgets(Executor):
+    """Two threads, of which some work never comes back: what is said to, given its seeds and how often that was so before. The
+    first work with another seed fails; all waits until it was looked so often whether the executor answers."""
+
+    def __init__(self, forgets: Callable[[list[int], int], bool], fails: int | None = None, looks: int = 0) -> None:
+        self._threads, self._forgets, self._fails, self._looks = ThreadPoolExecutor(4), forgets, fails, looks
+        self._forgotten, self.given, self._looked = 0, 0, threading.Semaphore(0)
+
+    def submit(self, work: Any, *given: Any) -> Future[Any]:  # type: ignore[override]
+        seeds = [run["seed"] for run in given[1]] if work is making.batch else []
+        self.given += bool(seeds)
+        if self._forgets(seeds, self._forgotten):
+            self._forgotten += 1
+            return Future()
+        if self._fails in seeds:
+            self._fails = None
+            return self._threads.submit(int, "lost")
+        if not seeds:
+            self._looked.release()
+        return self._threads.submit(self._made, self._looks if seeds else 0, work, given)
+
+    def _made(self, looks: int, work: Any, given: Any) -> Any:
+        for _ in range(looks):
+            self._looked.acquire()
+        return work(*given)
+
+
+SLOW_MACHINE = {
+    "distributed.scheduler.allowed-failures": 1,
+    "distributed.comm.timeouts.connect": "120s",
+    "distributed.deploy.lost-worker-timeout": "120s",
+}
+"""A local cluster forgets a worker that takes longer to begin anew, and at last has none."""
+
+
 @pytest.fixture(scope="module")
 def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[[], tuple[Any, Any]]]:
     """Starts clusters of two workers, whose scheduler takes a run for bad when two of them have died of it."""
@@ -85,16 +159,16 @@ def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[[], t
     opened: list[Any] = []
 
     def start() -> tuple[Any, Any]:
-        with dask.config.set({"distributed.scheduler.allowed-failures": 1, "distributed.comm.timeouts.connect": "120s"}):
-            folder = tmp_path_factory.mktemp("workers")
-            choices = {"dashboard_address": None, "local_directory": folder, "host": "127.0.0.1"}
-            opened.append(distributed.LocalCluster(n_workers=2, threads_per_worker=1, **choices))
-            opened.append(distributed.Client(opened[-1]))
+        folder = tmp_path_factory.mktemp("workers")
+        choices = {"dashboard_address": None, "local_directory": folder, "host": "127.0.0.1"}
+        opened.append(distributed.LocalCluster(n_workers=2, threads_per_worker=1, **choices))
+        opened.append(distributed.Client(opened[-1]))
         return opened[-2], opened[-1]
 
-    yield start
-    for each in reversed(opened):
-        each.close()
+    with dask.config.set(SLOW_MACHINE):
+        yield start
+        for each in reversed(opened):
+            each.close()
 
 
 @pytest.mark.slow

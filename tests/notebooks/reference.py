@@ -36,6 +36,7 @@ def built() -> dict[str, NotebookNode]:
         "notation.ipynb": _notebook(_notation_cells()),
         "practice.ipynb": _notebook(_cells_of("practice")),
         "formulas.ipynb": _notebook(_cells_of("formulas")),
+        "panel.ipynb": _notebook(_cells_of("panel")),
     }
 
 

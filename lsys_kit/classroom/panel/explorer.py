@@ -29,6 +29,7 @@ from lsys_kit.classroom.panel.labels import translated_labels
 from lsys_kit.classroom.panel.opened.kinds import opened
 from lsys_kit.classroom.panel.opened.opened import Opened, Sight, Viewing
 from lsys_kit.classroom.panel.page import page, save_page
+from lsys_kit.classroom.panel.standing import standing
 from lsys_kit.classroom.panel.view_model import STILL, both_png
 from lsys_kit.classroom.panel.widget_scripts import ScriptedWidget
 from lsys_kit.derivation.core.letters import letters_from
@@ -97,6 +98,7 @@ class Explorer(ScriptedWidget):
         self._ready, self._opened, self._given, self._without, self._unfold = False, opened, opened, frozenset(without), unfold
         self._show = None if show is None else [view for view in VIEWS if view in show]
         self._asked = None if step is None else first
+        self._standing = standing()
         super().__init__(
             step=first,
             angle=round(turn, 1),
@@ -235,6 +237,8 @@ class Explorer(ScriptedWidget):
             "without": sorted(self._without),
             "unfold": self._unfold,
             "show": self._show,
+            "first": self.model["first"] if self.model else made["text"],
+            "standing": self._standing,
             "step": min(first, made["steps"]),
             "angle": self.angle,
             "around": self.around,

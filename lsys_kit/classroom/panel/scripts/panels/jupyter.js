@@ -1,6 +1,6 @@
 // The host of a panel in Jupyter: the model that the kernel keeps. The kernel answers by numbered messages.
 
-import { saved, tellsKernel, whenGone } from "./kernel.js";
+import { hasKernel, saved, tellsKernel, whenGone } from "./kernel.js";
 
 const PATIENCE = 20_000; // milliseconds after which a kernel that does not answer, and is not busy, is taken to be gone
 const GONE = { message: "The kernel does not answer. Restart it and run the cell again; what the panel has already shown goes on working" };
@@ -49,6 +49,7 @@ export function hostOf(model) {
       return () => model.off(`change:${name}`, heard);
     },
     save: () => saved(model),
+    notice: () => (hasKernel(model) ? null : GONE),
     book: (settings) => ask({ kind: "book", ...settings }),
     rules: (text, constants) => ask({ kind: "rules", text, constants }),
     variants: () => ask({ kind: "variants" }),

@@ -125,7 +125,6 @@ export function openPanel(element, host, compared = null) {
     root.ariaBusy = "false";
     if (answer.mistake) return say(answer.mistake);
     turnTo(answer.book);
-    say(host.notice?.() ?? null); // a page may not hold all settings
     clearTimeout(idle);
     if (host.ahead) idle = setTimeout(() => books.fetchAhead(request(), constants), REST);
   }
@@ -192,7 +191,8 @@ export function openPanel(element, host, compared = null) {
     variants?.forget();
     const first = books.keep(model.asked, model.book);
     boxed = Math.min(model.step, first.steps);
-    rules.open(model.book.text, host.editable, model.book.notes);
+    const part = /** @type {HTMLElement} */ (root.closest("[data-part]"))?.dataset.part ?? "", side = compared && !compared.bar ? "right" : "";
+    rules.open(model.book.text, host.editable, model.book.notes, model.first ?? model.book.text, model.standing || `${part}${side}`);
     if (books.known(request())) turnTo(books.known(request()));
     else {
       turnTo(first);
@@ -211,7 +211,7 @@ export function openPanel(element, host, compared = null) {
     net.open(book.data.net, theme);
     drawing.open(book);
     counts.open(book);
-    say(null);
+    say(host.notice?.() ?? null); // a page may not hold all settings, and Python may have ended
     show();
   }
 
@@ -349,7 +349,6 @@ export function openPanel(element, host, compared = null) {
   offs.push(whenRecoloured(root, recoloured));
   offs.push(ownKeys(root));
   openModel();
-  say(host.notice?.() ?? null);
 
   return { differ: word.differ, close };
 

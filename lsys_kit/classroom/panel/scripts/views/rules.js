@@ -5,7 +5,7 @@ import { button, made, worded } from "./controls.js";
 import { resuming } from "./resuming.js";
 import { undoing } from "./undoing.js";
 
-const NONE = { note() {}, open() {}, keep() {}, close() {}, tools: [], element: "" }; // on pages, where rules are only shown
+const NONE = { note() {}, open: (_, __, text) => text, keep() {}, close() {}, tools: [], element: "" }; // on pages, where rules are only shown
 const REST = 250; // milliseconds without a key after which a text is read
 
 // `asked` is called with a text that is to be read, and with what `state` was when it was left, if it was there before.
@@ -41,7 +41,10 @@ export function rulesView(parent, asked, state) {
     resumed.keep(area.value);
     clearTimeout(waiting);
     reading = true;
-    waiting = setTimeout(() => asked(area.value, state), REST);
+    waiting = setTimeout(() => {
+      waiting = 0;
+      asked(area.value, state);
+    }, REST);
   }
 
   function put(text) {
@@ -61,7 +64,7 @@ export function rulesView(parent, asked, state) {
     if (text === area.value || document.activeElement !== area) return;
     area.value = text;
     history.note();
-    resumed.keep(text);
+    resumed.keep(text, text);
   }
 
   area.addEventListener("input", (event) => {
@@ -71,9 +74,16 @@ export function rulesView(parent, asked, state) {
   });
   area.addEventListener("scroll", paint);
 
-  // Nothing is wrong with the text; there may be notes on how it was read.
+  // The text that was typed last was read, and nothing is wrong with it.
   function understood() {
+    if (waiting) return; // another text follows
     reading = false;
+    if (area.value !== first) resumed.keep(area.value, shown);
+    fine();
+  }
+
+  // There may be notes on how the text was read.
+  function fine() {
     if (pasted && told[0]?.startsWith("Read as ")) rewrite(shown);
     spans = [];
     said.replaceChildren();
@@ -84,28 +94,32 @@ export function rulesView(parent, asked, state) {
 
   return {
     put, offer: resumed.element,
-    // The text of a model that was opened, and the notes on how it was read; one that was typed stays as it was typed.
-    open(text, editable, noted) {
+    // The text of a model that was opened, the notes on how it was read, with which rules and where the panel was opened; what was
+    // typed stays as it was typed.
+    open(text, editable, noted, opened, standing) {
       told = noted;
       if (!editable) text = text.trimEnd();
-      if (!first) first = text;
-      if (editable) resumed.open(text);
+      shown = text;
+      if (!first) {
+        first = opened;
+        if (editable) text = resumed.open(first, standing, text);
+      }
       area.readOnly = !editable;
       area.tabIndex = editable ? 0 : -1;
       said.hidden = !editable;
       if (!editable) notes.after(shownOnly);
-      shown = text;
-      if (area.value !== text && document.activeElement !== area && !reading) area.value = text;
+      if (area.value !== text && !reading) area.value = text;
       history.note();
       tools.hidden = !editable;
       const lines = area.value.split("\n").length;
       area.rows = editable ? clamped(4, 18, lines + 1) : lines;
       back.hidden = area.value === first;
-      understood();
+      fine();
     },
     understood,
     // What is wrong with the text, where it stands, and what to try; the notes are of another text.
     mistaken({ message, hint, line, start, end }) {
+      if (waiting) return;
       reading = false;
       notes.replaceChildren();
       spans = start === null || start === undefined ? [] : [{ start, end: end ?? start + 1, kind: "wrong" }];
