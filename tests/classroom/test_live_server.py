@@ -364,6 +364,7 @@ def test_ten_thousand_joins_from_one_phone_are_one_phone(fresh: Running, pytestc
                     socket.close()
             except HTTPClientError:
                 refused += 1
+        assert refused > joins // 2, "a phone that comes again too fast is refused"
         assert "kept" in await other.keeps("vote", "01", 1, 1)
         assert len(fresh.room.phones.get(f"{2:032x}", ())) <= 4
         strangers = 0

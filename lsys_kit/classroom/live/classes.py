@@ -44,7 +44,7 @@ class Classes:
         self.events = Events(folder)
         entries = [self.events.named(name) for name in names]
         self.workers = Workers(workers)
-        self.rates, self.asking, self.joining = Rates(20, 4), Rates(12, 3), Rates(400, 20)
+        self.rates, self.asking, self.joining, self.rejoining = Rates(20, 4), Rates(12, 3), Rates(400, 20), Rates(30, 2)
         self.course = course
         self.address = ""
         self._asked: dict[tuple[str, str], Page] = {}

@@ -62,7 +62,8 @@ class PhoneSocket(_Socket):
         if room is None or not PHONE.fullmatch(phone):
             raise tornado.web.HTTPError(404)
         full = len(room.session.phones) >= MOST_PHONES and phone not in room.session.phones
-        if phone not in room.phones and not self.server.joining.allow(str(self.request.remote_ip)):
+        is_there = phone in room.phones
+        if not (self.server.rejoining.allow(phone) if is_there else self.server.joining.allow(str(self.request.remote_ip))):
             raise tornado.web.HTTPError(429)
         if full or self.server.sockets >= MOST_SOCKETS:
             raise tornado.web.HTTPError(503)
