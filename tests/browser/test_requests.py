@@ -1,6 +1,7 @@
 """Whatever a lesson's text asks for can be done, and is seen: each sentence that asks for something has a row in
-`requests.toml`, and the rows are done one after another, with a real mouse, in JupyterLab; what they ask of sliders on the
-site's pages, too, with a mouse and with a finger, on a wide and on a narrow screen.
+`requests.toml`, and the rows are done one after another, with a real mouse, in JupyterLab, where what is moved, what is looked
+at and what is filled in are on one screen; what they ask of sliders on the site's pages, too, with a mouse and with a finger,
+on a wide and on a narrow screen.
 
 A row is a sentence, and what is done: `panel 0 left`, the panel of the lesson that the next words are about, counted from 0,
 and perhaps its side; `slide NAME VALUE`; `press NAME`, a button; `rules OLD => NEW`, perhaps several joined by `;;`; and so on,
@@ -33,6 +34,7 @@ READ = 400
 VIEWS = {"rules": "rules", "stages": "stages", "how many": "counts", "nine seeds": "seeds", "nine variants": "variants"}
 """The views by the names of their buttons."""
 SEVERAL, BECOMES = " ;; ", " => "
+EDGES = "each => [each.getBoundingClientRect().top, each.getBoundingClientRect().bottom]"
 HANDS = ((Finger, 400), (Mouse, 1440), (Mouse, 400), (Finger, 1440))
 """With what, and on how wide a screen, lesson after lesson is worked through."""
 
@@ -45,13 +47,16 @@ def test_what_a_lesson_asks_for_is_done_with_a_mouse(open_notebook: Callable[...
     reader = Reader(notebook, name[:2])
     reader._reveal()
     for said, *acts in ROWS[name[:2]]:
+        reader._begin()
         for act in acts:
             try:
                 reader._do(act)
+                reader._measure(said)
             except Exception as fault:
                 fault.add_note(f"Lesson {name[:2]}, {said!r}: {act}")
                 notebook.shot(f"request-{name[:2]}")
                 raise
+    assert not reader._apart, " | ".join(reader._apart)
     assert notebook.console == []
 
 
@@ -60,6 +65,25 @@ class Reader:
 
     def __init__(self, notebook: OpenNotebook, lesson: str) -> None:
         self._notebook, self._lesson, self._hand = notebook, lesson, Mouse(notebook.page)
+        self._number, self._opening = "", dict[str, set[str]]()
+        self._apart: list[str] = []
+
+    def _begin(self) -> None:
+        """Go on to another sentence: nothing is used yet."""
+        self._used: list[Locator] = []
+        self._looked_at: set[str] | None = None
+
+    def _measure(self, said: str) -> None:
+        """Note where what this sentence has used, and the views that it looks at, are on no one screen."""
+        views = self._panel.locator("[data-view]:visible").all() if self._looked_at is not None else []
+        seen = [view for view in views if view.get_attribute("data-view") in (self._looked_at or ())]
+        edges = [each.evaluate(EDGES) for each in (*self._used, *seen)] if self._used else []
+        high = self._notebook.page.locator(".jp-WindowedPanel-outer:visible").first.evaluate(
+            "notebook => notebook.clientHeight"
+        )
+        span = max(bottom for _, bottom in edges) - min(top for top, _ in edges) if edges else 0
+        if span > high:
+            self._apart.append(f"{span - high:.0f} pixels more than one screen: {said}")
 
     def _do(self, act: str) -> None:
         if act in NOTHING:
@@ -97,12 +121,20 @@ class Reader:
         cells = sorted({*self._notebook.cells_showing("explore("), *self._notebook.cells_showing("compare(")})
         whole = self._notebook.output(cells[int(number)]).locator(".lsys-panel").first
         expect(whole.locator("canvas[data-drawn]").first).to_be_visible()
+        if number != self._number:
+            self._used.clear()
+        self._number = number
+        if number not in self._opening:
+            views = whole.locator("[data-view]:visible").all()
+            self._opening[number] = {view.get_attribute("data-view") or "" for view in views}.difference({"rules"})
+        self._looked_at = {*self._opening[number]}
         self._panel = whole.locator(".lsys-side").nth(["left", "right"].index(side)) if side else whole
 
     def slide(self, asked: str) -> None:
         """Bring a slider to a value, which changes what is seen."""
         name, value = asked.split()
         before, was = self._see(), control(self._panel, name).get_by_label(name, exact=True).input_value()
+        self._used.append(control(self._panel, name))
         reach(self._hand, self._panel, name, value)
         if was != value:
             self._await_change(before)
@@ -113,6 +145,7 @@ class Reader:
         """Type a value into the box of a slider."""
         name, value = asked.split()
         before, box = self._see(), control(self._panel, name).get_by_label(name, exact=True)
+        self._used.append(control(self._panel, name))
         box.fill(value)
         box.press("Enter")
         expect(box).to_have_value(value)
@@ -127,7 +160,9 @@ class Reader:
         button.click()
         if button.get_attribute("aria-pressed") == "true":
             expect(self._panel.locator(f'[data-view="{VIEWS[name]}"]').first).to_be_visible()
+            self._used.append(self._panel.locator(f'[data-view="{VIEWS[name]}"]').first)
         else:
+            self._used.append(button)
             self._await_change(before)
 
     def play(self) -> None:
@@ -145,6 +180,7 @@ class Reader:
 
     def tick(self, name: str) -> None:
         canvas, box = self._panel.locator("canvas.lsys-canvas"), self._panel.get_by_label(name)
+        self._used.append(box)
         if box.is_checked():
             return
         before = canvas.screenshot()
@@ -163,8 +199,8 @@ class Reader:
             canvas = self._panel.locator("canvas.lsys-canvas")
             size = canvas.bounding_box()
             assert size
-            for part in range(2, 10):
-                canvas.click(position={"x": size["width"] / 2 + 17, "y": size["height"] * part / 12})
+            for part in range(4, 40):
+                canvas.click(position={"x": size["width"] / 2 + 17, "y": size["height"] * part / 48})
                 if self._panel.locator(".lsys-sentence").first.inner_text():
                     break
             expect(self._panel.locator(".lsys-sentence").first).to_contain_text(re.compile("comes from|Mother: "))
@@ -228,6 +264,7 @@ class Reader:
     def _edit(self, asked: str) -> None:
         if not self._area.is_visible():
             self.press("rules")
+        self._used.append(self._panel.locator('[data-view="rules"]').first)
         for change in asked.split(SEVERAL):
             old, new = change.split(BECOMES)
             self._area.click()
@@ -257,7 +294,9 @@ class Reader:
     def fill(self, id: str) -> None:
         """Fill the first cell of a table with what is right, and let it be checked."""
         table = next(each for each in declared(self._lesson).tables if each.id == id)
-        sheet = self._output(f'worksheet("{self._lesson}", "{id}"').get_by_role("region", name="table to fill")
+        whole = self._output(f'worksheet("{self._lesson}", "{id}"')
+        sheet = whole.get_by_role("region", name="table to fill")
+        self._used += [sheet, *whole.locator("canvas.lsys-canvas:visible").all()]
         sheet.get_by_role("textbox").first.fill(table.blanks[0][2].right[0])
         sheet.get_by_role("button", name="Check").click()
         expect(sheet.locator('[data-mark="right"]').first).to_be_visible()

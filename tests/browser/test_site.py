@@ -264,6 +264,18 @@ def test_a_printed_lesson_is_a_worksheet(opened: Callable[..., Page]) -> None:
 
 
 @pytest.mark.parametrize("name", LESSONS)
+def test_nothing_that_is_printed_is_cut_or_takes_most_of_a_page(opened: Callable[..., Page], name: str) -> None:
+    page = opened(name, reduced_motion="reduce")
+    page.set_viewport_size({"width": 794, "height": 1123})  # A4
+    page.emulate_media(media="print")
+    all_parts_open(page)
+    assert page.evaluate(
+        "[...document.querySelectorAll('.lsys-scroll')].every((each) => each.scrollWidth <= each.clientWidth + 1)"
+    )
+    assert page.evaluate("[...document.querySelectorAll('.output, .part-vote')].every((each) => each.offsetHeight < 600)")
+
+
+@pytest.mark.parametrize("name", LESSONS)
 def test_a_lesson_is_worked_through_without_a_kernel(opened, pytestconfig, name: str) -> None:
     page = opened(name)
     all_parts_open(page)

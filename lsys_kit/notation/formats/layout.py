@@ -234,7 +234,7 @@ def _without_tables(before: Transcript, keyed: bool) -> Transcript:
                 pieces += (Edit(at, at, f"{name}: "), Edit(at, at + len(cell.text), cell.text), Edit(at, at, "\n"))
             continue
         elif (row := _ROW.fullmatch(before.text, *match.span())) and ANY_ARROW.search(row["cells"]):
-            if low[:1] != [] and low[0] in names["predecessor"]:
+            if low and low[0] in names["predecessor"]:
                 continue  # the head of a table whose rows are rules
             for part in _IN_ROW.finditer(before.text, *row.span("cells")):
                 pieces += (Edit(*part.span(), part[0]), Edit(part.end(), part.end(), "  "))
