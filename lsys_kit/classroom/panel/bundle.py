@@ -25,6 +25,7 @@ _CONSTANT = re.compile(r"^export const (\w+) = [^\n{(]*;\n", re.MULTILINE)
 _EXPORT = re.compile(r"^export (?=(?:async )?(?:function|const|class) (\w+))", re.MULTILINE)
 _WIDGET = re.compile(r"^export default .*\n", re.MULTILINE)
 """By which a script is a widget of Jupyter."""
+_IMPORTED = re.compile(r'@import "(\w+)\.css";')
 _TEXT = re.compile(r'"([^"\n]*)"|\'([^\'\n]+)\'')
 
 
@@ -145,16 +146,20 @@ def _texts(names: tuple[str, ...]) -> tuple[str, ...]:
 
 
 @cache
-def style(name: str = "panel") -> str:
-    """The style of a sheet, after the colours that all share, which are those of the themes of pictures; without comments and
-    line breaks.
+def style(name: str = "panels") -> str:
+    """The style of a sheet, by default that of panels in notebooks and beside each other, after the colours that all share,
+    which are those of the themes of pictures; without comments and line breaks.
 
-    >>> "\\n" in style(), "/*" in style()
-    (False, False)
+    >>> "\\n" in style(), "/*" in style(), "@import" in style(), len(style()) > len(style("panel"))
+    (False, False, False, True)
     """
-    colours, own = ((files(__package__) / "scripts" / f"{each}.css").read_text(encoding="utf-8") for each in ("colours", name))
-    sheet = Template(colours).substitute(light=_variables(LIGHT), dark=_variables(DARK)) + own
+    colours = Template(_sheet("colours")).substitute(light=_variables(LIGHT), dark=_variables(DARK))
+    sheet = colours + _IMPORTED.sub(lambda found: _sheet(found[1]), _sheet(name))
     return re.sub(r" ?([{};]) ?", r"\1", re.sub(r"\s+", " ", re.sub(r"(?s)/\*.*?(?:\*/|\Z)", "", sheet)))
+
+
+def _sheet(name: str) -> str:
+    return (files(__package__) / "scripts" / f"{name}.css").read_text(encoding="utf-8")
 
 
 def _variables(theme: Theme) -> str:

@@ -68,7 +68,7 @@ def page(title: str, data: Mapping[str, Any], description: str, language: str = 
     )  # of a page's panels these have other seeds, and none variants
     unused = not_needed(data["mode"]) | unasked([model]) | _OF_EDITORS | gallery
     script = f'"use strict";\n{compact("page", unused)}\nopenPage();\n'
-    return document(title, body, STYLE, description, Program(script, style(), data), language)
+    return document(title, body, STYLE, description, Program(script, style("panel"), data), language)
 
 
 def not_needed(*modes: str) -> frozenset[str]:

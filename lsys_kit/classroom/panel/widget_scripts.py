@@ -28,7 +28,7 @@ _scripts: dict[tuple[str, str], WidgetScript] = {}
 def script_of(script: str, sheet: str) -> WidgetScript:
     """The script of a name with a style; another where somebody has closed it.
 
-    >>> script_of("widget", "panel") is script_of("widget", "panel")
+    >>> script_of("widget", "panels") is script_of("widget", "panels")
     True
     """
     known = _scripts.get((script, sheet))
@@ -40,7 +40,7 @@ def script_of(script: str, sheet: str) -> WidgetScript:
 class ScriptedWidget(KitWidget):
     """A widget with one of the kit's scripts, and one of its styles."""
 
-    _script_name, _style_name = "", "panel"
+    _script_name, _style_name = "", "panels"
     _esm = compact("once")
     _script = traitlets.Instance(WidgetScript).tag(sync=True, **widget_serialization)
 
