@@ -206,7 +206,7 @@ class Hour:
         end = time.monotonic() + PATIENCE
         while time.monotonic() < end:
             length, status = self.lengths.get(rules_of(panel).input_value()), panel.locator(".lsys-status").inner_text()
-            if f" {length} " in status if length else "cells" in status:
+            if f" {length} " in status if length else " cell" in status:
                 return
             if any(each.is_visible() and each.inner_text() for each in panel.locator(".lsys-message, .lsys-mistake").all()):
                 return
