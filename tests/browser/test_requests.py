@@ -34,6 +34,7 @@ READ = 400
 VIEWS = {"rules": "rules", "stages": "stages", "how many": "counts", "nine seeds": "seeds", "nine variants": "variants"}
 """The views by the names of their buttons."""
 SEVERAL, BECOMES = " ;; ", " => "
+OF_A_MOTHER = re.compile("comes from|Mother: ")
 EDGES = "each => [each.getBoundingClientRect().top, each.getBoundingClientRect().bottom]"
 HANDS = ((Finger, 400), (Mouse, 1440), (Mouse, 400), (Finger, 1440))
 """With what, and on how wide a screen, lesson after lesson is worked through."""
@@ -201,9 +202,9 @@ class Reader:
             assert size
             for part in range(4, 40):
                 canvas.click(position={"x": size["width"] / 2 + 17, "y": size["height"] * part / 48})
-                if self._panel.locator(".lsys-sentence").first.inner_text():
+                if OF_A_MOTHER.search(self._panel.locator(".lsys-sentence").first.inner_text()):
                     break
-            expect(self._panel.locator(".lsys-sentence").first).to_contain_text(re.compile("comes from|Mother: "))
+            expect(self._panel.locator(".lsys-sentence").first).to_contain_text(OF_A_MOTHER)
         else:
             tile = self._panel.locator(".lsys-tile-button").nth(int(what.removeprefix("tile ")))
             tile.click()
