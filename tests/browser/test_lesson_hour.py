@@ -105,6 +105,12 @@ def test_each_panel_of_a_notebook_keeps_its_own_rules(shown) -> None:
     expect(panels.nth(0).locator(".lsys-offer")).to_be_hidden()
     panels.nth(1).get_by_role("button", name="take up my rules").click()
     expect(rules_of(panels.nth(1))).to_have_value(f"{ALGA} (")
+    notebook.restart()
+    for cell in (1, 2):
+        notebook._ask(RUN.format(cell) + "await idle();")
+    for number, text in enumerate([texts[0], f"{ALGA} ("]):
+        panels.nth(number).get_by_role("button", name="take up my rules").click()
+        expect(rules_of(panels.nth(number))).to_have_value(text)
     assert notebook.console == []
 
 

@@ -191,8 +191,7 @@ export function openPanel(element, host, compared = null) {
     variants?.forget();
     const first = books.keep(model.asked, model.book);
     boxed = Math.min(model.step, first.steps);
-    const part = /** @type {HTMLElement} */ (root.closest("[data-part]"))?.dataset.part ?? "", side = compared && !compared.bar ? "right" : "";
-    rules.open(model.book.text, host.editable, model.book.notes, model.first ?? model.book.text, model.standing || `${part}${side}`);
+    rules.open(model.book.text, host.editable, model.book.notes, model.first ?? model.book.text, model.standing);
     if (books.known(request())) turnTo(books.known(request()));
     else {
       turnTo(first);

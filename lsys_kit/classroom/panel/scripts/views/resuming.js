@@ -24,7 +24,7 @@ export function resuming(put) {
     // what was typed before is offered. Given back is what stands there.
     open(opened, standing, text) {
       if (first !== null) return text;
-      [first, where] = [opened, `${location.pathname.split("/").at(-1)} ${standing}`];
+      [first, where] = [opened, standing || placeOf(element)];
       const [, , before, read] = entry() ?? [];
       if (before === undefined || read === text) return before ?? text;
       element.hidden = false;
@@ -43,7 +43,13 @@ export function resuming(put) {
   }
 }
 
-// All that is kept, the latest first: the notebook and the panel, the rules with which it was opened, those that were typed, and as what
+// Where a panel stands whose cell has no id: the page, the part of it, and the side.
+function placeOf(element) {
+  const part = /** @type {HTMLElement | null} */ (element.closest("[data-part]"))?.dataset.part ?? "", side = element.closest(".lsys-side")?.previousElementSibling ? "right" : "";
+  return `${location.pathname.split("/").at(-1)} ${part}${side}`;
+}
+
+// All that is kept, the latest first: where the panel stands, the rules with which it was opened, those that were typed, and as what
 // they were read.
 function kept() {
   try {
