@@ -272,7 +272,9 @@ def test_nothing_that_is_printed_is_cut_or_takes_most_of_a_page(opened: Callable
     assert page.evaluate(
         "[...document.querySelectorAll('.lsys-scroll')].every((each) => each.scrollWidth <= each.clientWidth + 1)"
     )
-    assert page.evaluate("[...document.querySelectorAll('.output, .part-vote')].every((each) => each.offsetHeight < 600)")
+    assert page.evaluate(
+        "[...document.querySelectorAll('.output :is(img, svg), .part-vote')].every((each) => each.getBoundingClientRect().height < 600)"
+    )
 
 
 @pytest.mark.parametrize("name", LESSONS)
