@@ -269,10 +269,9 @@ def test_nothing_that_is_printed_is_cut_or_takes_most_of_a_page(opened: Callable
     page.set_viewport_size({"width": 794, "height": 1123})  # A4
     page.emulate_media(media="print")
     all_parts_open(page)
-    assert page.evaluate(
-        "[...document.querySelectorAll('.lsys-scroll')].every((each) => each.scrollWidth <= each.clientWidth + 1)"
-    )
-    assert page.evaluate("[...document.querySelectorAll('.output, .part-vote')].every((each) => each.offsetHeight < 600)")
+    tables, whole = page.locator(".lsys-scroll"), page.locator(".output :is(img, svg), .part-vote")
+    assert tables.evaluate_all("(all) => all.every((each) => each.scrollWidth <= each.clientWidth + 1)")
+    assert whole.evaluate_all("(all) => all.every((each) => each.getBoundingClientRect().height < 600)")
 
 
 @pytest.mark.parametrize("name", LESSONS)
