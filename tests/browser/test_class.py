@@ -223,12 +223,12 @@ def test_a_lesson_with_two_phones_and_a_server_that_is_killed(live: Class, pytes
 
     # On the pages of the course: a table, rules, a plant, an exercise
     phones[0].goto(f"{live.server.join}course/notebooks/01_all_at_once.html")
-    sheet = phones[0].locator(".part-worksheet", has_text="all at once").first
+    sheet = phones[0].get_by_role("region", name="table to fill").first
     for number, text in enumerate(("2", "2", "3", "5")):
         sheet.locator("input").nth(number).fill(text)
     sheet.get_by_role("button", name="Check").tap()
     expect(phones[0].locator(".class-status")).to_contain_text("kept")
-    panel = phones[0].locator(".part-panel .lsys-panel").first
+    panel = phones[0].locator(".part-panel .lsys-panel, .part-beside .lsys-panel:not(.lsys-both, .lsys-both *)").first
     panel.get_by_role("button", name="rules", exact=True).tap()
     rules = panel.locator("textarea")
     rules.fill(rules.input_value().replace("br -> ar\n", ""))
