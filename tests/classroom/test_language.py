@@ -426,7 +426,11 @@ def test_the_scripts_have_the_texts_that_are_said_to_stand_in_their_tables():
 
 @pytest.mark.usefixtures("german")
 def test_what_scripts_show_is_sent_to_them_in_the_language():
-    sent = [*translated_words("panel"), *vote("01").words, *translated_words("practice", "class_board", "phone", "class_page")]
+    sent = [
+        *translated_words("panel"),
+        *vote("01").words,
+        *translated_words("practice", "class_board", "phone", "class_page", "waiting"),
+    ]
     assert [text for text in in_scripts() if text not in sent and gettext(text) != text] == []
 
 
