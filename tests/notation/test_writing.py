@@ -134,7 +134,6 @@ def test_records_print_as_the_notation() -> None:
     assert str(LSystem((Pattern("A"),), ())) == "axiom: A"
 
 
-@pytest.mark.slow
 def test_a_long_system_is_shown_by_its_beginning_and_one_that_cannot_be_written_by_its_rules() -> None:
     long = read("axiom: A\n" + "A -> A B C D E F G\n" * 900)
     assert len(repr(long)) < 2_100
