@@ -32,7 +32,7 @@ GALLERY = nbformat.read(ROOT / "notebooks" / "gallery.ipynb", as_version=4)
 CODE = "\n".join(cell.source for cell in GALLERY.cells if cell.cell_type == "code")
 STEPS: Mapping[str, int | None] = {
     id: int(steps) if steps else None
-    for id, steps in re.findall(r'^draw\(system\("(ABOP[^"]+)"\)(?:, (\d+))?(?:, light=True)?\)$', CODE, re.M)
+    for id, steps in re.findall(r'^draw\(system\("(ABOP[^"]+)"\)(?:, (\d+))?(?:, light=True.*)?\)$', CODE, re.M)
 }
 """The figures that the gallery shows, and how many steps of each, where these are not those of the book."""
 
