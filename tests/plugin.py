@@ -18,7 +18,7 @@ pytest_plugins = ["tests.browser.fixtures"]
 EXAMPLES = {"quick": 5, "usual": 25, "thorough": 100}
 """How many examples of a law a run tries, unless the law sets a number of its own. Without slow tests a run is quick; with
 `--thorough`, or where `CI` is set, it is thorough."""
-FEW_VARIANTS = 8, 2
+FEW_VARIANTS = 6, 2
 """How many variants of a quick test and of a slow one are tried, spread over all of them, unless the run is thorough."""
 AN_HOUR = 3600
 """Seconds: as long as a law may take."""

@@ -125,6 +125,7 @@ def test_pages_that_cannot_be_made_are_told_and_the_class_goes_on(course: Path, 
     assert not is_made(tmp_path / PAGES, course)
 
 
+@pytest.mark.slow
 def test_a_folder_that_cannot_have_pages_is_told(course: Path, tmp_path: Path) -> None:
     (tmp_path / PAGES).write_text("mine")
     pages = CoursePages(tmp_path, course)

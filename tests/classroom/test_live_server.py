@@ -163,6 +163,7 @@ def test_a_full_disk_is_told_and_nothing_is_acknowledged_that_is_not_kept(
     run(on_a_full_disk())
 
 
+@pytest.mark.slow
 def test_two_boards_show_the_same(fresh: Running) -> None:
     async def both() -> None:
         boards = [await websocket_connect(fresh.board.replace("http", "ws", 1) + "live") for _ in range(2)]
@@ -378,6 +379,7 @@ def test_ten_thousand_joins_from_one_phone_are_one_phone(fresh: Running, pytestc
     assert run(join_again()) > 40, "strangers that come too fast are refused"
 
 
+@pytest.mark.slow
 def test_heads_that_never_end_keep_nobody_waiting(fresh: Running) -> None:
     """Slow loris."""
     host, port = fresh.server.address.removeprefix("http://").split(":")

@@ -156,6 +156,7 @@ def test_an_angle_is_told_from_rules():
     assert check("0.5", "angle: 45\naxiom: F\nF -> F[+F]F[+F]F").message == "The rules are right, and the angle is not."
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("answer", "words"),
     [

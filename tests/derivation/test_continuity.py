@@ -249,6 +249,7 @@ def test_outside_of_its_life_span_a_growth_function_may_do_as_it_likes() -> None
         continuity(late, {"A": "t", "B": "1/(t-1000)"})
 
 
+@pytest.mark.slow
 def test_a_bend_is_no_jump_but_no_derivative_either() -> None:
     assert cells("sqrt(t)").undecided == ()
     with pytest.raises(ModelValueError, match=r'^Derivative 1 of the growth function "sqrt\(t\)" is not continuous'):

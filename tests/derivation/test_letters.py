@@ -158,6 +158,7 @@ def test_an_open_comparison_is_named_with_what_to_declare() -> None:
     )
 
 
+@pytest.mark.slow
 def test_formulas_have_bounds() -> None:
     logistic = read("r = 3.7\naxiom: A(r/9)\nA(x) -> A(r*x*(1-x))")
     with pytest.raises(LSystemError, match="the formula has more than 100 terms") as error:

@@ -179,6 +179,7 @@ def shown(name: str) -> str:
     return "".join(chr(0x2400 + ord(c)) if ord(c) < 32 else "\ufffd" if c in "\ud800\uffff" else c for c in name)
 
 
+@pytest.mark.slow
 def test_tokens_of_any_word_can_be_the_first_marking() -> None:
     net = stages(system("J4"))
     _, marking = imported(pnml(net, net.tokens(derive(system("J4"), 9)[-1])))

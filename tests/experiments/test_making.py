@@ -92,6 +92,7 @@ class TestSilence:
         executor = Forgets(lambda seeds, before: 17 in seeds and before == 0, fails=40)
         assert ensemble(PLANT, 120, steps=4, executor=executor) == ensemble(PLANT, 120, steps=4)
 
+    @pytest.mark.slow
     def test_it_is_missed_where_nothing_else_was_lost_too(self) -> None:
         executor = Forgets(lambda seeds, before: 17 in seeds and before == 0)
         assert ensemble(PLANT, 120, steps=4, executor=executor) == ensemble(PLANT, 120, steps=4)
@@ -110,6 +111,7 @@ class TestSilence:
         assert ensemble(PLANT, 4, steps=4, executor=executor) == ensemble(PLANT, 4, steps=4)
         assert executor.given == 3
 
+    @pytest.mark.slow
     def test_an_executor_that_answers_no_question_is_given_up(self) -> None:
         found = ensemble(PLANT, 120, steps=4, executor=Forgets(lambda seeds, before: 17 in seeds or not seeds, fails=40))
         assert 100 < len(found) < 120

@@ -174,6 +174,7 @@ def test_it_is_shown_as_mathematics_a_table_and_a_plot() -> None:
     assert repr(plot(read(SHOOT), 3))
 
 
+@pytest.mark.slow
 def test_a_curve_over_a_letter_has_the_totals_of_its_values() -> None:
     model = read("q = 0.8 in 0 .. 1.2 by 0.1\nr = 2\naxiom: A(1)\nA(x) -> F(r*x) A(q*x)")
     found = total(model, "F", q="q", r="r")

@@ -178,6 +178,7 @@ def test_a_hundred_thousand_strokes_are_kept_in_seconds(tmp_path):
 # --- pages ------------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("id", ["J1", "K5", "K14"])
 def test_a_page_is_the_same_every_time(tmp_path, id):
     for name in ("a", "b"):
