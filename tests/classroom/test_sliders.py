@@ -182,6 +182,21 @@ def test_a_number_between_two_stops_is_typed_and_stays(explored):
     expect(box).to_have_value("61.3")
 
 
+def test_a_number_is_taken_when_nothing_more_is_typed(explored):
+    """What is no such number is refused only at its end."""
+    panel = explored("K5", 4)
+    box, canvas = panel.page.get_by_label("angle", exact=True), panel.at("canvas.lsys-canvas")
+    box.click()
+    for typed, angle in (("6", "6"), ("0", "60"), (".", "60"), ("5", "60.5"), ("x", "60.5")):
+        panel.page.keyboard.type(typed)
+        expect(canvas).to_have_attribute("data-angle", angle)
+    expect(box).to_have_value("60.5x")
+    expect(panel.at(".lsys-refused").first).to_be_hidden()
+    panel.page.keyboard.press("Enter")
+    expect(box).to_have_value("60.5")
+    expect(panel.page.get_by_text("0 to 180")).to_be_visible()
+
+
 def test_seeds_go_one_by_one_by_a_die_or_are_typed(explored):
     panel = explored("K7", 3)
     box, message = panel.page.get_by_label("seed", exact=True), panel.at(".lsys-message")

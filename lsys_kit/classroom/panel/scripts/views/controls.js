@@ -84,6 +84,7 @@ export function freshId() {
 
 const PITCH = { mouse: 4, finger: 7 }; // pixels between two stops of a slider
 const THUMB = 16; // pixels
+const REST = 500; // milliseconds without a key after which a number that is typed is taken
 const NARROW = 150; // pixels of a slider that has not been laid out
 const DIGIT = 6; // pixels of a digit of the numbers below a slider
 
@@ -93,7 +94,8 @@ const fits = new WeakMap(), sizes = new ResizeObserver((all) => all.forEach(({ t
 // It stops where a hand can stop it (stops.js): at every `least` value at least. An arrow key goes on to the next of every `pace`
 // values, one with Shift to the next, Page Up and Down to the next stop; moved with Shift held, each pixel is a value. Where it has
 // values between its stops, or no `bar`, buttons go to the next. `whole`: any whole number may be typed. What stands in the box is
-// selected where it is entered, so that typing replaces it; a number beyond the ends is refused, and the value stays.
+// selected where it is entered, so that typing replaces it, and is taken when nothing more is typed; a number beyond the ends is
+// refused at the end, and the value stays.
 export function slider(name, hint, texts, index, chosen, label = name, { least = 1, pace = 1, bar = true, whole = false } = {}) {
   const id = freshId();
   const box = made("input.lsys-box", { id, type: "text", inputmode: "decimal", autocomplete: "off", spellcheck: "false" });
@@ -103,7 +105,7 @@ export function slider(name, hint, texts, index, chosen, label = name, { least =
   const beside = (sign, hint, way) => button(sign, hint, () => choose(way(false)), { "aria-label": hint, tabindex: -1, class: "lsys-button lsys-next" });
   const less = beside("\u2212", worded("{name}: the value before", { name: label }), back), more = beside("+", worded("{name}: the next value", { name: label }), on);
   const element = made("div.lsys-control", { "data-control": name }, made("label", { for: id, title: hint }, label), less, box, more, said, ...(bar ? [track] : []));
-  let numbers = [], stops = [0], marked = [], named = [], grip = null, typing = false;
+  let numbers = [], stops = [0], marked = [], named = [], grip = null, typing = false, resting = 0;
 
   function show(at) {
     if (at !== index) refuse(false);
@@ -123,12 +125,18 @@ export function slider(name, hint, texts, index, chosen, label = name, { least =
 
   function typed() {
     if (box.value === texts[index]) return;
+    refuse(!read());
+    write();
+  }
+
+  // Take the number in the box, if it is one of those that can be chosen; it stays as it is typed.
+  function read() {
+    clearTimeout(resting);
     const wanted = valueOf(box.value);
     take(wanted);
-    const refused = !(wanted >= numbers[0] && wanted <= numbers.at(-1));
-    if (!refused) choose(nearest(numbers, wanted));
-    refuse(refused);
-    write();
+    const known = wanted >= numbers[0] && wanted <= numbers.at(-1);
+    if (known) choose(nearest(numbers, wanted));
+    return known;
   }
 
   function write() {
@@ -218,6 +226,8 @@ export function slider(name, hint, texts, index, chosen, label = name, { least =
   box.addEventListener("input", () => {
     typing = true;
     refuse(false);
+    clearTimeout(resting);
+    resting = setTimeout(read, REST);
   });
   box.addEventListener("focus", write);
   box.addEventListener("mousedown", (event) => { // also after a tap; until something is typed no cursor is put into the number
