@@ -6,6 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from itertools import islice, pairwise, permutations
 
 from lsys_kit.classroom.exercises.exercise import Exercise
@@ -183,20 +184,21 @@ MOST_RENAMED = 5
 """So many places of one's own names are tried under all names of the solution."""
 
 
-def _in_names_of(exercise: Exercise, mine: Net, wanted: Net) -> Net:
+@lru_cache(maxsize=256)
+def _in_names_of(fixed: frozenset[str], mine: Net, wanted: Net) -> Net:
     """A net with its places called as in the solution, so that most transitions are the same; fixed names stay."""
-    own = sorted({*places_of(mine)} - {*exercise.symbols})
-    free = sorted({*places_of(wanted)} - {*exercise.symbols})
+    own, free = (sorted({*places_of(net)} - fixed) for net in (mine, wanted))
     if not own or own == free or max(len(own), len(free)) > MOST_RENAMED:
         return mine
     free += [f"{name} " for name in own]  # which no place of the solution is called
     renamed = (with_places(mine, dict(zip(own, names, strict=True))) for names in permutations(free, len(own)))
-    return max([mine, *islice(renamed, MOST_TRIED)], key=lambda net: (Counter(net.firings) & Counter(wanted.firings)).total())
+    asked = Counter(wanted.firings)
+    return max([mine, *islice(renamed, MOST_TRIED)], key=lambda net: (Counter(net.firings) & asked).total())
 
 
 def _transitions_right(exercise: Exercise, mine: Net, wanted: Net) -> tuple[int, int]:
     """How many transitions are right, up to names that are free; the tokens at the start are a part, too."""
-    mine = _in_names_of(exercise, mine, wanted)
+    mine = _in_names_of(frozenset(exercise.symbols), mine, wanted)
     asked = wanted.start is not None
     right = (Counter(mine.firings) & Counter(wanted.firings)).total() + (asked and mine.start == wanted.start)
     return right, max(len(mine.firings), len(wanted.firings)) + asked
@@ -216,7 +218,7 @@ def _difference(exercise: Exercise, mine: Net, wanted: Net) -> Difference:
             return Difference(reply(f"net.{what}_too_{'many' if own > asked else 'few'}", number=own), likeness, near)
     if wanted.start is not None and isomorphic(Net(mine.firings), Net(wanted.firings)):
         return Difference(reply("net.start"), 1, True)
-    alike = zip(mine.firings, _in_names_of(exercise, mine, wanted).firings, strict=True)
+    alike = zip(mine.firings, _in_names_of(frozenset(exercise.symbols), mine, wanted).firings, strict=True)
     odd = next((firing for firing, called in alike if called not in wanted.firings), mine.firings[0])
     return Difference(reply("net.transition", place=odd.place), likeness, near)
 
