@@ -256,3 +256,17 @@ def test_what_is_lit_in_the_rules_lies_behind_their_text(explored, browser, tmp_
     if on_a_page:
         editor.page.close()
     assert text == behind
+
+
+@pytest.mark.parametrize("width", [1440, 700, 400])
+def test_no_view_hides_the_title_of_another_also_with_open_rules(explored, width: int) -> None:
+    panel = explored("J4", 9)
+    panel.page.set_viewport_size({"width": width, "height": 1600})
+    panel.page.get_by_role("button", name="rules", exact=True).click()
+    seen = """(titles) => titles.filter((each) => each.checkVisibility()).map((each) => {
+      const { left, top, height } = each.getBoundingClientRect();
+      return each.contains(document.elementFromPoint(left + 5, top + height / 2));
+    })"""
+    titles = panel.page.locator(".lsys-title").evaluate_all(seen)
+    assert len(titles) == 4
+    assert all(titles)
