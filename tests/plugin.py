@@ -52,11 +52,12 @@ def pytest_cmdline_main(config: pytest.Config) -> Iterator[object]:
 @pytest.hookimpl(tryfirst=True)
 def pytest_configure(config: pytest.Config) -> None:
     """Benchmarks run once, as tests, unless `--benchmark-only` asks for numbers; hypothesis has no deadline."""
-    from hypothesis import settings
+    from hypothesis import Phase, settings
 
     quick = "not slow" in config.option.markexpr
+    phases = set(Phase) - {Phase.explain}  # which traces every line after a failure, and makes all slow that is measured
     for name, many in EXAMPLES.items():
-        settings.register_profile(name, settings.default, deadline=None, max_examples=many)
+        settings.register_profile(name, settings.default, deadline=None, max_examples=many, phases=phases)
     settings.load_profile("quick" if quick else "thorough" if config.option.thorough else "usual")
     config.option.benchmark_disable = config.option.benchmark_disable or not config.option.benchmark_only
     if config.option.benchmark_only:

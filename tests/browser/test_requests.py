@@ -70,7 +70,10 @@ class Reader:
         self._apart: list[str] = []
 
     def _begin(self) -> None:
-        """Go on to another sentence: nothing is used yet."""
+        """Go on to another sentence: nothing is used yet, and the tools that the one before needed are put away."""
+        opened = self._notebook.page.get_by_role("button", name="more", exact=True, expanded=True)
+        while opened.count():
+            opened.first.click()
         self._used: list[Locator] = []
         self._looked_at: set[str] | None = None
 
