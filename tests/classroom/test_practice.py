@@ -9,7 +9,7 @@ import pytest
 from lsys_kit import ModelNameError, ModelValueError, infer, language, practice, progress
 from lsys_kit.classroom.exercises import progress as kept
 from lsys_kit.classroom.exercises.exercise import Exercise
-from lsys_kit.classroom.exercises.judging import is_right_by_mistake, judged, right_by_mistake, wrong_answers
+from lsys_kit.classroom.exercises.judging import is_right, is_right_by_mistake, judged, right_by_mistake, wrong_answers
 from lsys_kit.classroom.exercises.kinds.choices import letters
 from lsys_kit.classroom.exercises.lint import HINTS
 from lsys_kit.classroom.exercises.practice.drafts import TOPICS, Draft
@@ -50,8 +50,8 @@ def _has_one_right_answer(asked):
     """None of the wrong answers that are understood is right, and no other option."""
     exercise = asked.exercise
     for wrong in wrong_answers(exercise):
-        assert judged(exercise, as_typed(exercise, wrong.answer))[0].said != "Correct"
-    right = [letter for letter in letters(exercise) if judged(exercise, letter)[0].said == "Correct"]
+        assert not is_right(exercise, as_typed(exercise, wrong.answer))
+    right = [letter for letter in letters(exercise) if is_right(exercise, letter)]
     assert len(right) == bool(exercise.options)
 
 

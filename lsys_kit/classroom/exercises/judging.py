@@ -169,7 +169,7 @@ def judged(exercise: Exercise, answer: object) -> tuple[Verdict, bool]:
     """
     kind, solution = ANSWER_KINDS[exercise.kind], solution_of(exercise)
     own = kind.read(exercise, answer)
-    if kind.same(exercise, own, solution) or any(kind.same(exercise, own, kind.read(exercise, each)) for each in exercise.also):
+    if _is_right(exercise, own):
         return Verdict("Correct", kind.praise(exercise, own, solution)), True
     fitting = [wrong for wrong in wrong_answers(exercise) if _alike(exercise, own, wrong.answer)]
     found = kind.difference(exercise, own, solution)
@@ -183,6 +183,21 @@ def judged(exercise: Exercise, answer: object) -> tuple[Verdict, bool]:
     message = " ".join(filter(None, (said, explained, changed)))
     tried = bool(fitting or repair) or kind.honest(exercise, own, solution)
     return Verdict("Almost" if near else "Not yet", message, mark), tried
+
+
+def is_right(exercise: Exercise, answer: object) -> bool:
+    """Whether an answer is right; no reply is looked for.
+
+    >>> is_right(Exercise("1", "", "number", "", "4", "", ()), "2 + 2"), is_right(Exercise("1", "", "number", "", "4", "", ()), 5)
+    (True, False)
+    """
+    return _is_right(exercise, ANSWER_KINDS[exercise.kind].read(exercise, answer))
+
+
+def _is_right(exercise: Exercise, own: object) -> bool:
+    kind = ANSWER_KINDS[exercise.kind]
+    same = kind.same(exercise, own, solution_of(exercise))
+    return same or any(kind.same(exercise, own, kind.read(exercise, each)) for each in exercise.also)
 
 
 def _repair(exercise: Exercise, own: object, fitting: Sequence[WrongAnswer], found: Difference) -> Repair | None:
