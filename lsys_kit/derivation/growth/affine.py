@@ -155,6 +155,8 @@ class _Maps:
             sorted({each for value in self.states.constants for each in getattr(value, "free_symbols", ())}, key=str)
         )
         self.field = field_of(self.letters)
+        self.one = self.field(1)
+        self._numbers: dict[Value, Coefficient] = {1: self.one}
 
     def sums(self, symbol: str, place: int | None) -> AffineSums:
         """Follow the kinds from the axiom on; where values are not affine, the parameters behind them decide something too."""
@@ -226,7 +228,7 @@ class _Maps:
                 begun = {key: _valued(amount, values) for key, amount in start.items()}
                 terms = [*self._terms(known, begun, symbol, place, 2 * len(rows) + 2, values)]
                 left = [Fraction(1), *(-c for c in shortest_rule(terms))]
-                needed: list[Coefficient] = [self.field(1)]
+                needed: list[Coefficient] = [self.one]
                 for coefficients, times in factors:
                     divisor = [_valued(c, values) for c in coefficients]
                     for _ in range(times):
@@ -259,7 +261,7 @@ class _Maps:
         """What each sum adds to the sums of the next step, and the sums of the axiom."""
         start: Combination = {}
         for module in self._outside(self.states.modules[state] for state in self.states.axiom):
-            _add(start, self._made(module, {}, None), self.field(1))
+            _add(start, self._made(module, {}, None), self.one)
         rows: dict[Sum, Combination] = {}
         waiting = list(dict.fromkeys(kind for kind, _ in start))
         met = set(waiting)
@@ -291,7 +293,8 @@ class _Maps:
                 for key, parts in self._made(each, positions, kind).items():
                     for source, factor in parts.items():
                         row = rows[kind, source]
-                        row[key] = row.get(key, self.field(0)) + share * factor
+                        part = factor if share is self.one else share * factor
+                        row[key] = row[key] + part if key in row else part
         return rows
 
     def _successors(self, module: Module) -> Iterator[tuple[Coefficient, list[Module]]]:
@@ -329,7 +332,7 @@ class _Maps:
             if found:
                 raise _Bent(frozenset(positions[symbol] for symbol in found))
         kind = module.symbol, kept
-        made: dict[Sum, dict[int, Coefficient]] = {(kind, -1): {-1: self.field(1)}}
+        made: dict[Sum, dict[int, Coefficient]] = {(kind, -1): {-1: self.one}}
         for place, value in enumerate(module.arguments):
             if kept[place] is None:
                 made[kind, place] = self._parts(value, positions)
@@ -357,7 +360,9 @@ class _Maps:
                 hint="Roots, sines and most powers of numbers have no exact form.",
             )
         if not is_symbolic(value):
-            return self.field(value.numerator) / self.field(value.denominator)
+            if value not in self._numbers:
+                self._numbers[value] = self.field(value.numerator) / self.field(value.denominator)
+            return self._numbers[value]
         with supervised(), suppress(ValueError):
             if self.field is not Fraction:
                 return self.field.from_sympy(value)
