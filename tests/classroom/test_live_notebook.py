@@ -186,9 +186,10 @@ def test_what_no_class_can_be_opened_with_is_refused(choices: dict[str, Any], er
 
 
 KERNEL = """
-import sys, time
+import signal, sys, time
 from lsys_kit import open_class
 if __name__ == "__main__":
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # as kernels do, also where whatever started them ignores it
     board = open_class("10b", sys.argv[1], port=0, course=False)
     try:
         print(board.address, flush=True)
