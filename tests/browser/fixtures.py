@@ -4,21 +4,32 @@ the tab of its file, of which nothing was answered before."""
 from __future__ import annotations
 
 import os
+import shutil
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 import nbformat
 import pytest
+from filelock import FileLock
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 from playwright.sync_api import Browser, Page, expect, sync_playwright
 
+from lsys_kit.classroom.course import course_files
 from lsys_kit.classroom.lessons.kept import FILE
+from lsys_kit.classroom.site.build import build_site
 from tests.browser.homes import show
 from tests.browser.lab import VIEWPORT, Lab, OpenNotebook, Tab, launched, started, tab_of
 from tests.notebooks.kernels import ARE_FORKED, forked
 
 expect.set_options(timeout=20_000)
+ALWAYS = (
+    "notebooks/gallery.html",
+    "notebooks/00_five_characters_one_plant.html",
+    "notebooks/01_all_at_once.html",
+    "exercises/01_all_at_once.html",
+)
+"""The pages that tests without variants open."""
 
 
 @pytest.fixture(scope="session")
@@ -36,6 +47,27 @@ def kernels(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
 def lab(tmp_path_factory: pytest.TempPathFactory, kernels: None) -> Iterator[Lab]:
     with started(tmp_path_factory.mktemp("lab")) as running:
         yield running
+
+
+@pytest.fixture(scope="session")
+def site(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory, kernels: None) -> Path:
+    """The pages that the tests of this run open, in a thorough run the whole course; made once, for all processes."""
+    asked = [
+        item for item in request.session.items if "site" in getattr(item, "fixturenames", ()) and hasattr(item, "callspec")
+    ]
+    opened = {*ALWAYS, *(str(item.callspec.params.get("name")) for item in asked)}
+    own = tmp_path_factory.getbasetemp()
+    made = (own.parent if hasattr(request.config, "workerinput") else own) / "site"
+    with FileLock(made.with_suffix(".lock")):
+        if not made.exists():
+            course, pages = tmp_path_factory.mktemp("course"), tmp_path_factory.mktemp("pages")
+            for name, path in course_files().items():
+                if name.replace(".ipynb", ".html") in opened:
+                    (course / name).parent.mkdir(parents=True, exist_ok=True)
+                    shutil.copy(path, course / name)
+            build_site(pages, course)
+            pages.rename(made)
+    return made
 
 
 @pytest.fixture(scope="module")

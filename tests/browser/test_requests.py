@@ -23,7 +23,7 @@ from tests.browser.hands import Finger, Mouse, control, reach
 from tests.browser.lab import OpenNotebook
 from tests.browser.requests import lessons
 from tests.browser.test_lessons import PATIENCE, SEEN
-from tests.browser.test_site import all_parts_open, opened, site, tabs  # noqa: F401
+from tests.browser.test_site import all_parts_open, opened, tabs  # noqa: F401
 from tests.classroom.panel_page import show_more
 
 ROWS: dict[str, list[list[str]]] = tomllib.loads((Path(__file__).parent / "requests.toml").read_text("utf-8"))
@@ -71,9 +71,9 @@ class Reader:
 
     def _begin(self) -> None:
         """Go on to another sentence: nothing is used yet, and the tools that the one before needed are put away."""
-        opened = self._notebook.page.get_by_role("button", name="more", exact=True, expanded=True)
-        while opened.count():
-            opened.first.click()
+        opener = self._notebook.page.get_by_role("button", name="more", exact=True, expanded=True)
+        while opener.count():
+            opener.first.click()
         self._used: list[Locator] = []
         self._looked_at: set[str] | None = None
 

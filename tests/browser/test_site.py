@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-import shutil
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import lru_cache
@@ -24,7 +23,6 @@ from lsys_kit.classroom.lessons.lesson import declared
 from lsys_kit.classroom.link import link as link_to
 from lsys_kit.classroom.panel.books.book import book
 from lsys_kit.classroom.panel.controls import slider_ranges
-from lsys_kit.classroom.site.build import build_site
 from lsys_kit.classroom.site.showing import asked_settings
 from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.system import LSystem
@@ -34,30 +32,6 @@ pytestmark = [pytest.mark.slow, pytest.mark.browser]
 AXE = Path(axe_playwright_python.__file__).parent / "axe.min.js"
 PAGES = ["index.html", *(name.replace(".ipynb", ".html") for name in course_files() if name.endswith(".ipynb"))]
 LESSONS = [name.replace(".ipynb", ".html") for name in course_files() if is_lesson(name)]
-
-
-ALWAYS = "notebooks/gallery.html", *LESSONS[:2], LESSONS[1].replace("notebooks", "exercises")
-"""The pages that tests without variants open."""
-
-
-@pytest.fixture(scope="module")
-def site(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory, kernels: None) -> Path:
-    """The pages that the tests of this run open: in a thorough run the whole course."""
-    opened = {
-        *ALWAYS,
-        *(
-            str(item.callspec.params.get("name"))
-            for item in request.session.items
-            if item.path == request.path and hasattr(item, "callspec")
-        ),
-    }
-    folder, course = tmp_path_factory.mktemp("site"), tmp_path_factory.mktemp("course")
-    for name, path in course_files().items():
-        if name.replace(".ipynb", ".html") in opened:
-            (course / name).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy(path, course / name)
-    build_site(folder, course)
-    return folder
 
 
 @dataclass
@@ -240,7 +214,7 @@ def is_by_chance(of: LSystem) -> bool:
 
 
 def test_no_page_is_larger_than_a_photograph(site: Path) -> None:
-    pages = [site / ALWAYS[0], *filter(Path.exists, (site / name for name in LESSONS))]
+    pages = [site / "notebooks/gallery.html", *filter(Path.exists, (site / name for name in LESSONS))]
     assert {page.name: size for page in pages if (size := page.stat().st_size) > 1_200_000} == {}
 
 
