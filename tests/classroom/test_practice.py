@@ -9,7 +9,7 @@ import pytest
 from lsys_kit import ModelNameError, ModelValueError, infer, language, practice, progress
 from lsys_kit.classroom.exercises import progress as kept
 from lsys_kit.classroom.exercises.exercise import Exercise
-from lsys_kit.classroom.exercises.judging import is_right, is_right_by_mistake, judged, right_by_mistake, wrong_answers
+from lsys_kit.classroom.exercises.judging import is_right, is_right_by_mistake, right_by_mistake, wrong_answers
 from lsys_kit.classroom.exercises.kinds.choices import letters
 from lsys_kit.classroom.exercises.lint import HINTS
 from lsys_kit.classroom.exercises.practice.drafts import TOPICS, Draft

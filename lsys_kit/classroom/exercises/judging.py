@@ -188,7 +188,8 @@ def judged(exercise: Exercise, answer: object) -> tuple[Verdict, bool]:
 def is_right(exercise: Exercise, answer: object) -> bool:
     """Whether an answer is right; no reply is looked for.
 
-    >>> is_right(Exercise("1", "", "number", "", "4", "", ()), "2 + 2"), is_right(Exercise("1", "", "number", "", "4", "", ()), 5)
+    >>> four = Exercise("1", "", "number", "", "4", "", ())
+    >>> is_right(four, "2 + 2"), is_right(four, 5)
     (True, False)
     """
     return _is_right(exercise, ANSWER_KINDS[exercise.kind].read(exercise, answer))
