@@ -46,12 +46,13 @@ NO_KERNEL = "The kernel does not answer"
 
 @dataclass
 class Hour:
-    """A notebook in which anything happens, what was typed last into the rules of each model, and what has happened."""
+    """A notebook in which anything happens, what was typed last into the rules of each model, and in the panel of which cell,
+    and what has happened."""
 
     tab: Tab
     name: str
     random: Random
-    typed: dict[int, str | None] = field(default_factory=dict)
+    typed: dict[int, tuple[str | None, int]] = field(default_factory=dict)
     lengths: dict[str, int] = field(default_factory=dict)
     numbers: Iterator[int] = field(default_factory=lambda: count(20))
     events: list[str] = field(default_factory=list)
@@ -95,8 +96,8 @@ class Hour:
         self.notebook._ask("await Promise.race([panel.sessionContext.session.kernel.restart(), wait(60_000)]);")
 
     def die(self) -> None:
-        self.shown.clear()
         """Jupyter says so in a window of its own."""
+        self.shown.clear()
         self.notebook._ask(DIE)
         self.notebook.page.locator(".jp-Dialog").get_by_role("button", name="Ok").click()
 
@@ -177,7 +178,7 @@ class Hour:
     def _note(self, panel: Locator) -> None:
         text = rules_of(panel).input_value()
         back = panel.get_by_role("button", name="back to the first rules", exact=True)
-        self.typed[SHARE[self._last]] = text if back.is_visible() else None
+        self.typed[SHARE[self._last]] = text if back.is_visible() else None, self._last
 
     # -- what holds, whatever has happened ------------------------------------------------------------------------------
 
@@ -187,8 +188,8 @@ class Hour:
         for panel in panels.values():
             self._moves(panel)
             self._shows_or_tells(panel)
-        for model, text in self.typed.items():
-            seen = [panel for number, panel in panels.items() if SHARE[number] == model]
+        for model, (text, cell) in self.typed.items():
+            seen = [panel for number, panel in panels.items() if SHARE[number] == model and (number == cell or lives(panel))]
             kept = [rules_of(panel).input_value() for panel in seen]
             offered = any(panel.locator(".lsys-offer").is_visible() for panel in seen)
             assert not seen or text is None or text in kept or offered, f"lost: {text!r}; there are {kept}"
@@ -224,11 +225,17 @@ class Hour:
         self.settle()
         panels = self.panels()
         assert [*panels] == [*SHARE]
-        for model, text in self.typed.items():
+        for model, (text, _) in self.typed.items():
             if text is not None:
                 panels[model].get_by_role("button", name="take up my rules", exact=True).click()
                 expect(rules_of(panels[model])).to_have_value(text)
         self.check()
+
+
+def lives(panel: Locator) -> bool:
+    """Whether Python has not ended since a panel was made: else it shows what it showed, and what was typed into another of its
+    model is offered when its cell is run again."""
+    return NO_KERNEL not in panel.inner_text()
 
 
 def rules_of(panel: Locator) -> Locator:

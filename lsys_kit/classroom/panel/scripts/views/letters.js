@@ -11,7 +11,7 @@ export function letterSwitches(host, constants) {
   const switches = constants.flatMap(({ name, control }) => {
     if (!lettered.includes(name)) return [];
     const hint = worded("{name} as a letter: formulas in place of numbers", { name }), toggled = () => host.set("letters", others(name));
-    const element = button("x", hint, toggled, { "aria-label": hint, class: "lsys-button lsys-letter" });
+    const element = button("x²", hint, toggled, { "aria-label": hint, class: "lsys-button lsys-letter" });
     control.element.prepend(element);
     return [{ name, element }];
   });
