@@ -32,8 +32,10 @@ FLAGS = [
 SECONDS = 120
 """How long anything may take on a slow machine."""
 VIEWPORT = {"width": 1400, "height": 1000}
-NOISE = re.compile(r"favicon|ResizeObserver loop|/api/(me|terminals|kernels|sessions|contents)|/lsp/|net::ERR_ABORTED")
-"""What JupyterLab itself may write to the console."""
+NOISE = re.compile(
+    r"favicon|ResizeObserver loop|/api/(me|terminals|kernels|sessions|contents)|/lsp/|net::ERR_ABORTED|Canceled future"
+)
+"""What JupyterLab itself may write to the console: the last where a kernel ends before it has answered its first question."""
 
 OPENED = """name => {
     const panel = window.jupyterapp?.shell?.currentWidget;

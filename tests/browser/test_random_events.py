@@ -36,9 +36,9 @@ OUTPUTS = "return JSON.stringify(panel.content.widgets[given].model.outputs.toJS
 NONE_RUNS = """() => {
     const status = window.jupyterapp.shell.currentWidget.sessionContext.session?.kernel?.status;
     const prompts = [...document.querySelectorAll(".jp-Notebook .jp-InputPrompt")].map((each) => each.textContent);
-    return ["idle", "starting"].includes(status) && !prompts.some((each) => each.includes("*"));
+    return ["idle", "starting", "unknown"].includes(status) && !prompts.some((each) => each.includes("*"));
 }"""
-"""Of a kernel that was restarted twice Jupyter says that it starts, until it is asked something."""
+"""Of a kernel that was restarted twice Jupyter says that it starts, or that it knows nothing of it, until it is asked."""
 DIE = "panel.sessionContext.session.kernel.requestExecute({ code: 'import os; os.kill(os.getpid(), 9)' }).done.catch(() => {});"
 WINDOW = {"width": 1400, "height": 4000}
 NO_KERNEL = "The kernel does not answer"
