@@ -261,16 +261,19 @@ def tab_in(context: BrowserContext, lab: Lab, shots: Path | None = None) -> Tab:
     page = context.new_page()
     page.set_default_timeout(SECONDS * 1000)
     tab = Tab(page, lab, shots)
-    page.on("console", lambda message: _note(tab.notebook, message) if tab.notebook else None)
-    page.on("pageerror", lambda error: tab.notebook.console.append(f"{error}") if tab.notebook else None)
+    page.on("console", lambda message: _note(tab, _told(message)) if message.type == "error" else None)
+    page.on("pageerror", lambda error: _note(tab, f"{error}"))
     return tab
 
 
-def _note(notebook: OpenNotebook, message: ConsoleMessage) -> None:
-    """Keep an error of the console, unless it is one of JupyterLab's own."""
-    text = f"{message.text} ({message.location.get('url', '')})"
-    if message.type == "error" and not NOISE.search(text):
-        notebook.console.append(text)
+def _told(message: ConsoleMessage) -> str:
+    return f"{message.text} ({message.location.get('url', '')})"
+
+
+def _note(tab: Tab, error: str) -> None:
+    """Keep an error of the page, unless it is one of JupyterLab's own."""
+    if tab.notebook and not NOISE.search(error):
+        tab.notebook.console.append(error)
 
 
 def _free_port() -> int:
