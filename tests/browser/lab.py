@@ -33,9 +33,11 @@ SECONDS = 120
 """How long anything may take on a slow machine."""
 VIEWPORT = {"width": 1400, "height": 1000}
 NOISE = re.compile(
-    r"favicon|ResizeObserver loop|/api/(me|terminals|kernels|sessions|contents)|/lsp/|net::ERR_ABORTED|Canceled future"
+    r"favicon|ResizeObserver loop|/api/(me|terminals|kernels|sessions|contents)|/lsp/|net::ERR_ABORTED"
+    r"|Canceled future|widget model not found"
 )
-"""What JupyterLab itself may write to the console: the last where a kernel ends before it has answered its first question."""
+"""What JupyterLab itself may write to the console: the last two where a kernel ends before it has answered, and where outputs
+were made by one that is gone."""
 
 OPENED = """name => {
     const panel = window.jupyterapp?.shell?.currentWidget;
