@@ -45,11 +45,13 @@ def test_it_has_its_own_folder_and_no_names(running, tmp_path: Path) -> None:
 
 def test_it_is_interrupted_and_goes_on(running) -> None:
     manager, client = running
-    client.execute("import time\nprint('begun')\ntime.sleep(600)", stop_on_error=False)
+    asked = client.execute("import time\nprint('begun')\ntime.sleep(600)", stop_on_error=False)
     while client.get_iopub_msg(timeout=PATIENCE)["content"].get("text") != "begun\n":
         pass
     manager.interrupt_kernel()
-    assert client.get_shell_msg(timeout=PATIENCE)["content"]["ename"] == "KeyboardInterrupt"
+    while (reply := client.get_shell_msg(timeout=PATIENCE))["parent_header"]["msg_id"] != asked:
+        pass  # on a busy machine a kernel is asked more than once who it is
+    assert reply["content"]["ename"] == "KeyboardInterrupt"
     assert said(client, "print(6 * 7)") == "42"
 
 
