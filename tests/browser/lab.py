@@ -32,12 +32,8 @@ FLAGS = [
 SECONDS = 120
 """How long anything may take on a slow machine."""
 VIEWPORT = {"width": 1400, "height": 1000}
-NOISE = re.compile(
-    r"favicon|ResizeObserver loop|/api/(me|terminals|kernels|sessions|contents)|/lsp/|net::ERR_ABORTED"
-    r"|Canceled future|widget model not found"
-)
-"""What JupyterLab itself may write to the console: the last two where a kernel ends before it has answered, and where outputs
-were made by one that is gone."""
+NOISE = re.compile(r"favicon|ResizeObserver loop|/api/(me|terminals|kernels|sessions|contents)|/lsp/|net::ERR_ABORTED")
+"""What JupyterLab itself may write to the console."""
 
 OPENED = """name => {
     const panel = window.jupyterapp?.shell?.currentWidget;
@@ -263,19 +259,16 @@ def tab_in(context: BrowserContext, lab: Lab, shots: Path | None = None) -> Tab:
     page = context.new_page()
     page.set_default_timeout(SECONDS * 1000)
     tab = Tab(page, lab, shots)
-    page.on("console", lambda message: _note(tab, _told(message)) if message.type == "error" else None)
-    page.on("pageerror", lambda error: _note(tab, f"{error}"))
+    page.on("console", lambda message: _note(tab.notebook, message) if tab.notebook else None)
+    page.on("pageerror", lambda error: tab.notebook.console.append(f"{error}") if tab.notebook else None)
     return tab
 
 
-def _told(message: ConsoleMessage) -> str:
-    return f"{message.text} ({message.location.get('url', '')})"
-
-
-def _note(tab: Tab, error: str) -> None:
-    """Keep an error of the page, unless it is one of JupyterLab's own."""
-    if tab.notebook and not NOISE.search(error):
-        tab.notebook.console.append(error)
+def _note(notebook: OpenNotebook, message: ConsoleMessage) -> None:
+    """Keep an error of the console, unless it is one of JupyterLab's own."""
+    text = f"{message.text} ({message.location.get('url', '')})"
+    if message.type == "error" and not NOISE.search(text):
+        notebook.console.append(text)
 
 
 def _free_port() -> int:
