@@ -29,8 +29,9 @@ from lsys_kit.classroom.panel.labels import translated_labels
 from lsys_kit.classroom.panel.opened.kinds import opened
 from lsys_kit.classroom.panel.opened.opened import Opened, Sight, Viewing
 from lsys_kit.classroom.panel.page import page, save_page
+from lsys_kit.classroom.panel.sentence import check_sentence, sentence_parts, sentence_text
 from lsys_kit.classroom.panel.standing import standing
-from lsys_kit.classroom.panel.view_model import STILL, both_png
+from lsys_kit.classroom.panel.view_model import STILL, StepView, both_png
 from lsys_kit.classroom.panel.widget_scripts import ScriptedWidget
 from lsys_kit.derivation.core.letters import letters_from
 from lsys_kit.derivation.petri.stages import stages
@@ -90,14 +91,16 @@ class Explorer(ScriptedWidget):
         unfold: Unfolding = False,
         show: Collection[str] | None = None,
         letters: Collection[str] = (),
+        sentence: str = "",
     ) -> None:
+        check_sentence(sentence, opened)
         first = opened.steps if step is None else whole_number(step, "The step")
         turn = opened.turned(angle)
         if isinstance(seed, bool) or not isinstance(seed, int):
             raise ModelValueError(f"The seed must be a whole number, not {shown(seed)}")
         self._ready, self._opened, self._given, self._without, self._unfold = False, opened, opened, frozenset(without), unfold
         self._show = None if show is None else [view for view in VIEWS if view in show]
-        self._asked = None if step is None else first
+        self._asked, self._sentence = None if step is None else first, sentence
         self._standing = standing()
         super().__init__(
             step=first,
@@ -152,7 +155,12 @@ class Explorer(ScriptedWidget):
 
     def _told(self, usual: Collection[str]) -> str:
         """What it shows in words, with some views where none were asked for."""
-        return self.sight.told(usual if self._show is None else self._show)
+        sight = self.sight
+        said = sight.told(usual if self._show is None else self._show)
+        if not self._sentence:
+            return said
+        counts = sight.word.counts() if isinstance(sight, StepView) else {}
+        return f"{sentence_text(self._sentence, self._opened, self._chosen, counts)} {said}"
 
     @property
     def still(self) -> Mapping[str, str]:
@@ -189,7 +197,10 @@ class Explorer(ScriptedWidget):
         every(asked, Mapping, "A dictionary of values of sliders")
         with self._limited():  # each book is a task of its own
             data = self._opened.page_data(self._chosen, asked)
-        return {**data, "model": {**data["model"], "show": self._show}}
+        return {**data, "model": {**data["model"], "show": self._show, **self._sentence_parts(self._opened)}}
+
+    def _sentence_parts(self, what: Opened) -> Data:
+        return {"sentence": sentence_parts(self._sentence, what, self._chosen)} if self._sentence else {}
 
     def _page(self) -> str:
         return page(self._opened.title or self._opened.kind, self.page_data(), self.text)
@@ -244,6 +255,7 @@ class Explorer(ScriptedWidget):
             "around": self.around,
             "above": self.above,
             "seed": self.seed,
+            **self._sentence_parts(what),
             **translated_labels(),
         }
 
@@ -377,6 +389,7 @@ def explore(
     unfold: Unfolding = False,
     show: str | Collection[str] | None = None,
     letters: str | Collection[str] = (),
+    sentence: str = "",
     **constants: object,
 ) -> Explorer:
     """Show a system with its sliders: rules, word, stage diagram and drawing of one step, side by side.
@@ -404,6 +417,10 @@ def explore(
     letters
         Constants, one or a list, that are letters at first: in place of the numbers that are made of them stand formulas, and
         the drawing goes on with the numbers. Each constant with a slider has a switch for that.
+    sentence
+        What stands above the views, with numbers in it: `{{step}}`, `{{angle}}` and `{{lifeTimeA}}`, a constant, are dragged,
+        typed or set by keys where they stand; `{{F}}`, a symbol, is counted, as are all `{{modules}}`, which may be called
+        `{{letters}}`, `{{characters}}` or `{{cells}}`.
     **constants
         First values of declared constants; of a map or cellwork system those of its forces: `stiffness`, `rest`, `pressure`,
         `damping`.
@@ -413,7 +430,7 @@ def explore(
     ModelValueError
         A first value lies outside its slider's range.
     ModelNameError
-        There is no slider, view or constant of that name, or no symbol that is to be unfolded.
+        There is no slider, view or constant of that name, no symbol that is to be unfolded, or no number for a sentence.
     ModelSyntaxError
         The text makes no sense.
 
@@ -426,6 +443,8 @@ def explore(
 Width 14, height 1.
     >>> explore("P6", 4, dt=1, sliders="dt").settings
     {'dt': '1'}
+    >>> explore("K5", 2, sentence="After {{step}} steps there are {{F}} strokes.").text[:36]
+    'After 2 steps there are 25 strokes. '
     """
     if "field" in constants:
         raise ModelValueError(
@@ -444,7 +463,7 @@ Width 14, height 1.
     chosen = opened(system, title, constants, without, unfold) if without else found
     named = letters_from(system, letters) if isinstance(system, LSystem) else chosen_names(letters, "letter", ())
     views = None if show is None else chosen_names(show, "view", VIEWS)
-    return Explorer(chosen, step, angle, seed, without, unfold, views, named)
+    return Explorer(chosen, step, angle, seed, without, unfold, views, named, sentence)
 
 
 def _system_from(what: AnySystem | str) -> tuple[AnySystem, str, Mapping[str, object]]:

@@ -36,6 +36,8 @@ _OF_EDITORS = frozenset(("undoing", "resuming"))
 """The scripts of rules that can be changed, as those of a page cannot."""
 _MOTIONS = frozenset(("walk", "unfolding"))
 """The views that have scripts of their own, which are called so."""
+_CHOSEN = ("letters", "sentence")
+"""What else has a script of its own, which is called so."""
 
 
 def page(title: str, data: Mapping[str, Any], description: str, language: str = "en") -> str:
@@ -84,11 +86,11 @@ def unasked(models: Sequence[Mapping[str, Any]]) -> frozenset[str]:
     """The scripts of what no panel of a page asks for.
 
     >>> sorted(unasked([{"letters": ["a"]}, {"show": ["drawing"]}]))
-    ['motion', 'unfolding', 'walk']
+    ['motion', 'sentence', 'unfolding', 'walk']
     """
     shown = {view for model in models for view in model.get("show") or ()} & _MOTIONS
-    wanted = {*shown, *{"motion" for _ in shown}, *{"letters" for model in models if model.get("letters")}}
-    return frozenset({"letters", "motion", *_MOTIONS} - wanted)
+    wanted = {*shown, *{"motion" for _ in shown}, *(each for each in _CHOSEN for model in models if model.get(each))}
+    return frozenset({"motion", *_CHOSEN, *_MOTIONS} - wanted)
 
 
 def save_page(path: str | Path, text: str) -> None:

@@ -24,6 +24,7 @@ import { letterSwitches } from "../views/letters.js";
 import { motions } from "../views/motion.js";
 import { netView } from "../views/net.js";
 import { rulesView } from "../views/rules.js";
+import { sentenceView } from "../views/sentence.js";
 import { wordView } from "../views/word.js";
 import { caption, code, litAt, placesOf, told } from "./telling.js";
 
@@ -44,14 +45,15 @@ export function openPanel(element, host, compared = null) {
   element.append(root);
   const offs = [], still = matchMedia("(prefers-reduced-motion: reduce)");
   let model, books, book, theme, resting = 0, asking = 0, typing = 0, idle = 0, wanted = seen.step, traced = null, pointed = null, shownTheme = "", boxed = null, underway = null, beside = null, reading = null, awaited = 0;
-  let constants = [], switches;
+  let constants = [], switches, said;
 
   const status = made("div.lsys-status", { role: "status" }), sentence = made("div.lsys-sentence", { role: "status" });
   const message = made("div.lsys-message", { role: "alert", hidden: true }), patience = made("div.lsys-hint", { role: "status" });
   const step = slider("step", worded("the step of the derivation"), ["0"], 0, goTo, worded("step"));
-  const angle = slider("angle", worded("degrees by which the turtle turns"), ANGLES, 900, (at) => change({ angle: at / 10 }), worded("angle"), { least: 50, pace: 10 });
-  const around = slider("around", worded("the side from which it is seen: 0 is the front, 90 the right"), DEGREES(-180, 180), 180, (at) => change({ around: at - 180 }), worded("around"), { least: 5 });
-  const above = slider("above", worded("the height from which it is seen: 0 is the side, 90 the top"), DEGREES(-90, 90), 90, (at) => change({ above: at - 90 }), worded("above"), { least: 5 });
+  const angle = slider("angle", worded("degrees by which the turtle turns"), ANGLES, 900, (at) => move("angle", at), worded("angle"), { least: 50, pace: 10 });
+  const side = (name, label, hint, most) => slider(name, hint, DEGREES(-most, most), most, (at) => change({ [name]: at - most }), label, { least: 5 });
+  const around = side("around", worded("around"), worded("the side from which it is seen: 0 is the front, 90 the right"), 180);
+  const above = side("above", worded("above"), worded("the height from which it is seen: 0 is the side, 90 the top"), 90);
   const mark = list("mark", worded("the stage that is marked in all views"), [["", worded("no stage")]], "", (name) => change({ mark: name }), worded("mark"));
   const scale = list("size", worded("one scale for all steps, or each step as large as it fits"), [["fit", worded("fit each step")], ["same", worded("one scale")]], "fit", () => show(), worded("size"));
   const seed = slider("seed", worded("the seed of the random numbers"), SEEDS, 0, (_, text) => host.set("seed", Number(text)), worded("seed"), { bar: false, whole: !seen.model.seeds });
@@ -99,6 +101,12 @@ export function openPanel(element, host, compared = null) {
   function goTo(at) {
     wanted = at;
     change({ step: at });
+  }
+
+  function move(name, at, text) {
+    if (name === "step") goTo(at);
+    else if (name === "angle") change({ angle: at / 10 });
+    else host.set("settings", { ...seen.settings, [name]: text });
   }
 
   // Some settings of the browser's own: they are shown at once; the kernel is told when the movement has come to rest.
@@ -169,12 +177,11 @@ export function openPanel(element, host, compared = null) {
     for (const each of constants) each.control.element.remove();
     constants = model.constants.map((each) => ({
       ...each,
-      control: slider(each.name, each.hint, each.texts, each.index, (_, text) => {
-        host.set("settings", { ...seen.settings, [each.name]: text });
-      }),
+      control: slider(each.name, each.hint, each.texts, each.index, (at, text) => move(each.name, at, text)),
     }));
     for (const { control, texts, index, name } of constants) control.offer(texts, Math.max(0, texts.indexOf(seen.settings[name])), [index]);
     switches = letterSwitches?.(host, constants);
+    said = sentenceView?.(root, host, move);
     const tenths = (degrees) => [...degrees, model.angle].map((each) => Math.round(each * 10));
     angle.offer(ANGLES, Math.round(seen.angle * 10), tenths(MARKED), tenths(NAMED));
     const fixed = model.fixed ? [made("span.lsys-hint", model.fixed)] : [];
@@ -263,6 +270,7 @@ export function openPanel(element, host, compared = null) {
     around.show(seen.around + 180);
     above.show(seen.above + 90);
     mark.show(seen.mark);
+    said?.show(book, now);
     if (view.word.open) word.show(book, now);
     net.fill(tokens);
     counts.show(now);
