@@ -408,8 +408,12 @@ def _exists(name: str) -> ModelFileError:
 def check_exercises(options: argparse.Namespace) -> None:
     from lsys_kit.classroom.exercises.declarations import QUESTIONS
     from lsys_kit.classroom.exercises.lint import problems_in
+    from lsys_kit.classroom.places import COURSE_FILE, course_of
 
-    _tell([*problems_in(options.folder or QUESTIONS)], "in the exercises")
+    listed = options.folder is not None and (Path(options.folder) / COURSE_FILE).is_file()
+    places = [each for each in course_of(Path(options.folder)).places if not each.is_kits] if listed else []
+    folders = [each.questions for each in places if any(each.questions.glob("*.toml"))] or [options.folder or QUESTIONS]
+    _tell([problem for each in folders for problem in problems_in(each)], "in the exercises")
 
 
 def _tell(problems: list[Any], where: str) -> None:

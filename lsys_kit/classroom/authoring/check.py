@@ -15,6 +15,7 @@ from lsys_kit.classroom.authoring.finding import Finding, finding
 from lsys_kit.classroom.authoring.prose import head_findings, link_findings, order_findings
 from lsys_kit.classroom.authoring.running import running_findings
 from lsys_kit.classroom.authoring.written import Written
+from lsys_kit.classroom.exercises.declarations import questions_in
 from lsys_kit.classroom.exercises.lint import problems_in
 from lsys_kit.classroom.places import MOST_ENTRIES, NAME, NO_LESSONS, Course, course_of
 from lsys_kit.errors import LSystemError
@@ -59,7 +60,7 @@ def findings_in(folder: Path | None = None, run: bool = True) -> list[Finding]:
         accepted = written.lesson.accepted if written.lesson else ()
         of_lesson = [*(each for check in CHECKS for each in check(written)), *by_running]
         found += [each for each in of_lesson if not (each.advice and any(text in each.what for text in accepted))]
-    return [*found, *_of_exercises(course)]
+    return [*found, *_of_exercises(course), *_repeated_exercises(course)]
 
 
 def _by_running(written: Written) -> list[Finding]:
@@ -82,6 +83,18 @@ def _of_exercises(course: Course) -> Iterator[Finding]:
         wanted = course.root == place.root or not place.is_kits  # those of the kit are looked at with its own lessons
         for each in problems_in(place.questions) if wanted and any(place.questions.glob("*.toml")) else ():
             yield Finding(_where(f"exercises/{each.file}", each.line, each.exercise), each.what, each.hint, each.advice)
+
+
+def _repeated_exercises(course: Course) -> Iterator[Finding]:
+    """Exercises of two of its own lessons with one id, of which neither could be answered."""
+    known: dict[str, tuple[Path, str]] = {}
+    for folder in (place.questions for place in course.places if not place.is_kits and any(place.questions.glob("*.toml"))):
+        for source, number, exercise in questions_in(folder).exercises:
+            where = source.problem_of(number, exercise.id, "id", "exercise.taken")
+            file = f"{folder.relative_to(course.root)}/{source.file}"
+            first, named = known.setdefault(exercise.id, (folder, file))
+            if first != folder:
+                yield finding(_where(file, where.line, exercise.id), "exercise_twice", id=exercise.id, file=named)
 
 
 def _where(file: str, line: int, exercise: str) -> str:

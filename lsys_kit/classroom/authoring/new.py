@@ -7,6 +7,7 @@ import os
 import re
 import tomllib
 from collections.abc import Iterator, Mapping
+from functools import partial
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -35,7 +36,7 @@ def write_lesson(name: str, folder: Path | None = None, begin: str | None = None
     begin
         The number or name of a lesson of the kit that is copied; by default the template is.
     title
-        Its title; by default made from its name.
+        Its title; by default made from its name, or that of the lesson that is copied.
 
     Raises
     ------
@@ -54,8 +55,7 @@ def write_lesson(name: str, folder: Path | None = None, begin: str | None = None
         if os.path.lexists(root) and not (root.is_dir() and not any(root.iterdir())):
             there = str(root)
             raise ModelFileError(f'"{quotable(there)}" already exists', hint="Nothing is overwritten: choose another with -o.")
-    title = " ".join((title or name.replace("_", " ").capitalize()).split())
-    contents = dict(_copied(name, begin) if begin is not None else _from_template(name, title))
+    contents = dict(_copied(name, begin, title) if begin is not None else _from_template(name, _title_of(name, title)))
     with file_errors(told):
         for each, text in contents.items():
             (root / each).parent.mkdir(parents=True, exist_ok=True)
@@ -64,12 +64,15 @@ def write_lesson(name: str, folder: Path | None = None, begin: str | None = None
     return root
 
 
+def _title_of(name: str, title: str | None) -> str:
+    return " ".join((title or name.replace("_", " ").capitalize()).split())
+
+
 def _from_template(name: str, title: str) -> Iterator[tuple[str, str]]:
-    quoted = title.replace("\\", "").replace('"', "'")
     texts = {
         each: (_TEMPLATE / each).read_text("utf-8") for each in ("lesson.toml", "exercises.toml", "teacher.md", "notebook.toml")
     }
-    texts = {each: text.replace("NAME", name).replace("TITLE", quoted) for each, text in texts.items()}
+    texts = {each: text.replace("NAME", name).replace("TITLE", _quoted(title)) for each, text in texts.items()}
     yield f"notebooks/{name}.toml", texts["lesson.toml"]
     yield f"exercises/{name}.toml", texts["exercises.toml"]
     yield f"notebooks/teacher/{name}.md", texts["teacher.md"]
@@ -95,8 +98,9 @@ def _json(content: object) -> str:
     return json.dumps(content, indent=1, ensure_ascii=False, sort_keys=True) + "\n"
 
 
-def _copied(name: str, begin: str) -> Iterator[tuple[str, str]]:
-    """The files of a lesson of the kit under another name: what asks for it asks for the copy, links to others are texts."""
+def _copied(name: str, begin: str, title: str | None) -> Iterator[tuple[str, str]]:
+    """The files of a lesson of the kit under another name, and title: what asks for it asks for the copy, links to others are
+    texts."""
     kit, wanted = kit_place(), begin.strip().zfill(2) if begin.strip().isdecimal() else begin.strip()
     of = next((each for each in kit.names() if wanted in (each, key_of(each))), "")
     if not of:
@@ -104,12 +108,14 @@ def _copied(name: str, begin: str) -> Iterator[tuple[str, str]]:
         raise ModelNameError(f'The kit has no lesson "{quotable(begin)}"', hint=hint)
     key, number = key_of(of), str(int(of[:2]))
     declared = (kit.declared / f"{of}.toml").read_text("utf-8")
-    yield f"notebooks/{name}.toml", re.sub(r"(?m)^(number = \d+|points = \[(?:\n    .*)*\n\])\n", "", declared)
+    old = str(tomllib.loads(declared)["title"])
+    titled = partial(_titled, old=old, new=old if title is None else _title_of(name, title))
+    yield f"notebooks/{name}.toml", titled(re.sub(r"(?m)^(number = \d+|points = \[(?:\n    .*)*\n\])\n", "", declared))
     questions = (kit.questions / f"{of}.toml").read_text("utf-8")
-    yield f"exercises/{name}.toml", re.sub(rf'"{number}\.(\d+)"', rf'"{name}.\1"', questions)
+    yield f"exercises/{name}.toml", titled(re.sub(rf'"{number}\.(\d+)"', rf'"{name}.\1"', questions))
     page = kit.notebooks / "teacher" / f"{of}.md"
     if page.is_file():
-        yield f"notebooks/teacher/{name}.md", _relinked(page.read_text("utf-8"), of, name)
+        yield f"notebooks/teacher/{name}.md", titled(_relinked(page.read_text("utf-8"), of, name))
     content = json.loads((kit.notebooks / f"{of}.ipynb").read_text("utf-8"))
     for cell in content["cells"]:
         source = "".join(cell["source"])
@@ -117,9 +123,22 @@ def _copied(name: str, begin: str) -> Iterator[tuple[str, str]]:
             source = re.sub(rf'\b(vote|worksheet)\("{key}"', rf'\1("{name}"', source)
             cell |= {"outputs": [], "execution_count": None}
         else:
-            source = _relinked(source, of, name)
+            source = titled(_relinked(source, of, name)).replace(f"Lesson {number} · ", "", 1)
         cell["source"] = source.splitlines(keepends=True)
     yield f"notebooks/{name}.ipynb", _json(content)
+
+
+def _titled(text: str, old: str, new: str) -> str:
+    """A text with another title of its lesson, where that is declared or stands as a heading."""
+    declared = f'title = "{_quoted(old)}"', f'title = "{_quoted(new)}"'
+    return re.sub(
+        rf"(?m)^(# (?:For the teacher: )?){re.escape(old)}$", lambda found: found[1] + new, text.replace(*declared, 1)
+    )
+
+
+def _quoted(title: str) -> str:
+    """A title as it may stand between quotation marks in a file."""
+    return title.replace("\\", "").replace('"', "'")
 
 
 def _relinked(text: str, of: str, name: str) -> str:

@@ -14,6 +14,7 @@ from lsys_kit.classroom.exercises.declarations import QUESTIONS, MakeProblem, Pr
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.judging import judged, wrong_answers
 from lsys_kit.classroom.exercises.kinds.choices import letters
+from lsys_kit.classroom.exercises.kinds.drawings import Drawn
 from lsys_kit.classroom.exercises.kinds.nets import places_of
 from lsys_kit.classroom.exercises.kinds.numbers import FORMULA, formula_in_reply
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS, solution_of
@@ -68,6 +69,9 @@ def _exercise_problems(problem: MakeProblem, exercise: Exercise) -> Iterator[Pro
         verdict, _ = judged(exercise, exercise.solution)
     if verdict.said != "Correct":
         yield problem("solution", "exercise.not_accepted", hint=verdict.message)
+    if isinstance(solution, Drawn) and not len(solution.ends):
+        yield problem("solution", "exercise.draws_nothing", step=exercise.steps)
+        return
     kind = ANSWER_KINDS[exercise.kind]
     if what_is_asked(exercise) and exercise.kind in ("word", "words", "number", "table", "net"):
         asked = answer_by(exercise, right_history(exercise))

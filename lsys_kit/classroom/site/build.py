@@ -21,7 +21,7 @@ from lsys_kit.classroom.places import course_of
 from lsys_kit.classroom.site import showing
 from lsys_kit.classroom.site.contents import index_page
 from lsys_kit.classroom.site.markdown import missing
-from lsys_kit.classroom.site.pages import INDEX, Entry, notebook_page, title_of
+from lsys_kit.classroom.site.pages import INDEX, LAB, Entry, notebook_page, title_of
 from lsys_kit.errors import LSystemError, ModelFileError, quotable
 from lsys_kit.files import file_errors, made_by_the_kit, save_file
 
@@ -47,8 +47,9 @@ def build_site(
     stored = {name: read_notebook(path) for name, path in files.items()}
     told = {f"notebooks/{name}.ipynb": declared_in(place, name) for place, name in course.lessons}
     drawn = {name: path for name, path in every.items() if name.startswith("notebooks/pictures/")}
+    command = LAB if course.places[0].is_kits else f"{LAB} --course {course.root.resolve().name}"
     entries = [
-        Entry(name, title_of(stored[name].cells, name), told.get(name), course.title, drawn if name in told else {})
+        Entry(name, title_of(stored[name].cells, name), told.get(name), course.title, command, drawn if name in told else {})
         for name in files
     ]
     places = {INDEX: folder / INDEX, **{each.name: folder / each.page for each in entries}}

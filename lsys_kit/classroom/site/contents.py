@@ -15,7 +15,7 @@ from lsys_kit.classroom.site.pages import Entry, Parts, kept_picture
 from lsys_kit.pictures.style.labels import escaped
 
 _NOTE = """<p class="note">These pages need neither Python nor a network. Their panels move, and votes, predictions and
-tables are answered on the page. To change rules and code, and to work on the exercises, type <code>lsys-kit lab</code>: it
+tables are answered on the page. To change rules and code, and to work on the exercises, type <code>{command}</code>: it
 opens the course in Jupyter.</p>
 """
 _REFERENCES = """<h2 id="reference">To look at, and to look things up</h2>
@@ -38,7 +38,7 @@ def index_page(entries: Sequence[Entry], pictures: Mapping[str, str], live: bool
 <main id="main" class="index">
 <h1>{escaped(title)}</h1>
 {f'<p class="lead">{prose_html(lead)}</p>' if lead else ""}
-{"" if live else _NOTE}
+{"" if live or not entries else _NOTE.format(command=escaped(entries[0].command))}
 <h2 id="lessons">Lessons</h2>
 {f'<p class="quiet">Each lesson belongs to a way through the course: {tracks}.</p>' if ways else ""}
 <p class="quiet" id="done" role="status" hidden></p>

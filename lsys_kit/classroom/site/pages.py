@@ -36,13 +36,13 @@ from lsys_kit.translation import gettext
 if TYPE_CHECKING:
     from nbformat import NotebookNode
 
-INDEX = "index.html"
+INDEX, LAB = "index.html", "lsys-kit lab"
 _KEPT = """<p class="note">The cells of this page have been run, and its panels move; nothing has to be installed. To change
-rules and code, open the lesson in Jupyter: <code>lsys-kit lab</code>. Votes and tables are checked on the page itself: what is
+rules and code, open the lesson in Jupyter: <code>{command}</code>. Votes and tables are checked on the page itself: what is
 right stands in it, and is no secret. What you type is kept by this browser alone.</p>
 """
 _HOW = """<div class="note"><p><strong>How to answer.</strong> This page is for reading and for printing. Type
-<code>lsys-kit lab</code>, and open <code>{name}</code> in JupyterLab: there a cell below each question takes the answer, and
+<code>{command}</code>, and open <code>{name}</code> in JupyterLab: there a cell below each question takes the answer, and
 checks it when it is run, with hints after a try.</p></div>
 """
 _ROOM = f'<div class="room" aria-hidden="true">{3 * "<i></i>"}</div>\n'
@@ -60,13 +60,14 @@ _PANELS = frozenset({"panel", "compare"})
 @dataclass(frozen=True)
 class Entry:
     """A notebook on the site: its file, relative to the course, its title as a text, and what is declared of it if it is a
-    lesson; the title of the course, and the files of its pictures, by their names in it.
+    lesson; the title of the course, the command that opens it, and the files of its pictures, by their names in it.
     """
 
     name: str
     title: str
     lesson: Lesson | None = None
     course: str = TITLE
+    command: str = LAB
     pictures: Mapping[str, Path] = field(default_factory=dict, hash=False)
 
     @property
@@ -92,11 +93,11 @@ def notebook_page(entry: Entry, cells: Sequence[NotebookNode], entries: Sequence
     if entry.folder == "exercises":
         head, *questions = re.split("(?=<h2)", "".join(_question_html(each, links, parts, live) for each in cells))
         title, end, rest = head.partition("</h1>\n")
-        begin = title + end + ("" if live else _HOW.format(name=escaped(entry.name))) + rest
+        begin = title + end + ("" if live else _HOW.format(name=escaped(entry.name), command=escaped(entry.command))) + rest
         begin += "".join(f'<div class="question">\n{each}</div>\n' for each in questions)
         begin += _practice_html(entry, parts) if live else ""
     else:
-        note = _KEPT if is_lesson(entry.name) and not live else ""
+        note = _KEPT.format(command=escaped(entry.command)) if is_lesson(entry.name) and not live else ""
         begin = cells_html(cells[:1], links, parts, live) + note + cells_html(cells[1:], links, parts, live)
         begin += _place_for_done(entry)
     row = _neighbours(entry, entries)

