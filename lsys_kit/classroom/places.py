@@ -212,13 +212,31 @@ def declaration(path: Path) -> Mapping[str, Any]:
         It cannot be read, or is no TOML.
     """
     try:
-        return tomllib.loads(text_of(path))
+        return tomllib.loads(text := text_of(path))
     except tomllib.TOMLDecodeError as fault:
-        raise ModelFileError(
-            f"{quotable(path.name)}: {quotable(str(fault))}", hint="Is a quotation mark or a bracket missing?"
-        ) from None
+        raise ModelFileError(f"{quotable(path.name)}: {quotable(str(fault))}", hint=toml_hint(text, fault)[1]) from None
     except RecursionError:
         raise ModelFileError(f"{quotable(path.name)} is nested too deeply") from None
+
+
+def toml_hint(text: str, fault: tomllib.TOMLDecodeError) -> tuple[int, str]:
+    """The line of a text that is no TOML, and what to try there.
+
+    >>> try:
+    ...     tomllib.loads("a = 1\\nright = True")
+    ... except tomllib.TOMLDecodeError as fault:
+    ...     toml_hint("a = 1\\nright = True", fault)
+    (2, 'Write true and false in small letters.')
+    """
+    found = re.search(r"line (\d+)", str(fault))
+    number = int(found[1]) if found else 1
+    line = text.split("\n")[number - 1 : number]
+    hint = "Is a quotation mark or a bracket missing?"
+    if any(re.search(r"= {0,9}(?:True|False)\b", each) for each in line):
+        hint = "Write true and false in small letters."
+    elif any(set(each) & set("„“”‚‘’«»") for each in line):
+        hint = 'Quotation marks are straight here, as in "Ferns".'
+    return number, hint
 
 
 def text_of(path: Path) -> str:

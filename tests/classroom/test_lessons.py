@@ -88,7 +88,7 @@ def test_every_lesson_can_be_read(name):
         (("vote", "question"), 0.5, None),
         (("vote", "options"), {}, '"options" must be a list'),
         (("vote", "options"), DECLARED["vote"]["options"][:1], "there must be 2 to 6 options"),
-        (("vote", "options", 0, "right"), True, "one of them must have right = true"),
+        (("vote", "options", 0, "right"), True, "one option must have right = true"),
         (("vote", "options", 2, "right"), "yes", 'vote, option 3, "right" must be true or false'),
         (("vote", "options", 1, "reply"), ..., 'vote, option 2 has no "reply"'),
         (("vote", "picture"), {"step": 3}, 'a picture needs the id of its "system"'),

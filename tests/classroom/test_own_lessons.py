@@ -67,6 +67,66 @@ def test_a_lesson_is_found_from_wherever_its_notebooks_run(ferns: Path, monkeypa
     assert lesson("01").title == "All at once"
 
 
+def test_one_id_in_two_lessons_is_told_before_anybody_answers(ferns: Path, tmp_path: Path) -> None:
+    course = tmp_path / "course"
+    shutil.copytree(ferns, course / "ferns")
+    write_lesson("buds", course / "buds")
+    change(course / "buds" / "exercises" / "buds.toml", '"buds.2"', '"ferns.2"')
+    [found] = [each for each in findings_in(course, run=False) if not each.advice]
+    assert found.where.startswith("ferns/exercises/ferns.toml, line ")
+    assert found.where.endswith("exercise ferns.2")
+    assert found.what == 'The exercise "ferns.2" stands in buds/exercises/buds.toml too'
+
+
+def test_the_exercises_of_a_course_are_those_of_its_lessons(
+    ferns: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    course = tmp_path / "course"
+    shutil.copytree(ferns, course / "ferns")
+    (course / "course.toml").write_text('lessons = ["ferns", 1]', "utf-8")
+    change(course / "ferns" / "exercises" / "ferns.toml", 'solution = "64"', 'solution = "65"')
+    assert main(["exercises", "check", str(course)]) == 2
+    assert "exercise ferns.2: The system gives another answer: 64" in capsys.readouterr().out
+
+
+def test_a_copy_has_the_title_that_it_is_given(ferns: Path, tmp_path: Path) -> None:
+    root = write_lesson("strip", tmp_path / "strip", "4", 'A "dragon" in a strip')
+    declared = declared_in(course_of(root).places[0], "strip")
+    assert declared is not None
+    assert declared.title == "A 'dragon' in a strip"
+    first = json.loads((root / "notebooks" / "strip.ipynb").read_text("utf-8"))["cells"][0]["source"]
+    assert first[0] == '# A "dragon" in a strip\n'
+    assert first[2].startswith("*60 minutes")
+    assert (root / "notebooks" / "teacher" / "strip.md").read_text("utf-8").startswith('# For the teacher: A "dragon"')
+    assert (root / "exercises" / "strip.toml").read_text("utf-8").startswith("title = \"A 'dragon' in a strip\"")
+
+
+def test_pages_of_ones_own_course_name_the_command_that_opens_it(ferns: Path, tmp_path: Path) -> None:
+    pages = build_site(tmp_path / "pages", ferns)
+    assert all("lsys-kit lab --course ferns<" in page.read_text("utf-8") for page in pages)
+
+
+@pytest.mark.parametrize(
+    ("typed", "hint"),
+    [("right = True", "small letters"), ("title = „Farne“", "straight"), ('title = "Ferns', "Is a quotation mark")],
+)
+def test_what_is_no_toml_is_told_with_what_to_type(ferns: Path, typed: str, hint: str) -> None:
+    for file in ("notebooks/ferns.toml", "exercises/ferns.toml"):
+        text = (ferns / file).read_text("utf-8")
+        (ferns / file).write_text(f"{typed}\n{text}", "utf-8")
+        assert any(hint in each.hint for each in findings_in(ferns, run=False))
+        (ferns / file).write_text(text, "utf-8")
+
+
+def test_a_drawing_of_nothing_is_no_solution_and_every_answer_gets_a_reply(ferns: Path) -> None:
+    path = ferns / "exercises" / "ferns.toml"
+    nothing = 'id = "ferns.9"\nkind = "drawing"\ntitle = "Draw"\nquestion = "Draw it."\nsolution = """axiom: T\nT -> F"""\n'
+    path.write_text(path.read_text("utf-8") + f"\n[[exercise]]\n{nothing}", "utf-8")
+    assert any("draws nothing at step 0" in each.what for each in problems_in(path.parent))
+    registry.exercises(path.parent)
+    assert check("ferns.9", "axiom: F").said == "Not yet"
+
+
 def test_elsewhere_it_is_not_known(ferns: Path) -> None:
     with pytest.raises(ModelNameError, match="There is no lesson"):
         lesson("ferns")
@@ -256,8 +316,8 @@ MISTAKES: dict[str, tuple[str, str, str, str]] = {
     "minutes that cannot hold": (TOML, "minutes = 40", "minutes = 5", "minutes will be needed"),
     "minutes unlike the page": (TOML, "minutes = 40", "minutes = 45", "number of minutes that is declared"),
     "a quotation mark": (TOML, 'title = "Ferns"', 'title = "Ferns', "quotation mark"),
-    "two right options": (TOML, 'reply = "Then there', 'right = true\nreply = "Then there', "one of them must have right"),
-    "no right option": (TOML, "right = true\n", "", "one of them must have right"),
+    "two right options": (TOML, 'reply = "Then there', 'right = true\nreply = "Then there', "right = true, not 2"),
+    "no right option": (TOML, "right = true\n", "", "right = true, not none"),
     "the same option twice": (
         TOML,
         "`B -> F[+F]B`: a bud makes a piece of stem with a bare side stem",

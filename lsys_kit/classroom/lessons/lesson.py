@@ -204,8 +204,9 @@ def _settings(where: str, row: object) -> dict[str, str]:
 def _vote(where: str, entries: object) -> Vote:
     found = _taken(where, entries, _VOTE)
     options = _each(f"{where}, option", found["options"], lambda place, each: Option(**_taken(place, each, _OPTION)))
-    one_right = FEWEST <= len(options) <= len(LETTERS) and sum(each.right for each in options) == 1
-    _demand(one_right, f"{where}: there must be {FEWEST} to {len(LETTERS)} options, and one of them must have right = true")
+    many, right = len(options), sum(each.right for each in options)
+    _demand(FEWEST <= many <= len(LETTERS), f"{where}: there must be {FEWEST} to {len(LETTERS)} options, not {many}")
+    _demand(right == 1, f"{where}: one option must have right = true, not {right or 'none'}")
     picture = found["picture"]
     for key in picture:
         _demand(key in _PICTURE, f'{where}: a picture has no "{key}"', f"It may have: {', '.join(_PICTURE)}.")
