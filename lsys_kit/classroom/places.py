@@ -214,29 +214,32 @@ def declaration(path: Path) -> Mapping[str, Any]:
     try:
         return tomllib.loads(text := text_of(path))
     except tomllib.TOMLDecodeError as fault:
-        raise ModelFileError(f"{quotable(path.name)}: {quotable(str(fault))}", hint=toml_hint(text, fault)[1]) from None
+        raise ModelFileError(f"{quotable(path.name)}: {quotable(str(fault))}", hint=toml_hint(text, fault)) from None
     except RecursionError:
         raise ModelFileError(f"{quotable(path.name)} is nested too deeply") from None
 
 
-def toml_hint(text: str, fault: tomllib.TOMLDecodeError) -> tuple[int, str]:
-    """The line of a text that is no TOML, and what to try there.
+def toml_hint(text: str, fault: tomllib.TOMLDecodeError) -> str:
+    """What to try where a text is no TOML.
 
     >>> try:
-    ...     tomllib.loads("a = 1\\nright = True")
+    ...     tomllib.loads("right = True")
     ... except tomllib.TOMLDecodeError as fault:
-    ...     toml_hint("a = 1\\nright = True", fault)
-    (2, 'Write true and false in small letters.')
+    ...     toml_hint("right = True", fault)
+    'Write true and false in small letters.'
     """
+    line = text.split("\n")[line_of(fault) - 1]
+    if re.search(r"= {0,9}(?:True|False)\b", line):
+        return "Write true and false in small letters."
+    if set(line) & set("„“”‚‘’«»"):
+        return 'Quotation marks are straight here, as in "Ferns".'
+    return "Is a quotation mark or a bracket missing?"
+
+
+def line_of(fault: tomllib.TOMLDecodeError) -> int:
+    """The line in which a text is no TOML; the first one where it is not told, as at the end of a text."""
     found = re.search(r"line (\d+)", str(fault))
-    number = int(found[1]) if found else 1
-    line = text.split("\n")[number - 1 : number]
-    hint = "Is a quotation mark or a bracket missing?"
-    if any(re.search(r"= {0,9}(?:True|False)\b", each) for each in line):
-        hint = "Write true and false in small letters."
-    elif any(set(each) & set("„“”‚‘’«»") for each in line):
-        hint = 'Quotation marks are straight here, as in "Ferns".'
-    return number, hint
+    return int(found[1]) if found else 1
 
 
 def text_of(path: Path) -> str:

@@ -22,7 +22,7 @@ from lsys_kit.classroom.exercises.exercise import Exercise, Lesson, Option, Slip
 from lsys_kit.classroom.exercises.kinds.table import ANSWER_KINDS
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
 from lsys_kit.classroom.handed_in import content_of
-from lsys_kit.classroom.places import toml_hint
+from lsys_kit.classroom.places import line_of, toml_hint
 from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.errors import LSystemError, ModelFileError, quotable
 from lsys_kit.files import file_errors, toml_tables
@@ -362,8 +362,8 @@ def _file(path: Path) -> tuple[Lesson | None, tuple[tuple[int, Exercise], ...], 
         source = Source(path.name, content_of(path, MOST_BYTES).decode().replace("\r\n", "\n"))
         declared = tomllib.loads(source.text)
     except tomllib.TOMLDecodeError as fault:
-        line, hint = toml_hint(source.text, fault)
-        return None, (), source, [source.problem("file.no_toml", line, fault=quotable(str(fault)), hint=hint)]
+        hint = toml_hint(source.text, fault)
+        return None, (), source, [source.problem("file.no_toml", line_of(fault), fault=quotable(str(fault)), hint=hint)]
     except ModelFileError as fault:
         return None, (), source, [source.problem("file.unreadable", fault=fault.message)]
     except UnicodeDecodeError as fault:

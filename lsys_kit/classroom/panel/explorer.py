@@ -570,10 +570,11 @@ def compare(
             sides = (what, {}), (other, {})
         case _:
             given: Sequence[object] = others
-            step_given = next((f"Name the step: step={each}." for each in given if type(each) is int), None)
+            number = next((each for each in given if type(each) is int), None)
+            usual = 'For example compare("P2", "P3"), or compare("J4", {}, {"lifeTimeA": 2}).'
             raise ModelValueError(
                 "Two systems are compared, or one system under two settings",
-                hint=step_given or 'For example compare("P2", "P3"), or compare("J4", {}, {"lifeTimeA": 2}).',
+                hint=usual if number is None else f"Name the step: step={number}.",
             )
     left = explore(sides[0][0], step, sliders=sliders, show=show, **_named(sides[0][1]))
     right = explore(sides[1][0], left.step, sliders=sliders, show=show, **_named(sides[1][1]))
