@@ -116,18 +116,19 @@ def _calls(wanted: FrameType, frame: FrameType | None) -> bool:
     return frame is not None
 
 
-class _Setting(NamedTuple, Generic[_T]):
+class Setting(NamedTuple, Generic[_T]):
     """What a block sets, on top of what was set around it."""
 
     value: _T
     block: Block
-    outer: _Setting[_T] | None
+    outer: Setting[_T] | None
 
 
-_Variable: TypeAlias = "ContextVar[_Setting[_T] | None]"
+Variable: TypeAlias = "ContextVar[Setting[_T] | None]"
+"""What blocks set, the innermost last."""
 
 
-def _in_force(variable: _Variable[_T]) -> _Setting[_T] | None:
+def in_force(variable: Variable[_T]) -> Setting[_T] | None:
     """What is set by the innermost block that is open; what others have left behind is taken away."""
     first = found = variable.get()
     while found is not None and not found.block.is_open():
@@ -137,7 +138,7 @@ def _in_force(variable: _Variable[_T]) -> _Setting[_T] | None:
     return found
 
 
-def _leave(variable: _Variable[_T], manager: object) -> None:
+def leave(variable: Variable[_T], manager: object) -> None:
     """Take away what the block of a context manager has set."""
     found = variable.get()
     while found is not None and not found.block.belongs_to(manager):
@@ -146,12 +147,12 @@ def _leave(variable: _Variable[_T], manager: object) -> None:
         variable.set(found.outer)
 
 
-_limits: _Variable[Limits] = ContextVar("limits", default=None)
+_limits: Variable[Limits] = ContextVar("limits", default=None)
 
 
 def current() -> Limits:
     """The limits in force here."""
-    found = _in_force(_limits)
+    found = in_force(_limits)
     return DEFAULT if found is None else found.value
 
 
@@ -184,13 +185,13 @@ class limits(ContextDecorator):  # noqa: N801 - used as a function is
         return f"limits({', '.join(f'{name}={shown(value)}' for name, value in self._changes.items())})"
 
     def __enter__(self) -> Limits:
-        outer = _in_force(_limits)
+        outer = in_force(_limits)
         set_here = replace(outer.value if outer else DEFAULT, **self._changes)
-        _limits.set(_Setting(set_here, Block(self, sys._getframe(1)), outer))
+        _limits.set(Setting(set_here, Block(self, sys._getframe(1)), outer))
         return set_here
 
     def __exit__(self, *_: object) -> None:
-        _leave(_limits, self)
+        leave(_limits, self)
 
 
 BLOCK_BYTES = 64
@@ -249,7 +250,7 @@ class Budget:
         self._look = time.monotonic() + SECONDS_BETWEEN_LOOKS  # not before: what is used up is refused again, at once
 
 
-_task: _Variable[tuple[Budget, Callable[[], str]]] = ContextVar("task", default=None)
+_task: Variable[tuple[Budget, Callable[[], str]]] = ContextVar("task", default=None)
 
 
 class Task:
@@ -273,16 +274,16 @@ class Task:
         self._own: Budget | None = None
 
     def __enter__(self) -> None:
-        outer = _in_force(_task)
+        outer = in_force(_task)
         shared = outer.value[0] if outer else None
         if self._own is None:
             self._own = None if shared else Budget()
         elif self._own is not shared:
             self._own.go_on()
-        _task.set(_Setting((self._own or shared, self._failed), Block(self, sys._getframe(1)), outer))  # type: ignore[arg-type]
+        _task.set(Setting((self._own or shared, self._failed), Block(self, sys._getframe(1)), outer))  # type: ignore[arg-type]
 
     def __exit__(self, *_: object) -> None:
-        _leave(_task, self)
+        leave(_task, self)
         outer = _task.get()
         if self._own is not None and not (outer and outer.value[0] is self._own):
             self._own.wait()
@@ -290,7 +291,7 @@ class Task:
 
 def in_task() -> bool:
     """Whether there is a task at present, and so a budget."""
-    return _in_force(_task) is not None
+    return in_force(_task) is not None
 
 
 def check_budget() -> None:
@@ -301,7 +302,7 @@ def check_budget() -> None:
     ModelLimitError
         The task has taken too long, or holds too much.
     """
-    if (first := _task.get()) is not None and first.value[0].is_due() and (now := _in_force(_task)) is not None:
+    if (first := _task.get()) is not None and first.value[0].is_due() and (now := in_force(_task)) is not None:
         budget, failed = now.value
         budget.check(failed)
 

@@ -12,8 +12,8 @@ import pytest
 
 from lsys_kit.budget import limits
 
-pytest_plugins = ["tests.browser.fixtures"]
-"""The browser is for the tests of the lessons and for the benchmarks."""
+pytest_plugins = ["tests.browser.fixtures", "tests.supervisors"]
+"""The browser is for the tests of the lessons and for the benchmarks; supervisors are for budgets and interrupts."""
 
 EXAMPLES = {"quick": 5, "usual": 25, "thorough": 100}
 """How many examples of a law a run tries, unless the law sets a number of its own. Without slow tests a run is quick; with

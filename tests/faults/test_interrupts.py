@@ -21,6 +21,7 @@ from lsys_kit.classroom.panel.explorer import Explorer
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.supervision import supervised
 from tests.faults.injection import Work, break_off, bytecodes_of
+from tests.supervisors import is_timer_on, let_timer_look
 
 BUDGETS = ("budget.py", "supervision.py")
 PANELS = ("classroom/panel/explorer.py", "classroom/lessons/predict.py", "classroom/widget.py")
@@ -55,6 +56,8 @@ def interrupted_everywhere(
         assert not in_task(), f"a task stays open at {moment}"
         assert current() == Limits(), f"limits stay set at {moment}"
         assert hooks() == before, f"a hook stays at {moment}"
+        let_timer_look()
+        assert not is_timer_on(), f"the timer goes on at {moment}"
         then()
     return bytecodes.keys()
 
@@ -69,23 +72,34 @@ def budgeted_work() -> None:
                 list(counted(range(3), 1))
             with supervised():
                 [abs(-1) for _ in range(600)]
+                with supervised():
+                    let_timer_look()
         with again, supervised():
             check_budget()
     with pytest.raises(ModelLimitError), limits(seconds=1e-9), Task("late"), supervised():
-        [hooks() for _ in range(3_000)]  # of Python: a refusal within a finalizer is repeated at the next call of such a one
+        [
+            let_timer_look() if number == 0 else hooks() for number in range(3_000)
+        ]  # of Python: a refusal within a finalizer is repeated at the next call of such a one
     with pytest.raises(ModelLimitError), limits(bytes=1), Task("large"):
         [(each, check_budget()) for each in map(bytes, range(9))]  # holds more and more, whatever other threads set free
 
 
-@pytest.mark.slow
-def test_a_budget_ends_with_its_frame_whatever_interrupts_it(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.fixture
+def no_pauses(way: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The budget is looked at whenever it is asked for, and by a timer at the moments that are tried alone."""
     monkeypatch.setattr("lsys_kit.budget.SECONDS_BETWEEN_LOOKS", 0)
+    monkeypatch.setattr("lsys_kit.supervision.SECONDS_BETWEEN_LOOKS", 10**6)
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("no_pauses")
+def test_a_budget_ends_with_its_frame_whatever_interrupts_it() -> None:
     assert len(interrupted_everywhere(budgeted_work, BUDGETS, budgeted_work)) > 500
 
 
-def test_a_budget_ends_with_its_block_where_the_frame_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.usefixtures("no_pauses")
+def test_a_budget_ends_with_its_block_where_the_frame_goes_on() -> None:
     """As in a loop of a cell, which tries again."""
-    monkeypatch.setattr("lsys_kit.budget.SECONDS_BETWEEN_LOOKS", 0)
     left = [
         (in_task(), current())
         for moment in [*bytecodes_of(budgeted_work, BUDGETS).values()][::7]

@@ -7,7 +7,6 @@ import re
 from collections.abc import Sequence
 from contextlib import suppress
 from itertools import takewhile
-from string import ascii_letters
 from typing import Any
 
 from lsys_kit.classroom.exercises.asked import asked_steps, bound_of, last_step, right_history, what_is_asked
@@ -40,6 +39,8 @@ FORMULA = re.compile(r"\{([^{}]+)\}")
 """A formula in a reply, of which the value is shown."""
 MOST_APART = 1_000_000
 """How many times too large or too small a number may be that counts as a try."""
+_GIVEN = re.compile(r"\b([A-Za-z]) = \d")
+"""A letter with its value, as a question gives it."""
 _FILLING, _DOUBTFUL = (frozenset(WORDS[kind].split()) for kind in ("filling", "doubtful"))
 """Words that may stand around any number, and words by which it is another number, or none."""
 _PREPOSITIONS = frozenset(
@@ -174,9 +175,7 @@ def _read_number(exercise: Exercise, answer: object) -> Value:
     if isinstance(answer, str) and exercise.kind == "number":
         answer = _of_the_step(exercise, _alone(exercise, answer))
         _refuse_other_name(exercise, answer)
-        if is_unsolved(
-            keyboard_text(answer), [name for name in ascii_letters if re.search(rf"\b{name} = \d", exercise.question)]
-        ):
+        if is_unsolved(keyboard_text(answer), _GIVEN.findall(exercise.question)):
             raise ModelValueError(reply("typed.equation", answer=quoted(answer)), hint=reply("typed.alone"))
     found = typed_number(answer, _asks_for_decimals(exercise, answer))
     words = (*found.before, *found.after)

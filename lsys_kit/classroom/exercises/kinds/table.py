@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import lru_cache
 from typing import Any
 
 from lsys_kit.classroom.exercises.exercise import Exercise
@@ -26,6 +27,7 @@ ANSWER_KINDS: Mapping[str, AnswerKind[Any]] = {
 """The kinds of answers."""
 
 
+@lru_cache(maxsize=512)
 def solution_of(exercise: Exercise) -> Any:
     """The right answer to an exercise, read as a student's is."""
     return ANSWER_KINDS[exercise.kind].read(exercise, exercise.solution)
