@@ -19,8 +19,7 @@ from math import cos, floor, pi, sin
 from numbers import Real
 from typing import Any, NamedTuple, Protocol
 
-import numpy as np
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import check_budget, counted
 from lsys_kit.derivation.core.rules import Values, number_from
 from lsys_kit.derivation.core.states import States

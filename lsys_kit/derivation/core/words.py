@@ -5,16 +5,17 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain
-from typing import Any, overload
+from typing import TYPE_CHECKING, Any, overload
 
-import numpy as np
-from numpy.typing import NDArray
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import INTERVAL, Task, check_bytes, counted
 from lsys_kit.derivation.core.states import States
 from lsys_kit.errors import every, require
 from lsys_kit.notation.model.modules import Module, joined, rounded_module
 from lsys_kit.notation.registry import dialect_named
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 MOST_SHOWN = 2_000
 """How many characters `repr` shows of a long word."""

@@ -17,11 +17,9 @@ import operator
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
-import numpy as np
-from numpy.typing import NDArray
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import Task, counted, current
 from lsys_kit.derivation.core.rules import ModuleKind, Rule, Values, kind_of
 from lsys_kit.derivation.core.states import EXACT_BITS, States
@@ -31,7 +29,10 @@ from lsys_kit.notation.model.arithmetic import Value, normalised
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
 from lsys_kit.notation.model.modules import Module, flat
 
-Array: TypeAlias = NDArray[Any]
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+Array: TypeAlias = "NDArray[Any]"
 Rows: TypeAlias = Any
 """Some rows of a word, as they index an array: their numbers, or a slice."""
 Column: TypeAlias = "Array | ExactColumn | float"
@@ -135,25 +136,29 @@ def _exact(operation: ColumnFunction) -> ColumnFunction:
     return lambda *operands, out=None: operation(*operands)
 
 
-_TRUTHS: Mapping[str, ColumnFunction] = {"||": np.logical_or, "&&": np.logical_and, "!": np.logical_not}
+def _numpy(name: str) -> ColumnFunction:
+    return lambda *operands, out=None: getattr(np, name)(*operands, out=out)
+
+
+_TRUTHS: Mapping[str, ColumnFunction] = {"||": _numpy("logical_or"), "&&": _numpy("logical_and"), "!": _numpy("logical_not")}
 OPERATIONS: Mapping[str, Mapping[str, ColumnFunction]] = {
     "float": {
         **_TRUTHS,
-        "==": np.equal,
-        "!=": np.not_equal,
-        "<": np.less,
-        "<=": np.less_equal,
-        ">": np.greater,
-        ">=": np.greater_equal,
-        "+": np.add,
-        "-": np.subtract,
-        "*": np.multiply,
-        "/": np.divide,
-        "-x": np.negative,
-        "abs": np.abs,
-        "sqrt": np.sqrt,
-        "floor": np.floor,
-        "ceil": np.ceil,
+        "==": _numpy("equal"),
+        "!=": _numpy("not_equal"),
+        "<": _numpy("less"),
+        "<=": _numpy("less_equal"),
+        ">": _numpy("greater"),
+        ">=": _numpy("greater_equal"),
+        "+": _numpy("add"),
+        "-": _numpy("subtract"),
+        "*": _numpy("multiply"),
+        "/": _numpy("divide"),
+        "-x": _numpy("negative"),
+        "abs": _numpy("abs"),
+        "sqrt": _numpy("sqrt"),
+        "floor": _numpy("floor"),
+        "ceil": _numpy("ceil"),
     },
     "exact": {
         **_TRUTHS,

@@ -9,11 +9,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
-import numpy as np
-from numpy.typing import NDArray
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import counted
 from lsys_kit.derivation.core.chance import stretches, units
 from lsys_kit.derivation.core.matching import NO_NEIGHBOUR
@@ -23,7 +21,10 @@ from lsys_kit.derivation.engines.engine import ByteTable, code_type
 from lsys_kit.derivation.engines.stepwise import Replacement, Stepper
 from lsys_kit.notation.model.modules import CLOSING, OPENING
 
-IntegerArray: TypeAlias = NDArray[Any]
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+IntegerArray: TypeAlias = "NDArray[Any]"
 Sides: TypeAlias = tuple[IntegerArray, IntegerArray]
 ORDINARY, OPENS, CLOSES, PASSED, SKIPPED = range(5)
 """The role of a module in contexts: `PASSED` is ignored but has contexts of its own, `SKIPPED` is ignored and has none."""

@@ -11,9 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property, partial
 from itertools import chain
 from operator import attrgetter
-from typing import Any
-
-from numpy.typing import NDArray
+from typing import TYPE_CHECKING, Any
 
 from lsys_kit.budget import INTERVAL, Task, check_budget, counted
 from lsys_kit.cache import Cache
@@ -22,6 +20,9 @@ from lsys_kit.derivation.core.words import Word, state_counts
 from lsys_kit.derivation.engines import engine
 from lsys_kit.derivation.engines.columnar import ColumnarSteps, ColumnWord
 from lsys_kit.derivation.engines.engine import ByteTable, Origins, check_size, check_step, compact, expand
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 FEWEST_NEW = 50
 """Words become columns after a step in which more new states than this are met, and they are no small part of its word."""

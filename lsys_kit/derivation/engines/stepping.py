@@ -11,8 +11,7 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 from functools import lru_cache, partial
 
-import numpy as np
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import INTERVAL, check_budget
 from lsys_kit.derivation.core.rules import ModuleKind, Rule, Values, kind_of, rule_for
 from lsys_kit.derivation.core.states import States

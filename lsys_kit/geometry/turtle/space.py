@@ -20,8 +20,7 @@ import math
 from array import array
 from typing import Any, NamedTuple, TypeAlias
 
-import numpy as np
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import check_budget, check_bytes
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.geometry.scene import OWN, Floats, Scene, Segments

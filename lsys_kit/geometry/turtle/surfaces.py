@@ -15,8 +15,7 @@ from functools import cache, lru_cache
 from itertools import pairwise
 from typing import Any, NamedTuple, TypeAlias
 
-import numpy as np
-
+from lsys_kit.arrays import np
 from lsys_kit.errors import quotable
 from lsys_kit.files import toml_tables
 from lsys_kit.geometry.scene import Floats

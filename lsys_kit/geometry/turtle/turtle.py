@@ -14,8 +14,7 @@ from itertools import product
 from operator import attrgetter
 from typing import Any, NamedTuple, TypeAlias
 
-import numpy as np
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import check_budget, counted, current
 from lsys_kit.derivation.core.interpretation import interpretations, modules_between_checks
 from lsys_kit.derivation.core.words import Word

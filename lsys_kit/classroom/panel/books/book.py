@@ -21,8 +21,7 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import Any
 
-import numpy as np
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import Task, counted, current, limits
 from lsys_kit.classroom.panel.books.net import Unfolding, net_entry, net_of
 from lsys_kit.classroom.panel.bundle import Data

@@ -19,8 +19,7 @@ from dataclasses import asdict
 from itertools import accumulate, pairwise
 from typing import TypeAlias
 
-import numpy as np
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import Task
 from lsys_kit.classroom.panel.books.at_rest import CellsAtRest
 from lsys_kit.classroom.panel.books.book import packed
