@@ -11,7 +11,7 @@ from functools import cache
 from importlib import import_module
 from typing import TYPE_CHECKING, TypeGuard
 
-__all__ = ["has_arrays", "is_array", "np"]
+__all__ = ["arrays_pay", "is_array", "np"]
 
 if TYPE_CHECKING:
     from typing import Any
@@ -28,19 +28,17 @@ else:
 
     np = _Numpy()
 
+TO_LOAD = 16
+"""By what factor work must be larger for which numpy is loaded than work for which it is there."""
 
-@cache
-def has_arrays() -> bool:
-    """Whether numpy can be loaded; it is loaded now.
 
-    >>> has_arrays()
-    True
+def arrays_pay(size: int, least: int) -> bool:
+    """Whether work is quicker by arrays: work that is larger than the least size, or much larger where numpy must be loaded.
+
+    >>> arrays_pay(64, 64), arrays_pay(64 * TO_LOAD + 1, 64)
+    (False, True)
     """
-    try:
-        import_module("numpy")
-    except ImportError:
-        return False
-    return True
+    return size > least and (_is_loaded() or (size > TO_LOAD * least and _can_be_loaded()))
 
 
 def is_array(given: object) -> TypeGuard[NDArray[Any]]:
@@ -49,4 +47,17 @@ def is_array(given: object) -> TypeGuard[NDArray[Any]]:
     >>> is_array(np.arange(3)), is_array([0, 1, 2])
     (True, False)
     """
-    return sys.modules.get("numpy") is not None and isinstance(given, np.ndarray)
+    return _is_loaded() and isinstance(given, np.ndarray)
+
+
+def _is_loaded() -> bool:
+    return sys.modules.get("numpy") is not None
+
+
+@cache
+def _can_be_loaded() -> bool:
+    try:
+        import_module("numpy")
+    except ImportError:
+        return False
+    return True

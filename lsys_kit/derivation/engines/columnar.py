@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import math
 import operator
+from array import array
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -205,9 +206,9 @@ def column_function(expression: Expression, arithmetic: str) -> ColumnFunction:
     return lambda columns, out=None: operation(*[operand(columns) for operand in operands], out=out)
 
 
-def _listed(array: Array) -> Iterator[list[int]]:
-    for first in range(0, len(array), ROWS_AT_A_TIME):
-        yield from array[first : first + ROWS_AT_A_TIME].tolist()
+def _listed(rows: Array) -> Iterator[list[int]]:
+    for first in range(0, len(rows), ROWS_AT_A_TIME):
+        yield from rows[first : first + ROWS_AT_A_TIME].tolist()
 
 
 class FloatColumns:
@@ -321,7 +322,7 @@ class ColumnWord(Word):
 
     def __init__(self, states: States, kinds: Array, values: FloatColumns | ExactColumns, names: Sequence[ModuleKind]) -> None:
         self.states, self.kinds, self.values, self.names = states, kinds, values, names
-        self._row: Array | None = None
+        self._row: array[int] | None = None
 
     def __reduce__(self) -> tuple[object, ...]:
         return Word, (self.states, self.codes)
@@ -334,7 +335,7 @@ class ColumnWord(Word):
         return len(self) * (self.values.bytes * max(arity for _, arity in self.names) + 10)
 
     @property
-    def codes(self) -> Array:  # type: ignore[override]
+    def codes(self) -> array[int]:  # type: ignore[override]
         """The numbers of the states, which are numbered now."""
         if self._row is None:
             with Task("The modules of the word were not numbered"):
@@ -342,7 +343,7 @@ class ColumnWord(Word):
                     self.states.number(self.names[kind][0], row[: self.names[kind][1]])
                     for kind, row in counted(zip(self.kinds.tolist(), self.values.rows(), strict=True))
                 ]
-                self._row = np.array(numbers, dtype=code_type(len(self.states)))
+                self._row = array(code_type(len(self.states)), numbers)
         return self._row
 
 

@@ -11,13 +11,12 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 from functools import lru_cache, partial
 
-from lsys_kit.arrays import np
 from lsys_kit.budget import INTERVAL, check_budget
 from lsys_kit.derivation.core.rules import ModuleKind, Rule, Values, kind_of, rule_for
 from lsys_kit.derivation.core.states import States
-from lsys_kit.derivation.core.words import Word, state_counts
+from lsys_kit.derivation.core.words import Word, listed, state_counts
 from lsys_kit.derivation.engines.contexts import ContextEngine
-from lsys_kit.derivation.engines.engine import Observation, Observer, Origins, check_size, check_step, code_type, compact
+from lsys_kit.derivation.engines.engine import Observation, Observer, Origins, check_size, check_step, compact, repeated
 from lsys_kit.derivation.engines.stepwise import SensingFunction, Stepper
 from lsys_kit.notation.model.system import LSystem, Production
 
@@ -119,18 +118,14 @@ class SteppingEngine:
 
     def _by_arrays(self, arrays: ContextEngine, before: Word, step: int) -> tuple[Word, Callable[[], Origins]]:
         """The next word and its origins, all modules at once."""
-        codes = np.asarray(before.codes, dtype=code_type(len(self.states)))
-        chosen = arrays.chosen(codes, step - 1)
+        chosen = arrays.chosen(before.codes, step - 1)
         check_size(self.states, step, arrays.outcomes.size(chosen), held=self._held)
         word = Word(self.states, arrays.outcomes.replaced(chosen))
 
         def origins() -> Origins:
-            sizes = arrays.outcomes.sizes()[chosen]
-            productions = [replacement.production for replacement in arrays.outcomes.replacements]
-            return Origins(
-                np.repeat(np.arange(len(chosen)), sizes).tolist(),
-                [productions[outcome] for outcome in np.repeat(chosen, sizes).tolist()],
-            )
+            made = [arrays.outcomes.replacements[number] for number in listed(chosen)]
+            sizes = [len(each.states) for each in made]
+            return Origins(repeated(range(len(made)), sizes), repeated([each.production for each in made], sizes))
 
         return word, origins
 
@@ -148,8 +143,8 @@ class SteppingEngine:
 
         def origins() -> Origins:
             return Origins(
-                np.repeat(np.arange(len(sizes)), sizes).tolist(),
-                [made for made, size in zip(productions, sizes, strict=True) for _ in range(size)],
+                repeated(range(len(sizes)), sizes),
+                repeated(productions, sizes),
                 replaced if self.states.traits.predecessor > 1 else (),
             )
 
@@ -165,7 +160,7 @@ class SteppingEngine:
 
         return self._word(short), after
 
-    def _word(self, codes: Sequence[int]) -> Word:
+    def _word(self, codes: list[int]) -> Word:
         return Word(self.states, compact(codes, len(self.states)))
 
     def word(self, step: int) -> Word:

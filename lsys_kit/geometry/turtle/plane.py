@@ -133,14 +133,14 @@ class PlaneTurtle(Turtle):
 LARGEST_EXACT = 2.0**40
 """Greater angles are reduced to less than a full turn, so that their multiples are no less exact."""
 _COLUMN_TYPES = {
-    "turns": float,
-    "offsets": float,
-    "lengths": float,
+    "turns": "f8",
+    "offsets": "f8",
+    "lengths": "f8",
     "parents": "i8",
-    "drawn": bool,
+    "drawn": "?",
     "orders": "i8",
     "states": "i8",
-    "widths": float,
+    "widths": "f8",
     "colours": "i8",
 }
 PLANE_HANDLERS = handlers_of(PlaneTurtle)
