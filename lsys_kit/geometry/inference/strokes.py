@@ -12,7 +12,7 @@ from itertools import combinations
 from math import degrees
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from lsys_kit.arrays import np
+from lsys_kit.arrays import is_array, np
 from lsys_kit.budget import check_budget, counted
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.geometry.scene import Floats, Scene
@@ -99,9 +99,9 @@ def is_drawing(given: object) -> bool:
     """
     if isinstance(getattr(given, "scene", given), Scene):
         return True
-    if isinstance(given, np.ndarray):
+    if is_array(given):
         return given.ndim == 2
-    return isinstance(given, list | tuple) and bool(given) and isinstance(given[0], list | tuple | np.ndarray)
+    return isinstance(given, list | tuple) and bool(given) and (isinstance(given[0], list | tuple) or is_array(given[0]))
 
 
 def read_drawings(given: Iterable[object]) -> tuple[Strokes, ...]:

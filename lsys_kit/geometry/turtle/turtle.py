@@ -340,7 +340,7 @@ class Turtle(ABC):
     def draw_surface(self, surface: Surface, size: float) -> None:
         """Draw a surface at the position of the turtle: in the plane its outlines."""
         if size:
-            self.draw_faces(surface.outlines, size)
+            self.draw_faces(surface.facets.outlines, size)
 
     def draw_box(self, length: float, width: float) -> None:
         """Draw a box ahead: in the plane a rectangle."""
