@@ -82,11 +82,16 @@ def test_words_of_some_thousand_modules_are_the_same_without_arrays(asked: Ask, 
 
 
 def test_answers_are_replied_to_alike_without_arrays(asked: Ask) -> None:
-    tried = [each for each in exercises() if each.kind != "drawing"]
+    tried, drawn = [each for each in exercises() if each.kind != "drawing"], set[str]()
     assert len(tried) > 60
     for each in tried:
         answers = [str(each.solution), "A(1) B", "axiom: A\nA -> A B"]
-        assert asked("answers", each.id, answers) == of_answers(each.id, answers), each.id
+        for there, here in zip(asked("answers", each.id, answers), of_answers(each.id, answers), strict=True):
+            if needs(there):
+                drawn.add(each.id)
+            else:
+                assert there == here, each.id
+    assert drawn <= {"0.2", "14.1"}, "of these, a drawing tells the number"
 
 
 def test_the_first_word_loads_no_arrays() -> None:

@@ -6,7 +6,6 @@ import os
 import subprocess
 import sys
 import time
-from array import array
 
 import numpy as np
 import pytest
@@ -81,7 +80,7 @@ def test_a_short_word_follows_a_long_one_with_many_states() -> None:
 
 def test_words_with_many_states_take_as_many_bytes_as_they_need() -> None:
     word = derive(EVERY_MODULE_NEW, 13)[-1]
-    assert isinstance(word.codes, array)
+    assert not isinstance(word.codes, list | tuple)
     assert word.codes.itemsize == 2
     assert [module.arguments[0] for module in word] == list(range(2**13, 2**14))
 

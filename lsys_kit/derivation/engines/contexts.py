@@ -20,7 +20,7 @@ from lsys_kit.derivation.core.matching import NO_NEIGHBOUR
 from lsys_kit.derivation.core.rules import Rule, Values
 from lsys_kit.derivation.core.states import Match, States
 from lsys_kit.derivation.core.words import Codes, listed
-from lsys_kit.derivation.engines.engine import ByteTable, code_type, compact
+from lsys_kit.derivation.engines.engine import ByteTable, Origins, code_type, compact, repeated
 from lsys_kit.derivation.engines.stepwise import Replacement, Stepper
 from lsys_kit.notation.model.modules import CLOSING, OPENING
 
@@ -85,6 +85,18 @@ class Replacements:
         everything = [state for replacement in self.replacements for state in replacement.states]
         gathered: IntegerArray = np.array(everything, dtype=code_type(len(self.states)))[places]
         return gathered
+
+    def origins(self, chosen: Chosen) -> Origins:
+        """Where the modules come from that replace those of a word."""
+        sizes = [len(replacement.states) for replacement in self.replacements]
+        if isinstance(chosen, list):
+            sizes = [sizes[number] for number in chosen]
+            parents, made = repeated(range(len(chosen)), sizes), repeated(chosen, sizes)
+        else:
+            times = np.array(sizes)[chosen]
+            parents, made = np.repeat(np.arange(len(chosen)), times).tolist(), np.repeat(chosen, times).tolist()
+        productions = [replacement.production for replacement in self.replacements]
+        return Origins(parents, [productions[number] for number in made])
 
 
 @dataclass(frozen=True)

@@ -13,12 +13,16 @@ from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import chain, repeat
-from typing import Protocol, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, TypeVar
 
+from lsys_kit.arrays import arrays_pay, np
 from lsys_kit.budget import check_budget, check_limit, counted
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Codes, Word
 from lsys_kit.notation.model.arithmetic import Value
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 _T = TypeVar("_T")
 BYTES = 256
@@ -108,12 +112,13 @@ class ByteTable:
         return array("B", word)
 
 
-def expand(states: States, present: Sequence[Collection[int]]) -> array[int]:
+def expand(states: States, present: Sequence[Collection[int]]) -> array[int] | NDArray[Any]:
     """The word of the last step, as an array of states."""
     sizes = _sizes(states, present)
     pieces = _pieces(states, present, sizes)
-    whole = array(code_type(len(states)), (0,)) * sum(sizes[0][state] for state in states.axiom)
-    word = memoryview(whole)
+    length, kind = sum(sizes[0][state] for state in states.axiom), code_type(len(states))
+    whole = np.empty(length, kind) if arrays_pay(length, MOST_LISTED) else array(kind, (0,)) * length
+    word = memoryview(whole)  # type: ignore[arg-type]
     written: dict[tuple[int, int], int] = {}
     todo = [(state, 0) for state in reversed(states.axiom)]
     at = look = 0

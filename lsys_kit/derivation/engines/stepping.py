@@ -14,7 +14,7 @@ from functools import lru_cache, partial
 from lsys_kit.budget import INTERVAL, check_budget
 from lsys_kit.derivation.core.rules import ModuleKind, Rule, Values, kind_of, rule_for
 from lsys_kit.derivation.core.states import States
-from lsys_kit.derivation.core.words import Word, listed, state_counts
+from lsys_kit.derivation.core.words import Word, state_counts
 from lsys_kit.derivation.engines.contexts import ContextEngine
 from lsys_kit.derivation.engines.engine import Observation, Observer, Origins, check_size, check_step, compact, repeated
 from lsys_kit.derivation.engines.stepwise import SensingFunction, Stepper
@@ -121,13 +121,7 @@ class SteppingEngine:
         chosen = arrays.chosen(before.codes, step - 1)
         check_size(self.states, step, arrays.outcomes.size(chosen), held=self._held)
         word = Word(self.states, arrays.outcomes.replaced(chosen))
-
-        def origins() -> Origins:
-            made = [arrays.outcomes.replacements[number] for number in listed(chosen)]
-            sizes = [len(each.states) for each in made]
-            return Origins(repeated(range(len(made)), sizes), repeated([each.production for each in made], sizes))
-
-        return word, origins
+        return word, lambda: arrays.outcomes.origins(chosen)
 
     def _one_by_one(self, codes: Sequence[int], step: int, sees: SensingFunction | None) -> tuple[Word, Callable[[], Origins]]:
         """The next word and its origins, module by module."""

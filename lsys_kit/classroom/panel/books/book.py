@@ -17,10 +17,11 @@ import json
 import math
 import sys
 from array import array
+from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
-from itertools import pairwise
+from itertools import pairwise, repeat
 from typing import Any
 
 from lsys_kit.budget import Task, counted, current, limits
@@ -306,16 +307,13 @@ def _table(states: States, numbers: Mapping[int, int]) -> Data:
 def _history(derivation: Derivation, pages: _Pages) -> Data:
     """The words of all steps; for each module but those of the last step how many modules it becomes and by which production,
     and where productions replace several modules together, how many."""
-    words = [[pages.numbers[state] for state in derivation[step].numbers()] for step in range(pages.last + 1)]
+    words = [[*map(pages.numbers.__getitem__, derivation[step].numbers())] for step in range(pages.last + 1)]
     found: dict[str, list[dict[str, str]]] = {"words": [*map(packed, words)], "daughters": [], "made": [], "together": []}
     for step, word in enumerate(words[:-1]):
         origins = derivation.origins(step + 1)
-        daughters, made = [0] * len(word), [-1] * len(word)
-        for parent, production in zip(origins.parents, origins.productions, strict=True):
-            daughters[parent] += 1
-            made[parent] = -1 if production is None else production
-        found["daughters"].append(packed(daughters))
-        found["made"].append(packed(made))
+        daughters, made = Counter(origins.parents), dict(zip(origins.parents, origins.productions, strict=True))
+        found["daughters"].append(packed(map(daughters.get, range(len(word)), repeat(0))))
+        found["made"].append(packed([-1 if rule is None else rule for rule in map(made.get, range(len(word)))]))
         if origins.sizes:
             found["together"].append(packed(origins.sizes))
     return dict(found)
@@ -328,11 +326,12 @@ def packed(given: Iterable[int]) -> dict[str, str]:
     ({'type': 'u2', 'data': 'AQACACwB'}, 'i2')
     """
     numbers = [*given]
-    least, most = min(numbers, default=0), max(numbers, default=0)
+    distinct = {*numbers, 0}
+    least, most = min(distinct), max(distinct)
     code = code_type(most + 1)
     if least < 0:  # twice as many bytes as without a sign
         code = max("hiq"["BHI".index(code)], code_type(-2 * least).lower(), key="bhiq".index)
-    found = array(code, numbers)
+    found = array(code, bytes(numbers) if code == "B" else numbers)
     kind = f"{'i' if least < 0 else 'u'}{found.itemsize}"
     if sys.byteorder == "big":
         found.byteswap()
