@@ -17,11 +17,10 @@ import json
 import math
 import sys
 from array import array
-from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
-from itertools import pairwise, repeat
+from itertools import accumulate, pairwise
 from typing import Any
 
 from lsys_kit.budget import Task, counted, current, limits
@@ -311,9 +310,14 @@ def _history(derivation: Derivation, pages: _Pages) -> Data:
     found: dict[str, list[dict[str, str]]] = {"words": [*map(packed, words)], "daughters": [], "made": [], "together": []}
     for step, word in enumerate(words[:-1]):
         origins = derivation.origins(step + 1)
-        daughters, made = Counter(origins.parents), dict(zip(origins.parents, origins.productions, strict=True))
-        found["daughters"].append(packed(map(daughters.get, range(len(word)), repeat(0))))
-        found["made"].append(packed([-1 if rule is None else rule for rule in map(made.get, range(len(word)))]))
+        daughters = [0] * len(word)
+        for parent in origins.parents:  # in ascending order
+            daughters[parent] += 1
+        made = [
+            origins.productions[end - 1] if many else None for end, many in zip(accumulate(daughters), daughters, strict=True)
+        ]
+        found["daughters"].append(packed(daughters))
+        found["made"].append(packed([-1 if production is None else production for production in made]))
         if origins.sizes:
             found["together"].append(packed(origins.sizes))
     return dict(found)
