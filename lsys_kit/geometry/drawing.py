@@ -8,8 +8,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
-
+from lsys_kit.arrays import np
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation

@@ -11,10 +11,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
-import numpy as np
-from numpy.typing import NDArray
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import check_bytes, counted
 from lsys_kit.derivation.core.interpretation import interpretations, is_cell, modules_between_checks
 from lsys_kit.derivation.core.states import States
@@ -23,6 +22,9 @@ from lsys_kit.errors import ModelValueError
 from lsys_kit.geometry.scene import Cells, Floats, Scene, Walls
 from lsys_kit.geometry.turtle.commands import values_of
 from lsys_kit.notation.model.modules import CELLS, WALL, Module
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 SHAPE_BYTES = 240
 """About what a cell or a wall takes in memory while it is drawn."""

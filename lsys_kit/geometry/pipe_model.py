@@ -10,12 +10,14 @@ Sources: K. Shinozaki et al., "A quantitative analysis of plant form: the pipe m
 from __future__ import annotations
 
 from array import array
+from typing import TYPE_CHECKING
 
-import numpy as np
-from numpy.typing import NDArray
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import counted
 from lsys_kit.geometry.scene import Floats, Integers, Segments
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 EXPONENT = 2.5
 """The power in which widths add up."""

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
-import numpy as np
-from scipy.spatial import cKDTree
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import check_budget
 from lsys_kit.geometry.scene import Floats
+
+if TYPE_CHECKING:
+    from scipy.spatial import cKDTree
 
 TOLERANCE = 1e-6
 """How far two ends may be apart that are the same, where a drawing has the size 1."""
@@ -73,6 +75,8 @@ def _covers(mine: Floats, wanted: Floats, tolerance: float) -> bool:
 
 
 def _both_ways(strokes: Floats) -> cKDTree:
+    from scipy.spatial import cKDTree
+
     return cKDTree(np.concatenate([strokes, np.roll(strokes, strokes.shape[1] // 2, axis=1)]))
 
 

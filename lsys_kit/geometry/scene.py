@@ -8,10 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
-import numpy as np
-from numpy.typing import NDArray
+from lsys_kit.arrays import np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 
 @dataclass(frozen=True)
@@ -38,8 +40,8 @@ def no_labels(dimension: int = 2) -> Labels:
     return Labels(np.empty((0, dimension)), (), np.empty(0, np.int64))
 
 
-Floats: TypeAlias = NDArray[np.float64]
-Integers: TypeAlias = NDArray[np.int64]
+Floats: TypeAlias = "NDArray[np.float64]"
+Integers: TypeAlias = "NDArray[np.int64]"
 
 OWN = -1
 """Stands for the colour that belongs to the symbol of a shape, or the width that belongs to the branch order of a stroke."""

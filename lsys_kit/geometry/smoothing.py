@@ -9,8 +9,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
-
+from lsys_kit.arrays import np
 from lsys_kit.geometry.scene import Floats, Integers, Polygons, Scene
 
 FINEST, MOST_FACES = 4, 1_500

@@ -13,11 +13,9 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from itertools import pairwise
 from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
+from lsys_kit.arrays import np
 from lsys_kit.geometry.scene import Cells, Floats, Scene, Walls
 from lsys_kit.notation.model.arithmetic import Value, normalised, number_text
 from lsys_kit.pictures.rendering.frames import HEIGHT, MARGIN, WIDTH
@@ -25,6 +23,9 @@ from lsys_kit.pictures.shapes import Ellipse, Group, Look, Path, Raster, Rectang
 from lsys_kit.pictures.style.colour_values import mixed
 from lsys_kit.pictures.style.palette import GREEN, OLDEST, cell_fill
 from lsys_kit.pictures.style.themes import edge_colour, line, theme
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 MOST_CELLS, A_LINE = 100, 60
 """The greatest number of cells of a row that is not folded, and about how many stand in a line then."""

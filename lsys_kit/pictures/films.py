@@ -15,8 +15,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import Task, check_bytes, counted
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.derive import Derivation

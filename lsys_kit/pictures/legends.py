@@ -6,8 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-import numpy as np
-
+from lsys_kit.arrays import np
 from lsys_kit.derivation.core.states import States
 from lsys_kit.geometry.scene import OWN, Scene
 from lsys_kit.geometry.turtle.commands import RAMP_END, RAMP_START

@@ -9,15 +9,18 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from functools import partial
-from typing import Any, overload
+from typing import TYPE_CHECKING, Any, overload
 
 from lsys_kit.derivation import derive as words_alone
 from lsys_kit.derivation.derive import Derivation, derive_observed
 from lsys_kit.derivation.tissues.development import CellworkDevelopment, Development
 from lsys_kit.notation.model.cells import CellworkSystem, MapSystem
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.worlds.fields import Field
-from lsys_kit.worlds.sight import observe
+
+if TYPE_CHECKING:
+    from lsys_kit.derivation.core.words import Word
+    from lsys_kit.worlds.fields import Field
+    from lsys_kit.worlds.sight import TurtleObservation
 
 
 @overload
@@ -103,6 +106,12 @@ def derive(system: Any, steps: int, **choices: Any) -> Derivation | Development 
     """
     if isinstance(system, LSystem):
         field = choices.pop("field", None)
-        return derive_observed(system, steps, observe if field is None else partial(observe, field=field), **choices)
+        return derive_observed(system, steps, _observe if field is None else partial(_observe, field=field), **choices)
     cells: Development | CellworkDevelopment = words_alone.derive(system, steps, **choices)
     return cells
+
+
+def _observe(word: Word, field: Field | None = None) -> TurtleObservation:
+    from lsys_kit.worlds.sight import observe  # imported late: most systems ask nothing
+
+    return observe(word, field)

@@ -19,8 +19,7 @@ from math import cos, floor, pi, sin
 from numbers import Real
 from typing import Any, NamedTuple, Protocol
 
-import numpy as np
-
+from lsys_kit.arrays import is_array, np
 from lsys_kit.budget import check_budget, counted
 from lsys_kit.derivation.core.rules import Values, number_from
 from lsys_kit.derivation.core.states import States
@@ -132,7 +131,7 @@ def answered(field: Field, questions: Sequence[Question], scene: Surroundings, a
 def _taken(name: str, question: Question, answer: object, arithmetic: str) -> Values:
     if isinstance(answer, Real):
         return _number(name, question, answer, arithmetic), *question.values[1:]
-    if not isinstance(answer, Sequence | np.ndarray) or isinstance(answer, str):
+    if not (isinstance(answer, Sequence) or is_array(answer)) or isinstance(answer, str):
         raise ModelValueError(f"{name} answered {shown(answer)} at {_at(question)}, which is no number")
     values = list(answer)
     if len(values) != len(question.values):

@@ -12,8 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
 
-import numpy as np
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import check_budget
 from lsys_kit.errors import ModelValueError
 from lsys_kit.geometry.scene import Floats, Integers

@@ -12,8 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
 
-import numpy as np
-
+from lsys_kit.arrays import np
 from lsys_kit.geometry.scene import OWN, Floats, Integers, Segments
 from lsys_kit.geometry.turtle.commands import FIRST_COLOUR
 from lsys_kit.notation.model.arithmetic import Value

@@ -18,8 +18,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
-import numpy as np
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import check_budget, counted
 from lsys_kit.derivation.core.rules import Values, kind_of
 from lsys_kit.derivation.core.states import States

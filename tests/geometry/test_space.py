@@ -595,7 +595,7 @@ def test_lychnis_stands_in_space_with_leaves_and_flowers():
     scene = trace_in_space(derive(lychnis, 5)[-1])
     least, greatest = scene.corners
     assert greatest[1] - least[1] > 1
-    leaf, flower = (len(surfaces()[name].faces) for name in ("leaf", "flower"))
+    leaf, flower = (len(surfaces()[name].facets.faces) for name in ("leaf", "flower"))
     assert len(scene.polygons) == 2 * leaf + flower, "two leaves and a flower of age 4; those on the branch are of age 0"
     assert scene.unknown == ()
 

@@ -28,15 +28,15 @@ def in_the_plane(text, notation=None):
 
 @pytest.mark.parametrize("surface", surfaces().values(), ids=list(surfaces()))
 def test_a_surface_touches_the_plant_and_is_about_one_long(surface):
-    corners = np.array([corner for face in surface.faces for corner in face])
+    corners = np.array([corner for face in surface.facets.faces for corner in face])
     assert (corners == 0).all(axis=1).any()
     assert 0.9 <= np.hypot.reduce(corners, axis=1).max() <= 1.1
 
 
 @pytest.mark.parametrize("surface", surfaces().values(), ids=list(surfaces()))
 def test_faces_are_nearly_plane_and_their_normals_are_those_of_the_surface(surface):
-    assert len(surface.normals) == len(surface.faces)
-    for face, normals in zip(surface.faces, surface.normals, strict=True):
+    assert len(surface.facets.normals) == len(surface.facets.faces)
+    for face, normals in zip(surface.facets.faces, surface.facets.normals, strict=True):
         corners = np.array(face)
         assert np.linalg.svd(corners - corners.mean(axis=0))[1][2] < 0.02
         assert np.hypot.reduce(normals, axis=1) == pytest.approx(np.ones(len(face)), abs=1e-3)
@@ -46,7 +46,9 @@ def test_faces_are_nearly_plane_and_their_normals_are_those_of_the_surface(surfa
 
 @pytest.mark.parametrize("surface", surfaces().values(), ids=list(surfaces()))
 def test_a_surface_is_the_same_on_both_sides(surface):
-    faces = {frozenset((round(ahead, 2), round(left, 2), round(up, 2)) for ahead, left, up in face) for face in surface.faces}
+    faces = {
+        frozenset((round(ahead, 2), round(left, 2), round(up, 2)) for ahead, left, up in face) for face in surface.facets.faces
+    }
     mirrored = "left" if surface.name in ("leaf", "needle", "petal", "sepal", "rosette") else "up"
     flip = {"left": lambda a, left, u: (a, -left, u), "up": lambda a, left, u: (a, left, -u)}[mirrored]
     assert {frozenset(flip(*corner) for corner in face) for face in faces} == faces
@@ -54,7 +56,7 @@ def test_a_surface_is_the_same_on_both_sides(surface):
 
 @pytest.mark.parametrize("name", ["bud", "fruit"])
 def test_a_solid_is_closed_and_its_faces_look_outwards(name):
-    faces = surfaces()[name].faces
+    faces = surfaces()[name].facets.faces
     edges = [edge for face in faces for edge in zip(face, (*face[1:], face[0]), strict=True)]
     assert sorted(edges) == sorted((b, a) for a, b in edges)
     volume = sum(np.linalg.det([face[0], b, c]) for face in faces for b, c in pairwise(face[1:])) / 6
@@ -62,7 +64,7 @@ def test_a_solid_is_closed_and_its_faces_look_outwards(name):
 
 
 def test_the_petals_of_a_flower_are_hollow_towards_its_axis():
-    outlines = surfaces()["flower"].outlines
+    outlines = surfaces()["flower"].facets.outlines
     for left, right in zip(outlines[::2], outlines[1::2], strict=True):
         midrib = np.array(max(set(left) & set(right), key=np.linalg.norm))
         edges = np.mean(
@@ -103,14 +105,14 @@ def test_a_surface_of_size_nothing_is_not_drawn():
 
 def test_only_the_symbol_behind_a_tilde_is_a_surface():
     scene = in_space("axiom: F L(2) & ~L(1) K(3) ~K(2) F")
-    assert len(scene.polygons) == len(surfaces()["leaf"].faces) + len(surfaces()["flower"].faces)
+    assert len(scene.polygons) == len(surfaces()["leaf"].facets.faces) + len(surfaces()["flower"].facets.faces)
     assert len(scene.segments) == 2
 
 
 def test_a_surface_that_nobody_knows_is_listed_once():
     scene = in_space("axiom: F & ~X(2) L ~X(3) [~ L]")
     assert scene.unknown == ("~X",)
-    assert len(scene.polygons) == len(surfaces()["leaf"].faces)
+    assert len(scene.polygons) == len(surfaces()["leaf"].facets.faces)
 
 
 @pytest.mark.parametrize(
@@ -140,14 +142,14 @@ def test_in_the_plane_a_surface_is_flat():
     flat, whole = in_the_plane(text).polygons, in_space(text).polygons
     assert flat.points == pytest.approx(whole.points[:, [0, 2]])
     assert (flat.starts == whole.starts).all()
-    assert len(flat) == sum(len(surfaces()[name].outlines) for name in ("leaf", "flower", "bud", "leaf", "flower"))
+    assert len(flat) == sum(len(surfaces()[name].facets.outlines) for name in ("leaf", "flower", "bud", "leaf", "flower"))
     assert not flat.smooth.any()
 
 
 def test_leaves_and_flowers_of_plant_strings_stand_where_the_turtle_is():
     scene = in_the_plane("axiom: I[L](L)F", "plant-string")
     leaf, flower = surfaces()["leaf"], surfaces()["rosette"]
-    assert len(scene.polygons) == 2 * len(leaf.outlines) + len(flower.outlines)
+    assert len(scene.polygons) == 2 * len(leaf.facets.outlines) + len(flower.facets.outlines)
     assert len(scene.segments) == 1
     assert all(np.hypot(*(face - (0, 1)).T).max() <= 0.51 for face in scene.polygons)
     assert scene.width > 0
@@ -190,8 +192,8 @@ def test_a_declared_surface_keeps_its_name_whole():
 
 def test_of_many_surfaces_the_outlines_are_drawn():
     few, many = (in_space("axiom: &(1)" + "[f(9)~L]" * number).polygons for number in (150, 151))
-    assert len(few) == 150 * len(surfaces()["leaf"].faces)
-    assert len(many) == 151 * len(surfaces()["leaf"].outlines)
+    assert len(few) == 150 * len(surfaces()["leaf"].facets.faces)
+    assert len(many) == 151 * len(surfaces()["leaf"].facets.outlines)
     assert not many.smooth.any()
 
 
@@ -203,7 +205,7 @@ def test_a_few_curved_faces_become_finer_and_lie_nearer_to_the_surface():
     assert len(smoothed(in_space("axiom: &(1)" + "~fruit" * 5)).polygons) == 5 * 96
     ball = revolved_facets([(-1, 0), (-1, 4 / 3), (1, 4 / 3), (1, 0)], 8, 4)
     turtle = SpaceTurtle(initial_frame("abop"), 1.0)
-    turtle.draw_surface(Surface("ball", (), *ball), 1.0)
+    turtle.draw_surface(Surface("ball", (), lambda: ball), 1.0)
     rough = Scene(no_segments(3), polygons=collected_shapes(turtle.outlines, (), np.array)[0])
     errors = []
     for polygons in (rough.polygons, smoothed(rough).polygons):

@@ -9,18 +9,19 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import accumulate
 from statistics import NormalDist
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import numpy as np
-from numpy.typing import NDArray
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import check_budget, counted
 from lsys_kit.notation.model.arithmetic import Value, normalised
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 _GOLDEN, _FIRST, _SECOND, _MASK = 0x9E3779B97F4A7C15, 0xBF58476D1CE4E5B9, 0x94D049BB133111EB, 2**64 - 1
 _UNIT = 2.0**-53
@@ -54,6 +55,16 @@ def units(seed: int, step: int, positions: NDArray[Any]) -> NDArray[np.float64]:
     """
     keys = splitmix64_array(np.uint64(_stem(seed, step)) ^ positions.astype(np.uint64))
     return (splitmix64_array(keys) >> np.uint64(11)).astype(np.float64) * _UNIT
+
+
+def few_units(seed: int, step: int, positions: Iterable[int]) -> list[float]:
+    """The same for few modules, without arrays.
+
+    >>> few_units(1, 2, range(3)) == units(1, 2, np.arange(3)).tolist()
+    True
+    """
+    stem = _stem(seed, step)
+    return [(splitmix64(splitmix64(stem ^ position)) >> 11) * _UNIT for position in positions]
 
 
 def _stem(seed: int, step: int) -> int:

@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
+from array import array
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain
-from typing import Any, overload
+from typing import TYPE_CHECKING, Any, TypeAlias, overload
 
-import numpy as np
-from numpy.typing import NDArray
-
+from lsys_kit.arrays import arrays_pay, np
 from lsys_kit.budget import INTERVAL, Task, check_bytes, counted
 from lsys_kit.derivation.core.states import States
 from lsys_kit.errors import every, require
 from lsys_kit.notation.model.modules import Module, joined, rounded_module
 from lsys_kit.notation.registry import dialect_named
 
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+Codes: TypeAlias = "list[int] | tuple[int, ...] | array[int] | NDArray[Any]"
+"""The numbers of states."""
+MOST_COUNTED = 4_096
+"""In words up to this length states are counted one by one."""
 MOST_SHOWN = 2_000
 """How many characters `repr` shows of a long word."""
 
@@ -30,7 +36,7 @@ class Word(Sequence[Module]):
     states
         The table that says what each number stands for.
     codes
-        The numbers: a list, or an array of the smallest unsigned type that holds them.
+        The numbers: a list, or an array, of Python or of numpy, of the smallest unsigned type that holds them.
 
     Examples
     --------
@@ -43,7 +49,7 @@ class Word(Sequence[Module]):
 
     __slots__ = ("codes", "states")
 
-    def __init__(self, states: States, codes: Sequence[int] | NDArray[Any]) -> None:
+    def __init__(self, states: States, codes: Codes) -> None:
         self.states, self.codes = states, codes
 
     def __len__(self) -> int:
@@ -80,11 +86,11 @@ class Word(Sequence[Module]):
 
     @property
     def bytes(self) -> int:
-        return self.codes.nbytes if isinstance(self.codes, np.ndarray) else len(self.codes) * 8
+        return len(self.codes) * getattr(self.codes, "itemsize", 8)
 
     def numbers(self) -> list[int]:
         """The states' numbers as a plain list."""
-        return self.codes.tolist() if isinstance(self.codes, np.ndarray) else list(self.codes)
+        return listed(self.codes)
 
     def coded(self, coding: Mapping[str, str]) -> str:
         """The word's text with some of its modules replaced: a coding (Rozenberg and Salomaa 1980).
@@ -114,12 +120,19 @@ class Word(Sequence[Module]):
         return found
 
 
+def listed(codes: Codes) -> list[int]:
+    """The numbers of states as a plain list."""
+    return list(codes) if isinstance(codes, list | tuple) else codes.tolist()
+
+
 def state_counts(word: Word) -> Counter[int]:
-    """How often each state occurs in a word."""
-    if isinstance(word.codes, np.ndarray):
-        counts = np.bincount(word.codes, minlength=1)
+    """How often each state occurs in a word; in the order of their numbers, where the word is an array."""
+    if isinstance(word.codes, list | tuple):
+        return Counter(word.codes)
+    if arrays_pay(len(word), MOST_COUNTED):
+        counts = np.bincount(word.codes)
         return Counter({state: int(counts[state]) for state in np.flatnonzero(counts).tolist()})
-    return Counter(word.codes)
+    return Counter(dict(sorted(Counter(listed(word.codes)).items())))
 
 
 def blocks(numbers: Sequence[int], size: int = INTERVAL) -> Iterator[Sequence[int]]:
@@ -131,9 +144,8 @@ def blocks(numbers: Sequence[int], size: int = INTERVAL) -> Iterator[Sequence[in
     return (numbers[first : first + size] for first in counted(range(0, len(numbers), size), 1))
 
 
-def text_of(states: States, codes: Sequence[int] | NDArray[Any], shown: bool = False) -> str:
+def text_of(states: States, codes: Codes, shown: bool = False) -> str:
     """The text of a row of states, in their system's notation; if it is only shown, with rounded values."""
-    numbers = codes.tolist() if isinstance(codes, np.ndarray) else codes
     notation = dialect_named(states.system.notation)
     counts = state_counts(Word(states, codes))
     texts = {
@@ -142,7 +154,7 @@ def text_of(states: States, codes: Sequence[int] | NDArray[Any], shown: bool = F
         for module in (states.modules[state],)
     }
     _check_size(texts, counts)
-    return notation.joined(map(texts.__getitem__, chain.from_iterable(blocks(numbers))))
+    return notation.joined(map(texts.__getitem__, chain.from_iterable(blocks(listed(codes)))))
 
 
 def _check_size(texts: Mapping[int, str], counts: Mapping[int, int]) -> None:

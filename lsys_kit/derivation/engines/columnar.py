@@ -14,14 +14,13 @@ from __future__ import annotations
 
 import math
 import operator
+from array import array
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
-import numpy as np
-from numpy.typing import NDArray
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import Task, counted, current
 from lsys_kit.derivation.core.rules import ModuleKind, Rule, Values, kind_of
 from lsys_kit.derivation.core.states import EXACT_BITS, States
@@ -31,7 +30,10 @@ from lsys_kit.notation.model.arithmetic import Value, normalised
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
 from lsys_kit.notation.model.modules import Module, flat
 
-Array: TypeAlias = NDArray[Any]
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+Array: TypeAlias = "NDArray[Any]"
 Rows: TypeAlias = Any
 """Some rows of a word, as they index an array: their numbers, or a slice."""
 Column: TypeAlias = "Array | ExactColumn | float"
@@ -135,25 +137,29 @@ def _exact(operation: ColumnFunction) -> ColumnFunction:
     return lambda *operands, out=None: operation(*operands)
 
 
-_TRUTHS: Mapping[str, ColumnFunction] = {"||": np.logical_or, "&&": np.logical_and, "!": np.logical_not}
+def _numpy(name: str) -> ColumnFunction:
+    return lambda *operands, out=None: getattr(np, name)(*operands, out=out)
+
+
+_TRUTHS: Mapping[str, ColumnFunction] = {"||": _numpy("logical_or"), "&&": _numpy("logical_and"), "!": _numpy("logical_not")}
 OPERATIONS: Mapping[str, Mapping[str, ColumnFunction]] = {
     "float": {
         **_TRUTHS,
-        "==": np.equal,
-        "!=": np.not_equal,
-        "<": np.less,
-        "<=": np.less_equal,
-        ">": np.greater,
-        ">=": np.greater_equal,
-        "+": np.add,
-        "-": np.subtract,
-        "*": np.multiply,
-        "/": np.divide,
-        "-x": np.negative,
-        "abs": np.abs,
-        "sqrt": np.sqrt,
-        "floor": np.floor,
-        "ceil": np.ceil,
+        "==": _numpy("equal"),
+        "!=": _numpy("not_equal"),
+        "<": _numpy("less"),
+        "<=": _numpy("less_equal"),
+        ">": _numpy("greater"),
+        ">=": _numpy("greater_equal"),
+        "+": _numpy("add"),
+        "-": _numpy("subtract"),
+        "*": _numpy("multiply"),
+        "/": _numpy("divide"),
+        "-x": _numpy("negative"),
+        "abs": _numpy("abs"),
+        "sqrt": _numpy("sqrt"),
+        "floor": _numpy("floor"),
+        "ceil": _numpy("ceil"),
     },
     "exact": {
         **_TRUTHS,
@@ -200,9 +206,9 @@ def column_function(expression: Expression, arithmetic: str) -> ColumnFunction:
     return lambda columns, out=None: operation(*[operand(columns) for operand in operands], out=out)
 
 
-def _listed(array: Array) -> Iterator[list[int]]:
-    for first in range(0, len(array), ROWS_AT_A_TIME):
-        yield from array[first : first + ROWS_AT_A_TIME].tolist()
+def _listed(rows: Array) -> Iterator[list[int]]:
+    for first in range(0, len(rows), ROWS_AT_A_TIME):
+        yield from rows[first : first + ROWS_AT_A_TIME].tolist()
 
 
 class FloatColumns:
@@ -316,7 +322,7 @@ class ColumnWord(Word):
 
     def __init__(self, states: States, kinds: Array, values: FloatColumns | ExactColumns, names: Sequence[ModuleKind]) -> None:
         self.states, self.kinds, self.values, self.names = states, kinds, values, names
-        self._row: Array | None = None
+        self._row: array[int] | None = None
 
     def __reduce__(self) -> tuple[object, ...]:
         return Word, (self.states, self.codes)
@@ -329,7 +335,7 @@ class ColumnWord(Word):
         return len(self) * (self.values.bytes * max(arity for _, arity in self.names) + 10)
 
     @property
-    def codes(self) -> Array:  # type: ignore[override]
+    def codes(self) -> array[int]:  # type: ignore[override]
         """The numbers of the states, which are numbered now."""
         if self._row is None:
             with Task("The modules of the word were not numbered"):
@@ -337,7 +343,7 @@ class ColumnWord(Word):
                     self.states.number(self.names[kind][0], row[: self.names[kind][1]])
                     for kind, row in counted(zip(self.kinds.tolist(), self.values.rows(), strict=True))
                 ]
-                self._row = np.array(numbers, dtype=code_type(len(self.states)))
+                self._row = array(code_type(len(self.states)), numbers)
         return self._row
 
 

@@ -1,34 +1,42 @@
-"""A step by arrays: all modules of a word at once.
+"""A step by cases: all modules of a word at once.
 
 Where rules name no more than one neighbour on each side and leave nothing but the choice of a rule to chance, a module's case
 is three states. The cases that occur are looked up once each, and the new word is gathered from what they become. Cases are
-worked out by the stepwise engine, on words of up to three modules.
+worked out by the stepwise engine, on words of up to three modules. Long words are arrays of cases; in short ones, which are
+quicker so, and where there are no arrays, cases are looked up one by one, and worked out in the same order.
 """
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
-import numpy as np
-from numpy.typing import NDArray
-
+from lsys_kit.arrays import arrays_pay, np
 from lsys_kit.budget import counted
-from lsys_kit.derivation.core.chance import stretches, units
+from lsys_kit.derivation.core.chance import few_units, stretches, units
 from lsys_kit.derivation.core.matching import NO_NEIGHBOUR
 from lsys_kit.derivation.core.rules import Rule, Values
 from lsys_kit.derivation.core.states import Match, States
-from lsys_kit.derivation.engines.engine import ByteTable, code_type
+from lsys_kit.derivation.core.words import Codes, listed
+from lsys_kit.derivation.engines.engine import ByteTable, Origins, code_type, compact, repeated
 from lsys_kit.derivation.engines.stepwise import Replacement, Stepper
 from lsys_kit.notation.model.modules import CLOSING, OPENING
 
-IntegerArray: TypeAlias = NDArray[Any]
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+IntegerArray: TypeAlias = "NDArray[Any]"
 Sides: TypeAlias = tuple[IntegerArray, IntegerArray]
 ORDINARY, OPENS, CLOSES, PASSED, SKIPPED = range(5)
 """The role of a module in contexts: `PASSED` is ignored but has contexts of its own, `SKIPPED` is ignored and has none."""
+Chosen: TypeAlias = "list[int] | IntegerArray"
+"""For each module of a word the number of what it becomes."""
 LARGEST_TABLE, FEW_REPLACEMENTS = 2**22, 12
 """The largest table of cases that is indexed directly; up to so many different replacements are counted one after another."""
+FEW_MODULES = 64
+"""In words up to this length, cases are looked up one by one."""
 
 
 class Replacements:
@@ -53,15 +61,19 @@ class Replacements:
     def sizes(self) -> IntegerArray:
         return np.array([len(replacement.states) for replacement in self.replacements], dtype=np.int64)
 
-    def size(self, chosen: IntegerArray) -> int:
+    def size(self, chosen: Chosen) -> int:
+        if isinstance(chosen, list):
+            return sum(len(self.replacements[number].states) for number in chosen)
         sizes = [len(replacement.states) for replacement in self.replacements]
         others = [(number, size) for number, size in enumerate(sizes) if size != 1]
         if len(others) > FEW_REPLACEMENTS:
             return int(np.dot(np.bincount(chosen, minlength=len(sizes)), sizes))
         return len(chosen) + sum(int(np.count_nonzero(chosen == number)) * (size - 1) for number, size in others)
 
-    def replaced(self, chosen: IntegerArray) -> IntegerArray:
+    def replaced(self, chosen: Chosen) -> Codes:
         """The replacements of some numbers, one after another."""
+        if isinstance(chosen, list):
+            return compact([state for number in chosen for state in self.replacements[number].states], len(self.states))
         if chosen.dtype == np.uint8 and all(
             self._bytes.add(number, replacement.states) for number, replacement in enumerate(self.replacements)
         ):
@@ -73,6 +85,18 @@ class Replacements:
         everything = [state for replacement in self.replacements for state in replacement.states]
         gathered: IntegerArray = np.array(everything, dtype=code_type(len(self.states)))[places]
         return gathered
+
+    def origins(self, chosen: Chosen) -> Origins:
+        """Where the modules come from that replace those of a word."""
+        sizes = [len(replacement.states) for replacement in self.replacements]
+        if isinstance(chosen, list):
+            sizes = [sizes[number] for number in chosen]
+            parents, made = repeated(range(len(chosen)), sizes), repeated(chosen, sizes)
+        else:
+            times = np.array(sizes)[chosen]
+            parents, made = np.repeat(np.arange(len(chosen)), times).tolist(), np.repeat(chosen, times).tolist()
+        productions = [replacement.production for replacement in self.replacements]
+        return Origins(parents, [productions[number] for number in made])
 
 
 @dataclass(frozen=True)
@@ -91,7 +115,7 @@ class RuleChoice:
 
     state: int
     rules: Sequence[Match]
-    marks: IntegerArray
+    marks: Sequence[float]
     total: float
 
     def drawn(self, units: IntegerArray) -> IntegerArray:
@@ -106,7 +130,7 @@ class ContextEngine:
     >>> from lsys_kit.derivation.core.states import States
     >>> stepper = Stepper(States(read("axiom: b a a\\nb < a -> b")), 0)
     >>> arrays = ContextEngine(stepper)
-    >>> arrays.outcomes.replaced(arrays.chosen(np.array(stepper.states.axiom, dtype=np.uint8), 0)).tolist()
+    >>> arrays.outcomes.replaced(arrays.chosen(stepper.states.axiom, 0))
     [0, 0, 1]
     """
 
@@ -115,15 +139,48 @@ class ContextEngine:
         self._roles: list[tuple[int, int]] = []
         self._numbers: dict[tuple[int, int, int], int] = {}
         self._choices: list[RuleChoice] = []
-        self._table: IntegerArray = np.zeros(0, dtype=np.int64)
+        self._table: IntegerArray | None = None
 
-    def chosen(self, codes: IntegerArray, step: int) -> IntegerArray:
+    def chosen(self, codes: Codes, step: int) -> Chosen:
         """For each module of a word the number of the replacement that it gets."""
         size = len(self.stepper.states)
+        if self.stepper.in_context:
+            for state in range(len(self._roles), size):
+                self._meet(state)
+        if arrays_pay(len(codes), FEW_MODULES):
+            return self._at_once(np.asarray(codes, dtype=code_type(size)), size, step)
+        return self._one_by_one(listed(codes), size, step)
+
+    def _one_by_one(self, codes: Sequence[int], size: int, step: int) -> list[int]:
+        """The numbers of the replacements, without arrays; `size` is the number of states."""
+        around = self.stepper.old(codes).around
+        cases = [(NO_NEIGHBOUR, code, NO_NEIGHBOUR) for code in codes]
+        if around:
+            named = [*codes, NO_NEIGHBOUR]  # the last one is that of no neighbour
+            cases = [
+                (named[left], code, named[right]) for left, code, right in zip(around.before, codes, around.after, strict=True)
+            ]
+        new = {*cases}.difference(self._numbers)
+        for case in counted(sorted(new, key=lambda case: (case[0] % (size + 1), case[2] % (size + 1), case[1])), 1):
+            self._number(case)
+        numbers = [self._numbers[case] - 1 for case in cases]
+        of_choices: dict[int, list[int]] = {}
+        for position, number in enumerate(numbers):
+            if number < 0:
+                of_choices.setdefault(-number - 2, []).append(position)
+        for index, positions in sorted(of_choices.items()):
+            choice = self._choices[index]
+            units = few_units(self.stepper.seed, step, positions)
+            drawn = [bisect_right(choice.marks, unit * choice.total) for unit in units]
+            outcomes = {rule: self._outcome(choice, rule) for rule in sorted({*drawn})}
+            for position, rule in zip(positions, drawn, strict=True):
+                numbers[position] = outcomes[rule]
+        return numbers
+
+    def _at_once(self, codes: IntegerArray, size: int, step: int) -> IntegerArray:
+        """The same by arrays."""
         if not self.stepper.in_context:
             return self._drawn(self._cases(codes, size, lambda key: (NO_NEIGHBOUR, key, NO_NEIGHBOUR)), None, step)
-        for state in range(len(self._roles), size):
-            self._meet(state)
         roles = np.zeros(len(codes), dtype=np.uint8)
         if any(role for role, _ in self._roles):
             roles = np.array([role for role, _ in self._roles], dtype=np.uint8).take(codes)
@@ -152,7 +209,7 @@ class ContextEngine:
     def _in_context(self, codes: IntegerArray, roles: IntegerArray, size: int) -> IntegerArray:
         """The numbers of the cases of a row of modules, each with its neighbours; `size` stands for none."""
         left, right = context_neighbours(codes.astype(code_type(size + 1)), roles, size, self.stepper.passing.flat)
-        kind = code_type(size * (size + 1) ** 2)
+        kind = np.min_scalar_type(size * (size + 1) ** 2)
         keys = left.astype(kind) * kind.type(size + 1) + right.astype(kind, copy=False)
         keys = keys * kind.type(size) + codes.astype(kind, copy=False)
 
@@ -171,7 +228,7 @@ class ContextEngine:
         if bound > LARGEST_TABLE:
             distinct, which = np.unique(keys, return_inverse=True)
             return np.array([self._number(case(key)) for key in counted(distinct.tolist(), 1)])[which]
-        if len(self._table) != bound:
+        if self._table is None or len(self._table) != bound:
             self._table = np.zeros(bound, dtype=np.int32)  # 0 for a case that has not been met
         if not (found := self._table.take(keys)).all():
             there = np.zeros(bound, dtype=bool)
@@ -204,7 +261,11 @@ class ContextEngine:
         if len(likely) < 2:
             return self._applied(code, *matched[0])
         marks, total = stretches([states.weight(*match) for match in likely])
-        return RuleChoice(code, likely, np.array(marks), total)
+        return RuleChoice(code, likely, marks, total)
+
+    def _outcome(self, choice: RuleChoice, rule: int) -> int:
+        """The number of what a rule of a choice makes, computed when it is drawn: one that never is may have no value."""
+        return self.outcomes.number(self._applied(choice.state, *choice.rules[rule]))
 
     def _applied(self, code: int, rule: Rule, values: Values) -> Replacement:
         states = self.stepper.states
@@ -222,14 +283,11 @@ class ContextEngine:
         return result
 
     def _choose(self, choice: RuleChoice, ours: IntegerArray, where: IntegerArray | None, step: int) -> Sides:
-        """Where the modules of a choice stand, and the numbers of what they become.
-
-        What a rule makes is computed when it is drawn first: one that never is may have no value.
-        """
+        """Where the modules of a choice stand, and the numbers of what they become."""
         rules = choice.drawn(units(self.stepper.seed, step, ours if where is None else where[ours]))
         outcomes = np.zeros(len(choice.rules), dtype=np.int64)
         for rule in np.flatnonzero(np.bincount(rules, minlength=len(outcomes))).tolist():
-            outcomes[rule] = self.outcomes.number(self._applied(choice.state, *choice.rules[rule]))
+            outcomes[rule] = self._outcome(choice, rule)
         return ours, outcomes[rules]
 
 

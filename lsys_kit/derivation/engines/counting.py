@@ -11,14 +11,12 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property, partial
 from itertools import chain
 from operator import attrgetter
-from typing import Any
 
-from numpy.typing import NDArray
-
+from lsys_kit.arrays import arrays_pay
 from lsys_kit.budget import INTERVAL, Task, check_budget, counted
 from lsys_kit.cache import Cache
 from lsys_kit.derivation.core.states import States
-from lsys_kit.derivation.core.words import Word, state_counts
+from lsys_kit.derivation.core.words import Codes, Word, state_counts
 from lsys_kit.derivation.engines import engine
 from lsys_kit.derivation.engines.columnar import ColumnarSteps, ColumnWord
 from lsys_kit.derivation.engines.engine import ByteTable, Origins, check_size, check_step, compact, expand
@@ -79,7 +77,7 @@ class CountingEngine:
 
         They are not most of it where the turtle turns at each of them: brackets and turns are the same, or stay.
         """
-        return self._new > FEWEST_NEW and self._new > SMALL_PART * self._steps[-1][1]
+        return self._new > SMALL_PART * self._steps[-1][1] and arrays_pay(self._new, FEWEST_NEW)
 
     @cached_property
     def _columns(self) -> ColumnarSteps:
@@ -114,13 +112,13 @@ class CountingEngine:
         if step == 0:
             return Word(self.states, list(self.states.axiom))
         before, small = self._words.get(step - 1), self.size(step) <= engine.MOST_LISTED
-        if small and before is not None:
+        if small and before is not None and len(before) <= engine.MOST_LISTED:
             return Word(self.states, self._replaced(before, self._steps[step - 1][0]))
         with Task("The word was not built"):
-            array = expand(self.states, [counts for counts, _ in self._steps[: step + 1]])
-        return Word(self.states, array.tolist() if small else array)
+            codes = expand(self.states, [counts for counts, _ in self._steps[: step + 1]])
+        return Word(self.states, codes.tolist() if small else codes)
 
-    def _replaced(self, word: Word, present: dict[int, int]) -> Sequence[int] | NDArray[Any]:
+    def _replaced(self, word: Word, present: dict[int, int]) -> Codes:
         """The successor of a short word, given the states that occur in it."""
         successors, table = self.states.successors, self._bytes
         if present.keys() <= table.known or all(table.add(state, successors[state]) for state in present):

@@ -7,20 +7,24 @@ every later occurrence is a copy of that stretch.
 
 from __future__ import annotations
 
+from array import array
 from collections import Counter
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import Any, Protocol, TypeAlias
+from itertools import chain, repeat
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, TypeVar
 
-import numpy as np
-from numpy.typing import NDArray
-
+from lsys_kit.arrays import arrays_pay, np
 from lsys_kit.budget import check_budget, check_limit, counted
 from lsys_kit.derivation.core.states import States
-from lsys_kit.derivation.core.words import Word
+from lsys_kit.derivation.core.words import Codes, Word
 from lsys_kit.notation.model.arithmetic import Value
 
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+_T = TypeVar("_T")
 BYTES = 256
 MOST_LISTED = 4_096
 """Words up to this length are lists, which are quicker than arrays at that size."""
@@ -29,18 +33,31 @@ MODULES_BETWEEN_CHECKS = 2**16
 STEPS_BETWEEN_CHECKS = 10
 """The budget is checked after so many steps of a few thousand states at most."""
 PIECE = 64
-"""Pieces up to this length, at least 1, are assembled as tuples and written at once."""
+"""Pieces up to this length, at least 1, are assembled first and written at once."""
 
 
 @lru_cache(maxsize=1_024)
-def code_type(states: int) -> np.dtype[Any]:
-    """The smallest unsigned type that can number so many states."""
-    return np.min_scalar_type(max(states - 1, 0))
+def code_type(states: int) -> str:
+    """The code of the smallest unsigned type that can number so many states.
+
+    >>> code_type(256), code_type(257)
+    ('B', 'H')
+    """
+    return next(code for code in "BHIQ" if states <= 256 ** array(code).itemsize)
 
 
-def compact(codes: Sequence[int], states: int) -> Sequence[int] | NDArray[Any]:
+def compact(codes: list[int], states: int) -> Codes:
     """A word of a table of so many states: a list where it is short, else an array of the smallest type."""
-    return codes if len(codes) <= MOST_LISTED else np.array(codes, code_type(states))
+    return codes if len(codes) <= MOST_LISTED else array(code_type(states), codes)
+
+
+def repeated(things: Iterable[_T], times: Iterable[int]) -> list[_T]:
+    """Each thing as often as is said.
+
+    >>> repeated("abc", (2, 0, 1))
+    ['a', 'a', 'c']
+    """
+    return list(chain.from_iterable(map(repeat, things, times)))
 
 
 class ByteTable:
@@ -87,19 +104,21 @@ class ByteTable:
         self.known.add(number)
         return True
 
-    def replaced(self, word: bytes) -> NDArray[np.uint8]:
+    def replaced(self, word: bytes) -> array[int]:
         """The rows of some numbers, one after another."""
         word = word.translate(self._table)
         for free, row in self._several:
             word = word.replace(free, row)
-        return np.frombuffer(word, np.uint8)
+        return array("B", word)
 
 
-def expand(states: States, present: Sequence[Collection[int]]) -> NDArray[Any]:
+def expand(states: States, present: Sequence[Collection[int]]) -> array[int] | NDArray[Any]:
     """The word of the last step, as an array of states."""
     sizes = _sizes(states, present)
     pieces = _pieces(states, present, sizes)
-    word = np.empty(sum(sizes[0][state] for state in states.axiom), dtype=code_type(len(states)))
+    length, kind = sum(sizes[0][state] for state in states.axiom), code_type(len(states))
+    whole = np.empty(length, kind) if arrays_pay(length, MOST_LISTED) else array(kind, (0,)) * length
+    word = memoryview(whole)  # type: ignore[arg-type]
     written: dict[tuple[int, int], int] = {}
     todo = [(state, 0) for state in reversed(states.axiom)]
     at = look = 0
@@ -119,7 +138,7 @@ def expand(states: States, present: Sequence[Collection[int]]) -> NDArray[Any]:
             todo += [(successor, step + 1) for successor in reversed(states.successor(state))]
             continue
         at += size
-    return word
+    return whole
 
 
 def _sizes(states: States, present: Sequence[Collection[int]]) -> list[dict[int, int]]:
@@ -131,16 +150,15 @@ def _sizes(states: States, present: Sequence[Collection[int]]) -> list[dict[int,
     return sizes[::-1]
 
 
-def _pieces(
-    states: States, present: Sequence[Collection[int]], sizes: Sequence[dict[int, int]]
-) -> list[dict[int, tuple[int, ...]]]:
+def _pieces(states: States, present: Sequence[Collection[int]], sizes: Sequence[dict[int, int]]) -> list[dict[int, array[int]]]:
     """For each step and state whose size is small, what the state becomes by the last step."""
-    pieces: list[dict[int, tuple[int, ...]]] = [{state: (state,) for state in present[-1]}]
+    kind = code_type(len(states))
+    pieces = [{state: array(kind, (state,)) for state in present[-1]}]
     for step in counted(range(len(present) - 2, -1, -1), STEPS_BETWEEN_CHECKS):
         after = pieces[-1]
         pieces.append(
             {
-                state: tuple([code for s in states.successor(state) for code in after[s]])
+                state: array(kind, [code for s in states.successor(state) for code in after[s]])
                 for state in present[step]
                 if sizes[step][state] <= PIECE
             }
@@ -229,7 +247,7 @@ def check_size(states: States, step: int, size: int, word: int | None = None, he
         How many bytes the words of other steps take, and what else is kept of them.
     """
     check_limit("modules", size, lambda: f"Step {step} would have {grouped(size)} modules")
-    needed = (size * code_type(len(states)).itemsize if word is None else word) + len(states) * STATE_BYTES + held
+    needed = (size * array(code_type(len(states))).itemsize if word is None else word) + len(states) * STATE_BYTES + held
     check_limit("bytes", needed, lambda: f"Step {step} would take {grouped(needed)} bytes")
 
 

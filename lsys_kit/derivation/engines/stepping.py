@@ -11,14 +11,12 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 from functools import lru_cache, partial
 
-import numpy as np
-
 from lsys_kit.budget import INTERVAL, check_budget
 from lsys_kit.derivation.core.rules import ModuleKind, Rule, Values, kind_of, rule_for
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word, state_counts
 from lsys_kit.derivation.engines.contexts import ContextEngine
-from lsys_kit.derivation.engines.engine import Observation, Observer, Origins, check_size, check_step, code_type, compact
+from lsys_kit.derivation.engines.engine import Observation, Observer, Origins, check_size, check_step, compact, repeated
 from lsys_kit.derivation.engines.stepwise import SensingFunction, Stepper
 from lsys_kit.notation.model.system import LSystem, Production
 
@@ -120,20 +118,10 @@ class SteppingEngine:
 
     def _by_arrays(self, arrays: ContextEngine, before: Word, step: int) -> tuple[Word, Callable[[], Origins]]:
         """The next word and its origins, all modules at once."""
-        codes = np.asarray(before.codes, dtype=code_type(len(self.states)))
-        chosen = arrays.chosen(codes, step - 1)
+        chosen = arrays.chosen(before.codes, step - 1)
         check_size(self.states, step, arrays.outcomes.size(chosen), held=self._held)
         word = Word(self.states, arrays.outcomes.replaced(chosen))
-
-        def origins() -> Origins:
-            sizes = arrays.outcomes.sizes()[chosen]
-            productions = [replacement.production for replacement in arrays.outcomes.replacements]
-            return Origins(
-                np.repeat(np.arange(len(chosen)), sizes).tolist(),
-                [productions[outcome] for outcome in np.repeat(chosen, sizes).tolist()],
-            )
-
-        return word, origins
+        return word, lambda: arrays.outcomes.origins(chosen)
 
     def _one_by_one(self, codes: Sequence[int], step: int, sees: SensingFunction | None) -> tuple[Word, Callable[[], Origins]]:
         """The next word and its origins, module by module."""
@@ -149,8 +137,8 @@ class SteppingEngine:
 
         def origins() -> Origins:
             return Origins(
-                np.repeat(np.arange(len(sizes)), sizes).tolist(),
-                [made for made, size in zip(productions, sizes, strict=True) for _ in range(size)],
+                repeated(range(len(sizes)), sizes),
+                repeated(productions, sizes),
                 replaced if self.states.traits.predecessor > 1 else (),
             )
 
@@ -166,7 +154,7 @@ class SteppingEngine:
 
         return self._word(short), after
 
-    def _word(self, codes: Sequence[int]) -> Word:
+    def _word(self, codes: list[int]) -> Word:
         return Word(self.states, compact(codes, len(self.states)))
 
     def word(self, step: int) -> Word:

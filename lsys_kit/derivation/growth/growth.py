@@ -20,8 +20,7 @@ from functools import cached_property, partial, reduce
 from itertools import count, islice, zip_longest
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import Task, check_budget, check_bytes, counted, current
 from lsys_kit.derivation.core.chance import splitmix64
 from lsys_kit.derivation.core.states import States, check_d0l, closure

@@ -16,16 +16,17 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import pairwise
 from math import log2, sqrt
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
-import numpy as np
-from numpy.typing import NDArray
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import check_budget
 from lsys_kit.derivation.inference.problem import Conditions, Row, text_of, well_nested
 from lsys_kit.errors import ModelLimitError
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.translation import gettext
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 LONGEST = 24
 """Successors have up to so many modules."""
@@ -43,7 +44,7 @@ MOST_ROUNDS, SURE = 60, 1e-7
 """So many rounds are made, or until the probabilities change no more than that."""
 NEGLIGIBLE = 1e-6
 """Successors that are expected less often are none."""
-Numbers: TypeAlias = NDArray[np.float64]
+Numbers: TypeAlias = "NDArray[np.float64]"
 
 
 @dataclass(frozen=True)

@@ -21,12 +21,13 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import tee
 from math import inf
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
-import numpy as np
-from numpy.typing import NDArray
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import check_budget, counted
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 Item: TypeAlias = int | str
 """A part of the left side: an unknown letter, or a known word."""
@@ -110,7 +111,7 @@ def linked(equations: Iterable[Equation]) -> list[list[Equation]]:
     return [group for letters, group in sorted(groups, key=lambda found: len(found[0]))]
 
 
-Counts: TypeAlias = NDArray[np.int64]
+Counts: TypeAlias = "NDArray[np.int64]"
 """A row for each letter: how often its successor has each kind of letter, and in the last column its length."""
 
 

@@ -10,16 +10,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import pairwise, product
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
-import numpy as np
-from numpy.typing import NDArray
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import check_budget
 from lsys_kit.geometry.inference.strokes import Strokes, Turning
 from lsys_kit.geometry.inference.traversals import START, Traversal, branching, in_one_go, word_of
 
-Numbers: TypeAlias = NDArray[np.complex128]
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+Numbers: TypeAlias = "NDArray[np.complex128]"
 Drawn: TypeAlias = tuple[Numbers, Numbers, Numbers, Numbers]
 """Shape (k, n) each, of k candidates: the middle and the direction of each stroke; shape (k,): where the turtle ends, and its
 heading then, where it begins at 0 with the heading 1."""

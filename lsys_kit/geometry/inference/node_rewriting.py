@@ -12,9 +12,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-from scipy.spatial import cKDTree
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import check_budget
 from lsys_kit.geometry.inference.strokes import NEAR, Points, Strokes, Turning
 from lsys_kit.geometry.inference.traversals import START, Apex, Traversal, branching, word_with
@@ -35,6 +33,8 @@ class _Drawing:
     """A drawing in which strokes are looked up."""
 
     def __init__(self, strokes: Strokes) -> None:
+        from scipy.spatial import cKDTree
+
         self.ends = strokes.ends
         self.tree = cKDTree(_features(strokes.ends))
         self.strokes = Counter(int(place) for place in self.places(strokes.ends) or ())

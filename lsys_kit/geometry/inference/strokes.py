@@ -10,17 +10,18 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations
 from math import degrees
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
-import numpy as np
-from numpy.typing import NDArray
-from scipy.spatial import cKDTree
-
+from lsys_kit.arrays import is_array, np
 from lsys_kit.budget import check_budget, counted
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.geometry.scene import Floats, Scene
 
-Points: TypeAlias = NDArray[np.complex128]
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+    from scipy.spatial import cKDTree
+
+Points: TypeAlias = "NDArray[np.complex128]"
 MOST_STROKES = 20_000
 """So many strokes may all drawings have together."""
 NEAR = 0.01
@@ -85,6 +86,8 @@ class Strokes:
 
 
 def _tree(points: Points) -> cKDTree:
+    from scipy.spatial import cKDTree
+
     return cKDTree(np.column_stack([points.real, points.imag]))
 
 
@@ -96,9 +99,9 @@ def is_drawing(given: object) -> bool:
     """
     if isinstance(getattr(given, "scene", given), Scene):
         return True
-    if isinstance(given, np.ndarray):
+    if is_array(given):
         return given.ndim == 2
-    return isinstance(given, list | tuple) and bool(given) and isinstance(given[0], list | tuple | np.ndarray)
+    return isinstance(given, list | tuple) and bool(given) and (isinstance(given[0], list | tuple) or is_array(given[0]))
 
 
 def read_drawings(given: Iterable[object]) -> tuple[Strokes, ...]:

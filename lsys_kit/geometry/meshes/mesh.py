@@ -12,16 +12,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
-import numpy as np
-from numpy.typing import NDArray
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import check_bytes, check_limit, counted
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.geometry.meshes.solids import FEWEST_SIDES, SIDES, THIN_SIDES, Numbers, Singles, Solid, ball, disc
 from lsys_kit.geometry.meshes.tubes import Rings, as_broad, blocks, by_width, connected, rings, triangles
 from lsys_kit.geometry.scene import OWN, SPHERE, Floats, Integers, Polygons, Scene, Segments
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 LARGEST_COORDINATE = 1e37
 """Greater coordinates cannot be computed in single precision."""

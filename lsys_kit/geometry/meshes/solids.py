@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cache
-from typing import NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-import numpy as np
-from numpy.typing import NDArray
-
+from lsys_kit.arrays import np
 from lsys_kit.geometry.scene import Floats
 
-Singles: TypeAlias = NDArray[np.float32]
-Numbers: TypeAlias = NDArray[np.uint32]
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+Singles: TypeAlias = "NDArray[np.float32]"
+Numbers: TypeAlias = "NDArray[np.uint32]"
 
 SIDES, THIN_SIDES, FEWEST_SIDES, ROUND = 8, 5, 3, 24
 """The number of sides of a stroke, of a thin one and of one that is hardly seen, and of corners of a disc."""

@@ -9,21 +9,23 @@ Curve Framing", Indiana University, Technical Report 425, 1995.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
-from typing import NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-import numpy as np
-from numpy.typing import NDArray
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import counted
 from lsys_kit.geometry.meshes.solids import FEWEST_SIDES, Numbers, Singles, circle, prism_triangles
 from lsys_kit.geometry.scene import Floats, Integers
 
-Flags: TypeAlias = NDArray[np.bool_]
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
-SHARPEST = np.cos(np.radians(150))
+Flags: TypeAlias = "NDArray[np.bool_]"
+
+SHARPEST = math.cos(math.radians(150))
 """The cosine of the greatest angle by which a tube bends; where it would bend more, another begins."""
-STRETCHED = np.cos(np.radians(90))
+STRETCHED = math.cos(math.radians(90))
 """The cosine of the greatest angle at which a ring is stretched, so that the tube keeps its width in the bend."""
 STRAIGHT = 1e-9
 """Strokes whose directions differ by no more than this are on a line."""

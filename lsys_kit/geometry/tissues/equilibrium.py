@@ -8,8 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-import numpy as np
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import counted
 from lsys_kit.geometry.scene import Floats
 from lsys_kit.geometry.tissues.relaxation import (

@@ -12,8 +12,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, S
 from itertools import islice
 from typing import TypeAlias, TypeVar
 
-import numpy as np
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import Task, counted
 from lsys_kit.derivation.tissues.cellworks import Cellwork
 from lsys_kit.derivation.tissues.development import CellworkDevelopment, Development

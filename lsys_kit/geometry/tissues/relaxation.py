@@ -14,8 +14,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-import numpy as np
-
+from lsys_kit.arrays import np
 from lsys_kit.errors import ModelValueError
 from lsys_kit.geometry.scene import Floats, Integers
 

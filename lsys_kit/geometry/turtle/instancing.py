@@ -12,11 +12,9 @@ from __future__ import annotations
 from collections.abc import Generator, Sequence
 from dataclasses import dataclass
 from operator import attrgetter
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
-import numpy as np
-from numpy.typing import NDArray
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import check_budget
 from lsys_kit.derivation.core.interpretation import interpretations
 from lsys_kit.derivation.core.states import States
@@ -35,9 +33,12 @@ from lsys_kit.geometry.turtle.commands import (
 )
 from lsys_kit.geometry.turtle.space import SPACE_HANDLERS, SpaceTurtle, initial_frame, operand
 
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
 Key: TypeAlias = tuple[int, int, tuple[Any, ...]]
 """What a prototype depends on: the state, the number of steps that remain, and what the turtle carries."""
-AttributeColumns: TypeAlias = tuple[NDArray[Any], ...]
+AttributeColumns: TypeAlias = "tuple[NDArray[Any], ...]"
 _CARRIED_ATTRIBUTES = ("length", "width", "colour", "gravitropism", "restored", "mirror", "scale")
 _carried_by = attrgetter(*_CARRIED_ATTRIBUTES)
 LEAST_REPETITION = 30

@@ -10,11 +10,9 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import numpy as np
-from numpy.typing import NDArray
-
+from lsys_kit.arrays import np
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.geometry.scene import Floats, Integers, Scene, Segments
 from lsys_kit.geometry.turtle.commands import Instruction, initial_step
@@ -30,6 +28,9 @@ from lsys_kit.geometry.turtle.turtle import (
 )
 from lsys_kit.geometry.turtle.unfolding import WordBetween
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 
 @dataclass(frozen=True)
@@ -132,15 +133,15 @@ class PlaneTurtle(Turtle):
 LARGEST_EXACT = 2.0**40
 """Greater angles are reduced to less than a full turn, so that their multiples are no less exact."""
 _COLUMN_TYPES = {
-    "turns": np.float64,
-    "offsets": np.float64,
-    "lengths": np.float64,
-    "parents": np.int64,
-    "drawn": np.bool_,
-    "orders": np.int64,
-    "states": np.int64,
-    "widths": np.float64,
-    "colours": np.int64,
+    "turns": "f8",
+    "offsets": "f8",
+    "lengths": "f8",
+    "parents": "i8",
+    "drawn": "?",
+    "orders": "i8",
+    "states": "i8",
+    "widths": "f8",
+    "colours": "i8",
 }
 PLANE_HANDLERS = handlers_of(PlaneTurtle)
 """What carries out the actions that stay in the plane."""

@@ -20,8 +20,7 @@ import math
 from array import array
 from typing import Any, NamedTuple, TypeAlias
 
-import numpy as np
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import check_budget, check_bytes
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.geometry.scene import OWN, Floats, Scene, Segments
@@ -182,11 +181,11 @@ class SpaceTurtle(Turtle):
         return *rotated_towards(head, left, *cos_sin(degrees)), up, rotations
 
     def draw_surface(self, surface: Surface, size: float) -> None:
-        if self.in_plane or self.flat or not surface.normals:
+        if self.in_plane or self.flat or not surface.facets.normals:
             super().draw_surface(surface, size)
             return
         check_budget()
-        for face, normals in zip(surface.faces, surface.normals, strict=True) if size else ():
+        for face, normals in zip(surface.facets.faces, surface.facets.normals, strict=True) if size else ():
             self.outlines.append(
                 Outline(
                     self.local_points(face, size),

@@ -10,13 +10,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
-from functools import cache, lru_cache
+from dataclasses import dataclass, field
+from functools import cache, cached_property, lru_cache, partial
 from itertools import pairwise
 from typing import Any, NamedTuple, TypeAlias
 
-import numpy as np
-
+from lsys_kit.arrays import np
 from lsys_kit.errors import quotable
 from lsys_kit.files import toml_tables
 from lsys_kit.geometry.scene import Floats
@@ -231,25 +230,24 @@ PATCH_FACES = 5
 
 @dataclass(frozen=True)
 class Surface:
-    """A surface composed of faces.
+    """A surface composed of faces, which are computed when they are first asked for.
 
     name
         Its name.
     symbols
         The symbols that stand for it after a tilde.
-    faces
-        The corners of each face, in order.
-    normals
-        The unit normal at each corner; none for a flat surface.
-    outlines
-        What is drawn of it in the plane of a picture.
+    computed
+        Computes its faces.
     """
 
     name: str
     symbols: tuple[str, ...]
-    faces: tuple[Face, ...]
-    normals: tuple[Face, ...]
-    outlines: tuple[Face, ...]
+    computed: Callable[[], Facets] = field(repr=False)
+
+    @cached_property
+    def facets(self) -> Facets:
+        """Its faces, normals and outlines."""
+        return self.computed()
 
 
 @cache
@@ -258,11 +256,11 @@ def surfaces() -> Mapping[str, Surface]:
 
     >>> list(surfaces())
     ['leaf', 'needle', 'petal', 'sepal', 'bud', 'flower', 'rosette', 'fruit']
-    >>> len(surfaces()["bud"].faces)
+    >>> len(surfaces()["bud"].facets.faces)
     48
     """
     tables = toml_tables(__package__, "surfaces.toml")
-    return {name: Surface(name, tuple(table["symbols"]), *_facets(table)) for name, table in tables.items()}
+    return {name: Surface(name, tuple(table["symbols"]), partial(_facets, table)) for name, table in tables.items()}
 
 
 def _facets(table: Mapping[str, Any]) -> Facets:
@@ -297,15 +295,18 @@ def _blade(table: Mapping[str, Any]) -> Facets:
 def declared_surface(shape: SurfaceShape) -> Surface:
     """A surface that a model declares.
 
-    >>> [len(faces) for faces in declared_surface(SurfaceShape("scale", ((0, 0, 0), (1, 0, 0), (1, 1, 0)))).faces]
+    >>> scale = declared_surface(SurfaceShape("scale", ((0, 0, 0), (1, 0, 0), (1, 1, 0))))
+    >>> [len(face) for face in scale.facets.faces]
     [3]
     """
+    return Surface(shape.name, (shape.name,), partial(_declared_facets, shape))
+
+
+def _declared_facets(shape: SurfaceShape) -> Facets:
     if shape.polygon:
-        facets = polygon_facets([_floats(corner) for corner in shape.polygon])
-    else:
-        controls = (np.array([_floats(point) for point in patch]).reshape(ROW, ROW, 3) for patch in shape.patches)
-        facets = joined_facets([patch_facets(control, PATCH_FACES, PATCH_FACES) for control in controls])
-    return Surface(shape.name, (shape.name,), *facets)
+        return polygon_facets([_floats(corner) for corner in shape.polygon])
+    controls = (np.array([_floats(point) for point in patch]).reshape(ROW, ROW, 3) for patch in shape.patches)
+    return joined_facets([patch_facets(control, PATCH_FACES, PATCH_FACES) for control in controls])
 
 
 def _floats(point: Sequence[Any]) -> tuple[float, float, float]:
@@ -319,7 +320,7 @@ def surfaces_by_symbol(system: LSystem) -> Mapping[str, Surface]:
 
     >>> from lsys_kit import read
     >>> found = surfaces_by_symbol(read("surface L: (0, 0) (1, 0) (1, 1)\\naxiom: ~L"))
-    >>> found["L"].name, found["leaf"].name, len(found["L"].faces)
+    >>> found["L"].name, found["leaf"].name, len(found["L"].facets.faces)
     ('L', 'leaf', 1)
     """
     kits = {symbol: surface for surface in surfaces().values() for symbol in surface.symbols}

@@ -14,8 +14,7 @@ from itertools import product
 from operator import attrgetter
 from typing import Any, NamedTuple, TypeAlias
 
-import numpy as np
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import check_budget, counted, current
 from lsys_kit.derivation.core.interpretation import interpretations, modules_between_checks
 from lsys_kit.derivation.core.words import Word
@@ -341,7 +340,7 @@ class Turtle(ABC):
     def draw_surface(self, surface: Surface, size: float) -> None:
         """Draw a surface at the position of the turtle: in the plane its outlines."""
         if size:
-            self.draw_faces(surface.outlines, size)
+            self.draw_faces(surface.facets.outlines, size)
 
     def draw_box(self, length: float, width: float) -> None:
         """Draw a box ahead: in the plane a rectangle."""

@@ -15,8 +15,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TypeAlias
 
-import numpy as np
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import counted
 from lsys_kit.derivation.core.interpretation import interpretations
 from lsys_kit.derivation.core.states import States

@@ -6,8 +6,7 @@ import io
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
+from lsys_kit.arrays import np
 from lsys_kit.geometry.scene import Floats, Scene
 from lsys_kit.pictures.formats.painter import Ink, Lettering, Painter, subpaths
 from lsys_kit.pictures.formats.painting import gradient_at

@@ -13,15 +13,14 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
-import numpy as np
-from numpy.typing import NDArray
-
+from lsys_kit.arrays import np
 from lsys_kit.errors import printable
 
 if TYPE_CHECKING:
     from fontTools.ttLib import TTFont
+    from numpy.typing import NDArray
 
-Mask: TypeAlias = NDArray[np.bool_]
+Mask: TypeAlias = "NDArray[np.bool_]"
 FONTS = "mpl-data/fonts/ttf"
 """Where matplotlib keeps its fonts."""
 FAMILIES = {"sans-serif": "DejaVuSans", "serif": "DejaVuSerif", "monospace": "DejaVuSansMono"}

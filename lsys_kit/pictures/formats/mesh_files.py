@@ -14,8 +14,7 @@ import struct
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
-import numpy as np
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import check_budget, check_bytes, counted
 from lsys_kit.geometry.meshes.mesh import Mesh
 from lsys_kit.geometry.meshes.solids import Numbers, Singles

@@ -11,8 +11,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple, TypeAlias
 
-import numpy as np
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import counted
 from lsys_kit.geometry.scene import Floats
 from lsys_kit.pictures.formats.lettering import Font, advance

@@ -12,8 +12,7 @@ from dataclasses import replace
 from itertools import chain
 from typing import TYPE_CHECKING, Any, Self, TypeAlias
 
-import numpy as np
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import check_bytes
 from lsys_kit.geometry.scene import Floats
 from lsys_kit.pictures.formats.lettering import advance, glyph

@@ -12,9 +12,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-import numpy as np
-from numpy.typing import NDArray
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import check_budget, check_bytes, counted, current
 from lsys_kit.geometry.scene import Floats, Scene
 from lsys_kit.pictures.rendering.display_list import (
@@ -36,11 +34,12 @@ from lsys_kit.pictures.style.lighting import HIGHLIGHT, REACH, sphere_tones
 from lsys_kit.pictures.style.themes import theme
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
     from PIL.Image import Image
     from PIL.ImageDraw import ImageDraw
 
-Coordinates: TypeAlias = NDArray[np.floating[Any]]
-Grid: TypeAlias = NDArray[np.int32]
+Coordinates: TypeAlias = "NDArray[np.floating[Any]]"
+Grid: TypeAlias = "NDArray[np.int32]"
 STROKES_AT_A_TIME, POINTS_AT_A_TIME = 2**16, 2**18
 """Strokes are rasterised in blocks of at most so many strokes and points, which stay in the cache of the processor between two
 operations; a longer stroke is a block of its own."""
@@ -110,7 +109,7 @@ def spread(found: NDArray[Any], radius: float) -> NDArray[Any]:
 
 # --- scenes ---
 
-Colours: TypeAlias = NDArray[np.uint8]
+Colours: TypeAlias = "NDArray[np.uint8]"
 ShapePainter: TypeAlias = Callable[[int, int], None]
 FINE = 3
 """The supersampling factor: a picture is drawn at this multiple of its size and then reduced."""

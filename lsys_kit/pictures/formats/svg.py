@@ -9,8 +9,7 @@ from __future__ import annotations
 import base64
 from collections.abc import Mapping
 
-import numpy as np
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import counted
 from lsys_kit.pictures.shapes import (
     Circle,

@@ -20,8 +20,7 @@ from math import dist
 from random import Random
 from typing import NamedTuple, TypeAlias
 
-import numpy as np
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import check_budget
 from lsys_kit.derivation.petri.net import Stages
 from lsys_kit.pictures.nets.layout import ARROW_LENGTH, BAR, EDGE, LABEL, RADIUS, BarPosition, Layout, Point, Texts

@@ -7,20 +7,22 @@ painted from the list, and so is the canvas in the browser, whose scripts make t
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-import numpy as np
-from numpy.typing import NDArray
-
+from lsys_kit.arrays import np
 from lsys_kit.geometry.scene import CIRCLE, SPHERE, Floats, Integers, Scene, Segments
 from lsys_kit.pictures.rendering.looks import BOLDEST, BROADEST, STURDY, numbered_colours, stroke_scale, stroke_widths, thinnest
 from lsys_kit.pictures.rendering.view import MOST_CYLINDERS, ProjectedScene, far_to_near
 from lsys_kit.pictures.style.lighting import BRIGHT, DIM, EDGE, LIGHT, OWN, brightness, paper_number, shade_numbers, shades
 from lsys_kit.pictures.style.palette import tinted
 from lsys_kit.pictures.style.themes import line, theme
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 NO_COLOUR = -1
 """Stands for the colour inside a shape or of its edge where there is none."""
@@ -148,7 +150,7 @@ TONED = 16
 """From this width on, in tenths of a pixel, stripes can be seen."""
 TAPERED = 0.06
 """From this difference of the widths at both ends on, relative to their mean, a stroke is seen to be tapered."""
-LIT, DARK, RIM = np.radians([32.0, 68.0, 84.0])
+LIT, DARK, RIM = map(math.radians, (32, 68, 84))
 """Angles of the normal: how far the light stripe reaches from the brightest line to both sides, how far from it the dark one
 begins, and where the light one ends at the latest, before the rim."""
 PIECES = 6

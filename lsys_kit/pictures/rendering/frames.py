@@ -18,8 +18,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
-import numpy as np
-
+from lsys_kit.arrays import np
 from lsys_kit.geometry.drawing import has_pipe_widths
 from lsys_kit.geometry.scene import OWN, Floats, Integers, Labels, Scene, Segments
 from lsys_kit.notation.model.system import LSystem

@@ -15,11 +15,9 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
-from typing import Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
-import numpy as np
-from numpy.typing import NDArray
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import check_budget, check_bytes, current
 from lsys_kit.derivation.core.chance import units
 from lsys_kit.derivation.core.rules import real_from
@@ -47,9 +45,12 @@ from lsys_kit.pictures.rendering.view import (
 )
 from lsys_kit.pictures.style.themes import COLOURS, theme
 
-Flags: TypeAlias = NDArray[np.bool_]
-Keys: TypeAlias = NDArray[np.uint64]
-Reals: TypeAlias = NDArray[np.floating[Any]]
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+Flags: TypeAlias = "NDArray[np.bool_]"
+Keys: TypeAlias = "NDArray[np.uint64]"
+Reals: TypeAlias = "NDArray[np.floating[Any]]"
 """In single precision where there may be many."""
 
 # --- the nearest triangle at each sample ---
@@ -780,15 +781,15 @@ def _hidden(depth: Singles, across: int, down: int, one: np.float32) -> Singles:
 
 SAMPLE_BYTES, SURFACE_BYTES = 40, 120
 """About what a sample takes in memory, and a triangle with its vertices."""
-SUNLIGHT, SKYLIGHT = np.array([1.3, 1.2, 1.03], np.float32), np.array([0.5, 0.56, 0.62], np.float32)
+SUNLIGHT, SKYLIGHT = (1.3, 1.2, 1.03), (0.5, 0.56, 0.62)
 BOUNCED, SHADOW = 0.22, 0.5
 """The part of the light that the ground gives back to what looks downwards; how dark a shadow on it is at most."""
-POOL, TINT = 0.2, np.array([1.0, 0.97, 0.9], np.float32)
+POOL, TINT = 0.2, (1.0, 0.97, 0.9)
 """How much lighter dark paper is where the sun falls on it; and the parts of red, green and blue that a shadow takes."""
 EDGE, BROAD_EDGE = 0.02, 0.3
 """How broad the edge of the picture is in which shadows fade, and the light on dark paper, as parts of its longer side."""
-THROUGH = np.array([1.0, 1.0, 0.45], np.float32) * np.float32(0.8)
-"""The parts of red, green and blue light that go through a leaf, compared with those that come back from it."""
+THROUGH, LEAF = 0.8, (1.0, 1.0, 0.45)
+"""How much light goes through a leaf, compared with what comes back from it, and its parts of red, green and blue."""
 GLOSS, GLOSSY = 0.05, 12
 """How bright a reflection of the sun is, and how narrow."""
 
@@ -916,7 +917,7 @@ def _ground_light(scene: LitScene, sheet: Sheet, ground: Ground, band: slice, pa
     dark = 1 - (1 - np.float32(SHADOW) * shade * fading) * (1 - np.float32(SHADOW) * dim * fading)
     if theme().dark:
         paper = paper + (1 - paper) * np.float32(POOL) * (fading * (1 - far**2) * _inside(sheet, band, BROAD_EDGE))[..., None]
-    found: Singles = paper * (1 - dark[..., None] * TINT)
+    found: Singles = paper * (1 - dark[..., None] * np.array(TINT, np.float32))
     return found
 
 
@@ -1016,8 +1017,10 @@ def _light(
     gloss = np.clip((normals * half).sum(axis=0), 0, 1) ** GLOSSY * front * np.float32(GLOSS)
     upwards = np.float32(0.5) + np.float32(0.5) * normals[2]
     sky = (upwards + (1 - upwards) * np.float32(BOUNCED)) * open_sky
-    light = front[:, None] * SUNLIGHT + through[:, None] * (SUNLIGHT * THROUGH) + sky[:, None] * SKYLIGHT
-    shine: Reals = gloss[:, None] * SUNLIGHT
+    sunlight, skylight, leaf = (np.array(colour, np.float32) for colour in (SUNLIGHT, SKYLIGHT, LEAF))
+    green = sunlight * (leaf * np.float32(THROUGH))
+    light = front[:, None] * sunlight + through[:, None] * green + sky[:, None] * skylight
+    shine: Reals = gloss[:, None] * sunlight
     return light, shine
 
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
-import numpy as np
-
+from lsys_kit.arrays import np
 from lsys_kit.geometry.scene import OWN, Discs, Integers, Polygons, Scene, Segments
 from lsys_kit.geometry.turtle.space import initial_frame
 from lsys_kit.notation.model.system import LSystem

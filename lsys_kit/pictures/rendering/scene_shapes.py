@@ -8,8 +8,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from itertools import groupby
 
-import numpy as np
-
+from lsys_kit.arrays import np
 from lsys_kit.geometry.scene import Integers, Scene
 from lsys_kit.pictures.rendering.display_list import NO_COLOUR, AreaRun, DisplayList, LineRun, Lines, display_list
 from lsys_kit.pictures.rendering.frames import LABEL, LABEL_GAP, ViewFrame, label_width
@@ -88,7 +87,7 @@ def _rounds(shapes: DisplayList, frame: ViewFrame) -> tuple[list[Gradients], lis
 
 def _gradient(colour: str) -> Gradient:
     """The gradient of spheres of a colour; what has the same name in one page is the same."""
-    x, y = 0.5 + float(HIGHLIGHT[0]) / 2, 0.5 - float(HIGHLIGHT[1]) / 2
+    x, y = 0.5 + HIGHLIGHT[0] / 2, 0.5 - HIGHLIGHT[1] / 2
     stops = tuple(Stop(share, tone) for share, tone in sphere_tones(colour))
     return Gradient(f"lsys-sphere-{colour[1:]}", round(x, 2), round(y, 2), round(REACH / 2, 2), stops)
 

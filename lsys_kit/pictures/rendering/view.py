@@ -8,16 +8,17 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
-import numpy as np
-from numpy.typing import NDArray
-
+from lsys_kit.arrays import np
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.errors import ModelValueError, shown
 from lsys_kit.geometry.meshes.mesh import normals_of, start_widths
 from lsys_kit.geometry.scene import OWN, Floats, Integers, Labels, Polygons, Scene, Segments, no_labels
 from lsys_kit.geometry.smoothing import smoothed
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 
 def are_edges(segments: Segments, polygons: Polygons) -> NDArray[np.bool_]:

@@ -5,15 +5,15 @@ The light comes from the left, from above and from behind the viewer. Far things
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
-import numpy as np
-
+from lsys_kit.arrays import np
 from lsys_kit.geometry.scene import Floats, Integers
 from lsys_kit.pictures.style.colour_values import BLACK, WHITE, mixed
 from lsys_kit.pictures.style.themes import theme
 
-LIGHT = np.array([-0.5, 0.65, 0.57]) / np.linalg.norm([-0.5, 0.65, 0.57])
+LIGHT = tuple(part / math.hypot(-0.5, 0.65, 0.57) for part in (-0.5, 0.65, 0.57))
 """The direction to the light: right, up, towards the viewer."""
 AMBIENT = 0.3
 """The part of the light that comes from all around."""
@@ -26,7 +26,7 @@ LIGHTEST, DARKEST = 0.55, 0.5
 """The part of white in the lightest shade of a colour, and of black in the darkest."""
 HAZE = 0.5
 """The part of paper in what is farthest."""
-HIGHLIGHT = 0.6 * LIGHT[:2]
+HIGHLIGHT = 0.6 * LIGHT[0], 0.6 * LIGHT[1]
 """Where a sphere of radius 1 is brightest, seen from the middle of its disc."""
 REACH = 1.6
 """How far from there on a sphere of radius 1 it is darkest."""
@@ -38,7 +38,7 @@ _SHADES = (STEPS + 1) ** 2
 def brightness(normals: Floats) -> Integers:
     """How bright surfaces are, in steps, given their unit normals: to the right, up, towards the viewer.
 
-    >>> brightness(np.array([LIGHT, -LIGHT])).tolist()
+    >>> brightness(np.outer([1, -1], LIGHT)).tolist()
     [16, 5]
     """
     lit = AMBIENT + (1 - AMBIENT) * np.clip(normals @ LIGHT, 0, 1)

@@ -9,8 +9,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-import numpy as np
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import current
 from lsys_kit.derivation.tissues.cellworks import Cellwork
 from lsys_kit.derivation.tissues.development import CellworkDevelopment

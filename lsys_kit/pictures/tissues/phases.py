@@ -10,8 +10,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-import numpy as np
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import Task
 from lsys_kit.derivation.tissues.development import Development
 from lsys_kit.derivation.tissues.maps import Map, Stub, replaced_map

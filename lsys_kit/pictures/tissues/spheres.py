@@ -11,8 +11,7 @@ from dataclasses import dataclass
 from itertools import chain
 from typing import TYPE_CHECKING
 
-import numpy as np
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import Task, counted
 from lsys_kit.derivation.tissues.development import Development
 from lsys_kit.derivation.tissues.maps import Map, kinds_of_cells

@@ -7,8 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
-import numpy as np
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import check_budget
 from lsys_kit.classroom.exercises.asked import asked_system, written
 from lsys_kit.classroom.exercises.exercise import Exercise

@@ -15,13 +15,13 @@ from __future__ import annotations
 import base64
 import json
 import math
+import sys
+from array import array
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
-from itertools import pairwise
+from itertools import accumulate, pairwise
 from typing import Any
-
-import numpy as np
 
 from lsys_kit.budget import Task, counted, current, limits
 from lsys_kit.classroom.panel.books.net import Unfolding, net_entry, net_of
@@ -32,6 +32,7 @@ from lsys_kit.derivation.core.letters import conditions_text, decisions_of, numb
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.traits import traits_of
 from lsys_kit.derivation.derive import Derivation
+from lsys_kit.derivation.engines.engine import code_type
 from lsys_kit.derivation.growth.growth import greatest_root, growth
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.derivation.timed.ages import age_model
@@ -305,30 +306,40 @@ def _table(states: States, numbers: Mapping[int, int]) -> Data:
 def _history(derivation: Derivation, pages: _Pages) -> Data:
     """The words of all steps; for each module but those of the last step how many modules it becomes and by which production,
     and where productions replace several modules together, how many."""
-    lookup = np.zeros(max(pages.numbers, default=0) + 1, np.int64)
-    lookup[[*pages.numbers]] = [*pages.numbers.values()]
-    words = [lookup[np.asarray(derivation[step].codes, np.int64)] for step in range(pages.last + 1)]
+    words = [[*map(pages.numbers.__getitem__, derivation[step].numbers())] for step in range(pages.last + 1)]
     found: dict[str, list[dict[str, str]]] = {"words": [*map(packed, words)], "daughters": [], "made": [], "together": []}
     for step, word in enumerate(words[:-1]):
         origins = derivation.origins(step + 1)
-        made = np.full(len(word), -1)
-        made[origins.parents] = [-1 if number is None else number for number in origins.productions]
-        found["daughters"].append(packed(np.bincount(np.asarray(origins.parents, np.int64), minlength=len(word))))
-        found["made"].append(packed(made))
+        daughters = [0] * len(word)
+        for parent in origins.parents:  # in ascending order
+            daughters[parent] += 1
+        made = [
+            origins.productions[end - 1] if many else None for end, many in zip(accumulate(daughters), daughters, strict=True)
+        ]
+        found["daughters"].append(packed(daughters))
+        found["made"].append(packed([-1 if production is None else production for production in made]))
         if origins.sizes:
-            found["together"].append(packed(np.asarray(origins.sizes)))
+            found["together"].append(packed(origins.sizes))
     return dict(found)
 
 
-def packed(numbers: np.ndarray[Any, Any]) -> dict[str, str]:
+def packed(given: Iterable[int]) -> dict[str, str]:
     """Whole numbers as text: the letters of their type, and their bytes in base 64, the lowest first.
 
-    >>> packed(np.array([1, 2, 300]))
-    {'type': 'u2', 'data': 'AQACACwB'}
+    >>> packed([1, 2, 300]), packed([-1, 2])["type"]
+    ({'type': 'u2', 'data': 'AQACACwB'}, 'i2')
     """
-    least, most = int(numbers.min(initial=0)), int(numbers.max(initial=0))
-    kind = np.promote_types(np.min_scalar_type(least), np.min_scalar_type(most)).newbyteorder("<")
-    return {"type": f"{kind.kind}{kind.itemsize}", "data": base64.b64encode(numbers.astype(kind).tobytes()).decode()}
+    numbers = [*given]
+    distinct = {*numbers, 0}
+    least, most = min(distinct), max(distinct)
+    code = code_type(most + 1)
+    if least < 0:  # twice as many bytes as without a sign
+        code = max("hiq"["BHI".index(code)], code_type(-2 * least).lower(), key="bhiq".index)
+    found = array(code, bytes(numbers) if code == "B" else numbers)
+    kind = f"{'i' if least < 0 else 'u'}{found.itemsize}"
+    if sys.byteorder == "big":
+        found.byteswap()
+    return {"type": kind, "data": base64.b64encode(found).decode()}
 
 
 BY_ANGLE = frozenset(("turn", "turn by mirrored angle", "turn back", "pitch", "roll"))
@@ -428,10 +439,10 @@ def unit_of_widths(system: LSystem) -> str:
 
 def faces_in(surface: Surface, mode: DrawingMode) -> dict[str, list[object]]:
     """The faces of a surface in a book, none where it is flat, and its outlines."""
-    curved = mode is DrawingMode.SPACE and bool(surface.normals)
+    curved = mode is DrawingMode.SPACE and bool(surface.facets.normals)
     return {
-        "faces": [[*map(list, face)] for face in surface.faces if curved],
-        "outlines": [[*map(list, face)] for face in surface.outlines],
+        "faces": [[*map(list, face)] for face in surface.facets.faces if curved],
+        "outlines": [[*map(list, face)] for face in surface.facets.outlines],
     }
 
 

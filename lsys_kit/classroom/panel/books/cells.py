@@ -19,8 +19,7 @@ from dataclasses import asdict
 from itertools import accumulate, pairwise
 from typing import TypeAlias
 
-import numpy as np
-
+from lsys_kit.arrays import np
 from lsys_kit.budget import Task
 from lsys_kit.classroom.panel.books.at_rest import CellsAtRest
 from lsys_kit.classroom.panel.books.book import packed
@@ -120,9 +119,9 @@ def _history(found: CellsAtRest, numbers: Mapping[Edge, int]) -> dict[str, objec
     words = [[wall.kind for wall in each.walls] for each in found.steps]
     made = [[rules.get(kind, -1) for kind in word] for word in words[:-1]]
     return {
-        "words": [_packed(numbers[kind] for kind in word) for word in words],
-        "made": [*map(_packed, made)],
-        "daughters": [_packed(1 if rule < 0 else many[rule] for rule in row) for row in made],
+        "words": [packed(numbers[kind] for kind in word) for word in words],
+        "made": [*map(packed, made)],
+        "daughters": [packed(1 if rule < 0 else many[rule] for rule in row) for row in made],
     }
 
 
@@ -136,11 +135,11 @@ def _map_pages(found: CellsAtRest) -> Iterator[dict[str, object]]:
             "points": _coordinates(reached.points, MAP_DIGITS),
             "iterations": reached.iterations,
             "settled": reached.settled,
-            "ends": packed(net.ends.ravel()),
-            "corners": packed(net.corners),
-            "starts": packed(net.starts),
+            "ends": packed(net.ends.ravel().tolist()),
+            "corners": packed(net.corners.tolist()),
+            "starts": packed(net.starts.tolist()),
             "new": [(*vertex.between, float(vertex.share)) for vertex in each.vertices[known:] if vertex.between],
-            "kinds": _packed(kinds),
+            "kinds": packed(kinds),
         }
         known = len(each.vertices)
 
@@ -192,9 +191,9 @@ def _cells(found: CellsAtRest, edges: list[list[object]], kinds: Sequence[str]) 
         ],
         "walls": [[label, colour] for label, colour in walls.items()],
         "around": [[[order[label], cycle] for label, cycle in written if label] for written, _ in states],
-        "words": [*map(_packed, words)],
-        "made": [_packed([-1] * len(word)) for word in words[:-1]],
-        "daughters": [packed(np.bincount(step.mothers)) for step in found.steps[1:]],
+        "words": [*map(packed, words)],
+        "made": [packed([-1] * len(word)) for word in words[:-1]],
+        "daughters": [packed(np.bincount(step.mothers).tolist()) for step in found.steps[1:]],
     }
 
 
@@ -243,7 +242,7 @@ def _pages(found: CellsAtRest, numbers: Mapping[Edge, int]) -> Iterator[dict[str
     order = {label: number for number, label in enumerate(_wall_labels(found))}
     for step, placed, kinds in zip(found.steps, found.reached, _looks(found), strict=True):
         page = _cellwork_page(step, placed, order) if isinstance(step, Cellwork) else _sphere_page(step, placed, kinds)
-        yield page | {"edges": _packed(numbers[edge.kind] for edge in step.edges)}
+        yield page | {"edges": packed(numbers[edge.kind] for edge in step.edges)}
 
 
 def _cellwork_page(found: Cellwork, points: Floats, order: Mapping[str, int]) -> dict[str, object]:
@@ -252,12 +251,12 @@ def _cellwork_page(found: Cellwork, points: Floats, order: Mapping[str, int]) ->
     net = solid_tissue(found)
     return {
         "points": _coordinates(points),
-        "ends": packed(net.ends.ravel()),
-        "corners": packed(net.corners),
-        "starts": packed(net.starts),
-        "borders": _packed(edge for wall in found.walls for edge, _ in wall.sides),
-        "labels": _packed(order[wall.label] for wall in found.walls),
-        "sides": _packed(part for side in found.cells_at() for part in side),
+        "ends": packed(net.ends.ravel().tolist()),
+        "corners": packed(net.corners.tolist()),
+        "starts": packed(net.starts.tolist()),
+        "borders": packed(edge for wall in found.walls for edge, _ in wall.sides),
+        "labels": packed(order[wall.label] for wall in found.walls),
+        "sides": packed(part for side in found.cells_at() for part in side),
     }
 
 
@@ -267,17 +266,13 @@ def _sphere_page(found: Map, placed: Placed, kinds: Sequence[int]) -> dict[str, 
     arcs = [*wall_arcs(found, *placed)]
     return {
         "points": _coordinates(np.concatenate(arcs)),
-        "arcs": _packed([0, *accumulate(map(len, arcs))]),
-        "sides": _packed(part for cell in found.cells for side in cell for part in side),
-        "starts": _packed([0, *accumulate(map(len, found.cells))]),
-        "kinds": _packed(kinds),
+        "arcs": packed([0, *accumulate(map(len, arcs))]),
+        "sides": packed(part for cell in found.cells for side in cell for part in side),
+        "starts": packed([0, *accumulate(map(len, found.cells))]),
+        "kinds": packed(kinds),
     }
 
 
 def _coordinates(points: Floats, digits: int = DIGITS) -> list[float]:
     found: list[float] = np.round(points, digits).ravel().tolist()
     return found
-
-
-def _packed(numbers: Iterable[int]) -> object:
-    return packed(np.array([*numbers], np.int64))

@@ -1,0 +1,107 @@
+"""Small words need no arrays: where numpy, scipy and matplotlib are missing, the kit answers the same, and loads none."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+import lsys_kit as kit
+from lsys_kit.classroom.exercises.registry import exercises
+from lsys_kit.derivation.core.traits import traits_of
+from lsys_kit.notation.model.system import LSystem
+from lsys_kit.notation.write import write
+from tests.derivation.random_systems import CHANCE, CONTEXT, systems, systems_with
+from tests.without_arrays import MISSING, of_answers, of_text, of_words
+
+LONG = (
+    "axiom: F\nF -> F[+F]F",
+    "axiom: A(1)\nA(x) : x < 3 -> A(x+1) B A(x/2)\nA(x) -> A(0.3*x) A(0.9*x)",
+    "axiom: F\nF -> F[+F] : 1/2\nF -> F F : 1/2",
+    "ignore: + -\naxiom: F A F\nF < A -> A F\nF < F > A -> F[+A F]F\nA < F -> F A",
+)
+Ask = Callable[..., Any]
+
+
+@pytest.fixture(scope="module")
+def asked() -> Iterator[Ask]:
+    """Asks a process in which the libraries are missing."""
+    command = [sys.executable, "-m", "tests.without_arrays"]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdin
+        assert process.stdout
+
+        def ask(*question: object) -> Any:
+            process.stdin.write(json.dumps(question) + "\n")
+            process.stdin.flush()
+            return json.loads(process.stdout.readline())
+
+        yield ask
+        process.stdin.close()
+
+
+def needs(found: object) -> str:
+    return str(found.get("needs", "")) if isinstance(found, dict) else ""
+
+
+def compare(asked: Ask, text: str, steps: int) -> dict[str, str]:
+    """What cannot be told without the libraries, and why; the rest must be the same."""
+    there, here = asked("text", text, steps), of_text(text, steps)
+    missing = {name: needs(found) for name, found in there.items() if needs(found)}
+    for name in there.keys() - missing.keys():
+        assert there[name] == here[name], name
+    return missing
+
+
+@pytest.mark.parametrize("id", [*kit.systems(), *kit.book_systems()])
+def test_the_catalogue_is_the_same_without_arrays(asked: Ask, id: str) -> None:
+    system = kit.system(id)
+    missing = compare(asked, write(system), min(system.steps or 3, 3))
+    if not traits_of(system).sensitive:
+        assert missing.keys() <= {"book"}
+        assert {*missing.values()} <= {"scipy.optimize", "numpy"}, "diagrams with layers, and curved surfaces"
+
+
+@settings(suppress_health_check=[*HealthCheck])
+@given(st.one_of(systems(), systems_with(), systems_with(CONTEXT, CHANCE)))
+def test_random_systems_are_the_same_without_arrays(asked: Ask, system: LSystem) -> None:
+    missing = compare(asked, write(system), 4)
+    assert missing.keys() <= {"book"}
+    assert {*missing.values()} <= {"scipy.optimize"}
+
+
+@pytest.mark.parametrize("text", LONG)
+def test_words_of_some_thousand_modules_are_the_same_without_arrays(asked: Ask, text: str) -> None:
+    assert asked("words", text, 12) == of_words(text, 12)
+
+
+def test_answers_are_replied_to_alike_without_arrays(asked: Ask) -> None:
+    tried, drawn = [each for each in exercises() if each.kind != "drawing"], set[str]()
+    assert len(tried) > 60
+    for each in tried:
+        answers = [str(each.solution), "A(1) B", "axiom: A\nA -> A B"]
+        for there, here in zip(asked("answers", each.id, answers), of_answers(each.id, answers), strict=True):
+            if needs(there):
+                drawn.add(each.id)
+            else:
+                assert there == here, each.id
+    assert drawn <= {"0.2", "14.1"}, "of these, a drawing tells the number"
+
+
+def test_the_first_word_loads_no_arrays() -> None:
+    text = "B A A A\nB < A -> B\nB -> A F[+A] : 1/2\nB -> A : 1/2"
+    program = f"""
+import sys, lsys_kit
+found = lsys_kit.derive(lsys_kit.read({text!r}), 5)
+print(found, lsys_kit.stages(lsys_kit.system("J1")), lsys_kit.check("1.1", "x"))
+print(*sorted({{*{MISSING!r}}} & sys.modules.keys()), file=sys.stderr)
+"""
+    run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert run.stdout
+    assert not run.stderr.strip()
