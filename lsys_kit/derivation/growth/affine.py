@@ -291,7 +291,7 @@ class _Maps:
         rows, start = self._closed()
         asked = {key: often for key in rows if (often := self._often(key, symbol, place))}
         rows = _leading_to(asked, rows)
-        rows, start, asked = _merged(rows, start, asked)
+        rows, start = _merged(rows, start, asked)
         if not self.letters:
             rule = shortest_rule([*_terms(rows, start, asked, 2 * len(rows) + 2)])
         else:
@@ -553,8 +553,10 @@ def _leading_to(asked: Iterable[Sum], rows: Mapping[Sum, Combination]) -> dict[S
     return {source: {key: c for key, c in row.items() if key in met} for source, row in rows.items() if source in met}
 
 
-def _merged(rows: Mapping[Sum, Combination], start: Combination, asked: Combination) -> tuple[dict[Sum, Combination], ...]:
-    """The rows, the beginning, and what is asked for, where sums that have the same part in it for ever are one."""
+def _merged(
+    rows: Mapping[Sum, Combination], start: Combination, asked: Combination
+) -> tuple[dict[Sum, Combination], Combination]:
+    """The rows and the beginning, where sums that have the same part in what is asked for, now and ever after, are one."""
     classes: dict[Sum, Any] = {key: asked.get(key, 0) for key in rows}
     many, own = 0, dict[Sum, int]()
     while many < len(set(classes.values())):
@@ -563,7 +565,7 @@ def _merged(rows: Mapping[Sum, Combination], start: Combination, asked: Combinat
         classes = {key: (own[key], frozenset(_gathered(row, own).items())) for key, row in rows.items()}
     names = {number: key for key, number in reversed(own.items())}
     into = {key: names[number] for key, number in own.items()}
-    return {key: _gathered(rows[key], into) for key in names.values()}, _gathered(start, into), dict(asked)
+    return {key: _gathered(rows[key], into) for key in names.values()}, _gathered(start, into)
 
 
 def _gathered(row: Combination, into: Mapping[Sum, Any]) -> dict[Any, Coefficient]:

@@ -66,14 +66,14 @@ def formula_latex(value: object) -> str:
     >>> import sympy
     >>> spans, q = sympy.Symbol("lifeTimeA"), sympy.Symbol("q")
     >>> formula_latex(q**-spans), formula_latex(sympy.Ne(q, 1))
-    ('q^{- \\\\mathit{lifeTimeA}}', 'q \\\\neq 1')
-    >>> formula_latex(sympy.RootSum(q**3 - q - 1, sympy.Lambda(q, 2 * q)))
-    '\\\\sum_{q^{3} - q - 1 = 0} 2 q'
+    ('q^{- \\\\textit{lifeTimeA}}', 'q \\\\neq 1')
+    >>> formula_latex(sympy.RootSum(q**3 - q - 1, sympy.Lambda(q, 2**q)))
+    '\\\\sum_{q^{3} - q - 1 = 0} 2^{q}'
     """
     import sympy
 
     expression = expression_of(value)
-    names = {each: _NAME.sub(r"\\mathit{\g<0>}", str(sympy.latex(each))) for each in expression.free_symbols}
+    names = {each: _NAME.sub(r"\\textit{\g<0>}", str(sympy.latex(each))) for each in expression.free_symbols}
     sums = {each: sympy.Dummy() for each in expression.atoms(sympy.RootSum)}
     for each, stand_in in sums.items():
         body = formula_latex(each.fun.expr)
@@ -86,8 +86,8 @@ def formula_line(value: object) -> str:
 
     >>> import sympy
     >>> x = sympy.Symbol("x")
-    >>> formula_line(2 + sympy.RootSum(x**3 - x - 1, sympy.Lambda(x, 2 * x)))
-    'sum(2*x for x^3 - x - 1 = 0) + 2'
+    >>> formula_line(2 + sympy.RootSum(x**3 - x - 1, sympy.Lambda(x, 2**x)))
+    'sum(2^x for x^3 - x - 1 = 0) + 2'
     """
     import sympy
 
