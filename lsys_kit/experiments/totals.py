@@ -111,7 +111,7 @@ class Total:
         >>> from lsys_kit import read
         >>> found = total(read("q = 1/2\\naxiom: A(1)\\nA(x) -> F(x) A(q*x)"), "F", q="q")
         >>> found.formula
-        Piecewise(((q**n - 1)/(q - 1), Ne(q, 1)), (n, Eq(q, 1)))
+        Piecewise(((q**n - 1)/(q - 1), Ne(q, 1)), (n, True))
         >>> total(found.system, "F", q=2).formula
         2**n - 1
         """
@@ -217,7 +217,11 @@ class Total:
                 roots = sympy.Poly(equation, unknown).real_roots(multiple=False)
                 roots = [root for root, _ in roots]
             else:
-                roots = [*sympy.roots(sympy.Poly(equation, unknown))]
+                whole = sympy.Poly(equation, unknown)
+                known = sympy.roots(whole)
+                if sum(known.values()) < whole.degree():
+                    raise ModelValueError("The equation has roots that no formula says", hint="Give the other letters numbers.")
+                roots = [root for root in known if root.is_real is not False]
             condition = self.limit_condition if n is None else sympy.true
             return [root for root in roots if condition.subs(unknown, root) != sympy.false]
 
@@ -389,9 +393,9 @@ def total(system: LSystem, symbol: str, parameter: int = 1, *, axis: bool = Fals
     Returns
     -------
     Total
-        It is displayed as mathematics, and has `.formula`, `.at(n)`, `.values(n)`, `.limit`, `.derivative("q")`,
-        `.solve("q", 3)`, `.table(n)`, `.plot(n)` and `.latex`. Where no formula exists, its `reason` says why, and the exact
-        numbers are there all the same.
+        It is displayed as mathematics, with another case for letters where the formula would divide by 0, and has `.formula`,
+        `.at(n)`, `.values(n)`, `.limit`, `.derivative("q")`, `.solve("q", 3)`, `.table(n)`, `.plot(n)` and `.latex`. Where no
+        formula exists, its `reason` says why, and the exact numbers are there all the same.
 
     Raises
     ------
@@ -402,7 +406,7 @@ def total(system: LSystem, symbol: str, parameter: int = 1, *, axis: bool = Fals
     --------
     >>> from lsys_kit import read
     >>> total(read("q = 1/2\\naxiom: A(1)\\nA(x) -> F(x) A(q*x)"), "F", q="q")
-    (q^n - 1)/(q - 1); 0, 1, q + 1, q^2 + q + 1, q^3 + q^2 + q + 1, q^4 + q^3 + q^2 + q + 1, ...
+    (q^n - 1)/(q - 1) where q ≠ 1, n where q = 1; 0, 1, q + 1, q^2 + q + 1, q^3 + q^2 + q + 1, q^4 + q^3 + q^2 + q + 1, ...
     >>> total(read("axiom: A(2)\\nA(x) -> A(x*x)"), "A").reason
     'There is no formula: values of A are multiplied by one another, or are put into a function.'
     """

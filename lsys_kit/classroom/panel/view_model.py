@@ -25,7 +25,7 @@ from lsys_kit.geometry.filament import filament
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
 from lsys_kit.geometry.turtle.plane import Path, place_path, trace
-from lsys_kit.notation.model.arithmetic import Value
+from lsys_kit.notation.model.arithmetic import Value, number_of
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.draw import MOST_ROWS, filament_picture, state_colours
@@ -71,15 +71,19 @@ class StepView:
 
     @property
     def named(self) -> Stages:
-        """The net as it is shown: its stages named by the formulas that their modules in the word have in common."""
+        """The net as it is shown: its stages named by the formulas that their modules have in common."""
         if self.lettered is None:
             return self.net
-        places, found = [*self.net.places], dict[int | None, list[Module]]()
-        for module, formulas in dict.fromkeys(zip(self.word, self.lettered, strict=True)):
-            found.setdefault(self.net.place_of(module), []).append(formulas)
-        for number, modules in found.items():
-            if number is not None and shared_formulas(modules):
-                places[number] = replace(places[number], modules=tuple(modules))
+        found: dict[int | None, list[Module]] = {}
+        for module in self.lettered.states.modules:
+            number = self.net.place_of(Module(module.symbol, tuple(map(number_of, module.arguments))))
+            found.setdefault(number, []).append(module)
+        places = (
+            replace(place, modules=tuple(Module(each.symbol, shared) for each in place.modules))
+            if (shared := shared_formulas(found.get(number, ())))
+            else place
+            for number, place in enumerate(self.net.places)
+        )
         return replace(self.net, places=tuple(places))
 
     @property

@@ -13,7 +13,7 @@ from html import escape
 
 from lsys_kit.derivation.petri.net import Place
 from lsys_kit.errors import printable
-from lsys_kit.notation.model.arithmetic import is_symbolic, number_of, number_text, rounded
+from lsys_kit.notation.model.arithmetic import Value, is_symbolic, number_of, number_text, rounded
 from lsys_kit.notation.model.formulas import Element, formula_text, values_element
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem, symbols
@@ -82,15 +82,19 @@ def values_text(module: Module) -> str:
     return f"({values})" if values else ""
 
 
-def shared_formulas(modules: Sequence[Module]) -> str:
-    """The values that the modules of a stage have in common, as formulas; "" where they have no formulas in common."""
+def shared_formulas(modules: Sequence[Module]) -> tuple[Value, ...]:
+    """The values that the modules of a stage have in common, as formulas; none where they have no formulas in common.
+
+    >>> from lsys_kit import derive, read
+    >>> word = derive(read("q = 1/2\\naxiom: A(1)\\nA(x) -> A(q*x) A(q*x)"), 2, letters="q")[-1]
+    >>> [number_text(value.expression) for value in shared_formulas([*word])]
+    ['q^2']
+    """
     if len({len(module.arguments) for module in modules}) != 1:
-        return ""
+        return ()
     columns = zip(*(module.arguments for module in modules), strict=True)
     shared = [{*column} for column in columns if len({*map(number_of, column)}) == 1]
-    if not shared or any(len(column) > 1 for column in shared):
-        return ""
-    return values_text(Module("", tuple(column.pop() for column in shared)))
+    return () if any(len(column) > 1 for column in shared) else tuple(column.pop() for column in shared)
 
 
 def mathml(formula: Element) -> str:

@@ -261,7 +261,7 @@ def _formulas(states: States, pages: _Pages, diagram: Data, rows: Sequence[Seque
         of_places.setdefault(row[2], []).append(states.modules[state])
     for place in diagram["places"]:
         if place["values"] and (shared := shared_formulas(of_places.get(place["place"], ()))):
-            place["formula"] = shared
+            place["formula"] = values_text(Module("", shared))
     all_decided = decisions_of(states)
     held = [conditions_text(states, all_decided[:many]) for many in decided[: pages.last + 1]]
     return {"formulas": found, "conditions": [f"the formulas hold where {text}" if text else "" for text in held]}
