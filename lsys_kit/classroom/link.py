@@ -145,7 +145,7 @@ def _values(system: AnySystem, settings: Mapping[str, object]) -> dict[str, Sett
             listed = f"Its constants are: {', '.join(constants)}." if constants else "It has none."
             raise ModelNameError(f'The system declares no constant "{name}"', hint=suggestion(name, constants) or listed)
     return {
-        name: letters_from(system, given.split(",") if isinstance(given, str) else given)  # type: ignore[arg-type]
+        name: letters_from(system, [*filter(None, given.split(","))] if isinstance(given, str) else given)  # type: ignore[arg-type]
         if name == LETTERS and isinstance(system, LSystem)
         else _value(name, given)
         for name, given in settings.items()

@@ -436,7 +436,8 @@ Width 14, height 1.
     if settings:
         given: Data = {**settings, **settings_given(step, angle, seed), **constants}
         step, angle, seed, constants = given.pop(STEP, None), given.pop(ANGLE, None), given.pop(SEED, 0), given
-        letters = letters or given.pop(LETTERS, ())
+        there = given.pop(LETTERS, ())
+        letters = letters or there
     check_unfolded(system, unfold, constants)
     unfold = unfold if isinstance(unfold, bool | str) else [*unfold]
     found = opened(system, title, constants, unfold=unfold)
