@@ -164,7 +164,7 @@ def test_where_a_formula_divides_by_0_there_are_others(text: str, unless: list[s
         {k: str(v) for k, v in each.items()} for each in given
     ]
     for case in (first, *others):
-        there = {each: sympy.Rational(3, 7) for each in found.letters if each not in case.given}
+        there = {each: sympy.Rational(3 + 2 * i, 7) for i, each in enumerate(found.letters) if each not in case.given}
         values = {each: value.subs(there) for each, value in case.given.items()} | there
         for step in range(5):
             wanted = sympy.Integer(0) + found.at(step)
