@@ -16,7 +16,6 @@ TEXTS = {
     "shoot": "A(1)\nA(x) : x < 5 -> F(x) [+ A(x+1)] A(x+2)\nF(x) -> F(2*x)\nangle: 30",
     "chance": "F\nF -> F[+F]F : 1/2\nF -> F F : 1/2",
 }
-LETTERS = "q = 1/2\naxiom: A(1)\nA(x) -> F(x) [+A(q*x)] A(q*x)"
 
 
 def file(save: Callable[[Path], object], ending: str) -> str:
@@ -38,8 +37,6 @@ def answers() -> Mapping[str, object]:
         "meshes": file(kit.draw(plant, 2).save, "glb"),
         "page": file(lambda path: kit.explore(plant).save(path), "html"),
         "growth": str(kit.growth(plant)),
-        "letters": [str(kit.derive(kit.read(LETTERS), 4, letters="q")), repr(kit.total(kit.read(LETTERS), "F", q="q"))],
-        "life spans": repr(kit.life_spans(kit.system("J4"))),
         "inferred": str(kit.infer(["A", "AB", "ABA"])),
         "stages": kit.pnml(kit.stages(kit.system("P4"))),
         "variants": [kit.write(each) for each in kit.variants(plant, 3)],
