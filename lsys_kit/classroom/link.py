@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any
+from typing import Any, TypeAlias
 
+from lsys_kit.derivation.core.letters import letters_from
 from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.errors import ModelNameError, ModelSyntaxError, ModelValueError, require, shown
 from lsys_kit.notation.analysis.checks import suggestion
@@ -18,8 +19,10 @@ from lsys_kit.notation.read import CELL_READERS, AnySystem, read
 from lsys_kit.notation.write import write
 from lsys_kit.pictures.tissues.chosen import RANGES
 
-STEP, ANGLE, SEED = "step", "angle", "seed"
+STEP, ANGLE, SEED, LETTERS = "step", "angle", "seed", "letters"
 """The settings that are no constants."""
+Setting: TypeAlias = Value | tuple[str, ...]
+"""A number, or the names of letters."""
 _WHOLE = {STEP: "a whole number from 0 on", SEED: "a whole number"}
 
 
@@ -32,14 +35,15 @@ class Linked:
     system
         The L-system, map system or cellwork system.
     settings
-        Exact values by name: perhaps `step`, `angle` and `seed`, and constants of the system. They are what `explore` takes.
+        Exact values by name: perhaps `step`, `angle` and `seed`, and constants of the system; and perhaps `letters`, the names
+        of constants that are letters. They are what `explore` takes.
     """
 
     system: AnySystem
-    settings: Mapping[str, Value]
+    settings: Mapping[str, Setting]
 
     def __repr__(self) -> str:
-        return "\n".join((repr(self.system), *(f"{name} = {number_text(value)}" for name, value in self.settings.items())))
+        return "\n".join((repr(self.system), *(f"{name} = {_text(value)}" for name, value in self.settings.items())))
 
     def _repr_mimebundle_(self, **options: object) -> dict[str, object]:
         from lsys_kit import explore  # imported late: panels make links
@@ -57,7 +61,7 @@ def link(system: AnySystem, settings: Mapping[str, object] | None = None, base: 
         An L-system, a map system or a cellwork system.
     settings
         What is to be seen of it: `step`, `angle`, `seed`, and values of declared constants, or of the forces of a map or a
-        cellwork.
+        cellwork; `letters`, the names of constants that are letters.
     base
         The address of a page that shows models; without one, the link can be read by the kit alone.
     step
@@ -83,7 +87,7 @@ def link(system: AnySystem, settings: Mapping[str, object] | None = None, base: 
     require(base, str, "The address of a page")
     require(settings, (Mapping, type(None)), "A mapping of settings")
     wanted = {**(settings or {}), **({} if step is None else {STEP: step})}
-    given = {name: number_text(value) for name, value in _values(system, wanted).items()}
+    given = {name: _text(value) for name, value in _values(system, wanted).items()}
     _values(system, given)  # which raises an error if a number is too long to be read again
     notation, text = system.notation, write(system) if isinstance(system, LSystem) else _cells_text(system)
     address = base.partition("#")[0] + packed(LinkContent(notation, given, text))
@@ -133,14 +137,23 @@ def settings_given(step: object, angle: object, seed: object) -> dict[str, objec
     return {name: value for name, value in ((STEP, step), (ANGLE, angle), (SEED, None if usual else seed)) if value is not None}
 
 
-def _values(system: AnySystem, settings: Mapping[str, object]) -> dict[str, Value]:
+def _values(system: AnySystem, settings: Mapping[str, object]) -> dict[str, Setting]:
     """The exact values of settings, if the system has them."""
     constants = [constant.name for constant in system.constants] if isinstance(system, LSystem) else [*RANGES]
     for name in settings:
-        if name not in (STEP, ANGLE, SEED, *constants):
+        if name not in (STEP, ANGLE, SEED, *([LETTERS] if isinstance(system, LSystem) else []), *constants):
             listed = f"Its constants are: {', '.join(constants)}." if constants else "It has none."
             raise ModelNameError(f'The system declares no constant "{name}"', hint=suggestion(name, constants) or listed)
-    return {name: _value(name, given) for name, given in settings.items()}
+    return {
+        name: letters_from(system, [*filter(None, given.split(","))] if isinstance(given, str) else given)  # type: ignore[arg-type]
+        if name == LETTERS and isinstance(system, LSystem)
+        else _value(name, given)
+        for name, given in settings.items()
+    }
+
+
+def _text(value: Setting) -> str:
+    return ",".join(value) if isinstance(value, tuple) else number_text(value)
 
 
 def _value(name: str, given: object) -> Value:

@@ -178,7 +178,8 @@ def drawn_as(text: str, seconds: float = LONGEST) -> dict[str, str]:
 
 
 def _steps(model: Linked) -> int | None:
-    return int(model.settings[STEP]) if STEP in model.settings else None
+    step = model.settings.get(STEP)
+    return step if isinstance(step, int) else None
 
 
 def _with_constants(model: Linked) -> Any:

@@ -31,6 +31,7 @@ from lsys_kit.experiments.table import Table
 from lsys_kit.experiments.totals import slider_range
 from lsys_kit.notation.model.arithmetic import Value, is_symbolic, normalised, number_text
 from lsys_kit.notation.model.expressions import names_in
+from lsys_kit.notation.model.formulas import formula_latex, formula_text
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.plots.chart import Axis, Level, LevelChart, Plot, name_label
@@ -277,7 +278,7 @@ class LifeSpans:
         rows = tuple(
             (
                 name,
-                number_text(self._shown(kind.span)),
+                formula_text(self._shown(kind.span)),
                 ", ".join(n if c == 1 else f"{c} {n}" for n, c in zip(names, kind.daughters, strict=True) if c),
             )
             for name, kind in zip(names, self.kinds, strict=True)
@@ -351,9 +352,8 @@ class LifeSpans:
     @property
     def latex(self) -> str:
         """The equation in LaTeX."""
-        import sympy
 
-        left, right = ([sympy.latex(each) for each in side] for side in self._sides)
+        left, right = (map(formula_latex, side) for side in self._sides)
         return f"{' + '.join(['1', *left])} = {' + '.join(right)}"
 
     def _repr_latex_(self) -> str:

@@ -6,17 +6,19 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
+from itertools import islice
 from typing import TYPE_CHECKING, Any
 
 from lsys_kit.budget import Task, counted
 from lsys_kit.derivation.core.rules import constants_of, number_from
 from lsys_kit.derivation.core.words import Word
-from lsys_kit.derivation.growth.affine import AffineSums, NotAffine, affine_sums
-from lsys_kit.derivation.growth.growth import closed_form, generating_function, polynomial, unknown
+from lsys_kit.derivation.growth.affine import AffineSums, Case, NotAffine, affine_sums
+from lsys_kit.derivation.growth.recurrences import generating_function, polynomial, unknown
 from lsys_kit.errors import ModelNameError, ModelValueError, require, whole_number
 from lsys_kit.experiments.table import Table, column_label
 from lsys_kit.notation.model.arithmetic import Value, expression_of, is_symbolic, number_text
 from lsys_kit.notation.model.expressions import Number
+from lsys_kit.notation.model.formulas import formula_latex, formula_line, formula_text
 from lsys_kit.notation.model.modules import CLOSING, OPENING
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.plots.chart import Axis, Curve, CurveChart, Plot, finite, name_label
@@ -27,8 +29,9 @@ from lsys_kit.worlds.derive import derive
 if TYPE_CHECKING:
     import sympy
 
-FIRST, POINTS, MOST_STEPS = 6, 60, 10_000
-"""How many totals are shown in a line; how many points a curve over a letter has; the latest step."""
+FIRST, POINTS, MOST_STEPS, MOST_SHOWN = 6, 60, 10_000, 3
+"""How many totals are shown in a line; how many points a curve over a letter has; the latest step; how many cases of a formula
+are shown."""
 
 
 @dataclass(frozen=True)
@@ -70,7 +73,7 @@ class Total:
         """The totals at steps 0 to `steps`."""
         last = whole_number(steps, "The step")
         with Task("The totals were not found"):
-            return self._derived(last) if self.sums is None else [self.sums.at(n) for n in counted(range(last + 1), 1)]
+            return self._derived(last) if self.sums is None else [*counted(islice(self.sums, last + 1), 1)]
 
     def _derived(self, steps: int) -> list[Value]:
         """The totals of derived words."""
@@ -103,19 +106,23 @@ class Total:
     def formula(self) -> sympy.Expr | None:
         """The total at step n, as a formula in n and the letters; None where there is none in powers and roots.
 
-        >>> from lsys_kit import read
-        >>> total(read("q = 1/2\\naxiom: A(1)\\nA(x) -> F(x) A(q*x)"), "F", q="q").formula
-        (q**n - 1)/(q - 1)
-        """
-        if self.sums is None:
-            return None
-        import sympy
+        Where it would divide by 0 for some letters, it has several cases.
 
+        >>> from lsys_kit import read
+        >>> found = total(read("q = 1/2\\naxiom: A(1)\\nA(x) -> F(x) A(q*x)"), "F", q="q")
+        >>> found.formula
+        Piecewise(((q**n - 1)/(q - 1), Ne(q, 1)), (n, True))
+        >>> total(found.system, "F", q=2).formula
+        2**n - 1
+        """
+        return _in_cases(self._cases)
+
+    @cached_property
+    def _cases(self) -> list[Case]:
+        if self.sums is None:
+            return []
         with Task("The formula was not found"), supervised():
-            found = closed_form(*self._rule, self.n)
-            if found is None or not self.sums.letters:
-                return found
-            return sympy.powsimp(sympy.factor(sympy.together(found)), combine="base", force=True)
+            return self.sums.formulas(self.n)
 
     @property
     def n(self) -> sympy.Symbol:
@@ -179,10 +186,14 @@ class Total:
         >>> total(read("s = 2\\naxiom: A\\nA -> F(s) A"), "F", s="s").derivative("s")
         n
         """
-        if self.formula is None:
-            raise ModelValueError(self.reason or "The totals have no formula in powers and roots")
+        if self.sums is None:
+            raise ModelValueError(f"{self.reason}")
+        by = self._letter(letter)
         with Task("The derivative was not found"), supervised():
-            return self.formula.diff(self._letter(letter)).factor()
+            found = _in_cases(self.sums.derivative(by).formulas(self.n))
+        if found is None:
+            raise ModelValueError("The totals have no formula in powers and roots")
+        return found
 
     def solve(self, letter: str, value: object, n: int | None = None) -> list[sympy.Expr]:
         """The values of a letter for which the total is as given, at step n or in the long run.
@@ -206,7 +217,11 @@ class Total:
                 roots = sympy.Poly(equation, unknown).real_roots(multiple=False)
                 roots = [root for root, _ in roots]
             else:
-                roots = [*sympy.roots(sympy.Poly(equation, unknown))]
+                whole = sympy.Poly(equation, unknown)
+                known = sympy.roots(whole)
+                if sum(known.values()) < whole.degree():
+                    raise ModelValueError("The equation has roots that no formula says", hint="Give the other letters numbers.")
+                roots = [root for root in known if root.is_real is not False]
             condition = self.limit_condition if n is None else sympy.true
             return [root for root in roots if condition.subs(unknown, root) != sympy.false]
 
@@ -294,20 +309,50 @@ class Total:
 
     @property
     def latex(self) -> str:
-        """The formula in LaTeX."""
-        import sympy
+        """The formula in LaTeX, with its cases."""
+        if not self._cases:
+            return ""
+        rows = [(formula_latex(case.formula), ",\\ ".join(map(formula_latex, _conditions(case)))) for case in self._shown]
+        if len(rows) > 1:
+            lines = r" \\ ".join(f"{formula} & {where}" for formula, where in rows)
+            return rf"\begin{{cases}} {lines} \end{{cases}}"
+        ((formula, where),) = rows
+        return rf"{formula} \quad ({where})" if where else formula
 
-        return str(sympy.latex(self.formula)) if self.formula is not None else ""
+    @property
+    def _shown(self) -> list[Case]:
+        """The cases of the formula if they are few, else that which holds for most letters."""
+        return self._cases if len(self._cases) <= MOST_SHOWN else self._cases[:1]
 
     def _repr_latex_(self) -> str | None:
-        return f"$\\displaystyle {self.latex}$" if self.formula is not None else None
+        return f"$\\displaystyle {self.latex}$" if self._cases else None
 
     def __repr__(self) -> str:
         steps = ", ".join(number_text(value) for value in self.values(FIRST - 1))
-        if self.formula is None:
+        if not self._cases:
             why = f"; {self.reason}" if self.reason else ""
             return f"{steps}, ...{why}"
-        return f"{number_text(self.formula)}; {steps}, ..."
+        said = (
+            " where ".join(filter(None, [formula_line(case.formula), ", ".join(map(formula_text, _conditions(case)))]))
+            for case in self._shown
+        )
+        return f"{', '.join(said)}; {steps}, ..."
+
+
+def _conditions(case: Case) -> list[sympy.Basic]:
+    """What must hold of the letters."""
+    import sympy
+
+    return [*(sympy.Eq(letter, value) for letter, value in case.given.items()), *case.unless]
+
+
+def _in_cases(cases: Sequence[Case]) -> sympy.Expr | None:
+    """Formulas as one of sympy's."""
+    import sympy
+
+    if len(cases) == 1 and not cases[0].unless:
+        return cases[0].formula
+    return sympy.Piecewise(*((case.formula, sympy.And(*_conditions(case))) for case in cases)) if cases else None
 
 
 def slider_range(system: LSystem, name: str) -> tuple[Value, Value] | None:
@@ -323,7 +368,7 @@ def slider_range(system: LSystem, name: str) -> tuple[Value, Value] | None:
 
 
 def _cell(value: Value) -> Value | str:
-    return number_text(value) if is_symbolic(value) else value
+    return formula_text(value) if is_symbolic(value) else value
 
 
 def total(system: LSystem, symbol: str, parameter: int = 1, *, axis: bool = False, **constants: object) -> Total:
@@ -348,9 +393,9 @@ def total(system: LSystem, symbol: str, parameter: int = 1, *, axis: bool = Fals
     Returns
     -------
     Total
-        It is displayed as mathematics, and has `.formula`, `.at(n)`, `.values(n)`, `.limit`, `.derivative("q")`,
-        `.solve("q", 3)`, `.table(n)`, `.plot(n)` and `.latex`. Where no formula exists, its `reason` says why, and the exact
-        numbers are there all the same.
+        It is displayed as mathematics, with another case for letters where the formula would divide by 0, and has `.formula`,
+        `.at(n)`, `.values(n)`, `.limit`, `.derivative("q")`, `.solve("q", 3)`, `.table(n)`, `.plot(n)` and `.latex`. Where no
+        formula exists, its `reason` says why, and the exact numbers are there all the same.
 
     Raises
     ------
@@ -361,7 +406,7 @@ def total(system: LSystem, symbol: str, parameter: int = 1, *, axis: bool = Fals
     --------
     >>> from lsys_kit import read
     >>> total(read("q = 1/2\\naxiom: A(1)\\nA(x) -> F(x) A(q*x)"), "F", q="q")
-    (q^n - 1)/(q - 1); 0, 1, q + 1, q^2 + q + 1, q^3 + q^2 + q + 1, q^4 + q^3 + q^2 + q + 1, ...
+    (q^n - 1)/(q - 1) where q ≠ 1, n where q = 1; 0, 1, q + 1, q^2 + q + 1, q^3 + q^2 + q + 1, q^4 + q^3 + q^2 + q + 1, ...
     >>> total(read("axiom: A(2)\\nA(x) -> A(x*x)"), "A").reason
     'There is no formula: values of A are multiplied by one another, or are put into a function.'
     """

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -9,7 +10,7 @@ import axe_playwright_python
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
-from lsys_kit import ModelNameError, explore, read
+from lsys_kit import ModelNameError, explore, linked, read
 from lsys_kit.classroom.panel.page import page as page_of
 from tests.browser.hands import Finger, Mouse, Pointer, reach
 from tests.classroom.panel_page import PanelPage
@@ -154,6 +155,49 @@ def test_a_page_has_its_formulas_with_it(browser: Browser, tmp_path: Path, touch
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
     assert faults == []
     context.close()
+
+
+def test_what_is_stored_of_a_panel_has_its_formulas() -> None:
+    """The word and the stages, and where the formulas hold; stages that were not reached have numbers."""
+    panel = explore(read(SHRINKING), 2, letters="q")
+    said, drawn = panel._repr_mimebundle_()["text/plain"], panel.still["image/png"]
+    assert "Step 2: 3 strokes, 16 modules. F(1)[+F(q)[+A(q^2)]A(q^3)]F(q^2)[+A(q^3)]A(q^4). " in said
+    assert "The formulas hold where q > √0.3 ≈ 0.5477." in said
+    assert "A(q): 0, A(q²): 1" in said
+    assert "F(0.512): 0" in said
+    panel.letters = []
+    assert "F(1)[+F(0.8)[" in panel.text
+    assert panel.still["image/png"] != drawn
+
+
+def test_a_stage_whose_modules_have_no_formula_in_common_keeps_its_number() -> None:
+    """q is 1/2 and so is r: A(q) and A(r) are one stage, and two formulas."""
+    twice = explore(read("q = 1/2 in 0 .. 1\nr = 1/2\naxiom: A(q) A(r)\nA(x) -> B(x*q)\nB(x) -> B(x)"), 1, letters=["q", "r"])
+    assert "Stages A(0.5): 0, B(0.25): 2." in twice.text
+
+
+def test_the_address_of_a_page_says_which_constants_are_letters(browser: Browser, tmp_path: Path) -> None:
+    panel = explore(read(SHRINKING), 2, letters="q")
+    (tmp_path / "q.html").write_text(panel._page(), "utf-8")
+    page = browser.new_page()
+    page.goto((tmp_path / "q.html").as_uri())
+    switch(page.locator(".lsys-panel"), "q").click()
+    expect(page).to_have_url(re.compile("#lsys="))
+    without = page.url
+    assert "letters" not in linked(without).settings
+    switch(page.locator(".lsys-panel"), "q").click()
+    expect(page).not_to_have_url(without)
+    assert linked(page.url).settings["letters"] == ("q",)
+    for address, many in ((without, 0), (page.url, 6)):
+        page.goto("about:blank")
+        page.goto(address)
+        expect(page.locator(".lsys-word math")).to_have_count(many)
+        expect(page.locator(".lsys-panel")).not_to_contain_text("does not hold all")
+    (tmp_path / "q.html").write_text(explore(read(SHRINKING), 2)._page(), "utf-8")
+    page.goto("about:blank")
+    page.goto(address)
+    expect(page.locator(".lsys-panel")).to_contain_text("does not hold all")
+    page.close()
 
 
 @pytest.mark.slow

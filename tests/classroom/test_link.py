@@ -13,7 +13,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lsys_kit import limits, link, linked, map_system, map_systems, read, read_map, system, systems, write
+from lsys_kit import explore, limits, link, linked, map_system, map_systems, read, read_map, system, systems, write
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelNameError, ModelSyntaxError, ModelValueError
 from lsys_kit.notation.fragments import CHECK_BYTES, MARK, VERSION, LinkContent, is_link, packed, unpacked
 from lsys_kit.notation.model.system import LSystem
@@ -118,12 +118,33 @@ def test_a_model_is_no_link() -> None:
         ({"lifeTimeA": None}, ModelValueError, "number"),
         ({"angle": float("nan")}, ModelValueError, "number"),
         ({"step": 10**5000}, ModelValueError, "thousands of digits"),
+        ({"letters": "lifeTimeC"}, ModelNameError, "declares no constant"),
+        ({"letters": 3}, ModelValueError, "A letter or a list of letters"),
         ([("step", 1)], ModelValueError, "mapping of settings"),
     ],
 )
 def test_settings_that_a_model_has_not_are_refused(settings, kind, words) -> None:
     with pytest.raises(kind, match=words):
         link(system("J4"), settings)
+
+
+@given(st.lists(st.sampled_from(["lifeTimeA", "lifeTimeB"])))
+def test_a_letter_stays_a_letter(letters: list[str]) -> None:
+    """In the order in which they are declared, whatever else the link says."""
+    there = linked(link(system("J4"), {"lifeTimeB": 5, "letters": letters}))
+    named = tuple(name for name in ("lifeTimeA", "lifeTimeB") if name in letters)
+    assert there.settings == {"lifeTimeB": 5} | ({"letters": named} if named else {})
+    assert (f"letters = {','.join(named)}" in repr(there)) == bool(named)
+
+
+def test_a_panel_with_a_letter_is_sent_as_it_is() -> None:
+    panel = explore("J4", 4, letters="lifeTimeA")
+    again = explore(panel.link)
+    assert again.letters == ["lifeTimeA"]
+    assert again.link == panel.link
+    assert "letters" not in linked(explore("J4", 4).link).settings
+    assert explore(panel.link, letters="lifeTimeB").letters == ["lifeTimeB"]
+    assert "image/png" in linked(panel.link)._repr_mimebundle_()
 
 
 @pytest.mark.parametrize("base", ["my page.html", "a\n", "\u202e", "\ud800"])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from fractions import Fraction
+from itertools import islice
 from typing import Any
 
 import pytest
@@ -132,6 +133,59 @@ def test_the_mean_is_that_of_the_stages(id: str) -> None:
             tokens = zip(net.expected(n), net.places, strict=True)
             mean = sum(amount for amount, place in tokens if place.symbol == symbol)
             assert float(found.at(n)) == pytest.approx(float(mean))
+
+
+TWO = "p = 1\nq = 1/2\naxiom: A(1,1)\nA(x,y) -> F(x) A(q*x+y,p*y)"
+
+
+@pytest.mark.parametrize(
+    ("text", "unless", "given"),
+    [
+        (SHOOT, ["q != 1"], [{"q": 1}]),
+        (BRANCHES.replace("A(x + 1)", "A(x)"), ["q != 0"], [{"q": 0}]),
+        ("q = 2\naxiom: A(1)\nA(x) -> F(x) A(x/q)", ["q != 1", "q != 0"], [{"q": 1}]),
+        ("q = 2\naxiom: A(1,1)\nA(x,y) -> F(x) A(y+q*x,x+y)", [], []),  # divided by q^2 - 2q + 5
+        (
+            "q = 2\naxiom: F(1) A(2)\nF(x) -> A(x)\nA(x) -> F(-x) A((q*q - 3)*x)",
+            ["q != 1", "q != -1", "q**2 - 5 != 0"],
+            [{"q": 1}, {"q": -1}],
+        ),
+        ("q = 2\naxiom: A(1)\nA(x) -> ε", [], []),
+        (TWO, ["q != 1", "p != 1", "q != p"], [{"q": 1}, {"q": 1, "p": 1}, {"p": 1}, {"q": "p"}, {"q": 0, "p": 0}]),
+    ],
+)
+def test_where_a_formula_divides_by_0_there_are_others(text: str, unless: list[str], given: list[dict[str, Any]]) -> None:
+    """Each is at all steps what the sum is there; with few cases asked for, the rest is not said."""
+    n = sympy.Symbol("n", integer=True, nonnegative=True)
+    found = affine_sums(read(text), "F" if "F" in text else "A", 0, False, {"q": "q"} | ({"p": "p"} if "p" in text else {}))
+    first, *others = found.formulas(n)
+    assert [f"{each.lhs} != {each.rhs}" for each in first.unless] == unless
+    assert [{str(k): str(v) for k, v in case.given.items()} for case in others] == [
+        {k: str(v) for k, v in each.items()} for each in given
+    ]
+    for case in (first, *others):
+        there = {each: sympy.Rational(3 + 2 * i, 7) for i, each in enumerate(found.letters) if each not in case.given}
+        values = {each: value.subs(there) for each, value in case.given.items()} | there
+        for step in range(5):
+            wanted = sympy.Integer(0) + found.at(step)
+            assert abs((case.formula.subs(values).subs(n, step) - wanted.subs(values)).evalf(30)) < 1e-20
+    assert len(found.formulas(n, 1)) == 1
+
+
+def test_sums_without_letters_and_without_a_formula() -> None:
+    squares = affine_sums(read("axiom: A(1)\nA(x) -> F(x) A(x+2)"), "F", 0, False, {})
+    assert [str(case.formula) for case in squares.formulas(sympy.Symbol("n"))] == ["n**2"]
+    assert [*islice(squares, 5)] == [0, 1, 4, 9, 16]
+    turns = affine_sums(read("q = 2\naxiom: A(1)\nA(x) -> B(x)\nB(x) -> C(x)\nC(x) -> A(q*x)"), "A", 0, False, {"q": "q"})
+    assert turns.formulas(sympy.Symbol("n")) == []
+
+
+def test_how_a_sum_changes_with_a_letter_is_a_sum() -> None:
+    found = affine_sums(read(SHOOT), "F", 0, False, {"q": "q"})
+    (letter,) = found.letters
+    assert [sympy.expand(each) for each in islice(found.derivative(letter), 5)] == [
+        sympy.expand(sympy.diff(each, letter)) for each in islice(found, 5)
+    ]
 
 
 @pytest.mark.parametrize(

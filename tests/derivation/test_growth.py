@@ -15,15 +15,8 @@ from hypothesis import strategies as st
 from lsys_kit import derive, system
 from lsys_kit.budget import Task, limits
 from lsys_kit.derivation.core.states import States
-from lsys_kit.derivation.growth.growth import (
-    Growth,
-    closed_form,
-    counts_of_steps,
-    growth,
-    leading_weights,
-    shortest_recurrence,
-    shortest_rule,
-)
+from lsys_kit.derivation.growth.growth import Growth, counts_of_steps, growth, leading_weights
+from lsys_kit.derivation.growth.recurrences import closed_form, shortest_recurrence, shortest_rule
 from lsys_kit.derivation.timed.continuity import growth_base
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.read import read

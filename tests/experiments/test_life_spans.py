@@ -73,7 +73,7 @@ def test_the_two_life_spans_of_a_filament() -> None:
     found = life_spans(system("J4"))
     assert found.letters == ("lifeTimeA", "lifeTimeB")
     assert found.recurrence == "N(t) = N(t - lifeTimeA) + N(t - lifeTimeB)"
-    assert found.latex == "1 = x^{- lifeTimeA} + x^{- lifeTimeB}"
+    assert found.latex == r"1 = x^{- \textit{lifeTimeA}} + x^{- \textit{lifeTimeB}}", "names are read as names"
     assert found.rate(lifeTimeA=5, lifeTimeB=1) == pytest.approx(found.rate(), rel=1e-12)
     assert found.table.rows == (("Al(1)", "lifeTimeA", "Al(1), Br(1)"), ("Br(1)", "lifeTimeB", "Al(1), Br(1)"))
     assert life_spans(system("J4"), lifeTimeA=4).recurrence == "N(t) = N(t - 4) + N(t - lifeTimeB)"

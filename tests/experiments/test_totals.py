@@ -3,20 +3,25 @@
 from __future__ import annotations
 
 import re
+from contextlib import suppress
 from fractions import Fraction
 
 import pytest
 import sympy
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lsys_kit import book_systems, derive, limits, plot, read, system, systems, total
+from lsys_kit.derivation.derive import Derivation
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelNameError, ModelValueError
+from lsys_kit.experiments.totals import Total
 from lsys_kit.notation.model.system import LSystem, symbols
 from tests.derivation.test_affine import added, valued
 
 SHOOT = "q = 1/2\naxiom: A(1)\nA(x) -> F(x) A(q*x)"
 Q = sympy.Symbol("q", real=True)
+MODULES = 20_000
+"""Longer words are not derived here."""
 
 
 def check(model: LSystem, symbol: str, place: int, axis: bool, values: dict[str, Fraction], steps: int = 8) -> bool:
@@ -25,19 +30,33 @@ def check(model: LSystem, symbol: str, place: int, axis: bool, values: dict[str,
     if found.sums is None:
         assert found.reason
         return False
-    words = derive(model, steps, **values)
-    for step in range(steps + 1):
+    words = words_to(model, steps, values)
+    for step in range(words.steps + 1):
         wanted = added(words[step], symbol, place - 1 if place else None, axis)
         assert valued(found.at(step), values) == wanted, (symbol, place, step)
     formula = found.formula if len(found.sums.rule) < 5 else None
-    for step in (0, 1, 4) if formula is not None and formula.count_ops() < 200 and not formula.has(sympy.RootSum) else ():
-        given = {each: sympy.Rational(*values[str(each)].as_integer_ratio()) for each in formula.free_symbols - {found.n}}
-        divisors = [power.base for power in formula.atoms(sympy.Pow) if power.exp.is_negative]
-        if any(divisor.subs(given) == 0 for divisor in divisors):
-            continue  # letters have values for which a quotient of them is none
-        there = complex(formula.subs(given).subs(found.n, step).evalf(30))
-        assert there == pytest.approx(float(valued(found.at(step), values)), abs=1e-9)
+    if formula is not None and formula.count_ops() < 400 and not formula.has(sympy.RootSum):
+        says_the_same(formula, found, values, steps)
     return True
+
+
+def words_to(model: LSystem, steps: int, values: dict[str, Fraction]) -> Derivation:
+    """The words to a step, or as far as they are not too long."""
+    found = derive(model, 0, **values)
+    with suppress(ModelLimitError):
+        for step in range(1, steps + 1):
+            with limits(modules=MODULES):
+                found = found.to(step)
+    return found
+
+
+def says_the_same(formula: sympy.Expr, found: Total, values: dict[str, Fraction], steps: int) -> None:
+    """Where the letters have values, the formula is at each step what the recurrence says; nowhere does it divide by 0."""
+    given = {each: sympy.Rational(*values[str(each)].as_integer_ratio()) for each in formula.free_symbols - {found.n}}
+    there = formula.subs(given)
+    for step in range(steps + 1):
+        wanted = float(valued(found.at(step), values))
+        assert complex(there.subs(found.n, step).evalf(30)) == pytest.approx(wanted, abs=1e-9), (values, step)
 
 
 @st.composite
@@ -59,18 +78,24 @@ def affine_systems(draw: st.DrawFn) -> str:
 
 
 @pytest.mark.slow
+@settings(max_examples=5 * settings.default.max_examples)
 @given(affine_systems(), st.fractions(-2, 2, max_denominator=5), st.sampled_from("AF"), st.integers(0, 2), st.booleans())
 def test_a_total_is_what_the_word_adds_up_to(text: str, q: Fraction, symbol: str, place: int, axis: bool) -> None:
     with limits(seconds=600):
         model = read(text)
-        assert check(model, symbol, place, axis, {"q": q}, 5)
+        assert check(model, symbol, place, axis, {"q": q})
         assert check(model, symbol, place, axis, {}, 5)
 
 
 @given(affine_systems(), st.fractions(-2, 2, max_denominator=5), st.sampled_from("AF"), st.integers(0, 2))
 def test_a_limit_is_what_late_steps_come_to(text: str, q: Fraction, symbol: str, place: int) -> None:
     with limits(seconds=600):
-        found = total(read(text), symbol, place, q=q)
+        found, general = total(read(text), symbol, place, q=q), total(read(text), symbol, place, q="q")
+        if (
+            general.limit is not None
+            and general.limit_condition.subs(Q, sympy.Rational(q.numerator, q.denominator)) == sympy.true
+        ):
+            assert general.limit.subs(Q, sympy.Rational(q.numerator, q.denominator)) == found.limit
         late = [float(found.at(step)) for step in (200, 201, 400)]
         if found.limit is not None:
             slow = abs(late[1] - late[0]) > 1e-12  # a root is near the unit circle
@@ -90,7 +115,7 @@ def test_of_the_catalogue_too(id: str) -> None:
     for symbol in symbols(model):
         for names in ([], letters):
             try:
-                check(model, symbol, 1, False, {name: Fraction(7, 5) for name in names}, 4)
+                check(model, symbol, 1, False, {name: Fraction(7, 5) for name in names})
             except (ModelValueError, ModelLimitError) as error:
                 told = "cannot be decided", "has no value", "not reached", "limit", "not found"
                 if not any(said in str(error) for said in told):
@@ -101,7 +126,8 @@ def test_of_the_catalogue_too(id: str) -> None:
 def test_a_geometric_sum() -> None:
     found = total(read(SHOOT), "F", q="q")
     n = found.n
-    assert sympy.simplify(found.formula - (1 - Q**n) / (1 - Q)) == 0
+    assert sympy.simplify(found.formula.args[0][0] - (1 - Q**n) / (1 - Q)) == 0
+    assert found.formula.subs(Q, 1) == n, "where the ratio is 1, too"
     assert sympy.simplify(found.limit - 1 / (1 - Q)) == 0
     assert found.limit_condition == (sympy.Abs(Q) < 1)
     assert total(read(SHOOT), "F", q=1).formula == n, "also where the ratio is 1"
@@ -170,11 +196,67 @@ def test_what_cannot_be_asked_is_told() -> None:
 
 def test_it_is_shown_as_mathematics_a_table_and_a_plot() -> None:
     found = total(read(SHOOT), "F", q="q")
-    assert found._repr_latex_() == r"$\displaystyle \frac{q^{n} - 1}{q - 1}$"
-    assert found.table(2).rows == ((0, 0), (1, 1), (2, "q + 1"))
+    assert found._repr_latex_() == r"$\displaystyle \begin{cases} \frac{q^{n} - 1}{q - 1} & q \neq 1 \\ n & q = 1 \end{cases}$"
+    assert found.table(3).rows == ((0, 0), (1, 1), (2, "q + 1"), (3, "q² + q + 1"))
     assert "largest 1.98438" in repr(found.plot(7))
     assert "largest 5.21703" in repr(found.plot(7, q=0.9))
     assert repr(plot(read(SHOOT), 3))
+
+
+TWO = "p = 1\nq = 1/2\naxiom: A(1,1)\nA(x,y) -> F(x) A(q*x+y,p*y)"
+LATE = "q = 1/2\naxiom: B\nB -> F(1)\nF(x) -> F(q*x)"
+TURNS = "q = 1/2\naxiom: F(1) A(2)\nF(x) -> A(x)\nA(x) -> F(x) A(q*x)"
+BY = "q = 1/2\naxiom: A(1)\nA(x) -> F(x) A(x/q)"
+
+
+@pytest.mark.parametrize(
+    ("text", "values"),
+    [
+        (SHOOT, [{"q": 1}, {"q": 0}, {"q": -1}]),
+        (TWO, [{"p": 1, "q": 3}, {"p": 3, "q": 1}, {"p": 2, "q": 2}, {"p": 1, "q": 1}, {"p": 0, "q": 0}, {"p": 0, "q": 1}]),
+        (LATE, [{"q": 0}, {"q": 2}]),
+        (TURNS, [{"q": 0}, {"q": 1}, {"q": -2}, {"q": Fraction(-1, 4)}]),
+        (BY, [{"q": 1}, {"q": 3}]),
+    ],
+)
+def test_where_a_formula_would_divide_by_0_it_has_another_case(text: str, values: list[dict[str, Fraction]]) -> None:
+    """It says what is added up there, and so does its derivative: that of the polynomial at the step."""
+    letters = [*values[0]]
+    found = total(read(text), "F", **{name: name for name in letters})
+    derivatives = {name: found.derivative(name) for name in letters}
+    for given_values in values:
+        says_the_same(found.formula, found, given_values, 6)
+        for name, derivative in derivatives.items():
+            there = {each: sympy.sympify(given_values[str(each)]) for each in derivative.free_symbols - {found.n}}
+            for step in range(6):
+                wanted = sympy.sympify(found.at(step)).diff(found._letter(name)).subs(there)
+                assert abs((derivative.subs(there).subs(found.n, step) - wanted).evalf(30)) < 1e-15, (given_values, name, step)
+
+
+def test_it_is_said_for_which_letters_a_formula_says_nothing() -> None:
+    """The roots of x^2 = (q^2 - 3) x - 1 are one where q^2 is 1 or 5; x/q has no value where q is 0; of many cases none is
+    shown."""
+    found = total(read("q = 1\naxiom: F(1) A(2)\nF(x) -> A(x)\nA(x) -> F(-x) A((q*q - 3)*x)"), "F", q="q")
+    assert "where q ≠ 1, q ≠ −1, q² − 5 ≠ 0, (-1)^n*(n + 1) where q = 1" in repr(found)
+    assert found.formula.subs(Q, sympy.sqrt(5)) is sympy.nan
+    several = total(read(TWO), "F", q="q", p="p")
+    assert several.latex.endswith(r"\quad (q \neq 1,\ p \neq 1,\ q \neq p)")
+    assert several.formula.subs({Q: 1, sympy.Symbol("p", real=True): 1}) == (several.n * (several.n + 1) / 2).expand()
+    assert "where q ≠ 1, q ≠ 0, n where q = 1" in repr(total(read(BY), "F", q="q"))
+    assert "where q ≠ 1, p ≠ 1, q ≠ p;" in repr(total(read(TWO), "F", q="q", p="p"))
+
+
+def test_a_sum_over_roots_says_of_which_polynomial() -> None:
+    found = total(system("P4"), "M")
+    assert repr(found).startswith("sum(x^n*(575*x^4/2869")
+    assert r"\sum_{x^{5} - x - 1 = 0} x^{n}" in found.latex
+
+
+def test_roots_that_no_formula_says_are_not_kept_back() -> None:
+    found = total(read("p = 1\nq = 1/2\naxiom: A(p)\nA(x) -> F(x) A(q*x + x*x*0)"), "F", p="p", q="q")
+    assert found.solve("p", 3, n=2) == [3 / (Q + 1)]
+    with pytest.raises(ModelValueError, match="no formula says"):
+        found.solve("q", 3, n=7)
 
 
 @pytest.mark.slow

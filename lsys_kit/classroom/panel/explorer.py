@@ -19,7 +19,7 @@ from ipywidgets import widget_serialization
 
 from lsys_kit.budget import Task, current, limits
 from lsys_kit.classroom.catalogue import catalogued, entry
-from lsys_kit.classroom.link import ANGLE, SEED, STEP, linked, settings_given
+from lsys_kit.classroom.link import ANGLE, LETTERS, SEED, STEP, linked, settings_given
 from lsys_kit.classroom.panel.books.book import MOST_MODULES
 from lsys_kit.classroom.panel.books.net import Unfolding
 from lsys_kit.classroom.panel.bundle import Data
@@ -455,6 +455,8 @@ Width 14, height 1.
     if settings:
         given: Data = {**settings, **settings_given(step, angle, seed), **constants}
         step, angle, seed, constants = given.pop(STEP, None), given.pop(ANGLE, None), given.pop(SEED, 0), given
+        there = given.pop(LETTERS, ())
+        letters = letters or there
     check_unfolded(system, unfold, constants)
     unfold = unfold if isinstance(unfold, bool | str) else [*unfold]
     found = opened(system, title, constants, unfold=unfold)

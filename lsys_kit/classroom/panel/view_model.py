@@ -7,15 +7,16 @@ from __future__ import annotations
 
 import io
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 from PIL import Image
 
 from lsys_kit.cache import Cache
 from lsys_kit.classroom.panel.books.net import Unfolding, net_of
 from lsys_kit.classroom.panel.labels import noun_of
+from lsys_kit.derivation.core.letters import conditions_text
 from lsys_kit.derivation.core.words import Word, shortened
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.petri.stages import Stages
@@ -24,7 +25,8 @@ from lsys_kit.geometry.filament import filament
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
 from lsys_kit.geometry.turtle.plane import Path, place_path, trace
-from lsys_kit.notation.model.arithmetic import Value
+from lsys_kit.notation.model.arithmetic import Value, number_of
+from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.draw import MOST_ROWS, filament_picture, state_colours
 from lsys_kit.pictures.filaments import FilamentRow
@@ -36,7 +38,7 @@ from lsys_kit.pictures.picture import Picture
 from lsys_kit.pictures.rendering.frames import in_units
 from lsys_kit.pictures.rendering.view import project_smoothly
 from lsys_kit.pictures.shapes import Place
-from lsys_kit.pictures.style.labels import label_parts, place_text, values_text
+from lsys_kit.pictures.style.labels import label_parts, place_text, shared_formulas, values_text
 from lsys_kit.pictures.style.palette import INK, MARK, MARK_EDGE, QUIET, colours, tinted
 from lsys_kit.worlds.derive import derive
 
@@ -49,7 +51,8 @@ SHARE = 1 / 8
 @dataclass(frozen=True)
 class StepView:
     """What is shown for one step: its word, the stage diagram with the number of modules in each place, the states that are
-    marked, and what is drawn, as a scene and as a picture from one side.
+    marked, and what is drawn, as a scene and as a picture from one side; and the word with formulas, where constants are
+    letters.
     """
 
     step: int
@@ -59,6 +62,29 @@ class StepView:
     marked: frozenset[int]
     scene: Scene
     picture: Picture
+    lettered: Word | None = None
+
+    @property
+    def said(self) -> Word:
+        """The word as it is shown: with formulas, where constants are letters."""
+        return self.word if self.lettered is None else self.lettered
+
+    @property
+    def named(self) -> Stages:
+        """The net as it is shown: its stages named by the formulas that their modules have in common."""
+        if self.lettered is None:
+            return self.net
+        found: dict[int | None, list[Module]] = {}
+        for module in self.lettered.states.modules:
+            number = self.net.place_of(Module(module.symbol, tuple(map(number_of, module.arguments))))
+            found.setdefault(number, []).append(module)
+        places = (
+            replace(place, modules=tuple(Module(each.symbol, shared) for each in place.modules))
+            if (shared := shared_formulas(found.get(number, ())))
+            else place
+            for number, place in enumerate(self.net.places)
+        )
+        return replace(self.net, places=tuple(places))
 
     @property
     def size(self) -> str:
@@ -79,12 +105,14 @@ class StepView:
         """What there is to see in words; the stages where they are among the views that are shown."""
         places = [
             f"{place_text(place, self.net.system)}: {count:,}"
-            for place, count in zip(self.net.places, self.tokens, strict=True)
+            for place, count in zip(self.named.places, self.tokens, strict=True)
             if place.symbol[0].isalpha()
         ]
         stages = f" Stages {', '.join(places)}." if "stages" in show else ""
         measures = self.scene.measures if self.scene.size else "nothing to draw"
-        return f"Step {self.step}: {self.size}. {shortened(self.word, 160)}.{stages} {measures.capitalize()}."
+        held = conditions_text(self.said.states)
+        formulas = f" The formulas hold where {held}." if held else ""
+        return f"Step {self.step}: {self.size}. {shortened(self.said, 160)}.{formulas}{stages} {measures.capitalize()}."
 
     def __str__(self) -> str:
         return self.told(STILL)
@@ -126,9 +154,10 @@ class ViewModel:
         place: int = -1,
         around: float = 0.0,
         above: float = 0.0,
+        letters: Collection[str] = (),
     ) -> StepView:
         """What there is to see at a step, with the turtle's angle, by default the system's, with a stage that is marked, -1
-        for none, and seen from a side, as `project` counts.
+        for none, and seen from a side, as `project` counts; some constants as letters.
         """
         derivation, net = self.known(constants)
         derivation = derivation.to(step)
@@ -151,7 +180,9 @@ class ViewModel:
             picture = Picture(
                 (FilamentRow(step, seen),), state_colours(derivation), None, marked, scene if scene.dimension == 3 else None
             )
-        return StepView(step, word, net, net.tokens(word), marked, scene, picture)
+        given: dict[str, Any] = dict(constants)
+        lettered = derive(self.system, 0, seed=self.seed, letters=letters, **given).to(step)[step] if letters else None
+        return StepView(step, word, net, net.tokens(word), marked, scene, picture, lettered)
 
     def _sequence(self, derivation: Derivation, last: int) -> tuple[FilamentRow, ...]:
         constants = derivation.states.constants
@@ -194,6 +225,8 @@ class Chip(NamedTuple):
     marked: bool = False
 
 
+_States: TypeAlias = tuple[int, int]
+"""The state of a module, and what it is in the word as it is shown."""
 STILL = ("word", "stages", "drawing")
 """The views of which there are still pictures."""
 BESIDE = 1400
@@ -210,7 +243,7 @@ def composite_png(view: StepView, show: Collection[str] = STILL) -> bytes:
     (968, 595)
     """
     shown = [each for each in STILL if each in show] or [STILL[-1]]
-    net = parts_of(view.net, False, steering_of(view.net.system)) if "stages" in shown else None
+    net = parts_of(view.named, False, steering_of(view.net.system)) if "stages" in shown else None
     drawing = Image.open(io.BytesIO(view.picture.png)) if "drawing" in shown else None
     across, down = (net.width, net.height) if net else (0, 0)
     wide, high = drawing.size if drawing else (0, 0)
@@ -229,7 +262,7 @@ def composite_png(view: StepView, show: Collection[str] = STILL) -> bytes:
     if net:
         _paint_heading(sheet.part(MARGIN, top), "stages")
         marked = {view.net.place_of(view.word.states.modules[state]) for state in view.marked}
-        PixelPainter(sheet, Place(unit, MARGIN, top)).draw(drawn_stages(view.net, view.tokens, marked=marked))
+        PixelPainter(sheet, Place(unit, MARGIN, top)).draw(drawn_stages(view.named, view.tokens, marked=marked))
     if drawing:
         _paint_heading(sheet.part(MARGIN + place[0], top + place[1]), "drawing")
         sheet.picture(MARGIN + place[0], top + place[1], drawing)
@@ -277,8 +310,8 @@ def _paint_chip(sheet: Sheet, chip: Chip) -> None:
 
 def lines_of(view: StepView, width: float) -> list[list[Chip]]:
     """The word in lines; a long one without its middle."""
-    numbers, kept = view.word.numbers(), min(len(view.word), MOST)
-    chips = {state: _module_chip(view, state) for state in {*numbers[:kept], *numbers[-kept:]}}
+    numbers, kept = [*zip(view.word.numbers(), view.said.numbers(), strict=True)], min(len(view.word), MOST)
+    chips = {states: _module_chip(view, *states) for states in {*numbers[:kept], *numbers[-kept:]}}
     while True:
         lines = [*_wrapped([*_abridged(numbers, kept, chips)], width)]
         if len(lines) <= LINES:
@@ -286,13 +319,13 @@ def lines_of(view: StepView, width: float) -> list[list[Chip]]:
         kept -= max(1, kept * (len(lines) - LINES) // len(lines) - 1)
 
 
-def _abridged(numbers: Sequence[int], kept: int, chips: Mapping[int, Chip]) -> Iterator[Chip]:
+def _abridged(numbers: Sequence[_States], kept: int, chips: Mapping[_States, Chip]) -> Iterator[Chip]:
     """The first and the last modules of a word, so many together, and how many there are between them."""
     head, left_out = (kept + 1) // 2, len(numbers) - kept
-    yield from (chips[state] for state in numbers[:head])
+    yield from (chips[states] for states in numbers[:head])
     if left_out or not kept:
         yield _chip((f"… {left_out:,} more …" if left_out else "the empty word", "", ""))
-    yield from (chips[state] for state in numbers[head + left_out :])
+    yield from (chips[states] for states in numbers[head + left_out :])
 
 
 def _wrapped(chips: Sequence[Chip], width: float) -> Iterator[list[Chip]]:
@@ -307,8 +340,8 @@ def _wrapped(chips: Sequence[Chip], width: float) -> Iterator[list[Chip]]:
     yield line
 
 
-def _module_chip(view: StepView, state: int) -> Chip:
-    module, system = view.word.states.modules[state], view.word.states.system
+def _module_chip(view: StepView, state: int, said: int) -> Chip:
+    module, system = view.said.states.modules[said], view.word.states.system
     label = (*label_parts(module.symbol, system), values_text(module))
     return _chip(tuple(map(_short, label)), colours(system).get(module.symbol, ""), state in view.marked)
 

@@ -33,6 +33,7 @@ class Places:
 
 PLAIN_TAGS = ("br", "details", "sub", "summary", "sup")
 """The tags of HTML that notebooks may use in their texts, without attributes."""
+_FLAT = re.compile(r"\\left\(([^\\]*+)\\right\)")
 _PLAIN_TAG = re.compile(rf"&lt;(/?(?:{'|'.join(PLAIN_TAGS)}))&gt;")
 
 
@@ -108,7 +109,8 @@ def heading_id(html: str) -> str:
 
 
 def mathml(latex: str, display: str = "inline") -> str:
-    """A formula as MathML, which browsers show without help; one that cannot be read stays as it is written.
+    """A formula as MathML, which browsers show without help; one that cannot be read stays as it is written. Parentheses about
+    what is no higher than a line are no higher, also where no font has high ones.
 
     >>> mathml("x^2")
     '<math display="inline"><mrow><msup><mi>x</mi><mn>2</mn></msup></mrow></math>'
@@ -117,8 +119,11 @@ def mathml(latex: str, display: str = "inline") -> str:
         from latex2mathml.converter import convert
     except ImportError:
         raise missing("latex2mathml") from None
+    flat, found = latex.strip().strip("$"), 1
+    while found:
+        flat, found = _FLAT.subn(r"{(\1)}", flat)
     try:
-        made = convert(latex.strip().strip("$"), display=display)
+        made = convert(flat, display=display)
     except Exception:
         return f"<code>{escaped(latex)}</code>"
     return str(made).replace(' xmlns="http://www.w3.org/1998/Math/MathML"', "")

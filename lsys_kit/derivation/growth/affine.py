@@ -11,23 +11,25 @@ productions are chosen by chance, the vector is the mean.
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import nullcontext, suppress
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, TypeAlias
+from itertools import islice
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from lsys_kit.budget import check_budget
 from lsys_kit.derivation.core.chance import splitmix64
 from lsys_kit.derivation.core.rules import Rule, kind_of
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.traits import S0L
-from lsys_kit.derivation.growth.growth import remainder_of_power, shortest_rule
+from lsys_kit.derivation.growth.recurrences import remainder_of_power, shortest_rule, solved, unknown
 from lsys_kit.derivation.growth.slicing import ArgumentPosition, deciding_positions, slice_system
 from lsys_kit.errors import ModelNameError, ModelValueError
 from lsys_kit.notation.analysis.checks import suggestion
-from lsys_kit.notation.model.arithmetic import Value, divide, expanded_value, is_symbolic, normalised
+from lsys_kit.notation.model.arithmetic import Value, divide, expanded_value, expression_of, is_symbolic, normalised
 from lsys_kit.notation.model.modules import CLOSING, OPENING, Module
 from lsys_kit.notation.model.system import LSystem, symbols
 from lsys_kit.supervision import supervised
@@ -46,8 +48,8 @@ Coefficient: TypeAlias = "Fraction | FracElement"
 """An element of a field, see `field_of`."""
 Combination: TypeAlias = dict[Sum, Coefficient]
 """A sum of multiples of such sums."""
-MOST_SUMS = 200
-"""So many sums at most: their recurrence is found from twice as many steps."""
+MOST_SUMS, MOST_CASES = 200, 8
+"""So many sums at most: their recurrence is found from twice as many steps; so many formulas, each for values of letters."""
 
 
 class NotAffine(ModelValueError):
@@ -78,6 +80,19 @@ class AffineSums:
             weights = remainder_of_power(self.rule, step)
             return self.shown(sum((c * term for c, term in zip(weights, self.first, strict=True)), self._field(0)))
 
+    def __iter__(self) -> Iterator[Value | sympy.Expr]:
+        """The sums from step 0 on, without end."""
+        yield from map(self.shown, self._elements())
+
+    def _elements(self) -> Iterator[Coefficient]:
+        """The sums as elements of the field."""
+        latest: deque[Coefficient] = deque(self.first, len(self.rule))
+        yield from self.first
+        while True:
+            term = sum((c * term for c, term in zip(self.rule, reversed(latest), strict=True)), self._field(0))
+            latest.append(term)
+            yield term
+
     @cached_property
     def _field(self) -> Domain:
         return field_of(self.letters)
@@ -86,6 +101,102 @@ class AffineSums:
         """An element of the field of coefficients as a number or as sympy's expression."""
         return shown_element(element, self._field)
 
+    def formulas(self, n: sympy.Symbol, most: int = MOST_CASES) -> list[Case]:
+        """The sum at step n in powers and roots, and where that divides by 0, for each letter that is to blame a formula in
+        the others, down to `most` cases. None where there are only sums that no power or root says.
+
+        >>> from sympy.abc import n
+        >>> from lsys_kit import read
+        >>> shoot = read("q = 1/2\\naxiom: A(1)\\nA(x) -> F(x) A(q*x)")
+        >>> affine_sums(shoot, "F", 0, False, {"q": "q"}).formulas(n)
+        [Case(formula=(q**n - 1)/(q - 1), given={}, unless=(Ne(q, 1),)), Case(formula=n, given={q: 1}, unless=())]
+        """
+        import sympy
+
+        domain, x = self._field if self.letters else sympy.QQ, unknown("x", self.letters)
+        rule, first = ([_in_domain(c, domain) for c in each] for each in (self.rule, self.first))
+        whole = sympy.Poly.from_list([domain(1), *(-c for c in rule)], x, domain=domain)
+        terms = sympy.Poly.from_list(first or [domain(0)], x, domain=domain)
+        found = solved(whole, terms, n)
+        if found is None:
+            return []
+        formula, divisors = found
+        if self.letters:
+            formula = sympy.powsimp(sympy.factor(sympy.together(formula)), combine="base", force=True)
+        unless, others = list[sympy.Basic](), dict[frozenset[Any], Case]()
+        for divisor in divisors:
+            check_budget()
+            letter, root = _root(divisor, self.letters)
+            if letter is not None:
+                unless.append(sympy.Ne(letter, root))
+                for case in self._cases(letter, root, n, most - 1 - len(others)):
+                    others.setdefault(frozenset(case.given.items()), case)
+            elif not _has_no_root(divisor):
+                unless.append(sympy.Ne(divisor, 0))
+        return [Case(formula, {}, tuple(unless)), *others.values()]
+
+    def _cases(self, letter: sympy.Symbol, root: sympy.Expr, n: sympy.Symbol, most: int) -> list[Case]:
+        """The formulas where a letter has a value, which may depend on the others."""
+        there = self.where(letter, root) if most > 0 else None
+        found = there.formulas(n, most) if there else []
+        return [case._replace(given={letter: root.subs(case.given), **case.given}) for case in found]
+
+    def where(self, letter: sympy.Symbol, value: sympy.Expr) -> AffineSums | None:
+        """The sums where a letter has a value; None where there they have none."""
+        letters = tuple(each for each in self.letters if each != letter)
+        field = field_of(letters)
+        found = []
+        for element in (*self.rule, *self.first):
+            there = expression_of(self.shown(element)).subs(letter, value)
+            if not there.is_finite and there.is_number:
+                return None
+            found.append(field.from_sympy(there) if letters else Fraction(int(there.p), int(there.q)))
+        return AffineSums(letters, tuple(found[: len(self.rule)]), tuple(found[len(self.rule) :]))
+
+    def derivative(self, letter: sympy.Symbol) -> AffineSums:
+        """How the sums change with a letter: they obey the rule whose polynomial is the square of theirs."""
+        squared = _product([self._field(1), *(-c for c in self.rule)], [self._field(1), *(-c for c in self.rule)])
+        generator = self._field.from_sympy(letter)
+        terms = islice(self._elements(), 2 * len(self.rule))
+        return AffineSums(self.letters, tuple(-c for c in squared[1:]), tuple(self._field(c).diff(generator) for c in terms))
+
+
+def _in_domain(element: Coefficient, domain: Domain) -> Any:
+    """An element of a field of coefficients as sympy's polynomials have it."""
+    return domain(element.numerator, element.denominator) if domain.is_QQ else domain.convert(element)
+
+
+class Case(NamedTuple):
+    """A formula for a sum at step n.
+
+    formula
+        The formula.
+    given
+        The values of letters for which it is meant.
+    unless
+        What else must hold of the letters: it divides by what must not be 0.
+    """
+
+    formula: sympy.Expr
+    given: dict[sympy.Symbol, sympy.Expr]
+    unless: tuple[sympy.Basic, ...]
+
+
+def _root(divisor: sympy.Expr, letters: Sequence[sympy.Symbol]) -> tuple[sympy.Symbol, sympy.Expr] | tuple[None, None]:
+    """A letter, and the only value of it for which a polynomial is 0, whatever the other letters are; or None."""
+    for letter in reversed(letters):
+        slope = divisor.diff(letter)
+        if slope and slope.is_number:
+            return letter, (letter - divisor / slope).expand()
+    return None, None
+
+
+def _has_no_root(divisor: sympy.Expr) -> bool:
+    """Whether a polynomial in one letter is never 0."""
+    import sympy
+
+    return len(divisor.free_symbols) == 1 and not sympy.Poly(divisor).count_roots()
+
 
 def field_of(letters: Sequence[sympy.Symbol]) -> Domain:
     """The rational numbers, or the rational functions of some letters: a field as sympy has it."""
@@ -93,7 +204,7 @@ def field_of(letters: Sequence[sympy.Symbol]) -> Domain:
         return Fraction
     import sympy
 
-    return sympy.QQ.frac_field(*letters)
+    return sympy.ZZ.frac_field(*letters)
 
 
 def shown_element(element: Coefficient, field: Domain) -> Value | sympy.Expr:
@@ -178,46 +289,28 @@ class _Maps:
 
     def _recurrence(self, symbol: str, place: int | None) -> AffineSums:
         rows, start = self._closed()
+        asked = {key: often for key in rows if (often := self._often(key, symbol, place))}
+        rows = _leading_to(asked, rows)
+        rows, start = _merged(rows, start, asked)
         if not self.letters:
-            rule = shortest_rule([*self._terms(rows, start, symbol, place, 2 * len(rows) + 2)])
+            rule = shortest_rule([*_terms(rows, start, asked, 2 * len(rows) + 2)])
         else:
-            rule = self._rule_in_letters(rows, start, symbol, place)
-        return AffineSums(self.letters, rule, tuple(self._terms(rows, start, symbol, place, len(rule))))
-
-    def _terms(
-        self,
-        rows: Mapping[Sum, Combination],
-        vector: Combination,
-        symbol: str,
-        place: int | None,
-        many: int,
-        values: Sequence[Fraction] = (),
-    ) -> Iterator[Coefficient]:
-        """What is asked for at the first steps."""
-        for _ in range(many):
-            yield self._asked(vector, symbol, place, values)
-            vector = _applied(rows, vector)
-            check_budget()
+            rule = self._rule_in_letters(rows, start, asked)
+        return AffineSums(self.letters, rule, tuple(_terms(rows, start, asked, len(rule))))
 
     def _rule_in_letters(
-        self, rows: Mapping[Sum, Combination], start: Combination, symbol: str, place: int | None
+        self, rows: Mapping[Sum, Combination], start: Combination, asked: Combination
     ) -> tuple[Coefficient, ...]:
         """The shortest rule: a product of factors of the matrix's characteristic polynomial, of which numbers in place of the
         letters show which are needed. The numbers are large, so that no two factors are likely to become alike by chance."""
         from sympy.polys.matrices import DomainMatrix
 
         numbers = {source: number for number, source in enumerate(rows)}
-        entries: dict[int, dict[int, Coefficient]] = {number: {} for number in range(len(rows))}
-        for source, row in rows.items():
-            for key, factor in row.items():
-                if factor:
-                    entries[numbers[source]][numbers[key]] = factor
-        shape = len(rows), len(rows)
-        matrix = DomainMatrix({n: row for n, row in entries.items() if row}, shape, self.field)
-        factors = [
-            ([self.field.convert(c) / self.field.convert(coefficients[0]) for c in coefficients], times)
-            for coefficients, times in matrix.charpoly_factor_list()
-        ]
+        entries = {
+            numbers[source]: {numbers[key]: factor for key, factor in row.items()} for source, row in rows.items() if row
+        }
+        matrix = DomainMatrix(entries, (len(rows), len(rows)), self.field)
+        factors: list[tuple[list[Coefficient], int]] = []
         trial = 0
         while True:
             check_budget()
@@ -225,9 +318,14 @@ class _Maps:
             values = [Fraction(splitmix64(trial * 1_000 + place) % 2**31) for place in range(len(self.letters))]
             try:
                 known = {source: {key: _valued(factor, values) for key, factor in row.items()} for source, row in rows.items()}
-                begun = {key: _valued(amount, values) for key, amount in start.items()}
-                terms = [*self._terms(known, begun, symbol, place, 2 * len(rows) + 2, values)]
-                left = [Fraction(1), *(-c for c in shortest_rule(terms))]
+                begun, weights = ({key: _valued(amount, values) for key, amount in each.items()} for each in (start, asked))
+                left = [Fraction(1), *(-c for c in shortest_rule([*_terms(known, begun, weights, 2 * len(rows) + 2)]))]
+                if len(left) == len(rows) + 1:
+                    return tuple(-c for c in matrix.charpoly()[1:])
+                factors = factors or [
+                    ([self.field.convert(c) / self.field.convert(coefficients[0]) for c in coefficients], times)
+                    for coefficients, times in matrix.charpoly_factor_list()
+                ]
                 needed: list[Coefficient] = [self.one]
                 for coefficients, times in factors:
                     divisor = [_valued(c, values) for c in coefficients]
@@ -241,21 +339,17 @@ class _Maps:
             if len(left) == 1:
                 return tuple(-self.field.convert(c) for c in needed[1:])
 
-    def _asked(self, vector: Combination, symbol: str, place: int | None, values: Sequence[Fraction] = ()) -> Coefficient:
-        """What is asked for, of the sums at a step; with values of the letters, where the sums are numbers."""
-        total: Coefficient = 0
-        for (kind, at), amount in vector.items():
-            if kind[0] != symbol:
-                continue
-            kept = None if place is None else self.places.get((symbol, len(kind[1])), {}).get(place)
-            if kept is None:
-                total += amount if at == -1 else 0
-            elif kind[1][kept] is None:
-                total += amount if at == kept else 0
-            elif at == -1:
-                own = self._element(kind[1][kept])
-                total += amount * (_valued(own, values) if values else own)
-        return int(total) if isinstance(total, Fraction) and total.denominator == 1 else total
+    def _often(self, key: Sum, symbol: str, place: int | None) -> Coefficient:
+        """How often a sum is a part of what is asked for."""
+        kind, at = key
+        if kind[0] != symbol:
+            return 0
+        kept = None if place is None else self.places.get((symbol, len(kind[1])), {}).get(place)
+        if kept is None:
+            return self.one if at == -1 else 0
+        if kind[1][kept] is None:
+            return self.one if at == kept else 0
+        return self._element(kind[1][kept]) if at == -1 else 0
 
     def _closed(self) -> tuple[dict[Sum, Combination], Combination]:
         """What each sum adds to the sums of the next step, and the sums of the axiom."""
@@ -442,6 +536,55 @@ def _product(one: Sequence[Coefficient], other: Sequence[Coefficient]) -> list[C
 def _add(whole: Combination, made: Mapping[Sum, Mapping[int, Coefficient]], share: Coefficient) -> None:
     for key, parts in made.items():
         whole[key] = whole.get(key, 0 * share) + share * parts[-1]
+
+
+def _leading_to(asked: Iterable[Sum], rows: Mapping[Sum, Combination]) -> dict[Sum, Combination]:
+    """The rows of those sums that are a part of what is asked for, now or later."""
+    sources: dict[Sum, list[Sum]] = {}
+    for source, row in rows.items():
+        for key, factor in row.items():
+            if factor:
+                sources.setdefault(key, []).append(source)
+    met, waiting = {*asked}, [*asked]
+    while waiting:
+        new = {source for source in sources.get(waiting.pop(), ()) if source not in met}
+        met |= new
+        waiting += new
+    return {source: {key: c for key, c in row.items() if key in met} for source, row in rows.items() if source in met}
+
+
+def _merged(
+    rows: Mapping[Sum, Combination], start: Combination, asked: Combination
+) -> tuple[dict[Sum, Combination], Combination]:
+    """The rows and the beginning, where sums that have the same part in what is asked for, now and ever after, are one."""
+    classes: dict[Sum, Any] = {key: asked.get(key, 0) for key in rows}
+    many, own = 0, dict[Sum, int]()
+    while many < len(set(classes.values())):
+        numbers = {each: number for number, each in enumerate(dict.fromkeys(classes.values()))}
+        many, own = len(numbers), {key: numbers[each] for key, each in classes.items()}
+        classes = {key: (own[key], frozenset(_gathered(row, own).items())) for key, row in rows.items()}
+    names = {number: key for key, number in reversed(own.items())}
+    into = {key: names[number] for key, number in own.items()}
+    return {key: _gathered(rows[key], into) for key in names.values()}, _gathered(start, into)
+
+
+def _gathered(row: Combination, into: Mapping[Sum, Any]) -> dict[Any, Coefficient]:
+    """A sum of multiples where several sums have the same name; those that have none are left out."""
+    found: dict[Any, Coefficient] = {}
+    for key, factor in row.items():
+        if key in into:
+            name = into[key]
+            found[name] = found[name] + factor if name in found else factor
+    return {name: factor for name, factor in found.items() if factor}
+
+
+def _terms(rows: Mapping[Sum, Combination], vector: Combination, asked: Combination, many: int) -> Iterator[Coefficient]:
+    """What is asked for at the first steps."""
+    for _ in range(many):
+        total = sum((amount * asked[key] for key, amount in vector.items() if key in asked), 0)
+        yield int(total) if isinstance(total, Fraction) and total.denominator == 1 else total
+        vector = _applied(rows, vector)
+        check_budget()
 
 
 def _applied(rows: Mapping[Sum, Combination], vector: Combination) -> Combination:

@@ -16,18 +16,25 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property, partial, reduce
-from itertools import count, islice, zip_longest
-from typing import TYPE_CHECKING, Any
+from functools import cached_property, partial
+from itertools import count, islice
+from typing import TYPE_CHECKING
 
 from lsys_kit.arrays import np
-from lsys_kit.budget import Task, check_budget, check_bytes, counted, current
+from lsys_kit.budget import Task, check_budget, check_bytes, current
 from lsys_kit.derivation.core.chance import splitmix64
 from lsys_kit.derivation.core.states import States, check_d0l, closure
 from lsys_kit.derivation.engines.counting import next_counts
+from lsys_kit.derivation.growth.recurrences import (
+    closed_form,
+    generating_function,
+    polynomial,
+    remainder_of_power,
+    shortest_recurrence,
+    shortest_rule,
+)
 from lsys_kit.derivation.growth.slicing import slice_system
 from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown, whole_number
-from lsys_kit.notation.model.arithmetic import is_symbolic
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.supervision import supervised
@@ -38,122 +45,6 @@ if TYPE_CHECKING:
 
 RELATIVE_ZERO = 1e-9
 """A polynomial's value that is no larger than this share of its summands is 0."""
-
-MERSENNE = (61, 127, 521, 1279, 4423)
-"""2 to each of these, less 1, is a prime number: a rule is found modulo one of them, and then proved in whole numbers."""
-
-
-def shortest_rule(terms: Sequence[Any]) -> tuple[Any, ...]:
-    """The shortest rule that a sequence obeys from its first terms on, which are as many as the rule has coefficients.
-
-    The terms are whole numbers, or elements of any field, as are the coefficients.
-
-    >>> [int(c) for c in shortest_rule([3, 0, 0, 0])]
-    [0]
-    """
-    for exponent in MERSENNE if all(isinstance(term, int) for term in terms) else ():
-        prime = 2**exponent - 1
-        rule = tuple(c - prime if c > prime // 2 else c for c in _massey(terms, prime))
-        if _obeyed(rule, terms):
-            return tuple(map(Fraction, rule))
-    return tuple(Fraction(c) if isinstance(c, int) else c for c in _massey(terms, 0))
-
-
-def shortest_recurrence(terms: Sequence[int]) -> list[Fraction]:
-    """The shortest rule that a sequence obeys in the long run (Berlekamp 1968, Massey 1969).
-
-    >>> [int(c) for c in shortest_recurrence([1, 1, 1, 2, 2, 3, 4, 5, 7, 9])]
-    [0, 1, 1]
-    """
-    rule = list(shortest_rule(terms))
-    while rule and not rule[-1]:
-        rule.pop()
-    return rule
-
-
-def _obeyed(rule: Sequence[int], terms: Sequence[int]) -> bool:
-    used = [(k, c) for k, c in enumerate(rule, 1) if c]
-    return all(terms[t] == sum(c * terms[t - k] for k, c in used) for t in counted(range(len(rule), len(terms)), 1))
-
-
-def _massey(terms: Sequence[int], prime: int) -> list[Any]:
-    """The shortest rule, modulo a prime number; in rational numbers where that is 0."""
-    rule: list[Any] = []
-    best: list[Any] = []
-    best_end, best_error = -1, 1
-    for t, term in enumerate(counted(terms, 1)):
-        error: Any = term - sum(c * terms[t - k] for k, c in enumerate(rule, 1) if c)
-        error = error % prime if prime else Fraction(error) if isinstance(error, int) else error
-        if not error:
-            continue
-        if best_end < 0:
-            best_end, best_error, rule = t, error, [0] * (t + 1)
-            continue
-        factor = error * pow(best_error, -1, prime) if prime else error / best_error
-        update = [0] * (t - best_end - 1) + [factor] + [-factor * c for c in best]
-        before, rule = rule, [a + b for a, b in zip_longest(rule, update, fillvalue=0)]
-        rule = [c % prime for c in rule] if prime else rule
-        if t - len(before) > best_end - len(best):
-            best, best_end, best_error = before, t, error
-    return rule
-
-
-def remainder_of_power(rule: Sequence[Any], exponent: int) -> list[Any]:
-    """What x^exponent leaves when divided by a rule's polynomial, from the constant term up (Fiduccia 1985).
-
-    So term number `exponent` of any sequence that obeys the rule is a sum of multiples of its first terms.
-
-    >>> remainder_of_power((1, 1), 10)
-    [34, 55]
-    """
-    used = [(k, c) for k, c in enumerate(rule, 1) if c]
-    found = [1] + [0] * (len(rule) - 1) if rule else []
-    for bit in f"{exponent:b}" if rule else "":
-        square = [0] * (2 * len(rule))
-        for i, a in enumerate(counted(found, 1)):
-            if a:
-                square[2 * i + (bit == "1")] += a * a
-                for j in range(i):
-                    square[i + j + (bit == "1")] += 2 * a * found[j]
-        for degree in range(len(square) - 1, len(rule) - 1, -1):
-            top = square.pop()
-            check_budget()
-            for k, c in used if top else ():
-                square[degree - k] += c * top
-        found = square
-    return found
-
-
-def polynomial(rule: Sequence[int], terms: Sequence[int] = ()) -> sympy.Poly:
-    """The polynomial of a rule; its x is none of the letters in the rule and in the terms.
-
-    >>> polynomial((1, 1)).as_expr()
-    x**2 - x - 1
-    """
-    import sympy
-
-    return sympy.Poly([1, *(-c for c in rule)], unknown("x", rule, terms))
-
-
-def unknown(name: str, *coefficients: Sequence[object]) -> sympy.Symbol:
-    """A symbol of this name, or, where coefficients have a letter that is called so, of this name and a number."""
-    from sympy.core.symbol import uniquely_named_symbol
-
-    return uniquely_named_symbol(name, [c for each in coefficients for c in each if is_symbolic(c)])
-
-
-def generating_function(rule: Sequence[int], terms: Sequence[int]) -> sympy.Expr:
-    """The quotient of polynomials whose power series has the terms as coefficients.
-
-    >>> generating_function((1, 1), [1, 2])
-    (x + 1)/(-x**2 - x + 1)
-    """
-    import sympy
-
-    x = unknown("x", rule, terms)
-    above = [a - sum(c * terms[t - k] for k, c in enumerate(rule[:t], 1)) for t, a in enumerate(terms[: len(rule)])]
-    below = [1, *(-c for c in rule)]
-    return sympy.Poly(above[::-1] or [0], x).as_expr() / sympy.Poly(below[::-1], x).as_expr()
 
 
 def greatest_root(rule: Sequence[int], exact: bool = True) -> float:
@@ -238,64 +129,6 @@ def _refined(row: Sequence[int], root: int, places: int) -> int:
             value, slope = (value * root >> places) + (c << places), (slope * root >> places) + value
         root -= (value << places) // slope
     return root
-
-
-def closed_form(rule: Sequence[int], terms: Sequence[int], t: sympy.Symbol | None = None) -> sympy.Expr | None:
-    """A formula for the terms of a sequence; its t is a whole number from 0 on.
-
-    Roots of degree two and less are written out, others are summed over as roots of their polynomial; None where such a
-    root is a multiple one, or has letters. The coefficients are whole numbers, or sympy's expressions in letters.
-
-    >>> closed_form((0, 4), [1, 6])
-    -(-2)**t + 2*2**t
-    >>> closed_form((2, -1), [3, 5])
-    2*t + 3
-    """
-    import sympy
-
-    whole = polynomial(rule, terms)
-    x, t = whole.gen, t or unknown("t", rule, terms)
-    series = sympy.Poly(list(terms[: len(rule)]) or [0], x)  # the terms as digits behind the point, in powers of 1/x
-    above, _ = (whole * series).div(sympy.Poly(x ** len(rule), x))
-    factors = [(factor.to_field().monic(), times) for factor, times in whole.factor_list()[1]]
-    if any(factor.degree() > 2 and (times > 1 or factor.free_symbols_in_domain) for factor, times in factors):
-        return None
-    return sum((_part(above, whole, factor, times, t) for factor, times in factors), sympy.Integer(0))
-
-
-def _part(above: sympy.Poly, whole: sympy.Poly, factor: sympy.Poly, times: int, t: sympy.Symbol) -> sympy.Expr:
-    """What the roots of one factor of the polynomial contribute: the residues of above/whole x^t there."""
-    import sympy
-
-    x = whole.gen
-    if factor.as_expr() == x:
-        return _beginning(above, whole, times, t)
-    if factor.degree() > 2:
-        weight = sympy.rem((above * sympy.invert(whole.diff(x), factor)), factor).as_expr()
-        return sympy.RootSum(factor.as_expr(), sympy.Lambda(x, weight * x**t))
-    if times == factor.degree() == 1:
-        root = -factor.nth(0)
-        return sympy.cancel(above.as_expr() / whole.quo(factor).as_expr()).subs(x, root) * root**t
-    roots = list(sympy.roots(factor))
-    rest = whole.quo(factor**times).as_expr()
-    total = sympy.Integer(0)
-    for root in roots:
-        others = rest * reduce(lambda product, other: product * (x - other) ** times, [r for r in roots if r != root], 1)
-        share = sympy.diff(above.as_expr() / others * x**t, x, times - 1) / sympy.factorial(times - 1)
-        weight = sympy.expand(sympy.radsimp(sympy.simplify(share.subs(x, root) / root**t)))
-        total += sympy.expand(weight) * root**t
-    return total
-
-
-def _beginning(above: sympy.Poly, whole: sympy.Poly, times: int, t: sympy.Symbol) -> sympy.Expr:
-    """What the root 0 contributes: a summand for each of the first terms that the rest of the formula does not reach."""
-    import sympy
-
-    x = whole.gen
-    rest = whole.quo(sympy.Poly(x**times, x))
-    part = sympy.rem(above * sympy.invert(rest, sympy.Poly(x**times, x)), sympy.Poly(x**times, x))
-    digits = part.all_coeffs()[::-1]
-    return sum((c * sympy.KroneckerDelta(t, times - 1 - power) for power, c in enumerate(digits)), sympy.Integer(0))
 
 
 OBJECT_BYTES = 36

@@ -6,6 +6,7 @@ markup, and whoever shows it makes an element of each list, and of each text a n
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from fractions import Fraction
 from functools import lru_cache
@@ -28,6 +29,8 @@ _VULGAR = {
 _ROOTS = {"3": "∛", "4": "∜"}
 _SIGNS = {"<": "<", "<=": "≤", ">": ">", ">=": "≥", "==": "=", "!=": "≠"}
 _MINUS = "−"
+_NAME = re.compile(r"(?<![\\A-Za-z])[A-Za-z]{2,}+")
+"""Several letters in LaTeX that are no command."""
 
 
 def formula_element(value: object) -> Element:
@@ -55,6 +58,45 @@ def formula_text(value: object) -> str:
     ['q²', '½q', '1 − q¹⁰', '√2 q', '1/(q + 1)', 'q² > ½']
     """
     return element_text(formula_element(value))
+
+
+def formula_latex(value: object) -> str:
+    """The same in LaTeX. A name of several letters is one name; a sum over roots says of which polynomial.
+
+    >>> import sympy
+    >>> spans, q = sympy.Symbol("lifeTimeA"), sympy.Symbol("q")
+    >>> formula_latex(q**-spans), formula_latex(sympy.Ne(q, 1))
+    ('q^{- \\\\textit{lifeTimeA}}', 'q \\\\neq 1')
+    >>> formula_latex(sympy.RootSum(q**3 - q - 1, sympy.Lambda(q, 2**q)))
+    '\\\\sum_{q^{3} - q - 1 = 0} 2^{q}'
+    """
+    import sympy
+
+    expression = expression_of(value)
+    names = {each: _NAME.sub(r"\\textit{\g<0>}", str(sympy.latex(each))) for each in expression.free_symbols}
+    sums = {each: sympy.Dummy() for each in expression.atoms(sympy.RootSum)}
+    for each, stand_in in sums.items():
+        body = formula_latex(each.fun.expr)
+        names[stand_in] = rf"\sum_{{{formula_latex(each.poly.as_expr())} = 0}} {body}"
+    return str(sympy.latex(expression.xreplace(sums), symbol_names=names))
+
+
+def formula_line(value: object) -> str:
+    """The same as the notations write it. A sum over roots says of which polynomial.
+
+    >>> import sympy
+    >>> x = sympy.Symbol("x")
+    >>> formula_line(2 + sympy.RootSum(x**3 - x - 1, sympy.Lambda(x, 2**x)))
+    'sum(2^x for x^3 - x - 1 = 0) + 2'
+    """
+    import sympy
+
+    expression = expression_of(value)
+    sums = {
+        each: sympy.Symbol(f"sum({formula_line(each.fun.expr)} for {formula_line(each.poly.as_expr())} = 0)")
+        for each in expression.atoms(sympy.RootSum)
+    }
+    return number_text(expression.xreplace(sums))
 
 
 def element_text(element: Element) -> str:

@@ -7,13 +7,13 @@ polarity. All text is escaped: a model's names can never become markup.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from html import escape
 
 from lsys_kit.derivation.petri.net import Place
 from lsys_kit.errors import printable
-from lsys_kit.notation.model.arithmetic import is_symbolic, number_text, rounded
+from lsys_kit.notation.model.arithmetic import Value, is_symbolic, number_of, number_text, rounded
 from lsys_kit.notation.model.formulas import Element, formula_text, values_element
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem, symbols
@@ -80,6 +80,21 @@ def values_text(module: Module) -> str:
         for value in module.arguments
     )
     return f"({values})" if values else ""
+
+
+def shared_formulas(modules: Sequence[Module]) -> tuple[Value, ...]:
+    """The values that the modules of a stage have in common, as formulas; none where they have no formulas in common.
+
+    >>> from lsys_kit import derive, read
+    >>> word = derive(read("q = 1/2\\naxiom: A(1)\\nA(x) -> A(q*x) A(q*x)"), 2, letters="q")[-1]
+    >>> [number_text(value.expression) for value in shared_formulas([*word])]
+    ['q^2']
+    """
+    if len({len(module.arguments) for module in modules}) != 1:
+        return ()
+    columns = zip(*(module.arguments for module in modules), strict=True)
+    shared = [{*column} for column in columns if len({*map(number_of, column)}) == 1]
+    return () if any(len(column) > 1 for column in shared) else tuple(column.pop() for column in shared)
 
 
 def mathml(formula: Element) -> str:

@@ -63,7 +63,7 @@ from lsys_kit.notation.registry import dialect_named
 from lsys_kit.notation.write import as_written
 from lsys_kit.pictures.filaments import time_text
 from lsys_kit.pictures.nets.parts import steering_of
-from lsys_kit.pictures.style.labels import label_parts, values_text, visible
+from lsys_kit.pictures.style.labels import label_parts, shared_formulas, values_text, visible
 from lsys_kit.pictures.style.palette import CHOSEN, colours
 from lsys_kit.worlds.derive import derive
 
@@ -261,22 +261,11 @@ def _formulas(states: States, pages: _Pages, diagram: Data, rows: Sequence[Seque
     for state, row in zip(pages.numbers, rows, strict=True):
         of_places.setdefault(row[2], []).append(states.modules[state])
     for place in diagram["places"]:
-        if place["values"] and (shared := _shared_formulas(of_places.get(place["place"], ()))):
-            place["formula"] = shared
+        if place["values"] and (shared := shared_formulas(of_places.get(place["place"], ()))):
+            place["formula"] = values_text(Module("", shared))
     all_decided = decisions_of(states)
     held = [conditions_text(states, all_decided[:many]) for many in decided[: pages.last + 1]]
     return {"formulas": found, "conditions": [f"the formulas hold where {text}" if text else "" for text in held]}
-
-
-def _shared_formulas(modules: Sequence[Module]) -> str:
-    """The values that the modules of a stage have in common, as formulas; "" where they have no formulas in common."""
-    if len({len(module.arguments) for module in modules}) != 1:
-        return ""
-    columns = zip(*(module.arguments for module in modules), strict=True)
-    shared = [{*column} for column in columns if len({*map(number_of, column)}) == 1]
-    if not shared or any(len(column) > 1 for column in shared):
-        return ""
-    return values_text(Module("", tuple(column.pop() for column in shared)))
 
 
 def _is_stroke(drawn: Sequence[Any], module: Module) -> bool:

@@ -8,7 +8,7 @@ from functools import cached_property, lru_cache
 from typing import Any, NamedTuple
 
 from lsys_kit.budget import current, processor_time
-from lsys_kit.classroom.link import ANGLE, SEED, STEP, link
+from lsys_kit.classroom.link import ANGLE, LETTERS, SEED, STEP, link
 from lsys_kit.classroom.panel import held
 from lsys_kit.classroom.panel.books.book import book, first_step
 from lsys_kit.classroom.panel.books.net import Unfolding
@@ -118,7 +118,7 @@ class OpenedSystem:
         net = view.known(constants)[1]
         names = [place_text(place, net.system) for place in net.places]
         place = names.index(chosen.mark) if chosen.mark in names else -1
-        return view.sight(chosen.step, constants, chosen.angle, place, chosen.around, chosen.above)
+        return view.sight(chosen.step, constants, chosen.angle, place, chosen.around, chosen.above, chosen.letters)
 
     def still(self, chosen: Viewing, show: Collection[str] = STILL) -> Mapping[str, str]:
         return {"image/png": base64.b64encode(composite_png(self.sight(chosen), show)).decode()}
@@ -162,7 +162,8 @@ class OpenedSystem:
     def link(self, chosen: Viewing) -> str:
         turn = {} if chosen.angle == round(float(self.system.angle), 1) else {ANGLE: chosen.angle}
         seed = {SEED: chosen.seed} if chosen.seed else {}
-        return link(self.system, {STEP: chosen.step, **turn, **seed, **self.given, **chosen.values})
+        letters = {LETTERS: chosen.letters} if chosen.letters else {}
+        return link(self.system, {STEP: chosen.step, **turn, **seed, **letters, **self.given, **chosen.values})
 
     def read(self, text: str) -> AnySystem:
         """The text in the notation of the system before it, or in the one that it shows."""

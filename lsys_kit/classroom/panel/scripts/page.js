@@ -107,18 +107,19 @@ async function linkedSettings({ model, system }) {
   const content = await unpackedLink(location.href), others = {}, settings = {};
   if (!content) return { others, settings, notice: hasLink(location.href) ? BROKEN : null };
   if (content.notation !== system.notation || content.text !== system.text) return { others, settings, notice: ANOTHER };
-  const { step, angle, seed = "0" } = content.settings, turn = numberOf(angle);
+  const { step, angle, seed = "0", letters = "" } = content.settings, turn = numberOf(angle);
+  if (model.lettered) others.letters = model.lettered.filter((name) => letters.split(",").includes(name));
   if (model.chance && model.seeds.includes(seed)) others.seed = Number(seed);
   if (/^\d{1,9}$/.test(step)) others.step = Number(step);
   if (turn >= 0 && turn <= 180) others.angle = Math.round(turn * 10) / 10;
   for (const { name, texts } of model.constants) if (texts.includes(content.settings[name])) settings[name] = content.settings[name];
-  return { others, settings, notice: null, asked: { ...content.settings, seed } };
+  return { others, settings, notice: null, asked: { ...content.settings, seed, letters } };
 }
 
 // Whether something of a link is not shown: a later step than there is, or a value that the page does not hold.
-function isLost({ step, angle, seed, ...constants }, { settings, model: { book }, ...values }, fixed) {
-  const shown = { ...fixed, ...settings };
-  return Number(step) > book.steps || (book.chance && seed !== String(values.seed)) || Object.entries(constants).some(([name, text]) => shown[name] !== text);
+function isLost({ step, angle, seed, ...others }, { settings, letters, model: { book }, ...values }, fixed) {
+  const shown = { ...fixed, ...settings, letters: `${letters ?? ""}` };
+  return Number(step) > book.steps || (book.chance && seed !== String(values.seed)) || Object.entries(others).some(([name, text]) => shown[name] !== text);
 }
 
 function numberOf(text = "") {
@@ -126,7 +127,7 @@ function numberOf(text = "") {
   return above === "" ? NaN : Number(above) / Number(below);
 }
 
-function contentOf({ system, fixed }, { step, angle, seed, settings }) {
-  const turn = angle === system.angle ? {} : { angle }, sown = seed ? { seed } : {};
-  return { ...system, settings: { step, ...turn, ...sown, ...fixed, ...settings } };
+function contentOf({ system, fixed }, { step, angle, seed, letters, settings }) {
+  const turn = angle === system.angle ? {} : { angle }, sown = seed ? { seed } : {}, named = letters?.length ? { letters } : {};
+  return { ...system, settings: { step, ...turn, ...sown, ...named, ...fixed, ...settings } };
 }
