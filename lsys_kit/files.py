@@ -28,7 +28,7 @@ from contextlib import contextmanager, suppress
 from importlib.resources import files
 from io import FileIO
 from pathlib import Path, PurePosixPath
-from typing import Any
+from typing import Any, TypeAlias
 
 from lsys_kit.errors import ModelFileError, ModelLimitError, ModelValueError, quotable
 
@@ -42,7 +42,11 @@ _TO_THE_END = os.O_RDWR | os.O_APPEND | getattr(os, "O_NOFOLLOW", 0) | getattr(o
 """How a file is opened to which lines are added: links are not followed, and nothing is waited for."""
 
 
-def toml_tables(package: str, name: str) -> dict[str, Any]:
+Table: TypeAlias = Mapping[str, Any]
+"""A table of a TOML file, or an object of JSON, as it is read."""
+
+
+def toml_tables(package: str, name: str) -> Table:
     """What a file of the kit declares that stands in one of its packages.
 
     >>> sorted(toml_tables("lsys_kit", "commands.toml"))
