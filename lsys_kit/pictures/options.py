@@ -13,7 +13,7 @@ from lsys_kit.derivation.growth.growth import Growth
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.derivation.timed.lineage import Lineage
 from lsys_kit.derivation.timed.timed import Timed
-from lsys_kit.derivation.tissues.development import CellDevelopment
+from lsys_kit.derivation.tissues.development import AnyDevelopment, CellDevelopment
 from lsys_kit.errors import LSystemError, ModelNameError, ModelValueError, quotable, require, shown
 from lsys_kit.geometry.drawing import PIPES, scene_of
 from lsys_kit.geometry.scene import Scene
@@ -259,6 +259,6 @@ def system_of(what: LSystem | Derivation | Word) -> LSystem:
     return what if isinstance(what, LSystem) else what.states.system
 
 
-def cell_system_of(what: CellSystem | CellDevelopment[Any, Any]) -> CellSystem:
+def cell_system_of(what: CellSystem | AnyDevelopment) -> CellSystem:
     system: CellSystem = what if isinstance(what, CellSystem) else what.system
     return system

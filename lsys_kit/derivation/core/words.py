@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain
-from typing import Any, overload
+from typing import TypeAlias, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +16,8 @@ from lsys_kit.errors import every, require
 from lsys_kit.notation.model.modules import Module, joined, rounded_module
 from lsys_kit.notation.registry import dialect_named
 
+Codes: TypeAlias = "Sequence[int] | NDArray[np.integer]"
+"""The numbers of states, one after another."""
 MOST_SHOWN = 2_000
 """How many characters `repr` shows of a long word."""
 
@@ -43,7 +45,7 @@ class Word(Sequence[Module]):
 
     __slots__ = ("codes", "states")
 
-    def __init__(self, states: States, codes: Sequence[int] | NDArray[Any]) -> None:
+    def __init__(self, states: States, codes: Codes) -> None:
         self.states, self.codes = states, codes
 
     def __len__(self) -> int:
@@ -131,7 +133,7 @@ def blocks(numbers: Sequence[int], size: int = INTERVAL) -> Iterator[Sequence[in
     return (numbers[first : first + size] for first in counted(range(0, len(numbers), size), 1))
 
 
-def text_of(states: States, codes: Sequence[int] | NDArray[Any], shown: bool = False) -> str:
+def text_of(states: States, codes: Codes, shown: bool = False) -> str:
     """The text of a row of states, in their system's notation; if it is only shown, with rounded values."""
     numbers = codes.tolist() if isinstance(codes, np.ndarray) else codes
     notation = dialect_named(states.system.notation)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,7 +23,7 @@ from lsys_kit.derivation.engines.engine import ByteTable, code_type
 from lsys_kit.derivation.engines.stepwise import Replacement, Stepper
 from lsys_kit.notation.model.modules import CLOSING, OPENING
 
-IntegerArray: TypeAlias = NDArray[Any]
+IntegerArray: TypeAlias = NDArray[np.integer]
 Sides: TypeAlias = tuple[IntegerArray, IntegerArray]
 ORDINARY, OPENS, CLOSES, PASSED, SKIPPED = range(5)
 """The role of a module in contexts: `PASSED` is ignored but has contexts of its own, `SKIPPED` is ignored and has none."""
@@ -94,7 +94,7 @@ class RuleChoice:
     marks: IntegerArray
     total: float
 
-    def drawn(self, units: IntegerArray) -> IntegerArray:
+    def drawn(self, units: NDArray[np.float64]) -> IntegerArray:
         """For each random number from 0 up to 1 the index of the rule that it chooses."""
         return np.searchsorted(self.marks, units * self.total, side="right")
 

@@ -11,14 +11,11 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property, partial
 from itertools import chain
 from operator import attrgetter
-from typing import Any
-
-from numpy.typing import NDArray
 
 from lsys_kit.budget import INTERVAL, Task, check_budget, counted
 from lsys_kit.cache import Cache
 from lsys_kit.derivation.core.states import States
-from lsys_kit.derivation.core.words import Word, state_counts
+from lsys_kit.derivation.core.words import Codes, Word, state_counts
 from lsys_kit.derivation.engines import engine
 from lsys_kit.derivation.engines.columnar import ColumnarSteps, ColumnWord
 from lsys_kit.derivation.engines.engine import ByteTable, Origins, check_size, check_step, compact, expand
@@ -120,7 +117,7 @@ class CountingEngine:
             array = expand(self.states, [counts for counts, _ in self._steps[: step + 1]])
         return Word(self.states, array.tolist() if small else array)
 
-    def _replaced(self, word: Word, present: dict[int, int]) -> Sequence[int] | NDArray[Any]:
+    def _replaced(self, word: Word, present: dict[int, int]) -> Codes:
         """The successor of a short word, given the states that occur in it."""
         successors, table = self.states.successors, self._bytes
         if present.keys() <= table.known or all(table.add(state, successors[state]) for state in present):

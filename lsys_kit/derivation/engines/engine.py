@@ -11,14 +11,14 @@ from collections import Counter
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import Any, Protocol, TypeAlias
+from typing import Protocol, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lsys_kit.budget import check_budget, check_limit, counted
 from lsys_kit.derivation.core.states import States
-from lsys_kit.derivation.core.words import Word
+from lsys_kit.derivation.core.words import Codes, Word
 from lsys_kit.notation.model.arithmetic import Value
 
 BYTES = 256
@@ -33,12 +33,12 @@ PIECE = 64
 
 
 @lru_cache(maxsize=1_024)
-def code_type(states: int) -> np.dtype[Any]:
+def code_type(states: int) -> np.dtype[np.unsignedinteger]:
     """The smallest unsigned type that can number so many states."""
     return np.min_scalar_type(max(states - 1, 0))
 
 
-def compact(codes: Sequence[int], states: int) -> Sequence[int] | NDArray[Any]:
+def compact(codes: Sequence[int], states: int) -> Codes:
     """A word of a table of so many states: a list where it is short, else an array of the smallest type."""
     return codes if len(codes) <= MOST_LISTED else np.array(codes, code_type(states))
 
@@ -95,7 +95,7 @@ class ByteTable:
         return np.frombuffer(word, np.uint8)
 
 
-def expand(states: States, present: Sequence[Collection[int]]) -> NDArray[Any]:
+def expand(states: States, present: Sequence[Collection[int]]) -> NDArray[np.integer]:
     """The word of the last step, as an array of states."""
     sizes = _sizes(states, present)
     pieces = _pieces(states, present, sizes)
