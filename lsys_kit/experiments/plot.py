@@ -19,7 +19,7 @@ from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.derivation.timed.timed import Timed
 from lsys_kit.derivation.tissues.development import Development
 from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError, require, shown, whole_number
-from lsys_kit.experiments.measures import Asked, Measure, measures_of
+from lsys_kit.experiments.measures import Asked, Measurable, Measure, measures_of
 from lsys_kit.experiments.table import Table, column_label, measured_label
 from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
 from lsys_kit.notation.model.arithmetic import Value, is_symbolic
@@ -197,8 +197,8 @@ def _name_label(name: str) -> str:
 
 def _points(run: Derivation | _Course, measures: Sequence[Measure]) -> list[tuple[tuple[float, float], ...]]:
     if isinstance(run, Derivation):
-        places: list[Any] = [*range(len(run))]
-        seen = [run.to(step) for step in counted(places, 1)]
+        places: list[Value] = [*range(len(run))]
+        seen: list[Measurable] = [run.to(step) for step in counted(range(len(run)), 1)]
     else:
         timed, grid = run.system, [run.end * Fraction(place, MOMENTS) for place in range(MOMENTS + 1)]
         words: dict[Value, tuple[Word, ...]] = {place: (timed.word(place),) for place in counted(grid, 1)}
