@@ -123,7 +123,7 @@ def _is_named(part: object) -> bool:
 
 
 @v_args(inline=True)
-class Expressions(Transformer[Any, Any]):
+class Expressions(Transformer[Token, object]):
     """What `expressions.lark` names."""
 
     def number(self, token: Token) -> Number:
@@ -164,7 +164,7 @@ class Expressions(Transformer[Any, Any]):
 
 
 @v_args(inline=True)
-class Statements(Transformer[Any, Any]):
+class Statements(Transformer[Token, object]):
     """What the grammars of the notations name."""
 
     def module(self, symbol: Token, *arguments: Any) -> Pattern:
@@ -182,13 +182,13 @@ class Statements(Transformer[Any, Any]):
     def erased(self, _: Token) -> tuple[Pattern, ...]:
         return ()
 
-    def predecessor(self, *modules: Any) -> tuple[str, tuple[Pattern, ...]]:
+    def predecessor(self, *modules: Pattern) -> tuple[str, tuple[Pattern, ...]]:
         return "predecessors", modules
 
-    def left(self, *modules: Any) -> tuple[str, tuple[Pattern, ...]]:
+    def left(self, *modules: tuple[Pattern, ...]) -> tuple[str, tuple[Pattern, ...]]:
         return "left", modules[0] if modules else ()
 
-    def right(self, *modules: Any) -> tuple[str, tuple[Pattern, ...]]:
+    def right(self, *modules: tuple[Pattern, ...]) -> tuple[str, tuple[Pattern, ...]]:
         return "right", modules[0] if modules else ()
 
     def probability(self, expression: Expression) -> tuple[str, Expression]:
@@ -233,7 +233,7 @@ class Statements(Transformer[Any, Any]):
         """Only names of several letters could be taken for a row of symbols."""
         return "alphabet", tuple(letter for letter in map(_symbol, letters) if letter[0].isalpha() and len(letter) > 1)
 
-    def constant(self, name: Token, value: Expression, *rest: Any) -> tuple[str, Constant]:
+    def constant(self, name: Token, value: Expression, *rest: Expression | Token) -> tuple[str, Constant]:
         ends = [part for part in rest if not isinstance(part, Token)]
         step = ends[2] if len(ends) == 3 else Number(1)
         check_name(name)
@@ -283,11 +283,11 @@ class Statements(Transformer[Any, Any]):
 
 
 def transformer(
-    statements: type[Transformer[Any, Any]], expressions: type[Expressions] = Expressions
-) -> Callable[[], Transformer[Any, Any]]:
+    statements: type[Transformer[Token, object]], expressions: type[Expressions] = Expressions
+) -> Callable[[], Transformer[Token, object]]:
     """What makes the records of a grammar that imports `expressions.lark`."""
 
-    def made() -> Transformer[Any, Any]:
+    def made() -> Transformer[Token, object]:
         return merge_transformers(statements(), expressions=expressions())  # type: ignore[no-untyped-call,no-any-return]
 
     return made

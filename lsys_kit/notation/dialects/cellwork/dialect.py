@@ -106,7 +106,7 @@ def _system(text: str) -> CellworkSystem:
 
 
 @v_args(inline=True)
-class _CellworkStatements(Transformer[Any, Any]):
+class _CellworkStatements(Transformer[Token, object]):
     """What `grammar.lark` names."""
 
     def edge(self, label: Token, *points: Token) -> Edge:

@@ -256,7 +256,7 @@ class MathematicaStatements(MathematicaExpressions):
     def lrules(self, _: Token, *members: RuleDefinition | Token | None) -> RuleList:
         return RuleList(tuple(member for member in members if member is not None), None in members)
 
-    def axiom(self, _: Token, word: WordDefinition) -> Any:
+    def axiom(self, _: Token, word: WordDefinition) -> WordDefinition:
         return word
 
     def lsystem(self, _: Token, axiom: WordDefinition | Token, rules: RuleList | Token) -> SystemDefinition:

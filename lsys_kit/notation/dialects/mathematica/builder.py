@@ -22,7 +22,7 @@ from lsys_kit.notation.model.expressions import Expression, Name, Number, names_
 from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.notation.model.system import Constant, LSystem
 from lsys_kit.notation.syntax.actions import place_of
-from lsys_kit.notation.syntax.builder import Draft, build_system
+from lsys_kit.notation.syntax.builder import Draft, Settings, build_system
 from lsys_kit.notation.syntax.segmentation import segment_with_notes
 
 Thing = TypeVar("Thing")
@@ -58,7 +58,7 @@ class Definitions:
     single: dict[str, RuleDefinition] = field(default_factory=dict)
     systems: dict[str, SystemDefinition] = field(default_factory=dict)
     constants: dict[str, Constant] = field(default_factory=dict)
-    settings: dict[str, Any] = field(default_factory=dict)
+    settings: Settings = field(default_factory=dict)
     run: Run | None = None
     alone: list[Token] = field(default_factory=list)
     title: str = ""
