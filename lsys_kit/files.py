@@ -23,7 +23,7 @@ import struct
 import tomllib
 import zipfile
 import zlib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from importlib.resources import files
 from io import FileIO
@@ -42,11 +42,13 @@ _TO_THE_END = os.O_RDWR | os.O_APPEND | getattr(os, "O_NOFOLLOW", 0) | getattr(o
 """How a file is opened to which lines are added: links are not followed, and nothing is waited for."""
 
 
-Table: TypeAlias = Mapping[str, Any]
-"""A table of a TOML file, or an object of JSON, as it is read."""
+Json: TypeAlias = "Mapping[str, Json] | Sequence[Json] | str | float | None"
+"""What JSON can say."""
+Entries: TypeAlias = Mapping[str, Any]
+"""What a table of TOML or an object of JSON has in it, as it is read."""
 
 
-def toml_tables(package: str, name: str) -> Table:
+def toml_tables(package: str, name: str) -> Entries:
     """What a file of the kit declares that stands in one of its packages.
 
     >>> sorted(toml_tables("lsys_kit", "commands.toml"))

@@ -31,6 +31,8 @@ from lsys_kit.pictures.style.colour_values import colour_from
 from lsys_kit.pictures.style.labels import polar_symbols
 from lsys_kit.pictures.style.themes import LIGHT, Theme, theme_from
 
+Choices: TypeAlias = Mapping[str, Any]
+"""What a person chooses, by the names of the arguments."""
 Symbols: TypeAlias = Mapping[str, tuple[str, ...]]
 """Names of symbols, each with those that it stands for: one, or the two polarities of a cell."""
 OPTIONS = ("labels", "colours", "widths", "turtle", "legend", "light", "background")
@@ -87,7 +89,7 @@ class Style:
     size: Size | None = None
 
 
-def style_from(given: Mapping[str, Any], kind: str, symbols: Symbols, size: object = None) -> Style:
+def style_from(given: Choices, kind: str, symbols: Symbols, size: object = None) -> Style:
     """The style that a person chooses for a kind of picture, whose symbols may be given colours.
 
     >>> found = style_from({"colours": {"A": "navy"}, "background": "dark"}, STAGES, {"A": ("A",)})
@@ -218,7 +220,7 @@ def check_drawable(what: object, n: int | None = None) -> None:
         raise ModelValueError(f"The steps of {kind_of(what, {})} are chosen when it is made, not when it is drawn", hint=hint)
 
 
-def kind_of(what: object, choices: Mapping[str, Any]) -> str:
+def kind_of(what: object, choices: Choices) -> str:
     """The kind of picture that is drawn of something."""
     if isinstance(what, CellSystem | CellDevelopment):
         return f"a {cell_system_of(what).kind}"

@@ -18,7 +18,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from lsys_kit.errors import quotable
-from lsys_kit.files import Table, toml_tables
+from lsys_kit.files import Entries, toml_tables
 from lsys_kit.geometry.scene import Floats
 from lsys_kit.geometry.turtle.commands import COMMANDS
 from lsys_kit.notation.model.modules import flat
@@ -265,7 +265,7 @@ def surfaces() -> Mapping[str, Surface]:
     return {name: Surface(name, tuple(table["symbols"]), *_facets(table)) for name, table in tables.items()}
 
 
-def _facets(table: Table) -> Facets:
+def _facets(table: Entries) -> Facets:
     if "profile" in table:
         return revolved_facets(table["profile"], table["sides"], table["pieces"])
     blade = _blade(table)
@@ -278,7 +278,7 @@ def _facets(table: Table) -> Facets:
     return joined_facets([blade.mapped(turned(turn)) for turn in turns])
 
 
-def _blade(table: Table) -> Facets:
+def _blade(table: Entries) -> Facets:
     """A blade: two halves on both sides of its midrib, perhaps with a stalk."""
     control = blade_control(table["midrib"], table["margin"], table["bulge"])
     parts = [patch_facets(half, *table["faces"]) for half in (control, mirrored_control(control))]

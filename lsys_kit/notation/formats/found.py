@@ -14,12 +14,12 @@ from functools import cache
 from typing import NamedTuple
 
 from lsys_kit.errors import quotable
-from lsys_kit.files import Table, toml_tables
+from lsys_kit.files import Entries, toml_tables
 from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, assembled
 
 
 @cache
-def tables() -> Table:
+def tables() -> Entries:
     """The words by which the parts of a system are called; `fields.toml` explains its keys."""
     return toml_tables(__package__, "fields.toml")
 

@@ -27,7 +27,7 @@ from lsys_kit.notation.dialects.grogra.writer import (
     system_text,
 )
 from lsys_kit.notation.model.expressions import OPERATORS, Expression, Name, Number, names_in
-from lsys_kit.notation.model.modules import Item, Pattern, flat, rewritten
+from lsys_kit.notation.model.modules import ItemT, Pattern, flat, rewritten
 from lsys_kit.notation.model.system import Constant, LSystem, Production
 from lsys_kit.notation.syntax.actions import Expressions, Statement, Statements, place_of, transformer
 from lsys_kit.notation.syntax.builder import Draft, build_system
@@ -269,7 +269,7 @@ def with_ones(system: LSystem) -> tuple[LSystem, list[str]]:
     if not ones:
         return system, []
 
-    def word(items: Iterable[Item]) -> tuple[Any, ...]:
+    def word(items: Iterable[ItemT]) -> tuple[ItemT, ...]:
         return rewritten(items, lambda m: (replace(m, symbol=ones.get(m.symbol, m.symbol)),), lambda count: count)
 
     def rule(r: Production) -> Production:
