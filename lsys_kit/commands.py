@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from lsys_kit.notation.read import AnySystem
     from lsys_kit.pictures.draw import AnyPicture
     from lsys_kit.pictures.films import Film
+    from lsys_kit.pictures.options import Choices
 
 
 MOST_NEIGHBOURS = 1_000
@@ -219,7 +220,7 @@ def draw_word(options: argparse.Namespace) -> None:
     _save(shown, options)
 
 
-def _film(options: argparse.Namespace) -> dict[str, Any]:
+def _film(options: argparse.Namespace) -> Choices:
     from lsys_kit.pictures.formats.notebook import FILMS
 
     turntable = getattr(options, "turntable", False)
@@ -235,14 +236,14 @@ def _save(shown: AnyPicture | Film, options: argparse.Namespace) -> None:
     print(shown)
 
 
-def _seen(options: argparse.Namespace) -> dict[str, Any]:
+def _seen(options: argparse.Namespace) -> Choices:
     """The side from which something is seen, the size of the picture and how it looks, as far as they are given."""
     size = options.size[0] if options.size and len(options.size) == 1 else options.size
     given = {"view": options.view, "size": size, **_looks(options)}
     return {name: value for name, value in given.items() if value is not None}
 
 
-def _looks(options: argparse.Namespace) -> dict[str, Any]:
+def _looks(options: argparse.Namespace) -> Choices:
     from lsys_kit.pictures.options import OPTIONS
 
     return {name: getattr(options, name) for name in OPTIONS}

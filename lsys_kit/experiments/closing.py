@@ -150,7 +150,7 @@ class Closing:
         if not self.angles:
             raise ModelValueError("There is no closed figure to draw" if not self.always else "It is closed for every angle")
         shown = self.angles[:MOST_DRAWN]
-        pictures: list[Any] = [draw(self.word, angle=float(angle)) for angle in counted(shown, 1)]
+        pictures = [draw(self.word, angle=float(angle)) for angle in counted(shown, 1)]
         return SmallMultiples(pictures, [f"{_degrees(angle)}°" for angle in shown])
 
     @property

@@ -73,7 +73,7 @@ class Experiment(NamedTuple):
     limits: Limits
 
 
-Run: TypeAlias = Mapping[str, object]
+Run: TypeAlias = Mapping[str, Any]
 """The seed and the constants of a run, as `derive` takes them."""
 
 
@@ -83,10 +83,10 @@ class ExecutorError(Exception):
 
 def outcome_of(experiment: Experiment, measures: Sequence[Measure], run: Run) -> Outcome:
     """Make a run."""
-    choices: dict[str, Any] = {**run}
+
     with limits(**asdict(experiment.limits)), Task("The run was not finished"):
         try:
-            whole = derive(experiment.system, experiment.steps[-1], **choices)
+            whole = derive(experiment.system, experiment.steps[-1], **run)
             parts = [whole.to(step) for step in experiment.steps]
             return tuple((part.steps, *(measure.value(part) for measure in measures)) for part in parts)
         except (ModelLimitError, ModelValueError) as error:

@@ -26,6 +26,7 @@ from lsys_kit.notation.model.arithmetic import Value, is_symbolic
 from lsys_kit.notation.model.cells import MapSystem
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem, symbols
+from lsys_kit.pictures.options import Choices
 from lsys_kit.pictures.plots.chart import Axis, Curve, CurveChart, Plot, Share, ShareChart, finite, name_label
 from lsys_kit.pictures.plots.lettering import literal, mathematics
 from lsys_kit.pictures.style.labels import label_parts, place_parts, polar_symbols, values_text
@@ -115,7 +116,7 @@ def _refuse(choices: Mapping[str, object], n: object, why: str) -> None:
         raise ModelNameError(f'{why}: there is no choice "{name}" here')
 
 
-def _curve_chart(what: object, n: object, measure: Asked | None, log: bool, choices: dict[str, Any]) -> CurveChart:
+def _curve_chart(what: object, n: object, measure: Asked | None, log: bool, choices: Choices) -> CurveChart:
     if not isinstance(what, Mapping):
         return _chart_of_runs([("", _run(what, n, choices))], measure, log)
     if not what:
@@ -139,7 +140,7 @@ class _Course(NamedTuple):
         return self.system.states
 
 
-def _run(what: object, n: object, choices: dict[str, Any]) -> Derivation | _Course:
+def _run(what: object, n: object, choices: Choices) -> Derivation | _Course:
     if isinstance(what, Timed):
         _refuse(choices, None, "The constants of a timed system are chosen when it is made")
         end = number_from(5 if n is None else n, "n")

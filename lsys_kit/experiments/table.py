@@ -13,6 +13,7 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import groupby, islice
 from statistics import fmean
+from types import ModuleType
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from lsys_kit.budget import Task
@@ -346,7 +347,7 @@ def _described(values: Sequence[Any]) -> Row:
     return len(values), mean, spread, min(values), statistics.median(values), max(values)
 
 
-def _library(name: str) -> Any:
+def _library(name: str) -> ModuleType:
     from importlib import import_module
 
     try:
