@@ -27,12 +27,11 @@ from lsys_kit.errors import LSystemError, ModelFileError, ModelLimitError, Model
 from lsys_kit.files import create_file, decoded, file_errors, file_stem
 
 if TYPE_CHECKING:
-    from lsys_kit.derivation.derive import Derivation
+    from lsys_kit.derivation.derive import Choices, Derivation
     from lsys_kit.notation.model.system import LSystem
     from lsys_kit.notation.read import AnySystem
     from lsys_kit.pictures.draw import AnyPicture
     from lsys_kit.pictures.films import Film
-    from lsys_kit.pictures.options import Choices
 
 
 MOST_NEIGHBOURS = 1_000

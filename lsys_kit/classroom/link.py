@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any
 
 from lsys_kit.derivation.core.rules import number_from
+from lsys_kit.derivation.derive import Choices
 from lsys_kit.errors import ModelNameError, ModelSyntaxError, ModelValueError, require, shown
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.fragments import LinkContent, is_link, packed, unpacked
@@ -44,7 +44,7 @@ class Linked:
     def _repr_mimebundle_(self, **options: object) -> dict[str, object]:
         from lsys_kit import explore  # imported late: panels make links
 
-        settings: Mapping[str, Any] = self.settings
+        settings: Choices = self.settings
         return explore(self.system, **settings)._repr_mimebundle_(**options)
 
 

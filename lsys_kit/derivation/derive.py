@@ -55,6 +55,8 @@ def engine_for(states: States, seed: int, world: Observer | None = None) -> Engi
     return SteppingEngine(stepper, arrays, world if traits.sensitive else None)
 
 
+Choices: TypeAlias = Mapping[str, Any]
+"""What a person chooses, by the names of the arguments."""
 _Refusal: TypeAlias = ModelLimitError | ModelValueError
 """Why a step is not made."""
 

@@ -21,9 +21,10 @@ from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, 
 from dataclasses import asdict
 from math import ceil
 from statistics import median
-from typing import Any, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from lsys_kit.budget import Limits, Task, limits
+from lsys_kit.derivation.derive import Choices
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError, quotable
 from lsys_kit.experiments.measures import Asked, Measure, measures_of
 from lsys_kit.notation.model.system import LSystem
@@ -73,7 +74,7 @@ class Experiment(NamedTuple):
     limits: Limits
 
 
-Run: TypeAlias = Mapping[str, Any]
+Run: TypeAlias = Choices
 """The seed and the constants of a run, as `derive` takes them."""
 
 

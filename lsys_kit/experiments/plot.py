@@ -12,7 +12,7 @@ from lsys_kit.budget import Task, counted
 from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
-from lsys_kit.derivation.derive import Derivation
+from lsys_kit.derivation.derive import Choices, Derivation
 from lsys_kit.derivation.growth.growth import Growth
 from lsys_kit.derivation.petri.net import Place
 from lsys_kit.derivation.petri.stages import Stages
@@ -26,7 +26,6 @@ from lsys_kit.notation.model.arithmetic import Value, is_symbolic
 from lsys_kit.notation.model.cells import MapSystem
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem, symbols
-from lsys_kit.pictures.options import Choices
 from lsys_kit.pictures.plots.chart import Axis, Curve, CurveChart, Plot, Share, ShareChart, finite, name_label
 from lsys_kit.pictures.plots.lettering import literal, mathematics
 from lsys_kit.pictures.style.labels import label_parts, place_parts, polar_symbols, values_text

@@ -19,7 +19,7 @@ import numpy as np
 
 from lsys_kit.budget import Task, check_bytes, counted
 from lsys_kit.derivation.core.rules import real_from
-from lsys_kit.derivation.derive import Derivation
+from lsys_kit.derivation.derive import Choices, Derivation
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.derivation.timed.lineage import Lineage
 from lsys_kit.derivation.tissues.development import CellDevelopment, CellworkDevelopment
@@ -39,7 +39,6 @@ from lsys_kit.pictures.legends import Legend, image_with_legend, legend_of
 from lsys_kit.pictures.options import (
     STAGES,
     WORD,
-    Choices,
     Style,
     coloured_symbols,
     in_colours,

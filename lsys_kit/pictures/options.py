@@ -8,7 +8,7 @@ from typing import Any, TypeAlias
 
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.core.words import Word
-from lsys_kit.derivation.derive import Derivation
+from lsys_kit.derivation.derive import Choices, Derivation
 from lsys_kit.derivation.growth.growth import Growth
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.derivation.timed.lineage import Lineage
@@ -31,8 +31,6 @@ from lsys_kit.pictures.style.colour_values import colour_from
 from lsys_kit.pictures.style.labels import polar_symbols
 from lsys_kit.pictures.style.themes import LIGHT, Theme, theme_from
 
-Choices: TypeAlias = Mapping[str, Any]
-"""What a person chooses, by the names of the arguments."""
 Symbols: TypeAlias = Mapping[str, tuple[str, ...]]
 """Names of symbols, each with those that it stands for: one, or the two polarities of a cell."""
 OPTIONS = ("labels", "colours", "widths", "turtle", "legend", "light", "background")

@@ -351,7 +351,7 @@ class Turtle(ABC):
         check_budget()  # one surface may have thousands of corners
         self.outlines += [Outline(self.local_points(face, size), self.state, self.colour) for face in faces]
 
-    def local_points(self, face: Face, size: float) -> list[Any]:
+    def local_points(self, face: Face, size: float) -> list[object]:
         """The corners of a face of a surface of some size."""
         return [self.local_point(size * ahead, size * left, size * up) for ahead, left, up in face]
 

@@ -40,7 +40,9 @@ _SPELLINGS = {
     "\\ge": ">=",
     "\\ne": "!=",
 }
-Statement: TypeAlias = tuple[str, Any]
+Part: TypeAlias = Any
+"""What the parser hands to an action: a token, or the record of a part."""
+Statement: TypeAlias = tuple[str, Part]
 """What a statement says: its kind and its record."""
 _LEFT = "\u20d6"
 """An arrow to the left, over the letter before it."""
@@ -51,7 +53,7 @@ _OTHER_NAMES = {"δ": "angle", "colors": "colours"}
 """Other names of settings."""
 
 
-def place_of(*parts: Any) -> tuple[int, int]:
+def place_of(*parts: Part) -> tuple[int, int]:
     """The offsets from the first to the last of some tokens or records."""
     first, last = parts[0], parts[-1]
     start: int = first.start_pos or 0 if isinstance(first, Token) else first.at[0]
@@ -167,7 +169,7 @@ class Expressions(Transformer[Token, object]):
 class Statements(Transformer[Token, object]):
     """What the grammars of the notations name."""
 
-    def module(self, symbol: Token, *arguments: Any) -> Pattern:
+    def module(self, symbol: Token, *arguments: Part) -> Pattern:
         at = place_of(symbol, *arguments)
         if symbol.type == "TIMED":
             symbol, arguments = arguments[0], arguments[1:]
@@ -200,17 +202,17 @@ class Statements(Transformer[Token, object]):
     def always(self) -> tuple[str, None]:
         return "condition", None
 
-    def repeat(self, keyword: Token, count: Expression, *rest: Any) -> Repeat:
+    def repeat(self, keyword: Token, count: Expression, *rest: Part) -> Repeat:
         repeat = Repeat(count, rest[-1], str(rest[0]) if isinstance(rest[0], Token) else "", place_of(keyword, rest[-1][-1]))
         if repeat.depth > current().depth:
             raise problem("repetitions too deep", place_of(keyword), most=current().depth)
         return repeat
 
-    def production(self, *parts: Any) -> tuple[str, Production]:
+    def production(self, *parts: Part) -> tuple[str, Production]:
         successor = next(part for part in parts if isinstance(part, tuple) and not _is_named(part))
         return "production", Production(successor=successor, **dict(part for part in parts if _is_named(part)))
 
-    def meta(self, _: Token, predecessors: tuple[Pattern, ...], *parts: Any) -> tuple[str, MetaRule]:
+    def meta(self, _: Token, predecessors: tuple[Pattern, ...], *parts: Part) -> tuple[str, MetaRule]:
         successor = next(part for part in parts if isinstance(part, tuple) and not _is_named(part))
         return "meta", MetaRule(predecessors, successor, **dict(part for part in parts if _is_named(part)))
 
@@ -239,7 +241,7 @@ class Statements(Transformer[Token, object]):
         check_name(name)
         return "constant", Constant(str(name), value, (ends[0], ends[1], step) if ends else None)
 
-    def setting(self, keyword: Token, value: Any) -> tuple[str, Expression]:
+    def setting(self, keyword: Token, value: Part) -> tuple[str, Expression]:
         return _named(keyword), _number(value) if isinstance(value, Token) else value
 
     def field(self, _: Token, name: Token, *arguments: Expression) -> tuple[str, Pattern]:

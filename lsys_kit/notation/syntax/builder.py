@@ -22,6 +22,7 @@ from lsys_kit.notation.analysis.problems import problem
 from lsys_kit.notation.model.expressions import Name, names_in
 from lsys_kit.notation.model.modules import Pattern, flat
 from lsys_kit.notation.model.system import Constant, LSystem, MetaRule, Production
+from lsys_kit.notation.syntax.actions import Part
 
 Settings: TypeAlias = dict[str, Any]
 """What settings say, by their names."""
@@ -61,10 +62,10 @@ class Draft:
     surfaces: list[SurfaceText] = field(default_factory=list)
     settings: Settings = field(default_factory=dict)
     section: str = "productions"
-    deferred: list[tuple[str, Any, tuple[int, int]]] = field(default_factory=list)
+    deferred: list[tuple[str, Part, tuple[int, int]]] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
 
-    def add(self, kind: str, record: Any, at: tuple[int, int]) -> None:
+    def add(self, kind: str, record: Part, at: tuple[int, int]) -> None:
         """Take in what a statement says: its kind and its record."""
         if kind == "axiom":
             if self.axiom is not None:

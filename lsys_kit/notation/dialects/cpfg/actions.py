@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 from functools import cache
-from typing import Any
 
 from lark import Token, v_args
 
@@ -16,7 +15,7 @@ from lsys_kit.notation.dialects.cpfg.variables import SEED, Assignment, Block, C
 from lsys_kit.notation.model.expressions import Apply, Expression, Number, TextSpan
 from lsys_kit.notation.model.modules import END, Pattern
 from lsys_kit.notation.model.system import Constant
-from lsys_kit.notation.syntax.actions import Expressions, Statement, Statements, place_of
+from lsys_kit.notation.syntax.actions import Expressions, Part, Statement, Statements, place_of
 
 _SPELLINGS = {"<>": "!=", "%": "rem"}
 """Operators, and how the kit spells them."""
@@ -38,7 +37,7 @@ def _bare_module(symbol: str) -> Pattern:
     return Pattern("-" if symbol == "−" else symbol)
 
 
-def _flattened(parts: Iterable[object]) -> Iterator[Any]:
+def _flattened(parts: Iterable[object]) -> Iterator[Part]:
     for part in parts:
         if isinstance(part, tuple):
             yield from part
@@ -153,7 +152,7 @@ class CpfgStatements(_CpfgExpressions, Statements):
     def after(self, block: Block) -> tuple[str, Block]:
         return "after", block
 
-    def block(self, *instructions: Any) -> Block:
+    def block(self, *instructions: Part) -> Block:
         return tuple(instruction for instruction in instructions if instruction != ())
 
     def phase(self, keyword: Token, *instructions: Instruction | tuple[()]) -> Statement:
@@ -176,7 +175,7 @@ class CpfgStatements(_CpfgExpressions, Statements):
             raise problem("choices too deep", _expression_span(condition), most=current().depth)
         return choice
 
-    def production(self, *parts: Any) -> Statement:
+    def production(self, *parts: Part) -> Statement:
         blocks = dict(filter(_is_block, parts))
         _, production = super().production(*(part for part in parts if not _is_block(part)))
         return "deferred", ("rule", (production, blocks.get("before", ()), blocks.get("after", ())))
