@@ -27,7 +27,7 @@ from lsys_kit.errors import LSystemError, ModelFileError, ModelLimitError, Model
 from lsys_kit.files import create_file, decoded, file_errors, file_stem
 
 if TYPE_CHECKING:
-    from lsys_kit.derivation.derive import Derivation
+    from lsys_kit.derivation.derive import Choices, Derivation
     from lsys_kit.notation.model.system import LSystem
     from lsys_kit.notation.read import AnySystem
     from lsys_kit.pictures.draw import AnyPicture
@@ -219,7 +219,7 @@ def draw_word(options: argparse.Namespace) -> None:
     _save(shown, options)
 
 
-def _film(options: argparse.Namespace) -> dict[str, Any]:
+def _film(options: argparse.Namespace) -> Choices:
     from lsys_kit.pictures.formats.notebook import FILMS
 
     turntable = getattr(options, "turntable", False)
@@ -235,14 +235,14 @@ def _save(shown: AnyPicture | Film, options: argparse.Namespace) -> None:
     print(shown)
 
 
-def _seen(options: argparse.Namespace) -> dict[str, Any]:
+def _seen(options: argparse.Namespace) -> Choices:
     """The side from which something is seen, the size of the picture and how it looks, as far as they are given."""
     size = options.size[0] if options.size and len(options.size) == 1 else options.size
     given = {"view": options.view, "size": size, **_looks(options)}
     return {name: value for name, value in given.items() if value is not None}
 
 
-def _looks(options: argparse.Namespace) -> dict[str, Any]:
+def _looks(options: argparse.Namespace) -> Choices:
     from lsys_kit.pictures.options import OPTIONS
 
     return {name: getattr(options, name) for name in OPTIONS}

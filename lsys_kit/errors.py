@@ -8,11 +8,11 @@ caret under the place, and suggests what to try. Faults of the kit itself are ne
 from __future__ import annotations
 
 import unicodedata
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Iterable
 from itertools import islice
 from numbers import Integral
 from reprlib import Repr
-from typing import Any, Self
+from typing import Self
 
 _LINE = 80
 """The most characters of a name or a value in a message."""
@@ -204,7 +204,7 @@ def whole_number(given: object, what: str) -> int:
     return int(given)
 
 
-def every(values: Any, kind: type | tuple[type, ...], what: str) -> None:
+def every(values: Iterable[object], kind: type | tuple[type, ...], what: str) -> None:
     """Refuse what is no collection of values of a type, and a value of another type among them.
 
     >>> every([1, "a"], int, "A whole number")

@@ -23,12 +23,12 @@ import struct
 import tomllib
 import zipfile
 import zlib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from importlib.resources import files
 from io import FileIO
 from pathlib import Path, PurePosixPath
-from typing import Any
+from typing import Any, TypeAlias
 
 from lsys_kit.errors import ModelFileError, ModelLimitError, ModelValueError, quotable
 
@@ -42,7 +42,13 @@ _TO_THE_END = os.O_RDWR | os.O_APPEND | getattr(os, "O_NOFOLLOW", 0) | getattr(o
 """How a file is opened to which lines are added: links are not followed, and nothing is waited for."""
 
 
-def toml_tables(package: str, name: str) -> dict[str, Any]:
+Json: TypeAlias = "Mapping[str, Json] | Sequence[Json] | str | float | None"
+"""What JSON can say."""
+Entries: TypeAlias = Mapping[str, Any]
+"""What a table of TOML or an object of JSON has in it, as it is read."""
+
+
+def toml_tables(package: str, name: str) -> Entries:
     """What a file of the kit declares that stands in one of its packages.
 
     >>> sorted(toml_tables("lsys_kit", "commands.toml"))

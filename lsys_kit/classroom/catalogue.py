@@ -302,7 +302,7 @@ def _folder(folder: str) -> Traversable:
 @cache
 def _entry(id: str) -> Entry:
     folder = next(folder for folder in _KINDS if id.lower() in _ids(folder))
-    fields: dict[str, Any] = tomllib.loads((_folder(folder) / f"{id}.toml").read_text(encoding="utf-8"))
+    fields = tomllib.loads((_folder(folder) / f"{id}.toml").read_text(encoding="utf-8"))
     for name in ("errata", "notes", "lengths"):
         fields[name] = tuple(fields.get(name, ()))
     words = {int(step): word for step, word in fields.pop("words", {}).items()}

@@ -9,6 +9,7 @@ from typing import Any, TypeAlias
 
 from lsys_kit.derivation.core.letters import letters_from
 from lsys_kit.derivation.core.rules import number_from
+from lsys_kit.derivation.derive import Choices
 from lsys_kit.errors import ModelNameError, ModelSyntaxError, ModelValueError, require, shown
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.fragments import LinkContent, is_link, packed, unpacked
@@ -48,7 +49,7 @@ class Linked:
     def _repr_mimebundle_(self, **options: object) -> dict[str, object]:
         from lsys_kit import explore  # imported late: panels make links
 
-        settings: Mapping[str, Any] = self.settings
+        settings: Choices = self.settings
         return explore(self.system, **settings)._repr_mimebundle_(**options)
 
 

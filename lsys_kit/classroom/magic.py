@@ -16,7 +16,7 @@ import unicodedata
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from itertools import islice
 from keyword import iskeyword
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import lsys_kit
 from lsys_kit.budget import current, limits
@@ -38,6 +38,9 @@ from lsys_kit.notation.syntax.formatting import settings
 from lsys_kit.pictures.style.labels import escaped, html_label
 from lsys_kit.pictures.style.palette import BLUE, INK, MARK, PAPER, QUIET, VERMILION
 from lsys_kit.worlds.derive import derive
+
+if TYPE_CHECKING:
+    from IPython.core.interactiveshell import InteractiveShell
 
 AROUND, WIDTH = 8, 100
 """How many lines before and after a mistake are shown, and how many characters of each."""
@@ -82,7 +85,7 @@ def _cell_output(shell: Any, line: str, cell: str) -> dict[str, str]:
 _LETTER = re.compile(r"(?<=\s)--letter[\s=]++(\S++)")
 
 
-def _name_and_notation(head: str, shell: object) -> tuple[str, str]:
+def _name_and_notation(head: str, shell: InteractiveShell) -> tuple[str, str]:
     """The name and the notation in the first line of a cell; empty where they are not given."""
     words = [(match.group(), match.span()) for match in re.finditer(r"\S+", head)][1:]
     if len(words) > 2:
@@ -106,7 +109,7 @@ def _name_and_notation(head: str, shell: object) -> tuple[str, str]:
     return unicodedata.normalize("NFKC", name), notation  # as Python reads names
 
 
-def _unfit(name: str, shell: Any) -> tuple[str, str] | None:
+def _unfit(name: str, shell: InteractiveShell) -> tuple[str, str] | None:
     """Why a word cannot be the name of a system, and what to do; or None."""
     quoted, another = f'"{excerpt(name)}"', "Choose another name."
     plain = unicodedata.normalize("NFKC", name)
@@ -123,7 +126,7 @@ def _unfit(name: str, shell: Any) -> tuple[str, str] | None:
     return None
 
 
-def _shadowed(name: str, shell: Any) -> list[str]:
+def _shadowed(name: str, shell: InteractiveShell) -> list[str]:
     """A note where the name meant something else before."""
     if name in shell.user_ns:
         return (
@@ -138,7 +141,7 @@ def _shadowed(name: str, shell: Any) -> list[str]:
     )
 
 
-def _standing(name: str, shell: Any) -> str:
+def _standing(name: str, shell: InteractiveShell) -> str:
     if not name:
         return ""
     if isinstance(shell.user_ns.get(name), LSystem):

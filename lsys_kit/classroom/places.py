@@ -14,17 +14,16 @@ import errno
 import os
 import re
 import tomllib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import islice
 from pathlib import Path
-from typing import Any
 
 from lsys_kit.classroom.handed_in import content_of
 from lsys_kit.errors import LSystemError, ModelFileError, quotable, shown
-from lsys_kit.files import decoded, file_errors
+from lsys_kit.files import Entries, decoded, file_errors
 from lsys_kit.notation.analysis.checks import suggestion
 
 COURSE_FILE = "course.toml"
@@ -155,7 +154,7 @@ def _resolved(folder: Path) -> Path:
         raise OSError(errno.ELOOP, str(loop)) from None
 
 
-def _listed(folder: Path) -> Mapping[str, Any]:
+def _listed(folder: Path) -> Entries:
     """What the list of a course says; nothing where there is none."""
     path = folder / COURSE_FILE
     if not os.path.lexists(path):
@@ -172,7 +171,7 @@ def _listed(folder: Path) -> Mapping[str, Any]:
     return declared
 
 
-def _lessons(folder: Path, declared: Mapping[str, Any]) -> Iterator[tuple[Place, str]]:
+def _lessons(folder: Path, declared: Entries) -> Iterator[tuple[Place, str]]:
     own = own_place(folder)
     beside = {each: own_place(folder / each) for each in _folders(folder) if each not in ("notebooks", "exercises")}
     inside = {each: (place, each) for each, place in beside.items() if each in place.names()}
@@ -203,7 +202,7 @@ def _folders(folder: Path) -> list[str]:
     return []
 
 
-def declaration(path: Path) -> Mapping[str, Any]:
+def declaration(path: Path) -> Entries:
     """What a file of declarations says.
 
     Raises

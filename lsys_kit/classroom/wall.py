@@ -25,6 +25,7 @@ from lsys_kit.classroom.handed_in import HandedIn, content_of, handed_in
 from lsys_kit.classroom.link import ANGLE, SEED, STEP, Linked, linked
 from lsys_kit.classroom.panel.document import document
 from lsys_kit.derivation.core.rules import with_constants
+from lsys_kit.derivation.derive import Choices
 from lsys_kit.errors import LSystemError, ModelFileError, ModelLimitError, quotable
 from lsys_kit.files import decoded
 from lsys_kit.notation.fragments import MARK, is_link
@@ -189,7 +190,7 @@ def _with_constants(model: Linked) -> Any:
     return with_constants(model.system, {name: value for name, value in model.settings.items() if name in names})
 
 
-def _choices(model: Linked) -> dict[str, Any]:
+def _choices(model: Linked) -> Choices:
     """What else a link says of a drawing: angle and seed, or the forces of cells."""
     names = (ANGLE, SEED) if isinstance(model.system, LSystem) else tuple(set(model.settings) - {STEP, ANGLE, SEED})
     return {name: model.settings[name] for name in names if name in model.settings}

@@ -25,7 +25,7 @@ from lsys_kit.derivation.engines.counting import CountingEngine, next_counts
 from lsys_kit.derivation.engines.engine import Engine, Observation, Observer, Origins, check_size
 from lsys_kit.derivation.engines.stepping import SteppingEngine
 from lsys_kit.derivation.engines.stepwise import Stepper
-from lsys_kit.derivation.tissues.development import CellDevelopment, CellworkDevelopment, Development, develop
+from lsys_kit.derivation.tissues.development import AnyDevelopment, CellworkDevelopment, Development, develop
 from lsys_kit.errors import ModelLimitError, ModelValueError, last_reached, require, shown, whole_number
 from lsys_kit.notation.model.cells import CellSystem, CellworkSystem, MapSystem
 from lsys_kit.notation.model.system import LSystem
@@ -55,6 +55,8 @@ def engine_for(states: States, seed: int, world: Observer | None = None) -> Engi
     return SteppingEngine(stepper, arrays, world if traits.sensitive else None)
 
 
+Choices: TypeAlias = Mapping[str, Any]
+"""What a person chooses, by the names of the arguments."""
 _Refusal: TypeAlias = ModelLimitError | ModelValueError
 """Why a step is not made."""
 
@@ -73,7 +75,7 @@ def derive(
 def derive(system: MapSystem, steps: int) -> Development: ...
 @overload
 def derive(system: CellworkSystem, steps: int) -> CellworkDevelopment: ...
-def derive(system: Any, steps: int, **choices: Any) -> Derivation | CellDevelopment[Any, Any]:
+def derive(system: LSystem | CellSystem, steps: int, **choices: Any) -> Derivation | AnyDevelopment:
     """Derive a system by its words alone; `lsys_kit.derive` does the same and also answers what modules ask of the turtle.
 
     >>> from lsys_kit import read

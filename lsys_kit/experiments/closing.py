@@ -14,10 +14,11 @@ from collections import defaultdict
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from lsys_kit.budget import Task, counted
 from lsys_kit.derivation.core.words import Word
+from lsys_kit.derivation.derive import Choices
 from lsys_kit.errors import ModelLimitError, ModelValueError, require, whole_number
 from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
 from lsys_kit.geometry.turtle.plane import trace
@@ -150,7 +151,7 @@ class Closing:
         if not self.angles:
             raise ModelValueError("There is no closed figure to draw" if not self.always else "It is closed for every angle")
         shown = self.angles[:MOST_DRAWN]
-        pictures: list[Any] = [draw(self.word, angle=float(angle)) for angle in counted(shown, 1)]
+        pictures = [draw(self.word, angle=float(angle)) for angle in counted(shown, 1)]
         return SmallMultiples(pictures, [f"{_degrees(angle)}°" for angle in shown])
 
     @property
@@ -237,7 +238,7 @@ def closing_angles(system: LSystem, n: int | None = None, **constants: object) -
         steps = whole_number(n, "The step") if n is not None else USUAL_STEPS if system.steps is None else system.steps
         if drawing_mode(system) is not DrawingMode.PLANE:
             raise ModelValueError("Only a turtle that stays in the plane closes a figure by turning")
-        chosen: dict[str, Any] = dict(constants)
+        chosen: Choices = constants
         word = derive(system, steps, **chosen)[-1]
         return Closing(word, _powers(word))
 

@@ -25,6 +25,7 @@ from lsys_kit.budget import check_bytes
 from lsys_kit.errors import ModelFileError, ModelValueError, quotable
 from lsys_kit.experiments.making import Experiment, Rows
 from lsys_kit.experiments.measures import Measure, measures_of
+from lsys_kit.experiments.table import Row
 from lsys_kit.files import KIT_MARK, append_line, create_file, file_errors, path_from
 from lsys_kit.notation.model.arithmetic import Value, normalised, number_text
 
@@ -42,7 +43,7 @@ class Kept:
         self.broken = ""
         """Why the file is not kept any more, as a remark says it."""
         self._path, self._head, self._keys, self._steps = path, _line(head), keys, steps
-        self._known: dict[tuple[Any, ...], tuple[Any, ...]] = {}
+        self._known: dict[tuple[object, ...], Row] = {}
         self._waiting: list[str] = []
         self._written = time.monotonic()
         if path is not None:

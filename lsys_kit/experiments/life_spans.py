@@ -20,7 +20,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 from itertools import combinations, pairwise
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from lsys_kit.budget import Task, check_budget
 from lsys_kit.derivation.core.rules import constants_of, number_from, unknown_constant, with_constants
@@ -509,7 +509,7 @@ def _slopes(
 
 def _kinds(cells: Sequence[_Cell], spans: Sequence[tuple[Value, ...]], born: Sequence[Module]) -> tuple[Kind, ...]:
     """The kinds of cells that have descendants of their own kind, and are descendants of one that has."""
-    classes: list[Any] = list(spans)
+    classes: list[object] = list(spans)
     while True:
         finer = [
             (classes[i], tuple(sorted(Counter(map(classes.__getitem__, cell.daughters)).items(), key=str)))

@@ -21,9 +21,10 @@ from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, 
 from dataclasses import asdict
 from math import ceil
 from statistics import median
-from typing import Any, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from lsys_kit.budget import Limits, Task, limits
+from lsys_kit.derivation.derive import Choices
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError, quotable
 from lsys_kit.experiments.measures import Asked, Measure, measures_of
 from lsys_kit.notation.model.system import LSystem
@@ -73,7 +74,7 @@ class Experiment(NamedTuple):
     limits: Limits
 
 
-Run: TypeAlias = Mapping[str, object]
+Run: TypeAlias = Choices
 """The seed and the constants of a run, as `derive` takes them."""
 
 
@@ -83,10 +84,10 @@ class ExecutorError(Exception):
 
 def outcome_of(experiment: Experiment, measures: Sequence[Measure], run: Run) -> Outcome:
     """Make a run."""
-    choices: dict[str, Any] = {**run}
+
     with limits(**asdict(experiment.limits)), Task("The run was not finished"):
         try:
-            whole = derive(experiment.system, experiment.steps[-1], **choices)
+            whole = derive(experiment.system, experiment.steps[-1], **run)
             parts = [whole.to(step) for step in experiment.steps]
             return tuple((part.steps, *(measure.value(part) for measure in measures)) for part in parts)
         except (ModelLimitError, ModelValueError) as error:

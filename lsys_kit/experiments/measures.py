@@ -30,7 +30,7 @@ class Measure(NamedTuple):
     """A measure: the name of its column, and the function that finds its value."""
 
     name: str
-    value: Callable[[Any], object]
+    value: Callable[[Measurable], object]
 
 
 def measures_of(asked: Asked, system: LSystem) -> tuple[Measure, ...]:
@@ -72,7 +72,7 @@ def _with_names(asked: object) -> Iterator[tuple[str, object]]:
         raise ModelValueError(f'A measure is a name such as "modules", or a function of a derivation, not {shown(asked)}')
 
 
-def _function(name: str, asked: object, system: LSystem) -> Callable[[Any], object]:
+def _function(name: str, asked: object, system: LSystem) -> Callable[[Measurable], object]:
     if callable(asked):
         return partial(_called, name, asked)
     if not isinstance(asked, str):
@@ -134,7 +134,7 @@ strokes of the turtle; the extent of the drawing in the units of the model; the 
 `growth`)."""
 
 
-def _called(name: str, function: Callable[[Any], object], what: Measurable) -> object:
+def _called(name: str, function: Callable[[Measurable], object], what: Measurable) -> object:
     try:
         return number(function(what), name)
     except LSystemError:

@@ -12,14 +12,14 @@ from lsys_kit.budget import Task, counted
 from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
-from lsys_kit.derivation.derive import Derivation
+from lsys_kit.derivation.derive import Choices, Derivation
 from lsys_kit.derivation.growth.growth import Growth
 from lsys_kit.derivation.petri.net import Place
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.derivation.timed.timed import Timed
 from lsys_kit.derivation.tissues.development import Development
 from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError, require, shown, whole_number
-from lsys_kit.experiments.measures import Asked, Measure, measures_of
+from lsys_kit.experiments.measures import Asked, Measurable, Measure, measures_of
 from lsys_kit.experiments.table import Table, column_label, measured_label
 from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
 from lsys_kit.notation.model.arithmetic import Value, is_symbolic
@@ -115,7 +115,7 @@ def _refuse(choices: Mapping[str, object], n: object, why: str) -> None:
         raise ModelNameError(f'{why}: there is no choice "{name}" here')
 
 
-def _curve_chart(what: object, n: object, measure: Asked | None, log: bool, choices: dict[str, Any]) -> CurveChart:
+def _curve_chart(what: object, n: object, measure: Asked | None, log: bool, choices: Choices) -> CurveChart:
     if not isinstance(what, Mapping):
         return _chart_of_runs([("", _run(what, n, choices))], measure, log)
     if not what:
@@ -139,7 +139,7 @@ class _Course(NamedTuple):
         return self.system.states
 
 
-def _run(what: object, n: object, choices: dict[str, Any]) -> Derivation | _Course:
+def _run(what: object, n: object, choices: Choices) -> Derivation | _Course:
     if isinstance(what, Timed):
         _refuse(choices, None, "The constants of a timed system are chosen when it is made")
         end = number_from(5 if n is None else n, "n")
@@ -197,8 +197,8 @@ def _name_label(name: str) -> str:
 
 def _points(run: Derivation | _Course, measures: Sequence[Measure]) -> list[tuple[tuple[float, float], ...]]:
     if isinstance(run, Derivation):
-        places: list[Any] = [*range(len(run))]
-        seen = [run.to(step) for step in counted(places, 1)]
+        places: list[Value] = [*range(len(run))]
+        seen: list[Measurable] = [run.to(step) for step in counted(range(len(run)), 1)]
     else:
         timed, grid = run.system, [run.end * Fraction(place, MOMENTS) for place in range(MOMENTS + 1)]
         words: dict[Value, tuple[Word, ...]] = {place: (timed.word(place),) for place in counted(grid, 1)}

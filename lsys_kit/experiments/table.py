@@ -13,13 +13,14 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import groupby, islice
 from statistics import fmean
-from typing import TYPE_CHECKING, Any
+from types import ModuleType
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from lsys_kit.budget import Task
 from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.errors import ModelNameError, ModelValueError, require, shown
 from lsys_kit.notation.analysis.checks import suggestion
-from lsys_kit.notation.model.arithmetic import number_text
+from lsys_kit.notation.model.arithmetic import Value, number_text
 from lsys_kit.pictures.plots.chart import Axis, Chart, Curve, CurveChart, GridChart, HistogramChart, Plot, finite, name_label
 from lsys_kit.pictures.plots.lettering import literal
 from lsys_kit.pictures.style.labels import escaped, visible
@@ -66,7 +67,9 @@ def measured_label(name: str) -> str:
     return LABELS.get(name) or (f"number of {name_label(name)}" if len(name) <= 2 else literal(name))
 
 
-Rows = Sequence[tuple[dict[str, Any], float]]
+Row: TypeAlias = tuple[Any, ...]
+"""Values of a table: numbers, most of them."""
+Rows = Sequence[tuple[dict[str, Value], float]]
 """For each row its settings and the measured value."""
 
 
@@ -181,10 +184,10 @@ class Table:
     """
 
     columns: tuple[str, ...]
-    rows: tuple[tuple[Any, ...], ...]
+    rows: tuple[Row, ...]
     keys: int
     remarks: tuple[str, ...] = field(default=())
-    left_out: tuple[tuple[Any, ...], ...] = field(default=())
+    left_out: tuple[Row, ...] = field(default=())
 
     @property
     def measures(self) -> tuple[str, ...]:
@@ -199,7 +202,7 @@ class Table:
     def __len__(self) -> int:
         return len(self.rows)
 
-    def __getitem__(self, column: str) -> tuple[Any, ...]:
+    def __getitem__(self, column: str) -> Row:
         """The values of a column."""
         place = self._place(column)
         return tuple(row[place] for row in self.rows)
@@ -242,7 +245,7 @@ class Table:
         place = self._place(self.measured(column))
         settings = [index for index in range(self.keys) if self.columns[index] != "seed"]
 
-        def setting(row: tuple[object, ...]) -> tuple[Any, ...]:
+        def setting(row: Row) -> Row:
             return tuple(row[index] for index in settings)
 
         groups = groupby(sorted(self.rows, key=setting), key=setting)
@@ -334,17 +337,17 @@ def value_text(value: Any) -> str:
     return f"{value:.6g}" if isinstance(value, float) else number_text(value)
 
 
-def _plain(value: object) -> Any:
+def _plain(value: object) -> object:
     return float(value) if isinstance(value, Fraction) else value
 
 
-def _described(values: Sequence[Any]) -> tuple[Any, ...]:
+def _described(values: Sequence[Any]) -> Row:
     spread = statistics.stdev(map(float, values)) if len(values) > 1 else 0.0
     mean = statistics.fmean(values)
     return len(values), mean, spread, min(values), statistics.median(values), max(values)
 
 
-def _library(name: str) -> Any:
+def _library(name: str) -> ModuleType:
     from importlib import import_module
 
     try:

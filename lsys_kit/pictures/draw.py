@@ -321,7 +321,7 @@ def _in_style(what: Any, n: int | None, style: Style, **choices: Any) -> AnyPict
     return _drawing(what, n, style, **choices)
 
 
-def _yes(choices: dict[str, Any], name: str) -> bool:
+def _yes(choices: dict[str, object], name: str) -> bool:
     """Whether a choice is made, which is taken out of the others."""
     chosen = choices.pop(name, False)
     require(chosen, bool, f'True or False for "{name}"')

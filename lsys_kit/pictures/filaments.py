@@ -114,7 +114,7 @@ class DrawnWall(NamedTuple):
     state: int
 
 
-def drawn_cells(cells: Cells, scale: float, some: Any = slice(None)) -> Iterator[DrawnCell]:
+def drawn_cells(cells: Cells, scale: float, some: slice | NDArray[np.intp] = slice(None)) -> Iterator[DrawnCell]:
     """Some cells of a filament in a picture of a scale, whose left end is at 0."""
     columns = (cells.centres[some, 0] * scale, *(cells.sizes[some] * scale / 2).T)
     rest = cells.polarities[some], cells.shades[some], cells.states[some]
@@ -167,7 +167,7 @@ class FilamentLayout:
             )
         )
 
-    def _seen(self, places: Floats, most: float) -> Any:
+    def _seen(self, places: Floats, most: float) -> slice | NDArray[np.intp]:
         """Which of the shapes at some places are drawn, if no more than so many can be seen in a pixel: the first at each."""
         if len(places) <= WIDTH * most:
             return slice(None)

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 from lsys_kit.arrays import np
 from lsys_kit.budget import Task, check_bytes, counted
 from lsys_kit.derivation.core.rules import real_from
-from lsys_kit.derivation.derive import Derivation
+from lsys_kit.derivation.derive import Choices, Derivation
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.derivation.timed.lineage import Lineage
 from lsys_kit.derivation.tissues.development import CellDevelopment, CellworkDevelopment
@@ -137,7 +137,7 @@ class Film:
         first.save(buffer, form, save_all=True, append_images=rest, loop=0, duration=[*[step] * len(rest), self.held * step])
         return buffer.getvalue()
 
-    def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
+    def _repr_mimebundle_(self, **_: object) -> dict[str, object]:
         return film_bundle(self.gif, lambda: encoded(self.images[-1]), self.text)
 
     def __repr__(self) -> str:
@@ -297,7 +297,7 @@ def _check_drawn(n: int | None, side: View | None, choices: Mapping[str, object]
 
 
 def _shown(
-    what: Any, n: int | None, side: View | None, choices: Mapping[str, Any], given: Mapping[str, Any], style: Style
+    what: Any, n: int | None, side: View | None, choices: Choices, given: Choices, style: Style
 ) -> tuple[str, Sequence[Image]]:
     if isinstance(what, LSystem | Derivation):
         derivation = _derived(what, n, _of_turtle(what, choices))
@@ -313,7 +313,7 @@ def _shown(
         told = f"steps 0 to {len(steps) - 1}; the last: {steps[-1].text}"
         return told, _framed(scenes, steps[-1].colour_of, style.size, steps[-1].legend)
     if isinstance(what, CellSystem | CellDevelopment | Lineage):
-        seen: dict[str, Any] = {} if side is None else {"view": side}
+        seen = {} if side is None else {"view": side}
         drawn: Any = what
         return _filmed(draw(drawn, n, **(seen | {**choices, **given})))
     if isinstance(what, Stages):
@@ -321,14 +321,14 @@ def _shown(
     return _pictures_film(what, style.size)
 
 
-def _of_turtle(what: LSystem | Derivation, choices: Mapping[str, Any]) -> Mapping[str, Any]:
+def _of_turtle(what: LSystem | Derivation, choices: Choices) -> Choices:
     """The choices of how something is derived that a turtle draws."""
     if isinstance(what, LSystem):
         _check_choices(choices, ("angle", "view"), kind_of(what, {}), what)
     return {name: value for name, value in choices.items() if name != "angle"}
 
 
-def _check_choices(choices: Mapping[str, Any], own: tuple[str, ...], kind: str, system: LSystem) -> None:
+def _check_choices(choices: Choices, own: tuple[str, ...], kind: str, system: LSystem) -> None:
     options = *own, "seed", "arithmetic", "field", "seconds", "turntable", "unfold"
     check_choices(choices, options, kind, [each.name for each in system.constants])
 
@@ -352,7 +352,7 @@ def _filmed(picture: SVGPicture) -> tuple[str, Sequence[Image]]:
         return repr(picture), picture.film_images()
 
 
-def _net_film(net: Stages, n: int | None, choices: Mapping[str, Any], given: Mapping[str, Any]) -> tuple[str, Sequence[Image]]:
+def _net_film(net: Stages, n: int | None, choices: Choices, given: Choices) -> tuple[str, Sequence[Image]]:
     _check_choices(choices, ("positions",), STAGES, net.system)
     own = {name: value for name, value in choices.items() if name != "positions"}
     derivation = _derived(net.system, n, own)
@@ -478,7 +478,7 @@ def _fitted(scene: Scene, least: Floats, most: Floats) -> Scene:
     )
 
 
-def _turned(what: Any, n: int | None, pace: float, view: View | None, size: Size | None, choices: Mapping[str, Any]) -> Film:
+def _turned(what: Any, n: int | None, pace: float, view: View | None, size: Size | None, choices: Choices) -> Film:
     picture = what if isinstance(what, SVGPicture) else draw(what, n, **choices)
     if not isinstance(picture, Picture) or picture.solid is None:
         raise ModelValueError(

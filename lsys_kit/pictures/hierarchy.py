@@ -8,11 +8,10 @@ The Algorithmic Beauty of Plants, figure 1.2.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from lsys_kit.files import toml_tables
+from lsys_kit.files import Entries, toml_tables
 from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.shapes import Circle, Drawing, Ellipse, Look, Text
 from lsys_kit.pictures.sizes import document
@@ -46,7 +45,7 @@ class Language(NamedTuple):
     classes: frozenset[str]
 
 
-def _classes(told: Mapping[str, Any], *colours: str) -> tuple[LanguageClass, ...]:
+def _classes(told: Entries, *colours: str) -> tuple[LanguageClass, ...]:
     rows = zip(told.items(), colours, strict=True)
     return tuple(LanguageClass(name, centre, reach, label, colour) for (name, (centre, reach, label)), colour in rows)
 

@@ -8,12 +8,12 @@ from typing import Any, TypeAlias
 
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.core.words import Word
-from lsys_kit.derivation.derive import Derivation
+from lsys_kit.derivation.derive import Choices, Derivation
 from lsys_kit.derivation.growth.growth import Growth
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.derivation.timed.lineage import Lineage
 from lsys_kit.derivation.timed.timed import Timed
-from lsys_kit.derivation.tissues.development import CellDevelopment
+from lsys_kit.derivation.tissues.development import AnyDevelopment, CellDevelopment
 from lsys_kit.errors import LSystemError, ModelNameError, ModelValueError, quotable, require, shown
 from lsys_kit.geometry.drawing import PIPES, scene_of
 from lsys_kit.geometry.scene import Scene
@@ -87,7 +87,7 @@ class Style:
     size: Size | None = None
 
 
-def style_from(given: Mapping[str, Any], kind: str, symbols: Symbols, size: object = None) -> Style:
+def style_from(given: Choices, kind: str, symbols: Symbols, size: object = None) -> Style:
     """The style that a person chooses for a kind of picture, whose symbols may be given colours.
 
     >>> found = style_from({"colours": {"A": "navy"}, "background": "dark"}, STAGES, {"A": ("A",)})
@@ -218,7 +218,7 @@ def check_drawable(what: object, n: int | None = None) -> None:
         raise ModelValueError(f"The steps of {kind_of(what, {})} are chosen when it is made, not when it is drawn", hint=hint)
 
 
-def kind_of(what: object, choices: Mapping[str, Any]) -> str:
+def kind_of(what: object, choices: Choices) -> str:
     """The kind of picture that is drawn of something."""
     if isinstance(what, CellSystem | CellDevelopment):
         return f"a {cell_system_of(what).kind}"
@@ -259,6 +259,6 @@ def system_of(what: LSystem | Derivation | Word) -> LSystem:
     return what if isinstance(what, LSystem) else what.states.system
 
 
-def cell_system_of(what: CellSystem | CellDevelopment[Any, Any]) -> CellSystem:
+def cell_system_of(what: CellSystem | AnyDevelopment) -> CellSystem:
     system: CellSystem = what if isinstance(what, CellSystem) else what.system
     return system

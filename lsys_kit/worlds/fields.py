@@ -17,7 +17,7 @@ from fractions import Fraction
 from itertools import islice
 from math import cos, floor, pi, sin
 from numbers import Real
-from typing import Any, NamedTuple, Protocol
+from typing import NamedTuple, Protocol
 
 from lsys_kit.arrays import is_array, np
 from lsys_kit.budget import check_budget, counted
@@ -27,7 +27,7 @@ from lsys_kit.errors import LSystemError, ModelValueError, shown
 from lsys_kit.geometry.scene import Floats
 from lsys_kit.geometry.turtle.space import Vector
 from lsys_kit.notation.model.arithmetic import Value, is_symbolic, reason_of
-from lsys_kit.notation.model.expressions import function_of
+from lsys_kit.notation.model.expressions import Function, function_of
 from lsys_kit.notation.model.fields import PLACE
 from lsys_kit.notation.model.modules import Module, Pattern
 from lsys_kit.worlds.neighbours import (
@@ -85,7 +85,7 @@ class Question(NamedTuple):
 class Field(Protocol):
     """Answers query modules `?E`."""
 
-    def answer(self, questions: Sequence[Question], scene: Surroundings, /) -> Iterable[Any]:
+    def answer(self, questions: Sequence[Question], scene: Surroundings, /) -> Iterable[object]:
         """A value for each question, or as many values as the query module has."""
 
 
@@ -341,7 +341,7 @@ def _place(states: States) -> Place:
     taken = [name for name in PLACE if name not in _names(states)]
     which = [PLACE.index(name) for name in taken]
 
-    def at_place(function: Callable[[tuple[Any, ...]], Value]) -> Callable[[Value, Value, Value], Value]:
+    def at_place(function: Function) -> Callable[[Value, Value, Value], Value]:
         return lambda *place: function((*states.constants, *(place[index] for index in which)))
 
     return Place(*map(at_place, _functions(states, taken)))
@@ -355,7 +355,7 @@ def _shaped(states: States, field: Pattern) -> Field:
     return _NAMED[field.symbol](*values)
 
 
-def _functions(states: States, coordinates: Sequence[str] = ()) -> list[Callable[[tuple[Any, ...]], Value]]:
+def _functions(states: States, coordinates: Sequence[str] = ()) -> list[Function]:
     """The values of the field that a model names, as functions of its constants, perhaps of coordinates too."""
     order = {name: index for index, name in enumerate([*_names(states), *coordinates])}
     return [function_of(argument, order) for argument in states.system.field.arguments] if states.system.field else []

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 from lsys_kit.arrays import np
 from lsys_kit.budget import check_budget
 from lsys_kit.errors import ModelValueError
-from lsys_kit.geometry.scene import Floats, Integers
+from lsys_kit.geometry.scene import Flags, Floats, Integers
 
 
 @dataclass(frozen=True)
@@ -247,7 +247,7 @@ def counts_in_cones(boxes: Boxes, cones: Cones) -> Integers:
     """How many points are in each cone; one at its tip does not count."""
     found = np.zeros(len(cones.tips), np.int64)
 
-    def opened(level: Level, asking: Integers, numbers: Integers) -> Any:
+    def opened(level: Level, asking: Integers, numbers: Integers) -> Flags | None:
         away, distances, radii = _seen(level, numbers, cones.tips[asking])
         if level.single:
             inside, undecided = cones.hold(asking, away, distances) & (distances > NEARNESS), None
@@ -261,7 +261,7 @@ def counts_in_cones(boxes: Boxes, cones: Cones) -> Integers:
     return found
 
 
-def nearest_in_cones(boxes: Boxes, cones: Cones, counts: Callable[[Integers, Integers], object], others: int) -> Floats:
+def nearest_in_cones(boxes: Boxes, cones: Cones, counts: Callable[[Integers, Integers], Flags], others: int) -> Floats:
     """How far the nearest point in each cone is; infinite if there is none.
 
     boxes, cones
@@ -273,7 +273,7 @@ def nearest_in_cones(boxes: Boxes, cones: Cones, counts: Callable[[Integers, Int
     """
     found = np.full(len(cones.tips), np.inf)
 
-    def opened(level: Level, asking: Integers, numbers: Integers) -> Any:
+    def opened(level: Level, asking: Integers, numbers: Integers) -> Flags | None:
         away, distances, radii = _seen(level, numbers, cones.tips[asking])
         if level.single:
             hit = cones.hold(asking, away, distances) & counts(asking, boxes.order[numbers])
@@ -315,7 +315,7 @@ def steepest_lines(boxes: Boxes, tips: Floats, angles: Callable[[Integers, Integ
     return found
 
 
-def _search(boxes: Boxes, asking: int, opened: Callable[[Level, Integers, Integers], Any]) -> None:
+def _search(boxes: Boxes, asking: int, opened: Callable[[Level, Integers, Integers], Flags | None]) -> None:
     """Go down through all levels: for pairs of one who asks and a box `opened` tells which boxes are opened."""
     for rows in _blocks(asking, len(boxes.order)):
         check_budget()

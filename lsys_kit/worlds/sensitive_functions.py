@@ -116,10 +116,10 @@ class Standpoints:
     def __len__(self) -> int:
         return len(self.own)
 
-    def __getitem__(self, rows: Any) -> Standpoints:
+    def __getitem__(self, rows: Integers | slice) -> Standpoints:
         return Standpoints(self.shoots, self.own[rows], self.mothers[rows], self.tips[rows], self.heads[rows])
 
-    def others(self, things: Things) -> Callable[[Any, Integers], Any]:
+    def others(self, things: Things) -> Callable[[Integers, Integers], Flags]:
         """Whether things are those of neighbours, given who asks and the numbers of the things."""
         return lambda asking, numbers: (
             (things.owners[numbers] != self.own[asking]) & (things.owners[numbers] != self.mothers[asking])
@@ -151,7 +151,7 @@ def nearest_ahead(asking: Standpoints, angle: float, least: float, colour: float
     return found
 
 
-def _nearest_of(asking: Standpoints, points: Things, number: int, wanted: Callable[..., object]) -> Floats:
+def _nearest_of(asking: Standpoints, points: Things, number: int, wanted: Callable[..., Flags | bool]) -> Floats:
     """The distance to the nearest of so many neighbouring points that is another shoot's, and wanted; infinite without one."""
     if not len(points):
         return np.full(len(asking), np.inf)

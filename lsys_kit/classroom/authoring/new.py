@@ -10,12 +10,11 @@ from collections.abc import Iterator, Mapping
 from functools import partial
 from importlib.resources import files
 from pathlib import Path
-from typing import Any
 
 from lsys_kit.classroom.exercises.notebooks import renew_exercises
 from lsys_kit.classroom.places import NAME, course_of, key_of, kit_place
 from lsys_kit.errors import ModelFileError, ModelNameError, ModelValueError, quotable
-from lsys_kit.files import create_file, file_errors
+from lsys_kit.files import Json, create_file, file_errors
 from lsys_kit.notation.analysis.checks import suggestion
 
 _TEMPLATE = files(__package__) / "template"
@@ -87,10 +86,10 @@ def notebook(cells: list[Mapping[str, str]]) -> str:
     return _json({"cells": made, "metadata": metadata, "nbformat": 4, "nbformat_minor": 5})
 
 
-def _cell(number: int, cell: Mapping[str, str]) -> dict[str, Any]:
+def _cell(number: int, cell: Mapping[str, str]) -> Json:
     kind = "code" if "code" in cell else "markdown"
     source = cell["code" if kind == "code" else "text"].strip("\n").splitlines(keepends=True)
-    more: dict[str, Any] = {"outputs": [], "execution_count": None} if kind == "code" else {}
+    more: dict[str, Json] = {"outputs": [], "execution_count": None} if kind == "code" else {}
     return {"cell_type": kind, "id": f"part-{number}", "metadata": {}, "source": source, **more}
 
 

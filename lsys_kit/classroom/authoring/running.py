@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
-from typing import Any
 
 from lsys_kit.classroom.authoring.finding import Finding, finding
 from lsys_kit.classroom.authoring.written import Cell, Written
@@ -13,6 +12,7 @@ from lsys_kit.classroom.lessons.entries import number_of
 from lsys_kit.classroom.lessons.rows import set_by
 from lsys_kit.classroom.site import showing
 from lsys_kit.classroom.site.build import found_in, run_through
+from lsys_kit.files import Entries
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.arithmetic import number_text
 
@@ -36,7 +36,7 @@ def running_findings(written: Written) -> Iterator[Finding]:
     yield from _reached(written, [*_panels([data for cell in notebook.cells for data in found_in([cell], showing.PART)])])
 
 
-def _panels(data: Any) -> Iterator[Mapping[str, Any]]:
+def _panels(data: object) -> Iterator[Entries]:
     """The models of panels, wherever they are."""
     if isinstance(data, list):
         for each in data:
@@ -49,8 +49,8 @@ def _panels(data: Any) -> Iterator[Mapping[str, Any]]:
                 yield from _panels(each)
 
 
-def _reached(written: Written, models: list[Mapping[str, Any]]) -> Iterator[Finding]:
-    sliders: dict[str, list[Mapping[str, Any]]] = {}
+def _reached(written: Written, models: list[Entries]) -> Iterator[Finding]:
+    sliders: dict[str, list[Entries]] = {}
     for model in models:
         for each in model["constants"]:
             sliders.setdefault(each["name"], []).append(each)

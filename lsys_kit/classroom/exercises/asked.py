@@ -22,6 +22,7 @@ from lsys_kit.derivation.petri.stages import stages
 from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.notation.analysis.checks import suggestion
+from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.expressions import Number
 from lsys_kit.notation.model.modules import Module, Pattern
 from lsys_kit.notation.model.system import LSystem
@@ -105,7 +106,7 @@ def system_of(text: str) -> LSystem:
     return read(text) if ":" in text else catalogued(text)
 
 
-def with_constants(system: LSystem, values: Mapping[str, Any]) -> LSystem:
+def with_constants(system: LSystem, values: Mapping[str, Value]) -> LSystem:
     """A system with other values of its constants."""
     known = [constant.name for constant in system.constants]
     for name in values:

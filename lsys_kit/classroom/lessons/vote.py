@@ -7,9 +7,8 @@ was predicted in between; only then is there a reply.
 from __future__ import annotations
 
 import base64
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from functools import cache
-from typing import Any
 
 import traitlets
 
@@ -22,6 +21,7 @@ from lsys_kit.classroom.lessons.predicted import predictions_of
 from lsys_kit.classroom.lessons.widget import LessonWidget, boxed_html, prose_html, prose_text
 from lsys_kit.classroom.panel.bundle import Data
 from lsys_kit.errors import ModelNameError, ModelValueError, require, shown
+from lsys_kit.files import Entries
 from lsys_kit.notation.read import read
 from lsys_kit.pictures.draw import AnyPicture, draw
 from lsys_kit.pictures.formats.notebook import SVGPicture, svg_bundle
@@ -176,7 +176,7 @@ class VoteBox(LessonWidget):
         self._tell()
 
     @traitlets.validate("chosen")
-    def _is_an_option(self, proposal: Any) -> int:
+    def _is_an_option(self, proposal: traitlets.Bunch) -> int:
         if proposal["value"] >= len(self._vote.options):
             raise traitlets.TraitError(f"There are {len(self._vote.options)} options")
         return int(proposal["value"])
@@ -214,7 +214,7 @@ class VoteBox(LessonWidget):
         return "\n".join([prose_text(self._vote.question), *described, *options])
 
 
-def drawn(choices: Mapping[str, Any]) -> AnyPicture | None:
+def drawn(choices: Entries) -> AnyPicture | None:
     """The picture of a vote, from what its lesson declares of it; None where it has none.
 
     >>> drawn({"system": "J1", "step": 2})
@@ -238,7 +238,7 @@ def _picture(picture: SVGPicture | AnyPicture | None) -> Data:
         return svg_bundle(picture.svg, repr(picture))
 
 
-def _address(picture: Mapping[str, Any]) -> str:
+def _address(picture: Data) -> str:
     return f"data:image/svg+xml;base64,{base64.b64encode(picture['image/svg+xml'].encode()).decode()}"
 
 

@@ -16,6 +16,7 @@ from lsys_kit.classroom.exercises.verdict import PLAIN_TEXT
 from lsys_kit.classroom.panel.bundle import Data, translated_words
 from lsys_kit.classroom.panel.widget_scripts import ScriptedWidget
 from lsys_kit.errors import shown
+from lsys_kit.files import Entries
 from lsys_kit.pictures.style.labels import escaped
 from lsys_kit.supervision import supervised
 
@@ -102,7 +103,7 @@ def widget(what: object) -> object:
     return HTMLMath(f"<div>{escaped(data['text/latex'])}</div>")
 
 
-def html(data: Mapping[str, Any]) -> str:
+def html(data: Entries) -> str:
     """What is shown by media types, as HTML: the kit's own HTML, else a picture, else the text."""
     if "text/html" in data:
         return str(data["text/html"])

@@ -7,7 +7,6 @@ of a kernel: see `workers`.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any
 
 from lsys_kit.budget import limits
 from lsys_kit.classroom.exercises.check import checked
@@ -25,6 +24,7 @@ from lsys_kit.classroom.panel.explorer import Explorer
 from lsys_kit.classroom.panel.opened.kinds import opened
 from lsys_kit.classroom.wall import drawn_as
 from lsys_kit.errors import LSystemError, ModelValueError
+from lsys_kit.files import Entries
 from lsys_kit.notation.read import CELL_READERS, read
 
 BUDGET: Mapping[str, float] = {"modules": 100_000, "bytes": 2**27, "seconds": 2.0, "text": 20_000, "rules": 200}
@@ -34,7 +34,7 @@ SEEN = ("step", "angle", "around", "above", "seed", "mark", "settings")
 _NUMBERS = ("step", "angle", "around", "above", "seed")
 
 
-def answer(asked: Mapping[str, Any]) -> Data:
+def answer(asked: Entries) -> Data:
     """What is answered to a question; a mistake in a model is an answer too.
 
     >>> answer({"kind": "check", "id": "1.1", "answer": "bl ar bl ar ar"})["said"]
@@ -52,7 +52,7 @@ def answer(asked: Mapping[str, Any]) -> Data:
         return {"mistake": {"message": "This question cannot be understood", "hint": ""}}
 
 
-def _panel(asked: Mapping[str, Any]) -> Data:
+def _panel(asked: Entries) -> Data:
     """What a panel asks; where its model or what is chosen has changed, that is told, too."""
     given = asked["panel"]
     text, notation = str(given["text"]), str(given["notation"])
@@ -70,7 +70,7 @@ def _panel(asked: Mapping[str, Any]) -> Data:
         panel.close()
 
 
-def _told(panel: Explorer, asked: Mapping[str, Any], chosen: Mapping[str, Any]) -> Data:
+def _told(panel: Explorer, asked: Entries, chosen: Entries) -> Data:
     panel.step = max(0, min(int(chosen.get("step", panel.step)), panel.model["book"]["steps"]))
     panel.around, panel.above = (int(chosen.get(name, getattr(panel, name))) for name in ("around", "above"))
     panel.mark = str(asked["panel"].get("mark", ""))
@@ -94,7 +94,7 @@ def _check(asked: Mapping[str, object]) -> Data:
     return _verdict(exercise_of(str(asked["id"])), asked)
 
 
-def _verdict(exercise: Exercise, asked: Mapping[str, Any]) -> Data:
+def _verdict(exercise: Exercise, asked: Entries) -> Data:
     """The verdict on an answer, with the hints up to one, or with the solution."""
     verdict = checked(exercise, str(asked.get("answer", "")), 0, asked.get("solution") is True, "")
     hinted = asked.get("hint", 0) if verdict.said in ("Almost", "Not yet") and type(asked.get("hint")) is int else 0
@@ -105,7 +105,7 @@ def _verdict(exercise: Exercise, asked: Mapping[str, Any]) -> Data:
     return {"said": verdict.said, "message": "\n".join([verdict.message, *hints])}
 
 
-def _practice(asked: Mapping[str, Any]) -> Data:
+def _practice(asked: Entries) -> Data:
     """An exercise made at random, at a level that follows the tries so far: names of exercises, and whether each was right."""
     topic, level, seed = _practised(asked)
     tries = [Try(str(name), solved is True) for name, solved in asked.get("tries", ())][-MOST_TRIES:]

@@ -25,6 +25,7 @@ from lsys_kit.classroom.panel.bundle import bundled, style, translated_words
 from lsys_kit.classroom.places import course_of
 from lsys_kit.classroom.widget import KitWidget
 from lsys_kit.errors import LSystemError, ModelFileError, ModelValueError, quotable, require, whole_number
+from lsys_kit.files import Entries
 from lsys_kit.pictures.style.labels import escaped
 from lsys_kit.translation import language
 
@@ -258,7 +259,7 @@ class ClassBoard(KitWidget):
         """End the class; `open_class` opens it again where it was."""
         self._class.end()
 
-    def hear(self, told: Mapping[str, Any]) -> None:
+    def hear(self, told: Entries) -> None:
         """Show what the class tells."""
         if "state" in told:
             self.state = told["state"]

@@ -10,7 +10,7 @@ import io
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 from lsys_kit.classroom.exercises.collecting import cell
 from lsys_kit.classroom.lessons.lesson import LETTERS, lesson
@@ -28,7 +28,7 @@ from lsys_kit.classroom.live.questions import (
     right_option,
     table_of,
 )
-from lsys_kit.classroom.live.session import GAME, Asked, Session
+from lsys_kit.classroom.live.session import GAME, Asked, Said, Session
 from lsys_kit.classroom.panel.bundle import style
 from lsys_kit.classroom.panel.document import document
 from lsys_kit.errors import LSystemError, ModelFileError, quotable
@@ -68,7 +68,11 @@ def write_reports(folder: str | Path) -> list[Path]:
     return written
 
 
-def rows_of(session: Session) -> Iterator[tuple[object, ...]]:
+_Row: TypeAlias = tuple[str, str, int, str, int, str, int]
+"""The question, its kind and its round; an answer, how often it was given, whether it is right, and how many answered."""
+
+
+def rows_of(session: Session) -> Iterator[_Row]:
     """The rows of the table, question by question."""
     for asked in sorted(session.answers):
         said = session.values(asked)
@@ -78,19 +82,19 @@ def rows_of(session: Session) -> Iterator[tuple[object, ...]]:
             yield (asked.about, asked.kind, asked.round, gettext("(no longer in the kit)"), len(said), "", len(said))
 
 
-def _votes(session: Session, asked: Asked, said: dict[str, Any]) -> Iterator[tuple[object, ...]]:
+def _votes(session: Session, asked: Asked, said: Said) -> Iterator[_Row]:
     counts, right = Counter(said.values()), right_option(asked.about)
     for place, letter in enumerate(LETTERS[: len(replies(asked.about))]):
         yield (asked.about, VOTE, asked.round, letter, counts[place], "yes" if place == right else "no", len(said))
 
 
-def _predictions(session: Session, asked: Asked, said: dict[str, Any]) -> Iterator[tuple[object, ...]]:
+def _predictions(session: Session, asked: Asked, said: Said) -> Iterator[_Row]:
     marked = session.marked.get(asked.about, set())
     for text, count in Counter(said.values()).most_common():
         yield (asked.about, PREDICTION, asked.round, text, count, "yes" if text in marked else "", len(said))
 
 
-def _tables(session: Session, asked: Asked, said: dict[str, Any]) -> Iterator[tuple[object, ...]]:
+def _tables(session: Session, asked: Asked, said: Said) -> Iterator[_Row]:
     table = table_of(question(TABLE, asked.about))
     marks = [right_cells(table, entries) for entries in said.values()]
     for place, (row, column, _) in enumerate(table.blanks):
@@ -99,21 +103,21 @@ def _tables(session: Session, asked: Asked, said: dict[str, Any]) -> Iterator[tu
             yield (asked.about, TABLE, asked.round, name, sum(mark[place] is right for mark in marks), word, len(said))
 
 
-def _exercises(session: Session, asked: Asked, said: dict[str, Any]) -> Iterator[tuple[object, ...]]:
+def _exercises(session: Session, asked: Asked, said: Said) -> Iterator[_Row]:
     counts = Counter((each["said"], each["message"] if each["said"] != "Correct" else "") for each in said.values())
     for (verdict, message), count in counts.most_common():
         right = "yes" if verdict == "Correct" else "no"
         yield (asked.about, EXERCISE, asked.round, f"{gettext(verdict)}. {message}".strip(), count, right, len(said))
 
 
-def _games(session: Session, asked: Asked, said: dict[str, Any]) -> Iterator[tuple[object, ...]]:
+def _games(session: Session, asked: Asked, said: Said) -> Iterator[_Row]:
     game = session.game(asked.about)
     found = outcome(game.turns[asked.round - 1], made_by(game.turns[asked.round - 1], session.chosen(asked)))
     right = "yes" if found["parts"] is None else "no"
     yield (f"{asked.about}: {game.title}", GAME, asked.round, found["word"], len(said), right, len(said))
 
 
-_Rows: TypeAlias = Callable[[Session, Asked, dict[str, Any]], Iterator[tuple[object, ...]]]
+_Rows: TypeAlias = Callable[[Session, Asked, Said], Iterator[_Row]]
 _ROWS: Mapping[str, _Rows] = {VOTE: _votes, PREDICTION: _predictions, TABLE: _tables, EXERCISE: _exercises, GAME: _games}
 
 
@@ -204,7 +208,7 @@ def _head(*names: str) -> str:
 
 
 def _list_part(title: str, session: Session, kind: str) -> Iterator[str]:
-    rows: Sequence[tuple[Any, ...]] = [row for row in rows_of(session) if row[1] == kind and row[4]]
+    rows: Sequence[_Row] = [row for row in rows_of(session) if row[1] == kind and row[4]]
     if not rows:
         return
     said = {"yes": gettext("yes"), "no": gettext("no"), "": ""}

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
 from itertools import islice
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 from lsys_kit.classroom.lessons.entries import number_of
 from lsys_kit.classroom.lessons.lesson import lesson
@@ -42,6 +42,10 @@ MOST_PLANTS, MOST_OF_A_PHONE = 200, 30
 """So many plants the wall has room for, older ones give way; and so many a phone may send."""
 FEW_NUMBERS = 12
 """Predictions that are numbers are bars, if there are no more different ones than this; else a cloud of words."""
+
+
+Said: TypeAlias = dict[str, Any]
+"""What phones have said, by their names."""
 
 
 class Asked(NamedTuple):
@@ -144,7 +148,7 @@ class Session:
 
     # What is shown
 
-    def values(self, asked: Asked) -> dict[str, Any]:
+    def values(self, asked: Asked) -> Said:
         """What each phone has said to a question."""
         return {phone: value for phone, (_, value) in self.answers.get(asked, {}).items()}
 

@@ -36,6 +36,7 @@ from lsys_kit.classroom.panel.widget_scripts import ScriptedWidget
 from lsys_kit.derivation.core.letters import letters_from
 from lsys_kit.derivation.petri.stages import stages
 from lsys_kit.errors import LSystemError, ModelNameError, ModelValueError, every, quotable, require, shown, whole_number
+from lsys_kit.files import Entries
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.fragments import is_link
 from lsys_kit.notation.model.arithmetic import Value, number_text
@@ -308,7 +309,7 @@ class Explorer(ScriptedWidget):
         except LSystemError as error:
             return {"mistake": _mistake(error)}
 
-    def _book_for(self, content: Mapping[str, Any]) -> Data:
+    def _book_for(self, content: Entries) -> Data:
         offered = self._opened.lettered
         letters = chosen_names(content.get("letters") or (), "letter", offered)
         made = self._opened.book(
@@ -316,7 +317,7 @@ class Explorer(ScriptedWidget):
         )
         return {"book": made}
 
-    def _model_for(self, content: Mapping[str, Any]) -> Data:
+    def _model_for(self, content: Entries) -> Data:
         """Show the system of a text that was typed.
 
         The step and the angle stay where they can, and so does each constant that is declared as it was, or was not declared.

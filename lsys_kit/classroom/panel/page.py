@@ -5,12 +5,11 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 from lsys_kit.classroom.panel.bundle import compact, style
 from lsys_kit.classroom.panel.document import Program, deflated_text, document
 from lsys_kit.errors import ModelFileError, quotable
-from lsys_kit.files import path_from, save_file
+from lsys_kit.files import Entries, path_from, save_file
 from lsys_kit.pictures.style.labels import escaped
 from lsys_kit.pictures.style.themes import DARK, LIGHT
 
@@ -40,7 +39,7 @@ _CHOSEN = ("letters", "sentence")
 """What else has a script of its own, which is called so."""
 
 
-def page(title: str, data: Mapping[str, Any], description: str, language: str = "en") -> str:
+def page(title: str, data: Entries, description: str, language: str = "en") -> str:
     """One HTML file that shows a panel.
 
     Parameters
@@ -82,7 +81,7 @@ def not_needed(*modes: str) -> frozenset[str]:
     return frozenset.intersection(*(_NOT_NEEDED[mode] for mode in modes))
 
 
-def unasked(models: Sequence[Mapping[str, Any]]) -> frozenset[str]:
+def unasked(models: Sequence[Entries]) -> frozenset[str]:
     """The scripts of what no panel of a page asks for.
 
     >>> sorted(unasked([{"letters": ["a"]}, {"show": ["drawing"]}]))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from lsys_kit.files import Entries
 
 _made: dict[str, int] = {}
 """The run of a cell that has made panels last, and how many."""
@@ -18,7 +18,7 @@ def standing() -> str:
     """
     from IPython.core.getipython import get_ipython
 
-    asked: dict[str, Any] = getattr(get_ipython(), "get_parent", dict)()
+    asked: Entries = getattr(get_ipython(), "get_parent", dict)()
     cell = asked.get("metadata", {}).get("cellId")
     if not cell:
         return ""

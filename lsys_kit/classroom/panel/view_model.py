@@ -18,7 +18,7 @@ from lsys_kit.classroom.panel.books.net import Unfolding, net_of
 from lsys_kit.classroom.panel.labels import noun_of
 from lsys_kit.derivation.core.letters import conditions_text
 from lsys_kit.derivation.core.words import Word, shortened
-from lsys_kit.derivation.derive import Derivation
+from lsys_kit.derivation.derive import Choices, Derivation
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.geometry.drawing import coloured, scene_of
 from lsys_kit.geometry.filament import filament
@@ -141,7 +141,7 @@ class ViewModel:
     def known(self, constants: Mapping[str, object]) -> tuple[Derivation, Stages]:
         """The derivation and the net for given constants."""
         key = tuple(constants.items())
-        given: dict[str, Any] = dict(constants)
+        given: Choices = dict(constants)
         return self._known.found(
             key, lambda: (derive(self.system, 0, seed=self.seed, **given), net_of(self.system, given, self._unfold))
         )

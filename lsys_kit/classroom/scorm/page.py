@@ -26,6 +26,7 @@ from lsys_kit.classroom.panel.bundle import Data, compact, style, translated_wor
 from lsys_kit.classroom.panel.document import Program, deflated_text, document
 from lsys_kit.classroom.site.markdown import markdown_html
 from lsys_kit.errors import LSystemError
+from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import symbols
 from lsys_kit.pictures.style.labels import escaped
@@ -75,7 +76,7 @@ def _reply(exercise: Exercise, answer: object) -> tuple[str, ...]:
 # Normal forms
 
 
-def number_key(number: Any) -> str:
+def number_key(number: Value) -> str:
     """A number in its normal form, a fraction in lowest terms; a double is the number that is printed for it.
 
     >>> number_key(21), number_key(Fraction(-3, 6)), number_key(0.1)
@@ -88,7 +89,7 @@ def number_key(number: Any) -> str:
     return f"{exact.numerator}/{exact.denominator}"
 
 
-def rounded_key(number: Any, part: Fraction) -> str:
+def rounded_key(number: Value, part: Fraction) -> str:
     """A number in its normal form where it need not be exact: how often a part goes into it, rounded."""
     return f"~{math.floor(Fraction(number) / part + Fraction(1, 2))}"
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from html import escape, unescape
 from pathlib import PurePosixPath
 from posixpath import normpath
-from typing import Any
+from types import ModuleType
 
 from lsys_kit.classroom.lessons.widget import escaped_lines
 from lsys_kit.errors import LSystemError
@@ -152,7 +152,7 @@ def missing(package: str) -> LSystemError:
     return LSystemError(f"Pages cannot be written without {package}", hint="Install it with: pip install 'lsys-kit[site]'")
 
 
-def _mistune() -> Any:
+def _mistune() -> ModuleType:
     try:
         import mistune
     except ImportError:

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path, PurePosixPath
 from posixpath import normpath, relpath
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 from urllib.parse import quote
 
 from lsys_kit.classroom.course import is_lesson
@@ -28,7 +28,7 @@ from lsys_kit.classroom.places import TITLE
 from lsys_kit.classroom.site.markdown import Links, Places, address_on_site, markdown_html, mathml
 from lsys_kit.classroom.site.requests import notes
 from lsys_kit.classroom.site.showing import PART
-from lsys_kit.files import file_errors
+from lsys_kit.files import Entries, file_errors
 from lsys_kit.pictures.formats.notebook import DARKENED
 from lsys_kit.pictures.style.labels import escaped
 from lsys_kit.translation import gettext
@@ -219,7 +219,7 @@ def _with_books_once(parts: Parts) -> Data:
     """The data of a page: panels of the same books have them in common, each names theirs by a number."""
     books: dict[str, int] = {}
 
-    def numbered(data: object) -> Any:
+    def numbered(data: object) -> object:
         if not isinstance(data, dict):
             return data
         return {
@@ -267,7 +267,7 @@ def _code_html(cell: NotebookNode, parts: Parts) -> str:
     return code + shown
 
 
-def output_html(output: Mapping[str, Any], parts: Parts) -> str:
+def output_html(output: Entries, parts: Parts) -> str:
     """What a cell has put out, as HTML.
 
     >>> output_html({"output_type": "stream", "text": "a < b\\n"}, [])
@@ -280,7 +280,7 @@ def output_html(output: Mapping[str, Any], parts: Parts) -> str:
     return data_html(output["data"], parts)
 
 
-def data_html(data: Mapping[str, Any], parts: Parts) -> str:
+def data_html(data: Entries, parts: Parts) -> str:
     """What is shown of an object, by media types, as HTML.
 
     >>> data_html({"text/latex": "$x$", "text/plain": "x"}, [])
@@ -324,7 +324,7 @@ def _part_html(part: Mapping[str, object], words: str, parts: Parts) -> str:
     return f'<div class="part part-{kind}" data-part="{number}">{inside}</div>\n'
 
 
-def _prediction_html(part: Mapping[str, Any], parts: Parts) -> str:
+def _prediction_html(part: Entries, parts: Parts) -> str:
     answer = data_html(part["answer"], parts)
     question = prose_html(part["data"]["question"])
     return f"<details><summary>{question}</summary>\n<div data-answer>\n{answer}</div>\n</details>"

@@ -47,7 +47,7 @@ def splitmix64_array(numbers: NDArray[np.uint64]) -> NDArray[np.uint64]:
     return numbers ^ numbers >> np.uint64(31)
 
 
-def units(seed: int, step: int, positions: NDArray[Any]) -> NDArray[np.float64]:
+def units(seed: int, step: int, positions: NDArray[np.integer]) -> NDArray[np.float64]:
     """The first random number, from 0 up to 1, of the modules at some positions of a step's word.
 
     >>> units(1, 2, np.arange(3)).tolist() == [Chance(1, 2, position).unit() for position in range(3)]

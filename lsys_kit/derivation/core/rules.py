@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache
-from typing import Any, TypeAlias, TypeGuard
+from typing import TYPE_CHECKING, TypeAlias, TypeGuard
 
 from lsys_kit.errors import ModelNameError, ModelValueError, quotable, shown
 from lsys_kit.notation.analysis.checks import suggestion
@@ -21,6 +21,9 @@ from lsys_kit.notation.model.expressions import Apply, Expression, Function, Nam
 from lsys_kit.notation.model.modules import CLOSING, OPENING, Item, Module, Pattern, Repeat, expressions_of
 from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.read import read_number
+
+if TYPE_CHECKING:
+    import sympy
 
 Values: TypeAlias = tuple[Value, ...]
 ModuleKind: TypeAlias = tuple[str, int]
@@ -190,7 +193,7 @@ def is_branch(item: ModuleKind | Branch) -> TypeGuard[Branch]:
 
 def _branched_context(modules: Sequence[Pattern]) -> Branch:
     """A right context with its branches as rows of their own."""
-    rows: list[list[Any]] = [[]]
+    rows: list[list[ModuleKind | Branch]] = [[]]
     for module in modules:
         if module.symbol in OPENING:
             rows.append([])
@@ -282,7 +285,7 @@ def real_from(given: object, name: str, hint: str | None = None) -> float:
     raise ModelValueError(f'"{name}" must be {wanted}, not {_beginning(given)}', hint=hint)
 
 
-def unknown_constant(name: str) -> Any:
+def unknown_constant(name: str) -> sympy.Symbol:
     """A constant whose value is not known: a real number with a name."""
     import sympy
 

@@ -193,11 +193,11 @@ class States:
     def __len__(self) -> int:
         return len(self.modules)
 
-    def __getstate__(self) -> dict[str, Any]:
+    def __getstate__(self) -> dict[str, object]:
         """The table without its rules, which are functions; they are made again from the system."""
         return {**vars(self), "rules": {}, "decomposition": {}, "_applied": {}}
 
-    def __setstate__(self, kept: dict[str, Any]) -> None:
+    def __setstate__(self, kept: dict[str, object]) -> None:
         vars(self).update(kept)
         self.rules = rules_of(self.system, self.arithmetic)
         self.decomposition = rules_of(self.system, self.arithmetic, "decomposition")

@@ -119,7 +119,7 @@ def exact_number(value: Value) -> ExactColumn:
     return ExactColumn(value.numerator, value.denominator, value.numerator.bit_length())
 
 
-def _over_common(operation: Callable[[Array | int, Array | int], Any], left: ExactColumn, right: ExactColumn) -> ExactColumn:
+def _over_common(operation: Callable[..., Array | int], left: ExactColumn, right: ExactColumn) -> ExactColumn:
     common = math.lcm(left.denominator, right.denominator)
     bits = 1 + max(column.bits + (common // column.denominator).bit_length() for column in (left, right))
     first, second = (ExactColumn(column.numerators, column.denominator, bits).over(common) for column in (left, right))

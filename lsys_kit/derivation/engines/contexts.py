@@ -118,7 +118,7 @@ class RuleChoice:
     marks: Sequence[float]
     total: float
 
-    def drawn(self, units: IntegerArray) -> IntegerArray:
+    def drawn(self, units: NDArray[np.float64]) -> IntegerArray:
         """For each random number from 0 up to 1 the index of the rule that it chooses."""
         return np.searchsorted(self.marks, units * self.total, side="right")
 

@@ -378,7 +378,7 @@ class _Maps:
         import sympy
 
         unknown = {place: sympy.Dummy(f"x{place}", real=True) for place, value in enumerate(kind[1]) if value is None}
-        arguments: Any = tuple(unknown.get(place, value) for place, value in enumerate(kind[1]))
+        arguments: tuple[Value | sympy.Expr, ...] = tuple(unknown.get(place, value) for place, value in enumerate(kind[1]))
         module = Module(kind[0], arguments)
         positions = {symbol: (kind[0], len(kind[1]), place) for place, symbol in unknown.items()}
         rows: dict[Sum, Combination] = {(kind, place): {} for place in (-1, *unknown)}
@@ -445,7 +445,7 @@ class _Maps:
             raise _Bent(frozenset(positions[symbol] for symbol in own))
         return {-1: self._element(rest)} | {positions[symbol][2]: self._element(factors[symbol]) for symbol in own}
 
-    def _element(self, value: Any) -> Coefficient:
+    def _element(self, value: Value | sympy.Expr) -> Coefficient:
         """A number, or an expression in the letters, as an element of the field."""
         value = expanded_value(value) if is_symbolic(value) else value
         if isinstance(value, float):

@@ -18,7 +18,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import product
-from typing import Any, NamedTuple, TypeVar
+from typing import NamedTuple, TypeVar
 
 from lsys_kit.budget import check_budget
 from lsys_kit.derivation.core.chance import shares
@@ -36,6 +36,7 @@ from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.write import as_written
 
 _PlaceT = TypeVar("_PlaceT")
+_KindT = TypeVar("_KindT", bound=ModuleKind | Module)
 
 
 class Product(NamedTuple):
@@ -64,17 +65,17 @@ def by_symbol(states: States) -> Stages:
     return _symbols_net(states, ways, lambda module: where.get(kind_of(module)))
 
 
-def _symbols_net(states: States, ways: Mapping[Any, Sequence[Way]], where: Callable[[Module], int | None]) -> Stages:
+def _symbols_net(states: States, ways: Mapping[_KindT, Sequence[Way]], where: Callable[[Module], int | None]) -> Stages:
     """The net of kinds of modules, or single ones, given the ways out of each."""
     places = [Place(place.symbol, (place,)) if isinstance(place, Module) else Place(place[0], ()) for place in ways]
     return replace(net_of(states, places, ways, where), grouped=True, besides=tuple(_unshown(states)))
 
 
 def net_of(
-    states: States, places: Iterable[Place], ways: Mapping[Any, Sequence[Way]], where: Callable[[Module], int | None]
+    states: States, places: Iterable[Place], ways: Mapping[_PlaceT, Sequence[Way]], where: Callable[[Module], int | None]
 ) -> Stages:
     """The net of some places, given the ways out of each, by what these name them, and the place of each module."""
-    numbers = {place: number for number, place in enumerate(ways)}
+    numbers: dict[object, int] = {place: number for number, place in enumerate(ways)}
     transitions: list[Transition] = []
     arcs = []
     for at_once, place in product((False, True), ways):

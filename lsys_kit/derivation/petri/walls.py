@@ -9,11 +9,10 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Any
 
 from lsys_kit.derivation.petri.net import Arc, Place, Stages, Transition
 from lsys_kit.errors import ModelLimitError
-from lsys_kit.notation.model.cells import CellSystem, CellworkSystem, Edge, EdgeRule
+from lsys_kit.notation.model.cells import AnyMarker, CellSystem, CellworkSystem, Edge, EdgeRule
 from lsys_kit.notation.model.modules import Module, Pattern
 from lsys_kit.notation.model.system import LSystem, Production
 
@@ -96,7 +95,7 @@ def wall_stages(system: CellSystem) -> Stages:
     )
 
 
-def _arcs(transition: int, production: EdgeRule[Any], numbers: Mapping[Edge, int]) -> Iterator[Arc]:
+def _arcs(transition: int, production: EdgeRule[AnyMarker], numbers: Mapping[Edge, int]) -> Iterator[Arc]:
     """The arcs of a production: to the walls of its successor, then to those whose markers it has."""
     for edge, copies in Counter(map(kind_of, production.edges)).items():
         yield Arc(transition, numbers[edge], copies)

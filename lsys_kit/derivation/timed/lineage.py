@@ -21,7 +21,7 @@ from lsys_kit.derivation.core.interpretation import is_cell, is_filament
 from lsys_kit.derivation.core.rules import ModuleKind, Rule, kind_of, number_from
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
-from lsys_kit.derivation.derive import Derivation, derive
+from lsys_kit.derivation.derive import Choices, Derivation, derive
 from lsys_kit.derivation.timed.ages import age_model
 from lsys_kit.derivation.timed.timed import Timed
 from lsys_kit.errors import ModelLimitError, ModelValueError, whole_number
@@ -288,7 +288,7 @@ def lineage(
     with Task("The lineage was not found"):
         if isinstance(what, LSystem):
             steps: Any = n if n is not None else what.steps if what.steps is not None else 5
-            given: dict[str, Any] = constants
+            given: Choices = constants
             start = derive(what, 0, seed=seed, arithmetic=arithmetic, **given)
             if start.states.traits.sensitive:
                 raise ModelValueError(

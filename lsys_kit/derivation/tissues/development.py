@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Generic, Self, TypeVar, overload
+from typing import Any, Generic, Self, TypeAlias, TypeVar, overload
 
 from lsys_kit.budget import Task, check_budget, counted
 from lsys_kit.derivation.tissues.cellworks import Cellwork, cellwork_step, first_cellwork
@@ -54,6 +54,9 @@ class CellDevelopment(Sequence[F], Generic[S, F]):
             return "\n".join(line if len(line) <= MOST_SHOWN else f"{line[:MOST_SHOWN]}..." for line in lines)
 
 
+AnyDevelopment: TypeAlias = CellDevelopment[Any, Any]
+
+
 class Development(CellDevelopment[MapSystem, Map]):
     """The maps of steps 0, 1, 2, ..."""
 
@@ -82,7 +85,7 @@ class CellworkDevelopment(CellDevelopment[CellworkSystem, Cellwork]):
         return found
 
 
-_KINDS: Mapping[type, tuple[Callable[..., Any], Callable[[Any], Any], Callable[[Any, Any, int], Any]]] = {
+_KINDS: Mapping[type, tuple[Callable[..., AnyDevelopment], Callable[[Any], Any], Callable[[Any, Any, int], Any]]] = {
     MapSystem: (Development, first_map, map_step),
     CellworkSystem: (CellworkDevelopment, first_cellwork, cellwork_step),
 }
@@ -94,8 +97,8 @@ def develop(system: MapSystem, steps: int) -> Development: ...
 @overload
 def develop(system: CellworkSystem, steps: int) -> CellworkDevelopment: ...
 @overload
-def develop(system: CellSystem, steps: int) -> CellDevelopment[Any, Any]: ...
-def develop(system: object, steps: int) -> Any:
+def develop(system: CellSystem, steps: int) -> AnyDevelopment: ...
+def develop(system: CellSystem, steps: int) -> AnyDevelopment:
     """The cells of a map system or a cellwork system, from the first one on; `derive` does the same for every kind of system.
 
     An error has the step and, in `partial`, the steps before.

@@ -12,7 +12,7 @@ from fractions import Fraction
 from typing import Any, NamedTuple
 
 from lsys_kit.budget import counted
-from lsys_kit.notation.model.cells import Edge, EdgeRule
+from lsys_kit.notation.model.cells import AnyMarker, Edge, EdgeRule
 
 
 class Vertex(NamedTuple):
@@ -88,7 +88,7 @@ def corners_of(sides: Iterable[Side], edges: Sequence[CellEdge]) -> list[int]:
 
 
 def replaced_edges(
-    rules: Iterable[tuple[CellEdge, EdgeRule[Any] | None]], vertices: list[Vertex]
+    rules: Iterable[tuple[CellEdge, EdgeRule[AnyMarker] | None]], vertices: list[Vertex]
 ) -> tuple[list[CellEdge], list[Replaced]]:
     """The edges of the next step before rings are divided, given those that there are with their productions, or None; and what
     has become of each. New vertices come behind the others.

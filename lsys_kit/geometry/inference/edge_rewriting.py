@@ -83,7 +83,7 @@ def _stroke(many: int) -> Drawn:
     return np.full((many, 1), 0.5 + 0j), np.ones((many, 1), complex), np.ones(many, complex), np.ones(many, complex)
 
 
-def _placed(way: Traversal, drawn: Drawn, turning: Turning, behind: Any) -> Drawn:
+def _placed(way: Traversal, drawn: Drawn, turning: Turning, behind: NDArray[np.int64]) -> Drawn:
     """What a way to draw makes, each of whose strokes has become something, with some turns behind it."""
     middles, directions, end, heading = drawn
     start = np.zeros(len(behind), complex), np.ones(len(behind), complex)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal, overload
+from typing import Literal, overload
 
 from lsys_kit.budget import Task, check_budget, counted
 from lsys_kit.derivation.core.rules import real_from
@@ -233,7 +233,7 @@ the mended words:
 
 
 def _inferred(
-    given: Iterable[Any], constants: Iterable[str], erasing: bool, context: tuple[int, int], angle: object
+    given: Iterable[object], constants: Iterable[str], erasing: bool, context: tuple[int, int], angle: object
 ) -> Fits | DrawingFits:
     if isinstance(given, list) and any(map(is_drawing, counted(given))):
         if erasing is not False or not (isinstance(context, tuple) and context == (0, 0)):

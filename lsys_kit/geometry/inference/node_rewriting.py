@@ -10,12 +10,12 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from lsys_kit.arrays import np
 from lsys_kit.budget import check_budget
 from lsys_kit.geometry.inference.strokes import NEAR, Points, Strokes, Turning
 from lsys_kit.geometry.inference.traversals import START, Apex, Traversal, branching, word_with
+from lsys_kit.geometry.scene import Floats
 
 Places = Counter[int]
 
@@ -44,7 +44,7 @@ class _Drawing:
         return [min(each) for each in near] if all(near) else None
 
 
-def _features(ends: Points) -> Any:
+def _features(ends: Points) -> Floats:
     """Strokes as points that are near where strokes are: their middles, and their directions up to reversal."""
     middles, along = ends.mean(axis=1), (ends[:, 1] - ends[:, 0]) ** 2
     return np.column_stack([middles.real, middles.imag, along.real, along.imag])

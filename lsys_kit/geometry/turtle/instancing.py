@@ -68,7 +68,7 @@ class Prototype:
     of_discs: AttributeColumns
     end: Floats
     rotation: Floats
-    carried: tuple[Any, ...]
+    carried: tuple[object, ...]
 
 
 @dataclass(frozen=True)
@@ -152,7 +152,7 @@ class Prototypes:
         """The prototype of a row of states: instances of theirs, each placed where the one before ends."""
         size, parts = len(self._axes), []
         position, rotation = np.zeros(size), np.eye(size)
-        stack: list[tuple[Floats, Floats, tuple[Any, ...]]] = []
+        stack: list[tuple[Floats, Floats, tuple[object, ...]]] = []
         for state in row:
             symbol = self.states.modules[state].symbol
             if symbol in self._closing:
@@ -230,11 +230,11 @@ def _merged_instances(instances: Sequence[Instance], end: Floats, rotation: Floa
     )
 
 
-def _concatenated(columns: Sequence[NDArray[Any]], kind: Any) -> NDArray[Any]:
+def _concatenated(columns: Sequence[Column], kind: DTypeLike) -> Column:
     return np.concatenate(columns, dtype=kind) if columns else np.empty(0, kind)
 
 
-def _constant_or_all(columns: Sequence[NDArray[Any]], sizes: Sequence[int], kind: object) -> NDArray[Any]:
+def _constant_or_all(columns: Sequence[Column], sizes: Sequence[int], kind: DTypeLike) -> Column:
     """The columns as one; a single value, where each column has only that value."""
     if columns and all(len(column) == 1 for column in columns) and len({column[0] for column in columns}) == 1:
         return columns[0]

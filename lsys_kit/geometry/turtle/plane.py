@@ -86,6 +86,8 @@ class PlaneTurtle(Turtle):
     """
 
     __slots__ = ("steps",)
+    position: int
+    orientation: tuple[float, float, float]
 
     def __init__(self, side: int, step: float) -> None:
         super().__init__(-1, (0.0, 0.0, side), step)
@@ -196,7 +198,7 @@ def place_path(path: Path, angle: float, heading: float = 90.0) -> Scene:
     )
     places = np.vstack([ends, np.zeros(2)])  # the last is the origin, which is step -1
 
-    def points(numbers: list[int]) -> Floats:
+    def points(numbers: list[object]) -> Floats:
         return places[np.array(numbers, np.int64)]
 
     polygons, discs = collected_shapes(path.outlines, path.rounds, points)

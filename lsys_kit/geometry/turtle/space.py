@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import math
 from array import array
-from typing import Any, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from lsys_kit.arrays import np
 from lsys_kit.budget import check_budget, check_bytes
@@ -156,6 +156,9 @@ class SpaceTurtle(Turtle):
     """
 
     __slots__ = ("start", "strokes")
+    position: Vector
+    orientation: TurtleFrame
+    axis: AxisPoint | None
 
     def __init__(self, frame: TurtleFrame, step: float) -> None:
         super().__init__((0.0, 0.0, 0.0), frame, step)
@@ -374,7 +377,7 @@ def strokes_of(turtle: SpaceTurtle) -> Segments:
     return Segments(rows[:, :6].copy(), orders, states, rows[:, 8].copy(), colours)
 
 
-def operand(instruction: Instruction, angle: float) -> Any:
+def operand(instruction: Instruction, angle: float) -> tuple[float, float] | Instruction:
     """The operand of a handler: cosine and sine for a rotation, else the instruction itself.
 
     >>> operand(Instruction("pitch", 0.0, -90.0), 25.7)
@@ -383,5 +386,5 @@ def operand(instruction: Instruction, angle: float) -> Any:
     return cos_sin(instruction.factor * angle + instruction.addend) if instruction.action in _ROTATIONS else instruction
 
 
-def _points(places: list[Vector]) -> Floats:
+def _points(places: list[object]) -> Floats:
     return np.array(places, np.float64).reshape(-1, 3)

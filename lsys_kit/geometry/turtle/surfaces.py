@@ -13,15 +13,15 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache, cached_property, lru_cache, partial
 from itertools import pairwise
-from typing import Any, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from lsys_kit.arrays import np
 from lsys_kit.errors import quotable
-from lsys_kit.files import toml_tables
+from lsys_kit.files import Entries, toml_tables
 from lsys_kit.geometry.scene import Floats
 from lsys_kit.geometry.turtle.commands import COMMANDS
 from lsys_kit.notation.model.modules import flat
-from lsys_kit.notation.model.surfaces import ROW, SurfaceShape
+from lsys_kit.notation.model.surfaces import ROW, SurfacePoint, SurfaceShape
 from lsys_kit.notation.model.system import LSystem
 
 Corner: TypeAlias = tuple[float, float, float]
@@ -263,7 +263,7 @@ def surfaces() -> Mapping[str, Surface]:
     return {name: Surface(name, tuple(table["symbols"]), partial(_facets, table)) for name, table in tables.items()}
 
 
-def _facets(table: Mapping[str, Any]) -> Facets:
+def _facets(table: Entries) -> Facets:
     if "profile" in table:
         return revolved_facets(table["profile"], table["sides"], table["pieces"])
     blade = _blade(table)
@@ -276,7 +276,7 @@ def _facets(table: Mapping[str, Any]) -> Facets:
     return joined_facets([blade.mapped(turned(turn)) for turn in turns])
 
 
-def _blade(table: Mapping[str, Any]) -> Facets:
+def _blade(table: Entries) -> Facets:
     """A blade: two halves on both sides of its midrib, perhaps with a stalk."""
     control = blade_control(table["midrib"], table["margin"], table["bulge"])
     parts = [patch_facets(half, *table["faces"]) for half in (control, mirrored_control(control))]
@@ -309,7 +309,7 @@ def _declared_facets(shape: SurfaceShape) -> Facets:
     return joined_facets([patch_facets(control, PATCH_FACES, PATCH_FACES) for control in controls])
 
 
-def _floats(point: Sequence[Any]) -> tuple[float, float, float]:
+def _floats(point: SurfacePoint) -> tuple[float, float, float]:
     ahead, left, up = map(float, point)
     return ahead, left, up
 

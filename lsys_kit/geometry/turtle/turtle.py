@@ -43,13 +43,13 @@ class Outline(NamedTuple):
     corners: list[Any]
     state: int
     colour: int
-    normals: list[Any] = []  # noqa: RUF012
+    normals: Sequence[object] = []
 
 
 class RoundShape(NamedTuple):
     """A circle, disc or sphere."""
 
-    place: Any
+    place: object
     radius: float
     kind: int
     state: int
@@ -59,7 +59,7 @@ class RoundShape(NamedTuple):
 class Writing(NamedTuple):
     """A label."""
 
-    place: Any
+    place: object
     text: str
     state: int
 
@@ -110,7 +110,7 @@ def _normals_at_corners(outlines: Sequence[Outline]) -> Floats:
     return np.array([normal for outline in outlines for normal in outline.normals or [(0.0, 0.0, 0.0)] * len(outline.corners)])
 
 
-def collected_labels(written: Sequence[Writing], points: Callable[[list[Any]], Floats]) -> Labels:
+def collected_labels(written: Sequence[Writing], points: Callable[[list[object]], Floats]) -> Labels:
     """The labels that a turtle has written, given a function from positions to coordinates."""
     return Labels(
         points([each.place for each in written]),
@@ -120,7 +120,7 @@ def collected_labels(written: Sequence[Writing], points: Callable[[list[Any]], F
 
 
 def collected_shapes(
-    outlines: Sequence[Outline], rounds: Sequence[RoundShape], points: Callable[[list[Any]], Floats]
+    outlines: Sequence[Outline], rounds: Sequence[RoundShape], points: Callable[[list[object]], Floats]
 ) -> tuple[Polygons, Discs]:
     """The polygons and discs that a turtle has drawn, given a function from positions to coordinates."""
     sizes = [len(outline.corners) for outline in outlines]
@@ -293,15 +293,15 @@ class Turtle(ABC):
         "width",
     )
 
-    def __init__(self, position: Any, orientation: Any, step: float) -> None:
+    def __init__(self, position: object, orientation: object, step: float) -> None:
         self.position, self.orientation = position, orientation
-        self.last: Any = None
+        self.last: int | None = None
         self.length, self.width, self.colour, self.gravitropism = step, float(OWN), OWN, 0.0
         self.scale = 1.0
         self.mirror, self.second_heading = 1, 0.0
         self.tropisms: Mapping[float, tuple[float, float, float]] = {}
-        self.axis: Any = None
-        self.patches: dict[float, dict[tuple[float, float], Any]] = {}
+        self.axis: object = None
+        self.patches: dict[float, dict[tuple[float, float], object]] = {}
         self.restored: tuple[tuple[str, float], ...] = ()
         self.initial = {name: getattr(self, name) for name in ("length", "width", "colour", "gravitropism")}
         self.state, self.expects_surface = -1, False
@@ -330,11 +330,11 @@ class Turtle(ABC):
         """Move forward, with or without a stroke."""
 
     @abstractmethod
-    def initial_orientation(self, degrees: float) -> Any:
+    def initial_orientation(self, degrees: float) -> object:
         """The initial orientation, turned to the left by some degrees."""
 
     @abstractmethod
-    def local_point(self, ahead: float, left: float, up: float) -> Any:
+    def local_point(self, ahead: float, left: float, up: float) -> object:
         """A point given by its coordinates in the frame of the turtle."""
 
     def draw_surface(self, surface: Surface, size: float) -> None:
@@ -350,7 +350,7 @@ class Turtle(ABC):
         check_budget()  # one surface may have thousands of corners
         self.outlines += [Outline(self.local_points(face, size), self.state, self.colour) for face in faces]
 
-    def local_points(self, face: Face, size: float) -> list[Any]:
+    def local_points(self, face: Face, size: float) -> list[object]:
         """The corners of a face of a surface of some size."""
         return [self.local_point(size * ahead, size * left, size * up) for ahead, left, up in face]
 
@@ -477,7 +477,7 @@ def run_turtle(
     turtle: Turtle,
     word: Word | WordBetween,
     handlers: Mapping[str, Handler],
-    prepare: Callable[[Instruction], Any] = lambda instruction: instruction,
+    prepare: Callable[[Instruction], object] = lambda instruction: instruction,
 ) -> None:
     """Interpret a word by a turtle; actions without a handler are skipped."""
     with _without_garbage_collection():
@@ -522,12 +522,12 @@ class CompiledWord(NamedTuple):
         The symbols that look like commands and are none.
     """
 
-    calls: dict[int, list[tuple[Handler, Any]]]
+    calls: dict[int, list[tuple[Handler, object]]]
     unknown: tuple[str, ...]
 
 
 def compile_word(
-    word: Word | WordBetween, handlers: Mapping[str, Handler], prepare: Callable[[Instruction], Any]
+    word: Word | WordBetween, handlers: Mapping[str, Handler], prepare: Callable[[Instruction], object]
 ) -> CompiledWord:
     if isinstance(word, WordBetween):
         rows = counted(range(len(word.calls)))
@@ -541,8 +541,8 @@ def compile_word(
 
 
 def _calls_between(
-    word: WordBetween, number: int, handlers: Mapping[str, Handler], prepare: Callable[[Instruction], Any]
-) -> list[tuple[Handler, Any]]:
+    word: WordBetween, number: int, handlers: Mapping[str, Handler], prepare: Callable[[Instruction], object]
+) -> list[tuple[Handler, object]]:
     """What is called for a module of a word between two steps; first of all it takes the look of a state."""
     found = [(handlers[each.action], prepare(each)) for each in word.calls[number] if each.action in handlers]
     return [(_look_like, word.looks[number]), *found]

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Collection, Iterator
-from typing import Any
 
 from lsys_kit.notation.analysis.problems import Problem, problem
 from lsys_kit.notation.model.cells import (
@@ -19,6 +18,7 @@ from lsys_kit.notation.model.cells import (
     Edge,
     EdgeMarker,
     EdgeRule,
+    M,
     MapSystem,
     Marker,
 )
@@ -36,7 +36,7 @@ def check_map(system: MapSystem) -> None:
             _row_span(system.axiom),
             walls="1 wall" if len(system.axiom) == 1 else f"{len(system.axiom)} walls",
         )
-    met: set[Edge] = set()
+    met: set[object] = set()
     for production in system.productions:
         _check_predecessor(production.predecessor, production.predecessor, met)
         _check_successor(production, _by_sides, _row_span(production.successor), "")
@@ -47,13 +47,13 @@ def check_cellwork(system: CellworkSystem) -> None:
     _check_corners(system)
     _check_surface(system)
     _check_wall_productions(system)
-    met: set[tuple[Edge, frozenset[str]]] = set()
+    met: set[object] = set()
     for production in system.productions:
         _check_predecessor(production.predecessor, (production.predecessor, frozenset(production.walls)), met)
         _check_successor(production, _by_walls, production.predecessor.at, " ")
 
 
-def _check_predecessor(edge: Edge, key: object, met: set[Any]) -> None:
+def _check_predecessor(edge: Edge, key: object, met: set[object]) -> None:
     """A production is written in the direction of its edge, and the only one for it; in a cellwork, in the same walls."""
     if edge.arrow == "<":
         raise problem("edge against its direction", edge.at, turned=edge.turned)
@@ -63,7 +63,7 @@ def _check_predecessor(edge: Edge, key: object, met: set[Any]) -> None:
 
 
 def _check_successor(
-    production: EdgeRule[Any], at_vertex: Callable[[Collection[Any]], object], place: TextSpan, blank: str
+    production: EdgeRule[M], at_vertex: Callable[[Collection[M]], object], place: TextSpan, blank: str
 ) -> None:
     """Something is left; markers stand between two edges, not at the ends, where they would touch others; and an edge without
     direction, which may be read from either end, becomes the same from both.

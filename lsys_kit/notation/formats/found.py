@@ -11,15 +11,15 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cache
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from lsys_kit.errors import quotable
-from lsys_kit.files import toml_tables
+from lsys_kit.files import Entries, toml_tables
 from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, assembled
 
 
 @cache
-def tables() -> Mapping[str, Any]:
+def tables() -> Entries:
     """The words by which the parts of a system are called; `fields.toml` explains its keys."""
     return toml_tables(__package__, "fields.toml")
 

@@ -141,7 +141,8 @@ class EdgeMarker:
 
 SuccessorPart: TypeAlias = Edge | Marker
 """A part of the successor of a wall of a map."""
-M = TypeVar("M", bound=Marker | EdgeMarker)
+AnyMarker: TypeAlias = Marker | EdgeMarker
+M = TypeVar("M", bound=AnyMarker, covariant=True)
 
 
 @dataclass(frozen=True)
@@ -284,7 +285,7 @@ class CellSystem:
     """
 
     notation: ClassVar[str]
-    productions: tuple[EdgeRule[Any], ...]
+    productions: tuple[EdgeRule[AnyMarker], ...]
     steps: int | None
     source: str
     notes: tuple[str, ...]

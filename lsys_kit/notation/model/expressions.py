@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.model.arithmetic import Value, expression_of, literal_text, symbolic_functions
@@ -259,7 +259,7 @@ def to_sympy(expression: Expression) -> sympy.Basic:
 def _sympy_table() -> dict[str, Callable[..., sympy.Basic]]:
     import sympy
 
-    def remainder(x: object, y: object) -> Any:
+    def remainder(x: object, y: object) -> sympy.Expr:
         return sympy.sign(x) * sympy.Mod(sympy.floor(sympy.Abs(x)), sympy.floor(sympy.Abs(y)))
 
     return {

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
-from typing import TypeAlias
+from typing import TypeAlias, TypeVar, final
 
 from lsys_kit.notation.model.arithmetic import Value, number_text, rounded
 from lsys_kit.notation.model.expressions import Expression, TextSpan
@@ -104,6 +104,7 @@ def _word_like(character: str) -> bool:
     return character.isalnum() or character == "_"
 
 
+@final
 @dataclass(frozen=True)
 class Repeat:
     """A repeated part of a successor (GROGRA's `&(n) < ... >`).
@@ -139,6 +140,7 @@ class Repeat:
 
 Item: TypeAlias = Pattern | Repeat
 """A part of a successor."""
+ItemT = TypeVar("ItemT", Pattern, Item)
 
 
 def flat(items: Iterable[Item]) -> Iterator[Pattern]:
@@ -166,10 +168,10 @@ def expressions_of(items: Iterable[Item]) -> Iterator[Expression]:
 
 
 def rewritten(
-    items: Iterable[Item], module: Callable[[Pattern], Iterable[Pattern]], count: Callable[[Expression], Expression]
-) -> tuple[Item, ...]:
+    items: Iterable[ItemT], module: Callable[[Pattern], Iterable[Pattern]], count: Callable[[Expression], Expression]
+) -> tuple[ItemT, ...]:
     """A word or successor with others in place of its modules and of the counts of its repeated parts."""
-    found: list[Item] = []
+    found: list[ItemT] = []
     for item in items:
         if isinstance(item, Repeat):
             found.append(replace(item, count=count(item.count), body=rewritten(item.body, module, count)))

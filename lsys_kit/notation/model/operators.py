@@ -114,7 +114,7 @@ def _drawn(method: str) -> Callable[..., Function]:
 def _sensed(number: Function, *operands: Function) -> Function:
     """A sensitive function of GROGRA, given by its number; the source after the values may see what the turtle sees."""
 
-    def evaluate(v: tuple[object, ...]) -> Any:
+    def evaluate(v: tuple[object, ...]) -> object:
         sees = getattr(v[-1], "sees", None) if v else None
         if sees is None:
             raise ValueError(

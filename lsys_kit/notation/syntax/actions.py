@@ -40,7 +40,9 @@ _SPELLINGS = {
     "\\ge": ">=",
     "\\ne": "!=",
 }
-Statement: TypeAlias = tuple[str, Any]
+Part: TypeAlias = Any
+"""What the parser hands to an action: a token, or the record of a part."""
+Statement: TypeAlias = tuple[str, Part]
 """What a statement says: its kind and its record."""
 _LEFT = "\u20d6"
 """An arrow to the left, over the letter before it."""
@@ -51,7 +53,7 @@ _OTHER_NAMES = {"δ": "angle", "colors": "colours"}
 """Other names of settings."""
 
 
-def place_of(*parts: Any) -> tuple[int, int]:
+def place_of(*parts: Part) -> tuple[int, int]:
     """The offsets from the first to the last of some tokens or records."""
     first, last = parts[0], parts[-1]
     start: int = first.start_pos or 0 if isinstance(first, Token) else first.at[0]
@@ -123,7 +125,7 @@ def _is_named(part: object) -> bool:
 
 
 @v_args(inline=True)
-class Expressions(Transformer[Any, Any]):
+class Expressions(Transformer[Token, object]):
     """What `expressions.lark` names."""
 
     def number(self, token: Token) -> Number:
@@ -164,10 +166,10 @@ class Expressions(Transformer[Any, Any]):
 
 
 @v_args(inline=True)
-class Statements(Transformer[Any, Any]):
+class Statements(Transformer[Token, object]):
     """What the grammars of the notations name."""
 
-    def module(self, symbol: Token, *arguments: Any) -> Pattern:
+    def module(self, symbol: Token, *arguments: Part) -> Pattern:
         at = place_of(symbol, *arguments)
         if symbol.type == "TIMED":
             symbol, arguments = arguments[0], arguments[1:]
@@ -182,13 +184,13 @@ class Statements(Transformer[Any, Any]):
     def erased(self, _: Token) -> tuple[Pattern, ...]:
         return ()
 
-    def predecessor(self, *modules: Any) -> tuple[str, tuple[Pattern, ...]]:
+    def predecessor(self, *modules: Pattern) -> tuple[str, tuple[Pattern, ...]]:
         return "predecessors", modules
 
-    def left(self, *modules: Any) -> tuple[str, tuple[Pattern, ...]]:
+    def left(self, *modules: tuple[Pattern, ...]) -> tuple[str, tuple[Pattern, ...]]:
         return "left", modules[0] if modules else ()
 
-    def right(self, *modules: Any) -> tuple[str, tuple[Pattern, ...]]:
+    def right(self, *modules: tuple[Pattern, ...]) -> tuple[str, tuple[Pattern, ...]]:
         return "right", modules[0] if modules else ()
 
     def probability(self, expression: Expression) -> tuple[str, Expression]:
@@ -200,17 +202,17 @@ class Statements(Transformer[Any, Any]):
     def always(self) -> tuple[str, None]:
         return "condition", None
 
-    def repeat(self, keyword: Token, count: Expression, *rest: Any) -> Repeat:
+    def repeat(self, keyword: Token, count: Expression, *rest: Part) -> Repeat:
         repeat = Repeat(count, rest[-1], str(rest[0]) if isinstance(rest[0], Token) else "", place_of(keyword, rest[-1][-1]))
         if repeat.depth > current().depth:
             raise problem("repetitions too deep", place_of(keyword), most=current().depth)
         return repeat
 
-    def production(self, *parts: Any) -> tuple[str, Production]:
+    def production(self, *parts: Part) -> tuple[str, Production]:
         successor = next(part for part in parts if isinstance(part, tuple) and not _is_named(part))
         return "production", Production(successor=successor, **dict(part for part in parts if _is_named(part)))
 
-    def meta(self, _: Token, predecessors: tuple[Pattern, ...], *parts: Any) -> tuple[str, MetaRule]:
+    def meta(self, _: Token, predecessors: tuple[Pattern, ...], *parts: Part) -> tuple[str, MetaRule]:
         successor = next(part for part in parts if isinstance(part, tuple) and not _is_named(part))
         return "meta", MetaRule(predecessors, successor, **dict(part for part in parts if _is_named(part)))
 
@@ -233,13 +235,13 @@ class Statements(Transformer[Any, Any]):
         """Only names of several letters could be taken for a row of symbols."""
         return "alphabet", tuple(letter for letter in map(_symbol, letters) if letter[0].isalpha() and len(letter) > 1)
 
-    def constant(self, name: Token, value: Expression, *rest: Any) -> tuple[str, Constant]:
+    def constant(self, name: Token, value: Expression, *rest: Expression | Token) -> tuple[str, Constant]:
         ends = [part for part in rest if not isinstance(part, Token)]
         step = ends[2] if len(ends) == 3 else Number(1)
         check_name(name)
         return "constant", Constant(str(name), value, (ends[0], ends[1], step) if ends else None)
 
-    def setting(self, keyword: Token, value: Any) -> tuple[str, Expression]:
+    def setting(self, keyword: Token, value: Part) -> tuple[str, Expression]:
         return _named(keyword), _number(value) if isinstance(value, Token) else value
 
     def field(self, _: Token, name: Token, *arguments: Expression) -> tuple[str, Pattern]:
@@ -283,11 +285,11 @@ class Statements(Transformer[Any, Any]):
 
 
 def transformer(
-    statements: type[Transformer[Any, Any]], expressions: type[Expressions] = Expressions
-) -> Callable[[], Transformer[Any, Any]]:
+    statements: type[Transformer[Token, object]], expressions: type[Expressions] = Expressions
+) -> Callable[[], Transformer[Token, object]]:
     """What makes the records of a grammar that imports `expressions.lark`."""
 
-    def made() -> Transformer[Any, Any]:
+    def made() -> Transformer[Token, object]:
         return merge_transformers(statements(), expressions=expressions())  # type: ignore[no-untyped-call,no-any-return]
 
     return made

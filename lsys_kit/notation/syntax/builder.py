@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, TypeAlias
 
 from lsys_kit.budget import current
 from lsys_kit.errors import ModelLimitError
@@ -22,7 +22,10 @@ from lsys_kit.notation.analysis.problems import problem
 from lsys_kit.notation.model.expressions import Name, names_in
 from lsys_kit.notation.model.modules import Pattern, flat
 from lsys_kit.notation.model.system import Constant, LSystem, MetaRule, Production
+from lsys_kit.notation.syntax.actions import Part
 
+Settings: TypeAlias = dict[str, Any]
+"""What settings say, by their names."""
 _SYMBOL_LISTS = {"alphabet": "alphabet", "ignore": "ignored", "consider": "considered"}
 """The settings that are lists of symbols, and their attributes of a system."""
 _TEXT_SETTINGS = frozenset(("turtle", "cells", "branches", "widths", "colours", "field"))
@@ -57,12 +60,12 @@ class Draft:
     )
     meta: list[MetaRule] = field(default_factory=list)
     surfaces: list[SurfaceText] = field(default_factory=list)
-    settings: dict[str, Any] = field(default_factory=dict)
+    settings: Settings = field(default_factory=dict)
     section: str = "productions"
-    deferred: list[tuple[str, Any, tuple[int, int]]] = field(default_factory=list)
+    deferred: list[tuple[str, Part, tuple[int, int]]] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
 
-    def add(self, kind: str, record: Any, at: tuple[int, int]) -> None:
+    def add(self, kind: str, record: Part, at: tuple[int, int]) -> None:
         """Take in what a statement says: its kind and its record."""
         if kind == "axiom":
             if self.axiom is not None:
@@ -134,7 +137,6 @@ def build_system(draft: Draft) -> LSystem:
         check_meta(rule, names)
     if "field" in draft.settings:
         check_field(draft.settings["field"], names)
-    sections: dict[str, Any] = {section: tuple(rules) for section, rules in draft.sections.items()}
     return LSystem(
         draft.axiom,
         constants=tuple(draft.constants),
@@ -143,13 +145,12 @@ def build_system(draft: Draft) -> LSystem:
         source=source,
         notes=tuple(draft.notes),
         surfaces=checked_surfaces(draft.surfaces),
-        **sections,
-        **_checked_settings(draft),
+        **_checked_settings(draft) | {section: tuple(rules) for section, rules in draft.sections.items()},
     )
 
 
-def _checked_settings(draft: Draft) -> dict[str, Any]:
-    result: dict[str, Any] = {"turtle": draft.turtle}
+def _checked_settings(draft: Draft) -> Settings:
+    result: Settings = {"turtle": draft.turtle}
     for name, setting in draft.settings.items():
         if name in _SYMBOL_LISTS or name in _TEXT_SETTINGS:
             result[_SYMBOL_LISTS.get(name, name)] = setting

@@ -33,11 +33,12 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from functools import cache
-from typing import Any, TypeAlias
+from typing import Any
 
 from lark.exceptions import UnexpectedInput
 
 from lsys_kit.errors import ModelSyntaxError, named
+from lsys_kit.files import Entries
 from lsys_kit.notation.analysis.problems import Problem
 from lsys_kit.notation.syntax.dialect import Diagnostic, Grammar
 from lsys_kit.notation.syntax.failure import ParseFailure, excerpt, expected_hint, parse_failure, quoted, unclosed_bracket
@@ -45,7 +46,6 @@ from lsys_kit.notation.syntax.text.statements import blank_parentheses
 from lsys_kit.notation.syntax.wording import KIT_SPELLING, Spelling, translated, worded
 from lsys_kit.translation import gettext
 
-Row: TypeAlias = Mapping[str, Any]
 BRACKETS = "[](){}"
 """All pairs of brackets."""
 _SAID = ("says", "hint", "at", "to", "length")
@@ -94,7 +94,7 @@ _FORMS: Mapping[str, Callable[[str], str]] = {
 class _Seen:
     """What the conditions of a row have found: parts of the text by their names, where they are, and how known a keyword is."""
 
-    tables: Mapping[str, Any]
+    tables: Entries
     parts: dict[str, str] = field(default_factory=dict)
     spans: dict[str, tuple[int, int]] = field(default_factory=dict)
 
@@ -114,7 +114,7 @@ def explained(failure: ParseFailure, table: str) -> ModelSyntaxError | None:
     return _first(tables["mistakes"][table], failure, _Seen(tables))
 
 
-def _first(rows: Iterable[Row], failure: ParseFailure, before: _Seen) -> ModelSyntaxError | None:
+def _first(rows: Iterable[Entries], failure: ParseFailure, before: _Seen) -> ModelSyntaxError | None:
     for row in rows:
         seen = _Seen(before.tables, {**before.parts}, {**before.spans})
         if not all(_holds(condition, asked, failure, seen, row) for condition, asked in row.items()):
@@ -131,7 +131,7 @@ def _first(rows: Iterable[Row], failure: ParseFailure, before: _Seen) -> ModelSy
     return None
 
 
-def _holds(condition: str, asked: Any, failure: ParseFailure, seen: _Seen, row: Row) -> bool:
+def _holds(condition: str, asked: Any, failure: ParseFailure, seen: _Seen, row: Entries) -> bool:
     """Whether a condition holds; what it finds is kept."""
     if condition in _TOKENS:
         return _TOKENS[condition](failure.accepted, frozenset(asked))
@@ -189,7 +189,7 @@ def _is_open(condition: str, pairs: str, failure: ParseFailure, seen: _Seen) -> 
     return True
 
 
-def _keyword(typed: str, tables: Mapping[str, Any], likeness: float) -> dict[str, str]:
+def _keyword(typed: str, tables: Entries, likeness: float) -> dict[str, str]:
     """The keyword that was meant, an example of what follows it, and how known it is."""
     name = " ".join(typed.lower().split())
     keywords = {keyword.lower(): keyword for keyword in tables["keywords"]}
@@ -202,7 +202,7 @@ def _keyword(typed: str, tables: Mapping[str, Any], likeness: float) -> dict[str
     return {"known": known, "meant": meant, "example": tables["keywords"].get(meant, "")}
 
 
-def _error(row: Row, failure: ParseFailure, seen: _Seen) -> ModelSyntaxError:
+def _error(row: Entries, failure: ParseFailure, seen: _Seen) -> ModelSyntaxError:
     parts = {**seen.parts, "found": failure.found, "before": failure.before, "possible": expected_hint(failure.accepted) or ""}
     words = {**translated(failure.spelling.words), **{name: _Piece(part) for name, part in parts.items()}}
     start, end = _span(row, failure, seen)
@@ -211,7 +211,7 @@ def _error(row: Row, failure: ParseFailure, seen: _Seen) -> ModelSyntaxError:
     return failure.error(says, hint or None, start, row.get("length") or max(0, end - start))
 
 
-def _span(row: Row, failure: ParseFailure, seen: _Seen) -> tuple[int, int]:
+def _span(row: Entries, failure: ParseFailure, seen: _Seen) -> tuple[int, int]:
     """Where the mark begins and ends; where it ends as it begins, it is as long as what was found."""
     at = row.get("at", "near" if "near" in row else "")
     if at == "second":

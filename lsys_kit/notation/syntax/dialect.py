@@ -7,9 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
-from lark import Transformer
+from lark import Token, Transformer
 
 from lsys_kit.errors import ModelSyntaxError, ModelValueError
 from lsys_kit.notation.model.modules import Module, Pattern
@@ -55,7 +55,7 @@ class Grammar:
     """
 
     name: str
-    transformer: Callable[[], Transformer[Any, Any]]
+    transformer: Callable[[], Transformer[Token, object]]
     diagnostics: Sequence[Diagnostic]
     starts: Sequence[str] = ("statement", "word", "expression")
     spelling: Spelling = KIT_SPELLING

@@ -13,10 +13,10 @@ import re
 from collections.abc import Collection, Iterable, Iterator
 from dataclasses import replace
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from lsys_kit.notation.analysis.problems import problem
-from lsys_kit.notation.model.modules import Item, Pattern, flat, rewritten
+from lsys_kit.notation.model.modules import ItemT, Pattern, flat, rewritten
 from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 
@@ -36,7 +36,7 @@ class _Known(NamedTuple):
     letters: bool
 
 
-def segment_word(word: Iterable[Item], system: LSystem) -> tuple[Any, ...]:
+def segment_word(word: Iterable[ItemT], system: LSystem) -> tuple[ItemT, ...]:
     """A word with its glued names divided as in a system.
 
     >>> from lsys_kit.notation.read import read
@@ -140,7 +140,7 @@ def _segmented_rules(rules: Iterable[Production], made: dict[str, list[str]]) ->
     )
 
 
-def _segmented(word: Iterable[Item], made: dict[str, list[str]]) -> tuple[Any, ...]:
+def _segmented(word: Iterable[ItemT], made: dict[str, list[str]]) -> tuple[ItemT, ...]:
     """The word with its glued names divided; the arguments of a name go to its last symbol."""
 
     def pieces(module: Pattern) -> Iterable[Pattern]:

@@ -13,9 +13,10 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError, ModelValueError
+from lsys_kit.files import Entries
 from lsys_kit.notation.analysis.problems import Problem, ProblemFound
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
 from lsys_kit.notation.model.modules import Module, Pattern, joined
@@ -26,7 +27,7 @@ from lsys_kit.translation import gettext
 ModelError: TypeAlias = ModelSyntaxError | ModelNameError | ModelValueError
 """What a mistake in the text of a model is."""
 _KINDS: Mapping[str, type[ModelError]] = {"syntax": ModelSyntaxError, "name": ModelNameError, "value": ModelValueError}
-_NOTHING: Mapping[str, Any] = MappingProxyType({})
+_NOTHING: Entries = MappingProxyType({})
 
 
 @dataclass(frozen=True)
@@ -77,7 +78,7 @@ class Spelling:
         self._folder, self._words, self._patterns, self._wordings = folder, words, patterns, wordings
 
     @cached_property
-    def tables(self) -> Mapping[str, Any]:
+    def tables(self) -> Entries:
         """What its own file says."""
         return tomllib.loads((self._folder / "mistakes.toml").read_text(encoding="utf-8")) if self._folder else {}
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from lsys_kit.arrays import np
 from lsys_kit.geometry.scene import Floats, Scene
@@ -84,7 +84,7 @@ class AxesPainter(Painter):
 
     def __init__(self, ax: Axes, points: float, place: Place) -> None:
         self._ax, self._points, self._place, self._layer = ax, points, place, 0
-        self._outlines: list[tuple[Any, ...]] = []
+        self._outlines: list[tuple[object, ...]] = []
         self._ends = "butt"
 
     def draw(self, drawing: Drawing) -> None:

@@ -11,10 +11,11 @@ from contextlib import contextmanager
 from functools import cache, lru_cache
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from lsys_kit.arrays import np
 from lsys_kit.errors import printable
+from lsys_kit.geometry.scene import Floats
 
 if TYPE_CHECKING:
     from fontTools.ttLib import TTFont
@@ -89,14 +90,14 @@ def glyph(letter: str, size: float, italic: bool = False, face: Font = PLAIN) ->
     return Glyph(mask, int(left), int(top))
 
 
-def outlines(letter: str, size: float, italic: bool = False, face: Font = PLAIN) -> list[NDArray[Any]]:
+def outlines(letter: str, size: float, italic: bool = False, face: Font = PLAIN) -> list[Floats]:
     """The outlines of a letter as closed lines of corners, from the beginning of its baseline."""
     scale = size / _units(face)
     contours = [np.array(contour) * (scale, -scale) for contour in _contours(glyph_name(letter, face), face)]
     return [points - [[SLANT * y, 0] for y in points[:, 1]] for points in contours] if italic else contours
 
 
-def _cross(mask: Mask, contour: NDArray[Any]) -> None:
+def _cross(mask: Mask, contour: Floats) -> None:
     """Turn over every point to the right of a closed line: in the end those inside have been turned an odd number of times."""
     for (x, y), (x_next, y_next) in zip(contour.tolist(), np.roll(contour, -1, axis=0).tolist(), strict=True):
         rows = np.arange(round(min(y, y_next)), round(max(y, y_next)))  # whose middles lie between the ends

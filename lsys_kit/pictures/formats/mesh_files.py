@@ -12,10 +12,11 @@ from __future__ import annotations
 import json
 import struct
 from collections.abc import Iterator, Mapping
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from lsys_kit.arrays import np
 from lsys_kit.budget import check_budget, check_bytes, counted
+from lsys_kit.files import Json
 from lsys_kit.geometry.meshes.mesh import Mesh
 from lsys_kit.geometry.meshes.solids import Numbers, Singles
 from lsys_kit.pictures.rendering.looks import numbered_colours
@@ -78,10 +79,10 @@ def _upright(points: Singles) -> Singles:
 
 def glb(mesh: Mesh, colour_of: Mapping[int, str]) -> bytes:
     """A mesh as one file of glTF 2.0."""
-    tree: dict[str, Any] = {"asset": {"version": "2.0", "generator": "lsys-kit"}}
-    lists: dict[str, list[Any]] = {"materials": [], "accessors": [], "bufferViews": []}
+    tree: dict[str, Json] = {"asset": {"version": "2.0", "generator": "lsys-kit"}}
+    lists: dict[str, list[Json]] = {"materials": [], "accessors": [], "bufferViews": []}
     _check_copies(mesh, 3 * _bytes_of(mesh))
-    primitives, data = [], bytearray()
+    primitives, data = list[Json](), bytearray()
     for number, part in enumerate(by_colour(mesh, colour_of)):
         attributes = {"POSITION": _accessor(lists, data, part.vertices), "NORMAL": _accessor(lists, data, part.normals)}
         primitives.append({"attributes": attributes, "indices": _accessor(lists, data, part.triangles), "material": number})
@@ -98,7 +99,7 @@ def glb(mesh: Mesh, colour_of: Mapping[int, str]) -> bytes:
     return _packed(json.dumps(tree, separators=(",", ":")).encode(), data)
 
 
-def _accessor(lists: Mapping[str, list[Any]], data: bytearray, rows: Singles | Numbers) -> int:
+def _accessor(lists: Mapping[str, list[Json]], data: bytearray, rows: Singles | Numbers) -> int:
     """Append numbers to the buffer; return the index of their accessor."""
     vectors = rows.dtype == np.float32
     check_budget()
@@ -106,7 +107,7 @@ def _accessor(lists: Mapping[str, list[Any]], data: bytearray, rows: Singles | N
     lists["bufferViews"].append(
         {"buffer": 0, "byteOffset": len(data), "byteLength": len(added), "target": _VERTICES if vectors else _INDICES}
     )
-    accessor = {
+    accessor: dict[str, Json] = {
         "bufferView": len(lists["bufferViews"]) - 1,
         "componentType": _FLOAT if vectors else _UNSIGNED,
         "count": len(rows) if vectors else rows.size,
@@ -119,7 +120,7 @@ def _accessor(lists: Mapping[str, list[Any]], data: bytearray, rows: Singles | N
     return len(lists["accessors"]) - 1
 
 
-def _material(colour: str) -> dict[str, Any]:
+def _material(colour: str) -> Json:
     factor = [round(_linear(channel), 6) for channel in channels(colour)]
     return {
         "name": colour,

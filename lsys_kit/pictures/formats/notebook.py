@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 from warnings import warn
 
 from lsys_kit.budget import Task, current
@@ -201,7 +201,7 @@ class SVGPicture(ABC):
             ".pdf": lambda: pdf(self._vector(".pdf", DOTS / INCH)),
         }, ""
 
-    def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
+    def _repr_mimebundle_(self, **_: object) -> dict[str, object]:
         if self.sunlit:
             return png_bundle(self.image(SHARP), repr(self))
         return svg_bundle(self.svg, repr(self), on_light=self.theme.ground == LIGHT.ground)
@@ -233,7 +233,7 @@ def dots_from(value: object, path: Path) -> float | None:
     return dots
 
 
-def svg_bundle(svg: str, text: str, on_light: bool = False) -> dict[str, Any]:
+def svg_bundle(svg: str, text: str, on_light: bool = False) -> dict[str, object]:
     """A picture in SVG with its text alternative, by media types; one on light paper gets dark paper where the notebook has.
 
     >>> svg_bundle("<svg/>", "a <plant>")["text/html"]
@@ -243,14 +243,14 @@ def svg_bundle(svg: str, text: str, on_light: bool = False) -> dict[str, Any]:
     return {"text/html": f"{image}{DARKENED}" if on_light else image, "image/svg+xml": svg, "text/plain": text}
 
 
-def png_bundle(image: Image, text: str) -> dict[str, Any]:
+def png_bundle(image: Image, text: str) -> dict[str, object]:
     """A picture of pixels, so many in each direction of one of the page as screens have, with its text alternative."""
     png = encoded(image)
     size = f' width="{round(image.width / SHARP)}"'
     return {"text/html": _image("png", png, text, more=size), "image/png": base64.b64encode(png).decode(), "text/plain": text}
 
 
-def film_bundle(moving: bytes, still: Callable[[], bytes], text: str) -> dict[str, Any]:
+def film_bundle(moving: bytes, still: Callable[[], bytes], text: str) -> dict[str, object]:
     """A film as a GIF that can be stopped, with its text alternative, by media types; stopped it shows its last picture."""
     html = (
         f"{_STYLE}<div class='lsys-film'><label><input type='checkbox' checked> play</label><br>"

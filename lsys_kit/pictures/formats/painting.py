@@ -10,14 +10,14 @@ import io
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from itertools import chain
-from typing import TYPE_CHECKING, Any, Self, TypeAlias
+from typing import TYPE_CHECKING, Self, TypeAlias
 
 from lsys_kit.arrays import np
 from lsys_kit.budget import check_bytes
 from lsys_kit.geometry.scene import Floats
-from lsys_kit.pictures.formats.lettering import advance, glyph
+from lsys_kit.pictures.formats.lettering import Mask, advance, glyph
 from lsys_kit.pictures.formats.painter import Ink, Lettering, Painter, Subpath, dashed, subpaths
-from lsys_kit.pictures.formats.raster import FINE, spread
+from lsys_kit.pictures.formats.raster import FINE, Colours, spread
 from lsys_kit.pictures.shapes import Circle, Drawing, Ellipse, Gradient, Outlined, Place, Raster, Rectangle, place_within
 from lsys_kit.pictures.style.colour_values import BLACK, WHITE
 from lsys_kit.pictures.style.themes import drawn_on, theme
@@ -194,7 +194,7 @@ class PixelPainter(Painter):
         for mask, left, top in letters:
             self._stamp(mask, left, top, text.colour)
 
-    def _stamp(self, mask: Any, left: int, top: int, colour: str) -> None:
+    def _stamp(self, mask: Mask, left: int, top: int, colour: str) -> None:
         from PIL import Image
 
         self._sheet.grid.paste(colour, (left, top), Image.fromarray(mask))
@@ -240,7 +240,7 @@ def _whole(points: Floats) -> list[tuple[int, int]]:
     return [*map(tuple, np.floor(points).astype(int).tolist())]
 
 
-def _with_opacity(sheet: Sheet, colour: str, opacity: float, paint: Callable[[ImageDraw, Any], None]) -> None:
+def _with_opacity(sheet: Sheet, colour: str, opacity: float, paint: Callable[[ImageDraw, str | int], None]) -> None:
     """Let something be painted in a colour: at once, or through a mask as strong as it is opaque."""
     from PIL import Image, ImageDraw
 
@@ -252,7 +252,7 @@ def _with_opacity(sheet: Sheet, colour: str, opacity: float, paint: Callable[[Im
     sheet.grid.paste(colour, (0, 0), mask)
 
 
-def _fill(pen: ImageDraw, outlines: Sequence[Floats], colour: Any) -> None:
+def _fill(pen: ImageDraw, outlines: Sequence[Floats], colour: str | int) -> None:
     """Fill polygons, to whose edges points of the grid belong; level rectangles exactly."""
     for corners in outlines:
         if len(corners) == 4 and (corners == np.roll(corners, 1, axis=0)).any(axis=1).all():
@@ -274,7 +274,7 @@ def _crossed(sheet: Sheet, outlines: Sequence[Sequence[tuple[int, int]]], colour
     sheet.grid.paste(colour, (int(left), int(top)), mask)
 
 
-def _stroke(pen: ImageDraw, paths: Sequence[Subpath], colour: Any, width: int, round_ends: bool) -> None:
+def _stroke(pen: ImageDraw, paths: Sequence[Subpath], colour: str | int, width: int, round_ends: bool) -> None:
     for path in paths:
         corners = _whole(np.vstack([path.corners, path.corners[:1]]) if path.closed else path.corners)
         pen.line(corners, colour, width, "curve" if width >= CURVED else None)
@@ -284,7 +284,7 @@ def _stroke(pen: ImageDraw, paths: Sequence[Subpath], colour: Any, width: int, r
                 pen.ellipse((x - reach, y - reach, x + reach, y + reach), colour)
 
 
-def gradient_at(gradient: Gradient, across: Floats, down: Floats) -> tuple[Any, Any]:
+def gradient_at(gradient: Gradient, across: Floats, down: Floats) -> tuple[Colours, Colours]:
     """The colours of points in the square around a circle, whose side is 1, and how opaque they are, as bytes."""
     way = np.hypot(across - gradient.x, down - gradient.y) / gradient.radius
     places = np.minimum(way * SHADES, SHADES).astype(np.int16)

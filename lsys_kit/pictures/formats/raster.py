@@ -48,7 +48,7 @@ operations; a longer stroke is a block of its own."""
 # --- lines on a grid of points ---
 
 
-def touched(across: Coordinates, down: Coordinates, shape: tuple[int, ...], numbers: Grid | None = None) -> NDArray[Any]:
+def touched(across: Coordinates, down: Coordinates, shape: tuple[int, ...], numbers: Grid | None = None) -> Marks:
     """The points of a grid that lie on strokes, given the columns and rows of their ends.
 
     If each stroke has a number, in ascending order, a point gets that of the last stroke on which it lies.
@@ -76,7 +76,7 @@ def touched(across: Coordinates, down: Coordinates, shape: tuple[int, ...], numb
     return found.reshape(shape)
 
 
-def _blocks(counts: NDArray[np.integer[Any]]) -> Iterator[slice]:
+def _blocks(counts: Grid) -> Iterator[slice]:
     ends = np.cumsum(counts, dtype=np.int64)
     first = 0
     while first < len(counts):
@@ -86,7 +86,7 @@ def _blocks(counts: NDArray[np.integer[Any]]) -> Iterator[slice]:
         first = after
 
 
-def spread(found: NDArray[Any], radius: float) -> NDArray[Any]:
+def spread(found: Marks, radius: float) -> Marks:
     """The dilation of a set of points of a grid by a disc of a given radius; of numbers, the greatest in each disc.
 
     >>> spread(np.array([[0, 0, 0], [0, 1, 0], [0, 0, 0]], dtype=bool), 1).astype(int).tolist()

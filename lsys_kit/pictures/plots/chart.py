@@ -268,8 +268,8 @@ class CurveChart(Chart):
             ax.plot(xs, ys, color=line(curve.colour), alpha=0.3, linewidth=1, clip_on=False)
             return
         dots: Any = {"marker": "o" if len(points) <= MOST_DOTS else None, "markersize": 5, "markeredgewidth": 0}
-        named: Any = {"label": curve.label} if curve.label else {}
-        ax.plot(xs, ys, color=line(curve.colour), linewidth=2, linestyle=dashes, clip_on=False, **dots, **named)
+        dots |= {"label": curve.label} if curve.label else {}
+        ax.plot(xs, ys, color=line(curve.colour), linewidth=2, linestyle=dashes, clip_on=False, **dots)
 
     def _set_limits(self, ax: Axes) -> None:
         """From the first to the last point, and from 0 where that is near."""

@@ -24,7 +24,7 @@ from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.errors import ModelValueError, shown
 from lsys_kit.geometry.meshes.mesh import in_space, mesh_with_sheets, numbered
 from lsys_kit.geometry.meshes.solids import Numbers, Singles
-from lsys_kit.geometry.scene import Floats, Integers, Polygons, Scene
+from lsys_kit.geometry.scene import Flags, Floats, Integers, Polygons, Scene
 from lsys_kit.geometry.smoothing import smoothed
 from lsys_kit.pictures.rendering.display_list import boldness
 from lsys_kit.pictures.rendering.frames import MARGIN, ViewFrame

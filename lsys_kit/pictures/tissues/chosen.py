@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Any, TypeVar, cast
+from typing import TypeVar, cast
 
 from lsys_kit.derivation.core.rules import real_from
-from lsys_kit.derivation.tissues.development import CellDevelopment, develop
+from lsys_kit.derivation.tissues.development import AnyDevelopment, develop
 from lsys_kit.errors import ModelNameError, ModelValueError
 from lsys_kit.geometry.tissues.relaxation import DEFAULT_FORCES, SPACE_FORCES, SPHERE_FORCES, Forces
 from lsys_kit.notation.model.cells import CellSystem
@@ -19,7 +19,7 @@ USUAL = {"map": DEFAULT_FORCES, "map on a sphere": SPHERE_FORCES, "cellwork": SP
 RANGES = {"stiffness": (0.01, 100), "rest": (0, 10), "pressure": (0.001, 10), "damping": (0.1, 10)}
 """The least and the greatest value of each force."""
 NOUNS = (("vertex", "vertices"), ("edge", "edges"), ("wall", "walls"), ("cell", "cells"))
-D = TypeVar("D", bound=CellDevelopment[Any, Any])
+D = TypeVar("D", bound=AnyDevelopment)
 
 
 def steps_of(system: CellSystem) -> int:

@@ -112,7 +112,7 @@ def names_exchanged(formula: Expression) -> Iterator[Expression]:
         yield substituted(formula, {one: Name(other), other: Name(one)})
 
 
-def of_counts(change: Callable[[Any], Iterable[Any]], exercise: Exercise) -> Iterator[Any]:
+def of_counts(change: Callable[[Expression], Iterable[Expression]], exercise: Exercise) -> Iterator[object]:
     """The right formula changed, where something in it is counted: a name that stands for whole numbers alone."""
     if any(all(isinstance(value, int) for value in values) for values in exercise.values.values()):
         yield from of_kind(change, "expression", exercise)

@@ -260,7 +260,7 @@ def stages_from_zero(rule: Production) -> Production:
 
 
 @misconception("stages from zero")
-def all_stages_from_zero(exercise: Exercise) -> Iterator[Any]:
+def all_stages_from_zero(exercise: Exercise) -> Iterator[object]:
     """The numbers of the axiom and of successors one too small, and perhaps those of conditions; where nothing is given."""
     if exercise.kind == "system" and not exercise.given:
         for change in (stages_from_zero, _bounds_from_zero):

@@ -13,7 +13,7 @@ from typing import Any, TypeAlias
 from lsys_kit.classroom.exercises.asked import system_of
 from lsys_kit.classroom.exercises.exercise import Exercise, Option, Slip
 from lsys_kit.classroom.exercises.replies import reply
-from lsys_kit.files import toml_tables
+from lsys_kit.files import Entries, toml_tables
 from lsys_kit.translation import gettext
 from lsys_kit.worlds.derive import derive
 
@@ -37,14 +37,14 @@ class Draft:
     True
     """
 
-    said: Mapping[str, Any]
+    said: Entries
 
     def text(self, part: str, **values: object) -> str:
         """A text in the chosen language, with its values."""
         return gettext(self.said.get(part, ""), **values)
 
     def exercise(
-        self, solution: object, keys: Mapping[str, Any] | None = None, after: str = "", listing: str = "", **values: object
+        self, solution: object, keys: Entries | None = None, after: str = "", listing: str = "", **values: object
     ) -> Exercise:
         """An exercise with further keys; they, too, are values for its texts, and `after` continues its explanation."""
         keys = {**{key: _AS_KEY[key](self.said[key]) for key in _AS_KEY if key in self.said}, **(keys or {})}

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from lsys_kit.budget import current, limits
 from lsys_kit.classroom.panel.books.book import FEWEST_STEPS, MOST_BYTES, TIME_FOR_ASKED, sentence
-from lsys_kit.derivation.tissues.development import CellDevelopment, develop
+from lsys_kit.derivation.tissues.development import AnyDevelopment, CellDevelopment, develop
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError
 from lsys_kit.geometry.tissues.layout import equilibria, place_cellworks, place_on_sphere
 from lsys_kit.geometry.tissues.relaxation import Forces
@@ -48,7 +48,7 @@ class CellsAtRest:
     """
 
     forces: Forces
-    steps: CellDevelopment[Any, Any]
+    steps: AnyDevelopment
     reached: Sequence[Any]
     end: str
 

@@ -147,6 +147,10 @@ def _noun(system: LSystem, pages: _Pages) -> str:
     return "cell" if is_filament and all(len(row) == 1 and not row[0][0] for row in pages.drawn) else noun_of(system)
 
 
+Row: TypeAlias = list[Any]
+"""A row of what JSON can say."""
+
+
 @dataclass
 class _Pages:
     """What a book holds: its last step, why there is no later one, the numbers of states in it, and how each is drawn."""
@@ -154,7 +158,7 @@ class _Pages:
     last: int = -1
     end: str = ""
     numbers: dict[int, int] = field(default_factory=dict)
-    drawn: list[list[Any]] = field(default_factory=list)
+    drawn: list[Row] = field(default_factory=list)
 
 
 def _derived(
@@ -241,7 +245,7 @@ def _labels(states: States, numbers: Iterable[int], net: Stages | None) -> tuple
     ], rows
 
 
-def _formulas(states: States, pages: _Pages, diagram: Data, rows: Sequence[Sequence[Any]], decided: Sequence[int]) -> Data:
+def _formulas(states: States, pages: _Pages, diagram: Data, rows: Sequence[Row], decided: Sequence[int]) -> Data:
     """For each state whose values have letters its values as mathematics, and as a text, its text, and what its formulas are in
     numbers; for each step under which conditions the formulas hold. Stages in the diagram are named by formulas, too.
     """
@@ -400,7 +404,7 @@ def drawing_entries(states: States, numbers: Sequence[int], drawn: list[list[obj
     }
 
 
-def _turtle(system: LSystem, calls: list[list[Any]]) -> Data:
+def _turtle(system: LSystem, calls: list[Row]) -> Data:
     dialect = TURTLE_DIALECTS[system.turtle]
     named = {surface for row in calls for *_, surface in row if surface}
     return {

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Collection, Mapping
 from contextlib import suppress
-from typing import Any, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from lsys_kit.classroom.panel.bundle import Data
 from lsys_kit.derivation.petri.stages import Stages, stages
@@ -77,7 +77,7 @@ def _diagram(parts: Parts, names: list[str]) -> Data:
     }
 
 
-def _written(part: Any) -> Data:
+def _written(part: NamedTuple) -> Data:
     """A part, without the number of an arc or a transition, which nobody asks for; texts are visible, paths without zeros that
     say nothing, and pixels in tenths."""
     found = {name: value for name, value in part._asdict().items() if name not in ("arc", "transition")}

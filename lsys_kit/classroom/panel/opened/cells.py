@@ -12,6 +12,7 @@ from lsys_kit.cache import Cache
 from lsys_kit.classroom.link import STEP, link
 from lsys_kit.classroom.panel.books.at_rest import CellsAtRest, cells_at_rest
 from lsys_kit.classroom.panel.books.cells import cell_book, size_text
+from lsys_kit.classroom.panel.bundle import Data
 from lsys_kit.classroom.panel.controls import slider
 from lsys_kit.classroom.panel.held import Held, held_text
 from lsys_kit.classroom.panel.labels import translated_labels
@@ -150,7 +151,7 @@ class OpenedCells:
         self.first: Mapping[str, Value] = {name: value for name, value in given.items() if name not in without}
         self.fixed: Mapping[str, Value] = {name: value for name, value in given.items() if name in without}
         self.declared: Mapping[str, Value] = {name: exact(getattr(USUAL[system.kind], name)) for name in VALUES}
-        self.given: Mapping[str, object] = self.fixed
+        self.given: Mapping[str, Value] = self.fixed
         self.values: Mapping[str, Sequence[Value]] = {
             name: tuple(sorted({*self._of.values[name], value})) for name, value in self.first.items()
         }
@@ -185,7 +186,7 @@ class OpenedCells:
     def lettered(self) -> Sequence[str]:
         return ()
 
-    def book(self, values: Mapping[str, Value], seed: int, least: int, letters: Collection[str] = ()) -> dict[str, Any]:
+    def book(self, values: Mapping[str, Value], seed: int, least: int, letters: Collection[str] = ()) -> Data:
         return cell_book(self._at_rest(values, least), values, self.title)
 
     def sight(self, chosen: Viewing) -> CellSight:

@@ -6,6 +6,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
+from lsys_kit.classroom.panel.bundle import Data
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import AnySystem
@@ -71,7 +72,7 @@ class Opened(Protocol):
     values: Mapping[str, Sequence[Value]]
     fixed: Mapping[str, Value]
     declared: Mapping[str, Value]
-    given: Mapping[str, object]
+    given: Mapping[str, Value]
     hint: str
     kind: str
 
@@ -99,7 +100,7 @@ class Opened(Protocol):
         """The constants that can be letters."""
         ...
 
-    def book(self, values: Mapping[str, Value], seed: int, least: int, letters: Collection[str] = ()) -> dict[str, Any]:
+    def book(self, values: Mapping[str, Value], seed: int, least: int, letters: Collection[str] = ()) -> Data:
         """The book for some values of the sliders, which holds a step if it can be reached; with some constants as letters."""
         ...
 
@@ -112,7 +113,7 @@ class Opened(Protocol):
         those of its word, stages and drawing that are to be shown."""
         ...
 
-    def page_data(self, chosen: Viewing, asked: Sequence[Mapping[str, object]] = ()) -> dict[str, Any]:
+    def page_data(self, chosen: Viewing, asked: Sequence[Mapping[str, object]] = ()) -> Data:
         """What a page that shows it without a kernel has to know. Settings that are asked for are there before others, where a
         page cannot hold all of them."""
         ...

@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import cached_property, lru_cache
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from lsys_kit.budget import current, processor_time
 from lsys_kit.classroom.link import ANGLE, LETTERS, SEED, STEP, link
@@ -71,7 +71,7 @@ class OpenedSystem:
         self.declared: Mapping[str, Value] = dict(
             zip((each.name for each in system.constants), constants_of(system, {}), strict=True)
         )
-        self.given: Mapping[str, Any] = {
+        self.given: Mapping[str, Value] = {
             **{name: number_from(value, name) for name, value in (changes or {}).items() if name not in ranges},
             **self.fixed,
         }

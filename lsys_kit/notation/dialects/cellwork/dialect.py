@@ -8,7 +8,6 @@ from __future__ import annotations
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
 
 from lark import Token, Transformer, v_args
 
@@ -27,6 +26,7 @@ from lsys_kit.notation.model.cells import (
     FirstWall,
     WallProduction,
 )
+from lsys_kit.notation.syntax.actions import Part
 from lsys_kit.notation.syntax.dialect import Grammar
 from lsys_kit.notation.syntax.parser import parse
 from lsys_kit.notation.syntax.text.statements import bounded, check_text, statements
@@ -87,7 +87,7 @@ def read_cellwork(text: str) -> CellworkSystem:
 
 
 def _system(text: str) -> CellworkSystem:
-    made: dict[str, list[Any]] = {kind: [] for kind in ("cellwork", "steps", "wall", "production", "wall_production")}
+    made: dict[str, list[Part]] = {kind: [] for kind in ("cellwork", "steps", "wall", "production", "wall_production")}
     for start, end in bounded(statements(text), text):
         kind, record = parse(CELLWORK, "statement", text, start, end)
         if kind in ("cellwork", "steps") and made[kind]:
@@ -106,7 +106,7 @@ def _system(text: str) -> CellworkSystem:
 
 
 @v_args(inline=True)
-class _CellworkStatements(Transformer[Any, Any]):
+class _CellworkStatements(Transformer[Token, object]):
     """What `grammar.lark` names."""
 
     def edge(self, label: Token, *points: Token) -> Edge:
@@ -122,13 +122,13 @@ class _CellworkStatements(Transformer[Any, Any]):
     def first(self, _: Token, *corners: Corner) -> tuple[str, tuple[Corner, ...]]:
         return "cellwork", corners
 
-    def wall(self, _: Token, label: Token, *around: Any) -> tuple[str, FirstWall]:
+    def wall(self, _: Token, label: Token, *around: Part) -> tuple[str, FirstWall]:
         return "wall", FirstWall(_name(label), tuple(map(_number, around[::2])), around[1::2], _span(label))
 
     def wall_production(self, _: Token, label: Token, __: Token, becomes: Token) -> tuple[str, WallProduction]:
         return "wall_production", WallProduction(_name(label), _name(becomes), _span(label))
 
-    def production(self, predecessor: Edge, *parts: Any) -> tuple[str, CellworkProduction]:
+    def production(self, predecessor: Edge, *parts: Part) -> tuple[str, CellworkProduction]:
         arrow = next(place for place, part in enumerate(parts) if isinstance(part, Token) and part.type == "ARROW")
         walls = tuple(dict.fromkeys(_name(wall) for wall in parts[:arrow] if wall != ANY))
         successor: tuple[Edge | EdgeMarker, ...] = parts[arrow + 1 :]

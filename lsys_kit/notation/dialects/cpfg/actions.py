@@ -5,18 +5,17 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 from functools import cache
-from typing import Any
 
 from lark import Token, v_args
 
 from lsys_kit.budget import current
 from lsys_kit.notation.analysis.problems import problem
 from lsys_kit.notation.dialects.cpfg.expressions import as_number, as_truth, resolve_call, simplified, wanted
-from lsys_kit.notation.dialects.cpfg.variables import SEED, Assignment, Block, Choice
-from lsys_kit.notation.model.expressions import Apply, Expression, Number
+from lsys_kit.notation.dialects.cpfg.variables import SEED, Assignment, Block, Choice, Instruction
+from lsys_kit.notation.model.expressions import Apply, Expression, Number, TextSpan
 from lsys_kit.notation.model.modules import END, Pattern
 from lsys_kit.notation.model.system import Constant
-from lsys_kit.notation.syntax.actions import Expressions, Statement, Statements, place_of
+from lsys_kit.notation.syntax.actions import Expressions, Part, Statement, Statements, place_of
 
 _SPELLINGS = {"<>": "!=", "%": "rem"}
 """Operators, and how the kit spells them."""
@@ -38,7 +37,7 @@ def _bare_module(symbol: str) -> Pattern:
     return Pattern("-" if symbol == "−" else symbol)
 
 
-def _flattened(parts: Iterable[object]) -> Iterator[Any]:
+def _flattened(parts: Iterable[object]) -> Iterator[Part]:
     for part in parts:
         if isinstance(part, tuple):
             yield from part
@@ -46,7 +45,7 @@ def _flattened(parts: Iterable[object]) -> Iterator[Any]:
             yield part
 
 
-def _as_block(part: Block | Assignment | Choice) -> Block:
+def _as_block(part: Block | Instruction) -> Block:
     """The block after "if" or "else", with braces or without."""
     return part if isinstance(part, tuple) else (part,)
 
@@ -71,7 +70,7 @@ class _CpfgExpressions(Expressions):
         made = resolve_call(str(name), operands, at)
         return self._applied(made.operator, made.operands, at)
 
-    def _applied(self, operator: str, operands: tuple[Expression, ...], at: Any) -> Apply:
+    def _applied(self, operator: str, operands: tuple[Expression, ...], at: TextSpan) -> Apply:
         return simplified(super()._applied(operator, wanted(operator, operands), at))
 
 
@@ -98,7 +97,7 @@ class CpfgStatements(_CpfgExpressions, Statements):
     def predecessor(self, *parts: Pattern | tuple[Pattern, ...]) -> tuple[str, tuple[Pattern, ...]]:
         return super().predecessor(*_flattened(parts))
 
-    def constant(self, name: Token, value: Expression, *rest: Expression) -> tuple[str, Constant]:
+    def constant(self, name: Token, value: Expression, *rest: Expression | Token) -> tuple[str, Constant]:
         return super().constant(name, as_number(value), *rest)
 
     def setting(self, keyword: Token, value: Expression) -> tuple[str, Expression]:
@@ -153,13 +152,13 @@ class CpfgStatements(_CpfgExpressions, Statements):
     def after(self, block: Block) -> tuple[str, Block]:
         return "after", block
 
-    def block(self, *instructions: Any) -> Block:
+    def block(self, *instructions: Part) -> Block:
         return tuple(instruction for instruction in instructions if instruction != ())
 
-    def phase(self, keyword: Token, *instructions: object) -> Statement:
+    def phase(self, keyword: Token, *instructions: Instruction | tuple[()]) -> Statement:
         return "deferred", ("phase", ("".join(keyword.rstrip(": \t").lower().split()), self.block(*instructions)))
 
-    def procedure(self, name: Token, *values: Expression | Token) -> Any:
+    def procedure(self, name: Token, *values: Expression | Token) -> Assignment | tuple[()]:
         """A call for its own sake: what only prints or plays is left out, and what starts chance anew is an assignment."""
         if name == SEED and len(values) == 1 and not isinstance(values[0], Token):
             return Assignment(self.name(name), as_number(values[0]))
@@ -170,13 +169,13 @@ class CpfgStatements(_CpfgExpressions, Statements):
     def assignment(self, name: Token, _: Token, value: Expression) -> Assignment:
         return Assignment(self.name(name), as_number(value))
 
-    def choice(self, condition: Expression, then: Any, otherwise: Any = ()) -> Choice:
+    def choice(self, condition: Expression, then: Block | Instruction, otherwise: Block | Instruction = ()) -> Choice:
         choice = Choice(as_truth(condition), _as_block(then), _as_block(otherwise))
         if choice.depth > current().depth:
             raise problem("choices too deep", _expression_span(condition), most=current().depth)
         return choice
 
-    def production(self, *parts: Any) -> Statement:
+    def production(self, *parts: Part) -> Statement:
         blocks = dict(filter(_is_block, parts))
         _, production = super().production(*(part for part in parts if not _is_block(part)))
         return "deferred", ("rule", (production, blocks.get("before", ()), blocks.get("after", ())))

@@ -9,7 +9,6 @@ from heapq import merge
 from itertools import chain
 from pathlib import Path
 from string import ascii_uppercase
-from typing import Any
 
 from lsys_kit.notation.analysis.checks import SETTINGS, check_constants, check_expression, value_of
 from lsys_kit.notation.analysis.problems import problem
@@ -26,6 +25,7 @@ from lsys_kit.notation.dialects.cpfg.variables import (
     with_counters,
 )
 from lsys_kit.notation.dialects.cpfg.writer import joined_word, missing_feature, module_text, system_text
+from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.expressions import OPERATORS, Apply, Expression, Name, Number
 from lsys_kit.notation.model.modules import Pattern, flat
 from lsys_kit.notation.model.system import FLAT, NEXT_BRANCH, LSystem, Production
@@ -252,7 +252,7 @@ def _resolve_count(draft: Draft, section: str, keyword: str, expression: Express
     name = depths[section] if keyword == "maximum depth" else "seed" if keyword == "seed" else "steps"
     if name in draft.settings:
         raise problem("setting twice", at, keyword=keyword)
-    values: dict[str, Any] = {}
+    values: dict[str, Value] = {}
     for constant in draft.constants:
         values[constant.name] = value_of(constant.value, values)
     check_expression(expression, values.keys())

@@ -60,7 +60,8 @@ class Choice:
         object.__setattr__(self, "depth", 1 + max(inner, default=0))
 
 
-Block: TypeAlias = tuple[Assignment | Choice, ...]
+Instruction: TypeAlias = Assignment | Choice
+Block: TypeAlias = tuple[Instruction, ...]
 """Statements, in the order written."""
 
 

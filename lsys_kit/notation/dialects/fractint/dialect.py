@@ -13,7 +13,6 @@ import re
 from fractions import Fraction
 from itertools import chain, islice
 from pathlib import Path
-from typing import Any
 
 from lark import Token, Transformer, v_args
 
@@ -44,7 +43,7 @@ _COMMAND = re.compile(r"(.)([QI]*+)(.*)", re.IGNORECASE)
 
 
 @v_args(inline=True)
-class Records(Transformer[Any, Any]):
+class Records(Transformer[Token, object]):
     """What `grammar.lark` names: letters are capitals, whatever was typed."""
 
     def symbol(self, token: Token) -> Pattern:

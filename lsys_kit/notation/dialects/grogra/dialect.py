@@ -10,7 +10,6 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 from lark import Token, v_args
 
@@ -27,9 +26,9 @@ from lsys_kit.notation.dialects.grogra.writer import (
     system_text,
 )
 from lsys_kit.notation.model.expressions import OPERATORS, Expression, Name, Number, names_in
-from lsys_kit.notation.model.modules import Item, Pattern, flat, rewritten
+from lsys_kit.notation.model.modules import ItemT, Pattern, flat, rewritten
 from lsys_kit.notation.model.system import Constant, LSystem, Production
-from lsys_kit.notation.syntax.actions import Expressions, Statement, Statements, place_of, transformer
+from lsys_kit.notation.syntax.actions import Expressions, Part, Statement, Statements, place_of, transformer
 from lsys_kit.notation.syntax.builder import Draft, build_system
 from lsys_kit.notation.syntax.diagnostics import compiled
 from lsys_kit.notation.syntax.dialect import Dialect
@@ -117,7 +116,7 @@ class _GrograStatements(_GrograExpressions, Statements):
     def unused(self, token: Token) -> Statement:
         return "deferred", ("note", f'"{" ".join(token.split())}" has no meaning here.')
 
-    def constant(self, name: Token, *rest: Any) -> tuple[str, Constant]:
+    def constant(self, name: Token, *rest: Part) -> tuple[str, Constant]:
         return super().constant(*rest)  # the first token is "\\const"
 
     def variable(self, _: Token, name: Token, kind: Token, *values: Expression) -> Statement:
@@ -269,7 +268,7 @@ def with_ones(system: LSystem) -> tuple[LSystem, list[str]]:
     if not ones:
         return system, []
 
-    def word(items: Iterable[Item]) -> tuple[Any, ...]:
+    def word(items: Iterable[ItemT]) -> tuple[ItemT, ...]:
         return rewritten(items, lambda m: (replace(m, symbol=ones.get(m.symbol, m.symbol)),), lambda count: count)
 
     def rule(r: Production) -> Production:

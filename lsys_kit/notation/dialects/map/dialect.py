@@ -10,7 +10,6 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 from lark import Token, Transformer, v_args
 
@@ -20,6 +19,7 @@ from lsys_kit.notation.analysis.cell_checks import check_map, unused_parts
 from lsys_kit.notation.analysis.problems import problem
 from lsys_kit.notation.fragments import is_link, unpacked
 from lsys_kit.notation.model.cells import Edge, EdgeProduction, MapSystem, Marker, SuccessorPart
+from lsys_kit.notation.syntax.builder import Settings
 from lsys_kit.notation.syntax.dialect import Grammar
 from lsys_kit.notation.syntax.parser import parse
 from lsys_kit.notation.syntax.text.printed import printed_statements
@@ -81,7 +81,7 @@ def read_map(text: str) -> MapSystem:
 
 
 def _system(text: str) -> MapSystem:
-    settings: dict[str, Any] = {}
+    settings: Settings = {}
     productions: list[EdgeProduction] = []
     for start, end in bounded(printed_statements(text), text):
         kind, record = parse(MAP, "statement", text, start, end)
@@ -102,7 +102,7 @@ def _system(text: str) -> MapSystem:
 
 
 @v_args(inline=True)
-class _MapStatements(Transformer[Any, Any]):
+class _MapStatements(Transformer[Token, object]):
     """What `grammar.lark` names."""
 
     def edge(self, label: Token, *points: Token) -> Edge:

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import count
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 from lark import Token, v_args
 
@@ -26,7 +26,7 @@ from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number
 from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.notation.model.system import Constant, Production
 from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS, quoted_dialects
-from lsys_kit.notation.syntax.actions import Expressions, Statement, check_arity, check_name, place_of
+from lsys_kit.notation.syntax.actions import Expressions, Part, Statement, check_arity, check_name, place_of
 
 
 @v_args(inline=True)
@@ -56,7 +56,7 @@ class MathematicaExpressions(Expressions):
         check_arity(name, operator, operands)
         return self._applied(operator, operands, place_of(name, *operands))
 
-    def chain(self, left: Expression, relation: Token, right: Expression, *rest: Any) -> Expression:
+    def chain(self, left: Expression, relation: Token, right: Expression, *rest: Part) -> Expression:
         whole = self.binary(left, relation, right)
         for sign, further in zip(rest[::2], rest[1::2], strict=True):
             whole = self._applied("&&", (whole, self.binary(right, sign, further)), place_of(whole, further))
@@ -244,7 +244,7 @@ class MathematicaStatements(MathematicaExpressions):
     def successor(self, *word: WordDefinition) -> WordDefinition:
         return word[0] if word else ()
 
-    def printed_rule(self, *parts: Any) -> Statement:
+    def printed_rule(self, *parts: Part) -> Statement:
         sides: dict[str, tuple[PatternDefinition, ...]] = dict(part for part in parts[:-1] if isinstance(part, tuple))
         pattern = next(part for part in parts if isinstance(part, PatternDefinition))
         at = pattern.symbol.start_pos or 0, parts[-2].end_pos or 0
@@ -256,7 +256,7 @@ class MathematicaStatements(MathematicaExpressions):
     def lrules(self, _: Token, *members: RuleDefinition | Token | None) -> RuleList:
         return RuleList(tuple(member for member in members if member is not None), None in members)
 
-    def axiom(self, _: Token, word: WordDefinition) -> Any:
+    def axiom(self, _: Token, word: WordDefinition) -> WordDefinition:
         return word
 
     def lsystem(self, _: Token, axiom: WordDefinition | Token, rules: RuleList | Token) -> SystemDefinition:
@@ -275,7 +275,7 @@ class MathematicaStatements(MathematicaExpressions):
         hint = INSTEAD.get(name) or spelling_hint(name) or "What prints or draws can be left out."
         raise problem("unknown call", (at, at + len(name)), name=name, hint=hint)
 
-    def constant(self, name: Token, _: Token, value: Expression, *slider: Any) -> Statement:
+    def constant(self, name: Token, _: Token, value: Expression, *slider: Part) -> Statement:
         check_name(_check_plain_name(name, "A constant"))
         return "deferred", ("constant", Constant(str(name), value, slider[1:] or None))
 

@@ -10,7 +10,7 @@ import re
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from graphlib import CycleError, TopologicalSorter
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from lark import Token
 
@@ -21,8 +21,8 @@ from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.expressions import Expression, Name, Number, names_in
 from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.notation.model.system import Constant, LSystem
-from lsys_kit.notation.syntax.actions import place_of
-from lsys_kit.notation.syntax.builder import Draft, build_system
+from lsys_kit.notation.syntax.actions import Part, place_of
+from lsys_kit.notation.syntax.builder import Draft, Settings, build_system
 from lsys_kit.notation.syntax.segmentation import segment_with_notes
 
 Thing = TypeVar("Thing")
@@ -58,7 +58,7 @@ class Definitions:
     single: dict[str, RuleDefinition] = field(default_factory=dict)
     systems: dict[str, SystemDefinition] = field(default_factory=dict)
     constants: dict[str, Constant] = field(default_factory=dict)
-    settings: dict[str, Any] = field(default_factory=dict)
+    settings: Settings = field(default_factory=dict)
     run: Run | None = None
     alone: list[Token] = field(default_factory=list)
     title: str = ""
@@ -66,7 +66,7 @@ class Definitions:
     notes: dict[str, None] = field(default_factory=dict)
     others: dict[str, None] = field(default_factory=dict)
 
-    def take(self, kind: str, record: Any, at: tuple[int, int]) -> None:
+    def take(self, kind: str, record: Part, at: tuple[int, int]) -> None:
         """Take in what a statement says."""
         if kind == "constant":
             self._keep(self.constants, record.name, replace(record, at=at))
