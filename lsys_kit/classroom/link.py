@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 from lsys_kit.derivation.core.letters import letters_from
 from lsys_kit.derivation.core.rules import number_from

@@ -42,6 +42,7 @@ def no_labels(dimension: int = 2) -> Labels:
 
 Floats: TypeAlias = "NDArray[np.float64]"
 Integers: TypeAlias = "NDArray[np.int64]"
+Flags: TypeAlias = "NDArray[np.bool_]"
 
 OWN = -1
 """Stands for the colour that belongs to the symbol of a shape, or the width that belongs to the branch order of a stroke."""

@@ -13,7 +13,7 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 from lsys_kit.arrays import np
-from lsys_kit.geometry.scene import OWN, Floats, Integers, Segments
+from lsys_kit.geometry.scene import OWN, Flags, Floats, Integers, Segments
 from lsys_kit.geometry.turtle.commands import FIRST_COLOUR
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.worlds.neighbours import NEARNESS, Boxes, Cones, counts_in_cones, lengths_of, nearest_in_cones, steepest_lines

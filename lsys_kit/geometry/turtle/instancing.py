@@ -34,11 +34,12 @@ from lsys_kit.geometry.turtle.commands import (
 from lsys_kit.geometry.turtle.space import SPACE_HANDLERS, SpaceTurtle, initial_frame, operand
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from numpy.typing import DTypeLike, NDArray
 
-Key: TypeAlias = tuple[int, int, tuple[Any, ...]]
+Key: TypeAlias = tuple[int, int, tuple[object, ...]]
 """What a prototype depends on: the state, the number of steps that remain, and what the turtle carries."""
-AttributeColumns: TypeAlias = "tuple[NDArray[Any], ...]"
+Column: TypeAlias = "NDArray[Any]"
+AttributeColumns: TypeAlias = "tuple[Column, ...]"
 _CARRIED_ATTRIBUTES = ("length", "width", "colour", "gravitropism", "restored", "mirror", "scale")
 _carried_by = attrgetter(*_CARRIED_ATTRIBUTES)
 LEAST_REPETITION = 30

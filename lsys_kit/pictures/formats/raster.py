@@ -40,6 +40,8 @@ if TYPE_CHECKING:
 
 Coordinates: TypeAlias = "NDArray[np.floating[Any]]"
 Grid: TypeAlias = "NDArray[np.int32]"
+Marks: TypeAlias = "NDArray[Any]"
+"""Truths or numbers, one for each point of a grid."""
 STROKES_AT_A_TIME, POINTS_AT_A_TIME = 2**16, 2**18
 """Strokes are rasterised in blocks of at most so many strokes and points, which stay in the cache of the processor between two
 operations; a longer stroke is a block of its own."""

@@ -48,7 +48,6 @@ from lsys_kit.pictures.style.themes import COLOURS, theme
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-Flags: TypeAlias = "NDArray[np.bool_]"
 Keys: TypeAlias = "NDArray[np.uint64]"
 Reals: TypeAlias = "NDArray[np.floating[Any]]"
 """In single precision where there may be many."""

@@ -21,7 +21,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from itertools import accumulate, pairwise
-from typing import Any
+from typing import Any, TypeAlias
 
 from lsys_kit.budget import Task, counted, current, limits
 from lsys_kit.classroom.panel.books.net import Unfolding, net_entry, net_of
@@ -272,7 +272,7 @@ def _formulas(states: States, pages: _Pages, diagram: Data, rows: Sequence[Row],
     return {"formulas": found, "conditions": [f"the formulas hold where {text}" if text else "" for text in held]}
 
 
-def _is_stroke(drawn: Sequence[Any], module: Module) -> bool:
+def _is_stroke(drawn: Row, module: Module) -> bool:
     """Whether a module is a stroke of the turtle whose length is its first value."""
     return (
         len(drawn) == 1
