@@ -93,7 +93,7 @@ class Reader:
         """Ask to see what predictions still hide."""
         for number in self._notebook.cells_showing("predict("):
             asked = self._notebook.output(number).get_by_role("region", name="prediction")
-            expect(asked).to_be_visible()
+            asked.wait_for()
             button = asked.get_by_role("button", name="I have no idea, show me")
             if button.is_visible():
                 button.click()
@@ -106,7 +106,7 @@ class Reader:
         return str(self._panel.evaluate(SEEN))
 
     def _await_change(self, before: str) -> None:
-        expect(self._panel.locator("canvas[data-drawn]").first).to_be_visible()
+        self._panel.locator("canvas[data-drawn]").first.wait_for()
         for _ in range(PATIENCE):
             if self._see() != before:
                 return
@@ -123,7 +123,7 @@ class Reader:
             self._used.clear()
         cells = sorted({*self._notebook.cells_showing("explore("), *self._notebook.cells_showing("compare(")})
         whole = self._notebook.output(cells[int(number)]).locator(".lsys-panel").first
-        expect(whole.locator("canvas[data-drawn]").first).to_be_visible()
+        whole.locator("canvas[data-drawn]").first.wait_for()
         self._number = number
         if number not in self._opening:
             self._opening[number] = {view for view, *_ in whole.evaluate(VISIBLE_VIEWS)} - {"rules"}
@@ -299,7 +299,7 @@ class Reader:
         self._use(sheet, *whole.locator("canvas.lsys-canvas:visible").all())
         sheet.get_by_role("textbox").first.fill(table.blanks[0][2].right[0])
         sheet.get_by_role("button", name="Check").click()
-        expect(sheet.locator('[data-mark="right"]').first).to_be_visible()
+        sheet.locator('[data-mark="right"]').first.wait_for()
 
     def finder(self, step: str) -> None:
         """Move the slider of the steps of the rules that fit."""

@@ -74,7 +74,7 @@ def answer_predictions(notebook: OpenNotebook) -> None:
             asked.get_by_role("button", name="Show", exact=True).click()
             expect(asked.get_by_role("status")).to_contain_text("You said: 21")
         answers = notebook.output(number).locator(".widget-html, .widget-htmlmath, .lsys-panel, .lsys-found")
-        expect(answers.first).to_be_visible()
+        answers.first.wait_for()  # as `expect` does, but `expect` describes the whole page each time that it looks in vain
 
 
 def cast_votes(notebook: OpenNotebook) -> None:
