@@ -57,14 +57,14 @@ class Reader:
         self._said = said
         self._used: dict[str, Locator] = {}
         self._looked_at: set[str] = set()
-        for act in acts:
-            try:
+        try:
+            for act in acts:
                 self._do(act)
-            except Exception as fault:
-                fault.add_note(f"Lesson {self._lesson}, {said!r}: {act}")
-                self._notebook.shot(f"request-{self._lesson}")
-                raise
-        self._measure()
+            self._measure()
+        except Exception as fault:
+            fault.add_note(f"Lesson {self._lesson}, {said!r}: {act}")
+            self._notebook.shot(f"request-{self._lesson}")
+            raise
 
     def _use(self, *what: Locator) -> None:
         self._used.update((str(each), each) for each in what)
