@@ -97,19 +97,15 @@ def next_to(panel: Locator, name: str, up: bool) -> Locator:
 
 
 def drag(hand: Pointer, bar: Locator, box: Locator, wanted: Fraction) -> None:
-    """Move the slider until the box beside it shows the value, or as near as whole pixels come; first to where it should be."""
+    """Move the slider until the box beside it shows the value, or as near as whole pixels come."""
     seen = bar.bounding_box()
     assert seen
-    parts = bar.evaluate(
-        "(bar, wanted) => [bar.value, wanted].map((each) => (each - bar.min) / (bar.max - bar.min))", float(wanted)
-    )
-    held, there = (seen["x"] + 8 + part * (seen["width"] - 16) for part in parts)
+    part = bar.evaluate("bar => (bar.value - bar.min) / (bar.max - bar.min)")
     low, high, y = int(seen["x"]), int(seen["x"] + seen["width"]) + 1, seen["y"] + seen["height"] / 2
-    with hand.pressed(held, y) as move:
-        x = min(max(round(there), low), high - 1)
+    with hand.pressed(seen["x"] + 8 + part * (seen["width"] - 16), y) as move:
         while low < high:
+            x = (low + high) // 2
             move(x, y)
             if (now := Fraction(box.input_value())) == wanted:
                 return
             low, high = (x + 1, high) if now < wanted else (low, x)
-            x = (low + high) // 2
