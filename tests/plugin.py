@@ -18,8 +18,8 @@ pytest_plugins = ["tests.browser.fixtures", "tests.supervisors"]
 EXAMPLES = {"quick": 5, "usual": 25, "thorough": 100}
 """How many examples of a law a run tries, unless the law sets a number of its own. Without slow tests a run is quick; with
 `--thorough`, or where `CI` is set, it is thorough."""
-FEW_VARIANTS = 6, 2
-"""How many variants of a quick test and of a slow one are tried, spread over all of them, unless the run is thorough."""
+FEW_VARIANTS = {"quick": 6, "slow": 2, "browser": 1}
+"""How many variants of each kind of test are tried, spread over all of them, unless the run is thorough."""
 AN_HOUR = 3600
 """Seconds: as long as a law may take."""
 
@@ -42,11 +42,17 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 @pytest.hookimpl(wrapper=True)
 def pytest_cmdline_main(config: pytest.Config) -> Iterator[object]:
-    """The whole suite is run by a process for each core, unless another number is asked for."""
+    """The whole suite is run by several processes, unless another number is asked for."""
     alone = hasattr(config, "workerinput") or any(map(config.getoption, ("collectonly", "benchmark_only", "usepdb")))
     if config.args_source is pytest.Config.ArgsSource.TESTPATHS and config.option.numprocesses is None and not alone:
         config.option.numprocesses = "auto"
     return (yield)
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_xdist_auto_num_workers(config: pytest.Config) -> Iterator[None]:
+    """With tests in a browser, which wait for a third of their time, one process more than there are cores."""
+    return (yield) + ("not browser" not in config.option.markexpr)
 
 
 @pytest.hookimpl(tryfirst=True)
@@ -69,7 +75,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     """Mark `browser` whatever needs a browser, and `slow` the benchmarks and the notebooks."""
     for item in items:
         fixtures = getattr(item, "fixturenames", ())
-        if "browser" in fixtures or "lab" in fixtures:
+        if _kind(item) == "browser":
             item.add_marker("browser")
         if "benchmark" in fixtures or "benchmarks" in item.path.parts or item.path.suffix == ".ipynb":
             item.add_marker("slow")
@@ -81,13 +87,15 @@ def pytest_pycollect_makeitem(collector: pytest.Collector) -> Iterator[object]:
     made = yield
     if collector.config.option.thorough or not isinstance(made, list) or not made:
         return made
-    few = min(FEW_VARIANTS[_is_slow(made[0])], len(made))
+    few = min(FEW_VARIANTS[_kind(made[0])], len(made))
     return [made[place * len(made) // few] for place in range(few)]
 
 
-def _is_slow(item: pytest.Item) -> bool:
+def _kind(item: pytest.Item) -> str:
     fixtures = getattr(item, "fixturenames", ())
-    return item.get_closest_marker("slow") is not None or "browser" in fixtures or "benchmark" in fixtures
+    if "browser" in fixtures or "lab" in fixtures:
+        return "browser"
+    return "slow" if item.get_closest_marker("slow") is not None or "benchmark" in fixtures else "quick"
 
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:

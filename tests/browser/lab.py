@@ -40,6 +40,8 @@ OPENED = """name => {
     return panel?.context?.path === name && panel.sessionContext?.session?.kernel != null;
 }"""
 """Whether a notebook is open, with a kernel."""
+CELL = 'css:light=.jp-Notebook .jp-Cell[data-windowed-list-index="{}"]'
+"""A cell of a notebook, found without a look into the shadow of each of the five thousand elements of a page."""
 CONFIGURATION = {
     "ServerApp": {"ip": "127.0.0.1", "port_retries": 0, "open_browser": False, "log_level": "WARN"},
     "IdentityProvider": {"token": ""},
@@ -166,11 +168,12 @@ class OpenNotebook:
     def cell(self, number: int) -> Locator:
         """A cell, counted from 0, scrolled into view."""
         self._ask(f"panel.content.activeCellIndex = {number}; await panel.content.scrollToItem({number}, 'start');")
-        return self.page.locator(f'.jp-Notebook .jp-Cell[data-windowed-list-index="{number}"]')
+        return self.page.locator(CELL.format(number))
 
     def output(self, number: int) -> Locator:
         """What a cell shows, scrolled into view."""
-        return self.cell(number).locator(".jp-Cell-outputWrapper")
+        self.cell(number)
+        return self.page.locator(f"{CELL.format(number)} .jp-Cell-outputWrapper")
 
     def cells_showing(self, text: str) -> list[int]:
         """The numbers of the cells of code whose source holds a text."""

@@ -20,6 +20,7 @@ from playwright.sync_api import Browser, Locator, Page, Request, expect
 from lsys_kit.classroom.authoring.new import write_lesson
 from lsys_kit.classroom.course import course_files
 from lsys_kit.classroom.live.course_pages import PAGES, mark_made
+from lsys_kit.classroom.live.server import PATIENCE, PING
 from lsys_kit.classroom.site.build import build_site
 from tests.classroom.live_class import Network, Process, started
 
@@ -261,7 +262,8 @@ def test_a_lesson_with_two_phones_and_a_server_that_is_killed(live: Class, pytes
 
 
 def test_a_phone_whose_network_is_gone_for_a_while_loses_nothing(live: Class, pytestconfig: pytest.Config) -> None:
-    """The network goes without a word: the phone finds out, and sends again when it is back. A thorough test waits a minute."""
+    """The network goes without a word: the phone finds out, and sends again when it is back. A thorough test waits until
+    the server has given it up."""
     board, phone = live.board.page, live.phones[0].page
     network = Network(int(live.server.join.split(":")[2].split("/")[0]))
     join = f"http://127.0.0.1:{network.port}/{live.server.code}/"
@@ -275,7 +277,7 @@ def test_a_phone_whose_network_is_gone_for_a_while_loses_nothing(live: Class, py
         phone.locator(".choice").nth(2).tap()
         expect(phone.locator("#link[data-there=false]")).to_be_visible()
         expect(phone.locator(".choice").nth(2)).to_have_attribute("aria-pressed", "true")
-        phone.wait_for_timeout(60_000 if pytestconfig.getoption("--thorough") else 7_000)
+        phone.wait_for_timeout(1_000 * (PING + PATIENCE + 5) if pytestconfig.getoption("--thorough") else 7_000)
         expect(phone.locator(".tick[data-kept=true]")).to_have_count(0)
         shot(phone, "phone-no-network", pytestconfig)
         network.is_there(True)

@@ -1,44 +1,59 @@
-"""Every lesson in a real JupyterLab: a prediction is answered, a vote cast, and every slider moves something that is seen."""
+"""Every lesson in a real JupyterLab, opened and run once for all that is asked of it: a prediction is answered, a vote cast,
+every slider moves something that is seen; then whatever its text asks for is done, with a real mouse, and what is moved, what
+is looked at and what is filled in are on one screen."""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 
 import pytest
 from playwright.sync_api import Locator, expect
 
-from tests.browser.lab import OpenNotebook
-from tests.notebooks.rebuild import ROOT
+from lsys_kit.classroom.lessons.kept import FILE
+from tests.browser.lab import Lab, OpenNotebook, Tab
+from tests.browser.reader import PATIENCE, ROWS, SEEN, Reader
+from tests.browser.requests import lessons
 
-LESSONS = sorted(path.stem for path in (ROOT / "notebooks").glob("[0-9][0-9]_*.ipynb"))
 ONE_SCREEN = 840
 """Pixels: a panel as it opens, with what moves it and what is moved, is no higher on a screen of 1440 by 900."""
 NOT_RIGHT = re.compile("cannot be read as a number|Look again at|Answer ")
 """What is said of an entry such as "no idea"."""
-PATIENCE = 200
-"""How often one looks whether a view has changed."""
-SEEN = """panel => [
-    ...panel.querySelectorAll(".lsys-word"), ...panel.querySelectorAll(".lsys-status")].map(view => view.innerText).concat(
-    [...panel.querySelectorAll("[data-place]")].map(stage => stage.getAttribute("aria-label")),
-    [...panel.querySelectorAll("canvas.lsys-canvas")].map(canvas => canvas.dataset.drawn)).join("\\n")"""
 
 
-@pytest.mark.parametrize("lesson", LESSONS)
-def test_a_lesson_is_worked_through(open_notebook, lesson):
-    notebook = open_notebook(f"notebooks/{lesson}.ipynb")
+@pytest.fixture(scope="module", params=[path.stem for path in lessons()])
+def lesson(request: pytest.FixtureRequest, lab: Lab, lab_tab: Tab) -> Iterator[tuple[str, OpenNotebook]]:
+    """The number of a lesson, and its notebook, of which all cells have been run."""
+    (lab.folder / FILE).unlink(missing_ok=True)
+    notebook = lab_tab.open(f"notebooks/{request.param}.ipynb", {"width": 1440, "height": 900})
     notebook.run_all()
+    yield request.param[:2], notebook
+    notebook.close()
+
+
+def test_a_lesson_is_worked_through(lesson: tuple[str, OpenNotebook]) -> None:
+    number, notebook = lesson
     assert notebook.cell_errors() == []
     answer_predictions(notebook)
     cast_votes(notebook)
     check_worksheets(notebook)
-    for number in sorted({*notebook.cells_showing("explore("), *notebook.cells_showing("compare(")}):
-        panels = notebook.output(number).locator(".lsys-panel")
+    for cell in sorted({*notebook.cells_showing("explore("), *notebook.cells_showing("compare(")}):
+        panels = notebook.output(cell).locator(".lsys-panel")
         expect(panels.first).to_be_visible()
         assert height_of(panels.first) <= ONE_SCREEN
         for place in range(panels.count()):
             move_every_slider(panels.nth(place))
-        notebook.shot(f"{lesson}-{number}")
+        notebook.shot(f"{number}-{cell}")
     assert notebook.cell_errors() == []
+    assert notebook.console == []
+
+
+def test_what_a_lesson_asks_for_is_done_with_a_mouse(lesson: tuple[str, OpenNotebook]) -> None:
+    number, notebook = lesson
+    reader = Reader(notebook, number)
+    for said, *acts in ROWS[number]:
+        reader._follow(said, acts)
+    assert reader._apart == []
     assert notebook.console == []
 
 
@@ -59,7 +74,7 @@ def answer_predictions(notebook: OpenNotebook) -> None:
             asked.get_by_role("button", name="Show", exact=True).click()
             expect(asked.get_by_role("status")).to_contain_text("You said: 21")
         answers = notebook.output(number).locator(".widget-html, .widget-htmlmath, .lsys-panel, .lsys-found")
-        expect(answers.first).to_be_visible()
+        answers.first.wait_for()  # as `expect` does, but `expect` describes the whole page each time that it looks in vain
 
 
 def cast_votes(notebook: OpenNotebook) -> None:

@@ -19,7 +19,7 @@ import pytest
 from playwright.sync_api import Browser, Locator, expect
 
 from tests.browser.homes import show
-from tests.browser.lab import Lab, OpenNotebook, Tab, tab_in, tab_of
+from tests.browser.lab import CELL, Lab, OpenNotebook, Tab, tab_in, tab_of
 
 pytestmark = [pytest.mark.slow, pytest.mark.browser]
 MINUTES = float(os.environ.get("EVENTS_MINUTES", "0"))
@@ -96,7 +96,7 @@ class Hour:
         self.shown.clear()
 
     def cell(self, number: int) -> Locator:
-        return self.notebook.page.locator(f'.jp-Notebook .jp-Cell[data-windowed-list-index="{number}"]')
+        return self.notebook.page.locator(CELL.format(number))
 
     # -- what may happen ------------------------------------------------------------------------------------------------
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from itertools import groupby
 
+from tests.browser.reader import NOTHING, ROWS, Reader
 from tests.browser.requests import requests
-from tests.browser.test_requests import NOTHING, ROWS, Reader
 
 
 def test_each_sentence_that_asks_for_something_has_a_row_in_the_order_of_the_lessons():

@@ -32,6 +32,8 @@ from lsys_kit.classroom.live.sockets import BoardSocket, PhoneSocket
 from lsys_kit.errors import ModelFileError
 
 PORT = 8765
+PING, PATIENCE = 20, 15
+"""After how many seconds a phone is asked whether it is there, and after how many more without an answer it is given up."""
 
 
 class ClassServer(Classes):
@@ -108,7 +110,7 @@ def _application(server: ClassServer) -> Application:
         ],
         default_handler_class=NothingHandler,
         websocket_max_message_size=MOST_MESSAGE,
-        websocket_ping_interval=20,
-        websocket_ping_timeout=15,
+        websocket_ping_interval=PING,
+        websocket_ping_timeout=PATIENCE,
         compress_response=False,
     )
