@@ -23,6 +23,7 @@ from lsys_kit.derivation.inference.word_equations import (
     Bounds,
     Equation,
     GivenUp,
+    Trials,
     all_put_in,
     deduced,
     first_bounds,
@@ -356,7 +357,7 @@ class _Search:
             words.append(followed[0])
             stops += followed[1]
         if not stops:
-            for rest in solutions(known.equations, known.bounds, self.effort.left):
+            for rest in solutions(known.equations, known.bounds, Trials(self.effort.left)):
                 yield fixed | {chr(FIRST_CHARACTER + number): word for number, word in rest.items()}, words
             return
         useful = [stop for stop in stops if stop.allowed is not None]

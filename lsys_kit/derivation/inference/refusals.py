@@ -10,7 +10,7 @@ from itertools import islice
 
 from lsys_kit.budget import check_budget
 from lsys_kit.derivation.inference.problem import Conditions, Letter, Row, Table, letters_of, problem_of, tables, text_of
-from lsys_kit.derivation.inference.word_equations import GivenUp
+from lsys_kit.derivation.inference.word_equations import GivenUp, Trials
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.translation import gettext
 
@@ -66,7 +66,7 @@ def contradiction(words: Sequence[Row], conditions: Conditions) -> Contradiction
         place = bisect_left(range(1, len(letters)), True, key=lambda count: _contradict(words, conditions, count))
         if not letters:
             return Contradiction(step, 0, None)
-        some = islice(tables(problem_of(words, conditions, place), MOST_SUCCESSORS_TRIED), SOLUTIONS_COMPARED)
+        some = islice(tables(problem_of(words, conditions, place), Trials(MOST_SUCCESSORS_TRIED)), SOLUTIONS_COMPARED)
         asked = {_asked(words[step], letters[: place + 1], table, conditions) for table in some}
         needed, there, begin = asked.pop() if len(asked) == 1 else (None, (), place)
         if needed == there:
@@ -87,4 +87,4 @@ def _asked(word: Row, letters: Sequence[Letter], table: Table, conditions: Condi
 def _contradict(words: Sequence[Row], conditions: Conditions, last: int | None = None) -> bool:
     """Whether no system fits words, or the first letters of their last step."""
     check_budget()
-    return next(tables(problem_of(words, conditions, last), MOST_SUCCESSORS_TRIED), None) is None
+    return next(tables(problem_of(words, conditions, last), Trials(MOST_SUCCESSORS_TRIED)), None) is None
