@@ -336,6 +336,8 @@ _LABELLED = re.compile(
     rf"^\W*(?:(?:at|in|im|bei|after|nach)\s+)?(?:{'|'.join(WORDS['labels'].split())})\s*\d+\s*:\s*", re.IGNORECASE
 )
 """What is before the number in "step 3: 64"."""
+_SAID = re.compile(r"[^\W\d_]{2}")
+"""A word; without one, an exclamation mark behind a number is a factorial."""
 _EQUATION = re.compile(r"(?=[^=]*+=[^=]*+\Z)[^=]*[^\W\d_]\b")
 _GLUED = re.compile(r"\d([a-zA-Z])\s*$")
 """A number with one letter directly behind it, which is a product and no unit."""
@@ -404,7 +406,7 @@ def typed_number(answer: object, decimal_comma: bool = False) -> TypedNumber:
     fault: LSystemError | None = None
     for part in reversed([text] if _COMPARISON.search(text) else _EQUALS.split(text)):
         try:
-            return _in_sentence(part.strip(" \t\n!~$").rstrip(" ."), answer, decimal_comma)
+            return _in_sentence(part.strip(" \t\n~$!" if _SAID.search(part) else " \t\n~$").rstrip(" ."), answer, decimal_comma)
         except (ModelSyntaxError, ModelNameError, ModelValueError) as mistake:
             fault = fault or mistake
     if _EQUATION.match(text):
@@ -440,7 +442,8 @@ def _evaluated(answer: object) -> object:
 def _in_sentence(text: str, answer: str, decimal_comma: bool) -> TypedNumber:
     found = _SENTENCE.match(text)
     if not found:
-        raise ModelValueError(reply("typed.no_number", answer=quoted(answer)), hint=reply("typed.digits"))
+        said, hint = ("unreadable", "alone") if any(map(str.isdigit, text)) else ("no_number", "digits")
+        raise ModelValueError(reply(f"typed.{said}", answer=quoted(answer)), hint=reply(f"typed.{hint}"))
     number = formula_text(_plain(found["number"].strip(), decimal_comma))
     of_pi = "pi" in number
     if _COMPARISON.search(number):
@@ -532,7 +535,7 @@ Read = TypeVar("Read")
 _ERASED = re.compile(r"(->|→)[ \t]*(?:\"\"|''|\\(?:var)?epsilon\b|\bepsilon\b|λ|∅)[ \t]*$", re.MULTILINE)
 _IN_A_WORD = re.compile(r"(->|→)[ \t]*(?:empty|nothing)[ \t]*$", re.MULTILINE | re.IGNORECASE)
 _NOTHING = re.compile(r"(->|→)[ \t]*$", re.MULTILINE)
-_FULL_STOP = re.compile(r"(?<=[\w\])])\.[ \t]*$", re.MULTILINE)
+_FULL_STOP = re.compile(r"(?<=[\w\])])[.;,][ \t]*$", re.MULTILINE)
 _NEXT_LINE = re.compile(r";[ \t]*(?!\n)|,[ \t]*+(?=[^,;\n]*?(?:->|→))")
 _SETTING = re.compile(r"^([ \t]*(?:axiom|angle|heading|length))[ \t]*=", re.MULTILINE | re.IGNORECASE)
 _OTHER_ARROW = re.compile(r"(?<![-=<>])=++>|[⟶⇒⟹↦]")
@@ -564,7 +567,7 @@ def read_typed(text: str, reader: Callable[[str], Read], known: str = "") -> Rea
 
 
 def _cleaned(text: str, known: str) -> str:
-    """A text without what no notation means: quotation marks around it, full stops at the ends of its lines."""
+    """A text without what no notation means: quotation marks around it, full stops, commas at the ends of lines."""
     text = unquoted(text).replace(r"\rightarrow", "->").replace(r"\to", "->").replace("−>", "->").replace("–>", "->")
     text = "\n".join(line if re.search("->|→", line) else _OTHER_ARROW.sub("->", line) for line in text.split("\n"))
     text = _ERASED.sub(r"\1 ε", text)

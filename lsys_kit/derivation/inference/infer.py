@@ -9,12 +9,13 @@ L-systems, 2018.
 from __future__ import annotations
 
 from abc import abstractmethod
+from bisect import bisect_right
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import partial
-from itertools import islice
+from itertools import accumulate, islice
 from typing import TypeVar, overload
 
 from lsys_kit.budget import Task, check_budget, counted
@@ -36,7 +37,7 @@ from lsys_kit.derivation.inference.problem import (
     well_nested,
 )
 from lsys_kit.derivation.inference.productions import general_productions, productions_of, row_of, system_of
-from lsys_kit.derivation.inference.refusals import Contradiction, contradiction
+from lsys_kit.derivation.inference.refusals import Contradiction, contradict, contradiction
 from lsys_kit.derivation.inference.stochastic import LONGEST, Choice, choices_of
 from lsys_kit.derivation.inference.word_equations import Count, GivenUp, Trials
 from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown, whole_number
@@ -334,11 +335,11 @@ def _small(derivation: Derivation, step: int) -> bool:
         return False
 
 
-MOST_TRIED_FOR_ONE, MOST_SEEN_FOR_ONE = 100, 50_000
+MOST_TRIED_FOR_ONE, MOST_SEEN_FOR_ONE = 100, 40_000
 """So many successors are tried to see whether any system fits, and so many items of equations looked at."""
 MOST_TRIED_TO_COUNT, MOST_SEEN_TO_COUNT = 8_000, 600_000
 """So many successors are tried to count those that fit, and so many items of equations looked at."""
-MOST_SEEN_WITH_CONTEXTS = 150_000
+MOST_SEEN_WITH_CONTEXTS = 100_000
 """So many items of equations are looked at to find contexts with which some system fits, until that is out of reach; to see a
 module between its neighbours takes as long as one of them."""
 _OTHER_LETTERS = (
@@ -408,6 +409,8 @@ MOST_SUCCESSORS_TRIED = 4_000
 """So many successors are tried to count the systems with contexts where none fits without."""
 MOST_TRIED_WITH_MENDINGS, MOST_MODULES_WITH_MENDINGS = 100, 60
 """So many, and only of words with so many modules together, where a few edits are the more likely reason."""
+MOST_AT_FIRST = 1_000
+"""So many modules have the words together that are looked at first."""
 MOST_LOOKS_FOR_LAWS = 6_000
 """So many ways to divide modules into cases are looked at to find laws that hold in mended words."""
 CONTEXTS = ((1, 0), (0, 1), (1, 1), (2, 0), (0, 2), (2, 1), (1, 2), (2, 2))
@@ -447,7 +450,8 @@ def infer(
                 )
         try:
             problem = problem_of(rows, asked)
-            found += islice(tables(problem), MOST_FITS + 1)
+            if not _soon_refuted(rows, asked):
+                found += islice(tables(problem), MOST_FITS + 1)
         except ModelLimitError as error:
             error.partial = _fits(rows, found, asked)
             raise
@@ -459,6 +463,15 @@ def infer(
             return Fits(rows, (), asked, _refusal(rows, asked))
         except ModelLimitError:  # that none fits is known all the same
             return Fits(rows, (), asked, Refusal(None))
+
+
+def _soon_refuted(rows: tuple[Row, ...], conditions: Conditions) -> bool:
+    """Whether the first words, which are short, contradict one another, so that the long ones need not be looked at."""
+    sizes = [*accumulate(map(len, rows))]
+    first = rows[: bisect_right(sizes, MOST_AT_FIRST)]
+    with suppress(GivenUp):
+        return 1 < len(first) < len(rows) and contradict(first, conditions, Trials(items=MOST_SEEN_FOR_ONE))
+    return False
 
 
 def _with_unknown_words(rows: tuple[Row, ...], conditions: Conditions) -> Fits:

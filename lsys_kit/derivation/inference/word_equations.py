@@ -290,8 +290,20 @@ class GivenUp(Exception):
     """So many successors were tried that the search was given up."""
 
 
-A_LOOK = 15
-"""To look at some equations takes as long as looking at so many more items than they have."""
+A_LOOK, A_KIND, A_BOUND = 15, 1 / 250, 1 / 400
+"""To look at some equations takes as long as looking at so many more items than they have: in all, for each item and kind of
+letter, and for each of the bounds."""
+
+
+def cost_of_look(equations: Iterable[Equation], bounds: Bounds) -> float:
+    """How long it takes to look at equations, in items.
+
+    >>> equations = [Equation((0, 1), "abb"), Equation((0, 1, 1), "abbbb")]
+    >>> cost_of_look(equations, first_bounds(equations, 2, erasing=False))
+    20.055
+    """
+    items = sum(len(equation.items) for equation in equations)
+    return A_LOOK + items * (1 + A_KIND * len(bounds.alphabet)) + A_BOUND * bounds.least.size
 
 
 @dataclass
@@ -308,8 +320,8 @@ class Trials:
         if self.left < 0:
             raise GivenUp
 
-    def look_at(self, equations: Iterable[Equation]) -> None:
-        self.items -= A_LOOK + sum(len(equation.items) for equation in equations)
+    def look_at(self, equations: Iterable[Equation], bounds: Bounds) -> None:
+        self.items -= cost_of_look(equations, bounds)
         if self.items < 0:
             raise GivenUp
 
@@ -419,7 +431,7 @@ def deduced(equations: tuple[Equation, ...], bounds: Bounds, trials: Trials | No
 def _deduced(equations: tuple[Equation, ...], bounds: Bounds, trials: Trials) -> Known | None:
     known: Solution = {}
     while True:
-        trials.look_at(equations)
+        trials.look_at(equations, bounds)
         once = _deduced_once(equations, bounds)
         if once is None:
             return None
