@@ -336,8 +336,6 @@ _LABELLED = re.compile(
     rf"^\W*(?:(?:at|in|im|bei|after|nach)\s+)?(?:{'|'.join(WORDS['labels'].split())})\s*\d+\s*:\s*", re.IGNORECASE
 )
 """What is before the number in "step 3: 64"."""
-_SAID = re.compile(r"[^\W\d_]{2}")
-"""A word; without one, an exclamation mark behind a number is a factorial."""
 _EQUATION = re.compile(r"(?=[^=]*+=[^=]*+\Z)[^=]*[^\W\d_]\b")
 _GLUED = re.compile(r"\d([a-zA-Z])\s*$")
 """A number with one letter directly behind it, which is a product and no unit."""
@@ -406,7 +404,7 @@ def typed_number(answer: object, decimal_comma: bool = False) -> TypedNumber:
     fault: LSystemError | None = None
     for part in reversed([text] if _COMPARISON.search(text) else _EQUALS.split(text)):
         try:
-            return _in_sentence(part.strip(" \t\n~$!" if _SAID.search(part) else " \t\n~$").rstrip(" ."), answer, decimal_comma)
+            return _in_sentence(part.strip(" \t\n!~$").rstrip(" ."), answer, decimal_comma)
         except (ModelSyntaxError, ModelNameError, ModelValueError) as mistake:
             fault = fault or mistake
     if _EQUATION.match(text):
