@@ -20,7 +20,7 @@ def test_a_law_has_an_hour(nothing: None) -> None:
     assert (nothing, current().seconds) == (None, AN_HOUR)
 
 
-FILLED_IN = {"Chance", "Definitions", "Draft", "Effort", "Entry", "Found", "Group", "View", "_Shares"}
+FILLED_IN = {"Chance", "Definitions", "Draft", "Effort", "Entry", "Found", "Group", "Trials", "View", "_Shares"}
 """Classes of data that are filled in while a text is read, random numbers are drawn or systems are searched for."""
 
 

@@ -28,6 +28,7 @@ from lsys_kit.derivation.inference.word_equations import (
     Bounds,
     Equation,
     GivenUp,
+    Trials,
     count_of,
     first_bounds,
     possible_lengths,
@@ -227,7 +228,7 @@ def test_an_equation_of_letters_that_occur_once_is_counted_by_its_cuts() -> None
         assert count.solutions == 0 or count.successors == {letter: {each[letter] for each in fit} for letter in range(3)}
     assert len(found) == 3
     with pytest.raises(GivenUp):
-        count_of(equations, bounds, trials=1 / 2)
+        count_of(equations, bounds, trials=Trials(1 / 2))
 
 
 def test_where_a_successor_may_end_is_what_its_counts_allow() -> None:

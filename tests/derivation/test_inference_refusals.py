@@ -158,5 +158,6 @@ def test_no_more_is_said_of_a_refusal_than_is_soon_found(monkeypatch: pytest.Mon
     assert str(infer(words)).startswith("No system fits these 3 words. Step 2")
     monkeypatch.setattr(refusals, "MOST_SUCCESSORS_TRIED", 0)
     assert str(infer(words)) == (
-        "No system fits these 3 words. What would have to be another letter or word is out of reach: too much is possible."
+        "No system fits these 3 words. What would have to be another letter or word is out of reach: too much is possible. "
+        "Whether a system with contexts fits is out of reach."
     )

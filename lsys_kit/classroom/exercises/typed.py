@@ -440,7 +440,8 @@ def _evaluated(answer: object) -> object:
 def _in_sentence(text: str, answer: str, decimal_comma: bool) -> TypedNumber:
     found = _SENTENCE.match(text)
     if not found:
-        raise ModelValueError(reply("typed.no_number", answer=quoted(answer)), hint=reply("typed.digits"))
+        said, hint = ("unreadable", "alone") if any(map(str.isdigit, text)) else ("no_number", "digits")
+        raise ModelValueError(reply(f"typed.{said}", answer=quoted(answer)), hint=reply(f"typed.{hint}"))
     number = formula_text(_plain(found["number"].strip(), decimal_comma))
     of_pi = "pi" in number
     if _COMPARISON.search(number):
@@ -532,7 +533,7 @@ Read = TypeVar("Read")
 _ERASED = re.compile(r"(->|→)[ \t]*(?:\"\"|''|\\(?:var)?epsilon\b|\bepsilon\b|λ|∅)[ \t]*$", re.MULTILINE)
 _IN_A_WORD = re.compile(r"(->|→)[ \t]*(?:empty|nothing)[ \t]*$", re.MULTILINE | re.IGNORECASE)
 _NOTHING = re.compile(r"(->|→)[ \t]*$", re.MULTILINE)
-_FULL_STOP = re.compile(r"(?<=[\w\])])\.[ \t]*$", re.MULTILINE)
+_FULL_STOP = re.compile(r"(?<=[\w\])])[.;,][ \t]*$", re.MULTILINE)
 _NEXT_LINE = re.compile(r";[ \t]*(?!\n)|,[ \t]*+(?=[^,;\n]*?(?:->|→))")
 _SETTING = re.compile(r"^([ \t]*(?:axiom|angle|heading|length))[ \t]*=", re.MULTILINE | re.IGNORECASE)
 _OTHER_ARROW = re.compile(r"(?<![-=<>])=++>|[⟶⇒⟹↦]")
@@ -564,7 +565,7 @@ def read_typed(text: str, reader: Callable[[str], Read], known: str = "") -> Rea
 
 
 def _cleaned(text: str, known: str) -> str:
-    """A text without what no notation means: quotation marks around it, full stops at the ends of its lines."""
+    """A text without what no notation means: quotation marks around it, full stops, commas at the ends of lines."""
     text = unquoted(text).replace(r"\rightarrow", "->").replace(r"\to", "->").replace("−>", "->").replace("–>", "->")
     text = "\n".join(line if re.search("->|→", line) else _OTHER_ARROW.sub("->", line) for line in text.split("\n"))
     text = _ERASED.sub(r"\1 ε", text)

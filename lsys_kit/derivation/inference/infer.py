@@ -9,12 +9,14 @@ L-systems, 2018.
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Iterable, Iterator, Sequence
+from bisect import bisect_right
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from itertools import islice
-from typing import overload
+from functools import partial
+from itertools import accumulate, islice
+from typing import TypeVar, overload
 
 from lsys_kit.budget import Task, check_budget, counted
 from lsys_kit.derivation.core.words import Word
@@ -35,9 +37,9 @@ from lsys_kit.derivation.inference.problem import (
     well_nested,
 )
 from lsys_kit.derivation.inference.productions import general_productions, productions_of, row_of, system_of
-from lsys_kit.derivation.inference.refusals import Contradiction, contradiction
+from lsys_kit.derivation.inference.refusals import Contradiction, contradict, contradiction
 from lsys_kit.derivation.inference.stochastic import LONGEST, Choice, choices_of
-from lsys_kit.derivation.inference.word_equations import Count, GivenUp
+from lsys_kit.derivation.inference.word_equations import Count, GivenUp, Trials
 from lsys_kit.errors import ModelLimitError, ModelValueError, require, shown, whole_number
 from lsys_kit.notation.model.expressions import Apply, Expression, Number
 from lsys_kit.notation.model.modules import Module
@@ -85,12 +87,14 @@ class Wider:
 @dataclass(frozen=True)
 class Refusal:
     """Why no system fits: the first step that cannot come from the one before, if it was found; the ways to mend the words with
-    the fewest edits, and whether all of them were looked for; and contexts with which some system fits."""
+    the fewest edits, and whether all of them were looked for; and contexts with which some system fits, and whether all of them
+    were tried."""
 
     contradiction: Contradiction | None
     mendings: tuple[Mending, ...] = ()
     wider: Wider | None = None
     out_of_reach: bool = False
+    contexts_out_of_reach: bool = False
 
     def __str__(self) -> str:
         found = [str(self.contradiction)] if self.contradiction else []
@@ -104,6 +108,8 @@ class Refusal:
             found.append(gettext("What would have to be another letter or word is out of reach: too much is possible."))
         if self.wider:
             found.append(str(self.wider))
+        elif self.contexts_out_of_reach:
+            found.append(gettext("Whether a system with contexts fits is out of reach."))
         return " ".join(found)
 
 
@@ -329,10 +335,13 @@ def _small(derivation: Derivation, step: int) -> bool:
         return False
 
 
-MOST_TRIED_FOR_ONE, MOST_READ_FOR_ONE = 100, 400_000
-"""So many successors are tried to see whether any system fits, and of long words so few that this many modules are read."""
-MOST_TRIED_TO_COUNT, MOST_READ_TO_COUNT = 8_000, 1_000_000
-"""So many successors are tried to count those that fit, and of long words so few that this many modules are read."""
+MOST_TRIED_FOR_ONE, MOST_SEEN_FOR_ONE = 100, 40_000
+"""So many successors are tried to see whether any system fits, and so many items of equations looked at."""
+MOST_TRIED_TO_COUNT, MOST_SEEN_TO_COUNT = 8_000, 600_000
+"""So many successors are tried to count those that fit, and so many items of equations looked at."""
+MOST_SEEN_WITH_CONTEXTS = 100_000
+"""So many items of equations are looked at to find contexts with which some system fits, until that is out of reach; to see a
+module between its neighbours takes as long as one of them."""
 _OTHER_LETTERS = (
     "With contexts, a module with other values, or other neighbours, is another letter: laws of values are looked "
     "for without contexts only."
@@ -340,28 +349,33 @@ _OTHER_LETTERS = (
 """Why more steps tell nothing where each brings modules with new values."""
 
 
-def _trials(problem: Problem, most: int, read: int) -> int:
-    """How many successors are tried: the longer the words, the longer each takes."""
-    return min(most, read // max(1, sum(len(equation.target) for equation in problem.equations)))
+Result = TypeVar("Result")
 
 
-def one_soon_found(problem: Problem) -> bool:
-    """Whether some system fits, as far as is soon found."""
-    with suppress(GivenUp):
-        return next(tables(problem, _trials(problem, MOST_TRIED_FOR_ONE, MOST_READ_FOR_ONE)), None) is not None
-    return False
+def _searched(problem: Problem, search: Callable[[Problem, Trials], Result], most: int, effort: Effort) -> Result | None:
+    """What a search finds; None, and something is missed, where so many trials or items do not suffice."""
+    trials = Trials(most, effort.left)
+    try:
+        return search(problem, trials)
+    except (GivenUp, ModelLimitError):
+        effort.missed = True
+        return None
+    finally:
+        effort.left = int(trials.items)
 
 
-def soon_counted(problem: Problem, trials: int) -> Count | None:
+def _has_one(problem: Problem, trials: Trials) -> bool:
+    return next(tables(problem, trials), None) is not None
+
+
+def soon_counted(problem: Problem, most: int, effort: Effort) -> Count | None:
     """How many systems fit; None where so many trials do not suffice."""
-    with suppress(GivenUp, ModelLimitError):
-        return counted_tables(problem, _trials(problem, trials, MOST_READ_TO_COUNT))
-    return None
+    return _searched(problem, counted_tables, most, effort)
 
 
 def too_many(problem: Problem, listed: Fits, found: Sequence[Table]) -> ModelLimitError:
     """The error where more systems fit than are listed."""
-    count, most = soon_counted(problem, MOST_TRIED_TO_COUNT), len(listed)
+    count, most = soon_counted(problem, MOST_TRIED_TO_COUNT, Effort(MOST_SEEN_TO_COUNT)), len(listed)
     if count is None:
         said, all_of_them = f"More than {most:,} systems fit", "All that were found"
         left = [str(letter) for letter, word in found[0].items() if any(other[letter] != word for other in found)]
@@ -395,6 +409,10 @@ MOST_SUCCESSORS_TRIED = 4_000
 """So many successors are tried to count the systems with contexts where none fits without."""
 MOST_TRIED_WITH_MENDINGS, MOST_MODULES_WITH_MENDINGS = 100, 60
 """So many, and only of words with so many modules together, where a few edits are the more likely reason."""
+MOST_AT_FIRST = 1_000
+"""So many modules have the words together that are looked at first."""
+MOST_LOOKS_FOR_LAWS = 6_000
+"""So many ways to divide modules into cases are looked at to find laws that hold in mended words."""
 CONTEXTS = ((1, 0), (0, 1), (1, 1), (2, 0), (0, 2), (2, 1), (1, 2), (2, 2))
 """The contexts that are tried where no system fits, the smallest first."""
 
@@ -432,7 +450,8 @@ def infer(
                 )
         try:
             problem = problem_of(rows, asked)
-            found += islice(tables(problem), MOST_FITS + 1)
+            if not _soon_refuted(rows, asked):
+                found += islice(tables(problem), MOST_FITS + 1)
         except ModelLimitError as error:
             error.partial = _fits(rows, found, asked)
             raise
@@ -444,6 +463,15 @@ def infer(
             return Fits(rows, (), asked, _refusal(rows, asked))
         except ModelLimitError:  # that none fits is known all the same
             return Fits(rows, (), asked, Refusal(None))
+
+
+def _soon_refuted(rows: tuple[Row, ...], conditions: Conditions) -> bool:
+    """Whether the first words, which are short, contradict one another, so that the long ones need not be looked at."""
+    sizes = [*accumulate(map(len, rows))]
+    first = rows[: bisect_right(sizes, MOST_AT_FIRST)]
+    with suppress(GivenUp):
+        return 1 < len(first) < len(rows) and contradict(first, conditions, Trials(items=MOST_SEEN_FOR_ONE))
+    return False
 
 
 def _with_unknown_words(rows: tuple[Row, ...], conditions: Conditions) -> Fits:
@@ -605,11 +633,16 @@ def conditions_of(constants: object, erasing: object, context: object) -> Condit
     return Conditions(frozenset(symbols), bool(erasing), (left, right))
 
 
-def _fits(rows: tuple[Row, ...], found: Sequence[Table], conditions: Conditions) -> Fits:
-    """The systems for tables; where modules have parameters, those with the fewest productions."""
+def _fits(
+    rows: tuple[Row, ...], found: Sequence[Table], conditions: Conditions, look: Callable[[], None] = check_budget
+) -> Fits:
+    """The systems for tables; where modules have parameters, those with the fewest, as far as is looked for."""
     rules = [tuple(productions_of(table)) for table in found]
     if conditions.context == (0, 0) and any(module.arguments for row in rows for module in row):
-        rules = [tuple(general_productions(table)) for table in found]
+        rules = []
+        with suppress(GivenUp):
+            for table in found:
+                rules.append(tuple(general_productions(table, look)))
         fewest = min(map(len, rules), default=0)
         rules = [each for each in rules if len(each) == fewest]
     return Fits(rows, tuple(system_of(rows[0], each, conditions) for each in rules), conditions)
@@ -617,17 +650,19 @@ def _fits(rows: tuple[Row, ...], found: Sequence[Table], conditions: Conditions)
 
 def _refusal(rows: tuple[Row, ...], conditions: Conditions) -> Refusal:
     where = contradiction(rows, conditions)
+    contexts = Effort(MOST_SEEN_WITH_CONTEXTS)
     if conditions.context != (0, 0):
-        return Refusal(where, wider=next(_wider(rows, conditions, MOST_SUCCESSORS_TRIED), None))
+        return Refusal(where, wider=_wider(rows, conditions, MOST_SUCCESSORS_TRIED, contexts))
     effort = Effort()
     found = mendings(rows, where.step if where else len(rows) - 1, conditions, effort)
-    found = [*(_with_systems(each, conditions) for each in found[:MOST_MENDINGS_SHOWN]), *found[MOST_MENDINGS_SHOWN:]]
+    found = [*_with_systems(found[:MOST_MENDINGS_SHOWN], conditions), *found[MOST_MENDINGS_SHOWN:]]
     trials = MOST_TRIED_WITH_MENDINGS if found else MOST_SUCCESSORS_TRIED
     wider = None
     if not found or sum(map(len, rows)) <= MOST_MODULES_WITH_MENDINGS:
         with suppress(ModelLimitError):  # what was found is known all the same
-            wider = next(_wider(rows, conditions, trials), None)
-    return Refusal(where, tuple(found), wider, effort.missed and not found)
+            wider = _wider(rows, conditions, trials, contexts)
+    missed = contexts.missed and not found and wider is None
+    return Refusal(where, tuple(found), wider, effort.missed and not found, missed)
 
 
 def _refusal_with_unknown_words(rows: tuple[Row, ...], conditions: Conditions) -> Refusal:
@@ -635,25 +670,36 @@ def _refusal_with_unknown_words(rows: tuple[Row, ...], conditions: Conditions) -
     while len(known) > 1 and known[-1] == (GAP,):
         known.pop()
     found = mendings(known, len(known) - 1, conditions, effort)
-    return Refusal(None, tuple(_with_systems(each, conditions) for each in found), None, effort.missed and not found)
+    return Refusal(None, tuple(_with_systems(found, conditions)), None, effort.missed and not found)
 
 
-def _with_systems(mending: Mending, conditions: Conditions) -> Mending:
-    """A mending with some of the systems that fit its words."""
-    some: list[Table] = []
-    with suppress(GivenUp):
-        some += islice(tables(problem_of(mending.words, conditions), MOST_TRIED_FOR_ONE), MOST_SHOWN)
-    return replace(mending, systems=_fits(mending.words, some, conditions).systems)
+def _with_systems(found: Sequence[Mending], conditions: Conditions) -> Iterator[Mending]:
+    """Mendings, each with some of the systems that fit its words."""
+    for mending in found:
+        some, laws = list[Table](), Effort(MOST_LOOKS_FOR_LAWS // len(found))
+        with suppress(GivenUp):
+            some += islice(tables(problem_of(mending.words, conditions), Trials(MOST_TRIED_FOR_ONE)), MOST_SHOWN)
+        yield replace(mending, systems=_fits(mending.words, some, conditions, partial(laws.read, 1)).systems)
 
 
-def _wider(rows: tuple[Row, ...], conditions: Conditions, trials: int) -> Iterator[Wider]:
-    nested = all(map(well_nested, rows))
+def _wider(rows: tuple[Row, ...], conditions: Conditions, most: int, effort: Effort) -> Wider | None:
+    """The first wider conditions under which some system fits; None where there are none, or something is missed."""
+    modules, nested = sum(map(len, rows)), all(map(well_nested, rows))
     for erasing in dict.fromkeys((conditions.erasing, True)):
         alone = ((0, 0),) * (erasing is not conditions.erasing)
         for context in (*alone, *CONTEXTS * nested):
             if context[0] >= conditions.context[0] and context[1] >= conditions.context[1]:
+                effort.left -= modules
+                if effort.left < 0:
+                    effort.missed = True
+                    return None
                 wider = replace(conditions, erasing=erasing, context=context)
                 problem = problem_of(rows, wider)
-                if one_soon_found(problem):
-                    count = soon_counted(problem, trials)
-                    yield Wider(wider, count.solutions, len(problem.letters), len(count.ways)) if count else Wider(wider, None)
+                share = Effort(min(effort.left, MOST_SEEN_FOR_ONE))
+                begun = share.left
+                if _searched(problem, _has_one, MOST_TRIED_FOR_ONE, share):
+                    count = soon_counted(problem, most, effort)
+                    return Wider(wider, count.solutions, len(problem.letters), len(count.ways)) if count else Wider(wider, None)
+                effort.left -= begun - share.left
+                effort.missed |= share.missed
+    return None

@@ -23,6 +23,7 @@ from lsys_kit.derivation.inference.word_equations import (
     Bounds,
     Equation,
     GivenUp,
+    Trials,
     all_put_in,
     deduced,
     first_bounds,
@@ -38,6 +39,8 @@ from lsys_kit.translation import gettext
 MOST_READ, MOST_READ_FOR_ONE, A_LOOK = 3_000_000, 200_000, 25
 """So many letters are read at most until edits are out of reach, and so many for one place where they may be; a look at a word
 takes as long as reading so many."""
+AN_ITEM = 17
+"""To look at an item of an equation takes as long as reading so many letters."""
 MOST_EDITS = 2
 """So many edits are looked for; beyond, a word is another one."""
 MOST_MENDINGS = 200
@@ -343,7 +346,11 @@ class _Search:
         self, equations: tuple[Equation, ...], bounds: Bounds, fixed: dict[str, str]
     ) -> Iterator[tuple[dict[str, str], list[list[str]]]]:
         """All that letters may become, with the words of the chains."""
-        known = deduced(equations, bounds)
+        trials = Trials(items=self.effort.left / AN_ITEM)
+        try:
+            known = deduced(equations, bounds, trials)
+        finally:
+            self.effort.left = int(trials.items * AN_ITEM)
         if known is None:
             return
         fixed = fixed | {chr(FIRST_CHARACTER + number): word for number, word in known.successors.items()}
@@ -356,7 +363,7 @@ class _Search:
             words.append(followed[0])
             stops += followed[1]
         if not stops:
-            for rest in solutions(known.equations, known.bounds, self.effort.left):
+            for rest in solutions(known.equations, known.bounds, Trials(self.effort.left)):
                 yield fixed | {chr(FIRST_CHARACTER + number): word for number, word in rest.items()}, words
             return
         useful = [stop for stop in stops if stop.allowed is not None]
@@ -365,7 +372,7 @@ class _Search:
         letter = min(useful, key=lambda stop: not stop.sure).letter
         number = ord(letter) - FIRST_CHARACTER
         for word in self._successors(letter, fixed):
-            self.effort.read(A_LOOK + 40 * sum(len(each.items) for each in known.equations))
+            self.effort.read(A_LOOK)
             if number < 0:
                 yield from self.completed(known.equations, known.bounds, fixed | {letter: word})
             elif len(word) in possible_lengths(number, word, known.bounds):

@@ -11,7 +11,6 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import inf
 from typing import TypeAlias
 
 from lsys_kit.budget import INTERVAL, counted
@@ -22,6 +21,7 @@ from lsys_kit.derivation.inference.word_equations import (
     Count,
     Equation,
     Solution,
+    Trials,
     count_of,
     first_bounds,
     put_in,
@@ -231,7 +231,7 @@ def letters_of(word: Row, conditions: Conditions) -> Iterator[Letter]:
         yield Letter(tuple(word[at] for at in reversed(left)), word[place], tuple(word[at] for at in right))
 
 
-def tables(problem: Problem, trials: float = inf) -> Iterator[Table]:
+def tables(problem: Problem, trials: Trials | None = None) -> Iterator[Table]:
     """All answers, one after another; `GivenUp` where so many trials do not suffice."""
     if problem.possible:
         for solution in solutions(problem.equations, problem.bounds, trials):
@@ -240,7 +240,7 @@ def tables(problem: Problem, trials: float = inf) -> Iterator[Table]:
                 yield table
 
 
-def counted_tables(problem: Problem, trials: float = inf) -> Count:
+def counted_tables(problem: Problem, trials: Trials | None = None) -> Count:
     """How many answers there are, and what letters become in any of them; `GivenUp` where so many trials do not suffice."""
     if not problem.possible:
         return Count(0)

@@ -13,7 +13,8 @@ always the same.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
 from itertools import count, product
@@ -164,8 +165,10 @@ NAMES = ("x", "y", "z")
 """The names of up to so many parameters."""
 
 
-def general_productions(table: Table) -> Iterator[Production]:
+def general_productions(table: Table, look: Callable[[], None] = check_budget) -> Iterator[Production]:
     """Productions with parameters for a table, as few as possible; modules that stay as they are need none.
+
+    Each way to divide modules into cases is a `look`, which may raise an error where there are too many.
 
     >>> from lsys_kit.derivation.inference.problem import Letter
     >>> a = [Letter((), Module("a", (age,))) for age in range(4)]
@@ -178,7 +181,7 @@ def general_productions(table: Table) -> Iterator[Production]:
         module = letter.module
         kinds.setdefault((module.symbol, len(module.arguments)), {})[module.arguments] = word
     for kind, successors in kinds.items():
-        cases = fewest_cases(kind, successors)
+        cases = fewest_cases(kind, successors, look)
         for case in cases:
             if any(word != (Module(kind[0], values),) for values, word in case):
                 others = [other for other in cases if other is not case]
@@ -188,32 +191,65 @@ def general_productions(table: Table) -> Iterator[Production]:
                 yield Production((own,), made, condition=_condition(kind, case, others))
 
 
-def fewest_cases(kind: Kind, successors: dict[Values, Row]) -> list[Case]:
+def fewest_cases(kind: Kind, successors: dict[Values, Row], look: Callable[[], None] = check_budget) -> list[Case]:
     """The fewest cases that the modules of a kind fall into, rather with simple laws, which one point shows, than others."""
-    points = sorted(successors.items())
-    fewest = len({_symbols(word) for word in successors.values()})
+    values = [sorted({*along}) for along in zip(*successors, strict=True)]
+    ranks = [{value: rank for rank, value in enumerate(along)} for along in values]
+    points = [
+        _Point(point, _symbols(point[1]), tuple((rank[value],) * 2 for rank, value in zip(ranks, point[0], strict=True)))
+        for point in sorted(successors.items())
+    ]
+    fewest = len({point.kinds for point in points})
     return next(
         found
         for most in count(fewest)
         for free in (1, POINTS_FOR_TWO_NUMBERS - 1)
-        for found in _divided(kind, points, [], most, free)
+        for found in _divided(kind, points, [], most, free, look)
     )
 
 
-def _divided(kind: Kind, points: Sequence[tuple[Values, Row]], cases: list[Case], most: int, free: int) -> Iterator[list[Case]]:
+Box: TypeAlias = tuple[tuple[int, int], ...]
+"""For each parameter the least and the greatest value, by their ranks."""
+
+
+@dataclass(frozen=True)
+class _Point:
+    """The values of a module with its successor, the kinds of that, and the box of the values."""
+
+    point: tuple[Values, Row]
+    kinds: tuple[Kind, ...]
+    box: Box
+
+
+def _divided(
+    kind: Kind,
+    points: Sequence[_Point],
+    cases: list[tuple[Case, tuple[Kind, ...], Box]],
+    most: int,
+    free: int,
+    look: Callable[[], None],
+) -> Iterator[list[Case]]:
     """All ways to divide the rest of the points among at most so many cases; so many points of a case need no law yet."""
-    check_budget()
+    look()
     if not points:
-        if all(_successor(kind, case, False) is not None for case in cases):
-            yield cases
+        if all(_successor(kind, case, False) is not None for case, _, _ in cases):
+            yield [case for case, _, _ in cases]
         return
-    for number, case in enumerate(cases):
-        wider, others = (*case, points[0]), cases[:number] + cases[number + 1 :]
-        same = _symbols(case[0][1]) == _symbols(points[0][1])
-        if same and _apart(wider, others) and (len(wider) <= free or _successor(kind, wider, False) is not None):
-            yield from _divided(kind, points[1:], [*cases[:number], wider, *cases[number + 1 :]], most, free)
-    if len(cases) < most and _apart((points[0],), cases):
-        yield from _divided(kind, points[1:], [*cases, (points[0],)], most, free)
+    here = points[0]
+    for number, (case, kinds, box) in enumerate(cases):
+        wider, around = (*case, here.point), _around(box, here.box)
+        others = cases[:number] + cases[number + 1 :]
+        fits = kinds == here.kinds and _apart(around, others)
+        if fits and (len(wider) <= free or _successor(kind, wider, False) is not None):
+            own = [*cases[:number], (wider, kinds, around), *cases[number + 1 :]]
+            yield from _divided(kind, points[1:], own, most, free, look)
+    if len(cases) < most and _apart(here.box, cases):
+        yield from _divided(kind, points[1:], [*cases, ((here.point,), here.kinds, here.box)], most, free, look)
+
+
+def _around(one: Box, other: Box) -> Box:
+    """The least box around two."""
+    return tuple((min(a, c), max(b, d)) for (a, b), (c, d) in zip(one, other, strict=True))
 
 
 def _symbols(word: Row) -> tuple[Kind, ...]:
@@ -221,8 +257,9 @@ def _symbols(word: Row) -> tuple[Kind, ...]:
     return tuple((module.symbol, len(module.arguments)) for module in word)
 
 
-def _apart(case: Case, others: Iterable[Case]) -> bool:
-    return all(any(_side(case, other, axis) for axis in range(len(case[0][0]))) for other in others)
+def _apart(box: Box, others: Iterable[tuple[Case, tuple[Kind, ...], Box]]) -> bool:
+    """Whether a box has no value in common with those of the cases."""
+    return all(any(b < c or d < a for (a, b), (c, d) in zip(box, other, strict=True)) for _, _, other in others)
 
 
 def _side(case: Case, other: Case, axis: int) -> int:

@@ -10,12 +10,14 @@ from itertools import islice
 
 from lsys_kit.budget import check_budget
 from lsys_kit.derivation.inference.problem import Conditions, Letter, Row, Table, letters_of, problem_of, tables, text_of
-from lsys_kit.derivation.inference.word_equations import GivenUp
+from lsys_kit.derivation.inference.word_equations import GivenUp, Trials
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.translation import gettext
 
-MOST_SUCCESSORS_TRIED = 5_000
-"""Beyond so many trials it is not said where words contradict one another."""
+MOST_SUCCESSORS_TRIED, MOST_SEEN = 5_000, 150_000
+"""Beyond so many trials or items of equations that are looked at, it is not said where words contradict one another."""
+A_MODULE = 1 / 6
+"""To write a module into an equation takes as long as looking at so many items."""
 SOLUTIONS_COMPARED = 20
 """What a letter would have to become is said where so many solutions agree on it."""
 
@@ -59,14 +61,16 @@ class Contradiction:
 def contradiction(words: Sequence[Row], conditions: Conditions) -> Contradiction | None:
     """Where words contradict one another, which no system fits: the first letter that has no successor; None where that is not
     soon found."""
+    seen = Trials(items=MOST_SEEN)
     with suppress(GivenUp):
-        step = 1 + bisect_left(range(1, len(words)), True, key=lambda step: _contradict(words[: step + 1], conditions))
+        steps = range(1, len(words))
+        step = 1 + bisect_left(steps, True, key=lambda step: contradict(words[: step + 1], conditions, seen))
         words = words[: step + 1]
         letters = [*letters_of(words[step - 1], conditions)]
-        place = bisect_left(range(1, len(letters)), True, key=lambda count: _contradict(words, conditions, count))
+        place = bisect_left(range(1, len(letters)), True, key=lambda count: contradict(words, conditions, seen, count))
         if not letters:
             return Contradiction(step, 0, None)
-        some = islice(tables(problem_of(words, conditions, place), MOST_SUCCESSORS_TRIED), SOLUTIONS_COMPARED)
+        some = islice(tables(problem_of(words, conditions, place), Trials(MOST_SUCCESSORS_TRIED)), SOLUTIONS_COMPARED)
         asked = {_asked(words[step], letters[: place + 1], table, conditions) for table in some}
         needed, there, begin = asked.pop() if len(asked) == 1 else (None, (), place)
         if needed == there:
@@ -84,7 +88,11 @@ def _asked(word: Row, letters: Sequence[Letter], table: Table, conditions: Condi
     return needed, word[begin : begin + len(needed or ())], begin
 
 
-def _contradict(words: Sequence[Row], conditions: Conditions, last: int | None = None) -> bool:
-    """Whether no system fits words, or the first letters of their last step."""
+def contradict(words: Sequence[Row], conditions: Conditions, seen: Trials, last: int | None = None) -> bool:
+    """Whether no system fits words, or the first letters of their last step; `seen` says how many items may be looked at."""
     check_budget()
-    return next(tables(problem_of(words, conditions, last), MOST_SUCCESSORS_TRIED), None) is None
+    trials = Trials(MOST_SUCCESSORS_TRIED, seen.items - A_MODULE * sum(map(len, words)))
+    try:
+        return next(tables(problem_of(words, conditions, last), trials), None) is None
+    finally:
+        seen.items = trials.items

@@ -291,16 +291,39 @@ class GivenUp(Exception):
     """So many successors were tried that the search was given up."""
 
 
-@dataclass
-class Effort:
-    """How many more successors a search may try, and what it finds for questions: an iterator that is copied, never used up."""
+A_LOOK, A_KIND, A_BOUND = 15, 1 / 250, 1 / 400
+"""To look at some equations takes as long as looking at so many more items than they have: in all, for each item and kind of
+letter, and for each of the bounds."""
 
-    left: float
+
+def cost_of_look(equations: Iterable[Equation], bounds: Bounds) -> float:
+    """How long it takes to look at equations, in items.
+
+    >>> equations = [Equation((0, 1), "abb"), Equation((0, 1, 1), "abbbb")]
+    >>> cost_of_look(equations, first_bounds(equations, 2, erasing=False))
+    20.055
+    """
+    items = sum(len(equation.items) for equation in equations)
+    return A_LOOK + items * (1 + A_KIND * len(bounds.alphabet)) + A_BOUND * bounds.least.size
+
+
+@dataclass
+class Trials:
+    """How many more successors a search may try, how many more items of equations it may look at, and what it finds
+    for questions: an iterator that is copied, never used up."""
+
+    left: float = inf
+    items: float = inf
     kept: dict[Question, Iterator[Solution]] = field(default_factory=dict)
 
     def spend(self, trials: float) -> None:
         self.left -= trials
         if self.left < 0:
+            raise GivenUp
+
+    def look_at(self, equations: Iterable[Equation], bounds: Bounds) -> None:
+        self.items -= cost_of_look(equations, bounds)
+        if self.items < 0:
             raise GivenUp
 
 
@@ -315,26 +338,26 @@ class Known:
     choices: dict[int, set[str]]
 
 
-def solutions(equations: Sequence[Equation], bounds: Bounds, trials: float = inf) -> Iterator[Solution]:
+def solutions(equations: Sequence[Equation], bounds: Bounds, trials: Trials | None = None) -> Iterator[Solution]:
     """All solutions, one after another; `GivenUp` where so many trials do not suffice.
 
     >>> equations = [Equation((0, 1), "abb"), Equation((0, 1, 1), "abbbb")]
     >>> [*solutions(equations, first_bounds(equations, 2, erasing=False))]
     [{0: 'a', 1: 'bb'}]
     """
-    return _solutions(tuple(equations), bounds, Effort(trials))
+    return _solutions(tuple(equations), bounds, trials or Trials())
 
 
-def _solutions(equations: tuple[Equation, ...], bounds: Bounds, effort: Effort) -> Iterator[Solution]:
+def _solutions(equations: tuple[Equation, ...], bounds: Bounds, trials: Trials) -> Iterator[Solution]:
     check_budget()
-    known = deduced(equations, bounds)
+    known = deduced(equations, bounds, trials)
     if known is None:
         return
     found = []
     for group in groups_of(known):
-        if (key := question(group, known)) not in effort.kept:
-            (effort.kept[key],) = tee(_tried(group, known, effort), 1)
-        found.append(effort.kept[key])
+        if (key := question(group, known)) not in trials.kept:
+            (trials.kept[key],) = tee(_tried(group, known, trials), 1)
+        found.append(trials.kept[key])
     if all(next(copy(each), None) is not None for each in found):  # else nothing needs to be combined
         yield from (known.successors | others for others in _combined(found))
 
@@ -365,17 +388,17 @@ def _combined(groups: Sequence[Iterator[Solution]]) -> Iterator[Solution]:
             yield first | others
 
 
-def _tried(group: tuple[Equation, ...], known: Known, effort: Effort) -> Iterator[Solution]:
-    for letter, word, rest in trials_of(group, known, effort):
-        for found in _solutions(rest, known.bounds, effort):
+def _tried(group: tuple[Equation, ...], known: Known, trials: Trials) -> Iterator[Solution]:
+    for letter, word, rest in trials_of(group, known, trials):
+        for found in _solutions(rest, known.bounds, trials):
             yield {letter: word} | found
 
 
-def trials_of(group: tuple[Equation, ...], known: Known, effort: Effort) -> Iterator[tuple[int, str, tuple[Equation, ...]]]:
+def trials_of(group: tuple[Equation, ...], known: Known, trials: Trials) -> Iterator[tuple[int, str, tuple[Equation, ...]]]:
     """The letter of a group with the fewest choices, one successor after another, and what is left of the equations then."""
     letter = min(letters_in(group) & known.choices.keys(), key=lambda each: (len(known.choices[each]), each))
     for word in sorted(known.choices[letter], key=lambda each: (len(each), each)):
-        effort.spend(1)
+        trials.spend(1)
         rest = all_put_in(group, {letter: word})
         if rest is not None:
             yield letter, word, rest
@@ -391,24 +414,25 @@ SHORT = (60, 1_000)
 """What follows from equations whose known words have up to so many letters is put into the longer ones first."""
 
 
-def deduced(equations: tuple[Equation, ...], bounds: Bounds) -> Known | None:
+def deduced(equations: tuple[Equation, ...], bounds: Bounds, trials: Trials | None = None) -> Known | None:
     """What follows without trying; None where the equations contradict one another."""
-    known: Solution = {}
+    known, trials = Solution(), trials or Trials()
     for most in SHORT:
         short = tuple(equation for equation in equations if len(equation.target) <= most)
         if 0 < len(short) < len(equations):
-            found = _deduced(short, bounds)
+            found = _deduced(short, bounds, trials)
             rest = None if found is None else all_put_in(equations, found.successors)
             if found is None or rest is None:
                 return None
             known, equations, bounds = known | found.successors, rest, found.bounds
-    found = _deduced(equations, bounds)
+    found = _deduced(equations, bounds, trials)
     return found and Known(known | found.successors, found.equations, found.bounds, found.choices)
 
 
-def _deduced(equations: tuple[Equation, ...], bounds: Bounds) -> Known | None:
+def _deduced(equations: tuple[Equation, ...], bounds: Bounds, trials: Trials) -> Known | None:
     known: Solution = {}
     while True:
+        trials.look_at(equations, bounds)
         once = _deduced_once(equations, bounds)
         if once is None:
             return None
@@ -513,12 +537,15 @@ class _Counting:
     """Which words may be successors, and what was counted of groups."""
 
     usable: Callable[[str], bool]
-    effort: Effort
+    trials: Trials
     kept: dict[Question, Count] = field(default_factory=dict)
 
 
 def count_of(
-    equations: Sequence[Equation], bounds: Bounds, usable: Callable[[str], bool] = lambda word: True, trials: float = inf
+    equations: Sequence[Equation],
+    bounds: Bounds,
+    usable: Callable[[str], bool] = lambda word: True,
+    trials: Trials | None = None,
 ) -> Count:
     """How many solutions there are with usable successors; `GivenUp` where so many trials do not suffice.
 
@@ -527,12 +554,12 @@ def count_of(
     >>> found.solutions, sorted(found.successors[0])
     (6, ['a', 'ab'])
     """
-    return _count(tuple(equations), bounds, _Counting(usable, Effort(trials)))
+    return _count(tuple(equations), bounds, _Counting(usable, trials or Trials()))
 
 
 def _count(equations: tuple[Equation, ...], bounds: Bounds, counting: _Counting) -> Count:
     check_budget()
-    known = deduced(equations, bounds)
+    known = deduced(equations, bounds, counting.trials)
     if known is None or not all(map(counting.usable, known.successors.values())):
         return Count(0)
     number, successors = 1, {letter: frozenset({word}) for letter, word in known.successors.items()}
@@ -554,7 +581,7 @@ def _count_of_group(group: tuple[Equation, ...], known: Known, counting: _Counti
 
 def _count_of_trials(group: tuple[Equation, ...], known: Known, counting: _Counting) -> Count:
     number, successors = 0, dict[int, frozenset[str]]()
-    for letter, word, rest in trials_of(group, known, counting.effort):
+    for letter, word, rest in trials_of(group, known, counting.trials):
         found = _count(rest, known.bounds, counting) if counting.usable(word) else Count(0)
         if found.solutions:
             number += found.solutions
@@ -579,7 +606,7 @@ def _count_of_cuts(group: tuple[Equation, ...], known: Known, counting: _Countin
         for begin, number in ways.items():
             for end in _ends(item, begin, target, known.bounds):
                 if gap >> end & 1:
-                    counting.effort.spend(A_PART)
+                    counting.trials.spend(A_PART)
                     if isinstance(item, str) or counting.usable(target[begin:end]):
                         pairs.append((begin, end))
                         here[end] = here.get(end, 0) + number

@@ -45,7 +45,7 @@ _LETTER = re.compile(
 _LETTER_AND_TEXT = re.compile(r"^\W*([A-Za-z])\s*[:.)\]-]+\s+(\S.*)$", re.DOTALL)
 _NAMED = r"^\W*(?:(?:option|answer|antwort|möglichkeit)\s++)?"
 _LETTER_AND_REASON = re.compile(
-    rf"{_NAMED}([A-Za-z])\s*(?:,|;|-|–|\bbecause\b|\bsince\b|\bas\b|\bweil\b|\bda\b)\s*[^\W\d_]{{2,}}.*$",
+    rf"{_NAMED}([A-Za-z])\s*(?:,|;|-|–|\bbecause\b|\bsince\b|\bas\b|\bweil\b|\bda\b)\s*(?:[^\W\d_]{{2,}}|(?-i:[a-z])\s+(?!and\b|or\b|und\b|oder\b)[^\W\d_]{{2,}}).*$",
     re.DOTALL | re.IGNORECASE,
 )
 """A letter, and why."""

@@ -106,8 +106,8 @@ def _counted(made: str, text: str) -> Counter[str]:
         part = part.strip()
         read = list(_PART.finditer(part))
         if "".join(each[0] for each in read) != part or not read or _ARROW.search(part):
-            at = max(text.find(part), 0)
-            raise ModelSyntaxError(reply("net.no_place", text=quoted(part)), text, at, at + len(part), reply("net.form"))
+            at, form = max(text.find(part), 0), "net.named" if part.isdigit() else "net.form"
+            raise ModelSyntaxError(reply("net.no_place", text=quoted(part)), text, at, at + len(part), reply(form))
         for each in read:
             found[each["place"]] += int(each["copies"][:6] or 1)
     return found

@@ -87,11 +87,17 @@ _BESIDE_A_STEP = re.compile(
 )
 """A step that is told by another one, as in "the step after 19"."""
 _COUNTED = ("length", "count", "strokes")
+_ROW = re.compile(r"\W*+\d{1,18}(?:\s*+[,;]\s*+\d{1,18}){2,}\W*+")
+_STAGES = re.compile(r"\W*+(\w++(?:\s*+,\s*+\w++)++)\s*+:\s*+(\d{1,3})\W*+")
+"""A row with a number for each step, and stages with their number, as in "r, s, t, u: 4"."""
 
 
 def _of_the_step(exercise: Exercise, answer: str) -> str:
     """An answer without the step that it names; of numbers of several steps that of the one that is asked for."""
     text = with_digits(unquoted(keyboard_text(answer)))
+    stages = _STAGES.fullmatch(text)
+    if stages and len(re.findall(r"\w+", stages[1])) == int(stages[2]):
+        return stages[2]
     beside = _BESIDE_A_STEP.match(text)
     if beside and (what_is_asked(exercise) == "first" or means_the_same(exercise.unit, "steps")):
         by, other = int(beside[1] or 1), int(beside[3])
@@ -100,6 +106,9 @@ def _of_the_step(exercise: Exercise, answer: str) -> str:
         return _of_several_steps(exercise, text, answer)
     if what_is_asked(exercise) not in _COUNTED:
         return answer
+    if _ROW.fullmatch(text):
+        row, values = [*map(int, re.findall(r"\d+", text))], [*right_history(exercise).values(exercise, exercise.steps)]
+        return str(row[-1]) if row in (values, values[1:]) else answer
     found: dict[str, str] = {}
     for part in _SEPARATED.split(text):
         behind, before = _AT_ITS_STEP.search(part), _ITS_STEP_FIRST.match(part)
@@ -182,6 +191,9 @@ def _read_number(exercise: Exercise, answer: object) -> Value:
     if any(word.lower() in _DOUBTFUL for word in words):
         raise ModelValueError(reply("number.one_needed"), hint=reply("number.alone"))
     unit = next((word for word in found.after[:1] if word.lower() in UNITS), "")
+    is_counted = exercise.kind == "number" and exercise.unit and exercise.unit.lower() not in UNITS
+    if is_counted and {"per", "pro"} & {*map(str.lower, found.after)}:  # a rate
+        raise _other_unit(exercise, " ".join(found.after))
     if counted := _other_thing(exercise, found):
         raise _other_unit(exercise, counted)
     odd = next(
