@@ -14,8 +14,6 @@ from typing import TYPE_CHECKING, TypeGuard
 __all__ = ["arrays_pay", "is_array", "np"]
 
 if TYPE_CHECKING:
-    from typing import Any
-
     import numpy as np
     from numpy.typing import NDArray
 else:
@@ -41,7 +39,7 @@ def arrays_pay(size: int, least: int) -> bool:
     return size > least and (_is_loaded() or (size > TO_LOAD * least and _can_be_loaded()))
 
 
-def is_array(given: object) -> TypeGuard[NDArray[Any]]:
+def is_array(given: object) -> TypeGuard[NDArray[np.generic]]:
     """Whether something is an array of numpy, which is not loaded for that.
 
     >>> is_array(np.arange(3)), is_array([0, 1, 2])

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from typing import Any
 
 from lsys_kit.classroom.link import ANGLE, STEP
+from lsys_kit.classroom.panel.bundle import Data
 from lsys_kit.classroom.panel.opened.opened import Opened, Viewing
 from lsys_kit.errors import ModelNameError, quotable, require
 from lsys_kit.notation.analysis.checks import suggestion
@@ -38,10 +38,10 @@ def _offered(opened: Opened) -> list[str]:
     return [STEP, ANGLE, *opened.values, *opened.fixed, *(name for name in counts if name not in opened.values)]
 
 
-def sentence_parts(text: str, opened: Opened, chosen: Viewing) -> list[str | dict[str, Any]]:
+def sentence_parts(text: str, opened: Opened, chosen: Viewing) -> list[str | Data]:
     """The texts of a sentence and, between them, its numbers, as the panel's script needs them."""
     texts, values = _NUMBER.split(text)[::2], {**opened.fixed, **chosen.values}
-    parts: list[str | dict[str, Any]] = [texts[0]]
+    parts: list[str | Data] = [texts[0]]
     for name, after in zip(_names(text), texts[1:], strict=True):
         if name in (STEP, ANGLE) or name in values:
             value = number_text(values[name]) if name in values else ""

@@ -9,7 +9,7 @@ import io
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from PIL import Image
 
@@ -180,7 +180,7 @@ class ViewModel:
             picture = Picture(
                 (FilamentRow(step, seen),), state_colours(derivation), None, marked, scene if scene.dimension == 3 else None
             )
-        given: dict[str, Any] = dict(constants)
+        given: Choices = dict(constants)
         lettered = derive(self.system, 0, seed=self.seed, letters=letters, **given).to(step)[step] if letters else None
         return StepView(step, word, net, net.tokens(word), marked, scene, picture, lettered)
 

@@ -6,7 +6,7 @@ from array import array
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain
-from typing import TYPE_CHECKING, Any, TypeAlias, overload
+from typing import TYPE_CHECKING, TypeAlias, overload
 
 from lsys_kit.arrays import arrays_pay, np
 from lsys_kit.budget import INTERVAL, Task, check_bytes, counted
@@ -18,7 +18,7 @@ from lsys_kit.notation.registry import dialect_named
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-Codes: TypeAlias = "list[int] | tuple[int, ...] | array[int] | NDArray[Any]"
+Codes: TypeAlias = "list[int] | tuple[int, ...] | array[int] | NDArray[np.integer]"
 """The numbers of states."""
 MOST_COUNTED = 4_096
 """In words up to this length states are counted one by one."""

@@ -11,7 +11,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from lsys_kit.arrays import arrays_pay, np
 from lsys_kit.budget import counted
@@ -27,7 +27,7 @@ from lsys_kit.notation.model.modules import CLOSING, OPENING
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-IntegerArray: TypeAlias = "NDArray[Any]"
+IntegerArray: TypeAlias = "NDArray[np.integer]"
 Sides: TypeAlias = tuple[IntegerArray, IntegerArray]
 ORDINARY, OPENS, CLOSES, PASSED, SKIPPED = range(5)
 """The role of a module in contexts: `PASSED` is ignored but has contexts of its own, `SKIPPED` is ignored and has none."""

@@ -13,7 +13,7 @@ from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import chain, repeat
-from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Protocol, TypeAlias, TypeVar
 
 from lsys_kit.arrays import arrays_pay, np
 from lsys_kit.budget import check_budget, check_limit, counted
@@ -112,7 +112,7 @@ class ByteTable:
         return array("B", word)
 
 
-def expand(states: States, present: Sequence[Collection[int]]) -> array[int] | NDArray[Any]:
+def expand(states: States, present: Sequence[Collection[int]]) -> array[int] | NDArray[np.integer]:
     """The word of the last step, as an array of states."""
     sizes = _sizes(states, present)
     pieces = _pieces(states, present, sizes)

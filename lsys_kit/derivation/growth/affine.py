@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from itertools import islice
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, TypeVar
 
 from lsys_kit.budget import check_budget
 from lsys_kit.derivation.core.chance import splitmix64
@@ -50,6 +50,7 @@ Combination: TypeAlias = dict[Sum, Coefficient]
 """A sum of multiples of such sums."""
 MOST_SUMS, MOST_CASES = 200, 8
 """So many sums at most: their recurrence is found from twice as many steps; so many formulas, each for values of letters."""
+_Name = TypeVar("_Name")
 
 
 class NotAffine(ModelValueError):
@@ -123,7 +124,7 @@ class AffineSums:
         formula, divisors = found
         if self.letters:
             formula = sympy.powsimp(sympy.factor(sympy.together(formula)), combine="base", force=True)
-        unless, others = list[sympy.Basic](), dict[frozenset[Any], Case]()
+        unless, others = list[sympy.Basic](), dict[frozenset[object], Case]()
         for divisor in divisors:
             check_budget()
             letter, root = _root(divisor, self.letters)
@@ -557,7 +558,7 @@ def _merged(
     rows: Mapping[Sum, Combination], start: Combination, asked: Combination
 ) -> tuple[dict[Sum, Combination], Combination]:
     """The rows and the beginning, where sums that have the same part in what is asked for, now and ever after, are one."""
-    classes: dict[Sum, Any] = {key: asked.get(key, 0) for key in rows}
+    classes: dict[Sum, object] = {key: asked.get(key, 0) for key in rows}
     many, own = 0, dict[Sum, int]()
     while many < len(set(classes.values())):
         numbers = {each: number for number, each in enumerate(dict.fromkeys(classes.values()))}
@@ -568,9 +569,9 @@ def _merged(
     return {key: _gathered(rows[key], into) for key in names.values()}, _gathered(start, into)
 
 
-def _gathered(row: Combination, into: Mapping[Sum, Any]) -> dict[Any, Coefficient]:
+def _gathered(row: Combination, into: Mapping[Sum, _Name]) -> dict[_Name, Coefficient]:
     """A sum of multiples where several sums have the same name; those that have none are left out."""
-    found: dict[Any, Coefficient] = {}
+    found: dict[_Name, Coefficient] = {}
     for key, factor in row.items():
         if key in into:
             name = into[key]

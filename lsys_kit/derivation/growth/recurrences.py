@@ -11,7 +11,7 @@ from fractions import Fraction
 from functools import reduce
 from itertools import zip_longest
 from math import factorial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from lsys_kit.budget import check_budget, counted
 from lsys_kit.notation.model.arithmetic import is_symbolic
@@ -19,11 +19,13 @@ from lsys_kit.notation.model.arithmetic import is_symbolic
 if TYPE_CHECKING:
     import sympy
 
+Element: TypeAlias = Any
+"""An element of a field: a whole or rational number, or one of sympy's fields."""
 MERSENNE = (61, 127, 521, 1279, 4423)
 """2 to each of these, less 1, is a prime number: a rule is found modulo one of them, and then proved in whole numbers."""
 
 
-def shortest_rule(terms: Sequence[Any]) -> tuple[Any, ...]:
+def shortest_rule(terms: Sequence[Element]) -> tuple[Element, ...]:
     """The shortest rule that a sequence obeys from its first terms on, which are as many as the rule has coefficients.
 
     The terms are whole numbers, or elements of any field, as are the coefficients.
@@ -56,13 +58,13 @@ def _obeyed(rule: Sequence[int], terms: Sequence[int]) -> bool:
     return all(terms[t] == sum(c * terms[t - k] for k, c in used) for t in counted(range(len(rule), len(terms)), 1))
 
 
-def _massey(terms: Sequence[int], prime: int) -> list[Any]:
+def _massey(terms: Sequence[int], prime: int) -> list[Element]:
     """The shortest rule, modulo a prime number; in rational numbers where that is 0."""
-    rule: list[Any] = []
-    best: list[Any] = []
+    rule: list[Element] = []
+    best: list[Element] = []
     best_end, best_error = -1, 1
     for t, term in enumerate(counted(terms, 1)):
-        error: Any = term - sum(c * terms[t - k] for k, c in enumerate(rule, 1) if c)
+        error: Element = term - sum(c * terms[t - k] for k, c in enumerate(rule, 1) if c)
         error = error % prime if prime else Fraction(error) if isinstance(error, int) else error
         if not error:
             continue
@@ -78,7 +80,7 @@ def _massey(terms: Sequence[int], prime: int) -> list[Any]:
     return rule
 
 
-def remainder_of_power(rule: Sequence[Any], exponent: int) -> list[Any]:
+def remainder_of_power(rule: Sequence[Element], exponent: int) -> list[Element]:
     """What x^exponent leaves when divided by a rule's polynomial, from the constant term up (Fiduccia 1985).
 
     So term number `exponent` of any sequence that obeys the rule is a sum of multiples of its first terms.

@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from PIL.Image import Image
     from PIL.ImageDraw import ImageDraw
 
-Coordinates: TypeAlias = "NDArray[np.floating[Any]]"
+Coordinates: TypeAlias = "NDArray[np.floating]"
 Grid: TypeAlias = "NDArray[np.int32]"
 Marks: TypeAlias = "NDArray[Any]"
 """Truths or numbers, one for each point of a grid."""

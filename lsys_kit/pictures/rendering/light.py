@@ -49,7 +49,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 Keys: TypeAlias = "NDArray[np.uint64]"
-Reals: TypeAlias = "NDArray[np.floating[Any]]"
+Reals: TypeAlias = "NDArray[np.floating]"
 """In single precision where there may be many."""
 
 # --- the nearest triangle at each sample ---
