@@ -152,7 +152,11 @@ def others_nearly(text: str, answer: str) -> list[tuple[str, str]]:
     ([('0.328', '0.382')], [])
     """
     said = numbers_in(text)
-    missing = [each for each, number in numbers_in(answer).items() if number not in said.values()]
+    missing = [
+        each if each[0].isdecimal() else str(number)
+        for each, number in numbers_in(answer).items()
+        if number not in said.values()
+    ]
     return [(given, right) for right in missing for given in said if nearly(given, right)]
 
 

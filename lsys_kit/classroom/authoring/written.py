@@ -65,12 +65,12 @@ def without_marks(text: str) -> str:
 
 
 _NUMBERS = re.compile(r"(?<![\w.,])\d{1,3}(?:,\d{3})++(?![\d.])|(?<![\w.,])\d++(?:[./]\d++)?")
-_WORDS = {
-    word: number
-    for number, word in enumerate(
-        ["zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve"]
-    )
-}
+_SMALL = (
+    "zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen sixteen seventeen eighteen"
+)
+_TENS = "nineteen twenty thirty forty fifty sixty seventy eighty ninety hundred"
+_WORDS = {word: number for number, word in enumerate(re.split(" ", _SMALL))}
+_WORDS |= {word: 10 * number if number > 1 else 19 for number, word in enumerate(re.split(" ", _TENS), 1)}
 
 
 def numbers_in(text: str) -> dict[str, Fraction]:
@@ -80,7 +80,8 @@ def numbers_in(text: str) -> dict[str, Fraction]:
     {'8': '8', '3,125': '3125', '1/2': '1/2', 'four': '4'}
     """
     digits = {each: number_of(each.replace(",", "")) for each in _NUMBERS.findall(text)}
-    words = {each: Fraction(_WORDS[each]) for each in re.findall(r"[a-z]++", text.casefold()) if each in _WORDS}
+    spelled = [each.split("-") for each in re.findall(r"[a-z]++(?:-[a-z]++)?", text.casefold())]
+    words = {"-".join(each): Fraction(sum(_WORDS[part] for part in each)) for each in spelled if {*each} <= _WORDS.keys()}
     return {text: number for text, number in digits.items() if number is not None} | words
 
 
