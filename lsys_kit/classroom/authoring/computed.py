@@ -31,10 +31,11 @@ _STEP_IS = re.compile(
 )
 _RULE = re.compile(r"`([^\s`()>:]{1,8}) -> ([^`()\n:]{0,80})`")
 _ROW = re.compile(r"^\| *(\d{1,3}) *\| *`([^`|\n]{1,300})` *\|", re.MULTILINE)
+_LETTERS = re.compile(r"[^\W\d]++")
 _HEADER = re.compile(r"^\| *step *\| *word *\|", re.MULTILINE | re.IGNORECASE)
 _DECIMALS = re.compile(r"\.(\d{1,30})$|(?:,|(?<![1-9])0,)(\d{1,2}|\d{4,30})$|(?<!\d)0,(\d{3})$")
 MOST_CHARACTERS, MOST_CHOICES = 120, 64
-"""Longer calculations are not looked at, nor tables whose rules leave more choices."""
+"""Longer calculations are not looked at, nor more choices of rules."""
 
 
 def calculation_findings(written: Written) -> Iterator[Finding]:
@@ -61,7 +62,10 @@ def wrong_calculations(text: str) -> Iterator[tuple[str, str, str, str, int]]:
                 begin = 0
                 for end in (*(found.start() for found in _BREAK.finditer(run[0])), len(run[0])):
                     part, at = run[0][begin:end], run.start() + begin
-                    before, behind = "" if begin else spelled[:at], spelled[run.start() + end :]
+                    before, behind = (
+                        "" if begin else spelled[max(0, at - 12) : at],
+                        spelled[run.start() + end : run.start() + end + 3],
+                    )
                     if not begin and not before.strip():  # a calculation may go on from the line above
                         before = re.sub(r"[^+−·×*/^=≈-]", "", text[max(0, line.start() - 9) : line.start()].rstrip()[-1:])
                     yield from ((*found, line.start()) for found in _wrong_in(part, before, behind))
@@ -74,9 +78,9 @@ def _wrong_in(part: str, before: str, behind: str) -> Iterator[tuple[str, str, s
         return
     texts = [side.strip() for side in sides[::2]]
     blank = sides[0][:1] == " "
-    if _NOT_BEFORE.search(before[-12:] + " " * blank):
+    if _NOT_BEFORE.search(before + " " * blank):
         texts[0] = ""
-    if _NOT_BEHIND.match(sides[-1][len(sides[-1].rstrip()) :] + behind[:3]):
+    if _NOT_BEHIND.match(sides[-1][len(sides[-1].rstrip()) :] + behind):
         texts[-1] = ""
     for (left, right), sign in zip(pairwise(texts), sides[1::2], strict=True):
         if left and right and not (_is_number(left) and _is_number(right)):
@@ -144,13 +148,13 @@ def _other_word(written: Written, cell: Cell, step: int, id: str | None, word: s
     for system in reversed([each for each in (before or shown) if isinstance(each, LSystem)]):
         try:
             with limits(**BUDGET):
-                made = _bare(str(derive(system, step)[-1]))
+                made, later = map(str, derive(system, step + 1)[-2:])
         except LSystemError:
             return ""
-        if made == wanted or _is_random(system) or system.constants:
+        if _bare(made) == wanted or _is_random(system) or system.constants:
             return ""
-        if not found and {*re.split(r"[\W\d]+", word)} <= {*re.split(r"[\W\d]+", str(derive(system, step + 1)))} | {""}:
-            found = str(derive(system, step)[-1])
+        if not found and {*_LETTERS.findall(word)} <= {*_LETTERS.findall(f"{made} {later}")}:
+            found = made
     return found
 
 
@@ -177,20 +181,18 @@ def _rows(written: Written, section: Section, cell: Cell, text: str) -> Iterator
     table = text[header.start() :].partition("\n\n")[0]
     rows = [(int(found[1]), found[2], found[0]) for found in _ROW.finditer(table)]
     pairs = [(old, new) for old, new in pairwise(rows) if new[0] == old[0] + 1]
-    wrong = [(old, new) for old, new in pairs if not _follows(old[1], new[1], rules)]
-    if 2 * len(wrong) <= len(pairs):
-        for old, new in wrong:
+    wrong = [(old, new) for old, new in pairs if _bare(new[1]) not in _next(old[1], rules)]
+    for old, new in wrong:
+        if 2 * len(wrong) <= len(pairs) or old[1] in rules:
             at = cell.line_of(new[2])
             yield finding(written.at(cell, at), "row", step=new[0], word=new[1][:60], before=old[1][:60])
 
 
-def _follows(old: str, new: str, rules: Mapping[str, Sequence[str]]) -> bool:
-    """Whether a word follows from another, when each symbol has one of its rules."""
+def _next(old: str, rules: Mapping[str, Sequence[str]]) -> set[str]:
+    """The words that follow from a word, when each symbol has one of its rules, without blanks."""
     spaced = " " in old or old in rules
     symbols = old.split() if spaced else [*old]
     known = list(dict.fromkeys(each for each in symbols if each in rules))
-    for choice in islice(product(*(dict.fromkeys(rules[each]) for each in known)), MOST_CHOICES):
-        becomes = dict(zip(known, choice, strict=True))
-        if _bare("".join(becomes.get(each, each) for each in symbols)) == _bare(new):
-            return True
-    return False
+    choices = islice(product(*(dict.fromkeys(rules[each]) for each in known)), MOST_CHOICES)
+    becomes = (dict(zip(known, choice, strict=True)) for choice in choices)
+    return {_bare("".join(each.get(symbol, symbol) for symbol in symbols)) for each in becomes}

@@ -143,8 +143,11 @@ def slider_findings(written: Written) -> Iterator[Finding]:
             elif name not in _OTHERS and shown and all(each.system for each in shown):
                 known = f"Sliders are: {', '.join(sorted({*names, 'step', 'angle'}))}."
                 yield finding(where, "no_slider", name=name, hint=suggestion(name, {*names, *_OTHERS}) or known)
+    together: dict[tuple[str, str], list[Fraction]] = {}
     for name, number, where in _declared(written, names):
-        yield from _unreached(shown, name, [number], where)
+        together.setdefault((name, where), []).append(number)
+    for (name, where), values in together.items():
+        yield from _unreached(shown, name, values, where)
 
 
 def _moves(section: Section) -> Iterator[tuple[Cell, str, list[Fraction], str]]:
@@ -169,17 +172,18 @@ def _declared(written: Written, names: set[str]) -> Iterator[tuple[str, Fraction
 
 
 def _unreached(panels: Sequence[Panel], name: str, values: Sequence[Fraction], where: str) -> Iterator[Finding]:
-    """A slider of a constant that offers some value in none of the panels."""
+    """A slider of a constant that offers some values in none of the panels."""
     offered = [[Fraction(number) for number in each.offered[name]] for each in panels if name in each.offered]
-    for value in values:
-        if offered and not any(value in each for each in offered):
-            there = offered[0]
-            low, high = min(*there, value), max(*there, value)
-            step = _common([each - low for each in (*there, value) if each > low])
-            near = min(there, key=lambda each: abs(each - value))
-            said = {"value": value, "low": there[0], "high": there[-1], "near": near}
-            said |= {"from_": low, "to": high, "by": step}
-            yield finding(where, "unreached", name=name, **{key: number_text(normalised(each)) for key, each in said.items()})
+    missing = sorted({value for value in values if offered and not any(value in each for each in offered)})
+    if missing:
+        there = offered[0]
+        low, high = min(*there, *missing), max(*there, *missing)
+        step = _common([each - low for each in (*there, *missing) if each > low])
+        near = min(there, key=lambda each: abs(each - missing[0]))
+        said = {"low": there[0], "high": there[-1], "near": near, "from_": low, "to": high, "by": step}
+        texts = {key: number_text(normalised(each)) for key, each in said.items()}
+        value = " and ".join(number_text(normalised(each)) for each in missing)
+        yield finding(where, "unreached", name=name, value=value, **texts)
 
 
 def _common(numbers: Sequence[Fraction]) -> Fraction:

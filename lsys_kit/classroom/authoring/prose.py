@@ -28,8 +28,8 @@ _HOLDS = {
     "panel": re.compile(r"\b(?:explore|compare)\("),
     "table": re.compile(r"^\|[ :|-]{3,}$|\bworksheet\(|\btable\b|summary\(|continuity\(|\bcounts?\b", re.MULTILINE),
     "curve": re.compile(r"\bplot\(|ensemble\(|\bcounts\b|\bgrowth|explore\(|vote\("),
-    "picture": re.compile(r"!\[|<img|<svg|^\w*[^\n]*\(", re.MULTILINE),
-    "drawing": re.compile(r"!\[|<img|<svg|^\w*[^\n]*\(", re.MULTILINE),
+    "picture": re.compile(r"!\[|<img|<svg|\w\("),
+    "drawing": re.compile(r"!\[|<img|<svg|\w\("),
 }
 _TEMPLATE = "**Advice.**"
 MOST_LINKS = 1_000

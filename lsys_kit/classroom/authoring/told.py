@@ -119,8 +119,10 @@ def contradiction_findings(written: Written) -> Iterator[Finding]:
         each = predicted.get(written.question_of(call) or "") if call.function == "predict" else None
         table = tables.get(call.text(1) or "") if call.function == "worksheet" else None
         if each:
-            yield from [*_otherwise(written, each, texts, elsewhere)] or _other_count(written, each, texts)
+            yield from [*_otherwise(written, each.answer, texts, elsewhere)] or _other_count(written, each, texts)
         if table:
+            answers = " ; ".join(prose_text(blank.right[0]) for _, _, blank in table.blanks)
+            yield from _otherwise(written, answers, texts, {**elsewhere, 0: {*numbers_in(written.declared_text).values()}})
             yield from _of_otherwise(written, table, texts)
 
 
@@ -135,13 +137,13 @@ def _behind(written: Written, call: Call) -> Iterator[Cell]:
 
 
 def _otherwise(
-    written: Written, each: Asked, texts: Sequence[Cell], elsewhere: Mapping[int, set[Fraction]]
+    written: Written, answer: str, texts: Sequence[Cell], elsewhere: Mapping[int, set[Fraction]]
 ) -> Iterator[Finding]:
-    """A number nearly that of the answer behind a question, where the answer is not said."""
-    for given, right in others_nearly("\n".join(cell.source for cell in texts), each.answer):
+    """A number nearly that of an answer, behind its question, where the answer is not said."""
+    for given, right in others_nearly("\n".join(cell.source for cell in texts), answer):
         cell = next(cell for cell in texts if given in cell.source)
         known = set[Fraction]().union(*(found for at, found in elsewhere.items() if at != cell.number))
-        if numbers_in(given)[given] not in known:
+        if not {*numbers_in(given).values()} <= known:
             yield finding(written.at(cell, cell.line_of(given)), "otherwise", given=given, right=right)
 
 
