@@ -486,7 +486,7 @@ def test_the_range_that_is_proposed_has_the_value(ferns: Path, value: str) -> No
     change_cell(ferns, "B -> F[+B]B", "B -> F(long)[+B]B")
     change_cell(ferns, "Move the slider **step**", f"Put **long** to {value}. Move the slider **step**")
     said = next(str(each) for each in findings_in(ferns, run=False) if "slider goes" in str(each))
-    assert f'"long" is to be {value}, ' in said
+    assert f'"long" is to be {value}, ' in said, said
     declared = said.partition("that has it: ")[2].removesuffix(".")
     assert Fraction(value) in slider_values(slider_ranges(read(f"{declared}\naxiom: F(long)"), {})["long"])
 

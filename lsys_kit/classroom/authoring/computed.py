@@ -62,10 +62,8 @@ def wrong_calculations(text: str) -> Iterator[tuple[str, str, str, str, int]]:
                 begin = 0
                 for end in (*(found.start() for found in _BREAK.finditer(run[0])), len(run[0])):
                     part, at = run[0][begin:end], run.start() + begin
-                    before, behind = (
-                        "" if begin else spelled[max(0, at - 12) : at],
-                        spelled[run.start() + end : run.start() + end + 3],
-                    )
+                    last = run.start() + end
+                    before, behind = "" if begin else spelled[max(0, at - 12) : at], spelled[last : last + 3]
                     if not begin and not before.strip():  # a calculation may go on from the line above
                         before = re.sub(r"[^+−·×*/^=≈-]", "", text[max(0, line.start() - 9) : line.start()].rstrip()[-1:])
                     yield from ((*found, line.start()) for found in _wrong_in(part, before, behind))
