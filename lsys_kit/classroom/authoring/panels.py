@@ -35,6 +35,8 @@ _ASKED = (
 _SPAN = re.compile(r"`([^`\n]{1,200})`")
 _RULE = re.compile(r"(?<![^\s`\"'])[^\s`\"']{1,12} -> [^`\n\"'\\]{0,200}[^`\n\"'\\\s]")
 _IDS = re.compile(r"[A-Z]{1,2}\d{1,3}[a-z]?")
+FEWEST_LISTED = 3
+"""So many rules in a text are those of a system."""
 _OTHERS = frozenset({"step", "angle", "seed", "around", "above", "command", "unfolding"})
 """Sliders of panels that belong to no constant."""
 
@@ -122,9 +124,23 @@ def rule_findings(written: Written) -> Iterator[Finding]:
     everywhere = "\n".join([*(cell.source for cell in texts), written.declared_text])
     in_code = {rule: cell for cell in reversed(written.cells) if cell.is_code for rule in _RULE.findall(cell.source)}
     for rule, cell in in_code.items():
-        near = [each for each in said if len(each) == len(rule) and sum(map(ne, each, rule)) == 1]
+        near = [each for each in said if _one_sign(each, rule)]
         if near and rule not in everywhere:
             yield finding(written.at(cell, cell.line_of(rule)), "rule", rule=rule[:80], said=near[0][:80])
+    for cell in texts:
+        listed = {rule for span in _SPAN.findall(cell.source) for rule in _RULE.findall(span)}
+        for code in written.cells if len(listed) >= FEWEST_LISTED else ():
+            there = {*_RULE.findall(code.source)} if code.is_code else set()
+            other = [(one, two) for one in listed - there for two in there - listed if _one_sign(one, two)]
+            if len(listed - there) == len(other) == 1 and other[0][0] not in in_code:
+                rule, said = other[0]
+                yield finding(
+                    written.at(cell, cell.line_of(rule)), "listed", rule=rule[:80], said=said[:80], number=code.number
+                )
+
+
+def _one_sign(one: str, two: str) -> bool:
+    return len(one) == len(two) and sum(map(ne, one, two)) == 1
 
 
 def slider_findings(written: Written) -> Iterator[Finding]:
