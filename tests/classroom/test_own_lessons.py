@@ -480,6 +480,14 @@ def test_a_kernel_that_dies_costs_no_other_finding(ferns: Path) -> None:
     assert any("leads nowhere" in each for each in found), found
 
 
+@pytest.mark.parametrize(("last", "found"), [("10", False), ("12", True), ("10-15", False), ("15 min", True)])
+def test_minutes_are_added_up_wherever_their_column_is(ferns: Path, last: str, found: bool) -> None:
+    text = (ferns / TEACHER).read_text("utf-8")
+    rows = f"| part | time |\n|---|---:|\n| vote | 5 min |\n| hands | 25 |\n| the rest | {last} |\n| **Total** | 40 |\n"
+    (ferns / TEACHER).write_text(text.replace("40 minutes: mystery", f"{rows}\nIt begins"), "utf-8")
+    assert any("minutes together" in str(each) for each in findings_in(ferns, run=False)) is found
+
+
 def test_a_list_of_rules_that_is_not_the_systems_is_found(ferns: Path) -> None:
     change_cell(ferns, "B -> F[+B]B'''", "B -> F[+C]B\nC -> DB\nD -> F'''")
     change_cell(ferns, "**Look.** If", "The rules are `B -> F[+C]B`, `C -> DB` and `D -> B`. If")

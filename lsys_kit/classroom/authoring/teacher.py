@@ -12,8 +12,9 @@ from lsys_kit.classroom.lessons.entries import is_right, number_of
 from lsys_kit.classroom.lessons.lesson import LETTERS, Blank, Table
 from lsys_kit.classroom.lessons.widget import prose_text
 
-_IN_A_ROW = re.compile(r"^\| *(\d{1,4}) *\|", re.MULTILINE)
-_MINUTES_ABOVE = re.compile(r"^\| *(?:minutes|min\.?|time) *\|", re.MULTILINE | re.IGNORECASE)
+_TIME = re.compile(r"minutes|min\.?|time|duration", re.IGNORECASE)
+_OF_TIME = re.compile(r"(\d{1,4})(?: ?(?:minutes|minute|min\.?|'))?")
+_TOTAL = re.compile(r"(?:in )?(?:total|sum|all|together)", re.IGNORECASE)
 
 
 def teacher_findings(written: Written) -> Iterator[Finding]:
@@ -64,8 +65,21 @@ def _minutes(part: str) -> list[int]:
     plan = re.search(r"\b\d{1,4} minutes?: ([^.]{0,600}+)\.", part)
     if plan:
         return [int(each) for each in re.findall(r"(?<![\w.])(\d+)(?=,|$|;| *\()", " ".join(plan[1].split()))]
-    above = _MINUTES_ABOVE.search(part)
-    return [*map(int, _IN_A_ROW.findall(part[above.start() :].partition("\n\n")[0]))] if above else []
+    title, *rows = _rows(part) or [[]]
+    column = next((at for at, each in enumerate(title) if _TIME.fullmatch(each)), None)
+    cells = [
+        cells[column]
+        for cells in rows
+        if column is not None and len(cells) == len(title) and not any(map(_TOTAL.fullmatch, cells))
+    ]
+    found = [_OF_TIME.fullmatch(cell) for cell in cells if cell.strip("-: ")]
+    return [int(each[1]) for each in found if each] if all(found) else []
+
+
+def _rows(text: str) -> list[list[str]]:
+    """The rows of the first table of a text."""
+    lines = [line.strip() for line in text.partition("\n|")[2].partition("\n\n")[0].splitlines()]
+    return [[each.strip(" *") for each in line.strip("|").split("|")] for line in lines]
 
 
 def _table(written: Written, table: Table) -> Iterator[Finding]:
