@@ -340,6 +340,13 @@ MISTAKES: dict[str, tuple[str, str, str, str]] = {
         'rows = [[2, { right = "24" }]]\n\n[[tables]]\nid = "changed"',
         "stands 24, and the system gives 42",
     ),
+    "a number of a symbol that the column names": (
+        TOML,
+        '[[tables]]\nid = "changed"',
+        '[[tables]]\nid = "cells"\ntitle = "Where are the cells of `P2`?"\ncolumns = ["step", "B", "C"]\n'
+        'rows = [[11, { right = "2" }, { right = "2" }]]\n\n[[tables]]\nid = "changed"',
+        'column "C", stands 2, and the system gives 1',
+    ),
     "an explanation": (EXERCISES, "8, 16, 32, 64.", "8, 16, 32, 46.", "The explanation says 46, and the solution is 64"),
     "an objective that is not tested": (EXERCISES, "objective = 1", "objective = 2", "No exercise tests objective 1"),
 }

@@ -160,35 +160,31 @@ def _places(cell: Blank) -> int:
 
 
 def _counted(written: Written, table: Table) -> Iterator[Finding]:
-    """Cells that count a symbol of a system of the catalogue, where the title names both: "living tips `*` of `K8`"."""
-    if table.of:
-        return
+    """Cells that count a symbol of a system that the title names: as in "living tips `*` of `K8`", or as a column is called."""
     named = re.findall(r"`([^`\s]{1,8})`", table.title)
     ids = [each for each in named if re.fullmatch(r"[A-Z]{1,2}\d{1,3}[a-z]?", each)]
     symbols = [each for each in named if each not in ids]
-    if len(ids) != 1 or len(symbols) != 1:
+    if len(ids) != 1 or len(symbols) > 1:
         return
     for row, column, blank in table.blanks:
+        if column == 0 or number_of(blank.right[0]) is None or (table.of and table.of[column].asks):
+            continue
+        title = prose_text(table.columns[column])
         seed = number_of(str(table.rows[row][0])) if table.columns[0] == "seed" else None
-        found = _many(ids[0], symbols[0], step_of(table, row, column), None if seed is None else int(seed))
-        if (
-            found is not None
-            and column
-            and number_of(blank.right[0]) is not None
-            and not is_right(str(found), blank.right, blank.within)
-        ):
-            said = {"table": table.id, "row": row_name(table, row), "column": prose_text(table.columns[column])}
+        found = _many(ids[0], (*symbols, title)[0], step_of(table, row, column), None if seed is None else int(seed))
+        if found is not None and not is_right(str(found), blank.right, blank.within):
+            said = {"table": table.id, "row": row_name(table, row), "column": title}
             yield finding(written.declared_line(f'id = "{table.id}"'), "table", **said, given=blank.right[0], found=str(found))
 
 
 def _many(id: str, symbol: str, step: int | None, seed: int | None) -> int | None:
-    """How many of a symbol a step of a system of the catalogue has; None where its constants are a question of the table."""
+    """How many of a symbol, with any index, a step of a system of the catalogue has; None where it depends on constants."""
     try:
         with limits(**BUDGET):
             system = catalogued(id)
             if step is None or not isinstance(system, LSystem) or slider_ranges(system, {}):
                 return None
-            words = [[str(each.symbol) for each in word] for word in derive(system, step, seed=seed)]
+            words = [[str(each.symbol).partition("_")[0] for each in word] for word in derive(system, step, seed=seed)]
     except LSystemError:
         return None
     return words[-1].count(symbol) if any(symbol in word for word in words) else None
