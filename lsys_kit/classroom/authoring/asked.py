@@ -8,19 +8,23 @@ from fractions import Fraction
 
 from lsys_kit.budget import limits
 from lsys_kit.classroom.authoring.finding import Finding, finding
-from lsys_kit.classroom.authoring.written import Call, Written
-from lsys_kit.classroom.catalogue import entry
+from lsys_kit.classroom.authoring.written import Call, Written, numbers_in
+from lsys_kit.classroom.catalogue import catalogued, entry
 from lsys_kit.classroom.exercises.asked import answer_by, right_history
 from lsys_kit.classroom.exercises.check import BUDGET
-from lsys_kit.classroom.lessons.entries import is_right
-from lsys_kit.classroom.lessons.lesson import LETTERS, Blank, Lesson, Table
+from lsys_kit.classroom.lessons.entries import is_right, number_of
+from lsys_kit.classroom.lessons.lesson import Blank, Lesson, Table
+from lsys_kit.classroom.lessons.rows import step_of
 from lsys_kit.classroom.lessons.slips import exercise_of, row_name
 from lsys_kit.classroom.lessons.vote import drawn
 from lsys_kit.classroom.lessons.widget import prose_text
+from lsys_kit.classroom.panel.controls import slider_ranges
 from lsys_kit.classroom.places import kit_place
+from lsys_kit.derivation.derive import derive
 from lsys_kit.errors import LSystemError, ModelNameError
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.arithmetic import number_text
+from lsys_kit.notation.model.system import LSystem
 
 LONGER = 1.75
 """An option that is so many times as long as each other one is seen to be the right one."""
@@ -84,11 +88,6 @@ def _options(written: Written, lesson: Lesson) -> Iterator[Finding]:
             drawn(lesson.vote.picture)
     except LSystemError as fault:
         yield finding(written.declared_line("picture"), "picture", fault=fault.message, hint=fault.hint or "")
-    page = written.place.notebooks / "teacher" / f"{written.name}.md"
-    if not page.is_file():
-        yield finding(written.declared_at, "no_teacher", name=written.name)
-    elif f"**{LETTERS[right]}**" not in page.read_text("utf-8", errors="replace"):
-        yield finding(f"teacher/{page.name}", "teacher_answer", letter=LETTERS[right])
 
 
 def table_findings(written: Written) -> Iterator[Finding]:
@@ -111,19 +110,11 @@ def table_findings(written: Written) -> Iterator[Finding]:
         where = written.declared_line(f'id = "{table.id}"')
         if table.id not in shown:
             yield finding(where, "table_never", id=table.id, key=written.key)
-        yield from _on_the_teachers_page(written, table)
+        yield from _unrounded(written, table)
+        yield from _counted(written, table)
         for row in range(len(table.rows)):
             for column in range(1, len(table.columns)):
                 yield from _cell(where, table, row, column)
-
-
-def _on_the_teachers_page(written: Written, table: Table) -> Iterator[Finding]:
-    page = written.place.notebooks / "teacher" / f"{written.name}.md"
-    if page.is_file():
-        text = " ".join(page.read_text("utf-8", errors="replace").split())
-        wanted = [table.title, *(blank.right[0] for _, _, blank in table.blanks)]
-        if missing := next((each for each in wanted if " ".join(each.split()) not in text), None):
-            yield finding(f"teacher/{page.name}", "teacher_table", id=table.id, missing=missing[:60])
 
 
 def _cell(where: str, table: Table, row: int, column: int) -> Iterator[Finding]:
@@ -145,6 +136,60 @@ def _cell(where: str, table: Table, row: int, column: int) -> Iterator[Finding]:
         yield finding(where, "table", **said, given=given[0], found=number_text(found))
 
 
+def _unrounded(written: Written, table: Table) -> Iterator[Finding]:
+    """Decimals that have to be met exactly, where others of their column need not."""
+    for column in range(1, len(table.columns)):
+        cells = [(row, each[column]) for row, each in enumerate(table.rows)]
+        blanks = [(row, cell) for row, cell in cells if isinstance(cell, Blank)]
+        near = {_places(cell): cell.within for _, cell in blanks if number_of(cell.within)}
+        for row, cell in blanks:
+            if near and not number_of(cell.within) and _places(cell) >= max(1, min(near)):
+                said = {"table": table.id, "row": row_name(table, row), "column": prose_text(table.columns[column])}
+                yield finding(
+                    written.declared_line(f'id = "{table.id}"'),
+                    "no_within",
+                    **said,
+                    given=cell.right[0],
+                    near=next(iter(near.values())),
+                )
+
+
+def _places(cell: Blank) -> int:
+    """How many decimals the first of the right answers has."""
+    return len(cell.right[0].partition(".")[2]) if number_of(cell.right[0]) is not None else 0
+
+
+def _counted(written: Written, table: Table) -> Iterator[Finding]:
+    """Cells that count a symbol of a system that the title names: as in "living tips `*` of `K8`", or as a column is called."""
+    named = re.findall(r"`([^`\s]{1,8})`", table.title)
+    ids = [each for each in named if re.fullmatch(r"[A-Z]{1,2}\d{1,3}[a-z]?", each)]
+    symbols = [each for each in named if each not in ids]
+    if len(ids) != 1 or len(symbols) > 1:
+        return
+    for row, column, blank in table.blanks:
+        if column == 0 or number_of(blank.right[0]) is None or (table.of and table.of[column].asks):
+            continue
+        title = prose_text(table.columns[column])
+        seed = number_of(str(table.rows[row][0])) if table.columns[0] == "seed" else None
+        found = _many(ids[0], (*symbols, title)[0], step_of(table, row, column), None if seed is None else int(seed))
+        if found is not None and not is_right(str(found), blank.right, blank.within):
+            said = {"table": table.id, "row": row_name(table, row), "column": title}
+            yield finding(written.declared_line(f'id = "{table.id}"'), "table", **said, given=blank.right[0], found=str(found))
+
+
+def _many(id: str, symbol: str, step: int | None, seed: int | None) -> int | None:
+    """How many of a symbol, with any index, a step of a system of the catalogue has; None where it depends on constants."""
+    try:
+        with limits(**BUDGET):
+            system = catalogued(id)
+            if step is None or not isinstance(system, LSystem) or slider_ranges(system, {}):
+                return None
+            words = [[str(each.symbol).partition("_")[0] for each in word] for word in derive(system, step, seed=seed)]
+    except LSystemError:
+        return None
+    return words[-1].count(symbol) if any(symbol in word for word in words) else None
+
+
 def prediction_findings(written: Written) -> Iterator[Finding]:
     """Of predictions: that what is asked and what is declared are the same, and that no code gives an answer away."""
     declared = {each.question for each in written.lesson.predictions} if written.lesson else set()
@@ -158,8 +203,27 @@ def prediction_findings(written: Written) -> Iterator[Finding]:
             yield finding(written.at(call.cell, call.line), "prediction_undeclared", question=question[:80])
         if call.text(1) is not None and not call.cell.folded:
             yield finding(written.at(call.cell, call.line), "unfolded")
+    for each in written.lesson.predictions if written.lesson else ():
+        for right in each.right:
+            if said := _other_number(right, f"{each.answer} {each.question}"):
+                at = written.declared_line(each.question[:40])
+                yield finding(at, "accepted_number", right=right[:60], number=said, answer=each.answer[:60])
+                break
     for question in declared - asked:
         yield finding(written.declared_line(question[:40]), "prediction_never", question=question[:80])
+
+
+def _other_number(right: str, answer: str) -> str:
+    """A number of what is accepted that is none of an answer's, not even rounded or as a percentage."""
+    known = numbers_in(answer)
+    if re.search(r"[\^(]", right):
+        return ""
+    for text, number in numbers_in(right).items():
+        places = len(text.partition(".")[2])
+        near = Fraction(51, 100) / 10**places if places else Fraction(0)
+        if number and not any(abs(number - each * by) <= near for each in known.values() for by in (1, 100, Fraction(1, 100))):
+            return text
+    return ""
 
 
 def plan_findings(written: Written) -> Iterator[Finding]:
@@ -180,10 +244,3 @@ def plan_findings(written: Written) -> Iterator[Finding]:
     if estimate > lesson.minutes:
         counts = {"words": words, "cells": cells, "questions": questions}
         yield finding(written.declared_line("minutes"), "too_much", estimate=estimate, minutes=lesson.minutes, **counts)
-    page = written.place.notebooks / "teacher" / f"{written.name}.md"
-    if page.is_file():
-        part = page.read_text("utf-8", errors="replace").partition("\n## Minutes\n")[2].partition("\n## ")[0]
-        plan = re.search(r"\b\d{1,4} minutes?: ([^.]{0,600}+)\.", part)
-        parts = [int(each) for each in re.findall(r"(?<![\w.])(\d+)(?=,|$|;| *\()", " ".join(plan[1].split()))] if plan else []
-        if parts and sum(parts) != lesson.minutes:
-            yield finding(f"teacher/{page.name}", "teacher_minutes", sum=sum(parts), minutes=lesson.minutes)

@@ -11,12 +11,17 @@ from itertools import islice
 from pathlib import Path
 
 from lsys_kit.classroom.authoring.asked import plan_findings, prediction_findings, table_findings, vote_findings
+from lsys_kit.classroom.authoring.computed import calculation_findings, word_findings
 from lsys_kit.classroom.authoring.finding import Finding, finding
-from lsys_kit.classroom.authoring.prose import head_findings, link_findings, order_findings
+from lsys_kit.classroom.authoring.panels import rule_findings, slider_findings
+from lsys_kit.classroom.authoring.prose import head_findings, link_findings, markup_findings, section_findings, term_findings
 from lsys_kit.classroom.authoring.running import running_findings
+from lsys_kit.classroom.authoring.teacher import teacher_findings
+from lsys_kit.classroom.authoring.told import contradiction_findings, others_nearly, told_findings
 from lsys_kit.classroom.authoring.written import Written
 from lsys_kit.classroom.exercises.declarations import questions_in
 from lsys_kit.classroom.exercises.lint import problems_in
+from lsys_kit.classroom.exercises.registry import kit_questions
 from lsys_kit.classroom.places import MOST_ENTRIES, NAME, NO_LESSONS, Course, course_of
 from lsys_kit.errors import LSystemError
 
@@ -34,7 +39,16 @@ CHECKS: tuple[Callable[[Written], Iterator[Finding]], ...] = (
     plan_findings,
     head_findings,
     link_findings,
-    order_findings,
+    markup_findings,
+    section_findings,
+    told_findings,
+    contradiction_findings,
+    term_findings,
+    rule_findings,
+    slider_findings,
+    calculation_findings,
+    word_findings,
+    teacher_findings,
 )
 """What is looked at without running anything."""
 
@@ -82,7 +96,17 @@ def _of_exercises(course: Course) -> Iterator[Finding]:
     for place in course.places:
         wanted = course.root == place.root or not place.is_kits  # those of the kit are looked at with its own lessons
         for each in problems_in(place.questions) if wanted and any(place.questions.glob("*.toml")) else ():
-            yield Finding(_where(f"exercises/{each.file}", each.line, each.exercise), each.what, each.hint, each.advice)
+            yield Finding(_where(each.file, each.line, each.exercise), each.what, each.hint, each.advice)
+        for source, number, exercise in (
+            (kit_questions() if place.is_kits else questions_in(place.questions)).exercises if wanted else ()
+        ):
+            for given, right in others_nearly(exercise.explanation, exercise.solution) if exercise.kind == "number" else ():
+                yield finding(
+                    _where(source.file, source.line_of(number, "explanation"), exercise.id),
+                    "solution",
+                    given=given,
+                    right=right,
+                )
 
 
 def _repeated_exercises(course: Course) -> Iterator[Finding]:
@@ -98,4 +122,4 @@ def _repeated_exercises(course: Course) -> Iterator[Finding]:
 
 
 def _where(file: str, line: int, exercise: str) -> str:
-    return f"{file}, line {line}" + f", exercise {exercise}" * bool(exercise)
+    return f"exercises/{file}, line {line}" + f", exercise {exercise}" * bool(exercise)

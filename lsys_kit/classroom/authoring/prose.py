@@ -1,4 +1,4 @@
-"""Checks of the text: what is declared stands in it, links lead somewhere, and nothing is told before it is asked."""
+"""Checks of the text: what is declared stands in it, links and references lead somewhere, words are explained."""
 
 from __future__ import annotations
 
@@ -9,10 +9,9 @@ from pathlib import Path
 from urllib.parse import unquote
 
 from lsys_kit.classroom.authoring.finding import Finding, finding
+from lsys_kit.classroom.authoring.told import plain
 from lsys_kit.classroom.authoring.written import Cell, Written
 from lsys_kit.classroom.course import course_files
-from lsys_kit.classroom.lessons.entries import number_of
-from lsys_kit.classroom.lessons.widget import prose_text
 from lsys_kit.notation.analysis.checks import suggestion
 
 _LINK = re.compile(r"(!?)\[([^\[\]\n]{0,500}+)\]\(\s*+<?([^)\[\s>]{1,500}+)>?[^)\[\n]{0,200}+\)")
@@ -20,11 +19,21 @@ _IMAGE = re.compile(r"<img\b(?![^<>]{0,1000}\balt\s*+=\s*+[\"'][^\"'])[^<>]{0,10
 _ELSEWHERE = re.compile(r"[a-z][a-z+.-]*:", re.IGNORECASE)
 _HEADING = re.compile(r"^#{1,6} ++(.*)$", re.MULTILINE)
 _BOLD = re.compile(r"\*\*([a-z][a-z-]{1,40}(?: [a-z-]{1,40})?)\*\*(?!\*)")
+_NAMED = re.compile(r"(?:\b(?:called|call|calls|named)(?: \w+){0,4}|, the|\(the) $")
+"""What stands before a word in bold that is explained there."""
+_DETAILS = re.compile(r"<(/?)details\b", re.IGNORECASE)
+_UNFINISHED = re.compile(r"\b(?:TODO|FIXME|TBD|XXX|[Ll]orem ipsum)\b")
+_REFERRED = re.compile(r"\b(panel|table|curve|picture|drawing|panels|tables|curves)s? (?:of|in) section (\d{1,3})\b(?! of )")
+_HOLDS = {
+    "panel": re.compile(r"\b(?:explore|compare)\("),
+    "table": re.compile(r"^\|[ :|-]{3,}$|\bworksheet\(|\btable\b|summary\(|continuity\(|\bcounts?\b", re.MULTILINE),
+    "curve": re.compile(r"\bplot\(|ensemble\(|\bcounts\b|\bgrowth|explore\(|vote\("),
+    "picture": re.compile(r"!\[|<img|<svg|\w\("),
+    "drawing": re.compile(r"!\[|<img|<svg|\w\("),
+}
 _TEMPLATE = "**Advice.**"
 MOST_LINKS = 1_000
 """So many links of a cell are looked at, and so many pictures."""
-LEAST_DIGITS, LEAST_LETTERS = 3, 12
-"""Answers of so many characters are looked for on the page; shorter ones stand there anyhow."""
 GLOSSARY = frozenset(
     {
         "alphabet",
@@ -71,18 +80,14 @@ def head_findings(written: Written) -> Iterator[Finding]:
     lesson = written.lesson
     if lesson is None:
         return
-    text = _plain(" ".join(cell.source for cell in written.cells if not cell.is_code))
+    text = plain(" ".join(cell.source for cell in written.cells if not cell.is_code))
     said = {"title": [lesson.title], "question": [lesson.question], "number of minutes": [f"{lesson.minutes} minutes"]}
     said |= {"objective": [*lesson.objectives], "summary": [lesson.summary]}
     for what, texts in said.items():
         for each in texts:
-            if _plain(each) not in text:
-                at = written.declared_line(each[:40])
+            if plain(each) not in text:
+                at = written.declared_line("minutes" if what == "number of minutes" else each[:40])
                 yield finding(at, "missing_text", what=what, text=each[:80], file=written.declared_at)
-
-
-def _plain(text: str) -> str:
-    return " ".join(re.sub(r"[*`_]", "", text).casefold().split())
 
 
 def link_findings(written: Written) -> Iterator[Finding]:
@@ -91,7 +96,7 @@ def link_findings(written: Written) -> Iterator[Finding]:
     for cell in written.cells:
         if cell.is_code:
             continue
-        text = re.sub(r"`[^`\n]*`", lambda found: " " * len(found[0]), cell.source)
+        text = without_code(cell.source)
         for found in islice(_LINK.finditer(text), MOST_LINKS):
             where, address = written.at(cell, text[: found.start()].count("\n") + 1), found[3]
             if found[1] and not found[2].strip():
@@ -112,6 +117,11 @@ def link_findings(written: Written) -> Iterator[Finding]:
             yield finding(written.at(cell, cell.source[: image.start()].count("\n") + 1), "no_alt")
 
 
+def without_code(text: str) -> str:
+    """A text with blanks in place of what stands in it as code."""
+    return re.sub(r"`[^`\n]*`", lambda found: " " * len(found[0]), text)
+
+
 def _anchor(heading: str) -> str:
     return re.sub(r"[*`]|<[^<>]{0,200}>", "", heading.strip().rstrip("#")).strip().replace(" ", "-")
 
@@ -129,55 +139,64 @@ def _is_there(written: Written, file: str) -> bool:
     return target in names or (written.place.is_kits and target in course_files())
 
 
-def order_findings(written: Written) -> Iterator[Finding]:
-    """Of the order: answers that stand before their questions, and words that are used before they are explained."""
-    asked: dict[str, Cell] = {}
-    for call in written.calls:
-        question = written.question_of(call) if call.function == "predict" else None
-        if question:
-            asked.setdefault(question, call.cell)
-    first = next((call.cell for call in written.calls if call.function == "vote"), None)
-    lesson = written.lesson
-    for each in lesson.predictions if lesson else ():
-        if each.question in asked:
-            for answer in dict.fromkeys([each.answer, *each.right]):
-                yield from _told(written, answer, asked[each.question], each.question)
-    if lesson and lesson.vote and first:
-        reply = _plain(next(option.reply for option in lesson.vote.options if option.right))
-        for cell in written.cells[: first.number]:
-            if len(reply) > 20 and reply in _plain(cell.seen):
-                yield finding(written.at(cell), "told_vote")
-    yield from _terms(written)
+def markup_findings(written: Written) -> Iterator[Finding]:
+    """Of what is folded and never ends, so that the next part is swallowed; and of what is unfinished."""
+    for cell in written.cells:
+        if cell.is_code:
+            continue
+        text = without_code(cell.source)
+        opened, open_at = 0, 0
+        for found in islice(_DETAILS.finditer(text), MOST_LINKS):
+            opened, open_at = opened + (-1 if found[1] else 1), found.start()
+            if opened < 0:
+                break
+        if opened:
+            where = written.at(cell, cell.source[:open_at].count("\n") + 1)
+            yield finding(
+                where,
+                "details",
+                what="<details>" if opened > 0 else "</details>",
+                other="</details>" if opened > 0 else "<details>",
+            )
+        if unfinished := _UNFINISHED.search(text):
+            yield finding(written.at(cell, cell.line_of(unfinished[0])), "unfinished", word=unfinished[0])
 
 
-def _told(written: Written, answer: str, asked: Cell, question: str) -> Iterator[Finding]:
-    """An answer that stands in a text not far before its question, and not in the question itself."""
-    wanted = _plain(prose_text(answer))
-    number = number_of(wanted)
-    if len(wanted) < (LEAST_LETTERS if number is None else LEAST_DIGITS):
+def section_findings(written: Written) -> Iterator[Finding]:
+    """Of references: that a section has the panel, the table, the curve of which a text speaks."""
+    sections = {each.number: each for each in written.sections if each.number is not None}
+    if not sections:
         return
-    if wanted in _plain(prose_text(question)):
-        return
-    pattern = re.compile(rf"(?<![\w.,]){re.escape(wanted)}(?![\w]|[.,]\d)")
-    for cell in written.cells[1 : asked.number - 1]:  # the first announces what will be learnt
-        if not cell.is_code and pattern.search(_plain(cell.seen)):
-            yield finding(written.at(cell), "told", answer=answer[:60])
-            return
+    for cell in written.cells:
+        for what, text in () if cell.is_code else _REFERRED.findall(cell.source):
+            kind, number = what.removesuffix("s"), int(text)
+            section = sections.get(number)
+            held = "" if section is None else "\n".join([section.text, *(each.source for each in section.code)])
+            if not _HOLDS[kind].search(held):
+                others = [
+                    str(each.number)
+                    for each in sections.values()
+                    if _HOLDS[kind].search("\n".join(one.source for one in each.code))
+                ]
+                hint = f"Such a one is in: {', '.join(others)}." if others else ""
+                yield finding(
+                    written.at(cell, cell.line_of(f"section {text}")), "no_such_part", what=kind, number=number, hint=hint
+                )
 
 
-def _terms(written: Written) -> Iterator[Finding]:
+def term_findings(written: Written) -> Iterator[Finding]:
     """Words in bold are explained where they stand so first; before that they may not be used."""
     texts = [cell for cell in written.cells if not cell.is_code]
     explained: dict[str, Cell] = {}
     for cell in texts:
-        for term in _BOLD.findall(cell.seen):
-            if term.replace(" ", "_").removesuffix("s") in GLOSSARY:
-                explained.setdefault(term, cell)
+        for found in _BOLD.finditer(cell.seen):
+            if found[1].replace(" ", "_").removesuffix("s") in GLOSSARY or _NAMED.search(cell.seen[: found.start()][-40:]):
+                explained.setdefault(found[1], cell)
     for term, later in explained.items():
         pattern = re.compile(rf"\b{re.escape(term)}s?\b", re.IGNORECASE)
         for cell in texts[1:]:  # the first announces what will be learnt
             if cell.number >= later.number:
                 break
-            if found := pattern.search(cell.prose):
-                yield finding(written.at(cell, cell.line_of(found[0])), "term", term=term, later=later.number)
+            if used := pattern.search(cell.prose):
+                yield finding(written.at(cell, cell.line_of(used[0])), "term", term=term, later=later.number)
                 break

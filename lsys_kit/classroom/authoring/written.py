@@ -6,14 +6,19 @@ import ast
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
+from lsys_kit.classroom.lessons.entries import number_of
 from lsys_kit.classroom.lessons.lesson import Lesson, declared_in
 from lsys_kit.classroom.places import Course, Place, key_of
 from lsys_kit.classroom.site.build import read_notebook
 
 _FOLDED = re.compile(r"<details>.*?(?:</details>|\Z)", re.DOTALL)
+_HEADING = re.compile(r"^## ++(?:(\d{1,3})\b)?.*$", re.MULTILINE)
+_EMPHASIS = re.compile(r"\*{1,3}+(?=[^\s*])|(?<=[^\s*])\*{1,3}+|^ *+[*-] ", re.MULTILINE)
+BLOT = "¤"
 _CODE = re.compile(r"```.*?(?:```|\Z)|`[^`\n]*`", re.DOTALL)
 
 
@@ -37,9 +42,61 @@ class Cell:
         """The same without code."""
         return _CODE.sub(" ", self.seen)
 
+    @property
+    def plain(self) -> str:
+        """The same with what is folded, its emphasis taken away and code blotted out; as long as the source."""
+        if self.is_code:
+            return ""
+        return without_marks(self.source)
+
     def line_of(self, part: str) -> int:
         """The line in which a part of it begins."""
         return self.source[: max(self.source.find(part), 0)].count("\n") + 1
+
+
+def without_marks(text: str) -> str:
+    """A text of the same length in which emphasis is blanks and code is blotted out.
+
+    >>> without_marks("*q* = `a` 2")
+    ' q  = ¤¤¤ 2'
+    """
+    blotted = _CODE.sub(lambda found: re.sub(r"[^\n]", BLOT, found[0]), text)
+    return _EMPHASIS.sub(lambda found: " " * len(found[0]), blotted)
+
+
+_NUMBERS = re.compile(r"(?<![\w.,])\d{1,3}(?:,\d{3})++(?![\d.])|(?<![\w.,])\d++(?:[./]\d++)?")
+_SMALL = (
+    "zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen sixteen seventeen eighteen"
+)
+_TENS = "nineteen twenty thirty forty fifty sixty seventy eighty ninety hundred"
+_WORDS = {word: number for number, word in enumerate(re.split(" ", _SMALL))}
+_WORDS |= {word: 10 * number if number > 1 else 19 for number, word in enumerate(re.split(" ", _TENS), 1)}
+
+
+def numbers_in(text: str) -> dict[str, Fraction]:
+    """The numbers of a text, in digits or in words, by what is written.
+
+    >>> {text: str(number) for text, number in numbers_in("step 8 has four; 3,125 or 1/2").items()}
+    {'8': '8', '3,125': '3125', '1/2': '1/2', 'four': '4'}
+    """
+    digits = {each: number_of(each.replace(",", "")) for each in _NUMBERS.findall(text)}
+    spelled = [each.split("-") for each in re.findall(r"[a-z]++(?:-[a-z]++)?", text.casefold())]
+    words = {"-".join(each): Fraction(sum(_WORDS[part] for part in each)) for each in spelled if {*each} <= _WORDS.keys()}
+    return {text: number for text, number in digits.items() if number is not None} | words
+
+
+@dataclass(frozen=True)
+class Section:
+    """A section of a notebook: its number, if its heading has one, its texts with their cells, and its cells of code."""
+
+    number: int | None
+    texts: list[tuple[Cell, str]]
+    code: list[Cell]
+
+    @property
+    def text(self) -> str:
+        """All of its texts."""
+        return "\n\n".join(text for _, text in self.texts)
 
 
 @dataclass(frozen=True)
@@ -94,9 +151,46 @@ class Written:
 
     def declared_line(self, part: str) -> str:
         """The line of the declaration in which a text stands first."""
-        text = (self.place.declared / f"{self.name}.toml").read_text("utf-8", errors="replace")
-        found = text.find(part)
-        return self.declared_at + (f", line {text[:found].count(chr(10)) + 1}" if part and found >= 0 else "")
+        found = self.declared_text.find(part)
+        return self.declared_at + (f", line {self.declared_text[:found].count(chr(10)) + 1}" if part and found >= 0 else "")
+
+    @cached_property
+    def declared_text(self) -> str:
+        """The file of its declaration, or nothing."""
+        path = self.place.declared / f"{self.name}.toml"
+        return path.read_text("utf-8", errors="replace") if path.is_file() else ""
+
+    @cached_property
+    def teacher(self) -> str:
+        """The page for the teacher, or nothing."""
+        path = self.place.notebooks / "teacher" / f"{self.name}.md"
+        return path.read_text("utf-8", errors="replace") if path.is_file() else ""
+
+    def teacher_at(self, part: str = "") -> str:
+        """The page for the teacher, and the line in which a text stands first."""
+        found = self.teacher.find(part) if part else -1
+        return f"teacher/{self.name}.md" + (f", line {self.teacher[:found].count(chr(10)) + 1}" if found >= 0 else "")
+
+    def teacher_part(self, title: str) -> str:
+        """What stands below a heading of the teacher's page."""
+        return f"\n{self.teacher}".partition(f"\n## {title}\n")[2].partition("\n## ")[0]
+
+    @cached_property
+    def sections(self) -> tuple[Section, ...]:
+        """What stands before the first heading, and the sections."""
+        found = [Section(None, [], [])]
+        for cell in self.cells:
+            if cell.is_code:
+                found[-1].code.append(cell)
+                continue
+            start = 0
+            for heading in _HEADING.finditer(cell.source):
+                if cell.source[start : heading.start()].strip():
+                    found[-1].texts.append((cell, cell.source[start : heading.start()]))
+                start = heading.start()
+                found.append(Section(int(heading[1]) if heading[1] else None, [], []))
+            found[-1].texts.append((cell, cell.source[start:]))
+        return tuple(found)
 
     @cached_property
     def no_python(self) -> tuple[tuple[Cell, SyntaxError], ...]:
@@ -106,11 +200,16 @@ class Written:
     @cached_property
     def calls(self) -> tuple[Call, ...]:
         """The calls of functions of lessons, in their order."""
-        return tuple(call for cell, tree in self._parsed if isinstance(tree, ast.Module) for call in _calls(cell, tree))
+        return tuple(call for cell, tree in self.trees for call in _calls(cell, tree))
 
     @cached_property
     def _parsed(self) -> tuple[tuple[Cell, ast.Module | SyntaxError], ...]:
         return tuple((cell, _tree(cell.source)) for cell in self.cells if cell.is_code and not cell.source.startswith("%%"))
+
+    @property
+    def trees(self) -> Iterator[tuple[Cell, ast.Module]]:
+        """The cells that are Python, parsed."""
+        return ((cell, tree) for cell, tree in self._parsed if isinstance(tree, ast.Module))
 
     def question_of(self, call: Call) -> str | None:
         """What a call of `predict` asks, if that is a text, or a name that was given to one."""
@@ -119,10 +218,9 @@ class Written:
 
     @cached_property
     def _named(self) -> dict[str, str]:
-        trees = [tree for _, tree in self._parsed if isinstance(tree, ast.Module)]
         return {
             target.id: node.value.value.strip()
-            for tree in trees
+            for _, tree in self.trees
             for node in ast.walk(tree)
             if isinstance(node, ast.Assign) and isinstance(node.value, ast.Constant) and isinstance(node.value.value, str)
             for target in node.targets

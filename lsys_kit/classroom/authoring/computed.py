@@ -1,0 +1,196 @@
+"""Checks of what texts claim, as far as it can be worked out: calculations, words of steps, tables of words."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from fractions import Fraction
+from itertools import islice, pairwise, product
+
+from lsys_kit.budget import limits
+from lsys_kit.classroom.authoring.finding import Finding, finding
+from lsys_kit.classroom.authoring.panels import panels_of
+from lsys_kit.classroom.authoring.written import BLOT, Cell, Section, Written, without_marks
+from lsys_kit.classroom.exercises.check import BUDGET
+from lsys_kit.derivation.derive import derive
+from lsys_kit.errors import LSystemError
+from lsys_kit.notation.model.arithmetic import number_text
+from lsys_kit.notation.model.system import LSystem
+from lsys_kit.notation.read import read_number
+
+_RUN = re.compile(r"[\d(), .+−·×*/^=≈-]++")
+_BREAK = re.compile(r"[,.] |[,.]$")
+_SIGN = re.compile("([=≈])")
+_POWERS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789")
+_RAISED = re.compile("[⁰¹²³⁴⁵⁶⁷⁸⁹]+")
+_SPELLED = str.maketrans({"−": "-", "·": "*", "×": "*"})
+_NOT_BEFORE = re.compile(rf"(?:[\w)\]{BLOT}^_√/+−·×*<>|!:=≈-]|\b(?:[^\W\d_]|ln|log|sin|cos|tan|exp|root) *| [/+−·×*<>=≈-] *)$")
+_NOT_BEHIND = re.compile(rf" ?(?:[{BLOT}^_√%([/+−·×*!=≈…-]|[^\W\d_]\b)|[\w'²³]|\.\.")
+_STEP_IS = re.compile(
+    r"[Ss]tep (\d{1,2})(?: of `(\w{1,8})`)? (?:is|will be|was|reads|becomes)(?: the word)?:? `([^`\n]{1,400})`"
+)
+_RULE = re.compile(r"`([^\s`()>:]{1,8}) -> ([^`()\n:]{0,80})`")
+_ROW = re.compile(r"^\| *(\d{1,3}) *\| *`([^`|\n]{1,300})` *\|", re.MULTILINE)
+_LETTERS = re.compile(r"[^\W\d]++")
+_HEADER = re.compile(r"^\| *step *\| *word *\|", re.MULTILINE | re.IGNORECASE)
+_DECIMALS = re.compile(r"\.(\d{1,30})$|(?:,|(?<![1-9])0,)(\d{1,2}|\d{4,30})$|(?<!\d)0,(\d{3})$")
+MOST_CHARACTERS, MOST_CHOICES = 120, 64
+"""Longer calculations are not looked at, nor more choices of rules."""
+
+
+def calculation_findings(written: Written) -> Iterator[Finding]:
+    """Of calculations in texts: that both sides are the same, up to rounding."""
+    for cell in written.cells:
+        for left, sign, right, value, at in wrong_calculations(cell.plain):
+            line = cell.source[:at].count("\n") + 1
+            yield finding(written.at(cell, line), "calculation", left=left, sign=sign, right=right, value=value)
+    for left, sign, right, value, at in wrong_calculations(without_marks(written.teacher)):
+        where = f"teacher/{written.name}.md, line {written.teacher[:at].count(chr(10)) + 1}"
+        yield finding(where, "calculation", left=left, sign=sign, right=right, value=value)
+
+
+def wrong_calculations(text: str) -> Iterator[tuple[str, str, str, str, int]]:
+    """The calculations in a text that are wrong: both sides, the sign between them, what comes out, and the place.
+
+    >>> [found[:4] for found in wrong_calculations("units: 13 · 2 + 8 · 1 = 36, and 2/3 ≈ 0.67")]
+    [('13 · 2 + 8 · 1', '=', '36', '34')]
+    """
+    for line in re.finditer(r"[^\n]++", text):
+        spelled = _RAISED.sub(lambda found: "^" + found[0].translate(_POWERS), line[0])
+        for run in _RUN.finditer(spelled):
+            if "=" in run[0] or "≈" in run[0]:
+                begin = 0
+                for end in (*(found.start() for found in _BREAK.finditer(run[0])), len(run[0])):
+                    part, at = run[0][begin:end], run.start() + begin
+                    last = run.start() + end
+                    before, behind = "" if begin else spelled[max(0, at - 12) : at], spelled[last : last + 3]
+                    if not begin and not before.strip():  # a calculation may go on from the line above
+                        before = re.sub(r"[^+−·×*/^=≈-]", "", text[max(0, line.start() - 9) : line.start()].rstrip()[-1:])
+                    yield from ((*found, line.start()) for found in _wrong_in(part, before, behind))
+                    begin = end + 1
+
+
+def _wrong_in(part: str, before: str, behind: str) -> Iterator[tuple[str, str, str, str]]:
+    sides = _SIGN.split(part)
+    if len(sides) < 3 or len(part) > MOST_CHARACTERS:
+        return
+    texts = [side.strip() for side in sides[::2]]
+    blank = sides[0][:1] == " "
+    if _NOT_BEFORE.search(before + " " * blank):
+        texts[0] = ""
+    if _NOT_BEHIND.match(sides[-1][len(sides[-1].rstrip()) :] + behind):
+        texts[-1] = ""
+    for (left, right), sign in zip(pairwise(texts), sides[1::2], strict=True):
+        if left and right and not (_is_number(left) and _is_number(right)):
+            values = [(_value(left, marks), _value(right, marks)) for marks in ((",", ""), (".,", ""))]
+            if all(a is None or b is None or not _same(left, a, right, b, sign) for a, b in values) and None not in values[0]:
+                a, b = values[0]
+                yield left, sign, right, _short(b if _is_number(left) else a)
+
+
+def _is_number(text: str) -> bool:
+    return re.fullmatch(r"[−-]?[\d.,]+", text) is not None
+
+
+def _value(side: str, marks: tuple[str, str]) -> Fraction | float | None:
+    """What a side comes to, with a comma or a point between thousands."""
+    if marks[0] == ",":
+        plain = re.sub(r"(?<=\d),(?=\d{3}(?!\d))", "", side)
+    else:
+        plain = re.sub(r"(?<=\d)\.(?=\d{3}(?!\d))", "", side).replace(",", ".")
+    if plain[:1] in "+*·×/^" or plain[:2] in ("- ", "− ") or re.search(r"\d [\d(]|\) ?[\d(]", plain):
+        return None
+    try:
+        with limits(**BUDGET):
+            value = read_number(plain.translate(_SPELLED))
+    except (LSystemError, ArithmeticError):
+        return None
+    return value if isinstance(value, float) else Fraction(value)
+
+
+def _same(left: str, a: Fraction | float, right: str, b: Fraction | float, sign: str) -> bool:
+    rounded = left if _is_number(left) else right if _is_number(right) else ""
+    point = _DECIMALS.search(rounded)
+    places = len(point[point.lastindex or 0]) if point else 0
+    zeros = len(rounded) - len(rounded.rstrip("0")) if sign == "≈" and not places else 0
+    near = 0.0 if sign == "=" and not places else 0.51 * 10.0 ** (zeros - places)
+    if not near and isinstance(a, Fraction) and isinstance(b, Fraction):
+        return a == b
+    return abs(float(a) - float(b)) <= max(near, 1e-9 * abs(float(a)))
+
+
+def _short(value: Fraction | float | None) -> str:
+    if isinstance(value, Fraction) and value.denominator in (1, 2, 4, 5, 8, 10):
+        return number_text(value.numerator if value.denominator == 1 else value)
+    return f"{float(value or 0):.6g}"
+
+
+def word_findings(written: Written) -> Iterator[Finding]:
+    """Of words: that those of a step are the system's, and that each row of a table follows from the row before it."""
+    for section in written.sections:
+        for cell, text in section.texts:
+            for found in _STEP_IS.finditer(text):
+                if said := _other_word(written, cell, int(found[1]), found[2], found[3]):
+                    at = cell.line_of(found[0])
+                    yield finding(written.at(cell, at), "word", step=found[1], word=found[3][:60], found=said[:60])
+            yield from _rows(written, section, cell, text)
+
+
+def _other_word(written: Written, cell: Cell, step: int, id: str | None, word: str) -> str:
+    """What the word of a step is, if no system that is shown so far makes the one that is said."""
+    if "…" in word or "..." in word:
+        return ""
+    wanted, found = _bare(word), ""
+    shown = [each.system for each in panels_of(written) if isinstance(each.system, LSystem)]
+    before = [each.system for each in panels_of(written) if each.cell.number <= cell.number + 1 and each.system in shown]
+    for system in reversed([each for each in (before or shown) if isinstance(each, LSystem)]):
+        try:
+            with limits(**BUDGET):
+                made, later = map(str, derive(system, step + 1)[-2:])
+        except LSystemError:
+            return ""
+        if _bare(made) == wanted or _is_random(system) or system.constants:
+            return ""
+        if not found and {*_LETTERS.findall(word)} <= {*_LETTERS.findall(f"{made} {later}")}:
+            found = made
+    return found
+
+
+def _is_random(system: LSystem) -> bool:
+    return any(rule.probability is not None for rule in system.rules)
+
+
+def _bare(word: str) -> str:
+    return re.sub(r"[\s_]", "", word)
+
+
+def _rows(written: Written, section: Section, cell: Cell, text: str) -> Iterator[Finding]:
+    """Rows of a table of words that do not follow from the rows before them by rules of the section."""
+    header = _HEADER.search(text)
+    rules: dict[str, list[str]] = {}
+    for found in _RULE.finditer(section.text):
+        rules.setdefault(found[1], []).append(found[2])
+    for each in panels_of(written):
+        if each.cell in section.code and isinstance(each.system, LSystem) and not _is_random(each.system):
+            for found in re.finditer(r"^([^\s()<>:]{1,8}) -> ([^():\n]*+)$", str(each.system), re.MULTILINE):
+                rules.setdefault(found[1], []).append(found[2])
+    if not header or not rules:
+        return
+    table = text[header.start() :].partition("\n\n")[0]
+    rows = [(int(found[1]), found[2], found[0]) for found in _ROW.finditer(table)]
+    pairs = [(old, new) for old, new in pairwise(rows) if new[0] == old[0] + 1]
+    wrong = [(old, new) for old, new in pairs if _bare(new[1]) not in _next(old[1], rules)]
+    for old, new in wrong:
+        if 2 * len(wrong) <= len(pairs) or old[1] in rules:
+            at = cell.line_of(new[2])
+            yield finding(written.at(cell, at), "row", step=new[0], word=new[1][:60], before=old[1][:60])
+
+
+def _next(old: str, rules: Mapping[str, Sequence[str]]) -> set[str]:
+    """The words that follow from a word, when each symbol has one of its rules, without blanks."""
+    spaced = " " in old or old in rules
+    symbols = old.split() if spaced else [*old]
+    known = list(dict.fromkeys(each for each in symbols if each in rules))
+    choices = islice(product(*(dict.fromkeys(rules[each]) for each in known)), MOST_CHOICES)
+    becomes = (dict(zip(known, choice, strict=True)) for choice in choices)
+    return {_bare("".join(each.get(symbol, symbol) for symbol in symbols)) for each in becomes}
