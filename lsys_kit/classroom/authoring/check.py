@@ -95,18 +95,14 @@ def _misnamed(course: Course) -> Iterator[Finding]:
 def _of_exercises(course: Course) -> Iterator[Finding]:
     for place in course.places:
         wanted = course.root == place.root or not place.is_kits  # those of the kit are looked at with its own lessons
-        for each in problems_in(place.questions) if wanted and any(place.questions.glob("*.toml")) else ():
-            yield Finding(_where(each.file, each.line, each.exercise), each.what, each.hint, each.advice)
-        for source, number, exercise in (
-            (kit_questions() if place.is_kits else questions_in(place.questions)).exercises if wanted else ()
-        ):
+        if not wanted or not any(place.questions.glob("*.toml")):
+            continue
+        for each in problems_in(place.questions):
+            yield Finding(_where(f"exercises/{each.file}", each.line, each.exercise), each.what, each.hint, each.advice)
+        for source, number, exercise in (kit_questions() if place.is_kits else questions_in(place.questions)).exercises:
+            where = _where(f"exercises/{source.file}", source.line_of(number, "explanation"), exercise.id)
             for given, right in others_nearly(exercise.explanation, exercise.solution) if exercise.kind == "number" else ():
-                yield finding(
-                    _where(source.file, source.line_of(number, "explanation"), exercise.id),
-                    "solution",
-                    given=given,
-                    right=right,
-                )
+                yield finding(where, "solution", given=given, right=right)
 
 
 def _repeated_exercises(course: Course) -> Iterator[Finding]:
@@ -114,12 +110,12 @@ def _repeated_exercises(course: Course) -> Iterator[Finding]:
     known: dict[str, tuple[Path, str]] = {}
     for folder in (place.questions for place in course.places if not place.is_kits and any(place.questions.glob("*.toml"))):
         for source, number, exercise in questions_in(folder).exercises:
-            where = source.problem_of(number, exercise.id, "id", "exercise.taken")
             file = f"{folder.relative_to(course.root)}/{source.file}"
             first, named = known.setdefault(exercise.id, (folder, file))
             if first != folder:
-                yield finding(_where(file, where.line, exercise.id), "exercise_twice", id=exercise.id, file=named)
+                where = _where(file, source.line_of(number, "id"), exercise.id)
+                yield finding(where, "exercise_twice", id=exercise.id, file=named)
 
 
 def _where(file: str, line: int, exercise: str) -> str:
-    return f"exercises/{file}, line {line}" + f", exercise {exercise}" * bool(exercise)
+    return f"{file}, line {line}" + f", exercise {exercise}" * bool(exercise)
