@@ -64,6 +64,14 @@ def test_a_step_at_once_is_the_step_one_by_one(monkeypatch, text, steps, table):
     assert len(one_by_one[-1]) > 100
 
 
+def test_in_long_words_right_neighbours_are_found_past_brackets_too():
+    system = read(FLAT)
+    *_, word = Derivation(SteppingEngine(Stepper(States(system), 0), None)).to(9)
+    found = derive(system, 9)
+    assert len(found[8]) > bulk.FEW_MODULES
+    assert str(found[9]) == str(word)
+
+
 def test_a_rule_that_is_never_drawn_need_not_have_a_value():
     """The engines agree on it: what a rule makes is computed when chance chooses the rule, and not before."""
     system = read("axiom: A(0)\nA(x) -> A(x) B : 1\nA(x) -> C(1/x) : 0")

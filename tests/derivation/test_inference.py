@@ -436,3 +436,9 @@ def test_a_production_that_was_used_perhaps_is_told_so() -> None:
 
 def test_systems_whose_words_never_part_are_told_so() -> None:
     assert "their words are the same up to step 12" in str(infer(["ab", "abab"]))
+
+
+def test_first_words_that_take_too_long_to_refute_are_left_to_the_whole_search(monkeypatch: pytest.MonkeyPatch) -> None:
+    words = list(derive(system("K5"), 4))
+    monkeypatch.setattr("lsys_kit.derivation.inference.infer.MOST_SEEN_FOR_ONE", 0)
+    assert len(infer(words)) == 1
