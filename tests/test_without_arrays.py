@@ -18,7 +18,7 @@ from lsys_kit.derivation.core.traits import traits_of
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.write import write
 from tests.derivation.random_systems import CHANCE, CONTEXT, systems, systems_with
-from tests.without_arrays import MISSING, of_answers, of_text, of_words
+from tests.without_arrays import MISSING, of_answers, of_letters, of_text, of_words
 
 LONG = (
     "axiom: F\nF -> F[+F]F",
@@ -79,6 +79,20 @@ def test_random_systems_are_the_same_without_arrays(asked: Ask, system: LSystem)
 @pytest.mark.parametrize("text", LONG)
 def test_words_of_some_thousand_modules_are_the_same_without_arrays(asked: Ask, text: str) -> None:
     assert asked("words", text, 12) == of_words(text, 12)
+
+
+@pytest.mark.parametrize(
+    ("text", "symbol", "letter"),
+    [
+        ("q = 1/2\naxiom: A(1)\nA(x) -> F(x) A(q*x)", "F", "q"),
+        ("r = 2\naxiom: A(1)\nA(x) -> F(x) [A(x/r)] A(x/r^2)", "F", "r"),
+        ("axiom: A(1)\np = 1/3\nA(x) -> A(x) A(p*x)", "A", "p"),
+    ],
+)
+def test_letters_and_totals_need_no_arrays(asked: Ask, text: str, symbol: str, letter: str) -> None:
+    there = asked("letters", text, symbol, letter)
+    assert not any(map(needs, there))
+    assert there == of_letters(text, symbol, letter)
 
 
 def test_answers_are_replied_to_alike_without_arrays(asked: Ask) -> None:

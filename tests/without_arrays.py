@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any
 
 MISSING = "numpy", "scipy", "matplotlib"
@@ -57,6 +58,17 @@ def of_text(text: str, steps: int) -> Mapping[str, object]:
     }
 
 
+def of_letters(text: str, symbol: str, letter: str) -> list[object]:
+    """The words of a model with a letter in place of a number, and what is said of a total with it."""
+    system, letters = kit.read(text), {letter: letter}
+    total = partial(kit.total, system, symbol, **letters)
+    return [
+        said(lambda: [*map(str, kit.derive(system, 4, **letters))]),
+        said(lambda: [str(total().formula), str(total().limit), repr(total())]),
+        said(lambda: str(total().derivative(letter))),
+    ]
+
+
 def of_words(text: str, steps: int) -> object:
     """The words of a model, and where their modules come from."""
     system = kit.read(text)
@@ -68,7 +80,7 @@ def of_answers(exercise: str, answers: list[str]) -> list[object]:
     return [said(lambda answer=answer: [float(v := kit.check(exercise, answer)), str(v)]) for answer in answers]
 
 
-ACTS: Mapping[str, Callable[..., Any]] = {"text": of_text, "words": of_words, "answers": of_answers}
+ACTS: Mapping[str, Callable[..., Any]] = {"text": of_text, "words": of_words, "letters": of_letters, "answers": of_answers}
 
 if __name__ == "__main__":
     for line in sys.stdin:
