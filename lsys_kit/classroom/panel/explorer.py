@@ -577,7 +577,7 @@ def compare(
             usual = 'For example compare("P2", "P3"), or compare("J4", {}, {"lifeTimeA": 2}).'
             raise ModelValueError(
                 "Two systems are compared, or one system under two settings",
-                hint=usual if number is None else f"Name the step: step={number}.",
+                hint=usual if number is None else f"Name the step: step={shown(number)}.",
             )
     left = explore(sides[0][0], step, sliders=sliders, show=show, **_named(sides[0][1]))
     right = explore(sides[1][0], left.step, sliders=sliders, show=show, **_named(sides[1][1]))

@@ -119,7 +119,7 @@ async function linkedSettings({ model, system }) {
 // Whether something of a link is not shown: a later step than there is, or a value that the page does not hold.
 function isLost({ step, angle, seed, ...others }, { settings, letters, model: { book }, ...values }, fixed) {
   const shown = { ...fixed, ...settings, letters: `${letters ?? ""}` };
-  return Number(step) > book.steps || (book.chance && seed !== String(values.seed)) || Object.entries(others).some(([name, text]) => shown[name] !== text);
+  return Number(step) > book.steps || (book.chance && seed !== `${values.seed}`) || Object.entries(others).some(([name, text]) => shown[name] !== text);
 }
 
 function numberOf(text = "") {
@@ -128,6 +128,5 @@ function numberOf(text = "") {
 }
 
 function contentOf({ system, fixed }, { step, angle, seed, letters, settings }) {
-  const turn = angle === system.angle ? {} : { angle }, sown = seed ? { seed } : {}, named = letters?.length ? { letters } : {};
-  return { ...system, settings: { step, ...turn, ...sown, ...named, ...fixed, ...settings } };
+  return { ...system, settings: { step, ...(angle !== system.angle && { angle }), ...(seed && { seed }), ...(letters?.length && { letters }), ...fixed, ...settings } };
 }

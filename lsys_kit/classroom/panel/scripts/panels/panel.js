@@ -104,8 +104,7 @@ export function openPanel(element, host, compared = null) {
   }
 
   function move(name, at, text) {
-    if (name === "step") goTo(at);
-    else if (name === "angle") change({ angle: at / 10 });
+    if (name === "angle") change({ angle: at / 10 });
     else host.set("settings", { ...seen.settings, [name]: text });
   }
 
@@ -181,7 +180,7 @@ export function openPanel(element, host, compared = null) {
     }));
     for (const { control, texts, index, name } of constants) control.offer(texts, Math.max(0, texts.indexOf(seen.settings[name])), [index]);
     switches = letterSwitches?.(host, constants);
-    said = sentenceView?.(root, host, move);
+    said = sentenceView?.(root, host, goTo, move);
     const tenths = (degrees) => [...degrees, model.angle].map((each) => Math.round(each * 10));
     angle.offer(ANGLES, Math.round(seen.angle * 10), tenths(MARKED), tenths(NAMED));
     const fixed = model.fixed ? [made("span.lsys-hint", model.fixed)] : [];

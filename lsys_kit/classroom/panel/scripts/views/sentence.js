@@ -12,8 +12,9 @@ const NUMBER = { // not in a sheet, which other pages would have in them too
 };
 const ANGLES = times(1801, (i) => (i / 10).toString());
 
-// Put the sentence of the model, if it has one, above all else; `move(name, index, text)` is called where a number was moved.
-export function sentenceView(root, host, move) {
+// Put the sentence of the model, if it has one, above all else; `goTo(step)` and, of other numbers, `move(name, index, text)`
+// are called where one was moved.
+export function sentenceView(root, host, goTo, move) {
   root.querySelector(":scope > .lsys-says")?.remove();
   const { sentence, constants } = host.get("model"), followers = [];
   if (!sentence) return null;
@@ -25,7 +26,8 @@ export function sentenceView(root, host, move) {
   }
 
   function moved(name, texts) {
-    const control = slider(name, "", texts, 0, (at, text) => move(name, at, text), name, { bar: false }), { element, box } = control;
+    const choose = name === "step" ? goTo : (at) => move(name, at, texts[at]);
+    const control = slider(name, "", texts, 0, choose, name, { bar: false }), { element, box } = control;
     for (const each of element.querySelectorAll("label, .lsys-next")) each.remove();
     element.removeAttribute("data-control"); // as the one below has
     element.style.display = "inline-flex";
@@ -36,7 +38,7 @@ export function sentenceView(root, host, move) {
       const there = clamped(0, texts.length - 1, at);
       if (there === control.index) return;
       control.show(there);
-      move(name, there, texts[there]);
+      choose(there);
     }, () => Math.max(1, Math.floor(texts.length / MOST)));
     followers.push((book, at) => {
       if (name === "step" && texts.length !== book.steps + 1) control.offer((texts = times(book.steps + 1, String)), at);
