@@ -42,17 +42,11 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 @pytest.hookimpl(wrapper=True)
 def pytest_cmdline_main(config: pytest.Config) -> Iterator[object]:
-    """The whole suite is run by several processes, unless another number is asked for."""
+    """The whole suite is run by a process for each core, unless another number is asked for."""
     alone = hasattr(config, "workerinput") or any(map(config.getoption, ("collectonly", "benchmark_only", "usepdb")))
     if config.args_source is pytest.Config.ArgsSource.TESTPATHS and config.option.numprocesses is None and not alone:
         config.option.numprocesses = "auto"
     return (yield)
-
-
-@pytest.hookimpl(wrapper=True)
-def pytest_xdist_auto_num_workers(config: pytest.Config) -> Iterator[None]:
-    """With tests in a browser, which wait for a third of their time, one process more than there are cores."""
-    return (yield) + ("not browser" not in config.option.markexpr)
 
 
 @pytest.hookimpl(tryfirst=True)

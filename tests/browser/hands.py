@@ -13,6 +13,8 @@ MOST_PRESSES = 40
 """How often somebody presses a button beside a number and does not lose patience."""
 
 
+MOST_DRAGS = 3
+"""How often somebody takes a slider that stops at each value, and has no buttons."""
 SLOP = 24
 """Pixels that a finger moves before the browser takes it for a movement."""
 
@@ -76,8 +78,11 @@ def reach(hand: Pointer, panel: Locator, name: str, wanted: str) -> int:
     there, bar = control(panel, name), control(panel, name).locator(".lsys-range")
     box = there.get_by_label(name, exact=True)
     box.scroll_into_view_if_needed()
-    if bar.count() and box.input_value() != wanted:
-        drag(hand, bar, box, Fraction(wanted))
+    for _ in range(MOST_DRAGS if bar.count() else 0):  # what is still loaded may move the slider away from under a hand
+        if box.input_value() != wanted:
+            drag(hand, bar, box, Fraction(wanted))
+        if there.locator(".lsys-next").first.is_visible():
+            break
     presses = 0
     while (now := box.input_value()) != wanted:
         presses += 1

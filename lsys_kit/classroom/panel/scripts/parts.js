@@ -22,8 +22,10 @@ export async function openParts(kinds, cannot, known = {}) {
   watcher.disconnect();
 }
 
+const PATIENCE = 500; // milliseconds after which the next part is opened though the browser is busy, as one in the background always is
+
 // When the browser has nothing else to do; one that does not tell is given a moment.
-const idle = () => new Promise((done) => ("requestIdleCallback" in window ? requestIdleCallback(done) : setTimeout(done, 50)));
+const idle = () => new Promise((done) => ("requestIdleCallback" in window ? requestIdleCallback(done, { timeout: PATIENCE }) : setTimeout(done, 50)));
 
 // Put a part in its place, instead of what stands there for readers without scripts.
 export async function openPart(place, page) {
