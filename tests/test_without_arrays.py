@@ -59,6 +59,7 @@ def compare(asked: Ask, text: str, steps: int) -> dict[str, str]:
     return missing
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("id", [*kit.systems(), *kit.book_systems()])
 def test_the_catalogue_is_the_same_without_arrays(asked: Ask, id: str) -> None:
     system = kit.system(id)
@@ -68,6 +69,7 @@ def test_the_catalogue_is_the_same_without_arrays(asked: Ask, id: str) -> None:
         assert {*missing.values()} <= {"scipy.optimize", "numpy"}, "diagrams with layers, and curved surfaces"
 
 
+@pytest.mark.slow
 @settings(suppress_health_check=[*HealthCheck])
 @given(st.one_of(systems(), systems_with(), systems_with(CONTEXT, CHANCE)))
 def test_random_systems_are_the_same_without_arrays(asked: Ask, system: LSystem) -> None:
@@ -76,6 +78,7 @@ def test_random_systems_are_the_same_without_arrays(asked: Ask, system: LSystem)
     assert {*missing.values()} <= {"scipy.optimize"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", LONG)
 def test_words_of_some_thousand_modules_are_the_same_without_arrays(asked: Ask, text: str) -> None:
     assert asked("words", text, 12) == of_words(text, 12)
@@ -95,6 +98,7 @@ def test_letters_and_totals_need_no_arrays(asked: Ask, text: str, symbol: str, l
     assert there == of_letters(text, symbol, letter)
 
 
+@pytest.mark.slow
 def test_answers_are_replied_to_alike_without_arrays(asked: Ask) -> None:
     tried, drawn = [each for _, _, each in kit_questions().exercises if each.kind != "drawing"], set[str]()
     assert len(tried) > 60

@@ -6,6 +6,7 @@ import asyncio
 import json
 import resource
 import socket
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 from urllib.error import HTTPError
@@ -197,3 +198,10 @@ def test_what_a_question_asks_is_refused_for_a_while_where_too_much_is_asked(
         monkeypatch.undo()
         with urlopen(place, timeout=SECONDS) as answer:
             assert "question" in json.loads(answer.read())
+
+
+def test_a_worker_that_two_threads_end_is_ended_once() -> None:
+    worker = workers._Worker()
+    with ThreadPoolExecutor(8) as pool:
+        assert not any(each.exception() for each in [pool.submit(worker.end) for _ in range(8)])
+    assert not worker.process.is_alive()

@@ -107,6 +107,7 @@ def test_a_copy_has_the_title_that_it_is_given(ferns: Path, tmp_path: Path) -> N
     assert (root / "exercises" / "strip.toml").read_text("utf-8").startswith("title = \"A 'dragon' in a strip\"")
 
 
+@pytest.mark.slow
 def test_pages_of_ones_own_course_name_the_command_that_opens_it(ferns: Path, tmp_path: Path) -> None:
     pages = build_site(tmp_path / "pages", ferns)
     assert all("lsys-kit lab --course ferns<" in page.read_text("utf-8") for page in pages)

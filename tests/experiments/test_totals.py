@@ -209,6 +209,7 @@ TURNS = "q = 1/2\naxiom: F(1) A(2)\nF(x) -> A(x)\nA(x) -> F(x) A(q*x)"
 BY = "q = 1/2\naxiom: A(1)\nA(x) -> F(x) A(x/q)"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("text", "values"),
     [

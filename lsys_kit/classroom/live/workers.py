@@ -21,6 +21,7 @@ from contextlib import suppress
 from hashlib import sha256
 from multiprocessing.connection import Connection
 from queue import Empty, Queue
+from threading import Lock
 from typing import Any, NamedTuple
 
 from lsys_kit.cache import Cache
@@ -64,6 +65,7 @@ class _Worker:
         self.connection: Connection = ours
         self.process = _CONTEXT.Process(target=_work, args=(theirs,), daemon=True)
         self.process.start()
+        self._ending = Lock()
         theirs.close()
 
     def is_ready(self, wanted: Callable[[], bool]) -> bool:
@@ -76,9 +78,12 @@ class _Worker:
         return False
 
     def end(self) -> None:
-        self.process.kill()
-        self.process.join(5)
-        self.connection.close()
+        """End it, once: its starter and whoever closes all workers may both ask for that."""
+        with self._ending:
+            if not self.connection.closed:
+                self.process.kill()
+                self.process.join(5)
+                self.connection.close()
 
 
 class Workers:
