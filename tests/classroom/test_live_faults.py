@@ -6,6 +6,7 @@ import asyncio
 import json
 import resource
 import socket
+import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -200,8 +201,18 @@ def test_what_a_question_asks_is_refused_for_a_while_where_too_much_is_asked(
             assert "question" in json.loads(answer.read())
 
 
-def test_a_worker_that_two_threads_end_is_ended_once() -> None:
-    worker = workers._Worker()
+def test_a_worker_that_two_threads_end_is_ended_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    worker, closed = workers._Worker(), list[int]()
+    connection: Any = worker.connection
+    close = connection._close
+
+    def slowly() -> None:
+        closed.append(worker.connection.fileno())
+        time.sleep(0.05)
+        close()
+
+    monkeypatch.setattr(connection, "_close", slowly)
     with ThreadPoolExecutor(8) as pool:
         assert not any(each.exception() for each in [pool.submit(worker.end) for _ in range(8)])
+    assert len(closed) == 1
     assert not worker.process.is_alive()
