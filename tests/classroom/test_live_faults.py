@@ -6,9 +6,9 @@ import asyncio
 import json
 import resource
 import socket
-import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from threading import Event
 from typing import Any
 from urllib.error import HTTPError
 from urllib.request import urlopen
@@ -208,7 +208,7 @@ def test_a_worker_that_two_threads_end_is_ended_once(monkeypatch: pytest.MonkeyP
 
     def slowly() -> None:
         closed.append(worker.connection.fileno())
-        time.sleep(0.05)
+        Event().wait(0.05)
         close()
 
     monkeypatch.setattr(connection, "_close", slowly)
