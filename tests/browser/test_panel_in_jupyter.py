@@ -89,7 +89,9 @@ def test_python_sees_what_the_panel_shows(open_notebook, write_notebook):
     panel = panel_of(notebook.page)
     slider(panel, "step").press("ArrowRight")
     slider(panel, "lifeTimeB").press("ArrowRight")
+    expect(panel).not_to_have_attribute("aria-busy", "true")  # else the place may be drawn anew under the press
     panel.locator("[data-place]").first.press("Enter")
+    expect(panel.locator("[data-place]").first).to_have_attribute("aria-pressed", "true")
     for _ in range(40):  # what is chosen is sent when the kernel has taken what was chosen before
         notebook.page.wait_for_timeout(500)
         notebook._ask("panel.content.activeCellIndex = 2; await app.commands.execute('notebook:run-cell'); await idle();")
