@@ -11,7 +11,7 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from lsys_kit import LSystemError, ModelFileError, ModelNameError, ModelValueError, ask, check, predict, read, vote, worksheet
@@ -504,6 +504,7 @@ def test_a_part_of_a_whole_that_no_table_has_is_found(ferns: Path) -> None:
 def test_a_calculation_is_found_where_it_is_wrong(a: int, b: int, c: int, places: int, off: int) -> None:
     assert bool([*wrong_calculations(f"so {a} + {b} · {c} = {a + b * c + off:,} cells")]) is (off != 0)
     assert bool([*wrong_calculations(f"*q* = {a + b * c + off} = ({a} + {b}·{c})")]) is (off != 0)
+    assume((Fraction(a, c) * 10**places).denominator != 2)  # halfway, of which both neighbours are rounded values
     rounded = round(Fraction(a, c), places) + Fraction(off, 10**places)
     assert bool([*wrong_calculations(f"| {a}/{c} ≈ {float(rounded):.{places}f} |")]) is (off != 0)
 
