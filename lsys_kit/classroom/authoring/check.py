@@ -15,7 +15,6 @@ from lsys_kit.classroom.authoring.computed import calculation_findings, word_fin
 from lsys_kit.classroom.authoring.finding import Finding, finding
 from lsys_kit.classroom.authoring.panels import rule_findings, slider_findings
 from lsys_kit.classroom.authoring.prose import head_findings, link_findings, markup_findings, section_findings, term_findings
-from lsys_kit.classroom.authoring.running import running_findings
 from lsys_kit.classroom.authoring.teacher import teacher_findings
 from lsys_kit.classroom.authoring.told import contradiction_findings, others_nearly, told_findings
 from lsys_kit.classroom.authoring.written import Written
@@ -23,6 +22,8 @@ from lsys_kit.classroom.exercises.declarations import questions_in
 from lsys_kit.classroom.exercises.lint import problems_in
 from lsys_kit.classroom.exercises.registry import kit_questions
 from lsys_kit.classroom.places import MOST_ENTRIES, NAME, NO_LESSONS, Course, course_of
+from lsys_kit.classroom.site import showing
+from lsys_kit.classroom.site.build import found_in, run_through
 from lsys_kit.errors import LSystemError
 
 
@@ -78,10 +79,18 @@ def findings_in(folder: Path | None = None, run: bool = True) -> list[Finding]:
 
 
 def _by_running(written: Written) -> list[Finding]:
+    """The cells of a lesson that fail in a real kernel."""
     try:
-        return [*running_findings(written)]
+        notebook = run_through(written.place.notebooks / f"{written.name}.ipynb")
     except LSystemError as fault:
         return [finding(f"{written.name}.ipynb", "unread", fault=fault.message, hint=fault.hint or "")]
+    found = []
+    for cell, ran in zip(written.cells, notebook.cells, strict=True):
+        if cell.is_code and not cell.may_fail:
+            failed = [f"{each.ename}: {each.evalue}" for each in ran.get("outputs", ()) if each.output_type == "error"]
+            faults = (*failed, *map(str, found_in([ran], showing.FAULT)))
+            found += [finding(written.at(cell), "fails", fault=" ".join(fault.split())[:300]) for fault in faults]
+    return found
 
 
 def _misnamed(course: Course) -> Iterator[Finding]:
