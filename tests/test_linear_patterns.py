@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import ast
 import re
-import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import reduce
 from importlib import import_module
@@ -27,6 +26,7 @@ from lsys_kit.notation.syntax.diagnostics import _STRETCHES, compiled
 from lsys_kit.notation.syntax.parser import _parser
 from lsys_kit.notation.syntax.wording import KIT_SPELLING
 from tests.pattern_texts import repetitions
+from tests.timing import spent
 
 Used = tuple[str, str, int, str]
 """Where a pattern is, its text and its flags, and how it is used: "match", "fullmatch", "search" or "finditer"."""
@@ -133,13 +133,12 @@ def slowest(pattern: re.Pattern[str], way: str) -> tuple[float, str]:
 def _seconds(pattern: re.Pattern[str], way: str, text: str) -> float:
     """What finding all that is looked for takes, at the second try where the first took long."""
     for _ in range(2):
-        started = time.process_time()
-        for _found in pattern.finditer(text) if way == "finditer" else (getattr(pattern, way)(text),):
-            pass
-        taken = time.process_time() - started
-        if taken <= SECONDS:
+        with spent() as taken:
+            for _found in pattern.finditer(text) if way == "finditer" else (getattr(pattern, way)(text),):
+                pass
+        if taken.seconds <= SECONDS:
             break
-    return taken
+    return taken.seconds
 
 
 @pytest.mark.slow

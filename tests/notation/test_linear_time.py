@@ -6,9 +6,7 @@ a line on 12,000: enough to see what takes the square of their number.
 
 from __future__ import annotations
 
-import gc
 import re
-import time
 from contextlib import suppress
 
 import pytest
@@ -19,6 +17,7 @@ from lsys_kit.errors import LSystemError
 from lsys_kit.notation.read import read
 from lsys_kit.notation.registry import DIALECTS, recognise
 from lsys_kit.notation.syntax.parser import _parser
+from tests.timing import spent
 
 TOKENS = (
     "field:",
@@ -315,16 +314,10 @@ EXAMPLES = 20
 
 
 def seconds(text: str, notation: str) -> float:
-    """The processor's time for reading a text, or for saying what is wrong with it: without that of other threads, and of a
-    collection of all that other tests have left."""
-    gc.disable()
-    started = time.thread_time()
-    try:
-        with suppress(LSystemError):
-            read(text, notation)
-        return time.thread_time() - started
-    finally:
-        gc.enable()
+    """How long it takes to read a text, or to say what is wrong with it."""
+    with spent() as taken, suppress(LSystemError):
+        read(text, notation)
+    return taken.seconds
 
 
 def filled(beginning: str, piece: str, size: int = 0) -> str:
@@ -347,10 +340,10 @@ def test_a_long_text_of_any_token_is_recognised_in_linear_time() -> None:
     """A tenth of a million characters in a second: what takes the square of their number takes longer by far."""
     slow = {}
     for token in TOKENS:
-        started = time.process_time()
-        recognise(filled("", token, RECOGNISED))
-        if time.process_time() - started > 1:
-            slow[token] = time.process_time() - started
+        with spent() as taken:
+            recognise(filled("", token, RECOGNISED))
+        if taken.seconds > 1:
+            slow[token] = taken.seconds
     assert slow == {}
 
 
