@@ -656,6 +656,36 @@ READ = {
         "axiom: A\nA -> A F|F",
     ),
     "chances in percent": ("axiom F\nF -> F[+F]F 50%\nF -> FF 50%", "axiom: F\nF -> F[+F]F : 0.5\nF -> F F : 0.5"),
+    "Markdown, with names in bold": (
+        "### Dragon\n\n- **Axiom**: `FX`\n- **Rules**:\n  - `X` → `X+YF+`\n  - `Y` → `-FX-Y`\n- **Angle**: 60°",
+        "angle: 60\naxiom: F X\nX -> X+Y F+\nY -> -F X-Y",
+    ),
+    "Markdown, with items of a list": (
+        "- Axiom: `FX`\n- Rules:\n  - `X` → `X+YF+`\n  - `Y` → `-FX-Y`",
+        "axiom: F X\nX -> X+Y F+\nY -> -F X-Y",
+    ),
+    "Markdown, with rules in a row": (
+        "**Axiom:** `FX`\n**Rules:** `X -> X+YF+`, `Y -> -FX-Y`\n**Angle:** `60`",
+        "angle: 60\naxiom: F X\nX -> X+Y F+\nY -> -F X-Y",
+    ),
+    "Markdown, with underscores": ("__Axiom__: F\n__Rules__: F -> FF", "axiom: F\nF -> F F"),
+    "chances in percent behind a symbol": (
+        "axiom: F\nF (33%) -> F[+F]F\nF (67%) -> FF\nangle: 25.7",
+        "angle: 25.7\naxiom: F\nF -> F[+F]F : 0.33\nF -> F F : 0.67",
+    ),
+    "chances in percent behind an arrow": (
+        "Axiom: X\nX → (70%) F[+X]\nX → (30%) F[-X]",
+        "axiom: X\nX -> F[+X] : 0.7\nX -> F[-X] : 0.3",
+    ),
+    "chances with their name, in brackets": (
+        "Axiom: F\nF → F[+F]F (p = 1/3)\nF → F[−F]F (p = 2/3)",
+        "axiom: F\nF -> F[+F]F : 1/3\nF -> F[-F]F : 2/3",
+    ),
+    "an angle as a part of pi": ("axiom: F\nF -> F-F++F-F\nangle: pi/3", "angle: 60\naxiom: F\nF -> F-F++F-F"),
+    "an angle that Fractint does not take": (
+        "angle = 60\naxiom = X\nX = F[+X]X\nF = FF",
+        "angle: 60\naxiom: X\nX -> F[+X]X\nF -> F F",
+    ),
     "chances in words": (
         "axiom: F\nF -> F[+F]F with probability 1/3\nF -> FF, prob = 2/3",
         "axiom: F\nF -> F[+F]F : 1/3\nF -> F F : 2/3",

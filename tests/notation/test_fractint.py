@@ -192,7 +192,7 @@ def test_a_command_takes_the_digits_behind_it(text: str, expected: Module) -> No
 
 @pytest.mark.parametrize("count", [1, 7, 34, 50, 360])
 def test_angles_are_exact(count: int) -> None:
-    assert read(f"Angle {count}\nAxiom F").angle * count == 360
+    assert read(f"Whole {{\nAngle {count}\nAxiom F\n}}").angle * count == 360
 
 
 def test_the_name_of_a_system_is_kept_where_it_is_written_again() -> None:

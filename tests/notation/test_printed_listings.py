@@ -323,3 +323,19 @@ def test_what_shows_no_sign_of_print_at_first_sight_has_none(text: str) -> None:
     except LSystemError:
         return
     assert transcribe(text).text == found.text
+
+
+@pytest.mark.parametrize(
+    ("rules", "meant"),
+    [
+        ("F -> F[+F]F (0.4)\nF -> FF  (0.6)", "F -> F[+F]F : 0.4\nF -> F F : 0.6"),
+        ("F (1/4) -> F[+F]F\nF (3/4) -> F F", "F -> F[+F]F : 1/4\nF -> F F : 3/4"),
+        ("F -> F[+F]F (0.4)\nF -> F F (0.5)", None),  # together they are not 1
+        ("F -> F[+F]F (0.4)\nF -> F F", None),
+        ("F -> F(2) [+F] F (0.4)\nF -> F F (0.6)", None),  # F has values
+        ("F -> F[+F]F(0.4)\nF -> F F(0.6)", None),  # nothing is set apart
+    ],
+)
+def test_numbers_in_brackets_set_apart_are_probabilities_where_together_they_are_one(rules: str, meant: str | None) -> None:
+    found = read(f"axiom: F\n{rules}").productions
+    assert found == read(f"axiom: F\n{meant}").productions if meant else all(rule.probability is None for rule in found)

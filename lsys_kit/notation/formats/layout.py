@@ -40,7 +40,13 @@ _SET = re.compile(
 _BROKEN_ARROW = re.compile(r"^[ \t]*p_?\d*[ \t]*:[ \t]*\w[ \t]+(?P<arrow>-{1,2}[+*~])[ \t]", re.MULTILINE)
 _BROKEN_DELTA = re.compile(r"(?<=,[ ])[68](?=[ ]?=[ ]?\d{1,3}(?:\.\d+)?[ ]?°)")
 """What the recognition of characters makes of an arrow, and of a δ."""
-_MARKS = re.compile(r"^[ \t]*```.*$|\*\*|`|^(?=[^\n|]*\|)[ \t|:-]++$|^#+[ ]", re.MULTILINE)
+_MARKS = re.compile(r"^[ \t]*```.*$|\*\*|`|\b__(?=\w)|(?<=\w)__(?!\w)|^(?=[^\n|]*\|)[ \t|:-]++$|^#+[ ]", re.MULTILINE)
+_MARKDOWN = re.compile(
+    r"^(?:[ \t]*+(?:[-*+•]|\d{1,2}[.)])[ \t]++(?:[^`\n]*`){2}"
+    r"|[ \t]*+(?:[-*+•][ \t]++)?(?:\*\*|__)[A-Za-z][^*_=(\n]{0,40}(?:\*\*|__))",
+    re.MULTILINE,
+)
+"""A line of Markdown: an item of a list with something set as code, or one that begins in bold."""
 _RULE_OF_TIKZ = re.compile(r"\\rule\{([^{}\n]*)\}")
 _STRONG = re.compile(r"'''([\w -]{1,60})'''")
 _DOLLARS = re.compile(r"\$(?=[^\s$])([^$\n]*[^\s$\\])\$(?!\w)")
@@ -86,6 +92,15 @@ def page_text(before: Transcript) -> Transcript:
     for match in _DOLLARS.finditer(before.text):
         edits += [Edit(match.start(), match.start() + 1, ""), Edit(match.end() - 1, match.end(), "")]
     return without_columns(_without_tables(edited(before, edits) if edits else before, keyed))
+
+
+def is_markdown(text: str) -> bool:
+    """Whether a text is written in Markdown, and its single backquotes are no quotation marks of a program.
+
+    >>> is_markdown("- Rule: `F` -> `FF`"), is_markdown("axiom = `F`")
+    (True, False)
+    """
+    return "```" not in text and "/*" not in text and _MARKDOWN.search(text) is not None
 
 
 _NO_SIGN = re.compile(r"\\[a-z]+|[^\w+\-\[\]]")

@@ -30,6 +30,7 @@ from lsys_kit.notation.formats.parts import (
     ANY_ARROW,
     ARROW,
     BLANKS,
+    FIRST,
     NOTHING,
     Part,
     end_of_value,
@@ -57,8 +58,11 @@ _OWN_STATEMENT = re.compile(
 """Statements of the kit's notations: their readers say what is wrong with a text that has one."""
 _OWN_ARROW = re.compile(r"-->|->|→|⟶|::=")
 _SENTENCE = re.compile(r"(?<![A-Za-zÀ-ÿА-я])[A-Za-zÀ-ÿА-я]{3,}+[ ,&]++[A-Za-zà-ÿА-я]{3}")
+_RADIANS = re.compile(r"pi\b|π|\brad")
 _REFERENCE = re.compile(r"\s*(?:\[\d{1,3}\]|\(\d{1,3}\)|\d{2,4}|[-–][ ]?\d{1,4}[ ]?[-–]|/[ ]?[a-z])\s*")
 """The number of a page, of a footnote, a caption's letter, alone on a line."""
+_WITH_CHANCE = re.compile(r"(\w)[ \t]*(\((?:0?\.\d+|\d{1,3}(?:\.\d+)?[ \t]?%|\d{1,3}/[1-9]\d{0,2})\))")
+"""What is replaced, with its probability in brackets."""
 _MARKED = re.compile(
     r"&(?:\w{2,8}|#\d{1,6});|<(?:b|br|p|tt|td)\b[^<>\n]{0,99}>|\*\*|`|\\begin\{|\\displaystyle|\\(?:text|math)tt\b|\\verb\b"
     r"|\{\\tt\b|^[ \t]*+set[ ]\[|^[ \t]*+\|?[ \t]*+:?-{3,}+:?[ \t]*+\||^[ \t]*+\|[ ][^|\n]++(?<=[ ])\|[ ][^\n]*\|[ \t]*+$",
@@ -83,12 +87,17 @@ def _is_foreign(item: Part, text: str) -> bool:
     if item.kind == "rule" and item.match:
         labelled = item.match["label"] and not re.match(r"[pP]_?\d", item.match["label"])
         return _OWN_ARROW.fullmatch(item.match["arrow"]) is None or bool(
-            labelled or item.match["first"] or item.match["within"] or AFTER.search(text, item.start, item.end)
+            labelled
+            or item.match["first"]
+            or item.match["within"]
+            or _WITH_CHANCE.fullmatch(item.match["head"])
+            or AFTER.search(text, item.start, item.end)
+            or FIRST.match(text[item.start : item.end])
         )
     if item.kind in ("axiom", "angle", "steps") and item.match:
         said = text[item.start : item.end]
         named = item.match["name"].lower() not in (item.kind, "ω", "δ") or item.match["sep"] != ":"
-        return named or (said.endswith(".") and item.kind != "steps")
+        return named or (said.endswith(".") and item.kind != "steps") or bool(item.kind == "angle" and _RADIANS.search(said))
     return item.kind not in ("blank", "ignore", "more")
 
 
@@ -544,17 +553,14 @@ def _system(text: str, items: Sequence[Part]) -> Found:
     return found
 
 
-_WITH_CHANCE = re.compile(r"(\w)[ \t]*\((0?\.\d+)\)")
-
-
 def _with_chances(rules: list[Rule]) -> list[Rule]:
-    """Rules with probabilities in brackets behind what they replace, F (0.5) -> FF, if they sum to one."""
+    """Rules with probabilities in brackets behind what they replace, F (50%) -> FF, if they sum to one."""
     heads = [_WITH_CHANCE.fullmatch(rule.head.text) for rule in rules]
     for symbol in {head[1] for head in heads if head}:
-        chances = [Fraction(head[2]) for head in heads if head and head[1] == symbol]
+        chances = [chance_of(head[2]) or Fraction(0) for head in heads if head and head[1] == symbol]
         if len(chances) > 1 and abs(sum(chances, Fraction(-1))) < Fraction(1, 50):
             rules = [
-                replace(rule, head=rule.head.part(0, 1), probability=Fraction(head[2])) if head and head[1] == symbol else rule
+                replace(rule, head=rule.head.part(0, 1), probability=chance_of(head[2])) if head and head[1] == symbol else rule
                 for rule, head in zip(rules, heads, strict=True)
             ]
     return rules
@@ -611,7 +617,9 @@ def _rule(text: str, item: Part) -> Rule:
     if after:
         chance = chance or after["plain"] or after["bracketed"] or after["named"]
         said = said[: after.start()]
-    tail = Passage(_BEHIND.split(said)[0], item.start).part(0)
+    said, first = _BEHIND.split(said)[0], FIRST.match(said)
+    chance = chance or (first and (first["bracketed"] or first["percents"]))
+    tail = Passage(said, item.start).part(first.end() if first else 0)
     tail = unquoted(tail.part(0, end_of_value(tail.text, 0, len(tail.text))))
     if tail.text.endswith(".") and len(tail.text) > 1 and "{" not in tail.text:
         tail = tail.part(0, len(tail.text) - 1)

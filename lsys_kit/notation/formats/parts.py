@@ -48,6 +48,10 @@ AFTER = re.compile(
     rf"(?P<named>{_CHANCE})){BLANKS}$"
 )
 """A probability behind a successor."""
+FIRST = re.compile(
+    rf"\A{BLANKS}(?:[(\[]{BLANKS}(?P<bracketed>{_CHANCE}){BLANKS}[)\]]|(?P<percents>\d{{1,3}}(?:\.\d+)?\s?%)){BLANKS}:?{BLANKS}(?=\S)"
+)
+"""A probability between an arrow and a successor, in brackets or in percents."""
 NOTHING = re.compile(r"\([a-z ]{5,}\)|empty|nothing|none|ε|λ|\*")
 """Successors that are empty."""
 _COMMENT = re.compile(
@@ -231,7 +235,7 @@ def _rule_at(text: str, at: int, end: int, line: int, under_rules: bool) -> Part
         and _can_be_replaced(rule)
         and not (
             rule["arrow"] in ("=", ":=")
-            and (ANY_ARROW.search(text, rule.end(), end) or _CALCULATION.fullmatch(text[rule.end() : end].strip()))
+            and (ANY_ARROW.search(text, rule.end(), end) or _CALCULATION.fullmatch(text[rule.end() : end].strip(" \t)")))
         )
         and not (
             len(rule["head"].strip()) == 1

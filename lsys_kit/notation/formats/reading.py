@@ -17,7 +17,7 @@ from lsys_kit.notation.dialects.abop.dialect import ABOP
 from lsys_kit.notation.foreign import foreign_format
 from lsys_kit.notation.formats.found import Found, completed, tables, transcript_of, undrawn_digits
 from lsys_kit.notation.formats.l_py import systems_in_l_py
-from lsys_kit.notation.formats.layout import page_text
+from lsys_kit.notation.formats.layout import is_markdown, page_text
 from lsys_kit.notation.formats.lines import has_unread_words, is_prose, systems_in_lines
 from lsys_kit.notation.formats.literals import systems_in_literals
 from lsys_kit.notation.formats.lparser import systems_in_lparser
@@ -72,7 +72,7 @@ DATA = Format(
     name="data",
     title="data, as in JSON or in the literals of a program",
     prepared=_without_prompts,
-    systems=lambda before: systems_in_literals(before.text),
+    systems=lambda before: [] if is_markdown(before.text) else systems_in_literals(before.text),
 )
 PAGE = Format(
     name="page",

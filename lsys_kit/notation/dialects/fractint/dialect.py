@@ -128,8 +128,8 @@ _OTHER = re.compile(
     re.IGNORECASE,
 )
 """A line that no system of Fractint's has."""
-_WITH_POINT = re.compile(r"^[ \t]*angle(?:\s*=)?\s*\d++\.0*[1-9]", re.IGNORECASE | re.MULTILINE)
-"""An angle in degrees, and no number of parts."""
+_IN_DEGREES = re.compile(r"^[ \t]*angle(?:\s*=)?\s*(?:\d++\.0*[1-9]|5[1-9]|[6-9]\d|\d{3})", re.IGNORECASE | re.MULTILINE)
+"""An angle in degrees, and no number of parts, of which Fractint takes fifty at most."""
 SAMPLED_SYSTEMS = 50
 """So many systems of a file show in which notation it is."""
 
@@ -197,7 +197,7 @@ def _likely(text: str) -> int:
         return 0
     plain = uncommented(text)
     sample = system_entries(islice(entries_in(plain), SAMPLED_SYSTEMS))
-    if not sample and _WITH_POINT.search(plain):
+    if not sample and _IN_DEGREES.search(plain):
         return 0
     bodies = [plain[entry.opened + 1 : entry.stop] for entry in sample] or [plain]
     said = [line.strip() for body in bodies for line in body.splitlines()]

@@ -121,9 +121,12 @@ _NUMBERED = re.compile(r"(?<![ \t])[ \t]{2,}+(?P<number>\(\d+\.\d+[a-z]?\))[ \t]
 _ASIDE = re.compile(r"[\W_]*+(?:\w{1,12}(?:\.\d+)?[\W_]*+)?")
 """A line with one name or number, whatever signs are around it."""
 _CHANCE = re.compile(
-    rf"(?:^|:)[ \t]*+(?P<symbol>[A-Za-z])[ \t]++(?P<value>\([ \t]*+(?P<number>\d?\.\d++)[ \t]*+\))[ \t]*+(?={_ARROW})"
+    rf"(?:^|:)[ \t]*+(?P<symbol>[A-Za-z])[ \t]++"
+    rf"(?P<value>\([ \t]*+(?P<number>\d?\.\d++|\d{{1,2}}/[1-9]\d?)[ \t]*+\))[ \t]*+(?={_ARROW})"
 )
 """A probability in brackets, set apart from the symbol."""
+_CHANCE_BEHIND = re.compile(r"\((?P<number>0?\.\d++)\)[ \t]*+$")
+"""What may be a probability in brackets, behind a word."""
 FULL_STOPS = "The full stop at the end of a rule is left out."
 _ANY = re.compile(rf"(?P<left>\*)[ \t]*+(?=<)|(?<=>)[ \t]*+(?P<right>\*)(?=[ \t]*+(?:{_ARROW}|:))")
 _EQUALS = re.compile(r"(?<![<>=!:])=(?!=)")
@@ -148,7 +151,8 @@ _SIGNS_OF_PRINT = (
     re.compile(rf"\A\s*+[^:=<>#\n]++\n[^\n]*(?:{_ARROW})"),
     re.compile(r">[ \t]*+\*"),
     re.compile(r"=[ \t]*+[\d.]++[ \t]*+[,;]"),
-    re.compile(rf"\.\d++[ \t]*+\)?+[ \t]*+(?:{_ARROW})"),
+    re.compile(rf"[./]\d++[ \t]*+\)?+[ \t]*+(?:{_ARROW})"),
+    re.compile(r"\.\d++\)[ \t]*+(?:\n|\Z)"),
     re.compile(r"\.[ \t]*+(?:\n|\Z)"),
     re.compile(rf"\n[ \t]*+{_SETTING_NAME}[ \t]*+(?:=(?!=)|:[^\n]*deg)"),
     re.compile(r"\n(?!\n)[ \t]*+(?:[pP]_?+[\d{]|[Ss][Tt][Aa][Rr][Tt]|[#.\d]|[-*][ \t]|\(\d|[^:<\n]*+<[ \t]*+\d)"),
@@ -324,6 +328,7 @@ class _Listing:
         """Productions: lines that go on, what stands over the arrow, stars for any neighbour, and "="."""
         above: str | None = None
         chances: dict[str, list[Fraction]] = {}
+        yield from self._chances_behind()
         for index, line in enumerate(self.lines):
             arrow = line.arrow
             if index in self.asides:
@@ -366,6 +371,24 @@ class _Listing:
         for symbol, each in chances.items():
             whole = "" if sum(each) == 1 else f"; together they are {float(sum(each)):g}, not 1"
             self.notes.append(f"The numbers before the arrows of {symbol} are read as probabilities{whole}.")
+
+    def _chances_behind(self) -> Iterator[Edit]:
+        """Probabilities in brackets, set apart behind the words of all rules for a symbol, if together they are 1."""
+        found: dict[str, list[tuple[_Line, re.Match[str] | None]]] = {}
+        for line in self.lines:
+            if line.arrow:
+                found.setdefault(line.text[: line.arrow.start()].strip(), []).append((line, _CHANCE_BEHIND.search(line.text)))
+        for head, rules in found.items():
+            chances = [match for line, match in rules if match and self._is_apart(line.text[: match.start()])]
+            together = sum((Fraction(match["number"]) for match in chances), Fraction(0))
+            if len(chances) == len(rules) > 1 and abs(together - 1) < Fraction(1, 50):
+                self.notes.append(f"The numbers behind the words of {head} are read as probabilities.")
+                for (line, _), match in zip(rules, chances, strict=True):
+                    yield Edit(line.start + match.start(), line.end, f": {match['number']}")
+
+    def _is_apart(self, before: str) -> bool:
+        """Whether brackets behind a text are set apart, and hold no value of its last symbol."""
+        return before[-1:] in (" ", "\t") and not self._has_values(before.rstrip()[-1])
 
     def _has_values(self, symbol: str) -> bool:
         """Whether a symbol has values somewhere but in brackets set apart before an arrow."""
