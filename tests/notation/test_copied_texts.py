@@ -40,12 +40,19 @@ def test_what_is_advised_is_read_without_a_note(text: str) -> None:
     assert read(text).notes == ()
 
 
-@pytest.mark.parametrize("text", ["axiom=F\nF=F[+F]F\nangle=30", "Angle 30\nAxiom F\nF=F+F"])
+@pytest.mark.parametrize("text", ["axiom F\nF=F[+F]F\nangle 30", "Angle 30\nAxiom F\nF=F+F"])
 def test_where_fractint_is_only_guessed_its_angle_is_told_in_degrees(text: str) -> None:
     assert read(text).angle == 12
     told = '"Angle 30" is a turn of 12 degrees: 360 divided by 30. For 30 degrees write "angle: 30"'
     assert any(note.startswith(told) for note in read(text).notes)
     assert read("Tree {\nAngle 30\nAxiom F\nF=F+F\n}").notes == ("Read as fractint.",)
+
+
+@pytest.mark.parametrize("text", ["axiom=F\nF=F[+F]F\nangle=30", "angle = 30\naxiom = VF\nV = [+F]V\nF = FF"])
+def test_an_angle_behind_an_equals_sign_is_in_degrees(text: str) -> None:
+    """As home pages have it; a number of parts has braces around it, or no such sign before it."""
+    assert read(text).angle == 30
+    assert read(f"Tree {{\n{text}\n}}").angle == 12
 
 
 @pytest.mark.parametrize(

@@ -128,8 +128,11 @@ _OTHER = re.compile(
     re.IGNORECASE,
 )
 """A line that no system of Fractint's has."""
-_IN_DEGREES = re.compile(r"^[ \t]*angle(?:\s*=)?\s*(?:\d++\.0*[1-9]|5[1-9]|[6-9]\d|\d{3})", re.IGNORECASE | re.MULTILINE)
-"""An angle in degrees, and no number of parts, of which Fractint takes fifty at most."""
+_IN_DEGREES = re.compile(
+    r"^[ \t]*angle(?:(?:\s*=)?\s*(?:\d++\.0*[1-9]|5[1-9]|[6-9]\d|\d{3})|\s*=\s*(?:1[3-9]|[2-5]\d))",
+    re.IGNORECASE | re.MULTILINE,
+)
+"""An angle in degrees, and no number of parts: Fractint takes fifty at most, and asks for no sign before it."""
 SAMPLED_SYSTEMS = 50
 """So many systems of a file show in which notation it is."""
 
