@@ -165,11 +165,12 @@ class Reader:
             self._await_change(before)
 
     def letter(self, name: str) -> None:
-        """Write a constant as a letter, so that the word has formulas."""
-        switch = control(self._panel, name).get_by_role("button", name=f"{name} as a letter")
+        """A constant that is a letter, with formulas in the word, becomes a number."""
+        switch, formulas = control(self._panel, name).get_by_role("button", name=f"{name} as a letter"), ".lsys-word math"
         self._use(switch)
+        expect(self._panel.locator(formulas).first).to_be_visible()
         switch.click()
-        expect(self._panel.locator(".lsys-word math").first).to_be_visible()
+        expect(self._panel.locator(formulas)).to_have_count(0)
 
     def play(self) -> None:
         """Let the steps go by to the last one."""
