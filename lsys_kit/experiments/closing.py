@@ -156,15 +156,23 @@ class Closing:
 
     @property
     def latex(self) -> str:
-        """Where the walk ends, in LaTeX, with its factors."""
+        """Where the walk ends, its factors, and the angles for which it is closed, one below the other, in LaTeX.
+
+        >>> from lsys_kit import read
+        >>> print(closing_angles(read("axiom: F|F"), 0).latex)
+        0 \\quad \\text{for every } \\delta
+        """
         import sympy
 
-        ends = [sympy.latex(each) for each in dict.fromkeys((self.end, self.factors))]
-        return f"{' = '.join(ends)},\\quad z = e^{{i\\delta}}"
+        if self.always:
+            return r"0 \quad \text{for every } \delta"
+        ends = [rf"{{\displaystyle {sympy.latex(each)}}}" for each in dict.fromkeys((self.end, self.factors))]
+        said = r",\ ".join(rf"{_degrees(angle)}^\circ" for angle in self.angles) or r"\text{none}"
+        rows = r" \\ ".join([r" \\ = ".join(ends), rf"z = e^{{i\delta}}:\quad \delta = {said}"])
+        return rf"\begin{{array}}{{l}} {rows} \end{{array}}"
 
     def _repr_latex_(self) -> str:
-        said = ",\\ ".join(f"{_degrees(angle)}^\\circ" for angle in self.angles)
-        return f"$\\displaystyle {self.latex}{':' if said else ''}\\quad \\delta = {said or chr(92) + 'text{none}'}$"
+        return f"$\\displaystyle {self.latex}$"
 
     def __repr__(self) -> str:
         if self.always:

@@ -45,7 +45,7 @@ SMALL = Fraction(1, 64)
 """By how much a constant is changed that is no number of steps."""
 FASTEST = 1e12
 """No greater growth is looked for."""
-ACROSS, HEIGHTS, LEVELS, NEAR = 60, 8, 5, 0.1
+ACROSS, HEIGHTS, LEVELS, NEAR = 60, 8, 5, 0.18
 """Points of a curve of equal growth; at how many heights it is looked for; into how many parts curves divide the diagonal; a
 curve that is nearer to that of the model's own values is left out."""
 

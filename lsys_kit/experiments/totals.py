@@ -152,7 +152,7 @@ class Total:
                         return None, sympy.false
                     continue
                 if factor.degree() <= 2:
-                    inside = [sympy.Abs(root) < 1 for root in sympy.roots(factor)]
+                    inside = [_below_one(root) for root in sympy.roots(factor)]
                 elif factor.free_symbols_in_domain:
                     return None, None
                 else:
@@ -314,7 +314,7 @@ class Total:
             return ""
         rows = [(formula_latex(case.formula), ",\\ ".join(map(formula_latex, _conditions(case)))) for case in self._shown]
         if len(rows) > 1:
-            lines = r" \\ ".join(f"{formula} & {where}" for formula, where in rows)
+            lines = r" \\ ".join(rf"{{\displaystyle {formula}}} & {where}" for formula, where in rows)
             return rf"\begin{{cases}} {lines} \end{{cases}}"
         ((formula, where),) = rows
         return rf"{formula} \quad ({where})" if where else formula
@@ -337,6 +337,14 @@ class Total:
             for case in self._shown
         )
         return f"{', '.join(said)}; {steps}, ..."
+
+
+def _below_one(root: sympy.Expr) -> sympy.Basic:
+    """That a root without its sign is less than 1, with the number that multiplies its letters on the other side."""
+    import sympy
+
+    number, letters = root.as_coeff_Mul()
+    return sympy.Abs(letters) < 1 / abs(number) if number else sympy.true
 
 
 def _conditions(case: Case) -> list[sympy.Basic]:

@@ -17,7 +17,6 @@ from playwright.sync_api import Locator, expect
 from lsys_kit.classroom.lessons.lesson import lesson as declared
 from tests.browser.hands import Mouse, control, reach
 from tests.browser.lab import OpenNotebook
-from tests.classroom.panel_page import show_more
 
 ROWS: dict[str, list[list[str]]] = tomllib.loads((Path(__file__).parent / "requests.toml").read_text("utf-8"))
 NOTHING = {"on paper", "no request", "link", "open"}
@@ -50,10 +49,7 @@ class Reader:
         self._reveal()
 
     def _follow(self, said: str, acts: list[str]) -> None:
-        """Do what a sentence says; before, what the one before needed is put away."""
-        opener = self._notebook.page.get_by_role("button", name="more", exact=True, expanded=True)
-        while opener.count():
-            opener.first.click()
+        """Do what a sentence says."""
         self._said = said
         self._used: dict[str, Locator] = {}
         self._looked_at: set[str] = set()
@@ -124,6 +120,9 @@ class Reader:
         cells = sorted({*self._notebook.cells_showing("explore("), *self._notebook.cells_showing("compare(")})
         whole = self._notebook.output(cells[int(number)]).locator(".lsys-panel").first
         whole.locator("canvas[data-drawn]").first.wait_for()
+        behind = whole.get_by_role("button", name="more", exact=True, expanded=False)
+        while behind.count():  # it may have been left open, and then a panel is as high as it can be
+            behind.first.click()
         self._number = number
         if number not in self._opening:
             self._opening[number] = {view for view, *_ in whole.evaluate(VISIBLE_VIEWS)} - {"rules"}
@@ -165,6 +164,14 @@ class Reader:
             self._use(button)
             self._await_change(before)
 
+    def letter(self, name: str) -> None:
+        """A constant that is a letter, with formulas in the word, becomes a number."""
+        switch, formulas = control(self._panel, name).get_by_role("button", name=f"{name} as a letter"), ".lsys-word math"
+        self._use(switch)
+        expect(self._panel.locator(formulas).first).to_be_visible()
+        switch.click()
+        expect(self._panel.locator(formulas)).to_have_count(0)
+
     def play(self) -> None:
         """Let the steps go by to the last one."""
         self._panel.get_by_role("button", name="to step 0", exact=True).click()
@@ -173,9 +180,8 @@ class Reader:
         self._panel.get_by_role("button", name="pause", exact=True).click()
 
     def choose(self, asked: str) -> None:
-        """Choose from a list, which may stand behind *more*."""
+        """Choose from a list behind *more*."""
         name, value = asked.split()
-        show_more(self._panel)
         self._panel.get_by_label(name, exact=True).select_option(value)
 
     def tick(self, name: str) -> None:

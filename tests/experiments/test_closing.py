@@ -86,11 +86,15 @@ def test_kurths_curve_with_lengths_and_a_first_turn_of_its_own() -> None:
 def test_it_is_shown_and_drawn() -> None:
     found = closing_angles(system("T2"), 1)
     assert repr(found).endswith("closed for 60, 120, 180 degrees")
-    assert found._repr_latex_().endswith(r"z = e^{i\delta}:\quad \delta = 60^\circ,\ 120^\circ,\ 180^\circ$")
+    rows = found._repr_latex_().removesuffix(r" \end{array}$").split(r" \\ ")
+    assert len(rows) == 3, "where it ends, its factors, and the angles, each on a line of its own"
+    assert rows[-1] == r"z = e^{i\delta}:\quad \delta = 60^\circ,\ 120^\circ,\ 180^\circ"
     picture = found.draw()
     assert picture.captions == ["60°", "120°", "180°"]
     assert repr(closing_angles(read("axiom: FF"), 0)) == "end 2, z = e^(i angle); closed for no angle"
-    assert repr(closing_angles(read("axiom: F|F"), 0)) == "closed for every angle"
+    every = closing_angles(read("axiom: F|F"), 0)
+    assert repr(every) == "closed for every angle"
+    assert "none" not in every._repr_latex_()
 
 
 @pytest.mark.parametrize(

@@ -308,8 +308,8 @@ def test_no_text_covers_another(name: str, positions: bool) -> None:
 @pytest.mark.parametrize(
     ("name", "wanted"),
     [
-        ("K7", ["p = 1/3"] * 3),
-        ("K8", ["p = 0.65", "p = 0.35"]),
+        ("K7", ["chance 1/3"] * 3),
+        ("K8", ["chance 0.65", "chance 0.35"]),
         ("K19", ["A(7)", "t < 7", "t > 0"]),
         ("P8", ["at once, x ≥ x_div and p = LEFT", "at once, x ≥ x_div and p = RIGHT"]),
     ],

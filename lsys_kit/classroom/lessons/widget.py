@@ -99,7 +99,8 @@ def widget(what: object) -> object:
         return what
     data = media(what)
     if "text/html" in data or "text/latex" not in data:
-        return HTML(html(data))
+        as_in_a_notebook = ("jp-RenderedHTMLCommon",) if "text/html" in data else ()
+        return HTML(html(data), _dom_classes=as_in_a_notebook)
     return HTMLMath(f"<div>{escaped(data['text/latex'])}</div>")
 
 

@@ -314,7 +314,7 @@ class PanelWithWorksheet(Unfinalized, HBox):  # type: ignore[misc]
 
     def __init__(self, panel: Explorer | Comparison, sheet: Worksheet) -> None:
         self.panel, self.sheet = panel, sheet
-        for each, share in ((panel, "99 1 540px"), (sheet, "1 1 320px")):
+        for each, share in ((panel, "99 1 540px"), (sheet, "1 1 334px")):
             each.layout.flex, each.layout.min_width = share, "0"
         super().__init__([panel, sheet], layout=Layout(flex_flow="row wrap", align_items="flex-start", grid_gap="0 12px"))
 

@@ -148,14 +148,15 @@ def _texts(names: tuple[str, ...]) -> tuple[str, ...]:
 @cache
 def style(name: str = "panels") -> str:
     """The style of a sheet, by default that of panels in notebooks and beside each other, after the colours that all share,
-    which are those of the themes of pictures; without comments and line breaks.
+    which are those of the themes of pictures; without comments, line breaks and blanks that say nothing.
 
     >>> "\\n" in style(), "/*" in style(), "@import" in style(), len(style()) > len(style("panel"))
     (False, False, False, True)
     """
     colours = Template(_sheet("colours")).substitute(light=_variables(LIGHT), dark=_variables(DARK))
     sheet = colours + _IMPORTED.sub(lambda found: _sheet(found[1]), _sheet(name))
-    return re.sub(r" ?([{};]) ?", r"\1", re.sub(r"\s+", " ", re.sub(r"(?s)/\*.*?(?:\*/|\Z)", "", sheet)))
+    plain = re.sub(r"\s+", " ", re.sub(r"(?s)/\*.*?(?:\*/|\Z)", "", sheet))
+    return re.sub(r" ?([{};>]) ?|([:,]) ", r"\1\2", plain).replace(";}", "}")
 
 
 def _sheet(name: str) -> str:

@@ -44,11 +44,11 @@ def terms_of(transition: Transition) -> str:
     """The text beside a bar: its probability, its duration and its condition.
 
     >>> terms_of(Transition(0, 0, "t >= 1", at_once=True)), terms_of(Transition(0, 1, chance=0.5))
-    ('at once, t ≥ 1', 'p = 0.5')
+    ('at once, t ≥ 1', 'chance 0.5')
     """
     terms = (
         "at once" if transition.at_once else "",
-        "" if transition.chance is None else f"p = {likelihood(transition.chance)}",
+        "" if transition.chance is None else f"chance {likelihood(transition.chance)}",
         "" if transition.span is None else f"after {number_text(transition.span)}",
         readable(transition.condition),
     )

@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
-from math import ceil, floor, isfinite, log10
+from math import ceil, floor, inf, isfinite, log10
 from statistics import fmean
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
@@ -560,16 +560,18 @@ class LevelChart(Chart):
         return LEFT, 60, ABOVE, BELOW
 
     def paint(self, ax: Axes, size: float | None = SIZE) -> None:
-        """Draw the curves, and the growth of each where it is nearest to the diagonal."""
+        """Draw the curves, and the growth of each where it is nearest to the diagonal, away from the marked curve."""
         set_paper(ax, self.across, self.up, size)
         (left, right), (low, high) = self.box
+        loud = max((level.value for level in self.levels if level.loud), default=inf)
         for level in self.levels:
             colour = line(VERMILION if level.loud else BLUE)
             if level.points:
                 xs, ys = zip(*level.points, strict=True)
                 ax.plot(xs, ys, color=colour, linewidth=2.4 if level.loud else 1.4, clip_on=False)
                 at = min(level.points, key=lambda p: abs((p[0] - left) / (right - left) - (p[1] - low) / (high - low)))
-                _write(ax, size, f"{level.value:.4g}", at, (7, 3), "left", "bottom", text_colour(colour))
+                place = ((-7, -3), "right", "top") if level.value > loud else ((7, 3), "left", "bottom")
+                _write(ax, size, f"{level.value:.4g}", at, *place, text_colour(colour))
             for point in level.marked:
                 ax.plot(*point, marker="o", color=colour, markersize=7, clip_on=False)
         _write(ax, size, "growth on each curve", (1, 1), (0, 14), "right", "bottom", xycoords="axes fraction")
