@@ -28,6 +28,7 @@ from lsys_kit.geometry.turtle.commands import (
 from lsys_kit.geometry.turtle.instancing import draw_instanced
 from lsys_kit.geometry.turtle.plane import place_path, trace
 from lsys_kit.geometry.turtle.space import trace_in_space
+from lsys_kit.geometry.turtle.surfaces import surfaces_of
 from lsys_kit.geometry.turtle.unfolding import WordBetween
 from lsys_kit.notation.model.modules import flat
 from lsys_kit.notation.model.system import LSystem
@@ -47,14 +48,19 @@ def is_plant(system: LSystem) -> bool:
 def has_natural_colours(system: LSystem) -> bool:
     """Whether strokes have natural colours, if they have no others: as the system says, else if it is a plant.
 
-    A plant of several kinds of modules that are interpreted as strokes has theirs, which say what is what.
+    A plant of several kinds of modules that are interpreted as strokes has theirs, which say what is what, unless its organs
+    are surfaces: then strokes are stems.
 
     >>> from lsys_kit import read
     >>> organs = "axiom: I[I]\\nI -> I[L]\\ninterpretation:\\nI -> F\\nL -> F"
     >>> [has_natural_colours(read(text)) for text in ("axiom: F[+F]", "axiom: F+F", "colours: natural\\naxiom: F", organs)]
     [True, False, True, False]
+    >>> has_natural_colours(read(f"{organs} ~leaf"))
+    True
     """
-    return system.colours == "natural" if system.colours else is_plant(system) and not _shows_kinds(system)
+    if system.colours:
+        return system.colours == "natural"
+    return is_plant(system) and (bool(surfaces_of(system)) or not _shows_kinds(system))
 
 
 def _shows_kinds(system: LSystem) -> bool:
@@ -105,7 +111,7 @@ def coloured(scene: Scene, system: LSystem, colours: str = "", widths: str = "")
     """
     if tips := has_pipe_widths(system, widths):
         borne = tips_borne(scene.segments)
-        given = pipe_widths(borne, float(np.ptp(scene.corners, axis=0).max()))
+        given = pipe_widths(borne, np.ptp(scene.corners, axis=0))
         scene = replace(scene, segments=replace(scene.segments, widths=given))
     if initial_colour(system) == RAMP_START:
         return _stretched(scene)

@@ -101,8 +101,8 @@ def test_what_would_be_too_wide_stands_in_rows_that_are_narrow_enough(name: str)
     net = stages(system(name))
     shown = rows_of(net, shown_places(net, steering_of(net.system)))
     texts = Texts(dict.fromkeys(range(len(net.places)), 20.0), {}, {})
-    wide, narrow, line = (clearest_layout(net, shown, texts, widest) for widest in (10_000, 980, 1))
-    assert line.width < narrow.width <= 980 < wide.width
+    wide, narrow, line = (clearest_layout(net, shown, texts, widest) for widest in (10_000, 700, 1))
+    assert line.width < narrow.width <= 700 < wide.width
     assert crossings(wide) < crossings(narrow)
 
 

@@ -23,6 +23,7 @@ from lsys_kit.pictures.nets.parts import (
     NotePart,
     Parts,
     PlacePart,
+    arrowhead,
     parts_of,
     short,
     steering_of,
@@ -142,9 +143,10 @@ def token_size(text: str) -> int:
 
 
 def _bar(bar: BarPart) -> list[Shape]:
-    """A bar with the line to it and its terms."""
+    """A bar with the arrow to it, from the left, and its terms."""
     shapes: list[Shape] = [
         Path(bar.line, _stroke(), {"class": "feed"}),
+        Path(arrowhead((bar.x - 1.8, bar.y), (bar.x - RADIUS, bar.y))),
         Rectangle(bar.x - 1.8, float(bar.y - bar.half), 3.6, 2.0 * bar.half, 0.8),
     ]
     if bar.terms:

@@ -122,8 +122,8 @@ SUBSCRIPT = 0.7
 """The size of a subscript, relative to its label."""
 MOST_CROSSINGS, MOST_LAYERED = 1, 60
 """So many crossings are allowed in rows of places; nets with more arcs than so many stand in rows all the same."""
-PAGE, LEGIBLE = 900, 9
-"""The width of a page, in pixels, on which a wider diagram is made smaller; and the least size that its text may have then."""
+PAGE, LEGIBLE = 480, 7
+"""The width of a column, in pixels, in which a wider diagram is made smaller; and the least size that its text may have then."""
 SHORTER_ROWS = (6, 5, 4, 3, 2, 1)
 """How many places rows may have at most where longer ones are too wide."""
 
@@ -261,12 +261,12 @@ def widest_legible(net: Stages, places: Iterable[int], texts: Texts) -> float:
 def clearest_layout(net: Stages, rows: Sequence[tuple[int, ...]], texts: Texts, widest: float = math.inf) -> Layout:
     """Rows of places as in print, unless their arcs are few enough, cross more than once, and less often in layers.
 
-    What is too wide, in rows or in layers, stands in shorter rows.
+    Layers that are too wide are moved together; what still is too wide, in rows or in layers, stands in shorter rows.
     """
     in_rows, places = layout_in_rows(net, rows, texts), [place for row in rows for place in row]
     clearest = in_rows
     if len(in_rows.arcs) <= MOST_LAYERED and crossings(in_rows) > MOST_CROSSINGS:
-        clearest = min(in_rows, layered_layout(net, places, texts), key=crossings)
+        clearest = min(in_rows, layered_layout(net, places, texts, widest), key=crossings)
     return clearest if clearest.width <= widest else _in_shorter_rows(net, in_rows, places, texts, widest)
 
 
@@ -309,16 +309,24 @@ def _rank(place: Place) -> tuple[float, ...]:
 
 
 def _arc(number: int, corners: Sequence[Point]) -> ArcPart:
-    (x, y), (nx, ny) = corners[-1], _point_towards(corners[-1], corners[-2], 1.0)
-    back, aside = (8.5 * (nx - x), 8.5 * (ny - y)), (3.4 * (ny - y), 3.4 * (x - nx))
-    ends = sorted((x + back[0] + side * aside[0], y + back[1] + side * aside[1]) for side in (1, -1))
-    head = "".join(f"L{a:.1f} {b:.1f}" for a, b in ends)
     return ArcPart(
         number,
         rounded_path(corners),
         rounded_path([*corners[:-1], _point_towards(corners[-1], corners[-2], 10)]),
-        f"M{x:.1f} {y:.1f}{head}Z",
+        arrowhead(corners[-1], corners[-2]),
     )
+
+
+def arrowhead(tip: Point, start: Point) -> str:
+    """The head of an arrow as an SVG path.
+
+    >>> arrowhead((20, 0), (0, 0))
+    'M20.0 0.0L11.5 -3.4L11.5 3.4Z'
+    """
+    (x, y), (nx, ny) = tip, _point_towards(tip, start, 1.0)
+    back, aside = (8.5 * (nx - x), 8.5 * (ny - y)), (3.4 * (ny - y), 3.4 * (x - nx))
+    ends = sorted((x + back[0] + side * aside[0], y + back[1] + side * aside[1]) for side in (1, -1))
+    return f"M{x:.1f} {y:.1f}{''.join(f'L{a:.1f} {b:.1f}' for a, b in ends)}Z"
 
 
 def rounded_path(corners: Sequence[Point]) -> str:

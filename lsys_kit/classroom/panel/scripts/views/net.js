@@ -26,8 +26,8 @@ export function netView(parent, chosen, pointed, enlarge) {
     for (const arc of net.arcs) sheet.append(
       drawn("path.lsys-band", { d: arc.band }), drawn("path.lsys-arc", { d: arc.path }), drawn("path.lsys-head", { d: arc.head }));
     for (const bar of net.bars) {
-      const group = drawn("g.lsys-bar-of", drawn("path.lsys-arc", { d: bar.line }), drawn("rect.lsys-head",
-        { x: bar.x - 1.8, y: bar.y - bar.half, width: 3.6, height: 2 * bar.half, rx: 0.8 }));
+      const group = drawn("g.lsys-bar-of", drawn("path.lsys-arc", { d: bar.line }), drawn("path.lsys-head",
+        { d: `M${bar.x - 1.8} ${bar.y - bar.half}h3.6v${2 * bar.half}h-3.6zm0 ${bar.half}l-8.5-3.4v6.8z` }));
       if (bar.terms) group.append(drawn("text.lsys-terms", { x: bar.tx, y: bar.ty }, drawn("title", bar.full || bar.terms), bar.terms));
       sheet.append(group);
     }
