@@ -14,8 +14,9 @@ from lsys_kit.errors import LSystemError
 from lsys_kit.pictures.nets import parts
 from lsys_kit.pictures.nets.layers import Layers, layered
 from lsys_kit.pictures.nets.layout import Layout, Texts, crossings
-from lsys_kit.pictures.nets.parts import LABEL_SIZE, LEGIBLE, PAGE, clearest_layout, steering_of
+from lsys_kit.pictures.nets.parts import LABEL_SIZE, LEGIBLE, PAGE, clearest_layout
 from lsys_kit.pictures.nets.rows import rows_of, shown_places
+from lsys_kit.pictures.style.labels import steering_of
 
 
 @st.composite

@@ -26,10 +26,9 @@ from lsys_kit.pictures.nets.parts import (
     arrowhead,
     parts_of,
     short,
-    steering_of,
 )
 from lsys_kit.pictures.shapes import Circle, Drawing, Group, Look, Paper, Path, Rectangle, Shape, Text, Title
-from lsys_kit.pictures.style.labels import label_spans
+from lsys_kit.pictures.style.labels import label_spans, steering_of
 from lsys_kit.pictures.style.palette import tinted
 from lsys_kit.pictures.style.themes import Theme, line, theme
 

@@ -3,9 +3,9 @@
 In cpfg lines of the style "pixel" are so many pixels wide, and lines of the styles "polygon" and "cylinder" so many units; the
 style stands in another file than the model. So in the listings of the book: `A(1,10)` of figure 2.6 draws a stem of length 1
 and width 10. A system can say which is meant, by `widths: pixels` or `widths: units`. Where it does not, its widths are units
-as far as they are in proportion to its strokes; if the broadest is not, all are made finer or broader with it. So a model and the same
-model ten times as large look alike. Widths by the pipe model are in proportion to the plant, and a pipe is equally broad in all
-scenes that are shown together.
+as far as they are in proportion to its strokes; if the broadest is not, all are made finer or broader with it. So a model and
+the same model ten times as large look alike. Widths by the pipe model are in proportion to the plant, and a pipe is equally
+broad in all scenes that are shown together.
 
 A pixel is one of a picture of the usual size, and at most a unit: a drawing of more units than the picture has pixels is made
 smaller with its strokes. Pictures of other sizes, films and meshes scale strokes with the drawing.
