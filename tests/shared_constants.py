@@ -20,6 +20,7 @@ CONSTANTS = Path(lsys_kit.classroom.panel.__file__).parent / "scripts" / "drawin
 SHARED: Mapping[str, Mapping[str, str]] = {
     "geometry.scene": {"OWN_LOOK": "OWN", "HOLLOW": "CIRCLE", "DISC": "DISC", "BALL": "SPHERE"},
     "geometry.turtle.commands": {
+        "BLOSSOM": "BLOSSOM",
         "LARGEST_VALUE": "LARGEST",
         "RAMP_START": "RAMP_START",
         "RAMP_END": "RAMP_END",

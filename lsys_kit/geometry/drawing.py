@@ -16,6 +16,7 @@ from lsys_kit.geometry.filament import filament
 from lsys_kit.geometry.pipe_model import pipe_widths, tips_borne
 from lsys_kit.geometry.scene import OWN, Floats, Integers, Scene, Segments
 from lsys_kit.geometry.turtle.commands import (
+    BLOSSOM,
     COMMANDS,
     RAMP_END,
     RAMP_START,
@@ -101,7 +102,8 @@ def coloured(scene: Scene, system: LSystem, colours: str = "", widths: str = "")
 
     Whoever draws can choose "natural" colours, and "pipes" as widths.
 
-    Where its turtle steps through colours, the farthest step that is drawn is the last colour of the ramp.
+    Where its turtle steps through colours, the farthest step of its polygons, which are leaves, is the last colour of the ramp,
+    and what is beyond that is a blossom; where it has none, the last colour is that of the farthest step.
 
     >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.turtle.space import trace_in_space
@@ -122,7 +124,8 @@ def coloured(scene: Scene, system: LSystem, colours: str = "", widths: str = "")
 
 def _stretched(scene: Scene) -> Scene:
     segments, polygons, discs = scene.segments, scene.polygons, scene.discs
-    most = max(int(colours.max(initial=RAMP_START)) for colours in (segments.colours, polygons.colours, discs.colours))
+    leaf, *others = (int(each.colours.max(initial=RAMP_START)) for each in (polygons, segments, discs))
+    most = leaf if leaf > RAMP_START else max(others)
     stretch = (RAMP_END - RAMP_START) / max(min(RAMP_END, most) - RAMP_START, 1)
     return replace(
         scene,
@@ -134,7 +137,8 @@ def _stretched(scene: Scene) -> Scene:
 
 def _along_ramp(colours: Integers, stretch: float) -> Integers:
     there = (colours >= RAMP_START) & (colours <= RAMP_END)
-    return np.where(there, RAMP_START + np.floor((colours - RAMP_START) * stretch + 0.5).astype(np.int64), colours)
+    places = RAMP_START + np.floor((colours - RAMP_START) * stretch + 0.5).astype(np.int64)
+    return np.where(there, np.where(places > RAMP_END, BLOSSOM, places), colours)
 
 
 def _in_natural_colours(scene: Scene, youth: Floats) -> Scene:

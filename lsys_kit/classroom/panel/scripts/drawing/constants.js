@@ -4,6 +4,7 @@ export const OWN_LOOK = -1;
 export const HOLLOW = 0;
 export const DISC = 1;
 export const BALL = 2;
+export const BLOSSOM = 13;
 export const LARGEST_VALUE = 1e+50;
 export const RAMP_START = 16;
 export const RAMP_END = 23;

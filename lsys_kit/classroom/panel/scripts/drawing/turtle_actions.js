@@ -6,20 +6,22 @@
 // an action has a factor and an addend, and mostly concerns one quantity: the amount is factor * quantity + addend.
 
 import { clamped, grouped, halfToEven } from "../books/numbers.js";
-import { BALL, DISC, HOLLOW, LARGEST_VALUE, LAST_COLOUR, OWN_LOOK, RAMP_END, RAMP_START, SHAPE_WIDTH } from "./constants.js";
+import { BALL, BLOSSOM, DISC, HOLLOW, LARGEST_VALUE, LAST_COLOUR, OWN_LOOK, RAMP_END, RAMP_START, SHAPE_WIDTH } from "./constants.js";
 
 export const MOST_POINTS = 2_000_000;
 const REMEMBERED = ["position", "orientation", "length", "width", "colour", "gravitropism", "tropisms", "last", "restored",
   "mirror", "secondHeading", "axis", "scale"];
 
-// The colours of the ramp, stretched so that the farthest that is drawn is its end.
-export function stretchRamp(...groups) {
-  const inRamp = (colour) => colour >= RAMP_START && colour <= RAMP_END;
-  const farthest = groups.reduce((most, { colours }) => colours.reduce((one, other) => Math.max(one, other), most), RAMP_START);
-  const stretch = (RAMP_END - RAMP_START) / Math.max(1, Math.min(RAMP_END, farthest) - RAMP_START);
-  for (const { colours } of groups)
-    for (let i = 0; i < colours.length; i++)
-      if (inRamp(colours[i])) colours[i] = RAMP_START + Math.floor((colours[i] - RAMP_START) * stretch + 0.5);
+// The colours of the ramp, stretched so that the farthest of faces, else of all that is drawn, is its end; beyond is a blossom.
+export function stretchRamp(strokes, faces, rounds) {
+  const [leaf, ...others] = [faces, strokes, rounds].map(({ colours }) => colours.reduce((one, other) => Math.max(one, other), RAMP_START));
+  const most = leaf > RAMP_START ? leaf : Math.max(...others), stretch = (RAMP_END - RAMP_START) / Math.max(1, Math.min(RAMP_END, most) - RAMP_START);
+  for (const { colours } of [strokes, faces, rounds])
+    for (let i = 0; i < colours.length; i++) {
+      if (colours[i] < RAMP_START || colours[i] > RAMP_END) continue;
+      const place = RAMP_START + Math.floor((colours[i] - RAMP_START) * stretch + 0.5);
+      colours[i] = place > RAMP_END ? BLOSSOM : place;
+    }
 }
 
 // How many axes end in each stroke and in what it bears. Those of no length bear nothing, and nothing bears them.
