@@ -123,7 +123,7 @@ function unitOf(path) {
   if (broadest <= 0 || unit === "units") return 1;
   if (unit === "auto") {
     const lengths = times(n, (i) => Math.hypot(x[to[i]] - x[from[i]], y[to[i]] - y[from[i]], z ? z[to[i]] - z[from[i]] : 0));
-    return Math.max(FINE * extent, Math.min(broadest, Math.max(BROAD * extent, STOUT * greatest(lengths, 0)))) / broadest;
+    return clamped(FINE * extent, Math.max(BROAD * extent, STOUT * greatest(lengths, 0)), broadest) / broadest;
   }
   const room = Math.min(broadest, BROADEST_PART * PICTURE_HEIGHT) + 2 * PICTURE_MARGIN;
   const [wide, high, highest] = [PICTURE_WIDTH, PICTURE_HEIGHT, TALLEST].map((size) => size - room), [across] = spans, up = spans.at(-1);

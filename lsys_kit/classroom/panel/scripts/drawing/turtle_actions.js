@@ -15,14 +15,14 @@ const REMEMBERED = ["position", "orientation", "length", "width", "colour", "gra
 // The colours of the ramp, stretched so that the farthest of faces, else of all that is drawn, is its end; beyond is a blossom.
 export function stretchRamp(strokes, faces, rounds) {
   const [leaf, ...others] = [faces, strokes, rounds].map(({ colours }) => colours.reduce((one, other) => Math.max(one, other), RAMP_START));
-  const most = leaf > RAMP_START ? leaf : Math.max(...others), stretch = (RAMP_END - RAMP_START) / Math.max(1, Math.min(RAMP_END, most) - RAMP_START);
+  const last = Math.min(RAMP_END, leaf > RAMP_START ? leaf : Math.max(RAMP_START + 1, ...others));
   for (const { colours } of [strokes, faces, rounds])
-    for (let i = 0; i < colours.length; i++) {
-      if (colours[i] < RAMP_START || colours[i] > RAMP_END) continue;
-      const place = RAMP_START + Math.floor((colours[i] - RAMP_START) * stretch + 0.5);
-      colours[i] = place > RAMP_END ? BLOSSOM : place;
-    }
+    colours.forEach((colour, i) => {
+      if (colour >= RAMP_START && colour <= RAMP_END) colours[i] = colour > last ? BLOSSOM : onRamp((colour - RAMP_START) / (last - RAMP_START));
+    });
 }
+
+const onRamp = (share) => RAMP_START + Math.floor((RAMP_END - RAMP_START) * share + 0.5);
 
 // How many axes end in each stroke and in what it bears. Those of no length bear nothing, and nothing bears them.
 export function tipsBorne({ from, to, orders, long }) {
@@ -40,7 +40,7 @@ export function colourNaturally({ colours, orders, widths }, tips) {
     if (colours[i] !== OWN_LOOK) continue;
     const youth = tips ? 1 - Math.log(tips[i]) / (Math.log(widest) || 1)
       : widest && widths[i] !== OWN_LOOK ? 1 - Math.sqrt(widths[i] / widest) : deepest ? orders[i] / deepest : 1;
-    colours[i] = RAMP_START + Math.floor((RAMP_END - RAMP_START) * youth + 0.5);
+    colours[i] = onRamp(youth);
   }
 }
 
