@@ -20,6 +20,7 @@ CONSTANTS = Path(lsys_kit.classroom.panel.__file__).parent / "scripts" / "drawin
 SHARED: Mapping[str, Mapping[str, str]] = {
     "geometry.scene": {"OWN_LOOK": "OWN", "HOLLOW": "CIRCLE", "DISC": "DISC", "BALL": "SPHERE"},
     "geometry.turtle.commands": {
+        "BLOSSOM": "BLOSSOM",
         "LARGEST_VALUE": "LARGEST",
         "RAMP_START": "RAMP_START",
         "RAMP_END": "RAMP_END",
@@ -37,7 +38,7 @@ SHARED: Mapping[str, Mapping[str, str]] = {
         "LAST_COLOUR": "LAST_COLOUR",
         "MOST_CURVED": "MOST_CURVED",
     },
-    "geometry.pipe_model": {"EXPONENT": "EXPONENT", "TRUNK": "TRUNK"},
+    "geometry.pipe_model": {"EXPONENT": "EXPONENT", "SLENDER": "SLENDER", "TRUNK": "TRUNK"},
     "geometry.turtle.plane": {"LARGEST_EXACT": "LARGEST_EXACT"},
     "geometry.turtle.surfaces": {"PATCH_FACES": "PATCH_FACES"},
     "geometry.tissues.relaxation": {
@@ -66,6 +67,7 @@ SHARED: Mapping[str, Mapping[str, str]] = {
         "LARGEST_SCALE": "LARGEST_SCALE",
         "BROADEST_PART": "MOST_OF_A_PICTURE",
         "BROAD": "BROAD",
+        "FINE": "FINE",
         "STOUT": "STOUT",
         "PICTURE_WIDTH": "WIDTH",
         "PICTURE_HEIGHT": "HEIGHT",

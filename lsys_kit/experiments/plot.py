@@ -28,7 +28,7 @@ from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem, symbols
 from lsys_kit.pictures.plots.chart import Axis, Curve, CurveChart, Plot, Share, ShareChart, finite, name_label
 from lsys_kit.pictures.plots.lettering import literal, mathematics
-from lsys_kit.pictures.style.labels import label_parts, place_parts, polar_symbols, values_text
+from lsys_kit.pictures.style.labels import label_parts, place_parts, polar_symbols, steering_of, values_text
 from lsys_kit.pictures.style.palette import BLUE, SERIES, colour_of
 from lsys_kit.pictures.style.themes import theme_from
 from lsys_kit.worlds.derive import derive
@@ -209,10 +209,12 @@ def _points(run: Derivation | _Course, measures: Sequence[Measure]) -> list[tupl
 
 
 def _kinds(run: Derivation) -> list[str]:
-    """The kinds of modules that occur, if their curves can be told apart; else all modules together."""
+    """The kinds of modules that occur and do not only steer the turtle, if their curves can be told apart; else all modules
+    together."""
     system, modules = run.states.system, run.states.modules
     met = {modules[state].symbol for step in counted(range(len(run)), 1) for state in run.counts(step)}
-    shown = [symbol for symbol in symbols(system) if symbol in met and symbol[0].isalnum()]
+    steering = steering_of(system) - {rule.predecessor.symbol for rule in system.productions}
+    shown = [symbol for symbol in symbols(system) if symbol in met - steering and symbol[0].isalnum()]
     kinds = [*dict.fromkeys(polar_symbols(system).get(symbol, (symbol, ""))[0] for symbol in shown)]
     return kinds if 1 <= len(kinds) <= MOST_CURVES else ["modules"]
 

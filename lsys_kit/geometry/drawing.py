@@ -16,6 +16,7 @@ from lsys_kit.geometry.filament import filament
 from lsys_kit.geometry.pipe_model import pipe_widths, tips_borne
 from lsys_kit.geometry.scene import OWN, Floats, Integers, Scene, Segments
 from lsys_kit.geometry.turtle.commands import (
+    BLOSSOM,
     COMMANDS,
     RAMP_END,
     RAMP_START,
@@ -28,6 +29,7 @@ from lsys_kit.geometry.turtle.commands import (
 from lsys_kit.geometry.turtle.instancing import draw_instanced
 from lsys_kit.geometry.turtle.plane import place_path, trace
 from lsys_kit.geometry.turtle.space import trace_in_space
+from lsys_kit.geometry.turtle.surfaces import surfaces_of
 from lsys_kit.geometry.turtle.unfolding import WordBetween
 from lsys_kit.notation.model.modules import flat
 from lsys_kit.notation.model.system import LSystem
@@ -47,14 +49,19 @@ def is_plant(system: LSystem) -> bool:
 def has_natural_colours(system: LSystem) -> bool:
     """Whether strokes have natural colours, if they have no others: as the system says, else if it is a plant.
 
-    A plant of several kinds of modules that are interpreted as strokes has theirs, which say what is what.
+    A plant of several kinds of modules that are interpreted as strokes has theirs, which say what is what, unless its organs
+    are surfaces: then strokes are stems.
 
     >>> from lsys_kit import read
     >>> organs = "axiom: I[I]\\nI -> I[L]\\ninterpretation:\\nI -> F\\nL -> F"
     >>> [has_natural_colours(read(text)) for text in ("axiom: F[+F]", "axiom: F+F", "colours: natural\\naxiom: F", organs)]
     [True, False, True, False]
+    >>> has_natural_colours(read(f"{organs} ~leaf"))
+    True
     """
-    return system.colours == "natural" if system.colours else is_plant(system) and not _shows_kinds(system)
+    if system.colours:
+        return system.colours == "natural"
+    return is_plant(system) and (bool(surfaces_of(system)) or not _shows_kinds(system))
 
 
 def _shows_kinds(system: LSystem) -> bool:
@@ -95,7 +102,8 @@ def coloured(scene: Scene, system: LSystem, colours: str = "", widths: str = "")
 
     Whoever draws can choose "natural" colours, and "pipes" as widths.
 
-    Where its turtle steps through colours, the farthest step that is drawn is the last colour of the ramp.
+    Where its turtle steps through colours, the farthest step of its polygons, which are leaves, is the last colour of the ramp,
+    and what is beyond that is a blossom; where it has none, the last colour is that of the farthest step.
 
     >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.turtle.space import trace_in_space
@@ -105,7 +113,7 @@ def coloured(scene: Scene, system: LSystem, colours: str = "", widths: str = "")
     """
     if tips := has_pipe_widths(system, widths):
         borne = tips_borne(scene.segments)
-        given = pipe_widths(borne, float(np.ptp(scene.corners, axis=0).max()))
+        given = pipe_widths(borne, np.ptp(scene.corners, axis=0))
         scene = replace(scene, segments=replace(scene.segments, widths=given))
     if initial_colour(system) == RAMP_START:
         return _stretched(scene)
@@ -116,7 +124,8 @@ def coloured(scene: Scene, system: LSystem, colours: str = "", widths: str = "")
 
 def _stretched(scene: Scene) -> Scene:
     segments, polygons, discs = scene.segments, scene.polygons, scene.discs
-    most = max(int(colours.max(initial=RAMP_START)) for colours in (segments.colours, polygons.colours, discs.colours))
+    leaf, *others = (int(each.colours.max(initial=RAMP_START)) for each in (polygons, segments, discs))
+    most = leaf if leaf > RAMP_START else max(others)
     stretch = (RAMP_END - RAMP_START) / max(min(RAMP_END, most) - RAMP_START, 1)
     return replace(
         scene,
@@ -128,7 +137,8 @@ def _stretched(scene: Scene) -> Scene:
 
 def _along_ramp(colours: Integers, stretch: float) -> Integers:
     there = (colours >= RAMP_START) & (colours <= RAMP_END)
-    return np.where(there, RAMP_START + np.floor((colours - RAMP_START) * stretch + 0.5).astype(np.int64), colours)
+    places = RAMP_START + np.floor((colours - RAMP_START) * stretch + 0.5).astype(np.int64)
+    return np.where(there, np.where(places > RAMP_END, BLOSSOM, places), colours)
 
 
 def _in_natural_colours(scene: Scene, youth: Floats) -> Scene:

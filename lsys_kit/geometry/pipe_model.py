@@ -21,20 +21,23 @@ if TYPE_CHECKING:
 
 EXPONENT = 2.5
 """The power in which widths add up."""
-TRUNK = 1 / 50
-"""The width of the broadest stroke, as a part of the extent of the drawing."""
+TRUNK, SLENDER = 1 / 50, 3
+"""The width of the broadest stroke, as a part of the extent of the drawing; of one that is more than so many times as high as
+wide, or the other way round, it is as much less, at most so many times."""
 NEAR = 1e-6
 """Points that are closer, relative to the extent of all strokes, are one."""
 
 
-def pipe_widths(tips: Integers, extent: float) -> Floats:
-    """How broad strokes are that bear some tips, in a drawing of an extent, in the units of that.
+def pipe_widths(tips: Integers, extents: Floats) -> Floats:
+    """How broad strokes are that bear some tips, in a drawing of some extents along the axes, in the units of these.
 
-    >>> pipe_widths(np.array([3, 1, 1, 1]), 100).round(2).tolist()
-    [2.0, 1.29, 1.29, 1.29]
+    >>> [pipe_widths(np.array([3, 1]), np.array([across, 100.0])).round(2).tolist() for across in (90, 20, 1)]
+    [[2.0, 1.29], [1.2, 0.77], [0.67, 0.43]]
     """
     relative = np.power(tips, 1 / EXPONENT, dtype=np.float64)
-    found: Floats = relative * (TRUNK * extent / relative.max(initial=1.0))
+    lesser, greatest = np.sort(extents)[-2:]
+    trunk = TRUNK * np.clip(SLENDER * lesser, greatest / SLENDER, greatest)
+    found: Floats = relative * (trunk / relative.max(initial=1.0))
     return found
 
 

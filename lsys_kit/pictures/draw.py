@@ -245,7 +245,8 @@ def draw(what: object, n: int | None = None, **choices: object) -> AnyPicture:
         "symbols": each has its own, the same in all pictures. "natural": strokes are brown to green, from the stem to the tips.
         Or the colours of some symbols, by names of CSS or hexadecimal: `colours={"L": "seagreen", "B": "#cc79a7"}`. By default
         strokes have the colours that the model chooses; where it chooses none, those of a plant, that is of a system with
-        branches, are natural, unless it interprets several kinds of modules as strokes; all others are those of symbols.
+        branches, are natural, unless it interprets several kinds of modules as strokes and has no leaves or flowers; all others
+        are those of symbols. `colours: symbols` in a text says the same for all pictures of its system.
     widths
         A factor by which strokes are broader; "pipes", by which a stroke is the broader, the more tips it bears (the pipe
         model); "order", by which each is as broad as its branch order says; or "constant". By default strokes are as broad as

@@ -7,13 +7,15 @@ alike have the same dashes. A flag shows where a cell points. Where a cell divid
 which it should have divided. Below the tree stands the last word, each cell at the end of its line.
 
 A line stands above its cell in the filament of the last word; that of a mother half-way between her first and last daughter.
+What only steers the turtle has none. Where lines would be dense, sisters side by side that are alike and stay so share one, and
+the lines of cells of a kind that never divides are fine and pale.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import cycle, pairwise
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from lsys_kit.budget import current
@@ -30,8 +32,8 @@ from lsys_kit.pictures.formats.notebook import SVGPicture
 from lsys_kit.pictures.rendering.frames import MARGIN, WIDTH
 from lsys_kit.pictures.shapes import Drawing, Group, Look, Path, Place, Shape, Span, Text
 from lsys_kit.pictures.sizes import document
-from lsys_kit.pictures.style.labels import label_parts, label_spans, place_parts, polar_symbols, values_text
-from lsys_kit.pictures.style.palette import VERMILION, colour_of, tinted
+from lsys_kit.pictures.style.labels import label_parts, label_spans, place_parts, polar_symbols, steering_of, values_text
+from lsys_kit.pictures.style.palette import LABELLED, QUIET, VERMILION, colour_of, colours, tinted
 from lsys_kit.pictures.style.themes import line, theme
 
 if TYPE_CHECKING:
@@ -40,11 +42,12 @@ if TYPE_CHECKING:
 
 AXIS, HEAD, TREE = 54, 22, 300
 """Room for the axis of time, its heading and the tree, in pixels."""
-BROADEST, APART = 30.0, 60.0
-"""The most pixels for a unit of length of the filament below the tree; between lines where there is no filament."""
+BROADEST, APART, DENSE = 30.0, 60.0, 9.0
+"""The most pixels for a unit of length of the filament below the tree; between lines where there is no filament; and lines that
+would be closer than this are dense."""
 MOST_KINDS = 4
 """The greatest number of kinds of cells that are distinguished."""
-DASHES = ("", "80 45", "1 45", "120 40 1 40")
+DASHES = ("", "80 45", "1 45", "120 40 1 40", "160 60", "60 40 1 40 1 40")
 """The dash pattern of each kind of cells, in tenths of a pixel."""
 
 
@@ -66,16 +69,17 @@ class CellKind:
 @dataclass(frozen=True)
 class Tree:
     """The layout of a lineage, in pixels: the horizontal position of the line of each cell; the cells of the filament below, or
-    none; the kinds of cells, and for each cell the number of its kind; for each cell of the last word its colour; and where the
-    tree ends to the right."""
+    none; the kinds of cells, and for each cell the number of its kind; for each cell of the last word its colour; where the
+    tree ends to the right; and the kinds of cells that are pale."""
 
     lineage: Lineage
     x: Mapping[int, float]
     row: Sequence[DrawnCell]
     kinds: Sequence[CellKind]
-    kind_of: Sequence[int]
+    kind_of: Mapping[int, int]
     colours: Mapping[int, str]
     right: float
+    pale: Collection[int] = ()
 
     def y(self, time: Value) -> float:
         """The vertical position of a time."""
@@ -86,24 +90,51 @@ class Tree:
 def tree_of(lineage: Lineage, right: int = 0) -> Tree:
     """The tree of a lineage, with some room left free to its right."""
     right = WIDTH - MARGIN - right
-    x, row = _line_positions(lineage, right)
-    return Tree(lineage, x, row, *_kinds(lineage), right)
+    x, row, dense = _line_positions(lineage, right)
+    kinds, kind_of, ends = _kinds(lineage, sorted(x))
+    dividing = {kind_of[cell] for cell in x if lineage.daughters(cell)}
+    return Tree(lineage, x, row, kinds, kind_of, ends, right, {*kind_of.values()} - dividing if dense else ())
 
 
-def _line_positions(lineage: Lineage, right: int) -> tuple[dict[int, float], list[DrawnCell]]:
-    """The horizontal position of the line of each cell, and the filament below."""
-    ends = list(_leaves(lineage))
+def _line_positions(lineage: Lineage, right: int) -> tuple[dict[int, float], list[DrawnCell], bool]:
+    """The horizontal position of the line of each cell that has one, the filament below, and whether lines are dense."""
+    ends, dense = list(_leaves(lineage)), False
     row = _filament(lineage, right) if ends == list(lineage.words[-1]) else []
     if row:
         x = {cell.state: cell.x for cell in row}
     else:
-        apart = min(APART, (right - AXIS - 2 * MARGIN) / max(1, len(ends) - 1))
+        hidden, room = _without_line(lineage), right - AXIS - 2 * MARGIN
+        ends = [cell for cell in ends if cell not in hidden]
+        if dense := len(ends) > 1 and room / (len(ends) - 1) < DENSE:
+            ends = ends[:1] + [cell for before, cell in pairwise(ends) if not _alike(lineage, before, cell)]
+        apart = min(APART, room / max(1, len(ends) - 1))
         left = (right + AXIS - apart * (len(ends) - 1)) / 2
         x = {cell: left + apart * place for place, cell in enumerate(ends)}
     for cell in range(len(lineage.cells) - 1, -1, -1):  # daughters stand behind their mothers
-        if daughters := lineage.daughters(cell):
+        if daughters := [daughter for daughter in lineage.daughters(cell) if daughter in x]:
             x[cell] = (x[daughters[0]] + x[daughters[-1]]) / 2
-    return x, row
+    return x, row, dense
+
+
+def _without_line(lineage: Lineage) -> set[int]:
+    """The cells that only steer the turtle, never become anything else, and have sisters that do not."""
+    system = lineage.states.system
+    signs = steering_of(system) - {rule.predecessor.symbol for rule in (*system.productions, *system.decomposition)}
+    families: dict[int | None, list[int]] = {}
+    for number, cell in enumerate(lineage.cells):
+        families.setdefault(cell.mother, []).append(number)
+    found = set[int]()
+    for family in families.values():
+        steering = {cell for cell in family if lineage.cells[cell].at_birth.symbol in signs}
+        found |= steering if len(steering) < len(family) else set()
+    return found
+
+
+def _alike(lineage: Lineage, before: int, after: int) -> bool:
+    """Whether two cells that do not divide are sisters of one kind with the same end."""
+    one, other = lineage.cells[before], lineage.cells[after]
+    same = one.mother == other.mother is not None and one.ended == other.ended
+    return same and _base(lineage, one.at_birth) == _base(lineage, other.at_birth)
 
 
 def _leaves(lineage: Lineage) -> Iterator[int]:
@@ -129,13 +160,14 @@ def _filament(lineage: Lineage, right: int) -> list[DrawnCell]:
     ]
 
 
-def _kinds(lineage: Lineage) -> tuple[list[CellKind], list[int], dict[int, str]]:
-    """The kinds of cells, for each cell the number of its kind, and the colours of the cells in the last word.
+def _kinds(lineage: Lineage, cells: Sequence[int]) -> tuple[list[CellKind], dict[int, int], dict[int, str]]:
+    """The kinds of cells that have lines, for each of these the number of its kind, and the colours of the cells in the last
+    word.
 
     Cells that look alike at birth are of one kind; if there are too many kinds, cells of one symbol are. The colour of a kind
-    is that of its symbol, as in every other picture; dashes distinguish the kinds of one symbol.
+    is that of its symbol, as in every other picture; dashes distinguish the kinds of one colour.
     """
-    births = [cell.at_birth for cell in lineage.cells]
+    births = [lineage.cells[cell].at_birth for cell in cells]
     keys = [(_base(lineage, module), _drawn_shape(lineage, module)) for module in births]
     if len(set(keys)) > MOST_KINDS:
         keys = [(base, None) for base, _ in keys]
@@ -143,16 +175,18 @@ def _kinds(lineage: Lineage) -> tuple[list[CellKind], list[int], dict[int, str]]
     for key, module in zip(keys, births, strict=True):
         members.setdefault(key, {})[module] = None
     numbers = {key: number for number, key in enumerate(members)}
-    system, kinds = lineage.states.system, []
-    for modules, dash in zip(members.values(), cycle(DASHES), strict=False):
+    system, kinds = lineage.states.system, list[CellKind]()
+    for number, modules in enumerate(members.values()):
         symbol = next(iter(modules)).symbol
+        colour = colours(system).get(symbol, QUIET)
+        taken = [kind.dash for kind in kinds if kind.colour == colour]
+        order = [*DASHES[number % 4 :], *DASHES[: number % 4]]
+        dash = min(order, key=taken.count)
         letter, subscript, values = place_parts(Stage(symbol, tuple(modules)), system)
         name = f"{letter}_{subscript}" if subscript else letter
-        kinds.append(
-            CellKind(label_spans(*label_parts(name, system), values), len(name + values), colour_of(symbol, system), dash)
-        )
-    colours = {cell: colour_of(lineage.cells[cell].modules[-1][1].symbol, system) for cell in lineage.words[-1]}
-    return kinds, [numbers[key] for key in keys], colours
+        kinds.append(CellKind(label_spans(*label_parts(name, system), values), len(name + values), colour, dash))
+    ends = {cell: colour_of(lineage.cells[cell].modules[-1][1].symbol, system) for cell in lineage.words[-1]}
+    return kinds, {cell: numbers[key] for cell, key in zip(cells, keys, strict=True)}, ends
 
 
 def _base(lineage: Lineage, module: Module) -> str:
@@ -174,10 +208,12 @@ def polarity_of(lineage: Lineage, module: Module) -> int:
 
 TAIL, BEND, BRACKET = 14.0, 6.0, 46
 """The length of lines below the last time, the radius of corners, and the width of an interval, in pixels."""
-THICK, THIN, LATE = 24, 11, 90
+THICK, FINE, THIN, LATE = 24, 16, 11, 90
 """Widths of lines, in tenths of a pixel."""
 LABEL = 6
 """How far the figures of a time reach below its line, in pixels."""
+ROW = 20
+"""The height of a row of the legend, in pixels."""
 MOST_LINES, MOST_TICKS = 400, 14
 """The greatest numbers of cells at the end, and of times on the axis."""
 
@@ -245,18 +281,20 @@ def drawn_lineage(
 ) -> Drawing:
     """A lineage as shapes."""
     tree = tree_of(lineage, BRACKET * len(intervals))
+    painted = sorted(tree.x, key=lambda cell: (tree.kind_of[cell] not in tree.pale, cell))
     half = max((cell.width for cell in tree.row), default=8.0)
     middle = tree.y(lineage.times[-1]) + TAIL + half
-    meaning, parts = _legend(tree) if legend else [], middle + half + 24
+    meaning, rows = _legend(tree) if legend else ([], 0)
+    parts = middle + half + 24
     body: list[Shape] = [
         *([_axis(tree)] if labels else []),
         *(shape for place, interval in enumerate(intervals) for shape in _bracket(tree, place, *interval)),
-        *(shape for cell in range(len(lineage.cells)) for shape in _line(tree, cell)),
+        *(shape for cell in painted for shape in _line(tree, cell)),
         _flags(tree),
         *_last_word(tree, middle, labels),
         Group(meaning, Look(font_family="sans-serif", font_size=13), place=Place(1, AXIS * 10, tenths(parts))),
     ]
-    height = round(parts) + (MARGIN if meaning else -MARGIN)
+    height = round(parts) + (MARGIN + ROW * (rows - 1) if meaning else -MARGIN)
     return document(body, WIDTH, height, f"Lineage of {lineage}")
 
 
@@ -305,8 +343,10 @@ def _line(tree: Tree, number: int) -> list[Path]:
         data = f"M{tenths(x)} {tenths(tree.y(max(cell.due, cell.born)))}V{tenths(bottom)}"
         found.append(Path(data, {**_late_look(), "fill": "none"}))
     start, turned = _branch_path(tree, number, bottom)
-    look: Look = {"fill": "none", "stroke": line(kind.colour), "stroke_linecap": "round", **kind.broken}
-    thick, thin = (look | Look(stroke_width=width) for width in (THICK, THIN))
+    pale = tree.kind_of[number] in tree.pale
+    stroke = tinted(line(kind.colour), LABELLED) if pale else line(kind.colour)
+    look: Look = {"fill": "none", "stroke": stroke, "stroke_linecap": "round", **kind.broken}
+    thick, thin = (look | Look(stroke_width=width) for width in (FINE if pale else THICK, THIN))
     if seen <= turned or not tree.lineage.stepwise:
         return [*found, Path(f"{start}V{tenths(bottom)}", thick)]
     found.append(Path(f"{start}V{tenths(seen)}", thin))
@@ -335,7 +375,8 @@ def _branch_path(tree: Tree, number: int, bottom: float) -> tuple[str, float]:
 def _flags(tree: Tree) -> Path:
     """A flag at the beginning of each line, to the side to which the cell points."""
     parts = []
-    for number, cell in enumerate(tree.lineage.cells):
+    for number in sorted(tree.x):
+        cell = tree.lineage.cells[number]
         way = polarity_of(tree.lineage, cell.at_birth)
         top, end = tree.y(cell.born), tree.y(tree.lineage.times[-1] if cell.ended is None else cell.ended)
         if way and end - top > 16:
@@ -349,10 +390,10 @@ def _last_word(tree: Tree, middle: float, labels: bool) -> list[Shape]:
     lineage, system = tree.lineage, tree.lineage.states.system
     if tree.row:
         return filament_shapes(tree.row, system.cells, middle, tree.colours)
-    modules = [lineage.cells[cell].modules[-1][1] for cell in lineage.words[-1]]
-    places = [tree.x[cell] for cell in lineage.words[-1]]
+    cells = [cell for cell in lineage.words[-1] if cell in tree.x]
+    modules, places = [lineage.cells[cell].modules[-1][1] for cell in cells], [tree.x[cell] for cell in cells]
     longest = max((len(str(module)) for module in modules), default=0)
-    if not labels or any(after - before < 7 * longest for before, after in pairwise(places)):
+    if not labels or tree.pale or any(after - before < 7 * longest for before, after in pairwise(places)):
         return []
     look = Look(font_size=13, text_anchor="middle", font_family="sans-serif", fill=theme().ink)
     names = [label_spans(*label_parts(module.symbol, system), values_text(module)) for module in modules]
@@ -360,18 +401,24 @@ def _last_word(tree: Tree, middle: float, labels: bool) -> list[Shape]:
     return [Text(None, None, name, look, place=place) for name, place in zip(names, spots, strict=True)]
 
 
-def _legend(tree: Tree) -> list[Shape]:
-    """What the lines mean: kinds of cells by what they are at birth; what is not in a word yet, what is late."""
+def _legend(tree: Tree) -> tuple[list[Shape], int]:
+    """What the lines mean: kinds of cells by what they are at birth; what is not in a word yet, what is late. And how many rows
+    that takes."""
     cells, entries = tree.lineage.cells, list[tuple[Look, str | Sequence[str | Span], int]]()
-    for kind in tree.kinds if len(tree.kinds) > 1 else ():
-        look = Look(stroke=line(kind.colour), stroke_width=THICK, stroke_linecap="round")
-        entries.append((look | kind.broken, kind.label, kind.characters))
+    for number, kind in enumerate(tree.kinds if len(tree.kinds) > 1 else ()):
+        look = Look(stroke=line(kind.colour), stroke_width=THICK, stroke_linecap="round") | kind.broken
+        if number in tree.pale:
+            look |= Look(stroke=tinted(line(kind.colour), LABELLED), stroke_width=FINE)
+        entries.append((look, kind.label, kind.characters))
     if tree.lineage.stepwise and any(not cell.modules or tree.lineage.times[cell.modules[0][0]] > cell.born for cell in cells):
         entries.append((Look(stroke=theme().quiet, stroke_width=THIN), "within a step", 13))
     if any(cell.due is not None for cell in cells):
         entries.append((_late_look(), "should have divided", 19))
-    parts, x = list[Shape](), 0
+    parts, x, y = list[Shape](), 0, 0
     for look, label, characters in entries:
-        parts += [Path(f"M{x} 0h280", look), Text(None, None, label, Look(fill=theme().ink), place=Place(10, x + 360, 45))]
+        if x and x + 360 + 85 * characters > tenths(WIDTH - MARGIN - AXIS):
+            x, y = 0, y + 10 * ROW
+        place = Place(10, x + 360, y + 45)
+        parts += [Path(f"M{x} {y}h280", look), Text(None, None, label, Look(fill=theme().ink), place=place)]
         x += 360 + 65 * characters + 280
-    return parts
+    return parts, y // (10 * ROW) + 1

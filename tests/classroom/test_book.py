@@ -22,6 +22,7 @@ from lsys_kit.notation.model.modules import Pattern
 from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.pictures.formats.svg import svg
 from lsys_kit.pictures.nets.diagram import drawn_stages
+from lsys_kit.pictures.nets.parts import arrowhead
 from lsys_kit.pictures.style.labels import visible
 from lsys_kit.pictures.style.palette import GREEN, colours
 from tests.plugin import AN_HOUR
@@ -131,11 +132,13 @@ def test_colours_are_those_of_the_pictures():
 def test_the_diagram_of_a_book_is_that_of_the_picture(name):
     diagram, picture = made_book(name)["net"], svg(drawn_stages(stages(system(name))))
     root = ET.fromstring(picture)
-    paths = [re.sub(r"\.0(?!\d)", "", path.attrib["d"]) for path in root.iter(f"{SVG}path")]
-    assert paths == [
+    heads = [arrowhead((bar["x"] - 1.8, bar["y"]), (0.0, bar["y"])) for bar in diagram["bars"]]
+    expected = [
         *(arc[part] for arc in diagram["arcs"] for part in ("band", "path", "head")),
-        *(bar["line"] for bar in diagram["bars"]),
+        *(path for bar, head in zip(diagram["bars"], heads, strict=True) for path in (bar["line"], head)),
     ]
+    shown = [path.attrib["d"] for path in root.iter(f"{SVG}path")]
+    assert [re.sub(r"\.0(?!\d)", "", path) for path in shown] == [re.sub(r"\.0(?!\d)", "", path) for path in expected]
     circles = [tuple(float(circle.attrib[key]) for key in ("cx", "cy", "r")) for circle in root.iter(f"{SVG}circle")]
     assert circles == [(place["x"], place["y"], diagram["radius"]) for place in diagram["places"]]
     texts = [text for text in root.iter(f"{SVG}text") if text.get("class") in ("note", "footnote")]
@@ -164,6 +167,17 @@ def test_what_the_turtle_passes_over_is_told(text):
     assert made["unknown"]
     assert {*scene.unknown} <= {*made["unknown"]}
     assert made["said"] == passed_over(made["unknown"])
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [("axiom: F[+F]", True), ("axiom: F+F", False), ("colours: symbols\naxiom: F[+F]", False), ("axiom: F[+F]RH", True)],
+)
+def test_a_panel_says_which_colours_were_chosen_and_the_word_that_changes_them(text, said):
+    made = book(read(text))
+    assert ("colours: symbols" in made["said"]) == said
+    assert made["turtle"]["natural"] == said
+    assert passed_over(made["unknown"]) in made["said"]
 
 
 @pytest.mark.parametrize("name", HOSTILE, ids=range(len(HOSTILE)))

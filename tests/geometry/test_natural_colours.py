@@ -5,8 +5,9 @@ from __future__ import annotations
 import pytest
 
 from lsys_kit import ModelSyntaxError, derive, draw, read, write
-from lsys_kit.geometry.drawing import scene_of
+from lsys_kit.geometry.drawing import has_natural_colours, scene_of
 from lsys_kit.geometry.scene import OWN
+from lsys_kit.geometry.turtle.commands import BLOSSOM
 from lsys_kit.pictures.style.palette import RAMP
 
 ORGANS = "axiom: I[+L]I\ninterpretation:\nI -> F\nL -> F F"
@@ -73,3 +74,13 @@ def test_the_farthest_step_that_is_drawn_is_the_end_of_the_ramp():
     leaf = scene_of(derive(read("axiom: F [' {f+f+f}]"), 0))
     assert (leaf.segments.colours.tolist(), leaf.polygons.colours.tolist()) == ([16], [23])
     assert colours("axiom: F" + " ' F" * 9) == [16, 17, 18, 19, 20, 21, 22, 23, 23, 23]
+
+
+def test_what_lies_beyond_leaves_is_a_blossom():
+    flower = scene_of(derive(read("axiom: F [' {f+f+f} [' F]]"), 0))
+    assert (flower.segments.colours.tolist(), flower.polygons.colours.tolist()) == ([16, BLOSSOM], [23])
+
+
+@pytest.mark.parametrize(("organ", "natural"), [("~leaf", True), ("F", False), ("@O", False)])
+def test_stems_of_a_plant_with_several_kinds_are_natural_where_it_has_leaves(organ, natural):
+    assert has_natural_colours(read(f"{ORGANS} {organ}")) == natural

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from lsys_kit import derive, draw, read
 from lsys_kit.geometry.drawing import scene_of
-from lsys_kit.geometry.pipe_model import EXPONENT, TRUNK, strokes_below, tips_borne
+from lsys_kit.geometry.pipe_model import EXPONENT, SLENDER, TRUNK, strokes_below, tips_borne
 from lsys_kit.geometry.turtle.plane import place_path, trace
 
 WORDS = st.recursive(
@@ -92,6 +92,15 @@ def test_widths_are_the_power_of_tips_and_the_trunk_is_a_part_of_the_plant():
     assert segments.widths.max() == pytest.approx(TRUNK * max(picture.scene.width, picture.scene.height))
     relative = (segments.widths / segments.widths.min()) ** EXPONENT
     assert relative == pytest.approx(tips_borne(segments) / tips_borne(segments).min())
+
+
+@pytest.mark.parametrize("turn", [90, 30, 8, 2, 0])
+def test_the_trunk_of_a_slender_plant_is_slender(turn):
+    scene = draw(read(f"angle: {turn}\naxiom: F(9)[+F(6)]F(6)"), 0).scene
+    lesser, greatest = sorted((scene.width, scene.height))
+    expected = TRUNK * min(greatest, max(SLENDER * lesser, greatest / SLENDER))
+    assert scene.segments.widths.max() == pytest.approx(expected)
+    assert (expected < TRUNK * greatest) == (turn < 50)
 
 
 @pytest.mark.parametrize("text", ["axiom: F[+F]!(0.1)F", "axiom: F+F", "axiom: F[+F]\nheading: 90\nF -> F#F"])

@@ -17,7 +17,8 @@ from PIL import Image
 from lsys_kit import animate, derive, draw, figure, read, system
 from lsys_kit.geometry.scene import OWN
 from lsys_kit.pictures.rendering.display_list import BROADEST_CASING
-from lsys_kit.pictures.rendering.frames import frame_around
+from lsys_kit.pictures.rendering.frames import FINE, frame_around
+from lsys_kit.pictures.rendering.looks import THINNEST
 from lsys_kit.pictures.style.palette import PAPER
 
 BOOK = Path(__file__).parents[1] / "listings" / "abop"
@@ -123,6 +124,14 @@ def test_widths_in_proportion_and_those_that_a_model_calls_so_are_units(text):
     svg = drawn(text).svg
     width, (_, y, _, to_y) = WIDTHS.findall(svg)[-1], re.search(r"M(\d+) (\d+)L(\d+) (\d+)", svg).groups()
     assert abs(int(to_y) - int(y)) / int(width) == pytest.approx(8, rel=0.02)
+
+
+@pytest.mark.parametrize("width", [1, 0.1, 0.001])
+def test_strokes_that_are_far_too_fine_for_a_drawing_are_broader_with_one_another(width):
+    widths = [int(each) for each in WIDTHS.findall(drawn(f"axiom: !({width})F(300)!({width / 2})F(300)").svg)]
+    assert widths == pytest.approx([6160 * FINE, 3080 * FINE], rel=0.03)
+    finest = [int(each) for each in WIDTHS.findall(drawn(f"widths: units\naxiom: !({width})F(600)").svg)]
+    assert finest == [max(THINNEST, round(10 * width * 616 / 600))]
 
 
 def test_a_drawing_that_is_larger_than_the_picture_is_made_smaller_with_its_strokes():

@@ -9,13 +9,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lsys_kit import draw, read, stages, system, systems
+from lsys_kit import book_systems, draw, read, stages, system, systems
 from lsys_kit.errors import LSystemError
 from lsys_kit.pictures.nets import parts
 from lsys_kit.pictures.nets.layers import Layers, layered
 from lsys_kit.pictures.nets.layout import Layout, Texts, crossings
-from lsys_kit.pictures.nets.parts import LABEL_SIZE, LEGIBLE, PAGE, clearest_layout, steering_of
+from lsys_kit.pictures.nets.parts import LABEL_SIZE, LEGIBLE, PAGE, clearest_layout
 from lsys_kit.pictures.nets.rows import rows_of, shown_places
+from lsys_kit.pictures.style.labels import steering_of
 
 
 @st.composite
@@ -101,9 +102,29 @@ def test_what_would_be_too_wide_stands_in_rows_that_are_narrow_enough(name: str)
     net = stages(system(name))
     shown = rows_of(net, shown_places(net, steering_of(net.system)))
     texts = Texts(dict.fromkeys(range(len(net.places)), 20.0), {}, {})
-    wide, narrow, line = (clearest_layout(net, shown, texts, widest) for widest in (10_000, 980, 1))
-    assert line.width < narrow.width <= 980 < wide.width
+    wide, narrow, line = (clearest_layout(net, shown, texts, widest) for widest in (10_000, 700, 1))
+    assert line.width < narrow.width <= 700 < wide.width
     assert crossings(wide) < crossings(narrow)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", [*systems(), *book_systems()])
+def test_a_diagram_fits_a_column_and_arrows_lead_to_its_bars(name: str) -> None:
+    net = stages(system(name))
+    found = parts.parts_of(net, False, steering_of(net.system))
+    assert max(bar.x for bar in found.bars) <= PAGE * 11 / LEGIBLE if found.bars else True
+    for bar in found.bars:
+        *_, turn, end = re.findall(r"(-?[\d.]+) (-?[\d.]+)(?=[A-Z]|$)", bar.line)
+        assert float(end[0]) == pytest.approx(bar.x, abs=0.1)
+        assert float(turn[0]) < float(end[0]), "from the left"
+
+
+@pytest.mark.parametrize("name", ["P5", "P6", "P7"])
+def test_the_stage_of_the_axiom_comes_first(name: str) -> None:
+    net = stages(system(name))
+    first, *others = parts.parts_of(net, False, steering_of(net.system)).places
+    assert first.place == 0
+    assert all((first.y, first.x) < (place.y, place.x) for place in others)
 
 
 def test_a_row_of_stages_without_crossings_stays_a_row() -> None:

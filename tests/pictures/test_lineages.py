@@ -10,8 +10,9 @@ from xml.etree import ElementTree as ET
 
 import pytest
 
-from lsys_kit import ModelFileError, ModelLimitError, ModelValueError, draw, figure, lineage, read, system, timed
+from lsys_kit import ModelFileError, ModelLimitError, ModelValueError, derive, draw, figure, lineage, read, system, timed
 from lsys_kit.pictures.lineages import LineagePicture, tree_of
+from lsys_kit.pictures.style.labels import steering_of
 from lsys_kit.pictures.style.palette import colour_of
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -149,3 +150,38 @@ def test_cells_of_one_symbol_with_more_and_fewer_values_are_of_one_kind_where_ki
     seen = draw(lineage(read("axiom: A(0)\nA(t) -> A(t+1) G(t) G(t, t)"), 9))
     assert "A" in texts(seen)
     assert "G" in texts(seen)
+
+
+@pytest.mark.parametrize("id", ["K11", "K20", "K21", "L3"])
+def test_what_only_steers_the_turtle_has_no_line(id: str) -> None:
+    tree = tree_of(lineage(derive(system(id), 2)))
+    shown = {tree.lineage.cells[cell].at_birth.symbol for cell in tree.x}
+    steering = steering_of(system(id)) - {rule.predecessor.symbol for rule in system(id).productions}
+    assert shown == {cell.at_birth.symbol for cell in tree.lineage.cells} - steering
+    assert any(module.symbol in steering for module in tree.lineage.last)
+
+
+def test_the_axiom_of_grogra_is_a_mother() -> None:
+    tree = lineage(system("K3"), 3)
+    assert [str(cell.at_birth) for cell in tree.cells if cell.mother is None] == ["*"]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("id", ["J6", "K14", "K15", "K17a", "ABOP-3-mycelis"])
+def test_no_two_kinds_look_the_same_and_the_legend_is_not_cut(id: str) -> None:
+    picture = draw(lineage(system(id)))
+    kinds = tree_of(picture.lineage).kinds
+    assert len({(kind.colour, kind.dash) for kind in kinds}) == len(kinds)
+    image = picture.image()
+    white = image.crop((image.width - 4, 0, image.width, image.height)).convert("L").getextrema()
+    assert white == (255, 255)
+
+
+def test_where_lines_are_dense_sisters_share_one_and_what_never_divides_is_pale() -> None:
+    dense, sparse = (tree_of(lineage(system("K19"), steps)) for steps in (12, 2))
+    symbols = {number: dense.lineage.cells[cell].at_birth.symbol for cell, number in dense.kind_of.items()}
+    assert {symbols[number] for number in dense.pale} == {"F", "L", "K"}
+    assert sparse.pale == ()
+    assert len(sparse.x) == len(sparse.lineage.cells)
+    sisters = [dense.lineage.daughters(cell) for cell in dense.x if dense.lineage.cells[cell].at_birth.symbol == "I"]
+    assert {sum(daughter in dense.x for daughter in daughters) for daughters in sisters if daughters} == {2}  # of F F I

@@ -15,10 +15,11 @@ from lsys_kit import ModelLimitError, ModelValueError, derive, draw, limits, rea
 from lsys_kit.derivation.petri.stages import Stages
 from lsys_kit.pictures.formats.svg import svg
 from lsys_kit.pictures.nets import diagram, parts
-from lsys_kit.pictures.nets.diagram import drawn_stages, steering_of
+from lsys_kit.pictures.nets.diagram import drawn_stages
 from lsys_kit.pictures.nets.layout import Layout, crossings
 from lsys_kit.pictures.nets.parts import clearest_layout, parts_of, short, width_of
 from lsys_kit.pictures.nets.rows import rows_of, shown_places
+from lsys_kit.pictures.style.labels import steering_of
 from lsys_kit.pictures.style.palette import MARK
 
 NAMED = ("J1", "J4", "J5", "P1", "P2", "P3", "P4", "P5", "T2", "K2", "K5", "L1")

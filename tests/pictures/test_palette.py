@@ -8,17 +8,21 @@ WCAG 2.2.
 
 from __future__ import annotations
 
+import re
+from contextlib import suppress
 from itertools import combinations
 
 import numpy as np
 import pytest
 
-from lsys_kit import stages, system
+from lsys_kit import LSystemError, book_systems, derive, draw, lineage, plot, stages, system, systems
 from lsys_kit.classroom.panel.bundle import style
 from lsys_kit.geometry.turtle.commands import RAMP_END, RAMP_START
 from lsys_kit.pictures.legends import MOST_WITHOUT_LETTERS
-from lsys_kit.pictures.lineages import DASHES
-from lsys_kit.pictures.nets.parts import parts_of, steering_of
+from lsys_kit.pictures.lineages import DASHES, tree_of
+from lsys_kit.pictures.nets.parts import parts_of
+from lsys_kit.pictures.picture import Picture
+from lsys_kit.pictures.style.labels import polar_symbols, steering_of
 from lsys_kit.pictures.style.palette import (
     CHOSEN,
     INK,
@@ -203,3 +207,23 @@ def test_the_circles_of_a_stage_diagram_are_filled_so_that_they_can_be_told_apar
     net = stages(system(id))
     strengths = [part.strength for part in parts_of(net, False, steering_of(net.system)).places]
     assert PALEST <= min(strengths) <= max(strengths) <= LABELLED
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("id", [*systems(), *book_systems()])
+def test_a_symbol_has_one_colour_in_drawing_net_plot_and_lineage(id: str) -> None:
+    derivation = derive(system(id), min(system(id).steps or 3, 3))
+    made_by, picture, net = derivation.states.system, draw(derivation), stages(system(id))
+    assert isinstance(picture, Picture)
+    found = [(net.places[part.place].symbol, part.colour) for part in parts_of(net, False, steering_of(made_by)).places]
+    found += [(module.symbol, picture.colour_of[state]) for state, module in enumerate(derivation.states.modules)]
+    labels = [(re.findall(r"mathit\{(\w+)\}", curve.label), curve.colour) for curve in plot(derivation).chart.curves]
+    found += [(names[0], colour) for names, colour in labels if names]
+    with suppress(LSystemError):  # cells may be too many, or have several mothers
+        tree = tree_of(lineage(derivation))
+        found += [(tree.lineage.cells[cell].at_birth.symbol, tree.kinds[kind].colour) for cell, kind in tree.kind_of.items()]
+    letters: dict[str, set[str]] = {}
+    for symbol, colour in found:
+        if symbol[0].isalnum():
+            letters.setdefault(polar_symbols(made_by).get(symbol, (symbol, ""))[0], set()).add(colour)
+    assert {letter: colours for letter, colours in letters.items() if len(colours) > 1} == {}

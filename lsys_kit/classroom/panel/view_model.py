@@ -33,12 +33,12 @@ from lsys_kit.pictures.filaments import FilamentRow
 from lsys_kit.pictures.formats.lettering import advance
 from lsys_kit.pictures.formats.painting import PixelPainter, Sheet, label_width
 from lsys_kit.pictures.nets.diagram import drawn_stages
-from lsys_kit.pictures.nets.parts import parts_of, steering_of
+from lsys_kit.pictures.nets.parts import parts_of
 from lsys_kit.pictures.picture import Picture
 from lsys_kit.pictures.rendering.frames import in_units
 from lsys_kit.pictures.rendering.view import project_smoothly
 from lsys_kit.pictures.shapes import Place
-from lsys_kit.pictures.style.labels import label_parts, place_text, shared_formulas, values_text
+from lsys_kit.pictures.style.labels import label_parts, place_text, shared_formulas, steering_of, values_text
 from lsys_kit.pictures.style.palette import INK, MARK, MARK_EDGE, QUIET, colours, tinted
 from lsys_kit.worlds.derive import derive
 

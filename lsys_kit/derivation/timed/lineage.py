@@ -112,11 +112,13 @@ class CellGrowth:
         self.places: list[int | None] = []  # the cell of each module of the word
         self._modules: list[list[tuple[int, Module]]] = []  # for each cell what it is in the words that have it
         self._parts = 0
-        self._kinds = cell_kinds(states.system)
+        self._kinds, self._signs = cell_kinds(states.system), dividing_signs(states.system)
 
     def is_cell(self, module: Module) -> bool:
         """Whether a module is a cell."""
-        return kind_of(module) in self._kinds if self._kinds else module.symbol[0].isalpha()
+        if self._kinds:
+            return kind_of(module) in self._kinds
+        return module.symbol[0].isalpha() or module.symbol in self._signs
 
     def born(self, mother: int | None, moment: Value, module: Module) -> int:
         """A new cell's number."""
@@ -176,6 +178,21 @@ class CellGrowth:
                 return normalised(end - part.ago) if part.ago is not None else None
             part = cells[0]
         return None
+
+
+def dividing_signs(system: LSystem) -> frozenset[str]:
+    """The symbols without letters of which letters come, as `*` in GROGRA.
+
+    >>> from lsys_kit.notation.read import read
+    >>> sorted(dividing_signs(read("axiom: F + !\\n+ -> -\\n! -> ! F")))
+    ['!']
+    """
+    rules = (*system.productions, *system.decomposition)
+    return frozenset(
+        rule.predecessor.symbol
+        for rule in rules
+        if not rule.predecessor.symbol[0].isalpha() and any(made.symbol[0].isalpha() for made in flat(rule.successor))
+    )
 
 
 def cell_kinds(system: LSystem) -> frozenset[ModuleKind]:

@@ -140,6 +140,8 @@ FIRST_COLOUR = 14
 """The default colour of strokes in the numbering of GROGRA: yellow."""
 RAMP_START, RAMP_END = 16, 23
 """The first and the last number of the colours that run from bark to leaves; those below are told apart by hue."""
+BLOSSOM = 13
+"""The number of the colour of what lies beyond leaves: stamens and other strokes in flowers."""
 WIDTH = 0.1
 """The width of circles, discs and spheres without an argument, where no width of strokes has been set."""
 

@@ -23,12 +23,12 @@ from lsys_kit.pictures.nets.parts import (
     NotePart,
     Parts,
     PlacePart,
+    arrowhead,
     parts_of,
     short,
-    steering_of,
 )
 from lsys_kit.pictures.shapes import Circle, Drawing, Group, Look, Paper, Path, Rectangle, Shape, Text, Title
-from lsys_kit.pictures.style.labels import label_spans
+from lsys_kit.pictures.style.labels import label_spans, steering_of
 from lsys_kit.pictures.style.palette import tinted
 from lsys_kit.pictures.style.themes import Theme, line, theme
 
@@ -142,9 +142,10 @@ def token_size(text: str) -> int:
 
 
 def _bar(bar: BarPart) -> list[Shape]:
-    """A bar with the line to it and its terms."""
+    """A bar with the arrow to it, from the left, and its terms."""
     shapes: list[Shape] = [
         Path(bar.line, _stroke(), {"class": "feed"}),
+        Path(arrowhead((bar.x - 1.8, bar.y), (bar.x - RADIUS, bar.y))),
         Rectangle(bar.x - 1.8, float(bar.y - bar.half), 3.6, 2.0 * bar.half, 0.8),
     ]
     if bar.terms:

@@ -16,7 +16,7 @@ from bisect import bisect_right, insort
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import pairwise
-from math import dist
+from math import dist, inf
 from random import Random
 from typing import NamedTuple, TypeAlias
 
@@ -29,11 +29,17 @@ SWEEPS, STARTS = 6, 6
 """How often the layers are ordered up and down from one first order, and from how many first orders."""
 FEED, ARC, DUMMY = 4, 1, 2
 """How much it matters that the line from a circle to its bar is short and straight, that an arc is, and that a long arc is."""
-SPACE, LEAST_GAP, MOST_GAP, SLOPE = 8.0, 22.0, 80.0, 0.3
-"""The space between neighbours in a column; the least and the most between two columns; and how steep lines may become before
-columns move apart: the gap to the height of the steepest line."""
+SPACE = 8.0
+"""The space between neighbours in a column."""
+GAPS = ((22.0, 80.0, 0.3), (8.0, 24.0, 0.1))
+"""The least and the most space between two columns, and how steep lines may become before these move apart: the gap to the
+height of the steepest line; and the same where there is too little room for that."""
+HEAD = 9.0
+"""The least straight piece of a line before a bar: room for the head of an arrow."""
 PORT, HIGHEST_PORT = 7.0, 13.0
 """The distance of lines that end at one side of a circle or bar, and how far from the middle one may meet a circle."""
+MOST_FOR_AXIOM = 2
+"""So many crossings more there may be where the stage of the axiom comes first."""
 MOST_PIECES = 1_000
 """Paths are followed first from one place after another, until layers with so many pieces of lines have been made."""
 TERMS, NOTE, CLEARANCE = 15.0, 14.0, 6.0
@@ -205,9 +211,12 @@ _LINE = _Box(0.0, 0.0, 3.5, 3.5)
 """A dummy: a line that passes."""
 
 
-def layered_layout(net: Stages, places: Sequence[int], texts: Texts) -> Layout:
-    """The layout in layers of a net with some places shown, of which one is followed first that leads to few crossings."""
-    return _InLayers(net, places, texts).layout()
+def layered_layout(net: Stages, places: Sequence[int], texts: Texts, widest: float = inf) -> Layout:
+    """The layout in layers of a net with some places shown, of which one is followed first that leads to few crossings; columns
+    stand closer where it would be wider than allowed."""
+    found, (usual, close) = _InLayers(net, places, texts), GAPS
+    layout = found.layout(usual)
+    return layout if layout.width <= widest else found.layout(close)
 
 
 class _InLayers:
@@ -227,11 +236,10 @@ class _InLayers:
         self.ports = self._ports()
         self.boxes = self._boxes()
         self.ys = self._rows()
-        self.column = self._columns()
 
     def _best_layers(self) -> Layers:
         """The layers with the fewest crossings, then with the fewest arcs that lead back, over the places that may come
-        first."""
+        first; that of the axiom comes first unless that costs too many."""
         weights = [FEED if i < len(self.bars) else ARC for i in range(len(self.edges))]
         tried = []
         pieces = 0
@@ -240,7 +248,10 @@ class _InLayers:
             pieces += sum(map(len, tried[-1].chains))
             if not tried[-1].crossings or pieces > MOST_PIECES:
                 break
-        return min(tried, key=lambda layers: (layers.crossings, len(layers.turned)))
+        best = min(tried, key=lambda layers: (layers.crossings, len(layers.turned)))
+        axiom = self.places.index(min(self.places)) if self.places else 0
+        from_axiom = tried[axiom] if axiom < len(tried) else best
+        return from_axiom if from_axiom.crossings <= best.crossings + MOST_FOR_AXIOM else best
 
     def _ports(self) -> dict[tuple[int, int], float]:
         """For each edge and its ends the port; a feed meets the middle."""
@@ -266,7 +277,7 @@ class _InLayers:
             boxes[i] = _Box(across, across, RADIUS + 2, RADIUS + LABEL)
         for i, bar in enumerate(self.bars, len(self.places)):
             half, across = self._half(i), max(4.0, self.texts.terms.get(bar, 0.0) / 2 + 4)
-            boxes[i] = _Box(across, across, half + TERMS * (bar in self.texts.terms), half)
+            boxes[i] = _Box(max(across, HEAD), across, half + TERMS * (bar in self.texts.terms), half)
         return boxes
 
     def _half(self, vertex: int) -> float:
@@ -294,7 +305,7 @@ class _InLayers:
         top = min((ys[v] - self.boxes[v].above for v in range(count)), default=0.0)
         return {v: float(ys[v] - top + EDGE) for v in range(count)}
 
-    def _columns(self) -> dict[int, tuple[float, float, float]]:
+    def _columns(self, least: float, most: float, slope: float) -> dict[int, tuple[float, float, float]]:
         """For each vertex the left edge, the middle and the right edge of its column; between two columns there is room for the
         widest note and the steepest line."""
         found, left, note = dict[int, tuple[float, float, float]](), EDGE, max(self.texts.notes.values(), default=0.0)
@@ -305,11 +316,12 @@ class _InLayers:
             middle = left + max(self.boxes[vertex].left for vertex in layer)
             right = middle + max(self.boxes[vertex].right for vertex in layer)
             found.update(dict.fromkeys(layer, (left, middle, right)))
-            left = right + max(LEAST_GAP, 2 * note, min(MOST_GAP, SLOPE * max(rise[vertex] for vertex in layer)))
+            left = right + max(least, 2 * note, min(most, slope * max(rise[vertex] for vertex in layer)))
         return found
 
-    def layout(self) -> Layout:
-        """The coordinates."""
+    def layout(self, gaps: tuple[float, float, float]) -> Layout:
+        """The coordinates, with gaps between the columns."""
+        self.column = self._columns(*gaps)
         lines = [self._line(edge, chain) for edge, chain in enumerate(self.layers.chains)]
         lines = [line[::-1] if edge in self.layers.turned else line for edge, line in enumerate(lines)]
         circles = {place: (self.column[i][1], self.ys[i]) for i, place in enumerate(self.places)}

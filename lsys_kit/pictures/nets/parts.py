@@ -6,17 +6,14 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from functools import lru_cache
-from string import punctuation
 from typing import NamedTuple
 
 from lsys_kit.derivation.petri.net import Place, Stages, Transition, likelihood
-from lsys_kit.geometry.turtle.commands import COMMANDS, Effect, symbols_with
 from lsys_kit.notation.model.arithmetic import is_symbolic, number_text
-from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.nets.layers import layered_layout
 from lsys_kit.pictures.nets.layout import EDGE, ROUND, Layout, Point, Texts, crossed_notes, crossings
 from lsys_kit.pictures.nets.rows import layout_in_rows, rows_of, shown_places
-from lsys_kit.pictures.style.labels import label_parts, place_parts, place_text
+from lsys_kit.pictures.style.labels import label_parts, place_parts, place_text, steering_of
 from lsys_kit.pictures.style.palette import LABELLED, PALEST, QUIET, colours
 
 LONGEST_CAPTION, LONGEST_FOOTNOTE = 24, 120
@@ -122,8 +119,8 @@ SUBSCRIPT = 0.7
 """The size of a subscript, relative to its label."""
 MOST_CROSSINGS, MOST_LAYERED = 1, 60
 """So many crossings are allowed in rows of places; nets with more arcs than so many stand in rows all the same."""
-PAGE, LEGIBLE = 900, 9
-"""The width of a page, in pixels, on which a wider diagram is made smaller; and the least size that its text may have then."""
+PAGE, LEGIBLE = 480, 7
+"""The width of a column, in pixels, in which a wider diagram is made smaller; and the least size that its text has then."""
 SHORTER_ROWS = (6, 5, 4, 3, 2, 1)
 """How many places rows may have at most where longer ones are too wide."""
 
@@ -196,18 +193,6 @@ class Parts(NamedTuple):
         return self._replace(places=tuple(place._replace(letter="", subscript="", values="") for place in self.places))
 
 
-def steering_of(system: LSystem) -> frozenset[str]:
-    """The symbols that only steer the turtle, and so are no stages.
-
-    >>> from lsys_kit import read
-    >>> sorted(steering_of(read("axiom: F [+ &(60) f] A")) & set("F[+&]fA"))
-    ['&', '+', '[', ']']
-    """
-    interpreted = {rule.predecessor.symbol for rule in system.interpretation}
-    invisible = COMMANDS[system.turtle].keys() - symbols_with(Effect.VISIBLE, system.turtle)
-    return frozenset(punctuation) | (invisible - interpreted)
-
-
 @lru_cache(maxsize=64)
 def parts_of(net: Stages, positions: bool, steering: frozenset[str], chosen: tuple[tuple[str, str], ...] = ()) -> Parts:
     """The parts of the diagram of a net; `positions` and `steering` as for `drawn_stages`, and chosen colours of symbols."""
@@ -221,7 +206,7 @@ def parts_of(net: Stages, positions: bool, steering: frozenset[str], chosen: tup
         {number: width_of(text, SMALL) for number, text in terms.items()},
         {arc: width_of(text, SMALL) for arc, text in notes.items()},
     )
-    layout = clearest_layout(net, rows, texts, widest_legible(net, order, texts))
+    layout = clearest_layout(net, rows, texts, widest_legible(net, order))
     besides = tuple(f"besides: {readable(text)}" for text in net.besides)
     footnotes = (*numbered, *besides)
     fills = _fills(net, order, dict(chosen))
@@ -250,23 +235,21 @@ def positions_in(net: Stages) -> dict[str, Point]:
     return places | {f"t{part.transition}": (part.x, part.y) for part in parts.bars}
 
 
-def widest_legible(net: Stages, places: Iterable[int], texts: Texts) -> float:
-    """How wide a diagram may be, in pixels, for its smallest text to be legible on a page."""
-    smallest: float = SMALL if texts.terms or texts.notes else LABEL_SIZE
-    if any(place_parts(net.places[place], net.system)[1] for place in places):
-        smallest = min(smallest, SUBSCRIPT * LABEL_SIZE)
-    return PAGE * smallest / LEGIBLE
+def widest_legible(net: Stages, places: Iterable[int]) -> float:
+    """How wide a diagram may be, in pixels, for its smallest text to be legible in a column."""
+    has_subscripts = any(place_parts(net.places[place], net.system)[1] for place in places)
+    return PAGE * (SUBSCRIPT * LABEL_SIZE if has_subscripts else SMALL) / LEGIBLE
 
 
 def clearest_layout(net: Stages, rows: Sequence[tuple[int, ...]], texts: Texts, widest: float = math.inf) -> Layout:
     """Rows of places as in print, unless their arcs are few enough, cross more than once, and less often in layers.
 
-    What is too wide, in rows or in layers, stands in shorter rows.
+    Layers that are too wide are moved together; what still is too wide, in rows or in layers, stands in shorter rows.
     """
     in_rows, places = layout_in_rows(net, rows, texts), [place for row in rows for place in row]
     clearest = in_rows
     if len(in_rows.arcs) <= MOST_LAYERED and crossings(in_rows) > MOST_CROSSINGS:
-        clearest = min(in_rows, layered_layout(net, places, texts), key=crossings)
+        clearest = min(in_rows, layered_layout(net, places, texts, widest), key=crossings)
     return clearest if clearest.width <= widest else _in_shorter_rows(net, in_rows, places, texts, widest)
 
 
@@ -309,16 +292,24 @@ def _rank(place: Place) -> tuple[float, ...]:
 
 
 def _arc(number: int, corners: Sequence[Point]) -> ArcPart:
-    (x, y), (nx, ny) = corners[-1], _point_towards(corners[-1], corners[-2], 1.0)
-    back, aside = (8.5 * (nx - x), 8.5 * (ny - y)), (3.4 * (ny - y), 3.4 * (x - nx))
-    ends = sorted((x + back[0] + side * aside[0], y + back[1] + side * aside[1]) for side in (1, -1))
-    head = "".join(f"L{a:.1f} {b:.1f}" for a, b in ends)
     return ArcPart(
         number,
         rounded_path(corners),
         rounded_path([*corners[:-1], _point_towards(corners[-1], corners[-2], 10)]),
-        f"M{x:.1f} {y:.1f}{head}Z",
+        arrowhead(corners[-1], corners[-2]),
     )
+
+
+def arrowhead(tip: Point, start: Point) -> str:
+    """The head of an arrow as an SVG path.
+
+    >>> arrowhead((20, 0), (0, 0))
+    'M20.0 0.0L11.5 -3.4L11.5 3.4Z'
+    """
+    (x, y), (nx, ny) = tip, _point_towards(tip, start, 1.0)
+    back, aside = (8.5 * (nx - x), 8.5 * (ny - y)), (3.4 * (ny - y), 3.4 * (x - nx))
+    ends = sorted((x + back[0] + side * aside[0], y + back[1] + side * aside[1]) for side in (1, -1))
+    return f"M{x:.1f} {y:.1f}{''.join(f'L{a:.1f} {b:.1f}' for a, b in ends)}Z"
 
 
 def rounded_path(corners: Sequence[Point]) -> str:

@@ -3,9 +3,9 @@
 In cpfg lines of the style "pixel" are so many pixels wide, and lines of the styles "polygon" and "cylinder" so many units; the
 style stands in another file than the model. So in the listings of the book: `A(1,10)` of figure 2.6 draws a stem of length 1
 and width 10. A system can say which is meant, by `widths: pixels` or `widths: units`. Where it does not, its widths are units
-as far as they are in proportion to its strokes; if the broadest is not, all are made finer with it. So a model and the same
-model ten times as large look alike. Widths by the pipe model are in proportion to the plant, and a pipe is equally broad in all
-scenes that are shown together.
+as far as they are in proportion to its strokes; if the broadest is not, all are made finer or broader with it. So a model and
+the same model ten times as large look alike. Widths by the pipe model are in proportion to the plant, and a pipe is equally
+broad in all scenes that are shown together.
 
 A pixel is one of a picture of the usual size, and at most a unit: a drawing of more units than the picture has pixels is made
 smaller with its strokes. Pictures of other sizes, films and meshes scale strokes with the drawing.
@@ -154,8 +154,9 @@ def frame_on(box: tuple[float, float, float, float], scale: float) -> ViewFrame:
 
 MOST_OF_A_PICTURE = 0.5
 """The part of a picture that the broadest stroke may fill before the drawing is no longer made smaller for it."""
-BROAD, STOUT = 1 / 36, 1 / 8
-"""A stroke is in proportion that is no broader than this part of the extent of the drawing, or of the longest stroke."""
+BROAD, STOUT, FINE = 1 / 36, 1 / 8, 1 / 80
+"""Strokes are in proportion if none is broader than this part of the extent of the drawing, or than this of the longest stroke,
+and the broadest is no finer than this part of the extent."""
 
 
 def in_units(scenes: Sequence[Scene], system: LSystem, widths: str = "") -> list[Scene]:
@@ -186,7 +187,8 @@ def in_units(scenes: Sequence[Scene], system: LSystem, widths: str = "") -> list
         return [*scenes]
     if not pixels:
         most = max(max(BROAD * _extent(scene), STOUT * _longest(scene.segments)) for scene in scenes)
-        return [_scaled(scene, min(1.0, most / broadest)) for scene in scenes]
+        least = FINE * max(map(_extent, scenes))
+        return [_scaled(scene, max(min(1.0, most / broadest), least / broadest)) for scene in scenes]
     left, bottom, right, top = zip(*(scene.box for scene in scenes), strict=True)
     across, up = max(max(right) - min(left), 1e-9), max(max(top) - min(bottom), 1e-9)
     pixel = min(1.0, 1 / usual_scale(across, up, min(broadest, MOST_OF_A_PICTURE * HEIGHT)))

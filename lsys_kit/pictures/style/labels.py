@@ -10,9 +10,11 @@ import re
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from html import escape
+from string import punctuation
 
 from lsys_kit.derivation.petri.net import Place
 from lsys_kit.errors import printable
+from lsys_kit.geometry.turtle.commands import COMMANDS, Effect, symbols_with
 from lsys_kit.notation.model.arithmetic import Value, is_symbolic, number_of, number_text, rounded
 from lsys_kit.notation.model.formulas import Element, formula_text, values_element
 from lsys_kit.notation.model.modules import Module
@@ -52,6 +54,18 @@ def polar_symbols(system: LSystem) -> Mapping[str, tuple[str, str]]:
         for name in symbols(system)
         if len(name) > 1 and name[-1] in "lr" and name[:-1] + {"l": "r", "r": "l"}[name[-1]] in names
     }
+
+
+def steering_of(system: LSystem) -> frozenset[str]:
+    """The symbols that only steer the turtle, and so are no stages and no cells.
+
+    >>> from lsys_kit import read
+    >>> sorted(steering_of(read("axiom: F [+ &(60) f] A")) & set("F[+&]fA"))
+    ['&', '+', '[', ']']
+    """
+    interpreted = {rule.predecessor.symbol for rule in system.interpretation}
+    invisible = COMMANDS[system.turtle].keys() - symbols_with(Effect.VISIBLE, system.turtle)
+    return frozenset(punctuation) | (invisible - interpreted)
 
 
 def label_parts(symbol: str, system: LSystem) -> tuple[str, str]:

@@ -62,8 +62,7 @@ from lsys_kit.notation.model.turtle_dialects import TURTLE_DIALECTS
 from lsys_kit.notation.registry import dialect_named
 from lsys_kit.notation.write import as_written
 from lsys_kit.pictures.filaments import time_text
-from lsys_kit.pictures.nets.parts import steering_of
-from lsys_kit.pictures.style.labels import label_parts, shared_formulas, values_text, visible
+from lsys_kit.pictures.style.labels import label_parts, shared_formulas, steering_of, values_text, visible
 from lsys_kit.pictures.style.palette import CHOSEN, colours
 from lsys_kit.worlds.derive import derive
 
@@ -400,8 +399,14 @@ def drawing_entries(states: States, numbers: Sequence[int], drawn: list[list[obj
         "mode": mode.name.lower(),
         "turtle": _turtle(system, drawn),
         "unknown": [*map(visible, unknown)],
-        "said": passed_over(unknown),
+        "said": "; ".join(filter(None, (_chosen_look(system), passed_over(unknown)))),
     }
+
+
+def _chosen_look(system: LSystem) -> str:
+    """In words how strokes look where the system does not say so, and what changes that."""
+    chosen = has_natural_colours(system) and not system.colours
+    return 'natural colours, which "colours: symbols" in the text changes' if chosen else ""
 
 
 def _turtle(system: LSystem, calls: list[Row]) -> Data:

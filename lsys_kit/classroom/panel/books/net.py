@@ -12,8 +12,8 @@ from lsys_kit.derivation.petri.stages import Stages, stages
 from lsys_kit.errors import LSystemError
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.nets.layout import EDGE, RADIUS
-from lsys_kit.pictures.nets.parts import LINE, Parts, parts_of, steering_of
-from lsys_kit.pictures.style.labels import place_text, visible
+from lsys_kit.pictures.nets.parts import LINE, Parts, parts_of
+from lsys_kit.pictures.style.labels import place_text, steering_of, visible
 
 Unfolding: TypeAlias = bool | str | Collection[str]
 """Which symbols of a stage diagram are unfolded, as `stages` takes it."""

@@ -4,7 +4,7 @@
 // where its points lie, as often as the angle changes.
 
 import { clamped, grouped, times } from "../books/numbers.js";
-import { BROAD, BROADEST_PART, EXPONENT, LARGEST_SCALE, MOST_CURVED, OWN_LOOK, PICTURE_HEIGHT, PICTURE_MARGIN, PICTURE_WIDTH, RAMP_START, SIGN_COLOUR, STOUT, TALLEST, TRUNK } from "./constants.js";
+import { BROAD, BROADEST_PART, EXPONENT, FINE, LARGEST_SCALE, MOST_CURVED, OWN_LOOK, PICTURE_HEIGHT, PICTURE_MARGIN, PICTURE_WIDTH, RAMP_START, SIGN_COLOUR, SLENDER, STOUT, TALLEST, TRUNK } from "./constants.js";
 import { spansOf } from "./projection.js";
 import { colourNaturally, newTurtle, stretchRamp, tipsBorne } from "./turtle_actions.js";
 import { placeInPlane, planeActions, planeTrail } from "./turtle_plane.js";
@@ -118,12 +118,12 @@ function placedAnew(path, angle) {
 // proportion to the drawing, and others may be no broader than fits it or its strokes.
 function unitOf(path) {
   const { broadest, unit, strokes: { n, from, to }, trail: { x, y, z } } = path, spans = spansOf(path, z ? [x, y, z] : [x, y]);
-  const extent = greatest(spans, 0);
-  if (unit === "pipes") return (TRUNK * extent) / broadest;
+  const [extent, lesser] = [...spans].sort((a, b) => b - a);
+  if (unit === "pipes") return (TRUNK * clamped(extent / SLENDER, extent, SLENDER * lesser)) / broadest;
   if (broadest <= 0 || unit === "units") return 1;
   if (unit === "auto") {
     const lengths = times(n, (i) => Math.hypot(x[to[i]] - x[from[i]], y[to[i]] - y[from[i]], z ? z[to[i]] - z[from[i]] : 0));
-    return Math.min(1, Math.max(BROAD * extent, STOUT * greatest(lengths, 0)) / broadest);
+    return clamped(FINE * extent, Math.max(BROAD * extent, STOUT * greatest(lengths, 0)), broadest) / broadest;
   }
   const room = Math.min(broadest, BROADEST_PART * PICTURE_HEIGHT) + 2 * PICTURE_MARGIN;
   const [wide, high, highest] = [PICTURE_WIDTH, PICTURE_HEIGHT, TALLEST].map((size) => size - room), [across] = spans, up = spans.at(-1);

@@ -6,21 +6,23 @@
 // an action has a factor and an addend, and mostly concerns one quantity: the amount is factor * quantity + addend.
 
 import { clamped, grouped, halfToEven } from "../books/numbers.js";
-import { BALL, DISC, HOLLOW, LARGEST_VALUE, LAST_COLOUR, OWN_LOOK, RAMP_END, RAMP_START, SHAPE_WIDTH } from "./constants.js";
+import { BALL, BLOSSOM, DISC, HOLLOW, LARGEST_VALUE, LAST_COLOUR, OWN_LOOK, RAMP_END, RAMP_START, SHAPE_WIDTH } from "./constants.js";
 
 export const MOST_POINTS = 2_000_000;
 const REMEMBERED = ["position", "orientation", "length", "width", "colour", "gravitropism", "tropisms", "last", "restored",
   "mirror", "secondHeading", "axis", "scale"];
 
-// The colours of the ramp, stretched so that the farthest that is drawn is its end.
-export function stretchRamp(...groups) {
-  const inRamp = (colour) => colour >= RAMP_START && colour <= RAMP_END;
-  const farthest = groups.reduce((most, { colours }) => colours.reduce((one, other) => Math.max(one, other), most), RAMP_START);
-  const stretch = (RAMP_END - RAMP_START) / Math.max(1, Math.min(RAMP_END, farthest) - RAMP_START);
-  for (const { colours } of groups)
-    for (let i = 0; i < colours.length; i++)
-      if (inRamp(colours[i])) colours[i] = RAMP_START + Math.floor((colours[i] - RAMP_START) * stretch + 0.5);
+// The colours of the ramp, stretched so that the farthest of faces, else of all that is drawn, is its end; beyond is a blossom.
+export function stretchRamp(strokes, faces, rounds) {
+  const [leaf, ...others] = [faces, strokes, rounds].map(({ colours }) => colours.reduce((one, other) => Math.max(one, other), RAMP_START));
+  const last = Math.min(RAMP_END, leaf > RAMP_START ? leaf : Math.max(RAMP_START + 1, ...others));
+  for (const { colours } of [strokes, faces, rounds])
+    colours.forEach((colour, i) => {
+      if (colour >= RAMP_START && colour <= RAMP_END) colours[i] = colour > last ? BLOSSOM : onRamp((colour - RAMP_START) / (last - RAMP_START));
+    });
 }
+
+const onRamp = (share) => RAMP_START + Math.floor((RAMP_END - RAMP_START) * share + 0.5);
 
 // How many axes end in each stroke and in what it bears. Those of no length bear nothing, and nothing bears them.
 export function tipsBorne({ from, to, orders, long }) {
@@ -38,7 +40,7 @@ export function colourNaturally({ colours, orders, widths }, tips) {
     if (colours[i] !== OWN_LOOK) continue;
     const youth = tips ? 1 - Math.log(tips[i]) / (Math.log(widest) || 1)
       : widest && widths[i] !== OWN_LOOK ? 1 - Math.sqrt(widths[i] / widest) : deepest ? orders[i] / deepest : 1;
-    colours[i] = RAMP_START + Math.floor((RAMP_END - RAMP_START) * youth + 0.5);
+    colours[i] = onRamp(youth);
   }
 }
 

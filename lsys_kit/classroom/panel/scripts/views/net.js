@@ -5,7 +5,7 @@ import { fillColour, lineColour } from "../drawing/colours.js";
 import { drawn, onKey, onMouse } from "./controls.js";
 import { roving } from "./folding.js";
 
-const LEGIBLE = { terms: 0.82, labels: 0.65 }; // where there is room, a diagram is no smaller: its smallest text is 9 pixels high then
+const TERMS = 0.82, LABELS = 0.65; // where there is room, a diagram is no smaller: its smallest text is 9 pixels high then
 const TINY = 0.4; // of a diagram that is smaller no stage can be hit
 const DOTS = [[], [[0, 0]], [[-5, 0], [5, 0]], [[0, -5.5], [-5, 3.5], [5, 3.5]], [[-5, -5], [5, -5], [-5, 5], [5, 5]]];
 
@@ -17,29 +17,26 @@ export function netView(parent, chosen, pointed, enlarge) {
   function open(next, theme) {
     net = next;
     places = new Map();
-    const sheet = drawn("svg.lsys-net", {
-      viewBox: `0 0 ${net.width} ${net.height}`, width: net.width, height: net.height, role: "group",
-      "aria-label": net.description,
+    const { width, height } = net, sheet = drawn("svg.lsys-net", {
+      viewBox: `0 0 ${width} ${height}`, width, height, role: "group", "aria-label": net.description,
     });
-    parent.closest(".lsys-views").style.setProperty("--lsys-needed", `${Math.round(leastScale(net) * net.width)}px`);
+    parent.closest(".lsys-views").style.setProperty("--lsys-needed", `${Math.round(leastScale(net) * width)}px`);
     for (const place of net.places) sheet.append(stage(place, theme));
     for (const arc of net.arcs) sheet.append(
       drawn("path.lsys-band", { d: arc.band }), drawn("path.lsys-arc", { d: arc.path }), drawn("path.lsys-head", { d: arc.head }));
-    for (const bar of net.bars) {
-      const group = drawn("g.lsys-bar-of", drawn("path.lsys-arc", { d: bar.line }), drawn("rect.lsys-head",
-        { x: bar.x - 1.8, y: bar.y - bar.half, width: 3.6, height: 2 * bar.half, rx: 0.8 }));
-      if (bar.terms) group.append(drawn("text.lsys-terms", { x: bar.tx, y: bar.ty }, drawn("title", bar.full || bar.terms), bar.terms));
-      sheet.append(group);
+    for (const { x, y, half, line, terms, full, tx, ty } of net.bars) {
+      const d = `M${x - 1.8} ${y - half}h3.6v${2 * half}h-3.6zm0 ${half}l-8.5-3.4v6.8z`;
+      sheet.append(drawn("g.lsys-bar-of", drawn("path.lsys-arc", { d: line }), drawn("path.lsys-head", { d }),
+        terms ? drawn("text.lsys-terms", { x: tx, y: ty }, drawn("title", full || terms), terms) : ""));
     }
-    for (const [x, y, width, text] of net.notes) sheet.append(
-      drawn("rect.lsys-band-note", { x: x - width / 2, y: y - 6, width, height: 12 }),
+    for (const [x, y, wide, text] of net.notes) sheet.append(
+      drawn("rect.lsys-band-note", { x: x - wide / 2, y: y - 6, width: wide, height: 12 }),
       drawn("text.lsys-terms", { x, y: y + 4, "text-anchor": "middle" }, text));
     for (const line of net.footnotes) sheet.append(drawn("text.lsys-terms", { x: line.x, y: line.y }, line.text));
     const { press } = roving(sheet, ".lsys-stage"), under = (event) => Number(event.target.closest(".lsys-stage")?.dataset.place ?? -1);
     sheet.addEventListener("click", (event) => {
-      const tiny = sheet.getBoundingClientRect().width < TINY * net.width;
-      if (under(event) < 0 || (tiny && event.detail)) enlarge();
-      else chosen(under(event));
+      const tiny = sheet.getBoundingClientRect().width < TINY * width;
+      under(event) < 0 || (tiny && event.detail) ? enlarge() : chosen(under(event));
     });
     onKey(sheet, (event) => {
       if (event.key !== "Enter" && event.key !== " ") return press(event);
@@ -50,7 +47,7 @@ export function netView(parent, chosen, pointed, enlarge) {
   }
 
   function stage(place, theme) {
-    const { x, y } = place, radius = net.radius;
+    const { x, y } = place, { radius } = net;
     const ring = drawn("circle.lsys-ring", { cx: x, cy: y, r: radius + 5 });
     const circle = drawn("circle.lsys-place", {
       cx: x, cy: y, r: radius, fill: fillColour(place.colour, theme, place.strength), stroke: lineColour(place.colour, theme),
@@ -85,8 +82,7 @@ export function netView(parent, chosen, pointed, enlarge) {
 }
 
 function leastScale({ places, bars, notes, footnotes }) {
-  const small = notes.length || footnotes.length || bars.some((bar) => bar.terms) || places.some((place) => place.subscript);
-  return small ? LEGIBLE.terms : LEGIBLE.labels;
+  return notes.length || footnotes.length || [...bars, ...places].some((each) => each.terms || each.subscript) ? TERMS : LABELS;
 }
 
 function tspans({ letter, subscript, values }) {
@@ -98,7 +94,7 @@ function tspans({ letter, subscript, values }) {
 
 function tokensAt({ x, y }, count) {
   if (count < 5) return DOTS[count].map(([dx, dy]) => drawn("circle", { cx: x + dx, cy: y + dy, r: 3.6 }));
-  const text = short(count), size = text.length < 3 ? 15 : text.length < 4 ? 13 : text.length < 5 ? 11 : 10;
+  const text = short(count), size = [15, 15, 15, 13, 11][text.length] ?? 10;
   return [drawn("text", { x, y: y + 0.36 * size, "font-size": size, "font-weight": "bold", "text-anchor": "middle" }, text)];
 }
 
