@@ -73,9 +73,10 @@ def _is_in_place(exercise: Exercise, word: str) -> bool:
 _OF_STEP = rf"(?:{'|'.join(WORDS['labels'].split())})"
 _STEP = r"(\d++)"
 _AT = r"(?:at|in|im|bei|after|nach)\s++(?:the\s++)?"
-_AT_ITS_STEP = re.compile(rf"(?<!\w){_AT}{_OF_STEP}\s++{_STEP}\W*+\Z", re.IGNORECASE)
+_AT_ITS_STEP = re.compile(rf"(?<!\w){_AT}(?:{_OF_STEP}\s++{_STEP}|{_STEP}\s++{_OF_STEP})\W*+\Z", re.IGNORECASE)
 _ITS_STEP_FIRST = re.compile(
-    rf"\W*+(?:(?:{_AT})?{_OF_STEP}\s++{_STEP}\s*+(?:[:=,]|(?:has|it\s++is|hat|ist)\b)|[A-Za-z]\w*+\s*+\({_STEP}\)\s*+=)",
+    rf"\W*+(?:(?:{_AT})?{_OF_STEP}\s++{_STEP}\s*+(?:[:=,]|(?:has|it\s++is|hat|ist)\b)|[A-Za-z]\w*+\s*+\({_STEP}\)\s*+="
+    rf"|{_AT}{_STEP}\s++{_OF_STEP}\b\s*+[:=,]?)",
     re.IGNORECASE,
 )
 """The step that a number is of, as in "64 at step 3", "step 3: 64" and "N(3) = 64"."""
@@ -145,6 +146,12 @@ def _of_several_steps(exercise: Exercise, text: str, answer: str) -> str:
 
 
 _COMPARED = re.compile(r"^(.*(?:[<>]=?|==))\s*([-+]?[\d.]+)$", re.DOTALL)
+_BOUND = re.compile(r"\s*+([A-Za-z]\w*+)\s*+(<=|>=)([^<>=]+)")
+_EXTREME = {
+    "<=": r"\b(?:largest|greatest|highest|longest|most|größte\w*|höchste\w*)\b",
+    ">=": r"\b(?:smallest|least|lowest|shortest|kleinste\w*)\b",
+}
+"""The largest value of a name, as in "dt <= 1.2", and the smallest."""
 _NAMED_LAST = re.compile(r"(?:^\W*+|[,;]\s*+|\b(?:and|und)\s++)([A-Za-z])\s*+(?:\([^()]*+\)\s*+)?+=[^=]*+\Z")
 _COORDINATES = frozenset("xyz")
 """Names that nobody gives to another number of one's own."""
@@ -157,11 +164,18 @@ _CODE = re.compile(r"`[^`]*`|^ {4}.*$", re.MULTILINE)
 
 
 def _alone(exercise: Exercise, answer: str) -> str:
-    """An answer without the part of a condition of the question that stands before its number."""
+    """An answer without the part of a condition of the question that stands before its number.
+
+    Also without the name of which the question asks for the greatest or least value.
+    """
     text = keyboard_text(answer)
     compared = _COMPARED.match(text.strip())
     unspaced = "".join(exercise.question.split())
-    return compared[2] if compared and f"`{''.join(compared[1].split())}" in unspaced else answer
+    if compared and f"`{''.join(compared[1].split())}" in unspaced:
+        return compared[2]
+    bound, asked = _BOUND.fullmatch(text), " ".join(_ASKED_FOR.findall(exercise.question))
+    is_asked = bound and f"`{bound[1]}`" in asked and re.search(_EXTREME[bound[2]], asked, re.IGNORECASE)
+    return bound[3] if bound and is_asked else answer
 
 
 def _refuse_other_name(exercise: Exercise, answer: str) -> None:
