@@ -9,6 +9,7 @@ the kit's grammars and never run, and its size is bounded.
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Mapping
 
 from lsys_kit.budget import Task, current, limits
@@ -124,7 +125,8 @@ def _untouched(exercise: Exercise, answer: object) -> bool:
     if not isinstance(answer, str):
         return False
     text = answer.strip().strip("\"'")
-    return text == "" or "..." in text or "…" in text or text.split() == exercise.template.split()
+    open_place = ("..." in text or "…" in text) and (bool(exercise.template) or not re.search(r"\w", text))
+    return text == "" or open_place or text.split() == exercise.template.split()
 
 
 def _judged(exercise: Exercise, answer: object) -> tuple[Verdict, bool]:

@@ -367,6 +367,7 @@ _REPLACED = (
     (re.compile(r"(?<=\d)\s+cubed\b", re.IGNORECASE), "^3"),
     (re.compile(r"(?<![^\W\d_])phi\b|φ", re.IGNORECASE), "((1+sqrt(5))/2)"),
     (re.compile(r"(?<=\d)\.(?=\s+[^\W\d_]+$)"), ""),
+    (re.compile(r"(?<=\d)\s+\([^()\d]*\)\s*$"), ""),
     (re.compile(r"^\s*\[([^\[\],;]*)\]\s*$"), r"\1"),
     (re.compile(r"\bminus\s+(?=[\d.(])", re.IGNORECASE), "-"),
     (re.compile(r"\bplus\s+(?=[\d.(])", re.IGNORECASE), "+"),
@@ -467,6 +468,8 @@ def _in_sentence(text: str, answer: str, decimal_comma: bool) -> TypedNumber:
     of_pi = "pi" in number
     if _COMPARISON.search(number):
         raise ModelValueError(reply("typed.condition", answer=quoted(answer)), hint=reply("typed.alone"))
+    if any(map(str.isdigit, found["after"] or "")):
+        raise ModelValueError(reply("typed.one_needed", answer=quoted(answer)), hint=reply("typed.alone"))
     letter = _GLUED.search(text)
     if letter and letter[1].lower() not in UNITS:
         raise ModelValueError(reply("typed.letter", answer=quoted(answer), letter=letter[1]), hint=reply("typed.its_value"))

@@ -107,7 +107,8 @@ def _read_choice(exercise: Exercise, answer: object) -> str:
     reason = _LETTER_AND_REASON.match(text)
     if reason and reason[1].upper() in known and not meant and not _CONTRARY.match(text):
         meant = [reason[1].upper()]
-    meant = meant or _with_real_part(texts, _plain(text))
+    of_part = _with_real_part(texts, _plain(text))
+    meant = meant or (of_part if len(of_part) > 1 or _says_enough(exercise, of_part, texts, _plain(text)) else [])
     named_ones = _named_in(texts, text)
     if not meant and len({texts[letter].partition(":")[0] for letter in named_ones}) > 1:
         raise ModelValueError(reply("choice.one_needed", number=len(named_ones)))
@@ -165,6 +166,18 @@ def _with_part(texts: Mapping[str, str], part: str) -> list[str]:
     return [letter for letter, text in texts.items() if part in text] if len(part) >= _SHORTEST_PART else []
 
 
+FEWEST_WORDS = 4
+"""So many words of the right option stand for it, if they do not begin it: fewer may have been found by chance."""
+
+
+def _says_enough(exercise: Exercise, found: list[str], texts: Mapping[str, str], part: str) -> bool:
+    """Whether a part of an option may stand for it; of a wrong one less is enough, as nothing is given away."""
+    own = texts[found[0]] if found else ""
+    begins = own == part or (own.startswith(part) and not own[len(part)].isalnum())
+    is_right = found == [exercise.solution.strip().upper()]
+    return not is_right or begins or len(own.split()) <= MOST_WORDS or len(re.findall(r"\w+", part)) >= FEWEST_WORDS
+
+
 _CLAUSE_END = re.compile(r"[.,:;]")
 
 
@@ -175,11 +188,12 @@ def _with_real_part(texts: Mapping[str, str], part: str) -> list[str]:
     []
     """
     found = _with_part(texts, part)
-    telling = [word for word in re.findall(r"\w+", part) if word not in _FILLING]
+    telling = [word for word in re.findall(r"\w+", part) if word not in _FILLING | _EXCLUDING]
     signs = re.findall(r"[^\w\s]", part)
     is_whole = any(part in (texts[letter], *_CLAUSE_END.split(texts[letter])[:1]) for letter in found)
     is_short = any(len(texts[letter].split()) <= MOST_WORDS for letter in found)
-    is_real = is_whole or (is_short and not part.isdigit()) or len(telling) + len(signs) > 1
+    is_long = len(telling) + len(signs) > 1 or len(re.findall(r"\w+", part)) >= FEWEST_WORDS
+    is_real = is_whole or (is_short and not part.isdigit()) or is_long
     return found if is_real or len(found) > 1 else []
 
 

@@ -292,13 +292,12 @@ def _value(expression: Expression, order: Mapping[str, int], case: tuple[Value, 
 
 def _difference(exercise: Exercise, own: Expression, solution: Expression) -> Difference:
     cases = list(_cases(exercise))
-    if not names_in(own) and (names := sorted(names_in(solution))):
-        said = reply("expression.constant", names=", ".join(names))
-        return Difference(f"{said} {differing_values(own, solution, cases) or ''}".rstrip(), at_a_case=True)
     right = sum(differing_values(own, solution, [case]) is None for case in cases)
     message = differing_values(own, solution, cases)
     if message is None:
         return Difference(reply("expression.another_formula"), 1, explains=True)
+    if missing := sorted(names_in(solution) - names_in(own)):
+        message = f"{reply('expression.constant', names=', '.join(missing))} {message}"
     return Difference(message, right / len(cases), at_a_case=True)
 
 

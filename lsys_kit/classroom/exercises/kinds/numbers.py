@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Sequence
 from contextlib import suppress
+from fractions import Fraction
 from itertools import takewhile
 from typing import Any
 
@@ -39,6 +40,8 @@ FORMULA = re.compile(r"\{([^{}]+)\}")
 """A formula in a reply, of which the value is shown."""
 MOST_APART = 1_000_000
 """How many times too large or too small a number may be that counts as a try."""
+MOST_DENOMINATOR = 10_000
+"""Fractions with a larger denominator are shown as decimals."""
 _GIVEN = re.compile(r"\b([A-Za-z]) = \d")
 """A letter with its value, as a question gives it."""
 _FILLING, _DOUBTFUL = (frozenset(WORDS[kind].split()) for kind in ("filling", "doubtful"))
@@ -225,8 +228,10 @@ def _read_number(exercise: Exercise, answer: object) -> Value:
 def _other_thing(exercise: Exercise, found: TypedNumber) -> str:
     """The noun beside a number, where it is not what the question counts; of one without a unit a noun that is counted."""
     phrase = list(takewhile(lambda word: word.lower() not in _PREPOSITIONS, found.after))
-    if not phrase and len(found.before) == 1 and found.before[0].lower().endswith("s"):
-        phrase = list(found.before)  # as in "cells: 9"
+    before = found.before[0].lower() if not found.after and len(found.before) == 1 else ""
+    is_counted = bool(exercise.unit) and exercise.unit.lower() not in UNITS
+    if not phrase and (before.endswith("s") or (is_counted and len(before) > 1 and before not in WORDS["labels"].split())):
+        phrase = list(found.before)  # as in "cells: 9" and "height 10"
     nouns = [word for word in phrase if word.lower() not in _FILLING | _TIMES and word.lower() not in UNITS]
     if exercise.kind != "number" or not nouns or any(_is_of_the_unit(exercise, word) for word in nouns):
         return ""
@@ -291,7 +296,8 @@ def same_number(exercise: Exercise, own: Value, wanted: Value) -> bool:
 
 
 def _number_difference(exercise: Exercise, number: Value, solution: Value) -> Difference:
-    shown = f"{number:.10g}" if isinstance(number, float) else number_text(number)
+    is_long = isinstance(number, Fraction) and number.denominator > MOST_DENOMINATOR
+    shown = f"{float(number):.10g}" if isinstance(number, float) or is_long else number_text(number)
     measured = f" {gettext(exercise.unit)}" if exercise.unit.lower() in UNITS else ""
     said = reply("number.not_asked_for", number=f"{shown}{measured}")
     if "contrary" in exercise.expects and not 0 <= number <= 1:
