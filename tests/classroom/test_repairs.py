@@ -516,7 +516,7 @@ def test_a_bound_beyond_all_that_is_asked_for_does_no_harm():
         ("18.3", "0.8 or -1.8", "several numbers", "true or false"),
         ("15.2", "height 10", '"height" is not the unit', "step 9"),
         ("6.2", "M(5,1)", "M(5,1)", "M(5.1)"),
-        ("10.1", "f [+ f s b] f s a", 'no symbol "f"', "position"),
+        ("10.1", "f [+ f s b] f s a", 'no symbol "s"', "position"),
         ("2.7", "1 + 5 + ... + 5^n", "...", "Replace"),
         ("16.1", "9 edges and 2", "several numbers", "unit"),
         ("13.4", "left side", "none of the options", "roll"),

@@ -70,10 +70,10 @@ def read_modules(system: LSystem, answer: object, drawn: bool = False) -> Module
         return _of_the_system(system, plain, read_word(plain, system.notation, system), drawn)
     except LSystemError:
         for notation in DIALECTS:
-            if notation == "plant-string" != system.notation:  # which takes small letters for capital ones
-                continue
             with suppress(LSystemError):
-                return _of_the_system(system, plain, read_word(plain, notation, system), drawn)
+                word = read_word(plain, notation, system)
+                if all(module.symbol in plain for module in word):  # some take small letters for capital ones
+                    return _of_the_system(system, plain, word, drawn)
         raise
 
 
