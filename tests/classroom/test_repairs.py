@@ -459,6 +459,78 @@ def test_sequential_rewriting_is_named_in_either_order_of_the_productions(order)
         assert "apply one production after another" in said(exercise, answer)
 
 
+# What is true of an answer, and what is not
+
+
+GROWTH = {
+    "11.5": ("axiom: M(0)\nM(t) -> M(t+2.5)\ndecomposition:\nM(t) : t >= {} -> M(t-1) M(t-1)", 1),
+    "12.5": ("axiom: M(1)\nM(x) -> M(2*x)\ndecomposition:\nM(x) : x >= {} -> M(2*x/3) M(x/3)", 4),
+    "18.5": ("F(l) : l < {} -> F(2*l)", 80),
+}
+
+
+@pytest.mark.parametrize("name", GROWTH)
+@pytest.mark.parametrize("by", ["0.5", "0.01", "0.0001", "-0.0001", "-0.01", "-0.3"])
+def test_a_bound_that_is_a_little_off_is_not_right_where_numbers_need_not_be_whole(name, by):
+    text, bound = GROWTH[name]
+    assert check(name, text.format(bound)) == 1
+    moved = check(name, text.format(f"{bound + float(by):.4f}"))
+    assert moved < 1
+    assert moved.message
+
+
+@pytest.mark.parametrize("bound", ["3.2", "3.5", "3.99"])
+def test_a_bound_between_whole_numbers_is_right_where_there_are_no_others(bound):
+    assert check("6.5", f"axiom: M(1)\nM(s) : s < {bound} -> M(s+1)\nM(s) : s > {bound} -> M(1) M(2)") == 1
+
+
+def test_a_bound_beyond_all_that_is_asked_for_does_no_harm():
+    text, _ = GROWTH["12.5"]
+    assert check("12.5", text.format("4 && x < 1000")) == 1
+
+
+@pytest.mark.parametrize(
+    ("name", "answer", "words", "others"),
+    [
+        ("7.7", "x^-p * 2*x^-q", "Only one sign is not right.", "parentheses"),
+        ("7.7", "x^-p - 2*x^-q", "Only one sign is not right.", "parentheses"),
+        ("15.5", "y < 0 || x^2 + y^2 > L", "Only one power is missing.", "not right"),
+        ("15.5", "y >= 0 && x^2 + y^2 <= L^2", "This is the contrary", "Only"),
+        ("2.6", "1 + 2 + 3", "gives the same whatever the value of n", "sign"),
+        ("12.6", "1", "gives the same whatever the value of c", "Two things"),
+        ("13.5", "A -> F [&(45) F] / A", "One module has no number in parentheses", "What stands"),
+        ("5.5", "S -> L\nL -> A\nA -> B\nB -> L - S", '"-" is no name of a place (line 4', "arrow too many"),
+        ("0.5", "angle: 25.7\naxiom: F\nF -> F[+F]F[+F]F\nF -> F[-F]F", "is never used", "sign"),
+        ("1.4", "br = ar", "An arrow is needed here", "axiom"),
+        ("9.6", "a > s = s a", "One production is missing: what becomes of s?", "axiom"),
+        ("18.5", "F(l) : l < 80 -> 2*l", "numbers are multiplied in the parentheses", "successor"),
+        ("7.2", "1 = x^-2 + x^-4", "is an equation", "With your number"),
+        ("11.2", "dt < 1.3", "is a condition", "equation"),
+        ("16.2", "1.5", "none of the options", "Several"),
+        ("16.2", "2 cells", "Several options contain", "you give 2"),
+        ("14.2", "p, r", "you give 2", "contain"),
+        ("16.4", "A<", "none of the options", "divided"),
+        ("5.4", "1", "none of the options", "contain"),
+        ("17.3", "Nothing", "The first sentence names two axioms", "none of"),
+        ("18.1", "minus 25%", "-0.25 is not", "unit"),
+        ("18.3", "0.8 or -1.8", "several numbers", "true or false"),
+        ("15.2", "height 10", '"height" is not the unit', "step 9"),
+        ("6.2", "M(5,1)", "M(5,1)", "M(5.1)"),
+        ("10.1", "f [+ f s b] f s a", 'no symbol "s"', "position"),
+        ("2.7", "1 + 5 + ... + 5^n", "...", "Replace"),
+        ("16.1", "9 edges and 2", "several numbers", "unit"),
+        ("13.4", "left side", "none of the options", "roll"),
+        ("18.6", "3 of 4", "What is counted is a whole number", "unit"),
+        ("6.6", "2^(n-1)", "the same whatever the value of q", "n, q"),
+    ],
+)
+def test_what_is_said_is_true_of_what_was_typed(name, answer, words, others):
+    verdict = check(name, answer)
+    assert verdict < 1
+    assert words in verdict.message
+    assert others not in verdict.message
+
+
 # Both languages
 
 

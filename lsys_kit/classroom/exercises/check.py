@@ -9,6 +9,7 @@ the kit's grammars and never run, and its size is bounded.
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Mapping
 
 from lsys_kit.budget import Task, current, limits
@@ -24,6 +25,8 @@ from lsys_kit.pictures.draw import draw
 
 BUDGET: Mapping[str, float] = {"modules": 100_000, "seconds": 3, "rules": 50}
 """The limits for an answer."""
+_GOES_ON = re.compile(r"\d\s*+[-+*,;]\s*+(?:\.{3}|…)")
+"""A row of numbers that goes on, as in "1 + 5 + ..."."""
 MOST_ANSWER_CHARACTERS = 5_000
 """The greatest length of an answer."""
 
@@ -124,7 +127,8 @@ def _untouched(exercise: Exercise, answer: object) -> bool:
     if not isinstance(answer, str):
         return False
     text = answer.strip().strip("\"'")
-    return text == "" or "..." in text or "…" in text or text.split() == exercise.template.split()
+    is_open = ("..." in text or "…" in text) and not _GOES_ON.search(text)
+    return text == "" or is_open or text.split() == exercise.template.split()
 
 
 def _judged(exercise: Exercise, answer: object) -> tuple[Verdict, bool]:

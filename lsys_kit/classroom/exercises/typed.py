@@ -226,8 +226,8 @@ def _of_compound(word: str) -> int | None:
     return None if word == "ein" else _UNITS.get(word, _TENS.get(word))
 
 
-def with_digits(text: str) -> str:
-    """A text with digits for the numbers that are written as words.
+def with_digits(text: str, ordinals: bool = True) -> str:
+    """A text with digits for the numbers that are written as words, those of places with the others or not.
 
     >>> with_digits("twenty-one cells"), with_digits("seven hundred and nine"), with_digits("three quarters")
     ('21 cells', '709', '3/4')
@@ -237,12 +237,13 @@ def with_digits(text: str) -> str:
     ('21 Zellen', '3/4', 'im 4 Schritt')
     """
     text = _COMPOUND.sub(lambda found: found[0] if (value := _of_compound(found[0].lower())) is None else str(value), text)
-    text = _GERMAN_ORDINAL.sub(lambda found: str(_GERMAN_ORDINALS[found[0].lower()]), text)
+    if ordinals:
+        text = _GERMAN_ORDINAL.sub(lambda found: str(_GERMAN_ORDINALS[found[0].lower()]), text)
     text = _PART.sub(
         lambda found: f"{found[1] if found[1].isdigit() else 1}/{_PARTS[found[2].lower()]}", _RUN.sub(_digits, text)
     )
     text = _DOZEN.sub(lambda found: str(12 * (int(found[1]) if found[1].isdigit() else 1)), text)
-    return _ORDINAL.sub(lambda found: found[2] or str(_ORDINALS[found[1].lower()]), text)
+    return _ORDINAL.sub(lambda found: found[2] or str(_ORDINALS[found[1].lower()]), text) if ordinals else text
 
 
 def _digits(found: re.Match[str]) -> str:
@@ -269,7 +270,10 @@ def _digits(found: re.Match[str]) -> str:
 _FRACTION = re.compile(r"\\[dt]?frac\s*\{([^{}]*)\}\s*\{([^{}]*)\}")
 _ROOT = re.compile(r"\\sqrt\s*\{([^{}]*)\}")
 _POWER = re.compile(r"\^\s*\{([^{}]*)\}")
-_JOINED = (("and", "&&"), ("or", "||"), ("not", "!"))
+_JOINED = (("and", "&&"), ("or", "||"), ("not", "!"), ("und", "&&"), ("oder", "||"), ("nicht", "!"))
+_SPELT = (("plus", "+"), ("minus", "-"), ("times", "*"), ("mal", "*"), ("hoch", "^"), ("durch", "/"))
+"""Words for the signs of a formula."""
+_POWER_OF = re.compile(r"\bpow\(([^(),]+),([^(),]+)\)")
 _IMPLICIT = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?)\s*(?=[A-Za-z_(])|(?<=\))\s*(?=[\w(])")
 _WORD = re.compile(r"[A-Za-z_]\w*")
 MOST_NESTED = 20
@@ -293,6 +297,10 @@ def formula_text(text: str, names: Collection[str] = ()) -> str:
             break
     for latex, plain in WORDS["latex"].items():
         text = text.replace(latex, plain)
+    text = re.sub(r"(?<=[\w)])\s*\.\s*\Z", "", text)
+    for word, sign in _SPELT:
+        text = re.sub(rf"(?<=[\w)])\s+{word}\s+(?=[\w(])", f" {sign} ", text, flags=re.IGNORECASE)
+    text = _POWER_OF.sub(r"((\1)^(\2))", _HYPOTENUSE.sub(r"sqrt((\1)^2+(\2)^2)", text))
     text = with_operators(text.replace("**", "^"), names)
     return _IMPLICIT.sub(lambda found: f"{found[1] or ''}*", _products_of(text, names)).strip()
 
@@ -327,10 +335,12 @@ _GROUPED = re.compile(r"[+-]?\d{1,3}([ ']\d{3})+")
 _COMMAS = re.compile(r"[+-]?\d{1,3}(,\d{3})+")
 _DECIMAL_COMMA = re.compile(r"[+-]?(\d+,\d{1,2}|\d+,\d{4,}|0,\d+)")
 _SCIENTIFIC = re.compile(r"(?<!\w)(\d+(?:\.\d+)?)[eE]([+-]?\d{1,3})(?!\w)")
-_CONSTANTS: Mapping[str, float] = {"pi": math.pi, "phi": (1 + math.sqrt(5)) / 2, "π": math.pi, "φ": (1 + math.sqrt(5)) / 2}
+_CONSTANTS: Mapping[str, float] = {"pi": math.pi, "π": math.pi}
 _HYPOTENUSE = re.compile(r"\bhypot\(([^(),]+),([^(),]+)\)")
 _COMPARISON = re.compile(r"[<>]|==|!=")
-_SEVERAL = re.compile(rf"\d\s*+(?:and|und|to|bis|{ARROW})\s*\d|[-+*/]\s*+\d++\s*+=\s*+\d++\s*+[,;]\s*+\d[\d\s+*/-]*+=")
+_SEVERAL = re.compile(
+    rf"\d\s*+(?:and|und|or|oder|to|bis|{ARROW})\s*[-+]?\d|[-+*/]\s*+\d++\s*+=\s*+\d++\s*+[,;]\s*+\d[\d\s+*/-]*+="
+)
 """Two numbers, a range, a chain, or two sums."""
 _LABELLED = re.compile(
     rf"^\W*(?:(?:at|in|im|bei|after|nach)\s+)?(?:{'|'.join(WORDS['labels'].split())})\s*\d+\s*:\s*", re.IGNORECASE
@@ -350,9 +360,19 @@ _REPLACED = (
     (re.compile(r"\bper\s+cent\b", re.IGNORECASE), "percent"),
     (re.compile(r"\b(?:no|nr)\.\s*(?=\d)", re.IGNORECASE), ""),
     (re.compile(r"°(?=\s*[-+*/:])"), ""),
-    (re.compile(r"(?<=\d)\s+out of\s+(?=\d)"), "/"),
+    (re.compile(r"(?<=\d)\s+(?:out\s+of|of|in|von|aus)\s+(?=\d+\W*$)", re.IGNORECASE), "/"),
     (re.compile(r"(?<=[\d)])\s*:\s*(?=[\d(])"), "/"),
-    (re.compile(r"(?<=\d)\s*x\s*(?=\d)"), "*"),
+    (re.compile(r"(?<=\d)(?<!\b0)\s*x\s*(?=\d)"), "*"),
+    (re.compile(r"(?<=\d)\s+squared\b", re.IGNORECASE), "^2"),
+    (re.compile(r"(?<=\d)\s+cubed\b", re.IGNORECASE), "^3"),
+    (re.compile(r"(?<![^\W\d_])phi\b|φ", re.IGNORECASE), "((1+sqrt(5))/2)"),
+    (re.compile(r"(?<=\d)\.(?=\s+[^\W\d_]+$)"), ""),
+    (re.compile(r"(?<=\d)\s+\([^()\d]*\)\s*$"), ""),
+    (re.compile(r"^\s*\[([^\[\],;]*)\]\s*$"), r"\1"),
+    (re.compile(r"\bminus\s+(?=[\d.(])", re.IGNORECASE), "-"),
+    (re.compile(r"\bplus\s+(?=[\d.(])", re.IGNORECASE), "+"),
+    (re.compile(r"(?<=[\d)])\s*\b(?:times|mal)\s+(?=[\d.(])", re.IGNORECASE), "*"),
+    (re.compile(r"(?<=[\d)])\s*\b(?:divided\s+by|geteilt\s+durch|durch)\s+(?=[\d.(])", re.IGNORECASE), "/"),
     (re.compile(r"(?<=\d)\s+(?:to\s+the\s+power(?:\s+of)?|hoch)\s+(?=\d)", re.IGNORECASE), "^"),
 )
 
@@ -407,7 +427,7 @@ def typed_number(answer: object, decimal_comma: bool = False) -> TypedNumber:
             return _in_sentence(part.strip(" \t\n!~$").rstrip(" ."), answer, decimal_comma)
         except (ModelSyntaxError, ModelNameError, ModelValueError) as mistake:
             fault = fault or mistake
-    if _EQUATION.match(text):
+    if _EQUATION.match(text) and not _COMPARISON.search(text):
         raise ModelValueError(reply("typed.equation", answer=quoted(answer)), hint=reply("typed.alone"))
     raise fault or ModelValueError(reply("typed.number_needed"))
 
@@ -417,16 +437,18 @@ _SIGN_BESIDE = re.compile(r"[-+*/^]")
 
 
 def is_unsolved(text: str, known: Collection[str] = ()) -> bool:
-    """Whether a text is one equation with a formula of an unknown name of one letter on its left.
+    """Whether a text is one equation with a formula of an unknown name of one letter on one of its sides.
 
-    >>> [is_unsolved(text) for text in ("1-p = 1/4", "50 + 50q = 90", "d^2 = 4", "p = 1/4", "N(3) = 8+13")]
+    >>> [is_unsolved(text) for text in ("1-p = 1/4", "50 + 50q = 90", "1 = x^-2 + x^-4", "p = 1/4", "N(3) = 8+13")]
     [True, True, True, False, False]
     """
     left, equals, right = text.partition("=")
     if not equals or "=" in right or re.search(r"[<>!]$", left):
         return False
-    unknown = set(_SINGLE.findall(left)) - {*known}
-    return bool(unknown) and bool(_SIGN_BESIDE.search(left)) and not re.search(r"[^\W\d_]{2}", left)
+    return any(
+        bool({*_SINGLE.findall(side)} - {*known}) and _SIGN_BESIDE.search(side) and not re.search(r"[^\W\d_]{2}", side)
+        for side in (left, right)
+    )
 
 
 def _evaluated(answer: object) -> object:
@@ -446,12 +468,14 @@ def _in_sentence(text: str, answer: str, decimal_comma: bool) -> TypedNumber:
     of_pi = "pi" in number
     if _COMPARISON.search(number):
         raise ModelValueError(reply("typed.condition", answer=quoted(answer)), hint=reply("typed.alone"))
+    if any(map(str.isdigit, found["after"] or "")):
+        raise ModelValueError(reply("typed.one_needed", answer=quoted(answer)), hint=reply("typed.alone"))
     letter = _GLUED.search(text)
     if letter and letter[1].lower() not in UNITS:
         raise ModelValueError(reply("typed.letter", answer=quoted(answer), letter=letter[1]), hint=reply("typed.its_value"))
     for name, constant in _CONSTANTS.items():
         number = re.sub(rf"\b{name}\b", f"({constant!r})", number)
-    value = _value(_HYPOTENUSE.sub(r"sqrt((\1)^2+(\2)^2)", number), answer)
+    value = _value(number, answer)
     before, after = (tuple(re.findall(r"[^\W\d_]+|[°%]", found[part] or "")) for part in ("before", "after"))
     return TypedNumber(value, before, after, of_pi)
 
@@ -490,7 +514,7 @@ def _known(number: Value) -> Value:
 _MATRIX = re.compile(r"\\(?:begin|end)\s*\{[^{}]*\}|\b(?:np\.)?(?:Matrix|matrix|array)\b")
 _RANGE = re.compile(r"^[^\W\d]+\s+\d+\s*(?:to|bis|-|\.\.)\s*\d+\s*:\s*")
 """What a row is of, as in "steps 0 to 5:"."""
-_BETWEEN = re.compile(rf"\\\\|{ARROW}|\band\b|(?<=\s)/(?=\s)")
+_BETWEEN = re.compile(rf"\\\\|{ARROW}|\band\b|(?<=\s)/(?=\s)|(?<=\d\s)-(?=\s)")
 
 
 def parts(answer: object, what: str) -> list[object]:
@@ -541,6 +565,10 @@ _OTHER_ARROW = re.compile(r"(?<![-=<>])=++>|[⟶⇒⟹↦]")
 _ARROW_OR_END = re.compile(r"->|→|$")
 _ARGUMENTS = re.compile(r"\([^()\n]*\)")
 _PRODUCT = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?)[ \t]*(?=[A-Za-z(])|(?<=\))[ \t]*(?=[A-Za-z(])")
+_COMMA_FOR_COLON = re.compile(
+    r"^([ \t]*+[A-Za-z]\w*+[ \t]*+\([^()\n]*+\))[ \t]*+,((?=[^,:()\n]*?(?:[<=]|(?<!-)>))[^,:()\n]*?)(?=->|→)", re.MULTILINE
+)
+"""A condition behind a comma."""
 _FIRST_WORD = re.compile(r"^\s*+[^\n:=>→]++\n(?=[^\n]*(?:->|→))")
 
 
@@ -583,7 +611,7 @@ def _spelt_out(text: str) -> str:
     'axiom: a\\na -> a b\\nb -> ε'
     """
     text = re.sub(ARROW, "->", text).replace("°", "").strip()
-    text = _SETTING.sub(r"\1:", _NEXT_LINE.sub("\n", text))
+    text = _SETTING.sub(r"\1:", _NEXT_LINE.sub("\n", _COMMA_FOR_COLON.sub(r"\1 : \2", text)))
     text = without_commas(_NOTHING.sub(r"\1 ε", text))
     text = "\n".join(map(_with_signs, text.split("\n")))
     return f"axiom: {text}" if _FIRST_WORD.match(text) else text

@@ -637,9 +637,10 @@ def _fits(
     rows: tuple[Row, ...], found: Sequence[Table], conditions: Conditions, look: Callable[[], None] = check_budget
 ) -> Fits:
     """The systems for tables; where modules have parameters, those with the fewest, as far as is looked for."""
-    rules = [tuple(productions_of(table)) for table in found]
-    if conditions.context == (0, 0) and any(module.arguments for row in rows for module in row):
-        rules = []
+    rules: list[tuple[Production, ...]] = []
+    if conditions.context != (0, 0) or not any(module.arguments for row in rows for module in row):
+        rules = [tuple(productions_of(table)) for table in found]
+    else:
         with suppress(GivenUp):
             for table in found:
                 rules.append(tuple(general_productions(table, look)))

@@ -52,8 +52,11 @@ def productions_of(table: Table) -> Iterator[Production]:
     >>> [str(production) for production in productions_of(table)]
     ['a > b -> b', 'b -> a b']
     """
-    for module in dict.fromkeys(letter.module for letter in table):
-        yield from _productions_of_one(module, {letter: word for letter, word in table.items() if letter.module == module})
+    of_one: dict[Module, dict[Letter, Row]] = {}
+    for letter, word in table.items():
+        of_one.setdefault(letter.module, {})[letter] = word
+    for module, own in of_one.items():
+        yield from _productions_of_one(module, own)
 
 
 def _productions_of_one(module: Module, table: Table) -> Iterator[Production]:

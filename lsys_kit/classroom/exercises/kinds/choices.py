@@ -36,14 +36,21 @@ def listing(exercise: Exercise) -> str:
     return ""
 
 
+_AROUND = r"[\s.,;:!?()\[\]{}\"'`*]*+"
+"""What may stand around a letter."""
+_LED_IN = (
+    r"(?:(?:i\s+(?:think|guess|say|choose|take|believe)|ich\s+(?:denke|glaube|meine|nehme|wähle)|definitely|clearly|sicher|klar)\s++"
+    r"(?:that\s++)?)?(?:(?:it|that|es|das)(?:\s+is|['’]s|\s+ist)\s++)?(?:the\s++|die\s++)?(?:(?:right|correct|my)\s++)?"
+    r"(?:option|answer|choice|solution|letter|antwort|möglichkeit|lösung|buchstabe)?\s*+(?:(?:is|ist|would\s+be|must\s+be|wäre)\b)?"
+)
+"""What may stand before a letter."""
 _LETTER = re.compile(
-    r"^(?:(?:i\s+(?:think|guess|say|choose|believe)|ich\s+(?:denke|glaube|meine|nehme|wähle))\s++(?:that\s++)?)?"
-    r"(?:(?:it|that|es|das)(?:\s+is|['’]s|\s+ist)\s++)?(?:the\s++|die\s++)?(?:(?:right|correct|my)\s++)?(?:option|answer|choice|solution|letter|antwort|möglichkeit|lösung|buchstabe)?\s*+(?:is\b|ist\b)?"
-    r"\W*+([a-z])\W*$",
+    rf"^{_LED_IN}"
+    rf"{_AROUND}([a-z])(?:\s+(?:is|ist)\s+(?:the\s+|die\s+)?(?:right|correct|richtig\w*|true)(?:\s+(?:one|answer|option|antwort))?)?{_AROUND}$",
     re.IGNORECASE,
 )
 _LETTER_AND_TEXT = re.compile(r"^\W*([A-Za-z])\s*[:.)\]-]+\s+(\S.*)$", re.DOTALL)
-_NAMED = r"^\W*(?:(?:option|answer|antwort|möglichkeit)\s++)?"
+_NAMED = rf"^\W*+{_LED_IN}\s*+"
 _LETTER_AND_REASON = re.compile(
     rf"{_NAMED}([A-Za-z])\s*(?:,|;|-|–|\bbecause\b|\bsince\b|\bas\b|\bweil\b|\bda\b)\s*(?:[^\W\d_]{{2,}}|(?-i:[a-z])\s+(?!and\b|or\b|und\b|oder\b)[^\W\d_]{{2,}}).*$",
     re.DOTALL | re.IGNORECASE,
@@ -51,7 +58,7 @@ _LETTER_AND_REASON = re.compile(
 """A letter, and why."""
 _CONTRARY = re.compile(rf"{_NAMED}[A-Za-z]\W+(?:but|except|however|only|aber|außer|nur|sondern)\b", re.IGNORECASE)
 """A letter, and in what it is not so."""
-_LETTER_AND_WORDS = re.compile(r"^\W*([A-Za-z])\s*(?:[:)\]]|\.(?=\s))\s*(\S.*)$", re.DOTALL)
+_LETTER_AND_WORDS = re.compile(r"^\W*([A-Za-z])\s*(?:[:)\]]|\.(?=\s)|\((?=[^\W\d_]{2}))\s*(\S.*)$", re.DOTALL)
 _WORDS_AND_LETTER = re.compile(r"(?=.*?[^\W\d_]{2})([^:]*+(?::[^:]*+)*?):\s*+([A-Z])\W*+\Z", re.DOTALL)
 """A letter with words of one's own behind it, or in front of it."""
 _PLACE = re.compile(
@@ -59,6 +66,11 @@ _PLACE = re.compile(
     re.IGNORECASE,
 )
 """The place of an option, as in "the third one"."""
+_YES_OR_NO = re.compile(rf"^\W*(yes|no|ja|nein)\b\W*([a-z]){_AROUND}$", re.IGNORECASE)
+"""A letter behind the first word of its option, as in "no, D"."""
+_NOUN_AND_LETTER = re.compile(rf"^\W*([^\W\d_]{{3,}})\s+([a-z]){_AROUND}$", re.IGNORECASE)
+_OF_THESE = re.compile(r"\b(?:which|these)\s+([^\W\d_]+)", re.IGNORECASE)
+"""What the options are, as in "which of these systems"."""
 _LAST = ("last", "letzte", "letzter", "letztes")
 _EXCLUDING = frozenset(WORDS["excluding"].split())
 _FILLING = frozenset(WORDS["filling"].split())
@@ -71,7 +83,7 @@ _SHORTEST_PART = 3
 def _plain(text: str) -> str:
     """A text by its words and signs alone: without blanks beside signs, quotation marks, capital letters."""
     text = re.sub(r"[`*\"']", "", keyboard_text(text))
-    text = with_digits(re.sub(r"(?<=[a-z]{2})-(?=[a-z]{2})", " ", " ".join(text.split())))
+    text = with_digits(re.sub(r"(?<=[a-z]{2})-(?=[a-z]{2})", " ", " ".join(text.split())), ordinals=False)
     return re.sub(r" ?([^\w\s]) ?", r"\1", text).strip(".,;:!? ").casefold()
 
 
@@ -80,22 +92,27 @@ def _read_choice(exercise: Exercise, answer: object) -> str:
         if len(answer) != 1:
             raise ModelValueError(reply("choice.one_needed", number=len(answer)))
         answer = answer[0]
-    text = " ".join(text_answer(answer, reply("choice.what"), '"A"').split())
+    text = re.sub(r"^<([^<>]*)>$", r"\1", " ".join(text_answer(answer, reply("choice.what"), '"A"').split()))
     known = letters(exercise)
     texts = {letter: _plain(option.text) for option, letter in zip(exercise.options, known, strict=True)}
     named, both = _LETTER.match(text), _LETTER_AND_TEXT.match(text)
     meant = [letter for letter, own in texts.items() if own == _plain(text)] or [
         letter for letter, own in texts.items() if _without_joints(own) == _without_joints(_plain(text))
     ]
-    if named and named[1].upper() in known and not meant:
-        meant = [named[1].upper()]
+    named_letter = named[1].upper() if named else _letter_behind(exercise, texts, text)
+    if named_letter and named_letter in known and not meant:
+        meant = [named_letter]
     if both and both[1].upper() in known and not meant:
         meant = [letter for letter in _with_part(texts, _plain(both[2])) if letter == both[1].upper()]
     reason = _LETTER_AND_REASON.match(text)
     if reason and reason[1].upper() in known and not meant and not _CONTRARY.match(text):
         meant = [reason[1].upper()]
-    meant = meant or _with_real_part(texts, _plain(text)) or _named_in(texts, text) or _with_own_words(texts, text)
-    meant = meant or _by_place(known, text)
+    of_part = _with_real_part(texts, _plain(text))
+    meant = meant or (of_part if len(of_part) > 1 or _says_enough(exercise, of_part, texts, _plain(text)) else [])
+    named_ones = _named_in(texts, text)
+    if not meant and len({texts[letter].partition(":")[0] for letter in named_ones}) > 1:
+        raise ModelValueError(reply("choice.one_needed", number=len(named_ones)))
+    meant = meant or named_ones or _with_own_words(texts, text) or _by_place(known, text)
     if len(meant) > 1:
         several = reply("choice.several", text=quoted(text))
         raise ModelNameError(several, hint=reply("choice.choose", options=", ".join(meant)))
@@ -104,6 +121,15 @@ def _read_choice(exercise: Exercise, answer: object) -> str:
             reply("choice.none_of_these", text=quoted(text)), hint=reply("choice.choose", options=", ".join(known))
         )
     return meant[0]
+
+
+def _letter_behind(exercise: Exercise, texts: Mapping[str, str], text: str) -> str:
+    """A letter behind what the question calls its options, or behind the first word of its own option; or nothing."""
+    both, noun = _YES_OR_NO.match(text), _NOUN_AND_LETTER.match(text)
+    if both:
+        return both[2].upper() if texts.get(both[2].upper(), "").startswith(both[1].lower()) else ""
+    called = {word.lower().removesuffix("s") for word in _OF_THESE.findall(exercise.question)}
+    return noun[2].upper() if noun and noun[1].lower().removesuffix("s") in called else ""
 
 
 def _without_joints(text: str) -> str:
@@ -140,17 +166,34 @@ def _with_part(texts: Mapping[str, str], part: str) -> list[str]:
     return [letter for letter, text in texts.items() if part in text] if len(part) >= _SHORTEST_PART else []
 
 
+FEWEST_WORDS = 4
+"""So many words of the right option stand for it, if they do not begin it: fewer may have been found by chance."""
+
+
+def _says_enough(exercise: Exercise, found: list[str], texts: Mapping[str, str], part: str) -> bool:
+    """Whether a part of an option may stand for it; of a wrong one less is enough, as nothing is given away."""
+    own = texts[found[0]] if found else ""
+    begins = own == part or (own.startswith(part) and not own[len(part)].isalnum())
+    is_right = found == [exercise.solution.strip().upper()]
+    return not is_right or begins or len(own.split()) <= MOST_WORDS or len(re.findall(r"\w+", part)) >= FEWEST_WORDS
+
+
+_CLAUSE_END = re.compile(r"[.,:;]")
+
+
 def _with_real_part(texts: Mapping[str, str], part: str) -> list[str]:
-    """The options whose texts contain a part that may tell them apart: a figure, two telling words, or a whole text.
+    """The options whose texts contain a part that may tell them apart: two telling words, the beginning, or a whole text.
 
     >>> _with_real_part({"A": "each cell has both ages", "B": "1 cell"}, "ages")
     []
     """
     found = _with_part(texts, part)
-    telling = [word for word in re.findall(r"\w+", part) if word not in _FILLING]
+    telling = [word for word in re.findall(r"\w+", part) if word not in _FILLING | _EXCLUDING]
     signs = re.findall(r"[^\w\s]", part)
+    is_whole = any(part in (texts[letter], *_CLAUSE_END.split(texts[letter])[:1]) for letter in found)
     is_short = any(len(texts[letter].split()) <= MOST_WORDS for letter in found)
-    is_real = is_short or len(telling) + len(signs) > 1 or any(map(str.isdigit, part)) or part in texts.values()
+    is_long = len(telling) + len(signs) > 1 or len(re.findall(r"\w+", part)) >= FEWEST_WORDS
+    is_real = is_whole or (is_short and not part.isdigit()) or is_long
     return found if is_real or len(found) > 1 else []
 
 
@@ -175,7 +218,7 @@ def _with_own_words(texts: Mapping[str, str], text: str) -> list[str]:
 
 def _named_in(texts: Mapping[str, str], text: str) -> list[str]:
     """The options that a short answer names: those of one word, or that begin with one and a colon."""
-    words = re.findall(r"\w+", _plain(text))
+    words = re.findall(r"\d+[.,/]\d+|\w+", _plain(text))
     if len(words) > MOST_WORDS or (_EXCLUDING | {"and", "und"}) & set(words):
         return []
     return [letter for letter, own in texts.items() if own.partition(":")[0] in words]

@@ -13,6 +13,7 @@ from lsys_kit.classroom.exercises.asked import asked_system, written
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.forms import form_of
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
+from lsys_kit.classroom.exercises.kinds.systems import typed_rule, unused
 from lsys_kit.classroom.exercises.kinds.words import read_modules, unnamed_word
 from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.classroom.exercises.typed import read_typed
@@ -21,7 +22,7 @@ from lsys_kit.errors import ModelValueError
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.geometry.sameness import normalised, same_strokes
 from lsys_kit.geometry.scene import Floats
-from lsys_kit.notation.model.system import LSystem
+from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.read import read
 from lsys_kit.worlds.derive import derive
 
@@ -159,7 +160,13 @@ def _read(exercise: Exercise, answer: object) -> Drawn:
 
 
 def _same(exercise: Exercise, mine: Drawn, wanted: Drawn) -> bool:
-    return same_strokes(mine.strokes, wanted.strokes, turned=not exercise.drawn)
+    return same_strokes(mine.strokes, wanted.strokes, turned=not exercise.drawn) and _unused(mine) is None
+
+
+def _unused(mine: Drawn) -> Production | None:
+    """A production that was typed, and before which another always applies."""
+    system = mine.derivation.states.system
+    return unused(system) if len(mine.derivation) > 1 and system.source else None
 
 
 def _alike(exercise: Exercise, mine: Drawn, other: Drawn) -> bool:
@@ -172,8 +179,12 @@ def _alike(exercise: Exercise, mine: Drawn, other: Drawn) -> bool:
 
 def _difference(exercise: Exercise, mine: Drawn, wanted: Drawn) -> Difference:
     own, other = len(mine.strokes), len(wanted.strokes)
+    never = _unused(mine)
     if not own:
         return Difference(reply("drawing.nothing"), explains=True)
+    if never is not None and same_strokes(mine.strokes, wanted.strokes, turned=not exercise.drawn):
+        said = reply("system.never_used") + typed_rule(never, mine.derivation.states.system)
+        return Difference(said, 1, True, explains=True)
     if exercise.drawn and same_strokes(mine.strokes, wanted.strokes):
         return Difference(reply("drawing.turned"), 1, True, explains=True)
     likeness = min(own, other) / max(own, other) / 2 if own != other else 0.6

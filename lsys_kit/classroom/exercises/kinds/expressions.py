@@ -172,12 +172,21 @@ def _read(exercise: Exercise, answer: object) -> Expression:
         raise
 
 
+_ASKED_FOR = re.compile(r"\*\*.*?\*\*", re.DOTALL)
+_VALUE_OF = re.compile(r"\s*+([A-Z])\s*+\((.*)\)\s*", re.DOTALL)
+"""A module with one value, as in F(2*q)."""
 _NOUN_BEHIND = re.compile(r"(?<=[\w)])\s++([^\W\d_]{3,})\W*\Z")
 _ONE_EQUATION = re.compile(r"([^=<>!]++)=(?!=)([^=]++)")
 
 
 def _alone(exercise: Exercise, text: str) -> str:
-    """A formula without a noun of the question behind it, and without a left side that the question has, or that is equal."""
+    """A formula without a noun of the question behind it, without a left side that the question has, or that is equal.
+
+    And without the module of which the question asks for the value.
+    """
+    module = _VALUE_OF.fullmatch(text)
+    if module and any(f"`{module[1]}`" in asked for asked in _ASKED_FOR.findall(exercise.question)):
+        return module[2]
     noun = _NOUN_BEHIND.search(text)
     if noun and noun[1] not in exercise.values and re.search(rf"\b{noun[1]}\b", exercise.question, re.IGNORECASE):
         text = text[: noun.start()]
@@ -287,6 +296,8 @@ def _difference(exercise: Exercise, own: Expression, solution: Expression) -> Di
     message = differing_values(own, solution, cases)
     if message is None:
         return Difference(reply("expression.another_formula"), 1, explains=True)
+    if missing := sorted(names_in(solution) - names_in(own)):
+        message = f"{reply('expression.constant', names=', '.join(missing))} {message}"
     return Difference(message, right / len(cases), at_a_case=True)
 
 

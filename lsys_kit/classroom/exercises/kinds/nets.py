@@ -109,6 +109,11 @@ def _counted(made: str, text: str) -> Counter[str]:
             at, form = max(text.find(part), 0), "net.named" if part.isdigit() else "net.form"
             raise ModelSyntaxError(reply("net.no_place", text=quoted(part)), text, at, at + len(part), reply(form))
         for each in read:
+            if not each["place"][0].isalnum():
+                place = re.escape(each["place"])
+                there = re.search(rf"(?<![^\s+,]){place}(?![^\s+,])", text) or re.search(place, text)
+                said = reply("net.no_name", text=quoted(each["place"]))
+                raise ModelSyntaxError(said, text, *(there.span() if there else (0, 1)), reply("net.form"))
             found[each["place"]] += int(each["copies"][:6] or 1)
     return found
 

@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Sequence
 from contextlib import suppress
+from fractions import Fraction
 from itertools import takewhile
 from typing import Any
 
@@ -39,6 +40,8 @@ FORMULA = re.compile(r"\{([^{}]+)\}")
 """A formula in a reply, of which the value is shown."""
 MOST_APART = 1_000_000
 """How many times too large or too small a number may be that counts as a try."""
+MOST_DENOMINATOR = 10_000
+"""Fractions with a larger denominator are shown as decimals."""
 _GIVEN = re.compile(r"\b([A-Za-z]) = \d")
 """A letter with its value, as a question gives it."""
 _FILLING, _DOUBTFUL = (frozenset(WORDS[kind].split()) for kind in ("filling", "doubtful"))
@@ -73,9 +76,10 @@ def _is_in_place(exercise: Exercise, word: str) -> bool:
 _OF_STEP = rf"(?:{'|'.join(WORDS['labels'].split())})"
 _STEP = r"(\d++)"
 _AT = r"(?:at|in|im|bei|after|nach)\s++(?:the\s++)?"
-_AT_ITS_STEP = re.compile(rf"(?<!\w){_AT}{_OF_STEP}\s++{_STEP}\W*+\Z", re.IGNORECASE)
+_AT_ITS_STEP = re.compile(rf"(?<!\w){_AT}(?:{_OF_STEP}\s++{_STEP}|{_STEP}\s++{_OF_STEP})\W*+\Z", re.IGNORECASE)
 _ITS_STEP_FIRST = re.compile(
-    rf"\W*+(?:(?:{_AT})?{_OF_STEP}\s++{_STEP}\s*+(?:[:=,]|(?:has|it\s++is|hat|ist)\b)|[A-Za-z]\w*+\s*+\({_STEP}\)\s*+=)",
+    rf"\W*+(?:(?:{_AT})?{_OF_STEP}\s++{_STEP}\s*+(?:[:=,]|(?:has|it\s++is|hat|ist)\b)|[A-Za-z]\w*+\s*+\({_STEP}\)\s*+="
+    rf"|{_AT}{_STEP}\s++{_OF_STEP}\b\s*+[:=,]?)",
     re.IGNORECASE,
 )
 """The step that a number is of, as in "64 at step 3", "step 3: 64" and "N(3) = 64"."""
@@ -145,6 +149,12 @@ def _of_several_steps(exercise: Exercise, text: str, answer: str) -> str:
 
 
 _COMPARED = re.compile(r"^(.*(?:[<>]=?|==))\s*([-+]?[\d.]+)$", re.DOTALL)
+_BOUND = re.compile(r"\s*+([A-Za-z]\w*+)\s*+(<=|>=)([^<>=]+)")
+_EXTREME = {
+    "<=": r"\b(?:largest|greatest|highest|longest|most|größte\w*|höchste\w*)\b",
+    ">=": r"\b(?:smallest|least|lowest|shortest|kleinste\w*)\b",
+}
+"""The largest value of a name, as in "dt <= 1.2", and the smallest."""
 _NAMED_LAST = re.compile(r"(?:^\W*+|[,;]\s*+|\b(?:and|und)\s++)([A-Za-z])\s*+(?:\([^()]*+\)\s*+)?+=[^=]*+\Z")
 _COORDINATES = frozenset("xyz")
 """Names that nobody gives to another number of one's own."""
@@ -157,11 +167,18 @@ _CODE = re.compile(r"`[^`]*`|^ {4}.*$", re.MULTILINE)
 
 
 def _alone(exercise: Exercise, answer: str) -> str:
-    """An answer without the part of a condition of the question that stands before its number."""
+    """An answer without the part of a condition of the question that stands before its number.
+
+    Also without the name of which the question asks for the greatest or least value.
+    """
     text = keyboard_text(answer)
     compared = _COMPARED.match(text.strip())
     unspaced = "".join(exercise.question.split())
-    return compared[2] if compared and f"`{''.join(compared[1].split())}" in unspaced else answer
+    if compared and f"`{''.join(compared[1].split())}" in unspaced:
+        return compared[2]
+    bound, asked = _BOUND.fullmatch(text), " ".join(_ASKED_FOR.findall(exercise.question))
+    is_asked = bound and f"`{bound[1]}`" in asked and re.search(_EXTREME[bound[2]], asked, re.IGNORECASE)
+    return bound[3] if bound and is_asked else answer
 
 
 def _refuse_other_name(exercise: Exercise, answer: str) -> None:
@@ -211,8 +228,10 @@ def _read_number(exercise: Exercise, answer: object) -> Value:
 def _other_thing(exercise: Exercise, found: TypedNumber) -> str:
     """The noun beside a number, where it is not what the question counts; of one without a unit a noun that is counted."""
     phrase = list(takewhile(lambda word: word.lower() not in _PREPOSITIONS, found.after))
-    if not phrase and len(found.before) == 1 and found.before[0].lower().endswith("s"):
-        phrase = list(found.before)  # as in "cells: 9"
+    before = found.before[0].lower() if not found.after and len(found.before) == 1 else ""
+    is_counted = bool(exercise.unit) and exercise.unit.lower() not in UNITS
+    if not phrase and (before.endswith("s") or (is_counted and len(before) > 1 and before not in WORDS["labels"].split())):
+        phrase = list(found.before)  # as in "cells: 9" and "height 10"
     nouns = [word for word in phrase if word.lower() not in _FILLING | _TIMES and word.lower() not in UNITS]
     if exercise.kind != "number" or not nouns or any(_is_of_the_unit(exercise, word) for word in nouns):
         return ""
@@ -277,7 +296,8 @@ def same_number(exercise: Exercise, own: Value, wanted: Value) -> bool:
 
 
 def _number_difference(exercise: Exercise, number: Value, solution: Value) -> Difference:
-    shown = f"{number:.10g}" if isinstance(number, float) else number_text(number)
+    is_long = isinstance(number, Fraction) and number.denominator > MOST_DENOMINATOR
+    shown = f"{float(number):.10g}" if isinstance(number, float) or is_long else number_text(number)
     measured = f" {gettext(exercise.unit)}" if exercise.unit.lower() in UNITS else ""
     said = reply("number.not_asked_for", number=f"{shown}{measured}")
     if "contrary" in exercise.expects and not 0 <= number <= 1:

@@ -11,8 +11,9 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import lru_cache
-from itertools import islice, zip_longest
+from itertools import islice, pairwise, zip_longest
 
 from lsys_kit.budget import counted
 from lsys_kit.classroom.exercises.asked import beginning_with, system_of, with_constants
@@ -25,7 +26,7 @@ from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.petri.net import all_outcomes, outcomes_of
 from lsys_kit.errors import LSystemError, ModelSyntaxError, ModelValueError
 from lsys_kit.notation.analysis.lint import warnings
-from lsys_kit.notation.model.arithmetic import Value
+from lsys_kit.notation.model.arithmetic import Value, normalised
 from lsys_kit.notation.model.expressions import Number, expression_type, walk
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem, Production, symbols
@@ -190,6 +191,30 @@ def _parting(exercise: Exercise, mine: LSystem, wanted: LSystem) -> Parting | No
         found = words_parting(beginning_with(mine, own_word), beginning_with(wanted, word), names, min(exercise.steps, 5))
         if found is not None:
             return Parting(found.step, found.position, setting=reply("system.axiom_is", word=probe))
+    return _parting_at_a_bound(exercise, mine, wanted, names)
+
+
+def _parting_at_a_bound(exercise: Exercise, mine: LSystem, wanted: LSystem, names: Renaming) -> Parting | None:
+    """Where two systems part for a number at a bound of their conditions, or between two bounds.
+
+    Only where the numbers of the question need not be whole: where one of its probes is none.
+    """
+    probes = [module for probe in exercise.probes for module in read_word(probe, "abop", wanted)]
+    symbol = next((each.symbol for each in probes if any(value != int(value) for value in each.arguments)), "")
+    if not symbol:
+        return None
+    reached = [module.arguments[0] for module in asked_modules(exercise, wanted) if module.symbol == symbol]
+    own, right = mine.productions, wanted.productions
+    if mine.decomposition and wanted.decomposition:  # what a step makes is decomposed: what stays as it is, too
+        own, right = mine.decomposition, wanted.decomposition
+        mine, wanted = (replace(each, productions=()) for each in (mine, wanted))
+    asked = [*reached, *numbers_compared(*right)]
+    for value in bounds_of(*own, *right):
+        if min(asked) <= value <= max(asked):
+            start = Module(symbol, (value,))
+            found = words_parting(beginning_with(mine, [names.own(start)]), beginning_with(wanted, [start]), names, 1)
+            if found is not None:
+                return Parting(found.step, found.position, setting=reply("system.axiom_is", word=start))
     return None
 
 
@@ -307,6 +332,17 @@ def numbers_compared(*rules: Production) -> set[Value]:
     return {part.value for condition in conditions for part in walk(condition) if isinstance(part, Number)}
 
 
+def bounds_of(*rules: Production) -> list[Value]:
+    """The bounds of conditions, and numbers between them.
+
+    >>> rules = read("axiom: A(0)\\nA(x) : x < 1 -> A(x + 1)\\nA(x) : x < 4 -> B").productions
+    >>> [*map(str, bounds_of(*rules))]
+    ['1', '4', '5/2']
+    """
+    bounds = sorted(numbers_compared(*rules))
+    return [*bounds, *(normalised(Fraction(a + b) / 2) for a, b in pairwise(bounds))]
+
+
 def joined_names(exercise: Exercise, mine: SystemAnswer) -> Mapping[str, str]:
     """Names without a production that are letters of the question written together, each with these letters."""
     known = [each for each in symbols(solution_front(exercise)) if each[:1].isalpha()]
@@ -347,6 +383,7 @@ def _read(exercise: Exercise, answer: object) -> SystemAnswer:
     try:
         found = _read_typed(exercise, text)
     except LSystemError as mistake:
+        _refuse_equals(exercise, text)
         _refuse_slip_of_writing(text, mistake)
         _refuse_without_colon(text)
         raise
@@ -385,6 +422,12 @@ def _is_without_axiom(text: str) -> bool:
 
 
 _NO_COLON = re.compile(r"^[ \t]*(axiom)[ \t]+(?![:=])[^\s:=]", re.IGNORECASE | re.MULTILINE)
+_EQUALS = re.compile(
+    r"^(?![^\n]*(?:->|→))[ \t]*+(?:[A-Za-z]\w*+[ \t]*+<[ \t]*+)?([A-Za-z]\w*+)(?:\([^()\n]*+\))?"
+    r"(?:[ \t]*+>[ \t]*+[A-Za-z]\w*+)?[ \t]*+(=)(?![=>])",
+    re.MULTILINE,
+)
+"""A production with = for its arrow."""
 _NO_ARROW = re.compile(
     r"^[ \t]*[A-Za-z]\w*[ \t]*(?:\([^()\n]*\)[ \t]*)?(-[ \t]+>|(?<![-=])>(?=[ \t]*[^\n>=]*$)|-(?=[ \t]))(?![^\n]*(?:->|→))",
     re.MULTILINE,
@@ -394,7 +437,7 @@ _NO_MODULE = re.compile(
     r"^[ \t]*(?:[A-Za-z]\w*[ \t]*(?:[<>]=|==|!=|≤|≥|≠)[^\n:]*?|[A-Za-z]\w*[ \t]*[<>][ \t]*[\d.]+[ \t]*)(?=->|→)", re.MULTILINE
 )
 _TURNED = re.compile(r"=[<>](?!=)")
-_FACTOR = re.compile(r"(?:->|→)[ \t]*(\d+[ \t]*\*[ \t]*[A-Za-z]\w*[ \t]*\()")
+_FACTOR = re.compile(r"(?:->|→)[ \t]*(\d+[ \t]*\*[ \t]*[A-Za-z]\w*)")
 """Slips of writing: an axiom without a colon, an arrow in pieces, a line without one, a condition without its module, => for
 >=, a factor before a module."""
 
@@ -413,6 +456,14 @@ def _turned_comparison(text: str) -> tuple[int, int] | None:
             return start + found.start(), start + found.end()
         start += len(line) + 1
     return None
+
+
+def _refuse_equals(exercise: Exercise, text: str) -> None:
+    """Refuse a line with = for its arrow, behind a symbol of the question."""
+    known = symbols(solution_front(exercise))
+    for found in _EQUALS.finditer(text):
+        if found[1] in known:
+            raise ModelSyntaxError(reply("system.equals"), text, *found.span(2), hint=reply("system.form"))
 
 
 def _refuse_slip_of_writing(text: str, mistake: LSystemError) -> None:
@@ -441,9 +492,11 @@ def _read_text(exercise: Exercise, text: str) -> SystemAnswer:
     given = system_of(exercise.given)
     with suppress(LSystemError):  # in another notation
         found = read(text)
-        if not all(_ARROW.search(line) for line in text.splitlines() if line.strip()):
+        if re.search("axiom|omega|ω", text, re.IGNORECASE):
             return whole(found)
-        if found.notation != given.notation:  # a rule alone is read with its first letter as its axiom
+        if found.notation != given.notation or not _ARROW.search(
+            text
+        ):  # a rule alone is read with its first letter as its axiom
             return completed(exercise, replace(given, productions=found.productions, source=found.source))
     together = read(f"{text}\n{exercise.given}")
     own = [rule for rule in together.productions if rule.at and rule.at[1] <= len(text) and rule not in given.productions]

@@ -71,7 +71,9 @@ def read_modules(system: LSystem, answer: object, drawn: bool = False) -> Module
     except LSystemError:
         for notation in DIALECTS:
             with suppress(LSystemError):
-                return _of_the_system(system, plain, read_word(plain, notation, system), drawn)
+                word = read_word(plain, notation, system)
+                if all(module.symbol in plain for module in word):  # some take small letters for capital ones
+                    return _of_the_system(system, plain, word, drawn)
         raise
 
 
@@ -100,7 +102,8 @@ def _unlabelled(system: LSystem, text: str) -> str:
     if not {"+", "-"} & set(known):
         text = re.sub(r"(?<=[A-Za-z])-(?=[A-Za-z])", " ", text)
     text = text if "." in signs else re.sub(r"\.\s*$", "", text)
-    if system.notation != "plant-string" and all(len(m.arguments) < 2 for m in system.modules):
+    has_decimals = re.search(r"\d\.\d", system.source or "")
+    if has_decimals and system.notation != "plant-string" and all(len(m.arguments) < 2 for m in system.modules):
         text = _COMMA_WITHIN.sub(r"(\1.\2)", text)
     return _NAME.sub(lambda found: plain if (plain := found[0].replace("_", "")) in known else found[0], text)
 

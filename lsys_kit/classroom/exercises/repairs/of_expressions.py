@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
@@ -13,13 +14,17 @@ from lsys_kit.classroom.exercises.repairs.of_systems import changed_once
 from lsys_kit.classroom.exercises.repairs.repair import Repair
 from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.notation.model.arithmetic import Value
-from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number, expression_type, walk
+from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number, expression_type, names_in, walk
+from lsys_kit.notation.read import read_expression
 
 _COMPARISONS = ("<", "<=", ">", ">=", "==", "!=")
 _JOINED = ("&&", "||")
 _OF_NUMBERS = ("+", "-", "*", "/")
 _GROUPED = (*_OF_NUMBERS, "^")
-KINDS = ("grouping", "extra", "number", "name", "comparison", "joined", "operator", "sign", "power", "order", "part", "missing")
+KINDS = (
+    *("contrary", "grouping", "extra", "number", "name", "comparison", "joined", "operator", "sign", "power", "no_power"),
+    *("order", "part", "missing"),
+)
 """The kinds of changes, in the order in which they are tried."""
 MOST_PAIRS = 2_000
 """So many pairs of changes are tried."""
@@ -42,11 +47,14 @@ def of_expressions(exercise: Exercise, own: Expression, solution: Expression) ->
             yield from ((Apply(sign, (part, other)), "missing") for other in others)
 
     small: dict[Expression, str] = {}
-    for changed, kind in (*changed_once(own, simple), *changed_once(own, of_the_solution)):
+    contrary = [(Apply("!", (own,)), "contrary")] if expression_type(own) == "truth" else []
+    for changed, kind in (*contrary, *changed_once(own, simple), *_with_other_signs(own), *changed_once(own, of_the_solution)):
         small.setdefault(changed, kind)
     for changed, kind in sorted(small.items(), key=lambda each: KINDS.index(each[1])):
         if agrees(changed):
             yield Repair(partial(_as_it_is, changed), partial(reply, f"repair.formula_{kind}"), case=True)
+    if not names_in(own) and names_in(solution):
+        return
     once = dict(changed_once(own, simple))
     twice = ((other, kind) for changed, kind in once.items() for other, _ in changed_once(changed, simple))
     for changed, kind in islice(twice, MOST_PAIRS):
@@ -76,10 +84,27 @@ def _variants(part: Expression, names: list[str], numbers: set[Value]) -> Iterat
     if expression_type(part) == "number":
         for number in (Number(1), Number(2)):
             yield from ((Apply(operator, (part, number)), "missing") for operator in ("+", "-", "*", "/"))
-        yield Apply("^", (part, Number(2))), "power"
+        yield Apply("^", (part, Number(2))), "no_power"
         yield Apply("-x", (part,)), "sign"
         for name in names:
             yield from ((Apply(operator, (part, Name(name))), "missing") for operator in (*_OF_NUMBERS, "^"))
+
+
+_SIGN = re.compile(r"(?<= )[-+*/](?= )|(?<=[\w)])/(?=[\w(])")
+
+
+def _with_other_signs(own: Expression) -> Iterator[tuple[Expression, str]]:
+    """A formula with one of its signs changed as it is written, so that its parts may belong together otherwise.
+
+    >>> from lsys_kit.notation.read import read_expression
+    >>> [str(found) for found, _ in _with_other_signs(read_expression("a * 2*b"))][:3]
+    ['a + 2 * b', 'a - 2 * b', 'a/2 * b']
+    """
+    text = str(own)
+    for found in _SIGN.finditer(text):
+        for sign in _OF_NUMBERS:
+            if sign != found[0]:
+                yield read_expression(f"{text[: found.start()]}{sign}{text[found.end() :]}"), "operator"
 
 
 def _grouped_otherwise(part: Apply) -> Iterator[Expression]:
@@ -115,4 +140,4 @@ def _other_operators(part: Apply) -> Iterator[tuple[Expression, str]]:
     if operator in ("-", "/", "^"):
         yield replace(part, operands=part.operands[::-1]), "order"
     if operator in ("*", "^"):
-        yield replace(part, operator="^" if operator == "*" else "*"), "power"
+        yield replace(part, operator="^" if operator == "*" else "*"), "operator" if operator == "*" else "power"

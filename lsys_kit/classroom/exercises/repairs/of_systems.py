@@ -12,7 +12,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
-from itertools import combinations, pairwise, product
+from itertools import combinations, product
 from typing import Any, TypeAlias
 
 from lsys_kit.classroom.exercises.asked import system_of
@@ -21,6 +21,7 @@ from lsys_kit.classroom.exercises.kinds.forms import is_sensible, rules_with, wi
 from lsys_kit.classroom.exercises.kinds.systems import (
     SystemAnswer,
     asked_modules,
+    bounds_of,
     completed,
     joined_names,
     names_in_other_case,
@@ -36,7 +37,6 @@ from lsys_kit.classroom.exercises.repairs.repair import Repair, class_of, row_ch
 from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.derivation.core.states import States
 from lsys_kit.errors import LSystemError
-from lsys_kit.notation.model.arithmetic import normalised
 from lsys_kit.notation.model.expressions import Apply, Expression, Name, Number, function_of, substituted
 from lsys_kit.notation.model.modules import Module, Pattern, with_expressions
 from lsys_kit.notation.model.system import LSystem, Production
@@ -335,8 +335,7 @@ def _told_apart(rule: Production, right: Production, reached: Sequence[Module]) 
 def _near_bounds(*rules: Production) -> Iterator[Any]:
     """Numbers at the bounds of conditions, between them, and beside them."""
     bounds = sorted(numbers_compared(*rules))
-    yield from bounds
-    yield from (normalised(Fraction(a + b) / 2) for a, b in pairwise(bounds))
+    yield from bounds_of(*rules)
     yield from (bound + by for bound in bounds for by in (-1, 1, Fraction(-1, 2), Fraction(1, 2)))
 
 

@@ -116,6 +116,8 @@ def _has_more_brackets(longer: Sequence[object], shorter: Sequence[object]) -> b
 
 def _changed(mine: object, wanted: object) -> str:
     if _symbol(mine) == _symbol(wanted):
+        if isinstance(mine, Module | Pattern) and not mine.arguments:
+            return "missing_argument"
         return "changed_number" if _differ_in_a_number(mine, wanted) else "changed_argument"
     if {_symbol(mine), _symbol(wanted)} == {"F", "f"}:
         return "changed_pen"
