@@ -92,7 +92,7 @@ def head_findings(written: Written) -> Iterator[Finding]:
 
 def link_findings(written: Written) -> Iterator[Finding]:
     """Of links and pictures: whether they are there, and have a text."""
-    headings = {_anchor(each) for cell in written.cells if not cell.is_code for each in _HEADING.findall(cell.source)}
+    headings = {heading_anchor(each) for cell in written.cells if not cell.is_code for each in _HEADING.findall(cell.source)}
     for cell in written.cells:
         if cell.is_code:
             continue
@@ -122,7 +122,8 @@ def without_code(text: str) -> str:
     return re.sub(r"`[^`\n]*`", lambda found: " " * len(found[0]), text)
 
 
-def _anchor(heading: str) -> str:
+def heading_anchor(heading: str) -> str:
+    """By what a link leads to a heading of its page."""
     return re.sub(r"[*`]|<[^<>]{0,200}>", "", heading.strip().rstrip("#")).strip().replace(" ", "-")
 
 

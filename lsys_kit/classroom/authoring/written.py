@@ -204,7 +204,9 @@ class Written:
 
     @cached_property
     def _parsed(self) -> tuple[tuple[Cell, ast.Module | SyntaxError], ...]:
-        return tuple((cell, _tree(cell.source)) for cell in self.cells if cell.is_code and not cell.source.startswith("%%"))
+        return tuple(
+            (cell, python_tree(cell.source)) for cell in self.cells if cell.is_code and not cell.source.startswith("%%")
+        )
 
     @property
     def trees(self) -> Iterator[tuple[Cell, ast.Module]]:
@@ -234,7 +236,8 @@ def _cell(number: int, cell: Any) -> Cell:
     return Cell(number, cell.cell_type == "code", cell.source, folded, "raises-exception" in metadata.get("tags", ()))
 
 
-def _tree(source: str) -> ast.Module | SyntaxError:
+def python_tree(source: str) -> ast.Module | SyntaxError:
+    """A cell of Python, parsed, lines for IPython left out; or why it is no Python."""
     plain = "\n".join("" if line.lstrip().startswith(("%", "!")) else line for line in source.split("\n"))
     try:
         return ast.parse(plain)

@@ -25,6 +25,7 @@ from lsys_kit.classroom.site.markdown import missing
 from lsys_kit.classroom.site.pages import INDEX, LAB, Entry, notebook_page, title_of
 from lsys_kit.errors import LSystemError, ModelFileError, quotable
 from lsys_kit.files import file_errors, made_by_the_kit, save_file
+from lsys_kit.translation import ENGLISH
 
 if TYPE_CHECKING:
     from nbformat import NotebookNode
@@ -48,7 +49,8 @@ def build_site(
     stored = {name: read_notebook(path) for name, path in files.items()}
     told = {f"notebooks/{name}.ipynb": declared_in(place, name) for place, name in course.lessons}
     drawn = {name: path for name, path in every.items() if name.startswith("notebooks/pictures/")}
-    command = LAB if course.places[0].is_kits else f"{LAB} --course {course.root.resolve().name}"
+    command = LAB if course.is_kits else f"{LAB} --course {course.root.resolve().name}"
+    command += "" if course.language == ENGLISH else f" --language {course.language}"
     entries = [
         Entry(name, title_of(stored[name].cells, name), told.get(name), course.title, command, drawn if name in told else {})
         for name in files
