@@ -13,6 +13,7 @@ from lsys_kit.classroom.authoring.told import plain
 from lsys_kit.classroom.authoring.written import Cell, Written
 from lsys_kit.classroom.course import course_files
 from lsys_kit.notation.analysis.checks import suggestion
+from lsys_kit.translation import gettext, languages
 
 _LINK = re.compile(r"(!?)\[([^\[\]\n]{0,500}+)\]\(\s*+<?([^)\[\s>]{1,500}+)>?[^)\[\n]{0,200}+\)")
 _IMAGE = re.compile(r"<img\b(?![^<>]{0,1000}\balt\s*+=\s*+[\"'][^\"'])[^<>]{0,1000}>", re.IGNORECASE)
@@ -81,7 +82,9 @@ def head_findings(written: Written) -> Iterator[Finding]:
     if lesson is None:
         return
     text = plain(" ".join(cell.source for cell in written.cells if not cell.is_code))
-    said = {"title": [lesson.title], "question": [lesson.question], "number of minutes": [f"{lesson.minutes} minutes"]}
+    said = {"title": [lesson.title], "question": [lesson.question]}
+    if written.language in languages():
+        said["number of minutes"] = [written.said(lambda: gettext("{number} minutes", number=lesson.minutes))]
     said |= {"objective": [*lesson.objectives], "summary": [lesson.summary]}
     for what, texts in said.items():
         for each in texts:

@@ -164,16 +164,10 @@ def _redeclare(entries: dict[str, object] | list[object], kinds: str | Kinds, tu
         if isinstance(value, dict | list):
             if of is not None:
                 _redeclare(value, of, turn)
-        elif (
-            isinstance(value, str)
-            and isinstance(kind, str)
-            and (new := _turned(value.strip("\n"), kind, turn)) != value.strip("\n")
-        ):
-            entries[place] = _literal(new, "\n" in value)  # type: ignore[index, call-overload]
-
-
-def _literal(text: str, in_lines: bool) -> object:
-    return tomlkit.string(text, multiline=in_lines)
+        elif isinstance(value, str) and isinstance(kind, str):
+            old = value.strip("\n")
+            if (new := _turned(old, kind, turn)) != old:
+                entries[place] = tomlkit.string(new, multiline="\n" in value)  # type: ignore[index, call-overload]
 
 
 # Texts in code
@@ -181,7 +175,7 @@ def _literal(text: str, in_lines: bool) -> object:
 SAID: Mapping[str, tuple[str, ...]] = {
     "ask": ("question",),
     "predict": ("question", "what"),
-    "vote": ("question", "options", "right", "picture", "replies"),
+    "vote": ("question", "options", "right", "", "replies"),
     "worksheet": ("", "", "", "columns", "rows", "title"),
 }
 """Functions of lessons, and which of their arguments may be texts, in their order."""
@@ -196,11 +190,11 @@ def recode(source: str, turn: Turn) -> str:
     lines = source.split("\n")
     texts = [] if source.startswith("%%") else [*_said(python_tree(source))]
     for node in sorted(texts, key=lambda node: (node.lineno, node.col_offset), reverse=True):
-        new = turn(node.value.strip(), "")  # type: ignore[union-attr]
-        if new != node.value.strip() and node.end_lineno is not None and node.end_col_offset is not None:  # type: ignore[union-attr]
-            first, last = lines[node.lineno - 1].encode(), lines[node.end_lineno - 1].encode()
+        old, end = str(node.value).strip(), node.end_lineno or node.lineno
+        if (new := turn(old, "")) != old:
+            first, last = lines[node.lineno - 1].encode(), lines[end - 1].encode()
             changed = first[: node.col_offset] + json.dumps(new, ensure_ascii=False).encode() + last[node.end_col_offset :]
-            lines[node.lineno - 1 : node.end_lineno] = [changed.decode()]
+            lines[node.lineno - 1 : end] = [changed.decode()]
     return "\n".join(lines)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -14,6 +14,7 @@ from lsys_kit.classroom.lessons.entries import number_of
 from lsys_kit.classroom.lessons.lesson import Lesson, declared_in
 from lsys_kit.classroom.places import Course, Place, key_of
 from lsys_kit.classroom.site.build import read_notebook
+from lsys_kit.translation import ENGLISH, languages, spoken
 
 _FOLDED = re.compile(r"<details>.*?(?:</details>|\Z)", re.DOTALL)
 _HEADING = re.compile(r"^## ++(?:(\d{1,3})\b)?.*$", re.MULTILINE)
@@ -143,6 +144,16 @@ class Written:
     def at(self, cell: Cell, line: int = 0) -> str:
         """Where a cell is, and a line in it."""
         return f"{self.name}.ipynb, cell {cell.number}" + f", line {line}" * bool(line)
+
+    @property
+    def language(self) -> str:
+        """The code of the language in which it is written."""
+        return self.lesson.language if self.lesson else ENGLISH
+
+    def said(self, text: Callable[[], str]) -> str:
+        """A text of the kit in its language; in English where the kit has it not."""
+        with spoken(self.language if self.language in languages() else ENGLISH):
+            return text()
 
     @property
     def declared_at(self) -> str:

@@ -62,7 +62,7 @@ def build_site(
         save_file(places[name], notebook_page(known[name], notebook.cells, entries, live).encode())
         heard(places[name], len(places))
         pictures.update((name, each) for each in found_in(notebook.cells, showing.SMALL))
-    save_file(places[INDEX], index_page(entries, pictures, live, course.lead).encode())
+    save_file(places[INDEX], index_page(entries, pictures, live, course.lead, course.is_kits).encode())
     heard(places[INDEX], len(places))
     return tuple(places.values())
 
