@@ -3,7 +3,8 @@
 A course is a folder. What a notebook asks lies beside it under the same name: `notebooks/ferns.toml` beside
 `notebooks/ferns.ipynb`, `exercises/ferns.toml` beside `exercises/ferns.ipynb`; the teacher's page is in `notebooks/teacher`. A
 folder may have one lesson or many. With a file `course.toml` it is a list of lessons in an order: of its own, of folders in it,
-and of the kit, by their numbers. The kit's own course is a place like others; only its declarations lie in the package.
+and of the kit, by their numbers. The kit's own course is a place like others; only its declarations and translations lie in the
+package.
 
 A translation of its lessons is a folder of the same form within it, `translations/de`; `lsys-kit lesson translate` writes it.
 
@@ -27,7 +28,7 @@ from lsys_kit.classroom.handed_in import content_of
 from lsys_kit.errors import LSystemError, ModelFileError, quotable, shown
 from lsys_kit.files import Entries, decoded, file_errors
 from lsys_kit.notation.analysis.checks import suggestion
-from lsys_kit.translation import ENGLISH, gettext
+from lsys_kit.translation import ENGLISH, LOCALE, gettext
 
 COURSE_FILE = "course.toml"
 """The list of a course, in its folder."""
@@ -131,8 +132,10 @@ class Course:
 
 
 TITLE = "L-systems: a course"
-LEAD = """Short rules can grow a plant. These lessons show how, from a row of cells to a hedge in the light: predict,
-look, move a slider, change a rule."""
+LEAD = (
+    "Short rules can grow a plant. These lessons show how, from a row of cells to a hedge in the light: "
+    "predict, look, move a slider, change a rule."
+)
 
 
 def course_of(folder: Path | None = None, language: str | None = None) -> Course:
@@ -154,13 +157,18 @@ def course_of(folder: Path | None = None, language: str | None = None) -> Course
         title, lead = gettext(TITLE), gettext(LEAD)
     elif _translated(own_place(course.root), language).root != course.root:
         told = _listed(course.root / TRANSLATIONS / language)
-        title, lead = str(told.get("title") or title), str(told.get("description") or lead)
+        title, lead = (" ".join(str(told.get(key) or said).split()) for key, said in (("title", title), ("description", lead)))
     return replace(course, title=title, lead=lead, lessons=lessons, language=language)
+
+
+def translation_place(place: Place, language: str) -> Place:
+    """Where the lessons of a place are in another language."""
+    return own_place((LOCALE if place.is_kits else place.root / TRANSLATIONS) / language)
 
 
 def _translated(place: Place, language: str, name: str = "") -> Place:
     """The place of the translation of a place, if there is one; of the kit's, if it has this lesson."""
-    found = own_place(place.root / TRANSLATIONS / language)
+    found = translation_place(place, language)
     names = found.names() if language != ENGLISH and LANGUAGE.fullmatch(language) else ()
     if name and names and name not in names and not place.is_kits:
         raise ModelFileError(
@@ -188,7 +196,7 @@ def _course_of(folder: Path | None) -> Course:
     if len({name for _, name in lessons}) < len(lessons):
         raise ModelFileError(f'Two lessons of "{named}" have the same name')
     title = str(declared.get("title") or folder.resolve().name.replace("_", " "))
-    return Course(folder, title, str(declared.get("description", "")), lessons)
+    return Course(folder, " ".join(title.split()), " ".join(str(declared.get("description", "")).split()), lessons)
 
 
 def _resolved(folder: Path) -> Path:

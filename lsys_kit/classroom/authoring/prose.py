@@ -140,7 +140,7 @@ def _is_there(written: Written, file: str) -> bool:
     names |= {f"exercises/{path.stem}.ipynb" for place in written.course.places for path in place.questions.glob("*.toml")}
     root = written.place.root.resolve()
     target = path.relative_to(root).as_posix() if path.is_relative_to(root) else ""
-    return target in names or (written.place.is_kits and target in course_files())
+    return target in names or (written.course.is_kits and target in course_files())
 
 
 def markup_findings(written: Written) -> Iterator[Finding]:

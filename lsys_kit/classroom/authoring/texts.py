@@ -14,8 +14,6 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from typing import TypeAlias
 
-import tomlkit
-
 from lsys_kit.classroom.authoring.written import python_tree
 
 Turn: TypeAlias = Callable[[str, str], str]
@@ -151,23 +149,27 @@ def redeclared(text: str, kinds: Kinds, turn: Turn, **more: str) -> str:
     >>> redeclared('title = "Ferns"\\nminutes = 45', LESSON, lambda text, kind: text.upper())
     'title = "FERNS"\\nminutes = 45'
     """
+    import tomlkit
+
     document = tomlkit.parse(text)
-    _redeclare(document, kinds, turn)
+    _redeclare(document, kinds, turn, tomlkit.string)
     return "".join(f"{key} = {json.dumps(value)}\n" for key, value in more.items()) + tomlkit.dumps(document)
 
 
-def _redeclare(entries: dict[str, object] | list[object], kinds: str | Kinds, turn: Turn) -> None:
+def _redeclare(
+    entries: dict[str, object] | list[object], kinds: str | Kinds, turn: Turn, string: Callable[..., object]
+) -> None:
     places: Iterator[tuple[object, object]] = iter([*enumerate(entries)] if isinstance(entries, list) else [*entries.items()])
     for place, value in places:
         of = kinds if isinstance(entries, list) or isinstance(kinds, str) else kinds.get(str(place))
         kind = of.get("") if isinstance(of, Mapping) else of
         if isinstance(value, dict | list):
             if of is not None:
-                _redeclare(value, of, turn)
+                _redeclare(value, of, turn, string)
         elif isinstance(value, str) and isinstance(kind, str):
             old = value.strip("\n")
             if (new := _turned(old, kind, turn)) != old:
-                entries[place] = tomlkit.string(new, multiline="\n" in value)  # type: ignore[index, call-overload]
+                entries[place] = string(new, multiline="\n" in value)  # type: ignore[index, call-overload]
 
 
 # Texts in code

@@ -32,8 +32,8 @@ from lsys_kit.classroom.places import (
     course_of,
     declaration,
     key_of,
-    own_place,
     text_of,
+    translation_place,
 )
 from lsys_kit.classroom.site.build import MOST_BYTES, read_notebook
 from lsys_kit.errors import LSystemError, ModelFileError, ModelNameError, ModelValueError, quotable
@@ -111,7 +111,7 @@ def _check_language(language: str) -> None:
 
 
 def _of_place(place: Place, language: str, wanted: list[str]) -> Iterator[Translated]:
-    target = own_place(place.root / TRANSLATIONS / language)
+    target = translation_place(place, language)
     begun = [name for name in place.names() if (target.root / f"{name}.po").is_file()]
     contents = dict[str, bytes]()
     for name in place.names():
@@ -331,7 +331,9 @@ def _written(path: Path, catalogue: Catalog) -> Translated:
 
 def _library() -> tuple[ModuleType, ModuleType]:
     try:
+        import tomlkit  # noqa: F401
         from babel.messages import catalog, pofile
     except ImportError:
-        raise LSystemError("Babel is not installed", hint="Install it with: pip install 'lsys-kit[translate]'") from None
+        hint = "Install them with: pip install 'lsys-kit[translate]'"
+        raise LSystemError("Babel and TOML Kit are not installed", hint=hint) from None
     return catalog, pofile

@@ -51,8 +51,17 @@ def build_site(
     drawn = {name: path for name, path in every.items() if name.startswith("notebooks/pictures/")}
     command = LAB if course.is_kits else f"{LAB} --course {course.root.resolve().name}"
     command += "" if course.language == ENGLISH else f" --language {course.language}"
+    spoken = {each.name: each.language for each in told.values() if each}
     entries = [
-        Entry(name, title_of(stored[name].cells, name), told.get(name), course.title, command, drawn if name in told else {})
+        Entry(
+            name,
+            title_of(stored[name].cells, name),
+            told.get(name),
+            course.title,
+            command,
+            drawn if name in told else {},
+            spoken.get(Path(name).stem, ENGLISH),
+        )
         for name in files
     ]
     places = {INDEX: folder / INDEX, **{each.name: folder / each.page for each in entries}}

@@ -31,7 +31,7 @@ from lsys_kit.classroom.site.showing import PART
 from lsys_kit.files import Entries, file_errors
 from lsys_kit.pictures.formats.notebook import DARKENED
 from lsys_kit.pictures.style.labels import escaped
-from lsys_kit.translation import gettext, language
+from lsys_kit.translation import ENGLISH, gettext
 
 if TYPE_CHECKING:
     from nbformat import NotebookNode
@@ -60,7 +60,8 @@ _PANELS = frozenset({"panel", "compare"})
 @dataclass(frozen=True)
 class Entry:
     """A notebook on the site: its file, relative to the course, its title as a text, and what is declared of it if it is a
-    lesson; the title of the course, the command that opens it, and the files of its pictures, by their names in it.
+    lesson; the title of the course, the command that opens it, the files of its pictures, by their names in it, and the
+    language of its text.
     """
 
     name: str
@@ -69,6 +70,7 @@ class Entry:
     course: str = TITLE
     command: str = LAB
     pictures: Mapping[str, Path] = field(default_factory=dict, hash=False)
+    language: str = ENGLISH
 
     @property
     def page(self) -> str:
@@ -106,7 +108,7 @@ def notebook_page(entry: Entry, cells: Sequence[NotebookNode], entries: Sequence
         f'<main id="main">\n{begin}</main>\n<footer><nav aria-label="{gettext("other pages")}">{row}</nav></footer>\n'
     )
     described = prose_text(entry.lesson.question) if entry.lesson else entry.title
-    return document(entry.title, body, style("course"), described, _program(parts, live), language())
+    return document(entry.title, body, style("course"), described, _program(parts, live), entry.language)
 
 
 MOST_PICTURE = 2_000_000
