@@ -155,7 +155,7 @@ def course_of(folder: Path | None = None, language: str | None = None) -> Course
     title, lead = course.title, course.lead
     if course.is_kits:
         title, lead = gettext(TITLE), gettext(LEAD)
-    elif _translated(own_place(course.root), language).root != course.root:
+    elif LANGUAGE.fullmatch(language):
         told = _listed(course.root / TRANSLATIONS / language)
         title, lead = (" ".join(str(told.get(key) or said).split()) for key, said in (("title", title), ("description", lead)))
     return replace(course, title=title, lead=lead, lessons=lessons, language=language)

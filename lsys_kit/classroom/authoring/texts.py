@@ -19,7 +19,10 @@ from lsys_kit.classroom.authoring.written import python_tree
 Turn: TypeAlias = Callable[[str, str], str]
 """What stands in the place of a text of a kind; most texts have none, which is empty."""
 
-_FIXED = re.compile(r"`[^`\n]*`|\$[^$\n]+\$|(?<=\])\([^()\s]*(?:\([^()\s]*\)[^()\s]*)*\)|\{\{[^{}]*\}\}|\{\w+\}|</?\w[^<>]*>")
+_FIXED = re.compile(
+    r"^ {4}.*$|`[^`\n]*`|\$[^$\n]+\$|(?<=\])\([^()\s]*(?:\([^()\s]*\)[^()\s]*)*\)|\{\{[^{}]*\}\}|\{\w+\}|</?\w[^<>]*>",
+    re.MULTILINE,
+)
 """What a translation has as it is: code, formulas, addresses, names in braces, tags."""
 _LETTER = re.compile(r"[^\W\d_]")
 
@@ -105,16 +108,13 @@ def _prefix(pattern: re.Pattern[str], text: str) -> str:
 def _paragraph(lines: list[str], quote: str, turn: Turn) -> Iterator[str]:
     mark = _prefix(_MARK, lines[0])
     lines = [lines[0][len(mark) :], *lines[1:]]
-    joined = "".join(
-        each.strip() + ("\n" if _BROKEN.search(each) else " ") if not each.endswith("\\") else each.strip() + "\n"
-        for each in lines
-    ).strip()
+    *before, last = lines
+    joined = "".join(_BROKEN.sub("", each).strip() + ("\n" if _BROKEN.search(each) else " ") for each in before) + last.strip()
     if not has_words(joined):
         yield from (quote + (mark if not at else "") + each for at, each in enumerate(lines))
         return
     indent = re.sub(r"\S", " ", mark)
-    for at, each in enumerate(_turned(joined, HEADING if "#" in mark else "", turn).split("\n")):
-        yield quote + (indent if at else mark) + each
+    yield quote + mark + f"  \n{quote}{indent}".join(_turned(joined, HEADING if "#" in mark else "", turn).split("\n"))
 
 
 def _row(row: str, turn: Turn) -> str:

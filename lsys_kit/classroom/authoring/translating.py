@@ -11,7 +11,7 @@ from __future__ import annotations
 import io
 import json
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import ModuleType
@@ -278,15 +278,25 @@ def renewed(path: Path, messages: Mapping[Key, list[str]], language: str) -> Cat
             content = io.BytesIO(content_of(path, MOST_BYTES))
         try:
             found = pofile.read_po(content, locale=language, abort_invalid=True)
+            reason = "" if len(found) or not content.getvalue().strip() else "There are no texts in it"
         except (pofile.PoFileError, ValueError) as fault:
-            raise ModelFileError(f'"{quotable(str(path))}" is no file for translators: {quotable(str(fault))}') from None
-        before = {(each.id, each.context): each.previous_id for each in found if each.fuzzy}
+            reason = quotable(str(fault))
+        if reason:
+            raise ModelFileError(f'"{quotable(str(path))}" is no file for translators: {reason}')
+        before = {(each.id, each.context): _previous(each, pofile.denormalize) for each in found}
         found.update(template, update_creation_date=False)
         for each in found:
             each.previous_id = each.previous_id or before.get((each.id, each.context), []) if each.fuzzy else []
     for each in found:
         each.flags -= {"python-format", "python-brace-format"}  # which "30 % of" looks like
     return found
+
+
+def _previous(message: Message, denormalize: Callable[[str], str]) -> list[str]:
+    """The text of which something is the translation, if it is fuzzy: Babel reads it as a comment, and it is one no more."""
+    said = "\n".join(each.removeprefix("|").strip() for each in message.user_comments if each.startswith("|"))
+    message.user_comments = [each for each in message.user_comments if not each.startswith("|")]
+    return [denormalize(found)] if (found := said.partition("msgid ")[2]) else []
 
 
 def translation(catalogue: Catalog) -> dict[Key, str]:
