@@ -370,7 +370,7 @@ def _write_new(name: str, text: str) -> None:
 
 
 def collect_marks(options: argparse.Namespace) -> None:
-    from lsys_kit.classroom.exercises.collecting import collect, marks_table
+    from lsys_kit.classroom.exercises.collecting import UNKNOWN, collect, marks_table
 
     if os.path.lexists(options.output):
         raise _exists(options.output)
@@ -380,6 +380,10 @@ def collect_marks(options: argparse.Namespace) -> None:
     unread = sum(not each.scores for each in marks)
     told = f"{counted_as(len(marks), 'student')} in {quotable(options.output)}, {unread or 'none'} without an answer"
     print(f"{told}. A check is no examination: the answers come with the kit.")
+    unknown = sum(remark.startswith(UNKNOWN) for each in marks for remark in each.remarks)
+    if unknown:
+        told = f"The exercises of {counted_as(unknown, 'answer')} are not known"
+        print(f"lsys-kit: note: {told}. Name where they are: --course FOLDER or --exercises FOLDER.", file=sys.stderr)
 
 
 def write_wall(options: argparse.Namespace) -> None:

@@ -152,12 +152,9 @@ def course_of(folder: Path | None = None, language: str | None = None) -> Course
     if language == ENGLISH:
         return course
     lessons = tuple((_translated(place, language, name), name) for place, name in course.lessons)
-    title, lead = course.title, course.lead
-    if course.is_kits:
-        title, lead = gettext(TITLE), gettext(LEAD)
-    elif LANGUAGE.fullmatch(language):
-        told = _listed(course.root / TRANSLATIONS / language)
-        title, lead = (" ".join(str(told.get(key) or said).split()) for key, said in (("title", title), ("description", lead)))
+    title, lead = gettext(TITLE), gettext(LEAD)
+    if not course.is_kits:
+        title, lead = _told(folder or course.root, lessons, language)
     return replace(course, title=title, lead=lead, lessons=lessons, language=language)
 
 
@@ -195,8 +192,21 @@ def _course_of(folder: Path | None) -> Course:
         )
     if len({name for _, name in lessons}) < len(lessons):
         raise ModelFileError(f'Two lessons of "{named}" have the same name')
-    title = str(declared.get("title") or folder.resolve().name.replace("_", " "))
-    return Course(folder, " ".join(title.split()), " ".join(str(declared.get("description", "")).split()), lessons)
+    return Course(folder, *_told(folder, lessons), lessons)
+
+
+def _told(folder: Path, lessons: tuple[tuple[Place, str], ...], language: str = "") -> tuple[str, str]:
+    """The title of a course, and what is said of it: as its list has them, perhaps in a language; else the title of its only
+    lesson, or the name of the folder."""
+    listed = dict(_listed(folder))
+    if LANGUAGE.fullmatch(language):
+        listed |= _listed(folder / TRANSLATIONS / language)
+    if "title" not in listed and len(lessons) == 1:
+        place, name = lessons[0]
+        with suppress(LSystemError):
+            listed["title"] = declaration(place.declared / f"{name}.toml").get("title")
+    title = listed.get("title") or folder.resolve().name.replace("_", " ")
+    return " ".join(str(title).split()), " ".join(str(listed.get("description", "")).split())
 
 
 def _resolved(folder: Path) -> Path:

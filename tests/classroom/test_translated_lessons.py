@@ -355,8 +355,6 @@ def test_a_careful_colleague_says_no_more_of_the_german_lesson(name: str) -> Non
     many = [len([each for each in found(written) if not any(text in each.what for text in english.lesson.accepted)])
             for found in CHECKS for written in (english, german)]  # fmt: skip
     assert many[::2] == many[1::2]
-    change_in_memory = german.cells[0].source.replace("Minuten", "Stunden")
-    assert "Minuten" not in change_in_memory
 
 
 @pytest.mark.slow

@@ -4,15 +4,18 @@ all else is advice."""
 from __future__ import annotations
 
 import os
+import tomllib
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
+from functools import cache
 from itertools import islice
 from pathlib import Path
 
 from lsys_kit.classroom.authoring.asked import plan_findings, prediction_findings, table_findings, vote_findings
 from lsys_kit.classroom.authoring.computed import calculation_findings, word_findings
 from lsys_kit.classroom.authoring.finding import Finding, finding
+from lsys_kit.classroom.authoring.new import TEMPLATE
 from lsys_kit.classroom.authoring.panels import rule_findings, slider_findings
 from lsys_kit.classroom.authoring.prose import head_findings, link_findings, markup_findings, section_findings, term_findings
 from lsys_kit.classroom.authoring.teacher import teacher_findings
@@ -109,9 +112,19 @@ def _of_exercises(course: Course) -> Iterator[Finding]:
         for each in problems_in(place.questions):
             yield Finding(_where(f"exercises/{each.file}", each.line, each.exercise), each.what, each.hint, each.advice)
         for source, number, exercise in (kit_questions() if place.is_kits else questions_in(place.questions)).exercises:
+            if exercise.question.strip() in _template_questions():
+                line = source.line_of(number, "question")
+                yield finding(_where(f"exercises/{source.file}", line, exercise.id), "template_exercise")
             where = _where(f"exercises/{source.file}", source.line_of(number, "explanation"), exercise.id)
             for given, right in others_nearly(exercise.explanation, exercise.solution) if exercise.kind == "number" else ():
                 yield finding(where, "solution", given=given, right=right)
+
+
+@cache
+def _template_questions() -> frozenset[str]:
+    """What the exercises of a new lesson ask."""
+    declared = tomllib.loads((TEMPLATE / "exercises.toml").read_text("utf-8"))
+    return frozenset(str(each["question"]).strip() for each in declared["exercise"])
 
 
 def _repeated_exercises(course: Course) -> Iterator[Finding]:

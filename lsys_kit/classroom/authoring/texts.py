@@ -54,7 +54,7 @@ def _turned(text: str, kind: str, turn: Turn) -> str:
 _QUOTE = re.compile(r"(?: {0,3}> ?)*")
 _MARK = re.compile(r"\s*(?:#{1,6} +|(?:[-*+]|\d{1,9}[.)]) +)?")
 _NEW = re.compile(r"\s*(?:#{1,6} |[-*+] |\d{1,9}[.)] |\||<|```|$)")
-_SUMMARY = re.compile(r"(.*<summary>)([^<>]*)(</summary>.*)")
+_SUMMARY = re.compile(r"(?<=<summary>)[^<>]*+(?=</summary>)")
 _RULED = re.compile(r"[\s|:-]+")
 _BAR = re.compile(r"(?<!\\)\|")
 _BROKEN = re.compile(r"(?:  |\\)$")
@@ -89,8 +89,8 @@ def _pages(lines: list[str], turn: Turn) -> Iterator[str]:
             yield from lines[at:end]
         elif rest.lstrip().startswith("|"):
             yield quote + _row(rest, turn)
-        elif found := _SUMMARY.fullmatch(rest):
-            yield quote + found[1] + _turned(found[2], "", turn) + found[3]
+        elif _SUMMARY.search(rest):
+            yield quote + _SUMMARY.sub(lambda found: _turned(found[0], "", turn), rest)
         elif not rest.strip() or (rest.lstrip().startswith("<") and not has_words(rest)):
             yield line
         else:

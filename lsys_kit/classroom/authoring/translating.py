@@ -278,11 +278,10 @@ def renewed(path: Path, messages: Mapping[Key, list[str]], language: str) -> Cat
             content = io.BytesIO(content_of(path, MOST_BYTES))
         try:
             found = pofile.read_po(content, locale=language, abort_invalid=True)
-            reason = "" if len(found) or not content.getvalue().strip() else "There are no texts in it"
         except (pofile.PoFileError, ValueError) as fault:
-            reason = quotable(str(fault))
-        if reason:
-            raise ModelFileError(f'"{quotable(str(path))}" is no file for translators: {reason}')
+            raise ModelFileError(f'"{quotable(str(path))}" is no file for translators: {quotable(str(fault))}') from None
+        if not len(found) and content.getvalue().strip():
+            raise ModelFileError(f'There are no texts for translators in "{quotable(str(path))}"')
         before = {(each.id, each.context): _previous(each, pofile.denormalize) for each in found}
         found.update(template, update_creation_date=False)
         for each in found:
