@@ -7,6 +7,7 @@ import io
 import json
 import os
 import re
+import shutil
 import tomllib
 from collections.abc import Iterator
 from pathlib import Path
@@ -23,6 +24,7 @@ from lsys_kit.classroom.authoring.check import CHECKS
 from lsys_kit.classroom.authoring.new import write_lesson
 from lsys_kit.classroom.authoring.texts import LESSON, fixed_parts, has_words, recode, redeclared, retext
 from lsys_kit.classroom.authoring.translating import Source, renewed, translate, translation
+from lsys_kit.classroom.authoring.unpack import unpack
 from lsys_kit.classroom.authoring.written import Written
 from lsys_kit.classroom.course import copy_course, course_files
 from lsys_kit.classroom.exercises import registry
@@ -410,3 +412,21 @@ def test_a_language_in_which_there_is_nothing_is_told(capsys: pytest.CaptureFixt
     assert "fr" not in languages()
     assert main(["lesson", "check", "--no-run", "--language", "fr"])
     assert 'There is no language "fr"' in capsys.readouterr().err
+
+
+def test_a_translated_lesson_is_packed_and_unpacked_with_its_file_for_translators(ferns: Path) -> None:
+    say(ferns / "translations" / "de" / "ferns.po", {"1 A mystery": "1 Ein Rätsel"})
+    translate(ferns, "de")
+    packed = Path(shutil.make_archive(str(ferns.parent / "sent"), "zip", ferns.parent, "ferns"))
+    root, *_ = unpack(packed, ferns.parent / "got")
+    names = {str(path.relative_to(root)) for path in root.rglob("*.*") if path.name[0] != "."}
+    assert names == {str(path.relative_to(ferns)) for path in ferns.rglob("*.*") if path.name[0] != "."}
+
+
+def test_a_course_of_one_lesson_is_called_as_that_in_each_language(ferns: Path) -> None:
+    assert course_of(ferns).title == "Ferns"
+    say(ferns / "translations" / "de" / "ferns.po", {"Ferns": "Farne"})
+    translate(ferns, "de")
+    assert course_of(ferns, "de").title == "Farne"
+    (ferns / "course.toml").write_text('title = "In May"\n', "utf-8")
+    assert course_of(ferns, "de").title == "In May"
