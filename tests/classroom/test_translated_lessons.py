@@ -31,8 +31,12 @@ from lsys_kit.classroom.exercises import registry
 from lsys_kit.classroom.exercises.notebooks import renew_exercises
 from lsys_kit.classroom.lessons.lesson import lesson
 from lsys_kit.classroom.live import questions
-from lsys_kit.classroom.places import IN_LANGUAGE, VARIABLE, choose_course, course_of, kit_place, translation_place
+from lsys_kit.classroom.places import IN_LANGUAGE, VARIABLE, Place, choose_course, course_of, kit_place, translation_place
 from lsys_kit.classroom.site.build import read_notebook, run_through
+from lsys_kit.classroom.site.contents import index_page
+from lsys_kit.classroom.site.markdown import markdown_html
+from lsys_kit.classroom.site.pages import Entry
+from lsys_kit.classroom.site.requests import notes
 from lsys_kit.translation import ENGLISH, language, languages, spoken
 from lsys_kit.translation import VARIABLE as SPOKEN
 
@@ -430,3 +434,29 @@ def test_a_course_of_one_lesson_is_called_as_that_in_each_language(ferns: Path) 
     assert course_of(ferns, "de").title == "Farne"
     (ferns / "course.toml").write_text('title = "In May"\n', "utf-8")
     assert course_of(ferns, "de").title == "In May"
+
+
+def test_the_first_page_is_in_the_language_and_has_ways_through_the_kits_course_alone() -> None:
+    entry = Entry("notebooks/01_all_at_once.ipynb", "Alles auf einmal", lesson("01"), "L-Systeme", language="de")
+    with spoken("de"):
+        page = index_page([entry], {})
+        assert '<html lang="de">' in page
+        assert "50 Minuten" in page
+        assert "Jede Lektion gehört zu einem Weg durch den Kurs" in page
+        assert '"done":"erledigt"' in page
+    assert "way through the course" not in index_page([entry], {}, in_tracks=False)
+    assert 'class="track"' not in index_page([entry], {}, in_tracks=False)
+
+
+@pytest.mark.parametrize("name", TRANSLATED)
+def test_below_the_same_cells_it_is_said_that_a_page_cannot_do_it(name: str) -> None:
+    english, german = ({*cannot(place, name)} for place in (kit_place(), GERMAN))
+    assert german == english - {read_notebook(kit_place().notebooks / f"{name}.ipynb").cells[0].id}
+    assert german
+
+
+def cannot(place: Place, name: str) -> Iterator[str]:
+    """The cells that ask for what a page without Python cannot do."""
+    for cell in read_notebook(place.notebooks / f"{name}.ipynb").cells:
+        if cell.cell_type == "markdown" and "data-cannot" in markdown_html(cell.source, lambda address: address, notes()):
+            yield cell.id

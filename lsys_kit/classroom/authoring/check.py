@@ -75,10 +75,21 @@ def findings_in(folder: Path | None = None, run: bool = True) -> list[Finding]:
     with ThreadPoolExecutor(max_workers=min(8, os.cpu_count() or 1)) as pool:  # each waits for a kernel
         ran = [*pool.map(_by_running, lessons)] if run else [[]] * len(lessons)
     for written, by_running in zip(lessons, ran, strict=True):
-        accepted = written.lesson.accepted if written.lesson else ()
-        of_lesson = [*(each for check in CHECKS for each in check(written)), *by_running]
-        found += [each for each in of_lesson if not (each.advice and any(text in each.what for text in accepted))]
-    return [*found, *_of_exercises(course), *_repeated_exercises(course)]
+        found += _not_accepted([*(each for check in CHECKS for each in check(written)), *by_running], written)
+    of_exercises = [*_of_exercises(course)]
+    for written in lessons:
+        of_exercises = _not_accepted(of_exercises, written, f"exercises/{written.name}.toml,")
+    return [*found, *of_exercises, *_repeated_exercises(course)]
+
+
+def _not_accepted(found: list[Finding], written: Written, of: str = "") -> list[Finding]:
+    """Findings without the advice of a lesson, or of what begins so, that was looked at."""
+    accepted = written.lesson.accepted if written.lesson else ()
+    return [
+        each
+        for each in found
+        if not (each.advice and each.where.startswith(of) and any(text in each.what for text in accepted))
+    ]
 
 
 def _by_running(written: Written) -> list[Finding]:
