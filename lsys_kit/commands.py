@@ -27,6 +27,7 @@ from lsys_kit.errors import LSystemError, ModelFileError, ModelLimitError, Model
 from lsys_kit.files import create_file, decoded, file_errors, file_stem
 
 if TYPE_CHECKING:
+    from lsys_kit.classroom.places import Course
     from lsys_kit.derivation.derive import Choices, Derivation
     from lsys_kit.notation.model.system import LSystem
     from lsys_kit.notation.read import AnySystem
@@ -369,7 +370,7 @@ def _write_new(name: str, text: str) -> None:
 
 
 def collect_marks(options: argparse.Namespace) -> None:
-    from lsys_kit.classroom.exercises.collecting import collect, marks_table
+    from lsys_kit.classroom.exercises.collecting import UNKNOWN, collect, marks_table
 
     if os.path.lexists(options.output):
         raise _exists(options.output)
@@ -379,6 +380,10 @@ def collect_marks(options: argparse.Namespace) -> None:
     unread = sum(not each.scores for each in marks)
     told = f"{counted_as(len(marks), 'student')} in {quotable(options.output)}, {unread or 'none'} without an answer"
     print(f"{told}. A check is no examination: the answers come with the kit.")
+    unknown = sum(remark.startswith(UNKNOWN) for each in marks for remark in each.remarks)
+    if unknown:
+        told = f"The exercises of {counted_as(unknown, 'answer')} are not known"
+        print(f"lsys-kit: note: {told}. Name where they are: --course FOLDER or --exercises FOLDER.", file=sys.stderr)
 
 
 def write_wall(options: argparse.Namespace) -> None:
@@ -456,11 +461,19 @@ def write_lesson(options: argparse.Namespace) -> None:
 
 def check_lesson(options: argparse.Namespace) -> None:
     from lsys_kit.classroom.authoring.check import findings_in
-    from lsys_kit.classroom.places import choose_course
 
     folder = None if options.folder is None else Path(options.folder)
-    choose_course(folder)
+    _opened(folder, options.language)
     _tell([*findings_in(folder, options.run)], "in the lesson")
+
+
+def translate_lesson(options: argparse.Namespace) -> None:
+    from lsys_kit.classroom.authoring.translating import translate
+
+    told = translate(Path(options.folder), options.language, options.only)
+    for each in told:
+        print(f"{quotable(str(each.path))}: {each.done} of {counted_as(each.texts, 'text')} translated.")
+    _tell([problem for each in told for problem in each.findings], "in the translation")
 
 
 def unpack_lesson(options: argparse.Namespace) -> None:
@@ -499,12 +512,29 @@ def open_class(options: argparse.Namespace) -> None:
 def _chosen_course(options: argparse.Namespace) -> Path | None:
     """The folder of the course that the command line names, whose lessons and exercises are known from now on."""
     from lsys_kit.classroom.exercises.notebooks import renew_exercises
-    from lsys_kit.classroom.places import choose_course
 
     folder = None if options.course is None else Path(options.course)
+    course = _opened(folder, options.language)
     if folder is not None:
-        renew_exercises(choose_course(folder))
+        renew_exercises(course)
     return folder
+
+
+def _opened(folder: Path | None, code: str | None) -> Course:
+    """The course in a folder, chosen in a language; it is said once what is translated into that."""
+    from lsys_kit.classroom.lessons.lesson import translated_lessons
+    from lsys_kit.classroom.places import choose_course
+    from lsys_kit.translation import ENGLISH, VARIABLE, code_of, language, languages
+
+    wanted = code_of(code) if code else language()
+    course = choose_course(folder, wanted)
+    many = translated_lessons(course)
+    if code and (wanted in languages() or not many):
+        os.environ[VARIABLE] = language(code)
+    if wanted != ENGLISH:
+        of = counted_as(len(course.lessons), "lesson")
+        print(f"In this language ({wanted}): {many} of {of}{'; the others are in English' * (many < len(course.lessons))}.")
+    return course
 
 
 def open_lab(options: argparse.Namespace) -> None:

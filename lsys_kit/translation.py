@@ -11,7 +11,8 @@ from __future__ import annotations
 import json
 import os
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from functools import cache
 from gettext import GNUTranslations, NullTranslations
 from pathlib import Path
@@ -76,12 +77,32 @@ def languages() -> tuple[str, ...]:
 
 
 def _known(name: object) -> str:
-    code = name.strip().replace("-", "_").partition("_")[0].lower() if isinstance(name, str) else None
-    if code in languages():
+    code = code_of(name) if isinstance(name, str) else None
+    if code is not None and code in languages():
         return code
     wanted = f'"{quotable(name)}"' if isinstance(name, str) else shown(name)
     hint = f"Languages are: {', '.join(languages())}. They are chosen by language(...) or the environment variable {VARIABLE}."
     raise ModelNameError(f"There is no language {wanted}", hint=hint)
+
+
+def code_of(name: str) -> str:
+    """The code of a language, without that of a country.
+
+    >>> code_of("de-AT")
+    'de'
+    """
+    return name.strip().replace("-", "_").partition("_")[0].lower()
+
+
+@contextmanager
+def spoken(name: str) -> Iterator[None]:
+    """A `with` block in which a language is chosen."""
+    before = [*_chosen]
+    try:
+        language(name)
+        yield
+    finally:
+        _chosen[:] = before
 
 
 @cache

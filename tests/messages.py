@@ -36,8 +36,11 @@ from lsys_kit.classroom.exercises.registry import texts
 from lsys_kit.classroom.exercises.replies import REPLIES
 from lsys_kit.classroom.exercises.typed import KINDS_OF_VALUES
 from lsys_kit.classroom.exercises.verdict import SIGNS_AND_COLOURS
+from lsys_kit.classroom.lessons.lesson import TRACKS
 from lsys_kit.classroom.scorm.page import ASKED, DIFFERENT
+from lsys_kit.classroom.site.requests import __package__ as site
 from lsys_kit.errors import PLACE
+from lsys_kit.files import toml_tables
 from lsys_kit.notation.syntax.failure import TOKEN_NAMES
 from lsys_kit.translation import FORMS, LOCALE, NUMBER
 from tests.errors_raised import forms_of_errors
@@ -137,6 +140,9 @@ def _in_tables() -> Iterator[tuple[str, str | tuple[str, str]]]:
     yield from (("pages of learning platforms", text) for text in (*ASKED.values(), DIFFERENT))
     yield from (("progress", state) for state in SIGNS)
     yield from (("readers", text) for text in (*TOKEN_NAMES.values(), *map(str, KINDS_OF_VALUES.values()), *_of_readers()))
+    yield from (
+        ("site", text) for text in (*TRACKS.values(), *(each["says"] for each in toml_tables(site, "requests.toml").values()))
+    )
     yield from (("numbers and places", text) for text in (NUMBER, PLACE))
     yield from (("practice", text) for text in (*TYPES, *DIRECTIONS.values(), *_texts_in(TOPICS)))
     yield from (("replies", _one_text(text)) for place in REPLIES.values() for text in place.values())

@@ -114,6 +114,7 @@ COMMANDS: Mapping[str, tuple[Mapping[str, Callable[[Path], Path | str]], str]] =
     "exercises scorm": (FOLDERS, f"{READ} -o {WRITTEN}.zip"),
     "lesson new": (ANY, f"ferns -o {WRITTEN}"),
     "lesson check": (FOLDERS, f"{READ} --no-run"),
+    "lesson translate": (FOLDERS, f"{READ} --language de"),
     "lesson unpack": (FILES, f"{READ} -o {WRITTEN}"),
 }
 """What each command reads, and how it is typed."""

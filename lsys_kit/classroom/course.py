@@ -24,6 +24,7 @@ from pathlib import Path, PurePosixPath
 from lsys_kit.classroom.places import NAME, NO_LESSONS, Course, course_of, kit_place
 from lsys_kit.errors import ModelFileError
 from lsys_kit.files import file_errors, replace_file
+from lsys_kit.translation import ENGLISH, gettext
 
 COURSE_PARTS = ("notebooks", "exercises", "notebooks/reference")
 """The folders of the course: lessons with the gallery, exercises, and the live references of notations and turtle commands. The
@@ -60,10 +61,12 @@ def course_files(source: Path | None = None) -> dict[str, Path]:
     True
     """
     source = source or kit_place().root
-    every = _all_files(source)
-    if source != kit_place().root:
+    every, course = _all_files(source), course_of(source) if source != kit_place().root else course_of()
+    if not course.is_kits:
         beside = {name: path for name, path in every.items() if name.startswith("notebooks/") and not is_lesson(name)}
-        every = dict(_own_files(course_of(source))) | beside
+        every = dict(_own_files(course)) | beside
+    elif course.language != ENGLISH:
+        every |= dict(_own_files(course))
     if not every:
         raise ModelFileError(
             f"The course is missing from the installation of the kit, {source}", hint="Install lsys-kit again."
@@ -98,7 +101,8 @@ def _own_files(course: Course) -> Iterator[tuple[str, Path]]:
         beside += [] if place.is_kits else [(place.declared / f"{name}.toml", "notebooks")]
         yield from ((f"{part}/{path.name}", path) for path, part in beside if _is_plain(path))
     for place in course.places:
-        wanted = None if place.root == course.root else {name for owner, name in course.lessons if owner == place}
+        own = place == course.places[0] and not place.is_kits
+        wanted = None if own else {name for owner, name in course.lessons if owner == place}
         for path in sorted((place.root / "exercises").glob("*")):
             fits = path.suffix == ".ipynb" or (path.suffix == ".toml" and not place.is_kits)
             if fits and NAME.fullmatch(path.stem) and _is_plain(path) and (wanted is None or path.stem in wanted):
@@ -260,4 +264,5 @@ def _unrun(cell: dict[str, object]) -> dict[str, object]:
 
 
 def _text_cell() -> dict[str, object]:
-    return {"cell_type": "markdown", "id": HOW_TO_RUN_ID, "metadata": {}, "source": HOW_TO_RUN.splitlines(keepends=True)}
+    text = gettext(HOW_TO_RUN).splitlines(keepends=True)
+    return {"cell_type": "markdown", "id": HOW_TO_RUN_ID, "metadata": {}, "source": text}

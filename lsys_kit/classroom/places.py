@@ -3,7 +3,10 @@
 A course is a folder. What a notebook asks lies beside it under the same name: `notebooks/ferns.toml` beside
 `notebooks/ferns.ipynb`, `exercises/ferns.toml` beside `exercises/ferns.ipynb`; the teacher's page is in `notebooks/teacher`. A
 folder may have one lesson or many. With a file `course.toml` it is a list of lessons in an order: of its own, of folders in it,
-and of the kit, by their numbers. The kit's own course is a place like others; only its declarations lie in the package.
+and of the kit, by their numbers. The kit's own course is a place like others; only its declarations and translations lie in the
+package.
+
+A translation of its lessons is a folder of the same form within it, `translations/de`; `lsys-kit lesson translate` writes it.
 
 Nothing outside the folder is read, links are not followed, and nothing that is read here is run.
 """
@@ -16,7 +19,7 @@ import re
 import tomllib
 from collections.abc import Iterator
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import islice
 from pathlib import Path
@@ -25,6 +28,7 @@ from lsys_kit.classroom.handed_in import content_of
 from lsys_kit.errors import LSystemError, ModelFileError, quotable, shown
 from lsys_kit.files import Entries, decoded, file_errors
 from lsys_kit.notation.analysis.checks import suggestion
+from lsys_kit.translation import ENGLISH, LOCALE, gettext
 
 COURSE_FILE = "course.toml"
 """The list of a course, in its folder."""
@@ -34,6 +38,12 @@ NO_LESSONS = frozenset({"gallery"})
 """Notebooks beside the lessons that are none."""
 VARIABLE = "LSYS_KIT_COURSE"
 """The environment variable that names the chosen course, so that processes that are started here know it, too."""
+IN_LANGUAGE = "LSYS_KIT_COURSE_LANGUAGE"
+"""That which names the language in which it is opened."""
+TRANSLATIONS = "translations"
+"""The folder in a course that has one for each language into which lessons are translated."""
+LANGUAGE = re.compile(r"[a-z]{2,3}")
+"""The code of a language."""
 MOST_BYTES, MOST_LESSONS, MOST_ENTRIES = 1_000_000, 200, 10_000
 """The greatest size of a declaration, the most lessons of a course, and so many entries of a folder are looked at."""
 
@@ -100,33 +110,72 @@ def key_of(name: str) -> str:
 
 @dataclass(frozen=True)
 class Course:
-    """A course: its title, a sentence about it, and its lessons in their order, each with the place in which it lies."""
+    """A course: its title, a sentence about it, its lessons in their order, each with the place in which it lies, and the
+    language in which it is opened."""
 
     root: Path
     title: str
     lead: str
     lessons: tuple[tuple[Place, str], ...]
+    language: str = ENGLISH
 
     @property
     def places(self) -> tuple[Place, ...]:
-        """The places of its lessons, its own first."""
-        own = kit_place() if self.root == kit_place().root else own_place(self.root)
-        return tuple(dict.fromkeys([own, *(place for place, _ in self.lessons)]))
+        """The places of its lessons, its own first and the kit's last."""
+        own = kit_place() if self.is_kits else _translated(own_place(self.root), self.language)
+        return tuple(sorted(dict.fromkeys([own, *(place for place, _ in self.lessons)]), key=lambda each: each.is_kits))
+
+    @property
+    def is_kits(self) -> bool:
+        """Whether it is the kit's own."""
+        return self.root == kit_place().root
 
 
 TITLE = "L-systems: a course"
-LEAD = """Short rules can grow a plant. These lessons show how, from a row of cells to a hedge in the light: predict,
-look, move a slider, change a rule."""
+LEAD = (
+    "Short rules can grow a plant. These lessons show how, from a row of cells to a hedge in the light: "
+    "predict, look, move a slider, change a rule."
+)
 
 
-def course_of(folder: Path | None = None) -> Course:
-    """The course in a folder, by default the kit's.
+def course_of(folder: Path | None = None, language: str | None = None) -> Course:
+    """The course in a folder, by default the kit's, in a language, by default that which was chosen with the course: lessons
+    that are translated into it, and the others as they are.
 
     Raises
     ------
     ModelFileError
         There is no such folder, there is no lesson in it, or its list has a mistake.
     """
+    language = language or os.environ.get(IN_LANGUAGE) or ENGLISH
+    course = _course_of(folder)
+    if language == ENGLISH:
+        return course
+    lessons = tuple((_translated(place, language, name), name) for place, name in course.lessons)
+    title, lead = gettext(TITLE), gettext(LEAD)
+    if not course.is_kits:
+        title, lead = _told(folder or course.root, lessons, language)
+    return replace(course, title=title, lead=lead, lessons=lessons, language=language)
+
+
+def translation_place(place: Place, language: str) -> Place:
+    """Where the lessons of a place are in another language."""
+    return own_place((LOCALE if place.is_kits else place.root / TRANSLATIONS) / language)
+
+
+def _translated(place: Place, language: str, name: str = "") -> Place:
+    """The place of the translation of a place, if there is one; of the kit's, if it has this lesson."""
+    found = translation_place(place, language)
+    names = found.names() if language != ENGLISH and LANGUAGE.fullmatch(language) else ()
+    if name and names and name not in names and not place.is_kits:
+        raise ModelFileError(
+            f'The lesson {name} is not among the translations in "{quotable(str(found.root))}"',
+            hint=f"lsys-kit lesson translate {quotable(str(place.root))} --language {language} puts it there.",
+        )
+    return found if names and (not name or name in names) else place
+
+
+def _course_of(folder: Path | None) -> Course:
     named = quotable(str(folder))
     with file_errors(f'"{named}" cannot be read'):
         if folder is None or _resolved(folder) == kit_place().root:
@@ -143,8 +192,21 @@ def course_of(folder: Path | None = None) -> Course:
         )
     if len({name for _, name in lessons}) < len(lessons):
         raise ModelFileError(f'Two lessons of "{named}" have the same name')
-    title = str(declared.get("title") or folder.resolve().name.replace("_", " "))
-    return Course(folder, title, str(declared.get("description", "")), lessons)
+    return Course(folder, *_told(folder, lessons), lessons)
+
+
+def _told(folder: Path, lessons: tuple[tuple[Place, str], ...], language: str = "") -> tuple[str, str]:
+    """The title of a course, and what is said of it: as its list has them, perhaps in a language; else the title of its only
+    lesson, or the name of the folder."""
+    listed = dict(_listed(folder))
+    if LANGUAGE.fullmatch(language):
+        listed |= _listed(folder / TRANSLATIONS / language)
+    if "title" not in listed and len(lessons) == 1:
+        place, name = lessons[0]
+        with suppress(LSystemError):
+            listed["title"] = declaration(place.declared / f"{name}.toml").get("title")
+    title = listed.get("title") or folder.resolve().name.replace("_", " ")
+    return " ".join(str(title).split()), " ".join(str(listed.get("description", "")).split())
 
 
 def _resolved(folder: Path) -> Path:
@@ -250,9 +312,13 @@ def text_of(path: Path) -> str:
     return decoded(content, f'"{quotable(path.name)}"', MOST_BYTES + 1)
 
 
-def choose_course(folder: Path | None) -> Course:
-    """Make a course that of this process, and of those that it starts: its lessons and exercises are known by their names."""
-    found = course_of(folder)
+def choose_course(folder: Path | None, language: str = ENGLISH) -> Course:
+    """Make a course that of this process, and of those that it starts, in a language: its lessons and exercises are known by
+    their names."""
+    found = course_of(folder, language)
+    os.environ.pop(IN_LANGUAGE, None)
+    if language != ENGLISH:
+        os.environ[IN_LANGUAGE] = language
     if folder is None:
         os.environ.pop(VARIABLE, None)
     else:
@@ -270,14 +336,15 @@ def places() -> tuple[Place, ...]:
     """Where lessons and exercises are looked for: in the chosen course, around the notebook that runs, at last in the kit."""
     found = list[Place]()
     with suppress(LSystemError, OSError):
-        if os.environ.get(VARIABLE):
+        if os.environ.get(VARIABLE) or os.environ.get(IN_LANGUAGE):
             found += course_at_hand().places
     with suppress(OSError):
         here = Path.cwd()
         for root in (here, *here.parents[:2]):
             if _has_lessons(root):
                 with suppress(LSystemError):
-                    found += [own_place(root), *course_of(root).places]
+                    chosen = Path(os.environ.get(VARIABLE, ".")).resolve() == root
+                    found += [] if found and chosen else [own_place(root), *course_of(root, ENGLISH).places]
                 break
     return tuple(dict.fromkeys([*(each for each in found if not each.is_kits), kit_place()]))
 

@@ -255,6 +255,16 @@ def test_exercises_of_ones_own_are_known(forked, tmp_path, monkeypatch):
     assert rows[1]["1.1"] == "1.0"
 
 
+def test_where_exercises_are_not_known_it_is_said_what_to_name(tmp_path, capsys):
+    (tmp_path / "in").mkdir()
+    (tmp_path / "in" / "ann.ipynb").write_text(answered("a", "ferns.1"))
+    assert main(["collect", str(tmp_path / "in"), "-o", str(tmp_path / "marks.csv")]) == 0
+    assert "exercises of 1 answer are not known. Name where they are: --course" in capsys.readouterr().err
+    (tmp_path / "in" / "ann.ipynb").write_text(answered(RIGHT))
+    assert main(["collect", str(tmp_path / "in"), "-o", str(tmp_path / "other.csv")]) == 0
+    assert not capsys.readouterr().err
+
+
 def test_a_folder_without_notebooks_is_said(tmp_path, capsys):
     for folder in (str(tmp_path), str(tmp_path / "missing"), "a\0b"):
         assert main(["collect", folder, "-o", str(tmp_path / "marks.csv")]) == 2

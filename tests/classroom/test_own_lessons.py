@@ -270,7 +270,12 @@ def test_a_folder_that_is_no_course_is_told_in_words(
 
 def test_a_new_lesson_has_nothing_wrong_but_what_is_to_be_replaced(ferns: Path) -> None:
     found = findings_in(ferns, run=False)
-    assert {each.what for each in found} == {"A sentence of advice from the template stands here still"}
+    assert {each.what for each in found} == {
+        "A sentence of advice from the template stands here still",
+        "The exercise is still that of the template",
+    }
+    change(ferns / "exercises" / "ferns.toml", "the rule is `B -> F[B]B`", "its rule is `B -> F[B]B`")
+    assert sum("exercise" in each.what for each in findings_in(ferns, run=False)) == 4
     assert problems_in(ferns) == []
     assert sorted(path.relative_to(ferns).as_posix() for path in ferns.rglob("*.*") if not path.name.startswith(".")) == [
         "exercises/ferns.ipynb",
@@ -522,7 +527,7 @@ def test_what_is_right_or_cannot_be_worked_out_is_no_wrong_calculation(text: str
 
 
 def test_advice_that_was_looked_at_is_not_said_again(ferns: Path) -> None:
-    change(ferns / TOML, "minutes = 40", 'accepted = ["from the template"]\nminutes = 40')
+    change(ferns / TOML, "minutes = 40", 'accepted = ["the template"]\nminutes = 40')
     assert findings_in(ferns, run=False) == []
 
 

@@ -4,15 +4,18 @@ all else is advice."""
 from __future__ import annotations
 
 import os
+import tomllib
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
+from functools import cache
 from itertools import islice
 from pathlib import Path
 
 from lsys_kit.classroom.authoring.asked import plan_findings, prediction_findings, table_findings, vote_findings
 from lsys_kit.classroom.authoring.computed import calculation_findings, word_findings
 from lsys_kit.classroom.authoring.finding import Finding, finding
+from lsys_kit.classroom.authoring.new import TEMPLATE
 from lsys_kit.classroom.authoring.panels import rule_findings, slider_findings
 from lsys_kit.classroom.authoring.prose import head_findings, link_findings, markup_findings, section_findings, term_findings
 from lsys_kit.classroom.authoring.teacher import teacher_findings
@@ -72,10 +75,21 @@ def findings_in(folder: Path | None = None, run: bool = True) -> list[Finding]:
     with ThreadPoolExecutor(max_workers=min(8, os.cpu_count() or 1)) as pool:  # each waits for a kernel
         ran = [*pool.map(_by_running, lessons)] if run else [[]] * len(lessons)
     for written, by_running in zip(lessons, ran, strict=True):
-        accepted = written.lesson.accepted if written.lesson else ()
-        of_lesson = [*(each for check in CHECKS for each in check(written)), *by_running]
-        found += [each for each in of_lesson if not (each.advice and any(text in each.what for text in accepted))]
-    return [*found, *_of_exercises(course), *_repeated_exercises(course)]
+        found += _not_accepted([*(each for check in CHECKS for each in check(written)), *by_running], written)
+    of_exercises = [*_of_exercises(course)]
+    for written in lessons:
+        of_exercises = _not_accepted(of_exercises, written, f"exercises/{written.name}.toml,")
+    return [*found, *of_exercises, *_repeated_exercises(course)]
+
+
+def _not_accepted(found: list[Finding], written: Written, of: str = "") -> list[Finding]:
+    """Findings without the advice of a lesson, or of what begins so, that was looked at."""
+    accepted = written.lesson.accepted if written.lesson else ()
+    return [
+        each
+        for each in found
+        if not (each.advice and each.where.startswith(of) and any(text in each.what for text in accepted))
+    ]
 
 
 def _by_running(written: Written) -> list[Finding]:
@@ -109,9 +123,19 @@ def _of_exercises(course: Course) -> Iterator[Finding]:
         for each in problems_in(place.questions):
             yield Finding(_where(f"exercises/{each.file}", each.line, each.exercise), each.what, each.hint, each.advice)
         for source, number, exercise in (kit_questions() if place.is_kits else questions_in(place.questions)).exercises:
+            if exercise.question.strip() in _template_questions():
+                line = source.line_of(number, "question")
+                yield finding(_where(f"exercises/{source.file}", line, exercise.id), "template_exercise")
             where = _where(f"exercises/{source.file}", source.line_of(number, "explanation"), exercise.id)
             for given, right in others_nearly(exercise.explanation, exercise.solution) if exercise.kind == "number" else ():
                 yield finding(where, "solution", given=given, right=right)
+
+
+@cache
+def _template_questions() -> frozenset[str]:
+    """What the exercises of a new lesson ask."""
+    declared = tomllib.loads((TEMPLATE / "exercises.toml").read_text("utf-8"))
+    return frozenset(str(each["question"]).strip() for each in declared["exercise"])
 
 
 def _repeated_exercises(course: Course) -> Iterator[Finding]:

@@ -17,7 +17,8 @@ from lsys_kit.errors import ModelFileError, ModelNameError, ModelValueError, quo
 from lsys_kit.files import Json, create_file, file_errors
 from lsys_kit.notation.analysis.checks import suggestion
 
-_TEMPLATE = files(__package__) / "template"
+TEMPLATE = files(__package__) / "template"
+"""The parts of a new lesson."""
 _LINK = re.compile(
     r"\[([^\[\]\n]{0,500}+)\]"
     r"\(((?:\.\./){0,9}(?:notebooks/|exercises/|teacher/)?([\w./-]{1,200}\.(?:ipynb|md)))(#[^)\s]{0,200}+)?\)"
@@ -69,7 +70,7 @@ def _title_of(name: str, title: str | None) -> str:
 
 def _from_template(name: str, title: str) -> Iterator[tuple[str, str]]:
     texts = {
-        each: (_TEMPLATE / each).read_text("utf-8") for each in ("lesson.toml", "exercises.toml", "teacher.md", "notebook.toml")
+        each: (TEMPLATE / each).read_text("utf-8") for each in ("lesson.toml", "exercises.toml", "teacher.md", "notebook.toml")
     }
     texts = {each: text.replace("NAME", name).replace("TITLE", _quoted(title)) for each, text in texts.items()}
     yield f"notebooks/{name}.toml", texts["lesson.toml"]

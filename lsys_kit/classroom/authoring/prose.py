@@ -13,6 +13,7 @@ from lsys_kit.classroom.authoring.told import plain
 from lsys_kit.classroom.authoring.written import Cell, Written
 from lsys_kit.classroom.course import course_files
 from lsys_kit.notation.analysis.checks import suggestion
+from lsys_kit.translation import gettext, languages
 
 _LINK = re.compile(r"(!?)\[([^\[\]\n]{0,500}+)\]\(\s*+<?([^)\[\s>]{1,500}+)>?[^)\[\n]{0,200}+\)")
 _IMAGE = re.compile(r"<img\b(?![^<>]{0,1000}\balt\s*+=\s*+[\"'][^\"'])[^<>]{0,1000}>", re.IGNORECASE)
@@ -81,7 +82,9 @@ def head_findings(written: Written) -> Iterator[Finding]:
     if lesson is None:
         return
     text = plain(" ".join(cell.source for cell in written.cells if not cell.is_code))
-    said = {"title": [lesson.title], "question": [lesson.question], "number of minutes": [f"{lesson.minutes} minutes"]}
+    said = {"title": [lesson.title], "question": [lesson.question]}
+    if written.language in languages():
+        said["number of minutes"] = [written.said(lambda: gettext("{number} minutes", number=lesson.minutes))]
     said |= {"objective": [*lesson.objectives], "summary": [lesson.summary]}
     for what, texts in said.items():
         for each in texts:
@@ -92,7 +95,7 @@ def head_findings(written: Written) -> Iterator[Finding]:
 
 def link_findings(written: Written) -> Iterator[Finding]:
     """Of links and pictures: whether they are there, and have a text."""
-    headings = {_anchor(each) for cell in written.cells if not cell.is_code for each in _HEADING.findall(cell.source)}
+    headings = {heading_anchor(each) for cell in written.cells if not cell.is_code for each in _HEADING.findall(cell.source)}
     for cell in written.cells:
         if cell.is_code:
             continue
@@ -122,7 +125,8 @@ def without_code(text: str) -> str:
     return re.sub(r"`[^`\n]*`", lambda found: " " * len(found[0]), text)
 
 
-def _anchor(heading: str) -> str:
+def heading_anchor(heading: str) -> str:
+    """By what a link leads to a heading of its page."""
     return re.sub(r"[*`]|<[^<>]{0,200}>", "", heading.strip().rstrip("#")).strip().replace(" ", "-")
 
 
@@ -136,7 +140,7 @@ def _is_there(written: Written, file: str) -> bool:
     names |= {f"exercises/{path.stem}.ipynb" for place in written.course.places for path in place.questions.glob("*.toml")}
     root = written.place.root.resolve()
     target = path.relative_to(root).as_posix() if path.is_relative_to(root) else ""
-    return target in names or (written.place.is_kits and target in course_files())
+    return target in names or (written.course.is_kits and target in course_files())
 
 
 def markup_findings(written: Written) -> Iterator[Finding]:

@@ -11,10 +11,11 @@ from lsys_kit.classroom.authoring.written import Written, numbers_in
 from lsys_kit.classroom.lessons.entries import is_right, number_of
 from lsys_kit.classroom.lessons.lesson import LETTERS, Blank, Table
 from lsys_kit.classroom.lessons.widget import prose_text
+from lsys_kit.translation import gettext
 
-_TIME = re.compile(r"minutes|min\.?|time|duration", re.IGNORECASE)
-_OF_TIME = re.compile(r"(\d{1,4})(?: ?(?:minutes|minute|min\.?|'))?")
-_TOTAL = re.compile(r"(?:in )?(?:total|sum|all|together)", re.IGNORECASE)
+_TIME = re.compile(r"minutes|minuten|min\.?|time|zeit|duration|dauer", re.IGNORECASE)
+_OF_TIME = re.compile(r"(\d{1,4})(?: ?(?:minutes?|minuten|min\.?|'))?")
+_TOTAL = re.compile(r"(?:in )?(?:total|sum|all|together)|insgesamt|zusammen|summe", re.IGNORECASE)
 
 
 def teacher_findings(written: Written) -> Iterator[Finding]:
@@ -33,7 +34,7 @@ def teacher_findings(written: Written) -> Iterator[Finding]:
     for table in lesson.tables:
         yield from _table(written, table)
     yield from _counts(written, lesson.tables)
-    minutes = _minutes(written.teacher_part("Minutes"))
+    minutes = _minutes(written.teacher_part(written.said(lambda: gettext("Minutes"))))
     if minutes and sum(minutes) != lesson.minutes:
         yield finding(written.teacher_at("## Minutes"), "teacher_minutes", sum=sum(minutes), minutes=lesson.minutes)
 
@@ -47,7 +48,10 @@ def _counts(written: Written, tables: Iterable[Table]) -> Iterator[Finding]:
         for column, title in enumerate(table.columns):
             noun = prose_text(title).split()[0]
             right = [_plain(row[column]) for row in table.rows]
-            for found in re.finditer(rf"(?<![\w.,])(\d[\d,]{{1,12}}) {re.escape(noun)}\b", written.teacher_part("Answers")):
+            for found in re.finditer(
+                rf"(?<![\w.,])(\d[\d,]{{1,12}}) {re.escape(noun)}\b",
+                written.teacher_part(written.said(lambda: gettext("Answers"))),
+            ):
                 number = number_of(found[1].replace(",", ""))
                 near = next((each for each in right if number_of(each) and _beside(found[1], each)), None)
                 if column and near and number is not None and number not in known:

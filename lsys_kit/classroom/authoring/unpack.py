@@ -13,14 +13,14 @@ from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path, PurePosixPath
 
-from lsys_kit.classroom.places import MOST_ENTRIES, course_of
+from lsys_kit.classroom.places import MOST_ENTRIES, TRANSLATIONS, course_of
 from lsys_kit.errors import ModelFileError, quotable
 from lsys_kit.files import archive_content, archive_members, create_file, file_errors
 
 MOST_FILES, MOST_BYTES, MOST_IN_ALL = 500, 20_000_000, 100_000_000
 """So many files are taken out of an archive, each of so many bytes, and so many bytes in all."""
 _PLAIN = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,80}")
-_ENDINGS = (".ipynb", ".toml", ".md", ".png", ".jpg", ".jpeg", ".gif", ".svg")
+_ENDINGS = (".ipynb", ".toml", ".md", ".po", ".png", ".jpg", ".jpeg", ".gif", ".svg")
 _WINDOWS = re.compile(r"(?:con|prn|aux|nul|com\d|lpt\d)", re.IGNORECASE)
 
 
@@ -70,6 +70,9 @@ def _is_taken(file: str) -> bool:
     *folders, name = file.split("/")
     stem, dot, ending = name.rpartition(".")
     plain = all(_PLAIN.fullmatch(part) and not _WINDOWS.fullmatch(part) for part in (*folders, stem))
+    if TRANSLATIONS in folders:  # below a language there is what there is in a lesson
+        at = folders.index(TRANSLATIONS)
+        del folders[at : at + 2]
     return plain and len(folders) <= 4 and f"{dot}{ending}".lower() in _ENDINGS
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -14,6 +14,7 @@ from lsys_kit.classroom.lessons.entries import number_of
 from lsys_kit.classroom.lessons.lesson import Lesson, declared_in
 from lsys_kit.classroom.places import Course, Place, key_of
 from lsys_kit.classroom.site.build import read_notebook
+from lsys_kit.translation import ENGLISH, languages, spoken
 
 _FOLDED = re.compile(r"<details>.*?(?:</details>|\Z)", re.DOTALL)
 _HEADING = re.compile(r"^## ++(?:(\d{1,3})\b)?.*$", re.MULTILINE)
@@ -145,6 +146,16 @@ class Written:
         return f"{self.name}.ipynb, cell {cell.number}" + f", line {line}" * bool(line)
 
     @property
+    def language(self) -> str:
+        """The code of the language in which it is written."""
+        return self.lesson.language if self.lesson else ENGLISH
+
+    def said(self, text: Callable[[], str]) -> str:
+        """A text of the kit in its language; in English where the kit has it not."""
+        with spoken(self.language if self.language in languages() else ENGLISH):
+            return text()
+
+    @property
     def declared_at(self) -> str:
         """The file of its declaration."""
         return f"{self.name}.toml"
@@ -204,7 +215,9 @@ class Written:
 
     @cached_property
     def _parsed(self) -> tuple[tuple[Cell, ast.Module | SyntaxError], ...]:
-        return tuple((cell, _tree(cell.source)) for cell in self.cells if cell.is_code and not cell.source.startswith("%%"))
+        return tuple(
+            (cell, python_tree(cell.source)) for cell in self.cells if cell.is_code and not cell.source.startswith("%%")
+        )
 
     @property
     def trees(self) -> Iterator[tuple[Cell, ast.Module]]:
@@ -234,7 +247,8 @@ def _cell(number: int, cell: Any) -> Cell:
     return Cell(number, cell.cell_type == "code", cell.source, folded, "raises-exception" in metadata.get("tags", ()))
 
 
-def _tree(source: str) -> ast.Module | SyntaxError:
+def python_tree(source: str) -> ast.Module | SyntaxError:
+    """A cell of Python, parsed, lines for IPython left out; or why it is no Python."""
     plain = "\n".join("" if line.lstrip().startswith(("%", "!")) else line for line in source.split("\n"))
     try:
         return ast.parse(plain)

@@ -206,6 +206,8 @@ SECONDS = 20
 """So many seconds of processor time the answers of one notebook may take together."""
 MOST_REMARKS, LONGEST_REMARK = 20, 250
 """So many remarks are made on one student, each of so many characters."""
+UNKNOWN = "there is no exercise"
+"""So a remark begins on an answer to an exercise that is not known."""
 _FORMULA_SIGNS = tuple("=+-@＝＋－＠")
 """With these characters cells begin that a spreadsheet takes for formulas (OWASP, "CSV Injection")."""
 
@@ -304,7 +306,7 @@ def scores_in(handed: tuple[Path, str | None]) -> dict[str, object]:
         exercises(own)
         known = {exercise.id for exercise in exercises()}
     problems += answers.problems
-    problems += [f'there is no exercise "{quotable(id)}"' for id in answers.found if id not in known]
+    problems += [f'{UNKNOWN} "{quotable(id)}"' for id in answers.found if id not in known]
     end = time.process_time() + SECONDS - 5
     for id, answer in answers.found.items():
         if id in known and answer is COMPUTED:

@@ -16,9 +16,10 @@ from pathlib import Path
 from typing import Any
 
 from lsys_kit.classroom.lessons.entries import is_number_asked, number_of
-from lsys_kit.classroom.places import NAME, Place, course_at_hand, declaration, key_of, kit_place, places
+from lsys_kit.classroom.places import NAME, Course, Place, course_at_hand, declaration, key_of, kit_place, places
 from lsys_kit.errors import LSystemError, ModelFileError, ModelNameError, ModelValueError, quotable, shown
 from lsys_kit.notation.analysis.checks import suggestion
+from lsys_kit.translation import ENGLISH
 
 TRACKS: Mapping[str, str] = {"F": "the fast track of 90 minutes", "C": "the core of a semester", "O": "an option"}
 """The ways through the course that a lesson may belong to."""
@@ -133,6 +134,8 @@ class Lesson:
         What its text asks of the sliders of a panel, beside its tables: values that are set together, by the sliders' names.
     accepted
         Advice of `lsys-kit lesson check` that was looked at, and is not to be said again: parts of its sentences.
+    language
+        The code of the language in which it is written.
     """
 
     name: str
@@ -151,6 +154,7 @@ class Lesson:
     predictions: tuple[Asked, ...] = ()
     settings: tuple[Mapping[str, str], ...] = field(default=(), hash=False)
     accepted: tuple[str, ...] = ()
+    language: str = ENGLISH
 
     @property
     def key(self) -> str:
@@ -336,6 +340,7 @@ _LESSON: Shape = {
     "summary": (_text, ...),
     **dict.fromkeys(("track", "systems", "points", "misconceptions", "accepted"), (_texts, ())),
     "vote": (_entries, None),
+    "language": (_text, ENGLISH),
     **dict.fromkeys(("tables", "predictions", "settings"), (_list, [])),
 }
 _VOTE: Shape = {"question": (_text, ...), "options": (_list, ...), "picture": (_entries, {})}
@@ -406,6 +411,12 @@ def declared_in(place: Place, name: str) -> Lesson | None:
     if (place.declared / f"{name}.toml").is_file():
         return _read(place, name)
     return None if place.is_kits else declared_in(kit_place(), name)
+
+
+def translated_lessons(course: Course) -> int:
+    """How many lessons of a course are there in the language in which it is opened."""
+    found = (declared_in(place, name) for place, name in course.lessons)
+    return sum(each is not None and each.language == course.language for each in found)
 
 
 def all_declared() -> tuple[Lesson, ...]:

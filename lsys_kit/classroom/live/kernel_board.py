@@ -24,7 +24,7 @@ from lsys_kit.classroom.live.pages import board_data
 from lsys_kit.classroom.live.questions import about_prediction
 from lsys_kit.classroom.live.server import PORT, ClassServer
 from lsys_kit.classroom.live.serving import mistake_told
-from lsys_kit.classroom.places import choose_course
+from lsys_kit.classroom.places import IN_LANGUAGE, choose_course
 from lsys_kit.errors import LSystemError, ModelFileError, ModelNameError
 from lsys_kit.translation import VARIABLE, language
 
@@ -39,19 +39,19 @@ def serve_kernel(pipe: Connection, folder: str, name: str, port: int | None, cou
 
     kernel = _Kernel(pipe)
     try:
-        pages = CoursePages(folder, _chosen(course)) if course else None
+        pages = CoursePages(folder, _chosen(course, spoken)) if course else None
         asyncio.run(_serve(kernel, ClassServer(folder, [name], pages), port, tell))
     except LSystemError as fault:
         tell(mistake_told(fault))
     os._exit(0)  # all is kept; workers that are still beginning are not waited for
 
 
-def _chosen(course: bool | str) -> Path | None:
-    """The folder of a course of one's own, whose lessons and exercises are known from now on; none where it is the kit's."""
-    if not isinstance(course, str):
-        return None
-    renew_exercises(choose_course(Path(course)))
-    return Path(course)
+def _chosen(course: bool | str, spoken: str) -> Path | None:
+    """The folder of a course of one's own, whose lessons and exercises are known from now on, in the language in which it was
+    opened or that is spoken; none where it is the kit's."""
+    folder = Path(course) if isinstance(course, str) else None
+    renew_exercises(choose_course(folder, os.environ.get(IN_LANGUAGE) or spoken))
+    return folder
 
 
 class _Kernel:

@@ -25,6 +25,7 @@ from lsys_kit.classroom.site.markdown import missing
 from lsys_kit.classroom.site.pages import INDEX, LAB, Entry, notebook_page, title_of
 from lsys_kit.errors import LSystemError, ModelFileError, quotable
 from lsys_kit.files import file_errors, made_by_the_kit, save_file
+from lsys_kit.translation import ENGLISH
 
 if TYPE_CHECKING:
     from nbformat import NotebookNode
@@ -48,9 +49,19 @@ def build_site(
     stored = {name: read_notebook(path) for name, path in files.items()}
     told = {f"notebooks/{name}.ipynb": declared_in(place, name) for place, name in course.lessons}
     drawn = {name: path for name, path in every.items() if name.startswith("notebooks/pictures/")}
-    command = LAB if course.places[0].is_kits else f"{LAB} --course {course.root.resolve().name}"
+    command = LAB if course.is_kits else f"{LAB} --course {course.root.resolve().name}"
+    command += "" if course.language == ENGLISH else f" --language {course.language}"
+    spoken = {each.name: each.language for each in told.values() if each}
     entries = [
-        Entry(name, title_of(stored[name].cells, name), told.get(name), course.title, command, drawn if name in told else {})
+        Entry(
+            name,
+            title_of(stored[name].cells, name),
+            told.get(name),
+            course.title,
+            command,
+            drawn if name in told else {},
+            spoken.get(Path(name).stem, ENGLISH),
+        )
         for name in files
     ]
     places = {INDEX: folder / INDEX, **{each.name: folder / each.page for each in entries}}
@@ -60,7 +71,7 @@ def build_site(
         save_file(places[name], notebook_page(known[name], notebook.cells, entries, live).encode())
         heard(places[name], len(places))
         pictures.update((name, each) for each in found_in(notebook.cells, showing.SMALL))
-    save_file(places[INDEX], index_page(entries, pictures, live, course.lead).encode())
+    save_file(places[INDEX], index_page(entries, pictures, live, course.lead, course.is_kits).encode())
     heard(places[INDEX], len(places))
     return tuple(places.values())
 

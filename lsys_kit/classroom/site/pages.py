@@ -31,7 +31,7 @@ from lsys_kit.classroom.site.showing import PART
 from lsys_kit.files import Entries, file_errors
 from lsys_kit.pictures.formats.notebook import DARKENED
 from lsys_kit.pictures.style.labels import escaped
-from lsys_kit.translation import gettext
+from lsys_kit.translation import ENGLISH, gettext
 
 if TYPE_CHECKING:
     from nbformat import NotebookNode
@@ -60,7 +60,8 @@ _PANELS = frozenset({"panel", "compare"})
 @dataclass(frozen=True)
 class Entry:
     """A notebook on the site: its file, relative to the course, its title as a text, and what is declared of it if it is a
-    lesson; the title of the course, the command that opens it, and the files of its pictures, by their names in it.
+    lesson; the title of the course, the command that opens it, the files of its pictures, by their names in it, and the
+    language of its text.
     """
 
     name: str
@@ -69,6 +70,7 @@ class Entry:
     course: str = TITLE
     command: str = LAB
     pictures: Mapping[str, Path] = field(default_factory=dict, hash=False)
+    language: str = ENGLISH
 
     @property
     def page(self) -> str:
@@ -93,20 +95,20 @@ def notebook_page(entry: Entry, cells: Sequence[NotebookNode], entries: Sequence
     if entry.folder == "exercises":
         head, *questions = re.split("(?=<h2)", "".join(_question_html(each, links, parts, live) for each in cells))
         title, end, rest = head.partition("</h1>\n")
-        begin = title + end + ("" if live else _HOW.format(name=escaped(entry.name), command=escaped(entry.command))) + rest
+        begin = title + end + ("" if live else gettext(_HOW, name=escaped(entry.name), command=escaped(entry.command))) + rest
         begin += "".join(f'<div class="question">\n{each}</div>\n' for each in questions)
         begin += _practice_html(entry, parts) if live else ""
     else:
-        note = _KEPT.format(command=escaped(entry.command)) if is_lesson(entry.name) and not live else ""
+        note = gettext(_KEPT, command=escaped(entry.command)) if is_lesson(entry.name) and not live else ""
         begin = cells_html(cells[:1], links, parts, live) + note + cells_html(cells[1:], links, parts, live)
         begin += _place_for_done(entry)
     row = _neighbours(entry, entries)
     body = (
-        f'<a class="skip" href="#main">Skip to the text</a>\n<header>{_above(entry)}</header>\n'
-        f'<main id="main">\n{begin}</main>\n<footer><nav aria-label="other pages">{row}</nav></footer>\n'
+        f'<a class="skip" href="#main">{gettext("Skip to the text")}</a>\n<header>{_above(entry)}</header>\n'
+        f'<main id="main">\n{begin}</main>\n<footer><nav aria-label="{gettext("other pages")}">{row}</nav></footer>\n'
     )
     described = prose_text(entry.lesson.question) if entry.lesson else entry.title
-    return document(entry.title, body, style("course"), described, _program(parts, live))
+    return document(entry.title, body, style("course"), described, _program(parts, live), entry.language)
 
 
 MOST_PICTURE = 2_000_000
@@ -160,12 +162,12 @@ def _practice_html(entry: Entry, parts: Parts) -> str:
     topics = [[name, gettext(said["title"])] for name, said in TOPICS.items() if f"{said['lesson']:02}" == number]
     if not topics:
         return ""
-    return f"<h2>Practice</h2>\n{_part_html({'kind': 'practice', 'data': {'topics': topics}}, '', parts)}"
+    return f"<h2>{gettext('Practice')}</h2>\n{_part_html({'kind': 'practice', 'data': {'topics': topics}}, '', parts)}"
 
 
 def _above(entry: Entry) -> str:
     home = relpath(INDEX, entry.folder)
-    return f'<nav aria-label="the course"><a href="{home}">{escaped(entry.course)}</a></nav>'
+    return f'<nav aria-label="{gettext("the course")}"><a href="{home}">{escaped(entry.course)}</a></nav>'
 
 
 def _place_for_done(entry: Entry) -> str:
@@ -184,10 +186,11 @@ def _neighbours(entry: Entry, entries: Sequence[Entry]) -> str:
 def _others(entry: Entry, entries: Sequence[Entry]) -> Iterator[tuple[str, str, Entry]]:
     alike = [each for each in entries if each.folder == entry.folder and is_lesson(each.name) == is_lesson(entry.name)]
     place = alike.index(entry)
-    pair, label = {"notebooks": ("exercises", "Exercises"), "exercises": ("notebooks", "Lesson")}.get(entry.folder, ("", ""))
-    yield from (("before", "Before", each) for each in alike[:place][-1:])
+    pairs = {"notebooks": ("exercises", gettext("Exercises")), "exercises": ("notebooks", gettext("Lesson"))}
+    pair, label = pairs.get(entry.folder, ("", ""))
+    yield from (("before", gettext("Before"), each) for each in alike[:place][-1:])
     yield from (("also", label, each) for each in entries if each.name == f"{pair}/{PurePosixPath(entry.name).name}")
-    yield from (("after", "Next", each) for each in alike[place + 1 :][:1])
+    yield from (("after", gettext("Next"), each) for each in alike[place + 1 :][:1])
 
 
 def _program(parts: Parts, live: bool) -> Program | None:
@@ -201,9 +204,9 @@ def _program(parts: Parts, live: bool) -> Program | None:
             not_needed(*{each["mode"] for each in panels}) | unasked([each["model"] for each in panels]) if panels else _PANELS
         )
         script = f'"use strict";\n{compact("course", left_out)}\nopenCoursePage();\n'
-    words = {"words": translated_words("class_page", "panel", "filling", "voting")} if live else {}
+    words = translated_words(*(("class_page", "panel", "filling", "voting") if live else ("course",)))
     looks = style() + style("lessons") + (style("class_page") if live else "")
-    return Program(script, looks, {**_with_books_once(parts), **words}, live)
+    return Program(script, looks, {**_with_books_once(parts), **({"words": words} if words else {})}, live)
 
 
 def _panels(data: object) -> Iterator[Data]:
@@ -263,7 +266,7 @@ def _code_html(cell: NotebookNode, parts: Parts) -> str:
     code = f'<pre class="code"><code>{escaped_lines(cell.source.strip())}</code></pre>\n'
     asks = any(output.get("data", {}).get(PART, {}).get("kind") in QUESTIONS for output in cell.outputs)
     if asks:
-        return f'{shown}<details class="folded"><summary>Code of this cell</summary>\n{code}</details>\n'
+        return f'{shown}<details class="folded"><summary>{gettext("Code of this cell")}</summary>\n{code}</details>\n'
     return code + shown
 
 

@@ -9,6 +9,7 @@ from html import unescape
 
 from lsys_kit.classroom.lessons.widget import prose_html
 from lsys_kit.files import toml_tables
+from lsys_kit.translation import gettext
 
 _TAG = re.compile(r"<[^<>]*>")
 
@@ -34,7 +35,9 @@ def notes() -> Callable[[str], str]:
         text = " ".join(unescape(_TAG.sub("", block)).split())
         found = [kind for kind, (asks, _) in _kinds().items() if kind not in said and any(each.search(text) for each in asks)]
         said.update(found)
-        return "".join(f'<p class="cannot" data-cannot="{kind}">{prose_html(_kinds()[kind][1])}</p>\n' for kind in found)
+        return "".join(
+            f'<p class="cannot" data-cannot="{kind}">{prose_html(gettext(_kinds()[kind][1]))}</p>\n' for kind in found
+        )
 
     return after
 

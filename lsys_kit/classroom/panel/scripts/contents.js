@@ -2,16 +2,17 @@
 
 import { doneBox, isDone, whenMarked } from "./lessons/done.js";
 import { openParts } from "./parts.js";
-import { made } from "./views/controls.js";
+import { made, speak, worded } from "./views/controls.js";
 
 export function openContents() {
+  speak(JSON.parse(document.getElementById("lsys-data").textContent).words);
   const found = /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("[data-lesson]"));
   showDone(document.getElementById("done"), [...found]);
   return openParts({}, (fault) => String(fault));
 }
 
 function showDone(told, rows) {
-  const boxes = rows.map((row) => doneBox(row.dataset.lesson, "done", `${row.dataset.title}: done`, show));
+  const boxes = rows.map((row) => doneBox(row.dataset.lesson, worded("done"), `${row.dataset.title}: ${worded("done")}`, show));
   rows.forEach((row, i) => row.querySelector(".facts").append(" · ", boxes[i].element));
 
   function show() {
@@ -19,7 +20,7 @@ function showDone(told, rows) {
     for (const row of rows) row.toggleAttribute("data-done", isDone(row.dataset.lesson));
     const many = rows.filter((row) => row.hasAttribute("data-done")).length, next = rows.find((row) => !row.hasAttribute("data-done"));
     told.hidden = !many;
-    told.replaceChildren(`You have done ${many} of ${rows.length} lessons.`, ...(next ? [" Go on with ", linkTo(next), "."] : []));
+    told.replaceChildren(worded("You have done {many} of {all} lessons.", { many, all: rows.length }), ...(next ? [` ${worded("Go on with")} `, linkTo(next), "."] : []));
   }
 
   whenMarked(show);

@@ -12,12 +12,13 @@ import { ANOTHER, BROKEN, cannot, hostWith, store } from "./page.js";
 import { openComparison } from "./panels/compare.js";
 import { openPanel } from "./panels/panel.js";
 import { openPart, openParts } from "./parts.js";
-import { made } from "./views/controls.js";
+import { made, speak, worded } from "./views/controls.js";
 
 const KINDS = { panel, comparison, vote, prediction, worksheet, beside, rules };
 
 // What a page of a class does otherwise is in `outside`: { hostWith, told(kind, asked, round, value), and functions that open parts }.
 export function openCoursePage(outside = {}) {
+  speak(JSON.parse(document.getElementById("lsys-data").textContent).words);
   const finished = offerDone(document.querySelector("[data-lesson]"));
   tellOfLink();
   return openParts({ ...KINDS, ...outside }, cannot, { ballots: new Map(), outside, finished });
@@ -38,7 +39,7 @@ async function tellOfLink() {
 // At the end of a lesson a box to be ticked when it is done; the second vote ticks it, too.
 function offerDone(place) {
   if (!place) return () => {};
-  const { lesson } = place.dataset, text = "I have done this lesson", box = doneBox(lesson, text, text);
+  const { lesson } = place.dataset, text = worded("I have done this lesson"), box = doneBox(lesson, text, text);
   place.append(box.element);
   whenMarked(box.show);
   return () => {
