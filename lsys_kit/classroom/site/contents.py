@@ -11,7 +11,7 @@ from lsys_kit.classroom.lessons.widget import prose_html, prose_text
 from lsys_kit.classroom.panel.bundle import compact, style
 from lsys_kit.classroom.panel.document import Program, document
 from lsys_kit.classroom.places import LEAD, TITLE
-from lsys_kit.classroom.site.pages import Entry, Parts, kept_picture
+from lsys_kit.classroom.site.pages import Answering, Entry, Parts, kept_picture
 from lsys_kit.pictures.style.labels import escaped
 
 _NOTE = """<p class="note">These pages need neither Python nor a network. Their panels move, and votes, predictions and
@@ -24,7 +24,7 @@ _REFERENCES = """<h2 id="reference">To look at, and to look things up</h2>
 """
 
 
-def index_page(entries: Sequence[Entry], pictures: Mapping[str, str], live: bool = False, lead: str = LEAD) -> str:
+def index_page(entries: Sequence[Entry], pictures: Mapping[str, str], live: Answering | None = None, lead: str = LEAD) -> str:
     """The first page: the lessons, some of them with a picture in SVG, and what belongs to them."""
     parts: Parts = []
     lessons = [each for each in entries if is_lesson(each.name)]
