@@ -12,7 +12,7 @@ from typing import Any
 import traitlets
 
 
-class Widget(traitlets.HasTraits):  # type: ignore[misc]
+class Widget(traitlets.HasTraits):
     """A widget without a front end, to which nothing is told and from which nothing is heard."""
 
     comm = None

@@ -1,8 +1,8 @@
 """What pages of the course ask the kit: books and models for their panels, replies to answers, exercises without end.
 
-Each is answered from what the question says, and nothing else is kept. A question is JSON and so is its answer; what was typed
-is read by the kit's readers, and never run. On pages of a class a worker process answers (`live/answers.py`); in pages that hold
-the kit themselves, Python in the browser, which has no arrays.
+Each is answered from what the question says, and nothing else is kept. A question is JSON, and so is its answer; what was
+typed is read by the kit's readers, and never run. On pages of a class a worker process answers (`live/answers.py`), on pages
+that hold the kit Python in the browser, which has no arrays.
 """
 
 from __future__ import annotations
@@ -59,8 +59,9 @@ def answer(asked: Entries, kinds: Kinds, budget: Mapping[str, float]) -> Data:
     except LSystemError as mistake:
         return {"mistake": {"message": mistake.message, "hint": mistake.hint or ""}}
     except ModuleNotFoundError as absent:
-        said, where = gettext("This needs a part of Python that is not in this page"), gettext("Open it in JupyterLab.")
-        return {"mistake": {"message": said, "hint": where}, "needs": str(absent.name).partition(".")[0]}
+        name = str(absent.name).partition(".")[0]
+        said = gettext("This needs {name}, which Python in this page does not have", name=name)
+        return {"mistake": {"message": said, "hint": gettext("Open the lesson in JupyterLab: lsys-kit lab.")}, "needs": name}
     except (KeyError, TypeError, ValueError, AttributeError):  # of a question that no page of the kit asks
         return {"mistake": {"message": "This question cannot be understood", "hint": ""}}
 

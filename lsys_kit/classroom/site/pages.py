@@ -100,9 +100,7 @@ class Entry:
         return str(PurePosixPath(self.name).parent)
 
 
-def notebook_page(
-    entry: Entry, cells: Sequence[NotebookNode], entries: Sequence[Entry], live: Answering | None = None
-) -> str:
+def notebook_page(entry: Entry, cells: Sequence[NotebookNode], entries: Sequence[Entry], live: Answering | None = None) -> str:
     """The page of a notebook; of exercises the questions, with room on paper for each answer.
 
     On a live page, which has somebody who answers, exercises can be answered and rules changed.

@@ -1,4 +1,4 @@
-"""What lies beside pages that hold the kit: the kit and what it needs as archives, Python for browsers, and the worker's script.
+"""What lies beside pages that hold the kit: the kit and what it needs as archives, Python for browsers, a worker's script.
 
 Python is Pyodide: CPython for WebAssembly. Its files are copied from a folder, or taken from the network, each by its hash. It
 has no numpy, of which small words have no need (`arrays.py`); packages that few answers ask for lie in archives of their own,
@@ -7,19 +7,18 @@ and are fetched when an answer asks for them.
 
 from __future__ import annotations
 
-import base64
 import hashlib
 import io
-import json
 import zipfile
 from collections.abc import Iterator, Mapping
+from functools import cache
 from importlib.metadata import distribution
 from pathlib import Path, PurePosixPath
 
 from lsys_kit.classroom.panel.bundle import Data, compact
 from lsys_kit.classroom.places import course_of
 from lsys_kit.classroom.site.pages import Answering
-from lsys_kit.errors import ModelFileError, quotable
+from lsys_kit.errors import quotable
 from lsys_kit.files import KIT_MARK, file_errors, toml_tables
 from lsys_kit.translation import ENGLISH, language
 
@@ -47,10 +46,10 @@ def answering(folder: Path | None = None, source: Path | None = None) -> Answeri
     >>> sorted(answering().files)
     ['python/kit.zip', 'python/networkx.zip', 'python/sympy.zip', 'python/worker.js']
     """
-    archives = {"kit": archive(_kit_files(source)), **{name: archive(_packages(*also)) for name, also in SOMETIMES.items()}}
+    copied, python = _copied(folder) if folder else ({}, _fetched())
+    archives = {"kit": archive(_kit_files(source)), **{name: _package_archive(name) for name in SOMETIMES}}
     worker = f"// Made by {KIT_MARK.decode()}.\n{compact('python_worker')}\n".encode()
     files = {f"{HOME}/worker.js": worker, **{f"{HOME}/{name}.zip": content for name, content in archives.items()}}
-    copied, python = _copied(folder) if folder else ({}, _fetched())
     data = {
         "worker": _named(f"{HOME}/worker.js", worker),
         "python": python,
@@ -118,6 +117,11 @@ def archive(files: Mapping[str, bytes]) -> bytes:
     return made.getvalue()
 
 
+@cache
+def _package_archive(name: str) -> bytes:
+    return archive(_packages(*SOMETIMES[name]))
+
+
 def _kit_files(source: Path | None) -> dict[str, bytes]:
     """The kit, without what pages do not ask for; what it needs; and what is declared in a course of one's own."""
     root = Path(__file__).resolve().parents[2]
@@ -127,7 +131,7 @@ def _kit_files(source: Path | None) -> dict[str, bytes]:
 
 
 def _is_asked_for(name: str) -> bool:
-    """Whether pages need a file of the kit: of translations only those into their language, and the texts in scripts for these."""
+    """Whether pages need a file of the kit: of translations those into their language, and the texts in scripts for these."""
     if name.startswith("locale/"):
         return name.endswith(".mo") and language() != ENGLISH and name.startswith(f"locale/{language()}/")
     if name.startswith("classroom/panel/scripts/") and language() == ENGLISH:

@@ -43,6 +43,8 @@ async function answerTo(question) {
     had.add(answer.needs);
     try {
       unpack((await fetchedAll([ofSite(more)]))[0]);
+      python.pyimport("importlib").invalidate_caches();
+      python.pyimport(answer.needs); // now, so that the time for an answer begins after it
     } catch {
       return answer;
     }

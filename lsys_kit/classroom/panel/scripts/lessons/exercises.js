@@ -53,9 +53,16 @@ export function askForAnswer(place, { id, kind, title, template, hints, options 
     said.replaceChildren(worded("It is looked at"));
     const asked = answer, found = await ask({ answer, ...extra });
     if (asked !== answer) return;
+    if (found.mistake) return cannot(found.mistake);
     tried(found.said, answer);
-    if (!found.mistake) keep({ said: found.said, message: found.message });
-    show(found.mistake ? { said: "Not readable yet", message: `${found.mistake.message}. ${found.mistake.hint ?? ""}` } : found);
+    keep({ said: found.said, message: found.message });
+    show(found);
+  }
+
+  // The answer was not judged: it takes too long, or nobody is there who could.
+  function cannot({ message, hint }) {
+    said.className = "lsys-said";
+    said.textContent = `\u26a0 ${message}. ${hint}`;
   }
 
   function show({ said: verdict, message }) {
