@@ -43,9 +43,12 @@ function barOf(begin) {
     absent: (why) => `\u26a0 ${worded("Python cannot start in this page")}. ${why}`,
   };
   function show(state, more) {
-    if (!(state === "fetching" && element.dataset.state === "ended")) text.textContent = said[state](more);
-    element.dataset.state = state;
-    meter.hidden = !["fetching", "starting", "ended"].includes(state);
+    const comes = ["fetching", "starting"].includes(state);
+    if (!comes || element.dataset.state !== "ended") { // why it ended stays in sight until there is another one
+      text.textContent = said[state](more);
+      element.dataset.state = state;
+    }
+    meter.hidden = !comes && state !== "ended";
     if (state === "fetching") meter.value = more;
     else meter.removeAttribute("value");
     button.hidden = !["idle", "absent"].includes(state);

@@ -19,7 +19,8 @@ export function pythonIn(data, home, told) {
     worker.onmessage = ({ data: said }) => heard(said);
     worker.onerror = (event) => {
       event.preventDefault();
-      fail(worded("{file} is missing, or this browser cannot run it.", { file: data.worker.split("?")[0] }));
+      if (isReady) broken(event.message);
+      else fail(worded("{file} is missing, or this browser cannot run it.", { file: data.worker.split("?")[0] }));
     };
     worker.postMessage({ ...data, home: new URL(home, location.href).href });
   }
@@ -34,7 +35,7 @@ export function pythonIn(data, home, told) {
     else if (ready) {
       isReady = true;
       told("ready");
-      for (const act of whenReady) act();
+      for (const act of whenReady.splice(0)) act();
     } else if (answer) {
       clearTimeout(clock);
       const { done } = current;
@@ -85,10 +86,7 @@ export function pythonIn(data, home, told) {
   const begin = () => worker ?? start();
   return {
     begin,
-    whenReady(act) {
-      whenReady.push(act);
-      if (isReady) act();
-    },
+    whenReady: (act) => (isReady ? act() : whenReady.push(act)),
     ask: (question) => new Promise((done) => {
       waiting.push({ question, done });
       begin();
