@@ -35,7 +35,7 @@ function barOf(begin) {
   const button = made("button", { type: "button", onclick: begin }, worded("Start it"));
   const element = made("aside.kit-bar", { "aria-label": "Python" }, text, meter, button);
   const said = {
-    idle: () => worded("Rules can be changed, and answers are checked: Python comes when it is first needed, 15 MB, once."),
+    idle: () => worded("Python comes when rules or answers first need it: 15 MB."),
     fetching: (part) => worded("Python is fetched: {percent} %", { percent: Math.round(100 * part) }),
     starting: () => worded("Python starts."),
     ready: () => worded("Python is there."),
