@@ -488,9 +488,13 @@ def unpack_lesson(options: argparse.Namespace) -> None:
 
 def write_site(options: argparse.Namespace) -> None:
     from lsys_kit.classroom.site.build import build_site
+    from lsys_kit.classroom.site.python import answering
 
-    pages = build_site(options.output, _chosen_course(options))
+    source, pyodide = _chosen_course(options), options.pyodide and Path(options.pyodide)
+    pages = build_site(options.output, source, answering(pyodide, source) if options.live or pyodide else None)
     print(f"{len(pages)} pages are written. Open {quotable(str(pages[0]))} in a browser.")
+    if options.live or pyodide:
+        print(f"Python starts in them where a web server serves {quotable(options.output)}.")
 
 
 def open_class(options: argparse.Namespace) -> None:

@@ -2,7 +2,13 @@
 
 from __future__ import annotations
 
-import anywidget
+try:
+    from anywidget import AnyWidget
+    from ipywidgets import Widget, widget_serialization
+except ModuleNotFoundError:  # in a page, where its scripts show what a widget would
+    from lsys_kit.classroom.unseen import AnyWidget, Widget, widget_serialization
+
+__all__ = ["KitWidget", "Unfinalized", "Widget", "widget_serialization"]
 
 
 class Unfinalized:
@@ -12,7 +18,7 @@ class Unfinalized:
     __del__ = staticmethod(tuple)  # does nothing, and has no bytecode of its own in which an interrupt would be swallowed
 
 
-class KitWidget(Unfinalized, anywidget.AnyWidget):  # type: ignore[misc]
+class KitWidget(Unfinalized, AnyWidget):  # type: ignore[misc]
     """A widget that is displayed by its script, and stored as text."""
 
     def _stored(self) -> dict[str, object]:

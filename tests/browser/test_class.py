@@ -22,6 +22,7 @@ from lsys_kit.classroom.course import course_files
 from lsys_kit.classroom.live.course_pages import PAGES, mark_made
 from lsys_kit.classroom.live.server import PATIENCE, PING
 from lsys_kit.classroom.site.build import build_site
+from lsys_kit.classroom.site.pages import CLASS
 from tests.classroom.live_class import Network, Process, started
 
 pytestmark = [pytest.mark.slow, pytest.mark.browser]
@@ -70,7 +71,7 @@ def pages(tmp_path_factory: pytest.TempPathFactory, kernels: None) -> Path:
     for name in NAMES:
         (course / name).parent.mkdir(exist_ok=True)
         shutil.copy(course_files()[name], course / name)
-    build_site(folder / PAGES, course, live=True)
+    build_site(folder / PAGES, course, live=CLASS)
     mark_made(folder / PAGES)
     return folder
 
@@ -292,7 +293,7 @@ def test_a_phone_whose_network_is_gone_for_a_while_loses_nothing(live: Class, py
 def test_one_practises_on_the_page_of_exercises(live: Class, pytestconfig: pytest.Config) -> None:
     phone = live.phones[0].page
     phone.goto(f"{live.server.join}course/exercises/01_all_at_once.html")
-    place = phone.locator(".class-practice")
+    place = phone.locator(".exercise-practice")
     place.scroll_into_view_if_needed()
     expect(place.locator("h3")).to_contain_text("level 1", timeout=60_000)
     for level in (1, 1, 2):

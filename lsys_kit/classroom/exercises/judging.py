@@ -107,13 +107,27 @@ class _Yields:
     """What misconceptions yield, one after another; each is computed when it is first asked for, and kept."""
 
     def __init__(self, exercise: Exercise) -> None:
-        self._found, self._rest = list[Yielded](), _each_yielded(exercise)
+        self._exercise = exercise
+        self._begin()
+
+    def _begin(self) -> None:
+        self._found, self._rest = list[Yielded](), _each_yielded(self._exercise)
 
     def __iter__(self) -> Iterator[Yielded]:
         yield from self._found
-        for each in self._rest:
-            self._found.append(each)
+        while (each := self._next()) is not None:
             yield each
+
+    def _next(self) -> Yielded | None:
+        """The next one; where an interrupt comes, or a library is missing, all are computed anew when they are asked for."""
+        try:
+            found = next(self._rest, None)
+        except BaseException:
+            self._begin()
+            raise
+        if found is not None:
+            self._found.append(found)
+        return found
 
 
 @lru_cache(maxsize=512)

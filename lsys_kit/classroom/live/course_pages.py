@@ -22,6 +22,7 @@ from lsys_kit.classroom.course import course_files
 from lsys_kit.classroom.live.pages import Page
 from lsys_kit.classroom.panel.bundle import compact, style
 from lsys_kit.classroom.site.build import build_site
+from lsys_kit.classroom.site.pages import CLASS
 from lsys_kit.errors import LSystemError
 from lsys_kit.files import KIT_MARK, file_errors, replace_file
 from lsys_kit.translation import gettext, language
@@ -169,7 +170,7 @@ def _make(pipe: Connection, place: Path, source: Path | None) -> None:
             pipe.send_bytes(json.dumps(told).encode())
 
     try:
-        build_site(place, source, live=True, heard=lambda page, many: tell({"page": str(page), "many": many}))
+        build_site(place, source, live=CLASS, heard=lambda page, many: tell({"page": str(page), "many": many}))
         mark_made(place, source)
     except LSystemError as fault:
         tell({"mistake": f"{fault.message}. {fault.hint or ''}".strip()})

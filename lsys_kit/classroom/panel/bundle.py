@@ -16,7 +16,7 @@ from string import Template
 from typing import Any, TypeAlias
 
 from lsys_kit.pictures.style.themes import DARK, DARK_LINES, LIGHT, Theme
-from lsys_kit.translation import gettext
+from lsys_kit.translation import ENGLISH, gettext, language
 
 Data: TypeAlias = dict[str, Any]
 """What scripts are given, as JSON has it."""
@@ -137,6 +137,8 @@ def translated_words(*names: str) -> dict[str, str]:
     >>> translated_words("panel")
     {}
     """
+    if language() == ENGLISH:
+        return {}
     return {text: gettext(text) for text in _texts(names) if gettext(text) != text}
 
 

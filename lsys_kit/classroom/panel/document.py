@@ -26,13 +26,14 @@ _LANGUAGE = re.compile(r"[A-Za-z]{2,3}(-[A-Za-z0-9]{2,8})*")
 
 @dataclass(frozen=True)
 class Program:
-    """What runs in a page: a script, the style of what it makes, and the data that it reads; and whether it may ask the server
-    from which it came, and show its pictures."""
+    """What runs in a page: a script, the style of what it makes, and the data that it reads; whether it may ask the server
+    from which it came, and show its pictures; and whether a worker from there may work for it."""
 
     script: str
     style: str
     data: Mapping[str, object]
     asks: bool = False
+    has_worker: bool = False
 
 
 def document(title: str, body: str, style: str, description: str, program: Program | None = None, language: str = "en") -> str:
@@ -86,9 +87,10 @@ def _first() -> str:
 def _policy(program: Program | None) -> str:
     runs = f"script-src {_hashed(_first())} {_hashed(program.script)}; " if program else ""
     own, also = ("connect-src 'self'; ", "'self' ") if program and program.asks else ("", "")
+    worker, policies = ("worker-src 'self'; ", "lsys lsys-worker") if program and program.has_worker else ("", "lsys")
     return (
-        f"default-src 'none'; {runs}{own}style-src 'unsafe-inline'; img-src {also}data: blob:; base-uri 'none'; "
-        "form-action 'none'; require-trusted-types-for 'script'; trusted-types lsys"
+        f"default-src 'none'; {runs}{own}{worker}style-src 'unsafe-inline'; img-src {also}data: blob:; base-uri 'none'; "
+        f"form-action 'none'; require-trusted-types-for 'script'; trusted-types {policies}"
     )
 
 

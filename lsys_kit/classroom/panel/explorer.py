@@ -15,7 +15,6 @@ from pathlib import Path
 from typing import Any
 
 import traitlets
-from ipywidgets import widget_serialization
 
 from lsys_kit.budget import Task, current, limits
 from lsys_kit.classroom.catalogue import catalogued, entry
@@ -33,6 +32,7 @@ from lsys_kit.classroom.panel.sentence import check_sentence, sentence_parts, se
 from lsys_kit.classroom.panel.standing import standing
 from lsys_kit.classroom.panel.view_model import STILL, StepView, both_png
 from lsys_kit.classroom.panel.widget_scripts import ScriptedWidget
+from lsys_kit.classroom.widget import widget_serialization
 from lsys_kit.derivation.core.letters import letters_from
 from lsys_kit.derivation.petri.stages import stages
 from lsys_kit.errors import LSystemError, ModelNameError, ModelValueError, every, quotable, require, shown, whole_number

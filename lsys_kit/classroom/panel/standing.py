@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+
 from lsys_kit.files import Entries
 
 _made: dict[str, int] = {}
@@ -16,6 +18,8 @@ def standing() -> str:
     >>> standing()
     ''
     """
+    if "IPython" not in sys.modules:
+        return ""
     from IPython.core.getipython import get_ipython
 
     asked: Entries = getattr(get_ipython(), "get_parent", dict)()

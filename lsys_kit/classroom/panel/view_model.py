@@ -11,8 +11,6 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import NamedTuple, TypeAlias
 
-from PIL import Image
-
 from lsys_kit.cache import Cache
 from lsys_kit.classroom.panel.books.net import Unfolding, net_of
 from lsys_kit.classroom.panel.labels import noun_of
@@ -239,9 +237,12 @@ def composite_png(view: StepView, show: Collection[str] = STILL) -> bytes:
 
     >>> from lsys_kit.classroom.catalogue import system
     >>> from lsys_kit.classroom.panel.view_model import ViewModel
+    >>> from PIL import Image
     >>> Image.open(io.BytesIO(composite_png(ViewModel(system("J4")).sight(9, {})))).size
     (968, 595)
     """
+    from PIL import Image
+
     shown = [each for each in STILL if each in show] or [STILL[-1]]
     net = parts_of(view.named, False, steering_of(view.net.system)) if "stages" in shown else None
     drawing = Image.open(io.BytesIO(view.picture.png)) if "drawing" in shown else None
@@ -271,6 +272,8 @@ def composite_png(view: StepView, show: Collection[str] = STILL) -> bytes:
 
 def both_png(left: bytes, right: bytes) -> bytes:
     """Two pictures as one, side by side where there is room, else the left one above the right one."""
+    from PIL import Image
+
     pictures = [Image.open(io.BytesIO(each)).convert("RGB") for each in (left, right)]
     (wide, high), (width, height) = (each.size for each in pictures)
     beside = wide + width <= BESIDE

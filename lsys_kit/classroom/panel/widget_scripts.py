@@ -8,10 +8,9 @@ once.
 from __future__ import annotations
 
 import traitlets
-from ipywidgets import Widget, widget_serialization
 
 from lsys_kit.classroom.panel.bundle import compact, style
-from lsys_kit.classroom.widget import KitWidget, Unfinalized
+from lsys_kit.classroom.widget import KitWidget, Unfinalized, Widget, widget_serialization
 
 
 class WidgetScript(Unfinalized, Widget):  # type: ignore[misc]

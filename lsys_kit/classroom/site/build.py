@@ -6,7 +6,7 @@ Lessons are run in real kernels, several at a time, so that their pages know wha
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 from threading import Event
@@ -22,7 +22,7 @@ from lsys_kit.classroom.places import course_of
 from lsys_kit.classroom.site import showing
 from lsys_kit.classroom.site.contents import index_page
 from lsys_kit.classroom.site.markdown import missing
-from lsys_kit.classroom.site.pages import INDEX, LAB, Entry, notebook_page, title_of
+from lsys_kit.classroom.site.pages import INDEX, LAB, Answering, Entry, notebook_page, title_of
 from lsys_kit.errors import LSystemError, ModelFileError, quotable
 from lsys_kit.files import file_errors, made_by_the_kit, save_file
 from lsys_kit.translation import ENGLISH
@@ -34,14 +34,14 @@ if TYPE_CHECKING:
 def build_site(
     folder: str | Path,
     source: Path | None = None,
-    live: bool = False,
+    live: Answering | None = None,
     heard: Callable[[Path, int], object] = lambda page, many: None,
 ) -> tuple[Path, ...]:
     """Write the course into a folder as pages that need neither Python nor a network, and return them, the first one first.
 
     The folder is made if necessary. Pages of an older site in it are replaced, and nothing else; what the kit did not make is
-    an error, as is a cell that fails. The course is by default what came with the kit. Live pages are
-    for the server of a class. `heard` hears of each page that is written, and how many there will be.
+    an error, as is a cell that fails. The course is by default what came with the kit. Live pages have
+    somebody who answers. `heard` hears of each page that is written, and how many there will be.
     """
     folder = Path(folder)
     every, course = course_files(source), course_of(source)
@@ -65,12 +65,16 @@ def build_site(
         for name in files
     ]
     places = {INDEX: folder / INDEX, **{each.name: folder / each.page for each in entries}}
-    _make_room(folder, places)
+    beside = {folder / name: content for name, content in (live.files if live else {}).items()}
+    missing_files = {path: content for path, content in beside.items() if not _is_there(path, content)}
+    _make_room(folder, [*places.values(), *missing_files])
     known, pictures = {each.name: each for each in entries}, dict[str, str]()
     for name, notebook in _run(files, stored):
         save_file(places[name], notebook_page(known[name], notebook.cells, entries, live).encode())
         heard(places[name], len(places))
         pictures.update((name, each) for each in found_in(notebook.cells, showing.SMALL))
+    for path, content in missing_files.items():
+        save_file(path, content)
     save_file(places[INDEX], index_page(entries, pictures, live, course.lead, course.is_kits).encode())
     heard(places[INDEX], len(places))
     return tuple(places.values())
@@ -88,9 +92,14 @@ def _run(files: Mapping[str, Path], stored: Mapping[str, object]) -> Iterator[tu
             bar.update()
 
 
-def _make_room(folder: Path, places: Mapping[str, Path]) -> None:
+def _is_there(path: Path, content: bytes) -> bool:
+    """Whether a file is there as it would be written: those that are copied carry no mark of the kit."""
+    return path.is_file() and not path.is_symlink() and path.read_bytes() == content
+
+
+def _make_room(folder: Path, places: Iterable[Path]) -> None:
     """Make the folders of the pages, and see before anything is run that no page would replace what the kit did not make."""
-    for place in places.values():
+    for place in places:
         with file_errors(f'The site cannot be written to "{quotable(str(folder))}"'):
             place.parent.mkdir(parents=True, exist_ok=True)
         if os.path.lexists(place) and not made_by_the_kit(place):

@@ -11,7 +11,7 @@ from lsys_kit.classroom.lessons.widget import prose_html, prose_text
 from lsys_kit.classroom.panel.bundle import compact, style, translated_words
 from lsys_kit.classroom.panel.document import Program, document
 from lsys_kit.classroom.places import LEAD, TITLE
-from lsys_kit.classroom.site.pages import Entry, Parts, kept_picture
+from lsys_kit.classroom.site.pages import Answering, Entry, Parts, kept_picture
 from lsys_kit.pictures.style.labels import escaped
 from lsys_kit.translation import gettext, language
 
@@ -26,7 +26,11 @@ _REFERENCES = """<h2 id="reference">{heading}</h2>
 
 
 def index_page(
-    entries: Sequence[Entry], pictures: Mapping[str, str], live: bool = False, lead: str = LEAD, in_tracks: bool = True
+    entries: Sequence[Entry],
+    pictures: Mapping[str, str],
+    live: Answering | None = None,
+    lead: str = LEAD,
+    in_tracks: bool = True,
 ) -> str:
     """The first page: the lessons, some of them with a picture in SVG, and what belongs to them; and whether it is told which
     ways they belong to, which are those through the kit's own course."""

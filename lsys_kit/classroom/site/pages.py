@@ -58,6 +58,25 @@ _PANELS = frozenset({"panel", "compare"})
 
 
 @dataclass(frozen=True)
+class Answering:
+    """Who answers on pages on which rules can be changed and exercises answered: the script of such pages, what it has to know,
+    and the files that lie beside them, by their names in the site; on pages of a class its server, which they come from.
+    """
+
+    script: str
+    data: Data = field(default_factory=dict)
+    files: Mapping[str, bytes] = field(default_factory=dict)
+
+    @property
+    def opening(self) -> str:
+        """The function that opens a page."""
+        return "open" + self.script.title().replace("_", "")
+
+
+CLASS = Answering("class_page")
+
+
+@dataclass(frozen=True)
 class Entry:
     """A notebook on the site: its file, relative to the course, its title as a text, and what is declared of it if it is a
     lesson; the title of the course, the command that opens it, the files of its pictures, by their names in it, and the
@@ -83,10 +102,10 @@ class Entry:
         return str(PurePosixPath(self.name).parent)
 
 
-def notebook_page(entry: Entry, cells: Sequence[NotebookNode], entries: Sequence[Entry], live: bool = False) -> str:
+def notebook_page(entry: Entry, cells: Sequence[NotebookNode], entries: Sequence[Entry], live: Answering | None = None) -> str:
     """The page of a notebook; of exercises the questions, with room on paper for each answer.
 
-    On a live page, which comes from the server of a class, exercises can be answered and rules changed.
+    On a live page, which has somebody who answers, exercises can be answered and rules changed.
     """
     links, parts = (
         Places(partial(address_on_site, entry.name, {each.name for each in entries}), partial(_picture, entry)),
@@ -108,7 +127,7 @@ def notebook_page(entry: Entry, cells: Sequence[NotebookNode], entries: Sequence
         f'<main id="main">\n{begin}</main>\n<footer><nav aria-label="{gettext("other pages")}">{row}</nav></footer>\n'
     )
     described = prose_text(entry.lesson.question) if entry.lesson else entry.title
-    return document(entry.title, body, style("course"), described, _program(parts, live), entry.language)
+    return document(entry.title, body, style("course"), described, _program(entry, parts, live), entry.language)
 
 
 MOST_PICTURE = 2_000_000
@@ -126,7 +145,7 @@ def _picture(entry: Entry, address: str) -> str | None:
     return f"data:image/{_KINDS[path.suffix]};base64,{base64.b64encode(content).decode()}"
 
 
-def _question_html(cell: NotebookNode, links: Links, parts: Parts, live: bool) -> str:
+def _question_html(cell: NotebookNode, links: Links, parts: Parts, live: Answering | None) -> str:
     """A cell of exercises: its text, but not what is there for marks alone; in the place of a cell for an answer room on paper,
     or on a live page what takes the answer."""
     if cell.cell_type == "markdown":
@@ -193,20 +212,25 @@ def _others(entry: Entry, entries: Sequence[Entry]) -> Iterator[tuple[str, str, 
     yield from (("after", gettext("Next"), each) for each in alike[place + 1 :][:1])
 
 
-def _program(parts: Parts, live: bool) -> Program | None:
+def _program(entry: Entry, parts: Parts, live: Answering | None) -> Program | None:
     if not parts and not live:
         return None
     if live:  # rules can be edited: a panel may draw anything
-        script = f'"use strict";\n{compact("class_page")}\nopenClassPage();\n'
+        script = f'"use strict";\n{compact(live.script)}\n{live.opening}();\n'
     else:
         panels = [*_panels(parts)]
         left_out = (
             not_needed(*{each["mode"] for each in panels}) | unasked([each["model"] for each in panels]) if panels else _PANELS
         )
         script = f'"use strict";\n{compact("course", left_out)}\nopenCoursePage();\n'
-    words = translated_words(*(("class_page", "panel", "filling", "voting") if live else ("course",)))
-    looks = style() + style("lessons") + (style("class_page") if live else "")
-    return Program(script, looks, {**_with_books_once(parts), **({"words": words} if words else {})}, live)
+    looks, known = style() + style("lessons"), _with_books_once(parts)
+    if live is None:
+        words = translated_words("course")
+        return Program(script, looks, {**known, **({"words": words} if words else {})})
+    known |= {"words": translated_words(live.script, "panel", "filling", "voting"), **live.data}
+    if live is not CLASS:
+        known["home"] = f"{relpath('.', entry.folder)}/"
+    return Program(script, looks + style(live.script), known, live is CLASS, live is not CLASS)
 
 
 def _panels(data: object) -> Iterator[Data]:
@@ -244,7 +268,7 @@ _PHOTOGRAPH = re.compile(r'src="data:image/png;base64,([A-Za-z0-9+/=]{40000,})"'
 _SIZE = re.compile(r'<svg(?: (?!width)[\w:]+="[^"]*")*( width="[^"]*" height="[^"]*")')
 
 
-def cells_html(cells: Sequence[NotebookNode], links: Links, parts: Parts, live: bool = False) -> str:
+def cells_html(cells: Sequence[NotebookNode], links: Links, parts: Parts, live: Answering | None = None) -> str:
     """Cells of a notebook as HTML; what the script of the page has to know is added to `parts`."""
     return "".join(
         markdown_html(cell.source, links, _nothing if live else notes())

@@ -10,8 +10,7 @@ import re
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
-
-import networkx as nx
+from typing import TYPE_CHECKING
 
 from lsys_kit.budget import counted
 from lsys_kit.classroom.exercises.exercise import Exercise
@@ -24,6 +23,9 @@ from lsys_kit.errors import ModelValueError
 from lsys_kit.notation.dialects.map.dialect import read_map
 from lsys_kit.notation.model.cells import Edge, EdgeProduction, MapSystem
 from lsys_kit.notation.read import cells_notation
+
+if TYPE_CHECKING:
+    import networkx as nx
 
 _AXIOM = re.compile(r"\s*(axiom|\\?omega|ω)\s*[:=]", re.IGNORECASE)
 """How L-systems begin, and maps too, if somebody likes."""
@@ -81,9 +83,13 @@ def same_maps(one: Map, other: Map) -> bool:
     """
     if one.counts != other.counts or cells_of(one) != cells_of(other) or _walls_of(one) != _walls_of(other):
         return False
-    return len(one.walls) > MOST_WALLS_LAID or bool(
-        nx.is_isomorphic(_graph(one), _graph(other), lambda a, b: a["kind"] == b["kind"], lambda a, b: a["way"] == b["way"])
-    )
+    return len(one.walls) > MOST_WALLS_LAID or _same_graphs(_graph(one), _graph(other))
+
+
+def _same_graphs(one: nx.Graph[tuple[str, int]], other: nx.Graph[tuple[str, int]]) -> bool:
+    import networkx as nx
+
+    return bool(nx.is_isomorphic(one, other, lambda a, b: a["kind"] == b["kind"], lambda a, b: a["way"] == b["way"]))
 
 
 def cells_of(found: Map) -> Counter[tuple[Edge, ...]]:
@@ -96,6 +102,8 @@ def _walls_of(found: Map) -> Counter[tuple[str, bool]]:
 
 
 def _graph(found: Map) -> nx.Graph[tuple[str, int]]:
+    import networkx as nx
+
     graph: nx.Graph[tuple[str, int]] = nx.Graph()
     for number, wall in enumerate(counted(found.walls)):
         graph.add_node(("wall", number), kind=(wall.label, wall.directed))

@@ -1,0 +1,81 @@
+// A page of the course that holds the kit: rules can be edited and exercises are answered, by Python in the page, once it is asked.
+
+import { openCoursePage } from "../course.js";
+import { askForAnswer, practise } from "../lessons/exercises.js";
+import { keepAnswer, keptAnswer } from "../lessons/keeping.js";
+import { askingHost } from "../panels/asking_host.js";
+import { made, speak, worded } from "../views/controls.js";
+import { pythonIn } from "./python.js";
+
+const ASKING = ["panel", "comparison", "beside", "exercise", "practice"]; // kinds of parts that may ask Python
+const TRIES = "tries", MOST_TRIES = 2_000; // under which name tries are kept, and how many
+
+export function openKitPage() {
+  const { words, python, home, parts } = JSON.parse(document.getElementById("lsys-data").textContent);
+  speak(words);
+  const bar = barOf(() => kit.begin()), kit = pythonIn(python, home, bar.show);
+  if (parts.some(({ kind, data }) => ASKING.includes(kind) || JSON.stringify(data).includes('"mode"'))) document.body.append(bar.element);
+  openCoursePage({
+    hostWith: (data) => askingHost(data, kit.ask, { keeps: ["link"], keep: (_, question) => linked(kit.ask({ ...question, what: "link" })), soon: kit.whenReady }),
+    exercise: (place, data) => askForAnswer(place, data, (question) => kit.ask({ ...question, kind: "check", id: data.id }), (said, answer) => keepTry(data.id, said, answer)),
+    practice: (place, data) => practise(place, data, kit.ask, false),
+  });
+  if (parts.some(({ kind }) => kind === "exercise")) document.querySelector("main").append(savingOf());
+}
+
+// A link of the kit as an address of this page.
+async function linked(asked) {
+  const answer = await asked;
+  return answer.text ? { ...answer, text: location.href.split("#")[0] + answer.text } : answer;
+}
+
+// What is said of Python, at the lower edge of the window; `begin` starts it.
+function barOf(begin) {
+  const text = made("p", { role: "status" }), meter = made("progress", { max: 1, hidden: true, "aria-label": worded("Python is fetched") });
+  const button = made("button", { type: "button", onclick: begin }, worded("Start it"));
+  const element = made("aside.kit-bar", { "aria-label": "Python" }, text, meter, button);
+  const said = {
+    idle: () => worded("Python comes when rules or answers first need it: 15 MB."),
+    fetching: (part) => worded("Python is fetched: {percent} %", { percent: Math.round(100 * part) }),
+    starting: () => worded("Python starts."),
+    ready: () => worded("Python is there."),
+    ended: (why) => worded("{why}. It starts anew; what was typed is still there.", { why }),
+    absent: (why) => `\u26a0 ${worded("Python cannot start in this page")}. ${why}`,
+  };
+  function show(state, more) {
+    const comes = ["fetching", "starting"].includes(state);
+    if (!comes || element.dataset.state !== "ended") { // why it ended stays in sight until there is another one
+      text.textContent = said[state](more);
+      element.dataset.state = state;
+    }
+    meter.hidden = !comes && state !== "ended";
+    if (state === "fetching") meter.value = more;
+    else meter.removeAttribute("value");
+    button.hidden = !["idle", "absent"].includes(state);
+    button.textContent = state === "absent" ? worded("Try it again") : worded("Start it");
+  }
+  show("idle");
+  return { element, show };
+}
+
+// Keep what was tried, as exercises/progress.py keeps it: not the same answer again, nor anything after the right one.
+function keepTry(id, said, answer) {
+  if (!["Correct", "Almost", "Not yet"].includes(said)) return;
+  const tries = triesSoFar(), own = tries.filter((each) => each.id === id);
+  if (own.some((each) => each.result === "solved" || each.answer === answer)) return;
+  const time = new Date(Date.now() - 60_000 * new Date().getTimezoneOffset()).toISOString().slice(0, 16).replace("T", " ");
+  keepAnswer(TRIES, [...tries, { time, id, result: said === "Correct" ? "solved" : "tried", answer }].slice(-MOST_TRIES));
+}
+
+const triesSoFar = () => (Array.isArray(keptAnswer(TRIES)) ? keptAnswer(TRIES) : []);
+
+// A button that saves them as the file progress.csv, which a copy of the course reads.
+function savingOf() {
+  const save = () => {
+    const rows = triesSoFar().map(({ time, id, result }) => `${time},${/[",]/.test(id) ? `"${id.replaceAll('"', '""')}"` : id},${result}`);
+    const address = URL.createObjectURL(new Blob([["time,exercise,result", ...rows, ""].join("\n")], { type: "text/csv" }));
+    made("a", { href: address, download: "progress.csv" }).click();
+    setTimeout(() => URL.revokeObjectURL(address), 60_000);
+  };
+  return made("p.kit-saving", made("button", { type: "button", onclick: save }, worded("Save what was tried: progress.csv")));
+}

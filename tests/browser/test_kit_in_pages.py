@@ -1,0 +1,336 @@
+"""Pages that hold the kit, in a real browser and without a network: Python answers as in a notebook, and whatever happens to it
+the page stays."""
+
+from __future__ import annotations
+
+import json
+import threading
+import tomllib
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
+from pathlib import Path
+from typing import Any
+
+import pytest
+from nbformat.v4 import new_markdown_cell
+from playwright.sync_api import Browser, Locator, Page, Route, expect
+
+from lsys_kit import check, derive, explore, read
+from lsys_kit.classroom.course import course_files
+from lsys_kit.classroom.exercises.progress import Try, _read
+from lsys_kit.classroom.exercises.registry import exercise_of, kit_questions
+from lsys_kit.classroom.site import answers
+from lsys_kit.classroom.site.build import read_notebook
+from lsys_kit.classroom.site.pages import Answering, Entry, notebook_page
+from lsys_kit.classroom.site.python import answering, archive
+from tests.browser.test_class import serious
+from tests.classroom.test_site import ran
+from tests.pyodide import pyodide_folder
+
+pytestmark = [pytest.mark.slow, pytest.mark.browser]
+LESSON, EXERCISES, FIRST = "notebooks/01_all_at_once", "exercises/01_all_at_once", "exercises/00_five_characters_one_plant"
+LONG = 120_000
+"""So many milliseconds Python may take to start on a busy machine."""
+WITHOUT_ARRAYS = {"0.2", "0.3", "0.5", "3.3", "4.3", "4.5", "14.1"}
+"""The exercises whose answers are compared by their drawings, for which Python in a page has no arrays."""
+ANSWERS = Path(__file__).parents[1] / "classroom" / "data"
+STUB = """
+import json
+
+def answered(asked):
+    while json.loads(asked).get("answer") == "loop":
+        pass
+    return json.dumps({"said": "Not yet", "message": "It is no loop."})
+"""
+"""A kit that may never answer."""
+
+
+def pages(live: Answering) -> dict[str, bytes]:
+    """A lesson and two pages of exercises."""
+    entries = [Entry(f"{name}.ipynb", name) for name in (LESSON, EXERCISES, FIRST)]
+    shown = [
+        new_markdown_cell("# Panels"),
+        ran("explore('K5')", explore("K5", 3)),
+        ran("explore('P3')", explore("P3", 5)),
+        ran("explore('P8')", explore("P8")),
+    ]
+    notebooks = [shown, *(read_notebook(course_files()[f"{name}.ipynb"]).cells for name in (EXERCISES, FIRST))]
+    return {
+        each.page: notebook_page(each, cells, entries, live).encode() for each, cells in zip(entries, notebooks, strict=True)
+    }
+
+
+@dataclass
+class Served:
+    """A site on a server of this machine, and what was asked of it."""
+
+    address: str
+    files: dict[str, bytes]
+    asked: list[str] = field(default_factory=list)
+
+    def python(self) -> list[str]:
+        return [each for each in self.asked if each.startswith("/python/")]
+
+
+class Handler(SimpleHTTPRequestHandler):
+    served: Served
+
+    def do_GET(self) -> None:
+        self.served.asked.append(self.path)
+        path = self.path.partition("?")[0].removeprefix("/")
+        content = self.served.files.get(path)
+        self.send_response(404 if content is None else 200)
+        self.send_header("Content-Type", self.guess_type(path))
+        self.end_headers()
+        self.wfile.write(content or b"")
+
+    def log_message(self, *_: object) -> None:
+        pass
+
+
+@pytest.fixture(scope="module")
+def live(pytestconfig: pytest.Config) -> Answering:
+    return answering(pyodide_folder(pytestconfig))
+
+
+@pytest.fixture(scope="module")
+def site_files(live: Answering) -> dict[str, bytes]:
+    return {**pages(live), **live.files, "blank.html": b"<!doctype html><title>blank</title>"}
+
+
+@pytest.fixture
+def served(site_files: dict[str, bytes]) -> Iterator[Served]:
+    handler = type("Own", (Handler,), {})
+    server = ThreadingHTTPServer(("127.0.0.1", 0), partial(handler))
+    handler.served = Served(f"http://127.0.0.1:{server.server_port}/", dict(site_files))  # type: ignore[attr-defined]
+    thread = threading.Thread(target=server.serve_forever, daemon=True)
+    thread.start()
+    yield handler.served  # type: ignore[attr-defined]
+    server.shutdown()
+    server.server_close()
+    thread.join()
+
+
+@pytest.fixture
+def opened(browser: Browser, served: Served) -> Iterator[Callable[..., Page]]:
+    """Opens a page in a context of its own; nothing is asked of any other address, and nothing is complained of."""
+    faults: list[str] = []
+    used = []
+
+    def only_here(route: Route) -> None:
+        if route.request.url.startswith((served.address, "blob:")):
+            route.continue_()
+        else:
+            faults.append(route.request.url)
+            route.abort()
+
+    def open_one(name: str, width: int = 1200) -> Page:
+        context = browser.new_context(viewport={"width": width, "height": 800}, has_touch=width < 600)
+        used.append(context)
+        context.route("**/*", only_here)
+        page = context.new_page()
+        page.on("pageerror", lambda error: faults.append(str(error)))
+        page.goto(f"{served.address}{name}.html")
+        return page
+
+    yield open_one
+    for context in used:
+        context.close()
+    assert faults == []
+
+
+def bar(page: Page, state: str) -> Locator:
+    return page.locator(f".kit-bar[data-state={state}]")
+
+
+def answer(page: Page, text: str, exercise: str = "1.1") -> Locator:
+    """Type an answer and have it checked; where the reply stands."""
+    place = page.locator(f'section[aria-label="Exercise {exercise}"]')
+    place.locator("input, textarea").fill(text)
+    place.get_by_role("button", name="Check").click()
+    return place.locator("p.lsys-said")
+
+
+def said(text: object) -> str:
+    """A reply as it is read, on one line."""
+    return " ".join(str(text).split())
+
+
+def test_nothing_of_python_is_fetched_before_it_is_needed(opened: Callable[..., Page], served: Served) -> None:
+    page = opened(LESSON)
+    expect(page.locator("[data-part]:not([data-open])")).to_have_count(0)
+    page.locator(".lsys-panel input[type=range]").first.press("ArrowLeft")
+    page.goto(f"{served.address}{EXERCISES}.html")
+    expect(page.locator("form.exercise-answer")).to_have_count(4)
+    assert served.python() == []
+    expect(bar(page, "idle")).to_be_visible()
+
+
+@pytest.mark.parametrize("width", [1200, 400])
+def test_an_exercise_is_answered_on_its_page_as_in_a_notebook(
+    opened: Callable[..., Page], tmp_path: Path, width: int, pytestconfig: pytest.Config
+) -> None:
+    """With hints and the solution; it is there when the page is opened again, and tries are saved as the course keeps them."""
+    page = opened(EXERCISES, width)
+    reply = answer(page, "al al br")
+    expect(reply).to_have_text(f"≈ {said(check('1.1', 'al al br'))}", timeout=LONG)
+    expect(bar(page, "ready")).to_have_count(1)
+    page.get_by_role("button", name="A hint").first.click()
+    expect(reply).to_contain_text("Hint 1 of")
+    page.get_by_role("button", name="The solution").first.click()
+    expect(reply).to_contain_text("bl ar bl ar ar")
+    mirrored = answer(page, exercise_of("1.3").solution, "1.3")
+    expect(mirrored).to_contain_text("Correct")
+    answer(page, "bl ar bl ar ar")
+    expect(reply).to_have_text(f"✓ {said(check('1.1', 'bl ar bl ar ar'))}")
+    if folder := pytestconfig.getoption("screenshots"):
+        page.screenshot(path=Path(folder) / f"kit-exercises-{width}.png", full_page=True)
+    with page.expect_download() as saved:
+        page.get_by_role("button", name="progress.csv").click()
+    saved.value.save_as(tmp_path / "progress.csv")
+    assert _read(tmp_path / "progress.csv") == ((Try("1.1", False), Try("1.3", True), Try("1.1", True)), 0)
+    page.get_by_role("button", name="Another exercise").click()
+    expect(page.locator(".exercise-practice h3")).to_contain_text("level 1")
+    page.reload()
+    expect(page.locator("form.exercise-answer input").first).to_have_value("bl ar bl ar ar")
+    expect(page.locator("p.lsys-said").first).to_contain_text("Correct")
+
+
+def test_typed_rules_are_drawn_and_constants_have_all_their_values(
+    opened: Callable[..., Page], pytestconfig: pytest.Config
+) -> None:
+    page = opened(LESSON)
+    panels = page.locator(".lsys-panel")
+    expect(panels).to_have_count(3)
+    held = panels.nth(2).inner_text()
+    assert "Fixed on this page" in held or "It holds" in held or "This page holds" in held
+    first = panels.first
+    first.get_by_role("button", name="rules").click()
+    text = "axiom: F\nF -> F[+F]F\nangle: 30\nsteps: 3"
+    first.locator("textarea").first.fill(text)
+    counted = len(derive(read(text), 3)[3])
+    expect(first).to_contain_text(f"{counted} characters", timeout=LONG)
+    expect(panels.nth(2)).not_to_contain_text("It holds")
+    expect(panels.nth(2)).not_to_contain_text("This page holds")
+    first.locator("textarea").first.fill("axiom: F\nF -> F[+F F")
+    expect(first.locator(".lsys-mistake")).to_contain_text("[")
+    if folder := pytestconfig.getoption("screenshots"):
+        page.screenshot(path=Path(folder) / "kit-panels.png", full_page=True)
+
+
+def asked_questions() -> list[dict[str, Any]]:
+    """Answers to the exercises of the kit, right and wrong, as students give them."""
+    wrong = tomllib.loads((ANSWERS / "wrong_answers.toml").read_text("utf-8"))
+    found = []
+    for _, _, exercise in kit_questions().exercises:
+        typed = [each for group in wrong.get(exercise.id, {}).values() for each in group if isinstance(each, str)]
+        for text in (exercise.solution, *typed[:1]):
+            found.append({"kind": "check", "id": exercise.id, "answer": text})
+        found.append({"kind": "check", "id": exercise.id, "answer": (typed or ["1"])[-1], "hint": 1, "solution": True})
+    return found
+
+
+ASK_ALL = """async ([data, questions]) => {
+    const worker = new Worker(data.worker, { type: "module" }), home = location.href.replace("blank.html", "");
+    const next = () => new Promise((done) => { worker.onmessage = ({ data: said }) => said.part ?? done(said); });
+    let heard = next();
+    worker.postMessage({ ...data, home });
+    const found = [await heard];
+    for (const question of questions) {
+        heard = next();
+        worker.postMessage({ ask: JSON.stringify(question) });
+        found.push(await heard);
+    }
+    worker.terminate();
+    return found;
+}"""
+
+
+def test_python_in_a_page_replies_to_answers_as_this_one(opened: Callable[..., Page], live: Answering) -> None:
+    page, asked = opened("blank"), asked_questions()
+    page.set_default_timeout(10 * LONG)
+    begun, *there = page.evaluate(ASK_ALL, [live.data["python"], asked])
+    assert begun == {"ready": True}
+    without = {each["id"] for each, found in zip(asked, there, strict=True) if found["answer"].get("needs") == "numpy"}
+    assert without <= WITHOUT_ARRAYS
+    compared = [(each, found["answer"]) for each, found in zip(asked, there, strict=True) if each["id"] not in without]
+    assert len(compared) > 200
+    for question, found in compared:
+        assert found == json.loads(answers.answered(json.dumps(question))), question
+
+
+def test_what_needs_arrays_is_left_to_jupyter_in_plain_words(opened: Callable[..., Page]) -> None:
+    page = opened(FIRST)
+    reply = answer(page, "16", "0.2")
+    expect(reply).to_contain_text("JupyterLab", timeout=LONG)
+    expect(reply).to_contain_text("numpy")
+
+
+def test_a_bomb_ends_with_the_words_of_the_kit(opened: Callable[..., Page]) -> None:
+    page = opened(EXERCISES)
+    bomb = f"axiom: a\na -> {200 * 'a '}"
+    reply = answer(page, bomb, "1.3")
+    expect(reply).to_contain_text(said(check("1.3", bomb)), timeout=LONG)
+    expect(bar(page, "ready")).to_have_count(1)
+    expect(answer(page, "al al br")).to_contain_text("Almost")
+
+
+@pytest.mark.parametrize("missing", ["worker.js", "kit.zip", "wasm"])
+def test_where_python_is_missing_that_is_said_and_tried_again(
+    opened: Callable[..., Page], served: Served, site_files: dict[str, bytes], missing: str
+) -> None:
+    name = next(each for each in served.files if each.endswith(missing))
+    del served.files[name]
+    page = opened(EXERCISES)
+    reply = answer(page, "al al br")
+    expect(reply).to_contain_text("Python cannot start in this page", timeout=LONG)
+    expect(bar(page, "absent")).to_contain_text(name.rpartition("/")[2])
+    expect(page.locator("form.exercise-answer input").first).to_have_value("al al br")
+    served.files[name] = site_files[name]
+    page.get_by_role("button", name="Try it again").click()
+    expect(bar(page, "ready")).to_have_count(1, timeout=LONG)
+    expect(answer(page, "al al br")).to_contain_text("Almost", timeout=LONG)
+
+
+def test_python_that_does_not_answer_is_ended_and_started_anew(
+    opened: Callable[..., Page], served: Served, live: Answering
+) -> None:
+    home = "lsys_kit/classroom/site"
+    places = ["lsys_kit", "lsys_kit/classroom", home]
+    stub = archive({**{f"{each}/__init__.py": b"" for each in places}, f"{home}/answers.py": STUB.encode()})
+    told = {**live.data["python"], "patience": 2}
+    told["kit"] = {**told["kit"], "bytes": len(stub)}
+    impatient = Answering(live.script, {"python": told}, live.files)
+    served.files.update({**pages(impatient), "python/kit.zip": stub})
+    page = opened(EXERCISES)
+    expect(answer(page, "al")).to_contain_text("It is no loop", timeout=LONG)
+    reply = answer(page, "loop")
+    expect(reply).to_contain_text("This takes too long, and Python was ended", timeout=LONG)
+    expect(page.locator(".kit-bar:is([data-state=ended], [data-state=ready])")).to_have_count(1)
+    expect(bar(page, "ready")).to_have_count(1, timeout=LONG)
+    expect(answer(page, "al")).to_contain_text("It is no loop", timeout=LONG)
+    expect(page.locator("form.exercise-answer input").first).to_have_value("al")
+
+
+def test_a_page_that_is_a_file_says_that_python_needs_a_web_server(
+    browser: Browser, site_files: dict[str, bytes], tmp_path: Path
+) -> None:
+    for name, content in site_files.items():
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_bytes(content)
+    page = browser.new_page()
+    page.goto((tmp_path / f"{EXERCISES}.html").as_uri())
+    expect(answer(page, "al al br")).to_contain_text("web server", timeout=LONG)
+    page.close()
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("name", [LESSON, EXERCISES])
+def test_nobody_is_shut_out(opened: Callable[..., Page], name: str, scheme: Any) -> None:
+    page = opened(name, 400)
+    page.emulate_media(color_scheme=scheme)
+    expect(page.locator("[data-part]:not([data-open])")).to_have_count(0)
+    assert serious(page) == []
+    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
