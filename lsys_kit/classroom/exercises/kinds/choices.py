@@ -167,7 +167,7 @@ def _with_part(texts: Mapping[str, str], part: str) -> list[str]:
 
 
 FEWEST_WORDS = 4
-"""So many words of the right option stand for it, if they do not begin it: fewer may have been found by chance."""
+"""So many words of the right option stand for it, if they neither begin it nor are half of it: fewer may be there by chance."""
 
 
 def _says_enough(exercise: Exercise, found: list[str], texts: Mapping[str, str], part: str) -> bool:
@@ -175,7 +175,8 @@ def _says_enough(exercise: Exercise, found: list[str], texts: Mapping[str, str],
     own = texts[found[0]] if found else ""
     begins = own == part or (own.startswith(part) and not own[len(part)].isalnum())
     is_right = found == [exercise.solution.strip().upper()]
-    return not is_right or begins or len(own.split()) <= MOST_WORDS or len(re.findall(r"\w+", part)) >= FEWEST_WORDS
+    words, fewest = re.findall(r"\w+", part), min(FEWEST_WORDS, len(own.split()) / 2)
+    return not is_right or begins or len(words) >= fewest or len(own.split()) <= MOST_WORDS
 
 
 _CLAUSE_END = re.compile(r"[.,:;]")
