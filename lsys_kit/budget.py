@@ -200,6 +200,8 @@ SECONDS_BETWEEN_LOOKS = 0.02
 """A budget is looked at no more often than this, by the clock on the wall: the processor has not spent more."""
 INTERVAL = 1_024
 """The budget is checked after so many things that take about a microsecond each."""
+PACE = 4 if sys.platform == "emscripten" else 1
+"""By so much limits of time for answers are longer in a browser, whose Python takes several times as long."""
 processor_time = getattr(time, "thread_time", time.process_time)
 """Seconds of the processor in this thread; of the process where threads have no clocks of their own, as in WebAssembly."""
 _objects = getattr(sys, "getallocatedblocks", int)

@@ -13,7 +13,7 @@ import re
 from collections.abc import Mapping
 from contextlib import suppress
 
-from lsys_kit.budget import Task, current, limits
+from lsys_kit.budget import PACE, Task, current, limits
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.judging import judged, wrong_answers
 from lsys_kit.classroom.exercises.progress import keep_score, keep_try
@@ -24,7 +24,7 @@ from lsys_kit.errors import LSystemError, ModelFileError, ModelLimitError, Model
 from lsys_kit.notation.read import read
 from lsys_kit.pictures.draw import draw
 
-BUDGET: Mapping[str, float] = {"modules": 100_000, "seconds": 3, "rules": 50}
+BUDGET: Mapping[str, float] = {"modules": 100_000, "seconds": 3 * PACE, "rules": 50}
 """The limits for an answer."""
 _GOES_ON = re.compile(r"\d\s*+[-+*,;]\s*+(?:\.{3}|…)")
 """A row of numbers that goes on, as in "1 + 5 + ..."."""

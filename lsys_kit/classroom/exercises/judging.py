@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from functools import lru_cache, reduce
 from typing import Any, TypeAlias
 
-from lsys_kit.budget import limits
+from lsys_kit.budget import PACE, limits
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.choices import letters
 from lsys_kit.classroom.exercises.kinds.kind import Difference
@@ -27,7 +27,7 @@ MOST_ASKED = 3
 """So many misconceptions at most are asked about."""
 MOST_RIGHT = 0.6
 """An answer of which so much is right may be a slip of the pen."""
-MOST_SECONDS = 8
+MOST_SECONDS = 8 * PACE
 """So long misconceptions are looked for in an exercise, once: enough for all but worlds slow to derive."""
 MOST_ANSWERS = 60
 """So many answers of one misconception are tried."""
@@ -70,7 +70,7 @@ def wrong_answers(exercise: Exercise) -> tuple[WrongAnswer, ...]:
 def _declared(exercise: Exercise) -> Iterator[WrongAnswer]:
     kind = ANSWER_KINDS[exercise.kind]
     for slip in exercise.slips:
-        with suppress(LSystemError), limits(modules=20_000, seconds=2):  # one that cannot be read is found by lint
+        with suppress(LSystemError), limits(modules=20_000, seconds=2 * PACE):  # one that cannot be read is found by lint
             known = MISCONCEPTIONS.get(slip.misconception)
             yield WrongAnswer(kind.read(exercise, slip.answer), known, slip.says, slip.near or bool(known and known.near))
     for letter, option in zip(letters(exercise), exercise.options, strict=True):
@@ -154,7 +154,7 @@ def _is_long_since(started: tuple[float, float]) -> bool:
 def _yielded_by(exercise: Exercise, misconception: Misconception, solution: object) -> list[Yielded]:
     kind = ANSWER_KINDS[exercise.kind]
     found: list[Yielded] = []
-    with suppress(LSystemError, ArithmeticError), limits(modules=20_000, seconds=3, states=200):
+    with suppress(LSystemError, ArithmeticError), limits(modules=20_000, seconds=3 * PACE, states=200):
         for answer in misconception.answers(exercise):
             if answer is not None and not any(_alike(exercise, answer, other) for _, other, _ in found):
                 right = kind.same(exercise, answer, solution) or _alike(exercise, answer, solution)

@@ -30,7 +30,7 @@ from lsys_kit.translation import gettext
 
 Kinds: TypeAlias = Mapping[str, Callable[[Mapping[str, object]], Data]]
 """What answers questions of each kind."""
-BUDGET: Mapping[str, float] = {"modules": 100_000, "bytes": 2**27, "seconds": 10.0, "text": 20_000, "rules": 200}
+BUDGET: Mapping[str, float] = {"modules": 100_000, "bytes": 2**27, "seconds": 15.0, "text": 20_000, "rules": 200}
 """The limits of an answer in a browser, whose Python takes several times as long."""
 SEEN = ("step", "angle", "around", "above", "seed", "mark", "settings")
 """What is chosen in a panel."""

@@ -36,7 +36,7 @@ _NO_TIME = (1980, 1, 1, 0, 0, 0)
 """The earliest time of a file in an archive: the same kit gives the same archive, byte for byte."""
 _COURSE = "own_course"
 """The folder in the archive with what a course of one's own declares."""
-PATIENCE = 30
+PATIENCE = 45
 """So many seconds an answer may take; then Python is ended, and started anew."""
 
 
