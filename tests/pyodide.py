@@ -36,8 +36,11 @@ def fetch(home: Path) -> None:
         return
     subprocess.run([npm, "pack", f"pyodide@{TOLD['version']}"], cwd=home, capture_output=True, timeout=300, check=False)
     if (home / archive).exists():
+        (home / "package").mkdir(exist_ok=True)
         with tarfile.open(home / archive) as packed:
-            packed.extractall(home, filter="data")
+            for name in TOLD["files"]:
+                if content := packed.extractfile(f"package/{name}"):
+                    (home / "package" / name).write_bytes(content.read())
 
 
 def is_whole(folder: Path) -> bool:
