@@ -24,6 +24,23 @@ def repetitions(pattern: re.Pattern[str]) -> list[tuple[str, str]]:
     return [*dict.fromkeys(_repetitions(_parser.parse(pattern.pattern, pattern.flags), ""))]
 
 
+def forbids_in_possessive(pattern: str) -> bool:
+    """Whether a pattern has (?!...) or (?<!...) in what it repeats possessively: Python before 3.11.5 repeats that once more.
+
+    >>> forbids_in_possessive("(?:(?!b)a)*+"), forbids_in_possessive("(?>(?:(?!b)a)*)")
+    (True, False)
+    """
+    return _forbids(_parser.parse(pattern), False)
+
+
+def _forbids(parts: Any, possessive: bool) -> bool:
+    return any(
+        (possessive and operator is _constants.ASSERT_NOT)
+        or any(_forbids(part, possessive or operator is _constants.POSSESSIVE_REPEAT) for part in _parts(operator, operand))
+        for operator, operand in parts
+    )
+
+
 def _repetitions(parts: Any, before: str) -> Iterator[tuple[str, str]]:
     for operator, operand in parts:
         if operator in REPEATS and operand[1] > MOST:

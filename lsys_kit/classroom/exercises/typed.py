@@ -350,8 +350,8 @@ _EQUATION = re.compile(r"(?=[^=]*+=[^=]*+\Z)[^=]*[^\W\d_]\b")
 _GLUED = re.compile(r"\d([a-zA-Z])\s*$")
 """A number with one letter directly behind it, which is a product and no unit."""
 _SENTENCE = re.compile(
-    r"^(?P<before>(?:(?!pi\b)[^\W\d_]++(?:[\s:]|\.(?!(?<=[\s:]\.)\d))++)*+)"
-    r"(?P<number>(?:.*(?:[^\w\s°%]|[°%](?!$)))?+(?:(?<=[)}])|[\w\s]*?(?:\d|(?<![A-Za-z])pi\b)))\s*"
+    r"^(?P<before>(?>(?:(?!pi\b)[^\W\d_]++(?>(?:[\s:]|\.(?!(?<=[\s:]\.)\d))+))*))"
+    r"(?P<number>(?>(?:.*(?:[^\w\s°%]|[°%](?!$)))?)(?:(?<=[)}])|[\w\s]*?(?:\d|(?<![A-Za-z])pi\b)))\s*"
     r"(?P<after>(?!pi\b)[^\W\d_][^\W\d]*(?:\s[\w\s]*)?|°|%)?$",
     re.DOTALL,
 )

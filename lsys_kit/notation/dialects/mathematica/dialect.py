@@ -33,7 +33,7 @@ _STRING = r'"(?:[^"\\\n]|\\.)*+(?:(?P<closed>")|\\?(?=\n|\Z))'
 def _comment(depth: int) -> str:
     """The pattern of a comment with others in it."""
     inner = rf"|{_comment(depth - 1)}" if depth > 1 else ""
-    return rf"\(\*(?:[^*(]++|\*(?!\))|\((?!\*){inner})*+\*\)"
+    return rf"\(\*(?>(?:[^*(]++|\*(?!\))|\((?!\*){inner})*)\*\)"
 
 
 _COMMENTS = re.compile(rf"{_STRING}|{_comment(DEEPEST)}|\(\*|\*\)")
