@@ -156,7 +156,7 @@ def test_kinds_of_cells_in_a_map_can_be_told_apart(paper, vision):
 
 def test_the_panel_has_the_same_themes():
     for theme in (LIGHT, DARK):
-        assert f"--lsys-paper: {theme.paper.lower()};--lsys-ink: {theme.ink.lower()};--lsys-quiet" in style()
+        assert f"--lsys-paper:{theme.paper.lower()};--lsys-ink:{theme.ink.lower()};--lsys-quiet" in style()
     assert all(f"{colour} {seen}".lower() in style() for colour, seen in DARK_LINES.items())
 
 
