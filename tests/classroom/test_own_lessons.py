@@ -414,6 +414,13 @@ MISTAKES: dict[str, tuple[str, str, str, str]] = {
         'column "C", stands 2, and the system gives 1',
     ),
     "an explanation": (EXERCISES, "8, 16, 32, 64.", "8, 16, 32, 46.", "The explanation says 46, and the solution is 64"),
+    "a decimal comma": (TOML, '["B -> F[+F]B", { right = 1 }]', '["B -> F[+F]B", { right = "1,5" }]', "whoever types 1.5"),
+    "a unit": (
+        EXERCISES,
+        "How many buds has step 6?",
+        "How many, in steps, has step 6?",
+        'asks for steps, and the unit is "buds"',
+    ),
     "an objective that is not tested": (EXERCISES, "objective = 1", "objective = 2", "No exercise tests objective 1"),
 }
 REPLY = "Wherever a bud was, two stand in the next step: one turned to the side, one straight on."
@@ -446,6 +453,16 @@ IN_CELLS: dict[str, tuple[str, str, str]] = {
     "a step too far": ("Move the slider **step**", "Drag the slider **step** from 0 to 50", "The step is to be 50"),
     "an angle too far": ("Move the slider **step**", "Set the angle to 200, move **step**", "The angle is to be 200"),
     "what is to be done": ("**Look.**", "TODO a picture **Look.**", "Something is unfinished: TODO"),
+    "a count of a step": ("**Look.**", "Step 7 has 182 buds. **Look.**", "said to have 182, and the system makes 128"),
+    "a sum": ("**Look.**", "Together 2 buds and 3 pieces, which are 6 parts. **Look.**", "2 + 3 = 6; it comes to 5"),
+    "a rule of the section": ("**Look.**", "The only rule is `B -> F[+B`. **Look.**", "B -> F[+B, and the system has B"),
+    "a rule in words": (
+        "**Look.**",
+        "Each `F` is replaced by `F` and each `B` by `B`. **Look.**",
+        "the rule is B -> B, and the system has B -> F[+B]B",
+    ),
+    "a rule of the catalogue": ("**Look.**", "`K5` has the rule `F -> F[-F`. **Look.**", "rule is F -> F[-F, and the system"),
+    "a fold": ("**Look.**", "<details><summary>So?</summary>\n\nTen. See:\n\n</details> **Look.**", "says Ten, and the answer"),
     "the right reply before the vote": ("all at the same time.", REPLY, "Words of the reply to the right option stand"),
 }  # fmt: skip
 
@@ -466,6 +483,27 @@ def test_a_mistake_in_a_cell_is_found(ferns: Path, mistake: str) -> None:
     change_cell(ferns, old, new)
     found = [str(each) for each in findings_in(ferns, run=False)]
     assert any(says in each and "ferns.ipynb, cell" in each for each in found), found
+
+
+def test_what_is_right_of_a_system_is_not_found(ferns: Path) -> None:
+    counts = "Step 7 has 128 buds, step 8 has 900 parts more. Together 2 buds and 3 pieces, which are 5 parts."
+    rules = "So that the rule is `F -> FF`. `K5` has the rule `F -> F[+F]F[-F]F`. Each `B` is replaced by `F[+B]B`."
+    fold = "<details><summary>So?</summary>\n\nSixteen. See:\n\n</details>"
+    before = findings_in(ferns, run=False)
+    change_cell(ferns, "**Look.**", f"{counts} {rules}\n\n{fold}\n\n**Look.**")
+    assert {each.what for each in findings_in(ferns, run=False)} == {each.what for each in before}
+
+
+def test_a_vote_in_a_cell_of_text_is_never_asked(ferns: Path) -> None:
+    path = ferns / "notebooks" / "ferns.ipynb"
+    notebook = json.loads(path.read_text("utf-8"))
+    at = next(at for at, cell in enumerate(notebook["cells"]) if 'vote("ferns")' in "".join(cell["source"]))
+    kept = {key: notebook["cells"][at][key] for key in ("id", "metadata", "source")}
+    notebook["cells"][at] = kept | {"cell_type": "markdown"}
+    path.write_text(json.dumps(notebook), "utf-8")
+    found = [str(each) for each in findings_in(ferns, run=False)]
+    assert any("cell 3: advice: This text is code, which is not run: vote(...)" in each for each in found), found
+    assert any("is never asked a first time" in each for each in found), found
 
 
 def test_what_stands_before_its_question_or_its_explanation_is_found(ferns: Path) -> None:

@@ -12,7 +12,7 @@ from lsys_kit.classroom.authoring.written import Call, Written, numbers_in
 from lsys_kit.classroom.catalogue import catalogued, entry
 from lsys_kit.classroom.exercises.asked import answer_by, right_history
 from lsys_kit.classroom.exercises.check import BUDGET
-from lsys_kit.classroom.lessons.entries import is_right, number_of
+from lsys_kit.classroom.lessons.entries import is_right, number_of, readings
 from lsys_kit.classroom.lessons.lesson import Blank, Lesson, Table
 from lsys_kit.classroom.lessons.rows import step_of
 from lsys_kit.classroom.lessons.slips import exercise_of, row_name
@@ -23,7 +23,7 @@ from lsys_kit.classroom.places import kit_place
 from lsys_kit.derivation.derive import derive
 from lsys_kit.errors import LSystemError, ModelNameError
 from lsys_kit.notation.analysis.checks import suggestion
-from lsys_kit.notation.model.arithmetic import number_text
+from lsys_kit.notation.model.arithmetic import normalised, number_text
 from lsys_kit.notation.model.system import LSystem
 
 LONGER = 1.75
@@ -64,7 +64,9 @@ def _key(name: str | None) -> str:
 
 def _order(written: Written, own: list[Call]) -> Iterator[Finding]:
     others = [call.cell.number for call in written.calls if call.function in ("predict", "worksheet")]
-    if others and own[0].cell.number > min(others):
+    if all(call.has("again") for call in own):
+        yield finding(written.at(own[0].cell, own[0].line), "vote_first", key=written.key)
+    elif others and own[0].cell.number > min(others):
         yield finding(written.at(own[0].cell, own[0].line), "vote_order")
     if not any(call.has("again") for call in own):
         yield finding(written.at(own[0].cell, own[0].line), "vote_once", key=written.key)
@@ -121,6 +123,8 @@ def _cell(where: str, table: Table, row: int, column: int) -> Iterator[Finding]:
     cell = table.rows[row][column]
     given, within = (cell.right, cell.within) if isinstance(cell, Blank) else ((cell,), "0")
     said = {"table": table.id, "row": row_name(table, row), "column": prose_text(table.columns[column])}
+    if isinstance(cell, Blank) and (meant := _meant(table, row, column)):
+        yield finding(where, "no_number", **said, given=given[0], meant=meant)
     for slip in cell.slips if isinstance(cell, Blank) else ():
         for answer in slip.answer:
             if is_right(answer, given, within):
@@ -134,6 +138,16 @@ def _cell(where: str, table: Table, row: int, column: int) -> Iterator[Finding]:
         return
     if isinstance(found, (int, Fraction, float)) and not is_right(number_text(found), given, within):
         yield finding(where, "table", **said, given=given[0], found=number_text(found))
+
+
+def _meant(table: Table, row: int, column: int) -> str:
+    """The numbers that may be meant by a right answer that is read as a text, as with a comma, in a column of numbers."""
+    cells = [cell.right if isinstance(cell, Blank) else (cell,) for cell in (each[column] for each in table.rows)]
+    are_numbers = [any(number_of(each) is not None for each in cell) for cell in cells]
+    given = cells[row][0]
+    if are_numbers[row] or sum(are_numbers) != len(cells) - 1 or " " in given:
+        return ""
+    return " or ".join(number_text(normalised(each)) for each in readings(given))
 
 
 def _unrounded(written: Written, table: Table) -> Iterator[Finding]:

@@ -4,19 +4,23 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from fractions import Fraction
 from itertools import islice, pairwise, product
 
 from lsys_kit.budget import limits
 from lsys_kit.classroom.authoring.finding import Finding, finding
 from lsys_kit.classroom.authoring.panels import panels_of
+from lsys_kit.classroom.authoring.told import nearly
 from lsys_kit.classroom.authoring.written import BLOT, Cell, Section, Written, without_marks
+from lsys_kit.classroom.catalogue import catalogued
 from lsys_kit.classroom.exercises.check import BUDGET
 from lsys_kit.derivation.derive import derive
+from lsys_kit.derivation.growth.growth import growth
 from lsys_kit.errors import LSystemError
 from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.notation.read import read_number
+from lsys_kit.notation.read import AnySystem, read_number
 
 _RUN = re.compile(r"[\d(), .+−·×*/^=≈-]++")
 _BREAK = re.compile(r"[,.] |[,.]$")
@@ -29,7 +33,26 @@ _NOT_BEHIND = re.compile(rf" ?(?:[{BLOT}^_√%([/+−·×*!=≈…-]|[^\W\d_]\b)
 _STEP_IS = re.compile(
     r"[Ss]tep (\d{1,2})(?: of `(\w{1,8})`)? (?:is|will be|was|reads|becomes)(?: the word)?:? `([^`\n]{1,400})`"
 )
-_RULE = re.compile(r"`([^\s`()>:]{1,8}) -> ([^`()\n:]{0,80})`")
+_COUNT = re.compile(r"\b[Ss]tep (\d{1,3})(?: of `(\w{1,8})`)? (?:there are|has|have) (\d[\d,]{2,30})\b(?!\.\d)")
+_NOUN = r"(?:`[^`\n]{1,20}`|[^\W\d_]{1,20}(?: [^\W\d_]{1,20}){0,2})"
+_SUM = re.compile(
+    rf"\b(?:[Tt]ogether|[Ii]n all),? (\d[\d,]{{0,12}}) {_NOUN} and (\d[\d,]{{0,12}}) {_NOUN},? "
+    r"(?:which|that) (?:are|is|makes?) (\d[\d,]{0,12})\b(?!%|\.\d)"
+)
+_LEFT, _RIGHT = r"([^\s`()>:]{1,8})", r"([^`()\n:]{0,80})"
+_RULE = re.compile(f"`{_LEFT} -> {_RIGHT}`")
+_RULES_SAID = (
+    re.compile(
+        r"`([A-Z]{1,2}\d{1,3}[a-z]?)`"
+        r"(?: has (?:the|one|only one)|,? whose(?: only)?| there is (?:only )?one| is [^.`\n]{0,60}, with the)"
+        rf" (?:rule|production)(?: is|,)? {_RULE.pattern}"
+    ),
+    re.compile(rf"()\b(?:The|[Tt]he only) (?:rule|production) is {_RULE.pattern}"),
+    re.compile(rf"()\b(?:[Ee]very|[Ee]ach) `{_LEFT}` is replaced by `{_RIGHT}`"),
+    re.compile(rf"() is replaced by `[^`\n]{{1,80}}`,? and (?:every|each) `{_LEFT}` by `{_RIGHT}`"),
+)
+"""A text that says the rule of a system, which is named or stands in the same section."""
+_RULE_LINE = re.compile(r"^([^\s()<>:]{1,8}) -> ([^():\n]*+)$", re.MULTILINE)
 _ROW = re.compile(r"^\| *(\d{1,3}) *\| *`([^`|\n]{1,300})` *\|", re.MULTILINE)
 _LETTERS = re.compile(r"[^\W\d]++")
 _HEADER = re.compile(r"^\| *step *\| *word *\|", re.MULTILINE | re.IGNORECASE)
@@ -133,6 +156,8 @@ def word_findings(written: Written) -> Iterator[Finding]:
                 if said := _other_word(written, cell, int(found[1]), found[2], found[3]):
                     at = cell.line_of(found[0])
                     yield finding(written.at(cell, at), "word", step=found[1], word=found[3][:60], found=said[:60])
+            yield from _counts_said(written, cell, text)
+            yield from _rules_said(written, section, cell, text)
             yield from _rows(written, section, cell, text)
 
 
@@ -156,6 +181,57 @@ def _other_word(written: Written, cell: Cell, step: int, id: str | None, word: s
     return found
 
 
+def _counts_said(written: Written, cell: Cell, text: str) -> Iterator[Finding]:
+    """Counts of a step that are nearly those of a system, and sums in words that come to something else."""
+    for found in _COUNT.finditer(text):
+        if (made := _count_made(written, int(found[1]), found[2], int(found[3].replace(",", "")))) is not None:
+            where = written.at(cell, cell.line_of(found[0]))
+            yield finding(where, "count", step=found[1], given=found[3], found=f"{made:,}")
+    for found in _SUM.finditer(text):
+        one, two, both = (int(each.replace(",", "")) for each in found.groups())
+        if one + two != both:
+            said = {"left": f"{found[1]} + {found[2]}", "sign": "=", "right": found[3], "value": one + two}
+            yield finding(written.at(cell, cell.line_of(found[0])), "calculation", **said)
+
+
+def _count_made(written: Written, step: int, id: str | None, given: int) -> int | None:
+    """A count of a step of a system that is shown, or named, where what is said is nearly that, and no count at all."""
+    near = None
+    for system in [_named(id)] if id else [each.system for each in panels_of(written)]:
+        if isinstance(system, LSystem) and not system.constants:
+            with suppress(LSystemError), limits(**BUDGET):
+                counts = growth(system).counts(step)
+                for count in (*counts, sum(counts)):
+                    if count == given:
+                        return None
+                    near = count if nearly(str(given), str(count)) else near
+    return near
+
+
+def _named(id: str) -> AnySystem | None:
+    """A system of the catalogue."""
+    with suppress(LSystemError):
+        return catalogued(id)
+    return None
+
+
+def _rules_said(written: Written, section: Section, cell: Cell, text: str) -> Iterator[Finding]:
+    """Rules that a text says of a system, and that are other ones of the same symbol there."""
+    for found in (each for pattern in _RULES_SAID for each in pattern.finditer(text)):
+        shown = [each.system for each in panels_of(written) if each.cell in section.code]
+        systems = [_named(found[1])] if found[1] else shown
+        there = {(left, _bare(right)): right for system in systems for left, right in _rules_of(system)}
+        right = next((each for (left, _), each in there.items() if left == found[2]), "")
+        if right and (found[2], _bare(found[3])) not in there:
+            said = {"rule": f"{found[2]} -> {found[3]}", "right": f"{found[2]} -> {right}"}
+            yield finding(written.at(cell, cell.line_of(found[0])), "rule_said", **said)
+
+
+def _rules_of(system: AnySystem | None) -> list[tuple[str, str]]:
+    """The rules of a system without numbers and contexts: their left and right sides."""
+    return _RULE_LINE.findall(str(system)) if isinstance(system, LSystem) else []
+
+
 def _is_random(system: LSystem) -> bool:
     return any(rule.probability is not None for rule in system.rules)
 
@@ -172,8 +248,8 @@ def _rows(written: Written, section: Section, cell: Cell, text: str) -> Iterator
         rules.setdefault(found[1], []).append(found[2])
     for each in panels_of(written):
         if each.cell in section.code and isinstance(each.system, LSystem) and not _is_random(each.system):
-            for found in re.finditer(r"^([^\s()<>:]{1,8}) -> ([^():\n]*+)$", str(each.system), re.MULTILINE):
-                rules.setdefault(found[1], []).append(found[2])
+            for left, right in _rules_of(each.system):
+                rules.setdefault(left, []).append(right)
     if not header or not rules:
         return
     table = text[header.start() :].partition("\n\n")[0]

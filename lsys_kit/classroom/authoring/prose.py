@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import re
 from collections.abc import Iterator
 from itertools import islice
@@ -10,7 +11,7 @@ from urllib.parse import unquote
 
 from lsys_kit.classroom.authoring.finding import Finding, finding
 from lsys_kit.classroom.authoring.told import plain
-from lsys_kit.classroom.authoring.written import Cell, Written
+from lsys_kit.classroom.authoring.written import FUNCTIONS, Cell, Written, python_tree
 from lsys_kit.classroom.course import course_files
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.translation import gettext, languages
@@ -149,6 +150,8 @@ def markup_findings(written: Written) -> Iterator[Finding]:
         if cell.is_code:
             continue
         text = without_code(cell.source)
+        if asked := _asked_in(cell):
+            yield finding(written.at(cell), "code_as_text", function=asked)
         opened, open_at = 0, 0
         for found in islice(_DETAILS.finditer(text), MOST_LINKS):
             opened, open_at = opened + (-1 if found[1] else 1), found.start()
@@ -164,6 +167,15 @@ def markup_findings(written: Written) -> Iterator[Finding]:
             )
         if unfinished := _UNFINISHED.search(text):
             yield finding(written.at(cell, cell.line_of(unfinished[0])), "unfinished", word=unfinished[0])
+
+
+def _asked_in(cell: Cell) -> str:
+    """A function of lessons that a text calls, if the text is nothing but Python."""
+    begins = cell.source.lstrip().startswith(("from lsys_kit", *(f"{each}(" for each in FUNCTIONS)))
+    tree = python_tree(cell.source) if begins else None
+    nodes = ast.walk(tree) if isinstance(tree, ast.Module) else ()
+    called = [each.func.id for each in nodes if isinstance(each, ast.Call) and isinstance(each.func, ast.Name)]
+    return next((each for each in called if each in FUNCTIONS), "")
 
 
 def section_findings(written: Written) -> Iterator[Finding]:

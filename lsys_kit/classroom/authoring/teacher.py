@@ -29,7 +29,7 @@ def teacher_findings(written: Written) -> Iterator[Finding]:
         return
     right = next((LETTERS[at] for at, each in enumerate(lesson.vote.options) if each.right), "") if lesson.vote else ""
     if right and f"**{right}**" not in written.teacher:
-        vote = re.search(r"^.*\bvote: .*$", written.teacher, re.MULTILINE)
+        vote = re.search(r"^.*\bvote: .*$", written.teacher, re.MULTILINE | re.IGNORECASE)
         yield finding(written.teacher_at(vote[0] if vote else "## Answers"), "teacher_answer", letter=right)
     for table in lesson.tables:
         yield from _table(written, table)

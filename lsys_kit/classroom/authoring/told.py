@@ -19,6 +19,11 @@ LEAST_DIGITS, LEAST_LETTERS = 3, 12
 _WORD = re.compile(r"[^\W_]+(?:[.,'^_][^\W_]+)*")
 _OF = re.compile(r"(?<![\w.,])(\d[\d,]{0,12}) of (?:the )?(\d[\d,]{0,12}) [^\W\d_]++")
 
+_FIRST = re.compile(
+    r"</summary>\s{1,10}(?:There are |It has |All |Never |Only )?"
+    r"(\d[\d,]{0,12}(?=[:;,] |\.\n)|[A-Za-z]{2,10}(?:-[a-z]{2,10})?(?=[.:;,]\s))"
+)
+
 
 def plain(text: str) -> str:
     """A text without marks, capitals and more than one blank in a row."""
@@ -119,7 +124,8 @@ def contradiction_findings(written: Written) -> Iterator[Finding]:
         each = predicted.get(written.question_of(call) or "") if call.function == "predict" else None
         table = tables.get(call.text(1) or "") if call.function == "worksheet" else None
         if each:
-            yield from [*_otherwise(written, each.answer, texts, elsewhere)] or _other_count(written, each, texts)
+            others = [*_otherwise(written, each.answer, texts, elsewhere)] or [*_other_count(written, each, texts)]
+            yield from others or _other_first(written, each, texts)
         if table:
             answers = " ; ".join(prose_text(blank.right[0]) for _, _, blank in table.blanks)
             yield from _otherwise(written, answers, texts, {**elsewhere, 0: {*numbers_in(written.declared_text).values()}})
@@ -187,6 +193,19 @@ def _other_count(written: Written, each: Asked, texts: Sequence[Cell]) -> Iterat
         for found in re.finditer(rf"(?<![\w.,])(\d[\d,]{{0,12}}) (?:{nouns})\b", cell.source):
             if number_of(found[1].replace(",", "")) not in asked.values():
                 yield finding(written.at(cell, cell.line_of(found[0])), "otherwise", given=found[0], right=each.answer[:60])
+                return
+
+
+def _other_first(written: Written, each: Asked, texts: Sequence[Cell]) -> Iterator[Finding]:
+    """A fold behind a question that begins with one number, "Ten.", where the answer is another one, which no text says."""
+    answers, asked = numbers_in(each.answer), numbers_in(each.question)
+    if len(answers) != 1 or {*answers.values()} & {*numbers_in("\n".join(cell.source for cell in texts)).values()}:
+        return
+    for cell in texts:
+        for found in _FIRST.finditer(cell.source):
+            first = numbers_in(found[1])
+            if len(first) == 1 and not {*first.values()} & {*asked.values()}:
+                yield finding(written.at(cell, cell.line_of(found[0])), "otherwise", given=found[1], right=each.answer[:60])
                 return
 
 

@@ -42,6 +42,7 @@ ADVICE = frozenset(
         "exercise.no_explanation",
         "exercise.otherwise",
         "exercise.no_misconception",
+        "exercise.unit",
         "slips.said_already",
         "slips.yielded",
         "options.no_reply",

@@ -24,6 +24,7 @@ from lsys_kit.errors import LSystemError
 from lsys_kit.notation.dialects.map.dialect import read_map
 from lsys_kit.notation.read import read
 
+_UNIT_ASKED = re.compile(r",? in (degrees|radians|per cent|steps|hours|days|centimetres|millimetres|metres)(?=[,?*])")
 HINTS = 3
 """How many hints an exercise has."""
 
@@ -136,8 +137,18 @@ def _text_problems(problem: MakeProblem, exercise: Exercise) -> Iterator[Problem
         yield problem("kind", "exercise.values")
     if exercise.kind == "net" and not {*exercise.symbols} <= {*places_of(solution_of(exercise))}:
         yield problem("symbols", "exercise.places")
+    if exercise.kind == "number" and exercise.unit and (asked := _other_unit(exercise)):
+        yield problem("unit", "exercise.unit", unit=exercise.unit, asked=asked)
     if exercise.kind in ("symbol", "line") and not exercise.text:
         yield problem("kind", "exercise.text")
+
+
+def _other_unit(exercise: Exercise) -> str:
+    """The unit in which a question wants its answer, ", in degrees,", if it is another one than is declared."""
+    named = [] if len(exercise.unit) <= 2 else [found[1] for found in _UNIT_ASKED.finditer(exercise.question)]
+    wanted = exercise.unit.casefold().removesuffix("s")
+    fits = any(wanted.startswith(each.removesuffix("s")) or each.startswith(wanted) for each in named)
+    return "" if fits or not named else named[0]
 
 
 def _slip_problems(problem: MakeProblem, exercise: Exercise) -> Iterator[Problem]:
