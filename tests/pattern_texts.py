@@ -24,21 +24,34 @@ def repetitions(pattern: re.Pattern[str]) -> list[tuple[str, str]]:
     return [*dict.fromkeys(_repetitions(_parser.parse(pattern.pattern, pattern.flags), ""))]
 
 
-def forbids_in_possessive(pattern: str) -> bool:
-    """Whether a pattern has (?!...) or (?<!...) in what it repeats possessively: Python before 3.11.5 repeats that once more.
+def repeats_wrongly(pattern: str) -> bool:
+    r"""Whether a pattern repeats possessively what may fail in its middle, behind a repetition or something looked for: Python
+    before 3.11.5 then goes on where that failed.
 
-    >>> forbids_in_possessive("(?:(?!b)a)*+"), forbids_in_possessive("(?>(?:(?!b)a)*)")
-    (True, False)
+    >>> [repeats_wrongly(each) for each in (r"(?:,\d++)?+", r"(?:(?!b)a)*+", r"(?>(?:,\d++)?)", r"(?:ab)*+")]
+    [True, True, False, False]
     """
-    return _forbids(_parser.parse(pattern), False)
+    return _repeats_wrongly(_parser.parse(pattern))
 
 
-def _forbids(parts: Any, possessive: bool) -> bool:
+def _repeats_wrongly(parts: Any) -> bool:
     return any(
-        (possessive and operator is _constants.ASSERT_NOT)
-        or any(_forbids(part, possessive or operator is _constants.POSSESSIVE_REPEAT) for part in _parts(operator, operand))
+        (operator is _constants.POSSESSIVE_REPEAT and _may_fail(operand[2], False))
+        or any(_repeats_wrongly(part) for part in _parts(operator, operand))
         for operator, operand in parts
     )
+
+
+def _may_fail(parts: Any, begun: bool) -> bool:
+    for operator, operand in parts:
+        looks = operator in (_constants.ASSERT, _constants.ATOMIC_GROUP, *REPEATS)
+        if operator is _constants.ASSERT_NOT or (begun and looks):
+            return True
+        grouped = _parts(operator, operand) if operator in (_constants.BRANCH, _constants.SUBPATTERN) else []
+        if any(_may_fail(part, begun) for part in grouped):
+            return True
+        begun = begun or operator not in (_constants.ASSERT, _constants.AT)
+    return False
 
 
 def _repetitions(parts: Any, before: str) -> Iterator[tuple[str, str]]:

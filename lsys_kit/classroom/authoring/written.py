@@ -65,7 +65,7 @@ def without_marks(text: str) -> str:
     return _EMPHASIS.sub(lambda found: " " * len(found[0]), blotted)
 
 
-_NUMBERS = re.compile(r"(?<![\w.,])\d{1,3}(?:,\d{3})++(?![\d.])|(?<![\w.,])\d++(?:[./]\d++)?")
+_NUMBERS = re.compile(r"(?<![\w.,])\d{1,3}(?>(?:,\d{3})+)(?![\d.])|(?<![\w.,])\d++(?:[./]\d++)?")
 _SMALL = (
     "zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen sixteen seventeen eighteen"
 )

@@ -83,10 +83,10 @@ def compact(name: str, without: frozenset[str] = frozenset()) -> str:
     return "\n".join(filter(None, map(tightened, bundled(name, without).split("\n"))))
 
 
-_IN_PATTERN = r"(?:\\.?|\[(?:\\.?|[^]\\])*+\]?|[^/\\\[])"
+_IN_PATTERN = r"(?:\\.?|\[(?>(?:\\.?|[^]\\])*)\]?|[^/\\\[])"
 _LITERAL = re.compile(
-    r"""("(?:\\.?|[^"\\])*+"?|'(?:\\.?|[^'\\])*+'?|`(?:\\.?|[^`\\])*+`?"""
-    rf"""|(?:(?<=[\[({{}},;=:?!&|])|(?<=\breturn)) *+/(?!\*){_IN_PATTERN}++/?)""",
+    r"""("(?>(?:\\.?|[^"\\])*)"?|'(?>(?:\\.?|[^'\\])*)'?|`(?>(?:\\.?|[^`\\])*)`?"""
+    rf"""|(?:(?<=[\[({{}},;=:?!&|])|(?<=\breturn)) *+/(?!\*)(?>{_IN_PATTERN}+)/?)""",
     re.DOTALL,
 )
 """A text, a template or a regular expression in a line of JavaScript; to the end of the line, where it is not closed in it."""

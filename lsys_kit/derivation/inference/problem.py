@@ -38,7 +38,7 @@ GAP = Module("?")
 MOST_MODULES = 100_000
 """So many modules may all words have together."""
 NUMBER = r"-?\d+(?:\.\d+)?(?:/0*[1-9]\d*|[eE][-+]?\d{1,3})?"
-ARGUMENTS = rf"\(\s*+({NUMBER}(?:\s*+,\s*+{NUMBER})*+)\s*+\)"
+ARGUMENTS = rf"\(\s*+({NUMBER}(?>(?:\s*+,\s*+{NUMBER})*))\s*+\)"
 MODULE = re.compile(rf"(\w++|\S)(?:{ARGUMENTS})?")
 VALUE = re.compile(rf"[^\s()]{ARGUMENTS}")
 

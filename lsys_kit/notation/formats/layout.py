@@ -29,7 +29,7 @@ _FONT = re.compile(
 )
 """What LaTeX sets in a font of its own."""
 _DISPLAYED = re.compile(
-    r"\{\\displaystyle[ ]*+(?P<shown>(?:[^{}\n]|\{[^{}\n]*\})*+)\}(?:\{\\displaystyle[ ]*+(?P=shown)\})*+(?:(?P=shown))?+"
+    r"\{\\displaystyle[ ]*+(?P<shown>(?>(?:[^{}\n]|\{[^{}\n]*\})*))\}(?>(?:\{\\displaystyle[ ]*+(?P=shown)\})*)(?>(?P=shown)?)"
 )
 """What an encyclopaedia gives of a formula besides its picture: its LaTeX, perhaps more than once, and the same as text."""
 _SET = re.compile(

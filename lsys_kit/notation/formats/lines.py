@@ -218,7 +218,7 @@ _SAID_ANGLE = re.compile(
     r"|\((\d{1,3}(?:\.\d+)?)[ ]?(?:°|deg)\w*\)|(?<![\d.])(\d{1,3}(?:[.,]\d+)?)°[ ](?:to the |nach |turn)",
     re.IGNORECASE,
 )
-_SYMBOLS = r"[A-Za-z0-9](?:(?:,[ ]?|[ ](?:and|und)[ ])[A-Za-z0-9])*+"
+_SYMBOLS = r"[A-Za-z0-9](?>(?:(?:,[ ]?|[ ](?:and|und)[ ])[A-Za-z0-9])*)"
 _FIRST = "".join(rf"(?<!(?<![\w\"'])(?<!(?:draw|move)[ ])[A-Za-z0-9]{gap})" for gap in (",", ",[ ]", "[ ]and[ ]", "[ ]und[ ]"))
 """Behind nothing that is one of the symbols of a list, from which the list has been tried."""
 _SAID_DRAWS = re.compile(
@@ -471,7 +471,7 @@ def is_prose(text: str) -> bool:
     )
 
 
-_PLACE, _STEP = r"[A-Z]\w*+(?:[ -]\w++)*+", rf"[ ]?(?:{ARROW}|>|»)[ ]?"
+_PLACE, _STEP = r"[A-Z]\w*+(?>(?:[ -]\w++)*)", rf"[ ]?(?:{ARROW}|>|»)[ ]?"
 _PATH = re.compile(rf"^[ \t]*+{_PLACE}(?:{_STEP}{_PLACE}){{2,9}}$", re.MULTILINE)
 """Where a page is, as its head says: Home → Fractals → L-systems."""
 

@@ -60,7 +60,7 @@ _COMMENT = re.compile(
     re.MULTILINE,
 )
 """What is said behind a part: a comment, the number of an equation."""
-_NUMBER = re.compile(r"[ \t]*+[-+]?(?:\d++(?:[.,]\d++)?+|\.\d++)(?:/\d++)?+(?P<rest>.*)")
+_NUMBER = re.compile(r"[ \t]*+[-+]?(?:\d++(?>(?:[.,]\d++)?)|\.\d++)(?>(?:/\d++)?)(?P<rest>.*)")
 _BOUNDARY = re.compile(
     r"[,;|\t({]+[ \t]*(?:(?:and|und|et|with|using|by|the|its|an?)[ \t]+){0,3}|[ \t]{2,}|[.][ \t]+"
     r"|[ \t](?:and|und|y|et|en|e(?=[ \t]+(?:\(|\w{3})))[ \t]+[({]?"

@@ -92,7 +92,7 @@ _BESIDE_A_STEP = re.compile(
 """A step that is told by another one, as in "the step after 19"."""
 _COUNTED = ("length", "count", "strokes")
 _ROW = re.compile(r"\W*+\d{1,18}(?:\s*+[,;]\s*+\d{1,18}){2,}\W*+")
-_STAGES = re.compile(r"\W*+(\w++(?:\s*+,\s*+\w++)++)\s*+:\s*+(\d{1,3})\W*+")
+_STAGES = re.compile(r"\W*+(\w++(?>(?:\s*+,\s*+\w++)+))\s*+:\s*+(\d{1,3})\W*+")
 """A row with a number for each step, and stages with their number, as in "r, s, t, u: 4"."""
 
 
@@ -155,7 +155,7 @@ _EXTREME = {
     ">=": r"\b(?:smallest|least|lowest|shortest|kleinste\w*)\b",
 }
 """The largest value of a name, as in "dt <= 1.2", and the smallest."""
-_NAMED_LAST = re.compile(r"(?:^\W*+|[,;]\s*+|\b(?:and|und)\s++)([A-Za-z])\s*+(?:\([^()]*+\)\s*+)?+=[^=]*+\Z")
+_NAMED_LAST = re.compile(r"(?:^\W*+|[,;]\s*+|\b(?:and|und)\s++)([A-Za-z])\s*+(?>(?:\([^()]*+\)\s*+)?)=[^=]*+\Z")
 _COORDINATES = frozenset("xyz")
 """Names that nobody gives to another number of one's own."""
 _COORDINATE = re.compile(r"(?<!\w)([xyz])\s*+=(?!=)")

@@ -35,7 +35,7 @@ _CHANGED = re.compile(r"\b([A-Za-z_]\w*+)\s*+(?:\[[^\[\]=]*+\]\s*+){1,2}=(?![={]
 _SIZE = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(\w+)[ \t]+(\d{1,4})[ \t]*$", re.MULTILINE)
 _LINE_COMMENT = re.compile(r"//[^\n]*")
 _DIGITS = re.compile(r"[\d.,\s]+")
-_PARAMETERS = re.compile(r"\(\s*+((?:[A-Za-z_]\w*+\s*+(?:,\s*+)?)*+)\)")
+_PARAMETERS = re.compile(r"\(\s*+((?>(?:[A-Za-z_]\w*+\s*+(?:,\s*+)?)*))\)")
 
 
 @dataclass(frozen=True)

@@ -105,7 +105,7 @@ _DEGREES = re.compile(r"[ \t]*+(?i:angle|heading)[ \t]*+[:=][ \t]*+[\d./]++([ \t
 _STEPS = re.compile(r"\bn[ \t]*+=")
 _DELTA_IN_LETTERS, _DELTA_WORD = re.compile(r"(?<!\\)\bdelta[ \t]*+="), re.compile(r"\bdelta\b")
 _N = re.compile(r"\bn\b")
-_NAMED = re.compile(r"[ \t]*+\\?[A-Za-z_ωδ][\w ]*+(?:\([^()]*+\))?+[ \t]*+[:=]|[ \t]*+#")
+_NAMED = re.compile(r"[ \t]*+\\?[A-Za-z_ωδ][\w ]*+(?>(?:\([^()]*+\))?)[ \t]*+[:=]|[ \t]*+#")
 _DEFINED = re.compile(r"([ \t]*+#[ \t]*+define[ \t]++)(\w+)([ \t]++)\S")
 _NEIGHBOURS = re.compile(r"[ \t]*+(#[ \t]*+)(?:ignore|consider)\b", re.IGNORECASE)
 _DIRECTIVE = re.compile(rf"{_DEFINED.pattern}|(?i:{_NEIGHBOURS.pattern})|[ \t]*+#[ \t]*+include\b")
