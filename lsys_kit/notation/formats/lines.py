@@ -9,7 +9,7 @@ import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
-from itertools import pairwise
+from itertools import groupby, pairwise
 
 from lsys_kit.errors import ModelSyntaxError, quotable
 from lsys_kit.notation.formats.found import (
@@ -215,24 +215,31 @@ def _without_function(found: Found) -> Found:
 
 _SAY = {name: "|".join(map(re.escape, words)) for name, words in tables()["said"].items()}
 """The words of sentences, each kind as a pattern."""
-_MEANS = rf"(?:[:=][ ]?|(?:{_SAY['means']})[ ])"
+_BEGIN = "".join({word[0] for word in tables()["said"]["means"]})
+_MEANS = rf"(?:[:=][ ]?|(?=[{_BEGIN}])(?:{_SAY['means']})[ ])"
+_DEGREES = r"[ ]?(?:°|deg|gra[du])"
 _SAID_ANGLE = re.compile(
     rf"(?:{_SAY['turning']}|angle|winkel|旋转|回転)"
-    r"[^.\n]{0,40}?(?<![\d.])(\d{1,3}(?:[.,]\d+)?)[ ]?(?:°|deg|gra[du])"
+    rf"[^.\n\d]{{0,40}}+(?:\d++(?![.,]?\d|{_DEGREES})[^.\n\d]{{1,40}}+)?+(\d{{1,3}}(?:[.,]\d+)?){_DEGREES}"
     r"|\((\d{1,3}(?:\.\d+)?)[ ]?(?:°|deg)\w*\)|(?<![\d.])(\d{1,3}(?:[.,]\d+)?)°[ ](?:to the |nach |turn)",
     re.IGNORECASE,
 )
 _BETWEEN = rf",[ ]?|[ ](?:{_SAY['and']})[ ]"
 _SYMBOLS = rf"[A-Za-z0-9](?:(?:{_BETWEEN})[A-Za-z0-9])*+"
-_GAPS = (",", ",[ ]", *(f"[ ]{word}[ ]" for word in tables()["said"]["and"]))
+_ANDS = (words for _, words in groupby(sorted(tables()["said"]["and"], key=len), len))
+_GAPS = (",", ",[ ]", *(f"[ ](?:{'|'.join(words)})[ ]" for words in _ANDS))
 _FIRST = "".join(rf"(?<!(?<![\w\"'])(?<!(?:draw|move)[ ])[A-Za-z0-9]{gap})" for gap in _GAPS)
 """Behind nothing that is one of the symbols of a list, from which the list has been tried."""
-_SAID_DRAWS = re.compile(
-    rf"(?<![\w\"'])(?:[\"']|(?:{_SAY['means']})[ ]|{_FIRST})(?P<symbols>{_SYMBOLS})[\"']?"
-    rf"[ ]?(?:(?:(?:{_SAY['both']})[ ])?(?:{_SAY['means']})|:|(?=[ ]))[ ]+(?:(?:{_SAY['both']})[ ])?[\"']?"
-    rf"(?:(?P<draw>{_SAY['draw']})|{_SAY['move']})\b",
-    re.IGNORECASE,
+_DRAWING = rf"[ ]++(?:(?:{_SAY['both']})[ ])?[\"']?(?:(?P<draw>{_SAY['draw']})|{_SAY['move']})\b"
+_SAID_DRAWS = (
+    re.compile(
+        rf"(?<![\w\"'])(?:[\"']|{_FIRST})(?P<symbols>{_SYMBOLS})[\"']?"
+        rf"[ ]?(?:(?:(?:{_SAY['both']})[ ])?(?:{_SAY['means']})|:){_DRAWING}",
+        re.IGNORECASE,
+    ),
+    re.compile(rf"\b(?:{_SAY['means']})[ ][\"']?(?P<symbols>{_SYMBOLS})[\"']?{_DRAWING}", re.IGNORECASE),
 )
+"""Symbols before the verb, or behind it."""
 
 
 _SYMBOL_OF_TIKZ = re.compile(r"\\symbol\{(\w)\}\{\\pgflsystem(draw|move)forward")
@@ -283,7 +290,7 @@ def _take_prose(found: Found, prose: Sequence[Passage]) -> None:
     used = {
         symbol for rule in found.rules for symbol in re.findall(r"\w", "".join(part.text for part in (rule.head, *rule.tail)))
     }
-    for match in (match for each in prose for match in _SAID_DRAWS.finditer(each.text)):
+    for match in (match for each in prose for pattern in _SAID_DRAWS for match in pattern.finditer(each.text)):
         command = "F" if match["draw"] else "f"
         for symbol in re.split(_BETWEEN, match["symbols"]):
             if symbol in used and symbol not in ("F", "f") and symbol != "G" * (command == "F"):
