@@ -569,7 +569,11 @@ def _letters(entry: Entry) -> set[str]:
     value = entry.terms[-1] if entry.terms else None
     members = value.entries if isinstance(value, Group) else [entry]
     words = [part.text for member in members for part in _texts(member.terms)]
-    plain = len(words) == len(members) and all(len(word) == 1 and word.isalpha() for word in words)
+    plain = (
+        len(words) == len(members)
+        and not any(member.key for member in members if member is not entry)
+        and all(len(word) == 1 and word.isalpha() for word in words)
+    )
     return {*words} - {"F"} if plain else set()
 
 

@@ -332,6 +332,8 @@ def _possible(kind: str, named: re.Match[str], value: str, rule: Part | None, la
         return bool(sep and value.strip()) and replaced and not later and rule is None
     if kind in ("scale", "constant"):
         return bool(sep and number)
+    if later and named["name"].lower() in tables()["said"]["weight"]:
+        return False  # it belongs to the rule before
     return (bool(sep) and not (rule and short)) or bool(not sep and not later and _NUMBER.fullmatch(value))
 
 
