@@ -1170,6 +1170,11 @@ def test_turns_stay_where_no_sentence_says_otherwise(sentence: str) -> None:
         ("Premise: A\nRule 1: A=T[&FA]FA", "Houdini's T, which bends a branch by gravity, does nothing here."),
         ('{axiom = "fA", rules_a = "fA"}', "Minetest's f, which places leaves, only moves here."),
         ('{axiom = "A", rules_a = "FA"}', "The rule that is named after a is that of A."),
+        ("ω : F\np1 : F(i) → F(i)[+F(i)]\n[edit]", '"[edit]" is left out: it is not surely a part of the rule above it.'),
+        (
+            "ω : F\np1 : F → F[+F]F\nLetter to the editor",
+            '"Letter to the editor" is left out: it is not surely a part of the rule above it.',
+        ),
         ("Start: F\nF => F+F grows fast\nangle: 60", 'Behind the rule of F, "grows fast" is left out.'),
         (
             "Start: F\nF => F+F (60%)\nF => F-F (60%)",
@@ -1208,6 +1213,11 @@ def test_contexts_in_the_word_that_is_made_are_refused_by_name() -> None:
 def test_a_word_that_a_program_calculates_is_refused_where_it_is_the_only_one(word: str) -> None:
     with pytest.raises(ModelSyntaxError, match="The word for F is calculated here"):
         read(f'axiom = "F"\nrules = {{"F": {word}}}')
+
+
+def test_an_axiom_that_a_program_calculates_is_refused() -> None:
+    with pytest.raises(ModelSyntaxError, match="The word for axiom is calculated here"):
+        read('axiom = "F" + turn\nrules = {"F": "FF"}')
 
 
 def test_a_loop_over_the_axiom_is_no_axiom() -> None:

@@ -213,6 +213,19 @@ def left_out(line: str) -> str:
     return f'"{line.strip()}" is left out: it is not surely a part of the rule above it.'
 
 
+_WORDS = re.compile(r"\[?[A-Za-z]++(?:[ \t|]++[A-Za-z]++)*+\]?[.,:;!?]?")
+
+
+def _is_prose(line: str, known: frozenset[str]) -> bool:
+    """Whether a line has words alone, perhaps in brackets, and one of them has letters that no production has.
+
+    >>> _is_prose("Copy this code", frozenset("ABF")), _is_prose("FAB BA", frozenset("ABF"))
+    (True, False)
+    """
+    words = re.findall(r"[A-Za-z]{3,}", line)
+    return _WORDS.fullmatch(line) is not None and any(not {*word} <= known for word in words)
+
+
 class _Line(NamedTuple):
     start: int
     text: str
@@ -254,7 +267,8 @@ class _Listing:
             elif rule and not above and not _NAMED.match(line.text):
                 aside = _REFERENCE if len(line.text) - len(line.text.lstrip()) > indent else _ASIDE
                 said = line.text.strip()
-                if surely_goes_on(line.text, rule, known) or not (aside.fullmatch(said) or _SENTENCE.fullmatch(said)):
+                other = aside.fullmatch(said) or _SENTENCE.fullmatch(said)
+                if not _is_prose(said, known) and (surely_goes_on(line.text, rule, known) or not other):
                     rule = pending(rule + line.text)
                 else:
                     yield index
