@@ -784,6 +784,19 @@ READ = {
         "axiome : A\nA => AB\nB => BB\nA signifie « dessiner en avançant », B signifie « avancer sans dessiner ».",
         "axiom: A\nA -> A B\nB -> B B\ninterpretation:\nA -> F\nB -> f",
     ),
+    "marks of direction and separators of lines": (
+        "\u200eAxiom: F\u2028\ufeffRule: F \u200e→ F+F\vAngle: 60°\f",
+        "angle: 60\naxiom: F\nF -> F+F",
+    ),
+    "functions that set the parts": (
+        'new Builder().axiom("F").rule("F", "F+F").setAngle(60).build();',
+        "angle: 60\naxiom: F\nF -> F+F",
+    ),
+    "a function that is told nothing": ('axiom = "F"; rules = {"F": "FF"}; x = angle()', "axiom: F\nF -> F F"),
+    "hashes of Perl": ("my $axiom = 'F';\nmy %rules = ( F => 'F+F' );\nmy $angle = 60;", "angle: 60\naxiom: F\nF -> F+F"),
+    "rules with letters": ("Start: A\nRule A: AB\nRule B: A", "axiom: A\nA -> A B\nB -> A"),
+    "a whole turn in parts": ("Start: F\nF => F+F\nangle: 360° / 8", "angle: 45\naxiom: F\nF -> F+F"),
+    "another language": ("axióma: F\nszabályok: F → F+F\nszög: 60°", "angle: 60\naxiom: F\nF -> F+F"),
     "an axiom and an angle in a sentence": (
         "Das Startsymbol „A“ hat die Regel\n (1)  A → F[+A]A\nDer Drehwinkel beträgt 30 Grad.",
         "angle: 30\naxiom: A\nA -> F[+A]A",

@@ -412,7 +412,7 @@ _ANGLES: Sequence[tuple[re.Pattern[str], Callable[[Fraction], Fraction]]] = (
     (re.compile(rf"\A{_PI}\s*/\s*180(?:\.0*)?\s*\*\s*{_N}", re.IGNORECASE), lambda n: n),
     (re.compile(rf"\A{_PI}\s*/\s*{_N}", re.IGNORECASE), lambda n: 180 / n),
     (re.compile(rf"\A{_N}\s*+\*?\s*{_PI}", re.IGNORECASE), lambda n: 180 * n),
-    (re.compile(rf"\A360\.?0*\s*/\s*{_N}"), lambda n: 360 / n),
+    (re.compile(rf"\A360\.?0*°?\s*/\s*{_N}°?"), lambda n: 360 / n),
 )
 """How programs write an angle: as what of which number in degrees."""
 _NUMBER = re.compile(r"(-?(?:\d+(?:[.,]\d+)?|\.\d+)(?:/[1-9]\d*)?)\s*\*?\s*(.*)", re.DOTALL)

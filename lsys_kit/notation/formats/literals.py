@@ -33,7 +33,7 @@ from lsys_kit.notation.formats.parts import is_word
 
 _TOKEN = re.compile(
     r"""(?P<blank>[ \t\r]+
-        |(?://|(?<![\[({/])\#(?![\w\[(])|(?<![\[({/])\#[ ]+|```|;;|--[ ](?=[A-Za-z|])|(?<![^\s;])%(?!\w*[%=]))[^\n]*)
+        |(?://|(?<![\[({/])\#(?![\w\[(])|(?<![\[({/])\#[ ]+|```|;;|--[ ](?=[A-Za-z|])|(?<![^\s;])%(?!\w*[ ]?[%=]))[^\n]*)
     |(?P<end>\n|;)
     |(?P<text>"(?:[^"\\\n]|\\.)*+"|'(?:[^'\\\n]|\\.)*+'|`(?:[^`\\]|\\.){0,2000}`)
     |(?P<number>(?:\d+(?:\.\d+)?|\.\d+)(?:[eE][-+]?\d+)?(?:f(?!\w))?)
@@ -479,8 +479,15 @@ def _name(entry: Entry) -> str:
     return ""
 
 
+_SETS = re.compile(r"(?:.{0,40}[.:])?(?:(?:set|with|add)_?)?((?i:axiom|angle|delta|iterations|generations))")
+"""The name of a function that sets a part of a system: setAngle(60), builder.angle(60)."""
+
+
 def _gather(group: Group, found: Found, text: str, in_rules: bool) -> None:
     """Take in what a group says."""
+    if (said := _SETS.fullmatch(group.head)) and len(group.entries) == 1 and not group.entries[0].key:
+        _take(replace(group.entries[0], key=[Term("name", said[1], group.at, group.at)], sign="="), found, text, in_rules)
+        return
     if group.opened and (rule := _as_rule(group.entries)):
         found.rules += _each_successor(rule, group.entries)
         return

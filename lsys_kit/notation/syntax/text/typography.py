@@ -19,13 +19,15 @@ from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, edited
 _ALIKE = {
     **{code: chr(code - 0xFEE0) for code in range(0xFF01, 0xFF5F)},  # full-width signs
     **dict.fromkeys(map(ord, "◦∘º˚⁰"), "°"),
+    **dict.fromkeys(map(ord, "\v\f\x85\u2028\u2029"), "\n"),
     **dict.fromkeys(
         map(ord, "\u00a0\u1680\u2000\u2001\u2002\u2003\u2004\u2005\u2006\u2007\u2008\u2009\u200a\u202f\u205f\u3000"), " "
     ),
 }
 """Signs that mean the same in every notation, one for one."""
 _NO_MORE = re.compile(
-    "[\u00ad\u200b\u200c\u2060\ufe0e\ufe0f]|[\ufb00-\ufb06]|[¼-¾⅐-⅞]|(?<=«)[ \u00a0\u2009\u202f]|[ \u00a0\u2009\u202f](?=»)"
+    "[\u00ad\u200b-\u200f\u202a-\u202e\u2060\u2066-\u2069\ufe0e\ufe0f\ufeff]"
+    "|[\ufb00-\ufb06]|[¼-¾⅐-⅞]|(?<=«)[ \u00a0\u2009\u202f]|[ \u00a0\u2009\u202f](?=»)"
 )
 """What is seen and not typed, ligatures, fractions that are one sign, and the blanks within the quotation marks of French."""
 _DECIMALS = {"¼": ".25", "½": ".5", "¾": ".75"}
