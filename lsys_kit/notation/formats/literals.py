@@ -485,8 +485,8 @@ _SETS = re.compile(r"(?:.{0,40}[.:])?(?:(?:set|with|add)_?)?((?i:axiom|angle|del
 
 def _gather(group: Group, found: Found, text: str, in_rules: bool) -> None:
     """Take in what a group says."""
-    if (said := _SETS.fullmatch(group.head)) and len(group.entries) == 1 and not group.entries[0].key:
-        _take(replace(group.entries[0], key=[Term("name", said[1], group.at, group.at)], sign="="), found, text, in_rules)
+    if (called := _SETS.fullmatch(group.head)) and len(group.entries) == 1 and not group.entries[0].key:
+        _take(replace(group.entries[0], key=[Term("name", called[1], group.at, group.at)], sign="="), found, text, in_rules)
         return
     if group.opened and (rule := _as_rule(group.entries)):
         found.rules += _each_successor(rule, group.entries)
