@@ -725,7 +725,7 @@ READ = {
         "axiom: X\nX -> F[+X] : 0.5\nX -> F[-X] : 0.5",
     ),
     "tables of TOML": (
-        'axiom = "F"\n[rules]\nF = "FG"\nG = "GG"\n[drawing]\nangle = 60',
+        '[plant]\naxiom = "F"\n[plant.rules]\nF = "FG"\nG = "GG"\n[plant.drawing]\nangle = 60',
         "angle: 60\naxiom: F\nF -> F G\nG -> G G",
     ),
     "rules that are tables": (
@@ -733,8 +733,8 @@ READ = {
         "axiom: F\nF -> F F : 0.75\nF -> F : 0.25",
     ),
     "letters that draw, in a list": (
-        'axiom = "A"; draw = ["A", "F"]; rules = {"A": "A+B", "B": "F"}',
-        "axiom: A\nA -> A+B\nB -> F\ninterpretation:\nA -> F",
+        'axiom = "A"; draw = ["A", "B", "F"]; rules = {"A": "A+B", "B": "F"}',
+        "axiom: A\nA -> A+B\nB -> F\ninterpretation:\nA -> F\nB -> F",
     ),
     "how letters are drawn": (
         'axiom = "A"; draw = {"A": "F"}; rules = {"A": "A+B"}',
