@@ -797,6 +797,23 @@ READ = {
     "rules with letters": ("Start: A\nRule A: AB\nRule B: A", "axiom: A\nA -> A B\nB -> A"),
     "a whole turn in parts": ("Start: F\nF => F+F\nangle: 360° / 8", "angle: 45\naxiom: F\nF -> F+F"),
     "another language": ("axióma: F\nszabályok: F → F+F\nszög: 60°", "angle: 60\naxiom: F\nF -> F+F"),
+    "a whole text that was quoted": (
+        "> Axiom: F(1)\n> production:\n> F(x) --> F(x)F(x)\n> endlsystem",
+        "angle: 60\naxiom: F(1)\nF(x) -> F(x)F(x)",
+    ),
+    "an indented text": (
+        "    Axiom: F(1)\n    production:\n    F(x) --> F(x)F(x)\n    endlsystem",
+        "angle: 60\naxiom: F(1)\nF(x) -> F(x)F(x)",
+    ),
+    "a table with the ends of lines of Windows": ("| Axiom | Rule |\r\n|---|---|\r\n| F | F → F+F |\r\n", "axiom: F\nF -> F+F"),
+    "blanks that do not break": (
+        "#define\u00a0r\u00a00.5 /*\u00a0a ratio */\nω\u00a0:\u00a0F(1)\np1 :\u00a0F(x)\u00a0: ∗\u00a0→\u00a0F(x*r)",
+        "r = 0.5\naxiom: F(1)\nF(x) -> F(x*r)",
+    ),
+    "conditions before arrows of print": (
+        "Start: A(1)\nA(x) : x < 3 → A(x+1)\nA(x) : x >= 3 → B",
+        "axiom: A(1)\nA(x) : x < 3 -> A(x+1)\nA(x) : x >= 3 -> B",
+    ),
     "an axiom and an angle in a sentence": (
         "Das Startsymbol „A“ hat die Regel\n (1)  A → F[+A]A\nDer Drehwinkel beträgt 30 Grad.",
         "angle: 30\naxiom: A\nA -> F[+A]A",

@@ -12,6 +12,7 @@ from __future__ import annotations
 import html
 import re
 import unicodedata
+from itertools import takewhile
 
 from lsys_kit.notation.syntax.text.statements import LABEL
 from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, edited
@@ -30,13 +31,16 @@ _NO_MORE = re.compile(
     "|[\ufb00-\ufb06]|[¼-¾⅐-⅞]|(?<=«)[ \u00a0\u2009\u202f]|[ \u00a0\u2009\u202f](?=»)"
 )
 """What is seen and not typed, ligatures, fractions that are one sign, and the blanks within the quotation marks of French."""
+_MARGIN = re.compile(r"^[ \t>]*+(?=\S)", re.MULTILINE)
+"""What stands before a line: blanks, and in an answer to a letter a sign for each time that it was quoted."""
+_END_OF_LINE = re.compile(r"(?<![ \t])[ \t]++$", re.MULTILINE)
 _DECIMALS = {"¼": ".25", "½": ".5", "¾": ".75"}
 """Such fractions behind a digit."""
 _LONG_DASH = re.compile(r"(?<=[\w)*])[ \t]*+[-−–—]{1,2}(?=→)")
 """What lengthens an arrow."""
-_ARROW_BELOW = re.compile(r"\n[ \t]*+(?:[-−–—]{1,2})?(?=→)")
+_ARROW_BELOW = re.compile(r"\n[ \t>]*+(?:[-−–—]{1,2})?(?=→)")
 _HEAD_ALONE = re.compile(
-    rf"[ \t]*+(?:(?:{LABEL}|[pP])[ \t]*+:[^\n→]{{1,100}}"
+    rf"[ \t*>]*+(?:(?:{LABEL}|[pP])[ \t]*+:[^\n→]{{1,100}}"
     r"|[A-Za-z](?:_?\w)?(?:\([^()\n]{0,60}\))?[ \t]*+(?:\(?(?:\d?\.\d++|\d{1,3}[ ]?%)\)?)?[ \t]*+)"
 )
 """What is replaced, alone on its line, with its probability."""
@@ -66,7 +70,8 @@ def keyboard_signs(source: str) -> Transcript:
     'F-F → "G"\\n'
     """
     text = long_arrows(source.translate(_SIGNS).translate(_SUBSCRIPTS).replace("\r", " "))
-    edits = [*map(_plain, _NO_MORE.finditer(source))]
+    edits = [*map(_plain, _NO_MORE.finditer(source)), *without_margin(text)]
+    edits += [Edit(*match.span(), "") for match in _END_OF_LINE.finditer(text)]
     if not source.isascii():
         edits += [Edit(*match.span(), f"_{unicodedata.normalize('NFKC', match[0])}") for match in _LETTERS_BELOW.finditer(text)]
     if "&" in source:
@@ -74,6 +79,18 @@ def keyboard_signs(source: str) -> Transcript:
     if "<" in source:
         edits += [Edit(*match.span(), _tag(text, match)) for match in TAG.finditer(text) if not _is_context(text, match)]
     return edited(source, edits, typed=text)
+
+
+def without_margin(text: str) -> list[Edit]:
+    r"""The edits that take off what stands before every line: blanks, or signs of what is quoted.
+
+    >>> without_margin("> A\n>  B")
+    [Edit(start=0, end=2, text=''), Edit(start=4, end=6, text='')]
+    """
+    lines = [*_MARGIN.finditer(text)]
+    same = (len({*signs}) == 1 for signs in zip(*(line[0] for line in lines), strict=False))
+    size = sum(takewhile(bool, same))
+    return [Edit(line.start(), line.start() + size, "") for line in lines] if size else []
 
 
 def long_arrows(text: str) -> str:
