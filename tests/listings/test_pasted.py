@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 import re
 from collections import Counter
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -86,6 +87,26 @@ def test_few_texts_are_wrong_and_those_that_can_be_read_are_read(
     counts = Counter(map(outcome, texts))
     assert sum(counts.values()) == equal + noted + refused == len(texts)
     assert (counts["equal"], counts["noted"], counts["refused"]) == (equal, noted, refused)
+
+
+COPIED: dict[str, Callable[[str], str]] = {
+    "blanks that do not break": lambda text: text.replace(" ", "\u00a0"),
+    "the ends of lines of Windows": lambda text: text.replace("\n", "\r\n"),
+    "blanks at the ends of lines": lambda text: text.replace("\n", "  \n"),
+    "a margin": lambda text: re.sub("^", "    ", text, flags=re.MULTILINE),
+    "marks of direction": lambda text: f"\u200e{text}\u200f",
+    "blanks without a width": lambda text: text.replace("F", "F\u200b"),
+    "arrows of two signs": lambda text: re.sub(r"(?<=[\w)])[ ]?→", " −→", text),
+}
+"""How programs change a text that is copied."""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("change", COPIED.values(), ids=COPIED)
+def test_how_a_text_was_copied_changes_nothing(change: Callable[[str], str]) -> None:
+    for row in (row for row in TYPED if row["outcome"] == "equal"):
+        found, meant = read(change(row["text"])), read(row["text"])
+        assert (found.axiom, found.productions, found.angle) == (meant.axiom, meant.productions, meant.angle), row["kind"]
 
 
 ASIDES = ("25", "- 12 -", "[3]", "(1.2)", "/ b", "b", "c)", "X", "II", "p. 25", "Fig. 3", "—", "*", "KOCH")

@@ -805,10 +805,9 @@ READ = {
         "    Axiom: F(1)\n    production:\n    F(x) --> F(x)F(x)\n    endlsystem",
         "angle: 60\naxiom: F(1)\nF(x) -> F(x)F(x)",
     ),
-    "a table with the ends of lines of Windows": ("| Axiom | Rule |\r\n|---|---|\r\n| F | F → F+F |\r\n", "axiom: F\nF -> F+F"),
-    "blanks that do not break": (
-        "#define\u00a0r\u00a00.5 /*\u00a0a ratio */\nω\u00a0:\u00a0F(1)\np1 :\u00a0F(x)\u00a0: ∗\u00a0→\u00a0F(x*r)",
-        "r = 0.5\naxiom: F(1)\nF(x) -> F(x*r)",
+    "a table with the ends of lines of Windows": (
+        "| Name | Value |\r\n|:---|---:|\r\n| Symbols | F, + |\r\n| Axiom | F+F |\r\n| Rule | F -> F-F |\r\n| Angle | 60 |\r\n",
+        "angle: 60\naxiom: F+F\nF -> F-F",
     ),
     "conditions before arrows of print": (
         "Start: A(1)\nA(x) : x < 3 → A(x+1)\nA(x) : x >= 3 → B",
