@@ -172,11 +172,8 @@ class _Parser:
     def take(self, match: re.Match[str]) -> None:
         """Go on by a token."""
         kind, sign, at = match.lastgroup or "", match[0], match.start()
-        if (
-            sign == "to"
-            and not self.entry.key
-            and [term.kind for term in self.entry.terms if isinstance(term, Term)] == ["text"]
-        ):
+        terms = self.entry.terms
+        if sign == "to" and not self.entry.key and len(terms) == 1 and isinstance(terms[0], Term) and terms[0].kind == "text":
             kind = "pair"  # mapOf('F' to "FF"), in Kotlin
         if kind == "open":
             self.open(sign, at)
