@@ -220,12 +220,12 @@ _MEANS = rf"(?:[:=][ ]?|(?=[{_BEGIN}])(?:{_SAY['means']})[ ])"
 _DEGREES = r"[ ]?(?:°|deg|gra[du])"
 _SAID_ANGLE = re.compile(
     rf"(?:{_SAY['turning']}|angle|winkel|旋转|回転)"
-    rf"[^.\n\d]{{0,40}}+(?:\d++(?![.,]?\d|{_DEGREES})[^.\n\d]{{1,40}}+)?+(\d{{1,3}}(?:[.,]\d+)?){_DEGREES}"
+    rf"[^.\n\d]{{0,40}}+(?>(?:\d++(?![.,]?\d|{_DEGREES})[^.\n\d]{{1,40}}+)?)(\d{{1,3}}(?:[.,]\d+)?){_DEGREES}"
     r"|\((\d{1,3}(?:\.\d+)?)[ ]?(?:°|deg)\w*\)|(?<![\d.])(\d{1,3}(?:[.,]\d+)?)°[ ](?:to the |nach |turn)",
     re.IGNORECASE,
 )
 _BETWEEN = rf",[ ]?|[ ](?:{_SAY['and']})[ ]"
-_SYMBOLS = rf"[A-Za-z0-9](?:(?:{_BETWEEN})[A-Za-z0-9])*+"
+_SYMBOLS = rf"[A-Za-z0-9](?>(?:(?:{_BETWEEN})[A-Za-z0-9])*)"
 _ANDS = (words for _, words in groupby(sorted(tables()["said"]["and"], key=len), len))
 _GAPS = (",", ",[ ]", *(f"[ ](?:{'|'.join(words)})[ ]" for words in _ANDS))
 _FIRST = "".join(rf"(?<!(?<![\w\"'])(?<!(?:draw|move)[ ])[A-Za-z0-9]{gap})" for gap in _GAPS)

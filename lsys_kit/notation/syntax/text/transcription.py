@@ -129,7 +129,7 @@ _CHANCE = re.compile(
 _CHANCE_BEHIND = re.compile(r"\((?P<number>0?\.\d++)\)[ \t]*+$")
 """What may be a probability in brackets, behind a word."""
 FULL_STOPS = "The full stop at the end of a rule is left out."
-_ANY = re.compile(rf"(?P<left>\*)[ \t]*+(?=<)|(?<=>)[ \t]*+(?P<right>\*)(?=[ \t]*+(?:\d*\.\d++[ \t]*+)?+(?:{_ARROW}|:))")
+_ANY = re.compile(rf"(?P<left>\*)[ \t]*+(?=<)|(?<=>)[ \t]*+(?P<right>\*)(?=[ \t]*+(?>(?:\d*\.\d++[ \t]*+)?)(?:{_ARROW}|:))")
 _EQUALS = re.compile(r"(?<![<>=!:])=(?!=)")
 _DIGIT_RULE = re.compile(rf"(?:[^<>:]*+<)?[ \t]*+\d[ \t]*+(?:>[^<>:]*?)?(?:{_ARROW}|:)")
 _ROW = re.compile(r"[ \t]*+(?:axiom|ignore|consider)\b", re.IGNORECASE)
@@ -213,7 +213,7 @@ def left_out(line: str) -> str:
     return f'"{line.strip()}" is left out: it is not surely a part of the rule above it.'
 
 
-_WORDS = re.compile(r"\[?[A-Za-z]++(?:[ \t|]++[A-Za-z]++)*+\]?[.,:;!?]?")
+_WORDS = re.compile(r"\[?[A-Za-z]++(?>(?:[ \t|]++[A-Za-z]++)*)\]?[.,:;!?]?")
 
 
 def _is_prose(line: str, known: frozenset[str]) -> bool:
