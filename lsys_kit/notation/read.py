@@ -224,8 +224,10 @@ def _read_or_claimed(chosen: Dialect, text: str, name: str | None, others: Itera
             if isinstance(error, ModelLimitError):
                 raise foreign_format(text) or error from None
             plain = keyboard_signs(text).text  # as one would type it
-            if plain != text and not TAG.search(text) and _reads(chosen, plain, name):
-                return system_in(chosen, plain, name)
+            if plain != text and not TAG.search(text):
+                for notation in dict.fromkeys((chosen, recognise(plain))):
+                    if _reads(notation, plain, name):
+                        return system_in(notation, plain, name)
             several = chosen is FRACTINT and isinstance(error, ModelValueError)
             if unreadable := (error if several else unreadable_format(text)):
                 raise unreadable from None

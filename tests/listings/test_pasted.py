@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 import re
 from collections import Counter
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -30,13 +31,13 @@ def test_a_text_as_somebody_pasted_it_is_read_as_it_is_meant_or_refused_where_it
         assert read(row["text"]) == read(row["reads"], row["notation"])
 
 
-HUNDRED, SIXTY = (
+HUNDRED, SIXTY, THIRD = (
     json.loads((Path(__file__).parent / "pasted" / name).read_text(encoding="utf-8"))
-    for name in ("typed.json", "typed_later.json")
+    for name in ("typed.json", "typed_later.json", "typed_third.json")
 )
-TYPED = [*HUNDRED, *SIXTY]
-"""Another hundred, and then sixty, by people who had not seen the readers and said before what each means: its axiom, rules and
-angle.
+TYPED = [*HUNDRED, *SIXTY, *THIRD]
+"""Another hundred, then sixty, then 87, by people who had not seen the readers and said before what each means: its axiom,
+rules and angle.
 
 An outcome is "equal", "noted", where the kit's own note tells what it reads otherwise, or "refused" with a message and a hint.
 """
@@ -76,7 +77,9 @@ def test_a_text_means_what_its_author_said_beforehand(row: dict[str, Any]) -> No
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("texts", "equal", "noted", "refused"), [(HUNDRED, 77, 4, 19), (SIXTY, 42, 3, 15)], ids=["a hundred", "sixty"]
+    ("texts", "equal", "noted", "refused"),
+    [(HUNDRED, 77, 4, 19), (SIXTY, 42, 3, 15), (THIRD, 71, 11, 5)],
+    ids=["a hundred", "sixty", "the third"],
 )
 def test_few_texts_are_wrong_and_those_that_can_be_read_are_read(
     texts: list[dict[str, Any]], equal: int, noted: int, refused: int
@@ -84,6 +87,26 @@ def test_few_texts_are_wrong_and_those_that_can_be_read_are_read(
     counts = Counter(map(outcome, texts))
     assert sum(counts.values()) == equal + noted + refused == len(texts)
     assert (counts["equal"], counts["noted"], counts["refused"]) == (equal, noted, refused)
+
+
+COPIED: dict[str, Callable[[str], str]] = {
+    "blanks that do not break": lambda text: text.replace(" ", "\u00a0"),
+    "the ends of lines of Windows": lambda text: text.replace("\n", "\r\n"),
+    "blanks at the ends of lines": lambda text: text.replace("\n", "  \n"),
+    "a margin": lambda text: re.sub("^", "    ", text, flags=re.MULTILINE),
+    "marks of direction": lambda text: f"\u200e{text}\u200f",
+    "blanks without a width": lambda text: text.replace("F", "F\u200b"),
+    "arrows of two signs": lambda text: re.sub(r"(?<=[\w)])[ ]?→", " −→", text),
+}
+"""How programs change a text that is copied."""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("change", COPIED.values(), ids=COPIED)
+def test_how_a_text_was_copied_changes_nothing(change: Callable[[str], str]) -> None:
+    for row in (row for row in TYPED if row["outcome"] == "equal"):
+        found, meant = read(change(row["text"])), read(row["text"])
+        assert (found.axiom, found.productions, found.angle) == (meant.axiom, meant.productions, meant.angle), row["kind"]
 
 
 ASIDES = ("25", "- 12 -", "[3]", "(1.2)", "/ b", "b", "c)", "X", "II", "p. 25", "Fig. 3", "—", "*", "KOCH")

@@ -701,6 +701,122 @@ READ = {
         "angle = 30\nAxiom: F\nproduction:\nF --> F+(angle)F\nendlsystem",
         "angle_ = 30\nangle: 60\naxiom: F\nF -> F+(angle_)F",
     ),
+    "arrows of two signs": ("δ=60◦\nω : F\np1 : F −→ FfF\np2 : f –→ ff", "angle: 60\naxiom: F\nF -> F f F\nf -> f f"),
+    "arrows below what they replace": (
+        "ω : F\np1 : F .5\n−→ F[+F]\np2 : F .5\n→ F\n1.7. Stochastic systems 29",
+        "axiom: F\nF -> F[+F] : 0.5\nF -> F : 0.5",
+    ),
+    "an arrow below a condition": (
+        "δ = 30◦\nω : A(1)\np1 : A(x) : x ≤ 3\n→ F(x)A(x + 1)",
+        "angle: 30\naxiom: A(1)\nA(x) : x <= 3 -> F(x)A(x+1)",
+    ),
+    "a production for a turn, below another": ("ω : F-\np1 : F → F-\np2 : - → +", "axiom: F-\nF -> F-\n- -> +"),
+    "the only production of a page": ("The curve is\nω : F\np : F −→ F + F\nwith δ = 60◦.", "angle: 60\naxiom: F\nF -> F+F"),
+    "the number of an equation behind values": (
+        "ω : A(1)\np1 : A(x) : x ≤ 3 → F(x)A(x + 1) (1.7)\n44 Chapter 1. Modeling",
+        "axiom: A(1)\nA(x) : x <= 3 -> F(x)A(x+1)",
+    ),
+    "constants with a blank behind the sign": (
+        "# define r 0.5\nω : F(1)\np1 : F(x) → F(x ∗ r) (2.1)\nFigure 2.1: It shrinks",
+        "r = 0.5\naxiom: F(1)\nF(x) -> F(x*r)",
+    ),
+    "any neighbours and chances": (
+        "ω : X\np1 : ∗ < X > ∗ .5 → F[+X]\np2 : ∗ < X > ∗ .5 → F[−X]",
+        "axiom: X\nX -> F[+X] : 0.5\nX -> F[-X] : 0.5",
+    ),
+    "tables of TOML": (
+        '[plant]\naxiom = "F"\n[plant.rules]\nF = "FG"\nG = "GG"\n[plant.drawing]\nangle = 60',
+        "angle: 60\naxiom: F\nF -> F G\nG -> G G",
+    ),
+    "rules that are tables": (
+        'axiom = "F"\n[[rule]]\nfrom = "F"\nto = "FF"\nweight = 3\n[[rule]]\nfrom = "F"\nto = "F"\nweight = 1',
+        "axiom: F\nF -> F F : 0.75\nF -> F : 0.25",
+    ),
+    "letters that draw, in a list": (
+        'axiom = "A"; draw = ["A", "B", "F"]; rules = {"A": "A+B", "B": "F"}',
+        "axiom: A\nA -> A+B\nB -> F\ninterpretation:\nA -> F\nB -> F",
+    ),
+    "how letters are drawn": (
+        'axiom = "A"; draw = {"A": "F"}; rules = {"A": "A+B"}',
+        "axiom: A\nA -> A+B\ninterpretation:\nA -> F",
+    ),
+    "a list of styles of drawing": ('axiom = "A"; draw = ["thin", "red"]; rules = {"A": "AF"}', "axiom: A\nA -> A F"),
+    "what draws, without a value": ('rules = {"A": "AF"}; axiom = "A"; draw =', "axiom: A\nA -> A F"),
+    "pairs with a word": ('val axiom = "FX"\nval rules = mapOf(\'X\' to "X+F")', "axiom: F X\nX -> X+F"),
+    "texts one below another": (
+        'axiom = "X"\nrules = {\n "X": "F[+X]"\n      "F[-X]",\n "F": "FF",\n}',
+        "axiom: X\nX -> F[+X]F[-X]\nF -> F F",
+    ),
+    "quoted mail": ("Anna wrote:\n> Axiom: F\n> F=F[+F]F\n> angle 20\nCool!", "angle: 20\naxiom: F\nF -> F[+F]F"),
+    "a talk": ("[14:02] <anna> axiom: F\n[14:03] <anna> F => FF+F\n[14:03] <bob> fine", "axiom: F\nF -> F F+F"),
+    "the source of an encyclopaedia": (
+        ":'''start''' : F\n:'''rules''' : (F → F+F)\n:'''angle''' : 60°",
+        "angle: 60\naxiom: F\nF -> F+F",
+    ),
+    "fractions that are one sign": (
+        "start F\n⅓: F => F[+F]\n⅔: F => FF\nangle: 22½°",
+        "angle: 22.5\naxiom: F\nF -> F[+F] : 1/3\nF -> F F : 2/3",
+    ),
+    "probabilities called p": (
+        "start: A\n1. A -> F[+A]  (p = 0.7)\n2. A -> FA  (p = 0.3)",
+        "axiom: A\nA -> F[+A] : 0.7\nA -> F A : 0.3",
+    ),
+    "shares": ("axiom F\nF => F[+F]  weight 3\nF => F, weight: 1", "axiom: F\nF -> F[+F] : 3\nF -> F : 1"),
+    "quotation marks of French": ("axiome : « F »\nrègle de réécriture : « F » → « F+F »", "axiom: F\nF -> F+F"),
+    "the head of a letter": (
+        "From: M. Keller <keller@schule.example>\nTo: Klasse 12\n\nAxiom: X\nRegel: X => F[+X]X",
+        "axiom: X\nX -> F[+X]X",
+    ),
+    "a program in PHP": ("<?php\n$axiom = 'F';\n$rules = ['F' => 'F-F'];", "axiom: F\nF -> F-F"),
+    "a quotation mark that is a command": (
+        'Premise: FA\nRule 1: A = "!"[B]\nRule 2: B = &FA',
+        "axiom: F A\nA -> @Di(0.9)!@Di(0.9)[B]\nB -> &F A",
+    ),
+    "a tree of Minetest": (
+        'tree = {axiom = "TA", rules_a = "[+FG]A", angle = 30}',
+        "angle: 30\naxiom: T A\nA -> [-F G]A\ninterpretation:\nG -> f\nT -> F",
+    ),
+    "words between a letter and its commands": (
+        "axiom: A\nA => BA\nB => A\nDabei bedeuten A und B „vorwärts zeichnen“.",
+        "axiom: A\nA -> B A\nB -> A\ninterpretation:\nA -> F\nB -> F",
+    ),
+    "letters that move, in French": (
+        "axiome : A\nA => AB\nB => BB\nA signifie « dessiner en avançant », B signifie « avancer sans dessiner ».",
+        "axiom: A\nA -> A B\nB -> B B\ninterpretation:\nA -> F\nB -> f",
+    ),
+    "marks of direction and separators of lines": (
+        "\u200eAxiom: F\u2028\ufeffRule: F \u200e→ F+F\vAngle: 60°\f",
+        "angle: 60\naxiom: F\nF -> F+F",
+    ),
+    "functions that set the parts": (
+        'new Builder().axiom("F").rule("F", "F+F").setAngle(60).build();',
+        "angle: 60\naxiom: F\nF -> F+F",
+    ),
+    "a function that is told nothing": ('axiom = "F"; rules = {"F": "FF"}; x = angle()', "axiom: F\nF -> F F"),
+    "hashes of Perl": ("my $axiom = 'F';\nmy %rules = ( F => 'F+F' );\nmy $angle = 60;", "angle: 60\naxiom: F\nF -> F+F"),
+    "rules with letters": ("Start: A\nRule A: AB\nRule B: A", "axiom: A\nA -> A B\nB -> A"),
+    "a whole turn in parts": ("Start: F\nF => F+F\nangle: 360° / 8", "angle: 45\naxiom: F\nF -> F+F"),
+    "another language": ("axióma: F\nszabályok: F → F+F\nszög: 60°", "angle: 60\naxiom: F\nF -> F+F"),
+    "a whole text that was quoted": (
+        "> Axiom: F(1)\n> production:\n> F(x) --> F(x)F(x)\n> endlsystem",
+        "angle: 60\naxiom: F(1)\nF(x) -> F(x)F(x)",
+    ),
+    "an indented text": (
+        "    Axiom: F(1)\n    production:\n    F(x) --> F(x)F(x)\n    endlsystem",
+        "angle: 60\naxiom: F(1)\nF(x) -> F(x)F(x)",
+    ),
+    "a table with the ends of lines of Windows": (
+        "| Name | Value |\r\n|:---|---:|\r\n| Symbols | F, + |\r\n| Axiom | F+F |\r\n| Rule | F -> F-F |\r\n| Angle | 60 |\r\n",
+        "angle: 60\naxiom: F+F\nF -> F-F",
+    ),
+    "conditions before arrows of print": (
+        "Start: A(1)\nA(x) : x < 3 → A(x+1)\nA(x) : x >= 3 → B",
+        "axiom: A(1)\nA(x) : x < 3 -> A(x+1)\nA(x) : x >= 3 -> B",
+    ),
+    "an axiom and an angle in a sentence": (
+        "Das Startsymbol „A“ hat die Regel\n (1)  A → F[+A]A\nDer Drehwinkel beträgt 30 Grad.",
+        "angle: 30\naxiom: A\nA -> F[+A]A",
+    ),
 }
 """Texts, and the systems that they mean."""
 
@@ -717,10 +833,17 @@ def test_a_text_is_the_system_that_it_means(text: str, meant: str) -> None:
     [
         'all = [{"name": "A", "axiom": "A", "rules": {"A": "AA"}}, {"name": "b", "axiom": "b", "rules": {"b": "bb"}}]',
         "a) Start: A\nA => AA\n\nb) Start: b\nb => bb\n",
+        '[A]\naxiom = "A"\n[A.rules]\nA = "AA"\n[b]\naxiom = "b"\n[b.rules]\nb = "bb"\n',
     ],
 )
 def test_each_of_several_systems_has_its_name(page: str, name: str) -> None:
     assert word(read(page, name=name).axiom) == name
+
+
+def test_the_letter_of_a_caption_is_nearer_than_a_heading() -> None:
+    with pytest.raises(ModelValueError) as found:
+        read("Plants 25\na\nStart: F\nF => FF\n\nb\nStart: F\nF => F+F\n")
+    assert "The systems are a, b." in str(found.value.hint)
 
 
 def test_signs_of_other_turtles_are_those_of_the_kit() -> None:
@@ -733,6 +856,8 @@ def test_typography_is_one_for_one_or_known() -> None:
     assert keyboard_signs("angle： 25.7◦, oﬃce").text == "angle: 25.7°, office"
     assert keyboard_signs("F−F &minus; “G” Fₗ p₁").text == 'F-F - "G" F_l p1'
     assert keyboard_signs("axiom: F").text == "axiom: F"
+    assert keyboard_signs("⅓ 2½ ½ « F » 2⅓").text == '1/3 2.5 1/2 "F" 21/3'
+    assert keyboard_signs("F −→ G\nF\n→ G\nHome\n→ G").text == "F  → G\nF → G\nHome\n→ G"
 
 
 @pytest.mark.parametrize("name", FORMATS)
@@ -1037,6 +1162,8 @@ def test_a_word_that_a_program_calculates_is_never_passed_over(id: str, value: s
         '"-" means turn left 90°, and "+" means turn right 90°.',
         "+ : rotate clockwise\n- : rotate counter-clockwise",
         "+ bedeutet Drehung nach rechts",
+        "+ signifie « tourner à droite de 90° »",
+        '- significa "girar a la izquierda", + significa "girar a la derecha"',
     ],
 )
 def test_turns_have_the_sense_that_the_text_gives_them(sentence: str) -> None:
@@ -1070,6 +1197,18 @@ def test_turns_stay_where_no_sentence_says_otherwise(sentence: str) -> None:
         ("Start: F\nF => F+F\nstarting angle: 45", '"starting angle" (45) is not taken over.'),
         ('{"axiom": "F", "startAngle": 45, "rules": {"F": "F+F"}}', '"startAngle" (45) is not taken over.'),
         ("Premise: A\nRule 1: A=T[&FA]FA", "Houdini's T, which bends a branch by gravity, does nothing here."),
+        ('{axiom = "fA", rules_a = "fA"}', "Minetest's f, which places leaves, only moves here."),
+        ('{axiom = "A", rules_a = "FA"}', "The rule that is named after a is that of A."),
+        ("ω : F\np1 : F(i) → F(i)[+F(i)]\n[edit]", '"[edit]" is left out: it is not surely a part of the rule above it.'),
+        (
+            "ω : F\np1 : F → F[+F]F\nLetter to the editor",
+            '"Letter to the editor" is left out: it is not surely a part of the rule above it.',
+        ),
+        ("Start: F\nF => F+F grows fast\nangle: 60", 'Behind the rule of F, "grows fast" is left out.'),
+        (
+            "Start: F\nF => F+F (60%)\nF => F-F (60%)",
+            "The probabilities of F are together 1.2, not 1: they are taken as shares.",
+        ),
         ("K {\n Angle 25.7\n Axiom F\n F=F+F\n}", 'Fractint passes over what stands behind the point: "Angle 25.7" is 25.'),
         (
             "axiom: F\nF -> F[+F] | F[-F]",
@@ -1103,6 +1242,17 @@ def test_contexts_in_the_word_that_is_made_are_refused_by_name() -> None:
 def test_a_word_that_a_program_calculates_is_refused_where_it_is_the_only_one(word: str) -> None:
     with pytest.raises(ModelSyntaxError, match="The word for F is calculated here"):
         read(f'axiom = "F"\nrules = {{"F": {word}}}')
+
+
+def test_an_axiom_that_a_program_calculates_is_refused() -> None:
+    with pytest.raises(ModelSyntaxError, match="The word for axiom is calculated here"):
+        read('axiom = "F" + turn\nrules = {"F": "FF"}')
+
+
+def test_a_loop_over_the_axiom_is_no_axiom() -> None:
+    with pytest.raises(ModelSyntaxError, match="This is a program") as found:
+        read('for c in axiom: print(c)\naxiom = "F"\nrules = {"F": "FF"}')
+    assert "axiom: F | F -> F F" in str(found.value.hint)
 
 
 def test_a_function_among_rules_is_refused() -> None:

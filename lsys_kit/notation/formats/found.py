@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from lsys_kit.errors import quotable
 from lsys_kit.files import Entries, toml_tables
@@ -91,6 +91,8 @@ class Found:
         Whether that is made of texts, as in "F" + turn, so that the text is surely a program.
     loose
         Where rules stand that nothing calls rules.
+    program
+        What `fields.toml` says of the signs of the program whose names the text has.
     """
 
     name: str = ""
@@ -109,11 +111,31 @@ class Found:
     calculated: Passage | None = None
     joined: bool = False
     loose: set[int] = field(default_factory=set)
+    program: Mapping[str, Any] = field(default_factory=dict)
 
     @property
     def complete(self) -> bool:
         """Whether it has an axiom and a rule."""
         return self.listing is not None or (self.axiom is not None and bool(self.rules))
+
+
+def program_of(name: str) -> Mapping[str, Any]:
+    """What `fields.toml` says of the signs of the program that calls a part by a name; nothing for any other name.
+
+    >>> program_of("Premise")["title"], program_of("axiom")
+    ('Houdini', {})
+    """
+    return next((signs for signs in tables()["signs"].values() if name.lower() in signs["by"]), {})
+
+
+def take_signs(found: Found) -> None:
+    """Read the commands of a program's turtle, and say which are other than the kit's."""
+    used = {
+        sign for word in (*(found.axiom or ()), *(part for rule in found.rules for part in rule.tail)) for sign in word.text
+    }
+    found.signs = {**found.program.get("signs", {}), **found.signs}
+    found.drawn |= {sign: command for sign, command in found.program.get("drawn", {}).items() if sign in used}
+    found.notes += [note for signs, note in found.program.get("notes", {}).items() if not used.isdisjoint(signs)]
 
 
 _ARGUMENTS = re.compile(r"[()]")
@@ -390,7 +412,7 @@ _ANGLES: Sequence[tuple[re.Pattern[str], Callable[[Fraction], Fraction]]] = (
     (re.compile(rf"\A{_PI}\s*/\s*180(?:\.0*)?\s*\*\s*{_N}", re.IGNORECASE), lambda n: n),
     (re.compile(rf"\A{_PI}\s*/\s*{_N}", re.IGNORECASE), lambda n: 180 / n),
     (re.compile(rf"\A{_N}\s*+\*?\s*{_PI}", re.IGNORECASE), lambda n: 180 * n),
-    (re.compile(rf"\A360\.?0*\s*/\s*{_N}"), lambda n: 360 / n),
+    (re.compile(rf"\A360\.?0*°?\s*/\s*{_N}°?"), lambda n: 360 / n),
 )
 """How programs write an angle: as what of which number in degrees."""
 _NUMBER = re.compile(r"(-?(?:\d+(?:[.,]\d+)?|\.\d+)(?:/[1-9]\d*)?)\s*\*?\s*(.*)", re.DOTALL)

@@ -14,6 +14,8 @@ from fractions import Fraction
 
 from lsys_kit.errors import ModelSyntaxError
 from lsys_kit.notation.formats.found import Found, Passage, Rule, tables
+from lsys_kit.notation.syntax.text.transcript import edited
+from lsys_kit.notation.syntax.text.typography import without_margin
 
 _SIGN = re.compile(
     r"^(?:production|interpretation|homomorphism|decomposition)[ \t]*+:?[ \t]*+$|^module[ \t]+[A-Za-z]"
@@ -53,8 +55,11 @@ def is_l_py(text: str) -> bool:
     >>> is_l_py("Axiom: A\\nproduction:\\nA --> A A"), is_l_py("Axiom: A\\nA --> A A")
     (True, False)
     """
+    if "xiom" not in text:
+        return False
     text = text.replace("\r\n", "\n")
-    return "xiom" in text and bool(_AXIOM.search(text) and _SIGN.search(text)) and not _OTHERS.search(text)
+    text = edited(text, without_margin(text)).text
+    return bool(_AXIOM.search(text) and _SIGN.search(text)) and not _OTHERS.search(text)
 
 
 def systems_in_l_py(text: str) -> list[Found]:

@@ -40,7 +40,12 @@ _SET = re.compile(
 _BROKEN_ARROW = re.compile(r"^[ \t]*p_?\d*[ \t]*:[ \t]*\w[ \t]+(?P<arrow>-{1,2}[+*~])[ \t]", re.MULTILINE)
 _BROKEN_DELTA = re.compile(r"(?<=,[ ])[68](?=[ ]?=[ ]?\d{1,3}(?:\.\d+)?[ ]?°)")
 """What the recognition of characters makes of an arrow, and of a δ."""
-_MARKS = re.compile(r"^[ \t]*```.*$|\*\*|`|\b__(?=\w)|(?<=\w)__(?!\w)|^(?=[^\n|]*\|)[ \t|:-]++$|^#+[ ]", re.MULTILINE)
+_MARKS = re.compile(
+    r"^[ \t]*```.*$|\*\*|`|\b__(?=\w)|(?<=\w)__(?!\w)|^(?=[^\n|]*\|)[ \t|:-]++$"
+    r"|^#+[ ](?![ ]*+(?:define|ignore|include)\b)|^(?:[ ]?>){1,4}[ ]"
+    r"|^\[?\d{1,2}:\d{2}(?::\d{2})?\]?[ ]<[^<>\n]{1,30}>[ ]|^[:;*#]{1,4}[ ]?(?=''')",
+    re.MULTILINE,
+)
 _MARKDOWN = re.compile(
     r"^(?:[ \t]*+(?:[-*+•]|\d{1,2}[.)])[ \t]++(?:[^`\n]*`){2}"
     r"|[ \t]*+(?:[-*+•][ \t]++)?(?:\*\*|__)[A-Za-z][^*_=(\n]{0,40}(?:\*\*|__))",

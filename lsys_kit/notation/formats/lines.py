@@ -6,10 +6,10 @@ The parts of a text are put together to systems; what sentences around them say 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
-from itertools import pairwise
+from itertools import groupby, pairwise
 
 from lsys_kit.errors import ModelSyntaxError, quotable
 from lsys_kit.notation.formats.found import (
@@ -20,6 +20,7 @@ from lsys_kit.notation.formats.found import (
     chance_of,
     first_taken,
     not_taken,
+    program_of,
     symbols_in,
     tables,
     unquoted,
@@ -212,27 +213,40 @@ def _without_function(found: Found) -> Found:
     return found
 
 
+_SAY = {name: "|".join(map(re.escape, words)) for name, words in tables()["said"].items()}
+"""The words of sentences, each kind as a pattern."""
+_BEGIN = "".join({word[0] for word in tables()["said"]["means"]})
+_MEANS = rf"(?:[:=][ ]?|(?=[{_BEGIN}])(?:{_SAY['means']})[ ])"
+_DEGREES = r"[ ]?(?:°|deg|gra[du])"
 _SAID_ANGLE = re.compile(
-    r"(?:turn|angle|rotat|dreh|winkel|tourn|gir|ruot|draai|obr[oó]|поворо|поверн|旋转|回転)"
-    r"[^.\n]{0,40}?(?<![\d.])(\d{1,3}(?:[.,]\d+)?)[ ]?(?:°|deg)"
+    rf"(?:{_SAY['turning']}|angle|winkel|旋转|回転)"
+    rf"[^.\n\d]{{0,40}}+(?>(?:\d++(?![.,]?\d|{_DEGREES})[^.\n\d]{{1,40}}+)?)(\d{{1,3}}(?:[.,]\d+)?){_DEGREES}"
     r"|\((\d{1,3}(?:\.\d+)?)[ ]?(?:°|deg)\w*\)|(?<![\d.])(\d{1,3}(?:[.,]\d+)?)°[ ](?:to the |nach |turn)",
     re.IGNORECASE,
 )
-_SYMBOLS = r"[A-Za-z0-9](?>(?:(?:,[ ]?|[ ](?:and|und)[ ])[A-Za-z0-9])*)"
-_FIRST = "".join(rf"(?<!(?<![\w\"'])(?<!(?:draw|move)[ ])[A-Za-z0-9]{gap})" for gap in (",", ",[ ]", "[ ]and[ ]", "[ ]und[ ]"))
+_BETWEEN = rf",[ ]?|[ ](?:{_SAY['and']})[ ]"
+_SYMBOLS = rf"[A-Za-z0-9](?>(?:(?:{_BETWEEN})[A-Za-z0-9])*)"
+_ANDS = (words for _, words in groupby(sorted(tables()["said"]["and"], key=len), len))
+_GAPS = (",", ",[ ]", *(f"[ ](?:{'|'.join(words)})[ ]" for words in _ANDS))
+_FIRST = "".join(rf"(?<!(?<![\w\"'])(?<!(?:draw|move)[ ])[A-Za-z0-9]{gap})" for gap in _GAPS)
 """Behind nothing that is one of the symbols of a list, from which the list has been tried."""
-_SAID_DRAWS = re.compile(
-    rf"(?<![\w\"'])(?:[\"']|{_FIRST})({_SYMBOLS})[\"']?[ ]?(?:(?:both[ ])?(?:means?|bedeute[nt])|:)"
-    rf"[ ]+(?:both[ ])?[\"']?(draw|move)[ ](?:a[ ]|forward)",
-    re.IGNORECASE,
+_DRAWING = rf"[ ]++(?:(?:{_SAY['both']})[ ])?[\"']?(?:(?P<draw>{_SAY['draw']})|{_SAY['move']})\b"
+_SAID_DRAWS = (
+    re.compile(
+        rf"(?<![\w\"'])(?:[\"']|{_FIRST})(?P<symbols>{_SYMBOLS})[\"']?"
+        rf"[ ]?(?:(?:(?:{_SAY['both']})[ ])?(?:{_SAY['means']})|:){_DRAWING}",
+        re.IGNORECASE,
+    ),
+    re.compile(rf"\b(?:{_SAY['means']})[ ][\"']?(?P<symbols>{_SYMBOLS})[\"']?{_DRAWING}", re.IGNORECASE),
 )
+"""Symbols before the verb, or behind it."""
 
 
 _SYMBOL_OF_TIKZ = re.compile(r"\\symbol\{(\w)\}\{\\pgflsystem(draw|move)forward")
 _W = r"[\"'`]?([A-Za-z0-9+\-\[\]|&^/!]{1,80})[\"'`]?(?=[\s,.;)]|$)"
 _SAID_AXIOM = re.compile(
     rf"(?:(?:start|begin)(?:s|n?ing)?[ ](?:with|from)"
-    rf"|(?:axiome?|initial string|start[ ]?word|startwort|axioma)[ ](?:is|of|being)?)"
+    rf"|(?:axiome?|initial string|start[ ]?word|start(?:wort|symbol|zeichen|string)|axioma)[ ](?:is|of|being|ist)?)"
     rf"[ ]?(?:the[ ])?(?:axiom[ ]|word[ ]|string[ ]|(?:axiom|word|string):[ ]|an?[ ]\w+,[ ])?{_W}",
     re.IGNORECASE,
 )
@@ -276,9 +290,9 @@ def _take_prose(found: Found, prose: Sequence[Passage]) -> None:
     used = {
         symbol for rule in found.rules for symbol in re.findall(r"\w", "".join(part.text for part in (rule.head, *rule.tail)))
     }
-    for match in (match for each in prose for match in _SAID_DRAWS.finditer(each.text)):
-        command = "F" if match[2].lower() == "draw" else "f"
-        for symbol in re.findall(r"[A-Za-z0-9](?![A-Za-z])", match[1]):
+    for match in (match for each in prose for pattern in _SAID_DRAWS for match in pattern.finditer(each.text)):
+        command = "F" if match["draw"] else "f"
+        for symbol in re.split(_BETWEEN, match["symbols"]):
             if symbol in used and symbol not in ("F", "f") and symbol != "G" * (command == "F"):
                 found.drawn[symbol] = command
     found.drawn |= {
@@ -293,20 +307,20 @@ def _take_prose(found: Found, prose: Sequence[Passage]) -> None:
 
 
 _SAID_TURN = re.compile(
-    r"(?:^|(?<=[\s\"'`(]))(?P<sign>[+\-]|(?-i:[B-HJ-Z])(?!\w)|[a-z](?=[\"'`)]?[ ]?(?:[:=]|means?[ ]|bedeutet[ ])))"
-    r"[\"'`)]?[ ]?(?:[:=][ ]?|means?[ ]|bedeutet[ ])?"
+    r"(?:^|(?<=[\s\"'`(]))(?P<sign>[+\-]|(?-i:[B-HJ-Z])(?!\w)|[a-z](?=[\"'`)]?[ ]?" + _MEANS + "))"
+    rf"[\"'`)]?[ ]?{_MEANS}?"
     r"[^.,;\n+\-\[\]]{0,60}?"
-    r"\b(?:(?P<left>left|links|(?:counter|anti)-?clockwise)|(?P<right>right|rechts|clockwise))\b",
+    rf"\b(?:(?P<left>{_SAY['left']})|(?P<right>{_SAY['right']}))\b",
     re.IGNORECASE | re.MULTILINE,
 )
 
 
 _SAID_BRACKET = re.compile(
-    r"(?:^|(?<=[\s\"'`(]))\[[\"'`)]?[ ]?(?:[:=][ ]?|means?[ ]|bedeutet[ ])?[^.;\n+\-\[\]]{0,60}?"
-    r"\b(?:left|links|(?P<right>right|rechts))\b",
+    rf"(?:^|(?<=[\s\"'`(]))\[[\"'`)]?[ ]?{_MEANS}?[^.;\n+\-\[\]]{{0,60}}?"
+    rf"\b(?:{_SAY['left']}|(?P<right>{_SAY['right']}))\b",
     re.IGNORECASE | re.MULTILINE,
 )
-_TURNING = re.compile(r"turn|rotat|yaw|dreh", re.IGNORECASE)
+_TURNING = re.compile(_SAY["turning"], re.IGNORECASE)
 
 
 _SIGN_BEFORE = re.compile(r"([+\-])[\"'`)]?[ ]?(?:and|und|or|oder|,|/)[ ]?[\"'`(]?$")
@@ -495,6 +509,7 @@ def _system(text: str, items: Sequence[Part]) -> Found:
     start = text.rfind("\n", 0, items[0].start) + 1 if items else 0
     if label := re.match(r"\s*\(?([a-z])\)", text[start : start + 8]):
         found.name = label[1]
+    heads = {sign for item in items if item.kind == "rule" and item.match for sign in item.match["head"]}
     above: str | None = None
     head: Passage | None = None
     absent: Mapping[str, str] = {}
@@ -510,11 +525,14 @@ def _system(text: str, items: Sequence[Part]) -> Found:
             found.notes.append(left_out(value.text))
         elif item.kind in ("", "aside"):
             line = value.text.strip(" #*=_:;{(")
-            found.name = found.name or (line if found.axiom is None and 0 < len(line) <= 60 else "")
+            if found.axiom is None and 0 < len(line) <= 60 and (not found.name or re.fullmatch(r"\(?[a-z]\)?", line)):
+                found.name = line  # a caption's letter is nearer than a heading
         elif item.kind == "axiom" and value.text:
             _add_axiom(found, value, item)
         elif item.kind == "rule":
             rule = _rule(text, item)
+            rule, behind = _without_words(rule, heads)
+            found.notes += behind
             if text[item.start : item.end].endswith(".") and not rule.tail[0].text.endswith("."):
                 found.notes.append(FULL_STOPS)
             if not rule.tail[0].text:
@@ -542,15 +560,23 @@ def _system(text: str, items: Sequence[Part]) -> Found:
             found.signs = {**found.signs, ">": f"@Di({float(scale):g})", "<": f"@Dd({float(scale):g})"}
         elif item.kind == "constant" and item.match and (number := angle_of(without_comment(value.text))) is not None:
             found.lines.append(Passage(f"{item.match['name'][-1]} = {float(number):g}", value.at, False))
-        for signs in tables()["signs"].values():
-            if item.match and item.kind not in ("rule", "") and item.match["name"].lower() in signs["by"]:
-                found.signs = {**signs["signs"], **found.signs}
-                absent = signs.get("absent", {})
+        if item.match and item.kind not in ("rule", "") and (program := program_of(item.match["name"])):
+            found.signs = {**program["signs"], **found.signs}
+            absent = program.get("absent", {})
     found.rules = _with_chances(found.rules)
+    found.notes += _told_sums(found.rules)
     symbols = "".join(part.text for part in (*(found.axiom or ()), *(part for rule in found.rules for part in rule.tail)))
     heads = {rule.head.text[:1] for rule in found.rules}
     found.notes += [note for signs, note in absent.items() if any(sign in symbols and sign not in heads for sign in signs)]
     return found
+
+
+def _told_sums(rules: Sequence[Rule]) -> Iterator[str]:
+    """A note on each symbol whose probabilities have another sum than one."""
+    for head in dict.fromkeys(rule.head.text for rule in rules):
+        chances = [rule.probability for rule in rules if rule.head.text == head and rule.probability is not None]
+        if chances and abs((together := sum(chances, Fraction(0))) - 1) > Fraction(1, 50):
+            yield f"The probabilities of {head} are together {float(together):g}, not 1: they are taken as shares."
 
 
 def _with_chances(rules: list[Rule]) -> list[Rule]:
@@ -604,6 +630,21 @@ def _add_setting(found: Found, kind: str, value: Passage, text: str) -> None:
         found.notes.append(f"Two angles are given: {float(found.angle[0]):g} is used, not {float(angle):g}.")
 
 
+_WORDS = re.compile(r"(?<=\S)\s+(?=([a-zà-ÿ]{4,})(?![\w(\[]))")
+"""Where words of a language begin behind a successor."""
+
+
+def _without_words(rule: Rule, heads: Collection[str]) -> tuple[Rule, list[str]]:
+    """A rule without the words behind its successor, and the note on them."""
+    [tail] = rule.tail
+    behind = next((words for words in _WORDS.finditer(tail.text) if not {*words[1]} <= {*heads}), None)
+    if behind is None:
+        return rule, []
+    said = tail.text[behind.end() :]
+    note = f'Behind the rule of {rule.head.text}, "{quotable(said[:40])}" is left out.'
+    return replace(rule, tail=(tail.part(0, behind.start()),)), [note]
+
+
 _BEHIND = re.compile(r"[;,][ ]+(?=[a-z]{3,}[ ]+[a-z]{3,}[ ])")
 """Where a sentence begins behind a successor."""
 
@@ -615,7 +656,7 @@ def _rule(text: str, item: Part) -> Rule:
     after = AFTER.search(said)
     chance = next((chance for name in ("first", "over", "within") if (chance := item.match[name])), None)
     if after:
-        chance = chance or after["plain"] or after["bracketed"] or after["named"]
+        chance = chance or next(filter(None, after.groups()), None)
         said = said[: after.start()]
     said, first = _BEHIND.split(said)[0], FIRST.match(said)
     chance = chance or (first and (first["bracketed"] or first["percents"]))

@@ -16,13 +16,24 @@ from itertools import chain, pairwise
 
 from lsys_kit.budget import current
 from lsys_kit.errors import ModelSyntaxError, quotable
-from lsys_kit.notation.formats.found import Found, Passage, Rule, angle_of, chance_of, first_taken, not_taken, tables
+from lsys_kit.notation.formats.found import (
+    Found,
+    Passage,
+    Rule,
+    angle_of,
+    chance_of,
+    first_taken,
+    not_taken,
+    program_of,
+    tables,
+    take_signs,
+)
 from lsys_kit.notation.formats.lines import rules_in_line
 from lsys_kit.notation.formats.parts import is_word
 
 _TOKEN = re.compile(
     r"""(?P<blank>[ \t\r]+
-        |(?://|(?<![\[({/])\#(?![\w\[(])|(?<![\[({/])\#[ ]+|```|;;|--[ ](?=[A-Za-z|])|(?<![^\s;])%(?!\w*[%=]))[^\n]*)
+        |(?://|(?<![\[({/])\#(?![\w\[(])|(?<![\[({/])\#[ ]+|```|;;|--[ ](?=[A-Za-z|])|(?<![^\s;])%(?!\w*[ ]?[%=]))[^\n]*)
     |(?P<end>\n|;)
     |(?P<text>"(?:[^"\\\n]|\\.)*+"|'(?:[^'\\\n]|\\.)*+'|`(?:[^`\\]|\\.){0,2000}`)
     |(?P<number>(?:\d+(?:\.\d+)?|\.\d+)(?:[eE][-+]?\d+)?(?:f(?!\w))?)
@@ -161,6 +172,9 @@ class _Parser:
     def take(self, match: re.Match[str]) -> None:
         """Go on by a token."""
         kind, sign, at = match.lastgroup or "", match[0], match.start()
+        terms = self.entry.terms
+        if sign == "to" and not self.entry.key and len(terms) == 1 and isinstance(terms[0], Term) and terms[0].kind == "text":
+            kind = "pair"  # mapOf('F' to "FF"), in Kotlin
         if kind == "open":
             self.open(sign, at)
         elif kind == "close":
@@ -211,7 +225,14 @@ class _Parser:
         return len(self.stack) == 1 and entry.sign == ":" and not entry.terms and not _kind(_name(entry))
 
     def _ends_with_line(self, end: int) -> bool:
-        return self.stack[-1].opened in ("", "{") and bool(self.entry.terms) and not _goes_on(self.text, end)
+        within, terms = self.stack[-1].opened, self.entry.terms
+        joined = within == "{" and terms and isinstance(terms[-1], Term) and terms[-1].kind == "text" and self.entry.key
+        return (
+            within in ("", "{")
+            and bool(terms)
+            and not _goes_on(self.text, end)
+            and not (joined and _FURTHER.match(self.text, end))
+        )
 
     def pair(self, match: re.Match[str]) -> None:
         """Take what was read as a key, where what follows is its value."""
@@ -245,6 +266,10 @@ def _called(entry: Entry, opened: str, text: str) -> Term | None:
 _NEXT = re.compile(r"\s{0,200}(?:=|:(?!:)|->|[{)\]}.]|\+)")
 
 
+_FURTHER = re.compile(r"""\s{0,200}(?:"[^"\\\n]{1,1000}"|'[^'\\\n]{1,1000}')\s{0,200}(?=["'},])""")
+"""A text that Python joins with the one before it."""
+
+
 def _goes_on(text: str, at: int) -> bool:
     """Whether what stands on the next line goes on with an entry."""
     return _NEXT.match(text, at) is not None
@@ -267,7 +292,7 @@ def _kind(name: str) -> str:
     return _kinds().get(re.sub(r"[ _-]|(?<!\d)\d++$", "", last).lower(), "")
 
 
-_RULE_NAME = re.compile(r"(?:[Rr]ule|RULE)(?:[_.-](?P<apart>[A-Za-z])|(?<=ule)(?P<joined>[A-Z]))$")
+_RULE_NAME = re.compile(r"(?:[Rr]ules?|RULES?)(?:[_.-](?P<apart>[A-Za-z])|(?<=ule)(?P<joined>[A-Z]))$")
 
 
 def systems_in_literals(text: str) -> list[Found]:
@@ -277,7 +302,34 @@ def systems_in_literals(text: str) -> list[Found]:
     >>> found.axiom[0].text, [(rule.head.text, rule.tail[0].text) for rule in found.rules]
     ('F', [('F', 'F+F')])
     """
-    return systems_of(_parsed(text), text)
+    return systems_of(_with_tables(_parsed(text)), text)
+
+
+def _with_tables(whole: Group) -> Group:
+    """The members of a text, those below a heading of TOML, [rules] or [[plant.rules]], as a group of that name."""
+    top = Group(whole.head, whole.opened, whole.at)
+    placed, group = {"": top}, top
+    for entry in whole.entries:
+        if heading := _heading(entry):
+            before, _, last = heading.text.rpartition(".")
+            group = Group("", "{", heading.at)
+            key = Term("name", last, heading.at, heading.end)
+            placed.get(before, top).entries.append(Entry([group], [key], "=", heading.at, heading.end))
+            placed[heading.text] = group
+        else:
+            group.entries.append(entry)
+    return top
+
+
+def _heading(entry: Entry) -> Term | None:
+    """The name of a table of TOML, which stands alone in brackets."""
+    term = entry.terms[0] if len(entry.terms) == 1 and not entry.key else None
+    while isinstance(term, Group) and term.opened == "[" and not term.head and len(term.entries) == 1:
+        [inner] = term.entries
+        term = inner.terms[0] if len(inner.terms) == 1 and not inner.key else None
+        if isinstance(term, Term) and term.kind == "name":
+            return term
+    return None
 
 
 def systems_of(whole: Group, text: str) -> list[Found]:
@@ -287,8 +339,7 @@ def systems_of(whole: Group, text: str) -> list[Found]:
         return apart
     found = Found()
     _gather(whole, found, text, False)
-    _pair_up(found)
-    _check(found, text)
+    _finish(found, text)
     _take_choices(found, text)
     if found.rules and not found.axiom:
         _take_unnamed_axiom(whole, found)
@@ -307,6 +358,21 @@ def systems_of(whole: Group, text: str) -> list[Found]:
     return [found] if found.axiom or found.rules else []
 
 
+def _finish(found: Found, text: str) -> None:
+    """Look over what was gathered of a system."""
+    _pair_up(found)
+    _check(found, text)
+    take_signs(found)
+    word = "".join(part.text for part in (*(found.axiom or ()), *(part for rule in found.rules for part in rule.tail)))
+    for index, rule in enumerate(found.rules):
+        head, capital = rule.head, rule.head.text.upper()
+        if _NAMED_AFTER.fullmatch(text, head.at - 1, head.at + 1) and head.text not in word and capital in word:
+            found.rules[index] = replace(rule, head=Passage(capital, head.at, False))
+            found.notes.append(f"The rule that is named after {head.text} is that of {capital}.")
+
+
+_NAMED_AFTER = re.compile(r"[_.-][a-z]")
+"""The end of the name of a rule, rules_a, and what stands before it."""
 _CONSTANT = re.compile(r"var(?:iable)?_?([b-d])")
 _DEGREES = re.compile(
     r"(?:[Rr]adians|deg2rad)\(\s*(\d+(?:\.\d+)?)\s*\)"
@@ -372,8 +438,7 @@ def _apart(group: Group, text: str) -> Iterator[Found]:
                 if any(_kind(_name(inner)) == "axiom" for inner in term.entries):
                     found = Found(name=_title(term) or _name(entry))
                     _gather(term, found, text, False)
-                    _pair_up(found)
-                    _check(found, text)
+                    _finish(found, text)
                     yield found
                 else:
                     yield from _apart(term, text)
@@ -394,8 +459,15 @@ def _title(group: Group) -> str:
     )
 
 
+_STATEMENTS = frozenset(("for", "if", "elif", "while"))
+"""What begins a statement of a program that has a colon at its end."""
+
+
 def _name(entry: Entry) -> str:
     """The name of an entry: the last name of its key."""
+    first = entry.key[0] if entry.key else None
+    if isinstance(first, Term) and first.text in _STATEMENTS:
+        return ""  # for c in axiom: ...
     for term in reversed(entry.key):
         if isinstance(term, Term) and term.kind in ("name", "text"):
             return term.text
@@ -404,8 +476,15 @@ def _name(entry: Entry) -> str:
     return ""
 
 
+_SETS = re.compile(r"(?:.{0,40}[.:])?(?:(?:set|with|add)_?)?((?i:axiom|angle|delta|iterations|generations))")
+"""The name of a function that sets a part of a system: setAngle(60), builder.angle(60)."""
+
+
 def _gather(group: Group, found: Found, text: str, in_rules: bool) -> None:
     """Take in what a group says."""
+    if (called := _SETS.fullmatch(group.head)) and len(group.entries) == 1 and not group.entries[0].key:
+        _take(replace(group.entries[0], key=[Term("name", called[1], group.at, group.at)], sign="="), found, text, in_rules)
+        return
     if group.opened and (rule := _as_rule(group.entries)):
         found.rules += _each_successor(rule, group.entries)
         return
@@ -446,6 +525,8 @@ def _take(entry: Entry, found: Found, text: str, in_rules: bool) -> None:
         found.lines.append(Passage(f"{constant[1]} = {raw}", entry.start, False))
         return
     rules, within = len(found.rules), in_rules or kind == "rules"
+    if keyed and kind != "steps":
+        found.program = found.program or program_of(name)
     if keyed and kind == "axiom" and not in_rules and _is_calculated(entry.terms):
         found.calculated, found.joined = found.calculated or Passage(name, entry.start), found.joined or _has_text(entry, text)
     elif keyed and kind == "axiom" and said and not in_rules:
@@ -467,6 +548,8 @@ def _take(entry: Entry, found: Found, text: str, in_rules: bool) -> None:
         found.calculated, found.joined = found.calculated or head, found.joined or _has_text(entry, text)
     elif keyed and said and not in_rules and name.lower() in tables()["names"]["ignore"]:
         found.ignored = said[-1].passage
+    elif keyed and not in_rules and name.lower() in tables()["names"]["draws"] and (drawn := _letters(entry)):
+        found.drawn |= dict.fromkeys(drawn, "F")
     elif not (within and _is_calculated(entry.terms)) and (more := [*_rules_of(entry, within, name)]):
         found.rules += more
         found.loose |= set() if within else {rule.head.at for rule in more}
@@ -483,6 +566,19 @@ def _take(entry: Entry, found: Found, text: str, in_rules: bool) -> None:
     if keyed and name.lower() in _DRAWN:
         found.rules[rules:] = [replace(rule, section="interpretation") for rule in found.rules[rules:]]
         found.loose -= {rule.head.at for rule in found.rules[rules:]}
+
+
+def _letters(entry: Entry) -> set[str]:
+    """The letters, each a text, of a list, or the only one; but F, which draws in any case."""
+    value = entry.terms[-1] if entry.terms else None
+    members = value.entries if isinstance(value, Group) else [entry]
+    words = [part.text for member in members for part in _texts(member.terms)]
+    plain = (
+        len(words) == len(members)
+        and not any(member.key for member in members if member is not entry)
+        and all(len(word) == 1 and word.isalpha() for word in words)
+    )
+    return {*words} - {"F"} if plain else set()
 
 
 _DRAWN = frozenset(("interpretation", "interpretations", "homomorphism", "draw", "drawing", "render"))

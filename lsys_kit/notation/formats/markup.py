@@ -15,7 +15,7 @@ from xml.parsers import expat
 
 from lsys_kit.budget import current
 from lsys_kit.errors import ModelSyntaxError
-from lsys_kit.notation.formats.found import Found, Passage, Rule, tables
+from lsys_kit.notation.formats.found import Found, Rule, tables, take_signs
 from lsys_kit.notation.formats.literals import Entry, Group, Term, systems_of
 from lsys_kit.notation.syntax.text.typography import TAG
 
@@ -30,6 +30,7 @@ def systems_in_markup(text: str) -> list[Found]:
     start = text.lstrip("\ufeff \t\r\n")
     if (
         not start.startswith("<")
+        or start.startswith("<?php")
         or start[:9].lower() == "<!doctype"
         or "axiom" not in text.lower()
         or (not start.startswith("<?xml") and TAG.search(text))
@@ -42,17 +43,10 @@ def systems_in_markup(text: str) -> list[Found]:
         words = [*(each.axiom or ()), *(part for rule in each.rules for part in (rule.head, *rule.tail))]
         each.names = frozenset(name for word in words for name in word.text.split() if len(name) > 1 and name.isidentifier())
         each.drawn = {"g": "F"} if any("g" in word.text.split() for word in words) else {}
-        _take_signs(each, words)
+        each.program = tables()["signs"]["jflap"]
+        take_signs(each)
         each.rules = _equally_likely(each.rules)
     return found
-
-
-def _take_signs(found: Found, words: list[Passage]) -> None:
-    """Read the commands of JFLAP's turtle, and say which are other than the kit's."""
-    jflap = tables()["signs"]["jflap"]
-    found.signs = jflap["signs"]
-    used = {sign for word in words for sign in word.text}
-    found.notes += [note for signs, note in jflap["notes"].items() if not used.isdisjoint(signs)]
 
 
 def _equally_likely(rules: list[Rule]) -> list[Rule]:

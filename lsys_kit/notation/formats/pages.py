@@ -23,13 +23,15 @@ _STATEMENT = re.compile(
     r"|[ωw][ \t]*:|n[ \t]*=|δ[ \t]*=)",
     re.MULTILINE,
 )
-_NUMBERED = re.compile(r"(?<![ \t])[ \t]{2,}+(\(\d+(?:\.\d+)*[a-z]?\))[ \t]*$")
+_NUMBERED = re.compile(r"(?:(?<![ \t])[ \t]{2,}+|(?<=\))[ \t])(\(\d+(?:\.\d+)*[a-z]?\))[ \t]*$")
 _ABOVE = re.compile(r"[ \t]*(?:0?\.\d+|1)[ \t]*")
 _OTHER = re.compile(r"[ \t]*(?:Figure|Fig\.|Table|Section|Chapter)\b", re.IGNORECASE)
 _ANGLE = re.compile(r"(?:angle|δ)[^.\n]{0,40}?(?<![\d.])(\d{1,3}(?:\.\d+)?)[ ]?(?:°|deg)", re.IGNORECASE)
 _STEPS = re.compile(r"(?<![\w.])n[ ]?=[ ]?(\d{1,4})(?!\d|\.\d)")
 _NAME = re.compile(rf"(?:{LABEL}[ \t]*:[ \t]*|^[ \t]*)([a-z]\w+)", re.MULTILINE)
 _ARROW = re.compile(ARROW)
+_BARE_LABEL = re.compile(rf"[ \t]*+[pP][ \t]*+:(?=[ \t]*+[^\s:<>=]{{1,20}}[ \t]*+(?:0?\.\d++[ \t]*+)?{ARROW})")
+"""The label of the only production."""
 
 
 def listings_on_a_page(text: str) -> list[Found]:
@@ -58,6 +60,8 @@ def listings_on_a_page(text: str) -> list[Found]:
                 and not _LISTING.match(said)
                 and len(said.strip()) > 1
             )
+        if part and (label := _BARE_LABEL.match(said)):
+            edits.append(Edit(line.start(), line.start() + label.end(), ""))
         if part and (number := _NUMBERED.search(said)):
             edits.append(Edit(line.start() + number.start(1), line.start() + number.end(1), ""))
         if not part and said.strip():

@@ -28,24 +28,27 @@ _LABEL = (
     rf"(?:(?:[pPrR]|[Rr]ule|[Rr]egel)[_ ]?\d{{1,3}}{BLANKS}[:.)=]|\(\d{{1,3}}\)"
     rf"|(?!0?\.\d)\d{{1,2}}(?:\.\d{{1,2}})*[.)]?(?=[ \t])|[pP]{BLANKS}:)"
 )
-_OWN = r"(?:[A-Za-z]\w{0,15}|\d|[-+])"
+_OWN = r"(?:[A-Za-z]\w{0,15}|\d|[-+](?!→))"
 _SIDE = r"[^\s<>:=,;()]{1,20}(?:\([^()\n]{0,60}\))?"
-_CONDITION = r":(?![:=])(?:[^\n=→<>!]|[<>=!]=|[<>!=](?=[^=\n]*[^-=]=(?!=)|[^=\n]*->)){1,100}?"
+_CONDITION = r":(?![:=])(?:[^\n=→<>!]|[<>=!]=|[<>!=](?=[^=\n]*[^-=]=(?!=)|[^=\n]*(?:->|→))){1,100}?"
 _HEAD = (
     rf"(?:{_SIDE}{BLANKS}<{BLANKS})?[\"']?{_OWN}[\"']?{BLANKS}(?:\([^()\n]{{0,80}}\))?"
     rf"(?:{BLANKS}>{BLANKS}{_SIDE})?(?:{BLANKS}{_CONDITION})?"
 )
+_HEAD_ALONE = re.compile(_HEAD)
 _CHANCE = r"(?:\d{1,3}(?:\.\d+)?\s?%|0?\.\d+|\(\d{1,3}\.?\d*\s?%\)|\(?\d{1,3}/\d{1,3}\)?)"
 _RULE = (
     rf"(?:(?P<label>{_LABEL}){BLANKS})?(?:(?P<first>{_CHANCE}){BLANKS}:?{BLANKS})?(?P<head>{_HEAD}){BLANKS}"
     rf"(?:(?<=[ \t])(?P<over>{_CHANCE}){BLANKS}|-{{1,2}}{BLANKS}(?P<within>{_CHANCE}|\(0?\.\d+\)){BLANKS}(?=-*>|→))?"
-    rf"(?P<arrow>-*{ARROW}|WORDS|=(?!=)(?![ \t]*\d+(?:\.\d+)?[ \t]*(?:$|[,;:])))"
+    rf"(?P<arrow>-*{ARROW}|WORDS|=(?!=)(?![ \t]*\d+(?:\.\d+)?[ \t]*(?:$|[,;:)])))"
 )
 AFTER = re.compile(
     rf"(?:(?<![ \t])[ \t]++|(?<=[^\s(]))(?::{BLANKS}(?P<plain>{_CHANCE}|\d(?:\.\d+)?)"
     rf"|[(\[]{BLANKS}(?:p{BLANKS}={BLANKS})?(?P<bracketed>{_CHANCE}){BLANKS}[)\]]"
     rf"|(?:,{BLANKS}|(?<=[ \t]))(?:(?:with[ ])?(?:p|prob\.?|probability){BLANKS}(?:[:=]|of\b)?)?{BLANKS}"
-    rf"(?P<named>{_CHANCE})){BLANKS}$"
+    rf"(?:(?P<named>{_CHANCE})|(?:WEIGHT)[ ]?[:=]?[ ]?(?P<weight>\d{{1,4}}(?:\.\d+)?))){BLANKS}$".replace(
+        "WEIGHT", "|".join(tables()["said"]["weight"])
+    )
 )
 """A probability behind a successor."""
 FIRST = re.compile(
@@ -110,7 +113,8 @@ def _rules() -> re.Pattern[str]:
 
 
 _COLON_RULE = re.compile(
-    rf"(?:(?P<label>{_LABEL}){BLANKS})?(?P<first>x)?(?P<over>x)?(?P<within>x)?(?P<head>[\"']?(?:[A-Za-z]|\d|[-+])[\"']?){BLANKS}(?P<arrow>:){BLANKS}"
+    rf"(?:(?P<label>{_LABEL}|[Rr](?:ule|egel)(?=[ ][A-Za-z][ \t]*:)){BLANKS})?"
+    rf"(?P<first>x)?(?P<over>x)?(?P<within>x)?(?P<head>[\"']?(?:[A-Za-z]|\d|[-+])[\"']?){BLANKS}(?P<arrow>:){BLANKS}"
 )
 """A rule with a colon for its arrow: behind a label, or under a heading."""
 
@@ -325,9 +329,12 @@ def _possible(kind: str, named: re.Match[str], value: str, rule: Part | None, la
     if kind == "ignore":
         return bool(sep) or is_word(value)
     if kind in ("head", "tail"):
-        return bool(sep and value.strip()) and not later and rule is None
+        replaced = kind == "tail" or _HEAD_ALONE.fullmatch(value.strip()) is not None
+        return bool(sep and value.strip()) and replaced and not later and rule is None
     if kind in ("scale", "constant"):
         return bool(sep and number)
+    if later and named["name"].lower() in tables()["said"]["weight"]:
+        return False  # it belongs to the rule before
     return (bool(sep) and not (rule and short)) or bool(not sep and not later and _NUMBER.fullmatch(value))
 
 

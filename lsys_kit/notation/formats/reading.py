@@ -57,7 +57,7 @@ def _without_marks(source: str) -> Transcript:
 
 
 _PROMPTS = re.compile(
-    r"^[ \t]*(?:In[ ]?\[\d*\]:?=?|>>>|\.\.\.(?=[ ])|\.\.\.:)[ \t]?|^[ \t]*Out[ ]?\[\d*\][:=].*$", re.MULTILINE
+    r"^[ \t]*(?:In[ ]?\[\d*\]:?=?|>>>|>(?=[ ])|\.\.\.(?=[ ])|\.\.\.:)[ \t]?|^[ \t]*Out[ ]?\[\d*\][:=].*$", re.MULTILINE
 )
 """What an interactive session shows before what is typed, and its answers."""
 
@@ -68,11 +68,13 @@ def _without_prompts(source: str) -> Transcript:
     return edited(before, prompts) if prompts else before
 
 
+_PREMISE = re.compile(r"^[ \t]*+premise[ \t]*+[:=]?+[ \t]*+[^\s\"':=]", re.MULTILINE | re.IGNORECASE)
+"""Houdini's axiom: in its words a quotation mark is a command."""
 DATA = Format(
     name="data",
     title="data, as in JSON or in the literals of a program",
     prepared=_without_prompts,
-    systems=lambda before: [] if is_markdown(before.text) else systems_in_literals(before.text),
+    systems=lambda before: [] if is_markdown(before.text) or _PREMISE.search(before.text) else systems_in_literals(before.text),
 )
 PAGE = Format(
     name="page",

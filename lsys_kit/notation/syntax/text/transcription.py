@@ -39,6 +39,7 @@ from lsys_kit.notation.syntax.text.typesetting import (
     subscripts,
     typesetting,
 )
+from lsys_kit.notation.syntax.text.typography import long_arrows
 
 GREEK = re.compile(r"[Α-ΡΣ-Ωα-δζ-ωϑϕϱµ]|\\(?:[Aa]lpha|[Bb]eta|[Gg]amma|[Dd]elta|theta|lambda|mu|phi|psi|rho|sigma|tau|omega)\b")
 """A letter, or its macro in LaTeX."""
@@ -128,7 +129,7 @@ _CHANCE = re.compile(
 _CHANCE_BEHIND = re.compile(r"\((?P<number>0?\.\d++)\)[ \t]*+$")
 """What may be a probability in brackets, behind a word."""
 FULL_STOPS = "The full stop at the end of a rule is left out."
-_ANY = re.compile(rf"(?P<left>\*)[ \t]*+(?=<)|(?<=>)[ \t]*+(?P<right>\*)(?=[ \t]*+(?:{_ARROW}|:))")
+_ANY = re.compile(rf"(?P<left>\*)[ \t]*+(?=<)|(?<=>)[ \t]*+(?P<right>\*)(?=[ \t]*+(?>(?:\d*\.\d++[ \t]*+)?)(?:{_ARROW}|:))")
 _EQUALS = re.compile(r"(?<![<>=!:])=(?!=)")
 _DIGIT_RULE = re.compile(rf"(?:[^<>:]*+<)?[ \t]*+\d[ \t]*+(?:>[^<>:]*?)?(?:{_ARROW}|:)")
 _ROW = re.compile(r"[ \t]*+(?:axiom|ignore|consider)\b", re.IGNORECASE)
@@ -154,6 +155,8 @@ _SIGNS_OF_PRINT = (
     re.compile(rf"[./]\d++[ \t]*+\)?+[ \t]*+(?:{_ARROW})"),
     re.compile(r"\.\d++\)[ \t]*+(?:\n|\Z)"),
     re.compile(r"\.[ \t]*+(?:\n|\Z)"),
+    re.compile(r"→(?<=[-−–—]→)"),
+    re.compile(r"\n[ \t]*+→"),
     re.compile(rf"\n[ \t]*+{_SETTING_NAME}[ \t]*+(?:=(?!=)|:[^\n]*deg)"),
     re.compile(r"\n(?!\n)[ \t]*+(?:[pP]_?+[\d{]|[Ss][Tt][Aa][Rr][Tt]|[#.\d]|[-*][ \t]|\(\d|[^:<\n]*+<[ \t]*+\d)"),
 )
@@ -180,7 +183,7 @@ def _transcript(source: str) -> Transcript:
     notes: list[str] = []
     plain = without_comments(source)
     lines = edited(source, [*headings(plain, notes), *typesetting(plain), *subscripts(plain, "_")], notes)
-    typed = _with_typed_signs(lines.text)
+    typed = long_arrows(_with_typed_signs(lines.text))
     listing = _Listing(without_comments(typed))
     edits = [*listing.settings(), *listing.rules(), *listing.letters(), *listing.digits()]
     return edited(lines, edits, listing.notes, typed)
@@ -208,6 +211,19 @@ def left_out(line: str) -> str:
     '"[3]" is left out: it is not surely a part of the rule above it.'
     """
     return f'"{line.strip()}" is left out: it is not surely a part of the rule above it.'
+
+
+_WORDS = re.compile(r"\[?[A-Za-z]++(?>(?:[ \t|]++[A-Za-z]++)*)\]?[.,:;!?]?")
+
+
+def _is_prose(line: str, known: frozenset[str]) -> bool:
+    """Whether a line has words alone, perhaps in brackets, and one of them has letters that no production has.
+
+    >>> _is_prose("Copy this code", frozenset("ABF")), _is_prose("FAB BA", frozenset("ABF"))
+    (True, False)
+    """
+    words = re.findall(r"[A-Za-z]{3,}", line)
+    return _WORDS.fullmatch(line) is not None and any(not {*word} <= known for word in words)
 
 
 class _Line(NamedTuple):
@@ -251,7 +267,8 @@ class _Listing:
             elif rule and not above and not _NAMED.match(line.text):
                 aside = _REFERENCE if len(line.text) - len(line.text.lstrip()) > indent else _ASIDE
                 said = line.text.strip()
-                if surely_goes_on(line.text, rule, known) or not (aside.fullmatch(said) or _SENTENCE.fullmatch(said)):
+                other = aside.fullmatch(said) or _SENTENCE.fullmatch(said)
+                if not _is_prose(said, known) and (surely_goes_on(line.text, rule, known) or not other):
                     rule = pending(rule + line.text)
                 else:
                     yield index

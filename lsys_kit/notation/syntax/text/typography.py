@@ -12,19 +12,38 @@ from __future__ import annotations
 import html
 import re
 import unicodedata
+from itertools import takewhile
 
+from lsys_kit.notation.syntax.text.statements import LABEL
 from lsys_kit.notation.syntax.text.transcript import Edit, Transcript, edited
 
 _ALIKE = {
     **{code: chr(code - 0xFEE0) for code in range(0xFF01, 0xFF5F)},  # full-width signs
     **dict.fromkeys(map(ord, "◦∘º˚⁰"), "°"),
+    **dict.fromkeys(map(ord, "\v\f\x85\u2028\u2029"), "\n"),
     **dict.fromkeys(
         map(ord, "\u00a0\u1680\u2000\u2001\u2002\u2003\u2004\u2005\u2006\u2007\u2008\u2009\u200a\u202f\u205f\u3000"), " "
     ),
 }
 """Signs that mean the same in every notation, one for one."""
-_NO_MORE = re.compile("[\u00ad\u200b\u200c\u2060\ufe0e\ufe0f]|[\ufb00-\ufb06]")
-"""What is seen and not typed, and ligatures."""
+_NO_MORE = re.compile(
+    "[\u00ad\u200b-\u200f\u202a-\u202e\u2060\u2066-\u2069\ufe0e\ufe0f\ufeff]"
+    "|[\ufb00-\ufb06]|[¼-¾⅐-⅞]|(?<=«)[ \u00a0\u2009\u202f]|[ \u00a0\u2009\u202f](?=»)"
+)
+"""What is seen and not typed, ligatures, fractions that are one sign, and the blanks within the quotation marks of French."""
+_MARGIN = re.compile(r"^[ \t>]*+(?=\S)", re.MULTILINE)
+"""What stands before a line: blanks, and in an answer to a letter a sign for each time that it was quoted."""
+_END_OF_LINE = re.compile(r"(?<![ \t])[ \t]++$", re.MULTILINE)
+_DECIMALS = {"¼": ".25", "½": ".5", "¾": ".75"}
+"""Such fractions behind a digit."""
+_LONG_DASH = re.compile(r"(?<=[\w)*])[ \t]*+[-−–—]{1,2}(?=→)")
+"""What lengthens an arrow."""
+_ARROW_BELOW = re.compile(r"\n[ \t>]*+(?:[-−–—]{1,2})?(?=→)")
+_HEAD_ALONE = re.compile(
+    rf"[ \t*>]*+(?:(?:{LABEL}|[pP])[ \t]*+:[^\n→]{{1,100}}"
+    r"|[A-Za-z](?:_?\w)?(?:\([^()\n]{0,60}\))?[ \t]*+(?:\(?(?:\d?\.\d++|\d{1,3}[ ]?%)\)?)?[ \t]*+)"
+)
+"""What is replaced, alone on its line, with its probability."""
 _SIGNS = str.maketrans(
     {**_ALIKE, **dict(zip(map(ord, "−–—‒‐‑﹣∗＊⁎’‘ʼ′ˈ“”„‟«»″ˆ∧⋀∕⁄∼˜"), '-------***\'\'\'\'\'"""""""^^^//~~', strict=True))}
 )
@@ -50,8 +69,9 @@ def keyboard_signs(source: str) -> Transcript:
     >>> keyboard_signs("F&minus;F &rarr; “G”<br>").text
     'F-F → "G"\\n'
     """
-    text = source.translate(_SIGNS).translate(_SUBSCRIPTS).replace("\r", " ")
-    edits = [*map(_plain, _NO_MORE.finditer(text))]
+    text = long_arrows(source.translate(_SIGNS).translate(_SUBSCRIPTS).replace("\r", " "))
+    edits = [*map(_plain, _NO_MORE.finditer(source)), *without_margin(text)]
+    edits += [Edit(*match.span(), "") for match in _END_OF_LINE.finditer(text)]
     if not source.isascii():
         edits += [Edit(*match.span(), f"_{unicodedata.normalize('NFKC', match[0])}") for match in _LETTERS_BELOW.finditer(text)]
     if "&" in source:
@@ -59,6 +79,34 @@ def keyboard_signs(source: str) -> Transcript:
     if "<" in source:
         edits += [Edit(*match.span(), _tag(text, match)) for match in TAG.finditer(text) if not _is_context(text, match)]
     return edited(source, edits, typed=text)
+
+
+def without_margin(text: str) -> list[Edit]:
+    r"""The edits that take off what stands before every line: blanks, or signs of what is quoted.
+
+    >>> without_margin("> A\n>  B")
+    [Edit(start=0, end=2, text=''), Edit(start=4, end=6, text='')]
+    """
+    lines = [*_MARGIN.finditer(text)]
+    same = (len({*signs}) == 1 for signs in zip(*(line[0] for line in lines), strict=False))
+    size = sum(takewhile(bool, same))
+    return [Edit(line.start(), line.start() + size, "") for line in lines] if size else []
+
+
+def long_arrows(text: str) -> str:
+    r"""A text as long as before, with one sign for an arrow that print makes of two, and behind what it replaces.
+
+    >>> long_arrows("p1 : F −→ FF\np2 : f .5\n−→ ff")
+    'p1 : F  → FF\np2 : f .5  → ff'
+    """
+    if "→" not in text:
+        return text
+    text = _ARROW_BELOW.sub(lambda match: " " * len(match[0]) if _HEAD_ALONE.fullmatch(_line_before(match)) else match[0], text)
+    return _LONG_DASH.sub(lambda match: " " * len(match[0]), text)
+
+
+def _line_before(match: re.Match[str]) -> str:
+    return match.string[match.string.rfind("\n", 0, match.start()) + 1 : match.start()]
 
 
 def _is_context(text: str, tag: re.Match[str]) -> bool:
@@ -77,4 +125,6 @@ def _tag(text: str, tag: re.Match[str]) -> str:
 
 
 def _plain(match: re.Match[str]) -> Edit:
-    return Edit(*match.span(), unicodedata.normalize("NFKC", match[0]) if "\ufb00" <= match[0] <= "\ufb06" else "")
+    sign, after_digit = match[0], match.string[match.start() - 1 : match.start()].isdigit()
+    plain = _DECIMALS[sign] if after_digit and sign in _DECIMALS else unicodedata.normalize("NFKC", sign).translate(_SIGNS)
+    return Edit(*match.span(), plain if plain.isascii() and plain.strip() else "")
