@@ -10,6 +10,7 @@ import statistics
 import time
 from collections.abc import Iterator
 from contextlib import suppress
+from dataclasses import replace
 
 import pytest
 
@@ -119,16 +120,17 @@ def table(request: pytest.FixtureRequest) -> Iterator[Table]:
 
 @pytest.mark.parametrize("notation", WITH_EXPRESSIONS)
 def test_the_expressions_of_the_catalogue(benchmark, table: Table, notation: str) -> None:
-    """Each expression of each system, spelt in the notation, at its best: another process may come in between.
+    """Each expression of each system, spelt in the notation, at its best: another process may come in between. What a system is
+    drawn as is left out, which few notations have.
 
     GROGRA declares random numbers on lines of their own.
     """
     chosen = DIALECTS[notation]
     spelt = {
         chosen.module(Pattern("a", (expression,)))[2:-1]
-        for id in systems()
-        if not lacking(chosen, system(id))
-        for expression in expressions(system(id))
+        for bare in (replace(system(id), interpretation=()) for id in systems())
+        if not lacking(chosen, bare)
+        for expression in expressions(bare)
         if notation != "grogra" or not is_random(expression)
     }
     taken = dict.fromkeys(spelt, float("inf"))
@@ -142,7 +144,7 @@ def test_the_expressions_of_the_catalogue(benchmark, table: Table, notation: str
 
     benchmark.pedantic(read_all, rounds=5, warmup_rounds=1)
     milliseconds = sorted(1_000 * seconds for seconds in taken.values())
-    assert len(milliseconds) >= 8
+    assert len(milliseconds) > 10
     table.lines.append(
         (
             notation,
