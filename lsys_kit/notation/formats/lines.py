@@ -30,8 +30,8 @@ from lsys_kit.notation.formats.parts import (
     ALIAS,
     ANY_ARROW,
     ARROW,
+    BEFORE,
     BLANKS,
-    FIRST,
     NOTHING,
     Part,
     end_of_value,
@@ -93,7 +93,7 @@ def _is_foreign(item: Part, text: str) -> bool:
             or item.match["within"]
             or _WITH_CHANCE.fullmatch(item.match["head"])
             or AFTER.search(text, item.start, item.end)
-            or FIRST.match(text[item.start : item.end])
+            or BEFORE.match(text[item.start : item.end])
         )
     if item.kind in ("axiom", "angle", "steps") and item.match:
         said = text[item.start : item.end]
@@ -658,7 +658,7 @@ def _rule(text: str, item: Part) -> Rule:
     if after:
         chance = chance or next(filter(None, after.groups()), None)
         said = said[: after.start()]
-    said, first = _BEHIND.split(said)[0], FIRST.match(said)
+    said, first = _BEHIND.split(said)[0], BEFORE.match(said)
     chance = chance or (first and (first["bracketed"] or first["percents"]))
     tail = Passage(said, item.start).part(first.end() if first else 0)
     tail = unquoted(tail.part(0, end_of_value(tail.text, 0, len(tail.text))))

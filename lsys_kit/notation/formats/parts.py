@@ -51,7 +51,7 @@ AFTER = re.compile(
     )
 )
 """A probability behind a successor."""
-FIRST = re.compile(
+BEFORE = re.compile(
     rf"\A{BLANKS}(?:[(\[]{BLANKS}(?P<bracketed>{_CHANCE}){BLANKS}[)\]]|(?P<percents>\d{{1,3}}(?:\.\d+)?\s?%)){BLANKS}:?{BLANKS}(?=\S)"
 )
 """A probability between an arrow and a successor, in brackets or in percents."""
