@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 from playwright.sync_api import Locator, expect
 
+from lsys_kit.classroom.lessons.kept import FILE
 from tests.browser.lab import OpenNotebook
 
 pytestmark = [pytest.mark.slow, pytest.mark.browser]
@@ -40,7 +41,17 @@ def expect_all(notebook: OpenNotebook) -> None:
     )
 
 
-def test_nothing_that_is_typed_is_lost(open_notebook, write_notebook) -> None:
+def expect_nothing(notebook: OpenNotebook) -> None:
+    """All that was typed has been taken back."""
+    expect(asked(notebook, 2, "prediction").get_by_role("textbox")).to_have_value("")
+    sheet, again = asked(notebook, 3, "table to fill"), asked(notebook, 4, "vote")
+    expect(sheet.get_by_role("textbox").first).to_have_value("")
+    expect(sheet.get_by_role("status")).to_be_empty()
+    expect(again.locator(".lsys-before")).to_have_text("You did not vote the first time.")
+    expect(again.locator(".lsys-predicted")).to_be_hidden()
+
+
+def test_nothing_that_is_typed_is_lost(lab, open_notebook, write_notebook) -> None:
     notebook = open_notebook(write_notebook("kept.ipynb", *WORDS))
     notebook.run_all()
     asked(notebook, 1, "vote").get_by_role("button").nth(3).click()
@@ -53,7 +64,8 @@ def test_nothing_that_is_typed_is_lost(open_notebook, write_notebook) -> None:
     sheet.get_by_role("button", name="Check").click()
     expect(sheet.get_by_role("status")).to_contain_text("1 of 8 cells is right, 6 are not filled in yet.")
     sheet.get_by_role("textbox", name="step 3: all at once").fill("not checked yet")
-    notebook.page.wait_for_timeout(600)
+    while "not checked yet" not in (lab.folder / FILE).read_text("utf-8"):
+        notebook.page.wait_for_timeout(50)
     expect_all(notebook)
     notebook.reload()
     expect_all(notebook)
@@ -65,9 +77,8 @@ def test_nothing_that_is_typed_is_lost(open_notebook, write_notebook) -> None:
     notebook.shot("kept")
     for number, name in ((1, "vote"), (2, "prediction"), (3, "table to fill")):
         asked(notebook, number, name).get_by_role("button", name="Start again").click()
+    expect_nothing(notebook)  # the kernel has heard it
     notebook.restart()
     notebook.run_all()
-    expect(asked(notebook, 2, "prediction").get_by_role("textbox")).to_have_value("")
-    expect(asked(notebook, 3, "table to fill").get_by_role("textbox").first).to_have_value("")
-    expect(asked(notebook, 4, "vote").locator(".lsys-before")).to_have_text("You did not vote the first time.")
+    expect_nothing(notebook)
     assert notebook.console == []

@@ -275,15 +275,11 @@ class Worksheet(LessonWidget):
         self._keep("typed", self._fitting(self.typed))
 
     def _check(self, _: object) -> None:
-        if not self.asked:  # begun anew
-            self.result = {}
-            for what in ("checked", "first"):
-                self._keep(what, ())
-            return
-        first = [before or now for before, now in zip(self._first(), self.entries, strict=True)]
-        self.result = {"number": self.asked.get("number", 0), "first": first, **checked(self._table, self.entries)}
+        first = [before or now for before, now in zip(self._first(), self.entries, strict=True)] if self.asked else ()
         self._keep("checked", self.entries)
         self._keep("first", first)
+        number = self.asked.get("number", 0)
+        self.result = {"number": number, "first": first, **checked(self._table, self.entries)} if self.asked else {}
 
     def _first(self) -> list[str]:
         return self._fitting(self.result.get("first", ()) or self._kept("first"))
