@@ -14,7 +14,7 @@ stays in the plane, whether copies of a part may be instanced, and which symbols
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass
 from enum import Enum, Flag, auto
 from fractions import Fraction
@@ -142,6 +142,7 @@ RAMP_START, RAMP_END = 16, 23
 """The first and the last number of the colours that run from bark to leaves; those below are told apart by hue."""
 BLOSSOM = 13
 """The number of the colour of what lies beyond leaves: stamens and other strokes in flowers."""
+LAST_COLOUR = 2**31 - 1
 WIDTH = 0.1
 """The width of circles, discs and spheres without an argument, where no width of strokes has been set."""
 
@@ -239,13 +240,18 @@ def instructions(drawn: Mapping[int, Sequence[Module]], dialect: str, angle: Val
     >>> {state: [(each.action, each.factor, each.addend) for each in found] for state, found in compiled.items()}
     {0: [('draw', 0.0, 2.0), ('turn', -1.0, 0.0)], 1: []}
     """
-    table, symbols = COMMANDS[dialect], {module.symbol for image in counted(drawn.values()) for module in image}
-    called = _EXPECTED_SURFACE if "~" in symbols & table.keys() else ()
-    commands = {symbol: (*(called if symbol != "~" else ()), *table.get(symbol, ())) for symbol in symbols}
+    commands = commands_by_symbol({module.symbol for image in counted(drawn.values()) for module in image}, dialect)
     return {
-        state: [_instruction(command, module, angle) for module in _counted(image) for command in commands[module.symbol]]
+        state: [instruction_of(command, module, angle) for module in _counted(image) for command in commands[module.symbol]]
         for state, image in counted(drawn.items())
     }
+
+
+def commands_by_symbol(symbols: Set[str], dialect: str) -> dict[str, tuple[Command, ...]]:
+    """The commands that each symbol of a word gives: where a surface may be expected, every symbol may name it."""
+    table = COMMANDS[dialect]
+    called = _EXPECTED_SURFACE if "~" in symbols & table.keys() else ()
+    return {symbol: (*(called if symbol != "~" else ()), *table.get(symbol, ())) for symbol in symbols}
 
 
 def _counted(image: Sequence[Module]) -> Iterable[Module]:
@@ -253,7 +259,7 @@ def _counted(image: Sequence[Module]) -> Iterable[Module]:
     return counted(image) if len(image) > INTERVAL else image
 
 
-def _instruction(command: Command, module: Module, angle: Value) -> Instruction:
+def instruction_of(command: Command, module: Module, angle: Value) -> Instruction:
     values = values_of(module) if command.argument else ()
     action, factor, addend = command.action, command.factor, command.addend
     if action == "turn back":

@@ -16,6 +16,7 @@ from lsys_kit.arrays import np
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.geometry.scene import Floats, Integers, Scene, Segments
 from lsys_kit.geometry.turtle.commands import Instruction, initial_step
+from lsys_kit.geometry.turtle.scanning import DRAWS, MOVES, Branches, Carried, Commands, added, latter, signs
 from lsys_kit.geometry.turtle.turtle import (
     Outline,
     RoundShape,
@@ -85,13 +86,14 @@ class PlaneTurtle(Turtle):
     degrees, both to the left, and the side on which its left lies: 1, or -1 after a roll by half a turn.
     """
 
-    __slots__ = ("steps",)
+    __slots__ = ("noted", "steps")
     position: int
     orientation: tuple[float, float, float]
 
     def __init__(self, side: int, step: float) -> None:
         super().__init__(-1, (0.0, 0.0, side), step)
         self.in_plane = True
+        self.noted = np.empty((0, len(_COLUMN_TYPES)))
         self.steps: list[tuple[float, float, float, int, bool, int, int, float, int]] = []
 
     def forward(self, length: float, drawn: bool) -> None:
@@ -107,9 +109,29 @@ class PlaneTurtle(Turtle):
         turns, offset, side = self.orientation
         return self.step(turns, offset + side * math.degrees(math.atan2(left, ahead)), math.hypot(ahead, left), self.position)
 
+    def scanned_orientation(self, commands: Commands, branches: Branches, carried: Carried, _: object) -> tuple[Any, ...]:
+        half = commands.calling("roll") & (commands.factor == 0) & (commands.addend % 360 == 180)
+        side = self.orientation[2] * signs(half, branches)
+        turning = commands.calling("turn", "turn back", "turn by mirrored angle")
+        sign = np.where(commands.calling("turn by mirrored angle"), carried.mirror, side)
+        change = tuple((sign * column)[turning] for column in (commands.factor, commands.addend))
+        return *branches.along(turning, change, added, self.orientation[:2]), side
+
+    def scanned_position(
+        self, commands: Commands, branches: Branches, carried: Carried, orientation: tuple[Any, ...]
+    ) -> Integers:
+        moves = commands.calling(*MOVES)
+        (position,) = branches.along(moves, (np.arange(moves.sum()),), latter, (-1,))
+        lengths = carried.scale * (commands.factor * carried.length + commands.addend)
+        parents = branches.before_each(position, -1)
+        drawn, (turns, offsets, _) = commands.calling(*DRAWS), orientation
+        rows = turns, offsets, lengths, parents, drawn, branches.order, commands.state, carried.stroke_width, carried.colour
+        self.noted = np.stack([column[moves] for column in rows], axis=1, dtype=np.float64)
+        return position
+
     def step(self, turns: float, offset: float, length: float, parent: int, drawn: bool = False) -> int:
         self.steps.append((turns, offset, length, parent, drawn, len(self.stack), self.state, self.stroke_width, self.colour))
-        return len(self.steps) - 1
+        return len(self.noted) + len(self.steps) - 1
 
     def do_turn(self, instruction: Instruction) -> None:
         turns, offset, side = self.orientation
@@ -164,7 +186,8 @@ def trace(word: Word | WordBetween) -> Path:
     run_turtle(turtle, word, PLANE_HANDLERS)
     columns = list(zip(*turtle.steps, strict=True)) or [()] * len(_COLUMN_TYPES)
     steps: dict[str, Any] = {
-        name: np.array(column, kind) for (name, kind), column in zip(_COLUMN_TYPES.items(), columns, strict=True)
+        name: np.concatenate([noted.astype(kind), np.array(column, kind)])
+        for (name, kind), noted, column in zip(_COLUMN_TYPES.items(), turtle.noted.T, columns, strict=True)
     }
     return Path(
         **steps,

@@ -18,13 +18,16 @@ from __future__ import annotations
 
 import math
 from array import array
-from typing import NamedTuple, TypeAlias
+from collections.abc import Callable
+from itertools import chain
+from typing import Any, NamedTuple, TypeAlias
 
-from lsys_kit.arrays import np
+from lsys_kit.arrays import is_array, np
 from lsys_kit.budget import check_budget, check_bytes
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.geometry.scene import OWN, Floats, Scene, Segments
 from lsys_kit.geometry.turtle.commands import Instruction, in_plane, initial_step
+from lsys_kit.geometry.turtle.scanning import DRAWS, MOVES, TURNS, Branches, Carried, Commands, added, turned
 from lsys_kit.geometry.turtle.surfaces import PATCH_FACES, Surface, patch_grid
 from lsys_kit.geometry.turtle.turtle import Outline, Turtle, collected_labels, collected_shapes, handlers_of, run_turtle
 from lsys_kit.geometry.turtle.unfolding import WordBetween
@@ -63,11 +66,20 @@ def cos_sin(degrees: float) -> tuple[float, float]:
     >>> cos_sin(-90)
     (0.0, -1.0)
     """
+    if is_array(degrees):
+        return _cosines_sines(degrees)
     quarters, rest = divmod(degrees, 90.0)
     if rest == 0:
         return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[int(quarters) % 4]
     radians = math.radians(math.fmod(degrees, 360.0))
     return math.cos(radians), math.sin(radians)
+
+
+def _cosines_sines(degrees: Any) -> tuple[Any, Any]:
+    quarters, rest = np.divmod(degrees, 90.0)
+    radians, exact = np.radians(np.fmod(degrees, 360.0)), np.array([1.0, 0.0, -1.0, 0.0])
+    cos, sin = (exact[(quarters - back).astype(np.int64) % 4] for back in (0, 1))
+    return np.where(rest == 0, cos, np.cos(radians)), np.where(rest == 0, sin, np.sin(radians))
 
 
 def cross(a: Vector, b: Vector) -> Vector:
@@ -105,6 +117,8 @@ MOST_PARTS = 100
 FACE_BYTES = 1_400
 """About what a face of a patch takes in memory."""
 _ROWS = 4
+_AXES = {"pitch": (2, 0), "roll": (2, 1)}
+"""Which axis of the frame, heading, left or up, each rotation turns towards which; others turn the heading to the left."""
 _NEGLIGIBLE = 1e-12
 """Smaller sines are taken for 0."""
 _STROKE_COLUMNS = 10
@@ -178,6 +192,32 @@ class SpaceTurtle(Turtle):
     def stroke(self, start: Vector, end: Vector, width: float) -> None:
         self.last = len(self.strokes) // _STROKE_COLUMNS
         self.strokes.extend((*start, *end, len(self.stack), self.state, width, self.colour))
+
+    def scanned_orientation(
+        self, commands: Commands, branches: Branches, carried: Carried, prepare: Callable[[Instruction], Any]
+    ) -> Any:
+        matrices = [np.full(len(carried.mirror), float(row == column)) for row in range(3) for column in range(3)]
+        for action in TURNS:
+            rows = np.flatnonzero(commands.calling(action))
+            amounts: Any = commands.factor[rows], commands.addend[rows]
+            cos, sin = prepare(Instruction(action, *amounts))
+            a, b = _AXES.get(action, (0, 1))
+            sin = sin * carried.mirror[rows] if action == "turn by mirrored angle" else sin
+            for row, column, value in ((a, a, cos), (a, b, -sin), (b, a, sin), (b, b, cos)):
+                matrices[3 * row + column][rows] = value
+        turning = commands.calling(*TURNS)
+        first = tuple(chain.from_iterable(zip(*self.orientation[:3], strict=True)))
+        found = branches.along(turning, tuple(entry[turning] for entry in matrices), turned, first)
+        return *(tuple(found[column::3]) for column in range(3)), np.zeros(len(turning), np.int64)
+
+    def scanned_position(self, commands: Commands, branches: Branches, carried: Carried, orientation: Any) -> Any:
+        moves, draws = commands.calling(*MOVES), commands.calling(*DRAWS)
+        lengths = carried.scale * (commands.factor * carried.length + commands.addend)
+        found = branches.along(moves, tuple((lengths * each)[moves] for each in orientation[0]), added, self.position)
+        starts = [branches.before_each(column, first) for column, first in zip(found, self.position, strict=True)]
+        columns = *starts, *found, branches.order, commands.state, carried.stroke_width, carried.colour
+        self.strokes.frombytes(np.stack([column[draws] for column in columns], axis=1, dtype=np.float64).tobytes())
+        return found
 
     def initial_orientation(self, degrees: float) -> TurtleFrame:
         head, left, up, rotations = self.start

@@ -224,6 +224,8 @@ def _along(profile: Floats, basis: Callable[[Floats], Floats], pieces: int) -> F
     return np.concatenate([curves[0], *(curve[1:] for curve in curves[1:])])
 
 
+MOST_CURVED = 150
+"""Where more surfaces are drawn, each is drawn by its outlines: one sees little of its curvature."""
 PATCH_FACES = 5
 """A patch has so many rows and columns of faces, where no number says otherwise."""
 

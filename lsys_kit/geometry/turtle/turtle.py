@@ -14,7 +14,7 @@ from itertools import product
 from operator import attrgetter
 from typing import Any, NamedTuple, TypeAlias
 
-from lsys_kit.arrays import np
+from lsys_kit.arrays import arrays_pay, np
 from lsys_kit.budget import check_budget, counted, current
 from lsys_kit.derivation.core.interpretation import interpretations, modules_between_checks
 from lsys_kit.derivation.core.words import Word
@@ -23,6 +23,7 @@ from lsys_kit.geometry.scene import CIRCLE, DISC, OWN, SPHERE, Discs, Floats, La
 from lsys_kit.geometry.turtle.commands import (
     ACTIONS,
     LARGEST,
+    LAST_COLOUR,
     RAMP_END,
     RAMP_START,
     WIDTH,
@@ -32,7 +33,8 @@ from lsys_kit.geometry.turtle.commands import (
     instructions,
     unknown_commands,
 )
-from lsys_kit.geometry.turtle.surfaces import Face, Surface, surfaces, surfaces_by_symbol
+from lsys_kit.geometry.turtle.scanning import LEAST, Branches, Carried, Commands, interpreted
+from lsys_kit.geometry.turtle.surfaces import MOST_CURVED, Face, Surface, surfaces, surfaces_by_symbol
 from lsys_kit.geometry.turtle.unfolding import WordBetween
 from lsys_kit.notation.model.system import LSystem
 
@@ -140,15 +142,11 @@ def collected_shapes(
     return polygons, discs
 
 
-LAST_COLOUR = 2**31 - 1
-
 Handler: TypeAlias = Callable[[Any, Any], None]
 """Carries out an instruction, given a turtle and the operand of the instruction."""
 
 PALETTE_SIZE, WHITE = 256, 15
 """The number of Fractint's colours, and the one in which it draws at first."""
-MOST_CURVED = 150
-"""Where more surfaces are drawn, each is drawn by its outlines: one sees little of its curvature."""
 
 _SAVED_ATTRIBUTES = (
     "position",
@@ -173,8 +171,8 @@ def _forward(drawn: bool, vertex: bool) -> Handler:
 
     def handler(turtle: Turtle, instruction: Instruction) -> None:
         turtle.forward(_size(turtle, instruction), drawn)
-        if vertex and turtle.open_polygons:
-            turtle.open_polygons[-1].corners.append(turtle.position)
+        if vertex:
+            turtle.record_vertex(turtle.position)
         if drawn and turtle.restored:
             for name, value in turtle.restored:
                 setattr(turtle, name, value)
@@ -226,11 +224,6 @@ def _bounded(what: str, value: float) -> float:
     if not abs(value) <= LARGEST:
         raise ModelValueError(f"The turtle's {what} grows too large to draw: {value:.3g}")
     return value
-
-
-def _check_depth(turtle: Turtle, opened: Sequence[object]) -> None:
-    if len(opened) >= turtle.bracket_limit:
-        raise ModelLimitError(f"More than {turtle.bracket_limit:,} brackets are open at once", limit=turtle.bracket_limit)
 
 
 class Turtle(ABC):
@@ -325,6 +318,20 @@ class Turtle(ABC):
     def stroke_width(self) -> float:
         return self.width * self.scale if self.width > 0 else self.width
 
+    def check_depth(self, opened: int) -> None:
+        if opened >= self.bracket_limit:
+            raise ModelLimitError(f"More than {self.bracket_limit:,} brackets are open at once", limit=self.bracket_limit)
+
+    @abstractmethod
+    def scanned_orientation(
+        self, commands: Commands, branches: Branches, carried: Carried, prepare: Callable[[Instruction], Any]
+    ) -> Any:
+        """The orientation after each command, as columns, by scans along the branches."""
+
+    @abstractmethod
+    def scanned_position(self, commands: Commands, branches: Branches, carried: Carried, orientation: Any) -> Any:
+        """The position after each command, as columns; all strokes are taken down."""
+
     @abstractmethod
     def forward(self, length: float, drawn: bool) -> None:
         """Move forward, with or without a stroke."""
@@ -336,6 +343,10 @@ class Turtle(ABC):
     @abstractmethod
     def local_point(self, ahead: float, left: float, up: float) -> object:
         """A point given by its coordinates in the frame of the turtle."""
+
+    def record_vertex(self, place: object) -> None:
+        if self.open_polygons:
+            self.open_polygons[-1].corners.append(place)
 
     def draw_surface(self, surface: Surface, size: float) -> None:
         """Draw a surface at the position of the turtle: in the plane its outlines."""
@@ -388,7 +399,7 @@ class Turtle(ABC):
         self.colour = max(first, min(last, round(self.colour + instruction.addend)))
 
     def do_push(self, _: Instruction) -> None:
-        _check_depth(self, self.stack)
+        self.check_depth(len(self.stack))
         self.stack.append(_saved_state(self))
         self.axis = None
 
@@ -411,12 +422,11 @@ class Turtle(ABC):
             ) = self.stack.pop()
 
     def do_begin_polygon(self, _: Instruction) -> None:
-        _check_depth(self, self.open_polygons)
+        self.check_depth(len(self.open_polygons))
         self.open_polygons.append(Outline([], self.state, self.colour))
 
     def do_record_vertex(self, _: Instruction) -> None:
-        if self.open_polygons:
-            self.open_polygons[-1].corners.append(self.position)
+        self.record_vertex(self.position)
 
     def do_end_polygon(self, _: Instruction) -> None:
         if self.open_polygons and len((outline := self.open_polygons.pop()).corners) > 2:
@@ -481,6 +491,8 @@ def run_turtle(
 ) -> None:
     """Interpret a word by a turtle; actions without a handler are skipped."""
     with _without_garbage_collection():
+        if isinstance(word, Word) and arrays_pay(len(word), LEAST) and interpreted(turtle, word, handlers, prepare):
+            return
         compiled = compile_word(word, handlers, prepare)
         turtle.unknown = dict.fromkeys(compiled.unknown)
         turtle.flat = turtle.in_plane or _surfaces_in(word, compiled) > MOST_CURVED
