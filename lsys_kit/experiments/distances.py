@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from itertools import pairwise
+from typing import Any
 
 from lsys_kit.budget import counted
 from lsys_kit.derivation.core.words import Word
@@ -18,12 +19,7 @@ from lsys_kit.worlds.derive import derive
 
 
 def distances(
-    system: LSystem,
-    symbol: str,
-    seeds: int | Iterable[int] = 1,
-    *,
-    steps: int | Iterable[int] | None = None,
-    **choices: object,
+    system: LSystem, symbol: str, seeds: int | Iterable[int] = 1, *, steps: int | Iterable[int] | None = None, **choices: object
 ) -> Table:
     """How far apart the modules with a symbol stand in the words of a system.
 
@@ -80,7 +76,7 @@ def distances(
     return Table((SEED, STEP, PAIR, "distance"), rows, 3)
 
 
-def _words(system: LSystem, steps: tuple[int, ...], seed: int, choices: dict[str, object]) -> Iterator[tuple[int, Word]]:
+def _words(system: LSystem, steps: tuple[int, ...], seed: int, choices: dict[str, Any]) -> Iterator[tuple[int, Word]]:
     words = derive(system, max(steps), seed=seed, **choices)
     yield from ((step, words[step]) for step in steps)
 

@@ -175,7 +175,8 @@ def _along_words(words: Sequence[tuple[str, Any]], name: Asked | None, log: bool
     if not isinstance(name, str):
         raise ModelValueError("Along a word one parameter is shown", hint='Name it as the productions do: measure="c".')
     curves = tuple(
-        Curve(_along(word, name), BLUE if len(words) == 1 else SERIES[place], label) for place, (label, word) in enumerate(words)
+        Curve(_along(word, name), BLUE if len(words) == 1 else SERIES[place], label)
+        for place, (label, word) in enumerate(words)
     )
     return CurveChart(curves, Axis("place in the word", True), Axis(name_label(name), False, log))
 
@@ -188,9 +189,14 @@ def _along(word: Word, name: str) -> tuple[tuple[float, float], ...]:
     if not where:
         names = [*dict.fromkeys(str(each) for rule in known for each in rule.arguments if isinstance(each, Name))]
         raise ModelNameError(
-            f'No module has a parameter "{name}"', hint=suggestion(name, names) or f"Parameters are: {', '.join(names) or 'none'}."
+            f'No module has a parameter "{name}"',
+            hint=suggestion(name, names) or f"Parameters are: {', '.join(names) or 'none'}.",
         )
-    found = [(place, module.arguments[where[module.symbol]]) for place, module in enumerate(counted(word), 1) if module.symbol in where]
+    found = [
+        (place, module.arguments[where[module.symbol]])
+        for place, module in enumerate(counted(word), 1)
+        if module.symbol in where
+    ]
     values = finite([value for _, value in found], f'The parameter "{name}"')
     return tuple((float(place), value) for (place, _), value in zip(found, values, strict=True))
 

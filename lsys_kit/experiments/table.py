@@ -1,8 +1,8 @@
 """Tables: what runs have come to, a row for each run and step, as data are kept tidily (Wickham, Tidy Data, 2014).
 
-Which chart a table has depends on what varied: over the seeds alone, or over the pairs of a word, it is a histogram; over the steps or one constant a curve;
-over two constants a grid; over a constant and the steps a curve for each value. Where the seeds vary besides, curves and grids
-show means, a curve also the single runs.
+Which chart a table has depends on what varied: over the seeds alone, or over the pairs of a word, it is a histogram; over the
+steps or one constant a curve; over two constants a grid; over a constant and the steps a curve for each value. Where the seeds
+vary besides, curves and grids show means, a curve also the single runs.
 """
 
 from __future__ import annotations
