@@ -62,7 +62,8 @@ def test_a_gap_below_the_shortest_is_never_divided(seed: int) -> None:
 @pytest.mark.slow
 def test_four_explanations_leave_four_kinds_of_distances() -> None:
     count, chief, dice, substance = (
-        distances(system(id), HETEROCYST, seeds)["distance"] for id, seeds in (("N2", 20), ("N3", 20), ("N4", 40), ("N5", 8))
+        distances(system(id), HETEROCYST, seeds, steps=steps)["distance"]
+        for id, seeds, steps in (("N2", 20, 150), ("N3", 20, 30), ("N4", 40, 30), ("N5", 8, 150))
     )
     assert Counter(count).most_common(1) == [(1, 368)]
     assert max(count) == 12
@@ -73,7 +74,7 @@ def test_four_explanations_leave_four_kinds_of_distances() -> None:
 
 def test_heterocysts_that_give_off_nothing_crowd_together() -> None:
     mutant = read(entry("N5").rules.replace("C(uniform(0,0.3), c) H(1)", "C(uniform(0,0.3), c) H(0)"))
-    assert Counter(distances(mutant, HETEROCYST)["distance"]).keys() == {1, 2, 5, 8}
+    assert Counter(distances(mutant, HETEROCYST, steps=150)["distance"]).keys() == {1, 2, 5, 8}
 
 
 def test_activator_and_inhibitor_make_peaks_out_of_nearly_nothing() -> None:
