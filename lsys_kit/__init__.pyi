@@ -40,6 +40,7 @@ from lsys_kit.errors import ModelNameError as ModelNameError
 from lsys_kit.errors import ModelSyntaxError as ModelSyntaxError
 from lsys_kit.errors import ModelValueError as ModelValueError
 from lsys_kit.experiments.closing import closing_angles as closing_angles
+from lsys_kit.experiments.distances import distances as distances
 from lsys_kit.experiments.life_spans import life_spans as life_spans
 from lsys_kit.experiments.plot import plot as plot
 from lsys_kit.experiments.runs import ensemble as ensemble

@@ -36,6 +36,7 @@ WORKS = MappingProxyType(
         "Kurth": "W. Kurth, L-Systeme (lecture slides)",
         "applet lesson": "Lesson 2 - String Rewriting (lesson of a plant applet)",
         "ABOP": "P. Prusinkiewicz and A. Lindenmayer, The Algorithmic Beauty of Plants",
+        "kit": "Models of substances in cells (made for this kit)",
     }
 )
 """The works from which the systems come, in the order in which the catalogue lists them."""

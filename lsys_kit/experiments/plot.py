@@ -22,8 +22,10 @@ from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError, re
 from lsys_kit.experiments.measures import Asked, Measurable, Measure, measures_of
 from lsys_kit.experiments.table import Table, column_label, measured_label
 from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
+from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.arithmetic import Value, is_symbolic
 from lsys_kit.notation.model.cells import MapSystem
+from lsys_kit.notation.model.expressions import Name
 from lsys_kit.notation.model.modules import Module
 from lsys_kit.notation.model.system import LSystem, symbols
 from lsys_kit.pictures.plots.chart import Axis, Curve, CurveChart, Plot, Share, ShareChart, finite, name_label
@@ -53,16 +55,16 @@ def plot(
     Parameters
     ----------
     what
-        A system or a derivation: curves over its steps. A timed system (see `timed`): curves over time. Several of these, in a
-        dictionary with their names: a curve for each. The stages of a system (see `stages`), or its `growth`: their
-        frequencies, at a step or in the long run. A table of `ensemble` or `sweep`: see `Table.plot`. A map system: its cells
-        and walls.
+        A system or a derivation: curves over its steps. A timed system (see `timed`): curves over time. A word: a parameter of
+        its modules, as a concentration, along the word. Several of these, in a dictionary with their names: a curve for each.
+        The stages of a system (see `stages`), or its `growth`: their frequencies, at a step or in the long run. A table of
+        `ensemble`, `sweep` or `distances`: see `Table.plot`. A map system: its cells and walls.
     n
         The number of steps, or the time, to which curves go; the step at which stages are counted.
     measure
-        What is measured, one thing or a list, as for `ensemble`; of a table the column. By default how often each kind of
-        module occurs, of several systems the length of their words, and of a timed system the width of the drawing, which is
-        the length of a filament.
+        What is measured, one thing or a list, as for `ensemble`; of a table the column; of a word the name that the parameter
+        has in the productions. By default how often each kind of module occurs, of several systems the length of their words,
+        and of a timed system the width of the drawing, which is the length of a filament.
     log
         Whether the scale is logarithmic, on which equal factors are equal distances.
     background
@@ -90,6 +92,9 @@ def plot(
     2 curves (a, b) of modules, step n from 0 to 12, largest 233
     >>> plot({"alga": alga, "powers of two": read("axiom: a\\na -> a a")}, 8)
     2 curves (alga, powers of two) of length of the word, step n from 0 to 8, largest 256
+    >>> spread = read("axiom: C(0) C(0) C(8) C(0)\\nC(x) < C(c) > C(y) -> C((x+2*c+y)/4)")
+    >>> plot(derive(spread, 1)[-1], measure="c")
+    1 curve of c, place in the word from 1 to 4, largest 4
     """
     require(log, bool, 'True or False for "log"')
     if background is not None:
@@ -116,13 +121,19 @@ def _refuse(choices: Mapping[str, object], n: object, why: str) -> None:
 
 
 def _curve_chart(what: object, n: object, measure: Asked | None, log: bool, choices: Choices) -> CurveChart:
+    if isinstance(what, Word):
+        what = {"": what}
     if not isinstance(what, Mapping):
         return _chart_of_runs([("", _run(what, n, choices))], measure, log)
     if not what:
         raise ModelValueError("There is nothing to plot", hint='Name what is compared: {"with": ..., "without": ...}.')
-    runs = [(_name_label(str(name)), _run(each, n, choices)) for name, each in islice(what.items(), MOST_CURVES + 1)]
-    if len(runs) > MOST_CURVES:
+    named = [(_name_label(str(name)), each) for name, each in islice(what.items(), MOST_CURVES + 1)]
+    if len(named) > MOST_CURVES:
         raise ModelValueError(f"More than {MOST_CURVES} curves cannot be told apart", hint="Plot some of them.")
+    if all(isinstance(each, Word) for _, each in named):
+        _refuse(choices, n, "A word is at a step, and its constants have their values")
+        return _along_words(named, measure, log)
+    runs = [(name, _run(each, n, choices)) for name, each in named]
     if len({isinstance(run, Derivation) for _, run in runs}) > 1:
         raise ModelValueError("Steps and time do not stand along one axis", hint="Plot derivations, or timed systems.")
     return _chart_of_runs(runs, measure, log)
@@ -151,12 +162,43 @@ def _run(what: object, n: object, choices: Choices) -> Derivation | _Course:
         return what
     if not isinstance(what, LSystem):
         raise ModelValueError(
-            f"Systems, derivations, timed systems, stages, growth and tables can be plotted, not {type(what).__name__}"
+            f"Systems, derivations, words, timed systems, stages, growth and tables can be plotted, not {type(what).__name__}"
         )
     steps = whole_number(n, "The number of steps") if n is not None else DEFAULT_STEPS if what.steps is None else what.steps
     if steps > MOST_STEPS:
         raise ModelLimitError(f"A plot shows at most {MOST_STEPS:,} steps", limit=MOST_STEPS, needed=steps)
     return derive(what, steps, **choices)
+
+
+def _along_words(words: Sequence[tuple[str, Any]], name: Asked | None, log: bool) -> CurveChart:
+    """The curves of a parameter along some words."""
+    if not isinstance(name, str):
+        raise ModelValueError("Along a word one parameter is shown", hint='Name it as the productions do: measure="c".')
+    curves = tuple(
+        Curve(_along(word, name), BLUE if len(words) == 1 else SERIES[place], label)
+        for place, (label, word) in enumerate(words)
+    )
+    return CurveChart(curves, Axis("place in the word", True), Axis(name_label(name), False, log))
+
+
+def _along(word: Word, name: str) -> tuple[tuple[float, float], ...]:
+    """The values of a parameter with their places in a word, counted from 1."""
+    system = word.states.system
+    known = [rule.predecessor for rule in (*system.productions, *system.decomposition, *system.interpretation)]
+    where = {each.symbol: each.arguments.index(Name(name)) for each in reversed(known) if Name(name) in each.arguments}
+    if not where:
+        names = [*dict.fromkeys(str(each) for rule in known for each in rule.arguments if isinstance(each, Name))]
+        raise ModelNameError(
+            f'No module has a parameter "{name}"',
+            hint=suggestion(name, names) or f"Parameters are: {', '.join(names) or 'none'}.",
+        )
+    found = [
+        (place, module.arguments[where[module.symbol]])
+        for place, module in enumerate(counted(word), 1)
+        if module.symbol in where
+    ]
+    values = finite([value for _, value in found], f'The parameter "{name}"')
+    return tuple((float(place), value) for (place, _), value in zip(found, values, strict=True))
 
 
 def _chart_of_runs(runs: Sequence[tuple[str, Derivation | _Course]], measure: Asked | None, log: bool) -> CurveChart:

@@ -102,7 +102,7 @@ def ensemble(
     3 rows
     """
     require(system, LSystem, "An L-system")
-    named = [{"seed": seed} for seed in _seeds(seeds)]
+    named = [{"seed": seed} for seed in seeds_from(seeds)]
     return _table(system, ["seed"], named, measure, steps, executor, file, progress, choices)
 
 
@@ -173,14 +173,14 @@ def _table(
     require(progress, bool, 'True or False for "progress"')
     if executor is not None and not callable(getattr(executor, "submit", None)):
         raise ModelValueError(f"An executor of concurrent.futures is needed, not {shown(executor)}")
-    _check_names(system, keys, choices)
+    check_names(system, keys, choices)
     columns = (*keys, "step", *(each.name for each in measures_of(measure, system)))
     for name in columns:
         if columns.count(name) > 1:
             raise ModelNameError(f'Two columns are called "{name}"', hint='Give the measure another name: {"size": ...}.')
     if not runs:
         raise ModelValueError("There is nothing to run", hint="Give at least one seed, or a value for each constant.")
-    experiment = Experiment(system, _steps(system, steps), measure, current())
+    experiment = Experiment(system, steps_from(system, steps), measure, current())
     _check_room(len(runs) * len(experiment.steps) * len(columns))
     settings = [tuple(run[key] for key in keys) for run in runs]
     with kept(file, experiment, columns, len(keys), choices) as known:
@@ -227,7 +227,7 @@ def _bar(runs: int, shown: bool) -> Any:
     return tqdm(total=runs, unit="run", leave=False, delay=PROGRESS_DELAY, disable=hidden)
 
 
-def _check_names(system: LSystem, keys: Sequence[str], choices: Mapping[str, object]) -> None:
+def check_names(system: LSystem, keys: Sequence[str], choices: Mapping[str, object]) -> None:
     """Whatever is varied or chosen is a constant of the system, or something that `derive` takes."""
     constants = [constant.name for constant in system.constants]
     for name in (*keys, *choices):
@@ -243,7 +243,7 @@ def _check_room(values: int) -> None:
     check_bytes(values * BYTES_A_VALUE, lambda: "The table was not made")
 
 
-def _seeds(seeds: object) -> Sequence[int]:
+def seeds_from(seeds: object) -> Sequence[int]:
     if isinstance(seeds, bool) or not isinstance(seeds, Iterable):
         many = whole_number(seeds, "The number of seeds")
         _check_room(many)
@@ -264,7 +264,7 @@ def _all_of(values: Iterable[object]) -> list[object]:
     return found
 
 
-def _steps(system: LSystem, steps: object) -> tuple[int, ...]:
+def steps_from(system: LSystem, steps: object) -> tuple[int, ...]:
     if steps is None:
         return (USUAL_STEPS if system.steps is None else system.steps,)
     if isinstance(steps, str) or not isinstance(steps, Iterable):
@@ -299,7 +299,7 @@ def declared_values(system: LSystem, name: str) -> list[Value]:
     >>> [str(value) for value in declared_values(read("p = 1 in 0 .. 1 by 0.5\\naxiom: A"), "p")]
     ['0', '1/2', '1']
     """
-    _check_names(system, [name], {})
+    check_names(system, [name], {})
     order = {constant.name: place for place, constant in enumerate(system.constants)}
     span = next((constant.range for constant in system.constants if constant.name == name), None)
     if span is None:

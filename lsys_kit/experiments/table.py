@@ -1,8 +1,8 @@
 """Tables: what runs have come to, a row for each run and step, as data are kept tidily (Wickham, Tidy Data, 2014).
 
-Which chart a table has depends on what varied: over the seeds alone it is a histogram; over the steps or one constant a curve;
-over two constants a grid; over a constant and the steps a curve for each value. Where the seeds vary besides, curves and grids
-show means, a curve also the single runs.
+Which chart a table has depends on what varied: over the seeds alone, or over the pairs of a word, it is a histogram; over the
+steps or one constant a curve; over two constants a grid; over a constant and the steps a curve for each value. Where the seeds
+vary besides, curves and grids show means, a curve also the single runs.
 """
 
 from __future__ import annotations
@@ -34,7 +34,9 @@ if TYPE_CHECKING:
 
 MOST_CURVES, MOST_RUNS = 8, 200
 """The most curves that can be told apart; the most single runs that are drawn behind a mean."""
-SEED, STEP = "seed", "step"
+SEED, STEP, PAIR = "seed", "step", "pair"
+REPEATED = {SEED, PAIR}
+"""What is no axis: of its values only how they are spread is asked."""
 LABELS = {
     "modules": "modules",
     "length": "length of the word",
@@ -80,13 +82,13 @@ def chart_of(table: Table, column: str, log: bool) -> Chart:
     settings = [{key: row[place] for key, place in places.items()} for row in table.rows]
     found = list(zip(settings, finite(values, f'The column "{column}"'), strict=True))
     up = Axis(measured_label(column), all(isinstance(value, int) for value in values), log)
-    over = [key for key in keys if key != SEED]
+    over = [key for key in keys if key not in REPEATED]
     if not keys:
         raise ModelValueError(
             "Only one setting was run, and a plot compares several", hint="Take more seeds, steps or values of a constant."
         )
     if not over:
-        return HistogramChart(tuple(value for _, value in found), up._replace(log=False))
+        return HistogramChart(tuple(value for _, value in found), up._replace(log=False), "pairs" if PAIR in keys else "runs")
     if len(over) == 1:
         return _one_variable(found, over[0], up)
     if len(over) == 2 and STEP in over:
@@ -150,8 +152,8 @@ def _means(rows: Rows, name: str) -> tuple[tuple[float, float], ...]:
 
 MOST_SHOWN = 10
 """How many rows of a long table are shown: its first ones and its last ones."""
-SUMMARY = ("runs", "mean", "sd", "least", "median", "greatest")
-"""The columns of a summary."""
+SUMMARY = ("mean", "sd", "least", "median", "greatest")
+"""The columns of a summary, behind the number of values."""
 
 
 @dataclass(frozen=True)
@@ -226,8 +228,8 @@ class Table:
         return replace(self, rows=tuple(chosen))
 
     def summary(self, column: str | None = None) -> Table:
-        """The distribution of a measured column over the seeds: how many runs, their mean and standard deviation, the least,
-        the median and the greatest value; a row for each setting of all that varied besides.
+        """The distribution of a measured column over the seeds: how many runs (or pairs, see `distances`), their mean and
+        standard deviation, the least, the median and the greatest value; a row for each setting of all that varied besides.
 
         Parameters
         ----------
@@ -243,14 +245,15 @@ class Table:
         1 row
         """
         place = self._place(self.measured(column))
-        settings = [index for index in range(self.keys) if self.columns[index] != "seed"]
+        settings = [index for index in range(self.keys) if self.columns[index] not in REPEATED]
 
         def setting(row: Row) -> Row:
             return tuple(row[index] for index in settings)
 
         groups = groupby(sorted(self.rows, key=setting), key=setting)
         rows = tuple((*given, *_described([row[place] for row in group])) for given, group in groups)
-        return Table((*(self.columns[index] for index in settings), *SUMMARY), rows, len(settings))
+        counted = "pairs" if PAIR in self.columns[: self.keys] else "runs"
+        return Table((*(self.columns[index] for index in settings), counted, *SUMMARY), rows, len(settings))
 
     def measured(self, column: object = None) -> str:
         """The name of a measured column; by default the first one."""

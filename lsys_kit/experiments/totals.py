@@ -16,7 +16,7 @@ from lsys_kit.derivation.growth.affine import AffineSums, Case, NotAffine, affin
 from lsys_kit.derivation.growth.recurrences import generating_function, polynomial, unknown
 from lsys_kit.errors import ModelNameError, ModelValueError, require, whole_number
 from lsys_kit.experiments.table import Table, column_label
-from lsys_kit.notation.model.arithmetic import Value, expression_of, is_symbolic, number_text
+from lsys_kit.notation.model.arithmetic import Value, expression_of, is_symbolic, normalised, number_text
 from lsys_kit.notation.model.expressions import Number
 from lsys_kit.notation.model.formulas import formula_latex, formula_line, formula_text
 from lsys_kit.notation.model.modules import CLOSING, OPENING
@@ -78,7 +78,7 @@ class Total:
     def _derived(self, steps: int) -> list[Value]:
         """The totals of derived words."""
         found = derive(self.system, steps, **self.constants)
-        return [sum(self._of_word(found.to(step)[step]), 0) for step in counted(range(steps + 1), 1)]
+        return [normalised(sum(self._of_word(found.to(step)[step]), 0)) for step in counted(range(steps + 1), 1)]
 
     def _of_word(self, word: Word) -> Iterator[Value]:
         depth = 0

@@ -67,7 +67,7 @@ def test_the_rows_of_the_lessons_are_all_there():
     assert " ".join(systems()) == (
         "J1 J2 J3 J4 J5 J6 T1 T2 T3 P1 P2 P3 P4 P5 P6 P7 P8 P9 P9w "
         "K1 K2 K3 K4 K5 K5b K6 K7 K8 K9 K10 K11 K12 K13 K14 K15 K16 K17a K17b K18 K19 K20 "
-        "K21 K22 K23 K24 K24b K25 K26 K27 L0 L1 L2 L3 L4"
+        "K21 K22 K23 K24 K24b K25 K26 K27 L0 L1 L2 L3 L4 N1 N1b N2 N3 N4 N5 N6 N7"
     )
 
 

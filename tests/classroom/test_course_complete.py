@@ -27,10 +27,11 @@ COURSE = (
     "16_tissues",
     "17_languages",
     "18_your_own_plant",
+    "19_every_tenth_cell",
 )
 
 
-def test_the_course_has_nineteen_lessons_each_with_notebook_page_and_exercises() -> None:
+def test_the_course_has_twenty_lessons_each_with_notebook_page_and_exercises() -> None:
     assert names() == COURSE
     assert tuple(sorted(path.stem for path in LESSONS.glob("[0-9][0-9]_*.ipynb"))) == COURSE
     assert tuple(sorted(path.stem for path in TEACHER.glob("*.md"))) == COURSE

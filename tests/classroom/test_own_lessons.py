@@ -286,7 +286,7 @@ def test_a_new_lesson_has_nothing_wrong_but_what_is_to_be_replaced(ferns: Path) 
     ]
 
 
-@pytest.mark.parametrize("number", [pytest.param(each, marks=pytest.mark.slow) for each in range(19)])
+@pytest.mark.parametrize("number", [pytest.param(each, marks=pytest.mark.slow) for each in range(20)])
 def test_a_copy_of_a_lesson_is_a_lesson(tmp_path: Path, number: int) -> None:
     root = write_lesson("mine", tmp_path / "mine", str(number))
     assert findings_in(root, run=False) == []

@@ -123,7 +123,7 @@ def test_probabilities_sum_to_one():
 
 
 def test_every_lesson_has_something_to_practise():
-    assert {topic["lesson"] for topic in TOPICS.values()} == set(range(19))
+    assert {topic["lesson"] for topic in TOPICS.values()} == set(range(20))
 
 
 @pytest.mark.parametrize("seed", range(30))

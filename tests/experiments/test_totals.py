@@ -290,3 +290,8 @@ def test_a_formula_that_explodes_ends_within_the_limit() -> None:
     model = read("\n".join([*(f"q{i} = {i + 1}" for i in range(6)), "axiom: A0(1)", rules]))
     with limits(seconds=2), pytest.raises(ModelLimitError):
         total(model, "A1", **{f"q{i}": f"q{i}" for i in range(6)})
+
+
+def test_fractions_that_add_up_to_a_whole_number_are_shown_as_one() -> None:
+    spread = read("axiom: C(2) C(0)\nC(x) < C(c) -> C(c + (x-c)/4)\nC(c) > C(y) -> C(c + (y-c)/4)")
+    assert repr(total(spread, "C")).startswith("2, 2, 2, 2, 2, 2")

@@ -266,6 +266,7 @@ FUNCTIONS = (
     "compare",
     "continuity",
     "derive",
+    "distances",
     "draw",
     "draw_hierarchy",
     "ensemble",

@@ -349,15 +349,16 @@ def _round_step(step: float) -> float:
 
 @dataclass(frozen=True)
 class HistogramChart(Chart):
-    """A histogram of values, one for each run, with the mean."""
+    """A histogram of values, one for each run or whatever is counted, with the mean."""
 
     values: tuple[float, ...]
     across: Axis
+    counted: str = "runs"
 
     @cached_property
     def text(self) -> str:
         return (
-            f"{len(self.values):,} runs, {plain(self.across.label)}: least {tick_text(min(self.values))}, mean "
+            f"{len(self.values):,} {self.counted}, {plain(self.across.label)}: least {tick_text(min(self.values))}, mean "
             f"{tick_text(float(f'{self._mean:.6g}'))}, greatest {tick_text(max(self.values))}"
         )
 
@@ -371,7 +372,7 @@ class HistogramChart(Chart):
 
     def paint(self, ax: Axes, size: float | None = SIZE) -> None:
         """Draw a bar for each class."""
-        set_paper(ax, self.across, Axis("runs", True), size)
+        set_paper(ax, self.across, Axis(self.counted, True), size)
         edges = class_edges(self.values)
         counts = [0] * (len(edges) - 1)
         for value in self.values:

@@ -93,6 +93,18 @@ def _context(chance: Random, level: int, draft: Draft) -> Exercise | None:
     return _word(draft, "\n".join([f"axiom: {axiom}", *lines]), 2 + (level > 1), 24)
 
 
+PORTIONS = (0, 0, 4, 8, 16, 16, 32)
+"""Concentrations of which a quarter, or a quarter of that, is easily written."""
+
+
+def _diffusion(chance: Random, level: int, draft: Draft) -> Exercise | None:
+    cells, steps = 3 + level, 1 + (level > 1)
+    first = [0] * cells if level < 3 else [4 * chance.choice(PORTIONS) for _ in range(cells)]
+    first[chance.randrange(cells)] = 4 * chance.choice(PORTIONS[2:]) * steps
+    lines = [f"axiom: {' '.join(f'C({each})' for each in first)}", "C(x) < C(c) > C(y) -> C(c + (x + y - 2*c)/4)"]
+    return _word(draft, "\n".join([*lines, "C(x) < C(c) -> C(c + (x - c)/4)", "C(c) > C(y) -> C(c + (y - c)/4)"]), steps)
+
+
 # Totals as formulas
 
 
@@ -718,6 +730,7 @@ MAKERS: dict[str, Maker] = {
     "brackets": _brackets,
     "conditions": _conditions,
     "context": _context,
+    "diffusion": _diffusion,
     "counts": _counts,
     "matrix": _matrix,
     "length": _length,

@@ -111,7 +111,7 @@ def practice(topic: str, level: int = 1, seed: int = 0) -> Practice:
         What is practised: "strokes" (lesson 0), "derive", "misprint" (1), "counts", "matrix", "length", "first" (2), "brackets"
         (3), "turtle" (4), "stages" (5), "conditions", "formulas" (6), "life spans" (7), "chance" (8), "context" (9),
         "flowering" (10), "slices" (11), "lengths" (12), "space" (13), "looking" (14), "hedge" (15), "walls" (16), "language",
-        "growth type" (17) or "rules" (18).
+        "growth type" (17), "rules" (18) or "diffusion" (19).
     level
         1, 2 or 3, from easy to hard.
     seed
