@@ -25,15 +25,18 @@ from lsys_kit.derivation.core.words import Word
 from lsys_kit.geometry.drawing import scene_of
 from lsys_kit.pictures.draw import state_colours
 from lsys_kit.pictures.rendering.frames import MARGIN, ViewFrame, in_units
-from lsys_kit.pictures.rendering.light import Sheet, Sun, rendered, seen_smoothly, surfaces_of
+from lsys_kit.pictures.rendering.light import LitScene, Sheet, Sun, rendered, seen_smoothly, surfaces_of
 from lsys_kit.pictures.style.themes import drawn_on, theme_from
 from tests.browser.lab import launched
 from tests.classroom.front_end import PAINTER, answers, book_of
 
 ANY_PROCESSOR = """
-const own = HTMLCanvasElement.prototype.getContext;
+const { getContext } = HTMLCanvasElement.prototype, { getExtension } = WebGL2RenderingContext.prototype;
 HTMLCanvasElement.prototype.getContext = function (kind, given) {
-  return own.call(this, kind, given && { ...given, failIfMajorPerformanceCaveat: false });
+  return getContext.call(this, kind, given && { ...given, failIfMajorPerformanceCaveat: false });
+};
+WebGL2RenderingContext.prototype.getExtension = function (name) {
+  return name === "WEBGL_debug_renderer_info" ? null : getExtension.call(this, name);
 };
 """
 THEMES = {
@@ -53,7 +56,7 @@ const painted = (around, above, look = {}) => {
   return canvas.toDataURL();
 };
 """
-SIZE = 640, 360
+SIZE, SMALL = (640, 360), (240, 135)
 """Wide, so that shadows have room."""
 TREE = "angle: 25\naxiom: A\nA -> F[&A]/(120)[&A]/(120)[&A]"
 
@@ -74,9 +77,9 @@ def sunny(graphics: Browser) -> Iterator[Page]:
     context.close()
 
 
-def made(page: Page, code: str, word: Word, theme: str = "light") -> Any:
+def made(page: Page, code: str, word: Word, theme: str = "light", size: tuple[int, int] = SMALL) -> Any:
     """What some code makes of a word's picture."""
-    given = {"book": book_of([word]), "size": SIZE, "theme": THEMES[theme]}
+    given = {"book": book_of([word]), "size": size, "theme": THEMES[theme]}
     return answers(page, PICTURE + code, given, *PAINTER)
 
 
@@ -92,6 +95,7 @@ def by_the_renderer(word: Word, frame: Mapping[str, Any], theme: str) -> NDArray
     """The kit's own picture of a word, in a frame of the panel."""
     with drawn_on(theme_from(theme)):
         [scene] = seen_smoothly(in_units([scene_of(word)], word.states.system), (30, 15), Sun())
+        assert isinstance(scene, LitScene)
         left, top = (MARGIN - frame["x0"]) / frame["scale"], (frame["y0"] - MARGIN) / frame["scale"]
         sheet = Sheet(ViewFrame(frame["scale"], left, top, *SIZE), 1.0, *SIZE)
         return rendered(scene, surfaces_of(scene, state_colours(word), sheet), sheet)
@@ -102,8 +106,8 @@ def by_the_renderer(word: Word, frame: Mapping[str, Any], theme: str) -> NDArray
 def test_the_light_is_that_of_the_renderer(sunny: Page, id: str, theme: str) -> None:
     """Within a few grey levels, where one looks at no single pixel: edges are smoothed from other samples."""
     drawn = system(id)
-    word = derive(drawn, drawn.steps)[-1]
-    found = made(sunny, "return { picture: painted(30, 15), ...frameAt(30, 15) };", word, theme)
+    word = derive(drawn, drawn.steps or 0)[-1]
+    found = made(sunny, "return { picture: painted(30, 15), ...frameAt(30, 15) };", word, theme, SIZE)
     pictures = [pixels(found["picture"]), by_the_renderer(word, found, theme)]
     one, other = (np.array(Image.fromarray(each).filter(ImageFilter.BoxBlur(2))).astype(int) for each in pictures)
     apart, inked = np.abs(one - other), np.abs(other - other[0, 0]).max(axis=2) > 3
@@ -124,10 +128,10 @@ def test_a_full_turn_changes_nothing_and_half_a_turn_does(sunny: Page) -> None:
 def test_a_shadow_falls_to_the_right_and_nothing_is_seen_of_it_from_below(sunny: Page) -> None:
     post = word_of("axiom: !(0.3)&(0)F(5)")
     above, below = map(pixels, made(sunny, "return [painted(0, 30), painted(0, -30)];", post))
-    right, left = (slice(SIZE[0] // 2 + 20, None), slice(None, SIZE[0] // 2 - 60))
+    right, left = slice(SMALL[0] // 2 + 10, None), slice(None, SMALL[0] // 2 - 25)
     seen, from_below = ((each != 255).any(axis=2).sum(axis=0) for each in (above, below))
-    assert seen[right].sum() > 500 > 20 > seen[left].sum()
-    assert from_below.sum() > 500 > 20 > from_below[right].sum()
+    assert seen[right].sum() > 100 > 5 > seen[left].sum()
+    assert from_below.sum() > 100 > 5 > from_below[right].sum()
 
 
 def test_turning_many_strokes_takes_a_few_calls_and_sends_no_strokes_again(sunny: Page) -> None:
@@ -139,11 +143,11 @@ def test_turning_many_strokes_takes_a_few_calls_and_sends_no_strokes_again(sunny
       const own = known[name];
       known[name] = function (...given) { calls[kind]++; return own.apply(this, given); };
     }
-    for (let turn = 1; turn <= 3; turn++) painted(20 * turn, 15 + turn);
+    for (let turn = 1; turn <= 2; turn++) painted(20 * turn, 15 + turn);
     return { ...calls, strokes: shapes.strokes.n };
     """
-    found = made(sunny, counted, word_of(TREE, 8))
-    assert found == {"drawn": 3 * 11, "sent": 0, "strokes": 3_280}
+    found = made(sunny, counted, word_of(TREE, 7))
+    assert found == {"drawn": 2 * 11, "sent": 0, "strokes": 1_093}
 
 
 def test_what_is_traced_and_written_is_painted_over_it(sunny: Page) -> None:
@@ -151,7 +155,7 @@ def test_what_is_traced_and_written_is_painted_over_it(sunny: Page) -> None:
     code = "return [painted(30, 15), painted(30, 15, { lit: new Map([[1, 'self']]) })];"
     plain, traced = map(pixels, made(sunny, code, word))
     ring = (traced == [0xB0, 0x3A, 0x00]).all(axis=2)
-    assert ring.sum() > 50
+    assert ring.sum() > 20
     assert not (plain == [0xB0, 0x3A, 0x00]).all(axis=2).any()
     assert (plain == [0x22, 0x30, 0x3C]).all(axis=2).any(), "the label is written"
 

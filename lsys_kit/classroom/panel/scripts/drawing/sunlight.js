@@ -14,6 +14,7 @@ import { BLURRED, COVERED, FAR, GROUND, LIGHTED, MESH, NEAREST, NOTHING, OPEN, P
 import { MOST_POINTS } from "./turtle_actions.js";
 
 const SIDES = 8, FEWER_SIDES = 6, MOST_ROUND = 5_000; // of strokes; where they are more, they have fewer
+const COMPUTED = /swiftshader|llvmpipe|software|basic render/i; // what is no processor of its own
 const KEPT = 6; // scenes that the processor keeps
 const IN_TUBE = [3, 3, 2, 3, 3, 3, 3], IN_MESH = [3, 4, 3]; // the numbers of each attribute
 const DEGREE = Math.PI / 180, SAME = 1e-6, CREASE = 0.3;
@@ -39,7 +40,8 @@ export function sunlit(pen, shapes, frame, theme, marked, lit) {
 // The processor, and what it can do; false if there is none, or it would be slower than the painter.
 function opened() {
   const canvas = document.createElement("canvas"), gl = canvas.getContext("webgl2", { antialias: true, alpha: false, failIfMajorPerformanceCaveat: true });
-  if (!gl) return false;
+  const names = gl?.getExtension("WEBGL_debug_renderer_info");
+  if (!gl || (names && COMPUTED.test(gl.getParameter(names.UNMASKED_RENDERER_WEBGL)))) return false;
   const program = (texts) => {
     const made = gl.createProgram(), places = new Map();
     texts.forEach((text, i) => {
