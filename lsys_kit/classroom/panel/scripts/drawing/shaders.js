@@ -3,19 +3,19 @@
 
 import { BLURS, BOUNCED, BROAD_EDGE, DARKEST_SKY, GLOSS, GLOSSY, HIDDEN_WITHIN, LEAF, PICTURE_EDGE, POOL, RING_PARTS, SHADOW, SKYLIGHT, SOFT, SPOKES, SUNLIGHT, SUN_RADIUS, THROUGH, TINT } from "./constants.js";
 
-export const SIDE = 1152; // points of the sun's map
+export const SUN_MAP = 1152; // points of the sun's map
 const TILE = 3, MARGIN = 70; // so many of them are one of that of the ground, which has others around it
-export const GROUND = SIDE / TILE + 2 * MARGIN;
-export const FAR = 0.5; // so many times magnified is the farthest that is seen
-export const NEAREST = 2;
+export const GROUND_MAP = SUN_MAP / TILE + 2 * MARGIN;
+export const LEAST_MAGNIFIED = 0.5; // so many times magnified is the farthest that is seen
+export const MOST_MAGNIFIED = 2;
 const BROADER = 5; // at the sides shadows fade so much farther from the edge: a frame fits plants, and not their shadows
 const TAPS = 16, GOLDEN_ANGLE = 2.399963;
 
-const HEAD = `#version 300 es
+const GLSL = `#version 300 es
 precision highp float;
 precision highp sampler2DShadow;
 `;
-const real = (number) => `float(${number})`, ratios = BLURS.slice(1).map((radius, i) => Math.log(radius / BLURS[i]));
+const real = (number) => `float(${number})`, BLUR_RATIOS = BLURS.slice(1).map((radius, i) => Math.log(radius / BLURS[i]));
 
 const THINGS = `uniform mat4 view;
 out vec3 place, normal;
@@ -24,8 +24,8 @@ flat out float thin;
 `;
 
 // A stroke: from a to b, with its widths there, in units or by branch order; the strokes before and behind it, or nothing; a
-// direction across it. Where it bends, its ring lies in the plane that halves the angle.
-export const TUBE = `${HEAD}layout(location = 0) in vec3 a;
+// direction across it. Where it bends, its ring lies in the plane that HALF_WIDTHS the angle.
+export const TUBE_GLSL = `${GLSL}layout(location = 0) in vec3 a;
 layout(location = 1) in vec3 b;
 layout(location = 2) in vec2 wide;
 layout(location = 3) in vec3 before;
@@ -67,7 +67,7 @@ void main() {
   gl_Position = view * vec4(place, 1);
 }`;
 
-export const MESH = `${HEAD}layout(location = 0) in vec3 a;
+export const MESH_GLSL = `${GLSL}layout(location = 0) in vec3 a;
 layout(location = 1) in vec4 b;
 layout(location = 2) in vec3 colour;
 ${THINGS}void main() {
@@ -78,15 +78,15 @@ ${THINGS}void main() {
   gl_Position = view * vec4(a, 1);
 }`;
 
-export const SHEET = `${HEAD}void main() {
+export const SHEET_GLSL = `${GLSL}void main() {
   gl_Position = vec4(gl_VertexID == 1 ? 3 : -1, gl_VertexID == 2 ? 3 : -1, 0, 1);
 }`;
 
-export const NOTHING = `${HEAD}void main() {}`;
+export const NO_GLSL = `${GLSL}void main() {}`;
 
 // How dark the ground is below each point of a map, by how far the shadow falls: the shares of the levels between which its
 // edges are blurred.
-export const COVERED = `${HEAD}uniform sampler2D near;
+export const COVERED_GLSL = `${GLSL}uniform sampler2D near;
 uniform vec4 sunlight;
 uniform vec3 rays_up, rays_towards;
 uniform vec2 depths;
@@ -96,7 +96,7 @@ layout(location = 1) out vec4 sharp;
 void main() {
   ivec2 at = (ivec2(gl_FragCoord.xy) - ${MARGIN}) * ${TILE};
   float many = 0., sum = 0.;
-  if (all(greaterThanEqual(at, ivec2(0))) && all(lessThan(at, ivec2(${SIDE}))))
+  if (all(greaterThanEqual(at, ivec2(0))) && all(lessThan(at, ivec2(${SUN_MAP}))))
     for (int k = 0; k < ${TILE * TILE}; k++) {
       float depth = texelFetch(near, at + ivec2(k % ${TILE}, k / ${TILE}), 0).r;
       if (depth < 1.) {
@@ -104,25 +104,25 @@ void main() {
         sum += mix(depths.y, depths.x, depth);
       }
     }
-  float up = sunlight.y + (float(at.y) + ${real(TILE / 2)}) * sunlight.z / ${real(SIDE)};
+  float up = sunlight.y + (float(at.y) + ${real(TILE / 2)}) * sunlight.z / ${real(SUN_MAP)};
   float fall = max(sum / max(many, 1.) - (base - up * rays_up.z) / rays_towards.z, 0.);
   float radius = max(${real(SUN_RADIUS)} * fall / sunlight.z, ${real(BLURS[0])});
-  float level = dot(clamp((log(radius) - log(vec4(${BLURS.slice(0, 4)}))) / vec4(${ratios}), 0., 1.), vec4(1));
+  float level = dot(clamp((log(radius) - log(vec4(${BLURS.slice(0, 4)}))) / vec4(${BLUR_RATIOS}), 0., 1.), vec4(1));
   blurs = clamp(1. - abs(level - vec4(1, 2, 3, 4)), 0., 1.) * many / ${real(TILE * TILE)};
   sharp = vec4(max(1. - level, 0.) * many / ${real(TILE * TILE)});
 }`;
 
 // Each level is spread as three times by a square.
-const halves = BLURS.slice(1).map((radius) => Math.round((radius * SIDE) / TILE / 2));
-export const BLURRED = `${HEAD}uniform sampler2D shares;
+const HALF_WIDTHS = BLURS.slice(1).map((radius) => Math.round((radius * SUN_MAP) / TILE / 2));
+export const BLURRED_GLSL = `${GLSL}uniform sampler2D shares;
 uniform vec2 way;
 out vec4 found;
 void main() {
-  vec4 sum = vec4(0), whole = vec4(0), spread = -.5 / vec4(${halves.map((half) => half * (half + 1))});
-  for (int i = ${-3 * halves[3]}; i <= ${3 * halves[3]}; i++) {
+  vec4 sum = vec4(0), whole = vec4(0), spread = -.5 / vec4(${HALF_WIDTHS.map((half) => half * (half + 1))});
+  for (int i = ${-3 * HALF_WIDTHS[3]}; i <= ${3 * HALF_WIDTHS[3]}; i++) {
     vec4 weight = exp(float(i * i) * spread);
     ivec2 at = ivec2(gl_FragCoord.xy) + i * ivec2(way);
-    if (all(greaterThanEqual(at, ivec2(0))) && all(lessThan(at, ivec2(${GROUND})))) sum += weight * texelFetch(shares, at, 0);
+    if (all(greaterThanEqual(at, ivec2(0))) && all(lessThan(at, ivec2(${GROUND_MAP})))) sum += weight * texelFetch(shares, at, 0);
     whole += weight;
   }
   found = sum / whole;
@@ -141,7 +141,7 @@ bool onGround(vec2 pixel, out vec2 at, out float near) {
 }
 `;
 
-export const PAPER = `${HEAD}${ON_GROUND}uniform sampler2D shares, sharp, dimness;
+export const PAPER_GLSL = `${GLSL}${ON_GROUND}uniform sampler2D shares, sharp, dimness;
 uniform vec4 sunlight;
 uniform vec3 rays_right, rays_up, paper;
 uniform vec2 moved, centre, size;
@@ -162,8 +162,8 @@ void main() {
   at += moved;
   vec3 ground = vec3(at, base);
   at -= centre;
-  vec2 map = (vec2(dot(ground, rays_right), dot(ground, rays_up)) - sunlight.xy) / sunlight.z * ${real(SIDE / TILE)} + ${real(MARGIN)};
-  map /= ${real(GROUND)};
+  vec2 map = (vec2(dot(ground, rays_right), dot(ground, rays_up)) - sunlight.xy) / sunlight.z * ${real(SUN_MAP / TILE)} + ${real(MARGIN)};
+  map /= ${real(GROUND_MAP)};
   float shade = clamp(dot(texture(shares, map), vec4(1)) + texture(sharp, map).r, 0., 1.);
   if (any(lessThan(map, vec2(0))) || any(greaterThan(map, vec2(1)))) shade = 0.;
   vec2 below = at / (2. * side) + .5;
@@ -175,7 +175,7 @@ void main() {
 }`;
 
 // How much of the sky reaches each pixel, seen in how near its neighbours are.
-export const OPEN = `${HEAD}${ON_GROUND}uniform sampler2D near;
+export const OPEN_GLSL = `${GLSL}${ON_GROUND}uniform sampler2D near;
 uniform vec2 size;
 uniform float extent;
 out vec4 open;
@@ -183,7 +183,7 @@ float nearness(ivec2 pixel) {
   pixel = clamp(pixel, ivec2(0), ivec2(size) - 1);
   float depth = texelFetch(near, pixel, 0).r, ground;
   vec2 at;
-  if (depth < 1.) return camera.w - camera.w / (${real(FAR)} + (1. - depth) * ${real(NEAREST - FAR)});
+  if (depth < 1.) return camera.w - camera.w / (${real(LEAST_MAGNIFIED)} + (1. - depth) * ${real(MOST_MAGNIFIED - LEAST_MAGNIFIED)});
   return onGround(vec2(pixel) + .5, at, ground) ? ground : -16. * camera.w;
 }
 void main() {
@@ -203,7 +203,7 @@ void main() {
   open = vec4(clamp(1. - hidden / ${real(RING_PARTS.length * SPOKES)}, ${1 - DARKEST_SKY}, 1.));
 }`;
 
-export const LIGHTED = `${HEAD}in vec3 place, normal;
+export const LIGHT_GLSL = `${GLSL}in vec3 place, normal;
 flat in vec3 hue;
 flat in float thin;
 uniform sampler2DShadow shadows;
@@ -216,7 +216,7 @@ void main() {
   vec3 facet = normalize(normal), sight = normalize(eye - place);
   if (thin > .5 && dot(sight, facet) < 0.) facet = -facet;
   float facing = dot(facet, rays_towards), reached = 0.;
-  float aside = sqrt(max(1. - facing * facing, 0.)) * ${SOFT} * sunlight.z + 1.5 * sunlight.z / ${real(SIDE)};
+  float aside = sqrt(max(1. - facing * facing, 0.)) * ${SOFT} * sunlight.z + 1.5 * sunlight.z / ${real(SUN_MAP)};
   vec3 there = (rays * vec4(place + facet * (facing < 0. ? -aside : aside), 1)).xyz * .5 + .5;
   for (int tap = 0; tap < ${TAPS}; tap++) {
     float angle = float(tap) * ${GOLDEN_ANGLE}, away = sqrt((float(tap) + .5) / ${real(TAPS)}) * ${SOFT};

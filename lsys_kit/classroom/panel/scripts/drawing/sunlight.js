@@ -10,15 +10,15 @@ import { channels } from "./colours.js";
 import { BALL, BROADEST, DIM_BLUR, DIM_MAP, FAR_SHADOW, HIDING, LEAST_WIDTHS, NEAR_GROUND, ORDER_WIDTHS, SHARPEST, SLIMMEST, SUN, SUNLIT, THINNEST_TUBE, VARIED } from "./constants.js";
 import { cornersOf } from "./outlines.js";
 import { boundsOf, seenIn } from "./projection.js";
-import { BLURRED, COVERED, FAR, GROUND, LIGHTED, MESH, NEAREST, NOTHING, OPEN, PAPER, SHEET, SIDE, TUBE } from "./shaders.js";
+import { BLURRED_GLSL, COVERED_GLSL, LEAST_MAGNIFIED, GROUND_MAP, LIGHT_GLSL, MESH_GLSL, MOST_MAGNIFIED, NO_GLSL, OPEN_GLSL, PAPER_GLSL, SHEET_GLSL, SUN_MAP, TUBE_GLSL } from "./shaders.js";
 import { MOST_POINTS } from "./turtle_actions.js";
 
 const SIDES = 8, FEWER_SIDES = 6, MOST_ROUND = 5_000; // of strokes; where they are more, they have fewer
 const COMPUTED = /swiftshader|llvmpipe|software|basic render/i; // what is no processor of its own
 const KEPT = 6; // scenes that the processor keeps
 const IN_TUBE = [3, 3, 2, 3, 3, 3, 3], IN_MESH = [3, 4, 3]; // the numbers of each attribute
-const DEGREE = Math.PI / 180, SAME = 1e-6, CREASE = 0.3;
-const FEW_BALLS = 100, ROUND = 24; // so many spheres are finer; the corners of discs
+const IN_RADIANS = Math.PI / 180, SAME = 1e-6, CREASE = 0.3;
+const FEW_BALLS = 100, DISC_CORNERS = 24; // so many spheres are finer; the corners of discs
 
 let /** @type {any} */ screen = null; // false where there is no processor
 
@@ -73,17 +73,17 @@ function opened() {
     gl.drawBuffers(colours.map((_, i) => gl.COLOR_ATTACHMENT0 + i));
     return { frame, width, height };
   };
-  const compared = gl.createSampler(), near = texture(gl.DEPTH_COMPONENT24, SIDE, SIDE, false);
+  const compared = gl.createSampler(), near = texture(gl.DEPTH_COMPONENT24, SUN_MAP, SUN_MAP, false);
   for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.samplerParameteri(compared, name, gl.LINEAR);
   for (const name of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.samplerParameteri(compared, name, gl.CLAMP_TO_EDGE);
   gl.samplerParameteri(compared, gl.TEXTURE_COMPARE_MODE, gl.COMPARE_REF_TO_TEXTURE);
-  const [shares, spread, sharp] = times(3, () => texture(gl.RGBA8, GROUND, GROUND, true));
+  const [shares, spread, sharp] = times(3, () => texture(gl.RGBA8, GROUND_MAP, GROUND_MAP, true));
   return {
     canvas, gl, texture, target, compared, near, shares, spread, sharp, scenes: new Map(), size: [0, 0],
-    programs: Object.fromEntries(Object.entries({ tubeDepth: [TUBE, NOTHING], meshDepth: [MESH, NOTHING], tube: [TUBE, LIGHTED], mesh: [MESH, LIGHTED],
-      covered: [SHEET, COVERED], blurred: [SHEET, BLURRED], open: [SHEET, OPEN], paper: [SHEET, PAPER] }).map(([name, texts]) => [name, program(texts)])),
-    shadow: target(SIDE, SIDE, near), covering: target(GROUND, GROUND, null, shares, sharp),
-    blurring: [target(GROUND, GROUND, null, spread), target(GROUND, GROUND, null, shares)], dimness: texture(gl.R8, DIM_MAP, DIM_MAP, true),
+    programs: Object.fromEntries(Object.entries({ tubeDepth: [TUBE_GLSL, NO_GLSL], meshDepth: [MESH_GLSL, NO_GLSL], tube: [TUBE_GLSL, LIGHT_GLSL], mesh: [MESH_GLSL, LIGHT_GLSL],
+      covered: [SHEET_GLSL, COVERED_GLSL], blurred: [SHEET_GLSL, BLURRED_GLSL], open: [SHEET_GLSL, OPEN_GLSL], paper: [SHEET_GLSL, PAPER_GLSL] }).map(([name, texts]) => [name, program(texts)])),
+    shadow: target(SUN_MAP, SUN_MAP, near), covering: target(GROUND_MAP, GROUND_MAP, null, shares, sharp),
+    blurring: [target(GROUND_MAP, GROUND_MAP, null, spread), target(GROUND_MAP, GROUND_MAP, null, shares)], dimness: texture(gl.R8, DIM_MAP, DIM_MAP, true),
   };
 }
 
@@ -115,7 +115,7 @@ function paintScene(scene, frame, width, height, theme) {
       gl.bindVertexArray(null);
     }
   };
-  begin(shadow, [SIDE, SIDE], gl.LESS);
+  begin(shadow, [SUN_MAP, SUN_MAP], gl.LESS);
   things("Depth", { view: known.rays });
   sheet(programs.covered, covering, { near });
   sheet(programs.blurred, blurring[0], { shares }, { way: [1, 0] });
@@ -162,7 +162,7 @@ function use({ made, places }, values, textures) {
 function uniformsOf(scene, frame, width, height, theme) {
   const { scale, distance, x0, y0, thin, pixel } = frame, density = width / frame.width;
   const [right, up, towards] = axes(Math.atan2(frame.sin, frame.cos), Math.atan2(frame.steep, frame.level));
-  const [rays_right, rays_up, rays_towards] = axes(Math.atan2(frame.sin, frame.cos) + SUN[0] * DEGREE, SUN[1] * DEGREE);
+  const [rays_right, rays_up, rays_towards] = axes(Math.atan2(frame.sin, frame.cos) + SUN[0] * IN_RADIANS, SUN[1] * IN_RADIANS);
   const moved = frame.middle.map((part, axis) => part - scene.origin[axis]), unit = pixel / scene.pixel / 2;
   const own = ORDER_WIDTHS.map((many, order) => Math.max(LEAST_WIDTHS[order], 10 * many * thin) / (20 * scale));
   const pad = Math.max(own[0], scene.broadest * unit);
@@ -170,13 +170,13 @@ function uniformsOf(scene, frame, width, height, theme) {
   const extent = Math.max(most - left, top - bottom, 1e-12), { base, across, high } = scene;
   const away = [...towards.map((part) => -part / distance), 1 + dot(towards, moved) / distance];
   const seen = (axis, factor, centre) => [...axis, -dot(axis, moved)].map((part, k) => factor * part + centre * away[k]);
-  const length = high * Math.tan((90 - SUN[1]) * DEGREE), side = across * 1.2 + extent * 3 * DIM_BLUR;
+  const length = high * Math.tan((90 - SUN[1]) * IN_RADIANS), side = across * 1.2 + extent * 3 * DIM_BLUR;
   scene.dimness ??= dimnessOf(scene, side, extent, { unit, own });
   return {
     right, up, towards, rays_right, rays_up, rays_towards, depths, base, own, extent,
     view: columns(seen(right, (2 * scale * density) / width, (2 * x0 * density) / width - 1),
       seen(up, (2 * scale * density) / height, 1 - (2 * y0 * density) / height),
-      away.map((part, k) => (part * (NEAREST + FAR) - (k === 3 ? 2 * NEAREST * FAR : 0)) / (NEAREST - FAR)), away),
+      away.map((part, k) => (part * (MOST_MAGNIFIED + LEAST_MAGNIFIED) - (k === 3 ? 2 * MOST_MAGNIFIED * LEAST_MAGNIFIED : 0)) / (MOST_MAGNIFIED - LEAST_MAGNIFIED)), away),
     rays: columns([...rays_right.map((part) => (2 * part) / extent), (-2 * left) / extent - 1], [...rays_up.map((part) => (2 * part) / extent), (-2 * bottom) / extent - 1],
       [...rays_towards.map((part) => (-2 * part) / (depths[1] - depths[0])), 1 + (2 * depths[0]) / (depths[1] - depths[0])], [0, 0, 0, 1]),
     sizes: [unit, SLIMMEST / (20 * scale), BROADEST / (20 * scale), THINNEST_TUBE / (2 * scale * density)], sides: scene.parts.tube.n > MOST_ROUND ? FEWER_SIDES : SIDES,
@@ -193,7 +193,7 @@ const axes = (around, above) => {
   return [[cos, sin, 0], [-sin * steep, cos * steep, level], [sin * level, -cos * level, steep]];
 };
 const dot = (one, other) => one[0] * other[0] + one[1] * other[1] + one[2] * other[2];
-const crossed = /** @type {(a: any, b: any) => number[]} */ ([ax, ay, az], [bx, by, bz]) => [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx];
+const normalTo = /** @type {(a: any, b: any) => number[]} */ ([ax, ay, az], [bx, by, bz]) => [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx];
 const unitVector = (vector) => {
   const length = Math.hypot(...vector) || 1;
   return vector.map((part) => part / length);
@@ -225,7 +225,7 @@ function sceneOf(shapes) {
   const scene = {
     origin, centre: [middle[0] - origin[0], middle[1] - origin[1]], across, high: 2 * up, pixel: shapes.pixel, points: Float32Array.from(points), tubes, mesh, dimness: null, side: 1,
     base: -spanAlong(points, [0, 0, -1], 0)[1], broadest: strokes.widths.reduce((most, width) => Math.max(most, width), 0),
-    parts: { tube: kept(gl, tubes, IN_TUBE, 1), mesh: kept(gl, mesh, IN_MESH, 0) },
+    parts: { tube: sent(gl, tubes, IN_TUBE, 1), mesh: sent(gl, mesh, IN_MESH, 0) },
   };
   scenes.set(shapes, scene);
   for (const [oldest, { parts, dimness }] of scenes.size > KEPT ? scenes : []) {
@@ -240,7 +240,7 @@ function sceneOf(shapes) {
 const sunny = new Map(/** @type {any} */ (SUNLIT));
 const linear = (part) => (part <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4);
 
-function kept(gl, rows, sizes, divisor) {
+function sent(gl, rows, sizes, divisor) {
   const array = gl.createVertexArray(), buffer = gl.createBuffer(), row = sizes.reduce((sum, size) => sum + size, 0);
   gl.bindVertexArray(array);
   gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
@@ -255,7 +255,7 @@ function kept(gl, rows, sizes, divisor) {
   return { array, buffer, n: rows.length / row };
 }
 
-// Strokes as the rows of TUBE. A stroke continues the last one of its branch order that ends where it starts, if it does not
+// Strokes as the rows of TUBE_GLSL. A stroke continues the last one of its branch order that ends where it starts, if it does not
 // turn back, and what lies across is carried along without a twist.
 function tubesOf({ strokes: { n, from, to, orders, widths, colours } }, at, hues) {
   const row = IN_TUBE.reduce((sum, size) => sum + size), rows = new Float32Array(row * n), open = new Map(), ended = new Map(), same = widths.some((width) => width <= 0);
@@ -278,11 +278,11 @@ function tubesOf({ strokes: { n, from, to, orders, widths, colours } }, at, hues
 
 const aside = (way) => {
   const sizes = way.map(Math.abs), least = sizes.indexOf(Math.min(...sizes));
-  return unitVector(crossed(way, [0, 1, 2].map((axis) => (axis === least ? 1 : 0))));
+  return unitVector(normalTo(way, [0, 1, 2].map((axis) => (axis === least ? 1 : 0))));
 };
 
 function carried({ way, across }, next) {
-  const axis = crossed(way, next), one = crossed(axis, across), two = crossed(axis, one), share = 1 / (1 + dot(way, next));
+  const axis = normalTo(way, next), one = normalTo(axis, across), two = normalTo(axis, one), share = 1 / (1 + dot(way, next));
   const turned = across.map((part, k) => part + one[k] + two[k] * share), along = dot(turned, next);
   return unitVector(turned.map((part, k) => part - along * next[k]));
 }
@@ -298,7 +298,7 @@ function knownMesh(shapes, at, hues) {
 
 const meshes = new WeakMap();
 
-// Surfaces as the rows of MESH: polygons, discs and spheres.
+// Surfaces as the rows of MESH_GLSL: polygons, discs and spheres.
 function meshOf({ faces, rounds, x, y, z }, at, hues) {
   const rows = [], corners = faceCorners(faces, { x, y, z }), curved = new Map(), seen = new Map(), varied = leavesOf(faces, corners);
   const facing = times(faces.n, (i) => newell(cornersOf(faces, i), at));
@@ -328,7 +328,7 @@ function meshOf({ faces, rounds, x, y, z }, at, hues) {
 // The normal of a polygon, as long as twice its area, by Newell's method.
 function newell(corners, at) {
   const sum = [0, 0, 0], first = at(corners[0]), away = (corner) => at(corner).map((part, axis) => part - first[axis]);
-  for (let k = 2; k < corners.length; k++) crossed(away(corners[k - 1]), away(corners[k])).forEach((part, axis) => { sum[axis] += part; });
+  for (let k = 2; k < corners.length; k++) normalTo(away(corners[k - 1]), away(corners[k])).forEach((part, axis) => { sum[axis] += part; });
   return sum;
 }
 
@@ -407,8 +407,8 @@ function ball(fine) {
     .map(([down, along]) => at(row + down, column + along))).map((point) => [point, point]);
 }
 
-const disc = () => times(ROUND, (k) => k).flatMap((k) => [null, k, k + 1].map((each) => {
-  const angle = (2 * Math.PI * (each ?? 0)) / ROUND;
+const disc = () => times(DISC_CORNERS, (k) => k).flatMap((k) => [null, k, k + 1].map((each) => {
+  const angle = (2 * Math.PI * (each ?? 0)) / DISC_CORNERS;
   return [each === null ? [0, 0, 0] : [Math.cos(angle), 0, Math.sin(angle)], [0, -1, 0]];
 }));
 
@@ -428,7 +428,7 @@ function dimnessOf(scene, side, extent, { unit, own }) {
   }
   for (let i = 0; i < mesh.length; i += 30) {
     const [a, b, c] = [0, 10, 20].map((more) => mesh.subarray(i + more, i + more + 3)), [one, other] = [b, c].map((each) => [0, 1, 2].map((k) => each[k] - a[k]));
-    const area = Math.hypot(...crossed(one, other)) / 2, many = Math.min(DIM_MAP, Math.ceil(area / cell ** 2));
+    const area = Math.hypot(...normalTo(one, other)) / 2, many = Math.min(DIM_MAP, Math.ceil(area / cell ** 2));
     if (a[2] - base > extent) continue;
     for (let k = 0; k < many; k++) {
       let [u, v] = [(0.5 + k * 0.7548777) % 1, (0.5 + k * 0.5698403) % 1]; // evenly spread (Roberts 2018)
