@@ -15,7 +15,7 @@ import { MOST_POINTS } from "./turtle_actions.js";
 
 const SIDES = 8, FEWER_SIDES = 6, MOST_ROUND = 5_000; // of strokes; where they are more, they have fewer
 const COMPUTED = /swiftshader|llvmpipe|software|basic render/i; // what is no processor of its own
-const KEPT = 6; // scenes that the processor keeps
+const KEPT = 12; // scenes that the processor keeps
 const IN_TUBE = [3, 3, 2, 3, 3, 3, 3], IN_MESH = [3, 4, 3]; // the numbers of each attribute
 const IN_RADIANS = Math.PI / 180, SAME = 1e-6, CREASE = 0.3;
 const FEW_BALLS = 100, DISC_CORNERS = 24; // so many spheres are finer; the corners of discs
@@ -217,8 +217,7 @@ function sceneOf(shapes) {
   if (scenes.has(shapes)) return scenes.get(shapes);
   const { middle, across, up } = boundsOf(shapes), { strokes, faces, rounds, x, y, z } = shapes, points = [];
   const origin = [x[0], y[0], z[0]], at = (i) => [x[i] - origin[0], y[i] - origin[1], z[i] - origin[2]], add = (i, radius) => points.push(...at(i), radius);
-  for (let i = 0; i < strokes.n; i++) [strokes.from[i], strokes.to[i]].forEach((end) => add(end, 0));
-  for (const corner of faces.corners) add(corner, 0);
+  for (const point of new Set([...strokes.from, ...strokes.to, ...faces.corners])) add(point, 0);
   for (let i = 0; i < rounds.n; i++) add(rounds.centres[i], rounds.radii[i]);
   const hues = shapes.palette.map((colour) => channels(sunny.get(colour.toUpperCase()) ?? colour).map((channel) => linear(channel / 255)));
   const tubes = tubesOf(shapes, at, hues), mesh = knownMesh(shapes, at, hues);
