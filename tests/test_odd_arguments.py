@@ -164,7 +164,7 @@ CHOICES: Mapping[str, tuple[str, ...]] = {
     "draw a stage diagram": ("tokens", "positions"),
     "draw a lineage": ("intervals",),
     "draw in space": ("angle", "marked", "view", "light"),
-    "draw a cellwork": ("view", "cell", "generation", "pressure", "light"),
+    "draw a cellwork": ("view", "cell", "generation", "explode", "pressure", "light"),
     "draw a map": ("iterations", "stiffness", "rest", "pressure", "damping"),
 }
 """The arguments that a function takes beside those of its signature; `c` is a constant."""

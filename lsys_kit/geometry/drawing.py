@@ -20,11 +20,13 @@ from lsys_kit.geometry.turtle.commands import (
     COMMANDS,
     RAMP_END,
     RAMP_START,
+    STROKES,
     DrawingMode,
     Effect,
     commands_of,
     drawing_mode,
     initial_colour,
+    is_leaf,
 )
 from lsys_kit.geometry.turtle.instancing import draw_instanced
 from lsys_kit.geometry.turtle.plane import place_path, trace
@@ -50,7 +52,7 @@ def has_natural_colours(system: LSystem) -> bool:
     """Whether strokes have natural colours, if they have no others: as the system says, else if it is a plant.
 
     A plant of several kinds of modules that are interpreted as strokes has theirs, which say what is what, unless its organs
-    are surfaces: then strokes are stems.
+    are surfaces: then strokes are stems. Veins of leaves are none.
 
     >>> from lsys_kit import read
     >>> organs = "axiom: I[I]\\nI -> I[L]\\ninterpretation:\\nI -> F\\nL -> F"
@@ -61,7 +63,7 @@ def has_natural_colours(system: LSystem) -> bool:
     """
     if system.colours:
         return system.colours == "natural"
-    return is_plant(system) and (bool(surfaces_of(system)) or not _shows_kinds(system))
+    return is_plant(system) and not is_leaf(system) and (bool(surfaces_of(system)) or not _shows_kinds(system))
 
 
 def _shows_kinds(system: LSystem) -> bool:
@@ -74,10 +76,6 @@ def _shows_kinds(system: LSystem) -> bool:
     while more := {symbol for symbol, image in images if image & (drawing | interpreted)} - interpreted:
         interpreted |= more
     return len(interpreted) > 1
-
-
-STROKES = ("draw", "draw without vertex", "draw by second heading")
-"""The actions that leave strokes."""
 
 
 def has_pipe_widths(system: LSystem, widths: str = "") -> bool:

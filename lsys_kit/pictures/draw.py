@@ -209,6 +209,7 @@ def draw(
     view: object = ...,
     cell: int | None = None,
     generation: int | None = None,
+    explode: object = ...,
     size: object = None,
     colours: object = None,
     legend: bool | None = None,
@@ -270,7 +271,8 @@ def draw(what: object, n: int | None = None, **choices: object) -> AnyPicture:
         For a map system `iterations`, after which its last step is shown on the way to rest, or `phases`: whether it is shown
         how the last step comes about, from the walls that are replaced to the markers that match; and new values of the forces
         that shape it: `stiffness`, `rest`, `pressure`, `damping`. A cellwork system has all but the phases, too; and `cell`, a
-        number, or `generation`, the number of divisions behind cells, to light these alone.
+        number, or `generation`, the number of divisions behind cells, to light these alone;
+        and `explode`, by which part of their way from the middle cells are pulled apart, such that one sees those within.
 
     Raises
     ------

@@ -29,6 +29,8 @@ FLAGS = [
     "--disable-component-update",
     "--disable-sync",
 ]
+SOFTWARE = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+"""Where there is no graphics processor, one that is computed (SwiftShader)."""
 SECONDS = 120
 """How long anything may take on a slow machine."""
 VIEWPORT = {"width": 1400, "height": 1000}
@@ -88,17 +90,18 @@ def started(home: Path) -> Iterator[Lab]:
                 process.wait()
 
 
-def launched(playwright: Playwright) -> Browser:
-    """The machine's Chromium or Chrome, else the one that playwright brings."""
+def launched(playwright: Playwright, graphics: bool = False) -> Browser:
+    """The machine's Chromium or Chrome, else the one that playwright brings; perhaps with computed graphics."""
+    flags = [*(each for each in FLAGS if each != "--disable-gpu"), *SOFTWARE] if graphics else FLAGS
     installed = next(filter(None, map(shutil.which, BROWSERS)), None)
     if installed:
-        return playwright.chromium.launch(executable_path=installed, args=FLAGS)
+        return playwright.chromium.launch(executable_path=installed, args=flags)
     try:
-        return playwright.chromium.launch(args=FLAGS)
+        return playwright.chromium.launch(args=flags)
     except Error:
         subprocess.run([sys.executable, "-m", "playwright", "install", "chromium"], check=False, timeout=600)
     try:
-        return playwright.chromium.launch(args=FLAGS)
+        return playwright.chromium.launch(args=flags)
     except Error as fault:
         raise RuntimeError(
             "There is no browser for these tests. Install Chromium or Chrome (on Debian: apt-get install "

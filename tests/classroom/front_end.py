@@ -42,7 +42,7 @@ TURTLE = (
     "turtle_space",
     "turtle",
 )
-PAINTER = (*TURTLE, "colours", "painter")
+PAINTER = (*TURTLE, "colours", "shaders", "sunlight", "painter")
 IMPORT = re.compile(r"^import .*;$\n", re.MULTILINE)
 
 

@@ -72,6 +72,7 @@ def test_natural_colours(page):
         "F[+F;(3)F]",
         "F[' ~L]' F ' @O(2)",
         "F ; F ;(30) F",
+        "@Gs[]@Gc",
         "!(2)@GsF+F!(1)@Gc(3)&F[+F@GsF^F@Ge]^F@Ge",
         "@R(1,2,0)F@R(0,0,-1,1,0,0)[+F]&F",
         PATCH,

@@ -180,6 +180,7 @@ NAMES = (
     "view",
     "cell",
     "generation",
+    "explode",
     "polarity",
     "durations",
     "seconds",

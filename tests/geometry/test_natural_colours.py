@@ -7,7 +7,7 @@ import pytest
 from lsys_kit import ModelSyntaxError, derive, draw, read, write
 from lsys_kit.geometry.drawing import has_natural_colours, scene_of
 from lsys_kit.geometry.scene import OWN
-from lsys_kit.geometry.turtle.commands import BLOSSOM
+from lsys_kit.geometry.turtle.commands import BLOSSOM, RAMP_END, RAMP_START
 from lsys_kit.pictures.style.palette import RAMP
 
 ORGANS = "axiom: I[+L]I\ninterpretation:\nI -> F\nL -> F F"
@@ -84,3 +84,15 @@ def test_what_lies_beyond_leaves_is_a_blossom():
 @pytest.mark.parametrize(("organ", "natural"), [("~leaf", True), ("F", False), ("@O", False)])
 def test_stems_of_a_plant_with_several_kinds_are_natural_where_it_has_leaves(organ, natural):
     assert has_natural_colours(read(f"{ORGANS} {organ}")) == natural
+
+
+@pytest.mark.parametrize(
+    ("text", "first"),
+    [
+        ("axiom: {.G[-G.]G[+G.]}", RAMP_END),
+        ("axiom: F{.G[-G.]G[+G.]}", RAMP_START),
+        ("colours: symbols\naxiom: {.G[-G.]G[+G.]}", OWN),
+    ],
+)
+def test_veins_of_a_leaf_are_as_green_as_the_leaf_and_no_bark(text, first):
+    assert min(colours(text)) == first

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import re
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,7 @@ import trimesh
 from PIL import Image
 
 from lsys_kit import ModelLimitError, ModelNameError, ModelValueError, cellwork_system, derive, draw, limits
+from lsys_kit.geometry.scene import Polygons
 from lsys_kit.pictures.rendering.view import axes
 from lsys_kit.pictures.style.lighting import LIGHT, brightness
 from lsys_kit.pictures.tissues.cellworks import CellworkPicture
@@ -65,6 +67,22 @@ def test_one_cell_or_one_generation_is_lit() -> None:
         draw(K33, 3, generation=1)
 
 
+def test_cells_pulled_apart_have_all_their_walls_and_keep_their_shapes() -> None:
+    whole, pulled = draw(K33, 4), draw(K33, 4, explode=0.5)
+    assert (len(whole.solid.polygons), len(pulled.solid.polygons)) == (40, 16 * 6)
+    assert "cells pulled apart" in str(pulled)
+    assert str(draw(K33, 4, explode=0)) == str(whole)
+    middles = [np.unique(np.round(draw(K33, 4, cell=3, explode=apart).solid.polygons.points, 6), axis=0) for apart in (0, 0.5)]
+    assert middles[0] == pytest.approx(middles[1])  # alone it is its own middle
+    meshes = [trimesh.Trimesh(each.solid.polygons.points, _fans(each.solid.polygons)) for each in (whole, pulled)]
+    assert meshes[0].volume == pytest.approx(meshes[1].volume, rel=1e-6)
+
+
+def _fans(polygons: Polygons) -> list[tuple[int, int, int]]:
+    pairs = pairwise(polygons.starts.tolist())
+    return [(first, each, each + 1) for first, last in pairs for each in range(first + 1, last - 1)]
+
+
 @pytest.mark.parametrize(
     ("choices", "kind", "message"),
     [
@@ -72,6 +90,7 @@ def test_one_cell_or_one_generation_is_lit() -> None:
         ({"pressure": -1}, ModelValueError, '"pressure" must lie between'),
         ({"view": ("x", 0)}, ModelValueError, '"view" must be a number, not .x.. \\(30, 15\\) is from'),
         ({"cell": "x"}, ModelValueError, "The number of a cell must be a whole number"),
+        ({"explode": -1}, ModelValueError, '"explode" is a number from 0 to 10, not -1'),
         ({"generation": -1}, ModelValueError, "The number of a generation must be a whole number"),
     ],
 )

@@ -22,13 +22,14 @@ STYLE = f"""
 @media (prefers-color-scheme: dark) {{ .lsys-page {{ background: {DARK.paper}; color: {DARK.ink}; }} }}
 """
 _CELLS, _STROKES, _TISSUES = frozenset(("filament",)), frozenset(("turtle", "painter", "projection")), frozenset(("tissue",))
+_SUNLIGHT = frozenset(("sunlight", "shaders"))
 _MAPS = frozenset(("map", "relaxation", "relaxing", "tension"))
 _NOT_NEEDED = {
-    "filament": _STROKES | _MAPS | _TISSUES,
-    "plane": _CELLS | _MAPS | _TISSUES | {"turtle_space", "depths"},
+    "filament": _STROKES | _MAPS | _TISSUES | _SUNLIGHT,
+    "plane": _CELLS | _MAPS | _TISSUES | {"turtle_space", "depths"} | _SUNLIGHT,
     "space": _CELLS | _MAPS | _TISSUES,
-    "map": _CELLS | _TISSUES | {"turtle", "depths"},
-    "tissue": _CELLS | _MAPS | {"turtle"},
+    "map": _CELLS | _TISSUES | {"turtle", "depths"} | _SUNLIGHT,
+    "tissue": _CELLS | _MAPS | {"turtle"} | _SUNLIGHT,
 }
 """The scripts that draw other systems than that of a page, by the way in which it is drawn."""
 _OF_EDITORS = frozenset(("undoing", "resuming"))

@@ -247,17 +247,24 @@ def solid_tissue(found: Cellwork) -> SolidTissue:
     return SolidTissue(*_topology(found.edges, map(found.corners, counted(found.walls))), cells, walls, 2 * forward - 1)
 
 
-def cellwork_scene(found: Cellwork, points: Floats, numbers: Mapping[str, int], lit: Collection[int], dim: int) -> Scene:
+def cellwork_scene(
+    found: Cellwork, points: Floats, numbers: Mapping[str, int], lit: Collection[int], dim: int, apart: float = 0.0
+) -> Scene:
     """The outer walls of the cells that are lit as polygons, whose states are the numbers of their labels, and the edges of all
     others as segments, whose state is `dim`.
+
+    Cells may stand apart: each then has all its walls, and is moved by this part of its way from the middle of those lit.
     """
-    around: dict[int, list[bool]] = {}
+    around: dict[int, list[tuple[int, bool]]] = {}
     for cell, wall, forward in found.cells_at():
         if cell in lit:
-            around.setdefault(wall, []).append(forward)
-    outer = {wall: forward[0] for wall, forward in around.items() if len(forward) == 1}
+            around.setdefault(wall, []).append((cell, forward))
+    seen = [(wall, *side) for wall, sides in around.items() if apart or len(sides) == 1 for side in sides]
     shown = {edge for wall in around for edge, _ in found.walls[wall].sides}
-    rows = [points[found.corners(found.walls[wall])][:: 1 if forward else -1] for wall, forward in outer.items()]
+    moved = _moved_apart(found, points, lit, apart) if apart else {}
+    rows = [
+        points[found.corners(found.walls[wall])][:: 1 if forward else -1] + moved.get(cell, 0) for wall, cell, forward in seen
+    ]
     rest = [(edge.start, edge.end) for number, edge in enumerate(found.edges) if number not in shown]
     places = points[np.array(rest, dtype=np.int64).reshape(-1, 2)].reshape(-1, 6)
     return Scene(
@@ -265,8 +272,19 @@ def cellwork_scene(found: Cellwork, points: Floats, numbers: Mapping[str, int], 
         polygons=Polygons(
             np.concatenate(rows) if rows else np.empty((0, 3)),
             np.cumsum([0, *map(len, rows)]),
-            np.array([numbers[found.walls[wall].label] for wall in outer], dtype=np.int64),
+            np.array([numbers[found.walls[wall].label] for wall, *_ in seen], dtype=np.int64),
             np.full(len(rows), OWN),
         ),
         discs=no_discs(3),
     )
+
+
+def _moved_apart(found: Cellwork, points: Floats, lit: Collection[int], apart: float) -> dict[int, Floats]:
+    """By how much cells are moved away from the middle of them all, each by a part of its own way from there."""
+    corners: dict[int, set[int]] = {cell: set() for cell in sorted(lit)}
+    for cell, wall, _ in found.cells_at():
+        if cell in corners:
+            corners[cell].update(found.corners(found.walls[wall]))
+    middles = {cell: points[sorted(each)].mean(axis=0) for cell, each in corners.items()}
+    middle = np.mean([*middles.values()], axis=0)
+    return {cell: apart * (each - middle) for cell, each in middles.items()}

@@ -152,8 +152,8 @@ def initial_step(system: LSystem) -> float:
 
 
 def initial_colour(system: LSystem) -> int:
-    """The initial colour of strokes: that of their symbol; the first of the ramp, if the model steps through colours; yellow,
-    as in GROGRA, in a model for its turtle that chooses colours.
+    """The initial colour of strokes: that of their symbol; the first of the ramp, if the model steps through colours, and the
+    last for veins; yellow, as in GROGRA, in a model for its turtle that chooses colours.
 
     >>> from lsys_kit import read
     >>> initial_colour(read("axiom: F ' F")), initial_colour(read("axiom: F ;(2) F"))
@@ -164,8 +164,25 @@ def initial_colour(system: LSystem) -> int:
     given = list(commands_of(system))
     if any(command.bare == "step colour" and not module.arguments for command, module in given):
         return RAMP_START
+    if is_leaf(system) and not system.colours:
+        return RAMP_END
     chosen = system.turtle == "grogra" and any(command.action == "set colour" for command, _ in given)
     return FIRST_COLOUR if chosen and system.colours != "natural" else OWN
+
+
+STROKES = ("draw", "draw without vertex", "draw by second heading")
+"""The actions that leave strokes."""
+
+
+def is_leaf(system: LSystem) -> bool:
+    """Whether all strokes of a system are veins, which are drawn within polygons without being their edges (ABOP, page 122).
+
+    >>> from lsys_kit import read
+    >>> is_leaf(read("axiom: {.G[-G.]G[+G.]}")), is_leaf(read("axiom: F{.G[-G.]G[+G.]}")), is_leaf(read("axiom: G[-G]"))
+    (True, False, False)
+    """
+    actions = {command.action for command, _ in commands_of(system)}
+    return "begin polygon" in actions and actions.intersection(STROKES) == {"draw without vertex"}
 
 
 def initial_width(system: LSystem) -> float:

@@ -494,6 +494,10 @@ def _with_flat_ends(surfaces: Surfaces) -> Surfaces:
     )
 
 
+SUNLIT = tuple(COLOURS["sunlit"].items())
+"""Colours of bark and leaves, and what they are in sunlight."""
+
+
 def sunlit_colours(names: Sequence[str]) -> list[str]:
     """Colours in sunlight: those of bark and leaves are natural, others as they are, and so are those that a person has chosen.
 
@@ -501,7 +505,7 @@ def sunlit_colours(names: Sequence[str]) -> list[str]:
     ['#7BA53E', '#B97FB3']
     """
     chosen = {colour for _, colour in theme().symbols}
-    return [name if name in chosen else COLOURS["sunlit"].get(name, name) for name in names]
+    return [name if name in chosen else dict(SUNLIT).get(name, name) for name in names]
 
 
 def leaves(polygons: Polygons) -> Integers:

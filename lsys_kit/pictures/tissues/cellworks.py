@@ -1,6 +1,7 @@
 """Cellworks as pictures: the cells of a step in space, with shaded walls.
 
 Walls of one colour have the same label. Where some cells are lit, those alone have walls, and of the others one sees the edges.
+Cells pulled apart show the walls between them.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ from functools import cached_property
 
 from lsys_kit.arrays import np
 from lsys_kit.budget import current
+from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.tissues.cellworks import Cellwork
 from lsys_kit.derivation.tissues.development import CellworkDevelopment
 from lsys_kit.errors import ModelLimitError, ModelValueError, whole_number
@@ -46,10 +48,13 @@ class CellworkPicture(Picture):
         How many vertices, edges, walls and cells there are.
     lit
         How many cells have walls in the picture.
+    apart
+        Whether they are pulled apart.
     """
 
     counts: tuple[int, int, int, int] = (0, 0, 0, 0)
     lit: int = 0
+    apart: bool = False
 
     @cached_property
     def text(self) -> str:
@@ -60,6 +65,7 @@ class CellworkPicture(Picture):
                 f"step {self.rows[-1].step}",
                 counts_text(self.counts),
                 shown,
+                "cells pulled apart" if self.apart else "",
                 "walls of one colour have the same label",
                 self._light,
             ]
@@ -73,6 +79,7 @@ def cellwork_picture(
     view: object = SIDE,
     cell: int | None = None,
     generation: int | None = None,
+    explode: object = 0,
     legend: bool = False,
     light: Sun | None = None,
     **forces: object,
@@ -81,15 +88,16 @@ def cellwork_picture(
     cellworks: CellworkDevelopment = developed(what, n)
     lit, chosen = lit_cells(cellworks, cell, generation), forces_of(forces, "cellwork")
     _check_size(cellworks)
-    side = view_from(view)
+    side, apart = view_from(view), _apart(explode)
     *_, points = place_cellworks(cellworks, chosen)
-    return picture_at(cellworks[:], points, lit, side, legend, light)
+    return picture_at(cellworks[:], points, lit, side, legend, light, apart)
 
 
 def cellwork_steps(
     what: CellworkSystem | CellworkDevelopment,
     n: int | None = None,
     *,
+    explode: object = 0,
     legend: bool = False,
     light: Sun | None = None,
     **forces: object,
@@ -97,9 +105,9 @@ def cellwork_steps(
     """The pictures of all steps of a cellwork system, or of a development, for a film."""
     cellworks: CellworkDevelopment = developed(what, n) if isinstance(what, CellworkSystem) else what
     _check_size(cellworks)
-    places = place_cellworks(cellworks, forces_of(forces, "cellwork"))
+    places, apart = place_cellworks(cellworks, forces_of(forces, "cellwork")), _apart(explode)
     return [
-        picture_at(cellworks[: step + 1], points, range(len(cellworks[step].cells)), SIDE, legend, light)
+        picture_at(cellworks[: step + 1], points, range(len(cellworks[step].cells)), SIDE, legend, light, apart)
         for step, points in enumerate(places)
     ]
 
@@ -111,11 +119,12 @@ def picture_at(
     view: View,
     legend: bool = False,
     light: Sun | None = None,
+    apart: float = 0.0,
 ) -> CellworkPicture:
     """The picture of the last of the cellworks of steps 0, 1, 2, ..., given the positions of its vertices; perhaps with what
-    the colours of walls mean, and in sun and sky."""
+    the colours of walls mean, in sun and sky, and with its cells so far apart."""
     last, labels = cellworks[-1], {label: number for number, label in enumerate(wall_labels(cellworks))}
-    solid = cellwork_scene(last, points, labels, lit, len(labels))
+    solid = cellwork_scene(last, points, labels, lit, len(labels), apart)
     solid = replace(solid, segments=replace(solid.segments, widths=np.array([EDGE])))
     if light is not None:
         solid = _with_edges(solid, len(labels))
@@ -124,9 +133,21 @@ def picture_at(
     meaning = Legend(tuple(Entry((colours[number],), ("", "", label)) for label, number in labels.items())) if legend else None
     if meaning is not None and light is not None:
         meaning = in_sunlight(meaning)
-    return CellworkPicture(
-        (FilamentRow(len(cellworks) - 1, seen),), colours, solid=solid, counts=last.counts, lit=len(lit), legend=meaning
-    )
+    rows = (FilamentRow(len(cellworks) - 1, seen),)
+    return CellworkPicture(rows, colours, solid=solid, counts=last.counts, lit=len(lit), apart=bool(apart), legend=meaning)
+
+
+def _apart(given: object) -> float:
+    """How far a person wants cells pulled apart, as a part of the way of each from the middle."""
+    found = real_from(given, "explode", _APART_HINT)
+    if not 0 <= found <= FARTHEST:
+        raise ModelValueError(f'"explode" is a number from 0 to {FARTHEST}, not {found:g}', hint=_APART_HINT)
+    return found
+
+
+FARTHEST = 10
+"""Cells are pulled apart by so many times their way from the middle at most."""
+_APART_HINT = "0.5 moves each cell away from the middle by half of its way from there."
 
 
 def _with_edges(solid: Scene, state: int) -> Scene:

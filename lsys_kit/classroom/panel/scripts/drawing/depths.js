@@ -1,8 +1,8 @@
-// How shapes lie in space: in perspective, and from far to near.
+// How shapes lie in space: in perspective, from far to near, and turned to the viewer.
 
 import { clamped, halfToEven, times } from "../books/numbers.js";
-import { BROADEST, DEPTH_LEVELS, SLIMMEST } from "./constants.js";
-import { cornersOf, meanOf } from "./outlines.js";
+import { BROADEST, DARK, DEPTH_LEVELS, LIT, RIM, SLIMMEST, TO_LIGHT } from "./constants.js";
+import { cornersOf, meanOf, outline } from "./outlines.js";
 import { MOST_POINTS } from "./turtle_actions.js";
 
 const edgesOfFaces = new WeakMap();
@@ -81,4 +81,43 @@ function depthLevels({ strokes, faces, rounds }, depths, extent, behind) {
   const least = levels.subarray(0, many).reduce((found, level) => Math.min(found, level), Infinity);
   behind.forEach((depth, i) => { levels[many + i] = Math.max(least, halfToEven(depth * unit)); });
   return levels.map((level) => level - least);
+}
+
+// The normal of a face, by Newell's method: to the right, up, towards the viewer.
+export function normalOf(corners, { x, y, z }, { cos, sin, level, steep }) {
+  let [nx, ny, nz] = [0, 0, 0];
+  corners.forEach((one, i) => {
+    const next = corners[(i + 1) % corners.length];
+    nx += (y[one] - y[next]) * (z[one] + z[next]);
+    ny += (z[one] - z[next]) * (x[one] + x[next]);
+    nz += (x[one] - x[next]) * (y[one] + y[next]);
+  });
+  const ahead = nx * sin - ny * cos;
+  return [nx * cos + ny * sin, nz * level - ahead * steep, ahead * level + nz * steep];
+}
+
+// A stroke as a tapered cylinder with round ends: its body, a light stripe along it, and a dark one.
+export function cylinder([ax, ay], [bx, by], [ra, rb]) {
+  const length = Math.hypot(bx - ax, by - ay), along = length > 0 ? [(bx - ax) / length, (by - ay) / length] : [0, -1];
+  const left = [along[1], -along[0]], brightest = Math.atan2(left[0] * TO_LIGHT[0] - left[1] * TO_LIGHT[1], TO_LIGHT[2]);
+  const away = brightest < 0 ? 1 : -1;
+  const at = (end, angle) => {
+    const [x, y, radius, way] = end ? [bx, by, rb, 1] : [ax, ay, ra, -1], aside = radius * Math.sin(angle), ahead = way * radius * Math.cos(angle);
+    return [x + aside * left[0] + ahead * along[0], y + aside * left[1] + ahead * along[1]];
+  };
+  const stripe = (first, last) => {
+    const middle = (first + last) / 2;
+    return outline([[0, middle], [0, first], [1, first], [1, middle], [1, last], [0, last]], ([end, angle]) => at(end, angle));
+  };
+  return { body: capsule(ax, ay, bx, by, ra, rb, Math.atan2(left[1], left[0])),
+    light: stripe(Math.max(brightest - LIT, -RIM), Math.min(brightest + LIT, RIM)),
+    dark: stripe(brightest + away * DARK, (away * Math.PI) / 2) };
+}
+
+function capsule(ax, ay, bx, by, ra, rb, left) {
+  const path = new Path2D();
+  path.arc(bx, by, rb, left, left + Math.PI);
+  path.arc(ax, ay, ra, left + Math.PI, left + 2 * Math.PI);
+  path.closePath();
+  return path;
 }

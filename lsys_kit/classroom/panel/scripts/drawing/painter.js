@@ -1,13 +1,14 @@
 // The shapes of a turtle on a canvas, painted from far to near and found again under a pointer.
 //
-// A sheet has the pen, the shapes, the frame in which they are seen, where and how broad they are in it, and the theme. Strokes in
-// space are tapered cylinders with round ends, with a light stripe along them and a dark one.
+// A sheet has the pen, the shapes, the frame in which they are seen, where and how broad they are in it, and the theme.
 
 import { clamped } from "../books/numbers.js";
 import { brightness, mixed, shades, sphereFill } from "./colours.js";
-import { BALL, BRIGHT, BROADEST_CASING, CASING, DARK, DIM, EDGE, FACE_EDGE, FILLED, HOLLOW, LABEL_GAP, LEAST_CASING, LIT, OWN, RIM, RING, SMALLEST_RADIUS, TO_LIGHT, TONED } from "./constants.js";
+import { BALL, BRIGHT, BROADEST_CASING, CASING, DIM, EDGE, FACE_EDGE, FILLED, HOLLOW, LABEL_GAP, LEAST_CASING, OWN, RING, SMALLEST_RADIUS, TONED } from "./constants.js";
+import { cylinder, normalOf } from "./depths.js";
 import { cornersOf, fill, isInside, line, meanOf, outline, write } from "./outlines.js";
 import { seenIn } from "./projection.js";
+import { sunlit } from "./sunlight.js";
 
 const MARKED_EDGE = 3, LABEL_FONT = "12px sans-serif", LABEL_HALO = 3; // pixels
 
@@ -22,7 +23,7 @@ const SURROUNDED = {
 // Paint shapes. A look has the theme with its colours, the states that are marked, and for positions in the word whether they
 // are "self", "mother" or "daughter" of what is traced.
 export function paint(pen, shapes, frame, { theme, marked = new Set(), lit = new Map() }) {
-  const seen = seenIn(frame, shapes), sheet = { pen, shapes, frame, seen, theme };
+  const seen = (frame.inSpace && sunlit(pen, shapes, frame, theme, marked, lit)) || seenIn(frame, shapes), sheet = { pen, shapes, frame, seen, theme };
   pen.lineCap = pen.lineJoin = "round";
   paintShapes(sheet, seen.painted, marked);
   if (lit.size) paintTraced(sheet, lit);
@@ -131,19 +132,6 @@ function radiusOf({ shapes: { rounds }, frame, seen: { factors } }, i) {
   return Math.max(SMALLEST_RADIUS, rounds.radii[i] * frame.scale * (factors ? factors[rounds.centres[i]] : 1));
 }
 
-// The normal of a face, by Newell's method: to the right, up, towards the viewer.
-function normalOf(corners, { x, y, z }, { cos, sin, level, steep }) {
-  let [nx, ny, nz] = [0, 0, 0];
-  corners.forEach((one, i) => {
-    const next = corners[(i + 1) % corners.length];
-    nx += (y[one] - y[next]) * (z[one] + z[next]);
-    ny += (z[one] - z[next]) * (x[one] + x[next]);
-    nz += (x[one] - x[next]) * (y[one] + y[next]);
-  });
-  const ahead = nx * sin - ny * cos;
-  return [nx * cos + ny * sin, nz * level - ahead * steep, ahead * level + nz * steep];
-}
-
 // Bands around some shapes, the broadest first.
 function surroundTraced(sheet, bands, numbers) {
   const { pen, theme } = sheet, paths = Array.from(numbers, (number) => outlineOf(sheet, number));
@@ -190,29 +178,4 @@ function distanceToLine([fromX, fromY], [toX, toY], x, y) {
   const ax = x - fromX, ay = y - fromY, bx = toX - fromX, by = toY - fromY;
   const part = clamped(0, 1, (ax * bx + ay * by) / (bx * bx + by * by || 1));
   return Math.hypot(ax - part * bx, ay - part * by);
-}
-
-export function cylinder([ax, ay], [bx, by], [ra, rb]) {
-  const length = Math.hypot(bx - ax, by - ay), along = length > 0 ? [(bx - ax) / length, (by - ay) / length] : [0, -1];
-  const left = [along[1], -along[0]], brightest = Math.atan2(left[0] * TO_LIGHT[0] - left[1] * TO_LIGHT[1], TO_LIGHT[2]);
-  const away = brightest < 0 ? 1 : -1;
-  const at = (end, angle) => {
-    const [x, y, radius, way] = end ? [bx, by, rb, 1] : [ax, ay, ra, -1], aside = radius * Math.sin(angle), ahead = way * radius * Math.cos(angle);
-    return [x + aside * left[0] + ahead * along[0], y + aside * left[1] + ahead * along[1]];
-  };
-  const stripe = (first, last) => {
-    const middle = (first + last) / 2;
-    return outline([[0, middle], [0, first], [1, first], [1, middle], [1, last], [0, last]], ([end, angle]) => at(end, angle));
-  };
-  return { body: capsule(ax, ay, bx, by, ra, rb, Math.atan2(left[1], left[0])),
-    light: stripe(Math.max(brightest - LIT, -RIM), Math.min(brightest + LIT, RIM)),
-    dark: stripe(brightest + away * DARK, (away * Math.PI) / 2) };
-}
-
-function capsule(ax, ay, bx, by, ra, rb, left) {
-  const path = new Path2D();
-  path.arc(bx, by, rb, left, left + Math.PI);
-  path.arc(ax, ay, ra, left + Math.PI, left + 2 * Math.PI);
-  path.closePath();
-  return path;
 }

@@ -26,8 +26,8 @@ const onRamp = (share) => RAMP_START + Math.floor((RAMP_END - RAMP_START) * shar
 
 // How many axes end in each stroke and in what it bears. Those of no length bear nothing, and nothing bears them.
 export function tipsBorne({ from, to, orders, long }) {
-  const ending = new Map(to.map((point, i) => [point, i])), tips = to.map(() => 1);
-  const below = from.map((point, i) => (long[i] ? ending.get(point) : undefined));
+  const ending = new Map(), tips = to.map(() => 1);
+  const below = from.map((point, i) => [long[i] ? ending.get(point) : -1, ending.set(to[i], i)][0]);
   below.forEach((mother, i) => { if (orders[mother] === orders[i]) tips[mother] = 0; }); // the axis goes on
   for (let i = tips.length - 1; i >= 0; i--) if (below[i] >= 0) tips[below[i]] += tips[i];
   return tips;
