@@ -53,7 +53,25 @@ def units(seed: int, step: int, positions: NDArray[np.integer]) -> NDArray[np.fl
     >>> units(1, 2, np.arange(3)).tolist() == [Chance(1, 2, position).unit() for position in range(3)]
     True
     """
-    keys = splitmix64_array(np.uint64(_stem(seed, step)) ^ positions.astype(np.uint64))
+    return units_of(keys_of(seed, step, positions))
+
+
+def keys_of(seed: int, step: int, positions: NDArray[np.integer]) -> NDArray[np.uint64]:
+    """What the modules at some positions of a step's word draw their random numbers from."""
+    return splitmix64_array(np.uint64(_stem(seed, step)) ^ positions.astype(np.uint64))
+
+
+def units_of(keys: NDArray[np.uint64], drawn: int | NDArray[np.integer] = 0) -> NDArray[np.float64]:
+    """The next random number, from 0 up to 1, of modules that have drawn some before.
+
+    >>> one = Chance(1, 2, 0)
+    >>> [float(units_of(keys_of(1, 2, np.arange(1)), drawn)[0]) for drawn in range(2)] == [one.unit(), one.unit()]
+    True
+    """
+    if not isinstance(drawn, int):
+        keys = keys + drawn.astype(np.uint64) * np.uint64(_GOLDEN)
+    elif drawn:
+        keys = keys + np.uint64(drawn * _GOLDEN & _MASK)
     return (splitmix64_array(keys) >> np.uint64(11)).astype(np.float64) * _UNIT
 
 
