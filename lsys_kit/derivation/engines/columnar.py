@@ -14,13 +14,13 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property, partial, reduce
 from itertools import chain
-from typing import TYPE_CHECKING, Any, TypeAlias, overload
+from typing import TYPE_CHECKING, Any, TypeAlias, cast, overload
 
 from lsys_kit.arrays import np
 from lsys_kit.budget import Task, counted, current
 from lsys_kit.derivation.core.chance import choose, keys_of, stretches, units_of
 from lsys_kit.derivation.core.matching import NO_NEIGHBOUR, passing_of
-from lsys_kit.derivation.core.rules import ModuleKind, Rule, Rules, Values, is_branch, kind_of
+from lsys_kit.derivation.core.rules import ModuleKind, Rule, Rules, Values, kind_of
 from lsys_kit.derivation.core.states import EXACT_BITS, States
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.engines.columns import (
@@ -57,7 +57,7 @@ BLOCK_ROWS = 2**15
 ROWS_AT_A_TIME = 2**12
 """So many rows of an array become numbers of Python at a time."""
 MODULES_LOOKED_AT, ALIKE = 512, 16
-"""So many modules show how many of a word are different; if less than one of so many is, numbering states pays again."""
+"""So many modules show whether a word has few that are different: not more than one of so many."""
 MOST_CHOICES = 62
 """Of so many rules of a module those that match are noted in the bits of one number."""
 
@@ -98,9 +98,8 @@ class Parameter:
             first = int(below[0])
             return ExactColumn(above, first if (below == first).all() else below, self.bits)
         places = above.tolist()
-        return ExactColumn(
-            *(np.array([part[at] for at in places], dtype=object) for part in long), (EXACT_BITS, EXACT_BITS), True
-        )
+        wide = [np.array([part[at] for at in places], dtype=object) for part in long]
+        return ExactColumn(wide[0], wide[1], (EXACT_BITS, EXACT_BITS), wide=True)
 
 
 LongNumbers: TypeAlias = "tuple[Sequence[int], Sequence[int]]"
@@ -174,18 +173,22 @@ class ColumnWord(Word):
     def __getitem__(self, index: slice) -> Word: ...
     def __getitem__(self, index: int | slice) -> Module | Word:
         if isinstance(index, slice):
-            parameters = [each.some(index) for each in self.parameters]
-            return ColumnWord(self.states, self.names, Structure(self.kinds[index]), parameters, self.long)
+            return self._some(index)
         place = range(len(self))[index]
         return Module(*next(self._written(place, place + 1)))
+
+    def _some(self, rows: slice) -> ColumnWord:
+        parameters = [each.some(rows) for each in self.parameters]
+        return ColumnWord(self.states, self.names, Structure(self.kinds[rows]), parameters, self.long)
 
     def __iter__(self) -> Iterator[Module]:
         return (Module(*each) for each in self.written())
 
-    def differs(self) -> bool:
-        """Whether no small part of its modules are different, as a few of them show."""
-        some = self[:: len(self) // MODULES_LOOKED_AT + 1]
-        return len({*some}) * ALIKE > len(some)
+    def different(self) -> frozenset[object]:
+        """The modules that differ among a few of the word; none, if these are no small part of them."""
+        some = self._some(slice(None, None, len(self) // MODULES_LOOKED_AT + 1))
+        found = {*some.written()}
+        return frozenset(found if len(found) * ALIKE <= len(some) else ())
 
     def counts(self) -> Mapping[str, int]:
         """How often each symbol occurs."""
@@ -466,7 +469,7 @@ class Writer:
         elif isinstance(column, Mixed):
             rows = _numbered(places)
             floats = np.array([isinstance(number, float) for number in column.numbers], dtype=bool)
-            for some in (np.flatnonzero(floats), np.flatnonzero(~floats)):
+            for some in filter(len, (np.flatnonzero(floats), np.flatnonzero(~floats))):
                 self.write(column_of([column.numbers[row] for row in some.tolist()]), rows[some], parameter)
         else:
             if not np.isfinite(column).all():
@@ -504,6 +507,9 @@ class Writer:
         """The word, when all is written; its kinds may be those of the word before."""
         if before is None or not (self._shared or np.array_equal(before.kinds, self.kinds)):
             before = Structure(self.kinds)
+        for each in self.parameters:
+            if each.denominators is not None and not each.denominators.any():
+                each.denominators = None
         return ColumnWord(states, names, before, self.parameters, self._long_numbers())
 
     def _long_numbers(self) -> LongNumbers:
@@ -540,6 +546,10 @@ def _block(places: Places, block: slice) -> Places:
 
 def _expressions(items: Iterable[Item]) -> Iterator[Expression]:
     return (each for each in expressions_of(items) if isinstance(each, Expression))
+
+
+def _unchecked(size: int, taken: int) -> None:
+    """No limit."""
 
 
 class ColumnarSteps:
@@ -586,11 +596,12 @@ class ColumnarSteps:
         sites, equal = dict[str, Site](), dict[str, Expression]()
         for which, module in enumerate(named):
             for parameter, argument in enumerate(module.arguments):
-                formal = isinstance(argument, Name) and argument.name not in self._constants
-                name = argument.name if formal else f"#{which},{parameter}"
-                sites[name] = place[which], parameter
-                if not formal:
+                name = f"#{which},{parameter}"
+                if isinstance(argument, Name) and argument.name not in self._constants:
+                    name = argument.name
+                else:
                     equal[name] = argument
+                sites[name] = place[which], parameter
         asked = [Apply("==", (Name(name), argument)) for name, argument in equal.items()]
         conditions = [*asked, *([] if production.condition is None else [production.condition])]
         test = reduce(lambda left, right: Apply("&&", (left, right)), conditions) if conditions else None
@@ -599,7 +610,7 @@ class ColumnarSteps:
             number,
             self._numbers[kind_of(production.predecessor)],
             tuple(self._numbers[kind] for kind in rule.left),
-            tuple(-1 if kind[0] == END else self._numbers[kind] for kind in rule.right if not is_branch(kind)),
+            tuple(-1 if module.symbol == END else self._numbers[kind_of(module)] for module in production.right),
             None if test is None else self._function(test, self._constants),
             _sites(sites, [part for part in (test, production.probability) if part is not None]),
             _sites(sites, _expressions(production.successor)),
@@ -635,7 +646,7 @@ class ColumnarSteps:
             writer.write(values, np.array(rows, dtype=np.int64), parameter)
         return writer.whole(self.states, self.kinds, None)
 
-    def step(self, word: ColumnWord, step: int, check: Check = lambda size, taken: None) -> ColumnWord:
+    def step(self, word: ColumnWord, step: int, check: Check = _unchecked) -> ColumnWord:
         """The word of a step after that of the step before; `check` is called with its size and its bytes before it is built,
         and may raise an error.
 
@@ -648,12 +659,15 @@ class ColumnarSteps:
             outline = self._outline(word, self._rules, step - 1)
             if not self._decomposition:
                 return self._replaced(word, outline, step - 1, check)
-            made, _ = self._decomposed(self._replaced(word, outline, step - 1, _before_decomposition(check)), None, check)
+            made = self._replaced(word, outline, step - 1, _before_decomposition(check))
+            made, _ = self._decomposed(made, outline.sizes, check)
             check(len(made), made.bytes)
             return made
 
     def after(self, before: Word, step: int, held: int) -> ColumnWord:
         """The same after any word, within the limits, where the words of other steps take so many bytes."""
+        if current().bits < 2 * SHORT_BITS:
+            raise OverflowError
         word = before if isinstance(before, ColumnWord) else self.word(before)
         return self.step(word, step, partial(check_size, self.states, step, held=held))
 
@@ -663,15 +677,15 @@ class ColumnarSteps:
             outline = self._outline(word, self._rules, step - 1)
             sizes, productions = outline.sizes, outline.productions
             if self._decomposition:
-                made = self._replaced(word, outline, step - 1, lambda size, taken: None)
-                sizes = self._decomposed(made, sizes, lambda size, taken: None)[1]
+                made = self._replaced(word, outline, step - 1, _unchecked)
+                _, sizes = self._decomposed(made, sizes, _unchecked)
         parents = np.repeat(np.arange(len(word)), sizes).tolist()
-        made = np.repeat(productions, sizes).tolist()
-        return Origins(parents, [None if production < 0 else production for production in made])
+        applied = np.repeat(productions, sizes).tolist()
+        return Origins(parents, [None if production < 0 else production for production in applied])
 
-    def _decomposed(self, word: ColumnWord, sizes: Array | None, check: Check) -> tuple[ColumnWord, Array | None]:
+    def _decomposed(self, word: ColumnWord, sizes: Array, check: Check) -> tuple[ColumnWord, Array]:
         """A word whose modules are decomposed, until nothing is left to replace or the depth is reached; and how many modules
-        stand then for some that stood there in a row before."""
+        stand then for so many that stood there in a row before."""
         asked, most = self.states.system.decomposition_depth, current().decomposition
         for depth in counted(range(most + 1 if asked is None else asked), 1):
             outline = self._outline(word, self._decomposition, 0)
@@ -679,9 +693,8 @@ class ColumnarSteps:
                 break
             if depth == most and asked is None:
                 raise OverflowError
-            if sizes is not None:
-                ends, behind = np.cumsum(sizes), np.append(0, np.cumsum(outline.sizes))
-                sizes = behind[ends] - behind[ends - sizes]
+            ends, behind = np.cumsum(sizes), np.append(0, np.cumsum(outline.sizes))
+            sizes = behind[ends] - behind[ends - sizes]
             word = self._replaced(word, outline, 0, _before_decomposition(check))
         return word, sizes
 
@@ -751,7 +764,7 @@ class ColumnarSteps:
                 columns[name] = parameter.numbers[rows]
             else:
                 read[name] = found = parameter.some(rows)
-                forms = forms * 3 + np.sign(found.denominators) + 1
+                forms = forms * 3 + np.sign(cast("Array", found.denominators)) + 1
         if isinstance(forms, int) or (forms == forms[0]).all():
             columns |= {name: found.column(word.long) for name, found in read.items()}
             yield None, Rows(columns, size, positions, self.seed, step, drawn)
@@ -923,7 +936,8 @@ def _expand(parts: FewParts, rows: Rows, which: Array, behind: Array, made: list
             behind += 1
             continue
         counts = _counts(part.count(rows), rows.size)
-        if (behind.sum() + counts.sum() * max(1, len(part.body))) * BYTES_OF_A_VALUE > most.bytes:
+        size = int(behind.sum() + counts.sum() * len(part.body))
+        if size > most.modules or size * BYTES_OF_A_VALUE > most.bytes:
             raise OverflowError
         if part.together:
             again = np.repeat(np.arange(rows.size), counts)

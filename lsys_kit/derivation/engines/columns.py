@@ -17,7 +17,8 @@ import operator
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
+from operator import itemgetter
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar, cast
 
 from lsys_kit.arrays import np
 from lsys_kit.budget import counted, current
@@ -31,7 +32,8 @@ if TYPE_CHECKING:
 
 _T = TypeVar("_T")
 Array: TypeAlias = "NDArray[Any]"
-Whole: TypeAlias = "Array | int"
+Whole: TypeAlias = "Any"
+"""An array of whole numbers, or one."""
 Column: TypeAlias = "Array | float | bool | ExactColumn | Mixed"
 ColumnFunction: TypeAlias = "Callable[[Rows], Any]"
 SHORT_BITS, EXACT_DOUBLE = 62, 53
@@ -72,15 +74,15 @@ class ExactColumn:
 
     def in_python(self) -> ExactColumn:
         """The same in whole numbers of Python."""
-        above, below = (
+        parts: list[Whole] = [
             part.astype(object) if isinstance(part, np.ndarray) else part for part in (self.numerators, self.denominators)
-        )
-        return ExactColumn(above, below, self.bits, wide=True)
+        ]
+        return ExactColumn(parts[0], parts[1], self.bits, wide=True)
 
     def reduced(self) -> ExactColumn:
         """The same numbers in their lowest terms, with as many bits as they have."""
         above, below = self.numerators, self.denominators
-        if not (isinstance(below, int) and below == 1):
+        if not _same(below, 1):
             common = np.gcd(above, below)
             above, below = above // common, below // common
         return ExactColumn(above, below, (_bits(above), _bits(below)), self.wide)
@@ -113,9 +115,8 @@ class ExactColumn:
     def __truediv__(self, other: ExactColumn) -> ExactColumn:
         if not np.all(other.numerators):
             raise ZeroDivisionError
-        signs = np.where(np.less(other.numerators, 0), -1, 1)
-        if isinstance(other.numerators, int):
-            signs = int(signs)
+        signs: Whole = np.where(np.less(other.numerators, 0), -1, 1)
+        signs = int(signs) if isinstance(other.numerators, int) else signs
         return self * ExactColumn(other.denominators * signs, abs(other.numerators), other.bits[::-1], other.wide)
 
     def __neg__(self) -> ExactColumn:
@@ -125,7 +126,8 @@ class ExactColumn:
         return ExactColumn(abs(self.numerators), self.denominators, self.bits, self.wide)
 
     def __floor__(self) -> ExactColumn:
-        return ExactColumn(self.numerators // self.denominators, 1, (self.bits[0], 1), self.wide)
+        whole: Whole = self.numerators // self.denominators
+        return ExactColumn(whole, 1, (self.bits[0], 1), self.wide)
 
     def __ceil__(self) -> ExactColumn:
         return -math.floor(-self)
@@ -194,7 +196,7 @@ def column_of(numbers: Sequence[Value]) -> Column:
         return Mixed(numbers)
     if True in kinds:
         return np.array(numbers, dtype=np.float64)
-    above, below = [number.numerator for number in numbers], [number.denominator for number in numbers]
+    above, below = ([getattr(number, part) for number in numbers] for part in ("numerator", "denominator"))
     bits = (max(map(abs, above), default=0).bit_length(), max(below, default=1).bit_length())
     kind = np.int64 if max(bits) <= SHORT_BITS else object
     whole = bits[1] == 1
@@ -213,8 +215,6 @@ def values_of(column: Column, size: int) -> Sequence[Value]:
 
 def taken(column: Column, rows: Array) -> Column:
     """Some rows of a column, by their numbers."""
-    if isinstance(column, Mixed):
-        return column_of([column.numbers[row] for row in rows.tolist()])
     if isinstance(column, ExactColumn):
         above, below = (
             part[rows] if isinstance(part, np.ndarray) else part for part in (column.numerators, column.denominators)
@@ -279,6 +279,7 @@ class Rows:
     def units(self) -> Array:
         """The next random number, from 0 up to 1, of each module."""
         if self._keys is None:
+            assert self.positions is not None
             self._keys = keys_of(self.seed, self.step, self.positions)
         found = units_of(self._keys, self.drawn)
         self.drawn = self.drawn + 1
@@ -308,15 +309,15 @@ def _operation(name: str, exact: Callable[[Any, Any], ExactColumn], numpy: str) 
             out, rows.out = rows.out, None
             first, second = left(rows), right(rows)
             if isinstance(first, Mixed) or isinstance(second, Mixed):
-                return one_by_one(rows, first, second)
+                found: Column = one_by_one(rows, first, second)
+                return found
             if isinstance(first, ExactColumn):
                 if isinstance(second, ExactColumn):
                     return exact(first, second)
                 first = first.floats()
             elif isinstance(second, ExactColumn):
                 second = second.floats()
-            found: Array = getattr(np, numpy)(first, second, out=out)
-            return found
+            return cast("Array", getattr(np, numpy)(first, second, out=out))
 
         return run
 
@@ -338,7 +339,7 @@ def _is_plain(exact: ExactColumn) -> bool:
 def _against(floats: Array, name: str, exact: ExactColumn, rows: Rows) -> Array:
     """How doubles compare with such numbers."""
     near = exact.floats()
-    if isinstance(near, float) and (there := Fraction(exact.numerators, exact.denominators)) != near:  # type: ignore[arg-type]
+    if isinstance(near, float) and (there := Fraction(exact.numerators, exact.denominators)) != near:
         if name in ("==", "!="):
             return np.full(rows.size, name == "!=")
         name = (_BELOW if near < there else _ABOVE).get(name, name)
@@ -357,13 +358,15 @@ def _comparison(name: str) -> Callable[..., ColumnFunction]:
             first, second = left(rows), right(rows)
             if isinstance(first, ExactColumn) and isinstance(second, ExactColumn):
                 return np.asarray(getattr(np, numpy)((first - second).numerators, 0), dtype=bool)
-            if isinstance(first, Mixed) or isinstance(second, Mixed):
-                return one_by_one(rows, first, second)
-            if isinstance(first, ExactColumn):
-                return _against(second, _TURNED[name], first, rows) if _is_plain(first) else one_by_one(rows, first, second)
-            if isinstance(second, ExactColumn):
-                return _against(first, name, second, rows) if _is_plain(second) else one_by_one(rows, first, second)
-            found: Array = getattr(np, numpy)(first, second)
+            found: Array
+            if isinstance(first, float | np.ndarray) and isinstance(second, float | np.ndarray):
+                found = getattr(np, numpy)(first, second)
+            elif isinstance(second, ExactColumn) and isinstance(first, np.ndarray) and _is_plain(second):
+                found = _against(first, name, second, rows)
+            elif isinstance(first, ExactColumn) and isinstance(second, np.ndarray) and _is_plain(first):
+                found = _against(second, _TURNED[name], first, rows)
+            else:
+                found = one_by_one(rows, first, second)
             return found
 
         return run
@@ -380,10 +383,7 @@ def _one_by_one(name: str, *operands: ColumnFunction) -> Callable[..., Any]:
     def run(rows: Rows, *columns: Column) -> Column:
         values = zip(*[values_of(column, rows.size) for column in columns], strict=True)
         try:
-            if random:
-                found = _drawn_one_by_one(one, rows, values)
-            else:
-                found = [one(row) for row in counted(values)]
+            found = _drawn_one_by_one(one, rows, values) if random else [one(row) for row in counted(values)]
         except (ValueError, TypeError) as fault:
             raise ArithmeticError from fault
         return np.array(found, dtype=bool) if truth else column_of(found)
@@ -421,10 +421,11 @@ def _of_one(name: str, exact: Callable[[ExactColumn], Column], numpy: str) -> Ca
 
         def run(rows: Rows) -> Column:
             column = operand(rows)
-            if isinstance(column, Mixed):
-                found: Column = one_by_one(rows, column)
-                return found
-            return exact(column) if isinstance(column, ExactColumn) else getattr(np, numpy)(column)
+            found: Column
+            if isinstance(column, ExactColumn):
+                return exact(column)
+            found = one_by_one(rows, column) if isinstance(column, Mixed) else getattr(np, numpy)(column)
+            return found
 
         return run
 
@@ -435,7 +436,7 @@ def _extreme(name: str, comparison: str) -> Callable[..., ColumnFunction]:
     """The least or the greatest number; of equal ones the first."""
 
     def build(*operands: ColumnFunction) -> ColumnFunction:
-        compare = _comparison(comparison)(lambda pair: pair[0], lambda pair: pair[1])  # type: ignore[index, misc]
+        compare = _comparison(comparison)(itemgetter(0), itemgetter(1))
         one_by_one = _one_by_one(name, *operands)
 
         def run(rows: Rows) -> Column:
@@ -443,7 +444,7 @@ def _extreme(name: str, comparison: str) -> Callable[..., ColumnFunction]:
             if len({ExactColumn if isinstance(column, ExactColumn) else isinstance(column, Mixed) for column in columns}) > 1:
                 mixed: Column = one_by_one(rows, *columns)
                 return mixed
-            found = columns[0]
+            found: Column = columns[0]
             for other in columns[1:]:
                 found = _merged(compare((other, found)), other, found, rows.size)  # type: ignore[arg-type]
             return found
@@ -470,8 +471,8 @@ def _merged(first: Array, yes: Column, no: Column, size: int) -> Column:
 
 def _truth(column: Any, size: int) -> Array:
     if isinstance(column, ExactColumn | Mixed):
-        column = np.array([bool(value) for value in values_of(column, size)], dtype=bool)
-    return np.broadcast_to(np.asarray(column, dtype=bool), size)
+        column = [bool(value) for value in values_of(column, size)]
+    return np.broadcast_to(np.asarray(column, dtype=bool), (size,))
 
 
 def _where(rows: Rows, asked: Array, function: ColumnFunction, careful: bool) -> tuple[Any, Array | None]:
@@ -493,7 +494,8 @@ def _junction(stops: bool) -> Callable[..., Callable[..., ColumnFunction]]:
             first = _truth(left(rows), rows.size)
             second, there = _where(rows, first != stops, right, careful[1])
             if there is None:
-                return (first | second) if stops else (first & second)
+                both: Array = (first | _truth(second, rows.size)) if stops else (first & _truth(second, rows.size))
+                return both
             found = np.array(first)
             if len(there):
                 found[there] = _truth(second, len(there))
@@ -584,6 +586,7 @@ SAFE = frozenset((*COMPARISONS, "+", "-", "*", "-x", "abs", "floor", "ceil", "!"
 def column_function(expression: Expression, constants: Mapping[str, Value], arithmetic: str) -> ColumnFunction:
     """The function of an expression for whole columns.
 
+    >>> from lsys_kit.notation.model.expressions import Number
     >>> run = column_function(Apply("*", (Name("x"), Number(2))), {}, "float")
     >>> run(Rows({"x": np.array([1.0, 2.5])}, 2)).tolist()
     [2.0, 5.0]
@@ -598,8 +601,8 @@ def column_function(expression: Expression, constants: Mapping[str, Value], arit
     if expression.operator in CAREFUL:
         careful = [not is_safe(operand) for operand in expression.operands]
         return CAREFUL[expression.operator](*operands, careful)
-    function: ColumnFunction = BUILDERS.get(expression.operator, _generic(expression.operator))(*operands)
-    return function
+    builder: Callable[..., ColumnFunction] = BUILDERS.get(expression.operator) or _generic(expression.operator)
+    return builder(*operands)
 
 
 def is_safe(expression: Expression) -> bool:

@@ -12,6 +12,7 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from functools import cached_property, lru_cache, partial
 
+from lsys_kit.arrays import arrays_pay
 from lsys_kit.budget import INTERVAL, check_budget
 from lsys_kit.derivation.core.rules import ModuleKind, Rule, Values, kind_of, rule_for
 from lsys_kit.derivation.core.states import States
@@ -90,8 +91,11 @@ def _applied(
 
 ORIGIN_BYTES = 16
 """About what is kept for each module, to know where those come from that replace it."""
+FEW_NEW, STATES_OF_A_MODULE, STATES_AT_LEAST = 4, 4, 1_000
+"""Words also become columns after a step in which more new states than these are met, if the table has several times as many
+states as the word has modules, and is no small one."""
 STEPS_BETWEEN_LOOKS = 64
-"""After so many steps a word in columns is looked at, whether its modules still differ."""
+"""After so many steps a word in columns is looked at, whether numbering its states pays again."""
 MOST_FAILED = 2
 """After more steps than these that failed in columns, no other is tried."""
 
@@ -106,6 +110,7 @@ class SteppingEngine:
         self.states, self._world, self._stepper, self._arrays, self._columnar = states, world, stepper, arrays, columnar
         self._new = len(states)  # so many states were met first at the last step
         self._failed = 0  # so many steps failed in columns
+        self._seen: frozenset[object] = frozenset()
         self._steps = KeptSteps(self._made_again if columnar else None)
         self._steps.add(Word(states, list(states.axiom)), lambda: Origins((), ()))
 
@@ -153,9 +158,19 @@ class SteppingEngine:
         """Whether the word after another is made in columns: many modules are different, and columns have seldom failed."""
         if not self._columnar or self._failed > MOST_FAILED:
             return False
-        if isinstance(before, ColumnWord):
-            return self.known % STEPS_BETWEEN_LOOKS > 0 or before.differs()
-        return many_new(self._new, len(before))
+        if not isinstance(before, ColumnWord):
+            return many_new(self._new, len(before)) or self._keep_coming(len(before))
+        return self.known % STEPS_BETWEEN_LOOKS > 0 or not self._repeats(before)
+
+    def _keep_coming(self, size: int) -> bool:
+        """Whether new states have come for long: the table has many more of them than a word has modules."""
+        met = len(self.states)
+        return self._new > FEW_NEW and met > STATES_OF_A_MODULE * size and arrays_pay(met, STATES_AT_LEAST)
+
+    def _repeats(self, word: ColumnWord) -> bool:
+        """Whether few modules of a word in columns differ, and half of them were there when a word was last looked at."""
+        seen, self._seen = self._seen, word.different()
+        return 0 < len(self._seen) <= 2 * len(self._seen & seen)
 
     @cached_property
     def _columns(self) -> ColumnarSteps:
@@ -226,7 +241,7 @@ def _resumed(
 ) -> SteppingEngine:
     stepper = Stepper(states, seed)
     engine = SteppingEngine(stepper, ContextEngine(stepper) if by_arrays else None, world, columnar)
-    engine._steps[:] = [KeptStep(size, word, origins and partial(_same, origins)) for size, word, origins in steps]
+    engine._steps[:] = [KeptStep(size, word, partial(_same, origins) if origins else None) for size, word, origins in steps]
     engine._steps.bytes = sum(word.bytes for _, word, _ in steps if word)
     return engine
 
