@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, cast, overload
 
 from lsys_kit.arrays import np
 from lsys_kit.budget import Task, counted, current
-from lsys_kit.derivation.core.chance import choose, keys_of, stretches, units_of
+from lsys_kit.derivation.core.chance import MASK, choose, stretches, units_of
 from lsys_kit.derivation.core.matching import NO_NEIGHBOUR, passing_of
 from lsys_kit.derivation.core.rules import ModuleKind, Rule, Rules, Values, kind_of
 from lsys_kit.derivation.core.states import EXACT_BITS, States
@@ -28,6 +28,7 @@ from lsys_kit.derivation.engines.columns import (
     SHORT_BITS,
     Column,
     ColumnFunction,
+    Draws,
     ExactColumn,
     Mixed,
     Rows,
@@ -83,6 +84,10 @@ class Parameter:
     def bytes(self) -> int:
         return self.numbers.nbytes + (0 if self.denominators is None else self.denominators.nbytes)
 
+    def repeated(self, times: int) -> Parameter:
+        below = None if self.denominators is None else np.tile(self.denominators, times)
+        return Parameter(np.tile(self.numbers, times), below, self.bits)
+
     def copy(self) -> Parameter:
         return Parameter(self.numbers.copy(), None if self.denominators is None else self.denominators.copy(), self.bits)
 
@@ -111,6 +116,8 @@ NO_LONG_NUMBERS: LongNumbers = ((), ())
 class Structure:
     """The kinds of a word's modules, and what follows from them alone.
 
+    bounds
+        Where the word of each run begins, if those of several are side by side, and where the last one ends.
     around
         The places of the neighbours in the sense of contexts, to the left and to the right.
     candidates
@@ -120,9 +127,25 @@ class Structure:
     """
 
     kinds: Array
+    bounds: Array | None = None
     around: tuple[Array, Array] | None = None
     candidates: dict[int, tuple[Places, ...]] = field(default_factory=dict)
     outline: Outline | None = None
+
+    def runs(self, rows: Array) -> Array:
+        """The runs that some modules belong to, where there are several."""
+        return np.searchsorted(cast("Array", self.bounds), rows, side="right") - 1
+
+    def apart(self, sides: tuple[Array, Array], roles: Array) -> tuple[Array, Array]:
+        """Neighbours without those of other runs; an `ArithmeticError`, where brackets of one may be closed by another's."""
+        assert self.bounds is not None
+        role = roles[self.kinds]
+        level = np.append(0, np.cumsum((role == OPENS).astype(np.int64) - (role == CLOSES)))
+        if level.min() < 0 or level[self.bounds].any():
+            raise ArithmeticError
+        run = self.runs(np.arange(len(self.kinds)))
+        left, right = (np.where(run[side] == run, side, NO_NEIGHBOUR) for side in sides)
+        return left, right
 
 
 class ColumnWord(Word):
@@ -388,6 +411,12 @@ class Outline:
             found[each.places[0]] = each.rule.rule.number
         return found
 
+    def bounds(self, before: Array) -> Array:
+        """Where the words of several runs begin after the step, and where the last one ends."""
+        if self.starts is not None:
+            return np.append(self.starts, self.size)[before]
+        return before if self.every is None else before * self.every
+
     def writer(self, word: ColumnWord) -> Writer:
         """The next word, in which so far only that is written which stays as it is."""
         if self.in_place:
@@ -503,10 +532,12 @@ class Writer:
             floats = [a / b for a, b in zip(above[outgrown].tolist(), below[outgrown].tolist(), strict=True)]
             self.write(np.array(floats), rows[outgrown], parameter)
 
-    def whole(self, states: States, names: Sequence[ModuleKind], before: Structure | None) -> ColumnWord:
+    def whole(
+        self, states: States, names: Sequence[ModuleKind], before: Structure | None, bounds: Array | None = None
+    ) -> ColumnWord:
         """The word, when all is written; its kinds may be those of the word before."""
-        if before is None or not (self._shared or np.array_equal(before.kinds, self.kinds)):
-            before = Structure(self.kinds)
+        if before is None or not (self._shared or (bounds is None and np.array_equal(before.kinds, self.kinds))):
+            before = Structure(self.kinds, bounds)
         for each in self.parameters:
             if each.denominators is not None and not each.denominators.any():
                 each.denominators = None
@@ -565,6 +596,7 @@ class ColumnarSteps:
 
     def __init__(self, states: States, seed: int = 0) -> None:
         self.states, self.seed, system = states, seed, states.system
+        self._seeds: Array = np.empty(0, dtype=np.uint64)
         self._passing = passing_of(system)
         self._constants = dict(zip((each.name for each in system.constants), states.constants, strict=True))
         modules = [*system.axiom, *(m for rule in (*system.productions, *system.decomposition) for m in rule.modules)]
@@ -646,6 +678,14 @@ class ColumnarSteps:
             writer.write(values, np.array(rows, dtype=np.int64), parameter)
         return writer.whole(self.states, self.kinds, None)
 
+    def words(self, seeds: Sequence[int]) -> ColumnWord:
+        """The axiom, as often as there are seeds, the words of which are from here on side by side."""
+        self._seeds = np.array([seed & MASK for seed in seeds], dtype=np.uint64)
+        one = self.word([self.states.modules[code] for code in self.states.axiom])
+        bounds = np.arange(len(seeds) + 1) * len(one)
+        parameters = [each.repeated(len(seeds)) for each in one.parameters]
+        return ColumnWord(self.states, self.kinds, Structure(np.tile(one.kinds, len(seeds)), bounds), parameters, one.long)
+
     def step(self, word: ColumnWord, step: int, check: Check = _unchecked) -> ColumnWord:
         """The word of a step after that of the step before; `check` is called with its size and its bytes before it is built,
         and may raise an error.
@@ -721,7 +761,8 @@ class ColumnarSteps:
                 starts = outline.starts[each.places[0]]
                 for piece in expanded[1]:
                     _write_module(writer, starts[piece.rows] + piece.behind, piece.kind, piece.values)
-        made = writer.whole(self.states, self.kinds, word.structure)
+        bounds = word.structure.bounds
+        made = writer.whole(self.states, self.kinds, word.structure, None if bounds is None else outline.bounds(bounds))
         if writer.outgrown and self.states.inexact is None:
             self.states.inexact = made[int(min(map(np.min, writer.outgrown)))]
         return made
@@ -752,7 +793,7 @@ class ColumnarSteps:
         those apart that are alike."""
         size = block.stop - block.start
         drawn = each.drawn if isinstance(each.drawn, int) else each.drawn[block]
-        positions = _numbered(_block(each.places[0], block)) if each.rule.rule.random else None
+        draws = self._draws(word, _numbered(_block(each.places[0], block)), step) if each.rule.rule.random else None
         columns: dict[str, Column] = {}
         read: dict[str, Parameter] = {}
         forms: Any = 0
@@ -767,14 +808,22 @@ class ColumnarSteps:
                 forms = forms * 3 + np.sign(cast("Array", found.denominators)) + 1
         if isinstance(forms, int) or (forms == forms[0]).all():
             columns |= {name: found.column(word.long) for name, found in read.items()}
-            yield None, Rows(columns, size, positions, self.seed, step, drawn)
+            yield None, Rows(columns, size, draws, drawn)
             return
         for form in np.unique(forms).tolist():
             which = np.flatnonzero(forms == form)
             ours_only = {name: taken(column, which) for name, column in columns.items()}
             ours_only |= {name: found.some(which).column(word.long) for name, found in read.items()}
-            ours = None if positions is None else positions[which]
-            yield which, Rows(ours_only, len(which), ours, self.seed, step, drawn if isinstance(drawn, int) else drawn[which])
+            before = drawn if isinstance(drawn, int) else drawn[which]
+            yield which, Rows(ours_only, len(which), draws and draws.some(which), before)
+
+    def _draws(self, word: ColumnWord, rows: Array, step: int) -> Draws:
+        """What some modules draw random numbers by."""
+        bounds = word.structure.bounds
+        if bounds is None:
+            return Draws(self.seed, step, rows)
+        run = word.structure.runs(rows)
+        return Draws(self._seeds[run], step, rows - bounds[run])
 
     def _candidates(self, rule: ColumnRule, structure: Structure) -> tuple[Places, ...]:
         """The places of the modules that a rule names, where they are of the right kinds."""
@@ -787,7 +836,8 @@ class ColumnarSteps:
         found = [np.flatnonzero(kinds == rule.kind)]
         if structure.around is None and (rule.left or rule.right):
             places = np.arange(len(kinds))
-            structure.around = context_neighbours(places, self._roles[kinds], NO_NEIGHBOUR, self._passing.flat)
+            sides = context_neighbours(places, self._roles[kinds], NO_NEIGHBOUR, self._passing.flat)
+            structure.around = sides if structure.bounds is None else structure.apart(sides, self._roles)
         for wanted, side in ((rule.left, 0), (rule.right, 1)):
             at = 0
             for kind in wanted:
@@ -855,7 +905,7 @@ class ColumnarSteps:
         """Which rule chance chooses for which modules, of those that match each."""
         weights = [self._weights(each, word, step, drawn) for _, each in matched]
         rows = np.flatnonzero(noted)
-        units = units_of(keys_of(self.seed, step, rows), drawn if isinstance(drawn, int) else drawn[rows])
+        units = units_of(self._draws(word, rows, step).keys(), drawn if isinstance(drawn, int) else drawn[rows])
         patterns, choice = noted[rows], np.empty(len(word), dtype=np.int64)
         for pattern in counted(np.unique(patterns).tolist(), 1):
             ours = np.flatnonzero(patterns == pattern)

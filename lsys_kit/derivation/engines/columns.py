@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 import operator
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from operator import itemgetter
@@ -236,6 +236,27 @@ def _spread(part: Any, size: int) -> Array:
     )
 
 
+@dataclass(frozen=True, eq=False)
+class Draws:
+    """What modules draw random numbers by: the seed of all or of each, the step, and the place of each in its word."""
+
+    seed: int | Array
+    step: int
+    positions: Array
+
+    def some(self, rows: Array) -> Draws:
+        """Those of some of the modules."""
+        return Draws(self.seed if isinstance(self.seed, int) else self.seed[rows], self.step, self.positions[rows])
+
+    def keys(self) -> Array:
+        return keys_of(self.seed, self.step, self.positions)
+
+    def chances(self, drawn: Any) -> Iterator[Chance]:
+        """For each module its random numbers, after so many that it has drawn before."""
+        each = (np.broadcast_to(part, self.positions.shape).tolist() for part in (self.seed, self.positions, drawn))
+        return (Chance(seed, self.step, position, None, before) for seed, position, before in zip(*each, strict=True))
+
+
 class Rows:
     """Some modules of a word: how many they are, the columns of the names that expressions use, and their random numbers.
 
@@ -247,19 +268,10 @@ class Rows:
         Where the next operation with doubles may write its result.
     """
 
-    __slots__ = ("_before", "_keys", "columns", "drawn", "out", "positions", "seed", "size", "step")
+    __slots__ = ("_before", "_keys", "columns", "drawn", "draws", "out", "size")
 
-    def __init__(
-        self,
-        columns: Mapping[str, Column],
-        size: int,
-        positions: Array | None = None,
-        seed: int = 0,
-        step: int = 0,
-        drawn: Any = 0,
-    ) -> None:
-        self.columns, self.size, self.positions, self.drawn, self._before = columns, size, positions, drawn, drawn
-        self.seed, self.step = seed, step
+    def __init__(self, columns: Mapping[str, Column], size: int, draws: Draws | None = None, drawn: Any = 0) -> None:
+        self.columns, self.size, self.draws, self.drawn, self._before = columns, size, draws, drawn, drawn
         self._keys: Array | None = None
         self.out: Array | None = None
 
@@ -271,7 +283,7 @@ class Rows:
             columns = {
                 name: column.in_python() if isinstance(column, ExactColumn) else column for name, column in self.columns.items()
             }
-            wide = Rows(columns, self.size, self.positions, self.seed, self.step, self._before)
+            wide = Rows(columns, self.size, self.draws, self._before)
             found = function(wide)
             self.drawn = wide.drawn
             return found
@@ -279,8 +291,8 @@ class Rows:
     def units(self) -> Array:
         """The next random number, from 0 up to 1, of each module."""
         if self._keys is None:
-            assert self.positions is not None
-            self._keys = keys_of(self.seed, self.step, self.positions)
+            assert self.draws is not None
+            self._keys = self.draws.keys()
         found = units_of(self._keys, self.drawn)
         self.drawn = self.drawn + 1
         return found
@@ -289,8 +301,7 @@ class Rows:
         """Some of the modules, by their numbers; other names may be known of them."""
         columns = {name: taken(column, rows) for name, column in self.columns.items()}
         drawn = self.drawn if isinstance(self.drawn, int) else self.drawn[rows]
-        positions = None if self.positions is None else self.positions[rows]
-        return Rows({**columns, **more}, len(rows), positions, self.seed, self.step, drawn)
+        return Rows({**columns, **more}, len(rows), self.draws and self.draws.some(rows), drawn)
 
     def draw_as(self, some: Rows, rows: Array) -> None:
         """Take over how many random numbers some of the modules have drawn."""
@@ -392,11 +403,9 @@ def _one_by_one(name: str, *operands: ColumnFunction) -> Callable[..., Any]:
 
 
 def _drawn_one_by_one(one: Callable[..., Any], rows: Rows, values: Iterable[tuple[Value, ...]]) -> list[Value]:
-    assert rows.positions is not None
-    drawn = np.broadcast_to(rows.drawn, rows.size).tolist()
+    assert rows.draws is not None
     found, after = [], []
-    for row, position, before in zip(counted(values), rows.positions.tolist(), drawn, strict=True):
-        chance = Chance(rows.seed, rows.step, position, None, before)
+    for row, chance in zip(counted(values), rows.draws.chances(rows.drawn), strict=True):
         found.append(one((*row, chance)))
         after.append(chance.drawn)
     rows.drawn = np.array(after, dtype=np.int64)
