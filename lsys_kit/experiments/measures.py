@@ -124,7 +124,7 @@ def count(wanted: frozenset[str], what: Measurable) -> int:
 
 
 def _modules(what: Measurable) -> int:
-    return len(what) if isinstance(what, Word) else sum(what.counts(what.steps).values())
+    return len(what) if isinstance(what, Word) else what.lengths[-1]
 
 
 def _rate(what: Measurable) -> float:

@@ -19,9 +19,11 @@ from lsys_kit import systems as catalogue
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.derive import Derivation, serves
 from lsys_kit.derivation.engines import columnar, counting, kept, stepping
+from lsys_kit.derivation.engines import together as together_module
 from lsys_kit.derivation.engines.columnar import ColumnarSteps, ColumnWord
 from lsys_kit.derivation.engines.stepping import SteppingEngine
 from lsys_kit.derivation.engines.stepwise import Stepper
+from lsys_kit.derivation.engines.together import counts_together
 from lsys_kit.notation.model.expressions import Apply, Name, Number
 from lsys_kit.notation.model.modules import END, Pattern
 from lsys_kit.notation.model.system import LSystem, Production
@@ -101,6 +103,13 @@ ROOTS = read(
     "axiom: A(2) A(5)\nA(x) : x^2 < 90 && !(x == 3) -> A(x^2/3) A(sqrt(x+1)) A(sin(30*x)) A(mod(x,2)) B(-abs(x))\n"
     "A(x) -> A(x/8)"
 )
+NUMBERS = LSystem(
+    axiom=tuple(Pattern("A", (Number(n),)) for n in (2, 1, 0)),
+    productions=(
+        Production((A_OF_X,), (A_OF_X, Pattern("A", (Apply("-", (X, Number(1))),))), X),
+        Production((A_OF_X,), (B_OF_X,), Apply("||", (Apply("sqrt", (X,)), Apply("==", (X, Number(0)))))),
+    ),
+)
 LAST = LSystem(
     axiom=tuple(Pattern("A", (Number(n),)) for n in range(5)),
     productions=(Production((A_OF_X,), (A_OF_X, A_OF_X), right=(Pattern(END),)),),
@@ -120,6 +129,7 @@ SYSTEMS = {
     "parts": PARTS,
     "roots": ROOTS,
     "last": LAST,
+    "numbers": NUMBERS,
 }
 STEPS = {"chancy": 6, "signals": 7, "repeated": 4, "diffusion": 50, "roots": 4}
 ARITHMETICS = pytest.mark.parametrize("arithmetic", ["exact", "float"])
@@ -293,13 +303,16 @@ A(x) -> A(table(x-3, 3-x)) A(x-1)
 
 A(x) -> A(table(0, 0))
 
-A(x) -> A(if(x > 1, 1e200*sqrt(x), 1)*if(x > 1, 1e200, 1))
+A(x) -> A(if(x > 1.6, 1e200*sqrt(x), 1)*if(x > 1.6, 1e200, 1))
+
+A(x) : x > 1.6 -> B(x/7)
+B(x) -> A(x+1.1)
 
 A(x) -> A(normal(x, 3-x)) A(x+1)
 
 A(x) -> A(x/3) D(x)
 decomposition:
-D(x) -> D(x/2) D(x/3)
+D(x) : x > -1 -> D(x+1) E
 
 A(x) -> A(x/3) A(x/2) A(x/5) D(x)
 decomposition:
@@ -349,6 +362,7 @@ def test_a_word_in_columns_is_a_row_of_modules() -> None:
     assert word == other
     assert word.counts() == other.counts()
     assert repr(word) == repr(other)
+    assert in_columns(PARTS, 1, "exact")[-1].counts() == one_by_one(PARTS, 1, "exact")[-1].counts()
     with pytest.raises(IndexError):
         word[len(word)]
 
@@ -382,6 +396,36 @@ def test_words_that_are_not_kept_are_made_again(monkeypatch: pytest.MonkeyPatch,
         assert [str(derivation[step]) for step in (3, 9, 3, 4)] == [
             str(one_by_one(found, 9, "float")[step]) for step in (3, 9, 3, 4)
         ]
+
+
+@ARITHMETICS
+@pytest.mark.parametrize("name", SYSTEMS)
+def test_runs_side_by_side_are_counted_as_alone(name: str, arithmetic: str) -> None:
+    found, steps = SYSTEMS[name], [0, 2, 3]
+    seeds = [0, 1, 5, -3, 2**70, 1]
+    alone = [one_by_one(found, 3, arithmetic, seed) for seed in seeds]
+    together = [*counts_together(States(found, None, arithmetic), seeds, steps)]
+    expected = [[Counter(run[step].counts()) for step in steps] for run in alone]
+    assert [[+Counter(counts) for counts in run or ()] for run in together] == expected
+
+
+def test_runs_side_by_side_end_where_their_words_do() -> None:
+    """Contexts do not look into the word of another run."""
+    rules = "A(x) < B(y) -> C\nB(x) < A(y) -> C\nA(x) < A(y) -> D\nA(x) > A(y) -> E : 1\nA(x) > A(y) -> ε : 1"
+    for axiom in ("A(1) [B(2)] A(1)", "A(1)", "B(1) A(1) A(2)"):
+        found = read(f"axiom: {axiom}\n{rules}")
+        runs = counts_together(States(found), range(9), [1, 2])
+        alone = [[+Counter(derive(found, step, seed=seed)[-1].counts()) for step in (1, 2)] for seed in range(9)]
+        assert [[+Counter(counts) for counts in run or ()] for run in runs] == alone
+
+
+def test_runs_that_are_large_together_are_taken_apart(monkeypatch: pytest.MonkeyPatch) -> None:
+    seeds = range(9)
+    whole = [*counts_together(States(TREE), seeds, [1, 6])]
+    monkeypatch.setattr(together_module, "MODULES_TOGETHER", 1_100)
+    assert [*counts_together(States(TREE), seeds, [1, 6])] == whole
+    monkeypatch.setattr(together_module, "MODULES_TOGETHER", 100)
+    assert [*counts_together(States(TREE), seeds, [1, 6])] == [None] * 9
 
 
 SPREADING_OUT = "C(x) < C(y) > C(z) -> C(y + 0.1*(x+z-2*y))"

@@ -36,6 +36,7 @@ from lsys_kit.derivation.engines.columns import (
     column_of,
     single_value,
     taken,
+    truths,
     values_of,
 )
 from lsys_kit.derivation.engines.contexts import CLOSES, OPENS, ORDINARY, PASSED, context_neighbours
@@ -136,13 +137,8 @@ class Structure:
         """The runs that some modules belong to, where there are several."""
         return np.searchsorted(cast("Array", self.bounds), rows, side="right") - 1
 
-    def apart(self, sides: tuple[Array, Array], roles: Array) -> tuple[Array, Array]:
-        """Neighbours without those of other runs; an `ArithmeticError`, where brackets of one may be closed by another's."""
-        assert self.bounds is not None
-        role = roles[self.kinds]
-        level = np.append(0, np.cumsum((role == OPENS).astype(np.int64) - (role == CLOSES)))
-        if level.min() < 0 or level[self.bounds].any():
-            raise ArithmeticError
+    def apart(self, sides: tuple[Array, Array]) -> tuple[Array, Array]:
+        """Neighbours without those of other runs."""
         run = self.runs(np.arange(len(self.kinds)))
         left, right = (np.where(run[side] == run, side, NO_NEIGHBOUR) for side in sides)
         return left, right
@@ -837,7 +833,7 @@ class ColumnarSteps:
         if structure.around is None and (rule.left or rule.right):
             places = np.arange(len(kinds))
             sides = context_neighbours(places, self._roles[kinds], NO_NEIGHBOUR, self._passing.flat)
-            structure.around = sides if structure.bounds is None else structure.apart(sides, self._roles)
+            structure.around = sides if structure.bounds is None else structure.apart(sides)
         for wanted, side in ((rule.left, 0), (rule.right, 1)):
             at = 0
             for kind in wanted:
@@ -880,7 +876,7 @@ class ColumnarSteps:
         assert each.rule.test is not None
         found = np.empty(each.size, dtype=bool)
         for at, some in self._valued(each, each.rule.test, word, step, drawn):
-            found[at] = some
+            found[at] = truths(some, found[at].size)
         return found
 
     def _valued(

@@ -450,7 +450,8 @@ def _extreme(name: str, comparison: str) -> Callable[..., ColumnFunction]:
 
         def run(rows: Rows) -> Column:
             columns = [operand(rows) for operand in operands]
-            if len({ExactColumn if isinstance(column, ExactColumn) else isinstance(column, Mixed) for column in columns}) > 1:
+            forms = {isinstance(column, ExactColumn) for column in columns}
+            if len(forms) > 1 or any(isinstance(column, Mixed) for column in columns):
                 mixed: Column = one_by_one(rows, *columns)
                 return mixed
             found: Column = columns[0]
@@ -478,7 +479,12 @@ def _merged(first: Array, yes: Column, no: Column, size: int) -> Column:
     return column_of([one if truth else other for truth, one, other in values])
 
 
-def _truth(column: Any, size: int) -> Array:
+def truths(column: Any, size: int) -> Array:
+    """Whether each row of a column is true; a number is, unless it is zero.
+
+    >>> truths(column_of([0, Fraction(1, 2)]), 2).tolist(), truths(True, 2).tolist()
+    ([False, True], [True, True])
+    """
     if isinstance(column, ExactColumn | Mixed):
         column = [bool(value) for value in values_of(column, size)]
     return np.broadcast_to(np.asarray(column, dtype=bool), (size,))
@@ -500,14 +506,14 @@ def _junction(stops: bool) -> Callable[..., Callable[..., ColumnFunction]]:
 
     def build(left: ColumnFunction, right: ColumnFunction, careful: Sequence[bool]) -> ColumnFunction:
         def run(rows: Rows) -> Array:
-            first = _truth(left(rows), rows.size)
+            first = truths(left(rows), rows.size)
             second, there = _where(rows, first != stops, right, careful[1])
             if there is None:
-                both: Array = (first | _truth(second, rows.size)) if stops else (first & _truth(second, rows.size))
+                both: Array = (first | truths(second, rows.size)) if stops else (first & truths(second, rows.size))
                 return both
             found = np.array(first)
             if len(there):
-                found[there] = _truth(second, len(there))
+                found[there] = truths(second, len(there))
             return found
 
         return run
@@ -519,7 +525,7 @@ def _choice(condition: ColumnFunction, yes: ColumnFunction, no: ColumnFunction, 
     """`if`, which computes what it chooses."""
 
     def run(rows: Rows) -> Column:
-        first = _truth(condition(rows), rows.size)
+        first = truths(condition(rows), rows.size)
         (one, ours), (other, theirs) = _where(rows, first, yes, careful[1]), _where(rows, ~first, no, careful[2])
         if ours is None and theirs is None:
             return _merged(first, one, other, rows.size)
