@@ -24,7 +24,6 @@ from lsys_kit.derivation.core.rules import ModuleKind, Rule, Rules, Values, kind
 from lsys_kit.derivation.core.states import EXACT_BITS, States
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.engines.columns import (
-    REDUCED_BITS,
     SHORT_BITS,
     Column,
     ColumnFunction,
@@ -104,13 +103,13 @@ class Parameter:
             first = int(below[0])
             return ExactColumn(above, first if (below == first).all() else below, self.bits)
         places = above.tolist()
-        wide = [np.array([part[at] for at in places], dtype=object) for part in long]
-        return ExactColumn(wide[0], wide[1], (EXACT_BITS, EXACT_BITS), wide=True)
+        wide = [np.array([part[at] for at in places], dtype=object) for part in long[:2]]
+        return ExactColumn(wide[0], wide[1], long[2], wide=True)
 
 
-LongNumbers: TypeAlias = "tuple[Sequence[int], Sequence[int]]"
-"""Numerators and denominators of more than 62 bits, in whole numbers of Python."""
-NO_LONG_NUMBERS: LongNumbers = ((), ())
+LongNumbers: TypeAlias = "tuple[Sequence[int], Sequence[int], tuple[int, int]]"
+"""Numerators and denominators, in whole numbers of Python, that may have more than 62 bits; and how many each has at most."""
+NO_LONG_NUMBERS: LongNumbers = ((), (), (0, 1))
 
 
 @dataclass(eq=False)
@@ -490,16 +489,16 @@ class Writer:
         """Write a column into some places of a parameter."""
         to = self.parameters[parameter]
         if isinstance(column, ExactColumn):
-            self._write_exact(column.reduced() if max(column.bits) > REDUCED_BITS else column, places, parameter)
+            self._write_exact(column, places, parameter)
         elif isinstance(column, Mixed):
             rows = _numbered(places)
             floats = np.array([isinstance(number, float) for number in column.numbers], dtype=bool)
             for some in filter(len, (np.flatnonzero(floats), np.flatnonzero(~floats))):
                 self.write(column_of([column.numbers[row] for row in some.tolist()]), rows[some], parameter)
         else:
-            if not np.isfinite(column).all():
-                raise OverflowError
-            if column is not target:
+            if column is not target:  # else it is the result of an operation, which would have failed
+                if not np.isfinite(column).all():
+                    raise OverflowError
                 to.numbers[places] = column
             if to.denominators is not None:
                 to.denominators[places] = 0
@@ -512,21 +511,30 @@ class Writer:
             to.bits = max(to.bits[0], column.bits[0]), max(to.bits[1], column.bits[1])
             return
         rows = _numbered(places)
+        if max(column.bits) > EXACT_BITS:
+            column = column.reduced()
         above, below = (
             np.array(np.broadcast_to(part, len(rows)), dtype=object) for part in (column.numerators, column.denominators)
         )
+        if max(column.bits) <= EXACT_BITS:
+            self._write_long(above, below, column.bits, rows, parameter)
+            return
         bits = np.array([max(a.bit_length(), b.bit_length()) for a, b in zip(above.tolist(), below.tolist(), strict=True)])
         short, long = np.flatnonzero(bits <= SHORT_BITS), np.flatnonzero((bits > SHORT_BITS) & (bits <= EXACT_BITS))
         if len(short):
             small = ExactColumn(above[short].astype(np.int64), below[short].astype(np.int64), (SHORT_BITS, SHORT_BITS))
             self._write_exact(small, rows[short], parameter)
-        to.numbers.view(np.int64)[rows[long]] = sum(len(part[0]) for part in self.long) + np.arange(len(long))
-        self._denominators(to)[rows[long]] = -1
-        self.long.append((above[long].tolist(), below[long].tolist()))
+        self._write_long(above[long], below[long], (EXACT_BITS, EXACT_BITS), rows[long], parameter)
         if len(outgrown := np.flatnonzero(bits > EXACT_BITS)):
             self.outgrown.append(rows[outgrown])
             floats = [a / b for a, b in zip(above[outgrown].tolist(), below[outgrown].tolist(), strict=True)]
             self.write(np.array(floats), rows[outgrown], parameter)
+
+    def _write_long(self, above: Array, below: Array, bits: tuple[int, int], rows: Array, parameter: int) -> None:
+        to = self.parameters[parameter]
+        to.numbers.view(np.int64)[rows] = sum(len(part[0]) for part in self.long) + np.arange(len(rows))
+        self._denominators(to)[rows] = -1
+        self.long.append((above.tolist(), below.tolist(), bits))
 
     def whole(
         self, states: States, names: Sequence[ModuleKind], before: Structure | None, bounds: Array | None = None
@@ -541,7 +549,7 @@ class Writer:
 
     def _long_numbers(self) -> LongNumbers:
         """The exact values of more than 62 bits that are still there, numbered anew."""
-        above, below = ([*chain.from_iterable(part[which] for part in self.long)] for which in (0, 1))
+        above, below = [*chain(*(part[0] for part in self.long))], [*chain(*(part[1] for part in self.long))]
         if not above:
             return NO_LONG_NUMBERS
         kept: list[int] = []
@@ -551,7 +559,8 @@ class Writer:
                 old = numbers[rows].tolist()
                 numbers[rows] = len(kept) + np.arange(len(rows))
                 kept += old
-        return [above[number] for number in kept], [below[number] for number in kept]
+        bits = max(part[2][0] for part in self.long), max(part[2][1] for part in self.long)
+        return [above[number] for number in kept], [below[number] for number in kept], bits
 
 
 def _numbered(places: Places) -> Array:

@@ -38,8 +38,6 @@ Column: TypeAlias = "Array | float | bool | ExactColumn | Mixed"
 ColumnFunction: TypeAlias = "Callable[[Rows], Any]"
 SHORT_BITS, EXACT_DOUBLE = 62, 53
 """Whole numbers of so many bits are added and compared in 64; and are doubles without rounding."""
-REDUCED_BITS = 31
-"""Fractions with longer numerators or denominators are reduced before they are kept."""
 
 
 class WideError(ArithmeticError):
