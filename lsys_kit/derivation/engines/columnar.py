@@ -98,16 +98,14 @@ class Parameter:
         """The values, which are all of one form."""
         if self.denominators is None or not len(self.numbers) or self.denominators[0] == 0:
             return self.numbers
-        above, below = self.numbers.view(np.int64), self.denominators
-        if below[0] > 0:
-            first = int(below[0])
-            return ExactColumn(above, first if (below == first).all() else below, self.bits)
-        places = above.tolist()
-        wide = [np.array([part[at] for at in places], dtype=object) for part in long[:2]]
-        return ExactColumn(wide[0], wide[1], long[2], wide=True)
+        above, below, bits, wide = self.numbers.view(np.int64), self.denominators, self.bits, False
+        if below[0] < 0:
+            above, below, bits, wide = long[0][above], long[1][above], long[2], True
+        first = int(below[0])
+        return ExactColumn(above, first if (below == first).all() else below, bits, wide)
 
 
-LongNumbers: TypeAlias = "tuple[Sequence[int], Sequence[int], tuple[int, int]]"
+LongNumbers: TypeAlias = "tuple[Any, Any, tuple[int, int]]"
 """Numerators and denominators, in whole numbers of Python, that may have more than 62 bits; and how many each has at most."""
 NO_LONG_NUMBERS: LongNumbers = ((), (), (0, 1))
 
@@ -534,7 +532,7 @@ class Writer:
         to = self.parameters[parameter]
         to.numbers.view(np.int64)[rows] = sum(len(part[0]) for part in self.long) + np.arange(len(rows))
         self._denominators(to)[rows] = -1
-        self.long.append((above.tolist(), below.tolist(), bits))
+        self.long.append((above, below, bits))
 
     def whole(
         self, states: States, names: Sequence[ModuleKind], before: Structure | None, bounds: Array | None = None
@@ -549,18 +547,22 @@ class Writer:
 
     def _long_numbers(self) -> LongNumbers:
         """The exact values of more than 62 bits that are still there, numbered anew."""
-        above, below = [*chain(*(part[0] for part in self.long))], [*chain(*(part[1] for part in self.long))]
-        if not above:
+        parts = [part for part in self.long if len(part[0])]
+        if not parts:
             return NO_LONG_NUMBERS
-        kept: list[int] = []
+        kept: list[Array] = []
+        size = 0
         for parameter in self.parameters:
             if parameter.denominators is not None and len(rows := np.flatnonzero(parameter.denominators < 0)):
                 numbers = parameter.numbers.view(np.int64)
-                old = numbers[rows].tolist()
-                numbers[rows] = len(kept) + np.arange(len(rows))
-                kept += old
-        bits = max(part[2][0] for part in self.long), max(part[2][1] for part in self.long)
-        return [above[number] for number in kept], [below[number] for number in kept], bits
+                kept.append(numbers[rows])
+                numbers[rows] = size + np.arange(len(rows))
+                size += len(rows)
+        if not kept:
+            return NO_LONG_NUMBERS
+        which = np.concatenate(kept)
+        above, below = (np.concatenate(side)[which] for side in ([part[0] for part in parts], [part[1] for part in parts]))
+        return above, below, (max(part[2][0] for part in parts), max(part[2][1] for part in parts))
 
 
 def _numbered(places: Places) -> Array:
@@ -833,13 +835,16 @@ class ColumnarSteps:
     def _candidates(self, rule: ColumnRule, structure: Structure) -> tuple[Places, ...]:
         """The places of the modules that a rule names, where they are of the right kinds."""
         if rule.number not in structure.candidates:
-            structure.candidates[rule.number] = tuple(map(_sliced, self._found(rule, structure)))
+            there = structure.kinds == rule.kind
+            rows = slice(0, len(there)) if there.all() else _sliced(np.flatnonzero(there))
+            found = self._found(rule, structure, _numbered(rows)) if rule.left or rule.right else [rows]
+            structure.candidates[rule.number] = tuple(found)
         return structure.candidates[rule.number]
 
-    def _found(self, rule: ColumnRule, structure: Structure) -> list[Array]:
-        kinds = structure.kinds
-        found = [np.flatnonzero(kinds == rule.kind)]
-        if structure.around is None and (rule.left or rule.right):
+    def _found(self, rule: ColumnRule, structure: Structure, rows: Array) -> list[Places]:
+        """Those of some modules whose contexts are there, and these."""
+        kinds, found = structure.kinds, [rows]
+        if structure.around is None:
             places = np.arange(len(kinds))
             sides = context_neighbours(places, self._roles[kinds], NO_NEIGHBOUR, self._passing.flat)
             structure.around = sides if structure.bounds is None else structure.apart(sides)
@@ -851,10 +856,14 @@ class ColumnarSteps:
                 there = near == NO_NEIGHBOUR if kind < 0 else (near != NO_NEIGHBOUR) & (kinds[near] == kind)
                 found = [each[there] for each in (*found, near)]
                 at = len(found) - 1
-        return found
+        return [*map(_sliced, found)]
 
     def _applied(self, rules: Sequence[ColumnRule], word: ColumnWord, step: int) -> Iterator[Applied]:
         """Which of the rules of a kind rewrites which modules."""
+        first = rules[0]
+        if first.test is None and first.weight is None and not (first.left or first.right):
+            yield Applied(first, self._candidates(first, word.structure))
+            return
         size, anew = len(word), any(rule.rule.matches_anew for rule in rules)
         free, drawn = np.ones(size, dtype=bool), np.zeros(size, dtype=np.int64) if anew else 0
         noted: Array | None = None
