@@ -21,10 +21,11 @@ from lsys_kit.derivation.derive import Derivation, serves
 from lsys_kit.derivation.engines import columnar, counting, kept, stepping
 from lsys_kit.derivation.engines import together as together_module
 from lsys_kit.derivation.engines.columnar import ColumnarSteps, ColumnWord
+from lsys_kit.derivation.engines.columns import Rows, column_function, column_of, values_of
 from lsys_kit.derivation.engines.stepping import SteppingEngine
 from lsys_kit.derivation.engines.stepwise import Stepper
 from lsys_kit.derivation.engines.together import counts_together
-from lsys_kit.notation.model.expressions import Apply, Name, Number
+from lsys_kit.notation.model.expressions import Apply, Name, Number, function_of
 from lsys_kit.notation.model.modules import END, Pattern
 from lsys_kit.notation.model.system import LSystem, Production
 from tests.derivation.random_systems import CHANCE, CONTEXT, DECOMPOSITION, REPETITION, systems, systems_with
@@ -426,6 +427,27 @@ def test_runs_that_are_large_together_are_taken_apart(monkeypatch: pytest.Monkey
     assert [*counts_together(States(TREE), seeds, [1, 6])] == whole
     monkeypatch.setattr(together_module, "MODULES_TOGETHER", 100)
     assert [*counts_together(States(TREE), seeds, [1, 6])] == [None] * 9
+
+
+NUMBERS_OF_ALL_LENGTHS = st.one_of(
+    st.integers(-(2**63), 2**63), st.fractions(max_denominator=9), st.fractions(), st.integers(-(2**140), 2**140)
+)
+
+
+@given(st.lists(st.tuples(NUMBERS_OF_ALL_LENGTHS, NUMBERS_OF_ALL_LENGTHS), min_size=1, max_size=5), NUMBERS_OF_ALL_LENGTHS)
+def test_exact_columns_compute_as_fractions_do(pairs: list[tuple[Fraction, Fraction]], other: Fraction) -> None:
+    """Whatever is short and long on either side, and whether one denominator is that of all."""
+    first, second = (column_of([pair[side] for pair in pairs]) for side in (0, 1))
+    rows = Rows({"x": first, "y": second}, len(pairs))
+    for text in ("+", "-", "*", "/", "<", "<=", "==", "!=", ">", ">=", "min", "max"):
+        for right, values in ((Name("y"), [y for _, y in pairs]), (Number(other), [other] * len(pairs))):
+            expression = Apply(text, (Name("x"), right))
+            one = function_of(Apply(text, (Name("x"), Name("y"))), {"x": 0, "y": 1})
+            if text == "/" and 0 in values:
+                continue
+            found = rows.computed(column_function(expression, {}, "exact"))
+            expected = [one((x, y)) for (x, _), y in zip(pairs, values, strict=True)]
+            assert [*values_of(found, len(pairs))] == expected
 
 
 SPREADING_OUT = "C(x) < C(y) > C(z) -> C(y + 0.1*(x+z-2*y))"

@@ -53,6 +53,8 @@ Places: TypeAlias = "Array | slice"
 """Some rows of a word, as they index an array."""
 Site: TypeAlias = tuple[int, int]
 """Where a rule finds a value: in which of the modules that it names, and in which parameter."""
+REDUCED_BITS = 31
+"""Fractions with different denominators are reduced before they are kept, if they may have more bits."""
 BLOCK_ROWS = 2**15
 """So many rows are computed at a time: what lies between two operations stays in the processor's cache."""
 ROWS_AT_A_TIME = 2**12
@@ -503,18 +505,19 @@ class Writer:
 
     def _write_exact(self, column: ExactColumn, places: Places, parameter: int) -> None:
         to = self.parameters[parameter]
+        most = EXACT_BITS if isinstance(column.denominators, int) else REDUCED_BITS  # over one denominator they stay short
+        if max(column.bits) > most:
+            column = column.reduced()
         if max(column.bits) <= SHORT_BITS:
             to.numbers.view(np.int64)[places] = column.numerators
             self._denominators(to)[places] = column.denominators
             to.bits = max(to.bits[0], column.bits[0]), max(to.bits[1], column.bits[1])
             return
         rows = _numbered(places)
-        if max(column.bits) > EXACT_BITS:
-            column = column.reduced()
         above, below = (
             np.array(np.broadcast_to(part, len(rows)), dtype=object) for part in (column.numerators, column.denominators)
         )
-        if max(column.bits) <= EXACT_BITS:
+        if max(column.bits) <= most:
             self._write_long(above, below, column.bits, rows, parameter)
             return
         bits = np.array([max(a.bit_length(), b.bit_length()) for a, b in zip(above.tolist(), below.tolist(), strict=True)])

@@ -149,6 +149,7 @@ def _fitting(
     """Two columns whose result is sure to fit, reduced where they must be, and its bits; a `WideError` where it may not."""
     wide = left.wide or right.wide
     most = SHORT_BITS if not wide else current().bits // 2
+    left, right = (each.in_python() if wide and not each.wide else each for each in (left, right))
     if max(needed := bits(left, right)) > most:
         left, right = left.reduced(), right.reduced()
         if max(needed := bits(left, right)) > most:
