@@ -3,7 +3,8 @@
 A `Derivation` asks its engine for one step after another, within the limits of size and time, and keeps the steps that fit.
 Which engine derives a system follows from the system's traits, and from nothing else: each engine serves the systems that ask
 for no more than the traits in its row of the table. The first that serves a system is the fastest for it. Those further down
-serve it as well, and must give the same words: the laws in the tests compare them.
+serve it as well, and must give the same words: the laws in the tests compare them. Columns are no matter of traits alone: an
+engine goes over to them when it sees that most modules are different.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from typing import Any, TypeAlias, overload
 from lsys_kit.budget import Task, check_budget, counted
 from lsys_kit.derivation.core.letters import conditions_text, letters_from, with_letters
 from lsys_kit.derivation.core.states import States, check_d0l
-from lsys_kit.derivation.core.traits import ANY, D0L, S0L, Traits
+from lsys_kit.derivation.core.traits import ANY, COLUMNS, D0L, S0L, Traits
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.engines.columnar import ColumnarSteps
 from lsys_kit.derivation.engines.contexts import ContextEngine
@@ -31,9 +32,11 @@ from lsys_kit.notation.model.cells import CellSystem, CellworkSystem, MapSystem
 from lsys_kit.notation.model.system import LSystem
 
 ENGINES: Mapping[type, Traits] = MappingProxyType(
-    {ColumnarSteps: Traits(), CountingEngine: D0L, ContextEngine: S0L._replace(context=1, meta=True), Stepper: ANY}
+    {CountingEngine: D0L, ContextEngine: S0L._replace(context=1, meta=True), Stepper: ANY, ColumnarSteps: COLUMNS}
 )
-"""The most that a system may have to be derived in columns, by counting, by arrays, and module by module."""
+"""The most that a system may have to be derived by counting, by arrays, and module by module; and to go over to columns, where
+new states keep coming. What stays module by module: productions that replace several modules together or name branches, what
+asks the turtle, cuts, meta-rules, decomposition by chance, and unknown constants."""
 
 
 def serves(engine: type, traits: Traits) -> bool:
@@ -52,7 +55,7 @@ def engine_for(states: States, seed: int, world: Observer | None = None) -> Engi
         return CountingEngine(states, serves(ColumnarSteps, traits))
     stepper = Stepper(states, seed)
     arrays = ContextEngine(stepper) if serves(ContextEngine, traits) else None
-    return SteppingEngine(stepper, arrays, world if traits.sensitive else None)
+    return SteppingEngine(stepper, arrays, world if traits.sensitive else None, serves(ColumnarSteps, traits))
 
 
 Choices: TypeAlias = Mapping[str, Any]

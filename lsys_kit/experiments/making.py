@@ -16,15 +16,20 @@ import asyncio
 import os
 import time
 from collections import deque
-from collections.abc import Generator, Mapping, Sequence
+from collections.abc import Generator, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Executor, Future, ProcessPoolExecutor, wait
+from contextlib import suppress
 from dataclasses import asdict
 from math import ceil
 from statistics import median
 from typing import NamedTuple, TypeAlias
 
+from lsys_kit.arrays import arrays_pay
 from lsys_kit.budget import Limits, Task, limits
-from lsys_kit.derivation.derive import Choices
+from lsys_kit.derivation.core.states import States
+from lsys_kit.derivation.derive import Choices, serves
+from lsys_kit.derivation.engines.columnar import ColumnarSteps
+from lsys_kit.derivation.engines.together import counts_together
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError, quotable
 from lsys_kit.experiments.measures import Asked, Measure, measures_of
 from lsys_kit.notation.model.system import LSystem
@@ -42,6 +47,8 @@ LOOK, MISSED, SILENCE = 5.0, 15.0, 120.0
 """Seconds without a result after which it is looked whether the executor takes work; after which one that does has lost what it
 was given, if it has lost something before; and after which it has in any case, or is given up if it takes none and has lost
 something."""
+FEW_RUNS, RUNS_TOGETHER = 8, 256
+"""More runs than the first are counted side by side, if they differ in their seeds alone; so many at a time."""
 MOST_LATE = 20
 """What takes no longer than so many runs is not taken for lost."""
 
@@ -124,13 +131,51 @@ def outcomes(experiment: Experiment, runs: Mapping[int, Run], executor: Executor
         The executor makes no more runs.
     """
     measures, taken = measures_of(experiment.measure, experiment.system), list[float]()
-    left = deque(runs)
+    known = set[int]()
+    for number, outcome in () if executor else _counted_together(experiment, measures, runs):
+        known.add(number)
+        yield number, outcome
+    left = deque(number for number in runs if number not in known)
     while left and (executor is None or not _well_timed(taken)):
         start, number = time.perf_counter(), left.popleft()
         yield number, outcome_of(experiment, measures, runs[number])
         taken.append(time.perf_counter() - start)
     if left and executor is not None:
         yield from _Workers(experiment, runs, executor).outcomes([*left], median(taken))
+
+
+def _counted_together(
+    experiment: Experiment, measures: Sequence[Measure], runs: Mapping[int, Run]
+) -> Iterator[tuple[int, Outcome]]:
+    """The outcomes of runs that differ in their seeds alone, if it is enough to count symbols; others are left out."""
+    of_counts = [of for measure in measures if (of := measure.of_counts())]
+    for numbers in _alike(runs) if len(of_counts) == len(measures) else ():
+        counts = _counts(experiment, [runs[number] for number in numbers])
+        for number, found in zip(numbers, counts, strict=True):
+            if found is not None:
+                rows = zip(experiment.steps, found, strict=True)
+                yield number, tuple((step, *(of(each) for of in of_counts)) for step, each in rows)
+
+
+def _counts(experiment: Experiment, runs: Sequence[Run]) -> Sequence[Sequence[Mapping[str, int]] | None]:
+    """For each of some runs how often each symbol occurs at the steps; None, where that is found by the run alone."""
+    choices = {name: value for name, value in runs[0].items() if name not in ("seed", "arithmetic")}
+    with suppress(ModelLimitError, ModelValueError), limits(**asdict(experiment.limits)), Task("The runs were not finished"):
+        states = States(experiment.system, choices, runs[0].get("arithmetic", "exact"))
+        if serves(ColumnarSteps, states.traits):
+            return [*counts_together(states, [run["seed"] for run in runs], experiment.steps)]
+    return [None] * len(runs)
+
+
+def _alike(runs: Mapping[int, Run]) -> Iterator[list[int]]:
+    """The numbers of runs that differ in their seeds alone, some at a time; of fewer it is known sooner what comes out."""
+    groups: dict[object, list[int]] = {}
+    for number, run in runs.items():
+        if type(run.get("seed")) is int and not {"field", "letters"} & run.keys():
+            groups.setdefault(frozenset((name, str(value)) for name, value in run.items() if name != "seed"), []).append(number)
+    for numbers in groups.values():
+        if arrays_pay(len(numbers), FEW_RUNS):
+            yield from (numbers[first : first + RUNS_TOGETHER] for first in range(0, len(numbers), RUNS_TOGETHER))
 
 
 def _well_timed(taken: Sequence[float]) -> bool:

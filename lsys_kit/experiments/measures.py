@@ -32,6 +32,20 @@ class Measure(NamedTuple):
     name: str
     value: Callable[[Measurable], object]
 
+    def of_counts(self) -> Callable[[Mapping[str, int]], int] | None:
+        """The function that finds its value if it is only known how often each symbol occurs; None, where that is too little.
+
+        >>> from lsys_kit import read
+        >>> [each.of_counts()({"F": 3, "A": 1}) for each in measures_of(["modules", "F"], read("axiom: F"))]
+        [4, 3]
+        """
+        if self.value is _modules:
+            return lambda counts: sum(counts.values())
+        if isinstance(self.value, partial) and self.value.func is count:
+            wanted = self.value.args[0]
+            return lambda counts: sum(number for symbol, number in counts.items() if symbol in wanted)
+        return None
+
 
 def measures_of(asked: Asked, system: LSystem) -> tuple[Measure, ...]:
     """The measures that a person asks for: names of measures or symbols of the system, or functions; no name stands twice.
@@ -110,7 +124,7 @@ def count(wanted: frozenset[str], what: Measurable) -> int:
 
 
 def _modules(what: Measurable) -> int:
-    return len(what) if isinstance(what, Word) else sum(what.counts(what.steps).values())
+    return len(what) if isinstance(what, Word) else what.lengths[-1]
 
 
 def _rate(what: Measurable) -> float:

@@ -8,6 +8,7 @@ measured here: final modules a second, or modules visited where that is said.
 from __future__ import annotations
 
 import itertools
+import random
 import statistics
 import time
 from collections.abc import Callable, Iterator
@@ -17,10 +18,11 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from lsys_kit import ModelLimitError, derive, growth, limits, read, system
+from lsys_kit import ModelLimitError, derive, ensemble, growth, limits, read, system
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import lengths
-from lsys_kit.derivation.engines.columnar import ColumnWord, FloatColumns
+from lsys_kit.derivation.engines.columnar import ColumnWord
+from lsys_kit.notation.model.system import LSystem
 from tests.benchmarks.test_engine import FIBONACCI, PLANT, TEN_RULES
 
 P4, CHANCE = system("P4"), system("K7")
@@ -40,6 +42,9 @@ i < i > i -> o
 + -> -
 - -> +""")
 ALL_DIFFERENT = read("axiom: A(1)\nA(x) -> A(.37*x+.1) A(.59*x+.2)")
+RANDOM_TREE = read("axiom: A(1)\nA(s) -> F(s*uniform(.8,1)) [+A(s*uniform(.5,.9))] [-A(s*uniform(.5,.9))]")
+DIFFUSION = "C(x) < C(y) > C(z) -> C(y + 0.1*(x+z-2*y))"
+SHOOT = read("axiom: A(1)\nA(n) -> I(1+n/97,0) A(n+1)\nI(l,t) -> I(l*1.013,t+0.1)")
 TENFOLD = read("axiom: F\nF -> FFFFFFFFFF")
 
 
@@ -108,7 +113,7 @@ def array_of(word: Word) -> np.ndarray:
     """What a copy of the word copies at least."""
     if not isinstance(word, ColumnWord):
         return np.asarray(word.codes)
-    return word.values.array if isinstance(word.values, FloatColumns) else word.values.numerators
+    return np.stack([parameter.numbers for parameter in word.parameters])
 
 
 def compare(benchmark, score: Score, goal: Goal, work: Callable[[], Word], visits: int | None = None) -> None:
@@ -194,6 +199,48 @@ def test_modules_that_are_all_different_and_exact(benchmark, score):
     steps = 8 if benchmark.disabled else 12
     goal = Goal(f"the same, exact, step {steps}", 5e5)
     compare(benchmark, score, goal, lambda: derive(ALL_DIFFERENT, steps)[-1])
+
+
+@pytest.mark.parametrize("arithmetic", ["exact", "float"])
+def test_a_tree_of_random_lengths(benchmark, score, arithmetic):
+    """1,048,569 modules; a quarter of them are lengths that occur once."""
+    steps = 7 if benchmark.disabled else 17
+    goal = Goal(f"tree of random lengths, {arithmetic}, step {steps}", 1e7, cpfg=3.3e7)
+    compare(benchmark, score, goal, lambda: derive(RANDOM_TREE, steps, arithmetic=arithmetic)[-1])
+
+
+@pytest.mark.parametrize(("cells", "steps"), [(1_000, 200), (1_000, 2_000), (100_000, 100)])
+def test_a_substance_that_spreads(benchmark, score, cells, steps):
+    """Cells with a concentration each, none of which comes or goes; modules visited."""
+    cells, steps = (60, 20) if benchmark.disabled else (cells, steps)
+    chances = random.Random(1)
+    row = " ".join(f"C({chances.random():.3f})" for _ in range(min(cells, 500)))
+    found = read(f"axiom: X\nX -> repeat({max(1, cells // 500)}) <{row}>\n{DIFFUSION}")
+    fresh = iter([derive(found, 1, arithmetic="float") for _ in range(14)])
+    goal = Goal(f"diffusion, {cells:,} cells, {steps:,} steps (visits)", 1e7, cpfg=1.4e7)
+    compare(benchmark, score, goal, lambda: next(fresh).to(steps + 1)[-1], visits=steps * cells)
+
+
+def test_an_aged_shoot_is_not_much_slower_exact_than_in_doubles(benchmark, score):
+    """80,000 internodes visited, no two of which are alike; exact values become doubles in their twelfth step."""
+    steps = 40 if benchmark.disabled else 400
+    derive(SHOOT, steps, arithmetic="float")
+    in_doubles = statistics.median(seconds_to_derive(SHOOT, steps, "float") for _ in range(5))
+    seconds = seconds_of(benchmark, lambda: derive(SHOOT, steps)[-1])
+    score.add(benchmark, Goal(f"shoot of {steps} internodes, exact", 5, "times its doubles"), seconds / in_doubles)
+
+
+def seconds_to_derive(found: LSystem, steps: int, arithmetic: str) -> float:
+    started = time.perf_counter()
+    derive(found, steps, arithmetic=arithmetic)
+    return time.perf_counter() - started
+
+
+def test_a_thousand_plants_by_chance(benchmark, score):
+    """Plants of K7, each with its own seed, of which only the strokes are counted."""
+    plants = 20 if benchmark.disabled else 1_000
+    seconds = seconds_of(benchmark, lambda: ensemble(CHANCE, plants, "F", steps=5, progress=False))
+    score.add(benchmark, Goal(f"{plants:,} plants of K7 counted, step 5", 1, "s"), seconds)
 
 
 @pytest.mark.parametrize(("modules", "milliseconds"), [(100, 0.2), (1_000, 0.6), (3_000, 1)])

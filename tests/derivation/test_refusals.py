@@ -14,7 +14,6 @@ from lsys_kit.derivation.core.interpretation import interpretation_of, interpret
 from lsys_kit.derivation.core.rules import ModuleTemplate, real_from
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.derive import derive
-from lsys_kit.derivation.engines.columnar import exact_number
 from lsys_kit.errors import ModelLimitError, ModelValueError
 from lsys_kit.notation.model.modules import Module, Pattern
 from lsys_kit.notation.model.system import LSystem, Production
@@ -114,13 +113,6 @@ def test_one_module_is_drawn_as_no_more_than_the_limit() -> None:
 def test_a_choice_that_rounding_leaves_open_falls_on_the_last_that_can_happen() -> None:
     assert choose((1, 2, 0), 1.0) == 1
     assert choose((1, 0), math.nextafter(1, 0)) == 0
-
-
-def test_a_column_of_numbers_is_as_long_as_a_number_may_be() -> None:
-    with limits(bits=9):
-        assert exact_number(2**8 - 1).bits == 8
-        with pytest.raises(OverflowError):
-            exact_number(2**9)
 
 
 def test_rare_events_are_counted() -> None:

@@ -23,7 +23,7 @@ from lsys_kit.notation.model.arithmetic import Value, normalised
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-_GOLDEN, _FIRST, _SECOND, _MASK = 0x9E3779B97F4A7C15, 0xBF58476D1CE4E5B9, 0x94D049BB133111EB, 2**64 - 1
+_GOLDEN, _FIRST, _SECOND, MASK = 0x9E3779B97F4A7C15, 0xBF58476D1CE4E5B9, 0x94D049BB133111EB, 2**64 - 1
 _UNIT = 2.0**-53
 
 
@@ -33,9 +33,9 @@ def splitmix64(number: int) -> int:
     >>> hex(splitmix64(0)), hex(splitmix64(0x9E3779B97F4A7C15))
     ('0xe220a8397b1dcdaf', '0x6e789e6aa1b965f4')
     """
-    number = (number + _GOLDEN) & _MASK
-    number = (number ^ number >> 30) * _FIRST & _MASK
-    number = (number ^ number >> 27) * _SECOND & _MASK
+    number = (number + _GOLDEN) & MASK
+    number = (number ^ number >> 30) * _FIRST & MASK
+    number = (number ^ number >> 27) * _SECOND & MASK
     return number ^ number >> 31
 
 
@@ -53,7 +53,31 @@ def units(seed: int, step: int, positions: NDArray[np.integer]) -> NDArray[np.fl
     >>> units(1, 2, np.arange(3)).tolist() == [Chance(1, 2, position).unit() for position in range(3)]
     True
     """
-    keys = splitmix64_array(np.uint64(_stem(seed, step)) ^ positions.astype(np.uint64))
+    return units_of(keys_of(seed, step, positions))
+
+
+def keys_of(seed: int | NDArray[np.uint64], step: int, positions: NDArray[np.integer]) -> NDArray[np.uint64]:
+    """What the modules at some positions of a step's word draw their random numbers from; each may have a seed of its own.
+
+    >>> bool((keys_of(np.array([1, 2], dtype=np.uint64), 3, np.array([4, 4])) == [keys_of(1, 3, np.array([4]))[0],
+    ...                                                                           keys_of(2, 3, np.array([4]))[0]]).all())
+    True
+    """
+    stem = np.uint64(_stem(seed, step)) if isinstance(seed, int) else splitmix64_array(splitmix64_array(seed) ^ np.uint64(step))
+    return splitmix64_array(stem ^ positions.astype(np.uint64))
+
+
+def units_of(keys: NDArray[np.uint64], drawn: int | NDArray[np.integer] = 0) -> NDArray[np.float64]:
+    """The next random number, from 0 up to 1, of modules that have drawn some before.
+
+    >>> one = Chance(1, 2, 0)
+    >>> [float(units_of(keys_of(1, 2, np.arange(1)), drawn)[0]) for drawn in range(2)] == [one.unit(), one.unit()]
+    True
+    """
+    if not isinstance(drawn, int):
+        keys = keys + drawn.astype(np.uint64) * np.uint64(_GOLDEN)
+    elif drawn:
+        keys = keys + np.uint64(drawn * _GOLDEN & MASK)
     return (splitmix64_array(keys) >> np.uint64(11)).astype(np.float64) * _UNIT
 
 
@@ -68,7 +92,7 @@ def few_units(seed: int, step: int, positions: Iterable[int]) -> list[float]:
 
 
 def _stem(seed: int, step: int) -> int:
-    return splitmix64(splitmix64(seed & _MASK) ^ step)
+    return splitmix64(splitmix64(seed & MASK) ^ step)
 
 
 @dataclass
@@ -97,7 +121,7 @@ class Chance:
         """A number from 0 up to, but not, 1."""
         key = splitmix64(_stem(self.seed, self.step) ^ self.position)
         self.drawn += 1
-        return (splitmix64((key + (self.drawn - 1) * _GOLDEN) & _MASK) >> 11) * _UNIT
+        return (splitmix64((key + (self.drawn - 1) * _GOLDEN) & MASK) >> 11) * _UNIT
 
     def uniform(self, low: float, high: float) -> float:
         """A number from `low` up to `high`, each equally likely."""

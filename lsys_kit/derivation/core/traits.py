@@ -8,16 +8,15 @@ so that a larger value asks for more of an engine, and what an engine can do is 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from functools import lru_cache
 from itertools import chain
 from operator import le
 from typing import NamedTuple
 
-from lsys_kit.derivation.core.rules import Rule, is_branch, rules_of
-from lsys_kit.notation.model.expressions import Apply
-from lsys_kit.notation.model.modules import Pattern, Repeat, expressions_of, flat
-from lsys_kit.notation.model.system import LSystem, Production
+from lsys_kit.derivation.core.rules import is_branch, rules_of
+from lsys_kit.notation.model.modules import Pattern, Repeat, flat
+from lsys_kit.notation.model.system import LSystem
 
 CUT = "%"
 """The symbol that cuts off the rest of its branch (ABOP, section 1.8)."""
@@ -50,8 +49,6 @@ class Traits(NamedTuple):
         Whether what a module is decomposed into depends on more than the module.
     repetition
         Whether a successor has a part that is repeated.
-    scalar
-        Whether an expression has an operator that is computed for one module at a time.
     unknown
         Whether a constant is unknown.
 
@@ -72,7 +69,6 @@ class Traits(NamedTuple):
     decomposition: bool = False
     varying_decomposition: bool = False
     repetition: bool = False
-    scalar: bool = False
     unknown: bool = False
 
     def within(self, most: Traits) -> bool:
@@ -90,9 +86,11 @@ class Traits(NamedTuple):
         return self.within(S0L)
 
 
-D0L = Traits(decomposition=True, repetition=True, scalar=True, unknown=True)
+D0L = Traits(decomposition=True, repetition=True, unknown=True)
 """The most that a deterministic system without interactions has."""
 S0L = D0L._replace(stochastic=True)
+COLUMNS = Traits(context=10**9, stochastic=True, random=True, decomposition=True, repetition=True)
+"""The most that is computed for whole columns of modules."""
 ANY = Traits(
     **{name: True for name, usual in Traits._field_defaults.items() if usual is False}, context=10**9, predecessor=10**9
 )
@@ -118,7 +116,6 @@ def traits_of(system: LSystem, arithmetic: str = "exact") -> Traits:
         decomposition=bool(decomposing),
         varying_decomposition=not all(rule.d0l for rule in decomposing),
         repetition=any(isinstance(item, Repeat) for rule in rules for item in rule.production.successor),
-        scalar=not all(_has_column_form(rule, arithmetic) for rule in rules),
     )
 
 
@@ -126,29 +123,3 @@ def _written(system: LSystem) -> Iterator[Pattern]:
     """The modules that words of a system may hold, as they are written."""
     successors = (rule.successor for rules in (system.productions, system.decomposition, system.meta) for rule in rules)
     yield from flat(chain(system.axiom, *successors))
-
-
-COLUMN_OPERATORS = frozenset(
-    ("||", "&&", "!", "==", "!=", "<", "<=", ">", ">=", "+", "-", "*", "/", "-x", "abs", "floor", "ceil")
-)
-"""The operators that can be computed for a whole column of numbers at once, with the same result to the last bit."""
-
-
-def _has_column_form(rule: Rule, arithmetic: str) -> bool:
-    operators = COLUMN_OPERATORS | ({"sqrt"} if arithmetic == "float" else set())
-    return set(_operators(_expressions(rule.production))) <= operators
-
-
-def _expressions(production: Production) -> Iterator[object]:
-    for module in production.parameters:
-        yield from module.arguments
-    yield from expressions_of(production.successor)
-    if production.condition is not None:
-        yield production.condition
-
-
-def _operators(expressions: Iterable[object]) -> Iterator[str]:
-    for expression in expressions:
-        if isinstance(expression, Apply):
-            yield expression.operator
-            yield from _operators(expression.operands)

@@ -8,23 +8,19 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from functools import cached_property, partial
 from itertools import chain
 from operator import attrgetter
 
-from lsys_kit.arrays import arrays_pay
 from lsys_kit.budget import INTERVAL, Task, check_budget, counted
 from lsys_kit.cache import Cache
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Codes, Word, state_counts
 from lsys_kit.derivation.engines import engine
 from lsys_kit.derivation.engines.columnar import ColumnarSteps, ColumnWord
-from lsys_kit.derivation.engines.engine import ByteTable, Origins, check_size, check_step, compact, expand
-
-FEWEST_NEW = 50
-"""Words become columns after a step in which more new states than this are met, and they are no small part of its word."""
-SMALL_PART = 1 / 8
-"""A new state takes about eight times as long in the table as a module of columns takes to be numbered afterwards."""
+from lsys_kit.derivation.engines.engine import ByteTable, Origins, check_size, check_step, compact, expand, many_new
+from lsys_kit.derivation.engines.kept import KeptSteps
 
 
 class CountingEngine:
@@ -37,13 +33,10 @@ class CountingEngine:
         self._bytes = ByteTable(states)
         self._columnar = columnar
         self._new = 0  # so many states were met first at the last step
-        self._late: list[Word] = []
-        self._late_bytes = 0
+        self._late = KeptSteps(self._made_again)
 
     def __getstate__(self) -> dict[str, object]:
-        """All but the functions for columns, which are made again; words in columns number their states before that."""
-        for word in self._late:
-            word.numbers()
+        """All but the functions for columns, which are made again."""
         return {name: value for name, value in vars(self).items() if name != "_columns"}
 
     @property
@@ -51,16 +44,15 @@ class CountingEngine:
         return len(self._steps) + len(self._late) - 1
 
     def size(self, step: int) -> int:
-        return self._steps[step][1] if step < len(self._steps) else len(self.word(step))
+        return self._steps[step][1] if step < len(self._steps) else self._late[step - len(self._steps)].size
 
     def counts(self, step: int) -> Counter[int]:
         return Counter(self._steps[step][0]) if step < len(self._steps) else state_counts(self.word(step))
 
     def advance(self) -> None:
         step, (before, _) = self.known + 1, self._steps[-1]
-        if self._late or (self._columnar and self._many_new()):
-            self._late.append(self._next_word(step))
-            self._late_bytes += self._late[-1].bytes
+        if self._late or (self._columnar and many_new(self._new, self._steps[-1][1])):
+            self._late.add(self._next_word(self.word(step - 1), step))
             return
         met = len(self.states)
         if len(self.states.successors) < met:  # some successors must be computed: not for a step that is refused
@@ -72,25 +64,17 @@ class CountingEngine:
         self._new = len(self.states) - met
         self._steps.append((after, size))
 
-    def _many_new(self) -> bool:
-        """Whether many modules of the last word were met for the first time in it.
-
-        They are not most of it where the turtle turns at each of them: brackets and turns are the same, or stay.
-        """
-        return self._new > SMALL_PART * self._steps[-1][1] and arrays_pay(self._new, FEWEST_NEW)
-
     @cached_property
     def _columns(self) -> ColumnarSteps:
         return ColumnarSteps(self.states)
 
-    def _next_word(self, step: int) -> Word:
-        before, columns = self.word(step - 1), self._columns
+    def _made_again(self, before: Word, number: int) -> Word:
+        return self._next_word(before, len(self._steps) + number)
+
+    def _next_word(self, before: Word, step: int) -> Word:
         check_step(self.states, step)
         try:
-            return columns.step(
-                before if isinstance(before, ColumnWord) else columns.word(before),
-                partial(check_size, self.states, step, held=self._late_bytes),
-            )
+            return self._columns.after(before, step, self._late.bytes)
         except ArithmeticError:
             return self._from_table(before.numbers(), step)
 
@@ -100,12 +84,12 @@ class CountingEngine:
             found += self.states.successors[state]
             if number % INTERVAL == 0:
                 check_step(self.states, step, len(found))
-        check_size(self.states, step, len(found), held=self._late_bytes)
+        check_size(self.states, step, len(found), held=self._late.bytes)
         return Word(self.states, compact(found, len(self.states)))
 
     def word(self, step: int) -> Word:
         if step >= len(self._steps):
-            return self._late[step - len(self._steps)]
+            return self._late.word(step - len(self._steps))
         return self._words.found(step, lambda: self._built(step))
 
     def _built(self, step: int) -> Word:
@@ -126,9 +110,12 @@ class CountingEngine:
         return list(chain.from_iterable(map(successors.__getitem__, word.codes)))
 
     def origins(self, step: int) -> Origins:
+        if isinstance(before := self.word(step - 1), ColumnWord):
+            with suppress(ArithmeticError):
+                return self._columns.origins(before, step)
         parents: list[int] = []
         productions: list[int | None] = []
-        for position, state in enumerate(counted(self.word(step - 1).numbers())):
+        for position, state in enumerate(counted(before.numbers())):
             made = len(self.states.successor(state))
             parents += [position] * made
             productions += [self.states.production(state)] * made

@@ -166,6 +166,20 @@ def _pieces(states: States, present: Sequence[Collection[int]], sizes: Sequence[
     return pieces[::-1]
 
 
+FEWEST_NEW = 50
+"""Words become columns after a step in which more new states than this are met, and they are no small part of its word."""
+SMALL_PART = 1 / 8
+"""A new state takes about eight times as long in the table as a module of columns takes to be numbered afterwards."""
+
+
+def many_new(new: int, size: int) -> bool:
+    """Whether so many modules of a word were met for the first time in it that columns pay.
+
+    They are not most of it where the turtle turns at each of them: brackets and turns are the same, or stay.
+    """
+    return new > SMALL_PART * size and arrays_pay(new, FEWEST_NEW)
+
+
 STATE_BYTES = 600
 """About what one state takes in the table."""
 

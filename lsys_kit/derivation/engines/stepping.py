@@ -9,14 +9,27 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Sequence
-from functools import lru_cache, partial
+from contextlib import suppress
+from functools import cached_property, lru_cache, partial
 
+from lsys_kit.arrays import arrays_pay
 from lsys_kit.budget import INTERVAL, check_budget
 from lsys_kit.derivation.core.rules import ModuleKind, Rule, Values, kind_of, rule_for
 from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word, state_counts
+from lsys_kit.derivation.engines.columnar import ColumnarSteps, ColumnWord
 from lsys_kit.derivation.engines.contexts import ContextEngine
-from lsys_kit.derivation.engines.engine import Observation, Observer, Origins, check_size, check_step, compact, repeated
+from lsys_kit.derivation.engines.engine import (
+    Observation,
+    Observer,
+    Origins,
+    check_size,
+    check_step,
+    compact,
+    many_new,
+    repeated,
+)
+from lsys_kit.derivation.engines.kept import KeptStep, KeptSteps
 from lsys_kit.derivation.engines.stepwise import SensingFunction, Stepper
 from lsys_kit.notation.model.system import LSystem, Production
 
@@ -78,48 +91,95 @@ def _applied(
 
 ORIGIN_BYTES = 16
 """About what is kept for each module, to know where those come from that replace it."""
+FEW_NEW, STATES_OF_A_MODULE, STATES_AT_LEAST = 4, 4, 1_000
+"""Words also become columns after a step in which more new states than these are met, if the table has several times as many
+states as the word has modules, and is no small one."""
+STEPS_BETWEEN_LOOKS = 64
+"""After so many steps a word in columns is looked at, whether numbering its states pays again."""
+MOST_FAILED = 2
+"""After more steps than these that failed in columns, no other is tried."""
 
 
 class SteppingEngine:
     """The derivation of a system step by step, by arrays where these are given, in a world if it asks what the turtle sees."""
 
-    def __init__(self, stepper: Stepper, arrays: ContextEngine | None, world: Observer | None = None) -> None:
+    def __init__(
+        self, stepper: Stepper, arrays: ContextEngine | None, world: Observer | None = None, columnar: bool = False
+    ) -> None:
         states = stepper.states
-        self.states, self._world, self._stepper, self._arrays = states, world, stepper, arrays
-        self._held = 0
-        self._steps: list[tuple[Word, Callable[[], Origins]]] = [(Word(states, list(states.axiom)), lambda: Origins((), ()))]
+        self.states, self._world, self._stepper, self._arrays, self._columnar = states, world, stepper, arrays, columnar
+        self._new = len(states)  # so many states were met first at the last step
+        self._failed = 0  # so many steps failed in columns
+        self._seen: frozenset[object] = frozenset()
+        self._steps = KeptSteps(self._made_again if columnar else None)
+        self._steps.add(Word(states, list(states.axiom)), lambda: Origins((), ()))
 
     def __reduce__(self) -> tuple[object, ...]:
         """The words and their origins, without what was computed on the way: functions and tables are made again."""
-        steps = [(word, origins()) for word, origins in self._steps]
-        return _resumed, (self.states, self._stepper.seed, self._arrays is not None, self._world, steps)
+        steps = [(step.size, step.word, step.origins and step.origins()) for step in self._steps]
+        return _resumed, (self.states, self._stepper.seed, self._arrays is not None, self._world, self._columnar, steps)
 
     @property
     def known(self) -> int:
         return len(self._steps) - 1
 
     def size(self, step: int) -> int:
-        return len(self._steps[step][0])
+        return self._steps[step].size
 
     def counts(self, step: int) -> Counter[int]:
-        return state_counts(self._steps[step][0])
+        return state_counts(self.word(step))
 
     def advance(self) -> None:
-        step, before, sees = self.known + 1, self._steps[-1][0], None
+        step, before, sees = self.known + 1, self.word(self.known), None
         if self._world:
             sight = self._world(before)
             before, sees = sight.word, sight.sees
-        made = self._by_arrays(self._arrays, before, step) if self._arrays else self._one_by_one(before.numbers(), step, sees)
-        if self.states.system.meta:
-            made = self._shortened(*made)
+        word, origins = self._made(before, step, sees)
         check_budget()
-        self._held += made[0].bytes + len(before) * ORIGIN_BYTES
-        self._steps.append(made)
+        self._steps.add(word, origins, len(before) * ORIGIN_BYTES if origins else 0)
+
+    def _made_again(self, before: Word, step: int) -> Word:
+        return self._made(before, step, None)[0]
+
+    def _made(self, before: Word, step: int, sees: SensingFunction | None) -> tuple[Word, Callable[[], Origins] | None]:
+        """The next word, and its origins, unless they are found by columns."""
+        if self._in_columns(before):
+            with suppress(ArithmeticError):
+                word = self._columns.after(before, step, self._steps.bytes)
+                self._stepper.forget()
+                return word, None
+            self._failed += 1
+        met = len(self.states)
+        made = self._by_arrays(self._arrays, before, step) if self._arrays else self._one_by_one(before.numbers(), step, sees)
+        self._new = len(self.states) - met
+        return self._shortened(*made) if self.states.system.meta else made
+
+    def _in_columns(self, before: Word) -> bool:
+        """Whether the word after another is made in columns: many modules are different, and columns have seldom failed."""
+        if not self._columnar or self._failed > MOST_FAILED:
+            return False
+        if not isinstance(before, ColumnWord):
+            return many_new(self._new, len(before)) or self._keep_coming(len(before))
+        return self.known % STEPS_BETWEEN_LOOKS > 0 or not self._repeats(before)
+
+    def _keep_coming(self, size: int) -> bool:
+        """Whether new states have come for long: the table has many more of them than a word has modules."""
+        met = len(self.states)
+        return self._new > FEW_NEW and met > STATES_OF_A_MODULE * size and arrays_pay(met, STATES_AT_LEAST)
+
+    def _repeats(self, word: ColumnWord) -> bool:
+        """Whether few modules of a word in columns differ, and half of them were there when a word was last looked at."""
+        seen, self._seen = self._seen, word.different()
+        return 0 < len(self._seen) <= 2 * len(self._seen & seen)
+
+    @cached_property
+    def _columns(self) -> ColumnarSteps:
+        return ColumnarSteps(self.states, self._stepper.seed)
 
     def _by_arrays(self, arrays: ContextEngine, before: Word, step: int) -> tuple[Word, Callable[[], Origins]]:
         """The next word and its origins, all modules at once."""
         chosen = arrays.chosen(before.codes, step - 1)
-        check_size(self.states, step, arrays.outcomes.size(chosen), held=self._held)
+        check_size(self.states, step, arrays.outcomes.size(chosen), held=self._steps.bytes)
         word = Word(self.states, arrays.outcomes.replaced(chosen))
         return word, lambda: arrays.outcomes.origins(chosen)
 
@@ -133,7 +193,7 @@ class SteppingEngine:
             word += replacement.states
             if number % INTERVAL == 0 or sizes[-1] > INTERVAL:
                 check_step(self.states, step, len(word))
-        check_size(self.states, step, len(word), held=self._held)
+        check_size(self.states, step, len(word), held=self._steps.bytes)
 
         def origins() -> Origins:
             return Origins(
@@ -158,21 +218,31 @@ class SteppingEngine:
         return Word(self.states, compact(codes, len(self.states)))
 
     def word(self, step: int) -> Word:
-        return self._steps[step][0]
+        return self._steps.word(step)
 
     def origins(self, step: int) -> Origins:
-        return self._steps[step][1]()
+        origins = self._steps[step].origins
+        if origins is not None:
+            return origins()
+        before = self.word(step - 1)
+        return self._columns.origins(before if isinstance(before, ColumnWord) else self._columns.word(before), step)
 
     def sight(self, step: int) -> Observation | None:
         return self._world(self.word(step)) if self._world else None
 
 
 def _resumed(
-    states: States, seed: int, by_arrays: bool, world: Observer | None, steps: Sequence[tuple[Word, Origins]]
+    states: States,
+    seed: int,
+    by_arrays: bool,
+    world: Observer | None,
+    columnar: bool,
+    steps: Sequence[tuple[int, Word | None, Origins | None]],
 ) -> SteppingEngine:
     stepper = Stepper(states, seed)
-    engine = SteppingEngine(stepper, ContextEngine(stepper) if by_arrays else None, world)
-    engine._steps = [(word, partial(_same, origins)) for word, origins in steps]
+    engine = SteppingEngine(stepper, ContextEngine(stepper) if by_arrays else None, world, columnar)
+    engine._steps[:] = [KeptStep(size, word, partial(_same, origins) if origins else None) for size, word, origins in steps]
+    engine._steps.bytes = sum(word.bytes for _, word, _ in steps if word)
     return engine
 
 

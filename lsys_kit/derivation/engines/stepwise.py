@@ -86,6 +86,11 @@ class Stepper:
         self._matched: dict[tuple[object, ...], list[Match]] = {}
         self._made: dict[tuple[object, ...], Replacement] = {}
 
+    def forget(self) -> None:
+        """Give back what is kept of cases."""
+        for kept in (self._alone, self._matched, self._made):
+            kept.clear()
+
     def old(self, codes: Sequence[int], sees: SensingFunction | None = None) -> ParentWord:
         """A word as the parent of the next one."""
         modules = [self.states.modules[code] for code in codes]
