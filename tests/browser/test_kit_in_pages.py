@@ -22,8 +22,10 @@ from lsys_kit.classroom.course import course_files
 from lsys_kit.classroom.exercises.progress import Try, _read
 from lsys_kit.classroom.exercises.registry import exercise_of, kit_questions
 from lsys_kit.classroom.site import answers
+from lsys_kit.classroom.site.app import app_files
 from lsys_kit.classroom.site.build import read_notebook
-from lsys_kit.classroom.site.pages import Answering, Entry, notebook_page
+from lsys_kit.classroom.site.contents import index_page
+from lsys_kit.classroom.site.pages import INDEX, Answering, Entry, notebook_page
 from lsys_kit.classroom.site.python import answering, archive
 from tests.browser.test_class import serious
 from tests.classroom.test_site import ran
@@ -48,7 +50,7 @@ def answered(asked):
 
 
 def pages(live: Answering) -> dict[str, bytes]:
-    """A lesson and two pages of exercises."""
+    """A first page, a lesson and two pages of exercises."""
     entries = [Entry(f"{name}.ipynb", name) for name in (LESSON, EXERCISES, FIRST)]
     shown = [
         new_markdown_cell("# Panels"),
@@ -57,9 +59,10 @@ def pages(live: Answering) -> dict[str, bytes]:
         ran("explore('P8')", explore("P8")),
     ]
     notebooks = [shown, *(read_notebook(course_files()[f"{name}.ipynb"]).cells for name in (EXERCISES, FIRST))]
-    return {
+    made = {
         each.page: notebook_page(each, cells, entries, live).encode() for each, cells in zip(entries, notebooks, strict=True)
     }
+    return {**made, INDEX: index_page(entries, {}, live).encode()}
 
 
 @dataclass
@@ -69,6 +72,7 @@ class Served:
     address: str
     files: dict[str, bytes]
     asked: list[str] = field(default_factory=list)
+    stop: Callable[[], None] = lambda: None
 
     def python(self) -> list[str]:
         return [each for each in self.asked if each.startswith("/python/")]
@@ -97,7 +101,9 @@ def live(pytestconfig: pytest.Config) -> Answering:
 
 @pytest.fixture(scope="module")
 def site_files(live: Answering) -> dict[str, bytes]:
-    return {**pages(live), **live.files, "blank.html": b"<!doctype html><title>blank</title>"}
+    made = pages(live)
+    app = app_files("Panels", live, made)
+    return {**made, **app, **live.files, "blank.html": b"<!doctype html><title>blank</title>"}
 
 
 @pytest.fixture
@@ -107,15 +113,21 @@ def served(site_files: dict[str, bytes]) -> Iterator[Served]:
     handler.served = Served(f"http://127.0.0.1:{server.server_port}/", dict(site_files))  # type: ignore[attr-defined]
     thread = threading.Thread(target=server.serve_forever, daemon=True)
     thread.start()
+
+    def stop() -> None:
+        server.shutdown()
+        server.server_close()
+        thread.join()
+
+    handler.served.stop = stop  # type: ignore[attr-defined]
     yield handler.served  # type: ignore[attr-defined]
-    server.shutdown()
-    server.server_close()
-    thread.join()
+    stop()
 
 
 @pytest.fixture
 def opened(browser: Browser, served: Served) -> Iterator[Callable[..., Page]]:
-    """Opens a page in a context of its own; nothing is asked of any other address, and nothing is complained of."""
+    """Opens a page in a context of its own; nothing is asked of any other address, and nothing is complained of. Where the
+    browser keeps pages, the server hears of all that is asked, and no other address is to be had."""
     faults: list[str] = []
     used = []
 
@@ -126,10 +138,13 @@ def opened(browser: Browser, served: Served) -> Iterator[Callable[..., Page]]:
             faults.append(route.request.url)
             route.abort()
 
-    def open_one(name: str, width: int = 1200) -> Page:
-        context = browser.new_context(viewport={"width": width, "height": 800}, has_touch=width < 600)
+    def open_one(name: str, width: int = 1200, keeps: bool = False) -> Page:
+        context = browser.new_context(
+            viewport={"width": width, "height": 800}, has_touch=width < 600, service_workers="allow" if keeps else "block"
+        )
         used.append(context)
-        context.route("**/*", only_here)
+        if not keeps:
+            context.route("**/*", only_here)
         page = context.new_page()
         page.on("pageerror", lambda error: faults.append(str(error)))
         page.goto(f"{served.address}{name}.html")
@@ -334,3 +349,98 @@ def test_nobody_is_shut_out(opened: Callable[..., Page], name: str, scheme: Any)
     expect(page.locator("[data-part]:not([data-open])")).to_have_count(0)
     assert serious(page) == []
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+
+
+# Without a network
+
+
+KEPT = """async ([name, wanted, end]) => {
+    for (const begun = Date.now(); Date.now() < begun + end; await new Promise((done) => setTimeout(done, 50))) {
+        const stores = await Promise.all((await caches.keys()).map(each => caches.open(each)));
+        const addresses = (await Promise.all(stores.map(each => each.keys()))).flat().map(({ url }) => url);
+        if (addresses.some(each => each.includes(name)) === wanted) return;
+    }
+    throw new Error(name);
+}"""
+THESE_PAGES, ALL = "This browser keeps these pages", "This browser keeps the course and Python"
+
+
+def wait_until_kept(page: Page, name: str, wanted: bool = True) -> None:
+    """Wait until the browser keeps a file of the site, or keeps it no longer."""
+    page.evaluate(KEPT, [name, wanted, LONG])
+
+
+def without_network(page: Page, served: Served) -> None:
+    served.stop()
+    page.context.set_offline(True)
+
+
+def test_the_course_works_without_a_network_once_it_was_there(opened: Callable[..., Page], served: Served) -> None:
+    page = opened("index", keeps=True)
+    expect(page.locator(".kit-offline")).to_contain_text(THESE_PAGES, timeout=LONG)
+    assert served.python() == [], "it was not asked for"
+    page.get_by_role("button", name="Keep Python").click()
+    expect(page.locator(".kit-offline")).to_contain_text(ALL, timeout=LONG)
+    assert {each.partition("?")[0].removeprefix("/") for each in served.asked} <= {*served.files, ""}
+    without_network(page, served)
+    for name in (EXERCISES, FIRST):
+        page.goto(f"{served.address}{name}.html")
+        expect(page.locator("form.exercise-answer").first).to_be_visible()
+    page.goto(f"{served.address}{EXERCISES}.html")
+    expect(answer(page, "al al br")).to_contain_text("Almost", timeout=LONG)
+    page.goto(f"{served.address}{LESSON}.html")
+    expect(page.locator(".lsys-panel")).to_have_count(3)
+    page.goto(served.address)
+    expect(page.locator(".kit-offline")).to_contain_text(ALL, timeout=LONG)
+
+
+def test_python_that_has_answered_answers_without_a_network(opened: Callable[..., Page], served: Served) -> None:
+    page = opened(EXERCISES, keeps=True)
+    expect(answer(page, "al al br")).to_contain_text("Almost", timeout=LONG)
+    for name in (".wasm", "pyodide-lock.json", "sympy.zip"):
+        wait_until_kept(page, name)
+    without_network(page, served)
+    page.reload()
+    expect(page.locator("form.exercise-answer input").first).to_have_value("al al br")
+    expect(answer(page, "bl ar bl ar ar")).to_contain_text("Correct", timeout=LONG)
+
+
+def test_of_a_site_that_was_written_again_what_is_new_is_kept(
+    opened: Callable[..., Page], served: Served, live: Answering, site_files: dict[str, bytes]
+) -> None:
+    page = opened("index", keeps=True)
+    page.get_by_role("button", name="Keep Python").click(timeout=LONG)
+    expect(page.locator(".kit-offline")).to_contain_text(ALL, timeout=LONG)
+    told = {**live.data["python"], "kit": {**live.data["python"]["kit"], "address": "python/kit.zip?another"}}
+    newer = Answering(live.script, {"python": told}, live.files)
+    made = {name: content.replace(b"Panels", b"More panels") for name, content in pages(newer).items()}
+    served.files.update({**made, **app_files("Panels", newer, made)})
+    served.asked.clear()
+    page.reload()
+    wait_until_kept(page, "kit.zip?another")
+    wait_until_kept(page, live.data["python"]["kit"]["address"], False)
+    assert f"/{FIRST}.html" in served.asked
+    assert not [each for each in served.asked if each.endswith((".wasm", "sympy.zip"))], "what is the same is not fetched again"
+    without_network(page, served)
+    page.goto(f"{served.address}{LESSON}.html")
+    expect(page.locator("h1")).to_have_text("More panels")
+    page.goto(f"{served.address}{EXERCISES}.html")
+    expect(answer(page, "al al br")).to_contain_text("Almost", timeout=LONG)
+
+
+def test_browsers_offer_to_install_the_site(opened: Callable[..., Page]) -> None:
+    page = opened("index", keeps=True)
+    expect(page.locator(".kit-offline")).to_contain_text(THESE_PAGES, timeout=LONG)
+    session = page.context.new_cdp_session(page)
+    assert session.send("Page.getAppManifest")["errors"] == []
+    faults = [each["errorId"] for each in session.send("Page.getInstallabilityErrors")["installabilityErrors"]]
+    assert {*faults} <= {"in-incognito"}
+
+
+def test_a_browser_that_keeps_no_pages_shows_them_all_the_same(opened: Callable[..., Page], served: Served) -> None:
+    del served.files["service_worker.js"]
+    page = opened("index", keeps=True)
+    expect(page.get_by_role("heading", name="Lessons")).to_be_visible()
+    page.goto(f"{served.address}{EXERCISES}.html")
+    expect(answer(page, "al al br")).to_contain_text("Almost", timeout=LONG)
+    expect(page.locator(".kit-offline")).to_have_count(0)

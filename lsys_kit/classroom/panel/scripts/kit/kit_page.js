@@ -5,6 +5,7 @@ import { askForAnswer, practise } from "../lessons/exercises.js";
 import { keepAnswer, keptAnswer } from "../lessons/keeping.js";
 import { askingHost } from "../panels/asking_host.js";
 import { made, speak, worded } from "../views/controls.js";
+import { keepOffline } from "./offline.js";
 import { pythonIn } from "./python.js";
 
 const ASKING = ["panel", "comparison", "beside", "exercise", "practice"]; // kinds of parts that may ask Python
@@ -13,7 +14,8 @@ const TRIES = "tries", MOST_TRIES = 2_000; // under which name tries are kept, a
 export function openKitPage() {
   const { words, python, home, parts } = JSON.parse(document.getElementById("lsys-data").textContent);
   speak(words);
-  const bar = barOf(() => kit.begin()), kit = pythonIn(python, home, bar.show);
+  const bar = barOf(() => kit.begin()), kit = pythonIn(python, home, bar.show), offline = keepOffline(home);
+  kit.whenReady(async () => (await offline)?.());
   if (parts.some(({ kind, data }) => ASKING.includes(kind) || JSON.stringify(data).includes('"mode"'))) document.body.append(bar.element);
   openCoursePage({
     hostWith: (data) => askingHost(data, kit.ask, { keeps: ["link"], keep: (_, question) => linked(kit.ask({ ...question, what: "link" })), soon: kit.whenReady }),
