@@ -6,7 +6,7 @@ from __future__ import annotations
 import json
 import threading
 import tomllib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
@@ -14,11 +14,13 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from nbformat.v4 import new_markdown_cell
+from nbformat import writes
+from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 from playwright.sync_api import Browser, Locator, Page, Route, expect
 
 from lsys_kit import check, derive, explore, read
 from lsys_kit.classroom.course import course_files
+from lsys_kit.classroom.exercises.collecting import answers_in, collect
 from lsys_kit.classroom.exercises.progress import Try, _read
 from lsys_kit.classroom.exercises.registry import exercise_of, kit_questions
 from lsys_kit.classroom.site import answers
@@ -309,9 +311,8 @@ def test_where_python_is_missing_that_is_said_and_tried_again(
     expect(answer(page, "al al br")).to_contain_text("Almost", timeout=LONG)
 
 
-def test_python_that_does_not_answer_is_ended_and_started_anew(
-    opened: Callable[..., Page], served: Served, live: Answering
-) -> None:
+def put_stub(served: Served, live: Answering) -> None:
+    """Put another kit in the place of the kit, which says of all that it is not yet right."""
     home = "lsys_kit/classroom/site"
     places = ["lsys_kit", "lsys_kit/classroom", home]
     stub = archive({**{f"{each}/__init__.py": b"" for each in places}, f"{home}/answers.py": STUB.encode()})
@@ -319,6 +320,12 @@ def test_python_that_does_not_answer_is_ended_and_started_anew(
     told["kit"] = {**told["kit"], "bytes": len(stub)}
     impatient = Answering(live.script, {"python": told}, live.files)
     served.files.update({**pages(impatient), "python/kit.zip": stub})
+
+
+def test_python_that_does_not_answer_is_ended_and_started_anew(
+    opened: Callable[..., Page], served: Served, live: Answering
+) -> None:
+    put_stub(served, live)
     page = opened(EXERCISES)
     expect(answer(page, "al")).to_contain_text("It is no loop", timeout=LONG)
     reply = answer(page, "loop")
@@ -444,3 +451,97 @@ def test_a_browser_that_keeps_no_pages_shows_them_all_the_same(opened: Callable[
     page.goto(f"{served.address}{EXERCISES}.html")
     expect(answer(page, "al al br")).to_contain_text("Almost", timeout=LONG)
     expect(page.locator(".kit-offline")).to_have_count(0)
+
+
+# Handing in
+
+
+TYPED = {
+    "1.1": "al al br",
+    "1.2": 'a "quoted" \\n \u2028 \U0001f331 text',
+    "1.3": exercise_of("1.3").solution.replace("\n", "\n\n"),
+    "1.4": '"""\nanswer = 1',
+}
+"""Right, wrong and odd answers, in one line and in several."""
+
+
+def fill(page: Page, typed: Mapping[str, str]) -> None:
+    for exercise, text in typed.items():
+        page.locator(f'section[aria-label="Exercise {exercise}"]').locator("input, textarea").fill(text)
+
+
+def handed_in(page: Page, folder: Path, name: str = "ada") -> Path:
+    """The notebook that a page saves."""
+    with page.expect_download() as saved:
+        page.get_by_role("button", name="Save my answers").click()
+    assert saved.value.suggested_filename == f"{Path(EXERCISES).name}.ipynb"
+    saved.value.save_as(folder / f"{name}.ipynb")
+    return folder / f"{name}.ipynb"
+
+
+def test_answers_are_handed_in_from_a_page_and_marked_as_a_notebook(
+    opened: Callable[..., Page], served: Served, tmp_path: Path
+) -> None:
+    """Also where Python never came; the notebook is one, and says what was typed, letter for letter where a line has it."""
+    page = opened(EXERCISES)
+    expect(page.locator("form.exercise-answer")).to_have_count(4)
+    fill(page, TYPED)
+    notebook = handed_in(page, tmp_path)
+    assert served.python() == []
+    read_notebook(notebook)
+    found = answers_in(notebook.read_text("utf-8"))
+    assert {each: answer for each, answer in found.found.items() if answer is not ...} == {
+        each: page.locator(f'section[aria-label="Exercise {each}"]').locator("input, textarea").input_value() for each in TYPED
+    }
+    assert found.problems == []
+    typed = [new_code_cell(f"answer = {text!r}\ncheck({each!r}, answer)") for each, text in TYPED.items()]
+    (tmp_path / "bob.ipynb").write_text(writes(new_notebook(cells=typed)))
+    ada, bob = collect(tmp_path)
+    assert (ada.student, ada.scores, ada.remarks) == ("ada", bob.scores, bob.remarks)
+    assert ada.scores["1.3"] == 1 > ada.scores["1.1"]
+
+
+def test_two_tabs_show_the_same_answers_and_lose_no_try(
+    opened: Callable[..., Page], served: Served, live: Answering, tmp_path: Path
+) -> None:
+    put_stub(served, live)
+    first = opened(EXERCISES)
+    second = first.context.new_page()
+    second.goto(first.url)
+    for page, exercise, text in ((first, "1.1", "al"), (second, "1.3", "br"), (first, "1.1", "ar"), (second, "1.1", "bl")):
+        expect(answer(page, text, exercise)).to_contain_text("It is no loop", timeout=LONG)
+        other = (second if page is first else first).locator(f'section[aria-label="Exercise {exercise}"]')
+        expect(other.locator("input, textarea")).to_have_value(text)
+        expect(other.locator("p.lsys-said")).to_contain_text("It is no loop")
+    for page in (first, second):
+        with page.expect_download() as saved:
+            page.get_by_role("button", name="progress.csv").click()
+        saved.value.save_as(tmp_path / "progress.csv")
+        assert _read(tmp_path / "progress.csv")[0] == tuple(Try(each, False) for each in ("1.1", "1.3", "1.1", "1.1"))
+
+
+FULL = """for (let many = 2 ** 22; many >= 1; many /= 2) {
+    try { for (let i = 0; ; i += 1) localStorage.setItem(`${many} ${i}`, "-".repeat(many)); } catch { }
+}"""
+FORBIDDEN = "Object.defineProperty(window, 'localStorage', { get() { throw new DOMException('no', 'SecurityError'); } })"
+
+
+@pytest.mark.parametrize("why", [FULL, FORBIDDEN], ids=["full", "forbidden"])
+def test_a_browser_without_room_says_so_and_the_answers_can_be_saved(
+    opened: Callable[..., Page], served: Served, live: Answering, tmp_path: Path, why: str
+) -> None:
+    put_stub(served, live)
+    page = opened("blank")
+    page.context.add_init_script(why)
+    page.goto(f"{served.address}{EXERCISES}.html")
+    expect(page.locator(".kit-saving")).to_contain_text("no room for what you type")
+    reply = answer(page, "al al br")
+    expect(reply).to_contain_text("It is no loop", timeout=LONG)
+    answers = answers_in(handed_in(page, tmp_path).read_text("utf-8"))
+    assert answers.found["1.1"] == "al al br"
+    asked: list[str] = []
+    page.once("dialog", lambda dialog: (asked.append(dialog.type), dialog.dismiss()))
+    page.close(run_before_unload=True)
+    page.wait_for_timeout(0)
+    expect(reply).to_contain_text("It is no loop")
+    assert asked == ["beforeunload"]

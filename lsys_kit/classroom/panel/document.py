@@ -29,7 +29,7 @@ _LANGUAGE = re.compile(r"[A-Za-z]{2,3}(-[A-Za-z0-9]{2,8})*")
 @dataclass(frozen=True)
 class Program:
     """What runs in a page: a script, the style of what it makes, and the data that it reads; whether it may ask the server
-    from which it came, and show its pictures; and the way to the folder of its site, if workers from there may work for it, and the
+    from which it came, and show its pictures; and the way to the folder of its site, if its workers may work for it, and the
     page is one of the app that is described there (`MANIFEST`)."""
 
     script: str

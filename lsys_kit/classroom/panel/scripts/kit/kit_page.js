@@ -2,14 +2,13 @@
 
 import { openCoursePage } from "../course.js";
 import { askForAnswer, practise } from "../lessons/exercises.js";
-import { keepAnswer, keptAnswer } from "../lessons/keeping.js";
 import { askingHost } from "../panels/asking_host.js";
 import { made, speak, worded } from "../views/controls.js";
+import { handingIn, keepTry } from "./handing_in.js";
 import { keepOffline } from "./offline.js";
 import { pythonIn } from "./python.js";
 
 const ASKING = ["panel", "comparison", "beside", "exercise", "practice"]; // kinds of parts that may ask Python
-const TRIES = "tries", MOST_TRIES = 2_000; // under which name tries are kept, and how many
 
 export function openKitPage() {
   const { words, python, home, parts } = JSON.parse(document.getElementById("lsys-data").textContent);
@@ -22,7 +21,8 @@ export function openKitPage() {
     exercise: (place, data) => askForAnswer(place, data, (question) => kit.ask({ ...question, kind: "check", id: data.id }), (said, answer) => keepTry(data.id, said, answer)),
     practice: (place, data) => practise(place, data, kit.ask, false),
   });
-  if (parts.some(({ kind }) => kind === "exercise")) document.querySelector("main").append(savingOf());
+  const ids = parts.flatMap(({ kind, data }) => (kind === "exercise" ? [data.id] : []));
+  if (ids.length) document.querySelector("main").append(handingIn(ids));
 }
 
 // A link of the kit as an address of this page.
@@ -58,26 +58,4 @@ function barOf(begin) {
   }
   show("idle");
   return { element, show };
-}
-
-// Keep what was tried, as exercises/progress.py keeps it: not the same answer again, nor anything after the right one.
-function keepTry(id, said, answer) {
-  if (!["Correct", "Almost", "Not yet"].includes(said)) return;
-  const tries = triesSoFar(), own = tries.filter((each) => each.id === id);
-  if (own.some((each) => each.result === "solved" || each.answer === answer)) return;
-  const time = new Date(Date.now() - 60_000 * new Date().getTimezoneOffset()).toISOString().slice(0, 16).replace("T", " ");
-  keepAnswer(TRIES, [...tries, { time, id, result: said === "Correct" ? "solved" : "tried", answer }].slice(-MOST_TRIES));
-}
-
-const triesSoFar = () => (Array.isArray(keptAnswer(TRIES)) ? keptAnswer(TRIES) : []);
-
-// A button that saves them as the file progress.csv, which a copy of the course reads.
-function savingOf() {
-  const save = () => {
-    const rows = triesSoFar().map(({ time, id, result }) => `${time},${/[",]/.test(id) ? `"${id.replaceAll('"', '""')}"` : id},${result}`);
-    const address = URL.createObjectURL(new Blob([["time,exercise,result", ...rows, ""].join("\n")], { type: "text/csv" }));
-    made("a", { href: address, download: "progress.csv" }).click();
-    setTimeout(() => URL.revokeObjectURL(address), 60_000);
-  };
-  return made("p.kit-saving", made("button", { type: "button", onclick: save }, worded("Save what was tried: progress.csv")));
 }

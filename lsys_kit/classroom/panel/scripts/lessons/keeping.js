@@ -11,12 +11,12 @@ export function keptAnswer(question) {
   }
 }
 
-// Nothing takes back what was kept.
+// Nothing takes back what was kept. What another tab keeps is seen in this one.
 export function keepAnswer(question, answer) {
   here.set(question, answer);
   try {
-    if (answer) localStorage.setItem(PREFIX + question, JSON.stringify(answer));
-    else localStorage.removeItem(PREFIX + question);
+    localStorage.setItem(PREFIX + question, JSON.stringify(answer));
+    here.delete(question);
   } catch {
     // it is full, or not allowed
   }
