@@ -18,7 +18,7 @@ from nbformat import writes
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 from playwright.sync_api import Browser, Locator, Page, Route, expect
 
-from lsys_kit import check, derive, explore, read
+from lsys_kit import check, derive, explore, link, read, system
 from lsys_kit.classroom.course import course_files
 from lsys_kit.classroom.exercises.collecting import answers_in, collect
 from lsys_kit.classroom.exercises.progress import Try, _read
@@ -29,6 +29,7 @@ from lsys_kit.classroom.site.build import read_notebook
 from lsys_kit.classroom.site.contents import index_page
 from lsys_kit.classroom.site.pages import INDEX, Answering, Entry, notebook_page
 from lsys_kit.classroom.site.python import answering, archive
+from lsys_kit.notation.fragments import LinkContent, packed
 from tests.browser.test_class import serious
 from tests.classroom.test_site import ran
 from tests.pyodide import pyodide_folder
@@ -356,6 +357,49 @@ def test_nobody_is_shut_out(opened: Callable[..., Page], name: str, scheme: Any)
     expect(page.locator("[data-part]:not([data-open])")).to_have_count(0)
     assert serious(page) == []
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+
+
+# Links
+
+
+def test_a_link_opens_its_model_on_a_page_and_what_was_typed_there_is_sent_home_and_opened(
+    opened: Callable[..., Page], served: Served, pytestconfig: pytest.Config
+) -> None:
+    """Of another model than those of the page, with its settings; it can be edited there, and so on."""
+    own = read("axiom: F\nF -> F[+F]F\nangle: 30")
+    page = opened(LESSON)
+    page.goto(link(own, {"step": 2, "angle": 45}, f"{served.address}{LESSON}.html"))  # the same page with a link
+    panel = page.locator(".kit-linked .lsys-panel")
+    expect(panel).to_contain_text(f"{len(derive(own, 2)[2])} characters", timeout=LONG)
+    expect(page.locator(".kit-linked")).to_contain_text("This model came with the link")
+    expect(panel.get_by_role("slider", name="Angle")).to_have_attribute("aria-valuetext", "45")
+    expect(page.locator(".lsys-panel")).to_have_count(4)
+    panel.get_by_role("button", name="rules").click()
+    typed = read("axiom: F\nF -> F[+F]F[-F]\nangle: 30\nsteps: 3")
+    panel.locator("textarea").first.fill(str(typed))
+    expect(panel).to_contain_text(f"{len(derive(typed, 3)[3])} characters", timeout=LONG)
+    if folder := pytestconfig.getoption("screenshots"):
+        page.screenshot(path=Path(folder) / "kit-linked.png")
+    address = link(typed, {"step": 1}, f"{served.address}{LESSON}.html")
+    page.goto("about:blank")
+    page.goto(address)
+    expect(panel).to_contain_text(f"{len(derive(typed, 1)[1])} characters", timeout=LONG)
+    page.goto(f"{address[:-3]}")
+    expect(page.locator("p.lsys-message").first).to_contain_text("broken")
+    expect(page.locator(".kit-linked")).to_have_count(0)
+
+
+def test_a_link_to_a_model_of_the_page_or_one_that_cannot_be_opened_is_no_panel(
+    opened: Callable[..., Page], served: Served
+) -> None:
+    page = opened(LESSON)
+    page.goto("about:blank")
+    page.goto(link(system("P3"), {}, f"{served.address}{LESSON}.html"))
+    expect(page.locator(".lsys-panel")).to_have_count(3)
+    expect(page.locator(".kit-linked")).to_have_count(0)
+    page.goto("about:blank")
+    page.goto(f"{served.address}{LESSON}.html{packed(LinkContent('abop', {}, 'axiom: F -> ['))}")
+    expect(page.locator(".kit-linked .lsys-message")).to_contain_text("line 1", timeout=LONG)
 
 
 # Without a network

@@ -2,7 +2,10 @@
 
 import { openCoursePage } from "../course.js";
 import { askForAnswer, practise } from "../lessons/exercises.js";
-import { askingHost } from "../panels/asking_host.js";
+import { hasLink } from "../books/link.js";
+import { numberOf } from "../page.js";
+import { askingHost, openedHost } from "../panels/asking_host.js";
+import { openPanel } from "../panels/panel.js";
 import { made, speak, worded } from "../views/controls.js";
 import { handingIn, keepTry } from "./handing_in.js";
 import { keepOffline } from "./offline.js";
@@ -16,13 +19,29 @@ export function openKitPage() {
   const bar = barOf(() => kit.begin()), kit = pythonIn(python, home, bar.show), offline = keepOffline(home);
   kit.whenReady(async () => (await offline)?.());
   if (parts.some(({ kind, data }) => ASKING.includes(kind) || JSON.stringify(data).includes('"mode"'))) document.body.append(bar.element);
+  const how = { keeps: ["link"], keep: (_, question) => linked(kit.ask({ ...question, what: "link" })), soon: kit.whenReady };
+  addEventListener("hashchange", () => hasLink(location.href) && location.reload());
   openCoursePage({
-    hostWith: (data) => askingHost(data, kit.ask, { keeps: ["link"], keep: (_, question) => linked(kit.ask({ ...question, what: "link" })), soon: kit.whenReady }),
+    hostWith: (data) => askingHost(data, kit.ask, how),
+    opened: (content) => openLinked(content, kit.ask, how),
     exercise: (place, data) => askForAnswer(place, data, (question) => kit.ask({ ...question, kind: "check", id: data.id }), (said, answer) => keepTry(data.id, said, answer)),
     practice: (place, data) => practise(place, data, kit.ask, false),
   });
   const ids = parts.flatMap(({ kind, data }) => (kind === "exercise" ? [data.id] : []));
   if (ids.length) document.querySelector("main").append(handingIn(ids));
+}
+
+// A panel, above all else, with the model that a link in the address leads to.
+async function openLinked({ notation, text, settings: { step, angle, seed, letters, ...settings } }, ask, how) {
+  const said = made("p.lsys-message", { role: "status" }, worded("The model of the link in the address is opened.")), here = made("div"), place = made("div.part.part-panel.kit-linked", said, here);
+  document.querySelector("main").prepend(place);
+  const chosen = { ...(step && { step: Number(step) }), ...(angle && { angle: numberOf(angle) }), ...(seed && { seed: Number(seed) }) };
+  const opened = await ask({ kind: "open", panel: { notation, text, settings, ...chosen } });
+  if (opened.mistake) said.textContent = `\u26a0 ${opened.mistake.message}. ${opened.mistake.hint}`;
+  else {
+    openPanel(here, openedHost(opened, ask, how));
+    said.textContent = worded("This model came with the link in the address.");
+  }
 }
 
 // A link of the kit as an address of this page.

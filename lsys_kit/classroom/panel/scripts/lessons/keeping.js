@@ -5,9 +5,9 @@ const PREFIX = "lsys-kit: ", here = new Map();
 
 export function keptAnswer(question) {
   try {
-    return here.get(question) ?? JSON.parse(localStorage.getItem(PREFIX + question));
+    return here.get(question) ?? JSON.parse(localStorage[PREFIX + question]);
   } catch {
-    return null;
+    // nothing is kept
   }
 }
 
@@ -15,7 +15,7 @@ export function keptAnswer(question) {
 export function keepAnswer(question, answer) {
   here.set(question, answer);
   try {
-    localStorage.setItem(PREFIX + question, JSON.stringify(answer));
+    localStorage[PREFIX + question] = JSON.stringify(answer);
     here.delete(question);
   } catch {
     // it is full, or not allowed
