@@ -345,7 +345,10 @@ def test_a_page_that_is_a_file_says_that_python_needs_a_web_server(
         (tmp_path / name).write_bytes(content)
     page = browser.new_page()
     page.goto((tmp_path / f"{EXERCISES}.html").as_uri())
+    expect(bar(page, "idle")).to_contain_text("This page is a file: panels move")
     expect(answer(page, "al al br")).to_contain_text("web server", timeout=LONG)
+    with page.expect_download():
+        page.get_by_role("button", name="Save my answers").click()
     page.close()
 
 

@@ -54,9 +54,9 @@ async function linked(asked) {
 function barOf(begin) {
   const text = made("p", { role: "status" }), meter = made("progress", { max: 1, hidden: true, "aria-label": worded("Python is fetched") });
   const button = made("button", { type: "button", onclick: begin }, worded("Start it"));
-  const element = made("aside.kit-bar", { "aria-label": "Python" }, text, meter, button);
+  const element = made("aside.kit-bar", { "aria-label": "Python" }, text, meter, button), isFile = location.protocol === "file:";
   const said = {
-    idle: () => worded("Python comes when rules or answers first need it: 15 MB."),
+    idle: () => (isFile ? worded("This page is a file: panels move, and votes and tables answer. Rules and exercises need a web server.") : worded("Python comes when rules or answers first need it: 15 MB.")),
     fetching: (part) => worded("Python is fetched: {percent} %", { percent: Math.round(100 * part) }),
     starting: () => worded("Python starts."),
     ready: () => worded("Python is there."),
@@ -72,7 +72,7 @@ function barOf(begin) {
     meter.hidden = !comes && state !== "ended";
     if (state === "fetching") meter.value = more;
     else meter.removeAttribute("value");
-    button.hidden = !["idle", "absent"].includes(state);
+    button.hidden = isFile || !["idle", "absent"].includes(state);
     button.textContent = state === "absent" ? worded("Try it again") : worded("Start it");
   }
   show("idle");
