@@ -497,6 +497,17 @@ def write_site(options: argparse.Namespace) -> None:
         print(f"Python starts in them where a web server serves {quotable(options.output)}.")
 
 
+def write_lite(options: argparse.Namespace) -> None:
+    from lsys_kit.classroom.lite.build import build_lite
+
+    source, pyodide = _chosen_course(options), options.pyodide and Path(options.pyodide)
+    lite = build_lite(options.output, source, pyodide)
+    print(f"JupyterLab is in {quotable(options.output)}. It starts where a web server serves that folder, as this one does:")
+    print(f"python -m http.server -d {quotable(options.output)}, and then http://localhost:8000/{lite.first}")
+    if lite.fetched:
+        print(f"When a notebook needs them, these come from cdn.jsdelivr.net: {', '.join(lite.fetched)}.")
+
+
 def open_class(options: argparse.Namespace) -> None:
     from lsys_kit.classroom.live import serving
 
@@ -565,7 +576,7 @@ SECONDS, BYTES = 12, 8
 """These multiples of the kit's own limits: a command has several tasks, and libraries take memory to begin with."""
 MERCY = 30
 """So many seconds of the processor after it was told so a process is ended that goes on."""
-LASTING, UNLIMITED = frozenset({"site", "collect", "wall", "exercises", "lesson"}), frozenset({"lab", "class"})
+LASTING, UNLIMITED = frozenset({"site", "lite", "collect", "wall", "exercises", "lesson"}), frozenset({"lab", "class"})
 """The commands that have as much time as they need, and those that have memory, too."""
 
 

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import base64
 import hashlib
+import json
 import shutil
 import subprocess
+import sys
 import tarfile
 import tempfile
 from pathlib import Path
@@ -28,6 +30,36 @@ def pyodide_folder(config: pytest.Config) -> Path:
         if not is_whole(home / "package"):
             pytest.skip("npm cannot fetch Pyodide")
     return home / "package"
+
+
+def pyodide_with_packages(config: pytest.Config) -> Path:
+    """A folder with Pyodide, and those packages of Python alone that a kernel and the kit need; the lock file has the hashes of
+    those of PyPI. What is compiled for browsers is to be had from its own server alone."""
+    home, core = Path(pyodide_folder(config)).with_name("packages"), pyodide_folder(config)
+    with FileLock(home.with_name("lock")):
+        lock = json.loads((core / LOCK).read_bytes())
+        wanted = [lock["packages"][name] for name in PURE.split()]
+        if not (home / LOCK).exists():
+            home.mkdir(exist_ok=True)
+            given = [f"{each['name']}=={each['version']}" for each in wanted]
+            options = ["--no-deps", "--only-binary", ":all:", "--python-version", "3.14"]
+            pip = [sys.executable, "-m", "pip", "download", "-q", "-d", str(home), *options]
+            subprocess.run([*pip, *given], capture_output=True, timeout=300, check=False)
+            for each in wanted:
+                if not (home / each["file_name"]).is_file():
+                    pytest.skip(f"pip cannot fetch {each['name']} {each['version']}")
+                each["sha256"] = hashlib.sha256((home / each["file_name"]).read_bytes()).hexdigest()
+            for name in {*TOLD["files"]} - {LOCK}:
+                shutil.copy(core / name, home)
+            (home / LOCK).write_text(json.dumps(lock))
+    return home
+
+
+LOCK = "pyodide-lock.json"
+PURE = """
+asttokens decorator executing ipython jedi matplotlib-inline micropip mpmath networkx packaging parso prompt-toolkit pure-eval
+pygments setuptools six stack-data sympy tqdm traitlets typing-extensions wcwidth
+"""
 
 
 def fetch(home: Path) -> None:

@@ -37,10 +37,10 @@ def test_the_wheel_is_pure_python(wheel):
 def test_the_wheel_holds_every_file_of_the_package(wheel):
     package = {
         str(path.relative_to(ROOT))
-        for ending in ("py", "pyi", "lark", "toml", "js", "mo")
+        for ending in ("py", "pyi", "lark", "toml", "js", "mo", "gz")
         for path in (ROOT / "lsys_kit").rglob(f"*.{ending}")
     }
-    assert {Path(name).suffix for name in package} == {".py", ".pyi", ".lark", ".toml", ".js", ".mo"}
+    assert {Path(name).suffix for name in package} == {".py", ".pyi", ".lark", ".toml", ".js", ".mo", ".gz"}
     assert package - set(zipfile.ZipFile(wheel).namelist()) == set()
 
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import gzip
 import os
 import tomllib
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
+from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +15,7 @@ import pytest
 
 import lsys_kit.__main__ as shell
 from lsys_kit.classroom.exercises.declarations import QUESTIONS
+from lsys_kit.files import toml_tables
 
 HUGE = 6 * 2**30
 """Bytes of a file that no memory has room for; on the disk it has none of them."""
@@ -105,6 +108,7 @@ COMMANDS: Mapping[str, tuple[Mapping[str, Callable[[Path], Path | str]], str]] =
     "infer": (FILES, READ),
     "page": (FILES, f"{READ} -o {WRITTEN}.html"),
     "site": (ANY, f"-o {WRITTEN}"),
+    "lite": (ANY, f"--pyodide {READ} -o {WRITTEN}"),
     "lab": (ANY, WRITTEN),
     "class": (FOLDERS, f"report {READ}"),
     "collect": (FOLDERS, f"{READ} -o {WRITTEN}.csv"),
@@ -118,7 +122,13 @@ COMMANDS: Mapping[str, tuple[Mapping[str, Callable[[Path], Path | str]], str]] =
     "lesson unpack": (FILES, f"{READ} -o {WRITTEN}"),
 }
 """What each command reads, and how it is typed."""
-FINE = {"collect": "handed_in", "wall": "plants", "exercises notebooks": str(QUESTIONS), "exercises scorm": "1"}
+FINE = {
+    "lite": "pyodide",
+    "collect": "handed_in",
+    "wall": "plants",
+    "exercises notebooks": str(QUESTIONS),
+    "exercises scorm": "1",
+}
 """What is there to be read where it is the place to be written that is wrong."""
 
 
@@ -143,8 +153,24 @@ def small(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setattr("lsys_kit.classroom.site.build.course_files", lambda source: {})
     monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("lsys_kit.classroom.lite.build._builder", lambda: None)
+    monkeypatch.setattr("lsys_kit.classroom.lite.build._built", lambda _, work, __: small_lab(work / "out"))
+    pyodide = made_folder(tmp_path / "pyodide")
+    for each in toml_tables("lsys_kit.classroom.site", "pyodide.toml")["files"]:
+        written(pyodide / each, LOCK if each.endswith(".json") else b"")
     with_one(lambda place: written(place, b"axiom: F"), "ann.txt")(tmp_path / "plants")
     with_one(lambda place: written(place, b'{"cells": []}'), "ann.ipynb")(tmp_path / "handed_in")
+
+
+LOCK = gzip.decompress((files("lsys_kit.classroom.lite") / "pyodide-lock.json.gz").read_bytes())
+
+
+def small_lab(folder: Path) -> Path:
+    """What a JupyterLab in a browser is to those who do not open it."""
+    (folder / "files" / "notebooks").mkdir(parents=True)
+    written(folder / "files" / "notebooks" / "a.ipynb")
+    written(folder / "jupyter-lite.json", b'{"jupyter-config-data": {}}')
+    return folder
 
 
 def bystanders(folder: Path) -> dict[str, bytes]:

@@ -50,6 +50,8 @@ CONFIGURATION = {
     "LabApp": {"expose_app_in_browser": True, "extension_manager": "readonly"},
     "JupyterNotebookApp": {"expose_app_in_browser": True},
 }
+OF_LITE = ("@jupyterlite/pyodide-kernel-extension",)
+"""Extensions for JupyterLite alone, which are installed beside the others."""
 SETTINGS = {
     "apputils-extension/notification": {"fetchNews": "false", "checkForUpdates": False, "doNotDisturbMode": True},
     "docmanager-extension/plugin": {"autosave": False},
@@ -289,6 +291,7 @@ def _environment(home: Path, url: str) -> dict[str, str]:
     folders |= {f"JUPYTERLAB_{name}_DIR": home / name.lower() for name in ("SETTINGS", "WORKSPACES")}
     folders["IPYTHONDIR"] = home / "ipython"
     settings = {home / "settings" / "@jupyterlab" / f"{name}.jupyterlab-settings": value for name, value in SETTINGS.items()}
+    settings[home / "config" / "labconfig" / "page_config.json"] = {"disabledExtensions": dict.fromkeys(OF_LITE, True)}
     port = {"port": int(url.rsplit(":", 1)[1])}
     settings[home / "config" / "jupyter_server_config.json"] = {
         **CONFIGURATION,

@@ -608,6 +608,7 @@ LEFT_OUT: Mapping[str, str] = {
         "lsys-kit list",
         "ExerciseList.__repr__",
         "lsys-kit site",
+        "lsys-kit lite",
         "Place.__repr__",
         "VoteBox.close",
         "VoteBox.page_data",

@@ -21,19 +21,22 @@ from lsys_kit.pictures.style.labels import escaped
 
 _NO_MARKUP = bytes.maketrans(b"<", b".")
 """Of the digits of RFC 1924 the one with which markup could begin, and what stands for it."""
+MANIFEST, ICON = "manifest.json", "icon-192.png"
+"""The files of a site that say how it is installed as an app (W3C, Web Application Manifest), and show it."""
 _LANGUAGE = re.compile(r"[A-Za-z]{2,3}(-[A-Za-z0-9]{2,8})*")
 
 
 @dataclass(frozen=True)
 class Program:
     """What runs in a page: a script, the style of what it makes, and the data that it reads; whether it may ask the server
-    from which it came, and show its pictures; and whether a worker from there may work for it."""
+    from which it came, and show its pictures; and the way to the folder of its site, if its workers may work for it, and the
+    page is one of the app that is described there (`MANIFEST`)."""
 
     script: str
     style: str
     data: Mapping[str, object]
     asks: bool = False
-    has_worker: bool = False
+    home: str | None = None
 
 
 def document(title: str, body: str, style: str, description: str, program: Program | None = None, language: str = "en") -> str:
@@ -56,13 +59,19 @@ def document(title: str, body: str, style: str, description: str, program: Progr
 <meta name="referrer" content="no-referrer">
 <meta name="description" content="{escaped(description)}">
 <link rel="icon" href="data:,">
-<title>{escaped(title)}</title>
+{_app(program)}<title>{escaped(title)}</title>
 <style>{style}</style>
 </head>
 <body class="lsys-page">
 {body}{_scripts(program) if program else ""}</body>
 </html>
 """
+
+
+def _app(program: Program | None) -> str:
+    if program is None or program.home is None:
+        return ""
+    return f'<link rel="manifest" href="{program.home}{MANIFEST}">\n<link rel="apple-touch-icon" href="{program.home}{ICON}">\n'
 
 
 def deflated_text(text: str) -> str:
@@ -87,7 +96,9 @@ def _first() -> str:
 def _policy(program: Program | None) -> str:
     runs = f"script-src {_hashed(_first())} {_hashed(program.script)}; " if program else ""
     own, also = ("connect-src 'self'; ", "'self' ") if program and program.asks else ("", "")
-    worker, policies = ("worker-src 'self'; ", "lsys lsys-worker") if program and program.has_worker else ("", "lsys")
+    worker, policies = "", "lsys"
+    if program and program.home is not None:
+        worker, also, policies = "worker-src 'self'; manifest-src 'self'; ", "'self' ", "lsys lsys-worker"
     return (
         f"default-src 'none'; {runs}{own}{worker}style-src 'unsafe-inline'; img-src {also}data: blob:; base-uri 'none'; "
         f"form-action 'none'; require-trusted-types-for 'script'; trusted-types {policies}"

@@ -20,6 +20,8 @@ from lsys_kit.classroom.handed_in import content_of
 from lsys_kit.classroom.lessons.lesson import declared_in
 from lsys_kit.classroom.places import course_of
 from lsys_kit.classroom.site import showing
+from lsys_kit.classroom.site.app import FILES as APP_FILES
+from lsys_kit.classroom.site.app import app_files
 from lsys_kit.classroom.site.contents import index_page
 from lsys_kit.classroom.site.markdown import missing
 from lsys_kit.classroom.site.pages import INDEX, LAB, Answering, Entry, notebook_page, title_of
@@ -67,15 +69,19 @@ def build_site(
     places = {INDEX: folder / INDEX, **{each.name: folder / each.page for each in entries}}
     beside = {folder / name: content for name, content in (live.files if live else {}).items()}
     missing_files = {path: content for path, content in beside.items() if not _is_there(path, content)}
-    _make_room(folder, [*places.values(), *missing_files])
-    known, pictures = {each.name: each for each in entries}, dict[str, str]()
+    _make_room(folder, [*places.values(), *missing_files, *(folder / name for name in (APP_FILES if beside else ()))])
+    known, pictures, contents = {each.name: each for each in entries}, dict[str, str](), dict[str, bytes]()
     for name, notebook in _run(files, stored):
-        save_file(places[name], notebook_page(known[name], notebook.cells, entries, live).encode())
+        contents[known[name].page] = notebook_page(known[name], notebook.cells, entries, live).encode()
+        save_file(places[name], contents[known[name].page])
         heard(places[name], len(places))
         pictures.update((name, each) for each in found_in(notebook.cells, showing.SMALL))
     for path, content in missing_files.items():
         save_file(path, content)
-    save_file(places[INDEX], index_page(entries, pictures, live, course.lead, course.is_kits).encode())
+    contents[INDEX] = index_page(entries, pictures, live, course.lead, course.is_kits).encode()
+    save_file(places[INDEX], contents[INDEX])
+    for name, content in app_files(course.title, live, contents).items() if live and beside else ():
+        save_file(folder / name, content)
     heard(places[INDEX], len(places))
     return tuple(places.values())
 

@@ -8,10 +8,11 @@ from pathlib import PurePosixPath
 from lsys_kit.classroom.course import is_lesson
 from lsys_kit.classroom.lessons.lesson import TRACKS
 from lsys_kit.classroom.lessons.widget import prose_html, prose_text
-from lsys_kit.classroom.panel.bundle import compact, style, translated_words
+from lsys_kit.classroom.panel.bundle import style, translated_words
 from lsys_kit.classroom.panel.document import Program, document
 from lsys_kit.classroom.places import LEAD, TITLE
-from lsys_kit.classroom.site.pages import Answering, Entry, Parts, kept_picture
+from lsys_kit.classroom.site.app import HERE, kept_offline
+from lsys_kit.classroom.site.pages import Answering, Entry, Parts, kept_picture, opening
 from lsys_kit.pictures.style.labels import escaped
 from lsys_kit.translation import gettext, language
 
@@ -55,9 +56,10 @@ def index_page(
 {rows}</ol>
 {_REFERENCES.format(heading=heading, rows=references) if references else ""}</main>
 """
-    script = f'"use strict";\n{compact("contents")}\nopenContents();\n'
-    described, words = gettext("Lessons on L-systems with panels to move"), translated_words("contents")
-    program = Program(script, "", {"parts": parts, **({"words": words} if words else {})})
+    name, home = ("kit_contents", HERE) if live and live.holds_kit else ("contents", None)
+    described, words = gettext("Lessons on L-systems with panels to move"), translated_words(name)
+    known = {"parts": parts, **({"words": words} if words else {}), **(kept_offline(live) if live and home else {})}
+    program = Program(opening(name), style("kit_page") if home else "", known, home=home)
     return document(title, body, style("course"), described, program, language())
 
 

@@ -68,9 +68,18 @@ class Answering:
     files: Mapping[str, bytes] = field(default_factory=dict)
 
     @property
-    def opening(self) -> str:
-        """The function that opens a page."""
-        return "open" + self.script.title().replace("_", "")
+    def holds_kit(self) -> bool:
+        """Whether pages hold the kit, so that nobody else is asked."""
+        return bool(self.files)
+
+
+def opening(script: str) -> str:
+    """What opens a page by a script, after the script itself.
+
+    >>> opening("kit_page")[-15:]
+    'openKitPage();\\n'
+    """
+    return f'"use strict";\n{compact(script)}\nopen{script.title().replace("_", "")}();\n'
 
 
 CLASS = Answering("class_page")
@@ -216,7 +225,7 @@ def _program(entry: Entry, parts: Parts, live: Answering | None) -> Program | No
     if not parts and not live:
         return None
     if live:  # rules can be edited: a panel may draw anything
-        script = f'"use strict";\n{compact(live.script)}\n{live.opening}();\n'
+        script = opening(live.script)
     else:
         panels = [*_panels(parts)]
         left_out = (
@@ -228,9 +237,10 @@ def _program(entry: Entry, parts: Parts, live: Answering | None) -> Program | No
         words = translated_words("course")
         return Program(script, looks, {**known, **({"words": words} if words else {})})
     known |= {"words": translated_words(live.script, "panel", "filling", "voting"), **live.data}
-    if live is not CLASS:
-        known["home"] = f"{relpath('.', entry.folder)}/"
-    return Program(script, looks + style(live.script), known, live is CLASS, live is not CLASS)
+    if not live.holds_kit:
+        return Program(script, looks + style(live.script), known, asks=True)
+    home = f"{relpath('.', entry.folder)}/"
+    return Program(script, looks + style(live.script), {**known, "home": home}, home=home)
 
 
 def _panels(data: object) -> Iterator[Data]:

@@ -30,11 +30,11 @@ SOMETIMES: Mapping[str, tuple[str, ...]] = {"sympy": ("sympy", "mpmath"), "netwo
 """Packages that some answers ask for, and what is fetched with each: formulas need sympy, and maps networkx."""
 _LEFT_OUT = ("__pycache__", "tests", "benchmarks")
 """Folders of packages that nothing asks for."""
-_NOT_ASKED = ("course", "experiments", *(f"classroom/{each}" for each in ("authoring", "lessons", "live", "scorm")))
+_NOT_ASKED = ("course", "experiments", *(f"classroom/{each}" for each in ("authoring", "lessons", "lite", "live", "scorm")))
 """Parts of the kit that pages do not ask for."""
 _NO_TIME = (1980, 1, 1, 0, 0, 0)
 """The earliest time of a file in an archive: the same kit gives the same archive, byte for byte."""
-_COURSE = "own_course"
+OWN_COURSE = "own_course"
 """The folder in the archive with what a course of one's own declares."""
 PATIENCE = 45
 """So many seconds an answer may take; then Python is ended, and started anew."""
@@ -70,7 +70,7 @@ def _named(address: str, content: bytes) -> str:
 
 def _variables(source: Path | None) -> dict[str, str]:
     """The environment of Python in a page: the language of the pages, and where a course of one's own lies."""
-    own = {"LSYS_KIT_COURSE": f"/kit/{_COURSE}"} if source else {}
+    own = {"LSYS_KIT_COURSE": f"/kit/{OWN_COURSE}"} if source else {}
     return {"LSYS_KIT_LANGUAGE": language(), **own}
 
 
@@ -83,13 +83,25 @@ def _fetched() -> Data:
     return {"address": told["address"], "files": told["files"]}
 
 
-def _copied(folder: Path) -> tuple[dict[str, bytes], Data]:
-    """The files of Python that are copied from a folder, and where they lie."""
+def files_in(folder: Path) -> dict[str, bytes]:
+    """The files of Python in a folder.
+
+    Raises
+    ------
+    ModelFileError
+        One is missing.
+    """
     told = toml_tables(__package__, "pyodide.toml")
     found = {}
     for name in told["files"]:
         with file_errors(f'"{quotable(str(folder))}" has no "{name}" of Pyodide', _how(told["version"])):
             found[name] = (folder / name).read_bytes()
+    return found
+
+
+def _copied(folder: Path) -> tuple[dict[str, bytes], Data]:
+    """The files of Python that are copied from a folder, and where they lie."""
+    found = files_in(folder)
     own = hashlib.sha256(b"\0".join(found.values())).hexdigest()[:12]
     home = f"{HOME}/pyodide-{own}"
     files = {f"{home}/{name}": content for name, content in found.items()}
@@ -127,7 +139,7 @@ def _kit_files(source: Path | None) -> dict[str, bytes]:
     root = Path(__file__).resolve().parents[2]
     names = {path.relative_to(root).as_posix(): path for path in root.rglob("*") if path.is_file()}
     kept = {f"{root.name}/{name}": path.read_bytes() for name, path in names.items() if _is_asked_for(name)}
-    return {**kept, **_packages(*ALWAYS), **_declared(source)}
+    return {**kept, **_packages(*ALWAYS), **declared_files(source)}
 
 
 def _is_asked_for(name: str) -> bool:
@@ -149,11 +161,11 @@ def _packages(*names: str) -> dict[str, bytes]:
     }
 
 
-def _declared(source: Path | None) -> dict[str, bytes]:
+def declared_files(source: Path | None) -> dict[str, bytes]:
     """What a course of one's own declares: its list, its lessons and its exercises."""
     if source is None:
         return {}
-    return {f"{_COURSE}/{path.relative_to(source).as_posix()}": path.read_bytes() for path in _declarations(source)}
+    return {f"{OWN_COURSE}/{path.relative_to(source).as_posix()}": path.read_bytes() for path in _declarations(source)}
 
 
 def _declarations(source: Path) -> Iterator[Path]:

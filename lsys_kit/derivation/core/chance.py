@@ -13,7 +13,6 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import accumulate
-from statistics import NormalDist
 from typing import TYPE_CHECKING
 
 from lsys_kit.arrays import np
@@ -131,6 +130,8 @@ class Chance:
         """A number of a bell curve with a standard deviation, of which 0 gives the mean."""
         if deviation < 0:
             raise ValueError("a standard deviation is not negative")
+        from statistics import NormalDist  # imported late: it takes longer than a short word
+
         unit = self.unit() + _UNIT / 2
         return float(mean) + float(deviation) * NormalDist().inv_cdf(unit)
 

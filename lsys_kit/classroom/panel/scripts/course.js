@@ -20,19 +20,19 @@ const KINDS = { panel, comparison, vote, prediction, worksheet, beside, rules };
 export function openCoursePage(outside = {}) {
   speak(JSON.parse(document.getElementById("lsys-data").textContent).words);
   const finished = offerDone(document.querySelector("[data-lesson]"));
-  tellOfLink();
+  tellOfLink(outside.opened);
   return openParts({ ...KINDS, ...outside }, cannot, { ballots: new Map(), outside, finished });
 }
 
-// A link in the address that is broken, or leads to a model of which the page has no panel, is said to do so.
-async function tellOfLink() {
+// A link in the address that is broken, or leads to a model of which the page has no panel, is said to do so; unless somebody opens it.
+async function tellOfLink(opened) {
   if (!hasLink(location.href)) return;
   const content = await unpackedLink(location.href), systems = [];
   JSON.parse(document.getElementById("lsys-data").textContent, (key, value) => {
     if (key === "system") systems.push(`${value.notation} ${value.text}`);
     return value;
   });
-  const notice = !content ? BROKEN : systems.includes(`${content.notation} ${content.text}`) ? null : ANOTHER;
+  const notice = !content ? BROKEN : systems.includes(`${content.notation} ${content.text}`) || opened?.(content) ? null : ANOTHER;
   if (notice) document.querySelector("main").prepend(made("p.lsys-message", { role: "status" }, `\u26a0 ${notice.message}. ${notice.hint}`));
 }
 
@@ -87,7 +87,7 @@ function vote(place, { asked: question, again, said }, page) {
   ballot.tellers.push(() => model.tell(saying()));
 }
 
-const votesOf = (key) => [0, 1].map((place) => ([0, 1, 2, 3].includes(keptAnswer(key)?.[place]) ? keptAnswer(key)[place] : -1));
+const votesOf = (key) => [0, 1].map((place) => [0, 1, 2, 3].indexOf(keptAnswer(key)?.[place])); // -1 where there is none
 
 const OPEN = "open"; // behind what was typed, where its answer was not asked for yet
 

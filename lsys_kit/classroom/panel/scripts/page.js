@@ -122,7 +122,7 @@ function isLost({ step, angle, seed, ...others }, { settings, letters, model: { 
   return Number(step) > book.steps || (book.chance && seed !== `${values.seed}`) || Object.entries(others).some(([name, text]) => shown[name] !== text);
 }
 
-function numberOf(text = "") {
+export function numberOf(text = "") {
   const [above, below = "1"] = text.split("/");
   return above === "" ? NaN : Number(above) / Number(below);
 }

@@ -2,25 +2,46 @@
 
 import { openCoursePage } from "../course.js";
 import { askForAnswer, practise } from "../lessons/exercises.js";
-import { keepAnswer, keptAnswer } from "../lessons/keeping.js";
-import { askingHost } from "../panels/asking_host.js";
+import { hasLink } from "../books/link.js";
+import { numberOf } from "../page.js";
+import { askingHost, openedHost } from "../panels/asking_host.js";
+import { openPanel } from "../panels/panel.js";
 import { made, speak, worded } from "../views/controls.js";
+import { handingIn, keepTry } from "./handing_in.js";
+import { keepOffline } from "./offline.js";
 import { pythonIn } from "./python.js";
 
 const ASKING = ["panel", "comparison", "beside", "exercise", "practice"]; // kinds of parts that may ask Python
-const TRIES = "tries", MOST_TRIES = 2_000; // under which name tries are kept, and how many
 
 export function openKitPage() {
   const { words, python, home, parts } = JSON.parse(document.getElementById("lsys-data").textContent);
   speak(words);
-  const bar = barOf(() => kit.begin()), kit = pythonIn(python, home, bar.show);
+  const bar = barOf(() => kit.begin()), kit = pythonIn(python, home, bar.show), offline = keepOffline(home);
+  kit.whenReady(async () => (await offline)?.());
   if (parts.some(({ kind, data }) => ASKING.includes(kind) || JSON.stringify(data).includes('"mode"'))) document.body.append(bar.element);
+  const how = { keeps: ["link"], keep: (_, question) => linked(kit.ask({ ...question, what: "link" })), soon: kit.whenReady };
+  addEventListener("hashchange", () => hasLink(location.href) && location.reload());
   openCoursePage({
-    hostWith: (data) => askingHost(data, kit.ask, { keeps: ["link"], keep: (_, question) => linked(kit.ask({ ...question, what: "link" })), soon: kit.whenReady }),
+    hostWith: (data) => askingHost(data, kit.ask, how),
+    opened: (content) => openLinked(content, kit.ask, how),
     exercise: (place, data) => askForAnswer(place, data, (question) => kit.ask({ ...question, kind: "check", id: data.id }), (said, answer) => keepTry(data.id, said, answer)),
     practice: (place, data) => practise(place, data, kit.ask, false),
   });
-  if (parts.some(({ kind }) => kind === "exercise")) document.querySelector("main").append(savingOf());
+  const ids = parts.flatMap(({ kind, data }) => (kind === "exercise" ? [data.id] : []));
+  if (ids.length) document.querySelector("main").append(handingIn(ids));
+}
+
+// A panel, above all else, with the model that a link in the address leads to.
+async function openLinked({ notation, text, settings: { step, angle, seed, letters, ...settings } }, ask, how) {
+  const said = made("p.lsys-message", { role: "status" }, worded("The model of the link in the address is opened.")), here = made("div"), place = made("div.part.part-panel.kit-linked", said, here);
+  document.querySelector("main").prepend(place);
+  const chosen = { ...(step && { step: Number(step) }), ...(angle && { angle: numberOf(angle) }), ...(seed && { seed: Number(seed) }) };
+  const opened = await ask({ kind: "open", panel: { notation, text, settings, ...chosen } });
+  if (opened.mistake) said.textContent = `\u26a0 ${opened.mistake.message}. ${opened.mistake.hint}`;
+  else {
+    openPanel(here, openedHost(opened, ask, how));
+    said.textContent = worded("This model came with the link in the address.");
+  }
 }
 
 // A link of the kit as an address of this page.
@@ -33,9 +54,9 @@ async function linked(asked) {
 function barOf(begin) {
   const text = made("p", { role: "status" }), meter = made("progress", { max: 1, hidden: true, "aria-label": worded("Python is fetched") });
   const button = made("button", { type: "button", onclick: begin }, worded("Start it"));
-  const element = made("aside.kit-bar", { "aria-label": "Python" }, text, meter, button);
+  const element = made("aside.kit-bar", { "aria-label": "Python" }, text, meter, button), isFile = location.protocol === "file:";
   const said = {
-    idle: () => worded("Python comes when rules or answers first need it: 15 MB."),
+    idle: () => (isFile ? worded("This page is a file: panels move, and votes and tables answer. Rules and exercises need a web server.") : worded("Python comes when rules or answers first need it: 15 MB.")),
     fetching: (part) => worded("Python is fetched: {percent} %", { percent: Math.round(100 * part) }),
     starting: () => worded("Python starts."),
     ready: () => worded("Python is there."),
@@ -51,31 +72,9 @@ function barOf(begin) {
     meter.hidden = !comes && state !== "ended";
     if (state === "fetching") meter.value = more;
     else meter.removeAttribute("value");
-    button.hidden = !["idle", "absent"].includes(state);
+    button.hidden = isFile || !["idle", "absent"].includes(state);
     button.textContent = state === "absent" ? worded("Try it again") : worded("Start it");
   }
   show("idle");
   return { element, show };
-}
-
-// Keep what was tried, as exercises/progress.py keeps it: not the same answer again, nor anything after the right one.
-function keepTry(id, said, answer) {
-  if (!["Correct", "Almost", "Not yet"].includes(said)) return;
-  const tries = triesSoFar(), own = tries.filter((each) => each.id === id);
-  if (own.some((each) => each.result === "solved" || each.answer === answer)) return;
-  const time = new Date(Date.now() - 60_000 * new Date().getTimezoneOffset()).toISOString().slice(0, 16).replace("T", " ");
-  keepAnswer(TRIES, [...tries, { time, id, result: said === "Correct" ? "solved" : "tried", answer }].slice(-MOST_TRIES));
-}
-
-const triesSoFar = () => (Array.isArray(keptAnswer(TRIES)) ? keptAnswer(TRIES) : []);
-
-// A button that saves them as the file progress.csv, which a copy of the course reads.
-function savingOf() {
-  const save = () => {
-    const rows = triesSoFar().map(({ time, id, result }) => `${time},${/[",]/.test(id) ? `"${id.replaceAll('"', '""')}"` : id},${result}`);
-    const address = URL.createObjectURL(new Blob([["time,exercise,result", ...rows, ""].join("\n")], { type: "text/csv" }));
-    made("a", { href: address, download: "progress.csv" }).click();
-    setTimeout(() => URL.revokeObjectURL(address), 60_000);
-  };
-  return made("p.kit-saving", made("button", { type: "button", onclick: save }, worded("Save what was tried: progress.csv")));
 }

@@ -2,6 +2,7 @@
 // and started anew where an answer takes too long. Nothing is sent anywhere: what is asked stays in the browser.
 
 import { worded } from "../views/controls.js";
+import { trusted } from "./trusted.js";
 
 // `data` is what site/python.py says of it; `home` is the address of the site. `told` hears in which state it is, and more of that state:
 // "fetching" with a part of 1, "starting", "ready", "ended" with the reason, "absent" with the reason.
@@ -93,12 +94,4 @@ export function pythonIn(data, home, told) {
       next();
     }),
   };
-}
-
-let policy;
-
-// An address of the site's own worker, as browsers want it that ask who has written it.
-function trusted(address) {
-  policy ??= /** @type {any} */ (window).trustedTypes?.createPolicy("lsys-worker", { createScriptURL: (text) => text });
-  return policy ? policy.createScriptURL(address) : address;
 }

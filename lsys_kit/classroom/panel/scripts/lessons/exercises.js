@@ -45,8 +45,8 @@ function paragraphs(text) {
 // the reply to it.
 export function askForAnswer(place, { id, kind, title, template, hints, options }, ask, tried = (said, answer) => void [said, answer]) {
   const said = made("p.lsys-said", { role: "status" }), more = made("div.exercise-more", { hidden: true });
-  const key = `exercise ${id}`, before = (id && keptAnswer(key)) || {};
-  let answer = String(before.answer ?? ""), hinted = 0;
+  const key = `exercise ${id}`;
+  let answer = "", hinted = 0;
   const keep = (reply = null) => id && keepAnswer(key, answer ? { answer, reply } : null);
 
   async function check(extra = {}) {
@@ -93,6 +93,13 @@ export function askForAnswer(place, { id, kind, title, template, hints, options 
 
   const hint = made("button", { type: "button", hidden: !hints, onclick: () => check({ hint: (hinted = Math.min(hints, hinted + 1)) }) }, worded("A hint"));
   more.append(hint, made("button", { type: "button", onclick: () => check({ solution: true }) }, worded("The solution")));
-  place.replaceChildren(made("section.lsys-lesson", { "aria-label": `${worded("Exercise")} ${id || title}` }, form(), said, more));
-  if (before.reply) show(before.reply);
+  function open() {
+    const before = (id && keptAnswer(key)) || {};
+    answer = String(before.answer ?? "");
+    place.replaceChildren(made("section.lsys-lesson", { "aria-label": `${worded("Exercise")} ${id || title}` }, form(), said, more));
+    if (before.reply) show(before.reply);
+  }
+
+  open();
+  if (id) addEventListener("storage", (event) => event.key?.endsWith(`: ${key}`) && open()); // another tab has kept an answer to it
 }

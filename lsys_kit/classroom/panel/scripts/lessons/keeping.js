@@ -5,18 +5,18 @@ const PREFIX = "lsys-kit: ", here = new Map();
 
 export function keptAnswer(question) {
   try {
-    return here.get(question) ?? JSON.parse(localStorage.getItem(PREFIX + question));
+    return here.get(question) ?? JSON.parse(localStorage[PREFIX + question]);
   } catch {
-    return null;
+    // nothing is kept
   }
 }
 
-// Nothing takes back what was kept.
+// Nothing takes back what was kept. What another tab keeps is seen in this one.
 export function keepAnswer(question, answer) {
   here.set(question, answer);
   try {
-    if (answer) localStorage.setItem(PREFIX + question, JSON.stringify(answer));
-    else localStorage.removeItem(PREFIX + question);
+    localStorage[PREFIX + question] = JSON.stringify(answer);
+    here.delete(question);
   } catch {
     // it is full, or not allowed
   }

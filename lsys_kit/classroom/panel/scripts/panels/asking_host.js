@@ -6,8 +6,16 @@ const SEEN = ["step", "angle", "around", "above", "seed", "mark", "settings"];
 
 // The host of a panel: what the page itself holds is at hand, and for all else `ask` asks. What can be kept is in `keeps`, and `keep` keeps
 // it, given its kind and a question that says how the panel stands; `soon` calls a function when there is somebody to ask.
-export async function askingHost(data, ask, { keeps, keep, soon }) {
-  const held = await hostWith(data, false), values = Object.fromEntries(["model", ...SEEN].map((name) => [name, held.get(name)]));
+export const askingHost = async (data, ask, how) => hostOf(await hostWith(data, false), data, ask, how);
+
+// The host of a panel of which the page holds nothing: `opened` is what was answered to a question of the kind "open".
+export function openedHost({ model, values, system }, ask, how) {
+  const held = { get: (name) => (name === "model" ? model : values[name]), book: async () => ({}) };
+  return hostOf(held, { model: { constants: [] }, system: { ...system, title: model.book.title } }, ask, how);
+}
+
+function hostOf(held, data, ask, { keeps, keep, soon }) {
+  const values = Object.fromEntries(["model", ...SEEN].map((name) => [name, held.get(name)]));
   const { get, set, on, tell } = store(values);
   const { title, file } = values.model.book;
   let system = { ...data.system, title: title.split(":")[0] }, first = true;
