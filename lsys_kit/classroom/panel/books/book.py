@@ -314,7 +314,7 @@ def _thrown(pages: _Pages, choices: Mapping[int, Choice], seed: int) -> Data:
     for state, (ends, total, productions, successors) in choices.items():
         if all(after in pages.numbers for row in successors for after in row):
             made = [[pages.numbers[after] for after in row] for row in successors]
-            rows[pages.numbers[state]] = [ends, total, productions, made]
+            rows[pages.numbers[state]] = [[*ends], total, [*productions], made]
     return {"choices": rows, "seed": str(seed), "most": MOST_MODULES}
 
 

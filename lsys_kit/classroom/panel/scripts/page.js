@@ -47,7 +47,7 @@ export function store(values) {
 function pageHost(data, books, linked, alone = true) {
   const held = heldSettings(data.model), relaxes = data.mode === "map", { step, angle, around, above, seed } = data.model;
   const answer = relaxes ? ({ constants }) => relaxedTo(bookAt(books, 0).book, constants) : (asked) => ofSeed(bookAt(books, held.rowAt(held.placesOf(asked))), asked.seed);
-  const ofSeed = (/** @type {any} */ found, asked) => (found.book?.choices || !found.book?.chance || data.model.seeds.length || asked === seed ? found : NOT_THERE);
+  const ofSeed = (found, asked) => (found.book?.choices || !found.book?.chance || data.model.seeds.length || asked === seed ? found : NOT_THERE);
   const first = Object.fromEntries(data.model.constants.map((each) => [each.name, each.texts[each.index]]));
   const values = { step, angle, around, above, seed, mark: "", letters: data.model.letters, ...linked.others, settings: { ...first, ...linked.settings } };
   const asked = () => ({ constants: values.settings, seed: values.seed, letters: values.letters });
@@ -99,6 +99,7 @@ function bookAt({ names, parts, rows }, at) {
   return found.mistake ? found : { book: found };
 }
 
+/** @type {any} */
 const NOT_THERE = { mistake: { message: "This page does not hold the book of these settings", hint: "Press reset, and move one slider alone." } };
 export const BROKEN = { message: "The link in the address is broken, and this page shows its own settings", hint: "Copy the whole link again." };
 export const ANOTHER = { message: "The link in the address leads to another model than that of this page", hint: "In Jupyter explore(\"...\") opens it." };

@@ -85,12 +85,12 @@ export function firstThrow(book) {
   return -1;
 }
 
-const waysOf = ([ends, total, , rows]) => rows.map((row, i) => [((ends[i] ?? total) - (ends[i - 1] ?? 0)) / total, row]);
+const oddsOf = ([ends, total, , rows]) => rows.map((row, i) => [((ends[i] ?? total) - (ends[i - 1] ?? 0)) / total, row]);
 
 // How many modules that are `counted` a word has on average after some steps.
 export function exactMean({ axiom, choices }, counted, steps) {
   let means = choices.map((_, state) => Number(counted(state)));
-  for (let step = 0; step < steps; step++) means = choices.map((each) => waysOf(each).reduce((sum, [share, row]) => sum + share * totalOf(row, means), 0));
+  for (let step = 0; step < steps; step++) means = choices.map((each) => oddsOf(each).reduce((sum, [share, row]) => sum + share * totalOf(row, means), 0));
   return totalOf(axiom, means);
 }
 
@@ -103,7 +103,7 @@ export function exactShares({ axiom, choices }, counted, steps) {
   try {
     for (let step = 0; step < steps; step++) {
       const before = shares;
-      shares = choices.map((each) => added(waysOf(each).map(([share, row]) => of(row, before).map((part) => share * part))));
+      shares = choices.map((each) => added(oddsOf(each).map(([share, row]) => of(row, before).map((part) => share * part))));
     }
     return of(axiom, shares);
   } catch (fault) {
