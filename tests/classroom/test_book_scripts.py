@@ -149,10 +149,7 @@ def test_of_random_systems(page, model):
                 book(model)
 
 
-@given(
-    st.sampled_from(["K7", "K8"]),
-    st.integers(-(2**70), 2**70),
-)
+@given(st.sampled_from(["K7", "K8"]), st.integers(-(2**70), 2**70))
 @settings(max_examples=25, suppress_health_check=[HealthCheck.function_scoped_fixture])
 def test_chance_is_thrown_in_the_browser_as_in_the_kernel_at_any_seed(page, name, seed):
     with limits(modules=3_000):

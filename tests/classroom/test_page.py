@@ -216,7 +216,9 @@ def test_where_chance_alone_has_a_say_a_page_holds_all_seeds_in_one_book() -> No
     data = page_data(found, seed=12)
     model = data["model"]
     assert (model["chance"], model["thrown"], model["seeds"], model["seed"], model["fixed"]) == (True, True, [], 12, "")
-    assert [each["choices"][0][:2] for each in books_of(data)] == [[[], 1.0], [[0.5], 1.0], [[1.0], 1.0]] or len(books_of(data)) == 3
+    assert [each["choices"][0][:2] for each in books_of(data)] == [[[], 1.0], [[0.5], 1.0], [[1.0], 1.0]] or len(
+        books_of(data)
+    ) == 3
 
 
 @pytest.mark.slow

@@ -22,7 +22,8 @@ VIEWS = ["word", "drawing", "unfolding"]
 MOST_MODULES = 1_500
 WAY = """
 const opened = openBook(given.book), { angle } = given.book.turtle;
-const betweenSteps = (step, part) => shapesBetween(opened, step, angle, part, [step, step + 1].map((each) => placed(traced(opened, each), angle)));
+const drawn = (step) => placed(traced(opened, step), angle);
+const betweenSteps = (step, part) => shapesBetween(opened, step, angle, part, [drawn(step), drawn(step + 1)]);
 const taken = ({ x, y, z, strokes, palette, pixel }) => Array.from(strokes.positions, (position, i) =>
   [position, ...[strokes.from[i], strokes.to[i]].map((point) => [x[point], y[point], z ? z[point] : 0]),
     [strokes.widths[i] / (strokes.widths[i] < 0 ? 1 : pixel), palette[strokes.colours[i]]]]);
@@ -39,6 +40,7 @@ OTHERS = {
     "turns that grow": "axiom: F +(10) F\n+(a) -> +(2*a)\nF -> F",
     "a branch that is cut": "axiom: F [ + F F ] F C(0)\nC(t) : t == 0 -> C(1)\nC(t) : t == 1 -> %\nF -> F F",
     "two letters replaced at once": "axiom: A B F\nA -> F [ + A ] B\nB -> F",
+    "a plant": "axiom: F\nF -> F[+F]F[-F]F",
     "widths": "axiom: !(0.2) F [ + A ] A\nA -> !(0.1) F A\n!(w) -> !(1.2*w)",
 }
 
@@ -52,9 +54,8 @@ def way(page, found, parts, most=MOST_MODULES):
     """For each step of a book, but the last, its strokes, those of the next step, and those of some parts of the way."""
     with limits(modules=most, seconds=5):
         made = book(found)
-    return answers(
-        page, WAY, {"book": made, "steps": [*range(min(made["steps"], 6))], "parts": parts}, *TURTLE, "chance", "book", "unfolded"
-    )
+    asked = {"book": made, "steps": [*range(min(made["steps"], 6))], "parts": parts}
+    return answers(page, WAY, asked, *TURTLE, "chance", "book", "unfolded")
 
 
 def size(start, end):
@@ -79,30 +80,35 @@ def looks(strokes):
     return found
 
 
-def expect_ends(page, found):
-    for ends in way(page, found, [0, 1]):
-        begun, done = ends["parts"]
-        for one, other in ((chains(begun), chains(ends["before"])),):
-            assert one.keys() == other.keys()
-            for position, places in one.items():
-                for place, same in zip(places, other[position], strict=True):
-                    assert place == pytest.approx(same, abs=1e-9, rel=1e-9)
-        assert looks(begun).keys() == looks(ends["before"]).keys()
-        for position, there in looks(begun).items():
-            allowed = looks(ends["before"])[position]
-            for width, colour in there:
-                assert any(colour == same and width == pytest.approx(wide, abs=1e-9, rel=1e-9) for wide, same in allowed)
-        drawn, later = ([each[1:] for each in strokes if size(*each[1:3]) > 1e-12] for strokes in (done, ends["after"]))
-        assert len(drawn) == len(later)
-        for (*one, (width, colour)), (*other, (wide, same)) in zip(drawn, later, strict=True):
-            for place, there in zip(one, other, strict=True):
-                assert place == pytest.approx(there, abs=1e-9, rel=1e-9)
-            assert (width, colour) == (pytest.approx(wide, abs=1e-9, rel=1e-9), same)
+def expect_ends(page, found, *parts):
+    """The ends of the way are the steps; so are other parts of it, next to its ends, as far as one can see."""
+    for ends in way(page, found, [0, 1, *parts]):
+        for number in range(0, len(ends["parts"]), 2):
+            expect_end(ends, *ends["parts"][number : number + 2])
+
+
+def expect_end(ends, begun, done):
+    for one, other in ((chains(begun), chains(ends["before"])),):
+        assert one.keys() == other.keys()
+        for position, places in one.items():
+            for place, same in zip(places, other[position], strict=True):
+                assert place == pytest.approx(same, abs=1e-9, rel=1e-9)
+    assert looks(begun).keys() == looks(ends["before"]).keys()
+    for position, there in looks(begun).items():
+        allowed = looks(ends["before"])[position]
+        for width, colour in there:
+            assert any(colour == same and width == pytest.approx(wide, abs=1e-9, rel=1e-9) for wide, same in allowed)
+    drawn, later = ([each[1:] for each in strokes if size(*each[1:3]) > 1e-12] for strokes in (done, ends["after"]))
+    assert len(drawn) == len(later)
+    for (*one, (width, colour)), (*other, (wide, same)) in zip(drawn, later, strict=True):
+        for place, there in zip(one, other, strict=True):
+            assert place == pytest.approx(there, abs=1e-9, rel=1e-9)
+        assert (width, colour) == (pytest.approx(wide, abs=1e-9, rel=1e-9), same)
 
 
 @pytest.mark.parametrize("text", OTHERS.values(), ids=OTHERS)
 def test_the_unfolding_begins_with_a_step_and_ends_with_the_next(page, text):
-    expect_ends(page, read(text))
+    expect_ends(page, read(text), 1e-14, 1 - 1e-14)
 
 
 def drawn_by_turtles():

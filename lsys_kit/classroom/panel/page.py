@@ -85,7 +85,11 @@ def unasked(models: Sequence[Entries]) -> frozenset[str]:
     ['chance', 'gallery', 'motion', 'sample', 'sentence', 'unfolding', 'walk']
     """
     shown = {view for model in models for view in model.get("show") or ()} & _MOTIONS
-    wanted = {*shown, *{"motion" for _ in shown}, *(each for each, key in _CHOSEN.items() for model in models if model.get(key))}
+    wanted = {
+        *shown,
+        *{"motion" for _ in shown},
+        *(each for each, key in _CHOSEN.items() for model in models if model.get(key)),
+    }
     return frozenset({"motion", *_CHOSEN, *_MOTIONS} - wanted)
 
 
