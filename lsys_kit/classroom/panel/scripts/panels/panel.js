@@ -74,7 +74,7 @@ export function openPanel(element, host, compared = null) {
   const rules = rulesView(view.rules.body, newRules, () => seen.settings);
   const word = wordView(view.word.body, (position, way) => trace(seen.step, position, way, view.word), (position) => point({ step: seen.step, position }));
   const net = netView(view.stages.body, (place) => toggleMark(place), (place) => point({ place }), () => view.stages.enlarge());
-  const motion = motions?.open(view, sentence, () => ({ ...sides(), book, traced, boxed, theme, asked: request(), sow, sown: (seed) => books.book({ ...request(), seed }) }), trace, light, goTo);
+  const motion = motions?.open(view, sentence, () => ({ ...sides(), book, traced, boxed, theme, asked: request(), turnTo, sow, sown: (seed) => books.book({ ...request(), seed }) }), trace, light, goTo);
   const drawing = drawingView(view.drawing.body, {
     ...motion,
     view: () => [seen.around, seen.above],
