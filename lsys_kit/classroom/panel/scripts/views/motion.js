@@ -9,7 +9,7 @@ import { worded } from "./controls.js";
 // As the panel gives what there is to be seen, `trace`, `light` and `goTo` to the views; given back are also two ways for a drawing, one that
 // paints in place of its own, and one that gives other shapes.
 function open(view, sentence, seen, trace, light, goTo) {
-  const walk = walkView?.(view.walk, sentence, seen, trace, light), unfolding = unfoldingView?.(view.unfolding, seen, light, goTo), sample = sampleView?.(view.sample, seen), all = [walk, unfolding, sample].filter(Boolean);
+  const walk = walkView?.(view.walk, sentence, seen, trace, light), unfolding = unfoldingView?.(view.unfolding, view.stages, seen, light, goTo), sample = sampleView?.(view.sample, seen), all = [walk, unfolding, sample].filter(Boolean);
   return {
     over: (pen, shapes, frame, look) => (frame ? walk?.paint(pen, shapes, frame, look) : unfolding?.paint(pen, shapes, look)),
     between: (now) => unfolding?.between(now) ?? null,

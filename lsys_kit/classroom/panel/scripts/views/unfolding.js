@@ -1,5 +1,5 @@
-// The unfolding: one slider from a step to the next, on which every module becomes its successor in place; and the word, whose letters part.
-// Where it is asked for, one rule is applied after another.
+// The unfolding: one slider from a step to the next, on which every module becomes its successor in place; the word, whose letters part;
+// and the tokens, which run along their arcs. Where it is asked for, one rule is applied after another.
 
 import { hasOrder, isSequential, oneAfterAnother } from "../books/sequential.js";
 import { clamped, times } from "../books/numbers.js";
@@ -7,6 +7,7 @@ import { paintDividing } from "../drawing/dividing.js";
 import { unfoldedShapes } from "../drawing/unfolded.js";
 import { button, face, list, made, slider, worded } from "./controls.js";
 import { roving } from "./folding.js";
+import { runTokens } from "./tokens.js";
 import { labelled } from "./word.js";
 
 const PARTS = times(101, String); // hundredths of the way
@@ -17,7 +18,7 @@ const MOST_LETTERS = 150, MOST = 50_000; // modules of which the word is shown, 
 
 // `seen` says what there is: { book, step, angle, boxed }; `light` shows it again, and `goTo` goes to a step; with `turnTo`, another book
 // is shown.
-export function unfoldingView(view, seen, light, goTo) {
+export function unfoldingView(view, stages, seen, light, goTo) {
   const still = matchMedia("(prefers-reduced-motion: reduce)");
   let part = 0, shown = "", known = null, frame = 0, last = 0, seconds = Number(SPEEDS[1]), groups = [], together = null;
   const bar = slider("unfolding", worded("hundredths of the way from this step to the next"), PARTS, 0, (at) => {
@@ -84,6 +85,7 @@ export function unfoldingView(view, seen, light, goTo) {
   function show() {
     const now = present(), { book, step } = now, key = `${step} ${part}`;
     if (!view.open) stop();
+    if (stages.open) runTokens(stages.body, book, step, view.open && known === book && shown.startsWith(`${step} `) && canUnfold(now) ? part : 0);
     if (known !== book || !shown.startsWith(`${step} `)) part = 0;
     if (!view.open || (known === book && shown === key)) return;
     if (!said.isConnected) view.body.prepend(...parts); // it is opened for the first time
