@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from functools import cache
+from functools import cache, partial
 from graphlib import TopologicalSorter
 from importlib.resources import files
 from importlib.resources.abc import Traversable
@@ -22,6 +22,7 @@ Data: TypeAlias = dict[str, Any]
 """What scripts are given, as JSON has it."""
 _IMPORT = re.compile(r'^import \{([^{}]*)\} from "(?:[./\w]*/)?(\w+)\.js";\n', re.MULTILINE)
 _CONSTANT = re.compile(r"^export const (\w+) = [^\n{(]*;\n", re.MULTILINE)
+_FUNCTION = re.compile(r"^export (?:async )?function (\w+).*\n(?>(?:(?!}|export ).*\n)*)}\n", re.MULTILINE)
 _EXPORT = re.compile(r"^export (?=(?:async )?(?:function|const|class) (\w+))", re.MULTILINE)
 _WIDGET = re.compile(r"^export default .*\n", re.MULTILINE)
 """By which a script is a widget of Jupyter."""
@@ -61,16 +62,18 @@ def _plain(text: str) -> str:
 
 
 def _enclosed(name: str, left_out: bool, imported: frozenset[str]) -> str:
-    """A script as a function that returns what others import of it, without constants that no script asks for; none of it
-    where it is left out."""
-    text = _CONSTANT.sub(
-        lambda found: found[0] if found[1] in imported or len(re.findall(rf"\b{found[1]}\b", source(name))) > 1 else "",
-        source(name),
-    )
+    """A script as a function that returns what others import of it, without functions and constants that no script asks for;
+    none of it where it is left out."""
+    text = _CONSTANT.sub(partial(_asked_for, imported), _FUNCTION.sub(partial(_asked_for, imported), source(name)))
     exported = f"{{ {', '.join(each for each in _EXPORT.findall(text) if each in imported)} }}"
     if left_out:
         return f"const {exported} = {{}};\n"
     return f"const {exported} = (() => {{\n{_WIDGET.sub('', _plain(text))}return {exported};\n}})();\n"
+
+
+def _asked_for(imported: frozenset[str], found: re.Match[str]) -> str:
+    """What is exported, if another script or its own asks for it."""
+    return found[0] if found[1] in imported or len(re.findall(rf"\b{found[1]}\b", found.string)) > 1 else ""
 
 
 @cache

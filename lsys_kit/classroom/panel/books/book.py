@@ -1,10 +1,10 @@
 """The book of a system: all that a browser needs to show its steps, for one setting of the constants, as JSON.
 
 The table of states is small, so it is sent once and the browser turns the pages. Where a state alone decides what becomes of
-it, the book holds the successors and the browser makes the words; where chance alone has a say besides, it holds what each state
-may become, and the browser throws the dice (`choices`); where neighbours or questions to the turtle have a say, it holds the
-words of the steps as numbers, and where their modules come from. It says how each state is drawn, and holds the stage diagram
-with its layout. There is no arithmetic of models in the browser, and no grammar: it expands tables and moves
+it, the book holds the successors and the browser makes the words; where chance alone has a say besides, it holds what each
+state may become, and the browser throws the dice (`choices`); where neighbours or questions to the turtle have a say, it holds
+the words of the steps as numbers, and where their modules come from. It says how each state is drawn, and holds the stage
+diagram with its layout. There is no arithmetic of models in the browser, and no grammar: it expands tables and moves
 points.
 
 All text in it is plain text, never markup: whoever shows it makes text nodes of it. What would not show is a question mark, but
