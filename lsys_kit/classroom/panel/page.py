@@ -36,8 +36,8 @@ _OF_EDITORS = frozenset(("undoing", "resuming"))
 _MOTIONS = frozenset(("walk", "unfolding", "sample"))
 """The views that have scripts of their own, which are called so."""
 _CHOSEN = {"letters": "letters", "sentence": "sentence", "gallery": "chance", "chance": "thrown"}
-"""What else has a script of its own, and the entry of a panel's model that asks for it; variants, which no page has, ask for the
-gallery, too."""
+"""What else has a script of its own, and the entry of a panel's model that asks for it. No page has variants, which would ask
+for the gallery, too."""
 
 
 def page(title: str, data: Entries, description: str, language: str = "en") -> str:
