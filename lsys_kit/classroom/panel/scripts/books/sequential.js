@@ -4,7 +4,7 @@
 import { worded } from "../views/controls.js";
 import { openBook } from "./book.js";
 
-const LONGEST = 3_000; // modules of a word
+const LONGEST_WORD = 3_000; // modules of a word
 
 export const isSequential = ({ data }) => Boolean(data.program);
 
@@ -20,7 +20,7 @@ export function oneAfterAnother({ data: given, steps }) {
     const at = doing.length, line = program[at % program.length], word = words.at(-1), meets = (state) => data.applied[state] === line;
     if (word.some((state) => data.applied[state] < 0 && !successors[state].length)) break; // a state of the last step, of which nothing is known
     const rows = Array.from(word, (state) => (meets(state) ? successors[state] : [state]));
-    if (rows.flat().length > LONGEST) break;
+    if (rows.flat().length > LONGEST_WORD) break;
     words.push(Int32Array.from(rows.flat()));
     daughters.push(Int32Array.from(rows, (row) => row.length));
     made.push(word.map((state) => (meets(state) ? line : -1)));

@@ -1,6 +1,7 @@
 // The sample: plants of the seeds 0, 1, 2, ... one by one, and what is counted of them as a histogram that grows bar by bar; with their mean, how
 // far it may be off, and on demand what is exact, and which throw came first.
 
+import { openBook } from "../books/book.js";
 import { exactMean, exactShares, firstThrow } from "../books/chance.js";
 import { grouped, times } from "../books/numbers.js";
 import { paintTile } from "../drawing/gallery.js";
@@ -65,9 +66,9 @@ export function sampleView(view, seen) {
   async function more(many) {
     const asked = key, number = ++going, { book } = seen(), step = Math.min(seen().step, book.steps);
     for (let i = 0; i < many && plants.length < MOST; i++) {
-      const seed = plants.length, answer = await seen().sown(seed);
+      const seed = plants.length, answer = known.choices ? { book: openBook({ ...known, seed, steps: step }) } : await seen().sown(seed);
       if (key !== asked || number !== going || seed !== plants.length) return;
-      if (!answer.book) return tell(answer.mistake.message);
+      if (answer.mistake) return tell(answer.mistake.message);
       plants.push(measured(answer.book, step, seed));
       if (many - i <= TILES) paintPlant(answer.book, step, seed);
     }
