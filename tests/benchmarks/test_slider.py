@@ -128,7 +128,7 @@ def test_from_key_press_to_after_paint(benchmark, open_notebook, write_notebook,
 def test_a_frame_of_the_unfolding(benchmark, browser, tmp_path, id, step):
     """At 60 frames a second a frame has 16.7 ms; K5 becomes its 3,125 strokes."""
     explore(id, step, show=["drawing", "unfolding"]).save(tmp_path / "page.html")
-    page = browser.new_page(viewport={"width": 1440, "height": 900})
+    page = browser.new_page(viewport={"width": 1440, "height": 900}, bypass_csp=True)
     page.add_init_script(FRAMES)
     page.goto((tmp_path / "page.html").as_uri())
     page.locator("canvas[data-drawn]").wait_for()
