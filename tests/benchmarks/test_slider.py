@@ -33,6 +33,17 @@ WATCH = """async ([panel, changing]) => {
     const watcher = new MutationObserver(() => (inFrame ? told() : requestAnimationFrame(told)));
     watcher.observe(changing, { attributes: true, childList: true, subtree: true, characterData: true });
 }"""
+FRAMES = """window.frames_seen = [];
+const ask = window.requestAnimationFrame.bind(window);
+let last = 0;
+window.requestAnimationFrame = (act) => ask((time) => {
+    const begun = performance.now();
+    act(time);
+    if (time !== last) window.frames_seen.push(0);
+    window.frames_seen[window.frames_seen.length - 1] += performance.now() - begun;
+    last = time;
+});"""
+"""How many milliseconds the scripts of a page work in each frame."""
 BARE = """import ipywidgets
 slider, text = ipywidgets.IntSlider(5, 0, 60), ipywidgets.HTML("5")
 slider.observe(lambda change: setattr(text, "value", str(change["new"])), "value")
@@ -79,10 +90,11 @@ def test_a_plant_is_turned_in_the_kernel(benchmark, step):
         ("explore('K5', 1)", "step", "canvas.lsys-canvas"),
         ("explore('K5', 6)", "angle", "canvas.lsys-canvas"),
         ("explore('K19', 12)", "around", "canvas.lsys-canvas"),
+        ("explore('K5', 3, show=['drawing', 'walk'])", "command", "canvas.lsys-canvas"),
         (f"explore(read({GROWN!r}), 5)", "c", "canvas.lsys-canvas"),
         (BARE, None, ".bare"),
     ],
-    ids=["step of J4", "step of K5", "angle of 15,625 strokes", "side of K19", "a new constant", "bare"],
+    ids=["step of J4", "step of K5", "angle of 15,625 strokes", "side of K19", "walk", "a new constant", "bare"],
 )
 def test_from_key_press_to_after_paint(benchmark, open_notebook, write_notebook, source, name, changing):
     """In a real JupyterLab, at a pace of ten keys a second where numbers are asked for."""
@@ -109,3 +121,26 @@ def test_from_key_press_to_after_paint(benchmark, open_notebook, write_notebook,
     median, slow = statistics.median(found), found[int(0.95 * len(found))]
     benchmark.extra_info |= {"median ms": round(median, 2), "95th percentile ms": round(slow, 2)}
     print(f"\n{name or 'bare'}: median {median:.1f} ms, 95th percentile {slow:.1f} ms of {len(found)}")
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize(("id", "step"), [("J4", 14), ("K5", 4), ("K19", 7)])
+def test_a_frame_of_the_unfolding(benchmark, browser, tmp_path, id, step):
+    """At 60 frames a second a frame has 16.7 ms; K5 becomes its 3,125 strokes."""
+    explore(id, step, show=["drawing", "unfolding"]).save(tmp_path / "page.html")
+    page = browser.new_page(viewport={"width": 1440, "height": 900}, bypass_csp=True)
+    page.add_init_script(FRAMES)
+    page.goto((tmp_path / "page.html").as_uri())
+    page.locator("canvas[data-drawn]").wait_for()
+    frames = 100 if benchmark.enabled else 5
+
+    def unfold():
+        page.locator("[data-view=unfolding] .lsys-play").click()
+        page.evaluate("frames_seen.length = 0")
+        page.wait_for_function(f"frames_seen.length > {frames}")
+
+    benchmark.pedantic(unfold, rounds=1)
+    found = sorted(page.evaluate("frames_seen"))
+    page.close()
+    benchmark.extra_info |= {"median ms": round(statistics.median(found), 2)}
+    print(f"\n{id}: median {statistics.median(found):.1f} ms of {len(found)} frames")

@@ -31,10 +31,13 @@ HEIGHT = """[...document.querySelectorAll(".jp-WindowedPanel-outer")].find((each
 EDGES = "each => [each.getBoundingClientRect().top, each.getBoundingClientRect().bottom]"
 VISIBLE_VIEWS = """panel => [...panel.querySelectorAll("[data-view]")].filter((each) => each.checkVisibility()).map(
     (each) => [each.dataset.view, each.getBoundingClientRect().top, each.getBoundingClientRect().bottom])"""
+PAINTED = "canvas[data-drawn], [data-view=sample] svg"
+"""What is there when a panel is."""
 PATIENCE = 200
 """How often one looks whether a view has changed."""
 SEEN = """panel => [
-    ...panel.querySelectorAll(".lsys-word"), ...panel.querySelectorAll(".lsys-status")].map(view => view.innerText).concat(
+    ...panel.querySelectorAll(".lsys-word"), ...panel.querySelectorAll(".lsys-status"),
+    ...panel.querySelectorAll("[data-view=sample] .lsys-caption")].map(view => view.innerText).concat(
     [...panel.querySelectorAll("[data-place]")].map(stage => stage.getAttribute("aria-label")),
     [...panel.querySelectorAll("canvas.lsys-canvas")].map(canvas => canvas.dataset.drawn)).join("\\n")"""
 
@@ -102,7 +105,7 @@ class Reader:
         return str(self._panel.evaluate(SEEN))
 
     def _await_change(self, before: str) -> None:
-        self._panel.locator("canvas[data-drawn]").first.wait_for()
+        self._panel.locator(PAINTED).first.wait_for()
         for _ in range(PATIENCE):
             if self._see() != before:
                 return
@@ -119,7 +122,7 @@ class Reader:
             self._used.clear()
         cells = sorted({*self._notebook.cells_showing("explore("), *self._notebook.cells_showing("compare(")})
         whole = self._notebook.output(cells[int(number)]).locator(".lsys-panel").first
-        whole.locator("canvas[data-drawn]").first.wait_for()
+        whole.locator(PAINTED).first.wait_for()
         behind = whole.get_by_role("button", name="more", exact=True, expanded=False)
         while behind.count():  # it may have been left open, and then a panel is as high as it can be
             behind.first.click()
@@ -157,7 +160,7 @@ class Reader:
             return
         before = self._see()
         button.click()
-        if button.get_attribute("aria-pressed") == "true":
+        if name in VIEWS and button.get_attribute("aria-pressed") == "true":
             expect(self._panel.locator(f'[data-view="{VIEWS[name]}"]').first).to_be_visible()
             self._use(self._panel.locator(f'[data-view="{VIEWS[name]}"]').first)
         else:

@@ -25,6 +25,7 @@ from lsys_kit.pictures.nets.diagram import drawn_stages
 from lsys_kit.pictures.nets.parts import arrowhead
 from lsys_kit.pictures.style.labels import visible
 from lsys_kit.pictures.style.palette import GREEN, colours
+from tests.classroom.test_map_book import whole
 from tests.plugin import AN_HOUR
 from tests.test_hostile_names import HOSTILE
 
@@ -116,7 +117,33 @@ def test_a_book_holds_the_settings_as_exact_texts():
 
 def test_the_seed_makes_a_difference_where_there_is_chance():
     assert [book(system(name))["chance"] for name in ("J1", "K7")] == [False, True]
-    assert len({json.dumps(book(system("K7"), seed=seed)["words"]) for seed in range(3)}) == 3
+    assert len({json.dumps(book(system("K9"), seed=seed)["states"]) for seed in range(3)}) == 3
+
+
+def test_where_chance_alone_has_a_say_a_book_holds_what_may_come_and_no_words():
+    made = book(system("K7"), seed=1)
+    ends, total, productions, successors = made["choices"][made["axiom"][0]]
+    assert (ends, total, productions) == ([0.33, 0.66], 0.99, [0, 1, 2])
+    told = ["".join(made["states"][state][3] for state in row) for row in successors]
+    assert told == ["F[+F]F[-F]F", "F[+F]F", "F[-F]F"]
+    assert (made["seed"], "words" in made) == ("1", False)
+    assert len(json.dumps(made)) < 5_000
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "axiom: A(1)\nA(x) -> A(2*x) : 1\nA(x) -> A(2*x+1) : 1",  # too many states
+        "axiom: A\nA -> A(1/0) : 1\nA -> A A : 1000000",  # what hardly ever comes has no value
+        "axiom: A A\nA -> B : 1\nA -> A : 1\nA < B -> A",
+        "axiom: A\nA -> A(uniform(0, 1)) : 1\nA -> A : 1",
+    ],
+)
+def test_elsewhere_a_book_holds_the_words_at_its_seed(text):
+    found = read(text)
+    made = book(found, seed=3, least=12)
+    assert "choices" not in made
+    assert [len(whole(each)) for each in made["words"]] == derive(found, made["steps"], seed=3).lengths
 
 
 def test_colours_are_those_of_the_pictures():

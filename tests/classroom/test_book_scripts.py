@@ -76,7 +76,7 @@ PAINTED = """([data, step, look]) => {
 @pytest.fixture(scope="module")
 def page(browser):
     tab = browser.new_page()
-    tab.add_script_tag(content=joined("constants", "numbers", "colours", "outlines", "filament", "book"))
+    tab.add_script_tag(content=joined("constants", "numbers", "colours", "outlines", "filament", "chance", "book"))
     yield tab
     tab.close()
 
@@ -147,6 +147,16 @@ def test_of_random_systems(page, model):
         except LSystemError:
             with pytest.raises(LSystemError):
                 book(model)
+
+
+@given(st.sampled_from(["K7", "K8"]), st.integers(-(2**70), 2**70))
+@settings(max_examples=25, suppress_health_check=[HealthCheck.function_scoped_fixture])
+def test_chance_is_thrown_in_the_browser_as_in_the_kernel_at_any_seed(page, name, seed):
+    with limits(modules=3_000):
+        made = book(system(name), seed=seed)
+        assert "words" not in made
+        found = called(page, "", PAGES, [sent(made), made["steps"]])
+        assert found["lengths"] == derive(system(name), made["steps"], seed=seed).lengths
 
 
 def test_words_that_answer_questions_are_those_that_are_shown(page):

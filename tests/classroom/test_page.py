@@ -196,7 +196,7 @@ def test_what_is_asked_for_is_on_the_page_before_all_else(monkeypatch) -> None:
 
 @pytest.mark.slow
 def test_a_page_has_the_nine_seeds_and_all_that_have_room(monkeypatch) -> None:
-    found = read("p = 0.5 in 0 .. 1 by 1/2\naxiom: A\nA -> A B : p\nA -> A : 1-p")
+    found = read("p = 0.5 in 0 .. 1 by 1/2\naxiom: A\nA -> A B : p\nA -> A : 1-p\nA < B > A -> B")
     data = page_data(found, seed=12)
     books, constants = books_of(data), [Fraction(0), Fraction(1, 2), 1]
     assert data["model"]["seeds"] == [*map(str, range(9, 45))]
@@ -208,6 +208,17 @@ def test_a_page_has_the_nine_seeds_and_all_that_have_room(monkeypatch) -> None:
     assert few["fixed"].startswith("This page holds the seeds 9 to 17. p and seed move one at a time: ")
     monkeypatch.setattr(panel_page, "MOST_BOOKS", 3)
     assert page_data(found, seed=12)["model"]["fixed"] == "Fixed on this page: seed = 12."
+
+
+@pytest.mark.slow
+def test_where_chance_alone_has_a_say_a_page_holds_all_seeds_in_one_book() -> None:
+    found = read("p = 0.5 in 0 .. 1 by 1/2\naxiom: A\nA -> A B : p\nA -> A : 1-p")
+    data = page_data(found, seed=12)
+    model = data["model"]
+    assert (model["chance"], model["thrown"], model["seeds"], model["seed"], model["fixed"]) == (True, True, [], 12, "")
+    assert [each["choices"][0][:2] for each in books_of(data)] == [[[], 1.0], [[0.5], 1.0], [[1.0], 1.0]] or len(
+        books_of(data)
+    ) == 3
 
 
 @pytest.mark.slow

@@ -22,11 +22,14 @@ VIEWS = ["word", "drawing", "unfolding"]
 MOST_MODULES = 1_500
 WAY = """
 const opened = openBook(given.book), { angle } = given.book.turtle;
-const taken = ({ x, y, z, strokes }) => Array.from(strokes.positions, (position, i) =>
-  [position, ...[strokes.from[i], strokes.to[i]].map((point) => [x[point], y[point], z ? z[point] : 0])]);
+const drawn = (step) => placed(traced(opened, step), angle);
+const betweenSteps = (step, part) => shapesBetween(opened, step, angle, part, [drawn(step), drawn(step + 1)]);
+const taken = ({ x, y, z, strokes, palette, pixel }) => Array.from(strokes.positions, (position, i) =>
+  [position, ...[strokes.from[i], strokes.to[i]].map((point) => [x[point], y[point], z ? z[point] : 0]),
+    [strokes.widths[i] / (strokes.widths[i] < 0 ? 1 : pixel), palette[strokes.colours[i]]]]);
 return given.steps.map((step) => ({
   before: taken(placed(traced(opened, step), angle)), after: taken(placed(traced(opened, step + 1), angle)),
-  parts: given.parts.map((part) => taken(shapesBetween(opened, step, angle, part))),
+  parts: given.parts.map((part) => taken(betweenSteps(step, part))),
 }));
 """
 OTHERS = {
@@ -37,6 +40,7 @@ OTHERS = {
     "turns that grow": "axiom: F +(10) F\n+(a) -> +(2*a)\nF -> F",
     "a branch that is cut": "axiom: F [ + F F ] F C(0)\nC(t) : t == 0 -> C(1)\nC(t) : t == 1 -> %\nF -> F F",
     "two letters replaced at once": "axiom: A B F\nA -> F [ + A ] B\nB -> F",
+    "a plant": "axiom: F\nF -> F[+F]F[-F]F",
     "widths": "axiom: !(0.2) F [ + A ] A\nA -> !(0.1) F A\n!(w) -> !(1.2*w)",
 }
 
@@ -50,9 +54,8 @@ def way(page, found, parts, most=MOST_MODULES):
     """For each step of a book, but the last, its strokes, those of the next step, and those of some parts of the way."""
     with limits(modules=most, seconds=5):
         made = book(found)
-    return answers(
-        page, WAY, {"book": made, "steps": [*range(min(made["steps"], 6))], "parts": parts}, *TURTLE, "book", "unfolded"
-    )
+    asked = {"book": made, "steps": [*range(min(made["steps"], 6))], "parts": parts}
+    return answers(page, WAY, asked, *TURTLE, "chance", "book", "unfolded")
 
 
 def size(start, end):
@@ -62,30 +65,50 @@ def size(start, end):
 def chains(strokes):
     """For each module that draws how far it draws, and from where to where."""
     found = {}
-    for position, group in itertools.groupby((each for each in strokes if size(*each[1:]) > 1e-12), key=lambda each: each[0]):
+    for position, group in itertools.groupby((each for each in strokes if size(*each[1:3]) > 1e-12), key=lambda each: each[0]):
         rows = [*group]
-        found.setdefault(position, []).extend([rows[0][1], rows[-1][2], [sum(size(*row[1:]) for row in rows)]])
+        found.setdefault(position, []).extend([rows[0][1], rows[-1][2], [sum(size(*row[1:3]) for row in rows)]])
     return found
 
 
-def expect_ends(page, found):
-    for ends in way(page, found, [0, 1]):
-        begun, done = ends["parts"]
-        for one, other in ((chains(begun), chains(ends["before"])),):
-            assert one.keys() == other.keys()
-            for position, places in one.items():
-                for place, same in zip(places, other[position], strict=True):
-                    assert place == pytest.approx(same, abs=1e-9, rel=1e-9)
-        drawn, later = ([each[1:] for each in strokes if size(*each[1:]) > 1e-12] for strokes in (done, ends["after"]))
-        assert len(drawn) == len(later)
-        for one, other in zip(drawn, later, strict=True):
-            for place, same in zip(one, other, strict=True):
+def looks(strokes):
+    """For each module that draws how broad, and of which colours, its strokes are."""
+    found = {}
+    for position, start, end, look in strokes:
+        if size(start, end) > 1e-12:
+            found.setdefault(position, []).append(look)
+    return found
+
+
+def expect_ends(page, found, *parts):
+    """The ends of the way are the steps; so are other parts of it, next to its ends, as far as one can see."""
+    for ends in way(page, found, [0, 1, *parts]):
+        for number in range(0, len(ends["parts"]), 2):
+            expect_end(ends, *ends["parts"][number : number + 2])
+
+
+def expect_end(ends, begun, done):
+    for one, other in ((chains(begun), chains(ends["before"])),):
+        assert one.keys() == other.keys()
+        for position, places in one.items():
+            for place, same in zip(places, other[position], strict=True):
                 assert place == pytest.approx(same, abs=1e-9, rel=1e-9)
+    assert looks(begun).keys() == looks(ends["before"]).keys()
+    for position, there in looks(begun).items():
+        allowed = looks(ends["before"])[position]
+        for width, colour in there:
+            assert any(colour == same and width == pytest.approx(wide, abs=1e-9, rel=1e-9) for wide, same in allowed)
+    drawn, later = ([each[1:] for each in strokes if size(*each[1:3]) > 1e-12] for strokes in (done, ends["after"]))
+    assert len(drawn) == len(later)
+    for (*one, (width, colour)), (*other, (wide, same)) in zip(drawn, later, strict=True):
+        for place, there in zip(one, other, strict=True):
+            assert place == pytest.approx(there, abs=1e-9, rel=1e-9)
+        assert (width, colour) == (pytest.approx(wide, abs=1e-9, rel=1e-9), same)
 
 
 @pytest.mark.parametrize("text", OTHERS.values(), ids=OTHERS)
 def test_the_unfolding_begins_with_a_step_and_ends_with_the_next(page, text):
-    expect_ends(page, read(text))
+    expect_ends(page, read(text), 1e-14, 1 - 1e-14)
 
 
 def drawn_by_turtles():
@@ -110,7 +133,7 @@ def test_the_panel_and_the_films_of_the_kit_unfold_alike(page, id):
     found = read(OTHERS[id]) if id in OTHERS else system(id)
     for step, ends in enumerate(way(page, found, [0.3, 0.75], 500)):
         for part, strokes in zip((0.3, 0.75), ends["parts"], strict=True):
-            drawn = np.array([[*start, *end] for _, start, end in strokes]).reshape(-1, 6)
+            drawn = np.array([[*start, *end] for _, start, end, _ in strokes]).reshape(-1, 6)
             assert drawn == pytest.approx(by_kit(found, step, part), abs=1e-9, rel=1e-9)
 
 

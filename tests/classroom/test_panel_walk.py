@@ -175,7 +175,7 @@ def test_a_page_has_the_walk_where_it_is_open(tmp_path):
         sizes[len(views)] = (tmp_path / "page.html").stat().st_size
         panel.close()
     assert 2_000 < sizes[2] - sizes[1] < 8_000
-    assert unasked([{"show": ["walk"]}]) == {"letters", "sentence", "unfolding"}
+    assert unasked([{"show": ["walk"]}]) == {"chance", "gallery", "letters", "sample", "sentence", "unfolding"}
 
 
 def test_every_text_of_the_walk_can_be_translated():

@@ -22,6 +22,7 @@ Data: TypeAlias = dict[str, Any]
 """What scripts are given, as JSON has it."""
 _IMPORT = re.compile(r'^import \{([^{}]*)\} from "(?:[./\w]*/)?(\w+)\.js";\n', re.MULTILINE)
 _CONSTANT = re.compile(r"^export const (\w+) = [^\n{(]*;\n", re.MULTILINE)
+_FUNCTION = re.compile(r"export (?:async )?function (\w+)")
 _EXPORT = re.compile(r"^export (?=(?:async )?(?:function|const|class) (\w+))", re.MULTILINE)
 _WIDGET = re.compile(r"^export default .*\n", re.MULTILINE)
 """By which a script is a widget of Jupyter."""
@@ -61,16 +62,30 @@ def _plain(text: str) -> str:
 
 
 def _enclosed(name: str, left_out: bool, imported: frozenset[str]) -> str:
-    """A script as a function that returns what others import of it, without constants that no script asks for; none of it
-    where it is left out."""
-    text = _CONSTANT.sub(
-        lambda found: found[0] if found[1] in imported or len(re.findall(rf"\b{found[1]}\b", source(name))) > 1 else "",
-        source(name),
-    )
+    """A script as a function that returns what others import of it, without functions and constants that no script asks for;
+    none of it where it is left out."""
+    whole = source(name)
+    text = _CONSTANT.sub(lambda found: found[0] if _is_asked_for(found[1], whole, imported) else "", _called(whole, imported))
     exported = f"{{ {', '.join(each for each in _EXPORT.findall(text) if each in imported)} }}"
     if left_out:
         return f"const {exported} = {{}};\n"
     return f"const {exported} = (() => {{\n{_WIDGET.sub('', _plain(text))}return {exported};\n}})();\n"
+
+
+def _is_asked_for(name: str, text: str, imported: frozenset[str]) -> bool:
+    """Whether another script imports what one exports, or it calls it itself."""
+    return name in imported or len(re.findall(rf"\b{name}\b", text)) > 1
+
+
+def _called(text: str, imported: frozenset[str]) -> str:
+    """A script without the functions that nobody calls, each of which ends with a brace in a line of its own."""
+    kept, left_out = [], False
+    for line in text.splitlines(keepends=True):
+        head = _FUNCTION.match(line)
+        left_out = left_out or (head is not None and not _is_asked_for(head[1], text, imported))
+        kept += [] if left_out else [line]
+        left_out = left_out and line != "}\n"
+    return "".join(kept)
 
 
 @cache

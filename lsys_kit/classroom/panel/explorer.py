@@ -48,7 +48,7 @@ _BROKEN_OFF = LSystemError("The kernel was interrupted before this was finished"
 
 _MOVED = {"sync": True, "echo_update": False}
 """What a hand moves: an echo of where it was would take it back from where it is by now."""
-VIEWS = ("rules", "word", "stages", "drawing", "walk", "unfolding", "counts", "seeds", "variants")
+VIEWS = ("rules", "word", "stages", "drawing", "walk", "unfolding", "sample", "counts", "seeds", "variants")
 """The views of a panel, from left to right."""
 
 
@@ -411,10 +411,11 @@ def explore(
     unfold
         A symbol, or several, whose stages the diagram shows one by one, or True for all, as for `stages`.
     show
-        The views that are open at first, one or a list of `rules`, `word`, `stages`, `drawing`, `walk`, `unfolding`, `counts`,
-        `seeds` and `variants`; by default the word, the stages and the drawing. The rules are a click away, and the others
-        stand with the tools behind a button. In the walk the turtle obeys the word command by command; in the unfolding every
-        module becomes its successor in place. A page has these two where they are open.
+        The views that are open at first, one or a list of `rules`, `word`, `stages`, `drawing`, `walk`, `unfolding`, `sample`,
+        `counts`, `seeds` and `variants`; by default the word, the stages and the drawing. The rules are a click away, and the
+        others stand with the tools behind a button. In the walk the turtle obeys the word command by command; in the unfolding
+        every module becomes its successor in place; in the sample the plants of many seeds are counted one by one. A page has
+        these three where they are open.
     letters
         Constants, one or a list, that are letters at first: in place of the numbers that are made of them stand formulas, and
         the drawing goes on with the numbers. Each constant with a slider has a switch for that.

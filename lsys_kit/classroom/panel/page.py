@@ -34,10 +34,11 @@ _NOT_NEEDED = {
 """The scripts that draw other systems than that of a page, by the way in which it is drawn."""
 _OF_EDITORS = frozenset(("undoing", "resuming"))
 """The scripts of rules that can be changed, as those of a page cannot."""
-_MOTIONS = frozenset(("walk", "unfolding"))
+_MOTIONS = frozenset(("walk", "unfolding", "sample"))
 """The views that have scripts of their own, which are called so."""
-_CHOSEN = ("letters", "sentence")
-"""What else has a script of its own, which is called so."""
+_CHOSEN = {"letters": "letters", "sentence": "sentence", "gallery": "chance", "chance": "thrown"}
+"""What else has a script of its own, and the entry of a panel's model that asks for it. No page has variants, which would ask
+for the gallery, too."""
 
 
 def page(title: str, data: Entries, description: str, language: str = "en") -> str:
@@ -65,10 +66,7 @@ def page(title: str, data: Entries, description: str, language: str = "en") -> s
 </main>
 """
     model = data.get("model", {})
-    gallery = frozenset(
-        () if model.get("chance") else ("gallery",)
-    )  # of a page's panels these have other seeds, and none variants
-    unused = not_needed(data["mode"]) | unasked([model]) | _OF_EDITORS | gallery
+    unused = not_needed(data["mode"]) | unasked([model]) | _OF_EDITORS
     script = f'"use strict";\n{compact("page", unused)}\nopenPage();\n'
     return document(title, body, STYLE, description, Program(script, style("panel"), data), language)
 
@@ -86,10 +84,14 @@ def unasked(models: Sequence[Entries]) -> frozenset[str]:
     """The scripts of what no panel of a page asks for.
 
     >>> sorted(unasked([{"letters": ["a"]}, {"show": ["drawing"]}]))
-    ['motion', 'sentence', 'unfolding', 'walk']
+    ['chance', 'gallery', 'motion', 'sample', 'sentence', 'unfolding', 'walk']
     """
     shown = {view for model in models for view in model.get("show") or ()} & _MOTIONS
-    wanted = {*shown, *{"motion" for _ in shown}, *(each for each in _CHOSEN for model in models if model.get(each))}
+    wanted = {
+        *shown,
+        *{"motion" for _ in shown},
+        *(each for each, key in _CHOSEN.items() for model in models if model.get(key)),
+    }
     return frozenset({"motion", *_CHOSEN, *_MOTIONS} - wanted)
 
 

@@ -1,9 +1,10 @@
 """The book of a system: all that a browser needs to show its steps, for one setting of the constants, as JSON.
 
 The table of states is small, so it is sent once and the browser turns the pages. Where a state alone decides what becomes of
-it, the book holds the successors and the browser makes the words; where neighbours, chance or questions to the turtle have a
-say, it holds the words of the steps as numbers, and where their modules come from. It says how each state is drawn, and holds
-the stage diagram with its layout. There is no arithmetic of models in the browser, and no grammar: it expands tables and moves
+it, the book holds the successors and the browser makes the words; where chance alone has a say besides, it holds what each
+state may become, and the browser throws the dice (`choices`); where neighbours or questions to the turtle have a say, it holds
+the words of the steps as numbers, and where their modules come from. It says how each state is drawn, and holds the stage
+diagram with its layout. There is no arithmetic of models in the browser, and no grammar: it expands tables and moves
 points.
 
 All text in it is plain text, never markup: whoever shows it makes text nodes of it. What would not show is a question mark, but
@@ -24,6 +25,7 @@ from itertools import accumulate, pairwise
 from typing import Any, TypeAlias
 
 from lsys_kit.budget import Task, counted, current, limits
+from lsys_kit.classroom.panel.books.choices import Choice, choices_of
 from lsys_kit.classroom.panel.books.net import Unfolding, net_entry, net_of
 from lsys_kit.classroom.panel.bundle import Data
 from lsys_kit.classroom.panel.labels import noun_of
@@ -111,7 +113,12 @@ def book(
     with Task("The book was not finished"):
         derivation, end, decided = _derived(system, given, seed, least, letters)
         states = numbered(derivation.states)
-        pages = _pages(derivation, states, end)
+        choices = {} if letters else choices_of(states, len(derivation) - 1)
+        try:
+            pages = _pages(derivation, states, end, choices)
+        except LSystemError:  # what comes at another seed may have no picture
+            choices = {}
+            pages = _pages(derivation, states, end, choices)
         net, diagram = net_entry(lambda: net_of(system, given, unfold))
         symbols, rows = _labels(states, pages.numbers, net)
         return {
@@ -132,7 +139,13 @@ def book(
             "steps": pages.last,
             "end": pages.end,
             "axiom": [pages.numbers[state] for state in states.axiom],
-            **(_table(states, pages.numbers) if states.traits.d0l else _history(derivation, pages)),
+            **(
+                _thrown(pages, choices, (system.seed or 0) if seed is None else seed)
+                if choices
+                else _table(states, pages.numbers)
+                if states.traits.d0l
+                else _history(derivation, pages)
+            ),
             "net": diagram,
             **drawing_entries(states, [*pages.numbers], pages.drawn, pages.last),
             "growth": growth_entry(system, given),
@@ -186,12 +199,12 @@ def sentence(error: LSystemError) -> str:
     return f"{error.message}." if isinstance(error, ModelLimitError) else f"{error.message}. {error.hint or ''}".rstrip()
 
 
-def _pages(derivation: Derivation, states: States, end: str) -> _Pages:
-    """The steps whose states can be drawn and that fit into a book."""
+def _pages(derivation: Derivation, states: States, end: str, choices: Mapping[int, Choice]) -> _Pages:
+    """The steps whose states can be drawn and that fit into a book; with all states that chance may make."""
     mode = drawing_mode(states.system)
     pages, size = _Pages(end=end), 0
     for step, length in enumerate(derivation.lengths):
-        new = sorted(set(derivation.counts(step)).difference(pages.numbers))
+        new = sorted({*derivation.counts(step), *choices}.difference(pages.numbers))
         try:
             drawn = drawn_rows(states, new, mode)
         except LSystemError as error:
@@ -202,7 +215,7 @@ def _pages(derivation: Derivation, states: States, end: str) -> _Pages:
         size += _size(states, new, drawn) + FORMULA_BYTES * sum(
             map(_terms, (derivation.states.modules[state] for state in new))
         )
-        size += 0 if states.traits.d0l else HISTORY_BYTES * length
+        size += 0 if states.traits.d0l or choices else HISTORY_BYTES * length
         if step and size > MOST_BYTES:
             pages.end = f"The panel ends at step {step - 1}: step {step} has too many more modules, or too many different ones."
             break
@@ -293,6 +306,16 @@ def _table(states: States, numbers: Mapping[int, int]) -> Data:
         "successors": [[numbers[s] for s in rows[state]] if state in rows else [] for state in numbers],
         "applied": [-1 if state not in rows or (made := states.production(state)) is None else made for state in numbers],
     }
+
+
+def _thrown(pages: _Pages, choices: Mapping[int, Choice], seed: int) -> Data:
+    """What each state may become, 0 for those of the last step, and the seed."""
+    rows: list[object] = [0] * len(pages.numbers)
+    for state, (ends, total, productions, successors) in choices.items():
+        if all(after in pages.numbers for row in successors for after in row):
+            made = [[pages.numbers[after] for after in row] for row in successors]
+            rows[pages.numbers[state]] = [[*ends], total, [*productions], made]
+    return {"choices": rows, "seed": str(seed), "most": MOST_MODULES}
 
 
 def _history(derivation: Derivation, pages: _Pages) -> Data:

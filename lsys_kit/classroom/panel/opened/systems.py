@@ -129,14 +129,18 @@ class OpenedSystem:
         start[held.SEED] = chosen.seed
         shelf = _Shelf(self, start, chosen.step, chosen.letters)
         first = shelf.first()
-        sown = chosen.seed if first["chance"] and "seed" not in self._without else None
+        seeds, thrown = first["chance"] and "seed" not in self._without, "choices" in first
+        sown = chosen.seed if seeds and not thrown else None
         kept = _held(shelf, self.values, sown, asked)
         fixed = {
-            name: value for name, value in start.items() if name not in kept.values and (name != held.SEED or first["chance"])
+            name: value
+            for name, value in start.items()
+            if name not in kept.values and (name != held.SEED or (first["chance"] and not (seeds and thrown)))
         }
         model = {
             "constants": [slider(name, kept.values[name], start[name]) for name in self.values if name in kept.values],
-            "chance": held.SEED in kept.values,
+            "chance": seeds and (thrown or held.SEED in kept.values),
+            **({"thrown": True} if thrown else {}),
             "seeds": [*map(number_text, kept.values.get(held.SEED, ()))],
             "together": kept.together,
             "fixed": held.held_text(fixed, kept, self.values),

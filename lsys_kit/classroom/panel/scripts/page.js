@@ -46,7 +46,8 @@ export function store(values) {
 
 function pageHost(data, books, linked, alone = true) {
   const held = heldSettings(data.model), relaxes = data.mode === "map", { step, angle, around, above, seed } = data.model;
-  const answer = relaxes ? ({ constants }) => relaxedTo(bookAt(books, 0).book, constants) : (asked) => bookAt(books, held.rowAt(held.placesOf(asked)));
+  const answer = relaxes ? ({ constants }) => relaxedTo(bookAt(books, 0).book, constants) : (asked) => ofSeed(bookAt(books, held.rowAt(held.placesOf(asked))), asked.seed);
+  const ofSeed = (found, asked) => (found.book?.choices || !found.book?.chance || data.model.seeds.length || asked === seed ? found : NOT_THERE);
   const first = Object.fromEntries(data.model.constants.map((each) => [each.name, each.texts[each.index]]));
   const values = { step, angle, around, above, seed, mark: "", letters: data.model.letters, ...linked.others, settings: { ...first, ...linked.settings } };
   const asked = () => ({ constants: values.settings, seed: values.seed, letters: values.letters });
@@ -93,11 +94,13 @@ function relaxedTo(book, settings) {
 
 // The book of a row, or the mistake that there is none; books share what they have in common.
 function bookAt({ names, parts, rows }, at) {
-  if (at < 0) return { mistake: { message: "This page does not hold the book of these settings", hint: "Press reset, and move one slider alone." } };
+  if (at < 0) return NOT_THERE;
   const found = Object.fromEntries(names.flatMap((name, i) => (rows[at][i] < 0 ? [] : [[name, parts[i][rows[at][i]]]])));
   return found.mistake ? found : { book: found };
 }
 
+/** @type {any} */
+const NOT_THERE = { mistake: { message: "This page does not hold the book of these settings", hint: "Press reset, and move one slider alone." } };
 export const BROKEN = { message: "The link in the address is broken, and this page shows its own settings", hint: "Copy the whole link again." };
 export const ANOTHER = { message: "The link in the address leads to another model than that of this page", hint: "In Jupyter explore(\"...\") opens it." };
 const NOT_HELD = { message: "This page does not hold all that the link in its address says", hint: "What it lacks stands at its first value, or at the last step." };
@@ -109,7 +112,7 @@ async function linkedSettings({ model, system }) {
   if (content.notation !== system.notation || content.text !== system.text) return { others, settings, notice: ANOTHER };
   const { step, angle, seed = "0", letters = "" } = content.settings, turn = numberOf(angle);
   if (model.lettered) others.letters = model.lettered.filter((name) => letters.split(",").includes(name));
-  if (model.chance && model.seeds.includes(seed)) others.seed = Number(seed);
+  if (model.chance && (model.seeds.length ? model.seeds.includes(seed) : /^-?\d{1,15}$/.test(seed))) others.seed = Number(seed);
   if (/^\d{1,9}$/.test(step)) others.step = Number(step);
   if (turn >= 0 && turn <= 180) others.angle = Math.round(turn * 10) / 10;
   for (const { name, texts } of model.constants) if (texts.includes(content.settings[name])) settings[name] = content.settings[name];

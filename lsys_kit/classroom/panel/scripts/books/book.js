@@ -1,17 +1,19 @@
 // A book that the kernel has sent, opened at any step: its words, how often each state occurs, mothers and daughters.
 //
-// Where a state alone decides what becomes of it, words are made here, each by copying successors from a table; other books hold
-// the words. A module that was there when several were replaced together counts as a mother with them.
+// Where a state alone decides what becomes of it, words are made here, each by copying successors from a table; where chance decides
+// besides, they are thrown at a seed (chance.js); other books hold the words. A module that was there when several were replaced together counts as a mother with them.
 //
-// The books of one model are kept by their settings: each is asked for at most once. Another model has a library of its own.
+// The books of one model are kept by their settings: each is asked for at most once, and one that is thrown serves all seeds. Another model
+// has a library of its own.
 
+import { thrown } from "./chance.js";
 import { withFormulas } from "../views/letters.js";
 import { whole } from "./numbers.js";
 
 const HELD = 4_000_000; // modules of words that are kept
 
-export function openBook(data) {
-  const { states, steps } = data, settled = "successors" in data;
+export function openBook(given) {
+  const data = given.choices ? thrown(given) : given, { states, steps } = data, settled = "successors" in data;
   const table = settled && rowsOf(data.successors), lengths = new Float64Array(steps + 1).fill(-1);
   const words = kept((step) => (settled ? expanded(step) : whole(data.words[step])));
   const starts = kept((step) => summed(settled ? spread(words(step)) : whole(data.daughters[step])));
@@ -163,10 +165,11 @@ function lastUpTo(starts, position) {
 }
 
 const MOST_BYTES = 2e6; // of books that were fetched before anybody asked for them
+const MOST_THROWN = 20; // books of other seeds that are kept
 const LONGEST = 400; // milliseconds of fetching such books, after which no other is begun
 
 export function library(host) {
-  const books = new Map();
+  const books = new Map(), sown = [];
   let fetched = 0, fetching = 0;
 
   const keyOf = (settings) => JSON.stringify([Object.entries(settings.constants).sort(), settings.seed, settings.letters]);
@@ -174,13 +177,26 @@ export function library(host) {
   function keep(settings, data) {
     const key = keyOf(settings);
     if (!books.has(key)) fetched += JSON.stringify(data).length;
+    if (data.choices) {
+      books.set(keyOf({ ...settings, seed: null }), data);
+      if (Number(data.seed) !== settings.seed) return known(settings); // it stands for all seeds
+    }
     books.set(key, openBook(settings.letters?.length ? withFormulas(data) : data));
     return books.get(key);
   }
 
+  // A book that there is, or that is thrown from one of another seed.
+  function known(settings) {
+    const key = keyOf(settings), data = books.get(key) ?? books.get(keyOf({ ...settings, seed: null }));
+    if (!data?.choices) return data;
+    if (sown.push(key) > MOST_THROWN) books.delete(sown.shift());
+    books.set(key, openBook({ ...data, seed: settings.seed }));
+    return books.get(key);
+  }
+
   async function book(settings) {
-    const known = books.get(keyOf(settings));
-    if (known) return { book: known };
+    const there = known(settings);
+    if (there) return { book: there };
     const answer = await host.book(settings);
     return answer.book ? { book: keep(settings, answer.book) } : { mistake: answer.mistake };
   }
@@ -198,7 +214,7 @@ export function library(host) {
     fetching += 1;
   }
 
-  return { book, keep, fetchAhead, close, known: (settings) => books.get(keyOf(settings)) };
+  return { book, keep, fetchAhead, close, known };
 }
 
 // The settings that one movement of a slider leads to.

@@ -1,9 +1,9 @@
 // The settings that a page without a kernel holds, as lsys_kit/classroom/panel/held.py chooses them: all combinations of some
 // sliders, and each other slider alone, while the rest stands at first values.
 
-// `model` has the sliders of constants, and perhaps one of seeds, which has no name.
-export function heldSettings({ constants, chance, seeds, seed, together = [] }) {
-  const sliders = chance ? [...constants, { name: "", texts: seeds, index: seeds.indexOf(String(seed)) }] : constants;
+// `model` has the sliders of constants, and perhaps one of seeds, which has no name; where all seeds are held it has no texts.
+export function heldSettings({ constants, seeds = [], seed, together = [] }) {
+  const sown = seeds.length > 0, sliders = sown ? [...constants, { name: "", texts: seeds, index: seeds.indexOf(String(seed)) }] : constants;
   const joined = sliders.map((each) => together.includes(each.name)), atFirst = (place, i) => place === sliders[i].index;
   const first = sliders.map((each) => each.index), grid = sliders.reduce((many, each, i) => (joined[i] ? many * each.texts.length : many), 1);
 
@@ -29,7 +29,7 @@ export function heldSettings({ constants, chance, seeds, seed, together = [] }) 
 
   const settingsAt = (places) => ({
     constants: Object.fromEntries(constants.map(({ name, texts }, i) => [name, texts[places[i]]])),
-    seed: chance ? Number(seeds[places.at(-1)]) : seed,
+    ...(sown && { seed: Number(seeds[places.at(-1)]) }),
   });
 
   function told(places, back) {

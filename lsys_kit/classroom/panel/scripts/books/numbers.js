@@ -19,9 +19,9 @@ export function bytesOf(text) {
   return Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
 }
 
-// Whole numbers from the text of their bytes, the lowest first.
-export function whole({ type, data }) {
-  return Int32Array.from(new KINDS[type](bytesOf(data).buffer));
+// Whole numbers from the text of their bytes, the lowest first, where they are not numbers already.
+export function whole(given) {
+  return given.type ? Int32Array.from(new KINDS[given.type](bytesOf(given.data).buffer)) : given;
 }
 
 // The text of a deflated stream, which may have no more than so many bytes.

@@ -84,7 +84,7 @@ function galleryView(parent, chosen) {
   return { open, show };
 }
 
-function paintTile(canvas, book, now, look) {
+export function paintTile(canvas, book, now, look) {
   const sheet = cleared(canvas, look.theme), plain = { theme: look.theme, marked: new Set(), lit: new Map(), litAt: () => new Map(), current: -1 };
   if (!sheet) return;
   const { pen, width, height } = sheet;

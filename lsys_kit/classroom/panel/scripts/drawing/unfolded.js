@@ -3,8 +3,10 @@
 // A part of the way from 0 to 1 is drawn by the turtle itself, from a word in between. It has the modules of the later step, whose commands
 // are on their way: at 0 they do together what those of the mother did, at 1 what they are. A stroke of the mother is shared out among those
 // on the trunk of its successor, in the proportion of their lengths; a command that both have goes from one number to the other; what the
-// successor has besides grows from nothing, and what it lacks shrinks to nothing. So the drawing at 0 and at 1 is that of the steps.
+// successor has besides grows from nothing, and what it lacks shrinks to nothing. How broad a stroke is, and its natural colour, goes from that of
+// the mother's stroke to its own, since both follow from the whole plant. So the drawing at 0 and at 1 is that of the steps.
 
+import { RAMP_END, RAMP_START } from "./constants.js";
 import { placed, traced } from "./turtle.js";
 
 const AHEAD = ["draw", "move", "draw without vertex", "move without vertex"];
@@ -15,12 +17,12 @@ const BRACKETS = ["push", "pop", "begin polygon", "record vertex", "end polygon"
 const INFINITE = 1e300; // in books
 const unfoldings = new WeakMap();
 
-// The word between a step and the next: { word, rows, ways, mothers }, the modules as numbers, of each number the state of which it looks,
-// and its commands on their way, and of each module the position of its mother in the word before.
+// The word between a step and the next: { word, rows, ways, mothers, later }, the modules as numbers, of each number the state of which it
+// looks, and its commands on their way, and of each module the position of its mother in the word before, and its own in the later word.
 function unfoldingOf(book, step) {
   const known = unfoldings.get(book);
   if (known?.step === step) return known;
-  const before = book.word(step), after = book.word(step + 1), numbers = new Map(), word = [], rows = [], ways = [], mothers = [];
+  const before = book.word(step), after = book.word(step + 1), numbers = new Map(), word = [], rows = [], ways = [], mothers = [], later = [];
   for (let first = 0, next = 1; first < before.length; first = next++) {
     const [from, to] = book.daughters(step, first);
     while (next < before.length && from !== to && book.daughters(step, next)[0] === from) next++;
@@ -32,12 +34,13 @@ function unfoldingOf(book, step) {
         return ways.push(way) - 1;
       }));
     }
-    for (const number of numbers.get(key)) {
+    numbers.get(key).forEach((number, i) => {
       word.push(number);
       mothers.push(first);
-    }
+      later.push(to > from ? from + i : -1);
+    });
   }
-  const found = { step, word: Int32Array.from(word), rows, ways, mothers };
+  const found = { step, word: Int32Array.from(word), rows, ways, mothers, later };
   unfoldings.set(book, found);
   return found;
 }
@@ -123,14 +126,42 @@ function shrinking(call) {
 export function unfoldedShapes(book, step, angle, part) {
   const ends = [step, Math.min(step + 1, book.steps)].map((each) => placed(traced(book, each), angle));
   if (part <= 0 || part >= 1) return ends[part <= 0 ? 0 : 1];
-  return { ...shapesBetween(book, step, angle, part), typical: (1 - part) * ends[0].typical + part * ends[1].typical };
+  return { ...shapesBetween(book, step, angle, part, ends), typical: (1 - part) * ends[0].typical + part * ends[1].typical };
 }
 
-function shapesBetween(book, step, angle, part) {
-  const { mode, symbols, turtle } = book.data, { word, rows, ways, mothers } = unfoldingOf(book, step);
+function shapesBetween(book, step, angle, part, ends) {
+  const { mode, symbols, turtle } = book.data, { word, rows, ways, mothers, later } = unfoldingOf(book, step);
   const calls = ways.map((way) => way.map((each) => each(part)).filter(Boolean));
   const shapes = placed(traced({ data: { mode, symbols, states: rows, turtle: { ...turtle, calls } }, word: () => word }, 0), angle);
   const named = (group) => ({ ...group, positions: group.positions.map((position) => mothers[position]) });
-  const [strokes, faces, rounds] = [shapes.strokes, shapes.faces, shapes.rounds].map(named);
-  return { ...shapes, strokes, faces, rounds };
+  const looks = looksBetween(shapes, ends, [mothers, later], part, turtle.colours.slice(RAMP_START, RAMP_END + 1));
+  return { ...shapes, palette: looks.palette, faces: named(shapes.faces), rounds: named(shapes.rounds), strokes: { ...named(shapes.strokes), ...looks.strokes } };
+}
+
+// The widths and colours of strokes between those of two steps, given where each module stands in both; natural colours go through the
+// shades of the ramp, and others change in the middle.
+function looksBetween({ strokes: { n, positions, ...own }, palette, pixel }, ends, places, part, ramp) {
+  const first = ends.map(({ strokes }) => firstStrokes(strokes)), names = [...palette], widths = own.widths.slice(), colours = own.colours.slice();
+  const numberOf = (name) => (names.includes(name) ? names.indexOf(name) : names.push(name) - 1);
+  for (let i = 0, nth = 0; i < n; i++) {
+    nth = i && positions[i] === positions[i - 1] ? nth + 1 : 0;
+    const pair = ends.map((_, end) => {
+      const [from, to] = first[end].get(places[end][positions[i]]) ?? [0, 0];
+      return from < to ? Math.min(from + nth, to - 1) : -1;
+    });
+    if (Math.max(...pair) < 0) continue;
+    const [one, other] = pair.map((at, end) => (at < 0 ? [1 - end, pair[1 - end]] : [end, at])); // what one step lacks looks as in the other
+    const [wide, wider] = [one, other].map(([end, at]) => ends[end].strokes.widths[at] / ends[end].pixel);
+    if (wide >= 0 && wider >= 0) widths[i] = way(wide, wider, part) * pixel;
+    const [name, next] = [one, other].map(([end, at]) => ends[end].palette[ends[end].strokes.colours[at]]), shades = [name, next].map((each) => ramp.indexOf(each));
+    colours[i] = numberOf(Math.min(...shades) < 0 ? (part < 0.5 ? name : next) : ramp[Math.round(way(...shades, part))]);
+  }
+  return { palette: names, strokes: { widths, colours } };
+}
+
+// For each module that draws strokes from which up to which.
+function firstStrokes({ n, positions }) {
+  const found = new Map();
+  for (let i = 0; i < n; i++) found.set(positions[i], [found.get(positions[i])?.[0] ?? i, i + 1]);
+  return found;
 }

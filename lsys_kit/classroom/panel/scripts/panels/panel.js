@@ -56,7 +56,7 @@ export function openPanel(element, host, compared = null) {
   const above = side("above", worded("above"), worded("the height from which it is seen: 0 is the side, 90 the top"), 90);
   const mark = list("mark", worded("the stage that is marked in all views"), [["", worded("no stage")]], "", (name) => change({ mark: name }), worded("mark"));
   const scale = list("size", worded("one scale for all steps, or each step as large as it fits"), [["fit", worded("fit each step")], ["same", worded("one scale")]], "fit", () => show(), worded("size"));
-  const seed = slider("seed", worded("the seed of the random numbers"), SEEDS, 0, (_, text) => host.set("seed", Number(text)), worded("seed"), { bar: false, whole: !seen.model.seeds });
+  const seed = slider("seed", worded("the seed of the random numbers"), SEEDS, 0, (_, text) => host.set("seed", Number(text)), worded("seed"), { bar: false, whole: !seen.model.seeds?.length });
   const die = button("die", worded("another seed, at random"), () => sow(Number(seedTexts()[Math.floor(Math.random() * seedTexts().length)])));
   seed.element.append(die);
   const play = player(() => ({ now: seen.step, most: book.steps }), goTo, () => show());
@@ -74,7 +74,7 @@ export function openPanel(element, host, compared = null) {
   const rules = rulesView(view.rules.body, newRules, () => seen.settings);
   const word = wordView(view.word.body, (position, way) => trace(seen.step, position, way, view.word), (position) => point({ step: seen.step, position }));
   const net = netView(view.stages.body, (place) => toggleMark(place), (place) => point({ place }), () => view.stages.enlarge());
-  const motion = motions?.open(view, sentence, () => ({ ...sides(), book, traced, boxed }), trace, light, goTo);
+  const motion = motions?.open(view, sentence, () => ({ ...sides(), book, traced, boxed, theme, asked: request(), turnTo, sow, sown: (seed) => books.book({ ...request(), seed }) }), trace, light, goTo);
   const drawing = drawingView(view.drawing.body, {
     ...motion,
     view: () => [seen.around, seen.above],

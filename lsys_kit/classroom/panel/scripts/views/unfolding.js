@@ -1,10 +1,13 @@
-// The unfolding: one slider from a step to the next, on which every module becomes its successor in place; and the word, whose letters part.
+// The unfolding: one slider from a step to the next, on which every module becomes its successor in place; the word, whose letters part;
+// and the tokens, which run along their arcs. Where it is asked for, one rule is applied after another.
 
+import { hasOrder, isSequential, oneAfterAnother } from "../books/sequential.js";
 import { clamped, times } from "../books/numbers.js";
 import { paintDividing } from "../drawing/dividing.js";
 import { unfoldedShapes } from "../drawing/unfolded.js";
 import { button, face, list, made, slider, worded } from "./controls.js";
 import { roving } from "./folding.js";
+import { runTokens } from "./tokens.js";
 import { labelled } from "./word.js";
 
 const PARTS = times(101, String); // hundredths of the way
@@ -13,10 +16,11 @@ const SPEEDS = ["6", "3", "1.5"]; // seconds from a step to the next
 const STILLS = 4; // with reduced motion so many pictures of a step
 const MOST_LETTERS = 150, MOST = 50_000; // modules of which the word is shown, and of which the drawing unfolds
 
-// `seen` says what there is: { book, step, angle, boxed }; `light` shows it again, and `goTo` goes to a step.
-export function unfoldingView(view, seen, light, goTo) {
+// `seen` says what there is: { book, step, angle, boxed }; `light` shows it again, and `goTo` goes to a step; with `turnTo`, another book
+// is shown.
+export function unfoldingView(view, stages, seen, light, goTo) {
   const still = matchMedia("(prefers-reduced-motion: reduce)");
-  let part = 0, shown = "", known = null, frame = 0, last = 0, seconds = Number(SPEEDS[1]), groups = [];
+  let part = 0, shown = "", known = null, frame = 0, last = 0, seconds = Number(SPEEDS[1]), groups = [], together = null;
   const bar = slider("unfolding", worded("hundredths of the way from this step to the next"), PARTS, 0, (at) => {
     stop();
     put(at / 100);
@@ -25,7 +29,13 @@ export function unfoldingView(view, seen, light, goTo) {
   const speed = list("unfolds", worded("seconds from a step to the next"), SPEEDS.map((each) => [each, each]), SPEEDS[1], (each) => { seconds = Number(each); }, worded("seconds"));
   const player = made("div.lsys-player", { role: "toolbar", "aria-label": worded("let it unfold") }, play);
   const said = made("div.lsys-caption", { role: "status" }), word = made("div.lsys-word", { "aria-hidden": "true" });
-  const parts = [made("div.lsys-controls", player, bar.element, speed.element), said, word];
+  const hint = worded("as a program does that works rule after rule"), order = button(worded("one rule after another"), hint, () => {
+    const { book, step, turnTo } = seen(), back = isSequential(book);
+    if (!back) together = book;
+    turnTo(back ? together : oneAfterAnother(book));
+    goTo(back ? Math.floor(step / book.data.program.length) : 0);
+  });
+  const parts = [made("div.lsys-controls", player, bar.element, speed.element, order), said, word];
   roving(player);
 
   const most = ({ book }) => book.steps;
@@ -75,14 +85,18 @@ export function unfoldingView(view, seen, light, goTo) {
   function show() {
     const now = present(), { book, step } = now, key = `${step} ${part}`;
     if (!view.open) stop();
+    if (stages.open) runTokens(stages.body, book, step, view.open && known === book && shown.startsWith(`${step} `) && canUnfold(now) ? part : 0);
     if (known !== book || !shown.startsWith(`${step} `)) part = 0;
     if (!view.open || (known === book && shown === key)) return;
     if (!said.isConnected) view.body.prepend(...parts); // it is opened for the first time
     if (known !== book || !shown.startsWith(`${step} `)) openWord(now);
     [known, shown] = [book, `${step} ${part}`];
+    order.hidden = !isSequential(book) && !hasOrder(book);
+    order.setAttribute("aria-pressed", String(isSequential(book)));
     bar.show(Math.round(100 * part));
     said.textContent = step === most(now) ? worded("This is the last step that is here.")
       : !canUnfold(now) ? worded("Step {step} is too large to be seen to unfold; go back to an earlier step.", { step: step + 1 })
+      : isSequential(book) ? worded("{part} of 100 of {line}.", { part: Math.round(100 * part), line: book.data.doing[step] })
       : worded("{part} of 100 on the way from step {step} to step {next}.", { part: Math.round(100 * part), step, next: step + 1 });
     for (const { element, mother, daughters, widths } of groups) {
       element.style.width = `${(1 - part) * widths[0] + part * widths[1]}px`;
