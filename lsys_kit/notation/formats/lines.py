@@ -32,6 +32,7 @@ from lsys_kit.notation.formats.parts import (
     ARROW,
     BEFORE,
     BLANKS,
+    COMMENT,
     NOTHING,
     Part,
     end_of_value,
@@ -83,6 +84,8 @@ def _is_on_a_page(text: str, items: Sequence[Part], source: str) -> bool:
 
 def _is_foreign(item: Part, text: str) -> bool:
     """Whether a part is none of the kit's notation."""
+    if item.kind and COMMENT.search(text, item.start, item.end):
+        return True
     if item.kind in ("", "above"):
         return (_SENTENCE.search(text, item.start, item.end) or _REFERENCE.fullmatch(text, item.start, item.end)) is not None
     if item.kind == "rule" and item.match:
@@ -455,7 +458,7 @@ _WRITTEN = re.compile(
 def _check_left_out(text: str, items: Sequence[Part]) -> None:
     """Refuse a line among the parts that looks like a rule and is none."""
     parts = [index for index, item in enumerate(items) if item.kind == "rule"]
-    for item in items[parts[0] : parts[-1] + 2] if parts else ():
+    for item in items[parts[0] : parts[-1] + 2] if parts else items:
         line = text[item.start : item.end].strip()
         if item.kind == "" and _WRITTEN.fullmatch(line) and not re.search(r"[a-z]{3}", line):
             raise ModelSyntaxError(
@@ -485,6 +488,19 @@ def is_prose(text: str) -> bool:
     )
 
 
+def is_other(text: str) -> bool:
+    r"""Whether no line of a text has an arrow, and what stands there is neither words of symbols nor a list of values.
+
+    >>> is_other("1. e4 e5 2. Nf3 Nc6"), is_other("F+F"), is_other("dt = 0.5"), is_other("A -> B")
+    (True, False, False, False)
+    """
+    if ANY_ARROW.search(text) or OWN_FRAME.search(text) or _OWN_STATEMENT.search(text):
+        return False
+    lines = [line for line in text.splitlines() if line.strip() and not is_word(line)]
+    return bool(lines) and (any(map(_SENTENCE.search, lines)) or not any(map(_NAMED.match, lines)))
+
+
+_NAMED = re.compile(r"[ \t]*+\w[\w ]*+(?:\([^()]*+\))?[ \t]*+[:=]")
 _PLACE, _STEP = r"[A-Z]\w*+(?>(?:[ -]\w++)*)", rf"[ ]?(?:{ARROW}|>|»)[ ]?"
 _PATH = re.compile(rf"^[ \t]*+{_PLACE}(?:{_STEP}{_PLACE}){{2,9}}$", re.MULTILINE)
 """Where a page is, as its head says: Home → Fractals → L-systems."""
@@ -535,6 +551,8 @@ def _system(text: str, items: Sequence[Part]) -> Found:
             found.notes += behind
             if text[item.start : item.end].endswith(".") and not rule.tail[0].text.endswith("."):
                 found.notes.append(FULL_STOPS)
+            if _BETWEEN_WORDS.search(rule.tail[0].text):
+                found.notes.append('"|" turns around: two successors are two rules, each with its probability.')
             if not rule.tail[0].text:
                 found.notes.append(f"{rule.head.text} is erased: nothing stands behind its arrow.")
             found.rules.append(replace(rule, probability=chance_of(above) if above else rule.probability, section=section))
@@ -645,6 +663,8 @@ def _without_words(rule: Rule, heads: Collection[str]) -> tuple[Rule, list[str]]
     return replace(rule, tail=(tail.part(0, behind.start()),)), [note]
 
 
+_BETWEEN_WORDS = re.compile(r"\S\S[ ]+\|[ ]+(?=\S)|(?<!\S)\S[ ]+\|[ ]+(?=\S{2})")
+"""A bar that may part two successors, as in a grammar: with blanks around it, where other symbols have none."""
 _BEHIND = re.compile(r"[;,][ ]+(?=[a-z]{3,}[ ]+[a-z]{3,}[ ])")
 """Where a sentence begins behind a successor."""
 

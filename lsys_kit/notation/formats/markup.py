@@ -120,7 +120,8 @@ class _Tree:
         elif "name" in called and text and isinstance(called["name"].terms[0], Term):
             before.entries.append(_entry(called["name"].terms[0].text, self.term(text, places)))
         elif group.entries:
-            group.entries += [_entry(name, self.term(text, places))] if text else []
+            rule = any(key.lower() in tables()["names"]["predecessor"] for key in called)
+            group.entries += [_entry("successor" if rule else name, self.term(text, places))] if text else []
             before.entries.append(_entry(name, group))
         else:
             before.entries.append(_entry(name, self.term(text, places)))

@@ -45,7 +45,7 @@ _RULE = (
 AFTER = re.compile(
     rf"(?:(?<![ \t])[ \t]++|(?<=[^\s(]))(?::{BLANKS}(?P<plain>{_CHANCE}|\d(?:\.\d+)?)"
     rf"|[(\[]{BLANKS}(?:p{BLANKS}={BLANKS})?(?P<bracketed>{_CHANCE}){BLANKS}[)\]]"
-    rf"|(?:,{BLANKS}|(?<=[ \t]))(?:(?:with[ ])?(?:p|prob\.?|probability){BLANKS}(?:[:=]|of\b)?)?{BLANKS}"
+    rf"|(?:[,:]{BLANKS}|(?<=[ \t]))(?:(?:with[ ])?(?:p|prob\.?|probability){BLANKS}(?:[:=]|of\b)?)?{BLANKS}"
     rf"(?:(?P<named>{_CHANCE})|(?:WEIGHT)[ ]?[:=]?[ ]?(?P<weight>\d{{1,4}}(?:\.\d+)?))){BLANKS}$".replace(
         "WEIGHT", "|".join(tables()["said"]["weight"])
     )
@@ -57,20 +57,27 @@ BEFORE = re.compile(
 """A probability between an arrow and a successor, in brackets or in percents."""
 NOTHING = re.compile(r"\([a-z ]{5,}\)|empty|nothing|none|ε|λ|\*")
 """Successors that are empty."""
-_COMMENT = re.compile(
+COMMENT = re.compile(
     r"(?<![ \t])(?:[ \t]{2,}+\(\d+(?:\.\d+)*[a-z]?\)|[ \t]++(?:#|//|%|;|←)[ \t].*"
     r"|[ \t]++\{(?=[^{}\n]*?[a-z]{3})[^{}\n]*\}|[ \t]++\((?=[^()\n]*?[a-z]{3})[^()\n]*\)[.]?)$",
     re.MULTILINE,
 )
 """What is said behind a part: a comment, the number of an equation."""
 _NUMBER = re.compile(r"[ \t]*+[-+]?(?:\d++(?>(?:[.,]\d++)?)|\.\d++)(?>(?:/\d++)?)(?P<rest>.*)")
+_SAY = {name: "|".join(map(re.escape, tables()["said"][name])) for name in ("is", "lead")}
+_LEAD = rf"(?:(?:{_SAY['lead']}|a)[ \t]+|[dl]')"
 _BOUNDARY = re.compile(
-    r"[,;|\t({]+[ \t]*(?:(?:and|und|et|with|using|by|the|its|an?)[ \t]+){0,3}|[ \t]{2,}|[.][ \t]+"
-    r"|[ \t](?:and|und|y|et|en|e(?=[ \t]+(?:\(|\w{3})))[ \t]+[({]?"
+    rf"[,;|\t({{]+[ \t]*(?:{_LEAD}){{0,3}}|[ \t]{{2,}}|[.][ \t]+"
+    r"|(?<![:=])[ \t](?:(?:with|mit|avec|con|and|und|et)[ \t]+)?(?=[ωδ][ \t]*[=:])"
+    rf"|[ \t](?:and|und|y|et|en|e(?=[ \t]+(?:\(|\w{{3}})))[ \t]+(?>(?:{_LEAD})?)[({{]?"
     r"|[ \t]\^[ \t]*\("
-    r"|[ \t](?P<said>with|using|by|the|its|mit|con|avec|com)[ \t]+(?:(?:the|an?)[ \t]+)?"
+    rf"|[ \t](?P<said>{_LEAD})(?>(?:{_LEAD})?)"
     r"|:(?=[ \t])|[ \t](?=(?:axiom|rules?|angle|iterations)[ \t])"
 )
+_LEADING = re.compile(rf"(?:{_LEAD}){{1,3}}", re.IGNORECASE)
+"""What stands before a name at the beginning of a line."""
+_TRIPLE = re.compile(r"[A-Z][ \t]*=[ \t]*[(⟨<][ \t]*\{[^{}\n]*\}[ \t]*,(?P<axiom>[^,{}\n]+),[ \t]*(?=\{)")
+"""An L-system as a triple of its alphabet, its axiom and its rules."""
 _BULLET = re.compile(
     r"[ \t]*(?:[*•▪‣◦·][ \t]+(?!<)"
     r"|-[ \t]+(?=[A-Za-zΑ-ωА-я\"'][^<\n]*(?:[:=→]|->))|\d{1,2}(?:\.\d{1,2})*[.)][ \t]+|[a-z]\)[ \t]+)*"
@@ -85,7 +92,7 @@ ALIAS = re.compile(r"\A[ \t]*(?:[ωδθφαPS]|w(?=[ \t]*=[ \t]*\S))[ \t]*[:=](?
 def without_comment(text: str) -> str:
     """A part without what is said behind it, at the end of its last line."""
     last = text.rfind("\n", 0, len(text) - text.endswith("\n")) + 1
-    return text[:last] + _COMMENT.sub("", text[last:])
+    return text[:last] + COMMENT.sub("", text[last:])
 
 
 @cache
@@ -101,14 +108,15 @@ def fields() -> tuple[re.Pattern[str], dict[str, str]]:
     )
     behind = r"(?![\wÀ-ÿ])(?:[ ]?\([^()\n]{0,40}\))?(?:[ ][ωδθφPVSϕ](?=[ ]?[:=]))?"
     return re.compile(
-        rf"(?P<name>{every}){behind}(?:{BLANKS}(?P<sep>:=|::?|=(?![=>])|→|⟶|-{{1,2}}>)|(?=[ \t]|$)){BLANKS}", re.IGNORECASE
+        rf"(?P<name>{every}){behind}(?:[ \t]+(?:{_SAY['is']})(?=[: \t]))?(?:{BLANKS}(?P<sep>:=|::?|=(?![=>])|→|⟶|-{{1,2}}>)|(?=[ \t]|$)){BLANKS}",
+        re.IGNORECASE,
     ), kinds
 
 
 @cache
 def _rules() -> re.Pattern[str]:
     """The pattern of a rule's beginning."""
-    words = "|".join(tables()["arrows"]["words"])
+    words = "|".join(sorted(tables()["arrows"]["words"], key=len, reverse=True))
     return re.compile(_RULE.replace("WORDS", rf"(?<=[ \t])(?:{words})(?=[ \t])"))
 
 
@@ -155,6 +163,11 @@ def parts_in_line(text: str, start: int, end: int, line: int, under_rules: bool)
     """The parts that a line has."""
     bullet = _BULLET.match(text, start, end)
     start = bullet.end() if bullet else start
+    if (lead := _LEADING.match(text, start, end)) and fields()[0].match(text, lead.end(), end):
+        start = lead.end()
+    if triple := _TRIPLE.match(text, start, end):
+        at, until = triple.span("axiom")
+        return [Part("axiom", at, until, None, line), *parts_in_line(text, triple.end(), end, line, True)]
     begun: list[tuple[int, Part]] = []
     within = _glued(text, start, end)
     cuts = [
@@ -242,7 +255,7 @@ def _rule_at(text: str, at: int, end: int, line: int, under_rules: bool) -> Part
             and (ANY_ARROW.search(text, rule.end(), end) or _CALCULATION.fullmatch(text[rule.end() : end].strip(" \t)")))
         )
         and not (
-            len(rule["head"].strip()) == 1
+            (len(rule["head"].strip()) == 1 or _IN_SENTENCE.search(text, text.rfind("\n", 0, at) + 1, at))
             and (
                 _is_prose(_SAID.split(text[rule.end() : end], maxsplit=1)[0].strip(" \t"))
                 or (rule["arrow"] in ("=", ":=") and _SET.match(text, rule.end(), end))
@@ -275,6 +288,8 @@ _SET_OF_ONE = re.compile(r"[ \t]*\{[ \t]*\S[ \t]*\}[ \t]*(?:$|[,;.])", re.MULTIL
 """A set of one symbol, which could be a polygon of it: of what is called as alphabets are."""
 
 
+_IN_SENTENCE = re.compile(r"(?<![A-Za-zà-ÿ])[A-Za-zà-ÿ]{3,}+[ ,]++[a-zà-ÿ]{2,}+[ \t]++\Z")
+"""Words of a sentence that goes on."""
 _SAID = re.compile(r"[,;()]|\.(?:\s|$)")
 """Where what is said of a symbol ends."""
 
@@ -303,7 +318,7 @@ def _possible(kind: str, named: re.Match[str], value: str, rule: Part | None, la
     if kind == "steps":
         return bool(
             number
-            and (sep or not short)
+            and (sep or not short or not (later or number["rest"].strip()))
             and re.match(r"[ \t]*(?:$|,(?![ ]?\d)|[-+…;.)#%(|]|[A-Za-zÀ-ÿ]|//|\t)", number["rest"])
         )
     if kind == "angle":
@@ -324,7 +339,7 @@ def _possible(kind: str, named: re.Match[str], value: str, rule: Part | None, la
             return len(named["name"]) > 4 and not later
         if sep:
             return not short or named["name"] in "ωw"
-        said = re.split(r"\t|  |[ ]#|[,;][ ]|[ ](?=(?:rules?|angle|iterations)[ ])", value.strip())[0]
+        said = re.split(r"\t|  |[ ]#|[,;][ ]|[ ](?=(?:rules?|angle|iterations|and|et|und)[ ])", value.strip())[0]
         return len(named["name"]) > 4 and is_word(said) and re.fullmatch(r"\S+|\S(?:[ ]\S)+", said.strip()) is not None
     if kind == "ignore":
         return bool(sep) or is_word(value)
