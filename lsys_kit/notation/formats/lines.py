@@ -582,6 +582,7 @@ def _system(text: str, items: Sequence[Part]) -> Found:
             found.signs = {**program["signs"], **found.signs}
             absent = program.get("absent", {})
     found.rules = _with_chances(found.rules)
+    _give_rest(found)
     found.notes += _told_sums(found.rules)
     symbols = "".join(part.text for part in (*(found.axiom or ()), *(part for rule in found.rules for part in rule.tail)))
     heads = {rule.head.text[:1] for rule in found.rules}
@@ -595,6 +596,17 @@ def _told_sums(rules: Sequence[Rule]) -> Iterator[str]:
         chances = [rule.probability for rule in rules if rule.head.text == head and rule.probability is not None]
         if chances and abs((together := sum(chances, Fraction(0))) - 1) > Fraction(1, 50):
             yield f"The probabilities of {head} are together {float(together):g}, not 1: they are taken as shares."
+
+
+def _give_rest(found: Found) -> None:
+    """Give the one rule of a symbol that has no probability what those of the others leave of one."""
+    for head in dict.fromkeys(rule.head.text for rule in found.rules):
+        chances = [rule.probability for rule in found.rules if rule.head.text == head]
+        rest = 1 - sum((each for each in chances if each is not None), Fraction(0))
+        if len(chances) > 1 and chances.count(None) == 1 and rest > 0:
+            index = next(i for i, rule in enumerate(found.rules) if rule.head.text == head and rule.probability is None)
+            found.rules[index] = replace(found.rules[index], probability=rest)
+            found.notes.append(f"The rule of {head} without a probability has what the others leave: {float(rest):g}.")
 
 
 def _with_chances(rules: list[Rule]) -> list[Rule]:
@@ -620,6 +632,9 @@ def _add_axiom(found: Found, value: Passage, item: Part) -> None:
     passage = passage.part(0, end_of_value(passage.text, 0, len(passage.text)))
     if passage.text.endswith(".") and len(passage.text) > 1 and "{" not in passage.text:
         passage = passage.part(0, len(passage.text) - 1)
+    if re.fullmatch(r"\([^()]*\)", passage.text):
+        passage = passage.part(1, len(passage.text) - 1)
+        found.notes.append("The brackets around the axiom are left out.")
     if found.axiom is not None:
         if found.axiom[0].text.split() != passage.text.split():
             found.notes.append(f'The axiom is given more than once: "{found.axiom[0].text}" is used, not "{passage.text}".')

@@ -25,7 +25,7 @@ BLANKS = r"[ \t]*+"
 ARROW = r"(?:[-=|]{1,3}>|→|⟶|⟼|↦|⇒|➔|➜|➝|\\(?:long)?(?:rightarrow|mapsto)\b|\\to\b|::=|:=)"
 """That of an arrow."""
 _LABEL = (
-    rf"(?:(?:[pPrR]|[Rr]ule|[Rr]egel)[_ ]?\d{{1,3}}{BLANKS}[:.)=]|\(\d{{1,3}}\)"
+    rf"(?:(?:[pPrR]|[Rr]ule|[Rr]egel)[_ ]?\d{{1,3}}{BLANKS}(?:[:.)=]|(?=\(\d?\.\d))|\(\d{{1,3}}\)"
     rf"|(?!0?\.\d)\d{{1,2}}(?:\.\d{{1,2}})*[.)]?(?=[ \t])|[pP]{BLANKS}:)"
 )
 _OWN = r"(?:[A-Za-z]\w{0,15}|\d|[-+](?!→))"
@@ -38,7 +38,7 @@ _HEAD = (
 _HEAD_ALONE = re.compile(_HEAD)
 _CHANCE = r"(?:\d{1,3}(?:\.\d+)?\s?%|0?\.\d+|\(\d{1,3}\.?\d*\s?%\)|\(?\d{1,3}/\d{1,3}\)?)"
 _RULE = (
-    rf"(?:(?P<label>{_LABEL}){BLANKS})?(?:(?P<first>{_CHANCE}){BLANKS}:?{BLANKS})?(?P<head>{_HEAD}){BLANKS}"
+    rf"(?:(?P<label>{_LABEL}){BLANKS})?(?:(?P<first>{_CHANCE}|\(0?\.\d+\)){BLANKS}:?{BLANKS})?(?P<head>{_HEAD}){BLANKS}"
     rf"(?:(?<=[ \t])(?P<over>{_CHANCE}){BLANKS}|-{{1,2}}{BLANKS}(?P<within>{_CHANCE}|\(0?\.\d+\)){BLANKS}(?=-*>|→))?"
     rf"(?P<arrow>-*{ARROW}|WORDS|=(?!=)(?![ \t]*\d+(?:\.\d+)?[ \t]*(?:$|[,;:)])))"
 )
@@ -65,7 +65,7 @@ COMMENT = re.compile(
 """What is said behind a part: a comment, the number of an equation."""
 _NUMBER = re.compile(r"[ \t]*+[-+]?(?:\d++(?>(?:[.,]\d++)?)|\.\d++)(?>(?:/\d++)?)(?P<rest>.*)")
 _SAY = {name: "|".join(map(re.escape, tables()["said"][name])) for name in ("is", "lead")}
-_LEAD = rf"(?:(?:{_SAY['lead']}|a)[ \t]+|[dl]')"
+_LEAD = rf"(?:(?:{_SAY['lead']})[ \t]+|[dl]')"
 _BOUNDARY = re.compile(
     rf"[,;|\t({{]+[ \t]*(?:{_LEAD}){{0,3}}|[ \t]{{2,}}|[.][ \t]+"
     r"|(?<![:=])[ \t](?:(?:with|mit|avec|con|and|und|et)[ \t]+)?(?=[ωδ][ \t]*[=:])"
@@ -79,7 +79,7 @@ _LEADING = re.compile(rf"(?:{_LEAD}){{1,3}}", re.IGNORECASE)
 _TRIPLE = re.compile(r"[A-Z][ \t]*=[ \t]*[(⟨<][ \t]*\{[^{}\n]*\}[ \t]*,(?P<axiom>[^,{}\n]+),[ \t]*(?=\{)")
 """An L-system as a triple of its alphabet, its axiom and its rules."""
 _BULLET = re.compile(
-    r"[ \t]*(?:[*•▪‣◦·][ \t]+(?!<)"
+    r"[ \t]*(?:[*•▪‣·°][ \t]+(?!<)"  # an open bullet is taken for a sign of degrees
     r"|-[ \t]+(?=[A-Za-zΑ-ωА-я\"'][^<\n]*(?:[:=→]|->))|\d{1,2}(?:\.\d{1,2})*[.)][ \t]+|[a-z]\)[ \t]+)*"
 )
 _SIGNS_ONLY = re.compile(r"[A-Za-z0-9+\-&^\\/|\[\]{}$!'\"#~;.%@<>_?*, \t]+")
