@@ -227,6 +227,10 @@ _SAID_ANGLE = re.compile(
     r"|\((\d{1,3}(?:\.\d+)?)[ ]?(?:°|deg)\w*\)|(?<![\d.])(\d{1,3}(?:[.,]\d+)?)°[ ](?:to the |nach |turn)",
     re.IGNORECASE,
 )
+_SAID_STEPS = re.compile(
+    rf"(?<![\w.,=+-])(\d{{1,3}})[ ](?:{'|'.join(word for word in tables()['names']['steps'] if len(word) > 4)})\b",
+    re.IGNORECASE,
+)
 _BETWEEN = rf",[ ]?|[ ](?:{_SAY['and']})[ ]"
 _SYMBOLS = rf"[A-Za-z0-9](?>(?:(?:{_BETWEEN})[A-Za-z0-9])*)"
 _ANDS = (words for _, words in groupby(sorted(tables()["said"]["and"], key=len), len))
@@ -290,6 +294,11 @@ def _take_prose(found: Found, prose: Sequence[Passage]) -> None:
         [(angle, match)] = angles.items()
         found.angle = angle, Passage(match[0], prose[0].at, False)
         found.notes.append(f'The angle is that of the text: "{match[0]}".')
+    steps = {match[1] for each in prose for match in _SAID_STEPS.finditer(each.text)}
+    if found.steps is None and len(steps) == 1:
+        [number] = steps
+        found.steps = int(number), Passage("", prose[0].at, False)
+        found.notes.append(f"The number of steps, {number}, is that of the text.")
     used = {
         symbol for rule in found.rules for symbol in re.findall(r"\w", "".join(part.text for part in (rule.head, *rule.tail)))
     }
@@ -386,7 +395,7 @@ def _with_plain_axioms(text: str, items: Sequence[Part], letters: frozenset[str]
         line = text[item.start : item.end]
         follows = word and bool(found) and (found[-1].kind in ("rule", "more", "aside") or is_unfinished(rule))
         near = bool(found) and (item.line == found[-1].line + 1 or is_unfinished(rule))
-        if follows and near and surely_goes_on(line, rule, known):
+        if follows and near and not _REFERENCE.fullmatch(line) and surely_goes_on(line, rule, known):
             goes_on = named or not following or following.kind != "rule" or len(line.strip()) > 1
         else:
             goes_on = False
@@ -402,7 +411,8 @@ def _with_plain_axioms(text: str, items: Sequence[Part], letters: frozenset[str]
         ):
             found.append(replace(item, kind="axiom"))
         else:
-            found.append(replace(item, kind="aside") if follows and line.strip("{}()[] \t") else item)
+            below = word and [each.kind for each in found[-2:]] in (["rule", ""], ["more", ""]) and len(line.strip()) > 1
+            found.append(replace(item, kind="aside") if (follows or below) and line.strip("{}()[] \t") else item)
     return found
 
 
@@ -674,8 +684,15 @@ def _without_words(rule: Rule, heads: Collection[str]) -> tuple[Rule, list[str]]
     if behind is None:
         return rule, []
     said = tail.text[behind.end() :]
+    tail = tail.part(0, behind.start())
+    if small := _SMALL_WORDS.search(tail.text):
+        tail = tail.part(0, small.start())
     note = f'Behind the rule of {rule.head.text}, "{quotable(said[:40])}" is left out.'
-    return replace(rule, tail=(tail.part(0, behind.start()),)), [note]
+    return replace(rule, tail=(tail,)), [note]
+
+
+_SMALL_WORDS = re.compile(rf"(?i)\.?(?:[ \t]+(?:{'|'.join((*tables()['said']['and'], *tables()['said']['lead']))}))+$")
+"""The first words of what stands behind a successor."""
 
 
 _BETWEEN_WORDS = re.compile(r"\S\S[ ]+\|[ ]+(?=\S)|(?<!\S)\S[ ]+\|[ ]+(?=\S{2})")

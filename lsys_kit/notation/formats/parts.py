@@ -40,7 +40,7 @@ _CHANCE = r"(?:\d{1,3}(?:\.\d+)?\s?%|0?\.\d+|\(\d{1,3}\.?\d*\s?%\)|\(?\d{1,3}/\d
 _RULE = (
     rf"(?:(?P<label>{_LABEL}){BLANKS})?(?:(?P<first>{_CHANCE}|\(0?\.\d+\)){BLANKS}:?{BLANKS})?(?P<head>{_HEAD}){BLANKS}"
     rf"(?:(?<=[ \t])(?P<over>{_CHANCE}){BLANKS}|-{{1,2}}{BLANKS}(?P<within>{_CHANCE}|\(0?\.\d+\)){BLANKS}(?=-*>|→))?"
-    rf"(?P<arrow>-*{ARROW}|WORDS|=(?!=)(?![ \t]*\d+(?:\.\d+)?[ \t]*(?:$|[,;:)])))"
+    rf"(?P<arrow>-*{ARROW}|WORDS|=(?!=)(?![ \t]*\d+(?:\.\d+)?[ \t]*(?:$|[,;:)]))(?![^\n,;]*(?:->|→)))"
 )
 AFTER = re.compile(
     rf"(?:(?<![ \t])[ \t]++|(?<=[^\s(]))(?::{BLANKS}(?P<plain>{_CHANCE}|\d(?:\.\d+)?)"
@@ -65,18 +65,18 @@ COMMENT = re.compile(
 """What is said behind a part: a comment, the number of an equation."""
 _NUMBER = re.compile(r"[ \t]*+[-+]?(?:\d++(?>(?:[.,]\d++)?)|\.\d++)(?>(?:/\d++)?)(?P<rest>.*)")
 _SAY = {name: "|".join(map(re.escape, tables()["said"][name])) for name in ("is", "lead")}
-_LEAD = rf"(?:(?:{_SAY['lead']})[ \t]+|[dl]')"
+_LEAD = rf"(?:(?:(?i:{_SAY['lead']})|[aoAO](?=[ \t]+(?:axiom|regra|[âa]ngul)))[ \t]+|[dlDL]')"
 _BOUNDARY = re.compile(
-    rf"[,;|\t({{]+[ \t]*(?:{_LEAD}){{0,3}}|[ \t]{{2,}}|[.][ \t]+"
+    rf"[,;|\t({{]+[ \t]*(?:{_LEAD}){{0,3}}|[ \t]{{2,}}|[.][ \t]+(?>(?:{_LEAD})?)"
     r"|(?<![:=])[ \t](?:(?:with|mit|avec|con|and|und|et)[ \t]+)?(?=[ωδ][ \t]*[=:])"
-    rf"|[ \t](?:and|und|y|et|en|e(?=[ \t]+(?:\(|\w{{3}})))[ \t]+(?>(?:{_LEAD})?)[({{]?"
+    rf"|[ \t](?:and|und|y|et|en|e(?=[ \t]+(?:\(|\w{{3}}|o[ ]|[A-Z][ ]{{0,2}}(?:→|->))))[ \t]+(?>(?:{_LEAD})?)[({{]?"
     r"|[ \t]\^[ \t]*\("
     rf"|[ \t](?P<said>{_LEAD})(?>(?:{_LEAD})?)"
     r"|:(?=[ \t])|[ \t](?=(?:axiom|rules?|angle|iterations)[ \t])"
 )
-_LEADING = re.compile(rf"(?:{_LEAD}){{1,3}}", re.IGNORECASE)
+_LEADING = re.compile(rf"(?:{_LEAD}){{1,3}}")
 """What stands before a name at the beginning of a line."""
-_TRIPLE = re.compile(r"[A-Z][ \t]*=[ \t]*[(⟨<][ \t]*\{[^{}\n]*\}[ \t]*,(?P<axiom>[^,{}\n]+),[ \t]*(?=\{)")
+_TRIPLE = re.compile(r"[A-Z][ \t]*=[ \t]*[(⟨<][ \t]*\{[^{}\n]*\}[ \t]*,(?P<axiom>[^,{}\n]+),[ \t]*(?:(?=\{)|[A-Z][ \t]*[)⟩>])")
 """An L-system as a triple of its alphabet, its axiom and its rules."""
 _BULLET = re.compile(
     r"[ \t]*(?:[*•▪‣·°][ \t]+(?!<)"  # an open bullet is taken for a sign of degrees
@@ -165,7 +165,7 @@ def parts_in_line(text: str, start: int, end: int, line: int, under_rules: bool)
     start = bullet.end() if bullet else start
     if (lead := _LEADING.match(text, start, end)) and fields()[0].match(text, lead.end(), end):
         start = lead.end()
-    if triple := _TRIPLE.match(text, start, end):
+    if triple := _TRIPLE.search(text, start, end):
         at, until = triple.span("axiom")
         return [Part("axiom", at, until, None, line), *parts_in_line(text, triple.end(), end, line, True)]
     begun: list[tuple[int, Part]] = []
@@ -217,8 +217,17 @@ def _glued(text: str, start: int, end: int) -> list[bool]:
     return [*found, glued > 0]
 
 
+_BRACES = re.compile(r"[{}]")
+
+
 def end_of_value(text: str, start: int, end: int) -> int:
     """The end of a value, without what separates it from the next, and without brackets that are opened before it."""
+    opened = 0
+    for sign in _BRACES.finditer(text, start, end):
+        opened += 1 if sign[0] == "{" else -1
+        if opened < 0:  # it ends the set of the rules
+            end = sign.start()
+            break
     said = text[start:end].rstrip(" \t,;|")
     said = said[:-1] if said.endswith(("}.", ").", " .")) else said
     while said and said[-1] in ")}" and said.count(said[-1]) > said.count("({"[said[-1] == "}"]):
@@ -290,6 +299,10 @@ _SET_OF_ONE = re.compile(r"[ \t]*\{[ \t]*\S[ \t]*\}[ \t]*(?:$|[,;.])", re.MULTIL
 
 _IN_SENTENCE = re.compile(r"(?<![A-Za-zà-ÿ])[A-Za-zà-ÿ]{3,}+[ ,]++[a-zà-ÿ]{2,}+[ \t]++\Z")
 """Words of a sentence that goes on."""
+_BEHIND_WORD = re.compile(
+    rf"\t|  |[ ]#|[.,;][ ]|[.]$|[ ](?=(?:rules?|angle|iterations|{'|'.join(tables()['said']['and'])})[ ])"
+)
+"""Where the axiom ends in a sentence."""
 _SAID = re.compile(r"[,;()]|\.(?:\s|$)")
 """Where what is said of a symbol ends."""
 
@@ -304,7 +317,9 @@ def _is_prose(text: str) -> bool:
 
 
 def _can_be_replaced(rule: re.Match[str]) -> bool:
-    """Whether what stands before an arrow can be replaced; before "=" only a symbol."""
+    """Whether what stands before an arrow can be replaced; before "=" only a symbol, and no condition before a word."""
+    if rule["arrow"][0].isalpha() and ":" in rule["head"]:
+        return False
     name = re.match(r"[^\s(:<>]*", rule["head"].strip("\"' "))
     return rule["arrow"] not in ("=", ":=") or bool(name and (len(name[0]) == 1 or "<" in rule["head"]))
 
@@ -339,7 +354,7 @@ def _possible(kind: str, named: re.Match[str], value: str, rule: Part | None, la
             return len(named["name"]) > 4 and not later
         if sep:
             return not short or named["name"] in "ωw"
-        said = re.split(r"\t|  |[ ]#|[,;][ ]|[ ](?=(?:rules?|angle|iterations|and|et|und)[ ])", value.strip())[0]
+        said = _BEHIND_WORD.split(value.strip())[0]
         return len(named["name"]) > 4 and is_word(said) and re.fullmatch(r"\S+|\S(?:[ ]\S)+", said.strip()) is not None
     if kind == "ignore":
         return bool(sep) or is_word(value)

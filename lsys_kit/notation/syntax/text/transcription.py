@@ -119,7 +119,7 @@ _ABOVE = re.compile(r"[ \t]*+(\d*\.\d+|1)[ \t]*+$")
 _REFERENCE = re.compile(r"[\[(]\d++[\])]|\d++|[-–][ ]?\d++[ ]?[-–]|/[ ]?[a-z]|\([a-z]\)")
 """The number of a page or a note, or a caption's letter: on an indented line, anything else goes on with a production."""
 _SENTENCE = re.compile(SENTENCE)
-_NUMBERED = re.compile(r"(?<![ \t])[ \t]{2,}+(?P<number>\(\d+\.\d+[a-z]?\))[ \t]*+$")
+_NUMBERED = re.compile(r"(?<![ \t])[ \t]{2,}+(?P<number>\(\d+(?:\.\d+)?[a-z]?\))[ \t]*+$")
 """The number of an equation, at the end of a line."""
 _ASIDE = re.compile(r"[\W_]*+(?:\w{1,12}(?:\.\d+)?[\W_]*+)?")
 """A line with one name or number, whatever signs are around it."""
@@ -138,7 +138,7 @@ _ROW = re.compile(r"[ \t]*+(?:axiom|ignore|consider)\b", re.IGNORECASE)
 _ALPHABET = re.compile(r"[ \t]*+alphabet\b.*\d\b", re.IGNORECASE)
 _DIGIT = re.compile(r"(?<![.\d])\d(?![.\d])")
 
-_WORD = re.compile(r"(?!\s*+(?:start|begin|init|root|word)\w*+[ \t]|.*\\[a-z]{3})[^:=<>#\n]*+(?<!-)", re.IGNORECASE)
+_WORD = re.compile(r"(?!\s*+(?:start|begin|init|root|word)\w*+[^\S\n]|.*\\[a-z]{3})[^:=<>#\n]*+(?<!-)", re.IGNORECASE)
 """A line that may be an axiom without its name, and is no name of an axiom without its colon."""
 
 _BLANK_LINES = re.compile(r"\n\n\n+")
@@ -380,7 +380,7 @@ class _Listing:
                 yield Edit(end, end, f" : {over[1] if over else above}")
             above = None
             if (
-                self.labelled
+                (self.labelled or arrow[0] in "→⟶")
                 and (number := _NUMBERED.search(line.text))
                 and not self._has_values(line.text[: number.start()][-1])
             ):
