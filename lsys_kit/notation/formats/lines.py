@@ -130,8 +130,10 @@ def systems_in_lines(text: str, source: str = "") -> list[Found]:
             at = word.at + command.start() * word.exact
             raise ModelSyntaxError("I do not know this command of LaTeX", text, at, at + len(command[0]), hint)
     systems = [_without_references(_without_function(each)) for each in systems if each.axiom or each.rules] or [Found()]
-    starts = ((text.rfind("\n", 0, item.start) + 1 if item.kind == "angle" else item.start, item) for item in items)
-    prose = [Passage(text[at : item.end], at) for at, item in starts if item.kind in ("", "axiom", "rule", "angle", "other")]
+    starts = ((text.rfind("\n", 0, item.start) + 1 if item.kind in ("angle", "rules") else item.start, item) for item in items)
+    prose = [
+        Passage(text[at : item.end], at) for at, item in starts if item.kind in ("", "axiom", "rule", "rules", "angle", "other")
+    ]
     systems = [*{(_all_of(system.axiom), *map(_shown, system.rules)): system for system in reversed(systems)}.values()][::-1]
     lost = _lost_rules(text, items)
     for system in systems:
@@ -636,7 +638,7 @@ def _add_axiom(found: Found, value: Passage, item: Part) -> None:
     alias = ALIAS.match(value.text)
     said = value.part(alias.end() if alias else 0)
     passage = unquoted(Passage(without_comment(said.text), said.at).part(0))
-    if not is_word(passage.text) and (word := re.match(r"(\S+?)[,;.]?\s+[a-z]{2,}\b", passage.text)):
+    if not is_word(passage.text) and (word := re.match(r"(\S+?)(?:[,;.]?\s+[a-z]{2,}\b|\.\s+[A-Z])", passage.text)):
         found.notes.append(f'Behind the axiom, "{quotable(passage.text[word.end(1) :].strip()[:40])}" is left out.')
         passage = passage.part(0, word.end(1))
     passage = passage.part(0, end_of_value(passage.text, 0, len(passage.text)))
@@ -685,13 +687,13 @@ def _without_words(rule: Rule, heads: Collection[str]) -> tuple[Rule, list[str]]
         return rule, []
     said = tail.text[behind.end() :]
     tail = tail.part(0, behind.start())
-    if small := _SMALL_WORDS.search(tail.text):
-        tail = tail.part(0, small.start())
+    while " " in tail.text and (last := tail.text.rpartition(" ")[2].lower()) in _SMALL_WORDS and last not in heads:
+        tail = tail.part(0, len(tail.text.rpartition(" ")[0].rstrip(" .")))
     note = f'Behind the rule of {rule.head.text}, "{quotable(said[:40])}" is left out.'
     return replace(rule, tail=(tail,)), [note]
 
 
-_SMALL_WORDS = re.compile(rf"(?i)\.?(?:[ \t]+(?:{'|'.join((*tables()['said']['and'], *tables()['said']['lead']))}))+$")
+_SMALL_WORDS = frozenset((*tables()["said"]["and"], *tables()["said"]["lead"]))
 """The first words of what stands behind a successor."""
 
 

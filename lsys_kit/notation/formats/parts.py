@@ -108,7 +108,8 @@ def fields() -> tuple[re.Pattern[str], dict[str, str]]:
     )
     behind = r"(?![\wÀ-ÿ])(?:[ ]?\([^()\n]{0,40}\))?(?:[ ][ωδθφPVSϕ](?=[ ]?[:=]))?"
     return re.compile(
-        rf"(?P<name>{every}){behind}(?:[ \t]+(?:{_SAY['is']})(?=[: \t]))?(?:{BLANKS}(?P<sep>:=|::?|=(?![=>])|→|⟶|-{{1,2}}>)|(?=[ \t]|$)){BLANKS}",
+        rf"(?P<name>{every}){behind}(?:[ \t]+(?:{_SAY['is']})(?=[: \t]))?"
+        rf"(?:{BLANKS}(?P<sep>:=|::?|=(?![=>])|→|⟶|-{{1,2}}>)|(?=[ \t]|$)){BLANKS}",
         re.IGNORECASE,
     ), kinds
 

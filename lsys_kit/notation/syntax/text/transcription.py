@@ -291,9 +291,8 @@ class _Listing:
                 yield Edit(line.start + start.start(1), line.start + start.end(), "axiom:")
             elif (omega := _OMEGA.match(line.text)) and omega[1]:
                 yield Edit(line.start + omega.start(1), line.start + omega.end(1), ":")
-            if _NAMED_AXIOM.match(line.text) and line.text[: line.end - line.start].endswith((",", ".")):
-                if self.plain[line.end - 1] == "," or self._is_stop(line.end - 1):
-                    yield Edit(line.end - 1, line.end, "")
+            if _NAMED_AXIOM.match(line.text) and (self.plain[line.end - 1] == "," or self._is_stop(line.end - 1)):
+                yield Edit(line.end - 1, line.end, "")
         yield from self._axiom()
 
     def _directive(self, line: _Line) -> Iterator[Edit]:
