@@ -100,7 +100,9 @@ def read(text: str | PurePath, notation: str | None = None, name: str | None = N
     check_text(text)
     if is_link(text):
         return _read_link(text, notation, name)
-    text = text.removeprefix("\ufeff")  # the byte order mark, with which some editors begin a file
+    text = text.strip(
+        "\ufeff\u200b\u200e\u200f"
+    )  # the byte order mark, with which some editors begin a file, and marks of direction
     if kind := cells_notation(text):
         start, hint = len(text) - len(text.lstrip()), f"{kind.capitalize()}s are read by read_{kind}(text)."
         raise ModelValueError(f"This is a {kind} system, not an L-system", text, start, None, hint)

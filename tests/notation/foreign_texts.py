@@ -21,6 +21,9 @@ XML = "XML"
 RTF = "a document as RTF"
 PROGRAM = "a program, as in JavaScript, Processing, Java or C++"
 PYTHON = "a program in Python"
+LISP = "a program in Lisp"
+RUST = "a program in Rust, Go or Swift"
+GRAPH = "a drawing of a graph, as for Graphviz or Mermaid"
 YAML = "data as YAML"
 MARKDOWN = "a text as Markdown"
 JSON = "data as JSON, or a dictionary"
@@ -173,6 +176,27 @@ FOREIGN: dict[str, list[tuple[str, int]]] = {
         ('title: "X"\nrules:\n  "X": "F[+X]"\n  "F": "FF"\n', 2),
         ("name: Koch\nrules:\n    'F': 'F+F--F+F'\n    'G': 'GG'\n", 2),
         ("# the dragon\nangle: 90\nrules:\n  X: X+YF+\n  Y: -FX-Y\n", 3),
+    ],
+    LISP: [
+        ('(defparameter *axiom* "F")\n(defparameter *rules* nil)', 1),
+        ("; Koch\n(defun rewrite (word)\n  (mapcan #'rule word))", 2),
+        ('(define axiom "F")\n(define (rule c) c)', 1),
+        ("(let ((word 'F))\n  (print word))", 1),
+        ('(def rules {"F" "F+F"})', 1),
+    ],
+    RUST: [
+        ("fn main() -> Result<(), Error> {\n    println!();\n}", 1),
+        ("pub fn rewrite(word: &str) -> String {\n    word.chars()\n}", 1),
+        ("package main\n\nfunc rewrite(word string) string {\n\treturn word\n}", 3),
+        ("// Koch\nlet mut word = String::new();\nword.push(c);", 2),
+        ("func rule(_ c: Character) -> String {\n  return c\n}", 1),
+    ],
+    GRAPH: [
+        ("digraph G { A -> B; B -> C; C -> A; }", 1),
+        ("strict digraph {\n  A -> B\n}", 1),
+        ("graph LR\n  A --> B\n  A[Start] --> D{Decision}", 1),
+        ("%% a flow\nflowchart TD\n  A --> B{x}", 2),
+        ("sequenceDiagram\n  Anna->>Bob: Hello", 1),
     ],
     MARKDOWN: [
         ("# Koch\n\n```\naxiom: F\n```\n", 3),

@@ -51,6 +51,7 @@ OBJECT = {
     "leaf.s": LEAF,
     "sizes.h": "#define LONG 2\n",
     "plant.map": "colours",
+    "plant.a": "last frame: 20",
     "specifications": "plant.l\nplant.v\nmodel:\n\tgenerate:\n\t\tcpfg -m plant.map plant.l plant.v\n",
 }
 
@@ -79,6 +80,7 @@ def test_view_surfaces_functions_and_what_is_included_are_used(made) -> None:
         'Read as cpfg, from "plant.l" and "plant.v".',
         'Not used of "plant.v": z buffer, light.',
         'Colours are those of the kit, not those of "plant.map".',
+        'How a model is animated is not read: "plant.a".',
         "func(1, ...) is a curve, here of one straight piece.",
         "func(2, ...) is a curve, here of 16 straight pieces.",
     )

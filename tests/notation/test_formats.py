@@ -813,6 +813,17 @@ READ = {
         "Start: A(1)\nA(x) : x < 3 → A(x+1)\nA(x) : x >= 3 → B",
         "axiom: A(1)\nA(x) : x < 3 -> A(x+1)\nA(x) : x >= 3 -> B",
     ),
+    "small words behind a rule": ("start: F\nF → F+F y la planta crece", "axiom: F\nF -> F+F"),
+    "a triple, whose rules have a name": ("Let G = ({A}, A, P) with P = {A → [A]A}.", "axiom: A\nA -> [A]A"),
+    "a rule without a probability": ("start: F\nF → FF 25%\nF → F+F", "axiom: F\nF -> F F : 0.25\nF -> F+F : 0.75"),
+    "a successor with any name": ('{"axiom": "F", "rules": {"F": [{"p": 1, "w": "F+F"}]}}', "axiom: F\nF -> F+F : 1"),
+    "a rule of XML with an attribute": (
+        '<l axiom="F" angle="60"><rule symbol="F">F+F</rule></l>',
+        "angle: 60\naxiom: F\nF -> F+F",
+    ),
+    "a file of LParser with a title": ("Bush\n5\n30\n9\nF ; the axiom\nF=F+F\n@", "angle: 30\nsteps: 5\naxiom: F\nF -> F+F"),
+    "sentences in Dutch": ("Het axioma is F en de regel is F → F+F. De hoek is 25 graden.", "angle: 25\naxiom: F\nF -> F+F"),
+    "a number of steps in a sentence": ("start: F\nF → F+F\nI like it after 4 steps.", "steps: 4\naxiom: F\nF -> F+F"),
     "an axiom and an angle in a sentence": (
         "Das Startsymbol „A“ hat die Regel\n (1)  A → F[+A]A\nDer Drehwinkel beträgt 30 Grad.",
         "angle: 30\naxiom: A\nA -> F[+A]A",

@@ -32,6 +32,7 @@ from lsys_kit.notation.formats.parts import (
     ARROW,
     BEFORE,
     BLANKS,
+    COMMENT,
     NOTHING,
     Part,
     end_of_value,
@@ -83,6 +84,8 @@ def _is_on_a_page(text: str, items: Sequence[Part], source: str) -> bool:
 
 def _is_foreign(item: Part, text: str) -> bool:
     """Whether a part is none of the kit's notation."""
+    if item.kind and COMMENT.search(text, item.start, item.end):
+        return True
     if item.kind in ("", "above"):
         return (_SENTENCE.search(text, item.start, item.end) or _REFERENCE.fullmatch(text, item.start, item.end)) is not None
     if item.kind == "rule" and item.match:
@@ -127,8 +130,10 @@ def systems_in_lines(text: str, source: str = "") -> list[Found]:
             at = word.at + command.start() * word.exact
             raise ModelSyntaxError("I do not know this command of LaTeX", text, at, at + len(command[0]), hint)
     systems = [_without_references(_without_function(each)) for each in systems if each.axiom or each.rules] or [Found()]
-    starts = ((text.rfind("\n", 0, item.start) + 1 if item.kind == "angle" else item.start, item) for item in items)
-    prose = [Passage(text[at : item.end], at) for at, item in starts if item.kind in ("", "axiom", "rule", "angle", "other")]
+    starts = ((text.rfind("\n", 0, item.start) + 1 if item.kind in ("angle", "rules") else item.start, item) for item in items)
+    prose = [
+        Passage(text[at : item.end], at) for at, item in starts if item.kind in ("", "axiom", "rule", "rules", "angle", "other")
+    ]
     systems = [*{(_all_of(system.axiom), *map(_shown, system.rules)): system for system in reversed(systems)}.values()][::-1]
     lost = _lost_rules(text, items)
     for system in systems:
@@ -224,6 +229,10 @@ _SAID_ANGLE = re.compile(
     r"|\((\d{1,3}(?:\.\d+)?)[ ]?(?:°|deg)\w*\)|(?<![\d.])(\d{1,3}(?:[.,]\d+)?)°[ ](?:to the |nach |turn)",
     re.IGNORECASE,
 )
+_SAID_STEPS = re.compile(
+    rf"(?<![\w.,=+-])(\d{{1,3}})[ ](?:{'|'.join(word for word in tables()['names']['steps'] if len(word) > 4)})\b",
+    re.IGNORECASE,
+)
 _BETWEEN = rf",[ ]?|[ ](?:{_SAY['and']})[ ]"
 _SYMBOLS = rf"[A-Za-z0-9](?>(?:(?:{_BETWEEN})[A-Za-z0-9])*)"
 _ANDS = (words for _, words in groupby(sorted(tables()["said"]["and"], key=len), len))
@@ -287,6 +296,11 @@ def _take_prose(found: Found, prose: Sequence[Passage]) -> None:
         [(angle, match)] = angles.items()
         found.angle = angle, Passage(match[0], prose[0].at, False)
         found.notes.append(f'The angle is that of the text: "{match[0]}".')
+    steps = {match[1] for each in prose for match in _SAID_STEPS.finditer(each.text)}
+    if found.steps is None and len(steps) == 1:
+        [number] = steps
+        found.steps = int(number), Passage("", prose[0].at, False)
+        found.notes.append(f"The number of steps, {number}, is that of the text.")
     used = {
         symbol for rule in found.rules for symbol in re.findall(r"\w", "".join(part.text for part in (rule.head, *rule.tail)))
     }
@@ -383,7 +397,7 @@ def _with_plain_axioms(text: str, items: Sequence[Part], letters: frozenset[str]
         line = text[item.start : item.end]
         follows = word and bool(found) and (found[-1].kind in ("rule", "more", "aside") or is_unfinished(rule))
         near = bool(found) and (item.line == found[-1].line + 1 or is_unfinished(rule))
-        if follows and near and surely_goes_on(line, rule, known):
+        if follows and near and not _REFERENCE.fullmatch(line) and surely_goes_on(line, rule, known):
             goes_on = named or not following or following.kind != "rule" or len(line.strip()) > 1
         else:
             goes_on = False
@@ -399,7 +413,8 @@ def _with_plain_axioms(text: str, items: Sequence[Part], letters: frozenset[str]
         ):
             found.append(replace(item, kind="axiom"))
         else:
-            found.append(replace(item, kind="aside") if follows and line.strip("{}()[] \t") else item)
+            below = word and [each.kind for each in found[-2:]] in (["rule", ""], ["more", ""]) and len(line.strip()) > 1
+            found.append(replace(item, kind="aside") if (follows or below) and line.strip("{}()[] \t") else item)
     return found
 
 
@@ -455,7 +470,7 @@ _WRITTEN = re.compile(
 def _check_left_out(text: str, items: Sequence[Part]) -> None:
     """Refuse a line among the parts that looks like a rule and is none."""
     parts = [index for index, item in enumerate(items) if item.kind == "rule"]
-    for item in items[parts[0] : parts[-1] + 2] if parts else ():
+    for item in items[parts[0] : parts[-1] + 2] if parts else items:
         line = text[item.start : item.end].strip()
         if item.kind == "" and _WRITTEN.fullmatch(line) and not re.search(r"[a-z]{3}", line):
             raise ModelSyntaxError(
@@ -485,6 +500,19 @@ def is_prose(text: str) -> bool:
     )
 
 
+def is_other(text: str) -> bool:
+    r"""Whether no line of a text has an arrow, and what stands there is neither words of symbols nor a list of values.
+
+    >>> is_other("1. e4 e5 2. Nf3 Nc6"), is_other("F+F"), is_other("dt = 0.5"), is_other("A -> B")
+    (True, False, False, False)
+    """
+    if ANY_ARROW.search(text) or OWN_FRAME.search(text) or _OWN_STATEMENT.search(text):
+        return False
+    lines = [line for line in text.splitlines() if line.strip() and not is_word(line)]
+    return bool(lines) and (any(map(_SENTENCE.search, lines)) or not any(map(_NAMED.match, lines)))
+
+
+_NAMED = re.compile(r"[ \t]*+\w[\w ]*+(?:\([^()]*+\))?[ \t]*+[:=]")
 _PLACE, _STEP = r"[A-Z]\w*+(?>(?:[ -]\w++)*)", rf"[ ]?(?:{ARROW}|>|»)[ ]?"
 _PATH = re.compile(rf"^[ \t]*+{_PLACE}(?:{_STEP}{_PLACE}){{2,9}}$", re.MULTILINE)
 """Where a page is, as its head says: Home → Fractals → L-systems."""
@@ -535,6 +563,8 @@ def _system(text: str, items: Sequence[Part]) -> Found:
             found.notes += behind
             if text[item.start : item.end].endswith(".") and not rule.tail[0].text.endswith("."):
                 found.notes.append(FULL_STOPS)
+            if _BETWEEN_WORDS.search(rule.tail[0].text):
+                found.notes.append('"|" turns around: two successors are two rules, each with its probability.')
             if not rule.tail[0].text:
                 found.notes.append(f"{rule.head.text} is erased: nothing stands behind its arrow.")
             found.rules.append(replace(rule, probability=chance_of(above) if above else rule.probability, section=section))
@@ -564,6 +594,7 @@ def _system(text: str, items: Sequence[Part]) -> Found:
             found.signs = {**program["signs"], **found.signs}
             absent = program.get("absent", {})
     found.rules = _with_chances(found.rules)
+    _give_rest(found)
     found.notes += _told_sums(found.rules)
     symbols = "".join(part.text for part in (*(found.axiom or ()), *(part for rule in found.rules for part in rule.tail)))
     heads = {rule.head.text[:1] for rule in found.rules}
@@ -577,6 +608,17 @@ def _told_sums(rules: Sequence[Rule]) -> Iterator[str]:
         chances = [rule.probability for rule in rules if rule.head.text == head and rule.probability is not None]
         if chances and abs((together := sum(chances, Fraction(0))) - 1) > Fraction(1, 50):
             yield f"The probabilities of {head} are together {float(together):g}, not 1: they are taken as shares."
+
+
+def _give_rest(found: Found) -> None:
+    """Give the one rule of a symbol that has no probability what those of the others leave of one."""
+    for head in dict.fromkeys(rule.head.text for rule in found.rules):
+        chances = [rule.probability for rule in found.rules if rule.head.text == head]
+        rest = 1 - sum((each for each in chances if each is not None), Fraction(0))
+        if len(chances) > 1 and chances.count(None) == 1 and rest > 0:
+            index = next(i for i, rule in enumerate(found.rules) if rule.head.text == head and rule.probability is None)
+            found.rules[index] = replace(found.rules[index], probability=rest)
+            found.notes.append(f"The rule of {head} without a probability has what the others leave: {float(rest):g}.")
 
 
 def _with_chances(rules: list[Rule]) -> list[Rule]:
@@ -596,12 +638,15 @@ def _add_axiom(found: Found, value: Passage, item: Part) -> None:
     alias = ALIAS.match(value.text)
     said = value.part(alias.end() if alias else 0)
     passage = unquoted(Passage(without_comment(said.text), said.at).part(0))
-    if not is_word(passage.text) and (word := re.match(r"(\S+?)[,;.]?\s+[a-z]{2,}\b", passage.text)):
+    if not is_word(passage.text) and (word := re.match(r"(\S+?)(?:[,;.]?\s+[a-z]{2,}\b|\.\s+[A-Z])", passage.text)):
         found.notes.append(f'Behind the axiom, "{quotable(passage.text[word.end(1) :].strip()[:40])}" is left out.')
         passage = passage.part(0, word.end(1))
     passage = passage.part(0, end_of_value(passage.text, 0, len(passage.text)))
     if passage.text.endswith(".") and len(passage.text) > 1 and "{" not in passage.text:
         passage = passage.part(0, len(passage.text) - 1)
+    if re.fullmatch(r"\([^()]*\)", passage.text):
+        passage = passage.part(1, len(passage.text) - 1)
+        found.notes.append("The brackets around the axiom are left out.")
     if found.axiom is not None:
         if found.axiom[0].text.split() != passage.text.split():
             found.notes.append(f'The axiom is given more than once: "{found.axiom[0].text}" is used, not "{passage.text}".')
@@ -641,10 +686,19 @@ def _without_words(rule: Rule, heads: Collection[str]) -> tuple[Rule, list[str]]
     if behind is None:
         return rule, []
     said = tail.text[behind.end() :]
+    tail = tail.part(0, behind.start())
+    while " " in tail.text and (last := tail.text.rpartition(" ")[2].lower()) in _SMALL_WORDS and last not in heads:
+        tail = tail.part(0, len(tail.text.rpartition(" ")[0].rstrip(" .")))
     note = f'Behind the rule of {rule.head.text}, "{quotable(said[:40])}" is left out.'
-    return replace(rule, tail=(tail.part(0, behind.start()),)), [note]
+    return replace(rule, tail=(tail,)), [note]
 
 
+_SMALL_WORDS = frozenset((*tables()["said"]["and"], *tables()["said"]["lead"]))
+"""The first words of what stands behind a successor."""
+
+
+_BETWEEN_WORDS = re.compile(r"\S\S[ ]+\|[ ]+(?=\S)|(?<!\S)\S[ ]+\|[ ]+(?=\S{2})")
+"""A bar that may part two successors, as in a grammar: with blanks around it, where other symbols have none."""
 _BEHIND = re.compile(r"[;,][ ]+(?=[a-z]{3,}[ ]+[a-z]{3,}[ ])")
 """Where a sentence begins behind a successor."""
 

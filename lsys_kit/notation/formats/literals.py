@@ -833,6 +833,10 @@ def _alternatives(head: Passage, value: Group) -> Iterator[Rule]:
     if "successor" in parts and isinstance(parts["successor"].terms[-1], Term):
         yield Rule(head, (parts["successor"].terms[-1].passage,), _chance(parts.get("probability")))
         return
+    texts_named = [made for entry in members if entry.key and (made := _texts(entry.terms))]
+    if "probability" in parts and len(texts_named) == 1:  # whatever its name
+        yield Rule(head, texts_named[0], _chance(parts["probability"]))
+        return
     texts = [entry for entry in members if not entry.key and not _is_calculated(entry.terms)]
     if members and len(texts) == len(members):
         chance = Fraction(1, len(texts)) if len(texts) > 1 else None
@@ -840,7 +844,7 @@ def _alternatives(head: Passage, value: Group) -> Iterator[Rule]:
             [Rule(head, words, chance)] if (words := _texts(entry.terms)) else _pairs(head, entry.terms[-1]) for entry in texts
         ]
         yield from chain.from_iterable(each) if all(each) else ()
-    elif members and all(len(entry.key) == len(entry.terms) == 1 for entry in members):  # {"FF": 0.5, "F+F": 0.5}
+    elif not texts_named and all(len(entry.key) == len(entry.terms) == 1 for entry in members):  # {"FF": 0.5, "F+F": 0.5}
         for entry in members:
             word, number = entry.key[0], entry.terms[0]
             if isinstance(word, Term) and isinstance(number, Term) and (word.kind, number.kind) == ("text", "number"):

@@ -1,7 +1,7 @@
 """Files of LParser (L. Lapré, 1994): three numbers, an axiom and rules, each on a line of its own.
 
-Recursion, angle and thickness come first; what stands behind "#" says nothing; "@" ends the file. Its signs are a table of
-`fields.toml`.
+Recursion, angle and thickness come first, perhaps below a title; what stands behind "#" or ";" says nothing; "@" ends the
+file. Its signs are a table of `fields.toml`.
 """
 
 from __future__ import annotations
@@ -9,11 +9,15 @@ from __future__ import annotations
 import re
 from fractions import Fraction
 
-from lsys_kit.errors import ModelSyntaxError
+from lsys_kit.errors import ModelSyntaxError, quotable
 from lsys_kit.notation.formats.found import Found, Passage, Rule, symbols_in, tables
 
 _RULE = re.compile(r"[^\s=]{1,12}[ \t]*=(?!=)")
+_IS_PART = re.compile(rf"{_RULE.pattern}|axiom\b|.*->", re.IGNORECASE)
+"""What is no title."""
 _NUMBER = re.compile(r"\d+(?:\.\d*)?")
+_COMMENT = re.compile(r"#[^\n]*|(?:^|(?<=[ \t]));[ \t=-][^\n]*", re.MULTILINE)
+"""What says nothing: a semicolon alone makes turns greater."""
 
 
 def systems_in_lparser(text: str) -> list[Found]:
@@ -23,17 +27,22 @@ def systems_in_lparser(text: str) -> list[Found]:
     >>> found.steps[0], float(found.angle[0]), found.axiom[0].text, found.rules[0].tail[0].text
     (6, 22.5, 'A', 'F[+A]>A')
     """
-    lines = [
-        Passage(line[0], line.start()).part(0) for line in re.finditer(r"[^#\n]+(?=#|\n|$)", re.sub(r"#[^\n]*", _blank, text))
-    ]
+    lines = [Passage(line[0], line.start()).part(0) for line in re.finditer(r"[^\n]+", _COMMENT.sub(_blank, text))]
     lines = [line for line in lines if line.text]
+    above = next((index for index, line in enumerate(lines) if _NUMBER.fullmatch(line.text)), 0)
+    title, lines = lines[:above], lines[above:]
     numbers = [line for line in lines[:3] if _NUMBER.fullmatch(line.text)]
     rest = lines[len(numbers) :]
     if len(numbers) < 2 or numbers != lines[: len(numbers)] or not rest:
         return []
     end = next((index for index, line in enumerate(rest) if line.text.startswith("@")), len(rest))
     rest = rest[:end]
-    if len(rest) < 2 or not all(_RULE.match(line.text) for line in rest[1:]) or rest[0].text.lower().startswith("axiom"):
+    if (
+        (title and (len(numbers) < 3 or any(_IS_PART.match(line.text) for line in title)))
+        or len(rest) < 2
+        or not all(_RULE.match(line.text) for line in rest[1:])
+        or rest[0].text.lower().startswith("axiom")
+    ):
         return []
     if len(numbers) < 3:
         hint = "Three lines with numbers stand above the axiom: the recursion, the angle and the thickness."
@@ -45,7 +54,8 @@ def systems_in_lparser(text: str) -> list[Found]:
             hint,
         )
     signs = tables()["signs"]["lparser"]
-    found = Found(axiom=(rest[0],), signs=signs["signs"])
+    found = Found(axiom=(rest[0],), signs=signs["signs"], name=title[0].text if title else "")
+    found.notes += [f'"{quotable(line.text)}" is left out: it stands above the first number.' for line in title]
     found.steps = int(numbers[0].text.split(".")[0][:6]), numbers[0]
     found.angle = Fraction(numbers[1].text.rstrip(".")), numbers[1]
     for line in rest[1:]:

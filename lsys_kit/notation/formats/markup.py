@@ -49,6 +49,10 @@ def systems_in_markup(text: str) -> list[Found]:
     return found
 
 
+_UNSEEN = dict.fromkeys(map(ord, "\u00ad\u200b\u200c\u200d\u200e\u200f\ufeff"))
+"""Marks that are not seen, as copied texts have them."""
+
+
 def _equally_likely(rules: list[Rule]) -> list[Rule]:
     """Of several productions for the same symbol one is taken at random."""
     several = Counter(rule.head.text for rule in rules)
@@ -71,7 +75,7 @@ class _Tree:
         self.parser.EntityDeclHandler = self.doctype
 
     def read(self) -> None:
-        data = self.text.encode("utf-8", "replace")
+        data = self.text.replace("\u00a0", " ").encode("utf-8", "replace")
         self.offsets = None if len(data) == len(self.text) else data
         try:
             self.parser.Parse(data.lstrip(b"\xef\xbb\xbf \t\r\n"), True)
@@ -101,7 +105,7 @@ class _Tree:
         at = max(0, self.text.find("<!DOCTYPE"))
         group = Group("", "{", at)
         for key, value in attributes.items():
-            group.entries.append(_entry(key, Term("text", value, at, at + 1, False)))
+            group.entries.append(_entry(key, Term("text", value.translate(_UNSEEN), at, at + 1, False)))
         self.open.append((name, group, [], []))
 
     def characters(self, data: str) -> None:
@@ -112,7 +116,7 @@ class _Tree:
 
     def end(self, _: str) -> None:
         name, group, said, places = self.open.pop()
-        text = "".join(said).strip()
+        text = "".join(said).translate(_UNSEEN).strip()
         called = {entry.key[0].text: entry for entry in group.entries if isinstance(entry.key[0], Term)}
         before = self.open[-1][1]
         if {"name", "value"} <= {*called} and isinstance(called["name"].terms[0], Term):  # a parameter
@@ -120,7 +124,8 @@ class _Tree:
         elif "name" in called and text and isinstance(called["name"].terms[0], Term):
             before.entries.append(_entry(called["name"].terms[0].text, self.term(text, places)))
         elif group.entries:
-            group.entries += [_entry(name, self.term(text, places))] if text else []
+            rule = any(key.lower() in tables()["names"]["predecessor"] for key in called)
+            group.entries += [_entry("successor" if rule else name, self.term(text, places))] if text else []
             before.entries.append(_entry(name, group))
         else:
             before.entries.append(_entry(name, self.term(text, places)))

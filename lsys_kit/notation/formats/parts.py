@@ -25,7 +25,7 @@ BLANKS = r"[ \t]*+"
 ARROW = r"(?:[-=|]{1,3}>|→|⟶|⟼|↦|⇒|➔|➜|➝|\\(?:long)?(?:rightarrow|mapsto)\b|\\to\b|::=|:=)"
 """That of an arrow."""
 _LABEL = (
-    rf"(?:(?:[pPrR]|[Rr]ule|[Rr]egel)[_ ]?\d{{1,3}}{BLANKS}[:.)=]|\(\d{{1,3}}\)"
+    rf"(?:(?:[pPrR]|[Rr]ule|[Rr]egel)[_ ]?\d{{1,3}}{BLANKS}(?:[:.)=]|(?=\(\d?\.\d))|\(\d{{1,3}}\)"
     rf"|(?!0?\.\d)\d{{1,2}}(?:\.\d{{1,2}})*[.)]?(?=[ \t])|[pP]{BLANKS}:)"
 )
 _OWN = r"(?:[A-Za-z]\w{0,15}|\d|[-+](?!→))"
@@ -38,14 +38,14 @@ _HEAD = (
 _HEAD_ALONE = re.compile(_HEAD)
 _CHANCE = r"(?:\d{1,3}(?:\.\d+)?\s?%|0?\.\d+|\(\d{1,3}\.?\d*\s?%\)|\(?\d{1,3}/\d{1,3}\)?)"
 _RULE = (
-    rf"(?:(?P<label>{_LABEL}){BLANKS})?(?:(?P<first>{_CHANCE}){BLANKS}:?{BLANKS})?(?P<head>{_HEAD}){BLANKS}"
+    rf"(?:(?P<label>{_LABEL}){BLANKS})?(?:(?P<first>{_CHANCE}|\(0?\.\d+\)){BLANKS}:?{BLANKS})?(?P<head>{_HEAD}){BLANKS}"
     rf"(?:(?<=[ \t])(?P<over>{_CHANCE}){BLANKS}|-{{1,2}}{BLANKS}(?P<within>{_CHANCE}|\(0?\.\d+\)){BLANKS}(?=-*>|→))?"
-    rf"(?P<arrow>-*{ARROW}|WORDS|=(?!=)(?![ \t]*\d+(?:\.\d+)?[ \t]*(?:$|[,;:)])))"
+    rf"(?P<arrow>-*{ARROW}|WORDS|=(?!=)(?![ \t]*\d+(?:\.\d+)?[ \t]*(?:$|[,;:)]))(?![^\n,;]*(?:->|→)))"
 )
 AFTER = re.compile(
     rf"(?:(?<![ \t])[ \t]++|(?<=[^\s(]))(?::{BLANKS}(?P<plain>{_CHANCE}|\d(?:\.\d+)?)"
     rf"|[(\[]{BLANKS}(?:p{BLANKS}={BLANKS})?(?P<bracketed>{_CHANCE}){BLANKS}[)\]]"
-    rf"|(?:,{BLANKS}|(?<=[ \t]))(?:(?:with[ ])?(?:p|prob\.?|probability){BLANKS}(?:[:=]|of\b)?)?{BLANKS}"
+    rf"|(?:[,:]{BLANKS}|(?<=[ \t]))(?:(?:with[ ])?(?:p|prob\.?|probability){BLANKS}(?:[:=]|of\b)?)?{BLANKS}"
     rf"(?:(?P<named>{_CHANCE})|(?:WEIGHT)[ ]?[:=]?[ ]?(?P<weight>\d{{1,4}}(?:\.\d+)?))){BLANKS}$".replace(
         "WEIGHT", "|".join(tables()["said"]["weight"])
     )
@@ -57,22 +57,29 @@ BEFORE = re.compile(
 """A probability between an arrow and a successor, in brackets or in percents."""
 NOTHING = re.compile(r"\([a-z ]{5,}\)|empty|nothing|none|ε|λ|\*")
 """Successors that are empty."""
-_COMMENT = re.compile(
+COMMENT = re.compile(
     r"(?<![ \t])(?:[ \t]{2,}+\(\d+(?:\.\d+)*[a-z]?\)|[ \t]++(?:#|//|%|;|←)[ \t].*"
     r"|[ \t]++\{(?=[^{}\n]*?[a-z]{3})[^{}\n]*\}|[ \t]++\((?=[^()\n]*?[a-z]{3})[^()\n]*\)[.]?)$",
     re.MULTILINE,
 )
 """What is said behind a part: a comment, the number of an equation."""
 _NUMBER = re.compile(r"[ \t]*+[-+]?(?:\d++(?>(?:[.,]\d++)?)|\.\d++)(?>(?:/\d++)?)(?P<rest>.*)")
+_SAY = {name: "|".join(map(re.escape, tables()["said"][name])) for name in ("is", "lead")}
+_LEAD = rf"(?:(?:(?i:{_SAY['lead']})|[aoAO](?=[ \t]+(?:axiom|regra|[âa]ngul)))[ \t]+|[dlDL]')"
 _BOUNDARY = re.compile(
-    r"[,;|\t({]+[ \t]*(?:(?:and|und|et|with|using|by|the|its|an?)[ \t]+){0,3}|[ \t]{2,}|[.][ \t]+"
-    r"|[ \t](?:and|und|y|et|en|e(?=[ \t]+(?:\(|\w{3})))[ \t]+[({]?"
+    rf"[,;|\t({{]+[ \t]*(?:{_LEAD}){{0,3}}|[ \t]{{2,}}|[.][ \t]+(?>(?:{_LEAD})?)"
+    r"|(?<![:=])[ \t](?:(?:with|mit|avec|con|and|und|et)[ \t]+)?(?=[ωδ][ \t]*[=:])"
+    rf"|[ \t](?:and|und|y|et|en|e(?=[ \t]+(?:\(|\w{{3}}|o[ ]|[A-Z][ ]{{0,2}}(?:→|->))))[ \t]+(?>(?:{_LEAD})?)[({{]?"
     r"|[ \t]\^[ \t]*\("
-    r"|[ \t](?P<said>with|using|by|the|its|mit|con|avec|com)[ \t]+(?:(?:the|an?)[ \t]+)?"
+    rf"|[ \t](?P<said>{_LEAD})(?>(?:{_LEAD})?)"
     r"|:(?=[ \t])|[ \t](?=(?:axiom|rules?|angle|iterations)[ \t])"
 )
+_LEADING = re.compile(rf"(?:{_LEAD}){{1,3}}")
+"""What stands before a name at the beginning of a line."""
+_TRIPLE = re.compile(r"[A-Z][ \t]*=[ \t]*[(⟨<][ \t]*\{[^{}\n]*\}[ \t]*,(?P<axiom>[^,{}\n]+),[ \t]*(?:(?=\{)|[A-Z][ \t]*[)⟩>])")
+"""An L-system as a triple of its alphabet, its axiom and its rules."""
 _BULLET = re.compile(
-    r"[ \t]*(?:[*•▪‣◦·][ \t]+(?!<)"
+    r"[ \t]*(?:[*•▪‣·°][ \t]+(?!<)"  # an open bullet is taken for a sign of degrees
     r"|-[ \t]+(?=[A-Za-zΑ-ωА-я\"'][^<\n]*(?:[:=→]|->))|\d{1,2}(?:\.\d{1,2})*[.)][ \t]+|[a-z]\)[ \t]+)*"
 )
 _SIGNS_ONLY = re.compile(r"[A-Za-z0-9+\-&^\\/|\[\]{}$!'\"#~;.%@<>_?*, \t]+")
@@ -85,7 +92,7 @@ ALIAS = re.compile(r"\A[ \t]*(?:[ωδθφαPS]|w(?=[ \t]*=[ \t]*\S))[ \t]*[:=](?
 def without_comment(text: str) -> str:
     """A part without what is said behind it, at the end of its last line."""
     last = text.rfind("\n", 0, len(text) - text.endswith("\n")) + 1
-    return text[:last] + _COMMENT.sub("", text[last:])
+    return text[:last] + COMMENT.sub("", text[last:])
 
 
 @cache
@@ -101,14 +108,16 @@ def fields() -> tuple[re.Pattern[str], dict[str, str]]:
     )
     behind = r"(?![\wÀ-ÿ])(?:[ ]?\([^()\n]{0,40}\))?(?:[ ][ωδθφPVSϕ](?=[ ]?[:=]))?"
     return re.compile(
-        rf"(?P<name>{every}){behind}(?:{BLANKS}(?P<sep>:=|::?|=(?![=>])|→|⟶|-{{1,2}}>)|(?=[ \t]|$)){BLANKS}", re.IGNORECASE
+        rf"(?P<name>{every}){behind}(?:[ \t]+(?:{_SAY['is']})(?=[: \t]))?"
+        rf"(?:{BLANKS}(?P<sep>:=|::?|=(?![=>])|→|⟶|-{{1,2}}>)|(?=[ \t]|$)){BLANKS}",
+        re.IGNORECASE,
     ), kinds
 
 
 @cache
 def _rules() -> re.Pattern[str]:
     """The pattern of a rule's beginning."""
-    words = "|".join(tables()["arrows"]["words"])
+    words = "|".join(sorted(tables()["arrows"]["words"], key=len, reverse=True))
     return re.compile(_RULE.replace("WORDS", rf"(?<=[ \t])(?:{words})(?=[ \t])"))
 
 
@@ -155,6 +164,11 @@ def parts_in_line(text: str, start: int, end: int, line: int, under_rules: bool)
     """The parts that a line has."""
     bullet = _BULLET.match(text, start, end)
     start = bullet.end() if bullet else start
+    if (lead := _LEADING.match(text, start, end)) and fields()[0].match(text, lead.end(), end):
+        start = lead.end()
+    if triple := _TRIPLE.search(text, start, end):
+        at, until = triple.span("axiom")
+        return [Part("axiom", at, until, None, line), *parts_in_line(text, triple.end(), end, line, True)]
     begun: list[tuple[int, Part]] = []
     within = _glued(text, start, end)
     cuts = [
@@ -204,8 +218,17 @@ def _glued(text: str, start: int, end: int) -> list[bool]:
     return [*found, glued > 0]
 
 
+_BRACES = re.compile(r"[{}]")
+
+
 def end_of_value(text: str, start: int, end: int) -> int:
     """The end of a value, without what separates it from the next, and without brackets that are opened before it."""
+    opened = 0
+    for sign in _BRACES.finditer(text, start, end):
+        opened += 1 if sign[0] == "{" else -1
+        if opened < 0:  # it ends the set of the rules
+            end = sign.start()
+            break
     said = text[start:end].rstrip(" \t,;|")
     said = said[:-1] if said.endswith(("}.", ").", " .")) else said
     while said and said[-1] in ")}" and said.count(said[-1]) > said.count("({"[said[-1] == "}"]):
@@ -242,7 +265,7 @@ def _rule_at(text: str, at: int, end: int, line: int, under_rules: bool) -> Part
             and (ANY_ARROW.search(text, rule.end(), end) or _CALCULATION.fullmatch(text[rule.end() : end].strip(" \t)")))
         )
         and not (
-            len(rule["head"].strip()) == 1
+            (len(rule["head"].strip()) == 1 or _IN_SENTENCE.search(text, text.rfind("\n", 0, at) + 1, at))
             and (
                 _is_prose(_SAID.split(text[rule.end() : end], maxsplit=1)[0].strip(" \t"))
                 or (rule["arrow"] in ("=", ":=") and _SET.match(text, rule.end(), end))
@@ -275,6 +298,12 @@ _SET_OF_ONE = re.compile(r"[ \t]*\{[ \t]*\S[ \t]*\}[ \t]*(?:$|[,;.])", re.MULTIL
 """A set of one symbol, which could be a polygon of it: of what is called as alphabets are."""
 
 
+_IN_SENTENCE = re.compile(r"(?<![A-Za-zà-ÿ])[A-Za-zà-ÿ]{3,}+[ ,]++[a-zà-ÿ]{2,}+[ \t]++\Z")
+"""Words of a sentence that goes on."""
+_BEHIND_WORD = re.compile(
+    rf"\t|  |[ ]#|[.,;][ ]|[.]$|[ ](?=(?:rules?|angle|iterations|{'|'.join(tables()['said']['and'])})[ ])"
+)
+"""Where the axiom ends in a sentence."""
 _SAID = re.compile(r"[,;()]|\.(?:\s|$)")
 """Where what is said of a symbol ends."""
 
@@ -289,7 +318,9 @@ def _is_prose(text: str) -> bool:
 
 
 def _can_be_replaced(rule: re.Match[str]) -> bool:
-    """Whether what stands before an arrow can be replaced; before "=" only a symbol."""
+    """Whether what stands before an arrow can be replaced; before "=" only a symbol, and no condition before a word."""
+    if rule["arrow"][0].isalpha() and ":" in rule["head"]:
+        return False
     name = re.match(r"[^\s(:<>]*", rule["head"].strip("\"' "))
     return rule["arrow"] not in ("=", ":=") or bool(name and (len(name[0]) == 1 or "<" in rule["head"]))
 
@@ -303,7 +334,7 @@ def _possible(kind: str, named: re.Match[str], value: str, rule: Part | None, la
     if kind == "steps":
         return bool(
             number
-            and (sep or not short)
+            and (sep or not short or not (later or number["rest"].strip()))
             and re.match(r"[ \t]*(?:$|,(?![ ]?\d)|[-+…;.)#%(|]|[A-Za-zÀ-ÿ]|//|\t)", number["rest"])
         )
     if kind == "angle":
@@ -324,7 +355,7 @@ def _possible(kind: str, named: re.Match[str], value: str, rule: Part | None, la
             return len(named["name"]) > 4 and not later
         if sep:
             return not short or named["name"] in "ωw"
-        said = re.split(r"\t|  |[ ]#|[,;][ ]|[ ](?=(?:rules?|angle|iterations)[ ])", value.strip())[0]
+        said = _BEHIND_WORD.split(value.strip())[0]
         return len(named["name"]) > 4 and is_word(said) and re.fullmatch(r"\S+|\S(?:[ ]\S)+", said.strip()) is not None
     if kind == "ignore":
         return bool(sep) or is_word(value)

@@ -18,7 +18,7 @@ from lsys_kit.notation.foreign import foreign_format
 from lsys_kit.notation.formats.found import Found, completed, tables, transcript_of, undrawn_digits
 from lsys_kit.notation.formats.l_py import systems_in_l_py
 from lsys_kit.notation.formats.layout import is_markdown, page_text
-from lsys_kit.notation.formats.lines import has_unread_words, is_prose, systems_in_lines
+from lsys_kit.notation.formats.lines import has_unread_words, is_other, is_prose, systems_in_lines
 from lsys_kit.notation.formats.literals import systems_in_literals
 from lsys_kit.notation.formats.lparser import systems_in_lparser
 from lsys_kit.notation.formats.markup import systems_in_markup
@@ -175,9 +175,8 @@ def what_is_missing(text: str) -> LSystemError | None:
     if len(systems) == 1 and systems[0].rules and not systems[0].axiom and not _names_of("axiom").search(before.text):
         hint = 'Give the first word on a line of its own, as in "axiom: A".'
         return ModelSyntaxError("There is no axiom", text, len(text), None, hint)
-    if is_prose(before.text):
-        return _nothing()
-    return None
+    nothing = is_prose(before.text) or (is_other(before.text) and not _names_of("axiom").search(before.text))
+    return _nothing() if nothing else None
 
 
 def _nothing() -> ModelValueError:

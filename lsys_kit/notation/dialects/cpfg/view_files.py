@@ -96,6 +96,8 @@ def _read_object(folder: Folder, model: str) -> LSystem:
     maps = [*folder.named(".map"), *folder.named(".mat")]
     if maps:
         notes.append(f"Colours are those of the kit, not those of {' and '.join(map(_quoted, maps))}.")
+    if films := folder.named(".a"):
+        notes.append(f"How a model is animated is not read: {', '.join(map(_quoted, films))}.")
     used = " and ".join(map(_quoted, filter(None, (model, view_name))))
     system = replace(system, notes=(f"Read as cpfg, from {used}.", *notes, *text.notes, *told))
     return _in_own_notation(system) if system.surfaces else system

@@ -123,7 +123,7 @@ def _number(token: Token, digits: str) -> Number:
 _SAID = re.compile(r"angle(?:\s*=)?\s*\d++(?!\.\d)|axiom(?:\s*=\s*|\s+)[^\s:=]", re.IGNORECASE)
 """A line that gives an angle or an axiom, without a colon."""
 _OTHER = re.compile(
-    r"(?![^\s=]\s*=(?!\s*\{)|axiom|angle).*?(?:->|→|⟶|::=|:\s|\\rightarrow|\w{3}\s*=)|axiom\s*=\s*AXIOM"
+    r"(?![^\s=]\s*=(?!\s*\{)|axiom|angle|(?:theta|alpha)\s*+(?:=\s*+)?(?:pi\b|[0-6]?\.\d)).*?(?:->|→|⟶|::=|:\s|\\rightarrow|\w{3}\s*=)|axiom\s*=\s*AXIOM"
     r"|\S[ ](?-i:[a-z]{4,})[ ]",
     re.IGNORECASE,
 )

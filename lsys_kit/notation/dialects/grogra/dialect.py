@@ -163,7 +163,7 @@ _ARROW = r"(?:##?|->|→|\\rightarrow)"
 _MARKS = re.compile(
     r"^[ \t]*\\(?:angle|axiom|var|const|set|length)\b(?![^,\n]{0,200}(?:->|→))"  # a line that begins with a backslash
     rf"|^[ \t]*\*[ \t]*{_ARROW}"  # the rule for the start symbol
-    rf"|^[ \t]*\([^()\n]{{1,80}}\)[ \t]*[A-Za-z*][^:\n#>→]{{0,80}}{_ARROW}"  # a condition in front
+    rf"|^[ \t]*\((?![ \t]*\d{{1,3}}[ \t]*\))[^()\n]{{1,80}}\)[ \t]*[A-Za-z*][^:\n#>→]{{0,80}}{_ARROW}"  # a condition in front
     r"|^[ \t]*[A-Za-z]\w{0,30}'*(?:\([^()\n]{1,80}\))?[ \t]+##?[ \t]"  # "#" as an arrow
     rf"|{_ARROW}[^&#→\n]{{0,200}}&[ \t]*(?:\d+|\w+|\([^()\n]{{1,80}}\))[ \t]*<"  # what is repeated
     r"|\?[ \t]*\d*\.\d+[ \t]*(?:,|$)"  # a probability

@@ -113,11 +113,13 @@ _DIRECTIVE = re.compile(rf"{_DEFINED.pattern}|(?i:{_NEIGHBOURS.pattern})|[ \t]*+
 _START = re.compile(r"[ \t]*+((?i:Start(?:wort|word)|Start (?:word|symbol))\b[ \t]*+:?)")
 _NAMED_AXIOM = re.compile(rf"[ \t]*+(?i:axiom)\b|{_START.pattern}|{_OMEGA.pattern}")
 _PROBABILITY = re.compile(rf"(?<![ \t])[ \t]++(?:-{{1,2}}\()?+(\d*\.\d+)(?:\)(?=-)|[ \t]*+)(?={_ARROW})")
+_AFTER_COLON = re.compile(rf":[ \t]*+(0?\.\d++)[ \t]*+(?={_ARROW})")
+"""A probability before the arrow, behind a colon: a number alone is no condition."""
 _ABOVE = re.compile(r"[ \t]*+(\d*\.\d+|1)[ \t]*+$")
 _REFERENCE = re.compile(r"[\[(]\d++[\])]|\d++|[-–][ ]?\d++[ ]?[-–]|/[ ]?[a-z]|\([a-z]\)")
 """The number of a page or a note, or a caption's letter: on an indented line, anything else goes on with a production."""
 _SENTENCE = re.compile(SENTENCE)
-_NUMBERED = re.compile(r"(?<![ \t])[ \t]{2,}+(?P<number>\(\d+\.\d+[a-z]?\))[ \t]*+$")
+_NUMBERED = re.compile(r"(?<![ \t])[ \t]{2,}+(?P<number>\(\d+(?:\.\d+)?[a-z]?\))[ \t]*+$")
 """The number of an equation, at the end of a line."""
 _ASIDE = re.compile(r"[\W_]*+(?:\w{1,12}(?:\.\d+)?[\W_]*+)?")
 """A line with one name or number, whatever signs are around it."""
@@ -128,7 +130,7 @@ _CHANCE = re.compile(
 """A probability in brackets, set apart from the symbol."""
 _CHANCE_BEHIND = re.compile(r"\((?P<number>0?\.\d++)\)[ \t]*+$")
 """What may be a probability in brackets, behind a word."""
-FULL_STOPS = "The full stop at the end of a rule is left out."
+FULL_STOPS = "The full stop at the end of a line is left out."
 _ANY = re.compile(rf"(?P<left>\*)[ \t]*+(?=<)|(?<=>)[ \t]*+(?P<right>\*)(?=[ \t]*+(?>(?:\d*\.\d++[ \t]*+)?)(?:{_ARROW}|:))")
 _EQUALS = re.compile(r"(?<![<>=!:])=(?!=)")
 _DIGIT_RULE = re.compile(rf"(?:[^<>:]*+<)?[ \t]*+\d[ \t]*+(?:>[^<>:]*?)?(?:{_ARROW}|:)")
@@ -136,7 +138,7 @@ _ROW = re.compile(r"[ \t]*+(?:axiom|ignore|consider)\b", re.IGNORECASE)
 _ALPHABET = re.compile(r"[ \t]*+alphabet\b.*\d\b", re.IGNORECASE)
 _DIGIT = re.compile(r"(?<![.\d])\d(?![.\d])")
 
-_WORD = re.compile(r"(?!\s*+(?:start|begin|init|root|word)\w*+[ \t]|.*\\[a-z]{3})[^:=<>#\n]*+(?<!-)", re.IGNORECASE)
+_WORD = re.compile(r"(?!\s*+(?:start|begin|init|root|word)\w*+[^\S\n]|.*\\[a-z]{3})[^:=<>#\n]*+(?<!-)", re.IGNORECASE)
 """A line that may be an axiom without its name, and is no name of an axiom without its colon."""
 
 _BLANK_LINES = re.compile(r"\n\n\n+")
@@ -289,7 +291,7 @@ class _Listing:
                 yield Edit(line.start + start.start(1), line.start + start.end(), "axiom:")
             elif (omega := _OMEGA.match(line.text)) and omega[1]:
                 yield Edit(line.start + omega.start(1), line.start + omega.end(1), ":")
-            if _NAMED_AXIOM.match(line.text) and line.text[: line.end - line.start].endswith(","):
+            if _NAMED_AXIOM.match(line.text) and (self.plain[line.end - 1] == "," or self._is_stop(line.end - 1)):
                 yield Edit(line.end - 1, line.end, "")
         yield from self._axiom()
 
@@ -300,6 +302,8 @@ class _Listing:
             yield Edit(line.start + defined.start(3), line.start + defined.end(3), " = ")
         elif neighbours := _NEIGHBOURS.match(line.text):
             yield Edit(line.start + neighbours.start(1), line.start + neighbours.end(1), "")
+            if line.text[neighbours.end() :].lstrip()[:1] != ":":
+                yield Edit(line.start + neighbours.end(), line.start + neighbours.end(), ":")
         else:
             self.notes.append(f'"{line.text.strip()}" is passed over.')
             yield Edit(line.start, line.end, "")
@@ -363,7 +367,7 @@ class _Listing:
                 continue
             yield from self._head(line, line.text[: arrow.start()])
             condition = ":" in self._bare(line)[: arrow.start()]  # which may end with a number, too
-            over = None if condition else _PROBABILITY.search(line.text)
+            over = _AFTER_COLON.search(line.text) or (None if condition else _PROBABILITY.search(line.text))
             if (chance := _CHANCE.match(line.text)) and not self._has_values(chance["symbol"]):
                 yield Edit(line.start + chance.start("value"), line.start + chance.end("value"), "")
                 above = chance["number"]
@@ -375,19 +379,25 @@ class _Listing:
                 yield Edit(end, end, f" : {over[1] if over else above}")
             above = None
             if (
-                self.labelled
+                (self.labelled or arrow[0] in "→⟶")
                 and (number := _NUMBERED.search(line.text))
                 and not self._has_values(line.text[: number.start()][-1])
             ):
                 self.notes.append(f'"{number["number"]}" is read as the number of an equation.')
                 yield Edit(line.start + number.start("number"), line.start + number.end("number"), "")
             end = self._end(index)
-            if arrow[0] in "→⟶" and self.plain[end - 1] == "." and "{" not in self.plain:
-                self.notes.append(FULL_STOPS)
+            if arrow[0] in "→⟶" and self._is_stop(end - 1):
                 yield Edit(end - 1, end, "")
         for symbol, each in chances.items():
             whole = "" if sum(each) == 1 else f"; together they are {float(sum(each)):g}, not 1"
             self.notes.append(f"The numbers before the arrows of {symbol} are read as probabilities{whole}.")
+
+    def _is_stop(self, at: int) -> bool:
+        """Whether a full stop ends a line at an offset, and no vertex of a polygon; which is said once."""
+        stop = self.plain[at] == "." and "{" not in self.plain
+        if stop and FULL_STOPS not in self.notes:
+            self.notes.append(FULL_STOPS)
+        return stop
 
     def _chances_behind(self) -> Iterator[Edit]:
         """Probabilities in brackets, set apart behind the words of all rules for a symbol, if together they are 1."""
