@@ -279,9 +279,10 @@ _POWER = re.compile(r"\^\s*\{([^{}]*)\}")
 _JOINED = (("and", "&&"), ("or", "||"), ("not", "!"), ("und", "&&"), ("oder", "||"), ("nicht", "!"))
 _SPELT = (("plus", "+"), ("minus", "-"), ("times", "*"), ("mal", "*"), ("hoch", "^"), ("durch", "/"))
 """Words for the signs of a formula."""
+_BARS = re.compile(r"(?<!\|)\|([^|<>=&!]++)\|(?!\|)")
 _COLON, _COLONS = re.compile(r"(?<=[\w)])\s*+:\s*+(?=[\w(])"), re.compile(r":[\s\w.]*+:")
 """A colon for a division, and two between which there is no sign."""
-_ROW_WITHOUT_BLANKS = re.compile(r"\d,\d++,|\(\s*+[-+]?\d++,\d++\s*+\)|[A-Za-z]\w*+\s*+\([^()]*+,")
+_ROW_WITHOUT_BLANKS = re.compile(r"\d,\d++,|\(\s*+[-+]?\d++,\d++\s*+\)|(?<!\w)[A-Za-z]\w*+\s*+\([^(),]*+,")
 """Numbers or arguments with commas between them, which are no decimal commas."""
 _POWER_OF = re.compile(r"\bpow\(([^(),]+),([^(),]+)\)")
 _IMPLICIT = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?)\s*(?=[A-Za-z_(])|(?<=\))\s*(?=[\w(])")
@@ -299,6 +300,8 @@ def formula_text(text: str, names: Collection[str] = ()) -> str:
     ('u*n < v*m || ! m < 2', 'p*(1 - p)')
     >>> formula_text("(5^n-1):4"), formula_text("1,25*5^n - 0,25"), formula_text("hypot(5,12)")
     ('(5^n-1)/4', '1.25*5^n - 0.25', 'sqrt((5)^2+(12)^2)')
+    >>> formula_text("|n - 2| + 1"), formula_text("y < 0 | x > 1")
+    ('abs(n - 2) + 1', 'y < 0 || x > 1')
     """
     text = unassigned(keyboard_text(text).strip().strip("$").strip())
     for _ in range(MOST_NESTED):
@@ -316,6 +319,7 @@ def formula_text(text: str, names: Collection[str] = ()) -> str:
         text = re.sub(r"(?<=\d),(?=\d)", ".", text)
     for word, sign in _SPELT:
         text = re.sub(rf"(?<=[\w)])\s+{word}\s+(?=[\w(])", f" {sign} ", text, flags=re.IGNORECASE)
+    text = _BARS.sub(r"abs(\1)", text)
     text = _POWER_OF.sub(r"((\1)^(\2))", _HYPOTENUSE.sub(r"sqrt((\1)^2+(\2)^2)", text))
     text = with_operators(text.replace("**", "^"), names)
     return _IMPLICIT.sub(lambda found: f"{found[1] or ''}*", _products_of(text, names)).strip()
@@ -363,10 +367,13 @@ _LABELLED = re.compile(
 )
 """What is before the number in "step 3: 64"."""
 _CONCLUDED = re.compile(
-    r".*[,;.]\s(?:so|thus|hence|therefore|also|daher|folglich)\s+(?:(?:it\s+is|there\s+are|es\s+sind)\s+)?(?=[-+]?\d)",
+    r"\A.*[,;.]\s(?:so|thus|hence|therefore|also|daher|folglich)\s++(?:(?:it\s++is|there\s++are|es\s++sind)\s++)?+(?=[-+]?\d)",
     re.IGNORECASE,
 )
 """What stands before a number that follows from it."""
+_PLUS_OR_MINUS = re.compile(r"\d\s*+(?:±|\+-|\+/-)\s*+\d")
+_SLASHES = re.compile(r"\s*+\d++(?:\s*+/\s*+\d++){2,}+\s*+")
+"""A row with slashes."""
 _FACTORIAL = re.compile(r"(?:(?<![\d.])(?:[3-9]|10)|\))\s*+!")
 """A small number with an exclamation mark, which may be a factorial."""
 _RATIO_OF_THREE = re.compile(r"\d\s*+:\s*+\d[\d.]*+\s*+:\s*+\d")
@@ -384,6 +391,7 @@ _REMARK = re.compile(r"(?<=\d)\s+\([^()\d]*\)\s*$")
 """What is said behind a number, as in "19 (nineteen)"."""
 _REPLACED = (
     (re.compile(r"\bper\s+cent\b", re.IGNORECASE), "percent"),
+    (re.compile(r"\bhalf\s+of\s+(?=\d)", re.IGNORECASE), "1/2*"),
     (re.compile(r"\b(?:no|nr)\.\s*(?=\d)", re.IGNORECASE), ""),
     (re.compile(r"°(?=\s*[-+*/:])"), ""),
     (re.compile(r"(?<=\d)\s+(?:out\s+of|of|in|von|aus)\s+(?=\d+\W*$)", re.IGNORECASE), "/"),
@@ -442,7 +450,7 @@ def typed_number(answer: object, decimal_comma: bool = False) -> TypedNumber:
                 raise
             raise ModelValueError(reply("typed.no_number_but", kind=kind_of(answer))) from None
     text = _LABELLED.sub("", with_digits(_REMARK.sub("", unquoted(keyboard_text(answer)).strip("$ "))))
-    if _FACTORIAL.search(text) or _RATIO_OF_THREE.search(text):
+    if _FACTORIAL.search(text) or _RATIO_OF_THREE.search(text) or _PLUS_OR_MINUS.search(text):
         raise ModelValueError(reply("typed.unreadable", answer=quoted(answer)), hint=reply("typed.alone"))
     for pattern, plain in _REPLACED:
         text = pattern.sub(plain, text)
@@ -556,8 +564,8 @@ def parts(answer: object, what: str) -> list[object]:
     ['1', '2', '0', '1']
     """
     if isinstance(answer, str):
-        if _RATIO_OF_THREE.search(answer):
-            answer = answer.replace(":", ",")
+        if _RATIO_OF_THREE.search(answer) or _SLASHES.fullmatch(answer):
+            answer = re.sub("[:/]", ",", answer)
         text = _BETWEEN.sub(",", _MATRIX.sub(" ", _RANGE.sub("", with_digits(unquoted(keyboard_text(answer))))))
         return [with_digits(part) for part in re.split(r"[\s,;|\[\](){}&]+", unlabelled(text)) if part.strip(".")]
     return list(_flat(answer, what))

@@ -216,7 +216,9 @@ def _read_number(exercise: Exercise, answer: object) -> Value:
     if is_counted and {"per", "pro"} & {*map(str.lower, found.after)}:  # a rate
         raise _other_unit(exercise, " ".join(found.after))
     odd = _odd_words(exercise, found, unit)
-    if len(odd) > 1 or (odd and found.after and odd[0] not in (*found.after[:1], *found.before)):
+    is_apart = odd and found.after and odd[0] not in (*found.after[:1], *found.before)  # as "each" in "three walls each"
+    is_a_letter = odd and exercise.unit and len(odd[0]) == 1 and odd[0] in found.before
+    if len(odd) > 1 or is_apart or is_a_letter:
         raise ModelValueError(reply("typed.unreadable", answer=quoted(answer)), hint=reply("typed.alone"))
     if counted := _other_thing(exercise, found):
         raise _other_unit(exercise, counted)
@@ -444,7 +446,8 @@ def _read_table(exercise: Exercise, answer: object) -> tuple[Value, ...]:
 
 
 _OF_A_SYMBOL = re.compile(
-    r"\W*+(?:(\d++)\s*\*?\s*(?:tokens?\s+|marken?\s+)?(?:in\s+)?([^\W\d]\w*+)|([^\W\d]\w*+)\s*(?:[:=]|has\b|hat\b)\s*(\d++))\W*+"
+    r"\W*+(?:(\d++)\s*+(?:\*\s*+)?+(?:(?:tokens?|marken?)\s++)?+(?:in\s++)?+([^\W\d]\w*+)"
+    r"|([^\W\d]\w*+)\s*+(?:[:=]|has\b|hat\b)\s*+(\d++))\W*+"
 )
 """A number with its symbol, as in "2 L" and "L: 2"."""
 

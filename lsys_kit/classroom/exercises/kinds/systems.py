@@ -203,7 +203,7 @@ def _parting_at_a_bound(exercise: Exercise, mine: LSystem, wanted: LSystem, name
     symbol = next((each.symbol for each in probes if any(value != int(value) for value in each.arguments)), "")
     if not symbol:
         return None
-    reached = [module.arguments[0] for module in asked_modules(exercise, wanted) if module.symbol == symbol]
+    reached = [module.arguments[0] for module in (*asked_modules(exercise, wanted), *probes) if module.symbol == symbol]
     own, right = mine.productions, wanted.productions
     if mine.decomposition and wanted.decomposition:  # what a step makes is decomposed: what stays as it is, too
         own, right = mine.decomposition, wanted.decomposition
@@ -405,7 +405,8 @@ _COMMA_WITHIN = re.compile(r"(?<=\d),(?=\d)")
 def _is_as_typed(read: str | None, typed: str) -> bool:
     """Whether every character of what was read stands in its place, but for marks such as commas, so that it may be quoted."""
     beginning = (read or "")[: len(typed)]
-    return len(beginning) == len(typed) and all(a == b or b == "," for a, b in zip(beginning, typed, strict=True))
+    pairs = zip(beginning, typed, strict=False)
+    return len(beginning) == len(typed) and all(a == b or not (a.isalnum() or b.isalnum()) for a, b in pairs)
 
 
 def _read_typed(exercise: Exercise, text: str) -> SystemAnswer:

@@ -44,7 +44,7 @@ _LABEL = re.compile(
 )
 _OUTER = re.compile(r"^\s*[\[{(]([^\[\]{}()]*)[\]})]\s*$", re.DOTALL)
 """Words within one pair of brackets."""
-_COMMA_WITHIN = re.compile(r"(?<![\d.,])(\d++),(\d++)(?![\d.,])(?=[^()]*\))")
+_VALUES, _DECIMAL_COMMA = re.compile(r"\([^()]*+\)"), re.compile(r"(?<![\d.,])(\d++),(?=\d++(?![\d.,]))")
 """A number with a decimal comma, where the question has no module with two."""
 _NAME = re.compile(r"[A-Za-z]\w*+")
 
@@ -121,7 +121,7 @@ def _unlabelled(system: LSystem, text: str) -> str:
     text = text if "." in signs else re.sub(r"\.\s*$", "", text)
     has_decimals = re.search(r"\d\.\d", system.source or "")
     if has_decimals and system.notation != "plant-string" and all(len(m.arguments) < 2 for m in system.modules):
-        text = _COMMA_WITHIN.sub(r"\1.\2", text)
+        text = _VALUES.sub(lambda found: _DECIMAL_COMMA.sub(r"\1.", found[0]), text)
     return _NAME.sub(lambda found: plain if (plain := found[0].replace("_", "")) in known else found[0], text)
 
 

@@ -187,7 +187,8 @@ def _repairs(own: LSystem, make: Callable[[LSystem], object], edit: Edit) -> Ite
 
 def _pairs(own: LSystem, make: Callable[[LSystem], object], pairs: Iterable[tuple[Edit, Edit]]) -> Iterator[Repair]:
     for one, other in pairs:
-        if one.slot != other.slot or one.slot[1] == -1:
+        is_an_exchange = None in (one.value, other.value) and -1 in (one.slot[1], other.slot[1])  # one rule for another
+        if (one.slot != other.slot or one.slot[1] == -1) and not is_an_exchange:
             changed = applied(own, one, other)
             if is_sensible(changed):
                 first, second = (other, one) if one.slot[0] == "axiom" else (one, other)
