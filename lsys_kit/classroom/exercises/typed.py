@@ -367,12 +367,12 @@ _LABELLED = re.compile(
 )
 """What is before the number in "step 3: 64"."""
 _CONCLUDED = re.compile(
-    r"\A.*[,;.]\s(?:so|thus|hence|therefore|also|daher|folglich)\s++(?:(?:it\s++is|there\s++are|es\s++sind)\s++)?+(?=[-+]?\d)",
+    r"\A.*[,;.]\s(?:so|thus|hence|therefore|also|daher|folglich)\s++(?>(?:(?:it|there|es)\s++(?:is|are|sind)\s++)?)(?=[-+]?\d)",
     re.IGNORECASE,
 )
 """What stands before a number that follows from it."""
 _PLUS_OR_MINUS = re.compile(r"\d\s*+(?:±|\+-|\+/-)\s*+\d")
-_SLASHES = re.compile(r"\s*+\d++(?:\s*+/\s*+\d++){2,}+\s*+")
+_SLASHES = re.compile(r"\s*+\d++(?>(?:\s*+/\s*+\d++){2,})\s*+")
 """A row with slashes."""
 _FACTORIAL = re.compile(r"(?:(?<![\d.])(?:[3-9]|10)|\))\s*+!")
 """A small number with an exclamation mark, which may be a factorial."""

@@ -446,7 +446,7 @@ def _read_table(exercise: Exercise, answer: object) -> tuple[Value, ...]:
 
 
 _OF_A_SYMBOL = re.compile(
-    r"\W*+(?:(\d++)\s*+(?:\*\s*+)?+(?:(?:tokens?|marken?)\s++)?+(?:in\s++)?+([^\W\d]\w*+)"
+    r"\W*+(?:(\d++)\s*+(?>(?:\*\s*+)?(?:(?:tokens?|marken?)\s++)?(?:in\s++)?)([^\W\d]\w*+)"
     r"|([^\W\d]\w*+)\s*+(?:[:=]|has\b|hat\b)\s*+(\d++))\W*+"
 )
 """A number with its symbol, as in "2 L" and "L: 2"."""
