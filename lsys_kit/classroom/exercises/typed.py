@@ -17,7 +17,7 @@ from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.errors import LSystemError, ModelNameError, ModelSyntaxError, ModelValueError, quotable, shown
 from lsys_kit.files import toml_tables
-from lsys_kit.notation.model.arithmetic import Value, is_symbolic, normalised
+from lsys_kit.notation.model.arithmetic import Value, is_symbolic, normalised, number_text
 from lsys_kit.translation import NUMBER, gettext
 
 WORDS = toml_tables(__package__, "typed.toml")
@@ -28,9 +28,7 @@ ARROW = r"(?<![-=])[-=]++>|[→⟶⇒⟹↦]"
 """An arrow, however long."""
 _OUTSIDE = re.compile(r"[^()]++\)?")
 """What stands between two parentheses, with the second if it closes one."""
-_RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹"
-_RAISED_NUMBER = re.compile(rf"([⁺⁻]?)([{_RAISED}]+)")
-_DIGITS = str.maketrans(_RAISED, "0123456789")
+_RAISED = re.compile("[⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻⁽⁾ᵃᵇᶜᵈᵉᶠᵍʰⁱʲᵏˡᵐⁿᵒᵖʳˢᵗᵘᵛʷˣʸᶻ]+")
 _ROOT_SIGN = re.compile(r"√\s*(?=\()|√\s*(\d+(?:\.\d+)?|[A-Za-z]\w*)")
 _SIGNS = str.maketrans(WORDS["signs"])
 
@@ -70,8 +68,10 @@ def keyboard_text(text: str) -> str:
 
     >>> keyboard_text("2·x² ≤ ½"), keyboard_text("2⁶−1"), keyboard_text("√169 + 1½"), keyboard_text("７０９")
     ('2*x^2 <= (1/2)', '2^6-1', 'sqrt(169) + (1+1/2)', '709')
+    >>> keyboard_text("(2p)ⁿ"), keyboard_text("5ⁿ⁺¹"), keyboard_text("x⁻ᵖ")
+    ('(2p)^n', '5^(n+1)', 'x^(-p)')
     """
-    text = _RAISED_NUMBER.sub(_power, text.translate(_SIGNS))
+    text = _RAISED.sub(_power, text.translate(_SIGNS))
     text = re.sub(r"(?<!\d)(\d+)\s*([¼-¾⅐-⅞])", lambda found: f"({found[1]}+{_fraction(found[2])})", text)
     text = re.sub(r"[¼-¾⅐-⅞]", lambda found: f"({_fraction(found[0])})", text)
     text = _ROOT_SIGN.sub(lambda found: f"sqrt({found[1]})" if found[1] else "sqrt", text)
@@ -79,8 +79,8 @@ def keyboard_text(text: str) -> str:
 
 
 def _power(found: re.Match[str]) -> str:
-    digits = found[2].translate(_DIGITS)
-    return f"^(-{digits})" if found[1] == "⁻" else f"^{digits}"
+    exponent = unicodedata.normalize("NFKC", found[0]).replace("−", "-").removeprefix("+")
+    return f"^{exponent}" if exponent.isdigit() or len(exponent) == 1 else f"^({exponent})"
 
 
 def _fraction(sign: str) -> str:
@@ -122,9 +122,9 @@ def without_commas(text: str) -> str:
     """A text with blanks for the commas between its modules, which are outside parentheses.
 
     >>> without_commas("A(1, 2), b,b")
-    'A(1, 2) b b'
+    'A(1, 2)  b b'
     """
-    return _OUTSIDE.sub(lambda found: found[0] if found[0].endswith(")") else re.sub(r",[ \t]*", " ", found[0]), text)
+    return _OUTSIDE.sub(lambda found: found[0] if found[0].endswith(")") else found[0].replace(",", " "), text)
 
 
 def unquoted(text: str) -> str:
@@ -194,6 +194,7 @@ _ORDINALS = {word: number for number, word in enumerate(_NUMBERS["ordinals"].spl
 _PARTS: Mapping[str, int] = _NUMBERS["parts"]
 _ANY = "|".join([*_VALUES, *_FACTORS])
 _RUN = re.compile(rf"\b(?:{_ANY})(?:(?:[\s-]+(?:and\s+)?)(?:{_ANY}))*\b", re.IGNORECASE)
+_HUNDREDS = re.compile(rf"(?<![\w.,])(\d+(?:\.\d+)?)\s+({'|'.join(_FACTORS)})\b", re.IGNORECASE)
 _PART = re.compile(rf"\b(\d+|a|ein)\s+({'|'.join(_PARTS)})s?\b", re.IGNORECASE)
 _DOZEN = re.compile(rf"\b(\d+|an?|ein)\s+(?:{'|'.join(_NUMBERS['dozens'])})s?\b", re.IGNORECASE)
 _ORDINAL = re.compile(rf"\b(?:({'|'.join(_ORDINALS)})|(\d+)(?:st|nd|rd|th))\b", re.IGNORECASE)
@@ -233,12 +234,16 @@ def with_digits(text: str, ordinals: bool = True) -> str:
     ('21 cells', '709', '3/4')
     >>> with_digits("2, 3 and 5"), with_digits("the third line"), with_digits("19th step"), with_digits("a dozen leaves")
     ('2, 3 and 5', 'the 3 line', '19 step', '12 leaves')
+    >>> with_digits("7 hundred"), with_digits("1.5 million"), with_digits("half"), with_digits("one zero")
+    ('700', '1500000', '1/2', 'one zero')
     >>> with_digits("einundzwanzig Zellen"), with_digits("drei Viertel"), with_digits("im vierten Schritt")
     ('21 Zellen', '3/4', 'im 4 Schritt')
     """
+    text = _HUNDREDS.sub(lambda found: number_text(normalised(Fraction(found[1]) * _FACTORS[found[2].lower()])), text)
     text = _COMPOUND.sub(lambda found: found[0] if (value := _of_compound(found[0].lower())) is None else str(value), text)
     if ordinals:
         text = _GERMAN_ORDINAL.sub(lambda found: str(_GERMAN_ORDINALS[found[0].lower()]), text)
+    text = re.sub(r"^\s*(?:half|die\s+hälfte)\s*$", "1/2", text, flags=re.IGNORECASE)
     text = _PART.sub(
         lambda found: f"{found[1] if found[1].isdigit() else 1}/{_PARTS[found[2].lower()]}", _RUN.sub(_digits, text)
     )
@@ -250,14 +255,15 @@ def _digits(found: re.Match[str]) -> str:
     """The value of a run of words; as it stands where it is none, as "two three"."""
     total = group = 0
     below = 1_000_000_000
-    for word in re.split(r"[\s-]+", found[0].lower()):
+    words = re.split(r"[\s-]+", found[0].lower())
+    for word in words:
         if word in _FACTORS:
             factor = _FACTORS[word]
             total, group = (total, max(group, 1) * factor) if factor == 100 else (total + max(group, 1) * factor, 0)
             below = factor
         elif word != "and":
             value = _VALUES[word]
-            if value >= below:
+            if value >= below or (not value and len(words) > 1):
                 return found[0]
             group += value
             below = 10 if value >= 20 and value < 100 else 1
@@ -273,6 +279,11 @@ _POWER = re.compile(r"\^\s*\{([^{}]*)\}")
 _JOINED = (("and", "&&"), ("or", "||"), ("not", "!"), ("und", "&&"), ("oder", "||"), ("nicht", "!"))
 _SPELT = (("plus", "+"), ("minus", "-"), ("times", "*"), ("mal", "*"), ("hoch", "^"), ("durch", "/"))
 """Words for the signs of a formula."""
+_BARS = re.compile(r"(?<!\|)\|([^|<>=&!]++)\|(?!\|)")
+_COLON, _COLONS = re.compile(r"(?<=[\w)])\s*+:\s*+(?=[\w(])"), re.compile(r":[\s\w.]*+:")
+"""A colon for a division, and two between which there is no sign."""
+_ROW_WITHOUT_BLANKS = re.compile(r"\d,\d++,|\(\s*+[-+]?\d++,\d++\s*+\)|(?<!\w)[A-Za-z]\w*+\s*+\([^(),]*+,")
+"""Numbers or arguments with commas between them, which are no decimal commas."""
 _POWER_OF = re.compile(r"\bpow\(([^(),]+),([^(),]+)\)")
 _IMPLICIT = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?)\s*(?=[A-Za-z_(])|(?<=\))\s*(?=[\w(])")
 _WORD = re.compile(r"[A-Za-z_]\w*")
@@ -287,6 +298,10 @@ def formula_text(text: str, names: Collection[str] = ()) -> str:
     ('d - s^2', '((d + 1)/(2)) * s', '2*s + 2*(d - s)')
     >>> formula_text("u n < vm or not m < 2", ["u", "n", "v", "m"]), formula_text("p(1 - p)", ["p"])
     ('u*n < v*m || ! m < 2', 'p*(1 - p)')
+    >>> formula_text("(5^n-1):4"), formula_text("1,25*5^n - 0,25"), formula_text("hypot(5,12)")
+    ('(5^n-1)/4', '1.25*5^n - 0.25', 'sqrt((5)^2+(12)^2)')
+    >>> formula_text("|n - 2| + 1"), formula_text("y < 0 | x > 1")
+    ('abs(n - 2) + 1', 'y < 0 || x > 1')
     """
     text = unassigned(keyboard_text(text).strip().strip("$").strip())
     for _ in range(MOST_NESTED):
@@ -298,8 +313,13 @@ def formula_text(text: str, names: Collection[str] = ()) -> str:
     for latex, plain in WORDS["latex"].items():
         text = text.replace(latex, plain)
     text = re.sub(r"(?<=[\w)])\s*\.\s*\Z", "", text)
+    if not _COLONS.search(text):
+        text = _COLON.sub("/", text)
+    if not _ROW_WITHOUT_BLANKS.search(text):
+        text = re.sub(r"(?<=\d),(?=\d)", ".", text)
     for word, sign in _SPELT:
         text = re.sub(rf"(?<=[\w)])\s+{word}\s+(?=[\w(])", f" {sign} ", text, flags=re.IGNORECASE)
+    text = _BARS.sub(r"abs(\1)", text)
     text = _POWER_OF.sub(r"((\1)^(\2))", _HYPOTENUSE.sub(r"sqrt((\1)^2+(\2)^2)", text))
     text = with_operators(text.replace("**", "^"), names)
     return _IMPLICIT.sub(lambda found: f"{found[1] or ''}*", _products_of(text, names)).strip()
@@ -346,6 +366,17 @@ _LABELLED = re.compile(
     rf"^\W*(?:(?:at|in|im|bei|after|nach)\s+)?(?:{'|'.join(WORDS['labels'].split())})\s*\d+\s*:\s*", re.IGNORECASE
 )
 """What is before the number in "step 3: 64"."""
+_CONCLUDED = re.compile(
+    r"\A.*[,;.]\s(?:so|thus|hence|therefore|also|daher|folglich)\s++(?>(?:(?:it|there|es)\s++(?:is|are|sind)\s++)?)(?=[-+]?\d)",
+    re.IGNORECASE,
+)
+"""What stands before a number that follows from it."""
+_PLUS_OR_MINUS = re.compile(r"\d\s*+(?:±|\+-|\+/-)\s*+\d")
+_SLASHES = re.compile(r"\s*+\d++(?>(?:\s*+/\s*+\d++){2,})\s*+")
+"""A row with slashes."""
+_FACTORIAL = re.compile(r"(?:(?<![\d.])(?:[3-9]|10)|\))\s*+!")
+"""A small number with an exclamation mark, which may be a factorial."""
+_RATIO_OF_THREE = re.compile(r"\d\s*+:\s*+\d[\d.]*+\s*+:\s*+\d")
 _EQUATION = re.compile(r"(?=[^=]*+=[^=]*+\Z)[^=]*[^\W\d_]\b")
 _GLUED = re.compile(r"\d([a-zA-Z])\s*$")
 """A number with one letter directly behind it, which is a product and no unit."""
@@ -356,18 +387,20 @@ _SENTENCE = re.compile(
     re.DOTALL,
 )
 """Words, a number, words: whatever has other signs belongs to the number."""
+_REMARK = re.compile(r"(?<=\d)\s+\([^()\d]*\)\s*$")
+"""What is said behind a number, as in "19 (nineteen)"."""
 _REPLACED = (
     (re.compile(r"\bper\s+cent\b", re.IGNORECASE), "percent"),
+    (re.compile(r"\bhalf\s+of\s+(?=\d)", re.IGNORECASE), "1/2*"),
     (re.compile(r"\b(?:no|nr)\.\s*(?=\d)", re.IGNORECASE), ""),
     (re.compile(r"°(?=\s*[-+*/:])"), ""),
     (re.compile(r"(?<=\d)\s+(?:out\s+of|of|in|von|aus)\s+(?=\d+\W*$)", re.IGNORECASE), "/"),
-    (re.compile(r"(?<=[\d)])\s*:\s*(?=[\d(])"), "/"),
+    (re.compile(r"(?<=[\d)])\s*:\s*(?=[\d(][^:]*\Z)"), "/"),
     (re.compile(r"(?<=\d)(?<!\b0)\s*x\s*(?=\d)"), "*"),
     (re.compile(r"(?<=\d)\s+squared\b", re.IGNORECASE), "^2"),
     (re.compile(r"(?<=\d)\s+cubed\b", re.IGNORECASE), "^3"),
     (re.compile(r"(?<![^\W\d_])phi\b|φ", re.IGNORECASE), "((1+sqrt(5))/2)"),
     (re.compile(r"(?<=\d)\.(?=\s+[^\W\d_]+$)"), ""),
-    (re.compile(r"(?<=\d)\s+\([^()\d]*\)\s*$"), ""),
     (re.compile(r"^\s*\[([^\[\],;]*)\]\s*$"), r"\1"),
     (re.compile(r"\bminus\s+(?=[\d.(])", re.IGNORECASE), "-"),
     (re.compile(r"\bplus\s+(?=[\d.(])", re.IGNORECASE), "+"),
@@ -416,9 +449,12 @@ def typed_number(answer: object, decimal_comma: bool = False) -> TypedNumber:
             if isinstance(answer, Number):
                 raise
             raise ModelValueError(reply("typed.no_number_but", kind=kind_of(answer))) from None
-    text = _LABELLED.sub("", with_digits(unquoted(keyboard_text(answer)).strip("$ ")))
+    text = _LABELLED.sub("", with_digits(_REMARK.sub("", unquoted(keyboard_text(answer)).strip("$ "))))
+    if _FACTORIAL.search(text) or _RATIO_OF_THREE.search(text) or _PLUS_OR_MINUS.search(text):
+        raise ModelValueError(reply("typed.unreadable", answer=quoted(answer)), hint=reply("typed.alone"))
     for pattern, plain in _REPLACED:
         text = pattern.sub(plain, text)
+    text = _CONCLUDED.sub("", text)
     if _SEVERAL.search(text):
         raise ModelValueError(reply("typed.one_needed", answer=quoted(answer)), hint=reply("typed.alone"))
     fault: LSystemError | None = None
@@ -524,10 +560,14 @@ def parts(answer: object, what: str) -> list[object]:
     (['1', '1', '1', '0'], [1, 2])
     >>> parts("N(0) = one, N(1) = 2 and N(2) = 3", "Numbers"), parts(21, "Numbers")
     (['1', '2', '3'], [21])
+    >>> parts("one two, zero one", "Numbers")
+    ['1', '2', '0', '1']
     """
     if isinstance(answer, str):
+        if _RATIO_OF_THREE.search(answer) or _SLASHES.fullmatch(answer):
+            answer = re.sub("[:/]", ",", answer)
         text = _BETWEEN.sub(",", _MATRIX.sub(" ", _RANGE.sub("", with_digits(unquoted(keyboard_text(answer))))))
-        return [part for part in re.split(r"[\s,;|\[\](){}&]+", unlabelled(text)) if part.strip(".")]
+        return [with_digits(part) for part in re.split(r"[\s,;|\[\](){}&]+", unlabelled(text)) if part.strip(".")]
     return list(_flat(answer, what))
 
 
@@ -569,6 +609,19 @@ _COMMA_FOR_COLON = re.compile(
     r"^([ \t]*+[A-Za-z]\w*+[ \t]*+\([^()\n]*+\))[ \t]*+,((?=[^,:()\n]*?(?:[<=]|(?<!-)>))[^,:()\n]*?)(?=->|→)", re.MULTILINE
 )
 """A condition behind a comma."""
+_COMMENTS = {
+    "#": re.compile(r"(?<=[\w)\]])[ \t]++#[ \t][^\n]*+$", re.MULTILINE),
+    "/": re.compile(r"(?<=[\w)\]])[ \t]++//[ \t]++[^\W\d_]{2}[^\n]*+$", re.MULTILINE),
+}
+"""For a sign what is said behind it, where it is no symbol."""
+_CALLED = re.compile(
+    r"^[ \t]*+(?:(?:the|my|die|meine)[ \t]++)?(?:(?:missing|right|new|correct|fehlende|richtige|neue)[ \t]++)?"
+    r"(?:rule|production|line|answer|regel|produktion|zeile|antwort)(?:[ \t]++(?=\d)\d{1,2}(?=[ \t]*+:))?"
+    r"(?:[ \t]++(?:is|ist)\b[ \t]*+:?[ \t]*+|[ \t]*+:[ \t]*+|[ \t]++)(?=[^\n]*?(?:->|→))",
+    re.IGNORECASE | re.MULTILINE,
+)
+"""What a production is called in front of it."""
+_COMMA_OF_A_SETTING = re.compile(r"^([ \t]*+[A-Za-z]\w*+[ \t]*+[:=][ \t]*+\d++),(?=\d++[ \t]*+°?[ \t]*$)", re.MULTILINE)
 _FIRST_WORD = re.compile(r"^\s*+[^\n:=>→]++\n(?=[^\n]*(?:->|→))")
 
 
@@ -592,9 +645,26 @@ def read_typed(text: str, reader: Callable[[str], Read], known: str = "") -> Rea
             raise mistake from None
 
 
+def without_comments(text: str, known: str = "") -> str:
+    """A text without what is said behind its lines; `known` is a text in which a sign is a symbol.
+
+    >>> without_comments("br -> ar  # long again"), without_comments("bl ar // the last"), without_comments("F // FF", "F / F")
+    ('br -> ar', 'bl ar', 'F // FF')
+    """
+    for sign, comment in _COMMENTS.items():
+        text = text if sign in known else comment.sub("", text)
+    return text
+
+
 def _cleaned(text: str, known: str) -> str:
-    """A text without what no notation means: quotation marks around it, full stops, commas at the ends of lines."""
-    text = unquoted(text).replace(r"\rightarrow", "->").replace(r"\to", "->").replace("−>", "->").replace("–>", "->")
+    """A text without what no notation means: quotation marks around it, what a production is called, full stops, comments.
+
+    >>> _cleaned("the rule B -> C.", ""), _cleaned("angle: 25,7", "")
+    ('B -> C', 'angle: 25.7')
+    """
+    text = without_comments(unquoted(text), known)
+    text = _COMMA_OF_A_SETTING.sub(r"\1.", _CALLED.sub("", text))
+    text = text.replace(r"\rightarrow", "->").replace(r"\to", "->").replace("−>", "->").replace("–>", "->")
     text = "\n".join(line if re.search("->|→", line) else _OTHER_ARROW.sub("->", line) for line in text.split("\n"))
     text = _ERASED.sub(r"\1 ε", text)
     if not re.search(r"\b(empty|nothing)\b", known):

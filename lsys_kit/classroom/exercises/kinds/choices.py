@@ -113,6 +113,7 @@ def _read_choice(exercise: Exercise, answer: object) -> str:
     if not meant and len({texts[letter].partition(":")[0] for letter in named_ones}) > 1:
         raise ModelValueError(reply("choice.one_needed", number=len(named_ones)))
     meant = meant or named_ones or _with_own_words(texts, text) or _by_place(known, text)
+    meant = meant or [letter for letter, own in texts.items() if own == _plain(text.partition(":")[0])]
     if len(meant) > 1:
         several = reply("choice.several", text=quoted(text))
         raise ModelNameError(several, hint=reply("choice.choose", options=", ".join(meant)))
@@ -275,8 +276,13 @@ SYMBOL = AnswerKind(_read_symbol, _symbol_difference, _same_symbol)
 
 
 _LINE_NUMBER = re.compile(
-    r"^\W*(?:(?:it|is|the|in|line|number|no|nr|l|es|ist|die|zeile|nummer)\b\W*|l)*(\d{1,8})(?:\W+line)?(?:\W*$|\s*[:,;]\s*[^\W\d].*$)",
+    r"^\W*(?:(?:it|is|the|in|line|number|no|nr|l|es|ist|die|zeile|nummer)\b\W*|l)*(\d{1,8})(?:\W+line)?(?:\W*$|\s*\([^()]*\)\W*$|\s*[:,;]\s*[^\W\d].*$|\s*:\s*[^\w\s].*$)",
     re.IGNORECASE | re.DOTALL,
+)
+
+
+_LAST_LINE = re.compile(
+    rf"^\W*(?:(?:it|is|in|the|es|ist|die)\b\W*)*(?:{'|'.join(_LAST)})(?:\W+(?:line|one|zeile))?\W*$", re.IGNORECASE
 )
 
 
@@ -292,6 +298,8 @@ def _read_line(exercise: Exercise, answer: object) -> int:
         if len(same) == 1:
             return same[0]
         number = _LINE_NUMBER.match(with_digits(keyboard_text(text)))
+        if _LAST_LINE.match(text):
+            return len(lines)
         if not number:
             raise ModelValueError(reply("line.what_is_none", text=quoted(text)), hint=reply("line.choose", last=len(lines)))
         answer = int(number[1])

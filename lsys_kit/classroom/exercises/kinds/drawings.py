@@ -16,7 +16,7 @@ from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
 from lsys_kit.classroom.exercises.kinds.systems import typed_rule, unused
 from lsys_kit.classroom.exercises.kinds.words import read_modules, unnamed_word
 from lsys_kit.classroom.exercises.replies import reply
-from lsys_kit.classroom.exercises.typed import read_typed
+from lsys_kit.classroom.exercises.typed import read_typed, without_comments
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.errors import ModelValueError
 from lsys_kit.geometry.drawing import scene_of
@@ -78,7 +78,7 @@ def _lies_on(stroke: Floats, others: Floats) -> bool:
 # What is drawn
 
 
-_SYSTEM = re.compile(r"->|=|:|→|#")
+_SYSTEM = re.compile(r"->|=|(?:axiom|omega|ω|angle)\s*:|→|#", re.IGNORECASE)
 MOST_STROKES = 5_000
 """The most strokes of a drawing that is compared."""
 MOST_FOLLOWED = 500
@@ -153,10 +153,14 @@ def _read(exercise: Exercise, answer: object) -> Drawn:
         return Drawn(answer)
     if isinstance(answer, LSystem):
         return drawn(exercise, answer)
-    if isinstance(answer, str) and (not exercise.system or _SYSTEM.search(unnamed_word(answer))):
+    if isinstance(answer, str) and (not exercise.system or _is_a_system(without_comments(answer, exercise.system))):
         return read_typed(answer, lambda text: drawn(exercise, read(text)), exercise.solution)
     system = asked_system(exercise)
     return Drawn(written(system, read_modules(system, answer, drawn=True)))
+
+
+def _is_a_system(text: str) -> bool:
+    return bool(_SYSTEM.search(unnamed_word(text)))
 
 
 def _same(exercise: Exercise, mine: Drawn, wanted: Drawn) -> bool:
@@ -207,4 +211,10 @@ def _stroke_by_stroke(mine: Drawn, wanted: Drawn) -> str:
     return reply("drawing.missing_strokes" if missing else "drawing.other_strokes")
 
 
-DRAWING = AnswerKind(_read, _difference, _same, lambda _, mine, wanted: len(mine.strokes) > 1, alike=_alike)
+def _honest(_: Exercise, mine: Drawn, wanted: Drawn) -> bool:
+    """More than one stroke, or half as many letters as the solution has: they may be small, or lack their brackets."""
+    own, right = (sum(module.symbol.isalpha() for module in each.derivation[-1]) for each in (mine, wanted))
+    return len(mine.strokes) > 1 or 2 * own >= right
+
+
+DRAWING = AnswerKind(_read, _difference, _same, _honest, alike=_alike)

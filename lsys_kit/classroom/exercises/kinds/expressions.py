@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import suppress
 from fractions import Fraction
 from functools import reduce
@@ -14,7 +14,7 @@ from typing import TypeAlias
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
 from lsys_kit.classroom.exercises.replies import reply
-from lsys_kit.classroom.exercises.typed import assigned_name, formula_text, keyboard_text, kind_of, text_answer
+from lsys_kit.classroom.exercises.typed import assigned_name, formula_text, keyboard_text, kind_of, quoted, text_answer
 from lsys_kit.errors import LSystemError, ModelSyntaxError, ModelValueError
 from lsys_kit.notation.analysis.checks import check_expression
 from lsys_kit.notation.model.arithmetic import Value, number_text, reason_of, shortest_decimal
@@ -152,16 +152,18 @@ def _read(exercise: Exercise, answer: object) -> Expression:
         else:
             return _checked(exercise, from_sympy(answer), wanted)
     text = text_answer(answer, reply("expression.what"), '"t + 1"')
+    if _GOES_ON.search(text):
+        raise ModelValueError(reply("expression.goes_on"))
     turned = re.search(r"=[<>](?!=)", text)
     if turned:
         raise ModelSyntaxError(reply("expression.comparison"), text, turned.start(), turned.end())
     try:
         return checked_expression(text, exercise.values, wanted)
     except LSystemError:
-        alone = _alone(exercise, text)
-        if alone != text:
-            with suppress(LSystemError):
-                return _read(exercise, alone)
+        for changed in (_alone(exercise, text), _in_case_of(exercise.values, text)):
+            if changed != text:
+                with suppress(LSystemError):
+                    return _read(exercise, changed)
         other = formula_text(text, exercise.values)
         if other != text and assigned_name(text) not in exercise.values:
             try:
@@ -169,14 +171,31 @@ def _read(exercise: Exercise, answer: object) -> Expression:
             except LSystemError as mistake:
                 if mistake.span is None or other in text:
                     raise
+        if wanted == "number" and _SEVERAL.search(text):
+            raise ModelValueError(reply("expression.one_needed", text=quoted(text))) from None
         raise
 
 
+_GOES_ON = re.compile(r"\.{3}|…")
+_SEVERAL = re.compile(r"\b(?:or|oder|and|und)\b")
 _ASKED_FOR = re.compile(r"\*\*.*?\*\*", re.DOTALL)
 _VALUE_OF = re.compile(r"\s*+([A-Z])\s*+\((.*)\)\s*", re.DOTALL)
 """A module with one value, as in F(2*q)."""
 _NOUN_BEHIND = re.compile(r"(?<=[\w)])\s++([^\W\d_]{3,})\W*\Z")
 _ONE_EQUATION = re.compile(r"([^=<>!]++)=(?!=)([^=]++)")
+
+
+_LETTER = re.compile(r"(?<![A-Za-z_\\])[A-Za-z](?![A-Za-z_0-9])(?!\s*\()")
+
+
+def _in_case_of(names: Collection[str], text: str) -> str:
+    """A formula with the letters of the question for those that it has in the other case alone.
+
+    >>> _in_case_of(["n"], "N + 1"), _in_case_of(["L", "l"], "l + L"), _in_case_of(["n"], "N(n)")
+    ('n + 1', 'l + L', 'N(n)')
+    """
+    others = {name.swapcase(): name for name in names if name.swapcase() not in names}
+    return _LETTER.sub(lambda found: others.get(found[0], found[0]), text)
 
 
 def _alone(exercise: Exercise, text: str) -> str:
@@ -305,8 +324,11 @@ def _praise(_: Exercise, own: Expression, solution: Expression) -> str:
     return reply("expression.proved" if proved_equal(own, solution) else "expression.right_here")
 
 
-def _honest(_: Exercise, own: Expression, solution: Expression) -> bool:
-    return bool(names_in(own)) or not names_in(solution)
+def _honest(exercise: Exercise, own: Expression, solution: Expression) -> bool:
+    """Whether it is a formula: no number alone, but for one that is right in some case."""
+    if names_in(own) or isinstance(own, Apply):
+        return True
+    return any(differing_values(own, solution, [case]) is None for case in _cases(exercise))
 
 
 EXPRESSION = AnswerKind(_read, _difference, _same, _honest, _praise)

@@ -12,7 +12,7 @@ from itertools import islice, pairwise, permutations
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
 from lsys_kit.classroom.exercises.replies import reply
-from lsys_kit.classroom.exercises.typed import ARROW, quoted, text_answer
+from lsys_kit.classroom.exercises.typed import ARROW, quoted, text_answer, without_comments
 from lsys_kit.derivation.petri.net import Stages
 from lsys_kit.derivation.petri.stages import stages
 from lsys_kit.errors import ModelLimitError, ModelSyntaxError
@@ -68,7 +68,9 @@ def read_net(text: str) -> Net:
     """
     firings: list[Firing] = []
     start: Counter[str] | None = None
-    lines = [line for part in _BETWEEN.split(text) for line in _single(part) if not line.startswith("besides:")]
+    lines = [
+        line for part in _BETWEEN.split(without_comments(text)) for line in _single(part) if not line.startswith("besides:")
+    ]
     if len(lines) > MOST_TRANSITIONS:
         raise ModelLimitError(reply("net.too_many", most=MOST_TRANSITIONS), limit=MOST_TRANSITIONS)
     for line in lines:

@@ -58,13 +58,17 @@ def _words_of(exercise: Exercise) -> frozenset[str]:
     return frozenset(word.removesuffix("s") for word in re.findall(r"[^\W\d_]+|[°%]", text))
 
 
-def _is_in_place(exercise: Exercise, word: str) -> bool:
-    """Whether a word beside a number says no more than the question does; a single letter, than what it asks for."""
+def _is_in_place(exercise: Exercise, word: str, is_last: bool = False) -> bool:
+    """Whether a word beside a number says no more than the question does; a single letter, than what it asks for.
+
+    The last letter is no article.
+    """
     noun = word.lower().removesuffix("s")
-    if exercise.kind == "number" and len(word) == 1 and word.isalpha() and word not in _FILLING:
-        return word in _NAME.findall(" ".join(_ASKED_FOR.findall(exercise.question))) or word in exercise.asks.split()
+    if exercise.kind == "number" and len(word) == 1 and word.isalpha() and (is_last or word not in _FILLING):
+        named = _NAME.findall(" ".join(_ASKED_FOR.findall(exercise.question)))
+        return (word in named and word not in _FILLING) or word in exercise.asks.split()
     return (
-        word.lower() in _FILLING | _PREPOSITIONS | _TIMES
+        word.lower() in _FILLING | _PREPOSITIONS | (frozenset() if exercise.unit else _TIMES)
         or noun in _words_of(exercise) - _DOUBTFUL
         or (bool(exercise.unit) and means_the_same(word, exercise.unit))
     )
@@ -211,18 +215,32 @@ def _read_number(exercise: Exercise, answer: object) -> Value:
     is_counted = exercise.kind == "number" and exercise.unit and exercise.unit.lower() not in UNITS
     if is_counted and {"per", "pro"} & {*map(str.lower, found.after)}:  # a rate
         raise _other_unit(exercise, " ".join(found.after))
+    odd = _odd_words(exercise, found, unit)
+    is_apart = odd and found.after and odd[0] not in (*found.after[:1], *found.before)  # as "each" in "three walls each"
+    is_a_letter = odd and exercise.unit and len(odd[0]) == 1 and odd[0] in found.before
+    if len(odd) > 1 or is_apart or is_a_letter:
+        raise ModelValueError(reply("typed.unreadable", answer=quoted(answer)), hint=reply("typed.alone"))
     if counted := _other_thing(exercise, found):
         raise _other_unit(exercise, counted)
-    odd = next(
-        (word for word in words if word != unit and not (_is_in_place(exercise, word) or _is_of_the_unit(exercise, word))), ""
-    )
-    if len(odd) == 1 and odd.isalpha():
-        raise ModelNameError(reply("number.other_name", name=odd, answer=quoted(answer)), hint=reply("number.only_asked"))
+    if odd and len(odd[0]) == 1 and odd[0].isalpha() and not exercise.unit:
+        raise ModelNameError(reply("number.other_name", name=odd[0], answer=quoted(answer)), hint=reply("number.only_asked"))
     if odd:
-        raise _other_unit(exercise, odd)
+        raise _other_unit(exercise, odd[0])
     if not unit and found.of_pi and exercise.unit.lower() in names_of("degrees"):
         unit = "radians"
     return _in_the_unit(exercise, found.value, unit) if unit else found.value
+
+
+def _odd_words(exercise: Exercise, found: TypedNumber, unit: str) -> list[str]:
+    """The words beside a number, other than its unit, that neither belong to the question nor fill a sentence."""
+    words = [(word, False) for word in (*found.before, *found.after)]
+    if found.after:
+        words[-1] = found.after[-1], True
+    return [
+        word
+        for word, is_last in words
+        if word != unit and not (_is_in_place(exercise, word, is_last) or _is_of_the_unit(exercise, word))
+    ]
 
 
 def _other_thing(exercise: Exercise, found: TypedNumber) -> str:
@@ -232,7 +250,8 @@ def _other_thing(exercise: Exercise, found: TypedNumber) -> str:
     is_counted = bool(exercise.unit) and exercise.unit.lower() not in UNITS
     if not phrase and (before.endswith("s") or (is_counted and len(before) > 1 and before not in WORDS["labels"].split())):
         phrase = list(found.before)  # as in "cells: 9" and "height 10"
-    nouns = [word for word in phrase if word.lower() not in _FILLING | _TIMES and word.lower() not in UNITS]
+    no_nouns = _FILLING if exercise.unit else _FILLING | _TIMES
+    nouns = [word for word in phrase if word.lower() not in no_nouns and word.lower() not in UNITS]
     if exercise.kind != "number" or not nouns or any(_is_of_the_unit(exercise, word) for word in nouns):
         return ""
     return nouns[-1] if exercise.unit or nouns[-1].lower().endswith("s") else ""
@@ -384,7 +403,11 @@ def formula_in_reply(text: str) -> Function:
 
 def _rounded(value: Value) -> str:
     double = float(value)
-    return written(f"{double:.4g}" if abs(double) < 10_000 else f"{double:,.0f}")
+    if abs(double) >= 10_000:
+        return written(f"{double:,.0f}")
+    is_whole = math.isclose(double, round(double), abs_tol=1e-12)
+    texts = (f"{double:.{digits}g}" for digits in (4, 6, 8, 10, 17))
+    return written(next(text for text in texts if is_whole or float(text) % 1))
 
 
 def _try_small(exercise: Exercise) -> str:
@@ -407,13 +430,41 @@ NUMBER = AnswerKind(_read_number, _number_difference, same_number, _honest_numbe
 
 # Rows and tables
 
+_NO_ONE = frozenset(["none", "nothing", "keine", "keiner", "nichts"])
+"""Words for no number of a row."""
+
 
 def _read_table(exercise: Exercise, answer: object) -> tuple[Value, ...]:
-    found = [part for part in parts(answer, reply("table.what")) if not _is_a_word_in_place(exercise, part)]
+    found = _by_symbols(exercise, answer) or parts(answer, reply("table.what"))
+    if len(found) > 1 and what_is_asked(exercise):
+        found = ["0" if isinstance(part, str) and part.lower() in _NO_ONE else part for part in found]
+    found = [part for part in found if not _is_a_word_in_place(exercise, part)]
     found = _without_symbols(exercise, found)
     if not found:
         raise ModelValueError(reply("table.none"))
     return tuple(_read_number(exercise, part) for part in found)
+
+
+_OF_A_SYMBOL = re.compile(
+    r"\W*+(?:(\d++)\s*+(?>(?:\*\s*+)?(?:(?:tokens?|marken?)\s++)?(?:in\s++)?)([^\W\d]\w*+)"
+    r"|([^\W\d]\w*+)\s*+(?:[:=]|has\b|hat\b)\s*+(\d++))\W*+"
+)
+"""A number with its symbol, as in "2 L" and "L: 2"."""
+
+
+def _by_symbols(exercise: Exercise, answer: object) -> list[object]:
+    """The numbers of a row in which each stands with its symbol, in the order of the question; nothing where it is none."""
+    if not isinstance(answer, str) or what_is_asked(exercise) != "counts" or len(exercise.symbols) < 2:
+        return []
+    text = with_digits(unquoted(keyboard_text(answer)))
+    found = [_OF_A_SYMBOL.fullmatch(part) for part in re.split(r"[,;\n]|\band\b|\bund\b", text) if part.strip()]
+    numbers = {each[2] or each[3]: each[1] or each[4] for each in found if each}
+    given, names = [*numbers], exercise.symbols
+    if len(numbers) < max(len(found), 2) or not set(given) <= set(names) or given == [*names[: len(given)]]:
+        return []
+    if missing := [symbol for symbol in names if symbol not in numbers]:
+        raise ModelValueError(reply("table.no_number_for", symbols=", ".join(missing)))
+    return [numbers[symbol] for symbol in names]
 
 
 def _without_symbols(exercise: Exercise, found: list[object]) -> list[object]:
@@ -449,11 +500,14 @@ def _table_difference(exercise: Exercise, own: tuple[Value, ...], solution: tupl
     at = next((i for i, (a, b) in enumerate(pairs) if not same_number(exercise, a, b)), last)
     said = [] if len(own) == len(solution) else [reply("table.count", number=len(own), asked=len(solution))]
     exchanged = _exchanged(exercise, own, solution)
+    begins = len(own) - len(solution)
     in_steps = len(own) == len(solution) > 2 and bool(_steps_of(exercise))
     if in_steps and _same_table(exercise, own[1:], solution[:-1]):
         said.append(reply("table.late"))
     elif in_steps and _same_table(exercise, own[:-1], solution[1:]):
         said.append(reply("table.early"))
+    elif begins > 0 and _same_table(exercise, own[begins:], solution):
+        return Difference(reply("table.begins_early", number=begins), 1, True, explains=True)
     elif len(own) == 1 < len(solution):
         pass
     elif exchanged:

@@ -203,7 +203,7 @@ def _parting_at_a_bound(exercise: Exercise, mine: LSystem, wanted: LSystem, name
     symbol = next((each.symbol for each in probes if any(value != int(value) for value in each.arguments)), "")
     if not symbol:
         return None
-    reached = [module.arguments[0] for module in asked_modules(exercise, wanted) if module.symbol == symbol]
+    reached = [module.arguments[0] for module in (*asked_modules(exercise, wanted), *probes) if module.symbol == symbol]
     own, right = mine.productions, wanted.productions
     if mine.decomposition and wanted.decomposition:  # what a step makes is decomposed: what stays as it is, too
         own, right = mine.decomposition, wanted.decomposition
@@ -380,6 +380,9 @@ def _read(exercise: Exercise, answer: object) -> SystemAnswer:
     if not exercise.given and _is_without_axiom(text):
         raise ModelValueError(reply("system.no_axiom"), hint=reply("system.no_axiom_hint"))
     _refuse_part_of_production(exercise, text)
+    if condition := _NO_CONDITION_HERE.search(text):
+        said = reply("system.no_condition_here")
+        raise ModelSyntaxError(said, text, *condition.span(1), hint=reply("system.form_with_condition"))
     try:
         found = _read_typed(exercise, text)
     except LSystemError as mistake:
@@ -387,12 +390,28 @@ def _read(exercise: Exercise, answer: object) -> SystemAnswer:
         _refuse_slip_of_writing(text, mistake)
         _refuse_without_colon(text)
         raise
+    if _is_as_typed(found.own.source, text):
+        own = replace(found.own, source=text + (found.own.source or "")[len(text) :])
+        found = whole(own) if found.front is found.own else replace(found, own=own)
     if "".join(module.symbol for module in found.own.axiom).lower().startswith("axiom"):
         _refuse_without_colon(text)
     return found
 
 
+_COMMA_WITHIN = re.compile(r"(?<=\d),(?=\d)")
+"""A decimal comma, where the question has no module with two values."""
+
+
+def _is_as_typed(read: str | None, typed: str) -> bool:
+    """Whether every character of what was read stands in its place, but for marks such as commas, so that it may be quoted."""
+    beginning = (read or "")[: len(typed)]
+    pairs = zip(beginning, typed, strict=False)
+    return len(beginning) == len(typed) and all(a == b or not (a.isalnum() or b.isalnum()) for a, b in pairs)
+
+
 def _read_typed(exercise: Exercise, text: str) -> SystemAnswer:
+    if not re.search(r"\([^()]*,", f"{exercise.given}\n{exercise.solution}"):
+        text = _COMMA_WITHIN.sub(".", text)
     return read_typed(text, lambda typed: _read_text(exercise, typed), f"{exercise.given}\n{exercise.solution}")
 
 
@@ -436,10 +455,13 @@ _ALONE = re.compile(r"^(?>[^\n]*?(?:->|→))[^\n]*+\n[ \t]*+([A-Za-z]\w*+)[ \t]*
 _NO_MODULE = re.compile(
     r"^[ \t]*(?:[A-Za-z]\w*[ \t]*(?:[<>]=|==|!=|≤|≥|≠)[^\n:]*?|[A-Za-z]\w*[ \t]*[<>][ \t]*[\d.]+[ \t]*)(?=->|→)", re.MULTILINE
 )
+_NO_CONDITION_HERE = re.compile(
+    r"^[ \t]*+[A-Za-z]\w*+[ \t]*+\([^()\n]*+\)[ \t]*+((?:[<>=!]?=|[<>])[ \t]*+[-+\d.]++)[ \t]*+(?=->|→)", re.MULTILINE
+)
 _TURNED = re.compile(r"=[<>](?!=)")
 _FACTOR = re.compile(r"(?:->|→)[ \t]*(\d+[ \t]*\*[ \t]*[A-Za-z]\w*)")
-"""Slips of writing: an axiom without a colon, an arrow in pieces, a line without one, a condition without its module, => for
->=, a factor before a module."""
+"""Slips of writing: an axiom without a colon, an arrow in pieces, a line without one, a condition without its module or without
+its colon, => for >=, a factor before a module."""
 
 
 def _turned_comparison(text: str) -> tuple[int, int] | None:
@@ -624,10 +646,12 @@ def _likeness(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) -> t
 
 
 def _honest(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) -> bool:
-    """At least half as many productions as the solution has, which rewrite something that the question is about."""
-    known = set(symbols(wanted.behind))
-    useful = [rule for rule in mine.own.productions if rule.predecessor.symbol in known or exercise.names == "any"]
-    return 2 * len(useful) >= len(wanted.own.productions) and mine.own.productions != ()
+    """Half as many productions as the solution has, of what the question is about; or all, in other names; or a test passed."""
+    known, rules = set(symbols(wanted.behind)), mine.own.productions
+    useful = [rule for rule in rules if rule.predecessor.symbol in known or exercise.names == "any"]
+    own, right = (sorted(len(rule.successor) for rule in each.own.productions) for each in (mine, wanted))
+    is_enough = 2 * len(useful) >= len(right) or (own == right and sum(right) > len(right) > 1)
+    return bool(rules) and (is_enough or tests_passed(exercise, mine, wanted)[0] > 0)
 
 
 def _praise(exercise: Exercise, _: SystemAnswer, wanted: SystemAnswer) -> str:

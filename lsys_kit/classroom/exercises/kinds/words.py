@@ -10,7 +10,15 @@ from lsys_kit.classroom.exercises.asked import Derived, asked_steps, asked_syste
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference, first_difference, one_apart
 from lsys_kit.classroom.exercises.replies import reply
-from lsys_kit.classroom.exercises.typed import ARROW, keyboard_text, text_answer, unlabelled, unquoted, without_commas
+from lsys_kit.classroom.exercises.typed import (
+    ARROW,
+    keyboard_text,
+    text_answer,
+    unlabelled,
+    unquoted,
+    without_commas,
+    without_comments,
+)
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.errors import LSystemError, ModelNameError, ModelValueError
@@ -36,7 +44,7 @@ _LABEL = re.compile(
 )
 _OUTER = re.compile(r"^\s*[\[{(]([^\[\]{}()]*)[\]})]\s*$", re.DOTALL)
 """Words within one pair of brackets."""
-_COMMA_WITHIN = re.compile(r"\(\s*(\d+),(\d+)\s*\)")
+_VALUES, _DECIMAL_COMMA = re.compile(r"\([^()]*+\)"), re.compile(r"(?<![\d.,])(\d++),(?=\d++(?![\d.,]))")
 """A number with a decimal comma, where the question has no module with two."""
 _NAME = re.compile(r"[A-Za-z]\w*+")
 
@@ -60,7 +68,8 @@ def read_modules(system: LSystem, answer: object, drawn: bool = False) -> Module
         return tuple(answer)
     if isinstance(answer, list | tuple) and all(isinstance(part, str | Module) for part in answer):
         answer = " ".join(map(str, answer))
-    text = _unlabelled(system, text_answer(answer, reply("word.what"), '"al br"'))
+    typed = text_answer(answer, reply("word.what"), '"al br"')
+    text = _unlabelled(system, typed)
     if text in _ONE_BRACKET:
         raise ModelValueError(reply("word.one_character", text=text))
     bare = _BRACES.sub(lambda found: found[1], text)
@@ -68,13 +77,21 @@ def read_modules(system: LSystem, answer: object, drawn: bool = False) -> Module
     plain = bare if system.notation == "plant-string" else without_commas(bare)
     try:
         return _of_the_system(system, plain, read_word(plain, system.notation, system), drawn)
-    except LSystemError:
+    except LSystemError as mistake:
         for notation in DIALECTS:
             with suppress(LSystemError):
                 word = read_word(plain, notation, system)
                 if all(module.symbol in plain for module in word):  # some take small letters for capital ones
                     return _of_the_system(system, plain, word, drawn)
-        raise
+        raise _as_typed(mistake, typed, plain) from None
+
+
+def _as_typed(mistake: LSystemError, typed: str, read: str) -> LSystemError:
+    """A mistake in a word, shown in what was typed, where every character of the word has its place there."""
+    start = typed.find(read[:1])
+    span, shown = mistake.span, typed[start : start + len(read)]
+    is_alike = len(shown) == len(read) and all(a == b or not b.strip() or a == "," for a, b in zip(shown, read, strict=True))
+    return mistake.moved(typed, start + span[0], start + span[1]) if span and read and is_alike else mistake
 
 
 def unnamed_word(text: str) -> str:
@@ -96,7 +113,7 @@ def _unlabelled(system: LSystem, text: str) -> str:
     """
     known = symbols(system)
     signs = "".join(known)
-    text = unnamed_word(unquoted(keyboard_text(text)))
+    text = unnamed_word(unquoted(keyboard_text(without_comments(text, signs))))
     for mark in "'\"`":
         text = text if mark in signs else text.replace(mark, "")
     if not {"+", "-"} & set(known):
@@ -104,7 +121,7 @@ def _unlabelled(system: LSystem, text: str) -> str:
     text = text if "." in signs else re.sub(r"\.\s*$", "", text)
     has_decimals = re.search(r"\d\.\d", system.source or "")
     if has_decimals and system.notation != "plant-string" and all(len(m.arguments) < 2 for m in system.modules):
-        text = _COMMA_WITHIN.sub(r"(\1.\2)", text)
+        text = _VALUES.sub(lambda found: _DECIMAL_COMMA.sub(r"\1.", found[0]), text)
     return _NAME.sub(lambda found: plain if (plain := found[0].replace("_", "")) in known else found[0], text)
 
 
@@ -182,8 +199,15 @@ def _mother(exercise: Exercise, at: int) -> str:
 
 
 def _honest_word(exercise: Exercise, word: Modules, solution: Modules) -> bool:
+    """Half as many modules and values, or a beginning; branches need not be there, and the axiom is none."""
     axiom = asked_system(exercise).axiom if exercise.system and exercise.steps else ()
-    return 2 * len(word) >= len(solution) and tuple(map(str, word)) != tuple(map(str, axiom))
+    begins = _size(word) > 1 and word == solution[: len(word)]
+    is_enough = 2 * len(word) >= len(solution) or 2 * _size(word) >= _size(solution)
+    return (begins or is_enough) and tuple(map(str, word)) != tuple(map(str, axiom))
+
+
+def _size(word: Modules) -> int:
+    return sum(max(len(module.arguments), 1) for module in word if module.symbol[:1].isalnum())
 
 
 WORD = AnswerKind(_read_word, _word_difference, honest=_honest_word)
@@ -203,7 +227,7 @@ def _separate(system: LSystem, answer: object) -> Iterator[object]:
         return
     text = _OUTER.sub(r"\1", unquoted(re.sub(ARROW, ",", text_answer(answer, reply("words.what"), '"a, ab, aba"'))))
     by_blanks = all(len(symbol) == 1 and symbol.isalpha() for symbol in symbols(system))
-    separator = next((mark for mark in ("\n", ";", ",", " ") if mark in text and (mark != " " or by_blanks)), "\n")
+    separator = next((mark for mark in ("\n", ";", "|", ",", " ") if mark in text and (mark != " " or by_blanks)), "\n")
     for part in text.split(separator):
         if part.strip(" ,"):
             yield unlabelled(re.sub(r"^\s*\d+\s*[:.]?\s+", "", part)).strip(" ,")

@@ -110,7 +110,14 @@ def of_systems(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) -> 
     given = () if is_whole or not exercise.given else system_of(exercise.given).productions
     has_axiom = not exercise.given or is_whole
     settings = SETTINGS if exercise.drawn else ()
-    yield from repairs_of(mine.own, target, make, reached, settings, has_axiom, blamed, given)
+    own_ones = _left_over(exercise, reached) if exercise.behind and not is_whole else reached
+    yield from repairs_of(mine.own, target, make, own_ones, settings, has_axiom, blamed, given)
+
+
+def _left_over(exercise: Exercise, modules: Sequence[Module]) -> list[Module]:
+    """The modules to which no production that the question gives applies, before the others."""
+    states = States(system_of(exercise.given))
+    return sorted(modules, key=lambda module: _production_of(states, module) is not None)
 
 
 def _blamed(
@@ -180,7 +187,8 @@ def _repairs(own: LSystem, make: Callable[[LSystem], object], edit: Edit) -> Ite
 
 def _pairs(own: LSystem, make: Callable[[LSystem], object], pairs: Iterable[tuple[Edit, Edit]]) -> Iterator[Repair]:
     for one, other in pairs:
-        if one.slot != other.slot or one.slot[1] == -1:
+        is_an_exchange = None in (one.value, other.value) and -1 in (one.slot[1], other.slot[1])  # one rule for another
+        if (one.slot != other.slot or one.slot[1] == -1) and not is_an_exchange:
             changed = applied(own, one, other)
             if is_sensible(changed):
                 first, second = (other, one) if one.slot[0] == "axiom" else (one, other)
@@ -358,7 +366,8 @@ def _staying(own: LSystem, right: Production, reached: Sequence[Module]) -> obje
     """A module that a production of the solution replaces, and none of the answer; its symbol, if it has none for that."""
     symbol = right.predecessor.symbol
     if not any(rule.predecessor.symbol == symbol for rule in own.productions):
-        return next((module for module in reached if module.symbol == symbol), right.predecessor)
+        known = [module for module in reached if module.symbol == symbol]
+        return next((module for module in known if _applies(right, module)), known[0] if known else right.predecessor)
     with suppress(LSystemError):
         states = States(own)
         for module in reached:
