@@ -34,8 +34,10 @@ SOFTWARE = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
 SECONDS = 120
 """How long anything may take on a slow machine."""
 VIEWPORT = {"width": 1400, "height": 1000}
-NOISE = re.compile(r"favicon|ResizeObserver loop|/api/(me|terminals|kernels|sessions|contents)|/lsp/|net::ERR_ABORTED")
-"""What JupyterLab itself may write to the console."""
+NOISE = re.compile(
+    r"favicon|ResizeObserver loop|/api/(me|terminals|kernels|sessions|contents)|/lsp/|net::ERR_ABORTED|@jupyterlite/services"
+)
+"""What JupyterLab itself may write to the console, also of an extension for JupyterLite alone, which lies beside the others."""
 
 OPENED = """name => {
     const panel = window.jupyterapp?.shell?.currentWidget;
@@ -50,8 +52,6 @@ CONFIGURATION = {
     "LabApp": {"expose_app_in_browser": True, "extension_manager": "readonly"},
     "JupyterNotebookApp": {"expose_app_in_browser": True},
 }
-OF_LITE = ("@jupyterlite/pyodide-kernel-extension",)
-"""Extensions for JupyterLite alone, which are installed beside the others."""
 SETTINGS = {
     "apputils-extension/notification": {"fetchNews": "false", "checkForUpdates": False, "doNotDisturbMode": True},
     "docmanager-extension/plugin": {"autosave": False},
@@ -291,7 +291,6 @@ def _environment(home: Path, url: str) -> dict[str, str]:
     folders |= {f"JUPYTERLAB_{name}_DIR": home / name.lower() for name in ("SETTINGS", "WORKSPACES")}
     folders["IPYTHONDIR"] = home / "ipython"
     settings = {home / "settings" / "@jupyterlab" / f"{name}.jupyterlab-settings": value for name, value in SETTINGS.items()}
-    settings[home / "config" / "labconfig" / "page_config.json"] = {"disabledExtensions": dict.fromkeys(OF_LITE, True)}
     port = {"port": int(url.rsplit(":", 1)[1])}
     settings[home / "config" / "jupyter_server_config.json"] = {
         **CONFIGURATION,
