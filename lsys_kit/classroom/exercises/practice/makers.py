@@ -93,16 +93,18 @@ def _context(chance: Random, level: int, draft: Draft) -> Exercise | None:
     return _word(draft, "\n".join([f"axiom: {axiom}", *lines]), 2 + (level > 1), 24)
 
 
-PORTIONS = (0, 0, 4, 8, 16, 16, 32)
-"""Concentrations of which a quarter, or a quarter of that, is easily written."""
+MOST_PORTIONS = 30
+"""The highest concentration in portions, of which a step, or two, makes whole numbers."""
 
 
 def _diffusion(chance: Random, level: int, draft: Draft) -> Exercise | None:
-    cells, steps = 3 + level, 1 + (level > 1)
-    first = [0] * cells if level < 3 else [4 * chance.choice(PORTIONS) for _ in range(cells)]
-    first[chance.randrange(cells)] = 4 * chance.choice(PORTIONS[2:]) * steps
+    cells, filled, portion = 3 + level, (1, 2, 3 + level)[level - 1], 4 if level == 1 else 16
+    first = [0] * cells
+    for place in chance.sample(range(cells), filled):
+        first[place] = portion * chance.randint(1, MOST_PORTIONS)
     lines = [f"axiom: {' '.join(f'C({each})' for each in first)}", "C(x) < C(c) > C(y) -> C(c + (x + y - 2*c)/4)"]
-    return _word(draft, "\n".join([*lines, "C(x) < C(c) -> C(c + (x - c)/4)", "C(c) > C(y) -> C(c + (y - c)/4)"]), steps)
+    ends = ["C(x) < C(c) -> C(c + (x - c)/4)", "C(c) > C(y) -> C(c + (y - c)/4)"]
+    return _word(draft, "\n".join([*lines, *ends]), 1 + (level > 1))
 
 
 # Totals as formulas
