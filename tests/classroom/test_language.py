@@ -429,7 +429,9 @@ def test_what_scripts_show_is_sent_to_them_in_the_language():
     sent = [
         *translated_words("panel"),
         *vote("01").words,
-        *translated_words(*"practice board class_board phone class_page kit_page waiting contents kit_contents".split()),
+        *translated_words(
+            *["practice", "board", "class_board", "phone", "class_page", "kit_page", "waiting", "contents", "kit_contents"]
+        ),
     ]
     assert [text for text in in_scripts() if text not in sent and gettext(text) != text] == []
 

@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 
 from lsys_kit import ModelLimitError, ModelValueError, book_systems, derive, limits, read, system, systems
 from lsys_kit.derivation.core.words import Word
+from lsys_kit.derivation.engines.columnar import ColumnarSteps, ColumnWord
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.geometry.turtle import scanning, turtle
 from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode, in_plane
@@ -62,7 +63,9 @@ def agree(word: Word) -> None:
     ):
         for field in fields(ours):
             found, expected = getattr(ours, field.name), getattr(theirs, field.name)
-            if isinstance(expected, tuple):
+            if field.name == "states":  # of a word in columns the first module of a kind stands for all
+                found, expected = ([word.states.modules[each].symbol for each in states] for states in (found, expected))
+            if isinstance(expected, tuple | list):
                 assert found == expected
             else:
                 assert (found.shape, found.dtype) == (expected.shape, expected.dtype)
@@ -79,8 +82,13 @@ def word_of(text: str, dialect: str = "abop") -> Word:
     return derive(LSystem(tuple(axiom), (), angle=Fraction("25.7"), turtle=dialect), 0)[0]
 
 
+def in_columns(word: Word) -> ColumnWord:
+    """The same word in columns."""
+    return ColumnarSteps(word.states).word(word)
+
+
 def _number(text: str) -> Number:
-    return Number(int(text) if text.lstrip("-").isdigit() else Fraction(text))
+    return Number(int(text) if text.lstrip("-").isdigit() else float(text) if "e" in text else Fraction(text))
 
 
 @given(st.sampled_from([*COMMANDS]), st.booleans(), st.integers(1, 400), st.integers(0, 10**6))
@@ -90,6 +98,18 @@ def test_any_commands(dialect: str, space: bool, size: int, seed: int) -> None:
     word = word_of(f"F {' '.join(chosen)}", dialect)
     if drawn(word, ALWAYS)[1]:
         agree(word)
+        agree(in_columns(word))
+
+
+def test_words_in_columns() -> None:
+    """With exact values, long ones and doubles of their own, which shapes and labels show."""
+    text = "F(1/3) [ +(7/2) F(1/18446744073709551629) @c(5/3) ] !(2) F(0.1) [ -(12) F(3) @L(7) ; F(5/7) ] F*(3) @B(2,1) @B(3,2)"
+    word = word_of(text)
+    assert isinstance(in_columns(word), ColumnWord)
+    agree(in_columns(word))
+    agree(in_columns(word_of("F F(2) L*(1/2) [ RU(30) F D*(3) F(7) ] RU(11) F L*(5) F", "grogra")))
+    with pytest.raises(ModelValueError, match="cannot be drawn: a value is too large to draw"):
+        drawn(in_columns(word_of("F(1) [ F(2) ] F(1e60)")), ALWAYS)
 
 
 @pytest.mark.parametrize(("dialect", "space"), [(name, space) for name in COMMANDS for space in (False, True)])

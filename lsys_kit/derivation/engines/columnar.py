@@ -241,6 +241,23 @@ class ColumnWord(Word):
                 found[row] = number if below == 1 else normalised(Fraction(number, below))
         return found
 
+    def examples(self) -> Array:
+        """For each module the state of the first of its kind, without numbers for all others."""
+        kinds, places = np.unique(self.kinds, return_index=True)
+        states = np.zeros(len(self.names), np.int64)
+        states[kinds] = [self.states.number(*next(self._written(place, place + 1))) for place in places.tolist()]
+        return states[self.kinds]
+
+    def floats(self, parameter: int, rows: Array) -> Array:
+        """The values of a parameter in some rows, as doubles."""
+        some = self.parameters[parameter].some(rows)
+        if some.denominators is None:
+            return some.numbers
+        found = np.where(some.denominators > 0, some.numbers.view(np.int64) / np.maximum(some.denominators, 1), some.numbers)
+        long = np.flatnonzero(some.denominators < 0)
+        found[long] = [float(value) for value in self._values(some.some(long))]
+        return found
+
     @property
     def codes(self) -> array[int]:  # type: ignore[override]
         """The numbers of the states, which are numbered now."""

@@ -19,6 +19,7 @@ from lsys_kit.arrays import np
 from lsys_kit.budget import check_budget, check_bytes, counted
 from lsys_kit.derivation.core.interpretation import interpretations
 from lsys_kit.derivation.core.words import Word
+from lsys_kit.derivation.engines.columnar import ColumnWord
 from lsys_kit.geometry.turtle.commands import (
     LARGEST,
     LAST_COLOUR,
@@ -77,8 +78,9 @@ class Commands(NamedTuple):
         As of `Instruction`.
     module, rank
         The number of its module among those that are drawn, and its own among the commands of the module.
-    state
-        The state of the module of the word.
+    state, place
+        The state of the module of the word, and its place there. Of a word in columns the first module of a kind stands for
+        all of them.
     """
 
     actions: list[str]
@@ -88,6 +90,7 @@ class Commands(NamedTuple):
     module: Numbers
     rank: Numbers
     state: Numbers
+    place: Numbers
 
     def calling(self, *names: str) -> Choice:
         """Which commands call an action of these names."""
@@ -97,8 +100,10 @@ class Commands(NamedTuple):
         return Commands(self.actions, *(column[which] for column in self[1:]))
 
 
-def commands_of(word: Word, drawn: Mapping[int, Sequence[Module]], given: Mapping[str, Sequence[Command]]) -> Commands:
-    """The commands of a word, given what each of its states is drawn as, and the commands of each symbol."""
+def commands_of(
+    codes: Numbers, drawn: Mapping[int, Sequence[Module]], given: Mapping[str, Sequence[Command]], angle: Value
+) -> Commands:
+    """The commands of a word, given its states, what each of them is drawn as, and the commands of each symbol."""
     modules = [*chain.from_iterable(drawn.values())]
     number_of = {symbol: number for number, symbol in enumerate(given)}
     kind = np.array([number_of[module.symbol] for module in modules], np.int64)
@@ -113,16 +118,40 @@ def commands_of(word: Word, drawn: Mapping[int, Sequence[Module]], given: Mappin
         for place, command in enumerate(given[symbol]):
             rows = before[found] + place
             module[rows], rank[rows] = found, place
-            action[rows], factor[rows], addend[rows] = _amounts(command, here, word.states.system.angle, actions)
+            action[rows], factor[rows], addend[rows] = _amounts(command, here, angle, actions)
     known, sizes = (np.fromiter(each, np.int64, len(drawn)) for each in (drawn, map(len, drawn.values())))
-    codes, ends = np.asarray(word.codes, np.int64), np.cumsum(sizes)
+    ends = np.cumsum(sizes)
     first, times = (np.zeros(int(known.max()) + 1, np.int64) for _ in range(2))
     first[known], times[known] = before[ends - sizes], before[ends] - before[ends - sizes]
     times = times[codes]
     size = int(times.sum())
     check_bytes(BYTES * size, lambda: "The word was not drawn")
     rows = np.repeat(first[codes] - np.cumsum(times) + times, times) + np.arange(size)
-    return Commands([*actions], action[rows], factor[rows], addend[rows], module[rows], rank[rows], np.repeat(codes, times))
+    columns = action[rows], factor[rows], addend[rows], module[rows], rank[rows]
+    return Commands([*actions], *columns, np.repeat(codes, times), np.repeat(np.arange(len(codes)), times))
+
+
+def _with_values(
+    commands: Commands, word: ColumnWord, modules: Sequence[Module], given: Mapping[str, Sequence[Command]], angle: Value
+) -> Commands | None:
+    """The commands of a word in columns with the values of their own modules; None where one of these cannot be drawn."""
+    factor, addend = commands.factor.copy(), commands.addend.copy()
+    for number, module in enumerate(modules):
+        for rank, command in enumerate(given[module.symbol] if module.arguments else ()):
+            rows = np.flatnonzero((commands.module == number) & (commands.rank == rank) & (command.argument != ""))
+            values = [word.floats(each, commands.place[rows]) for each in range(len(module.arguments))]
+            if not all(np.all(abs(each) <= LARGEST) for each in values):
+                return None
+            factor[rows], addend[rows] = _of_values(command, values[0], angle)
+    return commands._replace(factor=factor, addend=addend)
+
+
+def _of_values(command: Command, values: Numbers, angle: Value) -> Numbers:
+    """The factors and addends of a command with values."""
+    if command.argument in ("all", "more", "less"):
+        sign = math.copysign(1.0, command.factor) if command.argument == "all" else -1.0 if command.argument == "less" else 1.0
+        return np.stack([np.full(len(values), float(command.argument != "all")), sign * values])
+    return np.array([instruction_of(command, Module("", (value,)), angle)[1:3] for value in values.tolist()]).reshape(-1, 2).T
 
 
 def _amounts(command: Command, modules: Sequence[Module], angle: Value, actions: dict[str, int]) -> Numbers:
@@ -132,16 +161,10 @@ def _amounts(command: Command, modules: Sequence[Module], angle: Value, actions:
     with_values = np.array([command.argument != "" and module.arguments != () for module in modules])
     if not with_values.any():
         return np.broadcast_to(columns, (3, len(modules)))
-    here = [module for module, some in zip(modules, with_values.tolist(), strict=True) if some]
-    if command.argument in ("all", "more", "less"):
-        values = np.array([values_of(module)[0] for module in here])
-        sign = math.copysign(1.0, command.factor) if command.argument == "all" else -1.0 if command.argument == "less" else 1.0
-        amounts = np.stack([np.full(len(here), float(command.argument != "all")), sign * values])
-    else:
-        amounts = np.array([instruction_of(command, module, angle)[1:3] for module in here]).T
+    values = np.array([values_of(module)[0] for module in modules if module.arguments])
     called = actions.setdefault(bare.action if command.action == "turn back" else command.action, len(actions))
     columns = columns.repeat(len(modules), axis=1)
-    columns[0, with_values], columns[1:, with_values] = called, amounts
+    columns[0, with_values], columns[1:, with_values] = called, _of_values(command, values, angle)
     return columns
 
 
@@ -327,7 +350,7 @@ def carried_by(turtle: Any, commands: Commands, branches: Branches) -> Carried |
     length, width, scale = map(quantity, ("length", "width", "scale"))
     colour = _colours(turtle, commands, branches)
     within = all(np.all(abs(each) <= LARGEST) for each in (length, width, scale))
-    if colour is None or not within or (width.strides != (0,) and width.min() < 0) or scale.min(initial=0) < 0:
+    if colour is None or not within or np.any((width < 0) & (width != turtle.width)) or scale.min(initial=0) < 0:
         return None
     return Carried(length, width, scale, colour, turtle.mirror * signs(commands.calling("mirror turns"), branches))
 
@@ -357,12 +380,21 @@ def interpreted(
 
     The parameters are those of `run_turtle`.
     """
-    system, drawn = word.states.system, interpretations(word.states, word.numbers())
+    system = word.states.system
+    columns = word if isinstance(word, ColumnWord) and not system.interpretation else None
+    codes = np.asarray(word.codes, np.int64) if columns is None else columns.examples()
+    drawn = interpretations(word.states, word.numbers() if columns is None else np.unique(codes).tolist())
+    modules = [*chain.from_iterable(drawn.values())]
     given = commands_by_symbol({module.symbol for image in drawn.values() for module in image}, system.turtle)
     called = {action for found in given.values() for each in found for action in (each.action, each.bare or each.action)}
     if not called or called & handlers.keys() - SCANNED:
         return False
-    commands = commands_of(word, drawn, given)
+    commands = commands_of(codes, drawn, given, system.angle)
+    if columns is not None:
+        found = _with_values(commands, columns, modules, given, system.angle)
+        if found is None:
+            return False
+        commands = found
     commands = commands.at(np.array([action in handlers for action in commands.actions], bool)[commands.action])
     expecting, naming = commands.calling("expect surface"), commands.calling("draw expected surface")
     both = np.flatnonzero(expecting | naming)
@@ -385,17 +417,19 @@ def interpreted(
     seen = {name: columns for name, columns in seen.items() if _varies(columns) or name == "position"}
     at, corners = [*seen].index("position"), {commands.actions.index(each) for each in CORNERS if each in commands.actions}
     shapes = commands.at(shown)
-    modules, orders = [*chain.from_iterable(drawn.values())], branches.order[shown].tolist()
-    calls = zip(shapes.action.tolist(), shapes.module.tolist(), shapes.rank.tolist(), orders, strict=True)
+    orders = branches.order[shown].tolist()
+    called_by = shapes.action, shapes.module, shapes.rank, shapes.place
+    calls = zip(*(column.tolist() for column in called_by), orders, strict=True)
     attributes = zip(*(_rows(columns, shown) for columns in seen.values()), strict=True)
-    for (action, module, rank, order), values in counted(zip(calls, attributes, strict=True)):
+    for (action, number, rank, place, order), values in counted(zip(calls, attributes, strict=True)):
         if action in corners:
             turtle.record_vertex(values[at])
             continue
         for name, value in zip(seen, values, strict=True):
             setattr(turtle, name, value)
         turtle.stack = [()] * order
-        instruction = instruction_of(given[modules[module].symbol][rank], modules[module], system.angle)
+        module = modules[number] if columns is None else columns[place]
+        instruction = instruction_of(given[module.symbol][rank], module, system.angle)
         handlers[instruction.action](turtle, instruction)
     if turtle.expects_surface:
         turtle.unknown["~"] = None
