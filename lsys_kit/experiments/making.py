@@ -160,7 +160,7 @@ def _counted_together(
 def _counts(experiment: Experiment, runs: Sequence[Run]) -> Sequence[Sequence[Mapping[str, int]] | None]:
     """For each of some runs how often each symbol occurs at the steps; None, where that is found by the run alone."""
     choices = {name: value for name, value in runs[0].items() if name not in ("seed", "arithmetic")}
-    with suppress(ModelLimitError, ModelValueError), limits(**asdict(experiment.limits)), Task("The runs were not finished"):
+    with suppress(ModelLimitError, ModelValueError), limits(**asdict(experiment.limits)), Task("The run was not finished"):
         states = States(experiment.system, choices, runs[0].get("arithmetic", "exact"))
         if serves(ColumnarSteps, states.traits):
             return [*counts_together(states, [run["seed"] for run in runs], experiment.steps)]

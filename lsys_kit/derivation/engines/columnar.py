@@ -632,7 +632,7 @@ class ColumnarSteps:
         self._type = np.min_scalar_type(len(self.kinds))
         self.width = max((arity for _, arity in self.kinds), default=0)
         if any(len(rules) > MOST_CHOICES or symbol in OPENING | CLOSING for (symbol, _), rules in states.rules.items()):
-            raise ArithmeticError("brackets, and modules with very many rules, are not rewritten in columns")
+            raise ArithmeticError  # neither brackets nor modules with very many rules are rewritten in columns
         self._rules = self._ready(states.rules, 0)
         self._decomposition = self._ready(states.decomposition, len(system.productions))
         self._roles = np.array([self._role(symbol) for symbol, _ in self.kinds], dtype=np.uint8)

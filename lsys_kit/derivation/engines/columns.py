@@ -636,4 +636,4 @@ def _constant(expression: Expression, constants: Mapping[str, Value], arithmetic
 
 
 def _failing(rows: Rows) -> Column:
-    raise ArithmeticError("an expression has no value")
+    raise ArithmeticError
