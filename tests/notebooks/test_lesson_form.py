@@ -30,7 +30,7 @@ OPTIONAL = "Optional: "
 MOST_LINES = 6
 MOST_CONTROLS = 3
 """The sliders of a panel beside that of the step."""
-FEW = 2_000
+FEW = 12_000
 """The modules of a panel whose sliders are counted, so that its steps are few."""
 FIRST_WITH_PYTHON = 8
 """Before this lesson nothing is asked of a student's Python but names, numbers and texts."""
