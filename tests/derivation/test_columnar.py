@@ -428,6 +428,7 @@ NUMBERS_OF_ALL_LENGTHS = st.one_of(
 )
 
 
+@example([(0, 0)], 2**63)
 @given(st.lists(st.tuples(NUMBERS_OF_ALL_LENGTHS, NUMBERS_OF_ALL_LENGTHS), min_size=1, max_size=5), NUMBERS_OF_ALL_LENGTHS)
 def test_exact_columns_compute_as_fractions_do(pairs: list[tuple[Fraction, Fraction]], other: Fraction) -> None:
     """Whatever is short and long on either side, and whether one denominator is that of all."""

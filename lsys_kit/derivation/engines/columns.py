@@ -81,7 +81,7 @@ class ExactColumn:
         """The same numbers in their lowest terms, with as many bits as they have."""
         above, below = self.numerators, self.denominators
         if not _same(below, 1):
-            common = np.gcd(above, below)
+            common = _common_divisor(above, below)
             above, below = above // common, below // common
         return ExactColumn(above, below, (_bits(above), _bits(below)), self.wide)
 
@@ -137,6 +137,12 @@ def exact_number(value: int | Fraction) -> ExactColumn:
     return ExactColumn(value.numerator, value.denominator, bits)
 
 
+def _common_divisor(left: Whole, right: Whole) -> Whole:
+    """The greatest common divisor; of two numbers for all rows by Python, as they may be long."""
+    both = isinstance(left, int) and isinstance(right, int)
+    return math.gcd(left, right) if both else np.gcd(left, right)
+
+
 def _bits(whole: Whole) -> int:
     if isinstance(whole, np.ndarray):
         whole = max(abs(int(whole.max(initial=0))), abs(int(whole.min(initial=0))))
@@ -170,8 +176,7 @@ def _added(operation: Callable[[Any, Any], Any], left: ExactColumn, right: Exact
     wide = left.wide or right.wide
     if _same(left.denominators, right.denominators):
         return ExactColumn(operation(left.numerators, right.numerators), left.denominators, needed, wide)
-    both = left.denominators, right.denominators
-    common = math.gcd(*both) if all(isinstance(each, int) for each in both) else np.gcd(*both)
+    common = _common_divisor(left.denominators, right.denominators)
     first, second = right.denominators // common, left.denominators // common
     above = operation(left.numerators * first, right.numerators * second)
     return ExactColumn(above, left.denominators * first, needed, wide)

@@ -350,7 +350,9 @@ def carried_by(turtle: Any, commands: Commands, branches: Branches) -> Carried |
     length, width, scale = map(quantity, ("length", "width", "scale"))
     colour = _colours(turtle, commands, branches)
     within = all(np.all(abs(each) <= LARGEST) for each in (length, width, scale))
-    if colour is None or not within or np.any((width < 0) & (width != turtle.width)) or scale.min(initial=0) < 0:
+    sets = commands.calling("set width", "set scale")
+    below = np.minimum(commands.factor, commands.addend)[sets] < 0  # it may lead to what is set to 0
+    if colour is None or not within or below.any():
         return None
     return Carried(length, width, scale, colour, turtle.mirror * signs(commands.calling("mirror turns"), branches))
 
