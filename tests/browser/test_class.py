@@ -230,7 +230,7 @@ def test_a_lesson_with_two_phones_and_a_server_that_is_killed(live: Class, pytes
         sheet.locator("input").nth(number).fill(text)
     sheet.get_by_role("button", name="Check").tap()
     expect(phones[0].locator(".class-status")).to_contain_text("kept")
-    panel = phones[0].locator(".part-panel .lsys-panel, .part-beside .lsys-panel:not(.lsys-both, .lsys-both *)").first
+    panel = phones[0].locator(".part-beside .lsys-panel:not(.lsys-both, .lsys-both *)").first
     panel.get_by_role("button", name="rules", exact=True).tap()
     rules = panel.locator("textarea")
     rules.fill(rules.input_value().replace("br -> ar\n", ""))
