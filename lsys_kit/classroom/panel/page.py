@@ -75,7 +75,7 @@ def not_needed(*modes: str) -> frozenset[str]:
     """The scripts that are not called on a page of panels that draw in these ways.
 
     >>> sorted(not_needed("plane", "filament"))
-    ['map', 'relaxation', 'relaxing', 'tension', 'tissue']
+    ['map', 'relaxation', 'relaxing', 'shaders', 'sunlight', 'tension', 'tissue']
     """
     return frozenset.intersection(*(_NOT_NEEDED[mode] for mode in modes))
 
