@@ -295,7 +295,7 @@ def test_a_bomb_ends_with_the_words_of_the_kit(opened: Callable[..., Page]) -> N
     expect(answer(page, "al al br")).to_contain_text("Almost")
 
 
-@pytest.mark.parametrize("missing", ["worker.js", "kit.zip", "wasm"])
+@pytest.mark.parametrize("missing", ["/worker.js", "kit.zip", "wasm"])
 def test_where_python_is_missing_that_is_said_and_tried_again(
     opened: Callable[..., Page], served: Served, site_files: dict[str, bytes], missing: str
 ) -> None:

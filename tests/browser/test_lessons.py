@@ -12,7 +12,7 @@ from playwright.sync_api import Locator, expect
 
 from lsys_kit.classroom.lessons.kept import FILE
 from tests.browser.lab import Lab, OpenNotebook, Tab
-from tests.browser.reader import PATIENCE, ROWS, SEEN, Reader
+from tests.browser.reader import PAINTED, PATIENCE, ROWS, SEEN, Reader
 from tests.browser.requests import lessons
 
 ONE_SCREEN = 840
@@ -59,7 +59,7 @@ def test_what_a_lesson_asks_for_is_done_with_a_mouse(lesson: tuple[str, OpenNote
 
 def height_of(panel: Locator) -> float:
     """The height of a panel, or of a comparison, whose drawings have been drawn."""
-    expect(panel.locator("canvas[data-drawn]").first).to_be_visible()
+    expect(panel.locator(PAINTED).first).to_be_visible()
     return float(panel.evaluate("panel => panel.getBoundingClientRect().height"))
 
 

@@ -244,7 +244,8 @@ def test_what_is_solved_and_tried_is_counted(new_session):
         ((Try("1.3", False),), None, "1.1"),
         ((Try("1.1", True), Try("3.1", True)), None, "3.2"),
         (tuple(Try(f"1.{n}", True) for n in range(1, 6)), None, "2.1"),
-        (tuple(Try(f"18.{n}", True) for n in range(1, 7)), None, "0.1"),
+        (tuple(Try(f"18.{n}", True) for n in range(1, 7)), None, "19.1"),
+        (tuple(Try(f"19.{n}", True) for n in range(1, 9)), None, "0.1"),
         ((Try("unknown", True),), None, "0.1"),
     ],
 )

@@ -405,7 +405,7 @@ def test_the_copy_of_the_course_in_german_finds_its_answers(tmp_path: Path, monk
     assert lesson("02").title == "How many?"
 
 
-@pytest.mark.parametrize(("code", "said"), [("de", "2 of 19 lessons; the others are in English"), ("de-AT", "2 of 19 lessons")])
+@pytest.mark.parametrize(("code", "said"), [("de", "2 of 20 lessons; the others are in English"), ("de-AT", "2 of 20 lessons")])
 def test_a_command_says_once_what_there_is_in_a_language(capsys: pytest.CaptureFixture[str], code: str, said: str) -> None:
     main(["lesson", "check", "--no-run", "--language", code])
     assert capsys.readouterr().out.count(said) == 1

@@ -28,7 +28,7 @@ ALWAYS = ("lark", "traitlets")
 """The packages that no answer can do without."""
 SOMETIMES: Mapping[str, tuple[str, ...]] = {"sympy": ("sympy", "mpmath"), "networkx": ("networkx",)}
 """Packages that some answers ask for, and what is fetched with each: formulas need sympy, and maps networkx."""
-_LEFT_OUT = ("__pycache__", "tests", "benchmarks")
+_LEFT_OUT = ("__pycache__", "tests", "benchmarks", "config", "tools")
 """Folders of packages that nothing asks for."""
 _NOT_ASKED = ("course", "experiments", *(f"classroom/{each}" for each in ("authoring", "lessons", "lite", "live", "scorm")))
 """Parts of the kit that pages do not ask for."""
