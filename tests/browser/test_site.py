@@ -183,7 +183,7 @@ def panels_of(page: Path) -> Iterator[dict[str, Any]]:
 def held_by(model: dict[str, Any], fixed: dict[str, str], asked: dict[str, str]) -> bool:
     """Whether a panel has the book of some values of its sliders, all others being at their first."""
     texts = {name: [text] for name, text in fixed.items()} | {each["name"]: each["texts"] for each in model["constants"]}
-    texts["seed"] = model["seeds"] or [str(model["seed"])]
+    texts["seed"] = [asked.get("seed", "")] if model.get("thrown") else model["seeds"] or [str(model["seed"])]
     first = fixed | {each["name"]: each["texts"][each["index"]] for each in model["constants"]} | {"seed": str(model["seed"])}
     away = [name for name, value in asked.items() if value != first[name]]
     return all(value in texts[name] for name, value in asked.items()) and (
