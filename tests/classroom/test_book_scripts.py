@@ -178,9 +178,9 @@ def test_the_last_step_of_a_book_has_no_daughters(page):
 # -- filaments ------------------------------------------------------------------------------------------------------------
 
 
-def layout_of(model, step):
+def layout_of(derivation):
     """The layout of the picture of a developmental sequence."""
-    derivation = derive(model, step)
+    step = derivation.steps
     rows = [FilamentRow(at, filament(derivation[at])) for at in range(max(0, step + 1 - MOST_ROWS), step + 1)]
     return filament_layout(rows, True, age_model(derivation.states).step)
 
@@ -209,7 +209,8 @@ def check_rows(page, model, step):
         made = book(model, least=step)
     step = min(step, made["steps"])
     found = page.evaluate(ROWS, [sent(made), step, {}])
-    sheet = layout_of(model, step)
+    derivation = derive(model, step)
+    sheet = layout_of(derivation)
     cells = [(cell, sheet.middle(at)) for at, row in enumerate(sheet.rows) for cell in sheet.cells(row)]
     walls = [(wall, sheet.middle(at)) for at, row in enumerate(sheet.rows) for wall in sheet.walls(row)]
     for names, expected, drawn in (
@@ -225,7 +226,7 @@ def check_rows(page, model, step):
         assert not rows or np.abs(np.array(rows, float) - np.array(expected, float)).max() < 1e-6
     assert ["" if isnan(age) else f"{age:.4g}" for age in found["walls"]["sign"]] == [wall.age for wall, _ in walls]
     assert (found["scale"], found["pitch"], found["above"]) == pytest.approx((sheet.scale, sheet.pitch, sheet.above))
-    states, notation = derive(model, step).states, dialect_named(model.notation)
+    states, notation = derivation.states, dialect_named(model.notation)
     texts = {cell: notation.module(states.modules[cell.state]) for cell, _ in cells}
     assert [made["states"][state][3] for state in found["cells"]["state"]] == [texts[cell] for cell, _ in cells]
 
