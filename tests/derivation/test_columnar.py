@@ -10,6 +10,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 from fractions import Fraction
 
+import numpy as np
 import pytest
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
@@ -563,3 +564,22 @@ def test_modules_that_come_back_stay_with_the_table() -> None:
     """Sixty different modules in the axiom, and hardly a new one from then on: they are counted."""
     system = read("axiom: " + " ".join(f"A({n})" for n in range(60)) + "\nA(x) : x > 0 -> A(x-1) A(x-1)")
     assert not isinstance(derive(system, 8)[-1], ColumnWord)
+
+
+def test_a_word_shows_its_numbers_as_doubles_and_the_first_module_of_each_kind() -> None:
+    word = derive(read("axiom: A(1/3) B A(1/18446744073709551629) A(7) C(2,5) C(3,4)"), 0)[0]
+    columns = ColumnarSteps(word.states).word(word)
+    places = np.array([0, 2, 3, 4, 5])
+    assert columns.floats(0, places).tolist() == [1 / 3, 1 / 18446744073709551629, 7, 2, 3]
+    assert columns.floats(1, places[3:]).tolist() == [5, 4]
+    shown = " ".join(str(word.states.modules[state]) for state in columns.examples())
+    assert shown == "A(1/3) B A(1/3) A(1/3) C(2,5) C(2,5)"
+    doubles = derive(read("axiom: A(0.5) A(2)"), 0, arithmetic="float")[0]
+    assert ColumnarSteps(doubles.states).word(doubles).floats(0, np.array([1, 0])).tolist() == [2, 0.5]
+
+
+def test_a_copy_knows_where_modules_come_from() -> None:
+    found = derive(read("axiom: a b b\na < b -> a b\nb -> b"), 3)
+    assert isinstance(found._engine, SteppingEngine)
+    again = pickle.loads(pickle.dumps(found))
+    assert [again.origins(step) for step in (1, 2, 3)] == [found.origins(step) for step in (1, 2, 3)]
