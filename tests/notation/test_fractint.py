@@ -263,6 +263,7 @@ def test_a_slip_in_one_system_is_none_in_another_and_is_found_where_it_stands() 
         ("Angle\nAxiom F", "The number of parts of a full turn is missing", 1, 6),
         ("Angle six\nAxiom F", "The number of parts of a full turn is missing", 1, 7),
         ("Angle 6 7\nAxiom F", 'I did not expect "7" after the angle', 1, 9),
+        ("Angle 6 Axiom F", 'I did not expect "Axiom " after the angle', 1, 9),
         ("Angle: 6\nAxiom F", 'Fractint needs no ":" here', 1, 6),
         ("Angle 6\nAxiom: F", 'Fractint needs no ":" here', 2, 6),
         ("Angle 6\nAxiom", "The axiom is missing", 2, 6),

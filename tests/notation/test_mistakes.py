@@ -59,6 +59,7 @@ OTHERS = {
         "Angle: 6",
         "Axiom: F",
         "Angle 6 x",
+        "Angle 6 Axiom F",
         "Axiom",
         "Angle",
         "}",

@@ -277,6 +277,7 @@ class _Listing:
 
     def settings(self) -> Iterator[Edit]:
         """Numbers on one line, constants and inclusions as cpfg has them, and an axiom that is not called so."""
+        printed = any(arrow in self.plain for arrow in "→⟶")
         for line in self.lines:
             if not line.arrow:
                 for setting in _SETTINGS.finditer(line.text):
@@ -291,7 +292,7 @@ class _Listing:
                 yield Edit(line.start + start.start(1), line.start + start.end(), "axiom:")
             elif (omega := _OMEGA.match(line.text)) and omega[1]:
                 yield Edit(line.start + omega.start(1), line.start + omega.end(1), ":")
-            if _NAMED_AXIOM.match(line.text) and (self.plain[line.end - 1] == "," or self._is_stop(line.end - 1)):
+            if _NAMED_AXIOM.match(line.text) and (self.plain[line.end - 1] == "," or (printed and self._is_stop(line.end - 1))):
                 yield Edit(line.end - 1, line.end, "")
         yield from self._axiom()
 
