@@ -300,6 +300,9 @@ def test_page_writes_one_file_and_says_what_it_shows(shell, tmp_path):
 def test_page_takes_models_of_files_and_links_and_says_what_it_holds(shell, model, tmp_path):
     random = model("n = 3 in 1 .. 4\naxiom: A(n)\nA(t) -> A(t+n) B : 0.5\n")
     said = shell("page", random, "--seed", "7", "-o", str(tmp_path / "a.html"))
+    assert "holds" not in said.out  # it throws for itself, whatever the seed
+    random = model("n = 3 in 1 .. 4\naxiom: A(n)\nA(t) -> A(t+n) B : 0.5\nA(t) < B -> C\n")
+    said = shell("page", random, "--seed", "7", "-o", str(tmp_path / "a.html"))
     assert said.out.endswith("This page holds the seeds 0 to 35.\n")
     assert "<title>model</title>" in (tmp_path / "a.html").read_text("utf-8")
     assert shell("page", shell("link", "K5").out.strip(), "-n", "2", "-o", str(tmp_path / "a.html")).status == 0

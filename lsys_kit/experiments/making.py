@@ -172,7 +172,9 @@ def _alike(runs: Mapping[int, Run]) -> Iterator[list[int]]:
     groups: dict[object, list[int]] = {}
     for number, run in runs.items():
         if type(run.get("seed")) is int and not {"field", "letters"} & run.keys():
-            groups.setdefault(frozenset((name, str(value)) for name, value in run.items() if name != "seed"), []).append(number)
+            with suppress(TypeError):  # of what cannot be compared each run is made alone
+                alike = frozenset((name, type(value), value) for name, value in run.items() if name != "seed")
+                groups.setdefault(alike, []).append(number)
     for numbers in groups.values():
         if arrays_pay(len(numbers), FEW_RUNS):
             yield from (numbers[first : first + RUNS_TOGETHER] for first in range(0, len(numbers), RUNS_TOGETHER))
