@@ -83,7 +83,8 @@ class PlaneTurtle(Turtle):
     """A turtle in the plane.
 
     Its position is the number of a path step, at whose end it is. Its orientation is the number of turns by the angle, further
-    degrees, both to the left, and the side on which its left lies: 1, or -1 after a roll by half a turn.
+    degrees, both to the left, and the side on which its left lies: 1, or -1 after a roll by half a turn. Its path
+    steps are the rows that scans have noted, and then `steps`.
     """
 
     __slots__ = ("noted", "steps")
