@@ -21,7 +21,6 @@ from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, 
 from contextlib import suppress
 from dataclasses import asdict
 from math import ceil
-from statistics import median
 from typing import NamedTuple, TypeAlias
 
 from lsys_kit.arrays import arrays_pay
@@ -36,7 +35,9 @@ from lsys_kit.notation.model.system import LSystem
 from lsys_kit.worlds.derive import derive
 
 FIRST_SECONDS, FIRST_RUNS, BATCH_SECONDS = 0.05, 3, 0.25
-"""For how long, and how many, runs are made here before the others are handed out; about how long a batch takes, in seconds."""
+"""For how long, and how many, runs (or bunches of them) are made here before others are handed out; the length of a batch."""
+WORTH_SECONDS = 0.15
+"""What takes no longer than this is made here: to hand it out would take as long."""
 FEWEST_BATCHES = 16
 """There are at least so many batches, if there are as many runs, so that no processor waits long for the last one."""
 MOST_BATCHES = 1_024
@@ -49,6 +50,8 @@ was given, if it has lost something before; and after which it has in any case, 
 something."""
 FEW_RUNS, RUNS_TOGETHER = 8, 256
 """More runs than the first are counted side by side, if they differ in their seeds alone; so many at a time."""
+GROWTH = 8
+"""Each bunch of them that is made here is so many times as large as the one before: soon it is known how long they take."""
 MOST_LATE = 20
 """What takes no longer than so many runs is not taken for lost."""
 
@@ -103,21 +106,20 @@ def outcome_of(experiment: Experiment, measures: Sequence[Measure], run: Run) ->
             return Failure("There was not enough memory")
 
 
-def batch(experiment: Experiment, runs: Sequence[Run], _: int = 0) -> list[Outcome]:
-    """Make some runs, one after another: at least one, and no more once they have taken twice as long as a batch should.
+Outcomes: TypeAlias = Generator[tuple[int, Outcome], None, None]
+
+
+def batch(experiment: Experiment, runs: Mapping[int, Run], _: int = 0) -> dict[int, Outcome]:
+    """Make some runs: at least one, and no more once they have taken twice as long as a batch should.
 
     A number of its own makes a batch another than the one before, for a cluster does not try again what it has seen fail.
     """
-    measures, end = measures_of(experiment.measure, experiment.system), time.perf_counter() + 2 * BATCH_SECONDS
-    made: list[Outcome] = []
-    for run in runs:
-        made.append(outcome_of(experiment, measures, run))
-        if time.perf_counter() > end:
+    end, made = time.perf_counter() + 2 * BATCH_SECONDS, dict[int, Outcome]()
+    for bunch in _bunches(experiment, runs, RUNS_TOGETHER):
+        made.update(bunch)
+        if made and time.perf_counter() > end:
             break
     return made
-
-
-Outcomes: TypeAlias = Generator[tuple[int, Outcome], None, None]
 
 
 def outcomes(experiment: Experiment, runs: Mapping[int, Run], executor: Executor | None) -> Outcomes:
@@ -130,31 +132,40 @@ def outcomes(experiment: Experiment, runs: Mapping[int, Run], executor: Executor
     ExecutorError
         The executor makes no more runs.
     """
-    measures, taken = measures_of(experiment.measure, experiment.system), list[float]()
-    known = set[int]()
-    for number, outcome in () if executor else _counted_together(experiment, measures, runs):
-        known.add(number)
-        yield number, outcome
-    left = deque(number for number in runs if number not in known)
-    while left and (executor is None or not _well_timed(taken)):
-        start, number = time.perf_counter(), left.popleft()
-        yield number, outcome_of(experiment, measures, runs[number])
-        taken.append(time.perf_counter() - start)
-    if left and executor is not None:
-        yield from _Workers(experiment, runs, executor).outcomes([*left], median(taken))
+    left, spent, taken = dict(runs), 0.0, list[float]()
+    start = time.perf_counter()
+    for bunch in _bunches(experiment, runs, FEW_RUNS):
+        took = time.perf_counter() - start
+        spent += took
+        taken += [took / len(bunch)] if bunch else []
+        for number, _ in bunch:
+            del left[number]
+        yield from bunch
+        if executor is not None and _well_timed(spent, taken):
+            seconds = min(taken)
+            if seconds * len(left) > WORTH_SECONDS:
+                yield from _Workers(experiment, runs, executor).outcomes([*left], seconds)
+                return
+        start = time.perf_counter()
 
 
-def _counted_together(
-    experiment: Experiment, measures: Sequence[Measure], runs: Mapping[int, Run]
-) -> Iterator[tuple[int, Outcome]]:
-    """The outcomes of runs that differ in their seeds alone, if it is enough to count symbols; others are left out."""
+def _bunches(experiment: Experiment, runs: Mapping[int, Run], size: int) -> Iterator[list[tuple[int, Outcome]]]:
+    """The outcomes of runs that are made here: of those that can be counted together, so many at first; then one by one.
+
+    They are counted together if they differ in their seeds alone, and it is enough to count symbols.
+    """
+    measures, left = measures_of(experiment.measure, experiment.system), dict(runs)
     of_counts = [of for measure in measures if (of := measure.of_counts())]
-    for numbers in _alike(runs) if len(of_counts) == len(measures) else ():
-        counts = _counts(experiment, [runs[number] for number in numbers])
-        for number, found in zip(numbers, counts, strict=True):
+    for numbers in _alike(runs, size) if len(of_counts) == len(measures) else ():
+        bunch = list[tuple[int, Outcome]]()
+        for number, found in zip(numbers, _counts(experiment, [runs[each] for each in numbers]), strict=True):
             if found is not None:
                 rows = zip(experiment.steps, found, strict=True)
-                yield number, tuple((step, *(of(each) for of in of_counts)) for step, each in rows)
+                bunch.append((number, tuple((step, *(of(each) for of in of_counts)) for step, each in rows)))
+                del left[number]
+        yield bunch
+    for number, run in left.items():
+        yield [(number, outcome_of(experiment, measures, run))]
 
 
 def _counts(experiment: Experiment, runs: Sequence[Run]) -> Sequence[Sequence[Mapping[str, int]] | None]:
@@ -167,7 +178,7 @@ def _counts(experiment: Experiment, runs: Sequence[Run]) -> Sequence[Sequence[Ma
     return [None] * len(runs)
 
 
-def _alike(runs: Mapping[int, Run]) -> Iterator[list[int]]:
+def _alike(runs: Mapping[int, Run], size: int) -> Iterator[list[int]]:
     """The numbers of runs that differ in their seeds alone, some at a time; of fewer it is known sooner what comes out."""
     groups: dict[object, list[int]] = {}
     for number, run in runs.items():
@@ -176,13 +187,15 @@ def _alike(runs: Mapping[int, Run]) -> Iterator[list[int]]:
                 alike = frozenset((name, type(value), value) for name, value in run.items() if name != "seed")
                 groups.setdefault(alike, []).append(number)
     for numbers in groups.values():
-        if arrays_pay(len(numbers), FEW_RUNS):
-            yield from (numbers[first : first + RUNS_TOGETHER] for first in range(0, len(numbers), RUNS_TOGETHER))
+        first = 0
+        while first < len(numbers) and arrays_pay(len(numbers), FEW_RUNS):
+            yield numbers[first : first + size]
+            first, size = first + size, min(GROWTH * size, RUNS_TOGETHER)
 
 
-def _well_timed(taken: Sequence[float]) -> bool:
+def _well_timed(spent: float, taken: Sequence[float]) -> bool:
     """Whether some runs show how long one takes; the first takes longer than others."""
-    return sum(taken) > FIRST_SECONDS and (len(taken) >= FIRST_RUNS or sum(taken) > BATCH_SECONDS)
+    return bool(taken) and spent > FIRST_SECONDS and (len(taken) >= FIRST_RUNS or spent > BATCH_SECONDS)
 
 
 def batch_size(runs: int, seconds: float) -> int:
@@ -220,7 +233,7 @@ class _Workers:
 
     def _round(self, batches: Sequence[Sequence[int]], most: int) -> Generator[tuple[int, Outcome], None, _Lost]:
         """Hand out batches, at most so many at a time; what is lost is given back, with what was the matter."""
-        waiting, at_work = deque(batches), dict[Future[list[Outcome]], Sequence[int]]()
+        waiting, at_work = deque(batches), dict[Future[dict[int, Outcome]], Sequence[int]]()
         lost: _Lost = []
         heard = time.monotonic()
         try:
@@ -251,18 +264,18 @@ class _Workers:
                         lost.append((numbers, fault))
                     else:
                         self._finished = True
-                        yield from zip(numbers, made, strict=False)
+                        yield from made.items()
                         if len(made) < len(numbers):
-                            waiting.append(numbers[len(made) :])
+                            waiting.append([number for number in numbers if number not in made])
                 if most < MOST_BATCHES and len(lost) >= FUTILE and not self._finished:
                     raise ExecutorError(_broken(lost[-1][1]))
         finally:
             _called_off(at_work)
         return lost
 
-    def _submitted(self, numbers: Sequence[int]) -> Future[list[Outcome]]:
+    def _submitted(self, numbers: Sequence[int]) -> Future[dict[int, Outcome]]:
         self._handed += 1
-        runs = [self._runs[number] for number in numbers]
+        runs = {number: self._runs[number] for number in numbers}
         try:
             return self._executor.submit(batch, self._experiment, runs, self._handed)
         except BrokenExecutor:
@@ -297,7 +310,7 @@ class _Workers:
         return fault is None
 
 
-def _called_off(at_work: dict[Future[list[Outcome]], Sequence[int]]) -> None:
+def _called_off(at_work: dict[Future[dict[int, Outcome]], Sequence[int]]) -> None:
     for each in at_work:
         each.cancel()
     at_work.clear()

@@ -37,6 +37,7 @@ def handed_out_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """All runs but the first are handed out, however fast the machine is."""
     monkeypatch.setattr(making, "FIRST_SECONDS", 0.0)
     monkeypatch.setattr(making, "FIRST_RUNS", 1)
+    monkeypatch.setattr(making, "WORTH_SECONDS", 0.0)
 
 
 def twigs(derivation: Derivation) -> int:

@@ -37,6 +37,7 @@ def handed_out_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """All runs but the first are handed out, however fast the machine is."""
     monkeypatch.setattr(making, "FIRST_SECONDS", 0.0)
     monkeypatch.setattr(making, "FIRST_RUNS", 1)
+    monkeypatch.setattr(making, "WORTH_SECONDS", 0.0)
 
 
 def expect_two_are_named(found: Table, many: int, fault: str) -> None:
@@ -69,10 +70,18 @@ class TestProcesses:
         said = "The executor broke (RuntimeError: cannot schedule new futures after shutdown)"
         assert found.remarks == (f"{said}: {len(found)} of 20 runs are finished.",)
 
+    def test_a_batch_counts_together_what_is_made_alone_else(self) -> None:
+        experiment = making.Experiment(PLANT, (2, 3), ["F", "modules"], making.Limits())
+        runs: dict[int, making.Run] = {number: {"seed": 7 * number} for number in range(40)}
+        measures = making.measures_of(experiment.measure, PLANT)
+        assert making.batch(experiment, runs) == {
+            number: making.outcome_of(experiment, measures, run) for number, run in runs.items()
+        }
+
     def test_a_batch_that_takes_too_long_comes_back_with_what_it_has(self, monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.setattr(making, "BATCH_SECONDS", -1.0)
         experiment = making.Experiment(PLANT, (3,), "F", making.Limits())
-        assert len(making.batch(experiment, [{"seed": 0}, {"seed": 1}])) == 1
+        assert len(making.batch(experiment, {0: {"seed": 0}, 1: {"seed": 1}})) == 1
         with ThreadPoolExecutor(2) as executor:
             assert ensemble(PLANT, 30, "F", steps=3, executor=executor).rows == ensemble(PLANT, 30, "F", steps=3).rows
 
@@ -127,7 +136,7 @@ class Forgets(Executor):
         self._forgotten, self.given, self._looked = 0, 0, threading.Semaphore(0)
 
     def submit(self, work: Any, *given: Any) -> Future[Any]:  # type: ignore[override]
-        seeds = [run["seed"] for run in given[1]] if work is making.batch else []
+        seeds = [run["seed"] for run in given[1].values()] if work is making.batch else []
         self.given += bool(seeds)
         if self._forgets(seeds, self._forgotten):
             self._forgotten += 1
