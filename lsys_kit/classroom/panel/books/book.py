@@ -427,9 +427,8 @@ def drawing_entries(states: States, numbers: Sequence[int], drawn: list[list[obj
 
 
 def _chosen_look(system: LSystem) -> str:
-    """In words how strokes look where the system does not say so, and what changes that."""
-    chosen = has_natural_colours(system) and not system.colours
-    return 'natural colours, which "colours: symbols" in the text changes' if chosen else ""
+    """In words how strokes look where the system does not say so; "colours: symbols" in its text changes that."""
+    return "natural colours" if has_natural_colours(system) and not system.colours else ""
 
 
 def _turtle(system: LSystem, calls: list[Row]) -> Data:
