@@ -252,7 +252,8 @@ def _said(found: Found, system: LSystem, text: str) -> str:
             f"; angle {float(found.angle[0]):g} in degrees; were it in radians, it would be {math.degrees(found.angle[0]):.5g}"
         )
     if found.angle:
-        return f"; angle {float(found.angle[0]):g}"
+        said = re.match(r"[0-6]\.\d{3,}", found.angle[1].text)
+        return f"; angle {float(found.angle[0]):g}" + (f", which is {said[0]} in radians" if said and found.angle[0] > 7 else "")
     turns = any(module.symbol in ("+", "-", "&", "^", "\\", "/") and not module.arguments for module in system.modules)
     spoken = _names_of("angle").search(text) or _DEGREES.search(text)
     return "" if not turns else "; the angle cannot be read: it is 90" if spoken else "; no angle is given: it is 90"

@@ -53,7 +53,7 @@ _LETTERS_BELOW = re.compile("[ₐₑₒₓₕₖₗₘₙₚₛₜᵢᵣᵤᵥ�
 """Subscripts that are letters: F with an l below it is the symbol F_l."""
 _ENTITY = re.compile(r"&(?:#\d{1,7}|#[xX][0-9a-fA-F]{1,6}|[A-Za-z]{2,8});")
 TAG = re.compile(
-    r"<(/?)(b|i|u|tt|td|tr|th|table|tbody|p|br|sub|sup|em|strong|code|pre|div|span|html|head|body|img|font|h[1-6]|li|ul|ol|dl|dt|dd|a|center|hr)"
+    r"<(/?)(b|i|u|tt|td|tr|th|table|tbody|p|br|sub|sup|em|strong|code|pre|div|span|html|head|body|img|font|h[1-6]|li|ul|ol|dl|dt|dd|a|center|hr|math|nowiki|var|kbd|samp|small|big)"
     r"\b[^<>]{0,500}>",
     re.IGNORECASE,
 )
