@@ -67,7 +67,8 @@ _WITH_CHANCE = re.compile(r"(\w)[ \t]*(\((?:0?\.\d+|\d{1,3}(?:\.\d+)?[ \t]?%|\d{
 """What is replaced, with its probability in brackets."""
 _MARKED = re.compile(
     r"&(?:\w{2,8}|#\d{1,6});|<(?:b|br|p|tt|td)\b[^<>\n]{0,99}>|\*\*|`|\\begin\{|\\displaystyle|\\(?:text|math)tt\b|\\verb\b"
-    r"|\{\\tt\b|^[ \t]*+set[ ]\[|^[ ]*+(?:axiom|start|angle)\t|^[ \t]*+\|?[ \t]*+:?-{3,}+:?[ \t]*+\||^[ \t]*+\|[ ][^|\n]++(?<=[ ])\|[ ][^\n]*\|[ \t]*+$",
+    r"|\{\\tt\b|^[ \t]*+set[ ]\[|^[ ]*+(?:axiom|start|angle)\t"
+    r"|^[ \t]*+\|?[ \t]*+:?-{3,}+:?[ \t]*+\||^[ \t]*+\|[ ][^|\n]++(?<=[ ])\|[ ][^\n]*\|[ \t]*+$",
     re.IGNORECASE | re.MULTILINE,
 )
 
@@ -143,6 +144,7 @@ def systems_in_lines(text: str, source: str = "") -> list[Found]:
         _take_said(system, prose)
         _take_prose(system, prose)
         _take_turns(system, text)
+        _take_chance(system, text)
     return [system for system in systems if system.axiom or system.rules]
 
 
@@ -226,7 +228,8 @@ _DEGREES = r"[ ]?(?:°|deg|gra[du])"
 _SAID_ANGLE = re.compile(
     rf"(?:{_SAY['turning']}|angle|winkel|旋转|回転)"
     rf"[^.\n\d]{{0,40}}+(?>(?:\d++(?![.,]?\d|{_DEGREES})[^.\n\d]{{1,40}}+)?)(\d{{1,3}}(?:[.,]\d+)?){_DEGREES}"
-    rf"|(?:{_SAY['turning']})\w*+[ ](?:{_SAY['left']}|{_SAY['right']})[ ](?:by[ ])?(\d{{1,3}}+(?:[.,]\d+)?)(?=[ ]*+(?:$|[,;.)]))"
+    rf"|(?:{_SAY['turning']})\w{{0,12}}+[ ](?:{_SAY['left']}|{_SAY['right']})[ ]"
+    r"(?:by[ ])?(\d{1,3}+(?:[.,]\d+)?)(?=[ ]?(?:$|[,;.)]))"
     r"|\((\d{1,3}(?:\.\d+)?)[ ]?(?:°|deg)\w*\)|(?<![\d.])(\d{1,3}(?:[.,]\d+)?)°[ ](?:to the |nach |turn)",
     re.IGNORECASE,
 )
@@ -248,7 +251,8 @@ _SAID_DRAWS = (
         re.IGNORECASE,
     ),
     re.compile(
-        rf"(?<![\w\"'])(?:[\"']|{_FIRST})(?P<symbols>{_SYMBOLS})[\"']?[ ](?P<draw>{_SAY['does']})\b(?![ ](?:{_SAY['nothing']})\b)",
+        rf"(?<![\w\"'])(?:[\"']|{_FIRST})(?P<symbols>{_SYMBOLS})[\"']?"
+        rf"[ ](?P<draw>{_SAY['does']})\b(?![ ](?:{_SAY['nothing']})\b)",
         re.IGNORECASE,
     ),
     re.compile(rf"\b(?:{_SAY['means']})[ ][\"']?(?P<symbols>{_SYMBOLS})[\"']?{_DRAWING}", re.IGNORECASE),
@@ -320,11 +324,32 @@ def _take_prose(found: Found, prose: Sequence[Passage]) -> None:
         for match in _SYMBOL_OF_TIKZ.finditer(each.text)
         if match[1] not in "Ff"
     }
-    if found.drawn and not used & {"F", "G"} and "F" not in found.drawn.values():  # where nothing else draws, whoever moves does
+    if (
+        found.drawn and not used & {"F", "G"} and "F" not in found.drawn.values()
+    ):  # where nothing else draws, whoever moves does
         found.drawn = dict.fromkeys(found.drawn, "F")
     if found.drawn:
         drawn = ", ".join(f"{symbol} is drawn as {command}" for symbol, command in sorted(found.drawn.items()))
         found.notes.append(f"As the text says, {drawn}.")
+
+
+_SAID_CHANCE = re.compile(rf"(?<!\w)(?:{_SAY['random']})(?!\w)", re.IGNORECASE)
+
+
+def _take_chance(found: Found, text: str) -> None:
+    """Rules for the same symbol without probabilities, of which one is taken at random, as the text says: all alike."""
+    said = _SAID_CHANCE.search(text)
+    heads = [rule.head.text for rule in found.rules]
+    if said and all(rule.probability is None for rule in found.rules):
+        found.rules = [
+            replace(rule, probability=Fraction(1, n)) if (n := heads.count(rule.head.text)) > 1 else rule
+            for rule in found.rules
+        ]
+        found.notes += [
+            f'"{said[0]}": each rule of {head} is read as equally probable.'
+            for head in sorted({*heads})
+            if heads.count(head) > 1
+        ]
 
 
 _SAID_TURN = re.compile(

@@ -122,10 +122,10 @@ def _rules() -> re.Pattern[str]:
 
 
 _COLON_RULE = re.compile(
-    rf"(?:(?P<label>{_LABEL}|[Rr](?:ule|egel)(?=[ ][A-Za-z][ \t]*:)){BLANKS})?"
-    rf"(?P<first>x)?(?P<over>x)?(?P<within>x)?(?P<head>[\"']?(?:[A-Za-z]|\d|[-+])[\"']?){BLANKS}(?P<arrow>:){BLANKS}"
+    rf"(?:(?P<label>{_LABEL}|[Rr](?:ule|egel)(?=[ ][A-Za-z][ \t])){BLANKS})?"
+    rf"(?P<first>x)?(?P<over>x)?(?P<within>x)?(?P<head>[\"']?(?:[A-Za-z]|\d|[-+])[\"']?){BLANKS}(?P<arrow>:|(?=[^\s:]{0, 40}?[-+\[])){BLANKS}"
 )
-"""A rule with a colon for its arrow: behind a label, or under a heading."""
+"""A rule with a colon for its arrow, behind a label, or under a heading; or with none: rule F F+F."""
 
 
 @dataclass(frozen=True)
@@ -280,7 +280,7 @@ def _rule_at(text: str, at: int, end: int, line: int, under_rules: bool) -> Part
     ):
         return Part("rule", rule.end(), end, rule, line)
     colon = _COLON_RULE.match(text, at, end)
-    if colon is None:
+    if colon is None or not (colon["arrow"] or (colon["label"] or "")[:4].lower() in ("rule", "rege")):
         return None
     further = _FURTHER.search(text, colon.end(), end)
     tail = text[colon.end() : further.start() if further else end].strip(" \"'")
@@ -295,7 +295,9 @@ _FURTHER = re.compile(rf"[,;]{BLANKS}(?={_COLON_RULE.pattern})".replace("?P<", "
 """Where another rule with a colon begins."""
 ANY_ARROW = re.compile(ARROW)
 """An arrow that only rules have."""
-_CALCULATION = re.compile(r"[a-z_]\w++(?:\.[a-z_]\w++)+(?:\(.*)?|\d++(?:\.\d++)?(?:[ ]?[*/^][ ]?\d++(?:\.\d++)?)+|[a-z][ ]?[-+*/^][ ]?\d++(?:\.\d++)?")
+_CALCULATION = re.compile(
+    r"[a-z_]\w++(?:\.[a-z_]\w++)+(?:\(.*)?|\d++(?:\.\d++)?(?:[ ]?[*/^][ ]?\d++(?:\.\d++)?)+|[a-z][ ]?[-+*/^][ ]?\d++(?:\.\d++)?"
+)
 """What a constant is, and no word."""
 _SET = re.compile(r"[ \t]*[{<(⟨][ \t]*\S[ \t]*,")
 """A set of symbols."""
@@ -378,7 +380,7 @@ def _possible(kind: str, named: re.Match[str], value: str, rule: Part | None, la
     return (bool(sep) and not (rule and short)) or bool(not sep and not later and _NUMBER.fullmatch(value))
 
 
-LETTERS = re.compile(r"[ \t]*+\w(?:[ \t,]++(?:and[ ]++)?\w)*+[ \t.]*+")
+LETTERS = re.compile(r"[ \t]*+\w(?>(?:[ \t,]++(?:and[ ]++)?\w)*)[ \t.]*+")
 """Single letters, as in "A, B"."""
 
 

@@ -31,8 +31,8 @@ _NO_MORE = re.compile(
     "|[\ufb00-\ufb06]|[¼-¾⅐-⅞]|(?<=«)[ \u00a0\u2009\u202f]|[ \u00a0\u2009\u202f](?=»)"
 )
 """What is seen and not typed, ligatures, fractions that are one sign, and the blanks within the quotation marks of French."""
-_MARGIN = re.compile(r"^[ \t>]*+(?=\S)", re.MULTILINE)
-"""What stands before a line: blanks, and in an answer to a letter a sign for each time that it was quoted."""
+_MARGIN = re.compile(r"^(?>(?:[ \t>]|(?://|[#;%])(?=[ \t]))*)(?=\S)", re.MULTILINE)
+"""What stands before a line: blanks, a sign for each time that it was quoted in an answer to a letter, that of a comment."""
 _END_OF_LINE = re.compile(r"(?<![ \t])[ \t]++$", re.MULTILINE)
 _DECIMALS = {"¼": ".25", "½": ".5", "¾": ".75"}
 """Such fractions behind a digit."""
