@@ -440,10 +440,7 @@ def angle_of(text: str) -> Fraction | None:
     factor = tables()["units"].get(unit, 1 if not unit.isalpha() else None)
     if factor is None:
         return None
-    near = _half_degrees(top) if factor != 1 or (not unit and value < 7) else None
-    if near and (factor != 1 or (len(top) > 5 and (360 % near == 0 or near % 15 == 0))):
-        return near
-    return value if factor == 1 else Fraction(str(round(float(value) * factor, 6)))
+    return value if factor == 1 else _half_degrees(top) or Fraction(str(round(float(value) * factor, 6)))
 
 
 def _half_degrees(radians: str) -> Fraction | None:

@@ -435,8 +435,9 @@ def _with_plain_axioms(text: str, items: Sequence[Part], letters: frozenset[str]
         line = text[item.start : item.end]
         follows = word and bool(found) and (found[-1].kind in ("rule", "more", "aside") or is_unfinished(rule))
         near = bool(found) and (item.line == found[-1].line + 1 or is_unfinished(rule))
-        deeper = follows and near and _indent(text, item) > margin and {*"".join(line.split())} <= known | {*"+-[]&^/|\\"}
-        again = follows and headed and is_unfinished(rule) and line.strip() in known
+        known_word = follows and any(map(str.isalnum, line)) and {*"".join(line.split())} <= known
+        deeper = known_word and near and _indent(text, item) > margin
+        again = known_word and headed and is_unfinished(rule) and len(line.strip()) == 1
         if follows and near and not _REFERENCE.fullmatch(line) and (surely_goes_on(line, rule, known) or deeper or again):
             goes_on = named or deeper or again or not following or following.kind != "rule" or len(line.strip()) > 1
         else:

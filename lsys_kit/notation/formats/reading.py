@@ -119,7 +119,7 @@ _CODE = re.compile(
 """What only programs have."""
 
 
-_BARE_RULE = re.compile(r"(?<![\w\"'])[A-Za-z][ \t]*+(?:->|→)[ \t]*+[A-Za-z+\-\[]")
+_BARE_RULE = re.compile(r"^[^\n\"'/#;%*]*?(?<!\w)[A-Za-z][ \t]*+(?:->|→)[ \t]*+[A-Za-z+\-\[]", re.MULTILINE)
 """A rule whose words are in no quotation marks."""
 
 
@@ -276,10 +276,7 @@ def _said(found: Found, system: LSystem, text: str) -> str:
             f"; angle {float(found.angle[0]):g} in degrees; were it in radians, it would be {math.degrees(found.angle[0]):.5g}"
         )
     if found.angle:
-        said = re.match(r"[0-6]\.\d{3,}", found.angle[1].text)
-        return f"; angle {float(found.angle[0]):g}" + (
-            f", which is {said[0]} in radians" if said and found.angle[0] > 7 else ""
-        )
+        return f"; angle {float(found.angle[0]):g}"
     spoken = _names_of("angle").search(text) or _DEGREES.search(text)
     return "" if not _turns(system) else "; the angle cannot be read: it is 90" if spoken else "; no angle is given: it is 90"
 
