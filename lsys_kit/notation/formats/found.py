@@ -438,9 +438,9 @@ def angle_of(text: str) -> Fraction | None:
     value = Fraction(top) / Fraction(bottom or 1)
     unit = re.split(r"[\s.,;)(\]]", written[2].lower().lstrip("\\[ "))[0]
     factor = tables()["units"].get(unit, 1 if not unit.isalpha() else None)
-    if factor is None:
-        return None
-    return value if factor == 1 else _half_degrees(top) or Fraction(str(round(float(value) * factor, 6)))
+    if factor in (None, 1):
+        return value if factor else None
+    return _half_degrees(top) or Fraction(str(round(float(value) * factor, 6)))
 
 
 def _half_degrees(radians: str) -> Fraction | None:
