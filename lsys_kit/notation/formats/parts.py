@@ -124,7 +124,7 @@ def _rules() -> re.Pattern[str]:
 _COLON_RULE = re.compile(
     rf"(?:(?P<label>{_LABEL}|[Rr](?:ule|egel)(?=[ ][A-Za-z][ \t:])){BLANKS})?"
     rf"(?P<first>x)?(?P<over>x)?(?P<within>x)?(?P<head>[\"']?(?:[A-Za-z]|\d|[-+])[\"']?){BLANKS}"
-    rf"(?P<arrow>:|(?=[^\s:]{{0,40}}?[-+\[])){BLANKS}"
+    rf"(?P<arrow>:|(?![-=]{{1,3}}>)(?=[^\s:]{{0,40}}?[-+\[])){BLANKS}"
 )
 """A rule with a colon for its arrow, behind a label or under a heading; or with none: rule F F+F."""
 
