@@ -103,6 +103,8 @@ def read(text: str | PurePath, notation: str | None = None, name: str | None = N
     text = text.strip(
         "\ufeff\u200b\u200e\u200f"
     )  # the byte order mark, with which some editors begin a file, and marks of direction
+    if "\r" in text and "\n" not in text:
+        text = text.replace("\r", "\n")  # lines as they ended on the first Macintosh
     if kind := cells_notation(text):
         start, hint = len(text) - len(text.lstrip()), f"{kind.capitalize()}s are read by read_{kind}(text)."
         raise ModelValueError(f"This is a {kind} system, not an L-system", text, start, None, hint)
@@ -123,7 +125,7 @@ def read(text: str | PurePath, notation: str | None = None, name: str | None = N
 
 
 _MODEL = re.compile(r"^[ \t]*axiom\b", re.MULTILINE | re.IGNORECASE)
-_PATH = re.compile(r"[\w.~: -]*+[/\\][^\n<>=|]*+|[\w -]++\.(?:l|ls|lpy|txt|zip|json|jff|frm)")
+_PATH = re.compile(r"(?!.*[ ]/[ ])[\w.~: -]*+[/\\][^\n<>=|]*+|[\w -]++\.(?:l|ls|lpy|txt|zip|json|jff|frm)")
 """What looks like the path of a file."""
 _LONGEST_PATH = 300
 

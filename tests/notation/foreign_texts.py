@@ -26,9 +26,17 @@ RUST = "a program in Rust, Go or Swift"
 GRAPH = "a drawing of a graph, as for Graphviz or Mermaid"
 YAML = "data as YAML"
 MARKDOWN = "a text as Markdown"
+MALSYS = "a model of Malsys"
 JSON = "data as JSON, or a dictionary"
 
 FOREIGN: dict[str, list[tuple[str, int]]] = {
+    MALSYS: [
+        ("lsystem Koch {\n\tset symbols axiom = F;\n\tset iterations = 5;\n\trewrite F to F + F - - F + F;\n}\n", 1),
+        ("lsystem Tree extends Plants {\n  set symbols axiom = X;\n  rewrite X to F [ + X ] X;\n  rewrite F to F F;\n}", 1),
+        ("\nlsystem Algae {\nset symbols axiom = A;\nrewrite A to A B;\nrewrite B to A;\n}", 2),
+        ("/* a curve */\nlsystem Dragon {\n  interpret F as DrawForward(8);\n  rewrite X to X + Y F;\n}", 2),
+        ("lsystem Cond(n = 3) {\n  rewrite A(x) where x < n to F(x) A(x + 1);\n  process all with SvgRenderer;\n}", 1),
+    ],
     RACKET: [
         ("#lang lindenmayer racket\n\n## axiom ##\nF\n\n## rules ##\nF -> F+F\n\n## variables ##\nn=3\n", 1),
         ("#lang lindenmayer racket\n## axiom ##\nA(1)\n## rules ##\nA(x) : x < 3 -> F(x) A(x+1)\n## variables ##\nn=5\n", 1),

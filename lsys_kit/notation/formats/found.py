@@ -6,6 +6,7 @@ character with its place in what was pasted, so that the kit's own reader does t
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -412,6 +413,7 @@ _ANGLES: Sequence[tuple[re.Pattern[str], Callable[[Fraction], Fraction]]] = (
     (re.compile(rf"\A{_PI}\s*/\s*180(?:\.0*)?\s*\*\s*{_N}", re.IGNORECASE), lambda n: n),
     (re.compile(rf"\A{_PI}\s*/\s*{_N}", re.IGNORECASE), lambda n: 180 / n),
     (re.compile(rf"\A{_N}\s*+\*?\s*{_PI}", re.IGNORECASE), lambda n: 180 * n),
+    (re.compile(r"\A1/(\d++)[ ](?:of an?[ ])?(?:full[ ])?(?:turn|circle|revolution)"), lambda n: 360 / n),
     (re.compile(rf"\A360\.?0*°?\s*/\s*{_N}°?"), lambda n: 360 / n),
 )
 """How programs write an angle: as what of which number in degrees."""
@@ -424,7 +426,7 @@ def angle_of(text: str) -> Fraction | None:
     >>> [angle_of(text) for text in ("25,7°", "pi/3", "radians(25)", "sixty")]
     [Fraction(257, 10), Fraction(60, 1), Fraction(25, 1), None]
     """
-    text = text.strip().rstrip(".;")[:60]
+    text = text.strip().lstrip("±").rstrip(".;")[:60]
     for pattern, degrees in _ANGLES:
         match = pattern.fullmatch(text)
         if match and (number := Fraction(match[1].replace(",", "."))):
@@ -436,4 +438,13 @@ def angle_of(text: str) -> Fraction | None:
     value = Fraction(top) / Fraction(bottom or 1)
     unit = re.split(r"[\s.,;)(\]]", written[2].lower().lstrip("\\[ "))[0]
     factor = tables()["units"].get(unit, 1 if not unit.isalpha() else None)
-    return None if factor is None else value if factor == 1 else Fraction(str(round(float(value) * factor, 6)))
+    if factor in (None, 1):
+        return value if factor else None
+    return _half_degrees(top) or Fraction(str(round(float(value) * factor, 6)))
+
+
+def _half_degrees(radians: str) -> Fraction | None:
+    """The angle of whole or half degrees that was written in radians with many decimals, if it is one."""
+    decimals = len(radians.partition(".")[2])
+    near = Fraction(round(math.degrees(float(radians)) * 2), 2)
+    return near if decimals > 2 and round(math.radians(near), decimals) == float(radians) else None

@@ -57,6 +57,11 @@ _STRONG = re.compile(r"'''([\w -]{1,60})'''")
 _DOLLARS = re.compile(r"\$(?=[^\s$])([^$\n]*[^\s$\\])\$(?!\w)")
 
 
+_ESCAPED_TURN, _BARE_TURN = re.compile(r"\\[-+]"), re.compile(r"(?<!\\)(?:\+|-(?![->]))|/|&")
+_ESCAPE = re.compile(r"\\(?=[-+\[\]*_|])")
+"""What Markdown has before signs that are no marks; where none is without it, it is no roll."""
+
+
 def page_text(before: Transcript) -> Transcript:
     r"""A page's text without the marks of Markdown and LaTeX, and with its tables as lists.
 
@@ -65,6 +70,9 @@ def page_text(before: Transcript) -> Transcript:
     'Rule: F → FF'
     """
     text = before.text
+    if _ESCAPED_TURN.search(text) and not _BARE_TURN.search(text):
+        before = edited(before, (Edit(match.start(), match.end(), "") for match in _ESCAPE.finditer(text)))
+        text = before.text
     keyed = _KEYED.search(text) is not None
     edits = [
         Edit(*match.span(), "" if _is_shown(text, match.start(), match["shown"]) else match["shown"])

@@ -67,7 +67,8 @@ _WITH_CHANCE = re.compile(r"(\w)[ \t]*(\((?:0?\.\d+|\d{1,3}(?:\.\d+)?[ \t]?%|\d{
 """What is replaced, with its probability in brackets."""
 _MARKED = re.compile(
     r"&(?:\w{2,8}|#\d{1,6});|<(?:b|br|p|tt|td)\b[^<>\n]{0,99}>|\*\*|`|\\begin\{|\\displaystyle|\\(?:text|math)tt\b|\\verb\b"
-    r"|\{\\tt\b|^[ \t]*+set[ ]\[|^[ \t]*+\|?[ \t]*+:?-{3,}+:?[ \t]*+\||^[ \t]*+\|[ ][^|\n]++(?<=[ ])\|[ ][^\n]*\|[ \t]*+$",
+    r"|\{\\tt\b|^[ \t]*+set[ ]\[|^[ ]*+(?:axiom|start|angle)\t"
+    r"|^[ \t]*+\|?[ \t]*+:?-{3,}+:?[ \t]*+\||^[ \t]*+\|[ ][^|\n]++(?<=[ ])\|[ ][^\n]*\|[ \t]*+$",
     re.IGNORECASE | re.MULTILINE,
 )
 
@@ -143,6 +144,7 @@ def systems_in_lines(text: str, source: str = "") -> list[Found]:
         _take_said(system, prose)
         _take_prose(system, prose)
         _take_turns(system, text)
+        _take_chance(system, text)
     return [system for system in systems if system.axiom or system.rules]
 
 
@@ -226,6 +228,8 @@ _DEGREES = r"[ ]?(?:°|deg|gra[du])"
 _SAID_ANGLE = re.compile(
     rf"(?:{_SAY['turning']}|angle|winkel|旋转|回転)"
     rf"[^.\n\d]{{0,40}}+(?>(?:\d++(?![.,]?\d|{_DEGREES})[^.\n\d]{{1,40}}+)?)(\d{{1,3}}(?:[.,]\d+)?){_DEGREES}"
+    rf"|(?:{_SAY['turning']})\w{{0,12}}+[ ](?:{_SAY['left']}|{_SAY['right']})[ ]"
+    r"(?:by[ ])?(\d{1,3}+(?:[.,]\d+)?)(?=[ ]?(?:$|[,;.)]))"
     r"|\((\d{1,3}(?:\.\d+)?)[ ]?(?:°|deg)\w*\)|(?<![\d.])(\d{1,3}(?:[.,]\d+)?)°[ ](?:to the |nach |turn)",
     re.IGNORECASE,
 )
@@ -243,12 +247,17 @@ _DRAWING = rf"[ ]++(?:(?:{_SAY['both']})[ ])?[\"']?(?:(?P<draw>{_SAY['draw']})|{
 _SAID_DRAWS = (
     re.compile(
         rf"(?<![\w\"'])(?:[\"']|{_FIRST})(?P<symbols>{_SYMBOLS})[\"']?"
-        rf"[ ]?(?:(?:(?:{_SAY['both']})[ ])?(?:{_SAY['means']})|:){_DRAWING}",
+        rf"[ ]?(?:(?:(?:{_SAY['both']})[ ])?(?:{_SAY['means']})|[:=-]){_DRAWING}",
+        re.IGNORECASE,
+    ),
+    re.compile(
+        rf"(?<![\w\"'])(?:[\"']|{_FIRST})(?P<symbols>{_SYMBOLS})[\"']?"
+        rf"[ ](?P<draw>{_SAY['does']})\b(?![ ](?:{_SAY['nothing']})\b)",
         re.IGNORECASE,
     ),
     re.compile(rf"\b(?:{_SAY['means']})[ ][\"']?(?P<symbols>{_SYMBOLS})[\"']?{_DRAWING}", re.IGNORECASE),
 )
-"""Symbols before the verb, or behind it."""
+"""Symbols before the verb, before what they do, or behind the verb."""
 
 
 _SYMBOL_OF_TIKZ = re.compile(r"\\symbol\{(\w)\}\{\\pgflsystem(draw|move)forward")
@@ -297,8 +306,8 @@ def _take_prose(found: Found, prose: Sequence[Passage]) -> None:
         found.angle = angle, Passage(match[0], prose[0].at, False)
         found.notes.append(f'The angle is that of the text: "{match[0]}".')
     steps = {match[1] for each in prose for match in _SAID_STEPS.finditer(each.text)}
-    if found.steps is None and len(steps) == 1:
-        [number] = steps
+    if found.steps is None and len(steps - {"0"}) == 1:
+        [number] = steps - {"0"}
         found.steps = int(number), Passage("", prose[0].at, False)
         found.notes.append(f"The number of steps, {number}, is that of the text.")
     used = {
@@ -307,7 +316,7 @@ def _take_prose(found: Found, prose: Sequence[Passage]) -> None:
     for match in (match for each in prose for pattern in _SAID_DRAWS for match in pattern.finditer(each.text)):
         command = "F" if match["draw"] else "f"
         for symbol in re.split(_BETWEEN, match["symbols"]):
-            if symbol in used and symbol not in ("F", "f") and symbol != "G" * (command == "F"):
+            if symbol in used and symbol not in (command, "F") and symbol != "G" * (command == "F"):
                 found.drawn[symbol] = command
     found.drawn |= {
         match[1]: "F" if match[2] == "draw" else "f"
@@ -315,9 +324,32 @@ def _take_prose(found: Found, prose: Sequence[Passage]) -> None:
         for match in _SYMBOL_OF_TIKZ.finditer(each.text)
         if match[1] not in "Ff"
     }
+    if (
+        found.drawn and not used & {"F", "G"} and "F" not in found.drawn.values()
+    ):  # where nothing else draws, whoever moves does
+        found.drawn = dict.fromkeys(found.drawn, "F")
     if found.drawn:
         drawn = ", ".join(f"{symbol} is drawn as {command}" for symbol, command in sorted(found.drawn.items()))
         found.notes.append(f"As the text says, {drawn}.")
+
+
+_SAID_CHANCE = re.compile(rf"(?<!\w)(?:{_SAY['random']})(?!\w)", re.IGNORECASE)
+
+
+def _take_chance(found: Found, text: str) -> None:
+    """Rules for the same symbol without probabilities, of which one is taken at random, as the text says: all alike."""
+    said = _SAID_CHANCE.search(text)
+    heads = [rule.head.text for rule in found.rules]
+    if said and all(rule.probability is None for rule in found.rules):
+        found.rules = [
+            replace(rule, probability=Fraction(1, n)) if (n := heads.count(rule.head.text)) > 1 else rule
+            for rule in found.rules
+        ]
+        found.notes += [
+            f'"{said[0]}": each rule of {head} is read as equally probable.'
+            for head in sorted({*heads})
+            if heads.count(head) > 1
+        ]
 
 
 _SAID_TURN = re.compile(
@@ -369,13 +401,19 @@ def _take_turns(found: Found, text: str) -> None:
         found.notes.append(f'As the text says, brackets turn, too: "[" is read as [{there} and "]" as ]{back}.')
 
 
+def _indent(text: str, item: Part) -> int:
+    """How many blanks stand before the line of a part."""
+    line = text[text.rfind("\n", 0, item.start) + 1 :]
+    return len(line) - len(line.lstrip(" \t"))
+
+
 def _with_plain_axioms(text: str, items: Sequence[Part], letters: frozenset[str]) -> list[Part]:
     """The parts, with a word alone above a rule for an axiom, if no axiom has a name; lines that go on with a rule in it."""
     found: list[Part] = []
     named = any(item.kind == "axiom" for item in items)
     filled = [item for item in items if item.kind != "blank"]
     known = letters.union(*(text[item.start : item.end] for item in filled if item.kind in ("rule", "axiom")))
-    rule = ""
+    rule, margin, headed = "", 0, bool(filled) and filled[0].kind in ("angle", "steps")
     for index, item in enumerate(filled):
         following = filled[index + 1] if index + 1 < len(filled) else None
         word = item.kind == "" and is_word(text[item.start : item.end], letters)
@@ -397,10 +435,14 @@ def _with_plain_axioms(text: str, items: Sequence[Part], letters: frozenset[str]
         line = text[item.start : item.end]
         follows = word and bool(found) and (found[-1].kind in ("rule", "more", "aside") or is_unfinished(rule))
         near = bool(found) and (item.line == found[-1].line + 1 or is_unfinished(rule))
-        if follows and near and not _REFERENCE.fullmatch(line) and surely_goes_on(line, rule, known):
-            goes_on = named or not following or following.kind != "rule" or len(line.strip()) > 1
+        known_word = follows and any(map(str.isalnum, line)) and {*"".join(line.split())} <= known
+        deeper = known_word and near and _indent(text, item) > margin
+        again = known_word and headed and is_unfinished(rule) and len(line.strip()) == 1
+        if follows and near and not _REFERENCE.fullmatch(line) and (surely_goes_on(line, rule, known) or deeper or again):
+            goes_on = named or deeper or again or not following or following.kind != "rule" or len(line.strip()) > 1
         else:
             goes_on = False
+        margin = _indent(text, item) if item.kind == "rule" else margin
         rule = line if item.kind == "rule" else pending(rule + line) if goes_on else rule if item.kind == "" else ""
         if goes_on:
             found.append(replace(item, kind="more"))
@@ -582,8 +624,10 @@ def _system(text: str, items: Sequence[Part]) -> Found:
             found.rules[-1] = replace(last, tail=(*last.tail, value))
         elif item.kind in ("angle", "steps"):
             _add_setting(found, item.kind, value, text)
-        elif item.kind == "ignore":
+        elif item.kind == "ignore" and not NOTHING.fullmatch(value.text):
             found.ignored = value
+        elif item.kind == "draws":
+            found.drawn |= dict.fromkeys({*re.findall(r"\w", value.text.replace("and", ""))} - {"F"}, "F")
         elif item.kind == "unread" and item.match and not re.match(r"0(?![.\d])|no\b|false\b|$", value.text, re.IGNORECASE):
             found.notes.append(not_taken(item.match["name"], value.text))
         elif item.kind == "scale" and (scale := angle_of(value.text)):
@@ -663,6 +707,8 @@ def _add_setting(found: Found, kind: str, value: Passage, text: str) -> None:
             found.steps = int(number[0]), value
             found.notes += first_taken(value.text)
         return
+    if not said.strip():
+        return  # what it is stands behind another name of it: "Winkel:  δ = 25°"
     angle = angle_of(said)
     if angle is None:
         shown = value.text[:40]
@@ -686,7 +732,7 @@ def _without_words(rule: Rule, heads: Collection[str]) -> tuple[Rule, list[str]]
     if behind is None:
         return rule, []
     said = tail.text[behind.end() :]
-    tail = tail.part(0, behind.start())
+    tail = tail.part(0, len(tail.text[: behind.start()].rstrip(";, ")))
     while " " in tail.text and (last := tail.text.rpartition(" ")[2].lower()) in _SMALL_WORDS and last not in heads:
         tail = tail.part(0, len(tail.text.rpartition(" ")[0].rstrip(" .")))
     note = f'Behind the rule of {rule.head.text}, "{quotable(said[:40])}" is left out.'

@@ -19,7 +19,7 @@ from lsys_kit.notation.formats.found import Passage, angle_of, tables
 
 LONGEST_LINE = 2_000
 """Longer lines are prose."""
-_KINDS = "axiom", "rules", "angle", "steps", "head", "tail", "ignore", "scale", "constant", "unread", "other"
+_KINDS = "axiom", "rules", "angle", "steps", "head", "tail", "ignore", "draws", "scale", "constant", "unread", "other"
 BLANKS = r"[ \t]*+"
 """The pattern of blanks within a line."""
 ARROW = r"(?:[-=|]{1,3}>|→|⟶|⟼|↦|⇒|➔|➜|➝|\\(?:long)?(?:rightarrow|mapsto)\b|\\to\b|::=|:=)"
@@ -55,7 +55,7 @@ BEFORE = re.compile(
     rf"\A{BLANKS}(?:[(\[]{BLANKS}(?P<bracketed>{_CHANCE}){BLANKS}[)\]]|(?P<percents>\d{{1,3}}(?:\.\d+)?\s?%)){BLANKS}:?{BLANKS}(?=\S)"
 )
 """A probability between an arrow and a successor, in brackets or in percents."""
-NOTHING = re.compile(r"\([a-z ]{5,}\)|empty|nothing|none|ε|λ|\*")
+NOTHING = re.compile(r"\([a-z ]{5,}\)|empty|nothing|none|[ελΛ∅]|\*")
 """Successors that are empty."""
 COMMENT = re.compile(
     r"(?<![ \t])(?:[ \t]{2,}+\(\d+(?:\.\d+)*[a-z]?\)|[ \t]++(?:#|//|%|;|←)[ \t].*"
@@ -106,10 +106,10 @@ def fields() -> tuple[re.Pattern[str], dict[str, str]]:
     every = "|".join(
         re.escape(each).replace(r"\ ", r"[ _-]?") + (r"(?:[ _]?\d{1,2})?" if each in numbered else "") for each in names
     )
-    behind = r"(?![\wÀ-ÿ])(?:[ ]?\([^()\n]{0,40}\))?(?:[ ][ωδθφPVSϕ](?=[ ]?[:=]))?"
+    behind = r"(?![\wÀ-ÿ])(?:[ ]?\([^()\n]{0,40}\))?(?:[ ](?P<alias>[ωδθφPVSϕ])(?=[ ]?[:=]))?"
     return re.compile(
         rf"(?P<name>{every}){behind}(?:[ \t]+(?:{_SAY['is']})(?=[: \t]))?"
-        rf"(?:{BLANKS}(?P<sep>:=|::?|=(?![=>])|→|⟶|-{{1,2}}>)|(?=[ \t]|$)){BLANKS}",
+        rf"(?:{BLANKS}(?P<sep>::?=|::?|=(?![=>])|→|⟶|-{{1,2}}>)|(?=[ \t]|$)){BLANKS}",
         re.IGNORECASE,
     ), kinds
 
@@ -122,10 +122,11 @@ def _rules() -> re.Pattern[str]:
 
 
 _COLON_RULE = re.compile(
-    rf"(?:(?P<label>{_LABEL}|[Rr](?:ule|egel)(?=[ ][A-Za-z][ \t]*:)){BLANKS})?"
-    rf"(?P<first>x)?(?P<over>x)?(?P<within>x)?(?P<head>[\"']?(?:[A-Za-z]|\d|[-+])[\"']?){BLANKS}(?P<arrow>:){BLANKS}"
+    rf"(?:(?P<label>{_LABEL}|[Rr](?:ule|egel)(?=[ ][A-Za-z][ \t:])){BLANKS})?"
+    rf"(?P<first>x)?(?P<over>x)?(?P<within>x)?(?P<head>[\"']?(?:[A-Za-z]|\d|[-+])[\"']?){BLANKS}"
+    rf"(?P<arrow>:|(?![-=]{{1,3}}>)(?=[^\s:]{{0,40}}?[-+\[])){BLANKS}"
 )
-"""A rule with a colon for its arrow: behind a label, or under a heading."""
+"""A rule with a colon for its arrow, behind a label or under a heading; or with none: rule F F+F."""
 
 
 @dataclass(frozen=True)
@@ -236,6 +237,10 @@ def end_of_value(text: str, start: int, end: int) -> int:
     return start + len(said)
 
 
+_ALIASES = {"ω": "axiom", "δ": "angle"}
+"""What a letter calls behind a name that says nothing: the L-system ω: F."""
+
+
 def _item_at(text: str, at: int, end: int, line: int, later: bool, under_rules: bool) -> Part | None:
     """The part that begins at an offset."""
     pattern, kinds = fields()
@@ -245,6 +250,7 @@ def _item_at(text: str, at: int, end: int, line: int, later: bool, under_rules: 
         return Part("angle", at, end, _BARE_ANGLE.match(text, at, end), line)
     if named and not (rule and rule.match and rule.match["label"]):
         kind = kinds[re.sub(r"[ _-]|(?<!\d)\d++$", "", named["name"].lower())]
+        kind = _ALIASES.get(named["alias"] or "", kind) if kind == "other" else kind
         if _possible(kind, named, text[named.end() : end], rule, later):
             return Part(kind, named.end(), end, named, line)
     return rule
@@ -275,7 +281,7 @@ def _rule_at(text: str, at: int, end: int, line: int, under_rules: bool) -> Part
     ):
         return Part("rule", rule.end(), end, rule, line)
     colon = _COLON_RULE.match(text, at, end)
-    if colon is None:
+    if colon is None or not (colon["arrow"] or (colon["label"] or "")[:4].lower() in ("rule", "rege")):
         return None
     further = _FURTHER.search(text, colon.end(), end)
     tail = text[colon.end() : further.start() if further else end].strip(" \"'")
@@ -290,7 +296,9 @@ _FURTHER = re.compile(rf"[,;]{BLANKS}(?={_COLON_RULE.pattern})".replace("?P<", "
 """Where another rule with a colon begins."""
 ANY_ARROW = re.compile(ARROW)
 """An arrow that only rules have."""
-_CALCULATION = re.compile(r"\d++(?:\.\d++)?(?:[ ]?[*/^][ ]?\d++(?:\.\d++)?)+|[a-z][ ]?[-+*/^][ ]?\d++(?:\.\d++)?")
+_CALCULATION = re.compile(
+    r"[a-z_]\w++(?:\.[a-z_]\w++)+(?:\(.*)?|\d++(?:\.\d++)?(?:[ ]?[*/^][ ]?\d++(?:\.\d++)?)+|[a-z][ ]?[-+*/^][ ]?\d++(?:\.\d++)?"
+)
 """What a constant is, and no word."""
 _SET = re.compile(r"[ \t]*[{<(⟨][ \t]*\S[ \t]*,")
 """A set of symbols."""
@@ -311,7 +319,7 @@ _SAID = re.compile(r"[,;()]|\.(?:\s|$)")
 def _is_prose(text: str) -> bool:
     """Whether a text is a word or two of a language, and none of symbols."""
     return (
-        re.fullmatch(r"[A-Z]?[a-z]{4,}(?:[ ](?:[a-z]+|\d[\d.]*+[ ]?°?))*", text) is not None
+        re.fullmatch(r"(?>(?:[a-z]{2,3}[ ](?=[a-z]{4}))?)[A-Z]?[a-z]{4,}(?:[ ](?:[a-z]+|\d[\d.]*+[ ]?°?))*", text) is not None
         and len(set(text)) > 3
         and not NOTHING.fullmatch(text)
     )
@@ -325,10 +333,14 @@ def _can_be_replaced(rule: re.Match[str]) -> bool:
     return rule["arrow"] not in ("=", ":=") or bool(name and (len(name[0]) == 1 or "<" in rule["head"]))
 
 
+_SETTINGS = "axiom", "angle", "steps"
+"""What may have an arrow behind its name: ω → F."""
+
+
 def _possible(kind: str, named: re.Match[str], value: str, rule: Part | None, later: bool) -> bool:
     """Whether a name can begin a part, by what stands behind it."""
     short, sep = len(named["name"]) == 1, named["sep"] or ""
-    if kind != "axiom" and sep[-1:] in (">", "→", "⟶"):
+    if sep[-1:] in (">", "→", "⟶") and (later or (short and (rule or kind not in ("axiom", "angle"))) or kind not in _SETTINGS):
         return False
     number = _NUMBER.fullmatch(ALIAS.sub("", value))
     if kind == "steps":
@@ -351,10 +363,8 @@ def _possible(kind: str, named: re.Match[str], value: str, rule: Part | None, la
     if kind == "axiom":
         if not sep and not value.strip():
             return not later and len(named["name"]) > 4
-        if sep[-1:] in (">", "→", "⟶"):
-            return len(named["name"]) > 4 and not later
         if sep:
-            return not short or named["name"] in "ωw"
+            return named["name"] in "ωw" if short else sep[-1] not in ">→⟶" or len(named["name"]) > 4
         said = _BEHIND_WORD.split(value.strip())[0]
         return len(named["name"]) > 4 and is_word(said) and re.fullmatch(r"\S+|\S(?:[ ]\S)+", said.strip()) is not None
     if kind == "ignore":
@@ -362,11 +372,17 @@ def _possible(kind: str, named: re.Match[str], value: str, rule: Part | None, la
     if kind in ("head", "tail"):
         replaced = kind == "tail" or _HEAD_ALONE.fullmatch(value.strip()) is not None
         return bool(sep and value.strip()) and replaced and not later and rule is None
+    if kind == "draws":
+        return bool(sep) and not later and LETTERS.fullmatch(value) is not None
     if kind in ("scale", "constant"):
         return bool(sep and number)
     if later and named["name"].lower() in tables()["said"]["weight"]:
         return False  # it belongs to the rule before
     return (bool(sep) and not (rule and short)) or bool(not sep and not later and _NUMBER.fullmatch(value))
+
+
+LETTERS = re.compile(r"[ \t]*+\w(?>(?:[ \t,]++(?:and[ ]++)?\w)*)[ \t.]*+")
+"""Single letters, as in "A, B"."""
 
 
 def is_word(text: str, letters: frozenset[str] = frozenset()) -> bool:

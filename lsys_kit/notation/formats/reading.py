@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 
@@ -119,6 +119,10 @@ _CODE = re.compile(
 """What only programs have."""
 
 
+_BARE_RULE = re.compile(r"^[^\n\"'/#;%*]*?(?<!\w)[A-Za-z][ \t]*+(?:->|→)[ \t]*+[A-Za-z+\-\[]", re.MULTILINE)
+"""A rule whose words are in no quotation marks."""
+
+
 def read_found(text: str, name: str | None = None) -> LSystem | None:
     """The system of a text in the first format that finds one in it; None where none does.
 
@@ -134,6 +138,9 @@ def read_found(text: str, name: str | None = None) -> LSystem | None:
     for form in FORMATS.values():
         before, systems = _found(form, text)
         most = max((len(found.rules) for found in systems), default=0)
+        quoted = form is DATA and len(systems) == 1 and _BARE_RULE.search(before.text)
+        if quoted and len(others := _found(LIST, text)[1]) == 1 and len(others[0].rules) > most:
+            continue  # some words alone are in quotation marks
         if any(found.complete and not (found.assumed and most < rules) for found in systems):
             try:
                 return _refusing_code(form, before, _system(form, before, _chosen(systems, text, name)))
@@ -233,9 +240,26 @@ def _system(form: Format, before: Transcript, found: Found) -> LSystem:
         system = system_in(ABOP, transcript.text)
     except LSystemError as error:
         raise transcript.relocated(error) from None
-    digits = undrawn_digits(found)
-    notes = system.notes if found.listing else (*filter(None, (digits,)), *filter(_is_news, system.notes))
+    notes = system.notes if found.listing else (*_undrawn(found, system), *filter(_is_news, system.notes))
     return replace(system, notes=(f"Read as {form.title}{_said(found, system, before.text)}.", *transcript.notes, *notes))
+
+
+_DRAWING = ("F", "G", "@", "~", "{")
+"""How symbols begin that may draw."""
+
+
+def _undrawn(found: Found, system: LSystem) -> Iterator[str]:
+    """Notes on digits that are symbols, and on a system that turns and draws nothing."""
+    if digits := undrawn_digits(found):
+        yield digits
+    if _turns(system) and not any(module.symbol.startswith(_DRAWING) for module in system.modules):
+        symbol = found.rules[0].head.text[:1]
+        yield f'Nothing in it draws a line: F does. Below "interpretation:", "{symbol} -> F" draws {symbol}.'
+
+
+def _turns(system: LSystem) -> bool:
+    """Whether something turns by the angle of the system."""
+    return any(module.symbol in ("+", "-", "&", "^", "\\", "/") and not module.arguments for module in system.modules)
 
 
 def _is_news(note: str) -> bool:
@@ -253,9 +277,8 @@ def _said(found: Found, system: LSystem, text: str) -> str:
         )
     if found.angle:
         return f"; angle {float(found.angle[0]):g}"
-    turns = any(module.symbol in ("+", "-", "&", "^", "\\", "/") and not module.arguments for module in system.modules)
     spoken = _names_of("angle").search(text) or _DEGREES.search(text)
-    return "" if not turns else "; the angle cannot be read: it is 90" if spoken else "; no angle is given: it is 90"
+    return "" if not _turns(system) else "; the angle cannot be read: it is 90" if spoken else "; no angle is given: it is 90"
 
 
 def _refusing_code(form: Format, before: Transcript, system: LSystem) -> LSystem:

@@ -65,7 +65,8 @@ class Records(Transformer[Token, object]):
 
     def radians(self, keyword: Token, turn: Token) -> Statement:
         name = "angle" if keyword[0] in "tT" else "heading"
-        return "deferred", (name, Number(_degrees(turn), _at(turn)))
+        degrees = 0 if name == "heading" and not turn.strip("0.") else _degrees(turn)
+        return "deferred", (name, Number(degrees, _at(turn)))
 
     def steps(self, _: Token, count: Token) -> tuple[str, Number]:
         return "steps", Number(int(count), _at(count))
@@ -123,8 +124,8 @@ def _number(token: Token, digits: str) -> Number:
 _SAID = re.compile(r"angle(?:\s*=)?\s*\d++(?!\.\d)|axiom(?:\s*=\s*|\s+)[^\s:=]", re.IGNORECASE)
 """A line that gives an angle or an axiom, without a colon."""
 _OTHER = re.compile(
-    r"(?![^\s=]\s*=(?!\s*\{)|axiom|angle|(?:theta|alpha)\s*+(?:=\s*+)?(?:pi\b|[0-6]?\.\d)).*?(?:->|→|⟶|::=|:\s|\\rightarrow|\w{3}\s*=)|axiom\s*=\s*AXIOM"
-    r"|\S[ ](?-i:[a-z]{4,})[ ]",
+    r"(?![^\s=]\s*=(?!\s*\{)|axiom|angle|(?:theta|alpha)\s*+(?:=\s*+)?(?:pi\b|[0-6]?\.\d|[0-6]\b)).*?(?:->|→|⟶|::=|:\s|\\rightarrow|\w{3}\s*=)|axiom\s*=\s*AXIOM"
+    r"|\S[ ](?-i:[a-z]{4,})[ ]|\w++\s*+=\s*+\"",
     re.IGNORECASE,
 )
 """A line that no system of Fractint's has."""
@@ -156,7 +157,7 @@ def _note_angle(draft: Draft, said: tuple[Number, tuple[int, int]]) -> None:
     """Say what an angle in radians comes to, and what any means where only the reader says that a text is one of Fractint's:
     it has no braces."""
     angle, (start, end) = said
-    if draft.source[start:end].partition(".")[2].strip("0"):
+    if draft.source[start] not in "tT" and draft.source[start:end].partition(".")[2].strip("0"):
         draft.notes.append(
             f'Fractint passes over what stands behind the point: "{draft.source[start:end]}" is {360 / angle.value}.'
         )

@@ -117,7 +117,8 @@ _MARKS = re.compile(r"\b(?:LRule|LRULES|AXIOM|LSystem|run\w*System)\s*\[|\w_\s*/
 """What is found in texts of this notation, and in no others."""
 _HEADING = re.compile(r"^[^\S\n]*+Rules\s*+:", re.IGNORECASE | re.MULTILINE)
 _NOT_PRINTED = re.compile(
-    r"^[^\S\n]*+(?:(?:angle|heading|steps|turtle)[^\S\n]*+:|axiom[^\S\n]*+:[^\n\"\[]*?[-+])", re.IGNORECASE | re.MULTILINE
+    r"^[^\S\n]*+(?:(?:angle|heading|steps|turtle|ignore)[^\S\n]*+:|axiom[^\S\n]*+(?::[^\n\"\[]*?[-+]|=[^\S\n]*+(?!AXIOM|[\"{(]|[^\S\n])))",
+    re.IGNORECASE | re.MULTILINE,
 )
 """What a printed list of rules does not have: a setting with a colon, or a turn without quotation marks."""
 _RULE_PARTS = HEADS[:4]

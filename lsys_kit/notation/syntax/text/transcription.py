@@ -141,8 +141,10 @@ _DIGIT = re.compile(r"(?<![.\d])\d(?![.\d])")
 _WORD = re.compile(r"(?!\s*+(?:start|begin|init|root|word)\w*+[^\S\n]|.*\\[a-z]{3})[^:=<>#\n]*+(?<!-)", re.IGNORECASE)
 """A line that may be an axiom without its name, and is no name of an axiom without its colon."""
 
+_EMPTY = re.compile(rf"(?:{_ARROW})[ \t]*+(?P<sign>[λΛ∅])[ \t]*+$", re.MULTILINE)
+"""The empty word, as it is written in formal languages."""
 _BLANK_LINES = re.compile(r"\n\n\n+")
-_TYPOGRAPHIC = re.compile(f"[{''.join(map(chr, {**_SIGNS, **_WEDGES}))}Α-Ωα-δζ-ωϑϕϱµ°•]")
+_TYPOGRAPHIC = re.compile(f"[{''.join(map(chr, {**_SIGNS, **_WEDGES}))}Α-Ωα-δζ-ωϑϕϱµ°•∅]")
 _SIGNS_OF_PRINT = (
     re.compile(r"\\[a-z]{4}"),
     re.compile(r"\*(?:\*|[ \t]*+<)"),
@@ -335,10 +337,17 @@ class _Listing:
 
     def letters(self) -> Iterator[Edit]:
         """Greek letters as names; δ is a constant, too, where it is used and not only set."""
+        empty = {match.start("sign") for match in _EMPTY.finditer(self.plain)}
+        if len(empty) == len(re.findall("[λΛ∅]", self.plain)):  # else it is a symbol
+            yield from (Edit(at, at + 1, "ε") for at in empty)
+            self.notes += [f"{sign} is read as ε, the empty word." for sign in sorted({self.plain[at] for at in empty})]
+        else:
+            empty = set()
         if not GREEK.search(self.plain):
             return
         latex = bool(MACRO.search(self.plain))
-        found = [pair for line in self.lines for pair in named_letters(line.text, line.start, latex)]
+        named = [pair for line in self.lines for pair in named_letters(line.text, line.start, latex)]
+        found = [pair for pair in named if pair[1].start not in empty]
         yield from (edit for _, edit in found)
         if any(edit.text.strip() == "delta" for _, edit in found):
             yield from filter(None, (angle_as_constant(line.text, line.start) for line in self.lines))

@@ -31,8 +31,8 @@ _NO_MORE = re.compile(
     "|[\ufb00-\ufb06]|[¼-¾⅐-⅞]|(?<=«)[ \u00a0\u2009\u202f]|[ \u00a0\u2009\u202f](?=»)"
 )
 """What is seen and not typed, ligatures, fractions that are one sign, and the blanks within the quotation marks of French."""
-_MARGIN = re.compile(r"^[ \t>]*+(?=\S)", re.MULTILINE)
-"""What stands before a line: blanks, and in an answer to a letter a sign for each time that it was quoted."""
+_MARGIN = re.compile(r"^(?>(?:[ \t>]|(?://|[#;%])(?=[ \t]))*)(?=\S)", re.MULTILINE)
+"""What stands before a line: blanks, a sign for each time that it was quoted in an answer to a letter, that of a comment."""
 _END_OF_LINE = re.compile(r"(?<![ \t])[ \t]++$", re.MULTILINE)
 _DECIMALS = {"¼": ".25", "½": ".5", "¾": ".75"}
 """Such fractions behind a digit."""
@@ -53,7 +53,7 @@ _LETTERS_BELOW = re.compile("[ₐₑₒₓₕₖₗₘₙₚₛₜᵢᵣᵤᵥ�
 """Subscripts that are letters: F with an l below it is the symbol F_l."""
 _ENTITY = re.compile(r"&(?:#\d{1,7}|#[xX][0-9a-fA-F]{1,6}|[A-Za-z]{2,8});")
 TAG = re.compile(
-    r"<(/?)(b|i|u|tt|td|tr|th|table|tbody|p|br|sub|sup|em|strong|code|pre|div|span|html|head|body|img|font|h[1-6]|li|ul|ol|dl|dt|dd|a|center|hr)"
+    r"<(/?)(b|i|u|tt|td|tr|th|table|tbody|p|br|sub|sup|em|strong|code|pre|div|span|html|head|body|img|font|h[1-6]|li|ul|ol|dl|dt|dd|a|center|hr|math|nowiki|var|kbd|samp|small|big)"
     r"\b[^<>]{0,500}>",
     re.IGNORECASE,
 )
