@@ -110,6 +110,29 @@ def test_a_right_answer_is_accepted_in_other_forms(name):
     assert refused == {}
 
 
+@pytest.mark.parametrize("name", [name for name, each in KIT.items() if each.kind in ("choice", "line")])
+def test_of_two_options_or_lines_one_is_needed(name):
+    two = ("A", "B") if KIT[name].options else ("1", "2")
+    for joint in (" and ", " or ", ", ", "/", " oder ", " & "):
+        assert "is needed, and you give" in check(name, joint.join(two)).message, joint
+
+
+@pytest.mark.parametrize(
+    "name", [name for name, each in KIT.items() if each.kind == "system" and "\n" not in each.solution.strip()]
+)
+def test_an_arrow_that_is_turned_round_is_shown(name):
+    verdict = check(name, KIT[name].solution.replace("->", "<-"))
+    assert verdict.said == "Not readable yet"
+    assert "This arrow is turned round" in verdict.message
+
+
+@pytest.mark.parametrize(("name", "names"), [("10.5", "mnv"), ("15.5", "xyL"), ("19.7", "ij")])
+def test_a_condition_has_no_exceptions_that_the_question_does_not_have(name, names):
+    for each in names:
+        assert check(name, f"({KIT[name].solution}) && {each} != 37") < 1, each
+        assert check(name, f"({KIT[name].solution}) && {each} > {min(KIT[name].values[each]) - 1}") == 1, each
+
+
 U, N, V, M, X, Y, L = sympy.symbols("u n v m x y L")
 
 

@@ -380,6 +380,8 @@ _RATIO_OF_THREE = re.compile(r"\d\s*+:\s*+\d[\d.]*+\s*+:\s*+\d")
 _EQUATION = re.compile(r"(?=[^=]*+=[^=]*+\Z)[^=]*[^\W\d_]\b")
 _GLUED = re.compile(r"\d([a-zA-Z])\s*$")
 """A number with one letter directly behind it, which is a product and no unit."""
+_BESIDE_A_SIGN = re.compile(r"(?<![^\W_])([A-Za-z])(?![^\W_])\s*+[-+*/^]\s*+[\d(]|[\d)]\s*+[-+*/^]\s*+([A-Za-z])(?![\w(])")
+"""A letter that is added or multiplied."""
 _SENTENCE = re.compile(
     r"^(?P<before>(?>(?:(?!pi\b)[^\W\d_]++(?>(?:[\s:]|\.(?!(?<=[\s:]\.)\d))+))*))"
     r"(?P<number>(?>(?:.*(?:[^\w\s°%]|[°%](?!$)))?)(?:(?<=[)}])|[\w\s]*?(?:\d|(?<![A-Za-z])pi\b)))\s*"
@@ -496,6 +498,11 @@ def _evaluated(answer: object) -> object:
 
 
 def _in_sentence(text: str, answer: str, decimal_comma: bool) -> TypedNumber:
+    beside = _BESIDE_A_SIGN.search(text)
+    if beside:
+        raise ModelValueError(
+            reply("typed.letter", answer=quoted(answer), letter=beside[1] or beside[2]), hint=reply("typed.its_value")
+        )
     found = _SENTENCE.match(text)
     if not found:
         said, hint = ("unreadable", "alone") if any(map(str.isdigit, text)) else ("no_number", "digits")

@@ -58,7 +58,7 @@ _LETTER_AND_REASON = re.compile(
 """A letter, and why."""
 _CONTRARY = re.compile(rf"{_NAMED}[A-Za-z]\W+(?:but|except|however|only|aber|außer|nur|sondern)\b", re.IGNORECASE)
 """A letter, and in what it is not so."""
-_LETTER_AND_WORDS = re.compile(r"^\W*([A-Za-z])\s*(?:[:)\]]|\.(?=\s)|\((?=[^\W\d_]{2}))\s*(\S.*)$", re.DOTALL)
+_LETTER_AND_WORDS = re.compile(r"^\W*([A-Za-z])\s*(?:[:)\]]|\.(?=\s)|\((?=\d*+\s*+[^\W\d_]{2}))\s*(\S.*)$", re.DOTALL)
 _WORDS_AND_LETTER = re.compile(r"(?=.*?[^\W\d_]{2})([^:]*+(?::[^:]*+)*?):\s*+([A-Z])\W*+\Z", re.DOTALL)
 """A letter with words of one's own behind it, or in front of it."""
 _PLACE = re.compile(
@@ -69,6 +69,10 @@ _PLACE = re.compile(
 _YES_OR_NO = re.compile(rf"^\W*(yes|no|ja|nein)\b\W*([a-z]){_AROUND}$", re.IGNORECASE)
 """A letter behind the first word of its option, as in "no, D"."""
 _NOUN_AND_LETTER = re.compile(rf"^\W*([^\W\d_]{{3,}})\s+([a-z]){_AROUND}$", re.IGNORECASE)
+_ANSWER_IS = re.compile(r"^(?:answer|antwort)\s*=\s*", re.IGNORECASE)
+_SEVERAL = re.compile(r"[,;/&+]|\b(?:and|or|but|und|oder|aber)\b", re.IGNORECASE)
+_SEVERAL_LETTERS = re.compile(r"(?<!\w)[A-Z](?!\w)")
+"""Letters of several options, as in "B or D"."""
 _OF_THESE = re.compile(r"\b(?:which|these)\s+([^\W\d_]+)", re.IGNORECASE)
 """What the options are, as in "which of these systems"."""
 _LAST = ("last", "letzte", "letzter", "letztes")
@@ -87,14 +91,21 @@ def _plain(text: str) -> str:
     return re.sub(r" ?([^\w\s]) ?", r"\1", text).strip(".,;:!? ").casefold()
 
 
+def _words(plain: str) -> list[str]:
+    return re.findall(r"\d+[.,/]\d+|\w+", plain)
+
+
 def _read_choice(exercise: Exercise, answer: object) -> str:
     if isinstance(answer, list | tuple) and all(isinstance(each, str) for each in answer):
         if len(answer) != 1:
             raise ModelValueError(reply("choice.one_needed", number=len(answer)))
         answer = answer[0]
-    text = re.sub(r"^<([^<>]*)>$", r"\1", " ".join(text_answer(answer, reply("choice.what"), '"A"').split()))
     known = letters(exercise)
     texts = {letter: _plain(option.text) for option, letter in zip(exercise.options, known, strict=True)}
+    if isinstance(answer, int) and not isinstance(answer, bool) and any(str(answer) in _words(own) for own in texts.values()):
+        answer = str(answer)
+    text = _ANSWER_IS.sub("", " ".join(text_answer(answer, reply("choice.what"), '"A"').split()))
+    text = re.sub(r"^<([^<>]*)>$", r"\1", text)
     named, both = _LETTER.match(text), _LETTER_AND_TEXT.match(text)
     meant = [letter for letter, own in texts.items() if own == _plain(text)] or [
         letter for letter, own in texts.items() if _without_joints(own) == _without_joints(_plain(text))
@@ -117,6 +128,11 @@ def _read_choice(exercise: Exercise, answer: object) -> str:
     if len(meant) > 1:
         several = reply("choice.several", text=quoted(text))
         raise ModelNameError(several, hint=reply("choice.choose", options=", ".join(meant)))
+    parts = _SEVERAL.split(text)
+    given = {*_SEVERAL_LETTERS.findall(text)} & {*known} if len(parts) > 1 else set()
+    given |= {letter for letter, own in texts.items() for part in parts if _plain(part) in (own, letter.casefold())}
+    if not meant and len(given) > 1:
+        raise ModelValueError(reply("choice.one_needed", number=len(given)))
     if len(meant) != 1:
         raise ModelNameError(
             reply("choice.none_of_these", text=quoted(text)), hint=reply("choice.choose", options=", ".join(known))
@@ -130,6 +146,8 @@ def _letter_behind(exercise: Exercise, texts: Mapping[str, str], text: str) -> s
     if both:
         return both[2].upper() if texts.get(both[2].upper(), "").startswith(both[1].lower()) else ""
     called = {word.lower().removesuffix("s") for word in _OF_THESE.findall(exercise.question)}
+    if noun and noun[1].lower() in _words(texts.get(noun[2].upper(), ""))[:2]:
+        return noun[2].upper()
     return noun[2].upper() if noun and noun[1].lower().removesuffix("s") in called else ""
 
 
@@ -220,7 +238,7 @@ def _with_own_words(texts: Mapping[str, str], text: str) -> list[str]:
 
 def _named_in(texts: Mapping[str, str], text: str) -> list[str]:
     """The options that a short answer names: those of one word, or that begin with one and a colon."""
-    words = re.findall(r"\d+[.,/]\d+|\w+", _plain(text))
+    words = _words(_plain(text))
     if len(words) > MOST_WORDS or (_EXCLUDING | {"and", "und"}) & set(words):
         return []
     return [letter for letter, own in texts.items() if own.partition(":")[0] in words]
@@ -281,6 +299,11 @@ _LINE_NUMBER = re.compile(
 )
 
 
+_SEVERAL_LINES = re.compile(
+    r"(?:lines?|zeilen?|both|beide|between|zwischen)?\s*+\d++"
+    r"(?>(?:\s*+(?:[,;/&+-]|and|or|to|und|oder|bis)\s*+(?:lines?|zeilen?)?\s*+\d++)+)",
+    re.IGNORECASE,
+)
 _LAST_LINE = re.compile(
     rf"^\W*(?:(?:it|is|in|the|es|ist|die)\b\W*)*(?:{'|'.join(_LAST)})(?:\W+(?:line|one|zeile))?\W*$", re.IGNORECASE
 )
@@ -300,6 +323,9 @@ def _read_line(exercise: Exercise, answer: object) -> int:
         number = _LINE_NUMBER.match(with_digits(keyboard_text(text)))
         if _LAST_LINE.match(text):
             return len(lines)
+        several = _SEVERAL_LINES.fullmatch(with_digits(keyboard_text(text)))
+        if several:
+            raise ModelValueError(reply("line.one_needed"), hint=reply("line.choose", last=len(lines)))
         if not number:
             raise ModelValueError(reply("line.what_is_none", text=quoted(text)), hint=reply("line.choose", last=len(lines)))
         answer = int(number[1])

@@ -27,6 +27,7 @@ from lsys_kit.notation.model.expressions import (
     function_of,
     names_in,
     to_sympy,
+    walk,
 )
 from lsys_kit.notation.read import checked_expression, read_expression
 from lsys_kit.notation.syntax.wording import reporting
@@ -281,9 +282,46 @@ def _cases(exercise: Exercise) -> Iterator[Valuations]:
         yield dict(zip(exercise.values, combination, strict=True))
 
 
+_COMPARED = ["truth", "number", "number"]
+MOST_AT_A_BOUND = 10_000
+"""The greatest value at which an answer's own bounds are tried."""
+
+
+def _own_cases(exercise: Exercise, own: Expression, wanted: Expression) -> Iterator[Valuations]:
+    """The cases of a question, and those at the bounds that an answer has with numbers of its own.
+
+    Nothing is tried below the least value, nor where a name may be a share.
+    """
+    yield from _cases(exercise)
+    if expression_type(own) != "truth" or any(max(each) <= 1 for each in exercise.values.values()):
+        return
+    numbers = {part.value for part in walk(wanted) if isinstance(part, Number)}
+    for part in walk(own):
+        new = {each.value for each in walk(part) if isinstance(each, Number)} - numbers
+        if new and isinstance(part, Apply) and [expression_type(each) for each in (part, *part.operands)] == _COMPARED:
+            yield from _at_the_bound(exercise, Apply("-", part.operands))
+
+
+def _at_the_bound(exercise: Exercise, distance: Expression) -> Iterator[Valuations]:
+    """Cases in which a distance is 0 or nearly so, also with another value twice as large, all in the order of the question."""
+    cases = list(_cases(exercise))
+    ordered = [(a, b) for a, b in itertools.permutations(exercise.values, 2) if all(case[a] < case[b] for case in cases)]
+    for name, case in itertools.product(sorted(names_in(distance)), cases):
+        with suppress(ArithmeticError, ValueError):  # where it has no value, or the same one everywhere
+            first, second = (Fraction(_value_or_reason(distance, {**case, name: value})) for value in (0, 1))
+            root = first / (first - second)
+            for value in sorted({math.floor(root), math.floor(root) + 1, math.ceil(root) - 1}):
+                for other in case:
+                    given = {other: 2 * value, name: value}
+                    found = {**case, **given}
+                    above = all(MOST_AT_A_BOUND > number > min(exercise.values[each]) for each, number in given.items())
+                    if above and all(found[a] < found[b] for a, b in ordered):
+                        yield found
+
+
 def _same(exercise: Exercise, own: Expression, wanted: Expression) -> bool:
     """Equal for all values asked for, and as functions where that can be decided."""
-    if differing_values(own, wanted, _cases(exercise)) is not None:
+    if differing_values(own, wanted, _own_cases(exercise, own, wanted)) is not None:
         return False
     return proved_equal(own, wanted) or not (is_rational(own) and is_rational(wanted))
 
@@ -310,7 +348,7 @@ def _value(expression: Expression, order: Mapping[str, int], case: tuple[Value, 
 
 
 def _difference(exercise: Exercise, own: Expression, solution: Expression) -> Difference:
-    cases = list(_cases(exercise))
+    cases = list(_own_cases(exercise, own, solution))
     right = sum(differing_values(own, solution, [case]) is None for case in cases)
     message = differing_values(own, solution, cases)
     if message is None:

@@ -49,8 +49,15 @@ _FILLING, _DOUBTFUL = (frozenset(WORDS[kind].split()) for kind in ("filling", "d
 _PREPOSITIONS = frozenset(
     ["after", "at", "by", "for", "from", "in", "of", "on", "per", "to", "nach", "bei", "für", "von", "pro"]
 )
-_TIMES = frozenset(["times", "unit", "units", "mal"])
-"""What may stand behind a number that counts nothing."""
+_TIMES, _UNITS = frozenset(["times", "mal"]), frozenset(["unit", "units"])
+"""What may stand behind a number that counts nothing, and behind one that measures something."""
+_MEASURED = re.compile(r"\b(?:long|lengths?|far|distances?|times?|ages?|dt|concentrations?)\b", re.IGNORECASE)
+
+
+def _no_units(exercise: Exercise) -> frozenset[str]:
+    """The words behind a number that name no unit: none where the question has one."""
+    asked = " ".join(_ASKED_FOR.findall(exercise.question)) or exercise.question
+    return frozenset() if exercise.unit else _TIMES | _UNITS if _MEASURED.search(asked) else _TIMES
 
 
 def _words_of(exercise: Exercise) -> frozenset[str]:
@@ -68,7 +75,7 @@ def _is_in_place(exercise: Exercise, word: str, is_last: bool = False) -> bool:
         named = _NAME.findall(" ".join(_ASKED_FOR.findall(exercise.question)))
         return (word in named and word not in _FILLING) or word in exercise.asks.split()
     return (
-        word.lower() in _FILLING | _PREPOSITIONS | (frozenset() if exercise.unit else _TIMES)
+        word.lower() in _FILLING | _PREPOSITIONS | _no_units(exercise)
         or noun in _words_of(exercise) - _DOUBTFUL
         or (bool(exercise.unit) and means_the_same(word, exercise.unit))
     )
@@ -250,7 +257,7 @@ def _other_thing(exercise: Exercise, found: TypedNumber) -> str:
     is_counted = bool(exercise.unit) and exercise.unit.lower() not in UNITS
     if not phrase and (before.endswith("s") or (is_counted and len(before) > 1 and before not in WORDS["labels"].split())):
         phrase = list(found.before)  # as in "cells: 9" and "height 10"
-    no_nouns = _FILLING if exercise.unit else _FILLING | _TIMES
+    no_nouns = _FILLING | _no_units(exercise)
     nouns = [word for word in phrase if word.lower() not in no_nouns and word.lower() not in UNITS]
     if exercise.kind != "number" or not nouns or any(_is_of_the_unit(exercise, word) for word in nouns):
         return ""

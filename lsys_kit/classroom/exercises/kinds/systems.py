@@ -13,7 +13,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache
-from itertools import islice, pairwise, zip_longest
+from itertools import islice, pairwise, product, zip_longest
 
 from lsys_kit.budget import counted
 from lsys_kit.classroom.exercises.asked import beginning_with, system_of, with_constants
@@ -191,7 +191,28 @@ def _parting(exercise: Exercise, mine: LSystem, wanted: LSystem) -> Parting | No
         found = words_parting(beginning_with(mine, own_word), beginning_with(wanted, word), names, min(exercise.steps, 5))
         if found is not None:
             return Parting(found.step, found.position, setting=reply("system.axiom_is", word=probe))
-    return _parting_at_a_bound(exercise, mine, wanted, names)
+    return _parting_in_context(mine, wanted, names) or _parting_at_a_bound(exercise, mine, wanted, names)
+
+
+def _parting_in_context(mine: LSystem, wanted: LSystem, names: Renaming) -> Parting | None:
+    """Where two systems part between the neighbours of a production with a condition that the solution does not have.
+
+    Its parameters are tried with the numbers of its condition, with 0 and with numbers between and beyond.
+    """
+    known = {rule.condition for rule in wanted.productions}
+    for rule in mine.productions:
+        patterns = [*rule.left, *rule.predecessors, *rule.right]
+        if rule.condition is None or rule.condition in known or not (rule.left or rule.right):
+            continue
+        values = sorted({0, *(value for value in bounds_of(rule) if value >= 0)})
+        values.append(values[-1] + 7)
+        for given in islice(product(values, repeat=sum(len(each.arguments) for each in patterns)), MOST_MODULES):
+            each = iter(given)
+            word = [Module(pattern.symbol, tuple(next(each) for _ in pattern.arguments)) for pattern in patterns]
+            found = words_parting(beginning_with(mine, word), beginning_with(wanted, [*map(names.wanted, word)]), names, 1)
+            if found is not None:
+                return Parting(found.step, found.position, setting=reply("system.axiom_is", word="".join(map(str, word))))
+    return None
 
 
 def _parting_at_a_bound(exercise: Exercise, mine: LSystem, wanted: LSystem, names: Renaming) -> Parting | None:
@@ -379,6 +400,8 @@ def _read(exercise: Exercise, answer: object) -> SystemAnswer:
     text = text_answer(answer, reply("system.what"), '"axiom: a"').strip()
     if not exercise.given and _is_without_axiom(text):
         raise ModelValueError(reply("system.no_axiom"), hint=reply("system.no_axiom_hint"))
+    if not _ARROWS.search(text) and (turned := _TURNED_ARROW.search(text)):
+        raise ModelSyntaxError(reply("system.turned_arrow"), text, *turned.span(1), hint=reply("system.form"))
     _refuse_part_of_production(exercise, text)
     if condition := _NO_CONDITION_HERE.search(text):
         said = reply("system.no_condition_here")
@@ -459,6 +482,7 @@ _NO_CONDITION_HERE = re.compile(
     r"^[ \t]*+[A-Za-z]\w*+[ \t]*+\([^()\n]*+\)[ \t]*+((?:[<>=!]?=|[<>])[ \t]*+[-+\d.]++)[ \t]*+(?=->|→)", re.MULTILINE
 )
 _TURNED = re.compile(r"=[<>](?!=)")
+_TURNED_ARROW = re.compile(r"(?<=[\w)])[ \t]*+(<-++|[←⟵⇐])(?=[ \t]*+[A-Za-z])")
 _FACTOR = re.compile(r"(?:->|→)[ \t]*(\d+[ \t]*\*[ \t]*[A-Za-z]\w*)")
 """Slips of writing: an axiom without a colon, an arrow in pieces, a line without one, a condition without its module or without
 its colon, => for >=, a factor before a module."""
@@ -538,7 +562,8 @@ def _difference(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) ->
     joined = joined_names(exercise, mine)
     if joined:
         name, letters = next(iter(joined.items()))
-        return Difference(reply("system.joined", name=name, letters=letters))
+        own, right = ({rule.predecessor.symbol for rule in each.front.productions} for each in (mine, wanted))
+        return Difference(reply("system.joined", name=name, letters=letters), explains=right <= own)
     behind = parting(exercise, mine.behind, wanted.behind)
     front = parting(exercise, mine.front, wanted.behind) if mine.front is not mine.behind else behind
     likeness, near = _likeness(exercise, mine, wanted)
@@ -651,11 +676,18 @@ def _honest(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) -> boo
     useful = [rule for rule in rules if rule.predecessor.symbol in known or exercise.names == "any"]
     own, right = (sorted(len(rule.successor) for rule in each.own.productions) for each in (mine, wanted))
     is_enough = 2 * len(useful) >= len(right) or (own == right and sum(right) > len(right) > 1)
-    return bool(rules) and (is_enough or tests_passed(exercise, mine, wanted)[0] > 0)
+    if not rules:  # the axiom alone, where it is asked for
+        return "axiom: ..." in exercise.template and mine.own.axiom == wanted.own.axiom
+    return is_enough or tests_passed(exercise, mine, wanted)[0] > 0
 
 
-def _praise(exercise: Exercise, _: SystemAnswer, wanted: SystemAnswer) -> str:
-    return reply("system.agree", last=exercise.steps) if not States(wanted.front).traits.stochastic else reply("system.chance")
+def _praise(exercise: Exercise, mine: SystemAnswer, wanted: SystemAnswer) -> str:
+    said = "chance" if States(wanted.front).traits.stochastic else "agree"
+    idle = next((each.subject["rule"] for each in warnings(mine.front) if each.code == "never matches"), None)
+    more = (
+        f" {reply('system.idle')}{_typed(idle, mine)}" if isinstance(idle, Production) and idle in mine.own.productions else ""
+    )
+    return reply(f"system.{said}", last=exercise.steps) + more
 
 
 SYSTEM = AnswerKind(_read, _difference, same, _honest, _praise, alike, tests_passed)

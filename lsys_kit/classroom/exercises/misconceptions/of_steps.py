@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
-from itertools import count, islice, permutations
+from itertools import count, islice, pairwise, permutations
 from typing import TypeAlias
 
 from lsys_kit.classroom.exercises.asked import (
@@ -274,12 +274,13 @@ def linear(values: Sequence[int]) -> Iterator[Iterator[int]]:
 
 @misconception("adding for multiplying", by_sequences)
 def added_for_multiplied(values: Sequence[int]) -> Iterator[Iterator[int]]:
-    """As much for each step as the first one has, added up.
+    """As much for each step as the first one has, added up; where each step multiplies by the same number.
 
-    >>> [list(islice(found, 4)) for found in added_for_multiplied([1, 5, 25])]
+    >>> [list(islice(found, 4)) for numbers in ([1, 5, 25], [1, 2, 3]) for found in added_for_multiplied(numbers)]
     [[1, 5, 10, 15]]
     """
-    if len(values) > 1 and values[0] > 0 and values[1] % values[0] == 0 and values[1] > values[0]:
+    is_product = all(b * values[0] == a * values[1] for a, b in pairwise(values))
+    if len(values) > 1 and is_product and values[1] > values[0] > 0 and values[1] % values[0] == 0:
         yield (values[1] * step if step else values[0] for step in count())
 
 

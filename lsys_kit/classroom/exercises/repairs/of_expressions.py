@@ -57,9 +57,9 @@ def of_expressions(exercise: Exercise, own: Expression, solution: Expression) ->
         return
     once = dict(changed_once(own, simple))
     twice = ((other, kind) for changed, kind in once.items() for other, _ in changed_once(changed, simple))
-    for changed, kind in islice(twice, MOST_PAIRS):
-        if agrees(changed):
-            yield Repair(partial(_as_it_is, changed), partial(_two_said, kind), near=False, case=True, changes=2)
+    right = [each for each in islice(twice, MOST_PAIRS) if agrees(each[0])]
+    for changed, kind in sorted(right, key=lambda each: KINDS.index(each[1])):
+        yield Repair(partial(_as_it_is, changed), partial(_two_said, kind), near=False, case=True, changes=2)
 
 
 def _as_it_is(changed: Expression) -> Expression:
