@@ -32,7 +32,7 @@ class Measure(NamedTuple):
     name: str
     value: Callable[[Measurable], object]
 
-    def of_counts(self) -> Callable[[Mapping[str, int]], int] | None:
+    def of_counts(self) -> Callable[[Mapping[str, Any]], Any] | None:
         """The function that finds its value if it is only known how often each symbol occurs; None, where that is too little.
 
         >>> from lsys_kit import read

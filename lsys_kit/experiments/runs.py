@@ -9,18 +9,20 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import Executor
-from contextlib import closing
+from contextlib import closing, suppress
+from dataclasses import replace
 from itertools import islice, product
 from math import prod
 from pathlib import Path
 from typing import Any
 
-from lsys_kit.budget import check_bytes, current
+from lsys_kit.budget import check_bytes, current, limits
 from lsys_kit.derivation.core.rules import constants_of, number_from
-from lsys_kit.errors import ModelNameError, ModelValueError, require, shown, whole_number
+from lsys_kit.derivation.petri.stages import stages
+from lsys_kit.errors import LSystemError, ModelNameError, ModelValueError, require, shown, whole_number
 from lsys_kit.experiments.kept import kept
 from lsys_kit.experiments.making import ExecutorError, Experiment, Failure, Outcome, Run, outcomes
-from lsys_kit.experiments.measures import Asked, measures_of
+from lsys_kit.experiments.measures import Asked, Measure, measures_of
 from lsys_kit.experiments.table import Table, value_text
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.arithmetic import Value, normalised
@@ -29,6 +31,8 @@ from lsys_kit.notation.model.system import USUAL_STEPS, LSystem
 
 BYTES_A_VALUE = 128
 """About what a value takes in a table, with what is needed to find it."""
+MOST_STAGES = 1_000
+"""The most stages of a system whose exact mean is found."""
 MOST_FAILURES_TOLD = 3
 """Of so many runs that failed a remark says why."""
 PROGRESS_DELAY = 1.0
@@ -103,7 +107,25 @@ def ensemble(
     """
     require(system, LSystem, "An L-system")
     named = [{"seed": seed} for seed in seeds_from(seeds)]
-    return _table(system, ["seed"], named, measure, steps, executor, file, progress, choices)
+    table = _table(system, ["seed"], named, measure, steps, executor, file, progress, choices)
+    return replace(table, exact=_exact_means(system, steps_from(system, steps), measures_of(measure, system), choices))
+
+
+def _exact_means(
+    system: LSystem, steps: Sequence[int], measures: Sequence[Measure], choices: Mapping[str, object]
+) -> Mapping[tuple[str, object], float]:
+    """The exact means of what follows from how often each symbol occurs, at a single step; nothing where they are not known."""
+    found = {each.name: value for each in measures if (value := each.of_counts())}
+    if len(steps) > 1 or not found:
+        return {}
+    constants: dict[str, Any] = {name: value for name, value in choices.items() if name != "arithmetic"}
+    with suppress(LSystemError), limits(states=MOST_STAGES):
+        net = stages(system, **constants)
+        counts: dict[str, Value] = {}
+        for place, number in zip(net.places, net.expected(steps[0]), strict=True):
+            counts[place.symbol] = counts.get(place.symbol, 0) + number
+        return {(name, steps[0]): float(value(counts)) for name, value in found.items()}
+    return {}
 
 
 def sweep(

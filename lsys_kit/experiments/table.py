@@ -8,7 +8,7 @@ vary besides, curves and grids show means, a curve also the single runs.
 from __future__ import annotations
 
 import statistics
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import groupby, islice
@@ -88,7 +88,10 @@ def chart_of(table: Table, column: str, log: bool) -> Chart:
             "Only one setting was run, and a plot compares several", hint="Take more seeds, steps or values of a constant."
         )
     if not over:
-        return HistogramChart(tuple(value for _, value in found), up._replace(log=False), "pairs" if PAIR in keys else "runs")
+        counted, step = ("pairs", None) if PAIR in keys else ("runs", table[STEP][0])
+        return HistogramChart(
+            tuple(value for _, value in found), up._replace(log=False), counted, table.exact.get((column, step))
+        )
     if len(over) == 1:
         return _one_variable(found, over[0], up)
     if len(over) == 2 and STEP in over:
@@ -172,6 +175,8 @@ class Table:
         What there is to say of runs that are not in the table.
     left_out
         For each run that could not be finished the values of what varied, without the step, and why.
+    exact
+        For measured columns and steps the exact mean over all that chance may do, where the kit knows it.
 
     Examples
     --------
@@ -190,6 +195,7 @@ class Table:
     keys: int
     remarks: tuple[str, ...] = field(default=())
     left_out: tuple[Row, ...] = field(default=())
+    exact: Mapping[tuple[str, object], float] = field(default_factory=dict, compare=False, repr=False)
 
     @property
     def measures(self) -> tuple[str, ...]:

@@ -24,10 +24,10 @@ from lsys_kit.derivation.timed.lineage import Lineage
 from lsys_kit.derivation.tissues.development import CellDevelopment, CellworkDevelopment
 from lsys_kit.errors import LSystemError, ModelLimitError, ModelValueError, require
 from lsys_kit.files import marked_gif, marked_mp4, marked_png, path_from
-from lsys_kit.geometry.drawing import turning_angle
+from lsys_kit.geometry.drawing import scene_of, turning_angle
 from lsys_kit.geometry.scene import Floats, Scene
 from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
-from lsys_kit.geometry.turtle.unfolding import WordBetween, words_between
+from lsys_kit.geometry.unfolded import scenes_between
 from lsys_kit.notation.model.cells import CellSystem, CellworkSystem
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.pictures.draw import check_choices, derivation_of, draw, state_colours
@@ -40,6 +40,7 @@ from lsys_kit.pictures.options import (
     WORD,
     Style,
     coloured_symbols,
+    in_chosen_colours,
     in_colours,
     in_widths,
     instead,
@@ -433,15 +434,15 @@ def _unfolding_film(derivation: Derivation, pace: float, angle: object, view: Vi
     turn, parts = turning_angle(angle, system), max(1, min(PARTS, (MOST_FRAMES - 1) // max(1, last)))
     scenes: list[Scene] = []
 
-    def add(what: Derivation | WordBetween) -> None:
-        scenes.append(in_colours(what, turn, style))
+    def add(scene: Scene) -> None:
+        scenes.append(in_chosen_colours(scene, derivation.states, style))
         check_bytes(SHAPE_BYTES * sum(scene.size for scene in scenes), lambda: "The film was not finished")
 
     for step in range(last):
-        between = words_between(derivation, step)
+        between = scenes_between(derivation, step, turn, style.colours, style.widths)
         for number in counted(range(parts), 1):
-            add(between(number / parts) if number else derivation.to(step))
-    add(derivation.to(last))
+            add(between(number / parts))
+    add(scene_of(derivation, turn, style.colours, style.widths))
     seen = seen_smoothly(_as_large_as_the_last(in_widths(scenes, system, style)), view, style.light)
     legend = legend_of([derivation.states] * len(seen), seen, style.light is not None) if style.legend else None
     images = _framed(seen, state_colours(derivation), style.size, legend)

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Any, TypeAlias
 
 from lsys_kit.derivation.core.rules import real_from
+from lsys_kit.derivation.core.states import States
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Choices, Derivation
 from lsys_kit.derivation.growth.growth import Growth
@@ -18,7 +19,6 @@ from lsys_kit.errors import LSystemError, ModelNameError, ModelValueError, quota
 from lsys_kit.geometry.drawing import PIPES, scene_of
 from lsys_kit.geometry.scene import Scene
 from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
-from lsys_kit.geometry.turtle.unfolding import WordBetween
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.cells import CellSystem, CellworkSystem
 from lsys_kit.notation.model.system import LSystem, symbols
@@ -156,15 +156,19 @@ def _with_widths(found: Style, value: object) -> Style:
     return replace(found, theme=replace(found.theme, boldness=factor))
 
 
-def in_colours(what: Derivation | Word | WordBetween, angle: float, style: Style) -> Scene:
+def in_colours(what: Derivation | Word, angle: float, style: Style) -> Scene:
     """The scene of a word with the colours that were chosen."""
-    scene, chosen = scene_of(what, angle, style.colours, style.widths), dict(style.theme.symbols)
+    return in_chosen_colours(scene_of(what, angle, style.colours, style.widths), what.states, style)
+
+
+def in_chosen_colours(scene: Scene, states: States, style: Style) -> Scene:
+    """A scene in which the colours that were chosen are those of symbols."""
+    chosen = dict(style.theme.symbols)
     if style.colours == "symbols":
         return with_colours_of_symbols(scene)
     if not chosen:
         return scene
-    states = [state for state, module in enumerate(what.states.modules) if module.symbol in chosen]
-    return with_colours_of_symbols(scene, states)
+    return with_colours_of_symbols(scene, [state for state, module in enumerate(states.modules) if module.symbol in chosen])
 
 
 def in_widths(scenes: Sequence[Scene], system: LSystem, style: Style) -> list[Scene]:

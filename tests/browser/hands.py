@@ -78,6 +78,8 @@ def reach(hand: Pointer, panel: Locator, name: str, wanted: str) -> int:
     there, bar = control(panel, name), control(panel, name).locator(".lsys-range")
     box = there.get_by_label(name, exact=True)
     box.scroll_into_view_if_needed()
+    if bar.count() and bar.is_visible():  # it may stand in a line of its own
+        bar.scroll_into_view_if_needed()
     for _ in range(MOST_DRAGS if bar.count() else 0):  # what is still loaded may move the slider away from under a hand
         if box.input_value() != wanted:
             drag(hand, bar, box, Fraction(wanted))

@@ -13,8 +13,9 @@ from lsys_kit.budget import limits
 from lsys_kit.classroom.catalogue import system, systems
 from lsys_kit.classroom.panel.books.book import book
 from lsys_kit.errors import LSystemError
-from lsys_kit.geometry.drawing import scene_of
-from lsys_kit.geometry.turtle.unfolding import words_between
+from lsys_kit.geometry.scene import OWN
+from lsys_kit.geometry.unfolded import scenes_between
+from lsys_kit.pictures.draw import state_colours
 from tests.classroom.front_end import TURTLE, answers
 
 STILL = {"reduced_motion": "reduce"}
@@ -42,6 +43,9 @@ OTHERS = {
     "two letters replaced at once": "axiom: A B F\nA -> F [ + A ] B\nB -> F",
     "a plant": "axiom: F\nF -> F[+F]F[-F]F",
     "widths": "axiom: !(0.2) F [ + A ] A\nA -> !(0.1) F A\n!(w) -> !(1.2*w)",
+    "widths in units": "widths: units\naxiom: !(0.2) F [ + A ] A\nA -> !(0.1) F A\n!(w) -> !(1.2*w)",
+    "widths in pixels": "widths: pixels\naxiom: !(9) F [ + A ] A\nA -> !(3) F A\n!(w) -> !(1.2*w)",
+    "colours that are chosen": "axiom: ;(3) F A\nA -> ;(5) F [ + A ]\n;(c) -> ;(c+1)",
 }
 
 
@@ -122,10 +126,15 @@ def drawn_by_turtles():
 
 
 def by_kit(found, step, part):
-    """The ends of all strokes of a part of the way, as the turtle of the kit draws them."""
-    between = words_between(derive(found, step + 1, seed=found.seed), step)(part)
-    ends = scene_of(between).segments.ends
-    return ends if ends.shape[1] == 6 else np.insert(ends, (2, 4), 0, axis=1)
+    """The ends, the widths and the colours of all strokes of a part of the way, as the turtle of the kit draws them."""
+    derivation = derive(found, step + 1, seed=found.seed)
+    segments = scenes_between(derivation, step)(part).segments
+    ends = segments.ends if segments.ends.shape[1] == 6 else np.insert(segments.ends, (2, 4), 0, axis=1)
+    own, turtle, many = state_colours(derivation), book(found)["turtle"], len(segments)
+    looks = zip(segments.states, np.broadcast_to(segments.colours, many), strict=True)
+    chosen = turtle["colours"]
+    colours = [own[state] if number == OWN else chosen[number % len(chosen)] for state, number in looks]
+    return ends, None if turtle["widths"] == "auto" else [*np.broadcast_to(segments.widths, many)], colours
 
 
 @pytest.mark.parametrize("id", ["T2", "K2", "K4", "K6", "K12", "K19", "K22", "L3", *OTHERS])
@@ -134,7 +143,11 @@ def test_the_panel_and_the_films_of_the_kit_unfold_alike(page, id):
     for step, ends in enumerate(way(page, found, [0.3, 0.75], 500)):
         for part, strokes in zip((0.3, 0.75), ends["parts"], strict=True):
             drawn = np.array([[*start, *end] for _, start, end, _ in strokes]).reshape(-1, 6)
-            assert drawn == pytest.approx(by_kit(found, step, part), abs=1e-9, rel=1e-9)
+            places, widths, colours = by_kit(found, step, part)
+            assert drawn == pytest.approx(places, abs=1e-9, rel=1e-9)
+            if widths:  # others are fitted to a frame: that of a step in a panel, and of all in a film
+                assert [look[0] for *_, look in strokes] == pytest.approx(widths, abs=1e-9, rel=1e-9)
+            assert [look[1] for *_, look in strokes] == colours
 
 
 @pytest.mark.slow

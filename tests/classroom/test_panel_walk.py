@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from itertools import accumulate
 
 import pytest
 from playwright.sync_api import expect
@@ -89,6 +90,10 @@ def line(panel):
     return panel.at("[data-view=walk] .lsys-caption[role=status]")
 
 
+def stride_of(panel):
+    return panel.at("[data-control=stride] select")
+
+
 @pytest.mark.browser
 def test_keys_lead_along_the_word_and_letter_production_and_pile_are_shown(explored):
     panel = explored("K5", 1, show=VIEWS)
@@ -111,8 +116,56 @@ def test_keys_lead_along_the_word_and_letter_production_and_pile_are_shown(explo
     expect(line(panel)).to_have_text(told[3])
     bar.press("Home")
     expect(panel.at("[data-traced]")).to_have_count(0)
-    panel.at("[data-view=walk]").get_by_role("button", name="to the next bracket").click()
+    stride_of(panel).select_option("bracket")
+    panel.at("[data-view=walk]").get_by_role("button", name="one stride on").click()
     expect(line(panel)).to_have_text(told[1])
+
+
+def ends_of(word, stride):
+    """After how many modules of a word a stride ends: where a branch is done, perhaps of an order."""
+    depths = list(accumulate([0, *({"[": 1, "]": -1}.get(module.symbol, 0) for module in word)]))
+    ends = [at for at in range(1, len(depths)) if depths[at] < depths[at - 1] and stride in ("branch", str(depths[at - 1]))]
+    return [*(at for at in ends if at < len(word)), len(word)]
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("stride", ["branch", "1", "2"])
+def test_a_stride_goes_to_where_a_branch_is_done_and_back(explored, stride):
+    panel, word = explored("K5", 2, show=VIEWS), derive(system("K5"), 2)[2]
+    tools, ends = panel.at("[data-view=walk]"), ends_of(word, stride)
+    stride_of(panel).select_option(stride)
+    for at in ends:
+        tools.get_by_role("button", name="one stride on").press("Enter")
+        expect(line(panel)).to_contain_text(f"{at} of {len(word)}, ")
+    for at in reversed(ends[:-1]):
+        tools.get_by_role("button", name="one stride back").press("Enter")
+        expect(line(panel)).to_contain_text(f"{at} of {len(word)}, ]: goes back to where turtle")
+
+
+@pytest.mark.browser
+def test_strides_are_gone_by_themselves_and_are_of_one_command_where_there_are_no_brackets(explored):
+    panel = explored("K5", 3, show=VIEWS)
+    stride_of(panel).select_option("1")
+    panel.control("pace").press("End")
+    panel.at("[data-view=walk] .lsys-play").click()
+    expect(line(panel)).to_contain_text("311 of 311, F")
+    panel.control("step").press("Home")
+    expect(stride_of(panel)).to_be_hidden()
+    panel.at("[data-view=walk]").get_by_role("button", name="one stride on").click()
+    expect(line(panel)).to_contain_text("1 of 1, F: draws a stroke")
+    panel.control("step").press("ArrowRight")
+    expect(stride_of(panel)).to_have_value("command")
+
+
+@pytest.mark.browser
+def test_a_stroke_that_is_clicked_is_where_the_walk_goes_on(explored):
+    panel = explored("K5", 1, show=VIEWS)
+    canvas = panel.at("canvas.lsys-canvas")
+    expect(canvas).to_be_visible()
+    canvas.click()
+    expect(line(panel)).to_contain_text("6 of 11, F: draws a stroke")
+    panel.at("[data-view=walk]").get_by_role("button", name="one stride on").click()
+    expect(line(panel)).to_contain_text("7 of 11, [")
 
 
 @pytest.mark.browser

@@ -20,6 +20,7 @@ from lsys_kit import (
     growth,
     limits,
     read,
+    stages,
     sweep,
     system,
 )
@@ -313,3 +314,25 @@ class TestTables:
         monkeypatch.setitem(__import__("sys").modules, "pandas", None)
         with pytest.raises(ModelValueError, match=r"pandas is not installed\. Install it"):
             self.TABLE.to_pandas()
+
+
+@pytest.mark.parametrize(("id", "measure", "steps"), [("K7", "F", 4), ("K8", "*", 6), ("K7", "modules", 3)])
+def test_the_exact_mean_is_that_of_the_stages_and_the_runs_are_near_it(id, measure, steps):
+    found, net = ensemble(system(id), 300, measure, steps=steps), stages(system(id))
+    counts = net.expected(steps)
+    expected = sum(n for place, n in zip(net.places, counts, strict=True) if measure in (place.symbol, "modules"))
+    assert found.exact == {(measure, steps): pytest.approx(float(expected))}
+    deviation = found.summary()["sd"][0] / 300**0.5
+    assert abs(found.summary()["mean"][0] - float(expected)) < 4 * deviation
+    assert f"exactly {float(f'{float(expected):.4g}'):g}" in repr(found.plot()).replace(",", "")
+    assert "19 times in 20" in found.plot().text
+
+
+def test_no_exact_mean_is_told_where_it_is_not_known():
+    assert ensemble(system("K7"), 3, "height", steps=2).exact == {}
+    assert ensemble(system("K7"), 3, "F", steps=[1, 2]).exact == {}
+    asks = read("axiom: F F\nF < F -> F[+F] : 1/2\nF < F -> F : 1/2")
+    assert ensemble(asks, 3, "F", steps=2).exact == {}
+    few = ensemble(system("K7"), 9, "F", steps=2).plot()
+    assert "19 times" not in few.text
+    assert "exactly" in few.text

@@ -317,7 +317,7 @@ def test_a_turntable_is_a_whole_turn() -> None:
 def test_what_unfolds_is_as_large_as_it_fits_and_hardly_moves_from_one_picture_to_the_next(what: Any) -> None:
     images = [np.asarray(image.convert("L"), int) for image in animate(what, 3, unfold=True, size=(120, 90)).images]
     moved = [np.abs(one - other).mean() for one, other in pairwise(images)]
-    assert max(moved) < 6
+    assert max(moved) < 1.5
     heights = [np.ptp(np.nonzero((image != image[0, 0]).any(axis=1))[0]) for image in images]
     assert min(heights) > 0.9 * max(heights)
 

@@ -196,7 +196,7 @@ def judged(exercise: Exercise, answer: object) -> tuple[Verdict, bool]:
     changed = _said_of(repair, found) if repair or not fitting else ""
     message = " ".join(filter(None, (said, explained, changed)))
     tried = bool(fitting or repair) or kind.honest(exercise, own, solution)
-    return Verdict("Almost" if near else "Not yet", message, mark), tried
+    return Verdict("Almost" if near else "Not yet", message, mark, kind.picture(exercise, own, solution)), tried
 
 
 def is_right(exercise: Exercise, answer: object) -> bool:

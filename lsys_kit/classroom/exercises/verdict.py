@@ -84,9 +84,9 @@ class Verdict(float):
 
 
 def _image(picture: str) -> str:
-    """A picture on a line of its own; what it shows is said beside it."""
-    data = base64.b64encode(picture.encode()).decode()
-    return f'<img alt="" style="display:block;margin:4px 0" src="data:image/svg+xml;base64,{data}">' if picture else ""
+    """A picture on a line of its own, with its own text alternative."""
+    data, words = base64.b64encode(picture.encode()).decode(), picture.partition('aria-label="')[2].partition('"')[0]
+    return f'<img alt="{words}" style="display:block;margin:4px 0" src="data:image/svg+xml;base64,{data}">' if picture else ""
 
 
 def _html(message: str) -> str:

@@ -52,15 +52,37 @@ class WordBetween:
         Its modules, as numbers.
     looks, calls
         For each number the state of which it looks, and its commands.
+    mothers, later
+        For each module where its mother stands in the earlier word, and where it stands itself in the later one; -1 where it
+        is the last of its kind.
     """
 
     states: States
     sequence: Sequence[int]
     looks: Sequence[int]
     calls: Sequence[Sequence[Instruction]]
+    mothers: Sequence[int] = ()
+    later: Sequence[int] = ()
 
     def numbers(self) -> Sequence[int]:
         return self.sequence
+
+    def by_place(self) -> WordBetween:
+        """The same word, of which each module looks of its own: what it draws has its place for a state."""
+        places = range(len(self.sequence))
+        return WordBetween(self.states, places, places, [self.calls[number] for number in self.sequence])
+
+
+def word_at_rest(derivation: Derivation, step: int) -> WordBetween:
+    """The word of a step, whose commands are not on their way.
+
+    >>> from lsys_kit import derive, read
+    >>> word_at_rest(derive(read("axiom: F+F"), 0), 0).looks
+    [0, 1, 0]
+    """
+    system, sequence = derivation.states.system, list(derivation[step].numbers())
+    calls = instructions(interpretations(derivation.states, sequence), system.turtle, system.angle)
+    return WordBetween(derivation.states, range(len(sequence)), sequence, [calls[state] for state in sequence])
 
 
 def words_between(derivation: Derivation, step: int) -> Callable[[float], WordBetween]:
@@ -79,16 +101,22 @@ def words_between(derivation: Derivation, step: int) -> Callable[[float], WordBe
     sequence: list[int] = []
     looks: list[int] = []
     ways: list[list[Way]] = []
+    origins: list[int] = []
+    places: list[int] = []
+    at = start = 0
     for mothers, daughters in counted(_families(before, after, derivation, step)):
         if (mothers, daughters) not in known:
             ways += _ways([calls[state] for state in mothers], [calls[state] for state in daughters], initial_step(system))
             known[mothers, daughters] = range(len(looks), len(ways))
             looks += daughters or mothers[:1]
         sequence += known[mothers, daughters]
+        origins += [at] * len(known[mothers, daughters])
+        places += range(start, start + len(daughters)) if daughters else (-1,)
+        at, start = at + len(mothers), start + len(daughters)
 
     def between(part: float) -> WordBetween:
         rows = [[each for way in row if (each := way(part)) is not None] for row in counted(ways)]
-        return WordBetween(states, sequence, looks, rows)
+        return WordBetween(states, sequence, looks, rows, origins, places)
 
     return between
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
 from math import ceil, floor, inf, isfinite, log10
-from statistics import fmean
+from statistics import fmean, stdev
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from lsys_kit.budget import Task
@@ -17,7 +17,7 @@ from lsys_kit.pictures.plots.lettering import literal, mathematics, plain, width
 from lsys_kit.pictures.shapes import Drawing, Group
 from lsys_kit.pictures.sizes import document
 from lsys_kit.pictures.style.colour_values import contrast
-from lsys_kit.pictures.style.palette import BLUE, VERMILION, tinted
+from lsys_kit.pictures.style.palette import BLUE, INK, VERMILION, tinted
 from lsys_kit.pictures.style.themes import drawn_on, line, text_colour, theme
 
 if TYPE_CHECKING:
@@ -321,6 +321,8 @@ def spread(places: Sequence[float], distance: float) -> list[float]:
 
 MOST_BARS = 24
 """The most bars of a histogram."""
+ENOUGH, SURE = 10, 1.96
+"""Of so many runs the mean is sure to so many of its standard deviations, 19 times in 20: as in the panel's sample."""
 
 
 def class_edges(values: Sequence[float]) -> list[float]:
@@ -349,18 +351,35 @@ def _round_step(step: float) -> float:
 
 @dataclass(frozen=True)
 class HistogramChart(Chart):
-    """A histogram of values, one for each run or whatever is counted, with the mean."""
+    """A histogram of values, one for each run or whatever is counted, with the mean, a band in which that of all lies 19 times
+    in 20, as it does of enough runs, and the exact one where that is known."""
 
     values: tuple[float, ...]
     across: Axis
     counted: str = "runs"
+    exact: float | None = None
 
     @cached_property
     def text(self) -> str:
         return (
             f"{len(self.values):,} {self.counted}, {plain(self.across.label)}: least {tick_text(min(self.values))}, mean "
-            f"{tick_text(float(f'{self._mean:.6g}'))}, greatest {tick_text(max(self.values))}"
+            f"{tick_text(float(f'{self._mean:.6g}'))}, greatest {tick_text(max(self.values))}{self._sure}"
         )
+
+    @property
+    def _sure(self) -> str:
+        """What is said of the mean of all that could be run."""
+        low, high, exact = (
+            tick_text(float(f"{x:.4g}")) for x in (self._mean - self._off, self._mean + self._off, self.exact or 0)
+        )
+        band = f"; the mean of all between {low} and {high}, 19 times in 20" if self._off else ""
+        return f"{band}; exactly {exact}" if self.exact is not None else band
+
+    @cached_property
+    def _off(self) -> float:
+        """How far the mean may be from that of all, where enough was run."""
+        many = len(self.values) if self.counted == "runs" else 0
+        return SURE * stdev(self.values) / many**0.5 if many >= ENOUGH else 0.0
 
     @property
     def _mean(self) -> float:
@@ -387,7 +406,14 @@ class HistogramChart(Chart):
         ax.plot([self._mean] * 2, [0, top], color=line(VERMILION), linewidth=2, clip_on=False)
         left = self._mean > edges[0] + 0.7 * (edges[-1] - edges[0])
         text, away = f"mean {tick_text(float(f'{self._mean:.4g}'))}", (-6 if left else 6, 0)
-        _write(ax, size, text, (self._mean, top), away, "right" if left else "left", "top", text_colour(VERMILION))
+        beside, sides = self._mean - self._off if left else self._mean + self._off, ("right" if left else "left", "top")
+        _write(ax, size, text, (beside, top), away, *sides, text_colour(VERMILION))
+        if self._off:
+            ax.bar([self._mean], [0.04 * top], 2 * self._off, 0.96 * top, color=tinted(line(VERMILION), 0.45), clip_on=False)
+        if self.exact is not None:
+            ax.plot([self.exact] * 2, [0, top], color=line(INK), linewidth=1, linestyle="--", clip_on=False)
+            text = f"exactly {tick_text(float(f'{self.exact:.4g}'))}"
+            _write(ax, size, text, (beside, 0.92 * top), away, *sides, text_colour(INK))
 
 
 class Share(NamedTuple):

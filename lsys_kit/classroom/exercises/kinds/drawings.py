@@ -14,6 +14,7 @@ from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.forms import form_of
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
 from lsys_kit.classroom.exercises.kinds.systems import typed_rule, unused
+from lsys_kit.classroom.exercises.kinds.walks import walks_beside
 from lsys_kit.classroom.exercises.kinds.words import read_modules, unnamed_word
 from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.classroom.exercises.typed import read_typed, without_comments
@@ -192,23 +193,51 @@ def _difference(exercise: Exercise, mine: Drawn, wanted: Drawn) -> Difference:
     if exercise.drawn and same_strokes(mine.strokes, wanted.strokes):
         return Difference(reply("drawing.turned"), 1, True, explains=True)
     likeness = min(own, other) / max(own, other) / 2 if own != other else 0.6
-    if mine.ends.shape[1] == 4 and wanted.ends.shape[1] == 4 and max(len(mine.ends), len(wanted.ends)) <= MOST_FOLLOWED:
+    if _are_followed(mine, wanted):
         return Difference(_stroke_by_stroke(mine, wanted), likeness, at_a_case=True)
     return Difference(reply("drawing.beside_the_picture"), likeness)
 
 
-def _stroke_by_stroke(mine: Drawn, wanted: Drawn) -> str:
-    """Where a drawing first leaves the right one, if both begin with the same stroke."""
+def _are_followed(mine: Drawn, wanted: Drawn) -> bool:
+    """Whether two drawings are compared stroke by stroke."""
+    return mine.ends.shape[1] == 4 and wanted.ends.shape[1] == 4 and max(len(mine.ends), len(wanted.ends)) <= MOST_FOLLOWED
+
+
+def _first_difference(mine: Drawn, wanted: Drawn) -> tuple[int, Floats]:
+    """How many of the first strokes of a drawing are right, and the right ones, mirrored where that fits better."""
     other = np.asarray(wanted.ends * [-1, 1, -1, 1])
     rights = [wanted.ends]
     if same_strokes(normalised(joined_strokes(other)), wanted.strokes):
         rights.append(other)  # the picture is its own mirror image
-    fitting, right = max(((strokes_that_fit(mine.ends, each), each) for each in rights), key=lambda each: each[0])
+    return max(((strokes_that_fit(mine.ends, each), each) for each in rights), key=lambda each: each[0])
+
+
+def _stroke_by_stroke(mine: Drawn, wanted: Drawn) -> str:
+    """Where a drawing first leaves the right one, if both begin with the same stroke."""
+    fitting, right = _first_difference(mine, wanted)
     if fitting < len(mine.ends):
         where = "drawing.wrong_from_the_start" if fitting < 2 else "drawing.wrong_stroke"
         return reply(where, fitting=fitting, number=fitting + 1)
     missing = strokes_that_fit(right, mine.ends) < len(right)
     return reply("drawing.missing_strokes" if missing else "drawing.other_strokes")
+
+
+def _walks(_: Exercise, mine: Drawn, wanted: Drawn) -> str:
+    """The turtle of an answer beside the right one, each as far as its first stroke that the other has not drawn.
+
+    Where the answer is a word, each stroke is a letter of it: then no stroke is shown but those that were typed.
+    """
+    if not len(mine.ends) or not _are_followed(mine, wanted):
+        return ""
+    fitting, right = _first_difference(mine, wanted)
+    own, wanted_rows = _from_the_first(mine.ends), _from_the_first(right)
+    if fitting == len(own) and not strokes_that_fit(right, mine.ends) < len(right):
+        return ""  # they differ in nothing that a walk shows
+    is_word = len(wanted.derivation) == 1
+    missing = next((number for number, each in enumerate(wanted_rows) if not _lies_on(each, own[:fitting])), None)
+    start, end = mine.ends[0, 0::2] + 1j * mine.ends[0, 1::2]
+    ahead = (end - start) / (abs(end - start) or 1)
+    return walks_beside(np.asarray(ahead * own), fitting, None if is_word else np.asarray(ahead * wanted_rows), missing)
 
 
 def _honest(_: Exercise, mine: Drawn, wanted: Drawn) -> bool:
@@ -217,4 +246,4 @@ def _honest(_: Exercise, mine: Drawn, wanted: Drawn) -> bool:
     return len(mine.strokes) > 1 or 2 * own >= right
 
 
-DRAWING = AnswerKind(_read, _difference, _same, _honest, alike=_alike)
+DRAWING = AnswerKind(_read, _difference, _same, _honest, alike=_alike, picture=_walks)

@@ -61,6 +61,8 @@ class AnswerKind(Generic[Answer]):
     parts_right
         Of a wrong answer how many of its parts are right, and how many there are, which is its mark; None where it is right as
         a whole or not.
+    picture
+        What is drawn beside the reply to a wrong answer, as SVG text or empty.
     """
 
     read: Callable[[Exercise, object], Answer]
@@ -70,6 +72,7 @@ class AnswerKind(Generic[Answer]):
     praise: Callable[[Exercise, Answer, Answer], str] = lambda exercise, own, solution: ""
     alike: Callable[[Exercise, Answer, Answer], bool] | None = None
     parts_right: Callable[[Exercise, Answer, Answer], tuple[int, int]] | None = None
+    picture: Callable[[Exercise, Answer, Answer], str] = lambda exercise, own, solution: ""
 
 
 def first_difference(mine: Iterable[object], wanted: Iterable[object]) -> int:

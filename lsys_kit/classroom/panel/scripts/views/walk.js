@@ -5,7 +5,7 @@
 import { grouped, times } from "../books/numbers.js";
 import { degreesOf, directionOf, paintWalk, stanceOf, turnBefore, waitingAt, walkOf } from "../drawing/walking.js";
 import { placed, traced } from "../drawing/turtle.js";
-import { button, drawn, face, made, slider, worded } from "./controls.js";
+import { button, drawn, face, list, made, slider, worded } from "./controls.js";
 import { roving } from "./folding.js";
 
 const PACES = ["0.5", "1", "2", "3", "5", "10", "20", "50", "100"]; // commands a second
@@ -13,24 +13,28 @@ const GLIDING = 10; // commands a second up to which the turtle is seen on its w
 const LONGEST = 20_000; // commands that can be walked
 const CARD = 24, MOST_CARDS = 6; // pixels of a card of the pile
 const CLOSE = 1e-9;
+const MOST_ORDERS = 6; // that can be chosen for a stride
 
 // `seen` says what there is: { book, step, angle, traced }; `sentence` is where a panel says what is traced; `trace` traces a module of
 // a step, and `light` shows it again.
 export function walkView(view, sentence, seen, trace, light) {
   const still = matchMedia("(prefers-reduced-motion: reduce)");
-  let known = null, shown = "", fault = "", walk = null, pace = 2, frame = 0, share = 1, begun = 0, from = 0;
+  let known = null, shown = "", fault = "", walk = null, pace = 2, frame = 0, share = 1, begun = 0, from = 0, stride = "command";
   const bar = slider("command", worded("how many commands of the word the turtle has obeyed"), ["0"], 0, (at) => stopAt(at), worded("command"));
   const speed = slider("pace", worded("commands a second, when it walks by itself"), PACES, 2, (at) => {
     pace = Number(PACES[at]);
     if (frame) start();
   }, worded("pace"));
   const play = button("play", worded("let the turtle walk"), toggle, { class: "lsys-button lsys-play" });
-  const next = worded("to the next bracket"), bracket = button("[ ]", next, () => stopAt(nextFork()), { "aria-label": next });
+  const strides = list("stride", worded("how far it goes at once: to the end of a branch, or of one of this order"), [], stride, (each) => {
+    stride = each;
+    if (frame) start();
+  }, worded("stride"));
   const player = made("div.lsys-player", { role: "toolbar", "aria-label": worded("walk") },
-    button("first", worded("to the beginning of the word"), () => stopAt(0)), button("back", worded("one command back"), () => one(-1)), play,
-    button("forward", worded("one command on"), () => one(1)), bracket);
+    button("first", worded("to the beginning of the word"), () => stopAt(0)), button("back", worded("one stride back"), () => one(-1)), play,
+    button("forward", worded("one stride on"), () => one(1)));
   const said = made("div.lsys-caption", { role: "status" }), pile = drawn("svg", { width: 220, role: "img" });
-  const parts = [made("div.lsys-controls", player, bar.element, speed.element), said, pile];
+  const parts = [made("div.lsys-controls", player, bar.element, strides.element, speed.element), said, pile];
   const buttons = roving(player);
 
   // What there is, and how many commands are obeyed.
@@ -47,14 +51,16 @@ export function walkView(view, sentence, seen, trace, light) {
   }
 
   function one(way) {
-    stopAt(present().at + way);
+    stopAt(strideFrom(present().at, way));
   }
 
-  // After the next command that lets a turtle wait, or is its return.
-  function nextFork() {
-    const { at } = present(), { stops, last } = walk ?? { stops: [], last: 0 };
-    for (let next = at + 1; next <= last; next++) if (stops[next].waiting !== stops[next - 1].waiting) return next;
-    return last;
+  // Where a stride ends: after a command, after one that lets a turtle wait or is its return, or where a branch is done, perhaps of an order.
+  function strideFrom(at, way) {
+    const { stops, last } = walk ?? { stops: [], last: 0 }, waits = (stop) => stops[stop].waiting?.number ?? 0, order = Number(stride);
+    const ends = { command: () => true, bracket: (stop) => stops[stop].waiting !== stops[stop - 1].waiting, branch: (stop) => waits(stop) < waits(stop - 1) }[stride]
+      ?? ((stop) => waits(stop) < order && waits(stop - 1) >= order);
+    for (let next = at + way; next > 0 && next < last; next += way) if (ends(next)) return next;
+    return way > 0 ? last : 0;
   }
 
   function toggle() {
@@ -73,11 +79,19 @@ export function walkView(view, sentence, seen, trace, light) {
 
   function run(time) {
     frame = requestAnimationFrame(run);
-    const way = from + (Math.max(0, time - begun) / 1000) * pace, at = Math.min(walk.last, Math.floor(way) + 1);
+    const gone = (Math.max(0, time - begun) / 1000) * pace, way = from + gone, at = Math.min(walk.last, Math.floor(way) + 1);
+    if (stride !== "command") return gone >= 1 && goOn(time);
     share = still.matches || pace > GLIDING ? 1 : Math.min(1, way - at + 1);
     if (at !== present().at) goTo(at);
     else if (share < 1) light();
     if (way >= walk.last) stop();
+  }
+
+  // A stride of several commands is gone at once.
+  function goOn(time) {
+    [begun, share] = [time, 1];
+    goTo(strideFrom(present().at, 1));
+    if (present().at >= walk.last) stop();
   }
 
   function stop() {
@@ -105,9 +119,12 @@ export function walkView(view, sentence, seen, trace, light) {
         fault = error.message;
       }
       bar.offer(times((walk?.last ?? 0) + 1, String), walk ? at : 0);
+      const orders = times(Math.min(MOST_ORDERS, walk?.deepest ?? 0), (i) => [String(i + 1), worded("order {order}", { order: i + 1 })]);
+      if (!orders.length || Number(stride) > orders.length) stride = "command";
+      strides.offer([["command", worded("command")], ["bracket", worded("bracket")], ["branch", worded("branch")], ...orders], stride);
     }
     bar.show(at);
-    for (const each of [pile, bracket]) each.toggleAttribute("hidden", !walk?.deepest);
+    for (const each of [pile, strides.element]) each.toggleAttribute("hidden", !walk?.deepest);
     buttons.refresh();
     if (!walk) said.textContent = fault;
     else {
