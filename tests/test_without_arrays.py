@@ -112,6 +112,7 @@ def test_answers_are_replied_to_alike_without_arrays(asked: Ask) -> None:
     assert drawn <= {"0.2", "14.1"}, "of these, a drawing tells the number"
 
 
+@pytest.mark.slow
 def test_the_first_word_loads_no_arrays() -> None:
     text = "B A A A\nB < A -> B\nB -> A F[+A] : 1/2\nB -> A : 1/2"
     program = f"""
