@@ -95,8 +95,8 @@ def _kind(item: pytest.Item) -> str:
 
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
-    """A run without slow tests, or without a browser, does not even open what holds nothing else; the whole suite has benchmarks
-    if it is thorough."""
+    """A run without slow tests, or without a browser, does not even open what holds nothing else; the whole suite has
+    benchmarks if it is thorough."""
     if collection_path.match("browser/test_*.py") and "not browser" in config.option.markexpr:
         return True
     benchmarks = collection_path.name == "benchmarks"
