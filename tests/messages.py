@@ -193,6 +193,7 @@ def forms_text() -> str:
     return json.dumps(sorted({form for form, _ in said_by_errors()}), ensure_ascii=False, indent=0) + "\n"
 
 
+@cache
 def template() -> Catalog:
     """All texts, each once, with the files that it stands in."""
     catalogue = Catalog(
