@@ -84,6 +84,7 @@ def test_words_of_some_thousand_modules_are_the_same_without_arrays(asked: Ask, 
     assert asked("words", text, 12) == of_words(text, 12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("text", "symbol", "letter"),
     [
