@@ -15,6 +15,7 @@ from dataclasses import dataclass, field
 from functools import cache
 from itertools import product
 from pathlib import Path
+from typing import Any
 
 FIRST_ERROR = "LSystemError"
 LEAST_LETTERS = 5
@@ -152,11 +153,9 @@ class _Said:
     functions: Mapping[str, list[_Function]]
 
     def forms(self) -> Iterator[Form]:
-        for node in ast.walk(self.module.tree):
-            if isinstance(node, ast.Call):
-                for given in self._texts_given(node):
-                    owners = self.module.owners[id(node)]
-                    yield from _Reading(self, owners).forms(given)
+        for call in _inside(self.module.tree, ast.Call):
+            for given in self._texts_given(call):
+                yield from _Reading(self, self.module.owners[id(call)]).forms(given)
 
     def _texts_given(self, call: ast.Call) -> Iterator[ast.expr]:
         """The arguments of a call that reach an error."""
@@ -243,8 +242,8 @@ class _Reading:
         """Take the texts that a function returns for further forms."""
         there = _Said(function.module, self.said.errors, self.said.functions)
         inner = _Reading(there, [function.node], self.seen | {function.node.name}, self.more)
-        for node in ast.walk(function.node):
-            if isinstance(node, ast.Return) and node.value is not None:
+        for node in _inside(function.node, ast.Return):
+            if node.value is not None:
                 self.more += [form for form in map(_joined, inner._forms(node.value)) if has_words(form)]
 
     def _of_name(self, name: str) -> list[Form]:
@@ -261,7 +260,7 @@ class _Reading:
     def _assigned(self, name: str) -> list[ast.expr]:
         """What a name stands for: in the function, else in the module."""
         for owner in reversed(self.owners):
-            found = [value for node in _nodes(owner) for value in _values_of(node, name)]
+            found = [value for node in _inside(owner, _Assigning) for value in _values_of(node, name)]
             if found:
                 return found
             if name in _names_of(owner):
@@ -305,6 +304,9 @@ def _joined(form: Form) -> Form:
     return tuple(found)
 
 
+_Assigning = ast.Assign | ast.AnnAssign | ast.NamedExpr | ast.For
+
+
 def _values_of(node: ast.AST, name: str) -> Iterator[ast.expr]:
     match node:
         case ast.Assign(targets=targets, value=value):
@@ -334,8 +336,9 @@ def _matched(target: ast.expr, value: ast.expr, name: str) -> Iterator[ast.expr]
 
 
 @cache
-def _nodes(owner: ast.FunctionDef) -> tuple[ast.AST, ...]:
-    return tuple(ast.walk(owner))
+def _inside(tree: ast.AST, kind: Any) -> tuple[Any, ...]:
+    """The nodes of a kind in a tree."""
+    return tuple(node for node in ast.walk(tree) if isinstance(node, kind))
 
 
 @cache

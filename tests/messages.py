@@ -108,7 +108,7 @@ def messages() -> Iterator[tuple[str | tuple[str, str], str]]:
             yield message, path.relative_to(PACKAGE.parent).as_posix()
     for name, text in _in_tables():
         yield text, f"{name} (table)"
-    for form, path in _said_by_errors():
+    for form, path in said_by_errors():
         yield form, path.relative_to(PACKAGE.parent).as_posix()
     for lesson in questions_in(QUESTIONS).lessons:
         for text in texts(lesson):
@@ -183,15 +183,17 @@ def _texts_in(said: object) -> Iterator[str]:
 
 
 @cache
-def _said_by_errors() -> tuple[tuple[str, Path], ...]:
+def said_by_errors() -> tuple[tuple[str, Path], ...]:
+    """The forms of all that the kit's errors say, and their files."""
     return tuple(forms_of_errors(PACKAGE))
 
 
 def forms_text() -> str:
     """The forms of what errors say, as their file has them."""
-    return json.dumps(sorted({form for form, _ in _said_by_errors()}), ensure_ascii=False, indent=0) + "\n"
+    return json.dumps(sorted({form for form, _ in said_by_errors()}), ensure_ascii=False, indent=0) + "\n"
 
 
+@cache
 def template() -> Catalog:
     """All texts, each once, with the files that it stands in."""
     catalogue = Catalog(

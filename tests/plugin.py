@@ -20,6 +20,8 @@ EXAMPLES = {"quick": 5, "usual": 25, "thorough": 100}
 `--thorough`, or where `CI` is set, it is thorough."""
 FEW_VARIANTS = {"quick": 6, "slow": 2, "browser": 1}
 """How many variants of each kind of test are tried, spread over all of them, unless the run is thorough."""
+STARTS_A_BROWSER = {"browser", "lab", "graphics"}
+"""The fixtures that do."""
 AN_HOUR = 3600
 """Seconds: as long as a law may take."""
 
@@ -76,24 +78,27 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 
 @pytest.hookimpl(wrapper=True)
-def pytest_pycollect_makeitem(collector: pytest.Collector) -> Iterator[object]:
-    """Of each test at most a few variants, spread over all of them, unless the run is thorough."""
-    made = yield
-    if collector.config.option.thorough or not isinstance(made, list) or not made:
-        return made
-    few = min(FEW_VARIANTS[_kind(made[0])], len(made))
-    return [made[place * len(made) // few] for place in range(few)]
+def pytest_generate_tests(metafunc: pytest.Metafunc) -> Iterator[None]:
+    """Of each test at most a few variants, spread over all of them, unless the run is thorough; no others are made."""
+    yield
+    made = metafunc._calls
+    if not metafunc.config.option.thorough and made:
+        few = min(FEW_VARIANTS[_kind(metafunc.definition)], len(made))
+        made[:] = [made[place * len(made) // few] for place in range(few)]
 
 
 def _kind(item: pytest.Item) -> str:
     fixtures = getattr(item, "fixturenames", ())
-    if "browser" in fixtures or "lab" in fixtures:
+    if not STARTS_A_BROWSER.isdisjoint(fixtures):
         return "browser"
     return "slow" if item.get_closest_marker("slow") is not None or "benchmark" in fixtures else "quick"
 
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
-    """A run without slow tests does not even open what holds nothing else; the whole suite has benchmarks if it is thorough."""
+    """A run without slow tests, or without a browser, does not even open what holds nothing else; the whole suite has
+    benchmarks if it is thorough."""
+    if collection_path.match("browser/test_*.py") and "not browser" in config.option.markexpr:
+        return True
     benchmarks = collection_path.name == "benchmarks"
     unasked = config.args_source is pytest.Config.ArgsSource.TESTPATHS and not config.option.thorough
     if benchmarks and unasked and not config.option.benchmark_only:

@@ -14,7 +14,7 @@ from lsys_kit import ModelFileError, ModelLimitError, derive, draw, infer, langu
 from lsys_kit.errors import LSystemError
 from lsys_kit.translation import FORMS, LOCALE, gettext, retold
 from tests.errors_raised import forms_of_errors
-from tests.messages import forms_text
+from tests.messages import forms_text, said_by_errors
 
 PACKAGE = LOCALE.parent
 ERRORS = {each.__name__ for each in (LSystemError, *LSystemError.__subclasses__())}
@@ -30,7 +30,7 @@ def german() -> Iterator[None]:
 
 @pytest.fixture(scope="module")
 def forms() -> list[str]:
-    return sorted({form for form, _ in forms_of_errors(PACKAGE)})
+    return sorted({form for form, _ in said_by_errors()})
 
 
 @pytest.mark.slow

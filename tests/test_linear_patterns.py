@@ -171,6 +171,7 @@ def test_looking_to_the_end_of_a_text_for_each_that_is_found_is_seen(pattern: st
     assert slowest(re.compile(pattern), "finditer")[0] > SECONDS
 
 
+@pytest.mark.slow
 def test_what_is_repeated_possessively_does_not_fail_in_its_middle() -> None:
     """Python 3.11.2, which Debian 12 has, matches such patterns wrongly (its issue 106052): an atomic group is right there."""
     used = {

@@ -6,6 +6,7 @@ import inspect
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from functools import cache, partial
+from itertools import product
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -32,6 +33,7 @@ from lsys_kit import (
 )
 from lsys_kit.derivation.derive import Derivation
 from tests.fuzzing.public_ways import members, results
+from tests.rows import every_row
 
 
 class Incomparable:
@@ -215,12 +217,15 @@ def in_a_folder_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("odd", ODD.values(), ids=ODD)
-@pytest.mark.parametrize(("name", "argument"), [(name, argument) for name in FITTING for argument in arguments(name)])
+@pytest.mark.parametrize("name", FITTING)
 @pytest.mark.filterwarnings("ignore")
-def test_an_odd_argument_is_used_or_refused(name: str, argument: str, odd: object) -> None:
-    with suppress(LSystemError):
-        called(name, argument, odd)
+def test_an_odd_argument_is_used_or_refused(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    with every_row() as row:
+        for argument, odd in product(arguments(name), ODD):
+            (tmp_path / f"{argument}, {odd}").mkdir()
+            monkeypatch.chdir(tmp_path / f"{argument}, {odd}")
+            with row(argument, odd), suppress(LSystemError):
+                called(name, argument, ODD[odd])
 
 
 @pytest.mark.parametrize("odd", ODD.values(), ids=ODD)
@@ -296,23 +301,26 @@ def test_every_result_is_asked() -> None:
 @pytest.mark.parametrize("odd", ODD.values(), ids=ODD)
 @pytest.mark.filterwarnings("ignore")
 def test_an_odd_question_is_answered_or_refused(odd: object) -> None:
-    for kind, name, argument in questions():
-        parameters = inspect.signature(getattr(found_results()[kind], name)).parameters.values()
-        given = [
-            odd if each.name == argument else 1
-            for each in parameters
-            if each.kind in (each.POSITIONAL_OR_KEYWORD, each.VAR_POSITIONAL)
-            and (each.default is each.empty or each.name == argument)
-        ]
-        named = {
-            {each.VAR_KEYWORD: "c"}.get(each.kind, each.name): odd
-            for each in parameters
-            if each.name == argument and each.kind in (each.KEYWORD_ONLY, each.VAR_KEYWORD)
-        }
-        with suppress(LSystemError, TraitError):
-            try:
-                answer = getattr(found_results()[kind], name)(*given, **named)
-                next(answer, None) if inspect.isgenerator(answer) else looked_at(answer)
-            except Exception as error:
-                error.add_note(f"{kind}.{name}: {argument}")
-                raise
+    with every_row() as row:
+        for kind, name, argument in questions():
+            with row(f"{kind}.{name}", argument), suppress(LSystemError, TraitError):
+                ask_oddly(kind, name, argument, odd)
+
+
+def ask_oddly(kind: str, name: str, argument: str, odd: object) -> None:
+    """Call a method of a result with an odd value for one argument."""
+    method = getattr(found_results()[kind], name)
+    parameters = inspect.signature(method).parameters.values()
+    given = [
+        odd if each.name == argument else 1
+        for each in parameters
+        if each.kind in (each.POSITIONAL_OR_KEYWORD, each.VAR_POSITIONAL)
+        and (each.default is each.empty or each.name == argument)
+    ]
+    named = {
+        {each.VAR_KEYWORD: "c"}.get(each.kind, each.name): odd
+        for each in parameters
+        if each.name == argument and each.kind in (each.KEYWORD_ONLY, each.VAR_KEYWORD)
+    }
+    answer = method(*given, **named)
+    next(answer, None) if inspect.isgenerator(answer) else looked_at(answer)

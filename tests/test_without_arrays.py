@@ -84,6 +84,7 @@ def test_words_of_some_thousand_modules_are_the_same_without_arrays(asked: Ask, 
     assert asked("words", text, 12) == of_words(text, 12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("text", "symbol", "letter"),
     [
@@ -112,6 +113,7 @@ def test_answers_are_replied_to_alike_without_arrays(asked: Ask) -> None:
     assert drawn <= {"0.2", "14.1"}, "of these, a drawing tells the number"
 
 
+@pytest.mark.slow
 def test_the_first_word_loads_no_arrays() -> None:
     text = "B A A A\nB < A -> B\nB -> A F[+A] : 1/2\nB -> A : 1/2"
     program = f"""

@@ -170,14 +170,14 @@ def test_sliders_of_both_sides_are_chosen_at_once():
 
 @pytest.mark.slow
 def test_a_slider_of_both_sides_moves_both():
-    both = compare("P5", "P6", step=4, sliders=["dt", "t_l"], shared="dt")
-    both.left.settings = {"dt": "0.2"}
-    assert both.right.settings["dt"] == "0.2"
-    both.right.settings = {"dt": "0.5", "t_l": both.right.settings["t_l"]}
-    assert both.left.settings["dt"] == "0.5"
-    assert both.page_data()["shared"] == ["dt"]
-    with pytest.raises(ModelNameError, match="There is no slider 'lifeTimeA'"):
-        compare("P5", "P6", shared=["lifeTimeA"])
+    both = compare("J4", "J5", step=4, sliders=["lifeTimeA", "lifeTimeB"], shared="lifeTimeA")
+    both.left.settings = {"lifeTimeA": "4"}
+    assert both.right.settings["lifeTimeA"] == "4"
+    both.right.settings = {"lifeTimeA": "5", "lifeTimeB": both.right.settings["lifeTimeB"]}
+    assert both.left.settings["lifeTimeA"] == "5"
+    assert both.page_data()["shared"] == ["lifeTimeA"]
+    with pytest.raises(ModelNameError, match="There is no slider 'dt'"):
+        compare("J4", "J5", shared=["dt"])
 
 
 def test_a_panel_opens_with_the_views_that_are_asked_for():

@@ -74,6 +74,7 @@ def test_the_kit_without_pictures_is_small_and_the_same_every_time(live: Answeri
     assert not [each for each in names if each.endswith((".ipynb", ".pyc"))]
 
 
+@pytest.mark.slow
 def test_only_pages_that_hold_the_kit_may_start_a_worker_and_none_asks_another_server(live: Answering) -> None:
     plain, of_class, own = (policy(page(each)) for each in (None, CLASS, live))
     assert "worker-src 'self'" in own
@@ -119,6 +120,7 @@ def test_a_site_that_holds_the_kit_is_written_again_and_nothing_else_is_replaced
         build_site(site, course, live)
 
 
+@pytest.mark.slow
 def test_exercises_of_a_course_of_ones_own_are_known_in_its_pages(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     course = write_lesson("ferns", tmp_path / "ferns")
     own, question = answering(source=course), {"kind": "check", "id": "ferns.1", "answer": "1"}
@@ -203,6 +205,7 @@ def test_panels_are_answered_alike_where_nothing_else_is_installed(there: Any, i
             assert found == here(question)
 
 
+@pytest.mark.slow
 def test_bombs_and_questions_that_no_page_asks_are_answered_in_words(there: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(registry, "_added", {})  # other tests add exercises of their own
     for question in (

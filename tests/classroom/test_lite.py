@@ -41,6 +41,7 @@ def made(lock: Any) -> tuple[Wheel, ...]:
     return wheels(lock)
 
 
+@pytest.mark.slow
 def test_the_stored_lock_file_is_that_of_the_pinned_pyodide(pytestconfig: pytest.Config) -> None:
     assert integrity(STORED) == TOLD["files"][LOCK]["integrity"]
     assert (pyodide_folder(pytestconfig) / LOCK).read_bytes() == STORED
@@ -79,6 +80,7 @@ def test_a_wheel_is_whole_and_the_same_every_time(lock: Any, made: tuple[Wheel, 
         }
 
 
+@pytest.mark.slow
 def test_the_wheels_run_where_nothing_else_of_the_kind_is_installed(made: tuple[Wheel, ...], tmp_path: Path) -> None:
     """Also those of packages that are compiled for this machine."""
     for each in made:

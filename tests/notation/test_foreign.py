@@ -21,6 +21,7 @@ from lsys_kit.notation.write import write
 from tests.notation.foreign_texts import FOREIGN, MENTIONS
 from tests.notation.test_any_text import MODELS
 from tests.notation.test_recognised import LISTINGS, SHORT
+from tests.rows import every_row
 from tests.timing import spent
 
 TESTS = Path(__file__).parents[1]
@@ -73,15 +74,15 @@ def test_the_ends_of_lines_change_nothing() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("name", "text", "line"), TEXTS)
 @pytest.mark.parametrize("notation", DIALECTS)
-def test_where_a_notation_was_asked_for_its_own_reader_says_what_is_wrong_and_the_format_is_a_guess(
-    notation: str, name: str, text: str, line: int
-) -> None:
-    with pytest.raises(LSystemError) as found:
-        read(text, notation)
-    assert "which the kit does not read" not in found.value.message
-    assert f"Perhaps this is {name}, which the kit does not read." in str(found.value.hint)
+def test_where_a_notation_was_asked_for_its_own_reader_says_what_is_wrong_and_the_format_is_a_guess(notation: str) -> None:
+    with every_row() as row:
+        for name, text, _ in TEXTS:
+            with row(repr(text)):
+                with pytest.raises(LSystemError) as found:
+                    read(text, notation)
+                assert "which the kit does not read" not in found.value.message
+                assert f"Perhaps this is {name}, which the kit does not read." in str(found.value.hint)
 
 
 def test_a_message_of_a_reader_that_was_named_ends_with_the_guess() -> None:

@@ -67,6 +67,7 @@ def test_one_cell_or_one_generation_is_lit() -> None:
         draw(K33, 3, generation=1)
 
 
+@pytest.mark.slow
 def test_cells_pulled_apart_have_all_their_walls_and_keep_their_shapes() -> None:
     whole, pulled = draw(K33, 4), draw(K33, 4, explode=0.5)
     assert (len(whole.solid.polygons), len(pulled.solid.polygons)) == (40, 16 * 6)

@@ -243,6 +243,8 @@ def _bare(word: str) -> str:
 def _rows(written: Written, section: Section, cell: Cell, text: str) -> Iterator[Finding]:
     """Rows of a table of words that do not follow from the rows before them by rules of the section."""
     header = _HEADER.search(text)
+    if not header:
+        return
     rules: dict[str, list[str]] = {}
     for found in _RULE.finditer(section.text):
         rules.setdefault(found[1], []).append(found[2])
@@ -250,7 +252,7 @@ def _rows(written: Written, section: Section, cell: Cell, text: str) -> Iterator
         if each.cell in section.code and isinstance(each.system, LSystem) and not _is_random(each.system):
             for left, right in _rules_of(each.system):
                 rules.setdefault(left, []).append(right)
-    if not header or not rules:
+    if not rules:
         return
     table = text[header.start() :].partition("\n\n")[0]
     rows = [(int(found[1]), found[2], found[0]) for found in _ROW.finditer(table)]
