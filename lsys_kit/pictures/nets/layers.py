@@ -227,12 +227,13 @@ def layered_layout(net: Stages, places: Sequence[int], texts: Texts, widest: flo
     """
     found, (usual, close) = _InLayers(net, places, texts), GAPS
     for gaps in (usual, close):
-        layout = found.layout(gaps, inf)
-        if layout.width <= widest:
-            return layout
-    if 0 not in found.layers.layers[0]:
-        return layout
-    return min((found.layout(gaps, widest) for gaps in GAPS), key=lambda layout: (layout.width > widest, layout.height))
+        width, _ = found.arranged(gaps)
+        if width <= widest:
+            return found.layout()
+    if 0 in found.layers.layers[0]:
+        sizes = {gaps: found.arranged(gaps, widest) for gaps in GAPS}
+        found.arranged(min(sizes, key=lambda gaps: (sizes[gaps][0] > widest, sizes[gaps][1])), widest)
+    return found.layout()
 
 
 class _InLayers:
@@ -374,8 +375,8 @@ class _InLayers:
         """How high a line meets a vertex."""
         return self.ys[vertex] + self.ports.get((edge, vertex), 0.0)
 
-    def _fold(self, columns: Mapping[int, _Column], tiers: Sequence[int]) -> float:
-        """Set columns and heights in tiers, and for each piece of a line between two of these its corners; the width of all."""
+    def _fold(self, columns: Mapping[int, _Column], tiers: Sequence[int]) -> None:
+        """Set columns and heights in tiers, and for each piece of a line between two of these its corners; and the size of all."""
         self.column, self.ys, self.corners = dict[int, _Column](), dict[int, float](), dict[tuple[int, int], list[Point]]()
         heights, right, bottom, width = self._rows(tiers) if tiers[1:] else self.heights, 0.0, 0.0, 0.0
         for start, end in pairwise([*tiers, len(self.layers.layers)]):
@@ -395,12 +396,16 @@ class _InLayers:
             right = max(self.column[v][2] for v in tier)
             bottom = max(self.ys[v] + self.boxes[v].below for v in tier)
             width = max(width, right + self._room(self._cut(end)))
-        return width + EDGE
+        self.size = width + EDGE, bottom + EDGE
 
-    def layout(self, gaps: tuple[float, float, float], widest: float) -> Layout:
-        """The coordinates, with gaps between the columns, in tiers of at most a width."""
+    def arranged(self, gaps: tuple[float, float, float], widest: float = inf) -> tuple[float, float]:
+        """The width and height with some gaps between the columns, in tiers of at most a width; the layout has these then."""
         columns = self._columns(*gaps)
-        width = self._fold(columns, self._tiers(columns, widest))
+        self._fold(columns, self._tiers(columns, widest))
+        return self.size
+
+    def layout(self) -> Layout:
+        """The coordinates."""
         lines = [self._line(edge, chain) for edge, chain in enumerate(self.layers.chains)]
         lines = [line[::-1] if edge in self.layers.turned else line for edge, line in enumerate(lines)]
         circles = {place: (self.column[i][1], self.ys[i]) for i, place in enumerate(self.places)}
@@ -415,8 +420,7 @@ class _InLayers:
         taken += [(bar.x, bar.y, 2.0, bar.half) for bar in bars.values()]
         terms = ((bars[number], width) for number, width in self.texts.terms.items() if number in bars)
         taken += [(bar.x, bar.y - bar.half - 8, width / 2, 6.0) for bar, width in terms]
-        height = max((y + self.boxes[vertex].below for vertex, y in self.ys.items()), default=0.0) + EDGE
-        return Layout(width, height, circles, bars, arcs, _notes(arcs, lines, self.texts, taken))
+        return Layout(*self.size, circles, bars, arcs, _notes(arcs, lines, self.texts, taken))
 
     def _line(self, edge: int, chain: Sequence[int]) -> tuple[Point, ...]:
         """The vertices of the line of an edge, from left to right."""
