@@ -376,7 +376,7 @@ class _InLayers:
         return self.ys[vertex] + self.ports.get((edge, vertex), 0.0)
 
     def _fold(self, columns: Mapping[int, _Column], tiers: Sequence[int]) -> None:
-        """Set columns and heights in tiers, and for each piece of a line between two of these its corners; and the size of all."""
+        """Set columns and heights in tiers, for each piece of a line between two of these its corners; and the size of all."""
         self.column, self.ys, self.corners = dict[int, _Column](), dict[int, float](), dict[tuple[int, int], list[Point]]()
         heights, right, bottom, width = self._rows(tiers) if tiers[1:] else self.heights, 0.0, 0.0, 0.0
         for start, end in pairwise([*tiers, len(self.layers.layers)]):
