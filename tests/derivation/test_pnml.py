@@ -205,3 +205,16 @@ def test_a_saved_net_has_the_places_of_its_picture(tmp_path: Path) -> None:
     assert transition is not None
     assert place.attrib == {"x": circle.get("cx"), "y": circle.get("cy")}
     assert float(transition.attrib["x"]) > float(place.attrib["x"])
+
+
+@pytest.mark.parametrize("name", ["J4", "K12", "ABOP-1.26"])
+def test_a_saved_net_is_that_of_its_picture(name: str, tmp_path: Path) -> None:
+    """Brackets and turns, which the picture leaves out, are no places, and all that is there stands somewhere."""
+    picture = draw(stages(system(name)))
+    picture.save(tmp_path / "net.pnml")
+    page = ET.parse(tmp_path / "net.pnml").getroot()
+    places, transitions, arcs = (page.findall(f".//p:{tag}", NAMESPACE) for tag in ("place", "transition", "arc"))
+    assert len(places) == picture.svg.count('class="stage"')
+    assert len(transitions) == picture.svg.count('class="transition"')
+    assert len(arcs) == picture.svg.count('class="arc"') + len(transitions)
+    assert all(node.find("p:graphics/p:position", NAMESPACE) is not None for node in (*places, *transitions))

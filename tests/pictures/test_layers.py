@@ -96,15 +96,29 @@ def test_text_is_legible_on_a_page(name: str) -> None:
     assert smallest_text_on_a_page(draw(stages(system(name))).svg) >= LEGIBLE
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", ["K12", "ABOP-3.2"])
-def test_what_would_be_too_wide_stands_in_rows_that_are_narrow_enough(name: str) -> None:
+def layout_within(name: str, widest: float) -> Layout:
     net = stages(system(name))
     shown = rows_of(net, shown_places(net, steering_of(net.system)))
-    texts = Texts(dict.fromkeys(range(len(net.places)), 20.0), {}, {})
-    wide, narrow, line = (clearest_layout(net, shown, texts, widest) for widest in (10_000, 700, 1))
+    return clearest_layout(net, shown, Texts(dict.fromkeys(range(len(net.places)), 20.0), {}, {}), widest)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["K12", "ABOP-3.2", "J6"])
+def test_what_would_be_too_wide_is_folded_without_more_crossings(name: str) -> None:
+    wide, narrow, line = (layout_within(name, widest) for widest in (10_000, 700, 1))
     assert line.width < narrow.width <= 700 < wide.width
-    assert crossings(wide) < crossings(narrow)
+    assert narrow.height > wide.height
+    assert crossings(narrow) == crossings(wide)
+    for x, y in [point for points in narrow.arcs.values() for point in points]:
+        assert 0 < x < narrow.width
+        assert 0 < y < narrow.height
+
+
+@pytest.mark.slow
+def test_what_would_begin_with_another_stage_than_rows_stands_in_rows() -> None:
+    wide, narrow = layout_within("P5", 10_000), layout_within("P5", 700)
+    assert wide.width > 700 > narrow.width
+    assert len({y for _, y in narrow.circles.values()}) == 2
 
 
 @pytest.mark.slow

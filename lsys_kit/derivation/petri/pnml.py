@@ -84,7 +84,7 @@ def pnml(net: Stages, tokens: Sequence[int] | None = None) -> str:
       </net>
     </pnml>
     """
-    return placed_pnml(net, tokens, {})
+    return placed_pnml(net, tokens)
 
 
 def played_otherwise(net: Stages) -> str:
@@ -102,9 +102,9 @@ def played_otherwise(net: Stages) -> str:
     return first and f"Programs for Petri nets play this net otherwise than the system grows: they know no {first}."
 
 
-def placed_pnml(net: Stages, tokens: Sequence[int] | None, positions: Mapping[str, tuple[float, float]]) -> str:
+def placed_pnml(net: Stages, tokens: Sequence[int] | None, positions: Mapping[str, tuple[float, float]] | None = None) -> str:
     """A stage diagram as PNML that says where the middle of a place ("p0") or transition ("t0") stands in a picture, in pixels
-    from the left and from the top."""
+    from the left and from the top; places that are not in the picture are left out."""
     require(net, Stages, "A stage diagram")
     given = net.start if tokens is None else net.in_places(tokens)
     marking = [whole_number(each, "A number of tokens") for each in given]
@@ -112,20 +112,24 @@ def placed_pnml(net: Stages, tokens: Sequence[int] | None, positions: Mapping[st
     whole = SubElement(root, "net", id="net", type=f"{GRAMMAR}ptnet")
     _labelled(whole, "name", "stages")
     page = SubElement(whole, "page", id="page")
-    for number, place in enumerate(net.places):
+    shown = {number: place for number, place in enumerate(net.places) if positions is None or f"p{number}" in positions}
+    at = positions or {}
+    for number, place in shown.items():
         node = SubElement(page, "place", id=f"p{number}")
         _labelled(node, "name", "/".join(dict.fromkeys(map(str, place.modules))) or place.symbol)
-        _placed(node, positions.get(f"p{number}"))
+        _placed(node, at.get(f"p{number}"))
         if marking[number]:
             _labelled(node, "initialMarking", str(marking[number]))
     for number, transition in enumerate(net.transitions):
         node = SubElement(page, "transition", id=f"t{number}")
         _labelled(node, "name", net.line(number))
-        _placed(node, positions.get(f"t{number}"))
+        _placed(node, at.get(f"t{number}"))
         _tool_specific(node, _terms(transition))
     for number, transition in enumerate(net.transitions):
         SubElement(page, "arc", id=f"f{number}", source=f"p{transition.place}", target=f"t{number}")
     for number, arc in enumerate(net.arcs):
+        if arc.place not in shown:
+            continue
         node = SubElement(page, "arc", id=f"a{number}", source=f"t{arc.transition}", target=f"p{arc.place}")
         if arc.copies != 1:
             _labelled(node, "inscription", str(arc.copies))

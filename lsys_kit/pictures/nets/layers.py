@@ -8,6 +8,9 @@ dummy vertices into pieces; and the vertices of each layer are ordered such that
 Circles and bars stand in columns. A line runs straight through a column and slantwise between two of them, so that it meets no
 circle and no label; only lines that are in different orders on both sides cross. An arc that leads back leaves its bar to the
 left and enters its circle from the right.
+
+What is too wide is folded, as a line of text is broken: its columns go on in a tier below, where few lines lead from one column
+to the next. These turn round side by side.
 """
 
 from __future__ import annotations
@@ -42,11 +45,17 @@ MOST_FOR_AXIOM = 2
 """So many crossings more there may be where the stage of the axiom comes first."""
 MOST_PIECES = 1_000
 """Paths are followed first from one place after another, until layers with so many pieces of lines have been made."""
+TIER, BESIDE = 6, 12.0
+"""One tier more is as bad as so many lines that turn round; and how far these are from what they pass."""
 TERMS, NOTE, CLEARANCE = 15.0, 14.0, 6.0
 """The height of the text above a bar, of a note on a line, and the distance from other lines that is enough for a note."""
 
 _Patch: TypeAlias = tuple[float, float, float, float]
 """The space that a text or a shape takes: its middle, and how far it reaches to either side and up or down."""
+_Column: TypeAlias = tuple[float, float, float]
+"""The left edge, the middle and the right edge of a column."""
+_Piece: TypeAlias = tuple[int, int, int]
+"""A piece of a line: the number of its edge, and the vertices from which and to which it leads, from left to right."""
 _Neighbours: TypeAlias = Mapping[int, Sequence[int]]
 """For each vertex its neighbours in the next layer, or in the one before."""
 
@@ -212,11 +221,19 @@ _LINE = _Box(0.0, 0.0, 3.5, 3.5)
 
 
 def layered_layout(net: Stages, places: Sequence[int], texts: Texts, widest: float = inf) -> Layout:
-    """The layout in layers of a net with some places shown, of which one is followed first that leads to few crossings; columns
-    stand closer where it would be wider than allowed."""
+    """The layout in layers of a net with some places shown, of which one is followed first that leads to few crossings.
+
+    Where it would be too wide, columns stand closer, or else in tiers, if these begin with the place that comes first.
+    """
     found, (usual, close) = _InLayers(net, places, texts), GAPS
-    layout = found.layout(usual)
-    return layout if layout.width <= widest else found.layout(close)
+    for gaps in (usual, close):
+        width, _ = found.arranged(gaps)
+        if width <= widest:
+            return found.layout()
+    if 0 in found.layers.layers[0]:
+        sizes = {gaps: found.arranged(gaps, widest) for gaps in GAPS}
+        found.arranged(min(sizes, key=lambda gaps: (sizes[gaps][0] > widest, sizes[gaps][1])), widest)
+    return found.layout()
 
 
 class _InLayers:
@@ -235,7 +252,7 @@ class _InLayers:
         self.layers = self._best_layers()
         self.ports = self._ports()
         self.boxes = self._boxes()
-        self.ys = self._rows()
+        self.heights = self._rows([0])
 
     def _best_layers(self) -> Layers:
         """The layers with the fewest crossings, then with the fewest arcs that lead back, over the places that may come
@@ -284,13 +301,18 @@ class _InLayers:
         """Half the height of a bar."""
         return max([BAR, *(abs(port) + 4 for (_, at), port in self.ports.items() if at == vertex)])
 
-    def _rows(self) -> dict[int, float]:
-        """The vertical position of each vertex, such that lines are as straight as the order of the columns allows."""
+    def _rows(self, tiers: Sequence[int]) -> dict[int, float]:
+        """The vertical position of each vertex, such that lines are as straight as the order of the columns allows.
+
+        Lines between two tiers, which begin with some layers, need not be straight.
+        """
+        bent = {piece for start in tiers if start for piece in self._cut(start)}
         count, costs = sum(map(len, self.layers.layers)), list[float]()
         entries = []
         bounds: list[float] = []
         for edge, chain in enumerate(self.layers.chains):
-            for a, b in pairwise(chain):  # |a + shift - b| is at most the piece's own variable
+            straight = [piece for piece in pairwise(chain) if (edge, *piece) not in bent]
+            for a, b in straight:  # |a + shift - b| is at most the piece's own variable
                 shift = self.ports.get((edge, a), 0.0) - self.ports.get((edge, b), 0.0)
                 for sign in (1.0, -1.0):
                     entries += [(len(bounds), a, sign), (len(bounds), b, -sign), (len(bounds), count + len(costs), -1.0)]
@@ -305,13 +327,13 @@ class _InLayers:
         top = min((ys[v] - self.boxes[v].above for v in range(count)), default=0.0)
         return {v: float(ys[v] - top + EDGE) for v in range(count)}
 
-    def _columns(self, least: float, most: float, slope: float) -> dict[int, tuple[float, float, float]]:
+    def _columns(self, least: float, most: float, slope: float) -> dict[int, _Column]:
         """For each vertex the left edge, the middle and the right edge of its column; between two columns there is room for the
         widest note and the steepest line."""
-        found, left, note = dict[int, tuple[float, float, float]](), EDGE, max(self.texts.notes.values(), default=0.0)
+        found, left, note = dict[int, _Column](), EDGE, max(self.texts.notes.values(), default=0.0)
         rise: defaultdict[int, float] = defaultdict(float)  # of the steepest line onward from a vertex
         for a, b in (piece for chain in self.layers.chains for piece in pairwise(chain)):
-            rise[a] = max(rise[a], abs(self.ys[a] - self.ys[b]))
+            rise[a] = max(rise[a], abs(self.heights[a] - self.heights[b]))
         for layer in self.layers.layers:
             middle = left + max(self.boxes[vertex].left for vertex in layer)
             right = middle + max(self.boxes[vertex].right for vertex in layer)
@@ -319,9 +341,71 @@ class _InLayers:
             left = right + max(least, 2 * note, min(most, slope * max(rise[vertex] for vertex in layer)))
         return found
 
-    def layout(self, gaps: tuple[float, float, float]) -> Layout:
-        """The coordinates, with gaps between the columns."""
-        self.column = self._columns(*gaps)
+    def _tiers(self, columns: Mapping[int, _Column], widest: float) -> list[int]:
+        """The layers with which tiers begin that are narrow enough, if there are such, and few lines turn round."""
+        layers, count, shown = self.layers.layers, len(self.layers.layers), len(self.bars)
+        round_ends = [self._cut(layer) for layer in range(count + 1)]
+        costs = [sum(MOST_PIECES if edge < shown else 1 for edge, *_ in cut) for cut in round_ends]  # no feed, if possible
+        best: list[tuple[float, list[int]]] = [(0, [])]
+        for end in range(1, count + 1):
+            found = []
+            for start in range(end):
+                width = columns[layers[end - 1][0]][2] - columns[layers[start][0]][0] + 2 * EDGE
+                fits = width + self._room(round_ends[start]) + self._room(round_ends[end]) <= widest
+                found.append((best[start][0] + costs[start] + TIER + (0 if fits else inf), [*best[start][1], start]))
+            best.append(min(found))
+        return best[count][1]
+
+    def _cut(self, layer: int) -> list[_Piece]:
+        """The pieces of lines that lead to a layer from the one before."""
+        behind = {*(self.layers.layers[layer] if layer < len(self.layers.layers) else ())}
+        chains = enumerate(self.layers.chains)
+        return [(edge, a, b) for edge, chain in chains for a, b in pairwise(chain) if b in behind]
+
+    def _pitch(self, cut: Sequence[_Piece]) -> float:
+        """How far lines that turn round are from one another: there is room for notes, if they have any."""
+        arcs = (self.arcs[edge - len(self.bars)] for edge, *_ in cut if edge >= len(self.bars))
+        return NOTE if any(arc in self.texts.notes for arc in arcs) else PORT
+
+    def _room(self, cut: Sequence[_Piece]) -> float:
+        """How much room they take."""
+        return BESIDE + self._pitch(cut) * len(cut) if cut else 0.0
+
+    def _at(self, edge: int, vertex: int) -> float:
+        """How high a line meets a vertex."""
+        return self.ys[vertex] + self.ports.get((edge, vertex), 0.0)
+
+    def _fold(self, columns: Mapping[int, _Column], tiers: Sequence[int]) -> None:
+        """Set columns and heights in tiers, for each piece of a line between two of these its corners; and the size of all."""
+        self.column, self.ys, self.corners = dict[int, _Column](), dict[int, float](), dict[tuple[int, int], list[Point]]()
+        heights, right, bottom, width = self._rows(tiers) if tiers[1:] else self.heights, 0.0, 0.0, 0.0
+        for start, end in pairwise([*tiers, len(self.layers.layers)]):
+            tier, cut = [v for layer in self.layers.layers[start:end] for v in layer], self._cut(start) if start else []
+            cut.sort(key=lambda piece: self._at(*piece[:2]))
+            left = EDGE + self._room(cut)
+            aside = left - columns[tier[0]][0]
+            down = bottom + self._room(cut) + (BESIDE if start else EDGE) - min(heights[v] - self.boxes[v].above for v in tier)
+            self.column |= {v: (a + aside, b + aside, c + aside) for v in tier for a, b, c in [columns[v]]}
+            self.ys |= {v: heights[v] + down for v in tier}
+            entering = sorted(cut, key=lambda piece: self._at(piece[0], piece[2]))
+            for place, (edge, a, b) in enumerate(cut):
+                lane = BESIDE + self._pitch(cut) * (len(cut) - 1 - place)
+                back = left - BESIDE - self._pitch(cut) * entering.index((edge, a, b))
+                x, y = right + lane, bottom + lane
+                self.corners[edge, a] = [(x, self._at(edge, a)), (x, y), (back, y), (back, self._at(edge, b))]
+            right = max(self.column[v][2] for v in tier)
+            bottom = max(self.ys[v] + self.boxes[v].below for v in tier)
+            width = max(width, right + self._room(self._cut(end)))
+        self.size = width + EDGE, bottom + EDGE
+
+    def arranged(self, gaps: tuple[float, float, float], widest: float = inf) -> tuple[float, float]:
+        """The width and height with some gaps between the columns, in tiers of at most a width; the layout has these then."""
+        columns = self._columns(*gaps)
+        self._fold(columns, self._tiers(columns, widest))
+        return self.size
+
+    def layout(self) -> Layout:
+        """The coordinates."""
         lines = [self._line(edge, chain) for edge, chain in enumerate(self.layers.chains)]
         lines = [line[::-1] if edge in self.layers.turned else line for edge, line in enumerate(lines)]
         circles = {place: (self.column[i][1], self.ys[i]) for i, place in enumerate(self.places)}
@@ -336,17 +420,15 @@ class _InLayers:
         taken += [(bar.x, bar.y, 2.0, bar.half) for bar in bars.values()]
         terms = ((bars[number], width) for number, width in self.texts.terms.items() if number in bars)
         taken += [(bar.x, bar.y - bar.half - 8, width / 2, 6.0) for bar, width in terms]
-        width = max((right for *_, right in self.column.values()), default=0.0) + EDGE
-        height = max((y + self.boxes[vertex].below for vertex, y in self.ys.items()), default=0.0) + EDGE
-        return Layout(width, height, circles, bars, arcs, _notes(arcs, lines, self.texts, taken))
+        return Layout(*self.size, circles, bars, arcs, _notes(arcs, lines, self.texts, taken))
 
     def _line(self, edge: int, chain: Sequence[int]) -> tuple[Point, ...]:
         """The vertices of the line of an edge, from left to right."""
         ports = [self.ports.get((edge, vertex), 0.0) for vertex in chain]
-        heights = [self.ys[vertex] + port for vertex, port in zip(chain, ports, strict=True)]
+        heights = [self._at(edge, vertex) for vertex in chain]
         line = [(self.column[chain[0]][1] + self._reach(chain[0], ports[0]), heights[0])]
         for (a, b), (y, z) in zip(pairwise(chain), pairwise(heights), strict=True):
-            line += [(self.column[a][2], y), (self.column[b][0], z)]
+            line += [(self.column[a][2], y), *self.corners.get((edge, a), ()), (self.column[b][0], z)]
         line.append((self.column[chain[-1]][1] - self._reach(chain[-1], ports[-1]), heights[-1]))
         return tuple(point for i, point in enumerate(line) if not i or point != line[i - 1])
 
