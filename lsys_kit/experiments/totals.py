@@ -378,27 +378,20 @@ class Solutions(list["sympy.Expr"]):
     """
 
     def __init__(self, letter: str, roots: Iterable[sympy.Expr]) -> None:
+        import sympy
+
         super().__init__(roots)
         self.letter = letter
+        self._decimals = {root: f"{float(root):.6g}" for root in self if root.has(sympy.CRootOf)}
 
     def __repr__(self) -> str:
-        return f"[{', '.join(f'about {_decimals(root)}' if _is_implicit(root) else number_text(root) for root in self)}]"
+        said = (f"about {self._decimals[root]}" if root in self._decimals else number_text(root) for root in self)
+        return f"[{', '.join(said)}]"
 
     def _repr_latex_(self) -> str | None:
-        letter = formula_latex(unknown(self.letter))
-        said = [rf"\approx {_decimals(root)}" if _is_implicit(root) else f"= {formula_latex(root)}" for root in self]
-        return "$" + r",\quad ".join(f"{letter} {each}" for each in said) + "$" if said else None
-
-
-def _is_implicit(root: sympy.Expr) -> bool:
-    """Whether a number is only said to be the root of a polynomial."""
-    import sympy
-
-    return bool(root.has(sympy.CRootOf))
-
-
-def _decimals(number: sympy.Expr) -> str:
-    return f"{float(number):.6g}"
+        letter, near = formula_latex(unknown(self.letter)), self._decimals
+        said = [rf"{letter} \approx {near[each]}" if each in near else f"{letter} = {formula_latex(each)}" for each in self]
+        return f"${', '.join(said)}$" if said else None
 
 
 def _below_one(root: sympy.Expr) -> sympy.Basic:
