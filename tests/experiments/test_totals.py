@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from contextlib import suppress
 from fractions import Fraction
+from random import Random
 
 import pytest
 import sympy
@@ -111,15 +112,19 @@ def test_of_the_catalogue_too(id: str) -> None:
     model = system(id)
     if any(rule.probability is not None for rule in model.productions):
         return
-    letters = [constant.name for constant in model.constants if constant.name != "n"][:1]
+    chance = Random(id)
+    values = {each.name: Fraction(chance.randint(1, 30), chance.randint(1, 12)) for each in model.constants if each.name != "n"}
     for symbol in symbols(model):
-        for names in ([], letters):
+        for given_values in ({}, *({name: value} for name, value in values.items())):
             try:
-                check(model, symbol, 1, False, {name: Fraction(7, 5) for name in names})
+                check(model, symbol, 1, False, given_values)
             except (ModelValueError, ModelLimitError) as error:
                 told = "cannot be decided", "has no value", "not reached", "limit", "not found"
                 if not any(said in str(error) for said in told):
                     raise
+        found = total(model, symbol)
+        if found.sums is not None and found.limit is not None:
+            assert float(found.at(200)) == pytest.approx(float(found.limit), abs=1e-9)
 
 
 @pytest.mark.slow
