@@ -173,13 +173,23 @@ def _stop_timer() -> None:
     signal.setitimer(signal.ITIMER_VIRTUAL, 0)
 
 
-def _at_signal(_: int, __: FrameType | None) -> None:
-    """Look at the budget; without a block that is open, as where an interrupt kept one from being left, never again."""
+def _at_signal(_: int, frame: FrameType | None) -> None:
+    """Look at the budget; without a block that is open, as where an interrupt kept one from being left, never again. While it
+    is looked at already, that is done in another context, in which no block is open."""
+    if _is_looking(frame):
+        return
     found = in_force(_timed)
     if found is None or not in_task():
         _stop_timer()
     else:
         found.value.put_in_if_used_up()
+
+
+def _is_looking(frame: FrameType | None) -> bool:
+    """Whether a signal comes while the budget is looked at."""
+    while frame is not None and frame.f_code is not _Hooks._refusal.__code__:
+        frame = frame.f_back
+    return frame is not None
 
 
 def _resume(profiler: object) -> None:

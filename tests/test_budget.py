@@ -16,6 +16,7 @@ from pathlib import Path
 
 import pytest
 
+from lsys_kit import budget
 from lsys_kit.budget import Limits, Task, check_budget, counted, current, limits
 from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError
 from lsys_kit.supervision import supervised
@@ -143,6 +144,21 @@ def test_many_short_blocks_within_one_do_not_keep_it_from_being_supervised() -> 
                 abs(-1)
 
     refused(short_ones)
+
+
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="there is no timer here")
+def test_a_signal_that_comes_while_the_budget_is_looked_at_does_not_end_the_looks(monkeypatch: pytest.MonkeyPatch) -> None:
+    def objects() -> int:
+        signal.raise_signal(signal.SIGVTALRM)
+        return 0
+
+    def long_one() -> None:
+        end = budget.processor_time() + 5
+        while budget.processor_time() < end:
+            abs(-1)
+
+    monkeypatch.setattr(budget, "_objects", objects)
+    refused(long_one, seconds=0.5)
 
 
 @pytest.mark.usefixtures("way")

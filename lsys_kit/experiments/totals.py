@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
@@ -29,9 +29,9 @@ from lsys_kit.worlds.derive import derive
 if TYPE_CHECKING:
     import sympy
 
-FIRST, POINTS, MOST_STEPS, MOST_SHOWN = 6, 60, 10_000, 3
-"""How many totals are shown in a line; how many points a curve over a letter has; the latest step; how many cases of a formula
-are shown."""
+FIRST, POINTS, FINE, MOST_STEPS, MOST_SHOWN = 6, 60, 8, 10_000, 3
+"""How many totals are shown in a line; how many points a curve over a letter has, and how many a formula from step to
+step; the latest step; how many cases of a formula are shown."""
 
 
 @dataclass(frozen=True)
@@ -146,8 +146,7 @@ class Total:
             whole = polynomial(self._rule[0])
             condition: sympy.Basic = sympy.true
             for factor, times in whole.factor_list()[1]:
-                x = factor.gen
-                if factor.degree() == 1 and sympy.simplify(factor.as_expr().subs(x, 1)) == 0:
+                if factor.degree() == 1 and factor.eval(1) == 0:
                     if times > 1:
                         return None, sympy.false
                     continue
@@ -161,7 +160,8 @@ class Total:
             if condition == sympy.false:
                 return None, condition
             x = unknown("x", *self._rule)
-            return sympy.factor(sympy.cancel(generating_function(*self._rule) * (1 - x)).subs(x, 1)), condition
+            found = sympy.factor(sympy.cancel(generating_function(*self._rule) * (1 - x)).subs(x, 1))
+            return _without_minus(found), condition
 
     @property
     def limit(self) -> sympy.Expr | None:
@@ -170,7 +170,7 @@ class Total:
         >>> from lsys_kit import read
         >>> found = total(read("q = 1/2\\naxiom: A(1)\\nA(x) -> F(x) A(q*x)"), "F", q="q")
         >>> found.limit, found.limit_condition
-        (-1/(q - 1), Abs(q) < 1)
+        (1/(1 - q), Abs(q) < 1)
         """
         return self._limit[0]
 
@@ -195,7 +195,7 @@ class Total:
             raise ModelValueError("The totals have no formula in powers and roots")
         return found
 
-    def solve(self, letter: str, value: object, n: int | None = None) -> list[sympy.Expr]:
+    def solve(self, letter: str, value: object, n: int | None = None) -> Solutions:
         """The values of a letter for which the total is as given, at step n or in the long run.
 
         >>> from lsys_kit import read
@@ -223,7 +223,7 @@ class Total:
                     raise ModelValueError("The equation has roots that no formula says", hint="Give the other letters numbers.")
                 roots = [root for root in known if root.is_real is not False]
             condition = self.limit_condition if n is None else sympy.true
-            return [root for root in roots if condition.subs(unknown, root) != sympy.false]
+            return Solutions(letter, [root for root in roots if condition.subs(unknown, root) != sympy.false])
 
     def _letter(self, letter: str) -> sympy.Symbol:
         require(letter, str, "A letter")
@@ -251,7 +251,9 @@ class Total:
         return f"total of {self.symbol}"
 
     def plot(self, steps: int = 10, over: str | None = None, between: Sequence[object] = (), **letters: object) -> Plot:
-        """The totals at steps 0 to `steps` as points; or, over a letter, the total at step `steps` as a curve.
+        """The totals at steps 0 to `steps` as points on the curve of the formula; or, over a letter, the total at step `steps`.
+
+        Where the formula says nothing between two steps, as for powers of negative numbers, the points are joined by lines.
 
         Other letters take the values that are given, or else those of the model. The curve goes over the values between two
         numbers, by default those of the letter's slider, or else from 0 to twice the value of the model.
@@ -268,8 +270,26 @@ class Total:
                 return self._plot_over(str(self._letter(over)), last, between, letters)
             found = total(self.system, self.symbol, self.parameter, axis=self.axis, **self._numbers(letters))
             points = tuple((float(n), float(value)) for n, value in enumerate(found.values(last)))
-            curve = Curve(points, colour_of(self.symbol, self.system), "")
-            return Plot(CurveChart((curve,), Axis(column_label("step"), True), Axis(self._name)))
+            colour = colour_of(self.symbol, self.system)
+            formula = found._between_steps(last)
+            curves = (Curve(formula, colour), Curve(points, colour, dots=True)) if formula else (Curve(points, colour),)
+            return Plot(CurveChart(curves, Axis(column_label("step"), True), Axis(self._name)))
+
+    def _between_steps(self, last: int) -> tuple[tuple[float, float], ...]:
+        """Points of the curve of a formula without letters; none where it has no real values between two steps."""
+        import sympy
+
+        if self.formula is None or self.formula.has(sympy.RootSum) or not 0 < last <= POINTS:
+            return ()
+        formula, first = _later(self.formula)
+        found = []
+        with supervised():
+            for place in range(first * FINE, last * FINE + 1):
+                value = formula.subs(self.n, sympy.Rational(place, FINE)).evalf()
+                if not (value.is_real and value.is_finite):
+                    return ()
+                found.append((place / FINE, value))
+        return tuple(zip([x for x, _ in found], finite([y for _, y in found], f"The {self._name}"), strict=True))
 
     def _plot_over(self, letter: str, step: int, between: Sequence[object], letters: dict[str, object]) -> Plot:
         """The total at a step for many values of a letter."""
@@ -312,7 +332,7 @@ class Total:
         """The formula in LaTeX, with its cases."""
         if not self._cases:
             return ""
-        rows = [(formula_latex(case.formula), ",\\ ".join(map(formula_latex, _conditions(case)))) for case in self._shown]
+        rows = [(formula_latex(formula), ",\\ ".join(map(formula_latex, where))) for formula, where in self._shown]
         if len(rows) > 1:
             lines = r" \\ ".join(rf"{{\displaystyle {formula}}} & {where}" for formula, where in rows)
             return rf"\begin{{cases}} {lines} \end{{cases}}"
@@ -320,9 +340,19 @@ class Total:
         return rf"{formula} \quad ({where})" if where else formula
 
     @property
-    def _shown(self) -> list[Case]:
-        """The cases of the formula if they are few, else that which holds for most letters."""
-        return self._cases if len(self._cases) <= MOST_SHOWN else self._cases[:1]
+    def _shown(self) -> list[tuple[sympy.Expr, list[sympy.Basic]]]:
+        """The cases of the formula if they are few, else that which holds for most letters, and where each holds: of what is
+        added at the first steps alone these steps, if they are few."""
+        import sympy
+
+        found, latest = [], 0
+        for case in self._cases if len(self._cases) <= MOST_SHOWN else self._cases[:1]:
+            formula, first = _later(case.formula)
+            latest = max(latest, first)
+            found.append((formula, [*([sympy.Ge(self.n, first)] if first else []), *_conditions(case)]))
+        if len(found) + latest <= MOST_SHOWN:
+            found += [(expression_of(self.at(step)), [sympy.Eq(self.n, step)]) for step in range(latest)]
+        return found
 
     def _repr_latex_(self) -> str | None:
         return f"$\\displaystyle {self.latex}$" if self._cases else None
@@ -333,10 +363,35 @@ class Total:
             why = f"; {self.reason}" if self.reason else ""
             return f"{steps}, ...{why}"
         said = (
-            " where ".join(filter(None, [formula_line(case.formula), ", ".join(map(formula_text, _conditions(case)))]))
-            for case in self._shown
+            " where ".join(filter(None, [formula_line(formula), ", ".join(map(formula_text, where))]))
+            for formula, where in self._shown
         )
         return f"{', '.join(said)}; {steps}, ..."
+
+
+class Solutions(list["sympy.Expr"]):
+    """The values of a letter that solve an equation; of those that no root sign says the decimals are shown.
+
+    >>> from lsys_kit import read
+    >>> total(read("q = 1/2\\naxiom: A(1)\\nA(x) -> F(x) A(q*x)"), "F", q="q").solve("q", 2, n=6)
+    [about 0.50866]
+    """
+
+    def __init__(self, letter: str, roots: Iterable[sympy.Expr]) -> None:
+        import sympy
+
+        super().__init__(roots)
+        self.letter = letter
+        self._decimals = {root: f"{float(root):.6g}" for root in self if root.has(sympy.CRootOf)}
+
+    def __repr__(self) -> str:
+        said = (f"about {self._decimals[root]}" if root in self._decimals else number_text(root) for root in self)
+        return f"[{', '.join(said)}]"
+
+    def _repr_latex_(self) -> str | None:
+        letter, near = formula_latex(unknown(self.letter)), self._decimals
+        said = [rf"{letter} \approx {near[each]}" if each in near else f"{letter} = {formula_latex(each)}" for each in self]
+        return f"${', '.join(said)}$" if said else None
 
 
 def _below_one(root: sympy.Expr) -> sympy.Basic:
@@ -347,11 +402,31 @@ def _below_one(root: sympy.Expr) -> sympy.Basic:
     return sympy.Abs(letters) < 1 / abs(number) if number else sympy.true
 
 
+def _without_minus(quotient: sympy.Expr) -> sympy.Expr:
+    """A quotient that does not begin with a minus where its denominator can take it.
+
+    >>> from sympy.abc import q
+    >>> _without_minus(-q / (2 * q - 1))
+    q/(1 - 2*q)
+    """
+    above, below = quotient.as_numer_denom()
+    return -above / -below if above.could_extract_minus_sign() and below.is_Add else quotient
+
+
 def _conditions(case: Case) -> list[sympy.Basic]:
     """What must hold of the letters."""
     import sympy
 
     return [*(sympy.Eq(letter, value) for letter, value in case.given.items()), *case.unless]
+
+
+def _later(formula: sympy.Expr) -> tuple[sympy.Expr, int]:
+    """A formula without what is added at the first steps alone, and the step from which on it holds."""
+    import sympy
+
+    alone = formula.atoms(sympy.KroneckerDelta)
+    first = max((int(place) + 1 for each in alone for place in each.args if place.is_Integer), default=0)
+    return formula.xreplace(dict.fromkeys(alone, sympy.Integer(0))), first
 
 
 def _in_cases(cases: Sequence[Case]) -> sympy.Expr | None:

@@ -82,7 +82,7 @@ def test_a_stroke_that_is_pointed_at_is_told_with_its_formula_and_its_number(exp
     found = set()
     for part in range(2, 40):
         panel.page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] * part / 40)
-        panel.page.wait_for_timeout(30)
+        panel.page.evaluate("() => new Promise(painted => requestAnimationFrame(() => requestAnimationFrame(painted)))")
         found.add(panel.at(".lsys-sentence").inner_text().split("(length ")[-1].split(")")[0])
     assert {"q = 0.5", "q² = 0.25"} <= found
 

@@ -18,7 +18,7 @@ from tests.timing import spent
 
 FORMULAS = frozenset(("math", "mrow", "mi", "mn", "mo", "msup", "msub", "mfrac", "msqrt", "mroot"))
 TAGS = FORMULAS | {"div", "b", "i", "u", "span", "pre", "table", "tbody", "tr", "td", "sub", "sup", "br"}
-ATTRIBUTES = frozenset(("style", "class", "role", "aria-hidden", "aria-label", "tabindex", "colspan"))
+ATTRIBUTES = frozenset(("style", "class", "role", "aria-hidden", "aria-label", "tabindex", "colspan", "stretchy"))
 
 
 class Page(HTMLParser):

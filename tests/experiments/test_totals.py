@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from contextlib import suppress
 from fractions import Fraction
+from random import Random
 
 import pytest
 import sympy
@@ -111,15 +112,19 @@ def test_of_the_catalogue_too(id: str) -> None:
     model = system(id)
     if any(rule.probability is not None for rule in model.productions):
         return
-    letters = [constant.name for constant in model.constants if constant.name != "n"][:1]
+    chance = Random(id)
+    values = {each.name: Fraction(chance.randint(1, 30), chance.randint(1, 12)) for each in model.constants if each.name != "n"}
     for symbol in symbols(model):
-        for names in ([], letters):
+        for given_values in ({}, *({name: value} for name, value in values.items())):
             try:
-                check(model, symbol, 1, False, {name: Fraction(7, 5) for name in names})
+                check(model, symbol, 1, False, given_values)
             except (ModelValueError, ModelLimitError) as error:
                 told = "cannot be decided", "has no value", "not reached", "limit", "not found"
                 if not any(said in str(error) for said in told):
                     raise
+        found = total(model, symbol)
+        if found.sums is not None and found.limit is not None:
+            assert float(found.at(200)) == pytest.approx(float(found.limit), abs=1e-9)
 
 
 @pytest.mark.slow
@@ -128,7 +133,7 @@ def test_a_geometric_sum() -> None:
     n = found.n
     assert sympy.simplify(found.formula.args[0][0] - (1 - Q**n) / (1 - Q)) == 0
     assert found.formula.subs(Q, 1) == n, "where the ratio is 1, too"
-    assert sympy.simplify(found.limit - 1 / (1 - Q)) == 0
+    assert str(found.limit) == "1/(1 - q)"
     assert found.limit_condition == (sympy.Abs(Q) < 1)
     assert total(read(SHOOT), "F", q=1).formula == n, "also where the ratio is 1"
     assert total(read(SHOOT), "F", q=2).limit is None
@@ -149,6 +154,41 @@ def test_the_mean_where_chance_decides() -> None:
     assert sympy.simplify(found.formula - (2 * p) ** found.n) == 0
     assert found.limit == 0
     assert found.limit_condition == (sympy.Abs(p) < sympy.Rational(1, 2))
+
+
+def test_a_formula_that_holds_from_a_later_step_on_says_so() -> None:
+    """What is added at the first steps alone is told apart, with these steps where they are few."""
+    bud = read("q = 1/2\naxiom: A(1)\nA(x) -> F(x) [+A(q*x)]")
+    found = total(bud, "F", axis=True, q="q")
+    assert repr(found).startswith("1 where n ≥ 1, 0 where n = 0; 0, 1, 1, ")
+    assert found.latex.endswith(r"1} & n \geq 1 \\ {\displaystyle 0} & n = 0 \end{cases}")
+    stops = total(read("axiom: A(1)\nA(x) : x > 3/10 -> F(x) A(4*x/5)"), "F")
+    assert repr(stops).startswith("11529/3125 where n ≥ 6; 0, 1, ")
+    for total_of in (found, stops):
+        assert [total_of.formula.subs(total_of.n, step) for step in range(9)] == total_of.values(8)
+
+
+def test_solutions_without_roots_have_decimals() -> None:
+    found = total(read(SHOOT), "F", q="q").solve("q", 2, n=6)
+    assert repr(found) == "[about 0.50866]"
+    assert found._repr_latex_() == r"$q \approx 0.50866$"
+    assert sum(found[0] ** k for k in range(6)).evalf() == pytest.approx(2)
+    assert total(read(SHOOT), "F", q="q").solve("q", 5)._repr_latex_() == r"$q = \frac{4}{5}$"
+    assert total(read(SHOOT), "F", q="q").solve("q", -5)._repr_latex_() is None, "no stem is shorter than nothing"
+
+
+@pytest.mark.slow
+def test_points_of_steps_lie_on_the_curve_of_the_formula() -> None:
+    """Between two steps, too, where it has real values there; a curve that holds from a later step on begins there."""
+    line, dots = total(read(SHOOT), "F", q="q").plot(6, q=0.5).chart.curves
+    assert dots.dots
+    assert [*dots.points] == [point for point in line.points if point[0] == int(point[0])]
+    assert all(y == pytest.approx(2 - 2 * 0.5**x) for x, y in line.points)
+    late, _ = total(read("axiom: A(1)\nA(x) -> F(x) [+A(x)]"), "F", axis=True).plot(6).chart.curves
+    assert {y for _, y in late.points} == {late.points[0][0]} == {1}
+    (joined,) = total(read("axiom: A(1)\nA(x) -> A(-2*x)"), "A").plot(6).chart.curves
+    assert [y for _, y in joined.points] == [1, -2, 4, -8, 16, -32, 64]
+    assert len(total(system("P4"), "M").plot(6).chart.curves) == 1
 
 
 def test_the_axis_alone() -> None:

@@ -211,12 +211,13 @@ DASHES = ("solid", (0, (6, 4)), (0, (2, 4)), (0, (10, 4)), (0, (8, 3, 2, 3)), (0
 
 class Curve(NamedTuple):
     """A curve: its points, from left to right; its colour; its name, perhaps with mathematics, if it needs one; whether it is
-    drawn thin and pale, as one of many."""
+    drawn thin and pale, as one of many; whether it is nothing but its points, on a curve."""
 
     points: tuple[Point, ...]
     colour: str
     label: str = ""
     quiet: bool = False
+    dots: bool = False
 
 
 @dataclass(frozen=True)
@@ -233,7 +234,7 @@ class CurveChart(Chart):
         (left, right), (_, most) = self._span(0), self._span(1)
         named = [plain(curve.label) for curve in self.curves if curve.label]
         names = f" ({', '.join(named)})" if named else ""
-        many = len(self.curves)
+        many = sum(not curve.dots for curve in self.curves)
         return (
             f"{many} curve{'s' * (many != 1)}{names} of {plain(self.up.label)}, {plain(self.across.label)} from "
             f"{tick_text(left)} to {tick_text(right)}, largest {tick_text(most)}"
@@ -254,10 +255,11 @@ class CurveChart(Chart):
         if self.up.log:
             ax.set_yscale("log")
         set_paper(ax, self.across, self.up, size)
-        loud = [curve for curve in self.curves if not curve.quiet]
+        loud = [curve for curve in self.curves if not (curve.quiet or curve.dots)]
         for curve in self.curves:
             broken = curve in loud and not self.unbroken
-            self._paint_curve(ax, curve, DASHES[loud.index(curve) % len(DASHES)] if broken else "solid")
+            dashes = DASHES[loud.index(curve) % len(DASHES)] if broken else "none" if curve.dots else "solid"
+            self._paint_curve(ax, curve, dashes)
         self._set_limits(ax)
         self._paint_labels(ax, size)
 

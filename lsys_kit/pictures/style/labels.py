@@ -119,7 +119,8 @@ def mathml(formula: Element) -> str:
     """
     if isinstance(formula, str):
         tag = "mn" if formula[:1].isdigit() else "mi" if formula[:1].isalpha() else "mo"
-        return f"<{tag}>{escaped(formula)}</{tag}>"
+        low = ' stretchy="false"' if formula in ("(", ")") else ""
+        return f"<{tag}{low}>{escaped(formula)}</{tag}>"
     return f"<{formula[0]}>{''.join(map(mathml, formula[1:]))}</{formula[0]}>"
 
 
