@@ -23,9 +23,9 @@ from itertools import chain
 from typing import Any, NamedTuple, TypeAlias
 
 from lsys_kit.arrays import is_array, np
-from lsys_kit.budget import check_budget, check_bytes
+from lsys_kit.budget import check_budget, check_bytes, counted
 from lsys_kit.derivation.core.words import Word
-from lsys_kit.geometry.scene import OWN, Floats, Scene, Segments
+from lsys_kit.geometry.scene import OWN, Floats, Scene, Segments, Stroke
 from lsys_kit.geometry.turtle.commands import Instruction, in_plane, initial_step
 from lsys_kit.geometry.turtle.scanning import DRAWS, MOVES, TURNS, Branches, Carried, Commands, added, turned
 from lsys_kit.geometry.turtle.surfaces import PATCH_FACES, Surface, patch_grid
@@ -395,12 +395,7 @@ def trace_in_space(word: Word | WordBetween, angle: float | None = None) -> Scen
     >>> print(trace_in_space(derive(bush, 4)[-1]))
     120 segments, width 5.22, height 3.78, depth 4.82
     """
-    system = word.states.system
-    turn = float(system.angle) if angle is None else angle
-    turtle = SpaceTurtle(initial_frame(system.turtle, float(system.heading)), initial_step(system))
-    turtle.take_look(system)
-    turtle.in_plane = in_plane(system)
-    run_turtle(turtle, word, SPACE_HANDLERS, lambda instruction: operand(instruction, turn))
+    turtle = turtle_after(word, float(word.states.system.angle) if angle is None else angle)
     polygons, discs = collected_shapes(turtle.outlines, turtle.rounds, _points)
     return Scene(
         strokes_of(turtle),
@@ -409,6 +404,22 @@ def trace_in_space(word: Word | WordBetween, angle: float | None = None) -> Scen
         labels=collected_labels(turtle.labels, _points),
         unknown=tuple(turtle.unknown),
     )
+
+
+def turtle_after(word: Word | WordBetween, angle: float) -> SpaceTurtle:
+    """The turtle that has interpreted a word."""
+    system = word.states.system
+    turtle = SpaceTurtle(initial_frame(system.turtle, float(system.heading)), initial_step(system))
+    turtle.take_look(system)
+    turtle.in_plane = in_plane(system)
+    run_turtle(turtle, word, SPACE_HANDLERS, lambda instruction: operand(instruction, angle))
+    return turtle
+
+
+def strokes_in_space(turtle: SpaceTurtle) -> list[Stroke]:
+    """The strokes that a turtle has drawn, one after another."""
+    rows = range(0, len(turtle.strokes), _STROKE_COLUMNS)
+    return [tuple(turtle.strokes[first : first + 6]) for first in counted(rows)]
 
 
 def strokes_of(turtle: SpaceTurtle) -> Segments:
