@@ -70,18 +70,14 @@ def compare(asked: Ask, text: str, steps: int) -> dict[str, str]:
 def test_the_catalogue_is_the_same_without_arrays(asked: Ask, id: str) -> None:
     system = kit.system(id)
     missing = compare(asked, write(system), min(system.steps or 3, 3))
-    if not traits_of(system).sensitive:
-        assert missing.keys() <= {"book"}
-        assert {*missing.values()} <= {"scipy.optimize", "numpy"}, "diagrams with layers, and curved surfaces"
+    assert not missing or traits_of(system).sensitive
 
 
 @pytest.mark.slow
 @settings(suppress_health_check=[*HealthCheck])
 @given(st.one_of(systems(), systems_with(), systems_with(CONTEXT, CHANCE)))
 def test_random_systems_are_the_same_without_arrays(asked: Ask, system: LSystem) -> None:
-    missing = compare(asked, write(system), 4)
-    assert missing.keys() <= {"book"}
-    assert {*missing.values()} <= {"scipy.optimize"}
+    assert not compare(asked, write(system), 4)
 
 
 @pytest.mark.slow
