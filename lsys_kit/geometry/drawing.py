@@ -9,12 +9,13 @@ from __future__ import annotations
 from dataclasses import replace
 
 from lsys_kit.arrays import np
+from lsys_kit.derivation.core.interpretation import interpretations
 from lsys_kit.derivation.core.rules import real_from
 from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.geometry.filament import filament
 from lsys_kit.geometry.pipe_model import pipe_widths, tips_borne
-from lsys_kit.geometry.scene import OWN, Floats, Integers, Scene, Segments
+from lsys_kit.geometry.scene import OWN, Floats, Integers, Scene, Segments, Stroke
 from lsys_kit.geometry.turtle.commands import (
     BLOSSOM,
     COMMANDS,
@@ -26,11 +27,12 @@ from lsys_kit.geometry.turtle.commands import (
     commands_of,
     drawing_mode,
     initial_colour,
+    instructions,
     is_leaf,
 )
 from lsys_kit.geometry.turtle.instancing import draw_instanced
-from lsys_kit.geometry.turtle.plane import place_path, trace
-from lsys_kit.geometry.turtle.space import trace_in_space
+from lsys_kit.geometry.turtle.plane import place_path, strokes_in_plane, trace
+from lsys_kit.geometry.turtle.space import strokes_in_space, trace_in_space, turtle_after
 from lsys_kit.geometry.turtle.surfaces import surfaces_of
 from lsys_kit.geometry.turtle.unfolding import WordBetween
 from lsys_kit.notation.model.modules import flat
@@ -213,3 +215,34 @@ def _scene_of(what: Derivation | Word | WordBetween, angle: float | None) -> Sce
             return place_path(trace(word), turn, float(system.heading))
         case DrawingMode.SPACE:
             return trace_in_space(word, turn)
+
+
+def drawn_strokes(word: Word) -> list[Stroke]:
+    """The strokes of a word, one after another, as no arrays are needed for few; none of a filament.
+
+    >>> from lsys_kit import derive, read
+    >>> [drawn_strokes(derive(read(text), 0)[0]) for text in ("heading: 0\\naxiom: FfF", "axiom: F/F", "axiom: a")]
+    [[(0.0, 0.0, 1.0, 0.0), (2.0, 0.0, 3.0, 0.0)], [(0.0, 0.0, 0.0, 0.0, 0.0, 1.0), (0.0, 0.0, 1.0, 0.0, 0.0, 2.0)], []]
+    """
+    system = word.states.system
+    match drawing_mode(system):
+        case DrawingMode.FILAMENT:
+            return []
+        case DrawingMode.PLANE:
+            return strokes_in_plane(word, float(system.angle), float(system.heading))
+        case DrawingMode.SPACE:
+            return strokes_in_space(turtle_after(word, float(system.angle)))
+
+
+def number_of_strokes(derivation: Derivation, step: int) -> int:
+    """How many strokes a turtle draws at a step, but for those along generalised cylinders; none of a filament.
+
+    >>> from lsys_kit import derive, read
+    >>> number_of_strokes(derive(read("axiom: F\\nF -> F[+F]F"), 9), 9)
+    19683
+    """
+    system, counts = derivation.states.system, derivation.counts(step)
+    if drawing_mode(system) is DrawingMode.FILAMENT:
+        return 0
+    found = instructions(interpretations(derivation.states, [*counts]), system.turtle, system.angle)
+    return sum(many * sum(each.action in STROKES for each in found[state]) for state, many in counts.items())

@@ -43,6 +43,8 @@ def no_labels(dimension: int = 2) -> Labels:
 Floats: TypeAlias = "NDArray[np.float64]"
 Integers: TypeAlias = "NDArray[np.int64]"
 Flags: TypeAlias = "NDArray[np.bool_]"
+Stroke: TypeAlias = tuple[float, ...]
+"""The beginning and the end of a stroke, with 2 or 3 coordinates each, where there is no array of them."""
 
 OWN = -1
 """Stands for the colour that belongs to the symbol of a shape, or the width that belongs to the branch order of a stroke."""

@@ -38,8 +38,6 @@ pytestmark = [pytest.mark.slow, pytest.mark.browser]
 LESSON, EXERCISES, FIRST = "notebooks/01_all_at_once", "exercises/01_all_at_once", "exercises/00_five_characters_one_plant"
 LONG = 120_000
 """So many milliseconds Python may take to start on a busy machine."""
-WITHOUT_ARRAYS = {"0.2", "0.3", "0.5", "3.3", "4.3", "4.5", "14.1"}
-"""The exercises whose answers are compared by their drawings, for which Python in a page has no arrays."""
 ANSWERS = Path(__file__).parents[1] / "classroom" / "data"
 STUB = """
 import json
@@ -271,19 +269,23 @@ def test_python_in_a_page_replies_to_answers_as_this_one(opened: Callable[..., P
     page.set_default_timeout(10 * LONG)
     begun, *there = page.evaluate(ASK_ALL, [live.data["python"], asked])
     assert begun == {"ready": True}
-    without = {each["id"] for each, found in zip(asked, there, strict=True) if found["answer"].get("needs") == "numpy"}
-    assert without <= WITHOUT_ARRAYS
-    compared = [(each, found["answer"]) for each, found in zip(asked, there, strict=True) if each["id"] not in without]
-    assert len(compared) > 200
-    for question, found in compared:
-        assert found == json.loads(answers.answered(json.dumps(question))), question
+    assert len(asked) > 200
+    for question, found in zip(asked, there, strict=True):
+        assert found["answer"] == json.loads(answers.answered(json.dumps(question))), question
 
 
 def test_what_needs_arrays_is_left_to_jupyter_in_plain_words(opened: Callable[..., Page]) -> None:
+    panel = opened(LESSON).locator(".lsys-panel").first
+    panel.get_by_role("button", name="rules").click()
+    panel.locator("textarea").first.fill(str(system("K23")))
+    expect(panel.locator(".lsys-mistake")).to_contain_text("numpy", timeout=LONG)
+    expect(panel.locator(".lsys-mistake")).to_contain_text("JupyterLab")
+
+
+def test_drawings_are_judged_as_in_a_notebook(opened: Callable[..., Page]) -> None:
     page = opened(FIRST)
-    reply = answer(page, "16", "0.2")
-    expect(reply).to_contain_text("JupyterLab", timeout=LONG)
-    expect(reply).to_contain_text("numpy")
+    for answered_with in ("F[+F]F[-F]F", exercise_of("0.3").solution):
+        expect(answer(page, answered_with, "0.3")).to_contain_text(said(check("0.3", answered_with)), timeout=LONG)
 
 
 def test_a_bomb_ends_with_the_words_of_the_kit(opened: Callable[..., Page]) -> None:

@@ -68,7 +68,9 @@ def disarranged(strokes: Floats, chance: random.Random) -> list[list[float]]:
 
 
 def draws_alike(mine: LSystem, wanted: LSystem, steps: int) -> bool:
-    return all(same_strokes(*(normalised(strokes_of(each, step)) for each in (mine, wanted)), TO) for step in range(steps + 1))
+    return all(
+        same_strokes(*(normalised(strokes_of(each, step).tolist()) for each in (mine, wanted)), TO) for step in range(steps + 1)
+    )
 
 
 def found_again(rules: str, steps: int = 3) -> DrawingFits:

@@ -179,7 +179,7 @@ def test_a_patch_is_drawn_as_the_surface_of_its_control_points():
 
 
 def test_a_patch_that_is_a_point_faces_upwards():
-    points, normals = patch_grid(np.full((4, 4, 3), 2.0), 1, 1)
+    points, normals = map(np.array, patch_grid(4 * [4 * [(2.0, 2.0, 2.0)]], 1, 1))
     assert (points == 2).all()
     assert (normals == [0, 0, 1]).all()
 

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import re
 from itertools import combinations, pairwise
+from random import Random
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.optimize import linprog
 
 from lsys_kit import book_systems, draw, read, stages, system, systems
 from lsys_kit.errors import LSystemError
 from lsys_kit.pictures.nets import parts
-from lsys_kit.pictures.nets.layers import Layers, layered
+from lsys_kit.pictures.nets.layers import Layers, _least, _Pull, layered
 from lsys_kit.pictures.nets.layout import Layout, Texts, crossings
 from lsys_kit.pictures.nets.parts import LABEL_SIZE, LEGIBLE, PAGE, clearest_layout
 from lsys_kit.pictures.nets.rows import rows_of, shown_places
@@ -38,6 +41,23 @@ def test_an_edge_runs_from_layer_to_layer(graph: tuple[int, list[tuple[int, int]
     for number, (edge, chain) in enumerate(zip(graph[1], found.chains, strict=True)):
         assert (chain[0], chain[-1]) == (edge[::-1] if number in found.turned else edge)
         assert all(rank[b] == rank[a] + 1 for a, b in pairwise(chain))
+
+
+@given(graphs(), st.randoms(use_true_random=False))
+def test_lengths_are_as_short_as_a_linear_programme_makes_them(
+    graph: tuple[int, list[tuple[int, int]]], chance: Random
+) -> None:
+    """And the values are the least of those with which they are."""
+    count, edges = graph
+    pulls = [_Pull(min(edge), max(edge), chance.randint(0, 4), chance.choice((0.0, 1.0, 2.5))) for edge in edges]
+    found = _least(count, pulls)
+    costs = np.zeros(count)
+    for pull in pulls:
+        costs[[pull.lower, pull.upper]] += -pull.weight, pull.weight
+        assert found[pull.upper] - found[pull.lower] >= pull.least - 1e-6
+    rows = np.array([[(v == pull.lower) - (v == pull.upper) for v in range(count)] for pull in pulls], float).reshape(-1, count)
+    least = linprog(costs + 1e-4, rows, [-pull.least for pull in pulls], bounds=(0, None)).x
+    assert found == pytest.approx(least, abs=1e-5)
 
 
 @given(graphs())

@@ -20,7 +20,7 @@ from lsys_kit.derivation.derive import Derivation
 from lsys_kit.derivation.growth.growth import growth
 from lsys_kit.derivation.petri.stages import stages
 from lsys_kit.errors import ModelLimitError, ModelNameError, ModelValueError
-from lsys_kit.geometry.drawing import scene_of
+from lsys_kit.geometry.drawing import number_of_strokes
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.arithmetic import Value
 from lsys_kit.notation.model.expressions import Number
@@ -83,7 +83,7 @@ class History:
         what, _, symbol = exercise.asks.partition(" ")
         symbol = symbol if what in ("count", "counts") else ""
         if what == "strokes":
-            found = [len(scene_of(written(self.system, word)).segments) for word in islice(self.words, last + 1)]
+            found = [number_of_strokes(written(self.system, word), 0) for word in islice(self.words, last + 1)]
         elif isinstance(self.words, Derived) and (counted := self.words.counted(symbol, last)):
             found = counted
         else:

@@ -16,13 +16,13 @@ from lsys_kit.derivation.derive import derive
 from lsys_kit.derivation.inference import infer as words_alone
 from lsys_kit.derivation.inference.infer import MOST_FITS, Fits, StochasticFits, SystemsFound
 from lsys_kit.errors import ModelLimitError, ModelValueError, require
-from lsys_kit.geometry.drawing import ANGLE_HINT, scene_of
+from lsys_kit.geometry.drawing import ANGLE_HINT, drawn_strokes, number_of_strokes
 from lsys_kit.geometry.inference.edge_rewriting import edge_rules, factor_of
 from lsys_kit.geometry.inference.node_rewriting import node_rules
 from lsys_kit.geometry.inference.strokes import LEAST_ANGLE, Strokes, Turning, angle_between, is_drawing, read_drawings
 from lsys_kit.geometry.inference.two_symbols import PICTURES, may_have_two_symbols, two_symbol_rules
 from lsys_kit.geometry.sameness import normalised, same_strokes
-from lsys_kit.geometry.scene import Floats
+from lsys_kit.geometry.scene import Stroke
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import read
 from lsys_kit.translation import gettext
@@ -103,17 +103,18 @@ def parting_step(systems: Sequence[LSystem], start: int) -> int | None:
     return None
 
 
-def drawn(system: LSystem, step: int) -> Floats | None:
+def drawn(system: LSystem, step: int) -> list[Stroke] | None:
     """What a system draws, about its centre and of size 1; None where it is too large to be looked at."""
     check_budget()
     try:
         derivation = derive(system, step)
         if derivation.lengths[-1] > STROKES_AHEAD * 10:
             return None
-        ends = scene_of(derivation).segments.ends
+        if number_of_strokes(derivation, step) > STROKES_AHEAD:
+            return None
+        return normalised(drawn_strokes(derivation[step]))
     except ModelLimitError:
         return None
-    return normalised(ends) if len(ends) <= STROKES_AHEAD else None
 
 
 @overload
@@ -334,6 +335,6 @@ def draws(system: LSystem, drawings: tuple[Strokes, ...]) -> bool:
     """
     for step, wanted in enumerate(drawings):
         mine = drawn(system, step)
-        if mine is None or not same_strokes(mine, normalised(wanted.coordinates), SAME_TO):
+        if mine is None or not same_strokes(mine, normalised(wanted.coordinates.tolist()), SAME_TO):
             return False
     return True

@@ -389,7 +389,9 @@ def in_plane(system: LSystem) -> bool:
     >>> in_plane(read("axiom: F[+F]/(180)F")), in_plane(read("axiom: F[+F]/(90)F"))
     (True, False)
     """
-    return all(_stays_in_plane(command, module) for command, module in commands_of(system))
+    leaving, table = symbols_with(Effect.LEAVES_PLANE, system.turtle), COMMANDS[system.turtle]
+    perhaps = (module for module in system.modules if module.symbol in leaving)
+    return all(_stays_in_plane(command, module) for module in perhaps for command in table[module.symbol])
 
 
 def _stays_in_plane(command: Command, module: Pattern) -> bool:

@@ -10,11 +10,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import chain
 from typing import TYPE_CHECKING, Any
 
-from lsys_kit.arrays import np
+from lsys_kit.arrays import is_array, np
+from lsys_kit.budget import counted
 from lsys_kit.derivation.core.words import Word
-from lsys_kit.geometry.scene import Floats, Integers, Scene, Segments
+from lsys_kit.geometry.scene import Floats, Integers, Scene, Segments, Stroke
 from lsys_kit.geometry.turtle.commands import Instruction, initial_step
 from lsys_kit.geometry.turtle.scanning import DRAWS, MOVES, Branches, Carried, Commands, added, latter, signs
 from lsys_kit.geometry.turtle.turtle import (
@@ -94,7 +96,7 @@ class PlaneTurtle(Turtle):
     def __init__(self, side: int, step: float) -> None:
         super().__init__(-1, (0.0, 0.0, side), step)
         self.in_plane = True
-        self.noted = np.empty((0, len(_COLUMN_TYPES)))
+        self.noted: Floats | tuple[()] = ()
         self.steps: list[tuple[float, float, float, int, bool, int, int, float, int]] = []
 
     def forward(self, length: float, drawn: bool) -> None:
@@ -180,15 +182,12 @@ def trace(word: Word | WordBetween) -> Path:
     >>> path.turns.tolist(), path.offsets.tolist(), path.lengths.tolist(), path.parents.tolist()
     ([0.0, 1.0, 0.0], [0.0, 0.0, -30.0], [1.0, 1.0, 2.0], [-1, 0, 0])
     """
-    system = word.states.system
-    dialect = TURTLE_DIALECTS[system.turtle]
-    turtle = PlaneTurtle(dialect.left, initial_step(system))
-    turtle.take_look(system)
-    run_turtle(turtle, word, PLANE_HANDLERS)
+    turtle = _turtle_after(word)
     columns = list(zip(*turtle.steps, strict=True)) or [()] * len(_COLUMN_TYPES)
+    noted = np.reshape(turtle.noted, (-1, len(_COLUMN_TYPES)))
     steps: dict[str, Any] = {
-        name: np.concatenate([noted.astype(kind), np.array(column, kind)])
-        for (name, kind), noted, column in zip(_COLUMN_TYPES.items(), turtle.noted.T, columns, strict=True)
+        name: np.concatenate([before.astype(kind), np.array(column, kind)])
+        for (name, kind), before, column in zip(_COLUMN_TYPES.items(), noted.T, columns, strict=True)
     }
     return Path(
         **steps,
@@ -200,6 +199,36 @@ def trace(word: Word | WordBetween) -> Path:
     )
 
 
+def _turtle_after(word: Word | WordBetween) -> PlaneTurtle:
+    system = word.states.system
+    turtle = PlaneTurtle(TURTLE_DIALECTS[system.turtle].left, initial_step(system))
+    turtle.take_look(system)
+    run_turtle(turtle, word, PLANE_HANDLERS)
+    return turtle
+
+
+def strokes_in_plane(word: Word, angle: float, heading: float) -> list[Stroke]:
+    """The strokes of a word, as they are drawn one after another.
+
+    >>> from lsys_kit import derive, read
+    >>> strokes_in_plane(derive(read("axiom: F[+F]fF(2)"), 0)[0], 180, 0)[::2]
+    [(0.0, 0.0, 1.0, 0.0), (2.0, 0.0, 4.0, 0.0)]
+    """
+    turtle, places, found, angle = _turtle_after(word), [(0.0, 0.0)], list[Stroke](), _within_turns(angle)
+    noted = turtle.noted.tolist() if is_array(turtle.noted) else ()
+    for turns, offset, length, parent, drawn, *_ in counted(chain(noted, turtle.steps)):
+        x, y = places[int(parent) + 1]
+        radians = math.radians(turns * angle + offset + heading)
+        places.append((x + length * math.cos(radians), y + length * math.sin(radians)))
+        if drawn:
+            found.append((x, y, *places[-1]))
+    return found
+
+
+def _within_turns(angle: float) -> float:
+    return math.fmod(angle, 360) if abs(angle) > LARGEST_EXACT else angle  # the number of turns is whole
+
+
 def place_path(path: Path, angle: float, heading: float = 90.0) -> Scene:
     """The scene of a path for a turning angle and an initial heading, in degrees.
 
@@ -208,8 +237,7 @@ def place_path(path: Path, angle: float, heading: float = 90.0) -> Scene:
     >>> print(place_path(trace(koch), 60, 0))
     192 segments, width 27, height 31.18
     """
-    angle = math.fmod(angle, 360) if abs(angle) > LARGEST_EXACT else angle  # the number of turns is whole
-    radians = np.radians(path.turns * angle + path.offsets + heading)
+    radians = np.radians(path.turns * _within_turns(angle) + path.offsets + heading)
     vectors = path.lengths[:, None] * np.column_stack([np.cos(radians), np.sin(radians)])
     ends = _summed_along_parents(vectors, path.parents)
     drawn = path.drawn

@@ -19,13 +19,14 @@ from __future__ import annotations
 import math
 from array import array
 from collections.abc import Callable
-from itertools import chain
+from itertools import chain, product
+from operator import mul
 from typing import Any, NamedTuple, TypeAlias
 
 from lsys_kit.arrays import is_array, np
-from lsys_kit.budget import check_budget, check_bytes
+from lsys_kit.budget import check_budget, check_bytes, counted
 from lsys_kit.derivation.core.words import Word
-from lsys_kit.geometry.scene import OWN, Floats, Scene, Segments
+from lsys_kit.geometry.scene import OWN, Floats, Scene, Segments, Stroke
 from lsys_kit.geometry.turtle.commands import Instruction, in_plane, initial_step
 from lsys_kit.geometry.turtle.scanning import DRAWS, MOVES, TURNS, Branches, Carried, Commands, added, turned
 from lsys_kit.geometry.turtle.surfaces import PATCH_FACES, Surface, patch_grid
@@ -137,22 +138,20 @@ def _here(turtle: SpaceTurtle) -> AxisPoint:
     return AxisPoint(turtle.position, turtle.orientation[0], turtle.stroke_width)
 
 
-def hermite(start: AxisPoint, end: AxisPoint, parts: int) -> Floats:
+def hermite(start: AxisPoint, end: AxisPoint, parts: int) -> list[Vector]:
     """The places on a Hermite curve between its ends.
 
-    >>> hermite(AxisPoint((0, 0, 0), (0, 0, 1), 1), AxisPoint((0, 0, 2), (0, 0, 1), 1), 2).tolist()
-    [[0.0, 0.0, 1.0]]
+    >>> hermite(AxisPoint((0, 0, 0), (0, 0, 1), 1), AxisPoint((0, 0, 2), (0, 0, 1), 1), 2)
+    [(0.0, 0.0, 1.0)]
     """
-    first, last = np.array(start.place), np.array(end.place)
-    reach = TANGENT * float(np.linalg.norm(last - first))
-    t = np.arange(1, parts)[:, None] / parts
-    found: Floats = (
-        (1 + 2 * t) * (1 - t) ** 2 * first
-        + t * (1 - t) ** 2 * reach * np.array(start.heading)
-        + t**2 * (3 - 2 * t) * last
-        - t**2 * (1 - t) * reach * np.array(end.heading)
-    )
-    return found
+    reach = TANGENT * math.dist(start.place, end.place)
+    return [_on_curve(start, end, reach, part / parts) for part in range(1, parts)]
+
+
+def _on_curve(start: AxisPoint, end: AxisPoint, reach: float, t: float) -> Vector:
+    weights = (1 + 2 * t) * (1 - t) ** 2, t * (1 - t) ** 2 * reach, t**2 * (3 - 2 * t), -(t**2) * (1 - t) * reach
+    x, y, z = (sum(map(mul, weights, axis)) for axis in zip(start.place, start.heading, end.place, end.heading, strict=True))
+    return x, y, z
 
 
 def _bounded_number(value: float) -> int:
@@ -251,7 +250,7 @@ class SpaceTurtle(Turtle):
             return
         before, self.axis = self.axis, _here(self)
         parts = _bounded_number(instruction.addend)
-        places = [*map(tuple, hermite(before, self.axis, parts).tolist()), self.position]
+        places = [*hermite(before, self.axis, parts), self.position]
         bare = OWN in (before.width, self.axis.width)
         for number, (start, end) in enumerate(zip([before.place, *places[:-1]], places, strict=True), 1):
             share = number / parts
@@ -279,12 +278,12 @@ class SpaceTurtle(Turtle):
             return
         check_bytes(FACE_BYTES * len(self.outlines), lambda: "The patches were not drawn")
         check_budget()
-        control = np.array([[points[row, column] for column in columns] for row in rows])
+        control: Any = [[points[row, column] for column in columns] for row in rows]
         along, across = (_bounded_number(value) for value in (*instruction.values[1:3], *[PATCH_FACES] * 2)[:2])
-        grids = [grid.tolist() for grid in patch_grid(control, along, across)]
-        for i, j in np.ndindex(along, across):
+        grids = patch_grid(control, along, across)
+        for i, j in product(range(along), range(across)):
             places = ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1))
-            corners, normals = ([tuple(grid[a][b]) for a, b in places] for grid in grids)
+            corners, normals = ([grid[a][b] for a, b in places] for grid in grids)
             self.outlines.append(Outline(corners, self.state, self.colour, normals))
 
     def do_turn(self, angle: tuple[float, float]) -> None:
@@ -395,12 +394,7 @@ def trace_in_space(word: Word | WordBetween, angle: float | None = None) -> Scen
     >>> print(trace_in_space(derive(bush, 4)[-1]))
     120 segments, width 5.22, height 3.78, depth 4.82
     """
-    system = word.states.system
-    turn = float(system.angle) if angle is None else angle
-    turtle = SpaceTurtle(initial_frame(system.turtle, float(system.heading)), initial_step(system))
-    turtle.take_look(system)
-    turtle.in_plane = in_plane(system)
-    run_turtle(turtle, word, SPACE_HANDLERS, lambda instruction: operand(instruction, turn))
+    turtle = turtle_after(word, float(word.states.system.angle) if angle is None else angle)
     polygons, discs = collected_shapes(turtle.outlines, turtle.rounds, _points)
     return Scene(
         strokes_of(turtle),
@@ -409,6 +403,34 @@ def trace_in_space(word: Word | WordBetween, angle: float | None = None) -> Scen
         labels=collected_labels(turtle.labels, _points),
         unknown=tuple(turtle.unknown),
     )
+
+
+def turtle_after(word: Word | WordBetween, angle: float) -> SpaceTurtle:
+    """The turtle that has interpreted a word."""
+    system = word.states.system
+    turtle = SpaceTurtle(initial_frame(system.turtle, float(system.heading)), initial_step(system))
+    turtle.take_look(system)
+    turtle.in_plane = in_plane(system)
+    run_turtle(turtle, word, SPACE_HANDLERS, lambda instruction: operand(instruction, angle))
+    return turtle
+
+
+def spans_in_space(turtle: SpaceTurtle) -> list[float]:
+    """How far what a turtle has drawn extends along each axis."""
+    places: list[Any] = [corner for outline in turtle.outlines for corner in outline.corners]
+    places += [*(each.place for each in turtle.rounds), *(each.place for each in turtle.labels)]
+    found = []
+    for axis in range(3):
+        strokes = (turtle.strokes[first::_STROKE_COLUMNS] for first in (axis, axis + 3))
+        along = [*chain(*strokes, (place[axis] for place in places))]
+        found.append(max(along, default=0.0) - min(along, default=0.0))
+    return found
+
+
+def strokes_in_space(turtle: SpaceTurtle) -> list[Stroke]:
+    """The strokes that a turtle has drawn, one after another."""
+    rows = range(0, len(turtle.strokes), _STROKE_COLUMNS)
+    return [tuple(turtle.strokes[first : first + 6]) for first in counted(rows)]
 
 
 def strokes_of(turtle: SpaceTurtle) -> Segments:

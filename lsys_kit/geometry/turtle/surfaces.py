@@ -9,16 +9,15 @@ few faces is shaded as the smooth surface.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache, cached_property, lru_cache, partial
-from itertools import pairwise
+from itertools import pairwise, product
+from operator import mul
 from typing import NamedTuple, TypeAlias
 
-from lsys_kit.arrays import np
 from lsys_kit.errors import quotable
 from lsys_kit.files import Entries, toml_tables
-from lsys_kit.geometry.scene import Floats
 from lsys_kit.geometry.turtle.commands import COMMANDS
 from lsys_kit.notation.model.modules import flat
 from lsys_kit.notation.model.surfaces import ROW, SurfacePoint, SurfaceShape
@@ -27,6 +26,8 @@ from lsys_kit.notation.model.system import LSystem
 Corner: TypeAlias = tuple[float, float, float]
 """A point in the frame of the turtle: ahead, to the left, up."""
 Face: TypeAlias = tuple[Corner, ...]
+Grid: TypeAlias = Sequence[Sequence[Corner]]
+Weights: TypeAlias = tuple[float, float, float, float]
 DECIMALS = 4
 """So many decimals of a corner are kept: a surface is about 1 long."""
 OUTLINED, BESIDE = 16, 0.008
@@ -63,16 +64,15 @@ def polygon_facets(corners: Sequence[Corner]) -> Facets:
     return Facets((face,), (), (face,))
 
 
-def patch_facets(control: Floats, along: int, across: int) -> Facets:
+def patch_facets(control: Grid, along: int, across: int) -> Facets:
     """A bicubic Bezier patch as so many rows and columns of faces.
 
     control
-        Shape (4, 4, 3): its control points, row after row.
+        Four rows of four control points.
     along, across
         The numbers of rows and of columns.
 
-    >>> square = np.array([[[row / 3, column / 3, 0.0] for column in range(4)] for row in range(4)])
-    >>> found = patch_facets(square, 1, 1)
+    >>> found = patch_facets([[(row / 3, column / 3, 0.0) for column in range(4)] for row in range(4)], 1, 1)
     >>> found.faces
     (((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (0.0, 1.0, 0.0)),)
     >>> found.normals[0][0]
@@ -81,53 +81,75 @@ def patch_facets(control: Floats, along: int, across: int) -> Facets:
     return _grid_facets(*patch_grid(control, along, across), _boundary(patch_grid(control, OUTLINED, OUTLINED)[0]))
 
 
-def patch_grid(control: Floats, along: int, across: int) -> tuple[Floats, Floats]:
+def patch_grid(control: Grid, along: int, across: int) -> tuple[Grid, Grid]:
     """The points of a patch at even parameters, and the normals there, as they are."""
-    rows, columns = np.linspace(0, 1, along + 1), np.linspace(0, 1, across + 1)
-    return _tensor(_bernstein(rows), control, _bernstein(columns)), _normals(control, rows, columns)
+    rows, columns = _even(along), _even(across)
+    return _tensor(map(_bernstein, rows), control, map(_bernstein, columns)), _normals(control, rows, columns)
 
 
-def _bernstein(t: Floats) -> Floats:
-    """Bernstein's polynomials of degree 3 at some places."""
-    return np.stack([(1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t**2 * (1 - t), t**3], axis=1)
+def _even(pieces: int) -> list[float]:
+    return [number / pieces for number in range(pieces + 1)]
 
 
-def _slopes(t: Floats) -> Floats:
-    return np.stack([-3 * (1 - t) ** 2, 3 * (1 - t) * (1 - 3 * t), 3 * t * (2 - 3 * t), 3 * t**2], axis=1)
+def _inside(t: float) -> float:
+    return min(max(t, INWARDS), 1 - INWARDS)
 
 
-def _tensor(rows: Floats, control: Floats, columns: Floats) -> Floats:
-    found: Floats = np.einsum("ai,ijk,bj->abk", rows, control, columns)
-    return found
+def _bernstein(t: float) -> Weights:
+    """Bernstein's polynomials of degree 3 at a place."""
+    return (1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t**2 * (1 - t), t**3
 
 
-def _normals(control: Floats, rows: Floats, columns: Floats) -> Floats:
+def _slopes(t: float) -> Weights:
+    return -3 * (1 - t) ** 2, 3 * (1 - t) * (1 - 3 * t), 3 * t * (2 - 3 * t), 3 * t**2
+
+
+def _weighted(weights: Weights, points: Iterable[Sequence[float]]) -> list[float]:
+    return [sum(map(mul, weights, axis)) for axis in zip(*points, strict=True)]
+
+
+def _tensor(rows: Iterable[Weights], control: Grid, columns: Iterable[Weights]) -> Grid:
+    curves = [[_weighted(column, line) for line in control] for column in columns]
+    return [[_corner(_weighted(row, curve)) for curve in curves] for row in rows]
+
+
+def _corner(numbers: Iterable[float]) -> Corner:
+    ahead, left, up = numbers
+    return ahead, left, up
+
+
+def _normals(control: Grid, rows: Sequence[float], columns: Sequence[float]) -> Grid:
     """The unit normals at the corners of faces: the cross products of the tangents; upwards where there is none."""
-    rows, columns = (np.clip(places, INWARDS, 1 - INWARDS) for places in (rows, columns))
-    found = np.cross(_tensor(_slopes(rows), control, _bernstein(columns)), _tensor(_bernstein(rows), control, _slopes(columns)))
-    lengths = np.linalg.norm(found, axis=2, keepdims=True)
-    return np.where(lengths > 0, found / np.where(lengths > 0, lengths, 1.0), (0.0, 0.0, 1.0))
+    along, across = ([*map(_inside, places)] for places in (rows, columns))
+    tangents = (
+        _tensor(map(_slopes, along), control, map(_bernstein, across)),
+        _tensor(map(_bernstein, along), control, map(_slopes, across)),
+    )
+    return [[_normal(*pair) for pair in zip(*lines, strict=True)] for lines in zip(*tangents, strict=True)]
 
 
-def _grid_facets(points: Floats, normals: Floats, outline: Sequence[Corner]) -> Facets:
+def _normal(one: Corner, other: Corner) -> Corner:
+    (ax, ay, az), (bx, by, bz) = one, other
+    found = ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
+    length = math.hypot(*found)
+    return _corner(each / length for each in found) if length > 0 else (0.0, 0.0, 1.0)
+
+
+def _grid_facets(points: Grid, normals: Grid, outline: Sequence[Corner]) -> Facets:
     """The faces between the rows and columns of a grid of points; those without an area are left out."""
-    corners, upright = (_corners(grid) for grid in (points, normals))
+    corners, upright = ([[*map(_rounded, row)] for row in grid] for grid in (points, normals))
     found = []
-    for i, j in np.ndindex(len(points) - 1, points.shape[1] - 1):
+    for i, j in product(range(len(points) - 1), range(len(points[0]) - 1)):
         distinct = {corners[a][b]: upright[a][b] for a, b in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1))}
         if len(distinct) > 2:
             found.append((tuple(distinct), tuple(distinct.values())))
     return Facets(tuple(face for face, _ in found), tuple(normal for _, normal in found), (tuple(outline),))
 
 
-def _corners(grid: Floats) -> list[list[Corner]]:
-    return [[_rounded(corner) for corner in row] for row in grid.tolist()]
-
-
-def _boundary(points: Floats) -> list[Corner]:
+def _boundary(points: Grid) -> list[Corner]:
     """The outline of a grid of points, with no more corners than are seen in the plane."""
-    around = np.concatenate([points[:-1, 0], points[-1, :-1], points[:0:-1, -1], points[0, :0:-1]])
-    corners = [_rounded(corner) for corner in around.tolist()]
+    first, last = ([row[end] for row in points] for end in (0, -1))
+    corners = [*map(_rounded, (*first[:-1], *points[-1][:-1], *last[:0:-1], *points[0][:0:-1]))]
     farthest = max(range(len(corners)), key=lambda number: math.dist(corners[number][:2], corners[0][:2]))
     halves = (_simplified(half) for half in (corners[: farthest + 1], [*corners[farthest:], corners[0]]))
     bent = [corner for half in halves for corner in half[:-1]]
@@ -163,7 +185,7 @@ def rolled(degrees: float) -> Callable[[Corner], Corner]:
     return lambda corner: _rounded((corner[0], cos * corner[1] - sin * corner[2], sin * corner[1] + cos * corner[2]))
 
 
-def blade_control(midrib: Sequence[Sequence[float]], margin: Sequence[Sequence[float]], bulge: float) -> Floats:
+def blade_control(midrib: Sequence[Sequence[float]], margin: Sequence[Sequence[float]], bulge: float) -> Grid:
     """The control points of the left half of a blade, from its midrib to its margin.
 
     midrib
@@ -173,18 +195,20 @@ def blade_control(midrib: Sequence[Sequence[float]], margin: Sequence[Sequence[f
     bulge
         How far the blade is raised between them.
     """
-    inner = np.array([(ahead, 0.0, up) for ahead, up in midrib])
-    outer = np.array(margin, float)
-    shares = np.arange(4)[None, :, None] / 3
-    raised = np.zeros((4, 4, 3))
-    raised[1:3, 1:3, 2] = bulge
-    return inner[:, None] * (1 - shares) + outer[:, None] * shares + raised
+    inner = [(ahead, 0.0, up) for ahead, up in midrib]
+    raised = [[(0.0, 0.0, bulge * (0 < row < 3 and 0 < column < 3)) for column in range(4)] for row in range(4)]
+    return [
+        [
+            _corner(one * (1 - share / 3) + other * share / 3 + more for one, other, more in zip(*ends, lift, strict=True))
+            for share, lift in enumerate(lifts)
+        ]
+        for *ends, lifts in zip(inner, margin, raised, strict=True)
+    ]
 
 
-def mirrored_control(control: Floats) -> Floats:
+def mirrored_control(control: Grid) -> Grid:
     """The control points of the other half of a blade, which is seen from the same side."""
-    mirrored: Floats = control[:, ::-1] * (1, -1, 1)
-    return mirrored
+    return [[(ahead, -left, up) for ahead, left, up in reversed(row)] for row in control]
 
 
 def revolved_facets(profile: Sequence[Sequence[float]], sides: int, pieces: int) -> Facets:
@@ -200,28 +224,22 @@ def revolved_facets(profile: Sequence[Sequence[float]], sides: int, pieces: int)
     >>> len(ball.faces), len(ball.outlines[0])
     (12, 6)
     """
-    places, slopes = (_along(np.array(profile, float), basis, pieces) for basis in (_bernstein, _slopes))
-    lengths = np.linalg.norm(slopes, axis=1, keepdims=True)
-    slopes = slopes / np.where(lengths > 0, lengths, 1.0)
-    angles = -2 * np.pi * np.arange(sides + 1) / sides % (2 * np.pi)
+    places, slopes = (_along(profile, basis, pieces) for basis in (_bernstein, _slopes))
+    across = [(-out / (length or 1), ahead / (length or 1)) for ahead, out in slopes for length in [math.hypot(ahead, out)]]
+    turns = [-math.tau * side / sides % math.tau for side in range(sides + 1)]
     points, normals = (
-        np.stack(
-            [np.broadcast_to(each[:, :1], (len(each), sides + 1)), each[:, 1:] * np.cos(angles), each[:, 1:] * np.sin(angles)],
-            axis=2,
-        )
-        for each in (places, slopes[:, ::-1] * (-1, 1))
+        [[(ahead, out * math.cos(turn), out * math.sin(turn)) for turn in turns] for ahead, out in each]
+        for each in (places, across)
     )
-    side = [(float(ahead), float(out), 0.0) for ahead, out in places]
-    outline = [*side, *((ahead, -out, 0.0) for ahead, out, _ in side[-2:0:-1])]
+    outline = [*((ahead, out, 0.0) for ahead, out in places), *((ahead, -out, 0.0) for ahead, out in places[-2:0:-1])]
     return _grid_facets(points, normals, [*dict.fromkeys(map(_rounded, outline))])
 
 
-def _along(profile: Floats, basis: Callable[[Floats], Floats], pieces: int) -> Floats:
+def _along(profile: Sequence[Sequence[float]], basis: Callable[[float], Weights], pieces: int) -> list[list[float]]:
     """The places along the curves of a profile, or the slopes there: just inside where a curve ends in a point."""
-    t = np.linspace(0, 1, pieces + 1)
-    weights = basis(np.clip(t, INWARDS, 1 - INWARDS) if basis is _slopes else t)
-    curves = [weights @ profile[first : first + 4] for first in range(0, len(profile) - 1, 3)]
-    return np.concatenate([curves[0], *(curve[1:] for curve in curves[1:])])
+    weights = [basis(_inside(t) if basis is _slopes else t) for t in _even(pieces)]
+    curves = [[_weighted(each, profile[first : first + 4]) for each in weights] for first in range(0, len(profile) - 1, 3)]
+    return [*curves[0], *(place for curve in curves[1:] for place in curve[1:])]
 
 
 MOST_CURVED = 150
@@ -307,7 +325,8 @@ def declared_surface(shape: SurfaceShape) -> Surface:
 def _declared_facets(shape: SurfaceShape) -> Facets:
     if shape.polygon:
         return polygon_facets([_floats(corner) for corner in shape.polygon])
-    controls = (np.array([_floats(point) for point in patch]).reshape(ROW, ROW, 3) for patch in shape.patches)
+    points = ([*map(_floats, patch)] for patch in shape.patches)
+    controls = ([patch[first : first + ROW] for first in range(0, ROW**2, ROW)] for patch in points)
     return joined_facets([patch_facets(control, PATCH_FACES, PATCH_FACES) for control in controls])
 
 

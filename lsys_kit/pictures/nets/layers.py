@@ -16,14 +16,13 @@ to the next. These turn round side by side.
 from __future__ import annotations
 
 from bisect import bisect_right, insort
-from collections import defaultdict
+from collections import defaultdict, deque
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import pairwise
 from math import dist, inf
 from random import Random
 from typing import NamedTuple, TypeAlias
 
-from lsys_kit.arrays import np
 from lsys_kit.budget import check_budget
 from lsys_kit.derivation.petri.net import Stages
 from lsys_kit.pictures.nets.layout import ARROW_LENGTH, BAR, EDGE, LABEL, RADIUS, BarPosition, Layout, Point, Texts
@@ -56,6 +55,9 @@ _Column: TypeAlias = tuple[float, float, float]
 """The left edge, the middle and the right edge of a column."""
 _Piece: TypeAlias = tuple[int, int, int]
 """A piece of a line: the number of its edge, and the vertices from which and to which it leads, from left to right."""
+_Arc: TypeAlias = tuple[int, int, int, float]
+"""The number of a pull, 1 upwards or -1 downwards, where it leads, and how much higher that is."""
+NEGLIGIBLE = 1e-9
 _Neighbours: TypeAlias = Mapping[int, Sequence[int]]
 """For each vertex its neighbours in the next layer, or in the one before."""
 
@@ -97,38 +99,79 @@ def layered(count: int, edges: Sequence[tuple[int, int]], weights: Sequence[int]
 
 def _closing(count: int, edges: Sequence[tuple[int, int]], first: Sequence[int]) -> set[int]:
     """The numbers of the edges that close a cycle of a search in depth: they lead to where it is not finished yet."""
-    import networkx
-
-    graph = networkx.DiGraph()
-    graph.add_nodes_from([*first, *range(count)])
-    graph.add_edges_from(edges)
-    finished = {vertex: moment for moment, vertex in enumerate(networkx.dfs_postorder_nodes(graph))}
+    after: list[list[int]] = [[] for _ in range(count)]
+    for source, target in edges:
+        after[source].append(target)
+    finished, seen = dict[int, int](), set[int]()
+    for start in (*first, *range(count)):
+        way = [] if start in seen else [(start, iter(after[start]))]
+        seen.add(start)
+        while way:
+            vertex, onward = way[-1]
+            other = next((each for each in onward if each not in seen), None)
+            if other is None:
+                finished[vertex] = len(finished)
+                way.pop()
+            else:
+                seen.add(other)
+                way.append((other, iter(after[other])))
     return {number for number, (source, target) in enumerate(edges) if finished[target] >= finished[source]}
 
 
 def _ranks(count: int, edges: Sequence[tuple[int, int]], weights: Sequence[int]) -> list[int]:
-    """The layer of each vertex such that the weighted sum of the edges' lengths is least: a linear programme with whole numbers
-    as its solution."""
-    costs, entries = [0.0] * count, []
-    for number, ((source, target), weight) in enumerate(zip(edges, weights, strict=True)):
-        costs[target] += weight
-        costs[source] -= weight
-        entries += [(number, source, 1.0), (number, target, -1.0)]
-    return [round(rank) for rank in _least(costs, entries, [-1.0] * len(edges))]
+    """The layer of each vertex such that the weighted sum of the edges' lengths is least."""
+    pulls = [_Pull(source, target, weight, 1) for (source, target), weight in zip(edges, weights, strict=True)]
+    return [round(rank) for rank in _least(count, pulls)]
 
 
-def _least(costs: Sequence[float], entries: Sequence[tuple[int, int, float]], bounds: Sequence[float]) -> Sequence[float]:
-    """The values of variables, none below 0, whose sum with their costs is least, given bounds of other sums of multiples of
-    them: the bound, the variable and the factor."""
-    from scipy.optimize import linprog
-    from scipy.sparse import coo_array
+class _Pull(NamedTuple):
+    """An edge that is to be short: the value of its upper end is by so much above that of its lower end at least."""
 
-    if not bounds:
-        return [0.0] * len(costs)
-    rows, columns, values = zip(*entries, strict=True)
-    matrix = coo_array((values, (rows, columns)), shape=(len(bounds), len(costs))).tocsr()
-    found: Sequence[float] = linprog(costs, matrix, bounds, bounds=(0, None), method="highs-ds").x
-    return found
+    lower: int
+    upper: int
+    weight: int
+    least: float
+
+
+def _least(count: int, pulls: Sequence[_Pull], helping: int = 0) -> list[float]:
+    """The values of variables for which the weighted sum of the lengths of pulls is least, each as small as it can be then, and
+    none below 0 but of those that help, which come last.
+
+    The dual is a flow of greatest gain: pulls that carry some of it are as short as they may be. It begins with each pull's own
+    weight, and goes round cycles of gain, until there is none (M. Klein, 1967).
+    """
+    flow, values = [pull.weight for pull in pulls], [0.0] * (count + helping)
+    arcs: list[list[_Arc]] = [[] for _ in values]
+    for number, (lower, upper, _, least) in enumerate(pulls):
+        arcs[lower].append((number, 1, upper, least))
+        arcs[upper].append((number, -1, lower, -least))
+    while cycle := _raised(values, arcs, flow):
+        check_budget()
+        more = min(flow[number] for number, way in cycle if way < 0)
+        for number, way in cycle:
+            flow[number] += way * more
+    values = [0.0] * count + [-inf] * helping
+    _raised(values, arcs, flow)
+    return values
+
+
+def _raised(values: list[float], arcs: Sequence[Sequence[_Arc]], flow: Sequence[int]) -> list[tuple[int, int]]:
+    """Raise values as far as pulls, and those with a flow in both directions, ask for it; or a cycle that raises itself."""
+    queue, behind = deque(range(len(values))), dict[int, tuple[int, int, int]]()
+    while queue:
+        vertex = queue.popleft()
+        for number, way, other, gain in arcs[vertex]:
+            if (way > 0 or flow[number]) and values[vertex] + gain > values[other] + NEGLIGIBLE:
+                values[other], behind[other] = values[vertex] + gain, (vertex, number, way)
+                cycle, at = [(number, way)], vertex
+                while at != other and at in behind:
+                    at, *arc = behind[at]
+                    cycle.append((arc[0], arc[1]))
+                if at == other:
+                    return cycle
+                if other not in queue:
+                    queue.append(other)
+    return []
 
 
 def _ordered(layers: list[list[int]], pieces: Iterable[tuple[int, int]]) -> tuple[list[list[int]], int]:
@@ -307,23 +350,17 @@ class _InLayers:
         Lines between two tiers, which begin with some layers, need not be straight.
         """
         bent = {piece for start in tiers if start for piece in self._cut(start)}
-        count, costs = sum(map(len, self.layers.layers)), list[float]()
-        entries = []
-        bounds: list[float] = []
-        for edge, chain in enumerate(self.layers.chains):
-            straight = [piece for piece in pairwise(chain) if (edge, *piece) not in bent]
-            for a, b in straight:  # |a + shift - b| is at most the piece's own variable
-                shift = self.ports.get((edge, a), 0.0) - self.ports.get((edge, b), 0.0)
-                for sign in (1.0, -1.0):
-                    entries += [(len(bounds), a, sign), (len(bounds), b, -sign), (len(bounds), count + len(costs), -1.0)]
-                    bounds.append(-sign * shift)
-                inside = min(a, b) >= self.vertices
-                costs.append(FEED if edge < len(self.bars) else DUMMY if inside else ARC)
+        count, pulls = sum(map(len, self.layers.layers)), list[_Pull]()
+        lines = [(edge, a, b) for edge, chain in enumerate(self.layers.chains) for a, b in pairwise(chain)]
+        pieces = [piece for piece in lines if piece not in bent]
+        for number, (edge, a, b) in enumerate(pieces, count):  # a variable of its own below both ends draws them together
+            shift = self.ports.get((edge, a), 0.0) - self.ports.get((edge, b), 0.0)
+            weight = FEED if edge < len(self.bars) else DUMMY if min(a, b) >= self.vertices else ARC
+            pulls += [_Pull(number, a, weight, -shift), _Pull(number, b, weight, 0.0)]
         for layer in self.layers.layers:
             for a, b in pairwise(layer):
-                entries += [(len(bounds), a, 1.0), (len(bounds), b, -1.0)]
-                bounds.append(-(self.boxes[a].below + self.boxes[b].above + SPACE))
-        ys = _least([1e-6] * count + costs, entries, bounds)
+                pulls.append(_Pull(a, b, 0, self.boxes[a].below + self.boxes[b].above + SPACE))
+        ys = _least(count, pulls, len(pieces))
         top = min((ys[v] - self.boxes[v].above for v in range(count)), default=0.0)
         return {v: float(ys[v] - top + EDGE) for v in range(count)}
 
@@ -443,15 +480,21 @@ def _notes(
     """The positions of the notes of arcs: each on its line, as far from other lines and texts as it can be, within reason."""
     found = {}
     for arc in (arc for arc in texts.notes if arc in arcs):
-        others = np.array([point for line in lines if line is not arcs[arc] for point in _sampled(line)] or [(-1e6, -1e6)])
-        reach = np.array([texts.notes[arc] / 2, NOTE / 2])
-        boxes = np.array([(x, y, across, above) for x, y, across, above in taken] or [(-1e6, -1e6, 0, 0)])
-        points = np.array(_sampled(arcs[arc])[1:-1])
-        clear = np.max(np.abs(points[:, None] - others) - reach, axis=2).min(axis=1)
-        apart = np.max(np.abs(points[:, None] - boxes[:, :2]) - reach - boxes[:, 2:], axis=2).min(axis=1)
-        best = int(np.argmax(np.minimum(np.minimum(clear, apart), CLEARANCE)))
-        found[arc] = (float(points[best][0]), float(points[best][1]))
-        taken.append((*found[arc], texts.notes[arc] / 2, NOTE / 2))
+        across, above = texts.notes[arc] / 2, NOTE / 2
+        others = [(*point, 0.0, 0.0) for line in lines if line is not arcs[arc] for point in _sampled(line)]
+        best, most = (0.0, 0.0), -inf
+        for x, y in _sampled(arcs[arc])[1:-1]:
+            room = CLEARANCE
+            for left, top, width, height in (*taken, *others):
+                room = min(room, max(abs(x - left) - across - width, abs(y - top) - above - height))
+                if room <= most:
+                    break
+            if room > most:
+                best, most = (x, y), room
+            if most == CLEARANCE:
+                break
+        found[arc] = best
+        taken.append((*best, across, above))
     return found
 
 

@@ -179,8 +179,12 @@ def lies_flat(scene: Scene) -> bool:
     >>> [lies_flat(trace_in_space(derive(read(text), 0)[0])) for text in ("axiom: F+F", "axiom: F&F")]
     [True, False]
     """
-    spans = _spans(scene)
-    return scene.dimension == 2 or bool(spans[1] <= FLAT * max(spans))
+    return scene.dimension == 2 or is_flat(_spans(scene).tolist())
+
+
+def is_flat(spans: Sequence[float]) -> bool:
+    """Whether what extends so far along each axis lies in the plane of the picture."""
+    return spans[1] <= FLAT * max(spans)
 
 
 def _spans(scene: Scene) -> Floats:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from lsys_kit.arrays import np
 from lsys_kit.budget import check_budget
 from lsys_kit.classroom.exercises.asked import asked_system, written
 from lsys_kit.classroom.exercises.exercise import Exercise
@@ -20,9 +20,10 @@ from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.classroom.exercises.typed import read_typed, without_comments
 from lsys_kit.derivation.derive import Derivation
 from lsys_kit.errors import ModelValueError
-from lsys_kit.geometry.drawing import scene_of
+from lsys_kit.geometry.drawing import drawn_strokes, number_of_strokes
 from lsys_kit.geometry.sameness import normalised, same_strokes
-from lsys_kit.geometry.scene import Floats
+from lsys_kit.geometry.scene import Stroke
+from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
 from lsys_kit.notation.model.system import LSystem, Production
 from lsys_kit.notation.read import read
 from lsys_kit.worlds.derive import derive
@@ -34,16 +35,16 @@ NEAR = 1e-4
 """How far a stroke may be beside another, where the first stroke is 1 long."""
 
 
-def strokes_that_fit(mine: Floats, wanted: Floats) -> int:
+def strokes_that_fit(mine: Sequence[Stroke], wanted: Sequence[Stroke]) -> int:
     """How many of the first strokes of a drawing lie on another one, if its first stroke lies on that one's first.
 
-    Strokes are rows x, y of their beginning and of their end; those that follow one another straight on count as one line.
+    Strokes that follow one another straight on count as one line.
 
-    >>> bent, straight = np.array([[0.0, 0, 0, 1], [0, 1, 1, 1]]), np.array([[0.0, 0, 0, 1], [0, 1, 0, 2], [0, 2, 1, 2]])
+    >>> bent, straight = [(0.0, 0, 0, 1), (0, 1, 1, 1)], [(0.0, 0, 0, 1), (0, 1, 0, 2), (0, 2, 1, 2)]
     >>> strokes_that_fit(bent, straight), strokes_that_fit(straight, straight), strokes_that_fit(straight[:1], bent[:0])
     (1, 3, 0)
     """
-    if not len(mine) or not len(wanted):
+    if not mine or not wanted:
         return 0
     own, other = _from_the_first(mine), _from_the_first(wanted)
     for number, stroke in enumerate(own):
@@ -53,27 +54,27 @@ def strokes_that_fit(mine: Floats, wanted: Floats) -> int:
     return len(own)
 
 
-def _from_the_first(ends: Floats) -> Floats:
-    """Strokes as they stand to the first: it leads from 0 to 1; shape (n, 2), complex."""
-    points = ends[:, 0::2] + 1j * ends[:, 1::2]
-    start, end = points[0]
-    return np.asarray((points - start) / ((end - start) or 1))
+def _from_the_first(strokes: Sequence[Stroke]) -> list[tuple[complex, complex]]:
+    """Strokes as they stand to the first: it leads from 0 to 1."""
+    x, y, u, v = strokes[0]
+    start, unit = complex(x, y), complex(u - x, v - y) or 1
+    return [((complex(x, y) - start) / unit, (complex(u, v) - start) / unit) for x, y, u, v in strokes]
 
 
-def _lies_on(stroke: Floats, others: Floats) -> bool:
+def _lies_on(stroke: tuple[complex, complex], others: Sequence[tuple[complex, complex]]) -> bool:
     start, end = stroke
     length = abs(end - start)
     if length < NEAR:
         return True
-    along = (others - start) / (end - start)
-    straight = np.abs(along.imag).max(axis=1) * length < NEAR
-    spans = np.sort(along.real[straight], axis=1)
+    ahead = (end - start).conjugate() / length
+    seen = ((ahead * (one - start), ahead * (other - start)) for one, other in others)
+    spans = (sorted((one.real, other.real)) for one, other in seen if abs(one.imag) < NEAR and abs(other.imag) < NEAR)
     reached = 0.0
-    for low, high in spans[np.argsort(spans[:, 0])]:
-        if low * length > reached * length + NEAR:
+    for low, high in sorted(spans):
+        if low > reached + NEAR:
             break
-        reached = max(reached, float(high))
-    return bool(reached * length >= length - NEAR)
+        reached = max(reached, high)
+    return reached >= length - NEAR
 
 
 # What is drawn
@@ -93,17 +94,23 @@ class Drawn:
     derivation: Derivation
 
     @cached_property
-    def strokes(self) -> Floats:
-        """The strokes, those on one line that touch joined, about their centre and of size 1: shape (n, 4) or (n, 6)."""
-        return normalised(joined_strokes(self.ends) if self.ends.shape[1] == 4 else self.ends)
+    def strokes(self) -> list[Stroke]:
+        """The strokes, in the plane those on one line that touch joined, about their centre and of size 1."""
+        return normalised(joined_strokes(self.ends) if self.in_plane else self.ends)
 
     @cached_property
-    def ends(self) -> Floats:
-        """The strokes as they are drawn, in order: shape (n, 4) or (n, 6)."""
-        ends = scene_of(self.derivation).segments.ends
-        if len(ends) > MOST_STROKES:
-            raise ModelValueError(reply("drawing.too_many_strokes", number=f"{len(ends):,}", most=f"{MOST_STROKES:,}"))
+    def ends(self) -> list[Stroke]:
+        """The strokes as they are drawn, in order."""
+        many, ends = number_of_strokes(self.derivation, self.derivation.steps), list[Stroke]()
+        if many <= MOST_STROKES:
+            ends = drawn_strokes(self.derivation[-1])
+        if (many := max(many, len(ends))) > MOST_STROKES:  # there may be more along cylinders
+            raise ModelValueError(reply("drawing.too_many_strokes", number=f"{many:,}", most=f"{MOST_STROKES:,}"))
         return ends
+
+    @property
+    def in_plane(self) -> bool:
+        return drawing_mode(self.derivation.states.system) is not DrawingMode.SPACE
 
 
 def drawn(exercise: Exercise, system: LSystem) -> Drawn:
@@ -111,23 +118,23 @@ def drawn(exercise: Exercise, system: LSystem) -> Drawn:
     return Drawn(derive(system, exercise.steps))
 
 
-def joined_strokes(ends: Floats) -> Floats:
+def joined_strokes(strokes: Sequence[Stroke]) -> list[Stroke]:
     """Strokes on one straight line that touch or overlap, as one.
 
-    >>> joined_strokes(np.array([[0.0, 0, 0, 1], [0, 1, 0, 2], [0, 5, 0, 4]])).tolist()
-    [[0.0, 0.0, 0.0, 2.0], [0.0, 4.0, 0.0, 5.0]]
+    >>> joined_strokes([(0.0, 0, 0, 1), (0, 1, 0, 2), (0, 5, 0, 4)])
+    [(0.0, 0.0, 0.0, 2.0), (0.0, 4.0, 0.0, 5.0)]
     """
     rows: dict[tuple[float, ...], list[tuple[float, float]]] = {}
-    size = max(float(np.abs(ends).max(initial=0)), 1e-300)
-    for x, y, u, v in (ends / size).tolist():
-        length = float(np.hypot(u - x, v - y))
+    size = max(max((abs(at) for stroke in strokes for at in stroke), default=0.0), 1e-300)
+    for x, y, u, v in ((at / size for at in stroke) for stroke in strokes):
+        length = math.hypot(u - x, v - y)
         if length > 1e-9:
             across, up = _direction((u - x) / length, (v - y) / length)
             key = (round(across, 6) + 0.0, round(up, 6) + 0.0, round(x * up - y * across, 6) + 0.0)
             one, other = x * across + y * up, u * across + v * up
             rows.setdefault(key, []).append((min(one, other), max(one, other)))
-    found = [_ends(key, low, high) for key, spans in sorted(rows.items()) for low, high in _merged(sorted(spans))]
-    return np.array(found, dtype=float).reshape(-1, 4) * size
+    found = (_ends(key, low, high) for key, spans in sorted(rows.items()) for low, high in _merged(sorted(spans)))
+    return [tuple(at * size for at in stroke) for stroke in found]
 
 
 def _direction(across: float, up: float) -> tuple[float, float]:
@@ -200,12 +207,12 @@ def _difference(exercise: Exercise, mine: Drawn, wanted: Drawn) -> Difference:
 
 def _are_followed(mine: Drawn, wanted: Drawn) -> bool:
     """Whether two drawings are compared stroke by stroke."""
-    return mine.ends.shape[1] == 4 and wanted.ends.shape[1] == 4 and max(len(mine.ends), len(wanted.ends)) <= MOST_FOLLOWED
+    return mine.in_plane and wanted.in_plane and max(len(mine.ends), len(wanted.ends)) <= MOST_FOLLOWED
 
 
-def _first_difference(mine: Drawn, wanted: Drawn) -> tuple[int, Floats]:
+def _first_difference(mine: Drawn, wanted: Drawn) -> tuple[int, list[Stroke]]:
     """How many of the first strokes of a drawing are right, and the right ones, mirrored where that fits better."""
-    other = np.asarray(wanted.ends * [-1, 1, -1, 1])
+    other: list[Stroke] = [(-x, y, -u, v) for x, y, u, v in wanted.ends]
     rights = [wanted.ends]
     if same_strokes(normalised(joined_strokes(other)), wanted.strokes):
         rights.append(other)  # the picture is its own mirror image
@@ -227,7 +234,7 @@ def _walks(_: Exercise, mine: Drawn, wanted: Drawn) -> str:
 
     Where the answer is a word, each stroke is a letter of it: then no stroke is shown but those that were typed.
     """
-    if not len(mine.ends) or not _are_followed(mine, wanted):
+    if not mine.ends or not _are_followed(mine, wanted):
         return ""
     fitting, right = _first_difference(mine, wanted)
     own, wanted_rows = _from_the_first(mine.ends), _from_the_first(right)
@@ -235,9 +242,10 @@ def _walks(_: Exercise, mine: Drawn, wanted: Drawn) -> str:
         return ""  # they differ in nothing that a walk shows
     is_word = len(wanted.derivation) == 1
     missing = next((number for number, each in enumerate(wanted_rows) if not _lies_on(each, own[:fitting])), None)
-    start, end = mine.ends[0, 0::2] + 1j * mine.ends[0, 1::2]
-    ahead = (end - start) / (abs(end - start) or 1)
-    return walks_beside(np.asarray(ahead * own), fitting, None if is_word else np.asarray(ahead * wanted_rows), missing)
+    x, y, u, v = mine.ends[0]
+    ahead = complex(u - x, v - y) / (math.hypot(u - x, v - y) or 1)
+    seen, right_seen = ([(ahead * start, ahead * end) for start, end in rows] for rows in (own, wanted_rows))
+    return walks_beside(seen, fitting, None if is_word else right_seen, missing)
 
 
 def _honest(_: Exercise, mine: Drawn, wanted: Drawn) -> bool:

@@ -24,11 +24,12 @@ from lsys_kit.derivation.core.traits import traits_of
 from lsys_kit.errors import LSystemError, ModelValueError
 from lsys_kit.geometry.drawing import turning_angle
 from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
+from lsys_kit.geometry.turtle.space import spans_in_space, turtle_after
 from lsys_kit.notation.model.arithmetic import Value, number_text
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import AnySystem, cells_notation, read, read_any
 from lsys_kit.notation.write import write
-from lsys_kit.pictures.rendering.view import FROM_THE_RIGHT, FRONT, lies_flat
+from lsys_kit.pictures.rendering.view import FROM_THE_RIGHT, FRONT, is_flat
 from lsys_kit.pictures.style.labels import place_text
 
 MOST_BOOKS, MOST_CHARACTERS = 2_000, 400_000
@@ -88,10 +89,11 @@ class OpenedSystem:
         if drawing_mode(self.system) is not DrawingMode.SPACE:
             return FRONT
         try:
-            scene = self._views(self.system.seed or 0).sight(self.steps, {**self.given, **self.first}).scene
+            derivation = self._views(self.system.seed or 0).known({**self.given, **self.first})[0].to(self.steps)
+            turtle = turtle_after(derivation[self.steps], float(self.system.angle))
         except LSystemError:
             return FROM_THE_RIGHT
-        return FRONT if lies_flat(scene) else FROM_THE_RIGHT
+        return FRONT if is_flat(spans_in_space(turtle)) else FROM_THE_RIGHT
 
     @property
     def angle(self) -> float:
