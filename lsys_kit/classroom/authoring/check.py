@@ -4,7 +4,6 @@ all else is advice."""
 from __future__ import annotations
 
 import os
-import re
 import tomllib
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
@@ -144,13 +143,16 @@ def _said_in(exercise: Exercise, where: str) -> Iterator[Finding]:
     texts = [exercise.question, exercise.explanation, *exercise.hints, *(each.says for each in exercise.slips)]
     for left, sign, right, value, _ in wrong_calculations(without_marks("\n\n".join(texts))):
         yield finding(where, "calculation", left=left, sign=sign, right=right, value=value)
-    there = dict(_RULE_LINE.findall(exercise.system))
-    for left, right in _RULE_LINE.findall(exercise.question) if exercise.kind in ("word", "number", "table") else ():
+    there = dict(_rules_in(exercise.system))
+    for left, right in _rules_in(exercise.question) if exercise.kind in ("word", "number", "table") else ():
         if left in there and bare(right) != bare(there[left]):
             yield finding(where, "other_rule", rule=f"{left} -> {right}"[:80], right=f"{left} -> {there[left]}"[:80])
 
 
-_RULE_LINE = re.compile(r"^ *([^\n]{1,60}?) *-> *([^\n]*)$", re.MULTILINE)
+def _rules_in(text: str) -> list[tuple[str, str]]:
+    """The lines of a text that are rules: their left and right sides."""
+    parts = (each.partition("->") for each in text.splitlines())
+    return [(left.strip(), right.strip()) for left, arrow, right in parts if arrow]
 
 
 @cache

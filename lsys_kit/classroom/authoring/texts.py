@@ -25,7 +25,7 @@ _FIXED = re.compile(
 )
 """What a translation has as it is: code, formulas, addresses, names in braces, tags."""
 _LETTER = re.compile(r"[^\W\d_]")
-_FIGURE = re.compile(r"\d++(?:[.,]\d++)*+")
+_FIGURE = re.compile(r"\d[\d.,]*+")
 
 
 def fixed_parts(text: str) -> Counter[str]:
