@@ -758,6 +758,7 @@ def test_a_table_of_ones_own_counts_in_a_system() -> None:
         ({"columns": ["step", "b"], "rows": [["x", ...]], "system": FIBONACCI}, "must be a step"),
         ({"columns": ["step", "b"], "rows": [[3, {"rihgt": 3}]]}, "rihgt"),
         ({"columns": ["step", "b"], "rows": 3}, "needs columns and rows"),
+        ({"columns": ["step", "z"], "rows": [[3, ...]], "system": FIBONACCI}, '"z" cannot be counted in this system'),
     ],
 )
 def test_a_table_of_ones_own_says_what_it_needs(given: dict[str, object], says: str) -> None:
@@ -773,6 +774,7 @@ def test_a_question_about_a_system_knows_its_answer_and_its_misconceptions() -> 
     assert asked.result["marks"] == ["not yet"]
     assert "one step too early" in " ".join(asked.result["notes"])
     assert ask("How many?", FIBONACCI, count="a", step=3).asked == {}
+    assert ask("How many?", FIBONACCI, count="b", step=0).asked == {}, "a symbol that a later step has"
 
 
 @pytest.mark.parametrize(
@@ -783,6 +785,7 @@ def test_a_question_about_a_system_knows_its_answer_and_its_misconceptions() -> 
         (lambda: ask("How many has step 3?", "no such system"), "no such system"),
         (lambda: ask("How many?", FIBONACCI, step=-1), "whole number"),
         (lambda: ask("How many?", FIBONACCI, step=10**6), "whole number"),
+        (lambda: ask("How many?", FIBONACCI, count="z", step=3), '"z" cannot be counted'),
     ],
 )
 def test_a_question_about_a_system_says_what_it_needs(call: Callable[[], object], says: str) -> None:
