@@ -421,12 +421,46 @@ MISTAKES: dict[str, tuple[str, str, str, str]] = {
         "How many, in steps, has step 6?",
         'asks for steps, and the unit is "buds"',
     ),
+    "a calculation of an exercise": (
+        EXERCISES,
+        "8, 16, 32, 64.",
+        "8, 16, 32, 64, which is 27/256, about 0.15.",
+        "27/256 ≈ 0.15; it comes to 0.105",
+    ),
+    "a rule of an exercise": (
+        EXERCISES,
+        'question = "The axiom is `B`, and the rule is `B -> F[B]B`.',
+        'question = "The axiom is `B`, and the rule is\\n\\n    B -> F[B]\\n\\nHere `B` is a bud.',
+        "has the rule B -> F[B], and the system has B -> F[B]B",
+    ),
+    "a section of the teacher's": (
+        TEACHER,
+        "## On the board",
+        "Open the predictions in sections 2, 3 and 4.\n\n## On the board",
+        "has a prediction in section 3, and none",
+    ),
+    "a vote of the teacher's": (
+        TEACHER,
+        "## On the board",
+        "Open the first vote in section 2, the tables in sections 3 and 4.\n\n## On the board",
+        "has a vote in section 2, and none",
+    ),
+    "a reply that says what is right": (
+        TOML,
+        "Then there is one bud for ever",
+        "No, the right one is B",
+        "option A says that B",
+    ),
     "an objective that is not tested": (EXERCISES, "objective = 1", "objective = 2", "No exercise tests objective 1"),
 }
 REPLY = "Wherever a bud was, two stand in the next step: one turned to the side, one straight on."
 """What is said to those who vote for the right option."""
 OPTION = "A bud makes a piece of stem, a side bud, and a bud at its end."
 WORDS = "| step | word |\n|---|---|\n| 0 | `B` |\n| 1 | `F[+B]B` |\n| 2 | `F[+F[+B]B]F[+B]` |"
+WORDS_OF_STEPS = (
+    "\n\n| n | |\n|---|---|\n| 0 | `B` |\n| 1 | `F[+B]B` |\n| 2 | `F[+F[+B]B]F[+B]` |\n"
+    "| 3 | `F[+F[+F[+B]B]F[+B]B]F[+F[+B]B]F[+B]B` |\n\n"
+)
 IN_CELLS: dict[str, tuple[str, str, str]] = {
     "another vote": ('vote("ferns")', 'vote("fern")', 'Did you mean "ferns"'),
     "the vote of another lesson": ('vote("ferns")', 'vote("01")', 'asks the vote of the lesson "01"'),
@@ -463,6 +497,23 @@ IN_CELLS: dict[str, tuple[str, str, str]] = {
     ),
     "a rule of the catalogue": ("**Look.**", "`K5` has the rule `F -> F[-F`. **Look.**", "rule is F -> F[-F, and the system"),
     "a fold": ("**Look.**", "<details><summary>So?</summary>\n\nTen. See:\n\n</details> **Look.**", "says Ten, and the answer"),
+    "a power in raised signs": ("**Look.**", "Look: 2<sup>3</sup> = 9. **Look.**", "2^(3) = 9; it comes to 8"),
+    "a word twice": ("**Look.**", "The the buds. **Look.**", 'A word stands twice: "The the"'),
+    "a level of headings": ("## 2 By hand", "#### 2 By hand", "is of level 4, and the one before it of level 2"),
+    "a lesson that there is not": ("**Look.**", "As in lesson 27. **Look.**", "There is no lesson 27"),
+    "a turn": ("by 30 degrees", "by 60 degrees", "said to be 60 degrees, and the systems of this lesson turn by 30"),
+    "a few cells": ("**Look.**", "Step 2 has 11 buds. **Look.**", "said to have 11 buds, and the system makes"),
+    "a slider without a value": ("Move the slider **step**", "Move only **w** and **step**", 'The slider "w" is to be moved'),
+    "a word that comes of another": (
+        "**Look.**",
+        "By `B -> F[+B]B` and the word `F B` the new word is `F F[+B]`. **Look.**",
+        "F F[+B] is said to come of F B in one step",
+    ),
+    "a word of a table of the system's": (
+        "**Look.**",
+        f"{WORDS_OF_STEPS} **Look.**",
+        "word of step 2 is said to be F[+F[+B]B]F[+B], and the system makes",
+    ),
     "the right reply before the vote": ("all at the same time.", REPLY, "Words of the reply to the right option stand"),
 }  # fmt: skip
 
@@ -488,9 +539,10 @@ def test_a_mistake_in_a_cell_is_found(ferns: Path, mistake: str) -> None:
 def test_what_is_right_of_a_system_is_not_found(ferns: Path) -> None:
     counts = "Step 7 has 128 buds, step 8 has 900 parts more. Together 2 buds and 3 pieces, which are 5 parts."
     rules = "So that the rule is `F -> FF`. `K5` has the rule `F -> F[+F]F[-F]F`. Each `B` is replaced by `F[+B]B`."
+    said = "Step 2 has 4 buds, as in lesson 7, and I knew that that is 3/8, about 0.38. `+` turns it by 30 degrees."
     fold = "<details><summary>So?</summary>\n\nSixteen. See:\n\n</details>"
     before = findings_in(ferns, run=False)
-    change_cell(ferns, "**Look.**", f"{counts} {rules}\n\n{fold}\n\n**Look.**")
+    change_cell(ferns, "**Look.**", f"{counts} {rules} {said}\n\n{fold}\n\n**Look.**")
     assert {each.what for each in findings_in(ferns, run=False)} == {each.what for each in before}
 
 
@@ -706,6 +758,7 @@ def test_a_table_of_ones_own_counts_in_a_system() -> None:
         ({"columns": ["step", "b"], "rows": [["x", ...]], "system": FIBONACCI}, "must be a step"),
         ({"columns": ["step", "b"], "rows": [[3, {"rihgt": 3}]]}, "rihgt"),
         ({"columns": ["step", "b"], "rows": 3}, "needs columns and rows"),
+        ({"columns": ["step", "z"], "rows": [[3, ...]], "system": FIBONACCI}, '"z" cannot be counted in this system'),
     ],
 )
 def test_a_table_of_ones_own_says_what_it_needs(given: dict[str, object], says: str) -> None:
@@ -721,6 +774,7 @@ def test_a_question_about_a_system_knows_its_answer_and_its_misconceptions() -> 
     assert asked.result["marks"] == ["not yet"]
     assert "one step too early" in " ".join(asked.result["notes"])
     assert ask("How many?", FIBONACCI, count="a", step=3).asked == {}
+    assert ask("How many?", FIBONACCI, count="b", step=0).asked == {}, "a symbol that a later step has"
 
 
 @pytest.mark.parametrize(
@@ -731,6 +785,7 @@ def test_a_question_about_a_system_knows_its_answer_and_its_misconceptions() -> 
         (lambda: ask("How many has step 3?", "no such system"), "no such system"),
         (lambda: ask("How many?", FIBONACCI, step=-1), "whole number"),
         (lambda: ask("How many?", FIBONACCI, step=10**6), "whole number"),
+        (lambda: ask("How many?", FIBONACCI, count="z", step=3), '"z" cannot be counted'),
     ],
 )
 def test_a_question_about_a_system_says_what_it_needs(call: Callable[[], object], says: str) -> None:
@@ -768,8 +823,14 @@ def test_answers_that_were_handed_in_are_marked(ferns: Path, tmp_path: Path, cap
     assert (tmp_path / "marks.csv").read_text().splitlines()[1] == "ann,1.0,1.0,"
 
 
-def test_exercises_are_packed_and_written_with_their_questions(ferns: Path, tmp_path: Path) -> None:
+def test_exercises_are_packed_and_written_with_their_questions(
+    ferns: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     assert main(["exercises", "scorm", "ferns", "-o", "ferns.zip"]) == 0
+    (tmp_path / "elsewhere").mkdir()
+    monkeypatch.chdir(tmp_path / "elsewhere")
+    assert main(["exercises", "scorm", "ferns", "--course", "../ferns", "-o", "ferns.zip"]) == 0
+    monkeypatch.chdir(tmp_path)
     assert main(["exercises", "notebooks", "ferns", "-o", "new/folder"]) == 0
     assert (tmp_path / "new" / "folder" / "questions" / "ferns.toml").read_bytes() == (ferns / EXERCISES).read_bytes()
 

@@ -232,6 +232,7 @@ def test_what_changed_is_fuzzy_and_what_stayed_is_kept(ferns: Path) -> None:
         ("Take the rule `F -> F`.", "Nimm die Regel.", "`F -> F` is missing"),
         ("So $x^2$ it is.", "Also $x^3$.", "$x^2$ is missing"),
         ("See [lesson 2](02.ipynb).", "Siehe [Lektion 2](zwei.ipynb).", "(02.ipynb) is missing"),
+        ("Step 2 has 1,024 buds.", "Schritt 2 hat 1.042 Knospen.", "1024 has become 1042"),
         ("{row} is {{fixed}}", "{row} ist fest", "{{fixed}} is missing"),
         ("It is so.", "Das ist `so`.", "`so` is not in the text"),
     ],
@@ -324,6 +325,10 @@ def test_mistakes_of_the_folder_or_the_file_are_told(ferns: Path) -> None:
         (ferns / "translations" / "de" / "ferns.po").write_bytes(content)
         with pytest.raises(LSystemError):
             translate(ferns, "de")
+    (ferns / "translations" / "de" / "ferns.po").unlink()
+    (ferns / "notebooks" / "ferns.toml").write_text("title = = 1", "utf-8")
+    with pytest.raises(ModelFileError, match=r"ferns\.toml: Invalid value"):
+        translate(ferns, "de")
 
 
 def test_one_lesson_of_a_course_is_begun_and_the_others_are_there_in_english(ferns: Path) -> None:

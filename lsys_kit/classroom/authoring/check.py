@@ -13,15 +13,17 @@ from itertools import islice
 from pathlib import Path
 
 from lsys_kit.classroom.authoring.asked import plan_findings, prediction_findings, table_findings, vote_findings
-from lsys_kit.classroom.authoring.computed import calculation_findings, word_findings
+from lsys_kit.classroom.authoring.computed import bare, calculation_findings, word_findings, wrong_calculations
 from lsys_kit.classroom.authoring.finding import Finding, finding
 from lsys_kit.classroom.authoring.new import TEMPLATE
 from lsys_kit.classroom.authoring.panels import rule_findings, slider_findings
 from lsys_kit.classroom.authoring.prose import head_findings, link_findings, markup_findings, section_findings, term_findings
+from lsys_kit.classroom.authoring.said import place_findings, reply_findings, system_findings, wording_findings
 from lsys_kit.classroom.authoring.teacher import teacher_findings
 from lsys_kit.classroom.authoring.told import contradiction_findings, others_nearly, told_findings
-from lsys_kit.classroom.authoring.written import Written
+from lsys_kit.classroom.authoring.written import Written, without_marks
 from lsys_kit.classroom.exercises.declarations import questions_in
+from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.lint import problems_in
 from lsys_kit.classroom.exercises.registry import kit_questions
 from lsys_kit.classroom.places import MOST_ENTRIES, NAME, NO_LESSONS, Course, course_of
@@ -53,6 +55,10 @@ CHECKS: tuple[Callable[[Written], Iterator[Finding]], ...] = (
     calculation_findings,
     word_findings,
     teacher_findings,
+    wording_findings,
+    reply_findings,
+    place_findings,
+    system_findings,
 )
 """What is looked at without running anything."""
 
@@ -127,8 +133,26 @@ def _of_exercises(course: Course) -> Iterator[Finding]:
                 line = source.line_of(number, "question")
                 yield finding(_where(f"exercises/{source.file}", line, exercise.id), "template_exercise")
             where = _where(f"exercises/{source.file}", source.line_of(number, "explanation"), exercise.id)
+            yield from _said_in(exercise, _where(f"exercises/{source.file}", source.line_of(number, "question"), exercise.id))
             for given, right in others_nearly(exercise.explanation, exercise.solution) if exercise.kind == "number" else ():
                 yield finding(where, "solution", given=given, right=right)
+
+
+def _said_in(exercise: Exercise, where: str) -> Iterator[Finding]:
+    """Of what an exercise says: that its calculations are right, and the rules in its question those of its system."""
+    texts = [exercise.question, exercise.explanation, *exercise.hints, *(each.says for each in exercise.slips)]
+    for left, sign, right, value, _ in wrong_calculations(without_marks("\n\n".join(texts))):
+        yield finding(where, "calculation", left=left, sign=sign, right=right, value=value)
+    there = dict(_rules_in(exercise.system))
+    for left, right in _rules_in(exercise.question) if exercise.kind in ("word", "number", "table") else ():
+        if left in there and bare(right) != bare(there[left]):
+            yield finding(where, "other_rule", rule=f"{left} -> {right}"[:80], right=f"{left} -> {there[left]}"[:80])
+
+
+def _rules_in(text: str) -> list[tuple[str, str]]:
+    """The lines of a text that are rules: their left and right sides."""
+    parts = (each.partition("->") for each in text.splitlines())
+    return [(left.strip(), right.strip()) for left, arrow, right in parts if arrow]
 
 
 @cache

@@ -26,7 +26,7 @@ _RUN = re.compile(r"[\d(), .+−·×*/^=≈-]++")
 _BREAK = re.compile(r"[,.] |[,.]$")
 _SIGN = re.compile("([=≈])")
 _POWERS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789")
-_RAISED = re.compile("[⁰¹²³⁴⁵⁶⁷⁸⁹]+")
+_RAISED = re.compile(r"([⁰¹²³⁴⁵⁶⁷⁸⁹]+)|<sup>([−-]?\d{1,4})</sup>|((?<=\d),? (?:is )?about (?=\d))")
 _SPELLED = str.maketrans({"−": "-", "·": "*", "×": "*"})
 _NOT_BEFORE = re.compile(rf"(?:[\w)\]{BLOT}^_√/+−·×*<>|!:=≈-]|\b(?:[^\W\d_]|ln|log|sin|cos|tan|exp|root) *| [/+−·×*<>=≈-] *)$")
 _NOT_BEHIND = re.compile(rf" ?(?:[{BLOT}^_√%([/+−·×*!=≈…-]|[^\W\d_]\b)|[\w'²³]|\.\.")
@@ -79,7 +79,7 @@ def wrong_calculations(text: str) -> Iterator[tuple[str, str, str, str, int]]:
     [('13 · 2 + 8 · 1', '=', '36', '34')]
     """
     for line in re.finditer(r"[^\n]++", text):
-        spelled = _RAISED.sub(lambda found: "^" + found[0].translate(_POWERS), line[0])
+        spelled = _RAISED.sub(_written_out, line[0])
         for run in _RUN.finditer(spelled):
             if "=" in run[0] or "≈" in run[0]:
                 begin = 0
@@ -91,6 +91,11 @@ def wrong_calculations(text: str) -> Iterator[tuple[str, str, str, str, int]]:
                         before = re.sub(r"[^+−·×*/^=≈-]", "", text[max(0, line.start() - 9) : line.start()].rstrip()[-1:])
                     yield from ((*found, line.start()) for found in _wrong_in(part, before, behind))
                     begin = end + 1
+
+
+def _written_out(found: re.Match[str]) -> str:
+    """A power in signs, or "about" as one."""
+    return f"^{found[1].translate(_POWERS)}" if found[1] else f"^({found[2]})" if found[2] else " ≈ "
 
 
 def _wrong_in(part: str, before: str, behind: str) -> Iterator[tuple[str, str, str, str]]:
@@ -165,7 +170,7 @@ def _other_word(written: Written, cell: Cell, step: int, id: str | None, word: s
     """What the word of a step is, if no system that is shown so far makes the one that is said."""
     if "…" in word or "..." in word:
         return ""
-    wanted, found = _bare(word), ""
+    wanted, found = bare(word), ""
     shown = [each.system for each in panels_of(written) if isinstance(each.system, LSystem)]
     before = [each.system for each in panels_of(written) if each.cell.number <= cell.number + 1 and each.system in shown]
     for system in reversed([each for each in (before or shown) if isinstance(each, LSystem)]):
@@ -174,7 +179,7 @@ def _other_word(written: Written, cell: Cell, step: int, id: str | None, word: s
                 made, later = map(str, derive(system, step + 1)[-2:])
         except LSystemError:
             return ""
-        if _bare(made) == wanted or _is_random(system) or system.constants:
+        if bare(made) == wanted or is_random(system) or system.constants:
             return ""
         if not found and {*_LETTERS.findall(word)} <= {*_LETTERS.findall(f"{made} {later}")}:
             found = made
@@ -220,9 +225,9 @@ def _rules_said(written: Written, section: Section, cell: Cell, text: str) -> It
     for found in (each for pattern in _RULES_SAID for each in pattern.finditer(text)):
         shown = [each.system for each in panels_of(written) if each.cell in section.code]
         systems = [_named(found[1])] if found[1] else shown
-        there = {(left, _bare(right)): right for system in systems for left, right in _rules_of(system)}
+        there = {(left, bare(right)): right for system in systems for left, right in _rules_of(system)}
         right = next((each for (left, _), each in there.items() if left == found[2]), "")
-        if right and (found[2], _bare(found[3])) not in there:
+        if right and (found[2], bare(found[3])) not in there:
             said = {"rule": f"{found[2]} -> {found[3]}", "right": f"{found[2]} -> {right}"}
             yield finding(written.at(cell, cell.line_of(found[0])), "rule_said", **said)
 
@@ -232,11 +237,13 @@ def _rules_of(system: AnySystem | None) -> list[tuple[str, str]]:
     return _RULE_LINE.findall(str(system)) if isinstance(system, LSystem) else []
 
 
-def _is_random(system: LSystem) -> bool:
+def is_random(system: LSystem) -> bool:
+    """Whether rules of a system are chosen by chance."""
     return any(rule.probability is not None for rule in system.rules)
 
 
-def _bare(word: str) -> str:
+def bare(word: str) -> str:
+    """A word without blanks and the lines before its indices."""
     return re.sub(r"[\s_]", "", word)
 
 
@@ -249,7 +256,7 @@ def _rows(written: Written, section: Section, cell: Cell, text: str) -> Iterator
     for found in _RULE.finditer(section.text):
         rules.setdefault(found[1], []).append(found[2])
     for each in panels_of(written):
-        if each.cell in section.code and isinstance(each.system, LSystem) and not _is_random(each.system):
+        if each.cell in section.code and isinstance(each.system, LSystem) and not is_random(each.system):
             for left, right in _rules_of(each.system):
                 rules.setdefault(left, []).append(right)
     if not rules:
@@ -257,7 +264,7 @@ def _rows(written: Written, section: Section, cell: Cell, text: str) -> Iterator
     table = text[header.start() :].partition("\n\n")[0]
     rows = [(int(found[1]), found[2], found[0]) for found in _ROW.finditer(table)]
     pairs = [(old, new) for old, new in pairwise(rows) if new[0] == old[0] + 1]
-    wrong = [(old, new) for old, new in pairs if _bare(new[1]) not in _next(old[1], rules)]
+    wrong = [(old, new) for old, new in pairs if bare(new[1]) not in _next(old[1], rules)]
     for old, new in wrong:
         if 2 * len(wrong) <= len(pairs) or old[1] in rules:
             at = cell.line_of(new[2])
@@ -271,4 +278,4 @@ def _next(old: str, rules: Mapping[str, Sequence[str]]) -> set[str]:
     known = list(dict.fromkeys(each for each in symbols if each in rules))
     choices = islice(product(*(dict.fromkeys(rules[each]) for each in known)), MOST_CHOICES)
     becomes = (dict(zip(known, choice, strict=True)) for choice in choices)
-    return {_bare("".join(each.get(symbol, symbol) for symbol in symbols)) for each in becomes}
+    return {bare("".join(each.get(symbol, symbol) for symbol in symbols)) for each in becomes}

@@ -25,6 +25,7 @@ _FIXED = re.compile(
 )
 """What a translation has as it is: code, formulas, addresses, names in braces, tags."""
 _LETTER = re.compile(r"[^\W\d_]")
+_FIGURE = re.compile(r"\d[\d.,]*+")
 
 
 def fixed_parts(text: str) -> Counter[str]:
@@ -34,6 +35,15 @@ def fixed_parts(text: str) -> Counter[str]:
     ['$x$', '(01.ipynb)', '`a`']
     """
     return Counter(_FIXED.findall(text))
+
+
+def figures(text: str) -> Counter[str]:
+    """The numbers in digits that a text has beside those parts, without the marks in them, which differ between languages.
+
+    >>> sorted(figures("`2` of 3,125, and 1.3"))
+    ['13', '3125']
+    """
+    return Counter(re.sub("[.,]", "", found) for found in _FIGURE.findall(_FIXED.sub(" ", text)))
 
 
 def has_words(text: str) -> bool:

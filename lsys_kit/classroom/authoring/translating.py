@@ -19,7 +19,18 @@ from typing import TYPE_CHECKING
 
 from lsys_kit.classroom.authoring.finding import Finding, finding
 from lsys_kit.classroom.authoring.prose import heading_anchor
-from lsys_kit.classroom.authoring.texts import ANSWER, EXERCISES, HEADING, LESSON, Turn, fixed_parts, recode, redeclared, retext
+from lsys_kit.classroom.authoring.texts import (
+    ANSWER,
+    EXERCISES,
+    HEADING,
+    LESSON,
+    Turn,
+    figures,
+    fixed_parts,
+    recode,
+    redeclared,
+    retext,
+)
 from lsys_kit.classroom.course import put_files
 from lsys_kit.classroom.exercises.notebooks import exercise_notebook
 from lsys_kit.classroom.exercises.registry import lessons
@@ -172,6 +183,8 @@ class Source:
 
     @staticmethod
     def _text(path: Path) -> str:
+        if path.suffix == ".toml" and path.is_file():
+            declaration(path)  # which says in words what is no TOML
         return text_of(path) if path.is_file() else ""
 
     def messages(self) -> dict[Key, list[str]]:
@@ -317,7 +330,11 @@ def _lost(message: Message) -> str:
     missing, more = [*(old - new)], [*(new - old)]
     if missing:
         return f"{', '.join(missing)} is missing"
-    return f"{', '.join(more)} is not in the text" if more else ""
+    if more:
+        return f"{', '.join(more)} is not in the text"
+    numbers, others = figures(str(message.id)), figures(str(message.string))  # one may be written as a word
+    missing, more = [*(numbers - others)], [*(others - numbers)]
+    return f"{', '.join(missing)} has become {', '.join(more)}" if missing and more else ""
 
 
 def _written(path: Path, catalogue: Catalog) -> Translated:

@@ -120,11 +120,12 @@ def exercises(folder: str | Path | None = None) -> ExerciseList:
     if folder is None:
         return ExerciseList(translated(exercise) for found in _all_questions() for _, _, exercise in found.exercises)
     require(folder, (str, Path), "The name of a folder")
-    path = Path(folder).absolute()
+    path = Path(folder).resolve()
     found = _added[path] = questions_in(path)
     if found.problems:
         raise ModelFileError(
-            f"{len(found.problems)} mistakes: {found.problems[0]}", hint="lsys-kit exercises check FOLDER lists all of them."
+            f"{len(found.problems)} mistake{'s' * (len(found.problems) > 1)}: {found.problems[0]}".rstrip("."),
+            hint="lsys-kit exercises check FOLDER lists all of them.",
         )
     return ExerciseList(translated(exercise) for _, _, exercise in found.exercises)
 
@@ -146,7 +147,7 @@ def _all_questions() -> Iterator[Questions]:
     found = [place for place in places() if not place.is_kits]
     yield kit_questions()
     yield from (each for place in found if (each := questions_of(place)))
-    yield from (each for path, each in _added.items() if path not in {place.questions.absolute() for place in found})
+    yield from (each for path, each in _added.items() if path not in {place.questions.resolve() for place in found})
 
 
 def questions_of(place: Place) -> Questions | None:

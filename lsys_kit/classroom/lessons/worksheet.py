@@ -11,8 +11,9 @@ from typing import Any, overload
 import traitlets
 from ipywidgets import HBox, Layout
 
-from lsys_kit.classroom.exercises.asked import answer_by, right_history
+from lsys_kit.classroom.exercises.asked import answer_by, asked_system, right_history
 from lsys_kit.classroom.exercises.declarations import MOST_STEPS
+from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.lessons.entries import MOST_CHARACTERS, is_number_asked, is_right, nouns_in, readings
 from lsys_kit.classroom.lessons.kept import answered, keep
 from lsys_kit.classroom.lessons.lesson import Blank, Table, lesson, own_table, table
@@ -22,7 +23,7 @@ from lsys_kit.classroom.panel.bundle import Data
 from lsys_kit.classroom.panel.explorer import Comparison, Explorer
 from lsys_kit.classroom.widget import Unfinalized
 from lsys_kit.errors import ModelValueError, quotable, require, shown
-from lsys_kit.notation.model.system import LSystem
+from lsys_kit.notation.model.system import LSystem, symbols
 from lsys_kit.translation import gettext, ngettext
 
 RIGHT, NOT_YET, NO_NUMBER, MISSING = "right", "not yet", "no number", "not filled in yet"
@@ -188,6 +189,12 @@ def _row(cells: object) -> object:
     return [{"right": COUNTED} if each is ... else each for each in cells]
 
 
+def _is_nowhere(asked: Exercise) -> bool:
+    """Whether the symbol that is counted is none of the system, as when it is mistyped."""
+    counted = asked.asks.removeprefix("count ")
+    return counted not in (asked.asks, *symbols(asked_system(asked)))
+
+
 COUNTED = "..."
 """In place of the answer of a cell that is counted."""
 
@@ -205,7 +212,7 @@ def _answered(table: Table, row: int, column: int) -> str | Blank:
         raise ModelValueError(f'The first cell of the row must be a step, not "{quotable(str(name))}"')
     asked = exercise_of(table, row, column, int(name))
     answer = None if asked is None else answer_by(asked, right_history(asked))
-    if answer is None:
+    if answer is None or (answer == 0 and asked is not None and _is_nowhere(asked)):
         raise ModelValueError(f'"{quotable(table.columns[column])}" cannot be counted in this system')
     return replace(cell, right=(str(answer),))
 
