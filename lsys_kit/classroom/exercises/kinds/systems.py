@@ -482,7 +482,7 @@ _NO_CONDITION_HERE = re.compile(
     r"^[ \t]*+[A-Za-z]\w*+[ \t]*+\([^()\n]*+\)[ \t]*+((?:[<>=!]?=|[<>])[ \t]*+[-+\d.]++)[ \t]*+(?=->|→)", re.MULTILINE
 )
 _TURNED = re.compile(r"=[<>](?!=)")
-_TURNED_ARROW = re.compile(r"(?<=[\w)])[ \t]*+(<-++|[←⟵⇐])(?=[ \t]*+[A-Za-z])")
+_TURNED_ARROW = re.compile(r"(?<=[\w)\]])[ \t]*+(<-++|[←⟵⇐])(?=[ \t]*+[A-Za-z])")
 _FACTOR = re.compile(r"(?:->|→)[ \t]*(\d+[ \t]*\*[ \t]*[A-Za-z]\w*)")
 """Slips of writing: an axiom without a colon, an arrow in pieces, a line without one, a condition without its module or without
 its colon, => for >=, a factor before a module."""
