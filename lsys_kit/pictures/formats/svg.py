@@ -9,7 +9,7 @@ from __future__ import annotations
 import base64
 from collections.abc import Mapping
 
-from lsys_kit.arrays import np
+from lsys_kit.arrays import is_array
 from lsys_kit.budget import counted
 from lsys_kit.pictures.shapes import (
     Circle,
@@ -98,7 +98,7 @@ def _other(shape: str | Span | Title | Gradients | Paper) -> str:
 def _value(value: object) -> str:
     if isinstance(value, float):
         return f"{value:.1f}"
-    if isinstance(value, np.ndarray):
+    if is_array(value):
         return "M%d %dL%d %d" * len(value) % tuple(value.ravel().tolist())
     if isinstance(value, list):
         return " ".join([f"{x},{y}" for x, y in value])
