@@ -24,7 +24,7 @@ OWN, BRIGHT, DIM, EDGE = 10, 14, 4, -4
 how many steps the edge of a surface is darker than its inside."""
 LIGHTEST, DARKEST = 0.55, 0.5
 """The part of white in the lightest shade of a colour, and of black in the darkest."""
-HAZE = 0.5
+HAZE = 0.3
 """The part of paper in what is farthest."""
 HIGHLIGHT = 0.6 * LIGHT[0], 0.6 * LIGHT[1]
 """Where a sphere of radius 1 is brightest, seen from the middle of its disc."""
@@ -57,7 +57,7 @@ def shades(names: Sequence[str], numbers: Sequence[int]) -> list[str]:
     """The colours of some shades, or of paper.
 
     >>> shades(["#800000"], shade_numbers(np.array([0, 0]), np.array([1.0, 0.0]), OWN).tolist())
-    ['#800000', '#c08080']
+    ['#800000', '#a64d4d']
     """
     paper = paper_number(names)
     return [theme().ground if number == paper else _shade(names[number // _SHADES], number % _SHADES) for number in numbers]
