@@ -120,7 +120,7 @@ def test_plants_are_counted_one_by_one_and_their_mean_settles(explored):
     press(panel, "exact")
     expect(said(panel)).to_contain_text("Exactly: 180.8 on average.")
     press(panel, "first throw")
-    expect(panel.at(SAMPLE).get_by_text(re.compile(r"F -> F\[\+F\]F\[-F\]F : 1: \d+, on average"))).to_be_visible()
+    expect(panel.at(SAMPLE).get_by_text(re.compile(r"F -> F\[\+F\]F\[-F\]F : 1, \d+ times: on average"))).to_be_visible()
     expect(bars).to_have_count(0)
     panel.at(SAMPLE).get_by_role("button", name="seed 19").click()
     expect(panel.page.get_by_label("seed", exact=True)).to_have_value("19")
