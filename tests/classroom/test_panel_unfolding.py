@@ -220,6 +220,23 @@ def test_one_slider_leads_from_a_step_to_the_next_as_a_film(explored, id):
 
 
 @pytest.mark.browser
+def test_what_is_dragged_to_the_next_step_stays_there_until_it_is_let_go(explored):
+    panel = explored("K5", 1, show=VIEWS)
+    bar, mouse = panel.control("unfolding"), panel.page.mouse
+    box = bar.bounding_box()
+    start, end, height = box["x"] + 8, box["x"] + box["width"] - 8, box["y"] + box["height"] / 2
+    for step in (2, 3):
+        mouse.move(start, height)
+        mouse.down()
+        for x in (end, end + 1, end + 2, end - 1, end):
+            mouse.move(x, height)
+        expect(line(panel)).to_have_text(f"0 of 100 on the way from step {step} to step {step + 1}.")
+        mouse.up()
+        expect(bar).to_have_value("0")
+        height = (box := bar.bounding_box())["y"] + box["height"] / 2
+
+
+@pytest.mark.browser
 @pytest.mark.parametrize("context", [{}, STILL], ids=["moving", "still"])
 def test_it_unfolds_by_itself_up_to_the_last_step(explored, context):
     panel = explored("axiom: F\nF -> F+F", 8, show=VIEWS, context=context)

@@ -234,3 +234,16 @@ def test_a_page_has_the_walk_where_it_is_open(tmp_path):
 def test_every_text_of_the_walk_can_be_translated():
     spoken = source("walk")
     assert not re.findall(r'textContent = "\w', spoken)
+
+
+@pytest.mark.browser
+def test_the_pile_stays_where_it_is_and_where_a_character_comes_from_is_told_below_it(explored):
+    panel = explored("K5", 1, show=["word", "drawing", "walk"])
+    pile, tops = panel.at("[data-view=walk] svg[width='220']"), set()
+    for _ in range(3):
+        tops.add(pile.bounding_box()["y"])
+        panel.control("command").press("ArrowRight")
+    expect(panel.at("[data-view=walk] .lsys-sentence")).to_contain_text("Character 3 of step 1")
+    told = panel.at(".lsys-sentence").bounding_box()["y"]
+    assert len(tops) == 1
+    assert told >= pile.bounding_box()["y"] + pile.bounding_box()["height"]

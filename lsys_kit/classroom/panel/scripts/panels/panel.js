@@ -181,7 +181,7 @@ export function openPanel(element, host, compared = null) {
     for (const { control, texts, index, name } of constants) control.offer(texts, Math.max(0, texts.indexOf(seen.settings[name])), [index]);
     switches = letterSwitches?.(host, constants);
     said = sentenceView?.(root, host, goTo, move);
-    const tenths = (degrees) => [...degrees, model.angle].map((each) => Math.round(each * 10));
+    const tenths = (degrees) => [...new Set([...degrees, model.angle])].map((each) => Math.round(each * 10));
     angle.offer(ANGLES, Math.round(seen.angle * 10), tenths(MARKED), tenths(NAMED));
     const fixed = model.fixed ? [made("span.lsys-hint", model.fixed)] : [];
     const ofBoth = constants.filter((each) => compared?.shared.includes(each.name)), own = constants.filter((each) => !ofBoth.includes(each));

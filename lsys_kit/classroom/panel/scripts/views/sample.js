@@ -149,7 +149,7 @@ export function sampleView(view, seen) {
   function legendOf(production, number, numbers) {
     const own = numbers.filter((_, i) => plants[i].first === production), text = known.productions[production]?.text ?? worded("none");
     return made("div", made("span", { style: `background: ${COLOURS[number % COLOURS.length]}; display: inline-block; width: 10px; height: 10px; margin-right: 6px` }),
-      worded("{text}: {many}, on average {mean}", { text, many: grouped(own.length), mean: short(own.reduce((sum, each) => sum + each, 0) / own.length) }));
+      worded("{text}, {many} times: on average {mean}", { text, many: grouped(own.length), mean: short(own.reduce((sum, each) => sum + each, 0) / own.length) }));
   }
 
   function paintChart({ low, wide, many: bars }, groups, mean, off, law, many) {

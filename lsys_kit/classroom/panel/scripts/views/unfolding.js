@@ -20,11 +20,15 @@ const MOST_LETTERS = 150, MOST = 50_000; // modules of which the word is shown, 
 // is shown.
 export function unfoldingView(view, stages, seen, light, goTo) {
   const still = matchMedia("(prefers-reduced-motion: reduce)");
-  let part = 0, shown = "", known = null, frame = 0, last = 0, seconds = Number(SPEEDS[1]), groups = [], together = null;
+  let part = 0, shown = "", known = null, frame = 0, last = 0, seconds = Number(SPEEDS[1]), groups = [], together = null, arrived = false;
   const bar = slider("unfolding", worded("hundredths of the way from this step to the next"), PARTS, 0, (at) => {
     stop();
+    if (arrived) return bar.show(0);
+    arrived = at === PARTS.length - 1;
     put(at / 100);
   }, worded("unfolding"), { pace: PACE, least: 1 });
+  // What is dragged to the next step stays there until it is let go: otherwise the mouse at the end would run through all steps.
+  for (const each of ["pointerdown", "keydown", "click"]) bar.element.addEventListener(each, () => { arrived = false; }, true);
   const play = button("play", worded("let it unfold"), toggle, { class: "lsys-button lsys-play" });
   const speed = list("unfolds", worded("seconds from a step to the next"), SPEEDS.map((each) => [each, each]), SPEEDS[1], (each) => { seconds = Number(each); }, worded("seconds"));
   const player = made("div.lsys-player", { role: "toolbar", "aria-label": worded("let it unfold") }, play);

@@ -33,7 +33,7 @@ export function walkView(view, sentence, seen, trace, light) {
   const player = made("div.lsys-player", { role: "toolbar", "aria-label": worded("walk") },
     button("first", worded("to the beginning of the word"), () => stopAt(0)), button("back", worded("one stride back"), () => one(-1)), play,
     button("forward", worded("one stride on"), () => one(1)));
-  const said = made("div.lsys-caption", { role: "status" }), pile = drawn("svg", { width: 220, role: "img" });
+  const said = made("div.lsys-caption", { role: "status", style: "min-height: 2.9em" }), pile = drawn("svg", { width: 220, role: "img" });
   const parts = [made("div.lsys-controls", player, bar.element, strides.element, speed.element), said, pile];
   const buttons = roving(player);
 
@@ -109,7 +109,7 @@ export function walkView(view, sentence, seen, trace, light) {
     sentence.setAttribute("aria-live", view.open ? "off" : "polite"); // what is told of the command is enough
     if (isOther || !view.open) stop();
     if (!view.open || (!isOther && shown === `${at} ${angle}`)) return;
-    if (!said.isConnected) view.body.prepend(...parts); // it is opened for the first time
+    if (!said.isConnected) view.body.prepend(made("div", ...parts)); // it is opened for the first time; what is traced is told below all of them
     shown = `${at} ${angle}`;
     if (isOther) {
       [known, walk, fault] = [book, null, worded("The word of step {step} is too long to be walked; go back to an earlier step.", { step })];
