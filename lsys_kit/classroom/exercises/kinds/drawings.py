@@ -234,7 +234,7 @@ def _walks(_: Exercise, mine: Drawn, wanted: Drawn) -> str:
 
     Where the answer is a word, each stroke is a letter of it: then no stroke is shown but those that were typed.
     """
-    if not mine.ends or not _are_followed(mine, wanted):
+    if not mine.ends or not wanted.ends or not _are_followed(mine, wanted):
         return ""
     fitting, right = _first_difference(mine, wanted)
     own, wanted_rows = _from_the_first(mine.ends), _from_the_first(right)
