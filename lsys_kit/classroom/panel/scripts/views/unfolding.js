@@ -103,9 +103,10 @@ export function unfoldingView(view, stages, seen, light, goTo) {
       : isSequential(book) ? worded("{part} of 100 of {line}.", { part: Math.round(100 * part), line: book.data.doing[step] })
       : worded("{part} of 100 on the way from step {step} to step {next}.", { part: Math.round(100 * part), step, next: step + 1 });
     for (const { element, mother, daughters, widths } of groups) {
-      element.style.width = `${(1 - part) * widths[0] + part * widths[1]}px`;
-      mother.style.translate = `0 ${-110 * part}%`; // it leaves upwards, and what it becomes slides in from below
-      daughters.style.translate = `0 ${110 * (1 - part)}%`;
+      const wide = (1 - part) * widths[0] + part * widths[1];
+      element.style.width = `${wide}px`;
+      Object.assign(mother.style, { translate: `0 ${-50 * part}%`, opacity: 1.5 - 2 * part }); // it leaves upwards
+      Object.assign(daughters.style, { translate: `0 ${50 * (1 - part)}%`, opacity: 2 * part - 0.5, scale: `${wide / (widths[1] || 1)} 1` });
     }
   }
 
@@ -120,8 +121,8 @@ export function unfoldingView(view, stages, seen, light, goTo) {
       const [from, to] = book.daughters(step, first);
       while (next < book.length(step) && from !== to && book.daughters(step, next)[0] === from) next++;
       const before = book.word(step).subarray(first, next), after = book.word(step + 1).subarray(from, to), same = before.join() === after.join();
-      const [mother, daughters] = [before, same ? [] : after].map((states) => made("span", { style: "position: absolute; left: 0; white-space: nowrap" }, ...chips(book, states)));
-      const element = made("span", { style: "display: inline-block; position: relative; height: 1.8em; overflow: clip; vertical-align: bottom" }, mother, daughters);
+      const [mother, daughters] = [before, same ? [] : after].map((states) => made("span", { style: "position: absolute; left: 0; transform-origin: left; white-space: nowrap" }, ...chips(book, states)));
+      const element = made("span", { style: "display: inline-block; position: relative; height: 1.8em; vertical-align: bottom" }, mother, daughters);
       word.append(element);
       if (same) mother.style.position = "static";
       else groups.push({ element, mother, daughters, widths: [0, 0] });
