@@ -110,6 +110,7 @@ MAKERS: Mapping[str, Callable[[Any], Any]] = {
     "Sight": lambda system: kit.explore(system, 9).sight,
     "Growth": kit.growth,
     "Total": lambda system: kit.total(system, system.axiom[0].symbol, **symbols(system)),
+    "Solutions": lambda system: kit.total(system, system.axiom[0].symbol, **symbols(system)).solve("c", 3, 40),
     "Closing": lambda system: kit.closing_angles(system, 3),
     "LifeSpans": kit.life_spans,
     "Stages": kit.stages,
