@@ -13,6 +13,7 @@ from lsys_kit.classroom.exercises.declarations import QUESTIONS, Questions, ques
 from lsys_kit.classroom.exercises.exercise import Exercise, Lesson, Option, Slip
 from lsys_kit.classroom.places import Place, places
 from lsys_kit.errors import ModelFileError, ModelNameError, ModelValueError, quotable, require
+from lsys_kit.files import file_errors
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.translation import gettext, language
 
@@ -120,7 +121,8 @@ def exercises(folder: str | Path | None = None) -> ExerciseList:
     if folder is None:
         return ExerciseList(translated(exercise) for found in _all_questions() for _, _, exercise in found.exercises)
     require(folder, (str, Path), "The name of a folder")
-    path = Path(folder).resolve()
+    with file_errors(f'"{quotable(str(folder))}" cannot be read'):
+        path = Path(folder).resolve()
     found = _added[path] = questions_in(path)
     if found.problems:
         raise ModelFileError(
