@@ -178,6 +178,7 @@ MADE_IN_OTHER_WAYS: tuple[Callable[[], object], ...] = (
     lambda: lsys_kit.animate(read("axiom: F"), 1),
     lambda: lsys_kit.infer([["a", "ab", "abb"], ["a", "b", "b"], ["a", "ab", "bb"]], stochastic=True),
     lambda: lsys_kit.infer(["a", "ab", "aba", "abaab", "abaabaxa"]).mended[0],
+    lambda: lsys_kit.total(read("q = 1/2\naxiom: A(1)\nA(x) -> F(x) A(q*x)"), "F", q="q").solve("q", 2, n=3),
     lambda: derive(map_system("K30"), 1)[1],
     lambda: derive(cellwork_system("K33"), 1)[1],
 )

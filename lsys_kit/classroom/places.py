@@ -178,7 +178,7 @@ def _translated(place: Place, language: str, name: str = "") -> Place:
 def _course_of(folder: Path | None) -> Course:
     named = quotable(str(folder))
     with file_errors(f'"{named}" cannot be read'):
-        if folder is None or _resolved(folder) == kit_place().root:
+        if folder is None or resolved(folder) == kit_place().root:
             return Course(kit_place().root, TITLE, LEAD, tuple((kit_place(), name) for name in kit_place().names()))
         if folder.suffix == ".zip":
             raise ModelFileError(f'"{named}" is an archive', hint=f"Unpack it first: lsys-kit lesson unpack {folder.name}")
@@ -209,7 +209,8 @@ def _told(folder: Path, lessons: tuple[tuple[Place, str], ...], language: str = 
     return " ".join(str(title).split()), " ".join(str(listed.get("description", "")).split())
 
 
-def _resolved(folder: Path) -> Path:
+def resolved(folder: Path) -> Path:
+    """The place of a folder behind all links; an `OSError` where these lead in a circle."""
     try:
         return folder.resolve()
     except RuntimeError as loop:  # of links, in Python before 3.13

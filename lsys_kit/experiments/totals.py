@@ -146,7 +146,7 @@ class Total:
             whole = polynomial(self._rule[0])
             condition: sympy.Basic = sympy.true
             for factor, times in whole.factor_list()[1]:
-                if factor.degree() == 1 and factor.eval(1) == 0:
+                if factor.degree() == 1 and factor(1) == 0:
                     if times > 1:
                         return None, sympy.false
                     continue

@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 
 from lsys_kit.classroom.exercises.declarations import QUESTIONS, Questions, questions_in
 from lsys_kit.classroom.exercises.exercise import Exercise, Lesson, Option, Slip
-from lsys_kit.classroom.places import Place, places
+from lsys_kit.classroom.places import Place, places, resolved
 from lsys_kit.errors import ModelFileError, ModelNameError, ModelValueError, quotable, require
 from lsys_kit.files import file_errors
 from lsys_kit.notation.analysis.checks import suggestion
@@ -122,7 +122,7 @@ def exercises(folder: str | Path | None = None) -> ExerciseList:
         return ExerciseList(translated(exercise) for found in _all_questions() for _, _, exercise in found.exercises)
     require(folder, (str, Path), "The name of a folder")
     with file_errors(f'"{quotable(str(folder))}" cannot be read'):
-        path = Path(folder).resolve()
+        path = resolved(Path(folder))
     found = _added[path] = questions_in(path)
     if found.problems:
         raise ModelFileError(
