@@ -66,6 +66,7 @@ def of_letters(text: str, symbol: str, letter: str) -> list[object]:
         said(lambda: [*map(str, kit.derive(system, 4, **letters))]),
         said(lambda: [str(total().formula), str(total().limit), repr(total())]),
         said(lambda: str(total().derivative(letter))),
+        said(lambda: repr(kit.closing_angles(kit.system("T2"), 2))),
     ]
 
 

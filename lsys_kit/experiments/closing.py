@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 from collections import defaultdict
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
@@ -21,7 +22,7 @@ from lsys_kit.derivation.core.words import Word
 from lsys_kit.derivation.derive import Choices
 from lsys_kit.errors import ModelLimitError, ModelValueError, require, whole_number
 from lsys_kit.geometry.turtle.commands import DrawingMode, drawing_mode
-from lsys_kit.geometry.turtle.plane import trace
+from lsys_kit.geometry.turtle.plane import turtle_in_plane
 from lsys_kit.notation.model.arithmetic import Value, normalised, number_text
 from lsys_kit.notation.model.system import USUAL_STEPS, LSystem
 from lsys_kit.pictures.draw import draw
@@ -253,19 +254,18 @@ def closing_angles(system: LSystem, n: int | None = None, **constants: object) -
 
 def _powers(word: Word) -> dict[int, int | Fraction]:
     """How far the turtle goes for each number of turns, along the walk to the end of the word."""
-    path = trace(word)
-    found: defaultdict[int, Fraction] = defaultdict(Fraction)
-    at, walk = path.end, []
+    turtle = turtle_in_plane(word)
+    steps, found = [*turtle.walked()], defaultdict[int, Fraction](Fraction)
+    at, walk = turtle.position, list[Sequence[float]]()
     while at >= 0:
-        walk.append(at)
-        at = int(path.parents[at])
+        walk.append(steps[at])
+        at = int(steps[at][3])
     if not walk:
         return {}
-    turns, offsets, lengths = path.turns.tolist(), path.offsets.tolist(), path.lengths.tolist()
-    first = walk[-1]
-    for step in counted(walk[::-1]):
-        way, rest = _way(turns[step] - turns[first], offsets[step] - offsets[first])
-        found[way] += rest * _fraction(lengths[step], lengths[first])
+    turns_first, offset_first, length_first, *_ = walk[-1]
+    for turns, offset, length, *_ in counted(walk[::-1]):
+        way, rest = _way(turns - turns_first, offset - offset_first)
+        found[way] += rest * _fraction(length, length_first)
     powers = {k: c.numerator if c.denominator == 1 else c for k, c in sorted(found.items(), reverse=True) if c}
     if powers and max(powers) - min(powers) > MOST_TURNS:
         wide = max(powers) - min(powers)

@@ -9,6 +9,7 @@ the word and its rules.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import chain
 from typing import TYPE_CHECKING, Any
@@ -99,6 +100,10 @@ class PlaneTurtle(Turtle):
         self.noted: Floats | tuple[()] = ()
         self.steps: list[tuple[float, float, float, int, bool, int, int, float, int]] = []
 
+    def walked(self) -> Iterator[Sequence[float]]:
+        """Its steps: turns by the angle, degrees besides, the length, the number of the step before, and the rest of them."""
+        return chain(self.noted.tolist() if is_array(self.noted) else (), self.steps)
+
     def forward(self, length: float, drawn: bool) -> None:
         turns, offset, _ = self.orientation
         self.position = self.step(turns, offset, length, self.position, drawn)
@@ -182,7 +187,7 @@ def trace(word: Word | WordBetween) -> Path:
     >>> path.turns.tolist(), path.offsets.tolist(), path.lengths.tolist(), path.parents.tolist()
     ([0.0, 1.0, 0.0], [0.0, 0.0, -30.0], [1.0, 1.0, 2.0], [-1, 0, 0])
     """
-    turtle = _turtle_after(word)
+    turtle = turtle_in_plane(word)
     columns = list(zip(*turtle.steps, strict=True)) or [()] * len(_COLUMN_TYPES)
     noted = np.reshape(turtle.noted, (-1, len(_COLUMN_TYPES)))
     steps: dict[str, Any] = {
@@ -199,7 +204,8 @@ def trace(word: Word | WordBetween) -> Path:
     )
 
 
-def _turtle_after(word: Word | WordBetween) -> PlaneTurtle:
+def turtle_in_plane(word: Word | WordBetween) -> PlaneTurtle:
+    """The turtle that has interpreted a word."""
     system = word.states.system
     turtle = PlaneTurtle(TURTLE_DIALECTS[system.turtle].left, initial_step(system))
     turtle.take_look(system)
@@ -214,9 +220,8 @@ def strokes_in_plane(word: Word, angle: float, heading: float) -> list[Stroke]:
     >>> strokes_in_plane(derive(read("axiom: F[+F]fF(2)"), 0)[0], 180, 0)[::2]
     [(0.0, 0.0, 1.0, 0.0), (2.0, 0.0, 4.0, 0.0)]
     """
-    turtle, places, found, angle = _turtle_after(word), [(0.0, 0.0)], list[Stroke](), _within_turns(angle)
-    noted = turtle.noted.tolist() if is_array(turtle.noted) else ()
-    for turns, offset, length, parent, drawn, *_ in counted(chain(noted, turtle.steps)):
+    places, found, angle = [(0.0, 0.0)], list[Stroke](), _within_turns(angle)
+    for turns, offset, length, parent, drawn, *_ in counted(turtle_in_plane(word).walked()):
         x, y = places[int(parent) + 1]
         radians = math.radians(turns * angle + offset + heading)
         places.append((x + length * math.cos(radians), y + length * math.sin(radians)))
