@@ -132,6 +132,13 @@ UNREADABLE = [
         "Write fewer modules after the arrow than before it.",
     ),
     (
+        "axiom: A F\nmeta: F F ->AF",
+        "A meta-rule must make the word shorter",
+        2,
+        1,
+        "Write fewer modules after the arrow than before it.",
+    ),
+    (
         "axiom: A\nmeta: f g -> repeat(1) <h>",
         "A meta-rule must make the word shorter",
         2,

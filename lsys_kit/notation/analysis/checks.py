@@ -195,6 +195,11 @@ def check_meta(rule: MetaRule, constants: Collection[str]) -> None:
     if rule.condition is not None:
         check_expression(rule.condition, names, "truth")
     check_word(rule.successor, names)
+    check_shorter(rule)
+
+
+def check_shorter(rule: MetaRule) -> None:
+    """What a meta-rule puts in has fewer modules than what it takes out."""
     if any(isinstance(item, Repeat) for item in rule.successor) or len(rule.successor) >= len(rule.predecessors):
         raise problem("meta-rule not shorter", rule.at)
 

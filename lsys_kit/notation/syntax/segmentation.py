@@ -15,6 +15,7 @@ from dataclasses import replace
 from itertools import pairwise
 from typing import NamedTuple
 
+from lsys_kit.notation.analysis.checks import check_shorter
 from lsys_kit.notation.analysis.problems import problem
 from lsys_kit.notation.model.modules import ItemT, Pattern, flat, rewritten
 from lsys_kit.notation.model.system import LSystem, Production
@@ -73,6 +74,8 @@ def segment_system(system: LSystem) -> tuple[LSystem, dict[str, list[str]]]:
 def segment_with_notes(system: LSystem) -> LSystem:
     """What `segment_system` makes of a system, with a note for each name that was divided."""
     segmented, made = segment_system(system)
+    for rule in segmented.meta:
+        check_shorter(rule)
     notes = [f'"{name}" is read as {" ".join(pieces)}.' for name, pieces in made.items()]
     notes += [
         f'"{name}" is read as one symbol; for several put blanks between them: {" ".join(pieces)}.'
