@@ -13,11 +13,11 @@ export function paintDividing(pen, sheet, look, book, step, part, boxed) {
   const mothers = singleRow(sheet, sheet.rows.length - 1), last = singleRow(next, next.rows.length - 1), spans = spansOf(book, step, mothers, last);
   const gone = sheet.rows.length - next.rows.length + 1; // rows for which there is no room any more
   const kept = times(sheet.rows.length - gone, (i) => ({ ...between(singleRow(sheet, i + gone), singleRow(next, i), part), current: false }));
-  for (const row of kept) paintSequence(pen, only(next, row), look);
-  paintSequence(pen, only(next, moved(mothers, last, spans.before, part)), look);
-  pen.globalAlpha = part; // the daughters come out upon their mothers, on a strip of their own
+  paintSequence(pen, only(next, { ...moved(mothers, last, spans.before, part), unnumbered: true }), look);
+  pen.globalAlpha = part; // the daughters come out upon their mothers, on a strip of their own, and both from under the row that stays
   paintSequence(pen, only(next, moved(last, mothers, spans.after, 1 - part)), look);
   pen.globalAlpha = 1;
+  for (const row of kept) paintSequence(pen, only(next, row), look);
 }
 
 // A row of a sequence with its own cells and walls.

@@ -122,7 +122,7 @@ function paintRowLabels(pen, { width, pitch, head }, row, theme) {
   const size = Math.min(14, 0.8 * pitch), x = PICTURE_MARGIN + ROW_STEPS - BESIDE_STEP, y = row.middle + 0.35 * size, band = new Path2D();
   band.roundRect(4, row.top, width - 8, pitch, 6);
   if (row.current) fill(pen, band, theme.mark);
-  if (!head) return;
+  if (!head || row.unnumbered) return;
   const [colour, font] = row.current ? [theme.ink, `bold ${size}px sans-serif`] : [theme.quiet, `${size}px sans-serif`];
   write(pen, String(row.step), x, y, colour, font, "right");
   if (row.time) write(pen, row.time, x + ROW_TIMES, y, colour, font, "right");
