@@ -15,11 +15,12 @@ from lsys_kit.budget import limits
 pytest_plugins = ["tests.browser.fixtures", "tests.supervisors"]
 """The browser is for the tests of the lessons and for the benchmarks; supervisors are for budgets and interrupts."""
 
-EXAMPLES = {"quick": 5, "usual": 25, "thorough": 100}
-"""How many examples of a law a run tries, unless the law sets a number of its own. Without slow tests a run is quick; with
-`--thorough`, or where `CI` is set, it is thorough."""
-FEW_VARIANTS = {"quick": 6, "slow": 2, "browser": 1}
-"""How many variants of each kind of test are tried, spread over all of them, unless the run is thorough."""
+EXAMPLES = {"quick": 5, "usual": 25, "ci": 100, "thorough": 100}
+"""How many examples of a law a run tries, unless the law sets a number of its own. Without slow tests a run is quick; where `CI`
+is set it tries more than usual, and with `--thorough` all there is."""
+FEW_VARIANTS = {"usual": {"quick": 6, "slow": 2, "browser": 1}, "ci": {"quick": 24, "slow": 8, "browser": 20}}
+"""How many variants of each kind of test are tried, spread over all of them, unless the run is thorough. In a browser there are
+as many as there are lessons."""
 STARTS_A_BROWSER = {"browser", "lab", "graphics"}
 """The fixtures that do."""
 AN_HOUR = 3600
@@ -36,8 +37,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption(
         "--thorough",
         action="store_true",
-        default=bool(os.environ.get("CI")),
-        help="try all variants of each test, and many examples of each law, as where CI is set",
+        help="try all variants of each test, each benchmark once, and many examples of each law",
     )
     parser.addoption("--renew-pictures", action="store_true", help="renew the golden pictures of the printed figures")
 
@@ -60,7 +60,7 @@ def pytest_configure(config: pytest.Config) -> None:
     phases = set(Phase) - {Phase.explain}  # which traces every line after a failure, and makes all slow that is measured
     for name, many in EXAMPLES.items():
         settings.register_profile(name, settings.default, deadline=None, max_examples=many, phases=phases)
-    settings.load_profile("quick" if quick else "thorough" if config.option.thorough else "usual")
+    settings.load_profile("quick" if quick else _level(config))
     config.option.benchmark_disable = config.option.benchmark_disable or not config.option.benchmark_only
     if config.option.benchmark_only:
         config.option.dist = "no"  # several processes would measure each other
@@ -81,10 +81,14 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> Iterator[None]:
     """Of each test at most a few variants, spread over all of them, unless the run is thorough; no others are made."""
     yield
-    made = metafunc._calls
-    if not metafunc.config.option.thorough and made:
-        few = min(FEW_VARIANTS[_kind(metafunc.definition)], len(made))
+    made, level = metafunc._calls, _level(metafunc.config)
+    if level in FEW_VARIANTS and made:
+        few = min(FEW_VARIANTS[level][_kind(metafunc.definition)], len(made))
         made[:] = [made[place * len(made) // few] for place in range(few)]
+
+
+def _level(config: pytest.Config) -> str:
+    return "thorough" if config.option.thorough else "ci" if os.environ.get("CI") else "usual"
 
 
 def _kind(item: pytest.Item) -> str:

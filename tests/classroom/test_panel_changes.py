@@ -36,7 +36,7 @@ SYSTEMS: Mapping[str, tuple[tuple[str, str], ...]] = {
 """Systems of every kind, each with slips and changes: what stands in its text, and what is typed in its place."""
 STILL = frozenset(["K33"])
 """Systems whose constants are not moved: under some values their cells do not come to rest in time."""
-ACTS = {"K28": 7, "K33": 5}
+ACTS = {"K28": 7, "K33": 5, "K34": 4}
 """How much is done in panels whose cells take long to come to rest; in all others a dozen things are."""
 LONGEST = 0.4
 """Seconds between one action and the next."""
