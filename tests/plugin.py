@@ -16,8 +16,8 @@ pytest_plugins = ["tests.browser.fixtures", "tests.supervisors"]
 """The browser is for the tests of the lessons and for the benchmarks; supervisors are for budgets and interrupts."""
 
 EXAMPLES = {"quick": 5, "usual": 25, "ci": 100, "thorough": 100}
-"""How many examples of a law a run tries, unless the law sets a number of its own. Without slow tests a run is quick; where `CI`
-is set it tries more than usual, and with `--thorough` all there is."""
+"""How many examples of a law a run tries, unless the law sets a number of its own. Without slow tests a run is quick; where
+`CI` is set it tries more than usual, and with `--thorough` all there is."""
 FEW_VARIANTS = {"usual": {"quick": 6, "slow": 2, "browser": 1}, "ci": {"quick": 24, "slow": 8, "browser": 20}}
 """How many variants of each kind of test are tried, spread over all of them, unless the run is thorough. In a browser there are
 as many as there are lessons."""
