@@ -146,6 +146,13 @@ UNREADABLE = [
         'It is written before the "]" of a branch in a right context, as in "A > [B ε]C -> D".',
     ),
     (
+        "axiom: A\nε -> B",
+        'Only modules are replaced, and "ε" is none',
+        2,
+        1,
+        'A production reads "A -> B": what is replaced, an arrow, what replaces it.',
+    ),
+    (
         "axiom: A\nturtle: logo",
         'I do not know the turtle "logo"',
         2,

@@ -691,7 +691,17 @@ def _spelt_out(text: str) -> str:
     text = _SETTING.sub(r"\1:", _NEXT_LINE.sub("\n", _COMMA_FOR_COLON.sub(r"\1 : \2", text)))
     text = without_commas(_NOTHING.sub(r"\1 ε", text))
     text = "\n".join(map(_with_signs, text.split("\n")))
-    return f"axiom: {text}" if _FIRST_WORD.match(text) else text
+    return f"axiom: {text}" if _begins_with_word(text) else text
+
+
+def _begins_with_word(text: str) -> bool:
+    """Whether the first line is a word: all its letters stand in the productions below.
+
+    >>> _begins_with_word("ab\\na -> ab"), _begins_with_word("a to b\\na -> ab")
+    (True, False)
+    """
+    word, _, rules = text.partition("\n")
+    return bool(_FIRST_WORD.match(text)) and {*re.findall(r"[^\W\d_]", word)} <= {*rules}
 
 
 _SINGLE_EQUALS = re.compile(r"(?<![<>=!])=(?![=<>])")

@@ -61,6 +61,15 @@ _CONTRARY = re.compile(rf"{_NAMED}[A-Za-z]\W+(?:but|except|however|only|aber|au�
 _LETTER_AND_WORDS = re.compile(r"^\W*([A-Za-z])\s*(?:[:)\]]|\.(?=\s)|\((?=\d*+\s*+[^\W\d_]{2}))\s*(\S.*)$", re.DOTALL)
 _WORDS_AND_LETTER = re.compile(r"(?=.*?[^\W\d_]{2})([^:]*+(?::[^:]*+)*?):\s*+([A-Z])\W*+\Z", re.DOTALL)
 """A letter with words of one's own behind it, or in front of it."""
+_LETTER_BEFORE = re.compile(r"^\W*([A-Z])([\s,;]\s*)(\S.*)$", re.DOTALL)
+"""A letter with words or figures behind it, without a sign between them, or a comma."""
+_FIRST = re.compile(rf"{_NAMED}([A-Z])(?!\w)", re.IGNORECASE)
+_CORRECTED = re.compile(
+    r"[,;.]\s*+(?:(?:no|wait|sorry|rather|actually|better|nein|doch|eher|lieber|besser)\b[\s,]*+)*"
+    rf"{_LED_IN}\s*+([A-Z])\W*$",
+    re.IGNORECASE,
+)
+"""The first letter, and one by itself at the end, as in "A, no wait, D"."""
 _PLACE = re.compile(
     r"^\W*(?:(?:the|die|der|das)\s++)?([^\W\d_]++|\d(?:st|nd|rd|th))(?:\s++(?:one|option|answer|choice|antwort|möglichkeit))?\W*$",
     re.IGNORECASE,
@@ -70,13 +79,14 @@ _YES_OR_NO = re.compile(rf"^\W*(yes|no|ja|nein)\b\W*([a-z]){_AROUND}$", re.IGNOR
 """A letter behind the first word of its option, as in "no, D"."""
 _NOUN_AND_LETTER = re.compile(rf"^\W*([^\W\d_]{{3,}})\s+([a-z]){_AROUND}$", re.IGNORECASE)
 _ANSWER_IS = re.compile(r"^(?:answer|antwort)\s*=\s*", re.IGNORECASE)
-_SEVERAL = re.compile(r"[,;/&+]|\b(?:and|or|but|und|oder|aber)\b", re.IGNORECASE)
+_SEVERAL = re.compile(r"[,;/&+]|\b(?:and|or|but|then|und|oder|aber|dann)\b", re.IGNORECASE)
 _SEVERAL_LETTERS = re.compile(r"(?<!\w)[A-Z](?!\w)")
 """Letters of several options, as in "B or D"."""
 _OF_THESE = re.compile(r"\b(?:which|these)\s+([^\W\d_]+)", re.IGNORECASE)
 """What the options are, as in "which of these systems"."""
 _LAST = ("last", "letzte", "letzter", "letztes")
 _EXCLUDING = frozenset(WORDS["excluding"].split())
+_DENYING = frozenset(WORDS["denying"].split())
 _FILLING = frozenset(WORDS["filling"].split())
 MOST_WORDS = 3
 """So many words has an answer that names an option of one word."""
@@ -110,6 +120,9 @@ def _read_choice(exercise: Exercise, answer: object) -> str:
     meant = [letter for letter, own in texts.items() if own == _plain(text)] or [
         letter for letter, own in texts.items() if _without_joints(own) == _without_joints(_plain(text))
     ]
+    first, last = _FIRST.match(text), _CORRECTED.search(text)
+    if not meant and first and last and len({first[1].upper(), last[1].upper()} & {*known}) > 1:
+        raise ModelValueError(reply("choice.one_needed", number=2))
     named_letter = named[1].upper() if named else _letter_behind(exercise, texts, text)
     if named_letter and named_letter in known and not meant:
         meant = [named_letter]
@@ -125,6 +138,7 @@ def _read_choice(exercise: Exercise, answer: object) -> str:
         raise ModelValueError(reply("choice.one_needed", number=len(named_ones)))
     meant = meant or named_ones or _with_own_words(texts, text) or _by_place(known, text)
     meant = meant or [letter for letter, own in texts.items() if own == _plain(text.partition(":")[0])]
+    meant = meant or _with_the_same_words(texts, _plain(text)) or _before_words(exercise, texts, text)
     if len(meant) > 1:
         several = reply("choice.several", text=quoted(text))
         raise ModelNameError(several, hint=reply("choice.choose", options=", ".join(meant)))
@@ -236,6 +250,40 @@ def _with_own_words(texts: Mapping[str, str], text: str) -> list[str]:
     return sorted({*letters, *others})
 
 
+def _with_the_same_words(texts: Mapping[str, str], plain: str) -> list[str]:
+    """The option that has the words and figures of an answer in their order, where no other has; words that fill do not count.
+
+    >>> _with_the_same_words({"A": "at (0,1),looking up", "B": "at (0,-1),looking up"}, "(0,1) looking up")
+    ['A']
+    """
+    own, others = _telling(plain), {letter: _telling(text) for letter, text in texts.items()}
+    found = [letter for letter, words in others.items() if own and words == own]
+    return found if len(found) == 1 else []
+
+
+def _telling(plain: str) -> list[str]:
+    return [word for word in re.findall(r"-?\d+|[^\W\d_]+|[^\w\s.,:;()]", plain) if word not in _FILLING]
+
+
+def _before_words(exercise: Exercise, texts: Mapping[str, str], text: str) -> list[str]:
+    """The option whose letter stands before words or a figure of one's own, and the one other option that has these.
+
+    Not where another option is named or where the words deny; an A, which may be an article, and a letter that is a symbol of
+    the question, only before words of its option.
+    """
+    found = _LETTER_BEFORE.match(text)
+    if not found or found[1] not in texts or not re.search(r"[^\W\d_]{2}|\d", found[3]):
+        return []
+    letter, words = found[1], {*_words(_plain(found[3]))}
+    excludes = words & _EXCLUDING and words <= _EXCLUDING | _FILLING
+    if words & _DENYING or excludes or {*_SEVERAL_LETTERS.findall(found[3])} & {*texts}:
+        return []
+    if letter == "A" or re.search(rf"(?<!\w){letter}(?!\w)", exercise.question):
+        return [letter] if words - _FILLING <= {*_words(texts[letter])} else []
+    others = _with_real_part(texts, _plain(found[3]))
+    return sorted({letter, *(others if len(others) == 1 else [])})
+
+
 def _named_in(texts: Mapping[str, str], text: str) -> list[str]:
     """The options that a short answer names: those of one word, or that begin with one and a colon."""
     words = _words(_plain(text))
@@ -294,11 +342,22 @@ SYMBOL = AnswerKind(_read_symbol, _symbol_difference, _same_symbol)
 
 
 _LINE_NUMBER = re.compile(
-    r"^\W*(?:(?:it|is|the|in|line|number|no|nr|l|es|ist|die|zeile|nummer)\b\W*|l)*(\d{1,8})(?:\W+line)?(?:\W*$|\s*\([^()]*\)\W*$|\s*[:,;]\s*[^\W\d].*$|\s*:\s*[^\w\s].*$)",
+    r"^\W*(?:(?:it|is|the|in|line|number|no|nr|l|es|ist|die|zeile|nummer)\b\W*|l)*(\d{1,8})(?:\W+(?:line|zeile))?(?:\W*$|\s*\([^()]*\)\W*$|\s*[:,;]\s*[^\W\d].*$|\s*:\s*[^\w\s].*$)",
     re.IGNORECASE | re.DOTALL,
 )
 
 
+_LINE_AND_WORDS = re.compile(
+    r"^\W*(?:in\s++|(?:it|es)\s+(?:is|ist)\s++)?(?:line|zeile)\s*+(\d{1,3})\s*+:|[,;:]\s*+(?:in\s++)?(?:line|zeile)\s*+(\d{1,3})\W*$",
+    re.IGNORECASE,
+)
+"""One line with words or signs behind it, or in front of it."""
+_WRONG_LINE = re.compile(
+    r"(?:^\W*|[,;.]\s*+|\b(?:and|but|so|und|aber)\s++)(?:(?:the|die)\s++)?(?:line|zeile)?\s*+(\d{1,3})\s++(?:line\s++|zeile\s++)?(?:is|ist)\s++"
+    r"(?:wrong|false|incorrect|not\s+right|the\s+(?:wrong\s+(?:1|line)|mistake|misprint)|falsch|nicht\s+richtig)\W*$",
+    re.IGNORECASE,
+)
+"""A line that is told to be wrong."""
 _SEVERAL_LINES = re.compile(
     r"(?:lines?|zeilen?|both|beide|between|zwischen)?\s*+\d++"
     r"(?>(?:\s*+(?:[,;/&+-]|and|or|to|und|oder|bis)\s*+(?:lines?|zeilen?)?\s*+\d++)+)",
@@ -313,22 +372,33 @@ def _unspaced(text: str) -> str:
     return re.sub(r"\s+", "", keyboard_text(text)).replace("→", "->")
 
 
+def _one_line_of(text: str) -> re.Match[str] | None:
+    """The one line that is named in words that do not deny it.
+
+    >>> [found and (found[1] or found[2]) for found in map(_one_line_of, ("line 4: 7", "i < 3, line 5", "not 3, line 5"))]
+    ['4', '5', None]
+    """
+    found = _LINE_AND_WORDS.search(text)
+    several = len(re.findall(r"\b(?:lines?|zeilen?)\b", text, re.IGNORECASE)) > 1
+    return None if several or (_DENYING | _EXCLUDING) & {*_words(text.casefold())} else found
+
+
 def _read_line(exercise: Exercise, answer: object) -> int:
     lines = exercise.text.strip("\n").splitlines()
     if isinstance(answer, str):
-        text = unquoted(answer)
-        same = [number for number, line in enumerate(lines, 1) if _unspaced(line) == _unspaced(text)]
+        typed = unquoted(answer)
+        same = [number for number, line in enumerate(lines, 1) if _unspaced(line) == _unspaced(typed)]
         if len(same) == 1:
             return same[0]
-        number = _LINE_NUMBER.match(with_digits(keyboard_text(text)))
-        if _LAST_LINE.match(text):
+        text = with_digits(keyboard_text(typed))
+        number = _LINE_NUMBER.match(text) or _WRONG_LINE.search(text) or _one_line_of(text)
+        if _LAST_LINE.match(typed):
             return len(lines)
-        several = _SEVERAL_LINES.fullmatch(with_digits(keyboard_text(text)))
-        if several:
+        if _SEVERAL_LINES.fullmatch(text):
             raise ModelValueError(reply("line.one_needed"), hint=reply("line.choose", last=len(lines)))
         if not number:
-            raise ModelValueError(reply("line.what_is_none", text=quoted(text)), hint=reply("line.choose", last=len(lines)))
-        answer = int(number[1])
+            raise ModelValueError(reply("line.what_is_none", text=quoted(typed)), hint=reply("line.choose", last=len(lines)))
+        answer = int(next(filter(None, number.groups())))
     if isinstance(answer, bool) or not isinstance(answer, Integral):
         raise ModelValueError(reply("line.needed", kind=kind_of(answer)))
     found = int(answer)

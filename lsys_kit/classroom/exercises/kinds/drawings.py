@@ -193,7 +193,7 @@ def _difference(exercise: Exercise, mine: Drawn, wanted: Drawn) -> Difference:
     own, other = len(mine.strokes), len(wanted.strokes)
     never = _unused(mine)
     if not own:
-        return Difference(reply("drawing.nothing"), explains=True)
+        return Difference(reply("drawing.nothing"), explains=len(mine.derivation) == 1)
     if never is not None and same_strokes(mine.strokes, wanted.strokes, turned=not exercise.drawn):
         said = reply("system.never_used") + typed_rule(never, mine.derivation.states.system)
         return Difference(said, 1, True, explains=True)

@@ -14,7 +14,15 @@ from typing import TypeAlias
 from lsys_kit.classroom.exercises.exercise import Exercise
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
 from lsys_kit.classroom.exercises.replies import reply
-from lsys_kit.classroom.exercises.typed import assigned_name, formula_text, keyboard_text, kind_of, quoted, text_answer
+from lsys_kit.classroom.exercises.typed import (
+    assigned_name,
+    formula_text,
+    is_unsolved,
+    keyboard_text,
+    kind_of,
+    quoted,
+    text_answer,
+)
 from lsys_kit.errors import LSystemError, ModelSyntaxError, ModelValueError
 from lsys_kit.notation.analysis.checks import check_expression
 from lsys_kit.notation.model.arithmetic import Value, number_text, reason_of, shortest_decimal
@@ -160,7 +168,7 @@ def _read(exercise: Exercise, answer: object) -> Expression:
         raise ModelSyntaxError(reply("expression.comparison"), text, turned.start(), turned.end())
     try:
         return checked_expression(text, exercise.values, wanted)
-    except LSystemError:
+    except LSystemError as first:
         for changed in (_alone(exercise, text), _in_case_of(exercise.values, text)):
             if changed != text:
                 with suppress(LSystemError):
@@ -170,11 +178,19 @@ def _read(exercise: Exercise, answer: object) -> Expression:
             try:
                 return checked_expression(other, exercise.values, wanted)
             except LSystemError as mistake:
-                if mistake.span is None or other in text:
+                if mistake.span is None or other in text or _is_behind(mistake, first):
                     raise
+        if wanted == "number" and is_unsolved(keyboard_text(text), exercise.values):
+            raise ModelValueError(reply("expression.equation", text=quoted(text))) from None
         if wanted == "number" and _SEVERAL.search(text):
             raise ModelValueError(reply("expression.one_needed", text=quoted(text))) from None
         raise
+
+
+def _is_behind(mistake: LSystemError, first: LSystemError) -> bool:
+    """Whether a mistake is nearer to the end of its text than another, which is none in the form that the kit writes."""
+    left, left_first = (len(each.source) - each.span[0] if each.source and each.span else 0 for each in (mistake, first))
+    return left < left_first
 
 
 _GOES_ON = re.compile(r"\.{3}|…")
@@ -213,6 +229,8 @@ def _alone(exercise: Exercise, text: str) -> str:
     both = _ONE_EQUATION.fullmatch(keyboard_text(text))
     if both and f" {' '.join(both[1].split())} = " in " ".join(exercise.question.split()):
         return both[2].strip()
+    if both and _LETTER.fullmatch(both[2].strip()) and both[2].strip() not in exercise.values:
+        return both[1].strip()
     with suppress(LSystemError):
         if both:
             one, other = (

@@ -42,6 +42,8 @@ MOST_APART = 1_000_000
 """How many times too large or too small a number may be that counts as a try."""
 MOST_DENOMINATOR = 10_000
 """Fractions with a larger denominator are shown as decimals."""
+MOST_DECIMALS = 12
+"""A fraction with more decimals is no decimal number."""
 _GIVEN = re.compile(r"\b([A-Za-z]) = \d")
 """A letter with its value, as a question gives it."""
 _FILLING, _DOUBTFUL = (frozenset(WORDS[kind].split()) for kind in ("filling", "doubtful"))
@@ -307,13 +309,24 @@ def _distance(own: Value, wanted: Value) -> Any:
         return math.inf
 
 
+def _tolerance(exercise: Exercise, own: Value) -> float:
+    """How far an answer may be from the solution: not at all where both are written as fractions.
+
+    >>> share = Exercise("1", "", "number", "", "1/8", "", (), tolerance=0.01)
+    >>> _tolerance(share, Fraction(3, 23)), _tolerance(share, Fraction(13, 100))
+    (0, 0.01)
+    """
+    is_fraction = isinstance(own, Fraction) and bool(10**MOST_DECIMALS % own.denominator)
+    return 0 if is_fraction and "/" in exercise.solution else exercise.tolerance
+
+
 def same_number(exercise: Exercise, own: Value, wanted: Value) -> bool:
     """Whether two numbers are equal, within the tolerance of the question; doubles up to rounding.
 
     >>> same_number(Exercise("1", "", "number", "", "", "", (), tolerance=1), 20, 21)
     True
     """
-    if _distance(own, wanted) <= exercise.tolerance:
+    if _distance(own, wanted) <= _tolerance(exercise, own):
         return True
     with suppress(OverflowError):  # a whole number beyond all doubles equals none of them
         inexact = isinstance(own, float) or isinstance(wanted, float)
@@ -331,7 +344,7 @@ def _number_difference(exercise: Exercise, number: Value, solution: Value) -> Di
     counted = (exercise.unit and exercise.unit.lower() not in UNITS) or what_is_asked(exercise)
     if counted and isinstance(solution, int) and (number != int(number) or number < 0):
         return Difference(f"{said} {reply('number.not_negative' if number < 0 else 'number.whole')}")
-    if exercise.tolerance and _distance(number, solution) <= 3 * exercise.tolerance:
+    if exercise.tolerance and _distance(number, solution) <= 3 * _tolerance(exercise, number):
         return Difference(f"{said} {reply('number.close')}", 1, True)
     if decimals := _too_few_decimals(exercise, number, solution):
         return Difference(f"{said} {reply('number.decimals', number=decimals)}", 1, True)

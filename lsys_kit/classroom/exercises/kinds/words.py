@@ -134,8 +134,19 @@ def _of_the_system(system: LSystem, text: str, word: Modules, drawn: bool) -> Mo
         if module.symbol not in allowed:
             hint = suggestion(module.symbol, known) or reply("word.symbols", symbols=", ".join(known))
             said = reply("word.unknown", symbol=module.symbol)
-            raise ModelNameError(said, text, *span(module), hint)
+            raise ModelNameError(said, text, *_place_of(module, text), hint)
     return word
+
+
+def _place_of(module: Module, text: str) -> tuple[int | None, int | None]:
+    """Where the symbol of a module stands, which may be read from several letters without blanks between them.
+
+    >>> _place_of(Module("g", at=(0, 3)), "FgF"), _place_of(Module("bx", at=(3, 5)), "al bx")
+    ((1, 2), (3, 5))
+    """
+    start, end = span(module)
+    at = -1 if start is None else text.find(module.symbol, start, end)
+    return (start, end) if at < 0 or len(module.symbol) > 1 else (at, at + 1)
 
 
 def _read_word(exercise: Exercise, answer: object) -> Modules:
