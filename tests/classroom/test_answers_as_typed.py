@@ -8,6 +8,7 @@ import tomllib
 from collections import Counter
 from decimal import Decimal
 from fractions import Fraction
+from itertools import permutations, product
 from pathlib import Path
 
 import numpy as np
@@ -17,9 +18,11 @@ import sympy
 from lsys_kit import check, derive, exercises, read
 from lsys_kit.classroom.exercises import registry
 from lsys_kit.classroom.exercises.exercise import Exercise
-from lsys_kit.classroom.exercises.judging import wrong_answers
+from lsys_kit.classroom.exercises.judging import is_right, wrong_answers
 from lsys_kit.classroom.exercises.misconceptions.table import MISCONCEPTIONS
 from lsys_kit.classroom.exercises.replies import REPLIES
+from lsys_kit.notation.model.expressions import function_of
+from lsys_kit.notation.read import read_expression
 
 DATA = Path(__file__).parent / "data"
 WRONG = tomllib.loads((DATA / "wrong_answers.toml").read_text(encoding="utf-8"))
@@ -131,6 +134,67 @@ def test_a_condition_has_no_exceptions_that_the_question_does_not_have(name, nam
     for each in names:
         assert check(name, f"({KIT[name].solution}) && {each} != 37") < 1, each
         assert check(name, f"({KIT[name].solution}) && {each} > {min(KIT[name].values[each]) - 1}") == 1, each
+
+
+FURTHER = {
+    "10.5": dict.fromkeys("mnuv", range(1, 13)),
+    "15.5": {"x": range(-9, 10), "y": range(-9, 10), "L": range(1, 9)},
+    "19.7": {"i": range(1, 60), "j": range(1, 60)},
+}
+"""Values beyond those that a question compares with."""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("joint", ["&&", "||"])
+@pytest.mark.parametrize("name", FURTHER)
+def test_a_condition_with_a_further_comparison_of_two_names_is_right_only_where_that_changes_nothing(name, joint):
+    order = {each: number for number, each in enumerate(FURTHER[name])}
+    cases = [case for case in product(*FURTHER[name].values()) if name != "10.5" or case[3] < case[1]]
+    right = function_of(read_expression(KIT[name].solution), order)
+    for (a, b), comparison in product(permutations(order, 2), ["{} < {}", "{} <= {} + 1", "{} == 2*{}", "{} != {}"]):
+        text = f"({KIT[name].solution}) {joint} {comparison.format(a, b)}"
+        own = function_of(read_expression(text), order)
+        assert is_right(KIT[name], text) == all(own(case) == right(case) for case in cases), text
+
+
+@pytest.mark.parametrize(
+    ("name", "words", "does"),
+    [
+        ("15.3", "B sleeps", 1),
+        ("15.3", "B 0", 1),
+        ("15.3", "C full", "how full"),
+        ("15.3", "B not", "none of the options"),
+        ("15.3", "B no", "none of the options"),
+        ("15.3", "B is wrong", "none of the options"),
+        ("7.4", "B becomes two", "none of the options"),
+        ("16.4", "D the other side", 1),
+        ("19.6", "A chance", 1),
+        ("19.6", "A filament", "none of the options"),
+        ("15.3", "B, no wait, C", "you give 2"),
+        ("15.3", "B. Rather C", "you give 2"),
+        ("15.3", "B C", "none of the options"),
+        ("12.4", "A 0.2", "none of the options"),
+        ("8.3", "line 5: 1", 1),
+        ("8.3", "X comes back, line 5", 1),
+        ("8.3", "line 3 is fine, but 5 is wrong", 1),
+        ("8.3", "all but line 5", "no line"),
+        ("8.3", "not 4, line 5", "no line"),
+    ],
+)
+def test_a_letter_or_line_is_read_with_words_of_ones_own_that_do_not_deny_it(name, words, does):
+    verdict = check(name, words)
+    assert verdict == 1 if does == 1 else does in verdict.message, str(verdict)
+
+
+@pytest.mark.parametrize(("answer", "right"), [("27/255", "54/512"), ("28/264", "27/256"), ("27 in 255", "27 in 256")])
+def test_a_fraction_is_compared_exactly_with_a_fraction(answer, right):
+    assert check("8.1", answer) < 1 == check("8.1", right)
+
+
+def test_a_mistake_is_shown_that_is_left_in_the_form_of_the_kit():
+    assert "A value is missing here (line 1, column 5)" in check("7.6", "2**n//d").message
+    assert "is an equation, and what it is to be solved for" in check("12.6", "b*(1-c) = 1").message
+    assert check("12.6", "1/(1-c) = b") == 1
 
 
 U, N, V, M, X, Y, L = sympy.symbols("u n v m x y L")

@@ -366,6 +366,8 @@ _LABELLED = re.compile(
     rf"^\W*(?:(?:at|in|im|bei|after|nach)\s+)?(?:{'|'.join(WORDS['labels'].split())})\s*\d+\s*:\s*", re.IGNORECASE
 )
 """What is before the number in "step 3: 64"."""
+_REASONED = re.compile(r"(?<=[\d)%°])(?:\s++|\s*+[,;:]\s*+)(?:because|since|weil|denn|da)\b.*+\Z", re.IGNORECASE | re.DOTALL)
+"""The reason behind a number."""
 _CONCLUDED = re.compile(
     r"\A.*[,;.]\s(?:so|thus|hence|therefore|also|daher|folglich)\s++(?>(?:(?:it|there|es)\s++(?:is|are|sind)\s++)?)(?=[-+]?\d)",
     re.IGNORECASE,
@@ -396,7 +398,10 @@ _REPLACED = (
     (re.compile(r"\bhalf\s+of\s+(?=\d)", re.IGNORECASE), "1/2*"),
     (re.compile(r"\b(?:no|nr)\.\s*(?=\d)", re.IGNORECASE), ""),
     (re.compile(r"°(?=\s*[-+*/:])"), ""),
+    (re.compile(r"(?<![\w.])(\d+(?:\.\d+)?)\s*+(?:%|percent|prozent)\s++(?:of|von)\s++(?=\d)", re.IGNORECASE), r"\1/100*"),
+    (re.compile(r"(?<![\w.])(\d+\s*/\s*\d+|\d*\.\d+)\s++(?:of|von)\s++(?=\d)", re.IGNORECASE), r"\1*"),
     (re.compile(r"(?<=\d)\s+(?:out\s+of|of|in|von|aus)\s+(?=\d+\W*$)", re.IGNORECASE), "/"),
+    (re.compile(r"^\s*\*\s*(?=[\d.])"), ""),
     (re.compile(r"(?<=[\d)])\s*:\s*(?=[\d(][^:]*\Z)"), "/"),
     (re.compile(r"(?<=\d)(?<!\b0)\s*x\s*(?=\d)"), "*"),
     (re.compile(r"(?<=\d)\s+squared\b", re.IGNORECASE), "^2"),
@@ -439,6 +444,8 @@ def typed_number(answer: object, decimal_comma: bool = False) -> TypedNumber:
     (21, 1000, Fraction(1, 2))
     >>> typed_number("about .5").value, typed_number("No.5 .").value, typed_number("4 to the power of 3").value
     (Fraction(1, 2), 5, 64)
+    >>> typed_number("one fifth of 360").value, typed_number("27 of 256").value, typed_number("10, since 8 is too short").value
+    (72, Fraction(27, 256), 10)
     >>> typed_number("at step twenty-one"), typed_number("2π/5 rad").after
     (TypedNumber(value=21, before=('at', 'step'), after=(), of_pi=False), ('rad',))
     """
@@ -456,7 +463,7 @@ def typed_number(answer: object, decimal_comma: bool = False) -> TypedNumber:
         raise ModelValueError(reply("typed.unreadable", answer=quoted(answer)), hint=reply("typed.alone"))
     for pattern, plain in _REPLACED:
         text = pattern.sub(plain, text)
-    text = _CONCLUDED.sub("", text)
+    text = _REASONED.sub("", _CONCLUDED.sub("", text))
     if _SEVERAL.search(text):
         raise ModelValueError(reply("typed.one_needed", answer=quoted(answer)), hint=reply("typed.alone"))
     fault: LSystemError | None = None

@@ -12,6 +12,7 @@ from functools import reduce
 from typing import TypeAlias
 
 from lsys_kit.classroom.exercises.exercise import Exercise
+from lsys_kit.classroom.exercises.kinds.forms import normal
 from lsys_kit.classroom.exercises.kinds.kind import AnswerKind, Difference
 from lsys_kit.classroom.exercises.replies import reply
 from lsys_kit.classroom.exercises.typed import (
@@ -29,6 +30,7 @@ from lsys_kit.notation.model.arithmetic import Value, number_text, reason_of, sh
 from lsys_kit.notation.model.expressions import (
     Apply,
     Expression,
+    Function,
     Name,
     Number,
     expression_type,
@@ -58,18 +60,18 @@ def differing_values(mine: Expression, wanted: Expression, cases: Iterable[Valua
     >>> differing_values(read_expression("t"), read_expression("2*t"), [{"t": 0}, {"t": 1}])
     'With t = 1 your expression gives 1, and it should give 2.'
     """
+    run: dict[tuple[str, ...], list[Function]] = {}
     for case in cases:
-        own, right = _value_or_reason(mine, case), _value_or_reason(wanted, case)
+        names = tuple(case)
+        if names not in run:
+            run[names] = [function_of(each, {name: i for i, name in enumerate(names)}) for each in (mine, wanted)]
+        own, right = (_value(each, tuple(case.values())) for each in run[names])
         if not _equal_values(own, right):
             where = reply("expression.and").join(f"{name} = {number_text(value)}" for name, value in case.items())
             if isinstance(own, str):
                 return reply("expression.no_value", values=where, reason=own, right=_value_text(right))
             return reply("expression.value", values=where, own=_value_text(own), right=_value_text(right))
     return None
-
-
-def _value_or_reason(expression: Expression, case: Valuations) -> Value | str:
-    return _value(expression, {name: i for i, name in enumerate(case)}, tuple(case.values()))
 
 
 def _equal_values(own: Value | str, right: Value | str) -> bool:
@@ -306,17 +308,17 @@ MOST_AT_A_BOUND = 10_000
 
 
 def _own_cases(exercise: Exercise, own: Expression, wanted: Expression) -> Iterator[Valuations]:
-    """The cases of a question, and those at the bounds that an answer has with numbers of its own.
+    """The cases of a question, and those at the bounds of the comparisons that an answer has and the solution has not.
 
     Nothing is tried below the least value, nor where a name may be a share.
     """
     yield from _cases(exercise)
     if expression_type(own) != "truth" or any(max(each) <= 1 for each in exercise.values.values()):
         return
-    numbers = {part.value for part in walk(wanted) if isinstance(part, Number)}
+    known = {*map(str, map(normal, walk(wanted)))}
     for part in walk(own):
-        new = {each.value for each in walk(part) if isinstance(each, Number)} - numbers
-        if new and isinstance(part, Apply) and [expression_type(each) for each in (part, *part.operands)] == _COMPARED:
+        is_compared = isinstance(part, Apply) and [expression_type(each) for each in (part, *part.operands)] == _COMPARED
+        if is_compared and isinstance(part, Apply) and str(normal(part)) not in known:
             yield from _at_the_bound(exercise, Apply("-", part.operands))
 
 
@@ -324,9 +326,10 @@ def _at_the_bound(exercise: Exercise, distance: Expression) -> Iterator[Valuatio
     """Cases in which a distance is 0 or nearly so, also with another value twice as large, all in the order of the question."""
     cases = list(_cases(exercise))
     ordered = [(a, b) for a, b in itertools.permutations(exercise.values, 2) if all(case[a] < case[b] for case in cases)]
+    run = function_of(distance, {name: i for i, name in enumerate(exercise.values)})
     for name, case in itertools.product(sorted(names_in(distance)), cases):
         with suppress(ArithmeticError, ValueError):  # where it has no value, or the same one everywhere
-            first, second = (Fraction(_value_or_reason(distance, {**case, name: value})) for value in (0, 1))
+            first, second = (Fraction(run(tuple({**case, name: value}.values()))) for value in (0, 1))
             root = first / (first - second)
             for value in sorted({math.floor(root), math.floor(root) + 1, math.ceil(root) - 1}):
                 for other in case:
@@ -347,7 +350,8 @@ def _same(exercise: Exercise, own: Expression, wanted: Expression) -> bool:
 def agreement(exercise: Exercise, wanted: Expression) -> Callable[[Expression], bool]:
     """Whether an expression has the same values as another in all cases of the question; they are computed once."""
     order = {name: i for i, name in enumerate(exercise.values)}
-    cases = [(case, _value(wanted, order, case)) for case in itertools.product(*exercise.values.values())]
+    right_one = function_of(wanted, order)
+    cases = [(case, _value(right_one, case)) for case in itertools.product(*exercise.values.values())]
 
     def agrees(own: Expression) -> bool:
         run = function_of(own, order)
@@ -358,9 +362,9 @@ def agreement(exercise: Exercise, wanted: Expression) -> Callable[[Expression], 
     return agrees
 
 
-def _value(expression: Expression, order: Mapping[str, int], case: tuple[Value, ...]) -> Value | str:
+def _value(run: Function, case: tuple[Value, ...]) -> Value | str:
     try:
-        return function_of(expression, order)(case)  # type: ignore[no-any-return]
+        return run(case)  # type: ignore[no-any-return]
     except (ArithmeticError, ValueError) as fault:
         return reason_of(fault)
 

@@ -467,9 +467,10 @@ def _read_table(exercise: Exercise, answer: object) -> tuple[Value, ...]:
 
 _OF_A_SYMBOL = re.compile(
     r"\W*+(?:(\d++)\s*+(?>(?:\*\s*+)?(?:(?:tokens?|marken?)\s++)?(?:in\s++)?)([^\W\d]\w*+)"
-    r"|([^\W\d]\w*+)\s*+(?:[:=]|has\b|hat\b)\s*+(\d++))\W*+"
+    r"|([^\W\d]\w*+)\s*+(?:[:=]|has\b|hat\b)\s*+(\d++)|([^\W\d_])(\d++))\W*+"
 )
-"""A number with its symbol, as in "2 L" and "L: 2"."""
+"""A number with its symbol, as in "2 L", "L: 2" and "L2"."""
+_GLUED_ROW = re.compile(r"\s*+(?:[^\W\d_]\d++\s++)*[^\W\d_]\d++\s*+")
 
 
 def _by_symbols(exercise: Exercise, answer: object) -> list[object]:
@@ -477,10 +478,12 @@ def _by_symbols(exercise: Exercise, answer: object) -> list[object]:
     if not isinstance(answer, str) or what_is_asked(exercise) != "counts" or len(exercise.symbols) < 2:
         return []
     text = with_digits(unquoted(keyboard_text(answer)))
-    found = [_OF_A_SYMBOL.fullmatch(part) for part in re.split(r"[,;\n]|\band\b|\bund\b", text) if part.strip()]
-    numbers = {each[2] or each[3]: each[1] or each[4] for each in found if each}
+    between = r"\s+" if _GLUED_ROW.fullmatch(text) else r"[,;\n]|\band\b|\bund\b"
+    found = [_OF_A_SYMBOL.fullmatch(part) for part in re.split(between, text) if part.strip()]
+    numbers = {each[2] or each[3] or each[5]: each[1] or each[4] or each[6] for each in found if each}
     given, names = [*numbers], exercise.symbols
-    if len(numbers) < max(len(found), 2) or not set(given) <= set(names) or given == [*names[: len(given)]]:
+    in_order = given == [*names[: len(given)]] and not any(each and each[5] for each in found)
+    if len(numbers) < max(len(found), 2) or not set(given) <= set(names) or in_order:
         return []
     if missing := [symbol for symbol in names if symbol not in numbers]:
         raise ModelValueError(reply("table.no_number_for", symbols=", ".join(missing)))

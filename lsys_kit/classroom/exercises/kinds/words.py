@@ -38,7 +38,7 @@ _BRACES = re.compile(r"^\s*[{\[]([^{}\[\]]*,[^{}\[\]]*)[}\]]\s*$", re.DOTALL)
 """A word written as a list, whose brackets are no branches."""
 _TUPLE = re.compile(r"^\s*\(([^()]*,[^()]*)\)\s*$", re.DOTALL)
 _LABEL = re.compile(
-    r"^\s*(?:(?:it|that|es|das)(?:['’]s|\s+is|\s+ist)\s+|(?:(?:the|my|das|die|mein|meine)\s+)?"
+    r"^\s*(?:\d{1,3}\s*:\s|(?:it|that|es|das)(?:['’]s|\s+is|\s+ist)\s+|(?:(?:the|my|das|die|mein|meine)\s+)?"
     r"(?:word|step|stage|answer|result|axiom|wort|schritt|stufe|antwort|ergebnis)\b[\w\s()]*(?:(?:is|ist|lautet)\b|[:=])\s*)",
     re.IGNORECASE,
 )
@@ -150,6 +150,12 @@ def _place_of(module: Module, text: str) -> tuple[int | None, int | None]:
 
 
 def _read_word(exercise: Exercise, answer: object) -> Modules:
+    if (
+        isinstance(answer, str)
+        and exercise.system
+        and len(steps := re.split(ARROW, answer)) in (exercise.steps, exercise.steps + 1)
+    ):
+        answer = steps[-1] if len(steps) > 1 else answer  # of a derivation, its last word
     return read_modules(system_of_words(exercise), answer)
 
 
