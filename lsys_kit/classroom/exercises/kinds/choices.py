@@ -64,12 +64,13 @@ _WORDS_AND_LETTER = re.compile(r"(?=.*?[^\W\d_]{2})([^:]*+(?::[^:]*+)*?):\s*+([A
 _LETTER_BEFORE = re.compile(r"^\W*([A-Z])([\s,;]\s*)(\S.*)$", re.DOTALL)
 """A letter with words or figures behind it, without a sign between them, or a comma."""
 _FIRST = re.compile(rf"{_NAMED}([A-Z])(?!\w)", re.IGNORECASE)
+_CLAUSES = re.compile(r"[,;.]\s+")
 _CORRECTED = re.compile(
-    r"[,;.]\s*+(?:(?:no|wait|sorry|rather|actually|better|nein|doch|eher|lieber|besser)\b[\s,]*+)*"
-    rf"{_LED_IN}\s*+([A-Z])\W*$",
+    r"(?:(?:no|wait|sorry|rather|actually|better|nein|doch|eher|lieber|besser)\b\s*+){0,3}"
+    rf"{_LED_IN}\s*+([A-Z])\W*",
     re.IGNORECASE,
 )
-"""The first letter, and one by itself at the end, as in "A, no wait, D"."""
+"""The first letter, and a last clause that is one, as in "A, no wait, D"."""
 _PLACE = re.compile(
     r"^\W*(?:(?:the|die|der|das)\s++)?([^\W\d_]++|\d(?:st|nd|rd|th))(?:\s++(?:one|option|answer|choice|antwort|möglichkeit))?\W*$",
     re.IGNORECASE,
@@ -120,7 +121,7 @@ def _read_choice(exercise: Exercise, answer: object) -> str:
     meant = [letter for letter, own in texts.items() if own == _plain(text)] or [
         letter for letter, own in texts.items() if _without_joints(own) == _without_joints(_plain(text))
     ]
-    first, last = _FIRST.match(text), _CORRECTED.search(text)
+    first, last = _FIRST.match(text), _CORRECTED.fullmatch(_CLAUSES.split(text.rstrip(" .,;"))[-1])
     if not meant and first and last and len({first[1].upper(), last[1].upper()} & {*known}) > 1:
         raise ModelValueError(reply("choice.one_needed", number=2))
     named_letter = named[1].upper() if named else _letter_behind(exercise, texts, text)
@@ -353,7 +354,7 @@ _LINE_AND_WORDS = re.compile(
 )
 """One line with words or signs behind it, or in front of it."""
 _WRONG_LINE = re.compile(
-    r"(?:^\W*|[,;.]\s*+|\b(?:and|but|so|und|aber)\s++)(?:(?:the|die)\s++)?(?:line|zeile)?\s*+(\d{1,3})\s++(?:line\s++|zeile\s++)?(?:is|ist)\s++"
+    r"(?:^\W*+|[,;.]\s*+|\b(?:and|but|so|und|aber)\s++)(?:(?:the|die)\s++)?(?:line|zeile)?\s*+(\d{1,3})\s++(?:line\s++|zeile\s++)?(?:is|ist)\s++"
     r"(?:wrong|false|incorrect|not\s+right|the\s+(?:wrong\s+(?:1|line)|mistake|misprint)|falsch|nicht\s+richtig)\W*$",
     re.IGNORECASE,
 )

@@ -309,7 +309,7 @@ def _distance(own: Value, wanted: Value) -> Any:
         return math.inf
 
 
-def _tolerance(exercise: Exercise, own: Value) -> float:
+def _tolerance(exercise: Exercise, own: Value) -> Value:
     """How far an answer may be from the solution: not at all where both are written as fractions.
 
     >>> share = Exercise("1", "", "number", "", "1/8", "", (), tolerance=0.01)
