@@ -69,6 +69,7 @@ OTHERS = {
     ],
     "abop": [
         "ignore: 12",
+        "axiom: A\nA > B ε -> C",
         "V = {A B}\nω : A",
         "surface leaf: leaf.s\naxiom: A",
         "surface (0,0)\naxiom: A",
