@@ -372,7 +372,8 @@ def _link(page: Progress, lesson: Lesson, text: str) -> str:
     notebook = page.record.folder / "exercises" / f"{lesson.name}.ipynb" if page.record.folder else None
     if notebook is None or not notebook.is_file():
         return escaped(text)
-    return f'<a href="{escaped(os.path.relpath(notebook).replace(os.sep, "/"))}" style="color:var(--jp-content-link-color,#00629B)">{escaped(text)}</a>'
+    there = escaped(os.path.relpath(notebook).replace(os.sep, "/"))
+    return f'<a href="{there}" style="color:var(--jp-content-link-color,#00629B)">{escaped(text)}</a>'
 
 
 def _linked(page: Progress, note: str) -> str:

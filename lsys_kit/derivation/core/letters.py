@@ -209,7 +209,7 @@ MOST_TOLD = 4
 
 
 def conditions_text(states: States, decided: Sequence[Decision] | None = None) -> str:
-    """Under which conditions the formulas hold, as a sentence, or the word is the same where no value is a formula; "" where always.
+    """Under which conditions the formulas hold, or the word is the same if no value is a formula, in a sentence; "" if always.
 
     >>> from lsys_kit import derive, read
     >>> conditions_text(derive(read("q = 3/4\\naxiom: A(1)\\nA(x) : x > 1/2 -> F(x) A(q*x)"), 2, letters="q").states)

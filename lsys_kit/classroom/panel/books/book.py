@@ -257,9 +257,12 @@ def _labels(states: States, numbers: Iterable[int], net: Stages | None) -> tuple
     ], rows
 
 
-def _formulas(states: States, pages: _Pages, diagram: Data, rows: Sequence[Row], decided: Sequence[int], letters: Collection[str]) -> Data:
+def _formulas(
+    states: States, pages: _Pages, diagram: Data, rows: Sequence[Row], decided: Sequence[int], letters: Collection[str]
+) -> Data:
     """For each state whose values have letters its values as mathematics, and as a text, its text, and what its formulas are in
-    numbers; for each step under which conditions the formulas hold, and where there is none that there is none. Stages in the diagram are named by formulas, too.
+    numbers; for each step under which conditions the formulas hold, or that there is none. Stages in the diagram are named by
+    formulas, too.
     """
     notation, found = dialect_named(states.system.notation), list[object]()
     for state, drawn in counted(zip(pages.numbers, pages.drawn, strict=True), 1):
