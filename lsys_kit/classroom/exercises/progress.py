@@ -326,7 +326,7 @@ def _count(page: Progress, lesson: Lesson) -> str:
 
 def _notes(page: Progress) -> Iterator[str]:
     """What to do next, what was practised, what is wrong, and, where all lessons are shown, what becomes of it."""
-    yield f"{reply('progress.next')} {_named_next(page)}." if page.next else reply("progress.all_solved")
+    yield f"{reply('progress.next')} {_named_next(page)}.".replace("?.", "?") if page.next else reply("progress.all_solved")
     practised = {each.exercise: each.solved for each in reversed(page.record.tries) if each.exercise.startswith(PRACTICE)}
     if practised and len(page.lessons) > 1:
         yield reply("progress.practised", number=len(practised), right=sum(practised.values()))
