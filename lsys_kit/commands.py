@@ -180,7 +180,7 @@ def _derived(options: argparse.Namespace) -> Iterator[dict[str, object]]:
     for step, word in enumerate(derivation):
         yield {"step": step, "modules": len(word), "word": str(word)}
     if held := conditions_text(derivation.states):
-        print(f"lsys-kit: note: The formulas hold where {held}.", file=sys.stderr)
+        print(f"lsys-kit: note: {held}", file=sys.stderr)
 
 
 def _derivation(system: LSystem, options: argparse.Namespace) -> Derivation:

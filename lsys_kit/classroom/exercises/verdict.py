@@ -19,7 +19,7 @@ SIGNS_AND_COLOURS: Mapping[str, tuple[str, str]] = {
     "Hint": ("→", BLUE),
 }
 """For each verdict its sign and its colour; the meaning never depends on the colour alone."""
-_THEMED = f"background:var(--jp-layout-color0,{PAPER});color:var(--jp-ui-font-color0,{INK})"
+THEMED = f"background:var(--jp-layout-color0,{PAPER});color:var(--jp-ui-font-color0,{INK})"
 """The paper and the ink of JupyterLab's theme, where there is one."""
 
 
@@ -78,7 +78,7 @@ class Verdict(float):
         """The box: a sign, a word and the message, all text escaped."""
         sign, colour = SIGNS_AND_COLOURS[self.said]
         return (
-            f'<div class="{PLAIN_TEXT}" role="status" style="border-left:6px solid {colour};{_THEMED};padding:6px 12px">'
+            f'<div class="{PLAIN_TEXT}" role="status" style="border-left:6px solid {colour};{THEMED};padding:6px 12px">'
             f'<span aria-hidden="true">{sign}</span> <b>{escaped(gettext(self.said))}.</b> {_html(self.message)}'
             f"{_image(self.picture)}</div>"
         )
