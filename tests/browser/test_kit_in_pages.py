@@ -288,6 +288,16 @@ def test_drawings_are_judged_as_in_a_notebook(opened: Callable[..., Page]) -> No
         expect(answer(page, answered_with, "0.3")).to_contain_text(said(check("0.3", answered_with)), timeout=LONG)
 
 
+def test_the_picture_beside_a_reply_is_shown_and_stays(opened: Callable[..., Page]) -> None:
+    page, wrong = opened(FIRST), "F[+F]F[-FF]"
+    place = page.locator('section[aria-label="Exercise 0.3"]')
+    expect(answer(page, wrong, "0.3")).to_contain_text("Almost", timeout=LONG)
+    for _ in range(2):
+        expect(place.get_by_role("img", name=check("0.3", wrong).described)).to_be_visible()
+        expect(place.get_by_role("button", name="A hint")).to_be_visible()
+        page.reload()
+
+
 def test_a_bomb_ends_with_the_words_of_the_kit(opened: Callable[..., Page]) -> None:
     page = opened(EXERCISES)
     bomb = f"axiom: a\na -> {200 * 'a '}"

@@ -380,16 +380,16 @@ def nouns_of(table: Table) -> frozenset[str]:
 
 def _notes(table: Table, entries: Sequence[str], marks: Sequence[str]) -> tuple[list[str], list[int]]:
     """What the entries of wrong cells show, each note with its cells; and the wrong cells of which nothing is known."""
-    places: dict[str, list[str]] = {}
+    places: dict[str, list[int]] = {}
     unexplained: list[int] = []
     for number, mark in enumerate(marks):
         if mark in (RIGHT, MISSING):
             continue
         if says := _shown(table, number, entries[number], mark):
-            places.setdefault(says, []).append(_place(table, number))
+            places.setdefault(says, []).append(number)
         else:
             unexplained.append(number)
-    notes = [f"{capital('; '.join(where))}: {says}" for says, where in islice(places.items(), MOST_NOTES)]
+    notes = [f"{_places(table, where)}: {says}" for says, where in islice(places.items(), MOST_NOTES)]
     return notes, unexplained
 
 
@@ -402,9 +402,15 @@ def _shown(table: Table, number: int, entry: str, mark: str) -> str:
     return next((known.says for known in slips_of(table, number) if is_right(entry, [known.answer], known.within, nouns)), "")
 
 
-def capital(text: str) -> str:
-    """A text with a capital letter at its beginning."""
-    return text[:1].upper() + text[1:]
+def _places(table: Table, numbers: Sequence[int]) -> str:
+    """Where some cells stand, as a sentence begins; the letters of a rule stay as they are.
+
+    >>> _places(table("01", "counts"), [0, 1]), _places(table("02", "second-rule"), [0])
+    ('Step 1, all at once; step 1, rule after rule', 'b -> b, cells in step 4')
+    """
+    text = "; ".join(_place(table, number) for number in numbers)
+    first = _cell_text(table.rows[table.blanks[numbers[0]][0]][0])
+    return text if first.startswith("`") else text[:1].upper() + text[1:]
 
 
 def summary(table: Table, marks: Sequence[str], unexplained: Sequence[int] = ()) -> str:

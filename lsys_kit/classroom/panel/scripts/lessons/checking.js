@@ -24,10 +24,10 @@ export function checked({ sheet, blanks, says }, entries) {
   marks.forEach((mark, number) => {
     if (mark === RIGHT || mark === MISSING) return;
     const shown = shownBy(entries[number], mark, blanks[number], nouns, says);
-    if (shown) places.set(shown, [...(places.get(shown) ?? []), placeOf(sheet, number)]);
+    if (shown) places.set(shown, [...(places.get(shown) ?? []), number]);
     else unexplained.push(number);
   });
-  const notes = [...places].slice(0, MOST_NOTES).map(([shown, where]) => `${capital(where.join("; "))}: ${shown}`);
+  const notes = [...places].slice(0, MOST_NOTES).map(([shown, where]) => `${placesOf(sheet, where)}: ${shown}`);
   return { marks, text: summary(sheet, marks, unexplained), notes };
 }
 
@@ -102,7 +102,11 @@ function isNear(one, other, near) {
   return (apart < 0n ? -apart : apart) * near.below <= near.above * unit;
 }
 
-const capital = (text) => text.slice(0, 1).toUpperCase() + text.slice(1);
+// Where some cells stand, as a sentence begins; the letters of a rule stay as they are.
+function placesOf(sheet, numbers) {
+  const text = numbers.map((number) => placeOf(sheet, number)).join("; "), [row] = placeIn(sheet, numbers[0]);
+  return row.startsWith("`") ? text : text.slice(0, 1).toUpperCase() + text.slice(1);
+}
 
 function summary(sheet, marks, unexplained) {
   const count = (mark) => marks.filter((each) => each === mark).length, right = count(RIGHT), missing = count(MISSING), total = marks.length;
@@ -113,8 +117,9 @@ function summary(sheet, marks, unexplained) {
   return `${parts.join(", ")}.${again}`;
 }
 
-function placeOf({ columns, rows }, number) {
-  const places = rows.flatMap((cells) => cells.flatMap((cell, column) => (cell === null ? [[cells[0], column]] : [])));
-  const [row, column] = places[number], name = plain(row);
-  return `${numberOf(name) ? `${plain(columns[0])} ${name}` : name}, ${plain(columns[column])}`;
+function placeOf(sheet, number) {
+  const [row, column] = placeIn(sheet, number), name = plain(row);
+  return `${numberOf(name) ? `${plain(sheet.columns[0])} ${name}` : name}, ${plain(sheet.columns[column])}`;
 }
+
+const placeIn = ({ rows }, number) => rows.flatMap((cells) => cells.flatMap((cell, column) => (cell === null ? [[cells[0], column]] : [])))[number];
