@@ -4,6 +4,7 @@ the page stays."""
 from __future__ import annotations
 
 import json
+import re
 import threading
 import tomllib
 from collections.abc import Callable, Iterator, Mapping
@@ -234,6 +235,22 @@ def test_typed_rules_are_drawn_and_constants_have_all_their_values(
     expect(first.locator(".lsys-mistake")).to_contain_text("[")
     if folder := pytestconfig.getoption("screenshots"):
         page.screenshot(path=Path(folder) / "kit-panels.png", full_page=True)
+
+
+def test_only_the_first_rules_have_the_name_of_the_system(opened: Callable[..., Page]) -> None:
+    panel = opened(LESSON).locator(".lsys-panel").first
+    panel.get_by_role("button", name="rules", exact=True).click()
+    area, code = panel.locator("textarea").first, panel.locator(".lsys-keep input")
+    own = read("axiom: F\nF -> F[+F]F\nangle: 30\nsteps: 3")
+    panel.get_by_role("button", name="more", exact=True).click()
+    for model, told in ((own, "read("), (own, "read("), (system("K5"), 'explore("K5"')):
+        area.fill("axiom: F\nF -> [")
+        expect(panel.locator(".lsys-mistake").first).to_contain_text("never closed", timeout=LONG)
+        area.fill(str(model))
+        expect(panel.locator(".lsys-mistake").first).to_have_text("")
+        expect(panel).to_contain_text(f"{len(derive(model, 3)[3])} characters")
+        panel.get_by_role("button", name="code", exact=True).click()
+        expect(code).to_have_value(re.compile(re.escape(told)))
 
 
 def asked_questions() -> list[dict[str, Any]]:
