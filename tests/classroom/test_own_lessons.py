@@ -125,6 +125,20 @@ def test_what_is_no_toml_is_told_with_what_to_type(ferns: Path, typed: str, hint
         (ferns / file).write_text(text, "utf-8")
 
 
+def test_a_copy_of_the_chosen_course_asks_the_same_and_other_exercises_of_that_name_are_named(
+    ferns: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    copy = shutil.copytree(ferns, tmp_path / "copy")
+    choose_course(copy)
+    monkeypatch.chdir(ferns / "exercises")
+    assert check("ferns.2", "64").said == "Correct"
+    assert [each.id for each in registry.exercises()].count("ferns.2") == 1
+    asked = ferns / "exercises" / "ferns.toml"
+    asked.write_text(asked.read_text("utf-8").replace('solution = "64"', 'solution = "65"'), "utf-8")
+    with pytest.raises(ModelFileError, match=r'There are 2 exercises with the id "ferns\.2"'):
+        check("ferns.2", "64")
+
+
 def test_a_drawing_of_nothing_is_no_solution_and_every_answer_gets_a_reply(ferns: Path) -> None:
     path = ferns / "exercises" / "ferns.toml"
     nothing = 'id = "ferns.9"\nkind = "drawing"\ntitle = "Draw"\nquestion = "Draw it."\nsolution = """axiom: T\nT -> F"""\n'
