@@ -9,6 +9,7 @@ import zipfile
 from collections.abc import Callable, Iterator
 from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import assume, given
@@ -263,6 +264,21 @@ def test_a_folder_that_is_no_course_is_told_in_words(
     assert told.startswith("lsys-kit: ")
     assert place.name in told or "course.toml" in told
     assert "Traceback" not in told
+
+
+@pytest.mark.parametrize("part", ["notebooks", "exercises"])
+@pytest.mark.parametrize("is_inside", [False, True])
+def test_a_part_that_cannot_be_read_is_told(ferns: Path, monkeypatch: pytest.MonkeyPatch, part: str, is_inside: bool) -> None:
+    scandir = os.scandir
+
+    def refused(path: Path) -> Any:
+        if Path(path) == ferns / part:
+            raise PermissionError(13, "Permission denied")
+        return scandir(path)
+
+    monkeypatch.setattr(os, "scandir", refused)
+    with pytest.raises(ModelFileError, match=f'{part}" cannot be read: Permission denied'):
+        course_of(ferns.parent if is_inside else ferns)
 
 
 # --- a lesson is begun ------------------------------------------------------------------------------------------------
