@@ -44,7 +44,7 @@ _HAS = re.compile(
 )
 _ID = re.compile(r"`(([A-Z]{1,2})\d{1,3}[a-z]?)`")
 _HOW_MANY = re.compile(
-    r"[Hh]ow many (?:[^\W\d_]+ ){0,4}?(?:has|have) (?:the word of )?steps? ((?:\d{1,2}(?:, and |, | and )?){1,20})\?"
+    r"[Hh]ow many (?:[^\W\d_]{1,20} ){0,4}?(?:has|have) (?:the word of )?steps? (\d{1,2}(?:(?:, and |, | and )\d{1,2}){0,20})\?"
 )
 _OLD_WORD, _NEW_WORD = (re.compile(rf"\b{which} `([^`\n]{{1,200}})`") for which in ("the word", "(?:new|next) word is"))
 _SPAN_RULE = re.compile(r"`([^`\n]{1,80} -> [^`\n]{1,120})`")
