@@ -9,6 +9,7 @@ import zipfile
 from collections.abc import Callable, Iterator
 from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import assume, given
@@ -279,6 +280,21 @@ def test_a_folder_that_is_no_course_is_told_in_words(
     assert "Traceback" not in told
 
 
+@pytest.mark.parametrize("part", ["notebooks", "exercises"])
+@pytest.mark.parametrize("is_inside", [False, True])
+def test_a_part_that_cannot_be_read_is_told(ferns: Path, monkeypatch: pytest.MonkeyPatch, part: str, is_inside: bool) -> None:
+    scandir = os.scandir
+
+    def refused(path: Path) -> Any:
+        if Path(path) == ferns / part:
+            raise PermissionError(13, "Permission denied")
+        return scandir(path)
+
+    monkeypatch.setattr(os, "scandir", refused)
+    with pytest.raises(ModelFileError, match=f'{part}" cannot be read: Permission denied'):
+        course_of(ferns.parent if is_inside else ferns)
+
+
 # --- a lesson is begun ------------------------------------------------------------------------------------------------
 
 
@@ -465,6 +481,13 @@ MISTAKES: dict[str, tuple[str, str, str, str]] = {
         "No, the right one is B",
         "option A says that B",
     ),
+    "a word of a hint": (
+        EXERCISES,
+        "The F of step 1 stays as it is.",
+        "Step 1 is F[B]F.",
+        "The word of step 1 is said to be F[B]F, and the system makes F[B]B",
+    ),
+    "a count that is predicted": (TOML, 'answer = "nine"', 'answer = "seven"', "Step 2 is said to have seven"),
     "an objective that is not tested": (EXERCISES, "objective = 1", "objective = 2", "No exercise tests objective 1"),
 }
 REPLY = "Wherever a bud was, two stand in the next step: one turned to the side, one straight on."
@@ -476,6 +499,9 @@ WORDS_OF_STEPS = (
     "| 3 | `F[+F[+F[+B]B]F[+B]B]F[+F[+B]B]F[+B]B` |\n\n"
 )
 IN_CELLS: dict[str, tuple[str, str, str]] = {
+    "a section that there is not": ("Now let a bud", "As in section 9, let a bud", "There is no section 9"),
+    "a system that there is not": ("Now let a bud", "As in `K110`, let a bud", 'Did you mean "K11"?'),
+    "a slider to be moved on": ("Move the slider **step**", "Move **roll** on", 'slider "roll" is to be moved'),
     "another vote": ('vote("ferns")', 'vote("fern")', 'Did you mean "ferns"'),
     "the vote of another lesson": ('vote("ferns")', 'vote("01")', 'asks the vote of the lesson "01"'),
     "another table": ('worksheet("ferns", "buds"', 'worksheet("ferns", "bud"', 'has no table "bud"'),

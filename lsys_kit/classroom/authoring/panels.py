@@ -31,7 +31,7 @@ _MOVE = r"\b(?:[Mm]ove|[Pp]ut|[Dd]rag|[Tt]urn|[Pp]ush|[Ss]lide)"
 _ASKED = (
     re.compile(rf"\b[Ss]et {_NAME}(?: slider)?[^.?!\n*`\d]{{0,30}} ?(?:to|=) {_NUMBER}\b(?! *%)"),
     re.compile(rf"{_MOVE} {_NAME}(?: slider)?(?: slowly| back)?(?:[, ]*from {_NUMBER})?(?: up)? to {_NUMBER}\b(?! *%)"),
-    re.compile(rf"{_MOVE} (?:only |just )?{_NAME}(?= and\b|[,.:])"),
+    re.compile(rf"{_MOVE} (?:only |just )?{_NAME}(?= (?:and|on)\b|[,.:])"),
 )
 _SPAN = re.compile(r"`([^`\n]{1,200})`")
 _RULE = re.compile(r"(?<![^\s`\"'])[^\s`\"']{1,12} -> [^`\n\"'\\]{0,200}[^`\n\"'\\\s]")
