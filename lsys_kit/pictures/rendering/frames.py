@@ -154,7 +154,7 @@ def frame_on(box: tuple[float, float, float, float], scale: float) -> ViewFrame:
 
 MOST_OF_A_PICTURE = 0.5
 """The part of a picture that the broadest stroke may fill before the drawing is no longer made smaller for it."""
-BROAD, STOUT, FINE = 1 / 36, 1 / 8, 1 / 80
+BROAD, STOUT, FINE = 1 / 36, 1 / 8, 1 / 50
 """Strokes are in proportion if none is broader than this part of the extent of the drawing, or than this of the longest stroke,
 and the broadest is no finer than this part of the extent."""
 
