@@ -20,7 +20,7 @@ from itertools import pairwise, takewhile
 from typing import TYPE_CHECKING
 
 from lsys_kit.budget import current
-from lsys_kit.derivation.core.interpretation import interpretation_of, is_cell
+from lsys_kit.derivation.core.interpretation import interpretation_of, is_cell, is_filament
 from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.derivation.petri.net import Place as Stage
 from lsys_kit.derivation.timed.lineage import Lineage
@@ -131,7 +131,8 @@ def _legible(lineage: Lineage) -> Lineage:
         return lineage
 
     def legible(first: Lineage) -> bool:
-        return len(_ends_with_lines(first, [*_leaves(first)], room)[0]) <= room / DENSEST + 1
+        lines, _ = _ends_with_lines(first, [*_leaves(first)], room)
+        return len(first.words[-1]) <= MOST_LINES and len(lines) <= room / DENSEST + 1
 
     firsts = (_first_steps(lineage, step) for step in range(1, steps + 1))
     return max(takewhile(legible, firsts), key=lambda first: len(first.times), default=_first_steps(lineage, 1))
@@ -182,6 +183,8 @@ def _leaves(lineage: Lineage) -> Iterator[int]:
 
 def _filament(lineage: Lineage, right: int) -> list[DrawnCell]:
     """The cells of the last word as they are drawn, each with the number of its cell; none where it is no filament."""
+    if not is_filament(lineage.states.system):
+        return []
     scene = filament(lineage.last)
     if len(scene.cells) != len(lineage.words[-1]):
         return []
