@@ -7,9 +7,9 @@ alike have the same dashes. A flag shows where a cell points. Where a cell divid
 which it should have divided. Below the tree stands the last word, each cell at the end of its line.
 
 A line stands above its cell in the filament of the last word; that of a mother half-way between her first and last daughter.
-What only steers the turtle has none. Where lines would be dense, sisters side by side that are alike and stay so share one, and
-the lines of cells of a kind that never divides are fine and pale. Where they would be denser still, the tree has the first
-steps alone, and says so.
+What only steers the turtle has none. Where lines would be dense, those of cells of a kind that never divides are fine and pale.
+Where they would be too dense, sisters side by side that are alike and stay so share one; if that does not help, the tree has
+the first steps alone, and says so.
 """
 
 from __future__ import annotations
@@ -119,9 +119,10 @@ def _ends_with_lines(lineage: Lineage, ends: Sequence[int], room: float) -> tupl
     """Those of the cells at the ends of a tree that have lines in some room, and whether lines would be dense without that."""
     hidden = _without_line(lineage)
     lines = [cell for cell in ends if cell not in hidden]
-    if dense := len(lines) > 1 and room / (len(lines) - 1) < DENSE:
+    apart = room / max(1, len(lines) - 1)
+    if apart < DENSEST:
         lines = lines[:1] + [cell for before, cell in pairwise(lines) if not _alike(lineage, before, cell)]
-    return lines, dense
+    return lines, apart < DENSE
 
 
 def _legible(lineage: Lineage) -> Lineage:
@@ -246,8 +247,8 @@ TAIL, BEND, BRACKET = 14.0, 6.0, 46
 """The length of lines below the last time, the radius of corners, and the width of an interval, in pixels."""
 THICK, FINE, THIN, LATE = 24, 16, 11, 90
 """Widths of lines, in tenths of a pixel."""
-LABEL = 6
-"""How far the figures of a time reach below its line, in pixels."""
+LABEL, LETTER, SPACE = 6, 7, 3
+"""How far the figures of a time reach below its line; the width of a letter, and what is left free between names, in pixels."""
 ROW = 20
 """The height of a row of the legend, in pixels."""
 MOST_LINES, MOST_TICKS = 400, 14
@@ -439,7 +440,7 @@ def _last_word(tree: Tree, middle: float, labels: bool) -> list[Shape]:
     cells = [cell for cell in lineage.words[-1] if cell in tree.x]
     modules, places = [lineage.cells[cell].modules[-1][1] for cell in cells], [tree.x[cell] for cell in cells]
     longest = max((len(str(module)) for module in modules), default=0)
-    if not labels or tree.pale or any(after - before < 7 * longest for before, after in pairwise(places)):
+    if not labels or tree.pale or any(after - before < LETTER * longest + SPACE for before, after in pairwise(places)):
         return []
     look = Look(font_size=13, text_anchor="middle", font_family="sans-serif", fill=theme().ink)
     names = [label_spans(*label_parts(module.symbol, system), values_text(module)) for module in modules]
