@@ -166,14 +166,14 @@ def in_units(scenes: Sequence[Scene], system: LSystem, widths: str = "") -> list
 
     >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.drawing import scene_of
-    >>> for text in ("!(0.1)F", "!(10)F", "!(10)F(10)", "!(6)F(370)", "F[+F]F"):
+    >>> for text in ("!(0.1)F", "!(10)F", "!(10)F(10)", "!(8)F(370)", "F[+F]F"):
     ...     system = read(f"axiom: {text}")
     ...     [scene] = in_units([scene_of(derive(system, 0))], system)
     ...     scene.segments.widths.round(3).tolist()
     [0.1]
     [0.125]
     [1.25]
-    [6.0]
+    [8.0]
     [0.04, 0.03, 0.03]
     """
     if has_pipe_widths(system, widths):
