@@ -180,7 +180,7 @@ def _derived(options: argparse.Namespace) -> Iterator[dict[str, object]]:
     for step, word in enumerate(derivation):
         yield {"step": step, "modules": len(word), "word": str(word)}
     if held := conditions_text(derivation.states):
-        print(f"lsys-kit: note: The formulas hold where {held}.", file=sys.stderr)
+        print(f"lsys-kit: note: {held}", file=sys.stderr)
 
 
 def _derivation(system: LSystem, options: argparse.Namespace) -> Derivation:
@@ -510,9 +510,15 @@ def write_lite(options: argparse.Namespace) -> None:
 
 def open_class(options: argparse.Namespace) -> None:
     from lsys_kit.classroom.live import serving
+    from lsys_kit.classroom.places import COURSE_FILE, own_place
 
-    folder = options.folder or options.place or serving.FOLDER
-    if options.what == "report":
+    is_report = options.what == "report"
+    named = [*dict.fromkeys(each for each in (None if is_report else options.what, options.place, options.folder) if each)]
+    if len(named) > 1:
+        both = quotable(" ".join(named))
+        raise ModelFileError(f"A class is kept in one folder, not in {both}", hint="A course is named with --course FOLDER.")
+    folder = named[0] if named else serving.FOLDER
+    if is_report:
         from lsys_kit.classroom.live.report import write_reports
 
         for path in write_reports(folder):
@@ -520,6 +526,11 @@ def open_class(options: argparse.Namespace) -> None:
     elif options.forget:
         print(serving.forget(folder, options.class_names))
     else:
+        if own_place(Path(folder)).names() or (Path(folder) / COURSE_FILE).is_file():
+            raise ModelFileError(
+                f'"{quotable(folder)}" has lessons, and what a class says is kept elsewhere',
+                hint=f"lsys-kit class --course {quotable(folder)} opens a class with them.",
+            )
         source = _chosen_course(options)
         serving.serve(folder, options.class_names, options.port, options.public, options.pages, source)
 

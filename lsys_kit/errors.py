@@ -101,7 +101,9 @@ class LSystemError(Exception):
 
     def _text(self) -> str:
         where = f" ({_translated[0](PLACE, line=self.line, column=self.column)})" if self.line else ""
-        text = f"{self.message}{where}." + (f" {self.hint}" if self.hint else "")
+        text = (
+            f"{self.message}{where}" + "." * (where != "" or self.message[-1:] != "?") + (f" {self.hint}" if self.hint else "")
+        )
         return text + self._quotation()
 
     def _quotation(self) -> str:

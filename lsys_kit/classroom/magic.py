@@ -245,7 +245,7 @@ def shown(system: LSystem, name: str = "", notes: Iterable[str] = (), letters: C
     said = [*notes, *system.notes]
     words, stop = first_words(system, letters)
     if words and (held := conditions_text(words[-1].states)):
-        said.append(f"The formulas hold where {held}.")
+        said.append(held)
     if stop:
         said.append(stop)
     return {"text/html": _box(system, name, said, words), "text/plain": _plain_text(system, name, said, words)}

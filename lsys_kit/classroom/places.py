@@ -237,6 +237,10 @@ def _listed(folder: Path) -> Entries:
 def _lessons(folder: Path, declared: Entries) -> Iterator[tuple[Place, str]]:
     own = own_place(folder)
     beside = {each: own_place(folder / each) for each in _folders(folder) if each not in ("notebooks", "exercises")}
+    for part in (part for place in (own, *beside.values()) for part in (place.notebooks, place.questions)):
+        with file_errors(f'"{quotable(str(part))}" cannot be read'):
+            if os.path.isdir(part):
+                os.scandir(part).close()
     inside = {each: (place, each) for each, place in beside.items() if each in place.names()}
     known = {**inside, **{name: (own, name) for name in own.names()}}
     if "lessons" not in declared:

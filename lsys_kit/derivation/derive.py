@@ -194,7 +194,7 @@ class Derivation(Sequence[Word]):
         notes, inexact = self.states.system.notes, self.states.inexact
         with Task("The remarks were not found"):
             if held := conditions_text(self.states):
-                notes = (*notes, f"The formulas hold where {held}.")
+                notes = (*notes, held)
             for step in range(len(self) if inexact else 0):
                 if any(self.states.modules[state] == inexact for state in counted(self._engine.counts(step))):
                     return (*notes, f"From step {step} on values outgrow 128 bits and are doubles, such as {inexact}.")

@@ -357,7 +357,7 @@ class LifeSpans:
         return f"{' + '.join(['1', *left])} = {' + '.join(right)}"
 
     def _repr_latex_(self) -> str:
-        return f"$\\displaystyle {self.latex}$"
+        return f"$\\Large {self.latex}$"
 
     def __repr__(self) -> str:
         left, right = (map(number_text, side) for side in self._sides)

@@ -391,7 +391,7 @@ class Solutions(list["sympy.Expr"]):
     def _repr_latex_(self) -> str | None:
         letter, near = formula_latex(unknown(self.letter)), self._decimals
         said = [rf"{letter} \approx {near[each]}" if each in near else f"{letter} = {formula_latex(each)}" for each in self]
-        return f"${', '.join(said)}$" if said else None
+        return f"$\\displaystyle {', '.join(said)}$" if said else None
 
 
 def _below_one(root: sympy.Expr) -> sympy.Basic:

@@ -7,19 +7,20 @@ alike have the same dashes. A flag shows where a cell points. Where a cell divid
 which it should have divided. Below the tree stands the last word, each cell at the end of its line.
 
 A line stands above its cell in the filament of the last word; that of a mother half-way between her first and last daughter.
-What only steers the turtle has none. Where lines would be dense, sisters side by side that are alike and stay so share one, and
-the lines of cells of a kind that never divides are fine and pale.
+What only steers the turtle has none. Where lines would be dense, those of cells of a kind that never divides are fine and pale.
+Where they would be too dense, sisters side by side that are alike and stay so share one; if that does not help, the tree has
+the first steps alone, and says so.
 """
 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from itertools import pairwise
+from dataclasses import dataclass, replace
+from itertools import pairwise, takewhile
 from typing import TYPE_CHECKING
 
 from lsys_kit.budget import current
-from lsys_kit.derivation.core.interpretation import interpretation_of, is_cell
+from lsys_kit.derivation.core.interpretation import interpretation_of, is_cell, is_filament
 from lsys_kit.derivation.core.rules import number_from
 from lsys_kit.derivation.petri.net import Place as Stage
 from lsys_kit.derivation.timed.lineage import Lineage
@@ -42,9 +43,9 @@ if TYPE_CHECKING:
 
 AXIS, HEAD, TREE = 54, 22, 300
 """Room for the axis of time, its heading and the tree, in pixels."""
-BROADEST, APART, DENSE = 30.0, 60.0, 9.0
+BROADEST, APART, DENSE, DENSEST = 30.0, 60.0, 9.0, 6.0
 """The most pixels for a unit of length of the filament below the tree; between lines where there is no filament; and lines that
-would be closer than this are dense."""
+would be closer than this are dense, or too dense."""
 MOST_KINDS = 4
 """The greatest number of kinds of cells that are distinguished."""
 DASHES = ("", "80 45", "1 45", "120 40 1 40", "160 60", "60 40 1 40 1 40")
@@ -103,10 +104,8 @@ def _line_positions(lineage: Lineage, right: int) -> tuple[dict[int, float], lis
     if row:
         x = {cell.state: cell.x for cell in row}
     else:
-        hidden, room = _without_line(lineage), right - AXIS - 2 * MARGIN
-        ends = [cell for cell in ends if cell not in hidden]
-        if dense := len(ends) > 1 and room / (len(ends) - 1) < DENSE:
-            ends = ends[:1] + [cell for before, cell in pairwise(ends) if not _alike(lineage, before, cell)]
+        room = right - AXIS - 2 * MARGIN
+        ends, dense = _ends_with_lines(lineage, ends, room)
         apart = min(APART, room / max(1, len(ends) - 1))
         left = (right + AXIS - apart * (len(ends) - 1)) / 2
         x = {cell: left + apart * place for place, cell in enumerate(ends)}
@@ -114,6 +113,42 @@ def _line_positions(lineage: Lineage, right: int) -> tuple[dict[int, float], lis
         if daughters := [daughter for daughter in lineage.daughters(cell) if daughter in x]:
             x[cell] = (x[daughters[0]] + x[daughters[-1]]) / 2
     return x, row, dense
+
+
+def _ends_with_lines(lineage: Lineage, ends: Sequence[int], room: float) -> tuple[list[int], bool]:
+    """Those of the cells at the ends of a tree that have lines in some room, and whether lines would be dense without that."""
+    hidden = _without_line(lineage)
+    lines = [cell for cell in ends if cell not in hidden]
+    apart = room / max(1, len(lines) - 1)
+    if apart < DENSEST:
+        lines = lines[:1] + [cell for before, cell in pairwise(lines) if not _alike(lineage, before, cell)]
+    return lines, apart < DENSE
+
+
+def _legible(lineage: Lineage) -> Lineage:
+    """A lineage of steps without a filament below it as far as its lines are not too dense."""
+    steps, room = len(lineage.times) - 1, WIDTH - AXIS - 3 * MARGIN
+    if steps < 2 or not lineage.stepwise or _filament(lineage, WIDTH - MARGIN):
+        return lineage
+
+    def legible(first: Lineage) -> bool:
+        lines, _ = _ends_with_lines(first, [*_leaves(first)], room)
+        return len(first.words[-1]) <= MOST_LINES and len(lines) <= room / DENSEST + 1
+
+    firsts = (_first_steps(lineage, step) for step in range(1, steps + 1))
+    return max(takewhile(legible, firsts), key=lambda first: len(first.times), default=_first_steps(lineage, 1))
+
+
+def _first_steps(lineage: Lineage, step: int) -> Lineage:
+    """The part of a lineage until a step, whose cells live on there; its last word stays that of the end."""
+    if step == len(lineage.times) - 1:
+        return lineage
+    words = lineage.words[: step + 1]
+    living, many = {*words[-1]}, 1 + max(cell for word in words for cell in word)
+    cells = [
+        replace(cell, ended=None, due=None) if number in living else cell for number, cell in enumerate(lineage.cells[:many])
+    ]
+    return replace(lineage, cells=tuple(cells), words=words, times=lineage.times[: step + 1])
 
 
 def _without_line(lineage: Lineage) -> set[int]:
@@ -149,6 +184,8 @@ def _leaves(lineage: Lineage) -> Iterator[int]:
 
 def _filament(lineage: Lineage, right: int) -> list[DrawnCell]:
     """The cells of the last word as they are drawn, each with the number of its cell; none where it is no filament."""
+    if not is_filament(lineage.states.system):
+        return []
     scene = filament(lineage.last)
     if len(scene.cells) != len(lineage.words[-1]):
         return []
@@ -210,8 +247,8 @@ TAIL, BEND, BRACKET = 14.0, 6.0, 46
 """The length of lines below the last time, the radius of corners, and the width of an interval, in pixels."""
 THICK, FINE, THIN, LATE = 24, 16, 11, 90
 """Widths of lines, in tenths of a pixel."""
-LABEL = 6
-"""How far the figures of a time reach below its line, in pixels."""
+LABEL, LETTER, SPACE = 6, 7, 3
+"""How far the figures of a time reach below its line; the width of a letter, and what is left free between names, in pixels."""
 ROW = 20
 """The height of a row of the legend, in pixels."""
 MOST_LINES, MOST_TICKS = 400, 14
@@ -221,16 +258,23 @@ MOST_LINES, MOST_TICKS = 400, 14
 @dataclass(frozen=True)
 class LineagePicture(SVGPicture):
     """A picture of a lineage, perhaps with intervals of time marked beside the tree, with times and the modules of the last
-    word written, and with a legend."""
+    word written, and with a legend; and of how many steps the lineage is, of which these may be the first."""
 
     lineage: Lineage
     intervals: tuple[tuple[Value, Value], ...] = ()
     labels: bool = True
     legend: bool = True
+    steps: int = 0
 
     def _shown(self, most: int, enlarged: float) -> Drawing:
         """The tree, with what stands beside and below it."""
-        return drawn_lineage(self.lineage, self.intervals, self.labels, self.legend)
+        return drawn_lineage(self.lineage, self.intervals, self.labels, self.legend, self._part)
+
+    @property
+    def _part(self) -> str:
+        """Which steps are shown, where they are not all."""
+        shown = len(self.lineage.times) - 1
+        return f"steps 0 to {shown} of {self.steps}" if shown < self.steps else ""
 
     def film_images(self) -> Sequence[Image]:
         """The tree as it grows, one time after another; at the end with what stands below it."""
@@ -245,7 +289,7 @@ class LineagePicture(SVGPicture):
         return [*images, whole]
 
     def __repr__(self) -> str:
-        return f"lineage of {self.lineage}"
+        return f"lineage of {self.lineage}" + (f"; {self._part}" if self._part else "")
 
 
 def _interval(given: object) -> tuple[Value, Value]:
@@ -258,6 +302,9 @@ def lineage_picture(
     lineage: Lineage, intervals: Iterable[tuple[object, object]] = (), *, labels: bool = True, legend: bool = True
 ) -> LineagePicture:
     """The picture of a lineage, with some intervals of time marked that lie within its time."""
+    require(intervals, Iterable, "A list of intervals, each a pair of times,")
+    found, steps = tuple(map(_interval, intervals)), len(lineage.times) - 1
+    lineage = lineage if found else _legible(lineage)
     living, cells, most = len(lineage.words[-1]), len(lineage.cells), current().segments
     if living > MOST_LINES:
         message = f"{living:,} cells are too many for a picture of their lineage; it can have {MOST_LINES}"
@@ -265,21 +312,19 @@ def lineage_picture(
     if cells > most:
         message = f"The tree of this lineage would have {cells:,} lines; a picture may have {most:,}"
         raise ModelLimitError(message, limit=most, needed=cells, hint="Take fewer steps, or set limits(segments=...).")
-    require(intervals, Iterable, "A list of intervals, each a pair of times,")
-    found = tuple(map(_interval, intervals))
     for first, last in found:
         if not 0 <= first < last <= lineage.times[-1]:
             raise ModelValueError(
                 f"No interval from {time_text(first)} to {time_text(last)} can be marked",
                 hint=f"The lineage lasts from 0 to {time_text(lineage.times[-1])}.",
             )
-    return LineagePicture(lineage, found, labels, legend)
+    return LineagePicture(lineage, found, labels, legend, steps)
 
 
 def drawn_lineage(
-    lineage: Lineage, intervals: Sequence[tuple[Value, Value]] = (), labels: bool = True, legend: bool = True
+    lineage: Lineage, intervals: Sequence[tuple[Value, Value]] = (), labels: bool = True, legend: bool = True, part: str = ""
 ) -> Drawing:
-    """A lineage as shapes."""
+    """A lineage as shapes; perhaps with a text that says which part it is."""
     tree = tree_of(lineage, BRACKET * len(intervals))
     painted = sorted(tree.x, key=lambda cell: (tree.kind_of[cell] not in tree.pale, cell))
     half = max((cell.width for cell in tree.row), default=8.0)
@@ -287,7 +332,7 @@ def drawn_lineage(
     meaning, rows = _legend(tree) if legend else ([], 0)
     parts = middle + half + 24
     body: list[Shape] = [
-        *([_axis(tree)] if labels else []),
+        *([_axis(tree, part)] if labels else []),
         *(shape for place, interval in enumerate(intervals) for shape in _bracket(tree, place, *interval)),
         *(shape for cell in painted for shape in _line(tree, cell)),
         _flags(tree),
@@ -295,16 +340,18 @@ def drawn_lineage(
         Group(meaning, Look(font_family="sans-serif", font_size=13), place=Place(1, AXIS * 10, tenths(parts))),
     ]
     height = round(parts) + (MARGIN + ROW * (rows - 1) if meaning else -MARGIN)
-    return document(body, WIDTH, height, f"Lineage of {lineage}")
+    return document(body, WIDTH, height, f"Lineage of {lineage}" + (f"; {part}" if part else ""))
 
 
-def _axis(tree: Tree) -> Group:
-    """The axis of time: a fine line through the tree at each time on it."""
+def _axis(tree: Tree, part: str) -> Group:
+    """The axis of time: a fine line through the tree at each time on it; above, which part it is."""
     lineage = tree.lineage
     whole = lineage.stepwise and lineage.times == tuple(range(len(lineage.times)))
     name = "step" if whole else [Span("t", Look(font_style="italic"))]
     quiet, fine = theme().quiet, Look(stroke=tinted(theme().quiet, 0.3), stroke_width=8)
     parts: list[Shape] = [Text(tenths(AXIS - 10), tenths(MARGIN + HEAD - 16), name, Look(font_size=110, fill=quiet))]
+    if part:
+        parts.append(Text(tenths(WIDTH - MARGIN), tenths(MARGIN + HEAD - 16), part, Look(font_size=110, fill=quiet)))
     for time in _ticks(lineage):
         y = tenths(tree.y(time))
         parts += [
@@ -393,7 +440,7 @@ def _last_word(tree: Tree, middle: float, labels: bool) -> list[Shape]:
     cells = [cell for cell in lineage.words[-1] if cell in tree.x]
     modules, places = [lineage.cells[cell].modules[-1][1] for cell in cells], [tree.x[cell] for cell in cells]
     longest = max((len(str(module)) for module in modules), default=0)
-    if not labels or tree.pale or any(after - before < 7 * longest for before, after in pairwise(places)):
+    if not labels or tree.pale or any(after - before < LETTER * longest + SPACE for before, after in pairwise(places)):
         return []
     look = Look(font_size=13, text_anchor="middle", font_family="sans-serif", fill=theme().ink)
     names = [label_spans(*label_parts(module.symbol, system), values_text(module)) for module in modules]

@@ -33,7 +33,7 @@ def expect_all(notebook: OpenNotebook) -> None:
     expect(sheet.get_by_role("textbox", name="step 3: all at once")).to_have_value("not checked yet")
     expect(sheet.locator("[data-mark='right']")).to_have_text("✓ right")
     expect(sheet.locator("[data-mark='not yet']")).to_have_text("✗ not yet")
-    expect(sheet.locator("li")).to_contain_text("Step 2, all at once: Did you apply one production after another")
+    expect(sheet.locator("li")).to_contain_text("step 2, all at once: Did you apply one production after another")
     again = asked(notebook, 4, "vote")
     expect(again.locator(".lsys-before")).to_have_text("Your first vote was D.")
     expect(again.locator(".lsys-predicted summary")).to_have_text(

@@ -4,6 +4,7 @@ the page stays."""
 from __future__ import annotations
 
 import json
+import re
 import threading
 import tomllib
 from collections.abc import Callable, Iterator, Mapping
@@ -236,6 +237,22 @@ def test_typed_rules_are_drawn_and_constants_have_all_their_values(
         page.screenshot(path=Path(folder) / "kit-panels.png", full_page=True)
 
 
+def test_only_the_first_rules_have_the_name_of_the_system(opened: Callable[..., Page]) -> None:
+    panel = opened(LESSON).locator(".lsys-panel").first
+    panel.get_by_role("button", name="rules", exact=True).click()
+    area, code = panel.locator("textarea").first, panel.locator(".lsys-keep input")
+    own = read("axiom: F\nF -> F[+F]F\nangle: 30\nsteps: 3")
+    panel.get_by_role("button", name="more", exact=True).click()
+    for model, told in ((own, "read("), (own, "read("), (system("K5"), 'explore("K5"')):
+        area.fill("axiom: F\nF -> [")
+        expect(panel.locator(".lsys-mistake").first).to_contain_text("never closed", timeout=LONG)
+        area.fill(str(model))
+        expect(panel.locator(".lsys-mistake").first).to_have_text("")
+        expect(panel).to_contain_text(f"{len(derive(model, 3)[3])} characters")
+        panel.get_by_role("button", name="code", exact=True).click()
+        expect(code).to_have_value(re.compile(re.escape(told)))
+
+
 def asked_questions() -> list[dict[str, Any]]:
     """Answers to the exercises of the kit, right and wrong, as students give them."""
     wrong = tomllib.loads((ANSWERS / "wrong_answers.toml").read_text("utf-8"))
@@ -286,6 +303,16 @@ def test_drawings_are_judged_as_in_a_notebook(opened: Callable[..., Page]) -> No
     page = opened(FIRST)
     for answered_with in ("F[+F]F[-F]F", exercise_of("0.3").solution):
         expect(answer(page, answered_with, "0.3")).to_contain_text(said(check("0.3", answered_with)), timeout=LONG)
+
+
+def test_the_picture_beside_a_reply_is_shown_and_stays(opened: Callable[..., Page]) -> None:
+    page, wrong = opened(FIRST), "F[+F]F[-FF]"
+    place = page.locator('section[aria-label="Exercise 0.3"]')
+    expect(answer(page, wrong, "0.3")).to_contain_text("Almost", timeout=LONG)
+    for _ in range(2):
+        expect(place.get_by_role("img", name=check("0.3", wrong).described)).to_be_visible()
+        expect(place.get_by_role("button", name="A hint")).to_be_visible()
+        page.reload()
 
 
 def test_a_bomb_ends_with_the_words_of_the_kit(opened: Callable[..., Page]) -> None:

@@ -74,7 +74,7 @@ def test_a_table_says_which_cells_are_right_and_gives_none_away(home):
     page.get_by_role("textbox", name="step 2: all at once").press("Enter")
     sheet = page.get_by_role("region", name="table to fill")
     expect(sheet.get_by_role("status")).to_have_text(
-        "2 of 8 cells are right, 5 are not filled in yet.Step 2, all at once: Did you apply one production after another, "
+        "2 of 8 cells are right, 5 are not filled in yet.step 2, all at once: Did you apply one production after another, "
         "the second to what the first has made, or double the number in every step?"
     )
     expect(sheet.locator('[data-mark="right"]')).to_have_text(["✓ right"] * 2)

@@ -351,15 +351,15 @@ def test_the_roots_of_meristems_send_up_plants_of_their_own():
 
 
 def test_a_meta_rule_keeps_the_word_of_a_moving_organism_short():
-    for step, word in enumerate(derive(system("K26"), 30, seed=4)):
+    for step, word in enumerate(derive(system("K26"), 30, seed=4, short=1)):
         x, y = map(float, word[1].arguments) if step else (0, 0)
         assert [m.symbol for m in word] == (["h", "f", "a"] if step else ["h", "a"])
         assert x * x + y * y <= step * step + 1e-9
 
 
 def test_without_the_meta_rule_the_word_shows_the_whole_path_and_is_longer_by_one_module_a_step():
-    assert derive(system("K26"), 20, short=0).lengths == [n + 2 for n in range(21)]
-    assert derive(system("K26"), 20).lengths == [2, *20 * [3]]
+    assert derive(system("K26"), 20).lengths == [n + 2 for n in range(21)]
+    assert derive(system("K26"), 20, short=1).lengths == [2, *20 * [3]]
     for short, strokes in ((0, 12), (1, 1)):
         path = draw(system("K26"), 12, short=short, seed=3).scene.segments
         assert len(path) == 4 + strokes + 1, "the cross, the path, and the organism"

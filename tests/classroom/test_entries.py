@@ -100,10 +100,10 @@ def test_a_wrong_number_no_number_and_nothing_are_three_things() -> None:
     assert marked(table("01", "counts"), ["3", "abc", " ", "4"])[:4] == ["not yet", "no number", "not filled in yet", "right"]
     said = checked(table("01", "counts"), ["2", "abc"])
     assert said["notes"] == [
-        "Step 1, rule after rule: That cannot be read as a number. Write it in digits, such as 21, 0.5 or 3/4."
+        "step 1, rule after rule: That cannot be read as a number. Write it in digits, such as 21, 0.5 or 3/4."
     ]
     said = checked(table("04", "angles"), ["90", "perhaps"])
-    assert said["notes"] == ['Angle 45, closed at step 0? (yes or no): Answer "yes" or "no".']
+    assert said["notes"] == ['angle 45, closed at step 0? (yes or no): Answer "yes" or "no".']
 
 
 # --- what an entry shows -----------------------------------------------------------------------------------------------------
@@ -165,7 +165,7 @@ def test_a_known_slip_is_named(where: tuple[str, str], cell: int, entry: str, sa
 def test_one_note_is_said_of_all_cells_that_it_is_true_of() -> None:
     found = checked(table("02", "strokes"), ["1", "1", "5", "11", "25", "61"])
     assert len(found["notes"]) == 1
-    assert found["notes"][0].startswith("Step 1, letters F, which are strokes; step 1, characters; step 2, ")
+    assert found["notes"][0].startswith("step 1, letters F, which are strokes; step 1, characters; step 2, ")
     assert "stop one step too early" in found["notes"][0]
 
 

@@ -197,6 +197,12 @@ def test_hints_come_one_by_one_after_a_try(exercise):
 
 
 @each_exercise
+def test_what_is_replied_is_shown_as_it_stands_and_has_no_marks(exercise):
+    said = (each.says for each in (*exercise.options, *exercise.slips))
+    assert not re.search("`|[*]{2}", " ".join((*exercise.hints, exercise.explanation, exercise.otherwise, *said)))
+
+
+@each_exercise
 def test_the_solution_is_there_after_a_try_and_not_before(exercise):
     first_line = exercise.solution.strip().splitlines()[0]
     assert exercise.explanation not in check(exercise.id, "((", solution=True).message

@@ -142,7 +142,7 @@ def test_what_has_no_slider_has_none_on_a_page_and_stands_in_the_link():
     panel = explore("K26", 3, turn=40, sliders=[])
     data = panel.page_data()
     assert (data["model"]["constants"], data["model"]["chance"], data["model"]["seeds"]) == ([], False, [])
-    assert data["model"]["fixed"] == "Fixed on this page: turn = 40, short = 1, seed = 0."
+    assert data["model"]["fixed"] == "Fixed on this page: turn = 40, short = 0, seed = 0."
     assert linked(panel.link).settings["turn"] == 40
 
 

@@ -11,6 +11,8 @@ import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
 from lsys_kit import ModelNameError, explore, linked, read
+from lsys_kit.classroom.catalogue import system
+from lsys_kit.classroom.panel.books.book import book
 from lsys_kit.classroom.panel.page import page as page_of
 from tests.browser.hands import Finger, Mouse, Pointer, reach
 from tests.classroom.panel_page import PanelPage
@@ -168,6 +170,14 @@ def test_what_is_stored_of_a_panel_has_its_formulas() -> None:
     panel.letters = []
     assert "F(1)[+F(0.8)[" in panel.text
     assert panel.still["image/png"] != drawn
+
+
+def test_where_no_value_has_a_letter_it_is_said_and_where_the_word_is_the_same() -> None:
+    found = book(system("J4"), letters=["lifeTimeA", "lifeTimeB"], least=5)
+    assert found["conditions"][0] == "no value contains lifeTimeA or lifeTimeB"
+    assert found["conditions"][4].endswith("lifeTimeB; the word is the same where lifeTimeA = 3, lifeTimeB > 1")
+    assert "The word is the same where lifeTimeA = 3." in explore("J4", 5, letters="lifeTimeA").text
+    assert not any("no value" in each for each in book(read(SHRINKING), letters=["q"], least=3)["conditions"])
 
 
 def test_a_stage_whose_modules_have_no_formula_in_common_keeps_its_number() -> None:

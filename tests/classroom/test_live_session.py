@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 from lsys_kit import LSystemError, ModelFileError, ModelNameError, language
 from lsys_kit.__main__ import main
 from lsys_kit.classroom.lessons.lesson import lesson
+from lsys_kit.classroom.live import serving
 from lsys_kit.classroom.live.events import FILE, LETTERS, TEACHER, ClassEntry, Event, Events, NotKept
 from lsys_kit.classroom.live.game import GAMES, cells_of, game_data, game_of, made_by, outcome
 from lsys_kit.classroom.live.questions import asked_of, named, predictions, question, questions, right_option, value_of
@@ -336,6 +337,20 @@ def test_the_shell_writes_reports_and_forgets(tmp_path: Path, capsys: pytest.Cap
     assert write_reports(folder) == []
 
 
+@pytest.mark.parametrize("file", ["notebooks/ferns.ipynb", "course.toml"])
+def test_a_class_is_not_kept_among_lessons(
+    file: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "notebooks").mkdir()
+    (tmp_path / file).write_text("{}")
+    assert main(["class", str(tmp_path)]) == 2
+    assert f"lsys-kit class --course {tmp_path}" in capsys.readouterr().err
+    kept: list[object] = []
+    monkeypatch.setattr(serving, "serve", lambda folder, *_: kept.append(folder))
+    assert main(["class", str(tmp_path / "10b")]) == 0
+    assert kept == [str(tmp_path / "10b")]
+
+
 @pytest.mark.parametrize(
     "given",
     [
@@ -346,6 +361,7 @@ def test_the_shell_writes_reports_and_forgets(tmp_path: Path, capsys: pytest.Cap
         ["--public", "http://x"],
         ["--public", "x"],
         ["what"],
+        ["report", "what"],
     ],
     ids=str,
 )

@@ -9,6 +9,7 @@ import zipfile
 from collections.abc import Callable, Iterator
 from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import assume, given
@@ -123,6 +124,20 @@ def test_what_is_no_toml_is_told_with_what_to_type(ferns: Path, typed: str, hint
         (ferns / file).write_text(f"{typed}\n{text}", "utf-8")
         assert any(hint in each.hint for each in findings_in(ferns, run=False))
         (ferns / file).write_text(text, "utf-8")
+
+
+def test_a_copy_of_the_chosen_course_asks_the_same_and_other_exercises_of_that_name_are_named(
+    ferns: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    copy = shutil.copytree(ferns, tmp_path / "copy")
+    choose_course(copy)
+    monkeypatch.chdir(ferns / "exercises")
+    assert check("ferns.2", "64").said == "Correct"
+    assert [each.id for each in registry.exercises()].count("ferns.2") == 1
+    asked = ferns / "exercises" / "ferns.toml"
+    asked.write_text(asked.read_text("utf-8").replace('solution = "64"', 'solution = "65"'), "utf-8")
+    with pytest.raises(ModelFileError, match=r'There are 2 exercises with the id "ferns\.2"'):
+        check("ferns.2", "64")
 
 
 def test_a_drawing_of_nothing_is_no_solution_and_every_answer_gets_a_reply(ferns: Path) -> None:
@@ -263,6 +278,21 @@ def test_a_folder_that_is_no_course_is_told_in_words(
     assert told.startswith("lsys-kit: ")
     assert place.name in told or "course.toml" in told
     assert "Traceback" not in told
+
+
+@pytest.mark.parametrize("part", ["notebooks", "exercises"])
+@pytest.mark.parametrize("is_inside", [False, True])
+def test_a_part_that_cannot_be_read_is_told(ferns: Path, monkeypatch: pytest.MonkeyPatch, part: str, is_inside: bool) -> None:
+    scandir = os.scandir
+
+    def refused(path: Path) -> Any:
+        if Path(path) == ferns / part:
+            raise PermissionError(13, "Permission denied")
+        return scandir(path)
+
+    monkeypatch.setattr(os, "scandir", refused)
+    with pytest.raises(ModelFileError, match=f'{part}" cannot be read: Permission denied'):
+        course_of(ferns.parent if is_inside else ferns)
 
 
 # --- a lesson is begun ------------------------------------------------------------------------------------------------
@@ -451,6 +481,13 @@ MISTAKES: dict[str, tuple[str, str, str, str]] = {
         "No, the right one is B",
         "option A says that B",
     ),
+    "a word of a hint": (
+        EXERCISES,
+        "The F of step 1 stays as it is.",
+        "Step 1 is F[B]F.",
+        "The word of step 1 is said to be F[B]F, and the system makes F[B]B",
+    ),
+    "a count that is predicted": (TOML, 'answer = "nine"', 'answer = "seven"', "Step 2 is said to have seven"),
     "an objective that is not tested": (EXERCISES, "objective = 1", "objective = 2", "No exercise tests objective 1"),
 }
 REPLY = "Wherever a bud was, two stand in the next step: one turned to the side, one straight on."
@@ -462,6 +499,9 @@ WORDS_OF_STEPS = (
     "| 3 | `F[+F[+F[+B]B]F[+B]B]F[+F[+B]B]F[+B]B` |\n\n"
 )
 IN_CELLS: dict[str, tuple[str, str, str]] = {
+    "a section that there is not": ("Now let a bud", "As in section 9, let a bud", "There is no section 9"),
+    "a system that there is not": ("Now let a bud", "As in `K110`, let a bud", 'Did you mean "K11"?'),
+    "a slider to be moved on": ("Move the slider **step**", "Move **roll** on", 'slider "roll" is to be moved'),
     "another vote": ('vote("ferns")', 'vote("fern")', 'Did you mean "ferns"'),
     "the vote of another lesson": ('vote("ferns")', 'vote("01")', 'asks the vote of the lesson "01"'),
     "another table": ('worksheet("ferns", "buds"', 'worksheet("ferns", "bud"', 'has no table "bud"'),

@@ -112,6 +112,18 @@ def test_a_stage_diagram_is_seen_whole_and_large_where_it_is_clicked(explored, i
     assert net.bounding_box()["width"] > whole["width"]
 
 
+def test_nine_seeds_fill_the_whole_screen_and_are_drawn_as_large(explored):
+    panel = explored("K8", 6, show=["drawing"])
+    panel.page.get_by_role("button", name="nine seeds", exact=True).click()
+    tile = panel.at(".lsys-tile").first
+    small = tile.bounding_box()["height"]
+    panel.page.get_by_role("button", name="nine seeds on the whole screen").click()
+    panel.page.wait_for_function("small => document.querySelector('.lsys-tile').clientHeight > 2 * small", arg=small)
+    panel.page.wait_for_function(
+        "() => { const tile = document.querySelector('.lsys-tile'); return tile.height >= tile.clientHeight; }"
+    )
+
+
 @pytest.mark.parametrize("width", [400, 360])
 @pytest.mark.parametrize("id", ["J4", "K8"])
 def test_on_a_phone_the_buttons_of_the_views_stand_in_one_line(explored, id, width):

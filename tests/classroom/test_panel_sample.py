@@ -143,6 +143,19 @@ def test_it_goes_on_until_somebody_stops_it_and_a_slider_throws_the_same_plants_
 
 
 @pytest.mark.browser
+def test_what_is_counted_stays_the_same_where_a_symbol_has_another_number(explored):
+    """At p = 0.4 the only tip of the tree with seed 6 dies, so that its symbols occur in another order."""
+    panel = explored(FAMILY, 5, seed=6, show=["drawing", "sample"])
+    numbers = [book(read(FAMILY), {"p": p}, 6, least=5)["symbols"] for p in (0.65, 0.4)]
+    assert [row[0] for row in numbers[0]] != [row[0] for row in numbers[1]]
+    panel.at(SAMPLE).get_by_label("count").select_option(label="F")
+    press(panel, "exact")
+    for key in ("ArrowLeft", "ArrowLeft", "ArrowLeft", "ArrowLeft", "ArrowLeft"):
+        panel.control("p").press(key)
+    expect(said(panel)).to_contain_text("How many F will it have at step 5? Exactly: 1.345 on average.")
+
+
+@pytest.mark.browser
 def test_where_neighbours_have_a_say_the_kernel_throws(explored):
     panel = explored(f"{PLANT}\nZ < Z -> Z", 2, show=["drawing", "sample"])
     press(panel, "one more")

@@ -327,9 +327,9 @@ def test_exercises_are_called_as_their_lesson_is(name: str) -> None:
 # --- what a page cannot do ----------------------------------------------------------------------------------------------------
 
 
-def asked_for(text: str) -> list[str]:
+def asked_for(text: str, live: bool = False) -> list[str]:
     """The kinds of requests below which a page says that it cannot do it."""
-    return re.findall(r'data-cannot="(\w+)"', markdown_html(text, lambda address: address, notes()))
+    return re.findall(r'data-cannot="(\w+)"', markdown_html(text, lambda address: address, notes(live)))
 
 
 @pytest.mark.parametrize(
@@ -354,6 +354,7 @@ def asked_for(text: str) -> list[str]:
 )
 def test_a_page_says_below_a_request_that_it_cannot_be_done_there(text: str, kinds: list[str]) -> None:
     assert asked_for(text) == kinds
+    assert asked_for(text, live=True) == [each for each in kinds if each == "cells"]
 
 
 @pytest.mark.slow

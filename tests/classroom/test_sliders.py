@@ -97,6 +97,14 @@ def test_numbers_below_a_slider_stand_at_their_values_and_do_not_touch(explored,
             assert box["x"] >= panel.at(".lsys-panel").bounding_box()["x"]
 
 
+def test_a_number_beside_a_slider_is_seen_whole(explored):
+    panel = explored(read("turn = 120 in 90 .. 180 by 0.25\naxiom: A\nA -> F+(turn)A"), 3)
+    box = panel.at('[data-control="turn"] .lsys-box')
+    box.fill("137.25")
+    expect(panel.control("turn")).to_have_attribute("aria-valuetext", "137.25")
+    assert box.evaluate("(box) => box.scrollWidth <= box.clientWidth")
+
+
 def test_the_angles_of_a_class_stand_below_their_slider(explored):
     panel = explored("K5", 4, context={"viewport": {"width": 1440, "height": 900}})
     numbers = panel.at('[data-control="angle"] .lsys-scale > :not(:empty)')

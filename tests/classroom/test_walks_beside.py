@@ -72,3 +72,4 @@ def test_a_picture_is_told_in_words_and_reaches_pages():
     )
     found = answer({"kind": "check", "id": "4.3", "answer": "F[+F]F[-FF]F"}, KINDS, BUDGET)
     assert found["picture"] == verdict.picture
+    assert found["described"] == "Your turtle has just drawn stroke 2, the first that is not in the right drawing."

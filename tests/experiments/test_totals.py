@@ -171,9 +171,9 @@ def test_a_formula_that_holds_from_a_later_step_on_says_so() -> None:
 def test_solutions_without_roots_have_decimals() -> None:
     found = total(read(SHOOT), "F", q="q").solve("q", 2, n=6)
     assert repr(found) == "[about 0.50866]"
-    assert found._repr_latex_() == r"$q \approx 0.50866$"
+    assert found._repr_latex_() == r"$\displaystyle q \approx 0.50866$"
     assert sum(found[0] ** k for k in range(6)).evalf() == pytest.approx(2)
-    assert total(read(SHOOT), "F", q="q").solve("q", 5)._repr_latex_() == r"$q = \frac{4}{5}$"
+    assert total(read(SHOOT), "F", q="q").solve("q", 5)._repr_latex_() == r"$\displaystyle q = \frac{4}{5}$"
     assert total(read(SHOOT), "F", q="q").solve("q", -5)._repr_latex_() is None, "no stem is shorter than nothing"
 
 

@@ -28,7 +28,9 @@ def fills(picture: CellworkPicture) -> list[str]:
 
 @pytest.mark.slow
 def test_a_picture_says_how_much_there_is() -> None:
-    assert str(draw(K33, 2)) == ("step 2; 18 vertices, 33 edges, 20 walls, 4 cells; walls of one colour have the same label")
+    said = "step 2; 18 vertices, 33 edges, 20 walls, 4 cells; {}walls of one colour have the same label"
+    assert str(draw(K33, 2)) == said.format("cells pulled apart; ")
+    assert str(draw(K33, 2, explode=0)) == said.format("")
     assert str(draw(derive(K33, 0))) == "step 0; 8 vertices, 12 edges, 6 walls, 1 cell; walls of one colour have the same label"
     assert "walls of 1 of them, and the edges of the others" in str(draw(K33, 2, cell=1))
     assert str(draw(K33)).startswith("step 4")
@@ -69,10 +71,10 @@ def test_one_cell_or_one_generation_is_lit() -> None:
 
 @pytest.mark.slow
 def test_cells_pulled_apart_have_all_their_walls_and_keep_their_shapes() -> None:
-    whole, pulled = draw(K33, 4), draw(K33, 4, explode=0.5)
+    whole, pulled = draw(K33, 4, explode=0), draw(K33, 4)
     assert (len(whole.solid.polygons), len(pulled.solid.polygons)) == (40, 16 * 6)
     assert "cells pulled apart" in str(pulled)
-    assert str(draw(K33, 4, explode=0)) == str(whole)
+    assert "apart" not in str(whole) + str(draw(K33, 0)) + str(draw(K33, 4, cell=3)), "one cell alone stays where it is"
     middles = [np.unique(np.round(draw(K33, 4, cell=3, explode=apart).solid.polygons.points, 6), axis=0) for apart in (0, 0.5)]
     assert middles[0] == pytest.approx(middles[1])  # alone it is its own middle
     meshes = [trimesh.Trimesh(each.solid.polygons.points, _fans(each.solid.polygons)) for each in (whole, pulled)]
@@ -112,7 +114,7 @@ def test_steps_are_chosen_when_a_system_is_derived() -> None:
 
 
 def test_a_cellwork_is_kept_in_every_format(tmp_path: Path) -> None:
-    picture = draw(K33, 3)
+    picture = draw(K33, 3, explode=0)
     for ending in DRAWINGS:
         picture.save(tmp_path / f"cells{ending}")
         assert (tmp_path / f"cells{ending}").stat().st_size > 400

@@ -276,6 +276,12 @@ def test_a_notebook_shows_pixels_and_turns_no_light_into_dark() -> None:
         assert f'width="{picture.image().width}"' in shown["text/html"]
 
 
+@pytest.mark.parametrize(("axiom", "darkened"), [("F[&F]@o", True), ("F[&F]@O", False)])
+def test_a_dark_notebook_turns_no_light_on_spheres_into_dark(axiom: str, darkened: bool) -> None:
+    shown = draw(read(f"axiom: {axiom}"), 0)._repr_mimebundle_()
+    assert ("lsys-picture" in shown["text/html"]) == darkened
+
+
 @pytest.mark.slow
 def test_the_picture_has_the_size_that_was_chosen() -> None:
     assert draw(read(BUSH), 2, light=True, size=300).image().width == 300

@@ -177,6 +177,22 @@ def test_no_two_kinds_look_the_same_and_the_legend_is_not_cut(id: str) -> None:
     assert white == (255, 255)
 
 
+@pytest.mark.parametrize(("id", "steps", "shown"), [("K5", 4, 3), ("K17a", 24, 17), ("K24b", 60, 28), ("ABOP-2.6b", 8, 5)])
+def test_where_lines_would_be_too_dense_the_first_steps_are_shown(id: str, steps: int, shown: int) -> None:
+    """The tree is that of the lineage of so many steps, and one step more would be too dense."""
+    part, *wholes = (draw(lineage(derive(system(id), many))) for many in (steps, shown, shown + 1))
+    assert [paths(part), texts(part)[0], texts(part)[1]] == [paths(wholes[0]), "step", f"steps 0 to {shown} of {steps}"]
+    assert [str(each).partition("; steps")[2] for each in (part, *wholes)] == [
+        f" 0 to {shown} of {steps}",
+        "",
+        f" 0 to {shown} of {shown + 1}",
+    ]
+
+
+def test_a_lineage_in_which_intervals_are_marked_is_shown_as_a_whole() -> None:
+    assert "steps" not in str(draw(lineage(system("K17a"), 24), intervals=[(20, 24)]))
+
+
 def test_where_lines_are_dense_sisters_share_one_and_what_never_divides_is_pale() -> None:
     dense, sparse = (tree_of(lineage(system("K19"), steps)) for steps in (12, 2))
     symbols = {number: dense.lineage.cells[cell].at_birth.symbol for cell, number in dense.kind_of.items()}

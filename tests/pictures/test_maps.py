@@ -8,10 +8,11 @@ import xml.etree.ElementTree as ET
 import numpy as np
 import pytest
 
-from lsys_kit import ModelFileError, ModelLimitError, ModelNameError, ModelValueError, animate, derive, draw, limits
+from lsys_kit import ModelFileError, ModelLimitError, ModelNameError, ModelValueError, animate, derive, draw, limits, map_system
 from lsys_kit.notation.dialects.map.dialect import read_map
+from lsys_kit.pictures.rendering.frames import MARGIN
 from lsys_kit.pictures.style.palette import SERIES
-from lsys_kit.pictures.tissues.maps import FILLS, MOST_MAPS, MapPicture, cell_colour
+from lsys_kit.pictures.tissues.maps import CAPTION, FILLS, MOST_MAPS, SEEN, MapPicture, arranged, cell_colour
 from tests.endings import SAID_OF_FLAT
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -53,6 +54,12 @@ def test_a_long_development_shows_its_last_steps() -> None:
     assert [*picture.numbers] == [*range(14 - MOST_MAPS, 14)]
     assert len(picture.maps) == MOST_MAPS
     assert str(picture) == "steps 2 to 13; the last: 3 vertices, 3 walls, 1 cell"
+
+
+@pytest.mark.parametrize(("id", "step"), [("K28", 0), ("K31", 0), ("K28", 1), ("K28", 4)])
+def test_a_few_maps_are_large_enough_to_be_seen(id: str, step: int) -> None:
+    panels = arranged(draw(map_system(id), step).scenes)
+    assert panels[0].frame.height - 2 * MARGIN - CAPTION >= SEEN
 
 
 def test_walls_have_labels_and_those_with_a_direction_arrows() -> None:

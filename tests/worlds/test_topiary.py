@@ -214,7 +214,7 @@ def test_the_shell_and_the_explorer_look_around(capsys: pytest.CaptureFixture[st
     panel = explore("K24")
     panel.step = 6
     assert panel.sight.word.counts()["S"] == 1
-    assert str(draw(system("K24"), 6)) == "9 segments, 5 discs, width 4, height 4.2"
+    assert str(draw(system("K24"), 6)) == "4 segments, 1 polygon, 5 discs, width 4, height 4.2"
 
 
 LEGEND = "small open circle is a sleeping bud, a cross is a cut, and a large filled circle is a signal"

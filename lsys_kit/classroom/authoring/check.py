@@ -13,12 +13,18 @@ from itertools import islice
 from pathlib import Path
 
 from lsys_kit.classroom.authoring.asked import plan_findings, prediction_findings, table_findings, vote_findings
-from lsys_kit.classroom.authoring.computed import bare, calculation_findings, word_findings, wrong_calculations
+from lsys_kit.classroom.authoring.computed import bare, calculation_findings, other_words, word_findings, wrong_calculations
 from lsys_kit.classroom.authoring.finding import Finding, finding
 from lsys_kit.classroom.authoring.new import TEMPLATE
 from lsys_kit.classroom.authoring.panels import rule_findings, slider_findings
 from lsys_kit.classroom.authoring.prose import head_findings, link_findings, markup_findings, section_findings, term_findings
-from lsys_kit.classroom.authoring.said import place_findings, reply_findings, system_findings, wording_findings
+from lsys_kit.classroom.authoring.said import (
+    counted_findings,
+    place_findings,
+    reply_findings,
+    system_findings,
+    wording_findings,
+)
 from lsys_kit.classroom.authoring.teacher import teacher_findings
 from lsys_kit.classroom.authoring.told import contradiction_findings, others_nearly, told_findings
 from lsys_kit.classroom.authoring.written import Written, without_marks
@@ -59,6 +65,7 @@ CHECKS: tuple[Callable[[Written], Iterator[Finding]], ...] = (
     reply_findings,
     place_findings,
     system_findings,
+    counted_findings,
 )
 """What is looked at without running anything."""
 
@@ -143,6 +150,9 @@ def _said_in(exercise: Exercise, where: str) -> Iterator[Finding]:
     texts = [exercise.question, exercise.explanation, *exercise.hints, *(each.says for each in exercise.slips)]
     for left, sign, right, value, _ in wrong_calculations(without_marks("\n\n".join(texts))):
         yield finding(where, "calculation", left=left, sign=sign, right=right, value=value)
+    for each in texts[1:] if exercise.kind == "word" and exercise.system else ():
+        for step, said, made in other_words(exercise.system, each):
+            yield finding(where, "word", step=step, word=said[:60], found=made[:60])
     there = dict(_rules_in(exercise.system))
     for left, right in _rules_in(exercise.question) if exercise.kind in ("word", "number", "table") else ():
         if left in there and bare(right) != bare(there[left]):

@@ -20,7 +20,7 @@ from lsys_kit.derivation.growth.growth import growth
 from lsys_kit.errors import LSystemError
 from lsys_kit.notation.model.arithmetic import number_text
 from lsys_kit.notation.model.system import LSystem
-from lsys_kit.notation.read import AnySystem, read_number
+from lsys_kit.notation.read import AnySystem, read_any, read_number
 
 _RUN = re.compile(r"[\d(), .+−·×*/^=≈-]++")
 _BREAK = re.compile(r"[,.] |[,.]$")
@@ -33,6 +33,7 @@ _NOT_BEHIND = re.compile(rf" ?(?:[{BLOT}^_√%([/+−·×*!=≈…-]|[^\W\d_]\b)
 _STEP_IS = re.compile(
     r"[Ss]tep (\d{1,2})(?: of `(\w{1,8})`)? (?:is|will be|was|reads|becomes)(?: the word)?:? `([^`\n]{1,400})`"
 )
+_STEP_BARE = re.compile(r"\b[Ss]tep (\d{1,2}) is ([^.\n`]{1,300})\.(?:\s|$)")
 _COUNT = re.compile(r"\b[Ss]tep (\d{1,3})(?: of `(\w{1,8})`)? (?:there are|has|have) (\d[\d,]{2,30})\b(?!\.\d)")
 _NOUN = r"(?:`[^`\n]{1,20}`|[^\W\d_]{1,20}(?: [^\W\d_]{1,20}){0,2})"
 _SUM = re.compile(
@@ -184,6 +185,21 @@ def _other_word(written: Written, cell: Cell, step: int, id: str | None, word: s
         if not found and {*_LETTERS.findall(word)} <= {*_LETTERS.findall(f"{made} {later}")}:
             found = made
     return found
+
+
+def other_words(rules: str, text: str) -> Iterator[tuple[int, str, str]]:
+    """Of words of steps in a text without marks those that are another arrangement of what the rules make: both, and the step.
+
+    >>> [*other_words("axiom: a\\na -> a b", "Step 1 is b a. Step 2 is a b b.")]
+    [(1, 'b a', 'a b')]
+    """
+    for found in _STEP_BARE.finditer(text):
+        with suppress(LSystemError), limits(**BUDGET):
+            system = read_any(rules)
+            if isinstance(system, LSystem) and not is_random(system):
+                made = str(derive(system, int(found[1]))[-1])
+                if made and bare(found[2]) != bare(made) and {*bare(found[2])} <= {*bare(rules)} - {*"->:"}:
+                    yield int(found[1]), found[2], made
 
 
 def _counts_said(written: Written, cell: Cell, text: str) -> Iterator[Finding]:

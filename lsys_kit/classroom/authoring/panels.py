@@ -31,7 +31,7 @@ _MOVE = r"\b(?:[Mm]ove|[Pp]ut|[Dd]rag|[Tt]urn|[Pp]ush|[Ss]lide)"
 _ASKED = (
     re.compile(rf"\b[Ss]et {_NAME}(?: slider)?[^.?!\n*`\d]{{0,30}} ?(?:to|=) {_NUMBER}\b(?! *%)"),
     re.compile(rf"{_MOVE} {_NAME}(?: slider)?(?: slowly| back)?(?:[, ]*from {_NUMBER})?(?: up)? to {_NUMBER}\b(?! *%)"),
-    re.compile(rf"{_MOVE} (?:only |just )?{_NAME}(?= and\b|[,.:])"),
+    re.compile(rf"{_MOVE} (?:only |just )?{_NAME}(?= (?:and|on)\b|[,.:])"),
 )
 _SPAN = re.compile(r"`([^`\n]{1,200})`")
 _RULE = re.compile(r"(?<![^\s`\"'])[^\s`\"']{1,12} -> [^`\n\"'\\]{0,200}[^`\n\"'\\\s]")
@@ -119,13 +119,14 @@ def _numeral(node: ast.expr) -> int | float | None:
 
 
 def rule_findings(written: Written) -> Iterator[Finding]:
-    """Of rules: one in a cell of code that no text has, and that is but for one sign what the texts say."""
+    """Of rules: one in a cell of code that no text has, and that is but for one sign what the texts say of its letters."""
     texts = [cell for cell in written.cells if not cell.is_code]
     said = {rule: None for cell in texts for span in _SPAN.findall(cell.source) for rule in _RULE.findall(span)}
     everywhere = "\n".join([*(cell.source for cell in texts), written.declared_text])
     in_code = {rule: cell for cell in reversed(written.cells) if cell.is_code for rule in _RULE.findall(cell.source)}
+    replaced = {rule.partition("->")[0] for rule in in_code}
     for rule, cell in in_code.items():
-        near = [each for each in said if _one_sign(each, rule)]
+        near = [each for each in said if _one_sign(each, rule) and each.partition("->")[0] in replaced]
         if near and rule not in everywhere:
             yield finding(written.at(cell, cell.line_of(rule)), "rule", rule=rule[:80], said=near[0][:80])
     for cell in texts:

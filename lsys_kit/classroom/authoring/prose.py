@@ -26,6 +26,8 @@ _NAMED = re.compile(r"(?:\b(?:called|call|calls|named)(?: \w+){0,4}|, the|\(the)
 _DETAILS = re.compile(r"<(/?)details\b", re.IGNORECASE)
 _UNFINISHED = re.compile(r"\b(?:TODO|FIXME|TBD|XXX|[Ll]orem ipsum)\b")
 _REFERRED = re.compile(r"\b(panel|table|curve|picture|drawing|panels|tables|curves)s? (?:of|in) section (\d{1,3})\b(?! of )")
+_SECTION = re.compile(r"(?<!\*[,:] )\b[Ss]ections? (\d{1,3})\b(?! of )")
+"""A section of the lesson; behind a title in italics it is one of another text."""
 _HOLDS = {
     "panel": re.compile(r"\b(?:explore|compare)\("),
     "table": re.compile(r"^\|[ :|-]{3,}$|\bworksheet\(|\btable\b|summary\(|continuity\(|\bcounts?\b", re.MULTILINE),
@@ -179,16 +181,19 @@ def _asked_in(cell: Cell) -> str:
 
 
 def section_findings(written: Written) -> Iterator[Finding]:
-    """Of references: that a section has the panel, the table, the curve of which a text speaks."""
+    """Of references: that there is the section, and that it has the panel, the table, the curve of which a text speaks."""
     sections = {each.number: each for each in written.sections if each.number is not None}
     if not sections:
         return
     for cell in written.cells:
+        for found in () if cell.is_code else _SECTION.finditer(cell.source):
+            if int(found[1]) not in sections:
+                most = f"The sections have numbers up to {max(sections)}."
+                yield finding(written.at(cell, cell.line_of(found[0])), "no_section", number=found[1], hint=most)
         for what, text in () if cell.is_code else _REFERRED.findall(cell.source):
             kind, number = what.removesuffix("s"), int(text)
             section = sections.get(number)
-            held = "" if section is None else "\n".join([section.text, *(each.source for each in section.code)])
-            if not _HOLDS[kind].search(held):
+            if section and not _HOLDS[kind].search("\n".join([section.text, *(each.source for each in section.code)])):
                 others = [
                     str(each.number)
                     for each in sections.values()

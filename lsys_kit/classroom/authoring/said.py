@@ -3,22 +3,26 @@ turns, counts and words of steps as the systems of the lesson make them."""
 
 from __future__ import annotations
 
+import ast
 import re
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import lru_cache
+from itertools import combinations
 
 from lsys_kit.budget import limits
 from lsys_kit.classroom.authoring.computed import bare, is_random
 from lsys_kit.classroom.authoring.finding import Finding, finding
 from lsys_kit.classroom.authoring.panels import Panel, panels_of
 from lsys_kit.classroom.authoring.written import Cell, Written, numbers_in
+from lsys_kit.classroom.catalogue import cellwork_systems, map_systems, systems
 from lsys_kit.classroom.exercises.check import BUDGET
 from lsys_kit.classroom.lessons.lesson import LETTERS
 from lsys_kit.classroom.places import kit_place
 from lsys_kit.derivation.derive import derive
 from lsys_kit.errors import LSystemError
+from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.notation.model.system import LSystem
 from lsys_kit.notation.read import AnySystem, read_any
 
@@ -37,6 +41,10 @@ _ASKS = {"prediction": "predict", "table": "worksheet", "vote": "vote"}
 _TURNS = re.compile(r"`[+-]`[^.\n`]{0,60}\bturns?\b[^.\n]{0,40}? (\d{1,3}(?:\.\d)?) degrees")
 _HAS = re.compile(
     r"\b[Ss]tep (\d{1,2}) has (\d[\d,]{0,9}|[a-z]{3,9}) (?:cells|symbols|letters|modules|buds|tips|strokes|pieces)\b"
+)
+_ID = re.compile(r"`(([A-Z]{1,2})\d{1,3}[a-z]?)`")
+_HOW_MANY = re.compile(
+    r"[Hh]ow many (?:[^\W\d_]{1,20} ){0,4}?(?:has|have) (?:the word of )?steps? (\d{1,2}(?:(?:, and |, | and )\d{1,2}){0,20})\?"
 )
 _OLD_WORD, _NEW_WORD = (re.compile(rf"\b{which} `([^`\n]{{1,200}})`") for which in ("the word", "(?:new|next) word is"))
 _SPAN_RULE = re.compile(r"`([^`\n]{1,80} -> [^`\n]{1,120})`")
@@ -60,6 +68,20 @@ def wording_findings(written: Written) -> Iterator[Finding]:
         for found in _LESSON.finditer(cell.plain):
             if int(found[1]) not in kits:
                 yield finding(written.at(cell, cell.line_of(found[0])), "no_lesson", number=found[1], most=max(kits))
+    yield from _no_systems(written)
+
+
+def _no_systems(written: Written) -> Iterator[Finding]:
+    """Of what is named as the systems of the catalogue are, and is nothing else in this lesson: that it is one of them."""
+    known = {*systems(), *map_systems(), *cellwork_systems()}
+    families = {re.split(r"\d", each)[0] for each in known}
+    everything = "\n".join(cell.source for cell in written.cells)
+    for cell in () if written.lesson is None else written.cells:
+        for found in () if cell.is_code else _ID.finditer(cell.source):
+            elsewhere = re.search(rf"(?<!`)\b{found[1]}\b|\b{found[1]}\b(?!`)", everything)
+            if found[1] not in known and found[2] in families and not elsewhere:
+                hint = suggestion(found[1], known) or ""
+                yield finding(written.at(cell, cell.line_of(found[0])), "no_system", id=found[1], hint=hint)
 
 
 def reply_findings(written: Written) -> Iterator[Finding]:
@@ -105,6 +127,28 @@ def system_findings(written: Written) -> Iterator[Finding]:
                     yield finding(at, "new_word", word=found[1][:60], old=old[-1][1][:60], found=made[:60])
 
 
+def counted_findings(written: Written) -> Iterator[Finding]:
+    """Of predictions of how many there are in some steps: that symbols of a system that is shown then are so many."""
+    declared = {each.question: each for each in written.lesson.predictions} if written.lesson else {}
+    for call in written.calls:
+        each = declared.get(written.question_of(call) or "") if call.function == "predict" else None
+        asked = _HOW_MANY.search(each.question) if each else None
+        changed = {node.arg for node in ast.walk(call.node) if isinstance(node, ast.keyword)}
+        shown = [panel.system for panel in panels_of(written) if panel.cell == call.cell]
+        if each is None or asked is None or any(isinstance(one, LSystem) and {*one.constants} & changed for one in shown):
+            continue
+        steps, given = [int(step) for step in re.findall(r"\d+", asked[1])], [*numbers_in(each.answer).values()]
+        known = {
+            int(found[1]): int(number) for found in _HAS.finditer(each.question) for number in numbers_in(found[2]).values()
+        }
+        said = known | {step: int(number) for step, number in zip(steps, given, strict=False)}
+        if shown and len(steps) == len(given) and not any(_fits(system, said) for system in shown):
+            made = f"{_length(shown[0], steps[-1])} symbols in all"
+            yield finding(
+                written.declared_line(each.question[:40]), "count", step=steps[-1], given=each.answer[:60], found=made
+            )
+
+
 def _one_step(text: str, word: str) -> str:
     """What becomes of a word in one step by the rules in a text, if they are all that is needed."""
     rules = dict.fromkeys(_SPAN_RULE.findall(text))
@@ -119,25 +163,34 @@ def _has(written: Written, cell: Cell, text: str, here: Sequence[Panel]) -> Iter
     """ "Step 10 has 12 cells" where no sum of symbols in that step of a system of the section is 12."""
     for found in _HAS.finditer(re.sub("\n", " ", text)):
         given = next(iter(numbers_in(found[2]).values()), None)
-        possible = [_sums(each.system, int(found[1])) for each in here]
-        if given is not None and possible and all(possible) and not any(int(given) in each for each in possible):
+        step = int(found[1])
+        if given is not None and here and not any(_fits(each.system, {step: int(given)}) for each in here):
             at = written.at(cell, cell.line_of(f"{found[2]} "))
-            most = max(map(max, possible))
-            yield finding(at, "count", step=found[1], given=found[0].split(" has ")[1], found=f"{most} symbols in all")
+            made = f"{max(_length(each.system, step) for each in here)} symbols in all"
+            yield finding(at, "count", step=found[1], given=found[0].split(" has ")[1], found=made)
+
+
+def _fits(system: AnySystem | None, said: Mapping[int, int]) -> bool:
+    """Whether some of the symbols of a system are so many in those steps, or that is not known."""
+    counts = {step: _counts(system, step) for step in said}
+    types = dict.fromkeys(each for found in counts.values() for each in found)
+    if not all(counts.values()) or len(types) > MOST_TYPES:
+        return True
+    chosen = (some for many in range(len(types) + 1) for some in combinations(types, many))
+    return any(all(sum(counts[step].get(each, 0) for each in some) == many for step, many in said.items()) for some in chosen)
+
+
+def _length(system: AnySystem | None, step: int) -> int:
+    return sum(_counts(system, step).values())
 
 
 @lru_cache(maxsize=64)
-def _sums(system: AnySystem | None, step: int) -> frozenset[int]:
-    """What counts of some symbols of a step can come to; nothing where that is not known."""
+def _counts(system: AnySystem | None, step: int) -> Mapping[str, int]:
+    """How many there are of each symbol of a step, without their indices; nothing where that is not known."""
     with suppress(LSystemError), limits(**BUDGET):
         if isinstance(system, LSystem) and not is_random(system):
-            counts = Counter(re.sub(r"_.*", "", str(each.symbol)) for each in derive(system, step)[-1])
-            if 0 < len(counts) <= MOST_TYPES:
-                sums = {0}
-                for many in counts.values():
-                    sums |= {each + many for each in sums}
-                return frozenset(sums)
-    return frozenset()
+            return Counter(re.sub(r"_.*", "", str(each.symbol)) for each in derive(system, step)[-1])
+    return {}
 
 
 def _table_of(written: Written, cell: Cell, text: str, here: Sequence[Panel]) -> Iterator[Finding]:

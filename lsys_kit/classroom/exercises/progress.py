@@ -21,12 +21,12 @@ from lsys_kit.classroom.course import MANIFEST
 from lsys_kit.classroom.exercises.exercise import Exercise, Lesson
 from lsys_kit.classroom.exercises.registry import all_lessons, exercise_of
 from lsys_kit.classroom.exercises.replies import reply
-from lsys_kit.classroom.exercises.verdict import PLAIN_TEXT, Verdict
+from lsys_kit.classroom.exercises.verdict import PLAIN_TEXT, THEMED, Verdict
 from lsys_kit.errors import ModelNameError, ModelValueError, every, quotable, require, shown
 from lsys_kit.files import append_line
 from lsys_kit.notation.analysis.checks import suggestion
 from lsys_kit.pictures.style.labels import escaped
-from lsys_kit.pictures.style.palette import BLUE, GREEN, INK, ORANGE, PAPER, QUIET
+from lsys_kit.pictures.style.palette import BLUE, GREEN, ORANGE, QUIET
 from lsys_kit.translation import gettext
 
 # The record
@@ -182,7 +182,7 @@ def _tries(lines: Iterable[str]) -> Iterator[Try | None]:
 
 SIGNS = {"solved": ("✓", GREEN), "tried": ("◐", ORANGE), "not tried": ("○", QUIET)}
 """For each state of an exercise its sign and its colour; the meaning never depends on the colour alone."""
-_BOX = f"border-left:6px solid {BLUE};background:{PAPER};color:{INK};padding:6px 12px;overflow-wrap:break-word"
+_BOX = f"border-left:6px solid {BLUE};{THEMED};padding:6px 12px;overflow-wrap:break-word"
 _COLUMNS = "display:grid;grid-template-columns:repeat(auto-fill,minmax(min(270px,100%),1fr));gap:6px 24px;margin:6px 0"
 
 
@@ -326,7 +326,7 @@ def _count(page: Progress, lesson: Lesson) -> str:
 
 def _notes(page: Progress) -> Iterator[str]:
     """What to do next, what was practised, what is wrong, and, where all lessons are shown, what becomes of it."""
-    yield f"{reply('progress.next')} {_named_next(page)}." if page.next else reply("progress.all_solved")
+    yield f"{reply('progress.next')} {_named_next(page)}.".replace("?.", "?") if page.next else reply("progress.all_solved")
     practised = {each.exercise: each.solved for each in reversed(page.record.tries) if each.exercise.startswith(PRACTICE)}
     if practised and len(page.lessons) > 1:
         yield reply("progress.practised", number=len(practised), right=sum(practised.values()))
@@ -372,7 +372,8 @@ def _link(page: Progress, lesson: Lesson, text: str) -> str:
     notebook = page.record.folder / "exercises" / f"{lesson.name}.ipynb" if page.record.folder else None
     if notebook is None or not notebook.is_file():
         return escaped(text)
-    return f'<a href="{escaped(os.path.relpath(notebook).replace(os.sep, "/"))}" style="color:#00629B">{escaped(text)}</a>'
+    there = escaped(os.path.relpath(notebook).replace(os.sep, "/"))
+    return f'<a href="{there}" style="color:var(--jp-content-link-color,#00629B)">{escaped(text)}</a>'
 
 
 def _linked(page: Progress, note: str) -> str:

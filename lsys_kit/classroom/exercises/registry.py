@@ -88,7 +88,7 @@ def lessons() -> tuple[Lesson, ...]:
 
 def all_lessons() -> tuple[Lesson, ...]:
     """The lessons of the kit and of the folders that were added."""
-    return tuple(translated_lesson(lesson) for questions in _all_questions() for lesson in questions.lessons)
+    return tuple(map(translated_lesson, _once([lesson for questions in _all_questions() for lesson in questions.lessons])))
 
 
 class ExerciseList(tuple[Exercise, ...]):
@@ -119,7 +119,7 @@ def exercises(folder: str | Path | None = None) -> ExerciseList:
     [3, 3]
     """
     if folder is None:
-        return ExerciseList(translated(exercise) for found in _all_questions() for _, _, exercise in found.exercises)
+        return ExerciseList(map(translated, _once([each for found in _all_questions() for _, _, each in found.exercises])))
     require(folder, (str, Path), "The name of a folder")
     with file_errors(f'"{quotable(str(folder))}" cannot be read'):
         path = resolved(Path(folder))
@@ -142,6 +142,11 @@ def known_for_a_while(folder: Path) -> Iterator[None]:
     finally:
         _added.clear()
         _added.update(before)
+
+
+def _once(found: Sequence[Record]) -> list[Record]:
+    """What was found, without what a copy of a course has in common with it."""
+    return [each for at, each in enumerate(found) if each not in found[:at]]
 
 
 def _all_questions() -> Iterator[Questions]:
@@ -175,7 +180,8 @@ def exercise_of(id: str) -> Exercise:
     if not isinstance(id, str):
         raise ModelValueError('The id of an exercise must be a text such as "1.1"')
     wanted = id.strip()
-    found = [exercise for questions in _all_questions() for _, _, exercise in questions.exercises if exercise.id == wanted]
+    named = [exercise for questions in _all_questions() for _, _, exercise in questions.exercises if exercise.id == wanted]
+    found = _once(named)
     if len(found) == 1:
         return translated(found[0])
     problem = next(

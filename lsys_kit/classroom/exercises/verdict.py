@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Mapping
+from html import unescape
 
 from lsys_kit.errors import require
 from lsys_kit.pictures.style.labels import escaped
@@ -19,7 +20,7 @@ SIGNS_AND_COLOURS: Mapping[str, tuple[str, str]] = {
     "Hint": ("→", BLUE),
 }
 """For each verdict its sign and its colour; the meaning never depends on the colour alone."""
-_THEMED = f"background:var(--jp-layout-color0,{PAPER});color:var(--jp-ui-font-color0,{INK})"
+THEMED = f"background:var(--jp-layout-color0,{PAPER});color:var(--jp-ui-font-color0,{INK})"
 """The paper and the ink of JupyterLab's theme, where there is one."""
 
 
@@ -69,6 +70,11 @@ class Verdict(float):
         require(picture, str, "A picture as SVG")
         return Verdict(self.said, f"{self.message}\n{more}".strip(), float(self), picture or self.picture)
 
+    @property
+    def described(self) -> str:
+        """The text alternative of the picture, or empty."""
+        return unescape(self.picture.partition('aria-label="')[2].partition('"')[0])
+
     def __repr__(self) -> str:
         return f"{gettext(self.said)}. {self.message}".rstrip()
 
@@ -78,16 +84,15 @@ class Verdict(float):
         """The box: a sign, a word and the message, all text escaped."""
         sign, colour = SIGNS_AND_COLOURS[self.said]
         return (
-            f'<div class="{PLAIN_TEXT}" role="status" style="border-left:6px solid {colour};{_THEMED};padding:6px 12px">'
+            f'<div class="{PLAIN_TEXT}" role="status" style="border-left:6px solid {colour};{THEMED};padding:6px 12px">'
             f'<span aria-hidden="true">{sign}</span> <b>{escaped(gettext(self.said))}.</b> {_html(self.message)}'
-            f"{_image(self.picture)}</div>"
+            f"{self._image()}</div>"
         )
 
-
-def _image(picture: str) -> str:
-    """A picture on a line of its own, with its own text alternative."""
-    data, words = base64.b64encode(picture.encode()).decode(), picture.partition('aria-label="')[2].partition('"')[0]
-    return f'<img alt="{words}" style="display:block;margin:4px 0" src="data:image/svg+xml;base64,{data}">' if picture else ""
+    def _image(self) -> str:
+        """The picture on a line of its own."""
+        data, look = base64.b64encode(self.picture.encode()).decode(), "display:block;margin:4px 0"
+        return f'<img alt="{escaped(self.described)}" style="{look}" src="data:image/svg+xml;base64,{data}">' if data else ""
 
 
 def _html(message: str) -> str:

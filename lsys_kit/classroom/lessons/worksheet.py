@@ -346,7 +346,7 @@ def checked(table: Table, entries: Sequence[str]) -> Data:
     >>> found["text"]
     '3 of 8 cells are right, 4 are not filled in yet.'
     >>> found["notes"]
-    ['Step 2, rule after rule: That is what comes out if you write what the modules become behind the old word. A step \
+    ['step 2, rule after rule: That is what comes out if you write what the modules become behind the old word. A step \
 replaces the whole word: nothing of the old one is left beside the new.']
     """
     marks = marked(table, entries)
@@ -389,7 +389,7 @@ def _notes(table: Table, entries: Sequence[str], marks: Sequence[str]) -> tuple[
             places.setdefault(says, []).append(_place(table, number))
         else:
             unexplained.append(number)
-    notes = [f"{capital('; '.join(where))}: {says}" for says, where in islice(places.items(), MOST_NOTES)]
+    notes = [f"{'; '.join(where)}: {says}" for says, where in islice(places.items(), MOST_NOTES)]
     return notes, unexplained
 
 
@@ -400,11 +400,6 @@ def _shown(table: Table, number: int, entry: str, mark: str) -> str:
     if {*blank.right} & {"yes", "no"} and not is_right(entry, ["yes", "no"]):
         return gettext('Answer "yes" or "no".')
     return next((known.says for known in slips_of(table, number) if is_right(entry, [known.answer], known.within, nouns)), "")
-
-
-def capital(text: str) -> str:
-    """A text with a capital letter at its beginning."""
-    return text[:1].upper() + text[1:]
 
 
 def summary(table: Table, marks: Sequence[str], unexplained: Sequence[int] = ()) -> str:

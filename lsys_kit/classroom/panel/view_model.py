@@ -109,7 +109,7 @@ class StepView:
         stages = f" Stages {', '.join(places)}." if "stages" in show else ""
         measures = self.scene.measures if self.scene.size else "nothing to draw"
         held = conditions_text(self.said.states)
-        formulas = f" The formulas hold where {held}." if held else ""
+        formulas = f" {held}" if held else ""
         return f"Step {self.step}: {self.size}. {shortened(self.said, 160)}.{formulas}{stages} {measures.capitalize()}."
 
     def __str__(self) -> str:

@@ -116,7 +116,8 @@ def _verdict(exercise: Exercise, asked: Entries) -> Data:
     hints = [
         reply("check.hint", number=at, most=most, hint=hint) for at, hint in enumerate(exercise.hints[: max(0, hinted)], 1)
     ]
-    return {"said": verdict.said, "message": "\n".join([verdict.message, *hints]), "picture": verdict.picture}
+    message = "\n".join([verdict.message, *hints])
+    return {"said": verdict.said, "message": message, "picture": verdict.picture, "described": verdict.described}
 
 
 def _practice(asked: Entries) -> Data:

@@ -33,13 +33,15 @@ class Places:
 
 PLAIN_TAGS = ("br", "details", "sub", "summary", "sup")
 """The tags of HTML that notebooks may use in their texts, without attributes."""
+MOST_WHOLE = 24
+"""So many characters of code at most stay in one line, so that no rule is broken within its arrow."""
 _FLAT = re.compile(r"\\left\(([^\\]*+)\\right\)")
 _PLAIN_TAG = re.compile(rf"&lt;(/?(?:{'|'.join(PLAIN_TAGS)}))&gt;")
 
 
 def markdown_html(text: str, links: Links, after: Callable[[str], str] = lambda block: "") -> str:
     """A cell of Markdown as HTML. Of HTML in it no more passes than the plain tags of `PLAIN_TAGS`. After each of its blocks
-    stands what a function makes of the HTML of that.
+    stands what a function makes of the HTML of that. What is long of code is said to be so: it may go on in another line.
 
     >>> markdown_html("## An *alga*\\n\\n`a -> ab`", lambda address: address)
     '<h2 id="An-alga">An <em>alga</em></h2>\\n<p><code>a -&gt; ab</code></p>\\n'
@@ -60,6 +62,10 @@ def markdown_html(text: str, links: Links, after: Callable[[str], str] = lambda 
 
         def heading(self, text: str, level: int, **_: object) -> str:
             return f'<h{level} id="{heading_id(text)}">{text}</h{level}>\n'
+
+        def codespan(self, text: str) -> str:
+            code = str(super().codespan(text))
+            return code.replace("<code", '<code class="long"', 1) if len(text) > MOST_WHOLE else code
 
         def link(self, text: str, url: str, title: str | None = None) -> str:
             address = links(url)

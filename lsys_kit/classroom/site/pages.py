@@ -281,17 +281,10 @@ _SIZE = re.compile(r'<svg(?: (?!width)[\w:]+="[^"]*")*( width="[^"]*" height="[^
 def cells_html(cells: Sequence[NotebookNode], links: Links, parts: Parts, live: Answering | None = None) -> str:
     """Cells of a notebook as HTML; what the script of the page has to know is added to `parts`."""
     return "".join(
-        markdown_html(cell.source, links, _nothing if live else notes())
-        if cell.cell_type == "markdown"
-        else _code_html(cell, parts)
+        markdown_html(cell.source, links, notes(bool(live))) if cell.cell_type == "markdown" else _code_html(cell, parts)
         for cell in cells
         if cell.cell_type in ("markdown", "code") and cell.source.strip()
     )
-
-
-def _nothing(_: str) -> str:
-    """What is said on a live page after a block that asks for something: all can be done there."""
-    return ""
 
 
 def _code_html(cell: NotebookNode, parts: Parts) -> str:

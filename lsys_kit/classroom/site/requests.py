@@ -14,9 +14,9 @@ from lsys_kit.translation import gettext
 _TAG = re.compile(r"<[^<>]*>")
 
 
-def notes() -> Callable[[str], str]:
-    """What is said after the blocks of a cell, each given as HTML: once for each kind of request that the page cannot fulfil.
-    What is folded away asks for nothing.
+def notes(live: bool = False) -> Callable[[str], str]:
+    """What is said after the blocks of a cell, each given as HTML: once for each kind of request that the page cannot fulfil,
+    perhaps a live one. What is folded away asks for nothing.
 
     >>> after = notes()
     >>> after("<p>Press <em>rules</em>, change a character, and watch.</p>")
@@ -25,7 +25,7 @@ def notes() -> Callable[[str], str]:
     >>> after("<p>Press <em>rules</em> again.</p>"), after("<p>Move the slider.</p>")
     ('', '')
     """
-    said, folded = set[str](), False
+    said, folded = {kind for kind, (_, _, lives) in _kinds().items() if live and lives}, False
 
     def after(block: str) -> str:
         nonlocal folded
@@ -33,7 +33,9 @@ def notes() -> Callable[[str], str]:
         if folded:
             return ""
         text = " ".join(unescape(_TAG.sub("", block)).split())
-        found = [kind for kind, (asks, _) in _kinds().items() if kind not in said and any(each.search(text) for each in asks)]
+        found = [
+            kind for kind, (asks, _, _) in _kinds().items() if kind not in said and any(each.search(text) for each in asks)
+        ]
         said.update(found)
         return "".join(
             f'<p class="cannot" data-cannot="{kind}">{prose_html(gettext(_kinds()[kind][1]))}</p>\n' for kind in found
@@ -43,7 +45,7 @@ def notes() -> Callable[[str], str]:
 
 
 @cache
-def _kinds() -> dict[str, tuple[tuple[re.Pattern[str], ...], str]]:
-    """For each kind of requests the patterns of one, and what a page says."""
+def _kinds() -> dict[str, tuple[tuple[re.Pattern[str], ...], str, bool]]:
+    """For each kind of requests the patterns of one, what a page says, and whether live pages fulfil it."""
     declared = toml_tables(__package__, "requests.toml")
-    return {kind: (tuple(map(re.compile, each["asks"])), each["says"]) for kind, each in declared.items()}
+    return {kind: (tuple(map(re.compile, each["asks"])), each["says"], each["live"]) for kind, each in declared.items()}

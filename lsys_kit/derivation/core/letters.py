@@ -209,12 +209,14 @@ MOST_TOLD = 4
 
 
 def conditions_text(states: States, decided: Sequence[Decision] | None = None) -> str:
-    """The conditions of the formulas, in words; "" where they hold always.
+    """Under which conditions the formulas hold, or the word is the same if no value is a formula, in a sentence; "" if always.
 
     >>> from lsys_kit import derive, read
     >>> conditions_text(derive(read("q = 3/4\\naxiom: A(1)\\nA(x) : x > 1/2 -> F(x) A(q*x)"), 2, letters="q").states)
-    'q > ½'
+    'The formulas hold where q > ½.'
     """
-    found = conditions(states, decided)
+    if not (found := conditions(states, decided)):
+        return ""
     more = [f"{len(found) - MOST_TOLD} more"] if len(found) > MOST_TOLD else []
-    return ", ".join([*map(formula_text, found[:MOST_TOLD]), *more])
+    what = "formulas hold" if any(formulas_in(module.arguments) for module in states.modules) else "word is the same"
+    return f"The {what} where {', '.join([*map(formula_text, found[:MOST_TOLD]), *more])}."

@@ -234,13 +234,15 @@ def dots_from(value: object, path: Path) -> float | None:
 
 
 def svg_bundle(svg: str, text: str, on_light: bool = False) -> dict[str, object]:
-    """A picture in SVG with its text alternative, by media types; one on light paper gets dark paper where the notebook has.
+    """A picture in SVG with its text alternative, by media types; one on light paper gets dark paper where the notebook has,
+    unless it has spheres, whose light would come from below there.
 
     >>> svg_bundle("<svg/>", "a <plant>")["text/html"]
     '<img alt="a &lt;plant&gt;" src="data:image/svg+xml;base64,PHN2Zy8+">'
     """
-    image = _image("svg+xml", svg.encode(), text, "lsys-picture" if on_light else "")
-    return {"text/html": f"{image}{DARKENED}" if on_light else image, "image/svg+xml": svg, "text/plain": text}
+    darkened = on_light and GRADIENT not in svg
+    image = _image("svg+xml", svg.encode(), text, "lsys-picture" if darkened else "")
+    return {"text/html": f"{image}{DARKENED}" if darkened else image, "image/svg+xml": svg, "text/plain": text}
 
 
 def png_bundle(image: Image, text: str) -> dict[str, object]:
@@ -263,6 +265,8 @@ DARKENED = (
     '<style>body[data-jp-theme-light="false"] .lsys-picture {filter: invert(.9) hue-rotate(180deg); border-radius: 4px}</style>'
 )
 """In a dark notebook light and dark change places, and hues stay."""
+GRADIENT = "<radialGradient"
+"""What a picture with spheres has."""
 _STYLE = (
     "<style>.lsys-film:has(input:checked) .lsys-still, .lsys-film:has(input:not(:checked)) .lsys-moving {display: none}</style>"
 )

@@ -154,7 +154,7 @@ def frame_on(box: tuple[float, float, float, float], scale: float) -> ViewFrame:
 
 MOST_OF_A_PICTURE = 0.5
 """The part of a picture that the broadest stroke may fill before the drawing is no longer made smaller for it."""
-BROAD, STOUT, FINE = 1 / 36, 1 / 8, 1 / 80
+BROAD, STOUT, FINE = 1 / 36, 1 / 8, 1 / 50
 """Strokes are in proportion if none is broader than this part of the extent of the drawing, or than this of the longest stroke,
 and the broadest is no finer than this part of the extent."""
 
@@ -166,14 +166,14 @@ def in_units(scenes: Sequence[Scene], system: LSystem, widths: str = "") -> list
 
     >>> from lsys_kit import derive, read
     >>> from lsys_kit.geometry.drawing import scene_of
-    >>> for text in ("!(0.1)F", "!(10)F", "!(10)F(10)", "!(6)F(370)", "F[+F]F"):
+    >>> for text in ("!(0.1)F", "!(10)F", "!(10)F(10)", "!(8)F(370)", "F[+F]F"):
     ...     system = read(f"axiom: {text}")
     ...     [scene] = in_units([scene_of(derive(system, 0))], system)
     ...     scene.segments.widths.round(3).tolist()
     [0.1]
     [0.125]
     [1.25]
-    [6.0]
+    [8.0]
     [0.04, 0.03, 0.03]
     """
     if has_pipe_widths(system, widths):

@@ -79,16 +79,18 @@ def cellwork_picture(
     view: object = SIDE,
     cell: int | None = None,
     generation: int | None = None,
-    explode: object = 0,
+    explode: object = None,
     legend: bool = False,
     light: Sun | None = None,
     **forces: object,
 ) -> CellworkPicture:
-    """The picture of a cellwork system after `n` steps, or of the last step of a development."""
+    """The picture of a cellwork system after `n` steps, or of the last step of a development; all its cells are pulled apart,
+    unless a person says how far."""
     cellworks: CellworkDevelopment = developed(what, n)
     lit, chosen = lit_cells(cellworks, cell, generation), forces_of(forces, "cellwork")
     _check_size(cellworks)
-    side, apart = view_from(view), _apart(explode)
+    usual = USUALLY_APART if 1 < len(lit) == len(cellworks[-1].cells) else 0
+    side, apart = view_from(view), _apart(usual if explode is None else explode)
     *_, points = place_cellworks(cellworks, chosen)
     return picture_at(cellworks[:], points, lit, side, legend, light, apart)
 
@@ -145,6 +147,8 @@ def _apart(given: object) -> float:
     return found
 
 
+USUALLY_APART = 0.3
+"""How far the cells of a picture of all are pulled apart, such that one sees the walls between them."""
 FARTHEST = 10
 """Cells are pulled apart by so many times their way from the middle at most."""
 _APART_HINT = "0.5 moves each cell away from the middle by half of its way from there."

@@ -36,6 +36,8 @@ WIDTH, HIGHEST = 760, 400
 """The greatest width of a line of maps and height of a map, in pixels."""
 LARGE, MIDDLE, SMALL = 180.0, 130.0, 95.0
 """Pixels per unit: for few maps; for maps in several lines; the least for maps in one line."""
+SEEN = 150.0
+"""The least height of the highest of a few maps, in pixels."""
 GAP, CAPTION, NUMBER = 22, 34, 14
 """The space between two maps, that below one, and the size of the number of its step there, in pixels."""
 MOST_MAPS = 12
@@ -95,7 +97,9 @@ class MapPicture(SVGPicture):
 
     def film_images(self) -> Sequence[Image]:
         """The maps one after another, on one scale, each in the middle."""
-        scale = min(LARGE, *(min((WIDTH - 2 * MARGIN) / scene.width, HIGHEST / scene.height) for scene in self.scenes))
+        scale = min(
+            _large(self.scenes), *(min((WIDTH - 2 * MARGIN) / scene.width, HIGHEST / scene.height) for scene in self.scenes)
+        )
         wide, high = (max(sides) * scale for sides in zip(*((scene.width, scene.height) for scene in self.scenes), strict=True))
         size = math.ceil(wide - ROUNDING) + 2 * MARGIN, math.ceil(high + CAPTION - ROUNDING) + 2 * MARGIN
         with Task("The film was not finished"):
@@ -216,10 +220,15 @@ def _common_scale(some: Sequence[Scene]) -> float:
     """Pixels per unit: such that all maps fit into one line, if they are large enough then."""
     in_line = (WIDTH - 2 * MARGIN - GAP * (len(some) - 1)) / math.fsum(scene.width for scene in some)
     return min(
-        min(LARGE, in_line) if in_line >= SMALL else MIDDLE,
+        min(_large(some), in_line) if in_line >= SMALL else MIDDLE,
         *((WIDTH - 2 * MARGIN) / scene.width for scene in some),
         *(HIGHEST / scene.height for scene in some),
     )
+
+
+def _large(some: Sequence[Scene]) -> float:
+    """Pixels per unit for a few maps."""
+    return max(LARGE, SEEN / max(scene.height for scene in some))
 
 
 def _maps_by_line(some: Sequence[Scene], scale: float) -> Iterator[list[Scene]]:

@@ -149,7 +149,7 @@ def book(
             "net": diagram,
             **drawing_entries(states, [*pages.numbers], pages.drawn, pages.last),
             "growth": growth_entry(system, given),
-            **(_formulas(derivation.states, pages, diagram, rows, decided) if letters else {}),
+            **(_formulas(derivation.states, pages, diagram, rows, decided, letters) if letters else {}),
         }
 
 
@@ -257,9 +257,12 @@ def _labels(states: States, numbers: Iterable[int], net: Stages | None) -> tuple
     ], rows
 
 
-def _formulas(states: States, pages: _Pages, diagram: Data, rows: Sequence[Row], decided: Sequence[int]) -> Data:
+def _formulas(
+    states: States, pages: _Pages, diagram: Data, rows: Sequence[Row], decided: Sequence[int], letters: Collection[str]
+) -> Data:
     """For each state whose values have letters its values as mathematics, and as a text, its text, and what its formulas are in
-    numbers; for each step under which conditions the formulas hold. Stages in the diagram are named by formulas, too.
+    numbers; for each step under which conditions the formulas hold, or that there is none. Stages in the diagram are named by
+    formulas, too.
     """
     notation, found = dialect_named(states.system.notation), list[object]()
     for state, drawn in counted(zip(pages.numbers, pages.drawn, strict=True), 1):
@@ -280,8 +283,10 @@ def _formulas(states: States, pages: _Pages, diagram: Data, rows: Sequence[Row],
         if place["values"] and (shared := shared_formulas(of_places.get(place["place"], ()))):
             place["formula"] = values_text(Module("", shared))
     all_decided = decisions_of(states)
+    none = "" if any(found) else f"no value contains {' or '.join(letters)}"
     held = [conditions_text(states, all_decided[:many]) for many in decided[: pages.last + 1]]
-    return {"formulas": found, "conditions": [f"the formulas hold where {text}" if text else "" for text in held]}
+    said = [text and text[0].lower() + text[1:-1] for text in held]
+    return {"formulas": found, "conditions": ["; ".join(filter(None, (none, text))) for text in said]}
 
 
 def _is_stroke(drawn: Row, module: Module) -> bool:

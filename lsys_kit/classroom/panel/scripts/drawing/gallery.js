@@ -58,7 +58,8 @@ export function variantsView(parent, take, say) {
 
 // `entries` are { label, book }; `chosen` is called with the number of one.
 function galleryView(parent, chosen) {
-  let tiles = [];
+  let tiles = [], shown = [];
+  const resized = new ResizeObserver(() => tiles.length && show(...shown)); // as on the whole screen
 
   function open(entries) {
     tiles = entries.map((entry, number) => {
@@ -69,10 +70,13 @@ function galleryView(parent, chosen) {
     const sheet = made("div.lsys-gallery", { role: "group" }, ...tiles.map(({ tile }) => tile));
     roving(sheet);
     parent.replaceChildren(sheet);
+    resized.disconnect();
+    resized.observe(sheet);
   }
 
   // Each at the step that is shown, or at its last one where it has fewer; `current` is the number of the one in the panel.
   function show(now, look, current = -1) {
+    shown = [now, look, current];
     tiles.forEach(({ book, canvas, tile, label }, number) => {
       const step = Math.min(now.step, book.steps);
       tile.setAttribute("aria-pressed", String(number === current));

@@ -27,7 +27,7 @@ export function checked({ sheet, blanks, says }, entries) {
     if (shown) places.set(shown, [...(places.get(shown) ?? []), placeOf(sheet, number)]);
     else unexplained.push(number);
   });
-  const notes = [...places].slice(0, MOST_NOTES).map(([shown, where]) => `${capital(where.join("; "))}: ${shown}`);
+  const notes = [...places].slice(0, MOST_NOTES).map(([shown, where]) => `${where.join("; ")}: ${shown}`);
   return { marks, text: summary(sheet, marks, unexplained), notes };
 }
 
@@ -101,8 +101,6 @@ function isNear(one, other, near) {
   const apart = one.above * other.below - other.above * one.below, unit = one.below * other.below;
   return (apart < 0n ? -apart : apart) * near.below <= near.above * unit;
 }
-
-const capital = (text) => text.slice(0, 1).toUpperCase() + text.slice(1);
 
 function summary(sheet, marks, unexplained) {
   const count = (mark) => marks.filter((each) => each === mark).length, right = count(RIGHT), missing = count(MISSING), total = marks.length;

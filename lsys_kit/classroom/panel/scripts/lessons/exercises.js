@@ -55,7 +55,7 @@ export function askForAnswer(place, { id, kind, title, template, hints, options 
     if (asked !== answer) return;
     if (found.mistake) return cannot(found.mistake);
     tried(found.said, answer);
-    keep({ said: found.said, message: found.message, picture: found.picture });
+    keep({ said: found.said, message: found.message, picture: found.picture, described: found.described });
     show(found);
   }
 
@@ -65,12 +65,12 @@ export function askForAnswer(place, { id, kind, title, template, hints, options 
     said.textContent = `\u26a0 ${message}. ${hint}`;
   }
 
-  function show({ said: verdict, message, picture = "" }) {
+  function show({ said: verdict, message, picture = "", described = "" }) {
     const [sign, look] = SIGNS[verdict] ?? ["", ""];
     said.className = `lsys-said ${look}`.trim();
     said.replaceChildren(made("span", { "aria-hidden": "true" }, `${sign} `), made("b", `${worded(verdict)}. `));
     message.split("\n").forEach((line, at) => said.append(line.startsWith("  ") ? made("pre", { tabindex: 0 }, line) : made(at ? "div" : "span", line)));
-    if (picture) said.append(made("img", { style: "display: block", alt: new DOMParser().parseFromString(picture, "image/svg+xml").documentElement.getAttribute("aria-label") ?? "", src: `data:image/svg+xml,${encodeURIComponent(picture)}` }));
+    if (picture) said.append(made("img", { style: "display: block", alt: described, src: `data:image/svg+xml,${encodeURIComponent(picture)}` }));
     more.hidden = !["Almost", "Not yet"].includes(verdict);
   }
 

@@ -18,12 +18,13 @@ function hostOf(held, data, ask, { keeps, keep, soon }) {
   const values = Object.fromEntries(["model", ...SEEN].map((name) => [name, held.get(name)]));
   const { get, set, on, tell } = store(values);
   const { title, file } = values.model.book;
-  let system = { ...data.system, title: title.split(":")[0] }, first = true;
-  const panel = () => ({ ...system, without: values.model.without, unfold: values.model.unfold, show: values.model.show, ...Object.fromEntries(SEEN.map((name) => [name, values[name]])) });
+  let { system } = data, first = true;
+  const titleOf = ({ text }) => (text === data.system.text ? title.split(":")[0] : ""); // other rules are another system
+  const panel = () => ({ ...system, title: titleOf(system), without: values.model.without, unfold: values.model.unfold, show: values.model.show, ...Object.fromEntries(SEEN.map((name) => [name, values[name]])) });
 
   // Another model, and what is chosen in it: all of it is there before anybody hears of it.
   function adopt({ model, values: chosen, system: read }) {
-    system = { ...system, ...read };
+    system = read;
     Object.assign(values, chosen, { model });
     for (const name of ["model", ...SEEN]) tell(name);
   }
@@ -32,6 +33,7 @@ function hostOf(held, data, ask, { keeps, keep, soon }) {
     const answer = await ask({ kind: "rules", text, constants, panel: panel() });
     if (answer.mistake) return answer;
     first = false;
+    answer.model.book.title = titleOf(answer.system);
     adopt(answer);
     return { opened: true };
   }

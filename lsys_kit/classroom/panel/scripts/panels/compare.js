@@ -23,7 +23,7 @@ export function openComparison(element, hosts, shared) {
       shared,
       shown(book, step) {
         seen[side] = { book, step };
-        if (seen[0] && seen[1] && seen[0].step === seen[1].step) tell();
+        tell();
       },
     }));
     const other = hosts[1 - side];
@@ -35,8 +35,11 @@ export function openComparison(element, hosts, shared) {
       if (changed.length) other.set("settings", { ...there, ...Object.fromEntries(changed.map((name) => [name, here[name]])) });
     }));
   });
+  tell();
 
+  // Where both panels stand and show the same step.
   function tell() {
+    if (panels.length < 2 || !seen[0] || !seen[1] || seen[0].step !== seen[1].step) return;
     const found = differences(seen[0], seen[1]);
     panels.forEach((panel) => panel.differ(found.positions));
     said.textContent = found.text;

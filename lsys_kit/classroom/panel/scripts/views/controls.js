@@ -166,7 +166,7 @@ export function slider(name, hint, texts, index, chosen, label = name, { least =
     numbers = texts.map(valueOf);
     [marked, named] = [marks, names];
     track.style.setProperty("--lsys-stops", String(stopsOf(numbers, marked, Infinity, least).length));
-    box.style.width = `${clamped(3, 12, Math.max(...[texts[0], texts.at(-1), texts[1] ?? ""].map((text) => text.length))) + 2}ch`;
+    box.style.width = `${clamped(3, 12, texts.reduce((most, { length }) => Math.max(most, length), 0)) + 2}ch`;
     index = at;
     fit();
   }

@@ -47,7 +47,7 @@ export function sampleView(view, seen) {
     const { book, step, asked } = seen(), now = Math.min(step, book.steps), next = JSON.stringify([asked.constants, now, book.data.text]);
     if (!said.isConnected) view.body.prepend(...parts); // it is opened for the first time
     if (key === next) return;
-    const names = book.data.symbols.flatMap(([letter, subscript, , steering], i) => (steering ? [] : [[String(i), letter + subscript]]));
+    const names = book.data.symbols.flatMap((symbol) => (symbol[3] ? [] : [[named(symbol), named(symbol)]]));
     const { noun } = book.data, again = known?.text === book.data.text && book.data.choices ? plants.length : 0;
     [key, known] = [next, book.data];
     if (!names.some(([name]) => name === counted)) counted = names[0]?.[0] ?? "";
@@ -77,10 +77,10 @@ export function sampleView(view, seen) {
 
   // How often each symbol occurs in a plant, at its last step where it has fewer; what was thrown first; and its seed.
   function measured(book, step, seed) {
-    const found = new Map([["", 0]]), { states, choices } = book.data, add = (name, count) => found.set(name, (found.get(name) ?? 0) + count);
+    const found = new Map([["", 0]]), { states, symbols, choices } = book.data, add = (name, count) => found.set(name, (found.get(name) ?? 0) + count);
     book.counts(Math.min(step, book.steps)).forEach((count, state) => {
       add("", count);
-      add(String(states[state][0]), count);
+      add(named(symbols[states[state][0]]), count);
     });
     return { seed, found, first: choices ? firstThrow(book) : -1 };
   }
@@ -120,7 +120,7 @@ export function sampleView(view, seen) {
   // What is exact of what is counted: { mean, shares }, or null where chance does not decide alone.
   function truthOf(step) {
     if (!known.choices) return null;
-    const is = (state) => counted === "" || String(known.states[state][0]) === counted, asked = `${key} ${counted}`;
+    const is = (state) => counted === "" || named(known.symbols[known.states[state][0]]) === counted, asked = `${key} ${counted}`;
     if (exact?.asked !== asked) exact = { asked, mean: exactMean(known, is, step), shares: exactShares(known, is, step) };
     return exact;
   }
@@ -198,4 +198,5 @@ function likely(shares) {
   return [ends[0], shares.length - 1 - ends[1]];
 }
 
+const named = ([letter, subscript]) => letter + subscript; // the number of a symbol is another in another book
 const short = (number) => Number(number.toPrecision(4)).toLocaleString("en");
