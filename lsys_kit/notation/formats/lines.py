@@ -13,6 +13,7 @@ from itertools import groupby, pairwise
 
 from lsys_kit.errors import ModelSyntaxError, quotable
 from lsys_kit.notation.formats.found import (
+    CONDITION,
     Found,
     Passage,
     Rule,
@@ -66,7 +67,7 @@ _REFERENCE = re.compile(r"\s*(?:\[\d{1,3}\]|\(\d{1,3}\)|\d{2,4}|[-–][ ]?\d{1,4
 _WITH_CHANCE = re.compile(r"(\w)[ \t]*(\((?:0?\.\d+|\d{1,3}(?:\.\d+)?[ \t]?%|\d{1,3}/[1-9]\d{0,2})\))")
 """What is replaced, with its probability in brackets."""
 _MARKED = re.compile(
-    r"&(?:\w{2,8}|#\d{1,6});|<(?:b|br|p|tt|td)\b[^<>\n]{0,99}>|\*\*|`|\\begin\{|\\displaystyle|\\(?:text|math)tt\b|\\verb\b"
+    r"&(?:\w{2,8}|#\d{1,6});|^[ \t]*+[☀-➓🌀-🫿]|\\-\\?>|<(?:b|br|p|tt|td)\b[^<>\n]{0,99}>|\*\*|`|\\begin\{|\\displaystyle|\\(?:text|math)tt\b|\\verb\b"
     r"|\{\\tt\b|^[ \t]*+set[ ]\[|^[ ]*+(?:axiom|start|angle)\t"
     r"|^[ \t]*+\|?[ \t]*+:?-{3,}+:?[ \t]*+\||^[ \t]*+\|[ ][^|\n]++(?<=[ ])\|[ ][^\n]*\|[ \t]*+$",
     re.IGNORECASE | re.MULTILINE,
@@ -96,6 +97,8 @@ def _is_foreign(item: Part, text: str) -> bool:
             or item.match["first"]
             or item.match["within"]
             or _WITH_CHANCE.fullmatch(item.match["head"])
+            or CONDITION.search(item.match["head"].replace(":", " "))
+            or unquoted(said := item.value(text)) != said
             or AFTER.search(text, item.start, item.end)
             or BEFORE.match(text[item.start : item.end])
         )
@@ -103,7 +106,7 @@ def _is_foreign(item: Part, text: str) -> bool:
         said = text[item.start : item.end]
         named = item.match["name"].lower() not in (item.kind, "ω", "δ") or item.match["sep"] != ":"
         return named or (said.endswith(".") and item.kind != "steps") or bool(item.kind == "angle" and _RADIANS.search(said))
-    return item.kind not in ("blank", "ignore", "more")
+    return item.kind not in ("blank", "ignore", "more", "value")
 
 
 def systems_in_lines(text: str, source: str = "") -> list[Found]:
@@ -144,6 +147,7 @@ def systems_in_lines(text: str, source: str = "") -> list[Found]:
         _take_said(system, prose)
         _take_prose(system, prose)
         _take_turns(system, text)
+        _take_scales(system, text)
         _take_chance(system, text)
     return [system for system in systems if system.axiom or system.rules]
 
@@ -269,7 +273,7 @@ _SAID_AXIOM = re.compile(
     re.IGNORECASE,
 )
 _SAID_RULE = re.compile(
-    rf"replac(?:e|ing)[ ](?:every|each|all|any)[ ]?[\"'`]?([A-Za-z0-9])[\"'`]?s?"
+    rf"replac(?:e|ing)[ ](?:(?:every|each|all|any)[ ])?[\"'`]?([A-Za-z0-9])[\"'`]?s?"
     rf"[ ](?:with|by)[ ](?:the[ ](?:word|string)[ ])?{_W}"
     rf"|(?:every|each|jedes|chaque|cada|ogni)[ ][\"'`]?([A-Za-z0-9])[\"'`]?"
     rf"[ ](?:becomes|is[ ]replaced[ ](?:by|with)|wird[ ]durch|par|por|con)[ ]{_W}",
@@ -399,6 +403,20 @@ def _take_turns(found: Found, text: str) -> None:
         there, back = "-+" if opened == {True} else "+-"
         found.signs = {**found.signs, "[": f"[{there}", "]": f"]{back}"}
         found.notes.append(f'As the text says, brackets turn, too: "[" is read as [{there} and "]" as ]{back}.')
+
+
+_SAID_SCALE = re.compile(
+    rf"(?:^|(?<=[\s\"'`(]))(?P<sign>[<>])[\"'`)]?[ ]?{_MEANS}(?=[^\n]*(?:scale|length|size|step))[^\n\d]{{0,60}}?(?P<factor>\d?\.\d+|\d)",
+    re.IGNORECASE | re.MULTILINE,
+)
+
+
+def _take_scales(found: Found, text: str) -> None:
+    """What sentences say of < and > as factors of lengths."""
+    for match in _SAID_SCALE.finditer(text):
+        made = f"@Di({float(match['factor']):g})"
+        found.signs = {**found.signs, match["sign"]: made}
+        found.notes.append(f"As the text says, {match['sign']} is read as {made}: lengths are multiplied by the number.")
 
 
 def _indent(text: str, item: Part) -> int:
@@ -637,6 +655,10 @@ def _system(text: str, items: Sequence[Part]) -> Found:
         if item.match and item.kind not in ("rule", "") and (program := program_of(item.match["name"])):
             found.signs = {**program["signs"], **found.signs}
             absent = program.get("absent", {})
+    used = "".join(re.findall(r"\([^()]*\)", "".join(part.text for rule in found.rules for part in (rule.head, *rule.tail))))
+    for match, at in ((item.match, item.start) for item in items if item.kind == "value" and item.match):
+        if re.search(rf"\b{match['name']}\b", used):
+            found.lines.append(Passage(f"{match['name']} = {match['number']}", at, False))
     found.rules = _with_chances(found.rules)
     _give_rest(found)
     found.notes += _told_sums(found.rules)

@@ -342,6 +342,8 @@ def systems_of(whole: Group, text: str) -> list[Found]:
     _finish(found, text)
     _take_choices(found, text)
     if found.rules and not found.axiom:
+        if len(ordered := [*_in_order(whole, text)]) == 1:
+            return ordered
         _take_unnamed_axiom(whole, found)
     if found.rules and not found.angle and (angle := _DEGREES.search(text)):
         found.angle = Fraction(angle[1] or angle[2] or angle[3]), Passage(angle[0], angle.start(), False)
@@ -369,6 +371,34 @@ def _finish(found: Found, text: str) -> None:
         if _NAMED_AFTER.fullmatch(text, head.at - 1, head.at + 1) and head.text not in word and capital in word:
             found.rules[index] = replace(rule, head=Passage(capital, head.at, False))
             found.notes.append(f"The rule that is named after {head.text} is that of {capital}.")
+
+
+def _in_order(group: Group, text: str) -> Iterator[Found]:
+    """The systems that are lists of an axiom, rules and numbers: ("F", {"F": "F+F"}, 60, 4)."""
+    for term in (term for entry in group.entries for term in entry.terms if isinstance(term, Group)):
+        members = [entry.terms[0] for entry in term.entries if len(entry.terms) == 1 and not entry.key]
+        words = [each for each in members if isinstance(each, Term) and each.kind == "text"]
+        numbers = [each for each in members if isinstance(each, Term) and each.kind == "number"]
+        numbers.sort(key=lambda each: -float(each.text))
+        found = Found()
+        for each in members:
+            if isinstance(each, Group):
+                _gather(each, found, text, True)
+        heads = {rule.head.text for rule in found.rules}
+        axioms = [each for each in words if is_word(each.text) and not heads.isdisjoint(each.text)]
+        if len(axioms) == 1 and len(members) == len(term.entries) and len(numbers) < 3:
+            found.axiom = (axioms[0].passage,)
+            found.notes.append(f'"{axioms[0].text}" is read as the axiom.')
+            for name, number in zip(("angle", "number of steps"), numbers, strict=False):
+                found.notes.append(f"{number.text} is read as the {name}.")
+            values = [Fraction(number.text) for number in numbers]
+            found.angle = (values[0], numbers[0].passage) if values else None
+            found.steps = (int(values[1]), numbers[1].passage) if len(values) == 2 else None
+            found.name = next((each.text for each in words if each not in axioms), "")
+            _finish(found, text)
+            yield found
+        else:
+            yield from _in_order(term, text)
 
 
 _NAMED_AFTER = re.compile(r"[_.-][a-z]")

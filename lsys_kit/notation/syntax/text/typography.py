@@ -34,6 +34,8 @@ _NO_MORE = re.compile(
 _MARGIN = re.compile(r"^(?>(?:[ \t>]|(?://|[#;%])(?=[ \t]))*)(?=\S)", re.MULTILINE)
 """What stands before a line: blanks, a sign for each time that it was quoted in an answer to a letter, that of a comment."""
 _END_OF_LINE = re.compile(r"(?<![ \t])[ \t]++$", re.MULTILINE)
+_CONTINUED = re.compile(r"(?<!\\)\\[ ]?\n[ \t]*+(?=[^\n:=<>→\\]++(?:\\[ ]?)?(?:\n|\Z))")
+"""Where a line goes on below, as in programs."""
 _DECIMALS = {"¼": ".25", "½": ".5", "¾": ".75"}
 """Such fractions behind a digit."""
 _LONG_DASH = re.compile(r"(?<=[\w)*])[ \t]*+[-−–—]{1,2}(?=→)")
@@ -71,7 +73,7 @@ def keyboard_signs(source: str) -> Transcript:
     """
     text = long_arrows(source.translate(_SIGNS).translate(_SUBSCRIPTS).replace("\r", " "))
     edits = [*map(_plain, _NO_MORE.finditer(source)), *without_margin(text)]
-    edits += [Edit(*match.span(), "") for match in _END_OF_LINE.finditer(text)]
+    edits += [Edit(*match.span(), "") for pattern in (_END_OF_LINE, _CONTINUED) for match in pattern.finditer(text)]
     if not source.isascii():
         edits += [Edit(*match.span(), f"_{unicodedata.normalize('NFKC', match[0])}") for match in _LETTERS_BELOW.finditer(text)]
     if "&" in source:
@@ -124,7 +126,13 @@ def _tag(text: str, tag: re.Match[str]) -> str:
     return " ; " if text.rfind("|", max(0, tag.start() - 200), tag.start()) > text.rfind("\n", 0, tag.start()) else "\n"
 
 
+_HYPHEN = re.compile("(?<=[a-zß-ÿ])\u00ad(?=[a-zß-ÿ])|\u00ad(?=\\s|\\Z)")
+"""Where a word of a language can be parted; elsewhere, fonts have this sign for a minus."""
+
+
 def _plain(match: re.Match[str]) -> Edit:
+    if match[0] == "\u00ad" and not _HYPHEN.match(match.string, match.start()):
+        return Edit(*match.span(), "-")
     sign, after_digit = match[0], match.string[match.start() - 1 : match.start()].isdigit()
     plain = _DECIMALS[sign] if after_digit and sign in _DECIMALS else unicodedata.normalize("NFKC", sign).translate(_SIGNS)
     return Edit(*match.span(), plain if plain.isascii() and plain.strip() else "")
