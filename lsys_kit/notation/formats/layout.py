@@ -14,7 +14,8 @@ _MACROS = {
     "omega": "ω", "delta": "δ", "theta": "θ", "quad": "  ", "qquad": "  ", "circ": "°", "ldots": "", "left": "", "right": "",
     "item": "", "centering": "", "hfill": "  ",
     "to": "→", "rightarrow": "→", "Rightarrow": "→", "longmapsto": "→",
-    "longrightarrow": "→", "gets": "←", "leftarrow": "←", "mapsto": "→", "varepsilon": "ε", "epsilon": "ε", "lbrace": "{", "rbrace": "}",
+    "longrightarrow": "→", "gets": "←", "leftarrow": "←",
+    "mapsto": "→", "varepsilon": "ε", "epsilon": "ε", "lbrace": "{", "rbrace": "}",
 }  # fmt: skip
 _MACRO = re.compile(
     r"\\(?:begin|end)\{[^{}\n]*\}(?:\{[^{}\n]*\})?|\^?\{?\\circ\}?"
@@ -113,33 +114,31 @@ def page_text(before: Transcript) -> Transcript:
 _NUMBER, _RULE, _NAME = (
     re.compile(rf"[ ]*+{each}") for each in (r"\d++(?:\.\d++)?[ ]*+°?[ ]*+", rf"\w[ ]*+(?:{ARROW}|=)", r"\w[\w ]*+:[ ]")
 )
+_MOST_FIELDS = 40
+_IN_ORDER = ("start", "angle", "steps"), ("axiom", "angle", "number of steps")
+"""What a word and numbers are, without names: as it is typed, and as it is said."""
 
 
 def _as_lines(before: Transcript) -> Transcript:
     """A text that is one line of a word, rules and numbers with semicolons between them, as a list of named parts."""
     text = before.text.rstrip("; \n")
-    if "\n" in text or text.count(";") < 2:
+    if "\n" in text or not 1 < text.count(";") < _MOST_FIELDS:
         return before
     name = _NAME.match(text)
-    fields = [Passage(each[0], each.start()).part(0) for each in re.finditer(r"[^;]+", text[: len(text)])]
-    fields[0] = fields[0].part(name.end() if name else 0)
+    parts = [Passage(each[0], each.start()) for each in re.finditer(r"[^;]+", text)]
+    fields = [each.part(name.end() if name and not each.at else 0) for each in parts]
     numbers = [each for each in fields if _NUMBER.fullmatch(each.text)]
-    words = [each for each in fields if each not in numbers and is_word(each.text) and not _RULE.match(each.text)]
-    if (
-        len(words) != 1
-        or len(numbers) > 2
-        or not all(_RULE.match(each.text) for each in fields if each not in (*words, *numbers))
-    ):
+    rules = [each for each in fields if _RULE.match(each.text)]
+    words = [each for each in fields if each not in (*numbers, *rules)]
+    if len(words) != 1 or not is_word(words[0].text) or len(numbers) > 2:
         return before
-    called = {words[0]: "start: "} | dict(zip(numbers, ("angle: ", "steps: "), strict=False))
-    notes = [
-        f'"{each.text}" is read as the {kind}.'
-        for each, kind in zip((*words, *numbers), ("axiom", "angle", "number of steps"), strict=False)
-    ]
+    called = dict(zip((*words, *numbers), zip(*_IN_ORDER, strict=True), strict=False))
+    typed = ((each, f"{called[each][0]}: " if each in called else "") for each in fields)
     pieces = (
-        [Edit(each.at, each.at, called.get(each, "")), each.piece(0, len(each.text), each.text), Edit(each.at, each.at, "\n")]
-        for each in fields
+        (Edit(each.at, each.at, name), each.piece(0, len(each.text), each.text), Edit(each.at, each.at, "\n"))
+        for each, name in typed
     )
+    notes = [f'"{each.text}" is read as the {kind}.' for each, (_, kind) in called.items()]
     return assembled(before, [edit for three in pieces for edit in three], notes)
 
 

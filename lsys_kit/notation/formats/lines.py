@@ -67,7 +67,8 @@ _REFERENCE = re.compile(r"\s*(?:\[\d{1,3}\]|\(\d{1,3}\)|\d{2,4}|[-–][ ]?\d{1,4
 _WITH_CHANCE = re.compile(r"(\w)[ \t]*(\((?:0?\.\d+|\d{1,3}(?:\.\d+)?[ \t]?%|\d{1,3}/[1-9]\d{0,2})\))")
 """What is replaced, with its probability in brackets."""
 _MARKED = re.compile(
-    r"&(?:\w{2,8}|#\d{1,6});|^[ \t]*+[☀-➓🌀-🫿]|\\-\\?>|<(?:b|br|p|tt|td)\b[^<>\n]{0,99}>|\*\*|`|\\begin\{|\\displaystyle|\\(?:text|math)tt\b|\\verb\b"
+    r"&(?:\w{2,8}|#\d{1,6});|^[ \t]*+[☀-➓🌀-🫿]|\\-\\?>"
+    r"|<(?:b|br|p|tt|td)\b[^<>\n]{0,99}>|\*\*|`|\\begin\{|\\displaystyle|\\(?:text|math)tt\b|\\verb\b"
     r"|\{\\tt\b|^[ \t]*+set[ ]\[|^[ ]*+(?:axiom|start|angle)\t"
     r"|^[ \t]*+\|?[ \t]*+:?-{3,}+:?[ \t]*+\||^[ \t]*+\|[ ][^|\n]++(?<=[ ])\|[ ][^\n]*\|[ \t]*+$",
     re.IGNORECASE | re.MULTILINE,
@@ -98,7 +99,7 @@ def _is_foreign(item: Part, text: str) -> bool:
             or item.match["within"]
             or _WITH_CHANCE.fullmatch(item.match["head"])
             or CONDITION.search(item.match["head"].replace(":", " "))
-            or unquoted(said := item.value(text)) != said
+            or unquoted(value := item.value(text)) != value
             or AFTER.search(text, item.start, item.end)
             or BEFORE.match(text[item.start : item.end])
         )
@@ -406,7 +407,8 @@ def _take_turns(found: Found, text: str) -> None:
 
 
 _SAID_SCALE = re.compile(
-    rf"(?:^|(?<=[\s\"'`(]))(?P<sign>[<>])[\"'`)]?[ ]?{_MEANS}(?=[^\n]*(?:scale|length|size|step))[^\n\d]{{0,60}}?(?P<factor>\d?\.\d+|\d)",
+    rf"(?:^|(?<=[\s\"'`(]))(?P<sign>[<>])[\"'`)]?[ ]?{_MEANS}"
+    r"(?=[^\n]{0,60}(?:scal|length|size|step))[^\n\d]{0,60}?(?P<factor>\d?\.\d+|\d)",
     re.IGNORECASE | re.MULTILINE,
 )
 
@@ -568,7 +570,7 @@ def is_other(text: str) -> bool:
     """
     if ANY_ARROW.search(text) or OWN_FRAME.search(text) or _OWN_STATEMENT.search(text):
         return False
-    lines = [line for line in text.splitlines() if line.strip() and not is_word(line)]
+    lines = [line for line in text.splitlines() if line.strip() and ("," in line or not is_word(line))]
     return bool(lines) and (any(map(_SENTENCE.search, lines)) or not any(map(_NAMED.match, lines)))
 
 

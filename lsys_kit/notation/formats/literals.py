@@ -342,9 +342,13 @@ def systems_of(whole: Group, text: str) -> list[Found]:
     _finish(found, text)
     _take_choices(found, text)
     if found.rules and not found.axiom:
-        if len(ordered := [*_in_order(whole, text)]) == 1:
+        if len(ordered := [*_in_order(whole, text)]) > 1:
             return ordered
-        _take_unnamed_axiom(whole, found)
+        for one in ordered:
+            found.axiom, found.angle, found.steps = one.axiom, found.angle or one.angle, found.steps or one.steps
+            found.notes += one.notes
+        if not ordered:
+            _take_unnamed_axiom(whole, found)
     if found.rules and not found.angle and (angle := _DEGREES.search(text)):
         found.angle = Fraction(angle[1] or angle[2] or angle[3]), Passage(angle[0], angle.start(), False)
     if found.axiom and not found.rules and text[found.axiom[0].at - 1] not in "\"'`":

@@ -175,7 +175,7 @@ def _note_angle(draft: Draft, said: tuple[Number, tuple[int, int]]) -> None:
 def _note_digits(draft: Draft) -> None:
     """Say which digits are passed over: elsewhere they count, or number colours."""
     rules = [record for kind, record, _ in draft.deferred if kind == "rule"]
-    words = chain(draft.axiom, *(rule.successor for rule in rules))
+    words = chain(draft.axiom or (), *(rule.successor for rule in rules))
     heads = {rule.predecessor.symbol for rule in rules}
     if digits := sorted({each.symbol for each in flat(words) if each.symbol.isdigit()} - heads):
         draft.notes.append(

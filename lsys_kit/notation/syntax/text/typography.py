@@ -72,7 +72,9 @@ def keyboard_signs(source: str) -> Transcript:
     'F-F → "G"\\n'
     """
     text = long_arrows(source.translate(_SIGNS).translate(_SUBSCRIPTS).replace("\r", " "))
-    edits = [*map(_plain, _NO_MORE.finditer(source)), *without_margin(text)]
+    minus = {match.start() for match in _HYPHEN.finditer(source)} if not _MINUS.search(text) else set()
+    edits = [Edit(*each.span(), "-") if each.start() in minus else _plain(each) for each in _NO_MORE.finditer(source)]
+    edits += without_margin(text)
     edits += [Edit(*match.span(), "") for pattern in (_END_OF_LINE, _CONTINUED) for match in pattern.finditer(text)]
     if not source.isascii():
         edits += [Edit(*match.span(), f"_{unicodedata.normalize('NFKC', match[0])}") for match in _LETTERS_BELOW.finditer(text)]
@@ -126,13 +128,11 @@ def _tag(text: str, tag: re.Match[str]) -> str:
     return " ; " if text.rfind("|", max(0, tag.start() - 200), tag.start()) > text.rfind("\n", 0, tag.start()) else "\n"
 
 
-_HYPHEN = re.compile("(?<=[a-zß-ÿ])\u00ad(?=[a-zß-ÿ])|\u00ad(?=\\s|\\Z)")
-"""Where a word of a language can be parted; elsewhere, fonts have this sign for a minus."""
+_MINUS, _HYPHEN = re.compile(r"-(?![->])"), re.compile("(?<![a-zß-ÿ])\u00ad(?!\\s|\\Z)")
+"""A minus sign, and what has no other meaning where a text has none: fonts have the sign that parts a word for it."""
 
 
 def _plain(match: re.Match[str]) -> Edit:
-    if match[0] == "\u00ad" and not _HYPHEN.match(match.string, match.start()):
-        return Edit(*match.span(), "-")
     sign, after_digit = match[0], match.string[match.start() - 1 : match.start()].isdigit()
     plain = _DECIMALS[sign] if after_digit and sign in _DECIMALS else unicodedata.normalize("NFKC", sign).translate(_SIGNS)
     return Edit(*match.span(), plain if plain.isascii() and plain.strip() else "")
