@@ -43,8 +43,8 @@ HUNDRED, SIXTY, THIRD, FOURTH, FIFTH, SIXTH = (
     )
 )
 TYPED = [*HUNDRED, *SIXTY, *THIRD, *FOURTH, *FIFTH, *SIXTH]
-"""Another hundred, then sixty, then 87, then 282, then 245, then 250, by people who had not seen the readers and said before what each
-means: its axiom, rules and angle; of some of the last, too, as what symbols are drawn.
+"""Another hundred, then sixty, then 87, then 282, then 245, then 250, by people who had not seen the readers and said before
+what each means: its axiom, rules and angle; of some of the last, too, as what symbols are drawn.
 
 An outcome is "equal", "noted", where the kit's own note tells what it reads otherwise, or "refused" with a message and a hint.
 """

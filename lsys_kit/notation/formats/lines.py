@@ -408,7 +408,7 @@ def _take_turns(found: Found, text: str) -> None:
 
 _SAID_SCALE = re.compile(
     rf"(?:^|(?<=[\s\"'`(]))(?P<sign>[<>])[\"'`)]?[ ]?{_MEANS}"
-    r"(?=[^\n]{0,60}(?:scal|length|size|step))[^\n\d]{0,60}?(?P<factor>\d?\.\d+|\d)",
+    r"(?:the[ ])?(?:line[ ]|step[ ])?(?:scal|multipl|shorten|shrink|length|size)[a-z]*+[^\n\d<>]{0,40}?(?P<factor>\d?\.\d+|\d)",
     re.IGNORECASE | re.MULTILINE,
 )
 
