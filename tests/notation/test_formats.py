@@ -908,7 +908,7 @@ def test_a_line_with_other_members_is_no_list(page: str) -> None:
         'all = [{"name": "A", "axiom": "A", "rules": {"A": "AA"}}, {"name": "b", "axiom": "b", "rules": {"b": "bb"}}]',
         "a) Start: A\nA => AA\n\nb) Start: b\nb => bb\n",
         '[A]\naxiom = "A"\n[A.rules]\nA = "AA"\n[b]\naxiom = "b"\n[b.rules]\nb = "bb"\n',
-        'all = {"A": ("A", {"A": "A+A"}, 60), "b": ("b", {"b": "b+b"}, 1, 2, 3), "c": ("b", {"b": "b+b"}, 4, 90)}',
+        'all = {"A": ("A", {"A": "A+A"}, 60), "b": ("b", {"b": "b+b"}, 4, 90), "c": ("b", {"b": "b"}, 1, 2, 3)}',
     ],
 )
 def test_each_of_several_systems_has_its_name(page: str, name: str) -> None:

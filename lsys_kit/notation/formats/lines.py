@@ -34,6 +34,7 @@ from lsys_kit.notation.formats.parts import (
     BEFORE,
     BLANKS,
     COMMENT,
+    DERIVATION,
     NOTHING,
     Part,
     end_of_value,
@@ -90,7 +91,8 @@ def _is_foreign(item: Part, text: str) -> bool:
     if item.kind and COMMENT.search(text, item.start, item.end):
         return True
     if item.kind in ("", "above"):
-        return (_SENTENCE.search(text, item.start, item.end) or _REFERENCE.fullmatch(text, item.start, item.end)) is not None
+        others = (_SENTENCE.search, _REFERENCE.fullmatch, DERIVATION.search)
+        return any(other(text, item.start, item.end) for other in others)
     if item.kind == "rule" and item.match:
         labelled = item.match["label"] and not re.match(r"[pP]_?\d", item.match["label"])
         return _OWN_ARROW.fullmatch(item.match["arrow"]) is None or bool(

@@ -262,7 +262,7 @@ def _item_at(text: str, at: int, end: int, line: int, later: bool, under_rules: 
 
 
 _VALUE = re.compile(
-    r"(?P<name>[A-Za-z]\w{0,15})[ \t]*+(?P<sep>=)[ \t]*+(?P<number>\d++(?:\.\d++)?)(?=[ \t]*+(?:[,;.]*+[ \t]*+$|[,;][ \t]))",
+    r"(?:(?:where|wobei)[ ])?(?P<name>[A-Za-z]\w{0,15})[ \t]*+(?P<sep>=)[ \t]*+(?P<number>\d++(?:\.\d++)?)(?=[ \t]*+(?:[,;.]*+[ \t]*+$|[,;][ \t]))",
     re.MULTILINE,
 )
 """A name with its value, which may be a constant."""
@@ -280,7 +280,7 @@ def _rule_at(text: str, at: int, end: int, line: int, under_rules: bool) -> Part
     if (
         rule
         and _can_be_replaced(rule)
-        and not _DERIVATION.match(text, rule.end(), end)
+        and not DERIVATION.match(text, rule.start("arrow"), end)
         and not (
             rule["arrow"] in ("=", ":=")
             and (ANY_ARROW.search(text, rule.end(), end) or _CALCULATION.fullmatch(text[rule.end() : end].strip(" \t)")))
@@ -311,8 +311,8 @@ def _rule_at(text: str, at: int, end: int, line: int, under_rules: bool) -> Part
     return None
 
 
-_DERIVATION = re.compile(rf"(?>{BLANKS}[\w+\-\[\]]+?{BLANKS}{ARROW}){{2}}")
-"""Behind an arrow, two words with further arrows: the words of a derivation, B ⇒ A ⇒ AB."""
+DERIVATION = re.compile(rf"(?:⇒|={{1,2}}>){BLANKS}[\w+\-\[\]]+{BLANKS}(?:⇒|={{1,2}}>)")
+"""Two arrows with a word between them: the words of a derivation, B ⇒ A ⇒ AB."""
 _FURTHER = re.compile(rf"[,;]{BLANKS}(?={_COLON_RULE.pattern})".replace("?P<", "?P<_"))
 """Where another rule with a colon begins."""
 ANY_ARROW = re.compile(ARROW)
