@@ -262,7 +262,8 @@ def _item_at(text: str, at: int, end: int, line: int, later: bool, under_rules: 
 
 
 _VALUE = re.compile(
-    r"(?:(?:where|wobei)[ ])?(?P<name>[A-Za-z]\w{0,15})[ \t]*+(?P<sep>=)[ \t]*+(?P<number>\d++(?:\.\d++)?)(?=[ \t]*+(?:[,;.]*+[ \t]*+$|[,;][ \t]))",
+    r"(?:(?:where|wobei)[ ])?(?P<name>[A-Za-z]\w{0,15})[ \t]*+(?P<sep>=)[ \t]*+"
+    r"(?P<number>\d++(?:\.\d++)?)(?=[ \t]*+(?:[,;.]*+[ \t]*+$|[,;][ \t]))",
     re.MULTILINE,
 )
 """A name with its value, which may be a constant."""
