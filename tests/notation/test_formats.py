@@ -844,7 +844,7 @@ PLAIN_WAYS = {
     "quotation marks": ("Axiom: '%s'\n%s\nAngle: %g", "'{}' -> '{}'", "\n"),
     "pictographs": ("🌱 Axiom: %s\n%s\n📐 Angle: %g°", "🌿 {} → {}", "\n"),
     "assignments": ("axiom ← %s\n%s\nangle ← %g°", "{} ← {}", "\n"),
-    "roman numbers": ("Start: %s\n%s\nAngle: %g", "(iv) {} → {}", "\n"),
+    "roman numbers": ("(i) Start: %s\n%s\n(x) Angle: %g", "(iv) {} → {}", "\n"),
     "a set": ("Axiome : ω = %s\nRègles : P = {%s}\nAngle : δ = %g°", "{} → {}", ", "),
     "the word rule": ("Start: %s\n%s\nAngle: %g", "rule {} {}", "\n"),
     "an angle for an arrow": ("Axiom: %s\nRules:\n%s\nAngle = %g", "{} > {}", "\n"),
@@ -872,6 +872,19 @@ def test_a_constant_of_a_sentence_is_one_where_a_value_has_its_name() -> None:
 @pytest.mark.parametrize("condition", ["{s > 1}", "if s > 1", "when s > 1", ": s > 1"])
 def test_a_condition_is_one_however_it_is_set_apart(condition: str) -> None:
     assert same(read(f"Start: A(3)\nA(s) {condition} → F(s)A(s-1)"), read("axiom: A(3)\nA(s) : s > 1 -> F(s)A(s-1)"))
+
+
+def test_a_condition_before_its_rule_is_refused_and_not_dropped() -> None:
+    with pytest.raises(ModelSyntaxError, match="before the condition") as found:
+        read("Start: A(3)\nif s > 1: A(s) → F(s)A(s-1)")
+    assert (found.value.line, found.value.column) == (2, 4)
+
+
+@pytest.mark.parametrize("second", ["and B with A", ", B by A", "and every B with A"])
+def test_a_sentence_that_replaces_two_symbols_has_two_rules(second: str) -> None:
+    assert same(read(f"Replace A with AB {second}. Start with A."), read("axiom: A\nA -> A B\nB -> A"))
+    with pytest.raises(LSystemError):
+        read(f"Start with A {second}.")
 
 
 def test_a_soft_hyphen_is_a_minus_only_where_a_text_has_none() -> None:

@@ -68,7 +68,7 @@ _REFERENCE = re.compile(r"\s*(?:\[\d{1,3}\]|\(\d{1,3}\)|\d{2,4}|[-–][ ]?\d{1,4
 _WITH_CHANCE = re.compile(r"(\w)[ \t]*(\((?:0?\.\d+|\d{1,3}(?:\.\d+)?[ \t]?%|\d{1,3}/[1-9]\d{0,2})\))")
 """What is replaced, with its probability in brackets."""
 _MARKED = re.compile(
-    r"&(?:\w{2,8}|#\d{1,6});|^[ \t]*+[☀-➓🌀-🫿]|\\-\\?>"
+    r"&(?:\w{2,8}|#\d{1,6});|^[ \t]*+(?:[☀-➓🌀-🫿]|\([ivx]{1,4}\)[ \t])|\\-\\?>"
     r"|<(?:b|br|p|tt|td)\b[^<>\n]{0,99}>|\*\*|`|\\begin\{|\\displaystyle|\\(?:text|math)tt\b|\\verb\b"
     r"|\{\\tt\b|^[ \t]*+set[ ]\[|^[ ]*+(?:axiom|start|angle)\t"
     r"|^[ \t]*+\|?[ \t]*+:?-{3,}+:?[ \t]*+\||^[ \t]*+\|[ ][^|\n]++(?<=[ ])\|[ ][^\n]*\|[ \t]*+$",
@@ -278,6 +278,7 @@ _SAID_AXIOM = re.compile(
 _SAID_RULE = re.compile(
     rf"replac(?:e|ing)[ ](?:(?:every|each|all|any)[ ])?[\"'`]?([A-Za-z0-9])[\"'`]?s?"
     rf"[ ](?:with|by)[ ](?:the[ ](?:word|string)[ ])?{_W}"
+    rf"|(?:,|\band)[ ](?:(?:every|each)[ ])?[\"'`]?([A-Za-z0-9])[\"'`]?[ ](?:with|by)[ ]{_W}"
     rf"|(?:every|each|jedes|chaque|cada|ogni)[ ][\"'`]?([A-Za-z0-9])[\"'`]?"
     rf"[ ](?:becomes|is[ ]replaced[ ](?:by|with)|wird[ ]durch|par|por|con)[ ]{_W}",
     re.IGNORECASE,
@@ -288,8 +289,10 @@ def _take_said(found: Found, prose: Sequence[Passage]) -> None:
     """An axiom and rules that stand in sentences, where no list has any."""
     for each in prose if not found.rules else ():
         for match in _SAID_RULE.finditer(each.text):
-            first = 1 if match[1] else 3
-            if any(rule.head.at == each.part(*match.span(first)).at for rule in found.rules):
+            first = next(index for index in (1, 3, 5) if match[index])
+            if (first == 3 and not found.rules) or any(
+                rule.head.at == each.part(*match.span(first)).at for rule in found.rules
+            ):
                 continue
             found.rules.append(Rule(each.part(*match.span(first)), (each.part(*match.span(first + 1)),)))
     heads = {rule.head.text for rule in found.rules}
@@ -531,9 +534,16 @@ _WRITTEN = re.compile(
 """What one takes for a rule."""
 
 
+_CONDITION_BEFORE = re.compile(r"[ \t]*+(?:(?:if|when|for)[ ])?([A-Za-z]\w*+[ ]?(?:[<>]=?|==)[ ]?[\w.]++)[ ]?:[ \t]*\Z")
+
+
 def _check_left_out(text: str, items: Sequence[Part]) -> None:
     """Refuse a line among the parts that looks like a rule and is none."""
     parts = [index for index, item in enumerate(items) if item.kind == "rule"]
+    for match in (items[index].match for index in parts):
+        if match and (condition := _CONDITION_BEFORE.match(text, text.rfind("\n", 0, match.start()) + 1, match.start())):
+            hint = 'A condition is written between ":" and the arrow, as in "A(t) : t < 5 -> B".'
+            raise ModelSyntaxError('A ":" is missing before the condition', text, *condition.span(1), hint)
     for item in items[parts[0] : parts[-1] + 2] if parts else items:
         line = text[item.start : item.end].strip()
         if item.kind == "" and _WRITTEN.fullmatch(line) and not re.search(r"[a-z]{3}", line):

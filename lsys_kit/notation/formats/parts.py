@@ -25,7 +25,7 @@ BLANKS = r"[ \t]*+"
 ARROW = r"(?:[-=|]{1,3}>|→|⟶|⟼|↦|⇒|➔|➜|➝|\\(?:long)?(?:rightarrow|mapsto)\b|\\to\b|::=|:=)"
 """That of an arrow."""
 _LABEL = (
-    rf"(?:(?:[pPrR]|[Rr]ule|[Rr]egel)[_ ]?\d{{1,3}}{BLANKS}(?:[:.)=]|(?=\(\d?\.\d))|\((?:\d{{1,3}}|[ivx]{{1,4}})\)"
+    rf"(?:(?:[pPrR]|[Rr]ule|[Rr]egel)[_ ]?\d{{1,3}}{BLANKS}(?:[:.)=]|(?=\(\d?\.\d))|\(\d{{1,3}}\)"
     rf"|(?!0?\.\d)\d{{1,2}}(?:\.\d{{1,2}})*[.)]?(?=[ \t])|[pP]{BLANKS}:)"
 )
 _OWN = r"(?:[A-Za-z]\w{0,15}|\d|[-+](?!→))"
@@ -83,7 +83,7 @@ _TRIPLE = re.compile(r"[A-Z][ \t]*=[ \t]*[(⟨<][ \t]*\{[^{}\n]*\}[ \t]*,(?P<axi
 """An L-system as a triple of its alphabet, its axiom and its rules."""
 _BULLET = re.compile(
     r"[ \t]*(?:[*•▪‣·°☀-➓🌀-🫿][ \t]+(?!<)"  # an open bullet is taken for a sign of degrees
-    r"|-[ \t]+(?=[A-Za-zΑ-ωА-я\"'][^<\n]*(?:[:=→]|->))|\d{1,2}(?:\.\d{1,2})*[.)][ \t]+|[a-z]\)[ \t]+)*"
+    r"|-[ \t]+(?=[A-Za-zΑ-ωА-я\"'][^<\n]*(?:[:=→]|->))|\d{1,2}(?:\.\d{1,2})*[.)][ \t]+|(?:[a-z]|\([ivx]{1,4})\)[ \t]+)*"
 )
 _SIGNS_ONLY = re.compile(r"[A-Za-z0-9+\-&^\\/|\[\]{}$!'\"#~;.%@<>_?*, \t]+")
 _RUN = re.compile(r"[A-Za-z]{2,}")
