@@ -874,6 +874,12 @@ def test_a_condition_is_one_however_it_is_set_apart(condition: str) -> None:
     assert same(read(f"Start: A(3)\nA(s) {condition} → F(s)A(s-1)"), read("axiom: A(3)\nA(s) : s > 1 -> F(s)A(s-1)"))
 
 
+def test_the_end_of_a_line_of_windows_is_not_shown() -> None:
+    with pytest.raises(ModelSyntaxError) as found:
+        read("Axiom: F\r\nF ->\r\n")
+    assert "?" not in str(found.value)
+
+
 def test_a_condition_before_its_rule_is_refused_and_not_dropped() -> None:
     with pytest.raises(ModelSyntaxError, match="before the condition") as found:
         read("Start: A(3)\nif s > 1: A(s) → F(s)A(s-1)")
